@@ -1,0 +1,75 @@
+//! Errors as values: what was refused, where, and a way out.
+//!
+//! Scene text problems are [`crate::scene::SceneErrors`] (with file, line and column). What only geometry
+//! finds out (a pitch curve that crosses itself, a cutter that undercuts) is a [`Refusal`] that names the scene key it blames;
+//! the command line looks up that key's place in the file before it prints.
+
+use std::path::PathBuf;
+
+/// What can go wrong in a run.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The scene file does not say what it should.
+    #[error(transparent)]
+    Scene(#[from] crate::scene::SceneErrors),
+    /// The scene is well-formed, but its geometry or size is refused.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// A file could not be read or written.
+    #[error("{action} {}: {source}", path.display())]
+    Io {
+        /// What was being done: "cannot read", "cannot write".
+        action: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// A picture, table or map could not be made.
+    #[error("cannot write {}: {reason}", path.display())]
+    Output {
+        /// The file.
+        path: PathBuf,
+        /// The writer's reason.
+        reason: String,
+    },
+    /// Stopped by the user.
+    #[error("stopped by Ctrl-C")]
+    Interrupted,
+}
+
+/// A well-formed scene that cannot be cut as asked.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("`{key}`: {problem}\n  way out: {way_out}")]
+pub struct Refusal {
+    /// Scene key to blame, such as `gear.module_mm`.
+    pub key: String,
+    /// What is wrong, with the value and the limit.
+    pub problem: String,
+    /// What the user can do.
+    pub way_out: String,
+}
+
+impl Refusal {
+    /// Refusal that blames `key`.
+    pub fn new(key: &str, problem: impl Into<String>, way_out: impl Into<String>) -> Self {
+        Self { key: key.to_owned(), problem: problem.into(), way_out: way_out.into() }
+    }
+}
+
+impl Error {
+    /// Adapter for `map_err`: a read that failed.
+    pub fn reading(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.into();
+        move |source| Self::Io { action: "cannot read", path, source }
+    }
+
+    /// Adapter for `map_err`: a write that failed.
+    pub fn writing(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.into();
+        move |source| Self::Io { action: "cannot write", path, source }
+    }
+}
+
+/// Result of everything that can be refused.
+pub type Result<T> = std::result::Result<T, Error>;

@@ -1,0 +1,2 @@
+//! The `gearcut` command.
+fn main() {}
