@@ -1,14 +1,18 @@
 //! gearcut moves a machine's axes by its linkage model, sweeps every real cutting edge stroke by stroke
 //! through dexels of the blank, and measures what is left.
 //!
-//! The modules follow the data's path: [`scene`] -> [`gear`] and [`tool`] -> [`linkage`] -> [`passes`] -> [`dexel`] ->
-//! [`cut`] -> [`measure`] -> [`output`]; [`run`] alone knows the whole order.
+//! The modules follow the data's path, from the scene to the files; `run` alone knows the whole order.
 
+pub mod cut;
+pub mod dexel;
 pub mod error;
+pub mod frame;
 pub mod gear;
 pub mod linkage;
 pub mod output;
+pub mod passes;
 pub mod scene;
+pub mod tool;
 pub mod units;
 
 pub use error::{Error, Refusal, Result};

@@ -1,0 +1,100 @@
+//! The native backend: f64, one tile at a time, 16 rows at once, with the widest vectors that the processor has.
+//!
+//! The instruction set is chosen when the program starts, so `cargo build --release` without flags is fast everywhere. No fused multiply-add is used and every
+//! chunk has the same 16 rows on all of them: AVX2, AVX-512 and plain x86-64 or ARM give the **same bytes**.
+
+mod planar;
+
+use super::{Backend, CutStats};
+use crate::dexel::{Field, Layer};
+use crate::error::Error;
+use crate::passes::CutPlan;
+use crate::tool::edge::Edge;
+use pulp::Arch;
+#[cfg(target_arch = "x86_64")]
+use pulp::x86::{V3, V4};
+
+/// Vector instructions to use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Vectors {
+    /// The widest that the processor has.
+    Widest,
+    /// AVX2 even where AVX-512 exists: for benchmarks.
+    Avx2,
+    /// What every processor of the architecture has: for tests.
+    Baseline,
+}
+
+/// The native backend.
+#[derive(Debug, Clone, Copy)]
+pub struct Cpu {
+    vectors: Vectors,
+}
+
+impl Default for Cpu {
+    fn default() -> Self {
+        Self { vectors: Vectors::Widest }
+    }
+}
+
+impl Cpu {
+    /// Backend with given vectors; `None` when the processor lacks them.
+    pub fn with_vectors(vectors: Vectors) -> Option<Self> {
+        #[cfg(target_arch = "x86_64")]
+        let there = vectors != Vectors::Avx2 || V3::try_new().is_some();
+        #[cfg(not(target_arch = "x86_64"))]
+        let there = vectors != Vectors::Avx2;
+        there.then_some(Self { vectors })
+    }
+
+    /// Name of the instruction set in use.
+    pub fn instruction_set(&self) -> &'static str {
+        match self.vectors {
+            Vectors::Baseline => "baseline",
+            Vectors::Avx2 => "AVX2",
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Widest if V4::try_new().is_some() => "AVX-512",
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Widest if V3::try_new().is_some() => "AVX2",
+            Vectors::Widest => "baseline",
+        }
+    }
+
+    fn dispatch(&self, tile: planar::TileCut) -> CutStats {
+        match self.vectors {
+            Vectors::Widest => Arch::new().dispatch(tile),
+            Vectors::Baseline => pulp::NullaryFnOnce::call(tile),
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx2 => match V3::try_new() {
+                Some(avx2) => pulp::Simd::vectorize(avx2, tile),
+                None => pulp::NullaryFnOnce::call(tile),
+            },
+            #[cfg(not(target_arch = "x86_64"))]
+            Vectors::Avx2 => Arch::new().dispatch(tile),
+        }
+    }
+}
+
+impl Backend for Cpu {
+    fn name(&self) -> String {
+        format!("cpu ({}, {} threads)", self.instruction_set(), rayon::current_num_threads())
+    }
+
+    fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error> {
+        let rows = field.rows();
+        let mut stats = CutStats::default();
+        for tile in &plan.tiles {
+            let dexels = tile.columns.start * rows..tile.columns.end * rows;
+            stats += self.dispatch(planar::TileCut {
+                columns: &field.columns[tile.columns.clone()],
+                origin_mm: tile.origin_mm,
+                records: &plan.records[tile.records.clone()],
+                segments: &edge.segments,
+                row_phases: &plan.row_phases,
+                heights_mm: &mut layer.heights_mm[dexels.clone()],
+                passes: &mut layer.passes[dexels],
+            });
+        }
+        Ok(stats)
+    }
+}

@@ -1,0 +1,39 @@
+//! Backends: subtract the passes of a plan from a field of dexels.
+//!
+//! One law, several machines: [`cpu::Cpu`] (f64, vectorised at run time) always works. A backend reads the plan's records and the tool's edge tables and lowers the heights of a
+//! [`Layer`]; among passes that leave the same height the lowest id wins, so the result does not depend on any order of work.
+
+pub mod cpu;
+
+use crate::dexel::{Field, Layer};
+use crate::error::Error;
+use crate::passes::CutPlan;
+use crate::tool::edge::Edge;
+
+/// What a backend met besides heights.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct CutStats {
+    /// (Dexel, pass) pairs evaluated.
+    pub dexel_passes: u64,
+    /// Pairs whose ray meets the segment but whose root was not reached to a picometre; any at all makes the result untrustworthy.
+    pub unconverged: u64,
+}
+
+impl std::ops::AddAssign for CutStats {
+    fn add_assign(&mut self, other: Self) {
+        self.dexel_passes += other.dexel_passes;
+        self.unconverged += other.unconverged;
+    }
+}
+
+/// A machine that cuts.
+pub trait Backend: Sync {
+    /// Name for the run record, with the instruction set or adapter.
+    fn name(&self) -> String;
+
+    /// Runs all records of `plan` over `field`, lowering `layer`.
+    ///
+    /// # Errors
+    /// Whatever keeps the backend from finishing; the layer is then unusable.
+    fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error>;
+}

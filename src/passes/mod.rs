@@ -1,0 +1,10 @@
+//! Passes: one blade's one trip through the work, and which passes can matter to which dexels.
+
+pub mod candidates;
+pub mod record;
+pub mod strokes;
+mod window;
+
+pub use candidates::{CutPlan, Tile};
+pub use record::PassRecord;
+pub use strokes::StrokeSet;

@@ -1,0 +1,176 @@
+//! The strokes of one operation as poses of the cutter, ready for the dexels.
+//!
+//! The planar kernel needs the cutter's pose at every place along the tooth. While a stroke goes through the face the rotary feed may go on; what the cutter does is smooth in the
+//! **phase** of the stroke (time), not in the place along the tooth (the crank makes that relation steep near the ends of the stroke). So each row of a field has a
+//! phase tau in [-1, 1], each stroke has poses at Chebyshev nodes of tau, and everything made of them is a cubic in tau. A frozen stroke is the constant.
+//!
+//! Law of the ram: z = z_m + (L/2) cos(theta), L = approach + face + overrun, theta from 0 to pi during the cut, half of a double stroke's time; so a place z is reached at
+//! theta = arccos(2 (z - z_m) / L). The stroke's own moment is the one when the middle of the face is cut.
+
+use crate::frame::Rigid2;
+use crate::tool::CuttingTool;
+
+/// Nodes of the cubic in tau (Chebyshev of the first kind on [-1, 1]).
+pub const NODES: [f64; 4] =
+    [-0.923_879_532_511_286_7, -0.382_683_432_365_089_8, 0.382_683_432_365_089_8, 0.923_879_532_511_286_7];
+
+/// How places along the tooth become phases.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StrokeLaw {
+    /// The pose of the stroke's own moment holds for its whole length.
+    Frozen,
+    /// Crank: the feed goes on.
+    Crank {
+        /// Stroke length L, mm.
+        length_mm: f64,
+        /// Middle of the stroke relative to the middle of the face, mm.
+        middle_mm: f64,
+        /// Half of the share of a double stroke that the face takes: tau = 1 is this much of a stroke after the middle of the face.
+        half_share: f64,
+    },
+}
+
+impl StrokeLaw {
+    /// Crank law for a face of `face_width_mm` entered at its upper end (positive lead).
+    pub fn crank(face_width_mm: f64, approach_mm: f64, overrun_mm: f64) -> Self {
+        let length_mm = approach_mm + face_width_mm + overrun_mm;
+        let middle_mm = 0.5 * (approach_mm - overrun_mm);
+        let angle = |lead_mm: f64| (2.0 * (lead_mm - middle_mm) / length_mm).clamp(-1.0, 1.0).acos();
+        let at = |lead_mm: f64| (angle(lead_mm) - angle(0.0)) / std::f64::consts::TAU;
+        let half_share = at(-0.5 * face_width_mm).abs().max(at(0.5 * face_width_mm).abs());
+        Self::Crank { length_mm, middle_mm, half_share }
+    }
+
+    /// Phase tau in [-1, 1] at a place along the tooth.
+    pub fn tau(&self, lead_mm: f64) -> f64 {
+        match *self {
+            Self::Frozen => 0.0,
+            Self::Crank { length_mm, middle_mm, half_share } => {
+                let angle = |lead: f64| (2.0 * (lead - middle_mm) / length_mm).clamp(-1.0, 1.0).acos();
+                (angle(lead_mm) - angle(0.0)) / std::f64::consts::TAU / half_share
+            }
+        }
+    }
+
+    /// Fraction of a double stroke between the stroke's own moment and phase tau.
+    pub fn stroke_share(&self, tau: f64) -> f64 {
+        match *self {
+            Self::Frozen => 0.0,
+            Self::Crank { half_share, .. } => tau * half_share,
+        }
+    }
+}
+
+/// Poses of all strokes of an operation.
+#[derive(Debug, Clone)]
+pub struct StrokeSet {
+    /// Id of the first pass; pass ids grow with time, blade by blade within a stroke.
+    pub first_pass: u32,
+    /// Blades of the tool.
+    pub blades: u32,
+    /// Phase law.
+    pub law: StrokeLaw,
+    /// `work_from_tool` of every stroke at the nodes: one pose when frozen, else one for each of [`NODES`].
+    poses: Vec<Rigid2>,
+}
+
+impl StrokeSet {
+    /// Strokes 0 to `count` - 1; `work_from_tool(lambda)` gives the pose at any real stroke number.
+    pub fn new(
+        first_pass: u32,
+        tool: &dyn CuttingTool,
+        law: StrokeLaw,
+        count: usize,
+        mut work_from_tool: impl FnMut(f64) -> Rigid2,
+    ) -> Self {
+        let poses = (0..count)
+            .flat_map(|stroke| Self::node_phases(law).iter().map(move |&tau| stroke as f64 + law.stroke_share(tau)))
+            .map(&mut work_from_tool)
+            .collect();
+        Self { first_pass, blades: tool.blade_count(), law, poses }
+    }
+
+    fn node_phases(law: StrokeLaw) -> &'static [f64] {
+        match law {
+            StrokeLaw::Frozen => &[0.0],
+            StrokeLaw::Crank { .. } => &NODES,
+        }
+    }
+
+    /// Phases of the poses that [`Self::poses`] gives.
+    pub fn phases(&self) -> &'static [f64] {
+        Self::node_phases(self.law)
+    }
+
+    /// Number of strokes.
+    pub fn count(&self) -> usize {
+        self.poses.len() / self.phases().len()
+    }
+
+    /// Poses of one stroke at [`Self::phases`].
+    pub fn poses(&self, stroke: usize) -> &[Rigid2] {
+        let nodes = self.phases().len();
+        &self.poses[stroke * nodes..(stroke + 1) * nodes]
+    }
+
+    /// Id of a pass.
+    pub fn pass_id(&self, stroke: usize, blade: u32) -> u32 {
+        self.first_pass + stroke as u32 * self.blades + blade
+    }
+
+    /// Stroke and blade of a pass id of this set.
+    pub fn stroke_and_blade(&self, pass: u32) -> (usize, u32) {
+        let local = pass - self.first_pass;
+        ((local / self.blades) as usize, local % self.blades)
+    }
+
+    /// Id after the last pass.
+    pub fn end_pass(&self) -> u32 {
+        self.first_pass + self.count() as u32 * self.blades
+    }
+}
+
+/// Monomial coefficients of the polynomial through values at the nodes: a cubic for four values, a constant for one.
+pub fn cubic_through(values: &[f64]) -> [f64; 4] {
+    if let [value] = values {
+        return [*value, 0.0, 0.0, 0.0];
+    }
+    // Chebyshev coefficients by the discrete cosine sum over the first-kind nodes, then T0..T3 written out in powers.
+    let mut chebyshev = [0.0; 4];
+    for (k, coefficient) in chebyshev.iter_mut().enumerate() {
+        let sum: f64 = NODES.iter().zip(values).map(|(&node, &value)| value * chebyshev_polynomial(k, node)).sum();
+        *coefficient = sum * if k == 0 { 0.25 } else { 0.5 };
+    }
+    let [c0, c1, c2, c3] = chebyshev;
+    [c0 - c2, c1 - 3.0 * c3, 2.0 * c2, 4.0 * c3]
+}
+
+fn chebyshev_polynomial(k: usize, x: f64) -> f64 {
+    [1.0, x, 2.0 * x * x - 1.0, x * (4.0 * x * x - 3.0)][k]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cubics_pass_through_their_nodes() {
+        let cubic = |t: f64| 0.3 - 2.0 * t + 0.7 * t * t + 1.1 * t * t * t;
+        let [a, b, c, d] = cubic_through(&NODES.map(cubic));
+        for t in [-1.0, -0.2, 0.0, 0.9] {
+            assert!((a + t * (b + t * (c + t * d)) - cubic(t)).abs() < 1e-15);
+        }
+        assert_eq!(cubic_through(&[7.0]), [7.0, 0.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn the_crank_reaches_the_face_ends_at_most_at_unit_phase() {
+        let law = StrokeLaw::crank(30.0, 5.0, 2.0);
+        let (top, bottom) = (law.tau(15.0), law.tau(-15.0));
+        assert!(top < 0.0 && bottom > 0.0, "the cut runs from the upper end down");
+        assert!((top.abs().max(bottom.abs()) - 1.0).abs() < 1e-15);
+        assert_eq!(law.tau(0.0), 0.0);
+        // A quarter of a double stroke separates the middle of the stroke from its ends.
+        assert!(law.stroke_share(1.0) < 0.25);
+    }
+}

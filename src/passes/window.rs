@@ -1,0 +1,78 @@
+//! The passes that can reach a region of the work at all: blade circle against region circle, for every stroke and blade.
+//!
+//! No assumption about which tooth cuts which space: runout, pitch errors, several turns and plunges need no special case.
+
+use super::strokes::StrokeSet;
+use crate::frame::Rigid2;
+use crate::tool::CuttingTool;
+use glam::DVec2;
+
+/// Phases at which bounds look at a pass: the whole range and its middle, or the one pose of a frozen stroke.
+const BOUND_PHASES: [f64; 3] = [-1.0, 0.0, 1.0];
+
+/// A pass near a region, with its poses at the phases where bounds are taken.
+#[derive(Debug, Clone)]
+pub struct NearPass {
+    /// Stroke number.
+    pub stroke: usize,
+    /// Blade of the tool.
+    pub blade: u32,
+    /// Poses of the work in the blade frame: one when frozen, else at tau = -1, 0, 1.
+    pub blade_from_work: Vec<Rigid2>,
+}
+
+/// All passes whose blade comes within `reach_mm` of `center_mm` (gear frame), in time order.
+pub fn near_passes(set: &StrokeSet, tool: &dyn CuttingTool, center_mm: DVec2, reach_mm: f64) -> Vec<NearPass> {
+    let blades: Vec<Rigid2> = (0..tool.blade_count()).map(|blade| tool.tool_from_blade(blade)).collect();
+    let edge = tool.edge();
+    let limit_mm = reach_mm + edge.reach_mm;
+    // No blade reaches further from the tool's axis than this.
+    let tool_reach_mm = blades.iter().map(|b| b.point(edge.center_mm).length()).fold(0.0, f64::max);
+    let mut near = Vec::new();
+    for stroke in 0..set.count() {
+        let poses = set.poses(stroke);
+        let middle = poses[poses.len() / 2];
+        // How far any point of the tool moves in the work during the stroke, doubled for what lies between the nodes.
+        let travel_mm = poses
+            .iter()
+            .map(|pose| {
+                pose.translation_mm.distance(middle.translation_mm)
+                    + (pose.rotation - middle.rotation).length() * (tool_reach_mm + edge.reach_mm)
+            })
+            .fold(0.0, f64::max);
+        let limit_mm = limit_mm + 2.0 * travel_mm;
+        if middle.translation_mm.distance(center_mm) > tool_reach_mm + limit_mm {
+            continue;
+        }
+        let bounds = bound_poses(poses);
+        for (blade, tool_from_blade) in blades.iter().enumerate() {
+            if middle.point(tool_from_blade.point(edge.center_mm)).distance(center_mm) > limit_mm {
+                continue;
+            }
+            let blade_from_work = bounds.iter().map(|pose| pose.after(tool_from_blade).inverse()).collect();
+            near.push(NearPass { stroke, blade: blade as u32, blade_from_work });
+        }
+    }
+    near
+}
+
+/// Poses at [`BOUND_PHASES`] from those at the nodes.
+fn bound_poses(poses: &[Rigid2]) -> Vec<Rigid2> {
+    if let [pose] = poses {
+        return vec![*pose];
+    }
+    let entry = |pick: fn(&Rigid2) -> f64| super::strokes::cubic_through(&poses.iter().map(pick).collect::<Vec<_>>());
+    let entries = [
+        entry(|p| p.rotation.x),
+        entry(|p| p.rotation.y),
+        entry(|p| p.translation_mm.x),
+        entry(|p| p.translation_mm.y),
+    ];
+    BOUND_PHASES
+        .iter()
+        .map(|&tau| {
+            let [c, s, x, y] = entries.map(|e| e[0] + tau * (e[1] + tau * (e[2] + tau * e[3])));
+            Rigid2 { rotation: DVec2::new(c, s), translation_mm: DVec2::new(x, y) }
+        })
+        .collect()
+}
