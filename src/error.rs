@@ -72,4 +72,4 @@ impl Error {
 }
 
 /// Result of everything that can be refused.
-pub type Result<T> = std::result::Result<T, Error>;
+pub type Result<T, E = Error> = std::result::Result<T, E>;

@@ -8,6 +8,7 @@ pub mod dexel;
 pub mod error;
 pub mod frame;
 pub mod gear;
+pub mod job;
 pub mod linkage;
 pub mod output;
 pub mod passes;

@@ -1,0 +1,306 @@
+//! Target flanks and roots: the curves that dexels stand on.
+//!
+//! The target is the envelope of the finishing operation ([`Generation`]) as a curve in the transverse plane with arc length, normal and polar angle. A flank runs from its **form
+//! point** (where the cutter's involute ends at its tip corner, or where the envelope turns back: undercut) to its **tip** (the blank's outline, the end of the cutter's involute near its base, or the
+//! point where both flanks meet). A root runs from the left flank of its space over the tip corners' fillets to the right one.
+
+use super::blank::Blank;
+use super::generation::{FlankContact, Generation, Side};
+use crate::error::Refusal;
+use glam::DVec2;
+use std::f64::consts::PI;
+
+/// Panels of the arc length of one flank; five Gauss points each leave the error far below a picometre.
+const PANELS: usize = 48;
+/// Nodes and weights of the five-point Gauss-Legendre rule on [-1, 1].
+const GAUSS: [(f64, f64); 5] = [
+    (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
+    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+    (0.0, 0.568_888_888_888_888_9),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_08),
+];
+
+/// Why a flank ends where it does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FlankEnd {
+    /// At the tip corner of the cutter: the ordinary start of the involute.
+    CutterCorner,
+    /// The envelope turns back: undercut.
+    Undercut,
+    /// At the blank's outline: the ordinary tip.
+    BlankOutline,
+    /// At the lower end of the cutter's involute: the rest of the tip is cut by the cutter's base.
+    CutterBase,
+    /// Where both flanks of the tooth meet: a pointed tooth.
+    PointedTip,
+}
+
+/// Flank of one gear tooth as finishing leaves it in the limit of many strokes.
+#[derive(Debug, Clone)]
+pub struct TargetFlank<'a> {
+    /// Gear tooth, counted from 1 at the first tooth of positive polar angle.
+    pub tooth: u32,
+    /// Which of its flanks.
+    pub side: Side,
+    /// Why it starts at its form point.
+    pub form_end: FlankEnd,
+    /// Why it ends at its tip.
+    pub tip_end: FlankEnd,
+    generation: &'a Generation<'a>,
+    space: i64,
+    /// Polar angle of the form point.
+    phi_form: f64,
+    /// Polar angle of the tip.
+    phi_tip: f64,
+    /// Arc length at the panel ends, from the form point.
+    arcs_mm: Vec<f64>,
+}
+
+/// Tooth space that a flank belongs to: tooth j lies between spaces j - 1 and j.
+fn space_of(tooth: u32, side: Side) -> i64 {
+    i64::from(tooth) - i64::from(side == Side::Right)
+}
+
+impl<'a> TargetFlank<'a> {
+    /// Target flank of a tooth; `tip_height_mm` may lower the tip (pointed teeth).
+    ///
+    /// # Errors
+    /// No involute is generated at all (the cutter undercuts the whole flank).
+    pub fn new(
+        generation: &'a Generation<'a>,
+        blank: &Blank,
+        tooth: u32,
+        side: Side,
+        tip_height_mm: Option<f64>,
+    ) -> Result<Self, Refusal> {
+        let space = space_of(tooth, side);
+        let contact = |phi: f64| generation.flank_contact(phi, space, side);
+        let [roll_start, roll_end] = generation.cutter.roll_range;
+        let curve = generation.linkage.curve();
+        let module_mm = curve.perimeter_mm() / (PI * f64::from(curve_teeth(generation)));
+        let pitch_arc_mm = PI * module_mm;
+        let phi_space = curve.phi_at_arc(space as f64 * pitch_arc_mm);
+        let nothing = |what: &str| {
+            Refusal::new(
+                "tool.shaper_cutter",
+                format!("no flank is generated on tooth {tooth} {}: {what}", side.name()),
+                "use a cutter with fewer teeth or a smaller addendum_coefficient, or a pitch curve with a larger smallest radius",
+            )
+        };
+        // A place on the generated flank to start from: the pitch crossing lies a quarter pitch beside the space's middle, contact is near it.
+        let step = pitch_arc_mm / curve.frame(phi_space).arc_rate_mm_per_rad / 64.0;
+        let roll_pitch = 0.5 * (roll_start + roll_end);
+        let start = (-128..=128)
+            .filter_map(|i| contact(phi_space + step * f64::from(i)))
+            .filter(|c| c.roll > roll_start && c.roll < roll_end)
+            .min_by(|a, b| (a.roll - roll_pitch).abs().total_cmp(&(b.roll - roll_pitch).abs()))
+            .ok_or_else(|| nothing("the cutter's involute touches nothing there"))?;
+        let forward = start.speed_mm_per_rad.signum();
+        let towards_form = start.roll_rate.signum();
+        let sound = |c: &FlankContact| c.speed_mm_per_rad * forward > 0.0;
+
+        let (phi_form, form_end) = {
+            let inside = |phi: f64| contact(phi).filter(|c| c.roll < roll_end && sound(c)).is_some();
+            let phi =
+                boundary(start.phi_rad, towards_form * step, inside).ok_or_else(|| nothing("it has no root end"))?;
+            let undercut = contact(phi).is_none_or(|c| c.roll < roll_end - 1e-9);
+            (phi, if undercut { FlankEnd::Undercut } else { FlankEnd::CutterCorner })
+        };
+        let (phi_tip, tip_end) = {
+            let top_mm = tip_height_mm.unwrap_or(blank.addendum_mm).min(blank.addendum_mm);
+            let height = |c: &FlankContact| blank.height(c.point_mm, c.phi_rad).0;
+            let inside =
+                |phi: f64| contact(phi).filter(|c| c.roll > roll_start && sound(c) && height(c) < top_mm).is_some();
+            let phi = boundary(start.phi_rad, -towards_form * step, inside).ok_or_else(|| nothing("it has no tip"))?;
+            let end = contact(phi);
+            let end = match end {
+                Some(c) if height(&c) >= top_mm - 1e-6 => {
+                    if tip_height_mm.is_some() {
+                        FlankEnd::PointedTip
+                    } else {
+                        FlankEnd::BlankOutline
+                    }
+                }
+                Some(c) if c.roll <= roll_start + 1e-9 => FlankEnd::CutterBase,
+                _ => FlankEnd::Undercut,
+            };
+            (phi, end)
+        };
+        let mut flank =
+            Self { tooth, side, form_end, tip_end, generation, space, phi_form, phi_tip, arcs_mm: vec![0.0] };
+        let width = (phi_tip - phi_form) / PANELS as f64;
+        for panel in 0..PANELS {
+            let middle = phi_form + width * (panel as f64 + 0.5);
+            let sum: f64 = GAUSS
+                .iter()
+                .map(|&(node, weight)| weight * flank.contact(middle + 0.5 * width * node).speed_mm_per_rad.abs())
+                .sum();
+            let arc = flank.arcs_mm[panel] + 0.5 * width.abs() * sum;
+            flank.arcs_mm.push(arc);
+        }
+        Ok(flank)
+    }
+
+    /// Length from form point to tip, mm.
+    pub fn length_mm(&self) -> f64 {
+        self.arcs_mm[PANELS]
+    }
+
+    /// Contact at a polar angle between form point and tip.
+    fn contact(&self, phi_rad: f64) -> FlankContact {
+        self.generation
+            .flank_contact(phi_rad, self.space, self.side)
+            .expect("contact exists between form point and tip")
+    }
+
+    /// Contact at an arc length from the form point (clamped to the flank).
+    pub fn at_arc(&self, arc_mm: f64) -> FlankContact {
+        let arc_mm = arc_mm.clamp(0.0, self.length_mm());
+        let panel = self.arcs_mm.partition_point(|&a| a <= arc_mm).clamp(1, PANELS) - 1;
+        let width = (self.phi_tip - self.phi_form) / PANELS as f64;
+        let phi_start = self.phi_form + width * panel as f64;
+        let share = (arc_mm - self.arcs_mm[panel]) / (self.arcs_mm[panel + 1] - self.arcs_mm[panel]);
+        let mut phi = phi_start + width * share;
+        for _ in 0..8 {
+            // Arc from the panel's start by the same rule, Newton with the local speed.
+            let part = phi - phi_start;
+            let arc: f64 = GAUSS
+                .iter()
+                .map(|&(node, weight)| {
+                    weight * self.contact(phi_start + 0.5 * part * (1.0 + node)).speed_mm_per_rad.abs()
+                })
+                .sum();
+            let missing_mm = arc_mm - self.arcs_mm[panel] - 0.5 * part.abs() * arc;
+            if missing_mm.abs() < 1e-11 {
+                break;
+            }
+            phi += missing_mm / self.contact(phi).speed_mm_per_rad.abs() * width.signum();
+        }
+        self.contact(phi)
+    }
+
+    /// Contact where the flank crosses a height over the pitch curve, if it does: arc length from the form point and contact.
+    pub fn at_height(&self, blank: &Blank, height_mm: f64) -> Option<(f64, FlankContact)> {
+        let height_at = |arc: f64| {
+            let c = self.at_arc(arc);
+            blank.height(c.point_mm, c.phi_rad).0 - height_mm
+        };
+        let (mut low, mut high) = (0.0, self.length_mm());
+        let (mut f_low, mut f_high) = (height_at(low), height_at(high));
+        if f_low > 0.0 || f_high < 0.0 {
+            return None;
+        }
+        // Regula falsi with the Illinois rule: heights climb steadily along a flank.
+        for _ in 0..60 {
+            let arc = (low * f_high - high * f_low) / (f_high - f_low);
+            let f = height_at(arc);
+            if f.abs() < 1e-12 || (high - low) < 1e-13 {
+                return Some((arc, self.at_arc(arc)));
+            }
+            if f < 0.0 {
+                (low, f_low) = (arc, f);
+                f_high *= 0.5;
+            } else {
+                (high, f_high) = (arc, f);
+                f_low *= 0.5;
+            }
+        }
+        let arc = 0.5 * (low + high);
+        Some((arc, self.at_arc(arc)))
+    }
+}
+
+/// Teeth of the gear: the perimeter in pitches of the cutter.
+fn curve_teeth(generation: &Generation) -> u32 {
+    let pitch_mm = 2.0 * PI * generation.cutter.pitch_radius_mm / f64::from(generation.cutter.teeth);
+    (generation.linkage.curve().perimeter_mm() / pitch_mm).round() as u32
+}
+
+/// Last place where `inside` holds, walking from `start` (inside) by `step` and halving at the end.
+fn boundary(start: f64, step: f64, inside: impl Fn(f64) -> bool) -> Option<f64> {
+    let mut last = start;
+    let outside = (1..=512).map(|i| start + step * f64::from(i)).find(|&phi| {
+        let holds = inside(phi);
+        if holds {
+            last = phi;
+        }
+        !holds
+    })?;
+    let (mut good, mut bad) = (last, outside);
+    for _ in 0..60 {
+        let middle = 0.5 * (good + bad);
+        if inside(middle) { good = middle } else { bad = middle }
+    }
+    Some(good)
+}
+
+/// One ray of a root: place, normal and arc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RootPoint {
+    /// Arc length from the left flank's end, mm.
+    pub arc_mm: f64,
+    /// Point on the target root, gear frame.
+    pub point_mm: DVec2,
+    /// Unit normal out of the gear.
+    pub normal: DVec2,
+    /// Polar angle of the linkage at contact.
+    pub phi_rad: f64,
+}
+
+/// Target root of the space after tooth `space` (space 0 is centred on phi = 0), as points about `spacing_mm` apart.
+///
+/// Each part of the cutter's tip touches over one range of phi; the parts follow each other from the left flank of the space to the right one. Parts that never touch
+/// (a tip circle in a sharp hollow) are left out.
+pub fn target_root(generation: &Generation, space: i64, spacing_mm: f64) -> Vec<RootPoint> {
+    let curve = generation.linkage.curve();
+    let pitch_arc_mm = 2.0 * PI * generation.cutter.pitch_radius_mm / f64::from(generation.cutter.teeth);
+    let phi_space = curve.phi_at_arc(space as f64 * pitch_arc_mm);
+    let step = pitch_arc_mm / curve.frame(phi_space).arc_rate_mm_per_rad / 128.0;
+    let mut points: Vec<RootPoint> = Vec::new();
+    for part in generation.tip_parts() {
+        let contact = |phi: f64| generation.tip_contact(phi, space, &part);
+        let inside = |phi: f64| contact(phi).is_some();
+        // Contact may start anywhere within a pitch of the space; a grid of an 1/128 pitch finds it, bisection its ends.
+        let Some(seed) =
+            (0..256).map(|i| phi_space + step * f64::from((i + 1) / 2 * (1 - 2 * (i % 2)))).find(|&phi| inside(phi))
+        else {
+            continue;
+        };
+        let (Some(from), Some(to)) = (boundary(seed, -step, inside), boundary(seed, step, inside)) else { continue };
+        let ends = [contact(from), contact(to)].map(|c| c.map_or(DVec2::ZERO, |(point, _)| point));
+        let previous = points.last().map(|p| p.point_mm);
+        let backwards = previous.map_or_else(
+            // The first part starts beside the left flank, at the smaller arc.
+            || ends[0].perp_dot(ends[1]) < 0.0,
+            |p| p.distance_squared(ends[1]) < p.distance_squared(ends[0]),
+        );
+        let (from, to) = if backwards { (to, from) } else { (from, to) };
+        let fine = 64;
+        let chord: Vec<(f64, DVec2, DVec2)> = (0..=fine)
+            .filter_map(|i| {
+                let phi = from + (to - from) * f64::from(i) / f64::from(fine);
+                contact(phi).map(|(point, normal)| (phi, point, normal))
+            })
+            .collect();
+        let length: f64 = chord.windows(2).map(|w| w[0].1.distance(w[1].1)).sum();
+        let count = (length / spacing_mm).ceil().max(1.0) as u32;
+        let mut arc = points.last().map_or(0.0, |p| p.arc_mm);
+        let mut travelled = 0.0;
+        let mut next = 0.5 * length / f64::from(count);
+        for pair in chord.windows(2) {
+            let piece = pair[0].1.distance(pair[1].1);
+            while next <= travelled + piece && piece > 0.0 {
+                let share = (next - travelled) / piece;
+                let phi = pair[0].0 + (pair[1].0 - pair[0].0) * share;
+                if let Some((point_mm, normal)) = contact(phi) {
+                    arc += points.last().map_or(0.0, |p| p.point_mm.distance(point_mm));
+                    points.push(RootPoint { arc_mm: arc, point_mm, normal, phi_rad: phi });
+                }
+                next += length / f64::from(count);
+            }
+            travelled += piece;
+        }
+    }
+    points
+}
