@@ -210,10 +210,13 @@ fn strokes_agree() {
         for (block, kind) in [("traditional", TRADITIONAL), ("normal", NORMAL)] {
             let linkage = ShapingLinkage::new(kind, Arc::clone(&curve), r_c, delta_d).unwrap();
             let schedule =
-                StrokeSchedule::new(&operation(kind, delta_d, u32::try_from(n).unwrap()), &linkage, &machine()).unwrap();
+                StrokeSchedule::new(&operation(kind, delta_d, u32::try_from(n).unwrap()), &linkage, &machine())
+                    .unwrap();
             assert_eq!(schedule.count() as u64, n);
-            let (dpsi_b, dl): (Vec<f64>, Vec<f64>) =
-                (0..schedule.count()).map(|i| schedule.increment(i)).map(|d| (d.psi_b_rad, d.center_distance_mm)).unzip();
+            let (dpsi_b, dl): (Vec<f64>, Vec<f64>) = (0..schedule.count())
+                .map(|i| schedule.increment(i))
+                .map(|d| (d.psi_b_rad, d.center_distance_mm))
+                .unzip();
             let block = &expected[block];
             for i in 0..5 {
                 close("dpsi_b", dpsi_b[i], number(&block["dpsi_b_first5"][i]), within);

@@ -217,7 +217,10 @@ mod tests {
     fn close<const N: usize>(jet: Jet<N>, derivatives: [f64; N]) {
         for (k, expected) in derivatives.into_iter().enumerate() {
             let found = jet.derivative(k);
-            assert!((found - expected).abs() < 1e-13 * (1.0 + expected.abs()), "derivative {k}: {found} not {expected}");
+            assert!(
+                (found - expected).abs() < 1e-13 * (1.0 + expected.abs()),
+                "derivative {k}: {found} not {expected}"
+            );
         }
     }
 

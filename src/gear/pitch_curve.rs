@@ -14,6 +14,8 @@
 mod facts;
 mod radius_law;
 mod spline;
+#[cfg(test)]
+pub(crate) mod tests;
 
 use std::f64::consts::PI;
 

@@ -11,13 +11,16 @@
 //! angles other than zero.
 
 mod axes;
-//D pub mod dynamics;
+pub mod dynamics;
+mod extremum;
 mod inverse;
-//D pub mod relief;
+pub mod relief;
 pub mod schedule;
 mod shaping;
 mod shaping_normal;
 mod shaping_traditional;
+#[cfg(test)]
+mod tests;
 
 pub use axes::{Axes, CutterPose, PoseMotion};
 pub use schedule::{StrokeIncrement, StrokeSchedule, StrokeState};

@@ -115,7 +115,11 @@ impl StrokeSchedule {
         };
         if rolling.is_nan() || rolling < 1.0 {
             let problem = format!("no stroke falls between {} and {} deg", from_rad.to_degrees(), to_rad.to_degrees());
-            return Err(Refusal::new(&key("window_deg"), problem, "widen the window or take more strokes per revolution"));
+            return Err(Refusal::new(
+                &key("window_deg"),
+                problem,
+                "widen the window or take more strokes per revolution",
+            ));
         }
         let first_sigma = start + first_index * per_stroke;
         let strokes_over = |angle_rad: f64| (sigma(from_rad + angle_rad) - first_sigma) / per_stroke;
@@ -225,7 +229,9 @@ impl StrokeSchedule {
             return self.linkage.axes_along(Jet::constant(phi), offset);
         }
         let slope = self.progress.along(&self.linkage, Jet::variable(phi), Jet::constant(offset.value())).derivative(1);
-        let missing = |phi: Jet<3>| Jet::linear(self.sigma(rolled), self.per_stroke) - self.progress.along(&self.linkage, phi, offset);
+        let missing = |phi: Jet<3>| {
+            Jet::linear(self.sigma(rolled), self.per_stroke) - self.progress.along(&self.linkage, phi, offset)
+        };
         let rate = missing(Jet::constant(phi)).taylor()[1] / slope;
         let bend = missing(Jet::linear(phi, rate)).taylor()[2] / slope;
         self.linkage.axes_along(Jet::from_taylor([phi, rate, bend]), offset)

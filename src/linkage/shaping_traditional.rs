@@ -44,7 +44,9 @@ pub(super) fn axes<const N: usize>(
     let lag = work_lag(rolling, cutter_pitch_radius_mm, offset_mm, direction);
     let roll = arc * (1.0 / cutter_pitch_radius_mm);
     let (psi_b_rad, center_distance_mm) = match direction {
-        TraditionalDirection::CenterLine => (roll - beta(rolling, finish), center_distance(rolling, finish) + offset_mm),
+        TraditionalDirection::CenterLine => {
+            (roll - beta(rolling, finish), center_distance(rolling, finish) + offset_mm)
+        }
         TraditionalDirection::PolarRadius => {
             let along = r + offset_mm + r * cutter_pitch_radius_mm / ds;
             let across = dr * cutter_pitch_radius_mm / ds;

@@ -54,7 +54,8 @@ impl CurveFacts {
         let extremum = |phi_rad: f64| CurvatureExtremum { phi_rad, curvature_per_mm: kappa(phi_rad).value() };
         let mut curvature_extrema: Vec<CurvatureExtremum> =
             sign_changes(|phi| kappa(phi).derivative(1), samples).iter().map(|c| extremum(c.phi_rad)).collect();
-        let by_curvature = |a: &CurvatureExtremum, b: &CurvatureExtremum| a.curvature_per_mm.total_cmp(&b.curvature_per_mm);
+        let by_curvature =
+            |a: &CurvatureExtremum, b: &CurvatureExtremum| a.curvature_per_mm.total_cmp(&b.curvature_per_mm);
         let anywhere = extremum(sample_angle_rad(1, samples));
         let largest_curvature = curvature_extrema.iter().copied().max_by(by_curvature).unwrap_or(anywhere);
         let smallest_curvature = curvature_extrema.iter().copied().min_by(by_curvature).unwrap_or(anywhere);
@@ -69,7 +70,8 @@ impl CurveFacts {
         };
         let concave_zones_rad = concave_zones(|phi| kappa(phi).value(), samples);
         let extreme_radii = sign_changes(|phi| radius(phi).derivative(1), samples);
-        let radii = || extreme_radii.iter().map(|c| radius(c.phi_rad).value()).chain([radius(anywhere.phi_rad).value()]);
+        let radii =
+            || extreme_radii.iter().map(|c| radius(c.phi_rad).value()).chain([radius(anywhere.phi_rad).value()]);
         Self {
             smallest_curvature_radius_mm: 1.0 / sharpest.curvature_per_mm.abs(),
             smallest_curvature_radius_phi_rad: sharpest.phi_rad,

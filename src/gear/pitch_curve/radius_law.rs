@@ -95,7 +95,11 @@ impl SizedLaw {
         };
         if let Some(size_mm) = sized.size_mm.filter(|size_mm| !(size_mm.is_finite() && *size_mm > 0.0)) {
             let problem = format!("{size_mm} mm is not a positive length");
-            return Err(Refusal::new(sized.size_key, problem, "leave it out: the size that closes the curve is solved"));
+            return Err(Refusal::new(
+                sized.size_key,
+                problem,
+                "leave it out: the size that closes the curve is solved",
+            ));
         }
         Ok(sized)
     }
@@ -149,7 +153,9 @@ impl RadiusLaw {
     pub(super) fn samples_per_turn(&self) -> usize {
         let periods = match self {
             Self::Circle => 1.0,
-            Self::Ellipse { order, eccentricity: k } | Self::Pascal { order, eccentricity: k } => order * (1.0 + 4.0 * k),
+            Self::Ellipse { order, eccentricity: k } | Self::Pascal { order, eccentricity: k } => {
+                order * (1.0 + 4.0 * k)
+            }
             Self::SinusoidalRatio { order, mean_ratio, ratio_amplitude } => {
                 order * (1.0 + 4.0 * ratio_amplitude.abs() / (1.0 + mean_ratio))
             }

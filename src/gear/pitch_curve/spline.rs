@@ -51,7 +51,11 @@ impl PeriodicSpline {
         let span_rad = points_rad_mm[n - 1][0] - points_rad_mm[0][0];
         if span_rad >= TURN_RAD - 1e-9 {
             let problem = format!("the points span {} deg, a full turn or more", span_rad.to_degrees());
-            return Err(Refusal::new(KEY, problem, "leave out the last point: the curve closes on the first by itself"));
+            return Err(Refusal::new(
+                KEY,
+                problem,
+                "leave out the last point: the curve closes on the first by itself",
+            ));
         }
         let mean_mm = points_rad_mm.iter().map(|p| p[1]).sum::<f64>() / n as f64;
         let angles_rad: Vec<f64> = points_rad_mm.iter().map(|p| p[0]).collect();
@@ -139,8 +143,10 @@ mod tests {
     #[test]
     fn reproduces_a_smooth_curve_and_is_periodic() {
         let r = |phi: f64| 50.0 + 4.0 * (2.0 * phi + 0.3).cos();
-        let points: Vec<[f64; 2]> =
-            (0..400).map(|i| (f64::from(i) + 0.3 * f64::from(i % 3)) * TURN_RAD / 401.0 + 0.2).map(|phi| [phi, r(phi)]).collect();
+        let points: Vec<[f64; 2]> = (0..400)
+            .map(|i| (f64::from(i) + 0.3 * f64::from(i % 3)) * TURN_RAD / 401.0 + 0.2)
+            .map(|phi| [phi, r(phi)])
+            .collect();
         let (spline, mean_mm) = PeriodicSpline::new(&points).unwrap();
         for [phi, r_mm] in &points {
             assert!((spline.at(*phi).value() * mean_mm - r_mm).abs() < 1e-12);

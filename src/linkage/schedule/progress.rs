@@ -102,7 +102,8 @@ impl TimeLaw {
         }
         breaks_rad.sort_by(f64::total_cmp);
         let seconds_per_rad = |phi: f64| axis(phi).map_or(f64::NAN, |(_, rate)| rate.value());
-        let smallest = (0..samples).map(|i| seconds_per_rad(sample_angle_rad(i, samples))).fold(f64::INFINITY, f64::min);
+        let smallest =
+            (0..samples).map(|i| seconds_per_rad(sample_angle_rad(i, samples))).fold(f64::INFINITY, f64::min);
         let largest = (0..samples).map(|i| seconds_per_rad(sample_angle_rad(i, samples))).fold(0.0, f64::max);
         let elapsed = if smallest > 1e-6 * largest {
             PeriodicIntegral::new(seconds_per_rad, &breaks_rad, 16, 1e-12 * largest)
@@ -118,7 +119,8 @@ impl TimeLaw {
 
     fn along(&self, linkage: &ShapingLinkage, phi_rad: Jet<3>) -> Jet<3> {
         let phi = phi_rad.value();
-        let rate = slowest(&linkage.axes(phi, self.offset_mm), self.limits).map_or(Jet::constant(f64::NAN), |(_, rate)| rate);
+        let rate =
+            slowest(&linkage.axes(phi, self.offset_mm), self.limits).map_or(Jet::constant(f64::NAN), |(_, rate)| rate);
         rate.integrate::<3>(self.elapsed.at(phi)).compose(&phi_rad)
     }
 }
