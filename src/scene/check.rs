@@ -74,10 +74,17 @@ impl One<'_> {
         Fault { at: node.at.clone(), message }
     }
 
+    /// `wanted` says what the key takes; its unit and range follow where they say more.
     fn wrong_type(&self, node: &Node, wanted: &str) -> Fault {
-        let (path, kind) = (self.path, node.kind());
-        let brackets = if wanted == self.key.allowed() { String::new() } else { format!(" {}", self.key.brackets()) };
-        Self::fault(node, format!("`{path}` takes {wanted}{brackets}, not {kind}: {}", self.written(node)))
+        let (path, kind, written) = (self.path, node.kind(), self.written(node));
+        let brackets = match self.key.kind {
+            Kind::Number(_) | Kind::Numbers { .. } | Kind::Pair(_) | Kind::Points { .. } | Kind::Word(_) => {
+                format!(" {}", self.key.brackets())
+            }
+            Kind::Whole { min, max } => format!(", {min} to {max}"),
+            Kind::Boolean | Kind::Name | Kind::Path => String::new(),
+        };
+        Self::fault(node, format!("`{path}` takes {wanted}{brackets}, not {kind}: {written}"))
     }
 
     fn refused(&self, node: &Node) -> Fault {

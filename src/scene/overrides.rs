@@ -20,8 +20,9 @@ pub(super) fn apply(root: &mut Node, index: usize, argument: &str) -> Result<(),
     let Some((key, _)) = argument.split_once('=') else {
         return Err(refuse("a setting is KEY=VALUE".to_owned(), "write for example --set gear.module_mm=2.5"));
     };
-    let value = parse_value(index, argument, key.len() + 1)
-        .map_err(|reason| refuse(format!("the value is not TOML: {reason}"), "write the value as in the scene file"))?;
+    let value = parse_value(index, argument, key.len() + 1).map_err(|reason| {
+        refuse(format!("the value cannot be read: {reason}"), "write the value as in the scene file")
+    })?;
     let path = key.trim().replace('[', ".").replace(']', "");
     let names: Vec<&str> = path.split('.').map(str::trim).collect();
     if names.iter().any(|name| name.is_empty()) {
@@ -30,8 +31,9 @@ pub(super) fn apply(root: &mut Node, index: usize, argument: &str) -> Result<(),
             "write names with dots between them, for example gear.module_mm",
         ));
     }
-    put(root, &names, value, At::Set(index, 0..key.len()))
-        .map_err(|message| refuse(message, "operations are named by their name or by their number from 0"))
+    put(root, &names, value, At::Set(index, 0..key.len())).map_err(|message| {
+        refuse(message, "name an operation by its name or by its number from 0, and set keys one by one")
+    })
 }
 
 /// Goes down `names` from `root`, makes the tables that are missing, and sets `value` at the end.
@@ -43,7 +45,7 @@ fn put(root: &mut Node, names: &[&str], value: Node, name_at: At) -> Result<(), 
         let section = keys::section(&pattern);
         let child = section.and_then(|section| section.children().find(|child| child.name() == name));
         let Some(entries) = node.entries_mut() else {
-            return Err(format!("`{pattern}` is not a table that could hold `{name}`"));
+            return Err(format!("`{pattern}` is not a section that could hold `{name}`"));
         };
         if let Some(section) = section {
             displace(entries, section, name);

@@ -68,6 +68,9 @@ pub(super) fn parse_document(text: &str) -> Result<Node, Vec<SyntaxError>> {
 /// Reads the value of `--set` argument number `index`, which begins at byte `start` of the argument.
 pub(super) fn parse_value(index: usize, argument: &str, start: usize) -> Result<Node, String> {
     let text = &argument[start..];
+    if text.trim().is_empty() {
+        return Err("it is empty".to_owned());
+    }
     let place = |span: Range<usize>| At::Set(index, span.start + start..span.end + start);
     match DeValue::parse(text) {
         Ok(value) => Ok(node(&value, &place)),
@@ -140,7 +143,8 @@ impl Node {
     pub fn kind(&self) -> &'static str {
         match self.value {
             Value::Text(_) => "text",
-            Value::Whole(_) | Value::Number(_) | Value::Unusable => "a number",
+            Value::Whole(_) => "a whole number",
+            Value::Number(_) | Value::Unusable => "a number with a point",
             Value::Boolean(_) => "true or false",
             Value::Date => "a date",
             Value::List(_) => "a list",

@@ -207,7 +207,7 @@ impl Walk<'_, '_> {
                 self.problems.add(
                     &second.name_at,
                     format!("`{}` and `{}` say the same thing twice", first.name, second.name),
-                    format!("keep one of {}", names()),
+                    format!("keep one and remove the other: {}", names()),
                 );
             } else if written.is_empty() && group.required {
                 let at = self.values.place_of(&join(path, ""));
