@@ -1,7 +1,7 @@
 //! A commented scene to start from: every key with its unit, its range and its default.
 //!
 //! Printed from the table of keys. Keys that must be written and those with a fixed default stand ready; the others,
-//! and all variants but the default ones, stand behind `#`. The process to write for is the linkages' family.
+//! and all variants but the default ones, stand behind a `#` without a blank. The process to write for is the linkages' family.
 
 use std::fmt::Write as _;
 
@@ -18,7 +18,8 @@ pub fn template(process: &str) -> Option<String> {
     let mut out = String::from(
         "# Scene for cutting a gear with a shaper cutter.\n\
          #\n\
-         # Remove what you do not need: every key but module and numbers of teeth has a default.\n\
+         # Remove what you do not need: every key but the module and the numbers of teeth has a default.\n\
+         # Lines that begin with # and no blank are keys and sections to switch on.\n\
          # `gearcut check` says what the scene means; `gearcut cut` cuts it.\n",
     );
     for section in keys::sections().filter(|section| !section.path.is_empty()) {
@@ -28,6 +29,9 @@ pub fn template(process: &str) -> Option<String> {
 }
 
 fn write_section(out: &mut String, section: &'static Section) {
+    if section.role == Role::Plain && section.keys.is_empty() {
+        return;
+    }
     out.push('\n');
     write_comment(out, section.teach);
     if let Role::Choice { default, what } = section.role {
@@ -36,11 +40,8 @@ fn write_section(out: &mut String, section: &'static Section) {
         write_comment(out, &format!("The {what} is one of: {names}{default}."));
         return;
     }
-    if section.path == "fields" {
-        return;
-    }
     let active = is_active(section);
-    let mark = if active { "" } else { "# " };
+    let mark = if active { "" } else { "#" };
     let _ = writeln!(out, "{mark}{}", section.header());
     for key in section.keys {
         write_key(out, key, active && stands_ready(key));
@@ -62,7 +63,7 @@ fn stands_ready(key: &Key) -> bool {
 }
 
 fn write_key(out: &mut String, key: &Key, active: bool) {
-    let mark = if active { "" } else { "# " };
+    let mark = if active { "" } else { "#" };
     let value = match key.default {
         Default::Number(number) => format!("{number:?}"),
         Default::Whole(_) | Default::Boolean(_) | Default::Word(_) | Default::EmptyList => key.default_text(),

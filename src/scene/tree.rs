@@ -67,15 +67,16 @@ pub(super) fn parse_document(text: &str) -> Result<Node, Vec<SyntaxError>> {
 
 /// Reads the value of `--set` argument number `index`, which begins at byte `start` of the argument.
 pub(super) fn parse_value(index: usize, argument: &str, start: usize) -> Result<Node, String> {
-    let text = &argument[start..];
-    if text.trim().is_empty() {
+    let start = argument.len() - argument[start..].trim_start().len();
+    let text = argument[start..].trim_end();
+    if text.is_empty() {
         return Err("it is empty".to_owned());
     }
     let place = |span: Range<usize>| At::Set(index, span.start + start..span.end + start);
     match DeValue::parse(text) {
         Ok(value) => Ok(node(&value, &place)),
         Err(_) if is_bare_word(text) => {
-            Ok(Node { value: Value::Text(text.trim().to_owned()), at: At::Set(index, start..argument.len()) })
+            Ok(Node { value: Value::Text(text.to_owned()), at: At::Set(index, start..start + text.len()) })
         }
         Err(error) => Err(error.message().to_owned()),
     }
@@ -83,7 +84,6 @@ pub(super) fn parse_value(index: usize, argument: &str, start: usize) -> Result<
 
 /// A word or path without quotes: shells take the quotes away, so `--set` accepts it as text.
 fn is_bare_word(text: &str) -> bool {
-    let text = text.trim();
     text.starts_with(|c: char| c.is_ascii_alphabetic() || matches!(c, '_' | '/' | '.'))
         && text.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.' | '/'))
 }

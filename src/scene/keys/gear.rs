@@ -19,7 +19,7 @@ const ECCENTRICITY: Key = Key {
     unit: "",
     default: Default::Required,
     example: "0.1",
-    teach: "k, how far the curve departs from a circle (0 is a circle). An ellipse of order n turns concave beyond 1 / (n^2 - 1).",
+    teach: "k, how far the curve departs from a circle (0 is a circle). It turns concave beyond 1 / (n^2 - 1) for an ellipse, beyond 1 / (n^2 + 1) for a limacon.",
 };
 
 /// Mean radius R, common to limacon and Fourier series.
