@@ -1,0 +1,246 @@
+//! The one table of scene keys: name, kind, unit, range, default and a sentence, for every key there is.
+//!
+//! The reader checks files against it, and the JSON schema, the key reference and the template are printed
+//! from it, so none of them can fall behind. A section holds keys; a section may offer a choice, where the
+//! name of the table written inside it picks the variant (`[gear.pitch_curve.ellipse]`).
+//!
+//! Road not taken: structs with derived deserialisation. They report one problem at a time, lose the place of
+//! a value inside a choice, and keep ranges, units and sentences somewhere else.
+
+mod gear;
+mod machine;
+mod operation;
+mod range;
+mod tool;
+
+pub use range::Range;
+
+/// One key of the scene file.
+#[derive(Debug)]
+pub struct Key {
+    /// Name inside its section, unit included: `module_mm`.
+    pub name: &'static str,
+    /// What may be written.
+    pub kind: Kind,
+    /// Unit as printed to the reader; empty for counts, ratios and words.
+    pub unit: &'static str,
+    /// What holds when the key is not written.
+    pub default: Default,
+    /// Value to start from, as TOML: used by the template.
+    pub example: &'static str,
+    /// What the key does, in one or two sentences.
+    pub teach: &'static str,
+}
+
+/// What may be written for a key.
+#[derive(Debug, Clone, Copy)]
+pub enum Kind {
+    /// Any number in the range; whole numbers are numbers too.
+    Number(Range),
+    /// Whole number, both ends included.
+    Whole {
+        /// Smallest.
+        min: u32,
+        /// Largest.
+        max: u32,
+    },
+    /// `true` or `false`.
+    Boolean,
+    /// One of a few words.
+    Word(&'static [&'static str]),
+    /// Name of an operation; folders are named after it.
+    Name,
+    /// Path of a file or folder.
+    Path,
+    /// List of numbers, each in the range, at most `most` of them.
+    Numbers {
+        /// Range of each number.
+        range: Range,
+        /// Longest list.
+        most: usize,
+    },
+    /// Two numbers, each in the range.
+    Pair(Range),
+    /// List of points, each `[angle, radius]` with its ranges.
+    Points {
+        /// Range of the angle.
+        angle: Range,
+        /// Range of the radius.
+        radius: Range,
+        /// Shortest list.
+        fewest: usize,
+        /// Longest list.
+        most: usize,
+    },
+}
+
+/// What holds when a key is not written.
+#[derive(Debug, Clone, Copy)]
+pub enum Default {
+    /// The key must be written.
+    Required,
+    /// One of a group of keys must be written; the group's rule says so.
+    OneOfGroup,
+    /// This number.
+    Number(f64),
+    /// This whole number.
+    Whole(u32),
+    /// This switch position.
+    Boolean(bool),
+    /// This word.
+    Word(&'static str),
+    /// A list without entries.
+    EmptyList,
+    /// A value that follows from other keys, in words.
+    Derived(&'static str),
+    /// No value; the words say what happens instead.
+    LeftOut(&'static str),
+}
+
+/// Keys of which at most one may be written.
+#[derive(Debug)]
+pub struct Group {
+    /// The keys' names.
+    pub names: &'static [&'static str],
+    /// One of them must be written.
+    pub required: bool,
+}
+
+/// One table of the scene file.
+#[derive(Debug)]
+pub struct Section {
+    /// Path with `[]` after the name of a list: `operation[].infeed.plunge`; the whole file is the empty path.
+    pub path: &'static str,
+    /// How it stands in the file.
+    pub role: Role,
+    /// Its keys, in the order in which they are printed.
+    pub keys: &'static [Key],
+    /// Keys that exclude each other.
+    pub groups: &'static [Group],
+    /// What the section is about, in one or two sentences.
+    pub teach: &'static str,
+}
+
+/// How a section stands in the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// A table, there even when it is not written.
+    Plain,
+    /// A list of tables, `[[operation]]`.
+    List,
+    /// A table that holds exactly one of its variants, as a table of that name.
+    Choice {
+        /// Variant that holds when none is written; `None`: one must be written.
+        default: Option<&'static str>,
+        /// The thing to choose, in words: "pitch curve".
+        what: &'static str,
+    },
+    /// One variant of the choice that its path begins with.
+    Variant,
+}
+
+/// The file as a whole.
+const ROOT: Section = Section { path: "", role: Role::Plain, keys: &[], groups: &[], teach: "The scene." };
+
+/// All sections in the order of a scene file; a section stands after the one that holds it.
+pub fn sections() -> impl Iterator<Item = &'static Section> {
+    static FIRST: &[Section] = &[ROOT];
+    [FIRST, gear::SECTIONS, tool::SECTIONS, machine::BEFORE_OPERATIONS, operation::SECTIONS, machine::AFTER_OPERATIONS]
+        .into_iter()
+        .flatten()
+}
+
+/// The section of this path, `[]` included.
+pub fn section(path: &str) -> Option<&'static Section> {
+    sections().find(|section| section.path == path)
+}
+
+/// All keys with their full paths, in file order.
+pub fn all() -> impl Iterator<Item = (String, &'static Key)> {
+    sections().flat_map(|section| section.keys.iter().map(|key| (join(section.path, key.name), key)))
+}
+
+/// `name` inside `path`.
+pub fn join(path: &str, name: &str) -> String {
+    if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
+}
+
+impl Section {
+    /// The key of this name.
+    pub fn key(&self, name: &str) -> Option<&'static Key> {
+        self.keys.iter().find(|key| key.name == name)
+    }
+
+    /// Sections directly inside this one.
+    pub fn children(&self) -> impl Iterator<Item = &'static Section> {
+        let path = self.path;
+        sections().filter(move |section| !section.path.is_empty() && section.parent_path() == path)
+    }
+
+    /// Last name of the path, without `[]`: `ellipse`, `operation`.
+    pub fn name(&self) -> &'static str {
+        self.path.rsplit('.').next().unwrap_or_default().trim_end_matches("[]")
+    }
+
+    /// Path of the section that holds this one.
+    pub fn parent_path(&self) -> &'static str {
+        self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
+    }
+
+    /// The group of exclusive keys that `name` belongs to.
+    pub fn group_of(&self, name: &str) -> Option<&'static Group> {
+        self.groups.iter().find(|group| group.names.contains(&name))
+    }
+
+    /// How the section's header is written: `[gear]`, `[[operation]]`, `[operation.linkage.shaping_normal]`.
+    pub fn header(&self) -> String {
+        let path = self.path.replace("[]", "");
+        if self.role == Role::List { format!("[[{path}]]") } else { format!("[{path}]") }
+    }
+}
+
+impl Key {
+    /// Unit and range in brackets, as messages print it: `(mm, 0.1 to 50)`.
+    pub fn brackets(&self) -> String {
+        let allowed = self.allowed();
+        if self.unit.is_empty() { format!("({allowed})") } else { format!("({}, {allowed})", self.unit) }
+    }
+
+    /// What may be written, without the unit: `0.1 to 50`, `whole number, 4 to 2000`.
+    pub fn allowed(&self) -> String {
+        match self.kind {
+            Kind::Number(range) => range.to_string(),
+            Kind::Whole { min, max } => format!("whole number, {min} to {max}"),
+            Kind::Boolean => "true or false".to_owned(),
+            Kind::Word(words) => either(words.iter().map(|word| format!("\"{word}\""))),
+            Kind::Name => "letters, digits, _ and -, in quotes".to_owned(),
+            Kind::Path => "path in quotes".to_owned(),
+            Kind::Numbers { range, most } => format!("list of at most {most} numbers, each {range}"),
+            Kind::Pair(range) => format!("[first, last], each {range}"),
+            Kind::Points { angle, radius, fewest, .. } => {
+                format!("at least {fewest} points [angle, radius]; angle {angle}, radius {radius}")
+            }
+        }
+    }
+
+    /// What holds when the key is not written, as the reference prints it.
+    pub fn default_text(&self) -> String {
+        match self.default {
+            Default::Required => "required".to_owned(),
+            Default::OneOfGroup => "see the section's rule".to_owned(),
+            Default::Number(number) => Range::short(number),
+            Default::Whole(number) => number.to_string(),
+            Default::Boolean(on) => on.to_string(),
+            Default::Word(word) => format!("\"{word}\""),
+            Default::EmptyList => "[]".to_owned(),
+            Default::Derived(words) | Default::LeftOut(words) => words.to_owned(),
+        }
+    }
+}
+
+/// `a, b or c`.
+pub fn either(words: impl Iterator<Item = String>) -> String {
+    let mut words: Vec<String> = words.collect();
+    let last = words.pop().unwrap_or_default();
+    if words.is_empty() { last } else { format!("{} or {last}", words.join(", ")) }
+}

@@ -1,0 +1,138 @@
+//! Keys of the shaper cutter.
+
+use super::{Default, Key, Kind, Range, Role, Section};
+
+/// `[tool]` and what is inside it.
+pub(super) static SECTIONS: &[Section] = &[
+    Section {
+        path: "tool",
+        role: Role::Choice { default: None, what: "tool" },
+        keys: &[],
+        groups: &[],
+        teach: "What cuts.",
+    },
+    Section {
+        path: "tool.shaper_cutter",
+        role: Role::Variant,
+        keys: &[
+            Key {
+                name: "teeth",
+                kind: Kind::Whole { min: 5, max: 300 },
+                unit: "",
+                default: Default::Required,
+                example: "20",
+                teach: "Number of cutter teeth z0; module and pressure angle are the gear's.",
+            },
+            Key {
+                name: "addendum_coefficient",
+                kind: Kind::Number(Range::closed(0.1, 2.5)),
+                unit: "modules",
+                default: Default::Number(1.25),
+                example: "1.25",
+                teach: "Height of the cutter tooth over its pitch circle; 1.25 leaves the gear a root clearance of a quarter module.",
+            },
+            Key {
+                name: "dedendum_coefficient",
+                kind: Kind::Number(Range::closed(0.1, 2.5)),
+                unit: "modules",
+                default: Default::Number(1.25),
+                example: "1.25",
+                teach: "Depth of the cutter's tooth space under its pitch circle; more than the gear's addendum, or the cutter tops the gear.",
+            },
+            Key {
+                name: "profile_shift_coefficient",
+                kind: Kind::Number(Range::closed(-2.0, 2.0)),
+                unit: "modules",
+                default: Default::Number(0.0),
+                example: "0.0",
+                teach: "Profile shift x0 of the cutter; a new cutter has a positive one that falls with every regrinding.",
+            },
+            Key {
+                name: "thinning_mm",
+                kind: Kind::Number(Range::closed(-5.0, 5.0)),
+                unit: "mm",
+                default: Default::Number(0.0),
+                example: "0.3",
+                teach: "Thickness taken off every cutter tooth on the pitch circle, as on a roughing cutter.",
+            },
+            Key {
+                name: "runout_um",
+                kind: Kind::Number(Range::closed(0.0, 1000.0)),
+                unit: "um",
+                default: Default::Number(0.0),
+                example: "8.0",
+                teach: "Distance of the cutter's profile axis from its spindle axis.",
+            },
+            Key {
+                name: "runout_angle_deg",
+                kind: Kind::Number(Range::closed(-360.0, 360.0)),
+                unit: "deg",
+                default: Default::Number(0.0),
+                example: "0.0",
+                teach: "Direction of the runout in the cutter, counted from cutter tooth 0.",
+            },
+            Key {
+                name: "pitch_errors_um",
+                kind: Kind::Numbers { range: Range::closed(-1000.0, 1000.0), most: 300 },
+                unit: "um",
+                default: Default::EmptyList,
+                example: "[]",
+                teach: "Cumulative pitch error of each cutter tooth on the pitch circle, positive counter-clockwise: one value per tooth, or none.",
+            },
+        ],
+        groups: &[],
+        teach: "Shaper cutter by its profile projected on the transverse plane.",
+    },
+    Section {
+        path: "tool.shaper_cutter.tip",
+        role: Role::Choice { default: Some("sharp"), what: "tip" },
+        keys: &[],
+        groups: &[],
+        teach: "Shape of the cutter's tip corners, which form the gear's root fillets.",
+    },
+    Section {
+        path: "tool.shaper_cutter.tip.sharp",
+        role: Role::Variant,
+        keys: &[],
+        groups: &[],
+        teach: "Sharp corners.",
+    },
+    Section {
+        path: "tool.shaper_cutter.tip.round",
+        role: Role::Variant,
+        keys: &[Key {
+            name: "radius_mm",
+            kind: Kind::Number(Range::above(0.0, 50.0)),
+            unit: "mm",
+            default: Default::Required,
+            example: "0.6",
+            teach: "Radius of the round; about 0.2 modules is common.",
+        }],
+        groups: &[],
+        teach: "Round tangent to flank and tip circle.",
+    },
+    Section {
+        path: "tool.shaper_cutter.tip.chamfer",
+        role: Role::Variant,
+        keys: &[
+            Key {
+                name: "height_mm",
+                kind: Kind::Number(Range::above(0.0, 50.0)),
+                unit: "mm",
+                default: Default::Required,
+                example: "0.4",
+                teach: "Where the chamfer leaves the flank, counted down from the tip circle.",
+            },
+            Key {
+                name: "angle_deg",
+                kind: Kind::Number(Range { min: 0.0, max: 90.0, above_min: true, below_max: true }),
+                unit: "deg",
+                default: Default::Number(45.0),
+                example: "45.0",
+                teach: "Angle of the chamfer against the centre line of the tooth.",
+            },
+        ],
+        groups: &[],
+        teach: "Straight chamfer between flank and tip circle.",
+    },
+];

@@ -1,0 +1,143 @@
+//! Loading a scene, and finding its keys again afterwards.
+
+use std::path::Path;
+
+use super::errors::{Place, Problem, SceneErrors};
+use super::keys::join;
+use super::points::{read_points, read_text};
+use super::sources::{At, Sources};
+use super::tree::{Entry, Node, Value, parse_document};
+use super::values::Values;
+use super::walk::{Problems, walk};
+use super::{Scene, build, checks, overrides, write};
+use crate::error::Refusal;
+
+/// A scene without problems, with the memory of where each value was written.
+#[derive(Debug, Clone)]
+pub struct LoadedScene {
+    /// The checked scene.
+    pub scene: Scene,
+    values: Values,
+    sources: Sources,
+}
+
+/// Where a key's value was written, and how.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Located {
+    /// File, line and column, or the `--set` argument.
+    pub place: Place,
+    /// The value as written.
+    pub written: String,
+}
+
+/// Loads the scene file at `path`, with the `--set` arguments `overrides` put in.
+///
+/// # Errors
+/// All problems of the scene, each with its place and a way out.
+pub fn load(path: &Path, overrides: &[String]) -> Result<LoadedScene, SceneErrors> {
+    let file = path.display().to_string();
+    let text = read_text(path).map_err(|why| {
+        SceneErrors::new(vec![Problem {
+            place: Place::File { file: file.clone() },
+            message: format!("cannot read the scene: {why}"),
+            way_out: "give the path of a scene file; `gearcut new shaping` writes one to start from".to_owned(),
+        }])
+    })?;
+    parse(&text, &file, path.parent().unwrap_or(Path::new("")), overrides)
+}
+
+/// Reads a scene from text; `file_name` is printed in messages and names the scene, `base_dir` holds the files it refers to.
+///
+/// # Errors
+/// All problems of the scene, each with its place and a way out.
+pub fn parse(text: &str, file_name: &str, base_dir: &Path, overrides: &[String]) -> Result<LoadedScene, SceneErrors> {
+    let sources = Sources { file: file_name.to_owned(), text: text.to_owned(), overrides: overrides.to_vec() };
+    let mut problems = Problems { sources: &sources, list: Vec::new() };
+    let mut root = match parse_document(text) {
+        Ok(root) => root,
+        Err(errors) => {
+            for (span, message) in errors {
+                let way_out = "a scene is TOML: [section] lines and name = value lines, each name once".to_owned();
+                problems.add(&At::Scene(span), format!("not TOML: {}", message.replace('\n', ", ")), way_out);
+            }
+            return Err(SceneErrors::new(problems.list));
+        }
+    };
+    imply_operation(&mut root);
+    for (index, argument) in overrides.iter().enumerate() {
+        if let Err(problem) = overrides::apply(&mut root, index, argument) {
+            problems.list.push(problem);
+        }
+    }
+    let mut values = walk(&root, &mut problems);
+    read_points(&mut values, base_dir, &mut problems);
+    checks::cross_check(&values, &mut problems);
+    let list = problems.list;
+    let stem = Path::new(file_name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
+    match build::build(stem, &values) {
+        Some(scene) if list.is_empty() => Ok(LoadedScene { scene, values, sources }),
+        _ => Err(SceneErrors::new(list)),
+    }
+}
+
+/// A scene without operations cuts one, named finish, with all defaults.
+fn imply_operation(root: &mut Node) {
+    if root.entry("operation").is_some() {
+        return;
+    }
+    let entry = |name: &str, value: Value| Entry {
+        name: name.to_owned(),
+        name_at: At::Implied,
+        node: Node { value, at: At::Implied },
+    };
+    let finish = Node { value: Value::Table(vec![entry("name", Value::Text("finish".to_owned()))]), at: At::Implied };
+    if let Some(entries) = root.entries_mut() {
+        entries.push(entry("operation", Value::List(vec![finish])));
+    }
+}
+
+impl LoadedScene {
+    /// Where `key` was written; `None` for a default, a derived value or an unknown key.
+    ///
+    /// Operations are named by their name or by their number from 0 (`operation.rough.offset_mm`, `operation[0].offset_mm`);
+    /// without either, the first operation that writes the key is meant.
+    pub fn locate(&self, key: &str) -> Option<Located> {
+        let at = self.paths(key).iter().find_map(|path| self.values.held.get(path)?.at.clone())?;
+        Some(Located { place: self.sources.place(&at), written: self.sources.written(&at) })
+    }
+
+    /// A refusal by geometry, printed as the problems of the text are: with file, line, column, value and a way out.
+    ///
+    /// A key that was not written is shown by the section that would hold it, and the message says that its default holds.
+    pub fn explain(&self, refusal: &Refusal) -> SceneErrors {
+        let key = &refusal.key;
+        let (place, message) = if let Some(Located { place, written }) = self.locate(key) {
+            (place, format!("`{key}` = {written}: {}", refusal.problem))
+        } else {
+            let path = self.paths(key).into_iter().next().unwrap_or_else(|| key.clone());
+            let place = self.sources.place(&self.values.place_of(&path));
+            let default = self.values.held.get(&path).map(|held| write::value_text(&held.value));
+            let holds = default.map_or(String::new(), |default| format!(" (not written, {default} by default)"));
+            (place, format!("`{key}`{holds}: {}", refusal.problem))
+        };
+        SceneErrors::new(vec![Problem { place, message, way_out: refusal.way_out.clone() }])
+    }
+
+    /// The scene as TOML with every default filled in; it reads back to an equal scene under the same file name.
+    pub fn resolved_toml(&self) -> String {
+        write::resolved(&self.scene.name, &self.values)
+    }
+
+    /// Paths among the values that `key` may mean, the likeliest first.
+    fn paths(&self, key: &str) -> Vec<String> {
+        let plain = key.replace('[', ".").replace([']', '`'], "").replace("..", ".");
+        let Some(rest) = plain.strip_prefix("operation.") else { return vec![plain] };
+        let (first, deeper) = rest.split_once('.').unwrap_or((rest, ""));
+        let by_number = first.parse::<usize>().ok();
+        let by_name = || self.scene.operations.iter().position(|operation| operation.name == first);
+        match by_number.or_else(by_name) {
+            Some(index) => vec![join(&format!("operation.{index}"), deeper)],
+            None => (0..self.values.operations).map(|index| format!("operation.{index}.{rest}")).collect(),
+        }
+    }
+}

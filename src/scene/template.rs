@@ -1,0 +1,94 @@
+//! A commented scene to start from: every key with its unit, its range and its default.
+//!
+//! Printed from the table of keys. Keys that must be written and those with a fixed default stand ready; the others,
+//! and all variants but the default ones, stand behind a `#` without a blank. The process to write for is the linkages' family.
+
+use std::fmt::Write as _;
+
+use super::keys::{self, Default, Key, Role, Section};
+
+/// Width of a comment line.
+const COMMENT_CHARS: usize = 100;
+
+/// The scene for `process`, or `None` if there is no such process; there is `shaping`.
+pub fn template(process: &str) -> Option<String> {
+    if process != "shaping" {
+        return None;
+    }
+    let mut out = String::from(
+        "# Scene for cutting a gear with a shaper cutter.\n\
+         #\n\
+         # Remove what you do not need: every key but the module and the numbers of teeth has a default.\n\
+         # Lines that begin with # and no blank are keys and sections to switch on.\n\
+         # `gearcut check` says what the scene means; `gearcut cut` cuts it.\n",
+    );
+    for section in keys::sections().filter(|section| !section.path.is_empty()) {
+        write_section(&mut out, section);
+    }
+    Some(out)
+}
+
+fn write_section(out: &mut String, section: &'static Section) {
+    if section.role == Role::Plain && section.keys.is_empty() {
+        return;
+    }
+    out.push('\n');
+    write_comment(out, section.teach);
+    if let Role::Choice { default, what } = section.role {
+        let names = keys::either(section.children().map(|child| child.name().to_owned()));
+        let default = default.map_or(String::new(), |name| format!("; default {name}"));
+        write_comment(out, &format!("The {what} is one of: {names}{default}."));
+        return;
+    }
+    let active = is_active(section);
+    let mark = if active { "" } else { "#" };
+    let _ = writeln!(out, "{mark}{}", section.header());
+    for key in section.keys {
+        write_key(out, key, active && stands_ready(key));
+    }
+}
+
+/// Whether a section stands ready: it holds by default, or there is nothing else to choose.
+fn is_active(section: &Section) -> bool {
+    let choice = keys::section(section.parent_path()).map(|parent| parent.role);
+    match (section.role, choice) {
+        (Role::Variant, Some(Role::Choice { default, .. })) => default.is_none_or(|name| name == section.name()),
+        _ => true,
+    }
+}
+
+/// Whether a key stands ready, with the value that holds without it, or with its example if it must be written.
+fn stands_ready(key: &Key) -> bool {
+    !matches!(key.default, Default::LeftOut(_) | Default::OneOfGroup | Default::Derived(_))
+}
+
+fn write_key(out: &mut String, key: &Key, active: bool) {
+    let mark = if active { "" } else { "#" };
+    let value = match key.default {
+        Default::Number(number) => format!("{number:?}"),
+        Default::Whole(_) | Default::Boolean(_) | Default::Word(_) | Default::EmptyList => key.default_text(),
+        _ => key.example.to_owned(),
+    };
+    write_comment(out, key.teach);
+    let default = match key.default {
+        Default::Required => "required".to_owned(),
+        Default::OneOfGroup => "one of the two".to_owned(),
+        _ => format!("default {}", key.default_text()),
+    };
+    let unit = if key.unit.is_empty() { String::new() } else { format!("{}, ", key.unit) };
+    let _ = writeln!(out, "{mark}{} = {value}  # {unit}{}; {default}", key.name, key.allowed());
+}
+
+/// `text` in comment lines.
+fn write_comment(out: &mut String, text: &str) {
+    let mut line = String::from("#");
+    for word in text.split(' ') {
+        if line.len() > 1 && line.len() + 1 + word.len() > COMMENT_CHARS {
+            let _ = writeln!(out, "{line}");
+            "#".clone_into(&mut line);
+        }
+        line.push(' ');
+        line.push_str(word);
+    }
+    let _ = writeln!(out, "{line}");
+}

@@ -1,0 +1,113 @@
+//! Checked values by path, written ones and defaults alike, still in the units of the file.
+//!
+//! The model is built from them, keys are located in them, and the resolved scene is written from them: that
+//! the file's own numbers are kept makes the resolved scene read back to exactly the same model.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::keys::join;
+use super::sources::At;
+
+/// A value that fits its key.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Checked {
+    Number(f64),
+    Whole(u32),
+    Boolean(bool),
+    Text(String),
+    Numbers(Vec<f64>),
+    Points(Vec<[f64; 2]>),
+}
+
+/// A value with its place.
+#[derive(Debug, Clone)]
+pub(super) struct Held {
+    pub value: Checked,
+    /// Where it was written; `None` for a default.
+    pub at: Option<At>,
+}
+
+/// All values of a scene.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Values {
+    /// By path with the number of the operation: `operation.0.offset_mm`.
+    pub held: BTreeMap<String, Held>,
+    /// Paths of all keys that were written, right or wrong.
+    pub written: BTreeSet<String>,
+    /// Variant of each choice: `gear.pitch_curve` -> `ellipse`.
+    pub variants: BTreeMap<String, &'static str>,
+    /// Where each section that was written begins.
+    pub sections: BTreeMap<String, At>,
+    /// How many operations there are.
+    pub operations: usize,
+}
+
+/// The values of one section.
+#[derive(Clone, Copy)]
+pub(super) struct View<'a> {
+    values: &'a Values,
+    path: &'a str,
+}
+
+impl Values {
+    /// The values under `path`.
+    pub fn view<'a>(&'a self, path: &'a str) -> View<'a> {
+        View { values: self, path }
+    }
+
+    /// Place of a value, or of the nearest section around it that was written.
+    pub fn place_of(&self, path: &str) -> At {
+        if let Some(at) = self.held.get(path).and_then(|held| held.at.clone()) {
+            return at;
+        }
+        let mut around = path;
+        while let Some((outer, _)) = around.rsplit_once('.') {
+            if let Some(at) = self.sections.get(outer) {
+                return at.clone();
+            }
+            around = outer;
+        }
+        At::Implied
+    }
+}
+
+impl<'a> View<'a> {
+    fn get(self, name: &str) -> Option<&'a Checked> {
+        self.values.held.get(&join(self.path, name)).map(|held| &held.value)
+    }
+
+    /// A number; `None` where the key has no value or a wrong one.
+    pub fn number(self, name: &str) -> Option<f64> {
+        if let Some(Checked::Number(number)) = self.get(name) { Some(*number) } else { None }
+    }
+
+    /// A whole number.
+    pub fn whole(self, name: &str) -> Option<u32> {
+        if let Some(Checked::Whole(number)) = self.get(name) { Some(*number) } else { None }
+    }
+
+    /// A switch.
+    pub fn boolean(self, name: &str) -> Option<bool> {
+        if let Some(Checked::Boolean(on)) = self.get(name) { Some(*on) } else { None }
+    }
+
+    /// A word, name or path.
+    pub fn text(self, name: &str) -> Option<&'a str> {
+        if let Some(Checked::Text(text)) = self.get(name) { Some(text) } else { None }
+    }
+
+    /// A list of numbers.
+    pub fn numbers(self, name: &str) -> Option<&'a [f64]> {
+        if let Some(Checked::Numbers(numbers)) = self.get(name) { Some(numbers) } else { None }
+    }
+
+    /// A list of points.
+    pub fn points(self, name: &str) -> Option<&'a [[f64; 2]]> {
+        if let Some(Checked::Points(points)) = self.get(name) { Some(points) } else { None }
+    }
+
+    /// The variant of the choice `name`.
+    pub fn variant(self, name: &str) -> Option<&'static str> {
+        self.values.variants.get(&join(self.path, name)).copied()
+    }
+}

@@ -1,0 +1,267 @@
+//! Goes through the tree, holds every key against the table, and fills in the defaults.
+//!
+//! In: the tree of a scene with its `--set` arguments. Out: checked values, and a problem for every key or
+//! section that is unknown, missing, given beside its rival, of the wrong type or out of range.
+
+use super::check::check;
+use super::errors::Problem;
+use super::keys::{self, Default, Key, Role, Section, join};
+use super::overrides::default_name;
+use super::sources::{At, Sources};
+use super::suggest::{display_path, nearest};
+use super::tree::{Entry, Node, Value};
+use super::values::{Checked, Held, Values};
+
+/// Most problems reported: beyond that the file is no scene, and the list helps nobody.
+pub(super) const MOST_PROBLEMS: usize = 100;
+
+/// Collects problems.
+pub(super) struct Problems<'a> {
+    pub sources: &'a Sources,
+    pub list: Vec<Problem>,
+}
+
+impl Problems<'_> {
+    /// Adds a problem.
+    pub fn add(&mut self, at: &At, message: String, way_out: String) {
+        if self.list.len() < MOST_PROBLEMS {
+            self.list.push(Problem { place: self.sources.place(at), message, way_out });
+        }
+    }
+}
+
+/// Checks the whole scene.
+pub(super) fn walk(root: &Node, problems: &mut Problems<'_>) -> Values {
+    let mut walk = Walk { values: Values::default(), problems };
+    if let Some(section) = keys::section("") {
+        walk.table(section, "", root, &At::Implied);
+    }
+    walk.derive();
+    walk.values
+}
+
+struct Walk<'a, 'b> {
+    values: Values,
+    problems: &'a mut Problems<'b>,
+}
+
+impl Walk<'_, '_> {
+    /// Checks `table`, which stands for `section` under the concrete `path` and was named at `at`.
+    fn table(&mut self, section: &'static Section, path: &str, table: &Node, at: &At) {
+        if !matches!(table.value, Value::Table(_)) {
+            let written = self.problems.sources.written(&table.at);
+            self.problems.add(
+                &table.at,
+                format!("`{}` is a section, not a value: {written}", section.path.replace("[]", "")),
+                format!("write {} on a line of its own, and its keys below", section.header()),
+            );
+            return;
+        }
+        if *at != At::Implied {
+            self.values.sections.insert(path.to_owned(), at.clone());
+        }
+        for entry in table.entries() {
+            if let Some(key) = section.key(&entry.name) {
+                self.key(section, key, path, entry);
+            } else if !section.children().any(|child| child.name() == entry.name) {
+                self.unknown(section, entry);
+            }
+        }
+        self.groups(section, path, table);
+        for key in section.keys {
+            if table.entry(key.name).is_none() {
+                self.not_written(section, key, path, table, at);
+            }
+        }
+        if let Role::Choice { default, what } = section.role {
+            self.choice(section, path, table, at, default, what);
+        } else {
+            let implied = Node::implied_table();
+            for child in section.children() {
+                let child_path = join(path, child.name());
+                let entry = table.entry(child.name());
+                let node = entry.map_or(&implied, |entry| &entry.node);
+                let at = entry.map_or(&At::Implied, |entry| &entry.name_at);
+                if child.role == Role::List {
+                    self.list(child, &child_path, node, at);
+                } else {
+                    self.table(child, &child_path, node, at);
+                }
+            }
+        }
+    }
+
+    /// Checks the elements of a list of tables.
+    fn list(&mut self, section: &'static Section, path: &str, list: &Node, at: &At) {
+        let name = section.name();
+        match &list.value {
+            Value::List(items) if items.is_empty() => self.problems.add(
+                at,
+                format!("`{name}` is an empty list: nothing would be cut"),
+                format!("write at least one [[{name}]], or leave the list out for a single finishing cut"),
+            ),
+            Value::List(items) => {
+                for (index, item) in items.iter().enumerate() {
+                    let item_at = if item.at == At::Implied { at } else { &item.at };
+                    self.table(section, &format!("{path}.{index}"), item, item_at);
+                }
+                self.values.operations = items.len();
+            }
+            _ => self.problems.add(
+                at,
+                format!("`{name}` is a list of tables, not {}", list.kind()),
+                format!("write [[{name}]] with two brackets"),
+            ),
+        }
+    }
+
+    /// Takes the one variant of a choice.
+    fn choice(
+        &mut self,
+        section: &'static Section,
+        path: &str,
+        table: &Node,
+        at: &At,
+        default: Option<&'static str>,
+        what: &str,
+    ) {
+        let written: Vec<(&'static Section, &Entry)> = table
+            .entries()
+            .iter()
+            .filter_map(|entry| section.children().find(|child| child.name() == entry.name).map(|child| (child, entry)))
+            .collect();
+        if let [(first, _), (second, entry), ..] = written.as_slice() {
+            self.problems.add(
+                &entry.name_at,
+                format!("two kinds of {what} are given: `{}` and `{}`", first.name(), second.name()),
+                format!("keep one of {} and {}", first.header(), second.header()),
+            );
+        }
+        if let Some((child, entry)) = written.first() {
+            self.values.variants.insert(path.to_owned(), child.name());
+            self.table(child, &join(path, child.name()), &entry.node, &entry.name_at);
+        } else if !table.entries().is_empty() {
+            // An unknown variant, reported already.
+        } else if let Some(child) = default.and_then(|name| section.children().find(|child| child.name() == name)) {
+            self.values.variants.insert(path.to_owned(), child.name());
+            self.table(child, &join(path, child.name()), &Node::implied_table(), &At::Implied);
+        } else {
+            self.problems.add(
+                at,
+                format!("the {what} is missing"),
+                format!("write {}", keys::either(section.children().map(Section::header))),
+            );
+        }
+    }
+
+    /// Checks one key that was written.
+    fn key(&mut self, section: &'static Section, key: &'static Key, path: &str, entry: &Entry) {
+        let full = join(path, key.name);
+        self.values.written.insert(full.clone());
+        match check(&display_path(section, key), key, &entry.node, self.problems.sources) {
+            Ok(value) => {
+                let at = (entry.node.at != At::Implied).then(|| entry.node.at.clone());
+                self.values.held.insert(full, Held { value, at });
+            }
+            Err(fault) => {
+                let way_out = format!("for example {} = {}. {}", key.name, key.example, key.teach);
+                self.problems.add(&fault.at, fault.message, way_out);
+            }
+        }
+    }
+
+    /// Puts in a static default, or asks for a required key.
+    fn not_written(&mut self, section: &'static Section, key: &'static Key, path: &str, table: &Node, at: &At) {
+        let rival_written =
+            section.group_of(key.name).is_some_and(|group| group.names.iter().any(|name| table.entry(name).is_some()));
+        if rival_written {
+            return;
+        }
+        let value = match key.default {
+            Default::Required => {
+                let header = section.header();
+                self.problems.add(
+                    at,
+                    format!("`{}` is missing {}", display_path(section, key), key.brackets()),
+                    format!("write {} = {} under {header}, for example. {}", key.name, key.example, key.teach),
+                );
+                return;
+            }
+            Default::OneOfGroup | Default::Derived(_) | Default::LeftOut(_) => return,
+            Default::Number(number) => Checked::Number(number),
+            Default::Whole(number) => Checked::Whole(number),
+            Default::Boolean(on) => Checked::Boolean(on),
+            Default::Word(word) => Checked::Text(word.to_owned()),
+            Default::EmptyList => Checked::Numbers(Vec::new()),
+        };
+        self.values.held.insert(join(path, key.name), Held { value, at: None });
+    }
+
+    /// Rivals: at most one written, or exactly one.
+    fn groups(&mut self, section: &'static Section, path: &str, table: &Node) {
+        for group in section.groups {
+            let written: Vec<&Entry> =
+                table.entries().iter().filter(|entry| group.names.contains(&entry.name.as_str())).collect();
+            let names = || keys::either(group.names.iter().map(|name| format!("`{name}`")));
+            if let [first, second, ..] = written.as_slice() {
+                self.problems.add(
+                    &second.name_at,
+                    format!("`{}` and `{}` say the same thing twice", first.name, second.name),
+                    format!("keep one and remove the other: {}", names()),
+                );
+            } else if written.is_empty() && group.required {
+                let at = self.values.place_of(&join(path, ""));
+                self.problems.add(
+                    &at,
+                    format!("{} is missing one of {}", section.header(), names()),
+                    "write one of them".to_owned(),
+                );
+            }
+        }
+    }
+
+    fn unknown(&mut self, section: &'static Section, entry: &Entry) {
+        let name = join(section.path, &entry.name).replace("[]", "");
+        let what = match (&entry.node.value, section.role) {
+            (_, Role::Choice { what, .. }) => what,
+            (Value::Table(_), _) => "section",
+            _ => "key",
+        };
+        let hint = nearest(section, &entry.name).map_or(String::new(), |found| format!(" Did you mean {found}?"));
+        let known: Vec<&str> =
+            section.keys.iter().map(|key| key.name).chain(section.children().map(Section::name)).collect();
+        let holder = if section.path.is_empty() { "a scene".to_owned() } else { section.header() };
+        let way_out = if known.is_empty() {
+            format!("remove it; {holder} takes no keys")
+        } else {
+            format!("correct or remove it; {holder} takes {}", known.join(", "))
+        };
+        let article = if what.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
+        self.problems.add(&entry.name_at, format!("`{name}` is not {article} {what}.{hint}"), way_out);
+    }
+
+    /// Defaults that follow from other keys.
+    fn derive(&mut self) {
+        let gear = self.values.view("gear");
+        let (module_mm, teeth) = (gear.number("module_mm"), gear.whole("teeth"));
+        if let Some(module_mm) = module_mm {
+            self.default("gear", "face_width_mm", Checked::Number((10.0 * module_mm).min(1000.0)));
+        }
+        for index in 0..self.values.operations {
+            let path = format!("operation.{index}");
+            self.default(&path, "name", Checked::Text(default_name(index)));
+            if let Some(teeth) = teeth
+                && !self.values.written.contains(&join(&path, "circular_feed_mm_per_stroke"))
+            {
+                self.default(&path, "strokes_per_revolution", Checked::Whole(100 * teeth));
+            }
+        }
+    }
+
+    fn default(&mut self, path: &str, name: &str, value: Checked) {
+        let full = join(path, name);
+        if !self.values.written.contains(&full) {
+            self.values.held.insert(full, Held { value, at: None });
+        }
+    }
+}

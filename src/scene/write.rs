@@ -1,0 +1,106 @@
+//! The resolved scene as TOML: every key with its value, defaults marked, so that a run can be repeated from its record.
+//!
+//! Values are written as they stood in the file, in its units, with all digits: nothing is converted twice.
+
+use std::fmt::Write as _;
+
+use super::keys::{self, Default, Role, Section, join};
+use super::values::{Checked, Values};
+
+/// The whole scene called `name`.
+pub(super) fn resolved(name: &str, values: &Values) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let mut out = format!("# Scene {name} with every default filled in, written by gearcut {version}.\n");
+    let inside_operation = |section: &&Section| section.path.starts_with("operation[]");
+    for section in keys::sections().take_while(|section| !inside_operation(section)) {
+        write_section(&mut out, section, section.path, values);
+    }
+    for index in 0..values.operations {
+        for section in keys::sections().filter(inside_operation) {
+            let path = section.path.replacen("[]", &format!(".{index}"), 1);
+            write_section(&mut out, section, &path, values);
+        }
+    }
+    for section in keys::sections().skip_while(|section| !inside_operation(section)).filter(|s| !inside_operation(s)) {
+        write_section(&mut out, section, section.path, values);
+    }
+    out
+}
+
+/// One section, unless another variant of its choice holds.
+fn write_section(out: &mut String, section: &Section, path: &str, values: &Values) {
+    let is_header = match section.role {
+        Role::Choice { .. } => false,
+        Role::List => true,
+        Role::Plain => !section.keys.is_empty(),
+        Role::Variant => {
+            let choice = path.rsplit_once('.').map_or("", |(choice, _)| choice);
+            if values.variants.get(choice) != Some(&section.name()) {
+                return;
+            }
+            true
+        }
+    };
+    if is_header {
+        let _ = write!(out, "\n{}\n", section.header());
+    }
+    for key in section.keys {
+        let rival_holds = section.group_of(key.name).is_some_and(|group| {
+            let first = group.names.iter().find(|name| values.held.contains_key(&join(path, name)));
+            first != Some(&key.name)
+        });
+        if rival_holds {
+            continue;
+        }
+        match values.held.get(&join(path, key.name)) {
+            Some(held) => {
+                let note = if held.at.is_none() { "  # default" } else { "" };
+                let _ = writeln!(out, "{} = {}{note}", key.name, value_text(&held.value));
+            }
+            None => {
+                if let Default::LeftOut(words) = key.default {
+                    let _ = writeln!(out, "# {}: {words}", key.name);
+                }
+            }
+        }
+    }
+}
+
+/// A value as TOML.
+pub(super) fn value_text(value: &Checked) -> String {
+    match value {
+        Checked::Number(number) => number_text(*number),
+        Checked::Whole(number) => number.to_string(),
+        Checked::Boolean(on) => on.to_string(),
+        Checked::Text(text) => quoted(text),
+        Checked::Numbers(numbers) => {
+            format!("[{}]", numbers.iter().map(|number| number_text(*number)).collect::<Vec<_>>().join(", "))
+        }
+        Checked::Points(points) => {
+            let line = |point: &[f64; 2]| format!("  [{}, {}],\n", number_text(point[0]), number_text(point[1]));
+            format!("[\n{}]", points.iter().map(line).collect::<String>())
+        }
+    }
+}
+
+/// The shortest digits that read back to the same number, with a point or exponent as TOML's floats need.
+fn number_text(number: f64) -> String {
+    format!("{number:?}")
+}
+
+/// A TOML string.
+fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            c if c.is_control() => {
+                let _ = write!(out, "\\u{:04X}", c as u32);
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
