@@ -7,10 +7,14 @@
 //! | --- | --- |
 //! | complete or absent: one file, one folder | [`atomic`], [`folder`] |
 //! | values with unit and definition, tables | [`quantity`], [`table`] |
+//! | maps: the grid they lie on, all digits | [`grid`], [`exr_map`] |
 //! | progress and Ctrl-C | [`progress`], [`interrupt`] |
 
 pub mod atomic;
+mod exr_header;
+pub mod exr_map;
 pub mod folder;
+pub mod grid;
 pub mod interrupt;
 pub mod progress;
 pub mod quantity;
