@@ -1,1 +1,21 @@
-//! output
+//! Everything that leaves a run: files, pictures, tables, and what the user sees meanwhile.
+//!
+//! In: finished numbers with their units and names. Out: files that explain themselves.
+//! The writers are generic: they know grids, series and words, but compute nothing about gears.
+//!
+//! | what | where |
+//! | --- | --- |
+//! | complete or absent: one file, one folder | [`atomic`], [`folder`] |
+//! | values with unit and definition, tables | [`quantity`], [`table`] |
+//! | maps: the grid they lie on, all digits | [`grid`], [`exr_map`] |
+//! | progress and Ctrl-C | [`progress`], [`interrupt`] |
+
+pub mod atomic;
+mod exr_header;
+pub mod exr_map;
+pub mod folder;
+pub mod grid;
+pub mod interrupt;
+pub mod progress;
+pub mod quantity;
+pub mod table;

@@ -1,0 +1,132 @@
+//! Tables as plain CSV, for spreadsheets and scripts.
+//!
+//! In: column names that carry their units (`tooth`, `left_AB_mm`), and rows. Out: an RFC 4180 file with one header line.
+//!
+//! Numbers are written with the fewest digits that read back to the same f64; a number that is not finite becomes an
+//! empty cell, which spreadsheets and data frames both take as missing.
+//!
+//! Road not taken: comment lines with units and run record above the header. Spreadsheets show them as broken rows,
+//! and the run record lies beside the table in `run.json`.
+
+use std::io;
+use std::path::Path;
+
+use crate::Result;
+use crate::output::atomic::write_atomically;
+
+/// One cell of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cell {
+    /// A number, in the unit of its column.
+    Number(f64),
+    /// A whole number: an index or a count.
+    Whole(i64),
+    /// A word.
+    Text(String),
+    /// Nothing here.
+    Empty,
+}
+
+impl From<f64> for Cell {
+    fn from(value: f64) -> Self {
+        Self::Number(value)
+    }
+}
+
+impl From<Option<f64>> for Cell {
+    fn from(value: Option<f64>) -> Self {
+        value.map_or(Self::Empty, Self::Number)
+    }
+}
+
+impl From<u32> for Cell {
+    fn from(value: u32) -> Self {
+        Self::Whole(value.into())
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(value: &str) -> Self {
+        Self::Text(value.to_owned())
+    }
+}
+
+impl Cell {
+    fn text(&self) -> String {
+        match self {
+            // Debug, not Display: it uses an exponent where that is shorter, and marks whole values as 1.0.
+            Self::Number(value) if value.is_finite() => format!("{value:?}"),
+            Self::Whole(value) => value.to_string(),
+            Self::Text(value) => value.clone(),
+            Self::Number(_) | Self::Empty => String::new(),
+        }
+    }
+}
+
+/// Writes a table, row by row as they come, completely or not at all.
+///
+/// A row with more or fewer cells than there are columns is refused.
+pub fn write_table<Row>(path: &Path, columns: &[&str], rows: impl IntoIterator<Item = Row>) -> Result<()>
+where
+    Row: IntoIterator<Item = Cell>,
+{
+    write_atomically(path, |sink| {
+        let mut table = csv::Writer::from_writer(sink);
+        table.write_record(columns).map_err(reason)?;
+        for row in rows {
+            table.write_record(row.into_iter().map(|cell| cell.text())).map_err(reason)?;
+        }
+        table.flush()
+    })
+}
+
+/// The system's own reason where there is one: "no storage space" says more than a CSV error around it.
+fn reason(failed: csv::Error) -> io::Error {
+    io::Error::from(failed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(columns: &[&str], rows: Vec<Vec<Cell>>) -> Result<String> {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let path = folder.path().join("table.csv");
+        write_table(&path, columns, rows)?;
+        Ok(std::fs::read_to_string(path).expect("just written"))
+    }
+
+    #[test]
+    fn header_and_cells_are_plain_csv() {
+        let rows = vec![
+            vec![7_u32.into(), 0.1.into(), "left, upper".into()],
+            vec![8_u32.into(), f64::NAN.into(), Cell::Empty],
+        ];
+        let text = written(&["tooth", "left_AB_mm", "note"], rows).expect("a good table");
+        assert_eq!(text, "tooth,left_AB_mm,note\n7,0.1,\"left, upper\"\n8,,\n");
+    }
+
+    #[test]
+    fn numbers_read_back_bit_for_bit() {
+        let values = [0.1 + 0.2, 1e-300, -6.02214076e23, 5e-324, f64::MAX, 1.0, -0.0];
+        let text = written(&["x_mm"], values.iter().map(|&x| vec![x.into()]).collect()).expect("a good table");
+        let back: Vec<f64> = text.lines().skip(1).map(|line| line.parse().expect("a number")).collect();
+        assert_eq!(back.map_bits(), values.map_bits());
+    }
+
+    trait Bits {
+        fn map_bits(&self) -> Vec<u64>;
+    }
+    impl<T: AsRef<[f64]>> Bits for T {
+        fn map_bits(&self) -> Vec<u64> {
+            self.as_ref().iter().map(|x| x.to_bits()).collect()
+        }
+    }
+
+    #[test]
+    fn a_row_of_the_wrong_length_is_refused() {
+        let outcome = written(&["tooth", "x_mm"], vec![vec![7_u32.into()]]);
+        let message = outcome.expect_err("one cell is missing").to_string();
+        assert!(message.contains("table.csv") && message.contains("fields"), "{message}");
+    }
+}
