@@ -47,8 +47,13 @@ fn quick_look() {
 fn look_state() {
     let scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 4200)]);
     let job = Job::new(scene).unwrap();
-    for l in [-0.2, -0.1, 0.0, 0.1, 1.0] { println!("{l} {:?}", job.operations[0].schedule.state(l)); }
+    for l in [-0.2, -0.1, 0.0, 0.1, 1.0] {
+        println!("{l} {:?}", job.operations[0].schedule.state(l));
+    }
     let t = std::time::Instant::now();
-    let mut s = 0.0; for i in 0..4200 { s += job.operations[0].schedule.state(f64::from(i) + 0.1).psi_b_rad; }
+    let mut s = 0.0;
+    for i in 0..4200 {
+        s += job.operations[0].schedule.state(f64::from(i) + 0.1).psi_b_rad;
+    }
     println!("{:?} {s}", t.elapsed());
 }

@@ -3,10 +3,13 @@
 //! Comes from the checked scene, goes to the linkage, the target flanks and the fields. Frame: the gear frame, origin in the
 //! work axis, polar angle phi counter-clockwise, fixed to the work.
 
+pub mod blank;
+pub mod generation;
 pub mod jet;
 pub(crate) mod periodic_integral;
 pub mod pitch_curve;
 pub(crate) mod roots;
+pub mod target;
 
 pub use jet::Jet;
 pub use pitch_curve::{CurvatureExtremum, CurveFacts, PitchCurve, PitchFrame};

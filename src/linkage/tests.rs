@@ -266,7 +266,10 @@ fn motions_match_differences_and_peaks_bound_them() {
                     assert!((speed - m.velocity).abs() < 1e-6 * (1.0 + speed.abs()), "{spacing:?} {infeed:?} {axis}");
                     let change = (a.velocity - b.velocity) / (2.0 * step_s);
                     let kink = spacing == StrokeSpacing::Time && (change - m.acceleration).abs() > 1e-3;
-                    assert!(kink || (change - m.acceleration).abs() < 1e-3 * (1.0 + change.abs()), "{spacing:?} {axis}");
+                    assert!(
+                        kink || (change - m.acceleration).abs() < 1e-3 * (1.0 + change.abs()),
+                        "{spacing:?} {axis}"
+                    );
                     assert!(m.velocity.abs() <= bound.speed.value * (1.0 + 1e-12));
                     assert!(m.acceleration.abs() <= bound.acceleration.value * (1.0 + 1e-9) + 1e-9);
                 }
