@@ -1,59 +1,192 @@
-//! Heights that the native kernel leaves, against closed forms.
+//! What the native kernel leaves on flanks: against closed forms, against brute force, across instruction sets.
+
 mod common;
+
 use common::*;
-use gearcut::cut::cpu::Cpu;
+use gearcut::cut::Backend;
+use gearcut::cut::cpu::{Cpu, Vectors};
+use gearcut::dexel::Field;
 use gearcut::gear::generation::Side;
 use gearcut::job::Job;
+use gearcut::passes::CutPlan;
+use gearcut::scene::model::*;
+use glam::DVec2;
+
+/// Height at which a ray meets one pass of an involute flank, written from the closed form alone: the signed distance of a point to the flank,
+/// `r_b (sigma theta + u - atan u - psi_b)`, has the flank's normal as its gradient.
+fn involute_height_mm(job: &Job, stroke: usize, blade: u32, side: f64, o: DVec2, n: DVec2) -> Option<f64> {
+    let state = job.finishing().schedule.state(stroke as f64);
+    let r_b = 30.0 * 20_f64.to_radians().cos();
+    let alpha = 20_f64.to_radians();
+    let psi_b = std::f64::consts::PI / 40.0 + alpha.tan() - alpha;
+    let turn = -(state.pose.angle_rad + std::f64::consts::TAU * f64::from(blade) / 20.0);
+    let local = |p: DVec2| DVec2::from_angle(turn).rotate(p - state.pose.center_mm);
+    let (o, n) = (local(o), DVec2::from_angle(turn).rotate(n));
+    // From outside the tooth, so that the iteration does not fall below the base circle on its way.
+    let mut h = -0.05;
+    for _ in 0..60 {
+        let p = o + h * n;
+        if p.x <= 0.0 {
+            return None;
+        }
+        let u = ((p.length() / r_b).powi(2) - 1.0).max(0.0).sqrt();
+        let distance = r_b * (side * p.to_angle() + u - u.atan() - psi_b);
+        let lean = DVec2::from_angle(p.to_angle() + side * (std::f64::consts::FRAC_PI_2 - u.atan()));
+        let rate = lean.dot(n);
+        if rate > -0.05 {
+            return None;
+        }
+        let step = distance / rate;
+        h -= step;
+        if step.abs() < 1e-14 {
+            let p = o + h * n;
+            let tip = 30.0 + 1.25 * 3.0;
+            return (p.length() <= tip && p.length() > r_b + 1e-3).then_some(h);
+        }
+    }
+    None
+}
+
+fn coarse_rows(mut scene: Scene) -> Scene {
+    scene.fields.lead_spacing_mm = 30.0 / 8.0;
+    scene
+}
 
 #[test]
-fn quick_look() {
-    let t0 = std::time::Instant::now();
-    let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 4200), operation("finish", NORMAL, 0.0, 4200)]);
-    for feed in [false, true] {
-        for op in &mut scene.operations {
-            op.feed_during_stroke = feed;
-        }
-        let job = Job::new(scene.clone()).unwrap();
-        println!("prepare {:?}", t0.elapsed());
-        let generation = job.target_generation();
-        for tooth in [1, 8] {
-            let t = std::time::Instant::now();
-            let flank = job.target_flank(&generation, tooth, Side::Left).unwrap();
-            let field = job.flank_field(&flank);
-            println!("field {:?} {} x {} length {}", t.elapsed(), field.columns.len(), field.rows(), flank.length_mm());
-            for op in &job.operations {
-                let t = std::time::Instant::now();
-                let plan = gearcut::passes::CutPlan::new(&field, &op.strokes, &job.cutter);
-                println!(
-                    "plan {:?} records {} per dexel {}",
-                    t.elapsed(),
-                    plan.records.len(),
-                    plan.dexel_passes() as f64 / field.len() as f64
-                );
+fn heights_are_within_a_tenth_of_a_nanometre_of_the_closed_form() {
+    let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 720)]);
+    scene.fields.lead_spacing_mm = 30.0;
+    scene.fields.profile_spacing_mm = 0.02;
+    let job = Job::new(scene).expect("the paper's gear");
+    let generation = job.target_generation();
+    let (mut worst_nm, mut compared) = (0.0_f64, 0);
+    for (tooth, side) in [(2, Side::Left), (5, Side::Right), (8, Side::Left), (9, Side::Right)] {
+        let flank = job.target_flank(&generation, tooth, side).expect("a flank");
+        let cut = job.cut(&Cpu::default(), job.flank_field(&flank)).expect("the native backend");
+        let set = &job.finishing().strokes;
+        for (index, column) in cut.field.columns.iter().enumerate() {
+            let height = f64::from(cut.layers[0].column(index, cut.field.rows())[0]);
+            // Away from the form point, where the tip corner also cuts.
+            if index < 4 || height > 0.5 {
+                continue;
             }
-            let t = std::time::Instant::now();
-            let cut = job.cut(&Cpu::default(), field).unwrap();
-            println!("cut {:?} {:?}", t.elapsed(), cut.stats);
-            for layer in &cut.layers {
-                let rows = cut.field.rows();
-                let h: Vec<f32> =
-                    (0..cut.field.columns.len()).step_by(60).map(|c| layer.column(c, rows)[rows / 2] * 1e3).collect();
-                println!("{h:?}");
-            }
+            let exact = (0..set.count())
+                .filter(|&stroke| {
+                    job.finishing().schedule.state(stroke as f64).pose.center_mm.distance(column.origin_mm) < 34.0
+                })
+                .flat_map(|stroke| (0..20).map(move |blade| (stroke, blade)))
+                .filter_map(|(stroke, blade)| {
+                    involute_height_mm(&job, stroke, blade, side.sign(), column.origin_mm, column.normal)
+                })
+                .filter(|h| *h > -1.5)
+                .fold(f64::INFINITY, f64::min);
+            worst_nm = worst_nm.max((height - exact).abs() * 1e6);
+            compared += 1;
         }
     }
+    assert!(compared > 800, "{compared} columns compared");
+    assert!(worst_nm < 0.1, "worst difference {worst_nm:.4} nm");
+    println!("{compared} columns, worst difference {worst_nm:.4} nm");
 }
+
+/// Cuts a field by one operation's plan and gives heights (as bits) and passes.
+fn cut_bits(job: &Job, field: &Field, plan: &CutPlan, backend: &Cpu) -> (Vec<u32>, Vec<u32>) {
+    let mut layer = field.blank_layer();
+    let stats = backend.cut(field, gearcut::tool::CuttingTool::edge(&job.cutter), plan, &mut layer).expect("native");
+    assert!(stats.dexel_passes > 0);
+    (layer.heights_mm.iter().map(|h| h.to_bits()).collect(), layer.passes)
+}
+
 #[test]
-fn look_state() {
-    let scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 4200)]);
-    let job = Job::new(scene).unwrap();
-    for l in [-0.2, -0.1, 0.0, 0.1, 1.0] {
-        println!("{l} {:?}", job.operations[0].schedule.state(l));
+fn candidates_equal_brute_force_bit_for_bit() {
+    let mut checked = 0;
+    for feed_during_stroke in [false, true] {
+        for linkage in [NORMAL, TRADITIONAL] {
+            let mut operations = vec![operation("rough", linkage, 2.0, 4200), operation("finish", NORMAL, 0.0, 4200)];
+            for op in &mut operations {
+                op.feed_during_stroke = feed_during_stroke;
+            }
+            let job = Job::new(coarse_rows(paper_scene(operations))).expect("the paper's gear");
+            let generation = job.target_generation();
+            for (tooth, side) in
+                [(1, Side::Left), (1, Side::Right), (7, Side::Left), (8, Side::Right), (14, Side::Left)]
+            {
+                let flank = job.target_flank(&generation, tooth, side).expect("a flank");
+                let field = job.flank_field(&flank);
+                for op in &job.operations {
+                    checked += compare_with_brute_force(&job, &field, op);
+                }
+            }
+            let root = job.root_field(7);
+            checked += compare_with_brute_force(&job, &root, &job.operations[0]);
+        }
     }
-    let t = std::time::Instant::now();
-    let mut s = 0.0;
-    for i in 0..4200 {
-        s += job.operations[0].schedule.state(f64::from(i) + 0.1).psi_b_rad;
+    println!("{checked} tiles equal brute force");
+    assert!(checked >= 64);
+}
+
+/// Compares some tiles of a field (evenly spread, and those with the longest lists); gives how many.
+fn compare_with_brute_force(job: &Job, field: &Field, op: &gearcut::job::PreparedOperation) -> usize {
+    let plan = CutPlan::new(field, &op.strokes, &job.cutter);
+    let mut tiles: Vec<usize> = (0..plan.tiles.len()).step_by(plan.tiles.len().div_ceil(3)).collect();
+    tiles.extend((0..plan.tiles.len()).max_by_key(|&t| plan.tiles[t].records.len()));
+    for &tile in &tiles {
+        let part = Field { columns: field.columns[plan.tiles[tile].columns.clone()].to_vec(), ..field.clone() };
+        // The brute force of one tile's columns, and the whole plan's records for them.
+        let brute = CutPlan::brute_force(&part, &op.strokes, &job.cutter);
+        let chosen = CutPlan {
+            tiles: vec![gearcut::passes::Tile {
+                columns: 0..part.columns.len(),
+                origin_mm: plan.tiles[tile].origin_mm,
+                records: plan.tiles[tile].records.clone(),
+            }],
+            ..plan.clone()
+        };
+        let cpu = Cpu::default();
+        assert!(brute.records.len() > chosen.tiles[0].records.len());
+        let (expected, expected_passes) = cut_bits(job, &part, &brute, &cpu);
+        let (got, passes) = cut_bits(job, &part, &chosen, &cpu);
+        let differing = expected.iter().zip(&got).filter(|(a, b)| a != b).count();
+        assert_eq!(differing, 0, "tile {tile} of {}: {differing} heights differ", plan.tiles.len());
+        assert_eq!(expected_passes, passes, "tile {tile}: passes differ");
     }
-    println!("{:?} {s}", t.elapsed());
+    tiles.len()
+}
+
+#[test]
+fn a_missing_pass_is_noticed() {
+    let job = Job::new(coarse_rows(paper_scene(vec![operation("finish", NORMAL, 0.0, 4200)]))).expect("the gear");
+    let generation = job.target_generation();
+    let flank = job.target_flank(&generation, 7, Side::Left).expect("a flank");
+    let field = job.flank_field(&flank);
+    let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
+    let cpu = Cpu::default();
+    let (all, passes) = cut_bits(&job, &field, &plan, &cpu);
+    let lost = passes[passes.len() / 2];
+    let mut without = plan.clone();
+    for record in &mut without.records {
+        if record.pass == lost {
+            // Lifted off by a micrometre in its own frame: the pass no longer reaches the flank.
+            record.x_mm[0] += 1e-3;
+        }
+    }
+    let (lifted, _) = cut_bits(&job, &field, &without, &cpu);
+    assert_ne!(all, lifted);
+}
+
+#[test]
+fn all_instruction_sets_give_the_same_bytes() {
+    let mut op = operation("finish", NORMAL, 0.0, 1000);
+    op.feed_during_stroke = true;
+    let mut scene = paper_scene(vec![op]);
+    scene.fields = Fields { profile_spacing_mm: 0.02, lead_spacing_mm: 0.5 };
+    let job = Job::new(scene).expect("the gear");
+    let generation = job.target_generation();
+    let field = job.flank_field(&job.target_flank(&generation, 3, Side::Right).expect("a flank"));
+    let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
+    let widest = cut_bits(&job, &field, &plan, &Cpu::default());
+    for vectors in [Vectors::Baseline, Vectors::Avx2] {
+        let Some(cpu) = Cpu::with_vectors(vectors) else { continue };
+        assert!(cut_bits(&job, &field, &plan, &cpu) == widest, "{} differs from the widest", cpu.instruction_set());
+    }
 }

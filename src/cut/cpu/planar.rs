@@ -57,7 +57,7 @@ struct Rays {
 struct Entries {
     h: Lanes,
     hit: [bool; LANES],
-    unconverged: u64,
+    unconverged: [bool; LANES],
 }
 
 impl pulp::NullaryFnOnce for TileCut<'_> {
@@ -90,8 +90,7 @@ impl pulp::NullaryFnOnce for TileCut<'_> {
                         SegmentShape::Table(table) => enter_table(table, segment.y_range_mm, &rays, record.start_mm),
                         SegmentShape::Arc { radius_mm } => enter_arc(*radius_mm, segment.y_range_mm, &rays),
                     };
-                    stats.unconverged += entries.unconverged;
-                    keep_lowest(&entries, column.low_mm, record.pass, best, best_pass);
+                    stats.unconverged += keep_lowest(&entries, column.low_mm, record.pass, best, best_pass);
                 }
             }
             stats.dexel_passes += (self.records.len() * rows) as u64;
@@ -172,14 +171,14 @@ fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_m
             break;
         }
     }
-    let mut entries = Entries { h, hit: [false; LANES], unconverged: 0 };
+    let mut entries = Entries { h, hit: [false; LANES], unconverged: [false; LANES] };
     for l in 0..LANES {
         let on_segment = (rays.y0[l] + h[l] * rays.ny[l] >= y_from - END_OVERLAP_MM)
             & (rays.y0[l] + h[l] * rays.ny[l] <= y_to + END_OVERLAP_MM)
             & (rate[l] < 0.0);
         let converged = step[l].abs() < 1e-6;
         entries.hit[l] = on_segment & converged;
-        entries.unconverged += u64::from(on_segment & !converged);
+        entries.unconverged[l] = on_segment & !converged;
     }
     entries
 }
@@ -209,7 +208,7 @@ fn newton_terms(
 
 #[inline(always)]
 fn enter_arc(radius_mm: f64, [y_from, y_to]: [f64; 2], rays: &Rays) -> Entries {
-    let mut entries = Entries { h: [0.0; LANES], hit: [false; LANES], unconverged: 0 };
+    let mut entries = Entries { h: [0.0; LANES], hit: [false; LANES], unconverged: [false; LANES] };
     for l in 0..LANES {
         let (x0, y0, nx, ny) = (rays.x0[l], rays.y0[l], rays.nx[l], rays.ny[l]);
         let b = nx * (x0 + radius_mm) + ny * y0;
@@ -228,13 +227,17 @@ fn enter_arc(radius_mm: f64, [y_from, y_to]: [f64; 2], rays: &Rays) -> Entries {
     entries
 }
 
-/// Lowers the heights; a cut deeper than the ray records is put at its lowest height, far deeper ones belong to the other side of the tooth.
+/// Lowers the heights and gives the number of rows whose root is unknown though it may lie below what is there (from the left Newton's method
+/// climbs towards the entry, so iterates above the height that is there do no harm); a cut deeper than the ray records is put at its lowest height, far deeper ones belong to the other side of the tooth.
 #[inline(always)]
-fn keep_lowest(entries: &Entries, low_mm: f64, pass: u32, best: &mut Lanes, best_pass: &mut [u32; LANES]) {
+fn keep_lowest(entries: &Entries, low_mm: f64, pass: u32, best: &mut Lanes, best_pass: &mut [u32; LANES]) -> u64 {
+    let mut unknown = 0;
     for l in 0..LANES {
+        unknown += u64::from(entries.unconverged[l] & (entries.h[l] < best[l]));
         let h = entries.h[l].max(low_mm);
         let lower = entries.hit[l] & (entries.h[l] > 2.0 * low_mm) & (h < best[l]);
         best[l] = if lower { h } else { best[l] };
         best_pass[l] = if lower { pass } else { best_pass[l] };
     }
+    unknown
 }

@@ -40,7 +40,7 @@ impl InfeedPlan {
 
     /// Offset (mm) against the stroke coordinate, with its slope to the right.
     pub(super) fn offset(&self, stroke: f64) -> Jet<3> {
-        if stroke < self.plunge_strokes {
+        if self.plunge_strokes > 0.0 && stroke < self.plunge_strokes {
             let left = 1.0 - stroke / self.plunge_strokes;
             let offset_mm = self.final_offset_mm + self.roll_depth_mm + self.plunge_depth_mm * left;
             return Jet::linear(offset_mm, -self.plunge_depth_mm / self.plunge_strokes);
