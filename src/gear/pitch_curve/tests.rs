@@ -14,12 +14,7 @@ pub(crate) fn examples() -> Vec<PitchCurve> {
         PitchCurveShape::Circle,
         PitchCurveShape::Ellipse { order: 3, eccentricity: 0.1348, semi_major_axis_mm: None },
         PitchCurveShape::Ellipse { order: 1, eccentricity: 0.6, semi_major_axis_mm: None },
-        PitchCurveShape::SinusoidalRatio {
-            order: 2,
-            mean_ratio: 1.2,
-            ratio_amplitude: 0.3,
-            center_distance_mm: None,
-        },
+        PitchCurveShape::SinusoidalRatio { order: 2, mean_ratio: 1.2, ratio_amplitude: 0.3, center_distance_mm: None },
         PitchCurveShape::Pascal { order: 2, eccentricity: 0.2, mean_radius_mm: None },
         PitchCurveShape::Fourier { cosine: vec![0.05, 0.1], sine: vec![-0.04, 0.0, 0.02], mean_radius_mm: None },
         PitchCurveShape::Table { points_rad_mm: points, scale_to_close: true },
@@ -113,7 +108,8 @@ fn known_facts() {
 #[test]
 fn refusals_name_their_key() {
     let refuse = |shape: PitchCurveShape| PitchCurve::new(&shape, 3.0, 42).unwrap_err();
-    let ellipse = |eccentricity, semi_major_axis_mm| PitchCurveShape::Ellipse { order: 3, eccentricity, semi_major_axis_mm };
+    let ellipse =
+        |eccentricity, semi_major_axis_mm| PitchCurveShape::Ellipse { order: 3, eccentricity, semi_major_axis_mm };
     let open = refuse(ellipse(0.1348, Some(61.3)));
     assert_eq!(open.key, "gear.pitch_curve.ellipse.semi_major_axis_mm");
     assert!(open.way_out.contains("61.110009074"), "{}", open.way_out);
@@ -156,9 +152,8 @@ pub(crate) fn any_curve() -> impl Strategy<Value = PitchCurve> {
             PitchCurveShape::Table { points_rad_mm, scale_to_close: true }
         }),
     ];
-    (shape, 0.5..6.0f64, 10u32..120).prop_filter_map("accepted curves", |(shape, module_mm, teeth)| {
-        PitchCurve::new(&shape, module_mm, teeth).ok()
-    })
+    (shape, 0.5..6.0f64, 10u32..120)
+        .prop_filter_map("accepted curves", |(shape, module_mm, teeth)| PitchCurve::new(&shape, module_mm, teeth).ok())
 }
 
 proptest! {
