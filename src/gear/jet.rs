@@ -89,6 +89,7 @@ impl<const N: usize> Jet<N> {
 
     /// This function of the old parameter, the old parameter being `inner` of a new one. The value of `inner` must be the
     /// place around which this series was made.
+    #[must_use]
     pub fn compose(&self, inner: &Self) -> Self {
         let mut step = *inner;
         step.0[0] = 0.0;

@@ -16,7 +16,7 @@ use crate::units::TURN_RAD;
 /// Gauss-Legendre nodes per panel.
 const NODES: usize = 10;
 /// More panels than this mean that the function is not integrable to the accuracy.
-const MAX_PANELS: usize = 1 << 20;
+const MAX_PANELS: usize = 1 << 16;
 
 /// Prepared integral of a positive 2 pi-periodic function.
 #[derive(Debug, Clone)]

@@ -87,6 +87,8 @@ pub(super) struct Rolling<const N: usize> {
     pub(super) dr: Jet<N>,
     /// s' = ds/dphi, mm.
     pub(super) ds: Jet<N>,
+    /// r as a series in phi.
+    radius: Jet<4>,
 }
 
 impl<const N: usize> Rolling<N> {
@@ -95,14 +97,13 @@ impl<const N: usize> Rolling<N> {
         let radius = curve.radius(phi.value());
         let r = radius.truncate::<N>().compose(&phi);
         let dr = radius.differentiate::<N>().compose(&phi);
-        Self { phi, r, dr, ds: (r * r + dr * dr).sqrt() }
+        Self { phi, r, dr, ds: (r * r + dr * dr).sqrt(), radius }
     }
 
     /// Arc length S in mm as a series in the parameter.
     pub(super) fn arc(&self, curve: &PitchCurve) -> Jet<N> {
         let phi = self.phi.value();
-        let radius = curve.radius(phi);
-        let (r, dr) = (radius.truncate::<3>(), radius.differentiate::<3>());
+        let (r, dr) = (self.radius.truncate::<3>(), self.radius.differentiate::<3>());
         (r * r + dr * dr).sqrt().integrate::<4>(curve.arc_mm(phi)).truncate::<N>().compose(&self.phi)
     }
 }

@@ -75,7 +75,7 @@ pub fn relief_ratio(linkage: &ShapingLinkage, phi_rad: f64, offset_mm: f64, pres
     let from_center = motion.pose.center_mm - motion.instantaneous_center_mm();
     let (sin_p, cos_p) = pressure_angle_rad.sin_cos();
     let working_rad = (linkage.cutter_pitch_radius_mm() * cos_p / from_center.length()).min(1.0).acos();
-    let beta_rad = from_center.angle_to(motion.pose.center_mm);
+    let beta_rad = from_center.perp_dot(motion.pose.center_mm).atan2(from_center.dot(motion.pose.center_mm));
     ReliefRatio { left: (working_rad + beta_rad).sin() / sin_p, right: (working_rad - beta_rad).sin() / sin_p }
 }
 

@@ -97,15 +97,12 @@ impl StrokeSchedule {
             let way_out = "leave out the window, or set revolutions = 1 and overlap_deg = 0";
             return Err(Refusal::new(&key("window_deg"), problem, way_out));
         }
-        let sigma = |psi_c_rad: f64| match operation.spacing {
-            StrokeSpacing::WorkAngle => psi_c_rad,
-            _ => {
-                let phi = linkage.phi_at_work_angle(psi_c_rad, offset_mm);
-                progress.along(linkage, Jet::variable(phi), Jet::constant(offset_mm)).value()
-            }
+        let sigma = |psi_c_rad: f64| {
+            let phi = linkage.phi_at_work_angle(psi_c_rad, offset_mm);
+            progress.along(linkage, Jet::variable(phi), Jet::constant(offset_mm)).value()
         };
         let (start, first_index) = match operation.spacing {
-            StrokeSpacing::WorkAngle => (0.0, (from_rad / per_stroke - COUNT_SLACK).ceil()),
+            StrokeSpacing::WorkAngle => (0.0, (from_rad / per_stroke - COUNT_SLACK).ceil()), // the grid of psi_c begins at 0
             _ => (sigma(from_rad), 0.0),
         };
         let reach = (sigma(to_rad) - start) / per_stroke - first_index;

@@ -39,7 +39,7 @@ pub(super) fn axes<const N: usize>(
     offset_mm: Jet<N>,
     direction: TraditionalDirection,
 ) -> Axes<N> {
-    let Rolling { phi, r, dr, ds } = *rolling;
+    let Rolling { phi, r, dr, ds, .. } = *rolling;
     let finish = Jet::constant(cutter_pitch_radius_mm);
     let lag = work_lag(rolling, cutter_pitch_radius_mm, offset_mm, direction);
     let roll = arc * (1.0 / cutter_pitch_radius_mm);

@@ -1,12 +1,13 @@
-//! Checks of linkages, schedules, dynamics and relief against finite differences, geometry and each other.
+//! Checks of the linkages against finite differences and geometry; what the checks of the other parts share.
 
-use std::f64::consts::{PI, TAU};
+mod motion;
+mod strokes;
+
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use proptest::prelude::*;
 
-use super::dynamics::{motion, peaks};
-use super::relief::{ReliefFlank, ReliefVerdict, relief_ratio, smallest_relief};
 use super::*;
 use crate::gear::pitch_curve::tests::{any_curve, examples};
 use crate::gear::{Jet, PitchCurve};
@@ -159,159 +160,6 @@ proptest! {
             }
         }
     }
-}
-
-#[test]
-fn counts_windows_and_seams() {
-    let mut run = operation(2.0, 360);
-    assert_eq!(schedule(&run).count(), 360);
-    run.window_rad = Some([1f64.to_radians(), 119f64.to_radians()]);
-    let strokes = schedule(&run);
-    assert_eq!(strokes.count(), 119);
-    for i in 0..119 {
-        let expected = f64::from(i + 1) * TAU / 360.0;
-        assert!((strokes.state(f64::from(i)).psi_c_rad - expected).abs() < 1e-12);
-    }
-    let [first, last] = strokes.seam_rad();
-    assert!((first - 1f64.to_radians()).abs() < 1e-12 && (last - 119f64.to_radians()).abs() < 1e-12);
-    run.revolutions = 2;
-    assert_eq!(
-        StrokeSchedule::new(&run, &paper_linkage(NORMAL), &machine()).unwrap_err().key,
-        "operation.rough.window_deg"
-    );
-    run.window_rad = None;
-    run.overlap_rad = 10.5f64.to_radians();
-    assert_eq!(schedule(&run).count(), 2 * 360 + 11);
-    run.feed = Feed::CircularMmPerStroke(0.5);
-    let by_feed = schedule(&run);
-    assert_eq!(by_feed.strokes_per_revolution(), 792);
-    assert!(by_feed.circular_feed_mm_per_stroke() < 0.5);
-    run.feed = Feed::CircularMmPerStroke(0.0);
-    assert!(StrokeSchedule::new(&run, &paper_linkage(NORMAL), &machine()).is_err());
-}
-
-#[test]
-fn spacings_advance_equally() {
-    let mut run = operation(2.0, 500);
-    run.spacing = StrokeSpacing::Arc;
-    let strokes = schedule(&run);
-    assert_eq!(strokes.count(), 500);
-    let arc = |i: usize| paper_curve().arc_mm(strokes.phi_rad(i as f64));
-    for i in 0..500 {
-        assert!((arc(i + 1) - arc(i) - strokes.circular_feed_mm_per_stroke()).abs() < 1e-10);
-    }
-    run.spacing = StrokeSpacing::Time;
-    let strokes = schedule(&run);
-    assert_eq!(strokes.count(), 500);
-    // At every stroke one axis uses the same share of its limit, and no axis uses more.
-    let share = |stroke: f64| {
-        let (m, limits) = (motion(&strokes, stroke), machine().limits);
-        (m.work.velocity / limits.work_speed_rad_per_s.unwrap())
-            .max(m.cutter.velocity / limits.cutter_speed_rad_per_s.unwrap())
-            .max(m.center_distance.velocity.abs() / limits.center_distance_speed_mm_per_s.unwrap())
-    };
-    for i in 0..999 {
-        assert!((share(f64::from(i) * 0.5) / share(0.0) - 1.0).abs() < 1e-9);
-    }
-    let mut unlimited = machine();
-    unlimited.limits = AxisLimits::default();
-    let refusal = StrokeSchedule::new(&run, &paper_linkage(NORMAL), &unlimited).unwrap_err();
-    assert_eq!(refusal.key, "operation.rough.stroke_spacing");
-    unlimited.limits.center_distance_speed_mm_per_s = Some(1.0);
-    assert!(StrokeSchedule::new(&run, &paper_linkage(NORMAL), &unlimited).is_err());
-}
-
-#[test]
-fn infeed_reaches_depth() {
-    let mut run = operation(0.5, 360);
-    run.revolutions = 2;
-    run.infeed =
-        Infeed::PlungeAndRoll { plunge_depth_mm: 1.0, strokes: 10, roll_depth_mm: 2.0, angle_rad: 90f64.to_radians() };
-    let strokes = schedule(&run);
-    assert_eq!((strokes.count(), strokes.plunge_count()), (730, 10));
-    for (stroke, offset_mm) in [(0.0, 3.5), (5.0, 3.0), (10.0, 2.5), (55.0, 1.5), (100.0, 0.5), (700.0, 0.5)] {
-        assert!((strokes.offset_mm(stroke) - offset_mm).abs() < 1e-12);
-    }
-    assert_eq!(strokes.phi_rad(3.0), strokes.phi_rad(10.0));
-    assert!((strokes.state(11.0).psi_c_rad - TAU / 360.0).abs() < 1e-12);
-    for corner in [10.0, 100.0] {
-        let (before, after) = (strokes.state(corner - 1e-9), strokes.state(corner));
-        assert!((before.pose.center_mm - after.pose.center_mm).length() < 1e-8);
-    }
-    run.infeed = Infeed::Spiral { depth_mm: 2.0, angle_rad: PI };
-    assert_eq!(schedule(&run).state(90.0).offset_mm, 1.5);
-}
-
-#[test]
-fn motions_match_differences_and_peaks_bound_them() {
-    let mut run = operation(1.0, 360);
-    run.revolutions = 2;
-    for spacing in [StrokeSpacing::WorkAngle, StrokeSpacing::Arc, StrokeSpacing::Time] {
-        for infeed in [Infeed::None, Infeed::Spiral { depth_mm: 1.0, angle_rad: 2.0 }] {
-            (run.spacing, run.infeed) = (spacing, infeed);
-            let strokes = schedule(&run);
-            let peaks = peaks(&strokes, &machine().limits);
-            let axes = |m: dynamics::MachineMotion| [m.work, m.cutter, m.center_distance];
-            let bounds = [peaks.work, peaks.cutter, peaks.center_distance];
-            let h = 1e-3;
-            for i in 0..300 {
-                let stroke = f64::from(i) * 2.4 + 0.31;
-                let step_s = strokes.time_s(h);
-                let (before, here, after) =
-                    (motion(&strokes, stroke - h), motion(&strokes, stroke), motion(&strokes, stroke + h));
-                assert!((axes(here)[0].position - strokes.state(stroke).psi_c_rad).abs() < 1e-11);
-                for (axis, bound) in bounds.iter().enumerate() {
-                    let (b, a, m) = (axes(before)[axis], axes(after)[axis], axes(here)[axis]);
-                    let speed = (a.position - b.position) / (2.0 * step_s);
-                    assert!((speed - m.velocity).abs() < 1e-6 * (1.0 + speed.abs()), "{spacing:?} {infeed:?} {axis}");
-                    let change = (a.velocity - b.velocity) / (2.0 * step_s);
-                    let kink = spacing == StrokeSpacing::Time && (change - m.acceleration).abs() > 1e-3;
-                    assert!(
-                        kink || (change - m.acceleration).abs() < 1e-3 * (1.0 + change.abs()),
-                        "{spacing:?} {axis}"
-                    );
-                    assert!(m.velocity.abs() <= bound.speed.value * (1.0 + 1e-12));
-                    assert!(m.acceleration.abs() <= bound.acceleration.value * (1.0 + 1e-9) + 1e-9);
-                }
-            }
-            let limit = machine().limits.work_speed_rad_per_s.unwrap();
-            let margin = peaks.work.speed.margin().unwrap();
-            assert!((margin - (1.0 - peaks.work.speed.value / limit)).abs() < 1e-15);
-            assert!(peaks.work.acceleration.margin().is_none());
-        }
-    }
-}
-
-#[test]
-fn relief_of_the_paper_gear() {
-    let alpha = 20f64.to_radians();
-    let smallest = smallest_relief(&paper_linkage(NORMAL), 0.0, alpha);
-    // Largest |beta| 14.95 deg: sin(20 - 14.95) / sin 20 deg
-    let linkage = paper_linkage(NORMAL);
-    let beta = |phi: f64| {
-        let frame = linkage.curve().frame(phi);
-        (frame.radius_mm * frame.mu_rad.cos()).atan2(frame.radius_mm * frame.mu_rad.sin() + 30.0)
-    };
-    let steepest = (0..20_000).map(|i| beta(f64::from(i) * TAU / 20_000.0).abs()).fold(0.0, f64::max);
-    assert!((steepest.to_degrees() - 14.95).abs() < 0.005);
-    assert!((smallest.ratio - (alpha - steepest).sin() / alpha.sin()).abs() < 1e-6);
-    assert!((smallest.ratio - 0.26).abs() < 0.005, "{}", smallest.ratio);
-    assert_eq!(smallest.verdict(), ReliefVerdict::Tight);
-    assert!(smallest.warning(0.5).unwrap().contains("26 %"));
-    for i in 0..30 {
-        let phi = f64::from(i) * 0.21;
-        let ratio = relief_ratio(&linkage, phi, 0.0, alpha);
-        assert!((ratio.left - (alpha + beta(phi)).sin() / alpha.sin()).abs() < 1e-12);
-        assert!((ratio.right - (alpha - beta(phi)).sin() / alpha.sin()).abs() < 1e-12);
-    }
-    // Where the radius falls with phi, drawing back along the line of centres moves the cutter towards larger ... the left flank loses.
-    assert_eq!(beta(smallest.phi_rad) < 0.0, smallest.flank == ReliefFlank::Left);
-    let shallow = smallest_relief(&paper_linkage(NORMAL), 0.0, 14f64.to_radians());
-    assert_eq!(shallow.verdict(), ReliefVerdict::Rubs);
-    assert!(shallow.clearance_mm(0.5) < 0.0 && shallow.warning(0.5).unwrap().contains("rubs"));
-    let circle = Arc::new(PitchCurve::new(&PitchCurveShape::Circle, 3.0, 42).unwrap());
-    let round = smallest_relief(&ShapingLinkage::new(NORMAL, circle, 30.0, 0.0).unwrap(), 0.0, alpha);
-    assert!((round.ratio - 1.0).abs() < 1e-12 && round.warning(0.5).is_none());
 }
 
 #[test]

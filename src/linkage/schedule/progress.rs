@@ -89,9 +89,10 @@ impl TimeLaw {
             let problem = "equal times let the slowest axis run at its speed limit, but no speed is limited";
             return Err(Refusal::new(key, problem, way_out));
         }
-        // The integrand has a kink wherever another axis becomes the slowest.
+        // The integrand has a kink wherever another axis becomes the slowest, and is zero where the slowest turns back.
         let samples = linkage.curve().samples_per_turn();
         let index = |phi: f64| axis(phi).map(|(index, _)| index);
+        let seconds_per_rad = |phi: f64| axis(phi).map_or(f64::NAN, |(_, rate)| rate.value());
         let mut breaks_rad = linkage.curve().breaks_rad();
         for i in 1..=samples {
             let (lo, hi) = (sample_angle_rad(i - 1, samples), sample_angle_rad(i, samples));
@@ -101,10 +102,10 @@ impl TimeLaw {
             }
         }
         breaks_rad.sort_by(f64::total_cmp);
-        let seconds_per_rad = |phi: f64| axis(phi).map_or(f64::NAN, |(_, rate)| rate.value());
-        let smallest =
-            (0..samples).map(|i| seconds_per_rad(sample_angle_rad(i, samples))).fold(f64::INFINITY, f64::min);
-        let largest = (0..samples).map(|i| seconds_per_rad(sample_angle_rad(i, samples))).fold(0.0, f64::max);
+        let even = (0..samples).map(|i| sample_angle_rad(i, samples));
+        let times: Vec<f64> = even.chain(breaks_rad.iter().copied()).map(seconds_per_rad).collect();
+        let smallest = times.iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = times.iter().copied().fold(0.0, f64::max);
         let elapsed = if smallest > 1e-6 * largest {
             PeriodicIntegral::new(seconds_per_rad, &breaks_rad, 16, 1e-12 * largest)
         } else {
@@ -125,8 +126,8 @@ impl TimeLaw {
     }
 }
 
-/// The axis that takes longest per radian of phi, and that time in s per rad with its derivative.
-fn slowest(axes: &Axes<3>, limits: AxisLimits) -> Option<(usize, Jet<2>)> {
+/// The axis that takes longest per radian of phi with its direction, and that time in s per rad with its derivative.
+fn slowest(axes: &Axes<3>, limits: AxisLimits) -> Option<((usize, bool), Jet<2>)> {
     let limited = [
         (axes.psi_c_rad, limits.work_speed_rad_per_s),
         (axes.psi_b_rad, limits.cutter_speed_rad_per_s),
@@ -134,7 +135,7 @@ fn slowest(axes: &Axes<3>, limits: AxisLimits) -> Option<(usize, Jet<2>)> {
     ];
     let times = limited.into_iter().enumerate().filter_map(|(i, (axis, limit))| {
         let rate = axis.differentiate::<2>();
-        Some((i, rate * (rate.value().signum() / limit?)))
+        Some(((i, rate.value() < 0.0), rate * (rate.value().signum() / limit?)))
     });
     times.max_by(|a, b| a.1.value().total_cmp(&b.1.value()))
 }
