@@ -130,7 +130,7 @@ impl One<'_> {
             (_, unit) => &format!(" {unit}"),
         };
         let written = self.written(node);
-        let message = format!("`{}`: {part}{written} is out of range, {range}{unit}", self.path);
+        let message = format!("`{}`: {part}{written} is out of range: {range}{unit}", self.path);
         Err(Self::fault(node, message))
     }
 
@@ -142,7 +142,7 @@ impl One<'_> {
         };
         number.filter(|number| (min..=max).contains(number)).ok_or_else(|| {
             let written = self.written(node);
-            Self::fault(node, format!("`{}`: {written} is out of range, whole number, {min} to {max}", self.path))
+            Self::fault(node, format!("`{}`: {written} is out of range: whole number, {min} to {max}", self.path))
         })
     }
 

@@ -139,9 +139,14 @@ fn excerpt(source: &str, before: usize, width: usize) -> (String, String, usize)
     (printable(&format!("{lead}{shown}{tail}")), format!("{}{blanks}", " ".repeat(lead.len())), width)
 }
 
-/// `text` with control characters replaced, so that a scene cannot steer the terminal.
+/// `text` on one line and with control characters replaced, so that a scene cannot steer the terminal.
 fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() && c != '\t' { '\u{fffd}' } else { c }).collect()
+    let plain = |c: char| match c {
+        '\n' => ' ',
+        c if c.is_control() && c != '\t' => '\u{fffd}',
+        c => c,
+    };
+    text.chars().map(plain).collect()
 }
 
 /// `text` cut to `most` characters.

@@ -66,7 +66,8 @@ fn write_key(out: &mut String, key: &Key, active: bool) {
     let mark = if active { "" } else { "#" };
     let value = match key.default {
         Default::Number(number) => format!("{number:?}"),
-        Default::Whole(_) | Default::Boolean(_) | Default::Word(_) | Default::EmptyList => key.default_text(),
+        Default::EmptyList if active => key.default_text(),
+        Default::Whole(_) | Default::Boolean(_) | Default::Word(_) => key.default_text(),
         _ => key.example.to_owned(),
     };
     write_comment(out, key.teach);

@@ -50,10 +50,14 @@ impl Walk<'_, '_> {
     fn table(&mut self, section: &'static Section, path: &str, table: &Node, at: &At) {
         if !matches!(table.value, Value::Table(_)) {
             let written = self.problems.sources.written(&table.at);
+            let headers = match section.role {
+                Role::Choice { .. } => keys::either(section.children().map(Section::header)),
+                _ => section.header(),
+            };
             self.problems.add(
                 &table.at,
                 format!("`{}` is a section, not a value: {written}", section.path.replace("[]", "")),
-                format!("write {} on a line of its own, and its keys below", section.header()),
+                format!("write {headers} on a line of its own, and its keys below"),
             );
             return;
         }
@@ -174,10 +178,16 @@ impl Walk<'_, '_> {
     fn not_written(&mut self, section: &'static Section, key: &'static Key, path: &str, table: &Node, at: &At) {
         let rival_written =
             section.group_of(key.name).is_some_and(|group| group.names.iter().any(|name| table.entry(name).is_some()));
+        let misspelt = || {
+            let unknown = table.entries().iter().filter(|entry| section.key(&entry.name).is_none());
+            unknown.filter_map(|entry| nearest(section, &entry.name)).any(|found| found.is_key(section, key))
+        };
         if rival_written {
             return;
         }
         let value = match key.default {
+            // Written under a wrong name: one problem is enough.
+            Default::Required if misspelt() => return,
             Default::Required => {
                 let header = section.header();
                 self.problems.add(
@@ -227,16 +237,11 @@ impl Walk<'_, '_> {
             (Value::Table(_), _) => "section",
             _ => "key",
         };
-        let hint = nearest(section, &entry.name).map_or(String::new(), |found| format!(" Did you mean {found}?"));
-        let known: Vec<&str> =
-            section.keys.iter().map(|key| key.name).chain(section.children().map(Section::name)).collect();
-        let holder = if section.path.is_empty() { "a scene".to_owned() } else { section.header() };
-        let way_out = if known.is_empty() {
-            format!("remove it; {holder} takes no keys")
-        } else {
-            format!("correct or remove it; {holder} takes {}", known.join(", "))
-        };
         let article = if what.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
+        let (hint, way_out) = match nearest(section, &entry.name) {
+            Some(found) => (format!(" Did you mean {}?", found.words()), found.way_out(section)),
+            None => (String::new(), format!("correct or remove it; {}", contents(section))),
+        };
         self.problems.add(&entry.name_at, format!("`{name}` is not {article} {what}.{hint}"), way_out);
     }
 
@@ -264,4 +269,13 @@ impl Walk<'_, '_> {
             self.values.held.insert(full, Held { value, at: None });
         }
     }
+}
+
+/// What a section takes, in words.
+fn contents(section: &'static Section) -> String {
+    let holder = if section.path.is_empty() { "a scene".to_owned() } else { section.header() };
+    let names: Vec<&str> =
+        section.keys.iter().map(|key| key.name).chain(section.children().map(Section::name)).collect();
+    let names = if names.is_empty() { "no keys".to_owned() } else { names.join(", ") };
+    format!("{holder} takes {names}")
 }
