@@ -110,6 +110,19 @@ proptest! {
 }
 
 #[test]
+fn large_files_are_answered_at_once() {
+    let name = "module_mm".repeat(100_000);
+    feed(&format!("[gear]\n{name} = 3\n{SCENE}"), &[]);
+    let unknown: Vec<String> = (0..50_000).map(|i| format!("modul{i} = 3")).collect();
+    let errors = parse(&unknown.join("\n"), "hostile.toml", Path::new(""), &[]).expect_err("no scene");
+    assert_eq!(errors.problems.len(), 100);
+    assert!(errors.to_string().ends_with("only 100 problems are listed"));
+    let points: Vec<String> = (0..100_001).map(|i| format!("[{:?}, 60]", 0.003 * f64::from(i))).collect();
+    let table = format!("points_deg_mm = [{}]", points.join(", "));
+    feed(&SCENE.replace("[gear.pitch_curve.ellipse]", &format!("[gear.pitch_curve.table]\n{table}\n")), &[]);
+}
+
+#[test]
 fn deep_nesting_is_refused() {
     feed(&format!("a = {}{}", "[".repeat(100_000), "]".repeat(100_000)), &[]);
     feed(&format!("[{}a]", "a.".repeat(10_000)), &[]);

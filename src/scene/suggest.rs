@@ -1,7 +1,8 @@
 //! The known key or section nearest to a name that is none.
 //!
-//! First among the names of the same section (a slip of the finger, a forgotten unit), then among all
-//! (a key in the wrong section).
+//! In: a section and a name written in it. Out: the candidate to propose, if any is alike enough. Searched first among
+//! the names of the same section (a slip of the finger, a forgotten unit), then among all (a key in the wrong section).
+//! Always proposing the nearest one, however far, would send the reader the wrong way.
 
 use strsim::normalized_damerau_levenshtein;
 
@@ -11,6 +12,9 @@ use super::keys::{self, Key, Section, join};
 const LIKE_ENOUGH_HERE: f64 = 0.5;
 /// Likeness from which a name of another section is; stricter, because there are many.
 const LIKE_ENOUGH_ELSEWHERE: f64 = 0.75;
+
+/// Longest name compared: twice the longest known one; the comparison takes memory in proportion to the length.
+const LONGEST_COMPARED: usize = 80;
 
 /// A key or section to propose.
 pub(super) enum Candidate {
@@ -58,6 +62,9 @@ pub(super) fn display_path(section: &Section, key: &Key) -> String {
 
 /// The nearest known key or section to `name`, written in `section`.
 pub(super) fn nearest(section: &'static Section, name: &str) -> Option<Candidate> {
+    if name.len() > LONGEST_COMPARED {
+        return None;
+    }
     let here = candidates(section);
     let elsewhere = keys::sections().flat_map(candidates);
     best(here, name, LIKE_ENOUGH_HERE).or_else(|| best(elsewhere, name, LIKE_ENOUGH_ELSEWHERE))

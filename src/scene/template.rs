@@ -7,12 +7,15 @@ use std::fmt::Write as _;
 
 use super::keys::{self, Default, Key, Role, Section};
 
+/// Processes that a template can be written for.
+pub const PROCESSES: &[&str] = &["shaping"];
+
 /// Width of a comment line.
 const COMMENT_CHARS: usize = 100;
 
-/// The scene for `process`, or `None` if there is no such process; there is `shaping`.
+/// The scene for `process`, or `None` if it is not one of [`PROCESSES`].
 pub fn template(process: &str) -> Option<String> {
-    if process != "shaping" {
+    if !PROCESSES.contains(&process) {
         return None;
     }
     let mut out = String::from(

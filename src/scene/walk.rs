@@ -4,16 +4,13 @@
 //! section that is unknown, missing, given beside its rival, of the wrong type or out of range.
 
 use super::check::check;
-use super::errors::Problem;
+use super::errors::{MOST_PROBLEMS, Problem};
 use super::keys::{self, Default, Key, Role, Section, join};
 use super::overrides::default_name;
 use super::sources::{At, Sources};
 use super::suggest::{display_path, nearest};
 use super::tree::{Entry, Node, Value};
 use super::values::{Checked, Held, Values};
-
-/// Most problems reported: beyond that the file is no scene, and the list helps nobody.
-pub(super) const MOST_PROBLEMS: usize = 100;
 
 /// Collects problems.
 pub(super) struct Problems<'a> {
@@ -22,9 +19,14 @@ pub(super) struct Problems<'a> {
 }
 
 impl Problems<'_> {
+    /// Whether no more problems are taken.
+    pub fn full(&self) -> bool {
+        self.list.len() >= MOST_PROBLEMS
+    }
+
     /// Adds a problem.
     pub fn add(&mut self, at: &At, message: String, way_out: String) {
-        if self.list.len() < MOST_PROBLEMS {
+        if !self.full() {
             self.list.push(Problem { place: self.sources.place(at), message, way_out });
         }
     }
@@ -180,7 +182,10 @@ impl Walk<'_, '_> {
             section.group_of(key.name).is_some_and(|group| group.names.iter().any(|name| table.entry(name).is_some()));
         let misspelt = || {
             let unknown = table.entries().iter().filter(|entry| section.key(&entry.name).is_none());
-            unknown.filter_map(|entry| nearest(section, &entry.name)).any(|found| found.is_key(section, key))
+            unknown
+                .take(MOST_PROBLEMS)
+                .filter_map(|entry| nearest(section, &entry.name))
+                .any(|found| found.is_key(section, key))
         };
         if rival_written {
             return;
@@ -231,6 +236,9 @@ impl Walk<'_, '_> {
     }
 
     fn unknown(&mut self, section: &'static Section, entry: &Entry) {
+        if self.problems.full() {
+            return; // the search for the nearest name is the slowest thing here
+        }
         let name = join(section.path, &entry.name).replace("[]", "");
         let what = match (&entry.node.value, section.role) {
             (_, Role::Choice { what, .. }) => what,
