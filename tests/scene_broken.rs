@@ -30,12 +30,17 @@ fn every_broken_scene_gets_its_message() {
             fs::write(&expected_path, &found).expect("write the expected text");
         }
         let expected = fs::read_to_string(&expected_path).unwrap_or_default();
-        if found != expected {
-            wrong.push(format!("{path}\n--- expected\n{expected}--- found\n{found}"));
-        }
+        wrong.extend(mismatch(&path, &found, &expected));
     }
     println!("{} broken scenes, {} with another message than expected", names.len(), wrong.len());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The difference between a message and the expected one, if there is any.
+#[must_use]
+fn mismatch(path: &str, found: &str, expected: &str) -> Option<String> {
+    let expected = expected.replace("\r\n", "\n"); // as git may check it out on Windows
+    (found != expected).then(|| format!("{path}\n--- expected\n{expected}--- found\n{found}"))
 }
 
 /// What the scene at `path` is answered with; a scene that loads is answered with a word that no file expects.
@@ -51,6 +56,11 @@ fn message(path: &str) -> String {
 
 #[test]
 fn a_wrong_expectation_is_noticed() {
-    let found = message("tests/broken/01_unknown_key.toml");
-    assert_ne!(found, found.replace("2:1", "2:2"), "the message must carry line 2, column 1");
+    let path = format!("{FOLDER}/01_unknown_key.toml");
+    let expected = fs::read_to_string(Path::new(&path).with_extension("expected")).expect("an expected text");
+    assert!(mismatch(&path, &message(&path), &expected).is_none());
+    for (right, wrong) in [(":2:1:", ":2:2:"), ("0.1 to 50", "0.1 to 51"), ("^^^^", "^^^")] {
+        assert!(expected.contains(right), "{right}");
+        assert!(mismatch(&path, &message(&path), &expected.replace(right, wrong)).is_some(), "{wrong}");
+    }
 }

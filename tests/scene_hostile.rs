@@ -85,8 +85,8 @@ proptest! {
     #[test]
     fn lines_shuffled(order in Just((0..SCENE.lines().count()).collect::<Vec<_>>()).prop_shuffle(), kept in 1_usize..45) {
         let lines: Vec<&str> = SCENE.lines().collect();
-        let text: String = order.iter().take(kept).filter_map(|&i| lines.get(i)).map(|line| format!("{line}\n")).collect();
-        feed(&text, &[]);
+        let shuffled: Vec<&str> = order.iter().take(kept).filter_map(|&i| lines.get(i).copied()).collect();
+        feed(&shuffled.join("\n"), &[]);
     }
 
     #[test]
@@ -107,6 +107,19 @@ proptest! {
         let text = loaded.explain(&gearcut::Refusal::new(&key, "odd", "none")).to_string();
         prop_assert!(text.starts_with("error: scenes/"));
     }
+}
+
+#[test]
+fn large_files_are_answered_at_once() {
+    let name = "module_mm".repeat(100_000);
+    feed(&format!("[gear]\n{name} = 3\n{SCENE}"), &[]);
+    let unknown: Vec<String> = (0..50_000).map(|i| format!("modul{i} = 3")).collect();
+    let errors = parse(&unknown.join("\n"), "hostile.toml", Path::new(""), &[]).expect_err("no scene");
+    assert_eq!(errors.problems.len(), 100);
+    assert!(errors.to_string().ends_with("only 100 problems are listed"));
+    let points: Vec<String> = (0..100_001).map(|i| format!("[{:?}, 60]", 0.003 * f64::from(i))).collect();
+    let table = format!("points_deg_mm = [{}]", points.join(", "));
+    feed(&SCENE.replace("[gear.pitch_curve.ellipse]", &format!("[gear.pitch_curve.table]\n{table}\n")), &[]);
 }
 
 #[test]

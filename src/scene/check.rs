@@ -1,4 +1,8 @@
 //! One value against its key: type, range, unit.
+//!
+//! In: a node of the tree and the key it was written for. Out: the checked value, still in the unit of the file, or the
+//! fault with the place of the part that is wrong (one number of a list, not the list). Whole numbers pass where numbers
+//! are asked for, never the other way round: `teeth = 24.0` is more likely a mistake than a wish.
 
 use super::keys::{Key, Kind, Range};
 use super::sources::{At, Sources};
@@ -130,7 +134,7 @@ impl One<'_> {
             (_, unit) => &format!(" {unit}"),
         };
         let written = self.written(node);
-        let message = format!("`{}`: {part}{written} is out of range, {range}{unit}", self.path);
+        let message = format!("`{}`: {part}{written} is out of range: {range}{unit}", self.path);
         Err(Self::fault(node, message))
     }
 
@@ -142,7 +146,7 @@ impl One<'_> {
         };
         number.filter(|number| (min..=max).contains(number)).ok_or_else(|| {
             let written = self.written(node);
-            Self::fault(node, format!("`{}`: {written} is out of range, whole number, {min} to {max}", self.path))
+            Self::fault(node, format!("`{}`: {written} is out of range: whole number, {min} to {max}", self.path))
         })
     }
 

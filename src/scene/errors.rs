@@ -9,6 +9,9 @@ use std::fmt;
 /// Longest part of a source line that is shown; long tables are cut around the place.
 const SHOWN_CHARS: usize = 100;
 
+/// Most problems reported: beyond that the file is no scene, and the list helps nobody.
+pub(super) const MOST_PROBLEMS: usize = 100;
+
 /// Where something was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Place {
@@ -92,7 +95,7 @@ impl fmt::Display for Problem {
         if let Place::Line { line, column, source, width, .. } = &self.place
             && *width > 0
         {
-            let (shown, before, width) = excerpt(source, column - 1, *width);
+            let (shown, before, width) = excerpt(source, column.saturating_sub(1), *width);
             let number = line.to_string();
             let margin = " ".repeat(number.len());
             writeln!(f, "  {number} | {shown}")?;
@@ -109,6 +112,9 @@ impl fmt::Display for SceneErrors {
                 f.write_str("\n\n")?;
             }
             problem.fmt(f)?;
+        }
+        if self.problems.len() >= MOST_PROBLEMS {
+            write!(f, "\n\nthere may be more: only {MOST_PROBLEMS} problems are listed")?;
         }
         Ok(())
     }
@@ -139,9 +145,14 @@ fn excerpt(source: &str, before: usize, width: usize) -> (String, String, usize)
     (printable(&format!("{lead}{shown}{tail}")), format!("{}{blanks}", " ".repeat(lead.len())), width)
 }
 
-/// `text` with control characters replaced, so that a scene cannot steer the terminal.
+/// `text` on one line and with control characters replaced, so that a scene cannot steer the terminal.
 fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() && c != '\t' { '\u{fffd}' } else { c }).collect()
+    let plain = |c: char| match c {
+        '\n' => ' ',
+        c if c.is_control() && c != '\t' => '\u{fffd}',
+        c => c,
+    };
+    text.chars().map(plain).collect()
 }
 
 /// `text` cut to `most` characters.

@@ -58,7 +58,7 @@ pub fn parse(text: &str, file_name: &str, base_dir: &Path, overrides: &[String])
         Err(errors) => {
             for (span, message) in errors {
                 let way_out = "a scene is TOML: [section] lines and name = value lines, each name once".to_owned();
-                problems.add(&At::Scene(span), format!("not TOML: {}", message.replace('\n', ", ")), way_out);
+                problems.add(&At::Scene(span), format!("not TOML: {message}"), way_out);
             }
             return Err(SceneErrors::new(problems.list));
         }

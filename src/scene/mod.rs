@@ -29,4 +29,4 @@ mod write;
 pub use errors::{Place, Problem, SceneErrors};
 pub use loaded::{LoadedScene, Located, load, parse};
 pub use model::Scene;
-pub use template::template;
+pub use template::{PROCESSES, template};

@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::Path;
 
-use super::errors::{Place, Problem};
+use super::errors::Problem;
 use super::keys::{self, Kind};
 use super::sources::line_place;
 use super::values::{Checked, Held, Values};
@@ -55,7 +55,7 @@ pub(super) fn read_points(values: &mut Values, base_dir: &Path, problems: &mut P
             format!("cannot read the points file {name}: {why}"),
             "the path is relative to the scene file; the file has the header phi_deg,radius_mm".to_owned(),
         ),
-        Ok(text) => match parse(&name, &text, key.kind) {
+        Ok(text) => match parse(&shown(base_dir, &name), &text, key.kind) {
             Ok(points) => {
                 let held = Held { value: Checked::Points(points), at: Some(at) };
                 values.held.insert(keys::join(SECTION, "points_deg_mm"), held);
@@ -63,6 +63,12 @@ pub(super) fn read_points(values: &mut Values, base_dir: &Path, problems: &mut P
             Err(problem) => problems.list.push(*problem),
         },
     }
+}
+
+/// The file's path as messages print it: as the scene's own path is written, with a slash on every system.
+fn shown(base_dir: &Path, name: &str) -> String {
+    let base = base_dir.display().to_string();
+    if base.is_empty() || Path::new(name).is_absolute() { name.to_owned() } else { format!("{base}/{name}") }
 }
 
 /// The points of `text`; the first problem ends the reading, since a wrong separator spoils every line.
@@ -119,7 +125,7 @@ fn parse(name: &str, text: &str, kind: Kind) -> Result<Vec<[f64; 2]>, Box<Proble
         start += whole.len();
     }
     if points.len() < fewest {
-        let place = Place::File { file: name.to_owned() };
+        let place = line_place(name, text, 0..0).without_excerpt();
         let way_out = format!("give at least {fewest} points over the whole turn, under the header {HEADER}");
         return Err(Box::new(Problem { place, message: format!("{} points are too few", points.len()), way_out }));
     }

@@ -1,4 +1,7 @@
 //! The texts a scene is made of, the file and the `--set` arguments, and the way from a byte span to a place.
+//!
+//! In: byte spans as the parser gives them. Out: places with line, column and source line, made only when something is
+//! to be printed. Columns count characters, as editors do.
 
 use std::ops::Range;
 

@@ -1,7 +1,8 @@
 //! The known key or section nearest to a name that is none.
 //!
-//! First among the names of the same section (a slip of the finger, a forgotten unit), then among all
-//! (a key in the wrong section).
+//! In: a section and a name written in it. Out: the candidate to propose, if any is alike enough. Searched first among
+//! the names of the same section (a slip of the finger, a forgotten unit), then among all (a key in the wrong section).
+//! Always proposing the nearest one, however far, would send the reader the wrong way.
 
 use strsim::normalized_damerau_levenshtein;
 
@@ -12,8 +13,11 @@ const LIKE_ENOUGH_HERE: f64 = 0.5;
 /// Likeness from which a name of another section is; stricter, because there are many.
 const LIKE_ENOUGH_ELSEWHERE: f64 = 0.75;
 
+/// Longest name compared: twice the longest known one; the comparison takes memory in proportion to the length.
+const LONGEST_COMPARED: usize = 80;
+
 /// A key or section to propose.
-enum Candidate {
+pub(super) enum Candidate {
     Key(&'static Section, &'static Key),
     Section(&'static Section),
 }
@@ -26,8 +30,24 @@ impl Candidate {
         }
     }
 
+    /// Whether this is the key `key` of `section`.
+    pub fn is_key(&self, section: &Section, key: &Key) -> bool {
+        matches!(self, Self::Key(holder, known) if holder.path == section.path && known.name == key.name)
+    }
+
+    /// What to do about a name written in `section` that probably means this.
+    pub fn way_out(&self, section: &Section) -> String {
+        match self {
+            Self::Key(holder, key) if holder.path == section.path => {
+                format!("write {} instead, or remove it", key.name)
+            }
+            Self::Key(holder, key) => format!("write {} under {}, or remove it", key.name, holder.header()),
+            Self::Section(found) => format!("write {} instead, or remove it", found.header()),
+        }
+    }
+
     /// In the words of a message: with unit and range.
-    fn words(&self) -> String {
+    pub fn words(&self) -> String {
         match self {
             Self::Key(section, key) => format!("`{}` {}", display_path(section, key), key.brackets()),
             Self::Section(section) => format!("`{}`", section.header()),
@@ -40,13 +60,14 @@ pub(super) fn display_path(section: &Section, key: &Key) -> String {
     join(section.path, key.name).replace("[]", "")
 }
 
-/// The nearest known name to `name`, written in `section`, in the words of a message.
-pub(super) fn nearest(section: &'static Section, name: &str) -> Option<String> {
+/// The nearest known key or section to `name`, written in `section`.
+pub(super) fn nearest(section: &'static Section, name: &str) -> Option<Candidate> {
+    if name.len() > LONGEST_COMPARED {
+        return None;
+    }
     let here = candidates(section);
     let elsewhere = keys::sections().flat_map(candidates);
-    best(here, name, LIKE_ENOUGH_HERE)
-        .or_else(|| best(elsewhere, name, LIKE_ENOUGH_ELSEWHERE))
-        .map(|found| found.words())
+    best(here, name, LIKE_ENOUGH_HERE).or_else(|| best(elsewhere, name, LIKE_ENOUGH_ELSEWHERE))
 }
 
 fn candidates(section: &'static Section) -> impl Iterator<Item = Candidate> {

@@ -7,12 +7,15 @@ use std::fmt::Write as _;
 
 use super::keys::{self, Default, Key, Role, Section};
 
+/// Processes that a template can be written for.
+pub const PROCESSES: &[&str] = &["shaping"];
+
 /// Width of a comment line.
 const COMMENT_CHARS: usize = 100;
 
-/// The scene for `process`, or `None` if there is no such process; there is `shaping`.
+/// The scene for `process`, or `None` if it is not one of [`PROCESSES`].
 pub fn template(process: &str) -> Option<String> {
-    if process != "shaping" {
+    if !PROCESSES.contains(&process) {
         return None;
     }
     let mut out = String::from(
@@ -66,7 +69,8 @@ fn write_key(out: &mut String, key: &Key, active: bool) {
     let mark = if active { "" } else { "#" };
     let value = match key.default {
         Default::Number(number) => format!("{number:?}"),
-        Default::Whole(_) | Default::Boolean(_) | Default::Word(_) | Default::EmptyList => key.default_text(),
+        Default::EmptyList if active => key.default_text(),
+        Default::Whole(_) | Default::Boolean(_) | Default::Word(_) => key.default_text(),
         _ => key.example.to_owned(),
     };
     write_comment(out, key.teach);

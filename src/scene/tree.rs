@@ -59,10 +59,21 @@ pub(super) type SyntaxError = (Range<usize>, String);
 pub(super) fn parse_document(text: &str) -> Result<Node, Vec<SyntaxError>> {
     let (table, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
-        return Err(errors.iter().map(|error| (error.span().unwrap_or(0..0), error.message().to_owned())).collect());
+        return Err(errors.iter().map(|error| (error.span().unwrap_or(0..0), words(error.message()))).collect());
     }
     let span = table.span();
     Ok(Node { value: table_value(table.get_ref(), &At::Scene), at: At::Scene(span) })
+}
+
+/// The parser's message, in plainer words where it speaks to programmers.
+fn words(message: &str) -> String {
+    match message {
+        "duplicate key" => "this name is written a second time".to_owned(),
+        message if message.starts_with("string values must be quoted") => {
+            "a value is missing, or a text is not in quotes".to_owned()
+        }
+        message => message.replace('\n', ", "),
+    }
 }
 
 /// Reads the value of `--set` argument number `index`, which begins at byte `start` of the argument.
@@ -78,7 +89,7 @@ pub(super) fn parse_value(index: usize, argument: &str, start: usize) -> Result<
         Err(_) if is_bare_word(text) => {
             Ok(Node { value: Value::Text(text.to_owned()), at: At::Set(index, start..start + text.len()) })
         }
-        Err(error) => Err(error.message().to_owned()),
+        Err(error) => Err(words(error.message())),
     }
 }
 

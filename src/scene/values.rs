@@ -55,17 +55,17 @@ impl Values {
         View { values: self, path }
     }
 
-    /// Place of a value, or of the nearest section around it that was written.
+    /// Place of a value or section, or of the nearest section around it that was written.
     pub fn place_of(&self, path: &str) -> At {
         if let Some(at) = self.held.get(path).and_then(|held| held.at.clone()) {
             return at;
         }
-        let mut around = path;
-        while let Some((outer, _)) = around.rsplit_once('.') {
-            if let Some(at) = self.sections.get(outer) {
+        let mut around = Some(path);
+        while let Some(path) = around {
+            if let Some(at) = self.sections.get(path) {
                 return at.clone();
             }
-            around = outer;
+            around = path.rsplit_once('.').map(|(outer, _)| outer);
         }
         At::Implied
     }

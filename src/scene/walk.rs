@@ -4,16 +4,13 @@
 //! section that is unknown, missing, given beside its rival, of the wrong type or out of range.
 
 use super::check::check;
-use super::errors::Problem;
+use super::errors::{MOST_PROBLEMS, Problem};
 use super::keys::{self, Default, Key, Role, Section, join};
 use super::overrides::default_name;
 use super::sources::{At, Sources};
 use super::suggest::{display_path, nearest};
 use super::tree::{Entry, Node, Value};
 use super::values::{Checked, Held, Values};
-
-/// Most problems reported: beyond that the file is no scene, and the list helps nobody.
-pub(super) const MOST_PROBLEMS: usize = 100;
 
 /// Collects problems.
 pub(super) struct Problems<'a> {
@@ -22,9 +19,14 @@ pub(super) struct Problems<'a> {
 }
 
 impl Problems<'_> {
+    /// Whether no more problems are taken.
+    pub fn full(&self) -> bool {
+        self.list.len() >= MOST_PROBLEMS
+    }
+
     /// Adds a problem.
     pub fn add(&mut self, at: &At, message: String, way_out: String) {
-        if self.list.len() < MOST_PROBLEMS {
+        if !self.full() {
             self.list.push(Problem { place: self.sources.place(at), message, way_out });
         }
     }
@@ -50,10 +52,14 @@ impl Walk<'_, '_> {
     fn table(&mut self, section: &'static Section, path: &str, table: &Node, at: &At) {
         if !matches!(table.value, Value::Table(_)) {
             let written = self.problems.sources.written(&table.at);
+            let headers = match section.role {
+                Role::Choice { .. } => keys::either(section.children().map(Section::header)),
+                _ => section.header(),
+            };
             self.problems.add(
                 &table.at,
                 format!("`{}` is a section, not a value: {written}", section.path.replace("[]", "")),
-                format!("write {} on a line of its own, and its keys below", section.header()),
+                format!("write {headers} on a line of its own, and its keys below"),
             );
             return;
         }
@@ -174,10 +180,19 @@ impl Walk<'_, '_> {
     fn not_written(&mut self, section: &'static Section, key: &'static Key, path: &str, table: &Node, at: &At) {
         let rival_written =
             section.group_of(key.name).is_some_and(|group| group.names.iter().any(|name| table.entry(name).is_some()));
+        let misspelt = || {
+            let unknown = table.entries().iter().filter(|entry| section.key(&entry.name).is_none());
+            unknown
+                .take(MOST_PROBLEMS)
+                .filter_map(|entry| nearest(section, &entry.name))
+                .any(|found| found.is_key(section, key))
+        };
         if rival_written {
             return;
         }
         let value = match key.default {
+            // Written under a wrong name: one problem is enough.
+            Default::Required if misspelt() => return,
             Default::Required => {
                 let header = section.header();
                 self.problems.add(
@@ -221,22 +236,20 @@ impl Walk<'_, '_> {
     }
 
     fn unknown(&mut self, section: &'static Section, entry: &Entry) {
+        if self.problems.full() {
+            return; // the search for the nearest name is the slowest thing here
+        }
         let name = join(section.path, &entry.name).replace("[]", "");
         let what = match (&entry.node.value, section.role) {
             (_, Role::Choice { what, .. }) => what,
             (Value::Table(_), _) => "section",
             _ => "key",
         };
-        let hint = nearest(section, &entry.name).map_or(String::new(), |found| format!(" Did you mean {found}?"));
-        let known: Vec<&str> =
-            section.keys.iter().map(|key| key.name).chain(section.children().map(Section::name)).collect();
-        let holder = if section.path.is_empty() { "a scene".to_owned() } else { section.header() };
-        let way_out = if known.is_empty() {
-            format!("remove it; {holder} takes no keys")
-        } else {
-            format!("correct or remove it; {holder} takes {}", known.join(", "))
-        };
         let article = if what.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
+        let (hint, way_out) = match nearest(section, &entry.name) {
+            Some(found) => (format!(" Did you mean {}?", found.words()), found.way_out(section)),
+            None => (String::new(), format!("correct or remove it; {}", contents(section))),
+        };
         self.problems.add(&entry.name_at, format!("`{name}` is not {article} {what}.{hint}"), way_out);
     }
 
@@ -264,4 +277,13 @@ impl Walk<'_, '_> {
             self.values.held.insert(full, Held { value, at: None });
         }
     }
+}
+
+/// What a section takes, in words.
+fn contents(section: &'static Section) -> String {
+    let holder = if section.path.is_empty() { "a scene".to_owned() } else { section.header() };
+    let names: Vec<&str> =
+        section.keys.iter().map(|key| key.name).chain(section.children().map(Section::name)).collect();
+    let names = if names.is_empty() { "no keys".to_owned() } else { names.join(", ") };
+    format!("{holder} takes {names}")
 }

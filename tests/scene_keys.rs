@@ -1,0 +1,74 @@
+//! The table of keys agrees with itself.
+
+use std::collections::BTreeSet;
+
+use gearcut::scene::keys::{Default, Kind, Role, all, section, sections};
+
+#[test]
+fn sections_stand_inside_sections_and_choices_have_their_default() {
+    let mut seen = BTreeSet::new();
+    for section in sections() {
+        assert!(
+            section.path.is_empty() || seen.contains(section.parent_path()),
+            "{} stands before its holder",
+            section.path
+        );
+        assert!(seen.insert(section.path), "{} twice", section.path);
+        assert!(section.teach.ends_with('.'), "{}: {}", section.path, section.teach);
+        if let Role::Choice { default: Some(default), .. } = section.role {
+            assert!(section.children().any(|child| child.name() == default), "{}: {default}", section.path);
+        }
+        for group in section.groups {
+            assert!(group.names.iter().all(|name| section.key(name).is_some()), "{}: {:?}", section.path, group.names);
+        }
+    }
+}
+
+#[test]
+fn defaults_are_allowed_and_units_stand_in_the_names() {
+    let mut paths = BTreeSet::new();
+    for (path, key) in all() {
+        assert!(key.teach.ends_with('.'), "{path}: {}", key.teach);
+        match (key.kind, key.default) {
+            (Kind::Number(range), Default::Number(number)) => assert!(range.contains(number), "{path} = {number}"),
+            (Kind::Whole { min, max }, Default::Whole(number)) => assert!((min..=max).contains(&number), "{path}"),
+            (Kind::Word(words), Default::Word(word)) => assert!(words.contains(&word), "{path} = {word}"),
+            (kind, default) => {
+                let fits = match default {
+                    Default::Boolean(_) => matches!(kind, Kind::Boolean),
+                    Default::EmptyList => matches!(kind, Kind::Numbers { .. }),
+                    Default::Number(_) | Default::Whole(_) | Default::Word(_) => false,
+                    Default::Required | Default::OneOfGroup | Default::Derived(_) | Default::LeftOut(_) => true,
+                };
+                assert!(fits, "{path}: default {default:?} for {kind:?}");
+            }
+        }
+        let suffix = match key.unit {
+            "mm" => "_mm",
+            "um" => "_um",
+            "deg" => "_deg",
+            "mm per stroke" => "_mm_per_stroke",
+            "deg, mm" => "_deg_mm",
+            "deg/s" => "_deg_per_s",
+            "mm/s" => "_mm_per_s",
+            "deg/s^2" => "_deg_per_s2",
+            "mm/s^2" => "_mm_per_s2",
+            "1/min" => "_per_minute",
+            "modules" => "_coefficient",
+            "" | "relative to R" => "",
+            unit => panic!("{path}: no rule for the unit {unit}"),
+        };
+        assert!(key.name.ends_with(suffix), "{path} is in {}", key.unit);
+        assert!(paths.insert(path.clone()), "{path} twice");
+    }
+    assert!(paths.len() > 60, "{} keys", paths.len());
+}
+
+#[test]
+fn ranges_keep_their_open_ends() {
+    let ellipse = section("gear.pitch_curve.ellipse").and_then(|section| section.key("eccentricity")).expect("a key");
+    let Kind::Number(range) = ellipse.kind else { panic!("a number") };
+    assert!(range.contains(0.0) && range.contains(1.0_f64.next_down()) && !range.contains(1.0));
+    assert!(!range.contains(f64::NAN) && !range.contains(-f64::MIN_POSITIVE));
+    assert_eq!(range.to_string(), "0 to below 1");
+}
