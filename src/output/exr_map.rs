@@ -161,10 +161,8 @@ fn decode(bytes: &[u8]) -> std::result::Result<ExrMap, String> {
         return Err("gearcut did not write this EXR file".to_owned());
     }
     let frame = take_text(&mut header, "frame")?;
-    let grid = MapGrid {
-        u: take_axis(&mut header, "u", layer.size.y())?,
-        v: take_axis(&mut header, "v", layer.size.x())?,
-    };
+    let grid =
+        MapGrid { u: take_axis(&mut header, "u", layer.size.y())?, v: take_axis(&mut header, "v", layer.size.x())? };
     let mut channels = Vec::new();
     for channel in layer.channel_data.list {
         let name = channel.name.to_string();
