@@ -8,6 +8,7 @@
 //!
 //! Road not taken: plotters' chart builder. Its label areas are fixed numbers of pixels, so long labels are clipped.
 
+use std::convert::Infallible;
 use std::fmt::Display;
 
 use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
@@ -48,6 +49,8 @@ pub(super) struct Canvas<DB> {
     size_per_em: f64,
     /// Distance from the top that plotters takes for a text's place down to the baseline, in em.
     baseline_em: f64,
+    /// Bitmaps: letters are drawn this many times finer and averaged. SVG files leave letters to the viewer.
+    letters_finer: Option<u32>,
 }
 
 impl<'a> Canvas<BitMapBackend<'a>> {
@@ -57,7 +60,7 @@ impl<'a> Canvas<BitMapBackend<'a>> {
         let backend = BitMapBackend::with_buffer(rgb, (size_px.0 * scale, size_px.1 * scale));
         // plotters-bitmap draws the baseline half a line height below the top.
         let (size_per_em, baseline_em) = (font::LINE_HEIGHT_EM, 0.5 * font::LINE_HEIGHT_EM);
-        Ok(Self { backend, scale: f64::from(scale), size_per_em, baseline_em })
+        Ok(Self { backend, scale: f64::from(scale), size_per_em, baseline_em, letters_finer: Some((4 / scale).max(1)) })
     }
 }
 
@@ -67,7 +70,7 @@ impl<'a> Canvas<SVGBackend<'a>> {
         font::register()?;
         let backend = SVGBackend::with_string(text, (size_px.0 * scale, size_px.1 * scale));
         // plotters-svg writes font-size = size / 1.24 and dy = 0.76 em for texts placed by their top.
-        Ok(Self { backend, scale: f64::from(scale), size_per_em: 1.24, baseline_em: 0.76 })
+        Ok(Self { backend, scale: f64::from(scale), size_per_em: 1.24, baseline_em: 0.76, letters_finer: None })
     }
 }
 
@@ -86,7 +89,9 @@ impl<DB: DrawingBackend> Canvas<DB> {
 
     /// Line through all points.
     pub(super) fn line(&mut self, points: &[Point], colour: RGBColor, width_px: f64) -> Drawn {
-        let places: Vec<_> = points.iter().map(|&point| self.place(point)).collect();
+        let mut places: Vec<_> = points.iter().map(|&point| self.place(point)).collect();
+        // Points that round to the same place have no direction between them, and plotters would draw a spike there.
+        places.dedup();
         let style = self.stroke(colour, width_px);
         self.backend.draw_path(places, &style).map_err(text)
     }
@@ -134,6 +139,9 @@ impl<DB: DrawingBackend> Canvas<DB> {
 
     fn letters(&mut self, words: &str, at: Point, em_px: f64, side: Side, turn: FontTransform) -> Drawn {
         let up_px = em_px * (self.baseline_em - 0.5 * font::CAPITAL_HEIGHT_EM);
+        if let Some(finer) = self.letters_finer {
+            return self.letters_as_pixels(words, at, (em_px, up_px), side, &turn, finer);
+        }
         let top = match turn {
             FontTransform::Rotate270 => (at.0 - up_px, at.1),
             _ => (at.0, at.1 - up_px),
@@ -143,13 +151,67 @@ impl<DB: DrawingBackend> Canvas<DB> {
             Side::Middle => HPos::Center,
             Side::End => HPos::Right,
         };
-        let size = em_px * self.scale * self.size_per_em;
         let style = TextStyle {
-            font: FontDesc::new(FontFamily::Name(font::FAMILY), size, FontStyle::Normal).transform(turn),
+            font: font_desc(em_px * self.scale * self.size_per_em).transform(turn),
             color: INK.to_backend_color(),
             pos: Pos::new(h_pos, VPos::Top),
         };
         self.backend.draw_text(words, &style, self.place(top)).map_err(text)
+    }
+
+    /// Draws letters from coverage gathered on a finer raster: plotters sets each letter to whole pixels, which makes
+    /// the gaps between small letters uneven.
+    fn letters_as_pixels(
+        &mut self,
+        words: &str,
+        at: Point,
+        (em_px, up_px): (f64, f64),
+        side: Side,
+        turn: &FontTransform,
+        finer: u32,
+    ) -> Drawn {
+        let width_px = text_width_px(words, em_px)?;
+        let back_px = match side {
+            Side::Start => 0.0,
+            Side::Middle => 0.5 * width_px,
+            Side::End => width_px,
+        };
+        let per_pixel = finer as i32;
+        let fine_per_px = self.scale * f64::from(finer);
+        let [fine_left, fine_top] = [-back_px, -up_px].map(|offset| (offset * fine_per_px).round() as i32);
+        // Pixels that the letters can touch: the text's width and two lines of height, with a pixel around.
+        let (left, top) = (fine_left.div_euclid(per_pixel) - 1, fine_top.div_euclid(per_pixel) - 1);
+        let columns = (width_px * self.scale) as usize + 4;
+        let mut coverage = vec![0.0; columns * ((2.0 * font::LINE_HEIGHT_EM * em_px * self.scale) as usize + 4)];
+        let letters = font_desc(em_px * self.size_per_em * fine_per_px);
+        let gathered: Result<(), Infallible> = letters
+            .draw(words, (0, 0), |x, y, part| {
+                let column = ((x + fine_left).div_euclid(per_pixel) - left) as usize;
+                let row = ((y + fine_top).div_euclid(per_pixel) - top) as usize;
+                if column < columns
+                    && let Some(pixel) = coverage.get_mut(row * columns + column)
+                {
+                    *pixel += f64::from(part) / f64::from(finer * finer);
+                }
+                Ok(())
+            })
+            .map_err(text)?;
+        let Ok(()) = gathered;
+        let (width, height) = self.backend.get_size();
+        let origin = self.place(at);
+        for (index, &part) in coverage.iter().enumerate().filter(|(_, part)| **part > 0.0) {
+            let (x, y) = (left + (index % columns) as i32, top + (index / columns) as i32);
+            let (dx, dy) = match turn {
+                FontTransform::Rotate270 => (y, -x),
+                _ => (x, y),
+            };
+            let (x, y) = (origin.0 + dx, origin.1 + dy);
+            if (0..width as i32).contains(&x) && (0..height as i32).contains(&y) {
+                let colour = INK.mix(part.min(1.0)).to_backend_color();
+                self.backend.draw_pixel((x, y), colour).map_err(text)?;
+            }
+        }
+        Ok(())
     }
 
     /// Ends the drawing.
@@ -163,8 +225,14 @@ pub(super) fn text_width_px(words: &str, em_px: f64) -> Result<f64, String> {
     /// Measured at this many times the size, because plotters rounds widths to whole pixels.
     const FINER: f64 = 16.0;
     font::register()?;
-    let font = FontDesc::new(FontFamily::Name(font::FAMILY), em_px * font::LINE_HEIGHT_EM * FINER, FontStyle::Normal);
-    font.box_size(words).map(|(width, _)| f64::from(width) / FINER).map_err(text)
+    font_desc(em_px * font::LINE_HEIGHT_EM * FINER)
+        .box_size(words)
+        .map(|(width, _)| f64::from(width) / FINER)
+        .map_err(text)
+}
+
+fn font_desc(size: f64) -> FontDesc<'static> {
+    FontDesc::new(FontFamily::Name(font::FAMILY), size, FontStyle::Normal)
 }
 
 fn text(reason: impl Display) -> String {

@@ -33,13 +33,31 @@ impl PixelBox {
 /// Paints the values of a grid into a box.
 pub(super) fn paint_cells(raster: &mut Raster, area: PixelBox, grid: &MapGrid, values: &[f32], scale: ColourScale) {
     let columns = ranges(area.width, grid.v.count);
-    for (row, (u_first, u_end)) in ranges(area.height, grid.u.count).into_iter().enumerate() {
+    let mut painted: Option<((usize, usize), Vec<[u8; 3]>)> = None;
+    for (row, cells) in ranges(area.height, grid.u.count).into_iter().enumerate() {
+        // Rows of pixels within one row of cells are equal: they are coloured once.
+        let colours = match painted.take() {
+            Some((same, colours)) if same == cells => colours,
+            _ => row_colours(grid, values, scale, cells, &columns),
+        };
         let y = area.top + area.height - 1 - row as u32;
-        for (x, &(v_first, v_end)) in (area.left..).zip(&columns) {
-            let cells = (u_first..u_end).flat_map(|u| &values[u * grid.v.count + v_first..u * grid.v.count + v_end]);
-            raster.set(x, y, scale.colour(mean(cells)));
+        for (x, &colour) in (area.left..).zip(&colours) {
+            raster.set(x, y, colour);
         }
+        painted = Some((cells, colours));
     }
+}
+
+fn row_colours(
+    grid: &MapGrid,
+    values: &[f32],
+    scale: ColourScale,
+    (u_first, u_end): (usize, usize),
+    columns: &[(usize, usize)],
+) -> Vec<[u8; 3]> {
+    let row = |u: usize| &values[u * grid.v.count..(u + 1) * grid.v.count];
+    let pixel = |&(v_first, v_end): &(usize, usize)| mean((u_first..u_end).flat_map(|u| &row(u)[v_first..v_end]));
+    columns.iter().map(|cells| scale.colour(pixel(cells))).collect()
 }
 
 /// Cells under each pixel of a side: one where cells are larger than pixels, several where they are smaller.
@@ -73,7 +91,7 @@ pub(super) struct ColourBar<'a> {
 
 impl ColourBar<'_> {
     /// Room right of the bar that ticks and name need, pixels.
-    pub(super) const LABEL_WIDTH_PX: u32 = 104;
+    pub(super) const LABEL_WIDTH_PX: u32 = 108;
     const EM_PX: f64 = 15.0;
 
     /// Paints the colours.
@@ -114,7 +132,7 @@ impl ColourBar<'_> {
             canvas.text(&value_text(low.into()), (right + 9.0, 0.5 * (top + bottom)), Self::EM_PX, Side::Start)?;
         }
         let name = format!("{} [{unit}]", self.quantity);
-        let at = (right + f64::from(Self::LABEL_WIDTH_PX) - 16.0, 0.5 * (top + bottom));
+        let at = (right + f64::from(Self::LABEL_WIDTH_PX) - 24.0, 0.5 * (top + bottom));
         canvas.text_upward(&name, at, fitting_em_px(&name, Self::EM_PX, room_px)?, Side::Middle)
     }
 }

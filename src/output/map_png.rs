@@ -2,8 +2,8 @@
 //!
 //! In: a grid, its values, title, quantity, unit and colour scale. Out: one PNG, v to the right, u upward.
 //!
-//! Both axes have the same scale unless that would make the map lower than 160 or higher than 640 pixels; a line below the map says by how
-//! much u is stretched then. The smallest and largest values are marked where they are, so that a single outlying
+//! Both axes have the same scale unless that would make the map lower than 160 or higher than 640 pixels; a line below the map says by
+//! how much one of them is stretched then. The smallest and largest values are marked where they are, so that a single outlying
 //! cell is found even where it is smaller than a pixel.
 //!
 //! Road not taken: a general chart library for the cells. It draws a rectangle per cell, which takes a second per map;
@@ -151,8 +151,10 @@ fn draw_notes<DB: DrawingBackend>(
     }
     let scale_note = if (u_stretch - 1.0).abs() < 0.01 {
         "u and v to the same scale".to_owned()
-    } else {
+    } else if u_stretch > 1.0 {
         format!("u drawn {} times as large as v", value_text(u_stretch))
+    } else {
+        format!("v drawn {} times as large as u", value_text(1.0 / u_stretch))
     };
     canvas.text(&scale_note, (right, bottom + 40.0), EM_PX, Side::End)
 }

@@ -44,9 +44,7 @@ impl Raster {
     /// The picture as a PNG file.
     pub(super) fn png(&self) -> Result<Vec<u8>, String> {
         let mut bytes = Vec::new();
-        // Fast and Up: maps have long equal runs, which even the fast setting packs well; the best setting takes
-        // five times as long for a tenth less.
-        PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Up)
+        PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::NoFilter)
             .write_image(&self.rgb, self.size_px.0, self.size_px.1, ExtendedColorType::Rgb8)
             .map_err(|error| error.to_string())?;
         Ok(bytes)
