@@ -55,11 +55,17 @@ impl BarSeries {
 
 impl BarChart {
     /// Writes the chart as PNG.
+    ///
+    /// # Errors
+    /// Series that do not fit the categories or the palette, and files that cannot be written.
     pub fn write_png(&self, path: &Path) -> Result<()> {
         charts::write_png(path, self)
     }
 
     /// Writes the chart as SVG.
+    ///
+    /// # Errors
+    /// As [`write_png`](Self::write_png).
     pub fn write_svg(&self, path: &Path) -> Result<()> {
         charts::write_svg(path, self)
     }

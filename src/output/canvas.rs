@@ -50,7 +50,7 @@ pub(super) struct Canvas<DB> {
     /// Distance from the top that plotters takes for a text's place down to the baseline, in em.
     baseline_em: f64,
     /// Bitmaps: letters are drawn this many times finer and averaged. SVG files leave letters to the viewer.
-    letters_finer: Option<u32>,
+    letters_finer: Option<i32>,
 }
 
 impl<'a> Canvas<BitMapBackend<'a>> {
@@ -60,7 +60,13 @@ impl<'a> Canvas<BitMapBackend<'a>> {
         let backend = BitMapBackend::with_buffer(rgb, (size_px.0 * scale, size_px.1 * scale));
         // plotters-bitmap draws the baseline half a line height below the top.
         let (size_per_em, baseline_em) = (font::LINE_HEIGHT_EM, 0.5 * font::LINE_HEIGHT_EM);
-        Ok(Self { backend, scale: f64::from(scale), size_per_em, baseline_em, letters_finer: Some((4 / scale).max(1)) })
+        Ok(Self {
+            backend,
+            scale: f64::from(scale),
+            size_per_em,
+            baseline_em,
+            letters_finer: Some(if scale == 1 { 4 } else { 2 }),
+        })
     }
 }
 
@@ -156,7 +162,8 @@ impl<DB: DrawingBackend> Canvas<DB> {
             color: INK.to_backend_color(),
             pos: Pos::new(h_pos, VPos::Top),
         };
-        self.backend.draw_text(words, &style, self.place(top)).map_err(text)
+        // Many installed fonts lack the minus sign, and not every viewer borrows it from another font; a dash is there.
+        self.backend.draw_text(&words.replace('−', "–"), &style, self.place(top)).map_err(text)
     }
 
     /// Draws letters from coverage gathered on a finer raster: plotters sets each letter to whole pixels, which makes
@@ -168,7 +175,7 @@ impl<DB: DrawingBackend> Canvas<DB> {
         (em_px, up_px): (f64, f64),
         side: Side,
         turn: &FontTransform,
-        finer: u32,
+        finer: i32,
     ) -> Drawn {
         let width_px = text_width_px(words, em_px)?;
         let back_px = match side {
@@ -176,18 +183,17 @@ impl<DB: DrawingBackend> Canvas<DB> {
             Side::Middle => 0.5 * width_px,
             Side::End => width_px,
         };
-        let per_pixel = finer as i32;
         let fine_per_px = self.scale * f64::from(finer);
         let [fine_left, fine_top] = [-back_px, -up_px].map(|offset| (offset * fine_per_px).round() as i32);
         // Pixels that the letters can touch: the text's width and two lines of height, with a pixel around.
-        let (left, top) = (fine_left.div_euclid(per_pixel) - 1, fine_top.div_euclid(per_pixel) - 1);
+        let (left, top) = (fine_left.div_euclid(finer) - 1, fine_top.div_euclid(finer) - 1);
         let columns = (width_px * self.scale) as usize + 4;
         let mut coverage = vec![0.0; columns * ((2.0 * font::LINE_HEIGHT_EM * em_px * self.scale) as usize + 4)];
         let letters = font_desc(em_px * self.size_per_em * fine_per_px);
         let gathered: Result<(), Infallible> = letters
             .draw(words, (0, 0), |x, y, part| {
-                let column = ((x + fine_left).div_euclid(per_pixel) - left) as usize;
-                let row = ((y + fine_top).div_euclid(per_pixel) - top) as usize;
+                let column = ((x + fine_left).div_euclid(finer) - left) as usize;
+                let row = ((y + fine_top).div_euclid(finer) - top) as usize;
                 if column < columns
                     && let Some(pixel) = coverage.get_mut(row * columns + column)
                 {
@@ -198,15 +204,18 @@ impl<DB: DrawingBackend> Canvas<DB> {
             .map_err(text)?;
         let Ok(()) = gathered;
         let (width, height) = self.backend.get_size();
+        let inside = |at: i32, size: u32| u32::try_from(at).is_ok_and(|at| at < size);
         let origin = self.place(at);
-        for (index, &part) in coverage.iter().enumerate().filter(|(_, part)| **part > 0.0) {
-            let (x, y) = (left + (index % columns) as i32, top + (index / columns) as i32);
+        let pixels = (top..)
+            .zip(coverage.chunks_exact(columns))
+            .flat_map(|(y, row)| (left..).zip(row).map(move |(x, &part)| (x, y, part)));
+        for (x, y, part) in pixels.filter(|pixel| pixel.2 > 0.0) {
             let (dx, dy) = match turn {
                 FontTransform::Rotate270 => (y, -x),
                 _ => (x, y),
             };
             let (x, y) = (origin.0 + dx, origin.1 + dy);
-            if (0..width as i32).contains(&x) && (0..height as i32).contains(&y) {
+            if inside(x, width) && inside(y, height) {
                 let colour = INK.mix(part.min(1.0)).to_backend_color();
                 self.backend.draw_pixel((x, y), colour).map_err(text)?;
             }

@@ -55,6 +55,9 @@ const PROPORTION: f64 = 1.4;
 const EM_PX: f64 = 15.0;
 
 /// Writes a sheet as PNG.
+///
+/// # Errors
+/// No maps, values that do not fill their grid, an empty colour scale, and files that cannot be written.
 pub fn write_contact_sheet(path: &Path, sheet: &ContactSheet) -> Result<()> {
     let bytes = draw(sheet).map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
     write_bytes_atomically(path, &bytes)

@@ -33,7 +33,7 @@ impl PixelBox {
 /// Paints the values of a grid into a box.
 pub(super) fn paint_cells(raster: &mut Raster, area: PixelBox, grid: &MapGrid, values: &[f32], scale: ColourScale) {
     let columns = ranges(area.width, grid.v.count);
-    let mut painted: Option<((usize, usize), Vec<[u8; 3]>)> = None;
+    let mut painted = None;
     for (row, cells) in ranges(area.height, grid.u.count).into_iter().enumerate() {
         // Rows of pixels within one row of cells are equal: they are coloured once.
         let colours = match painted.take() {

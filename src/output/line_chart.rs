@@ -64,11 +64,17 @@ pub struct Limit {
 
 impl LineChart {
     /// Writes the chart as PNG.
+    ///
+    /// # Errors
+    /// No panel, or a panel with no curve or more than seven, and files that cannot be written.
     pub fn write_png(&self, path: &Path) -> Result<()> {
         charts::write_png(path, self)
     }
 
     /// Writes the chart as SVG.
+    ///
+    /// # Errors
+    /// As [`write_png`](Self::write_png).
     pub fn write_svg(&self, path: &Path) -> Result<()> {
         charts::write_svg(path, self)
     }

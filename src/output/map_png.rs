@@ -49,6 +49,9 @@ const TITLE_EM_PX: f64 = 20.0;
 const EM_PX: f64 = 15.0;
 
 /// Writes a map as PNG.
+///
+/// # Errors
+/// Values that do not fill the grid, an empty colour scale, and files that cannot be written.
 pub fn write_map_png(path: &Path, picture: &MapPicture) -> Result<()> {
     let bytes = draw(picture).map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
     write_bytes_atomically(path, &bytes)
