@@ -3,6 +3,8 @@
 //!
 //! The modules follow the data's path, from the scene to the files; `run` alone knows the whole order.
 
+pub mod axes_report;
+pub mod compare;
 pub mod cut;
 pub mod dexel;
 pub mod error;
@@ -14,6 +16,7 @@ pub mod output;
 pub mod passes;
 pub mod scene;
 pub mod tool;
+pub mod tooth_facts;
 pub mod units;
 
 pub use error::{Error, Refusal, Result};
