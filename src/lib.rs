@@ -10,6 +10,7 @@ pub mod frame;
 pub mod gear;
 pub mod job;
 pub mod linkage;
+pub mod measure;
 pub mod output;
 pub mod passes;
 pub mod scene;
