@@ -3,14 +3,20 @@
 mod common;
 
 use common::*;
+use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
+use gearcut::frame::Rigid2;
 use gearcut::gear::generation::Side;
 use gearcut::job::Job;
 use gearcut::measure::scallop::cusps;
 use gearcut::measure::unevenness::{Surface, ToothAllowance, allowances, summarise};
+use gearcut::passes::strokes::StrokeLaw;
+use gearcut::passes::{CutPlan, StrokeSet};
 use gearcut::scene::model::*;
+use gearcut::tool::CuttingTool;
 use glam::DVec2;
 use serde_json::Value;
+use std::f64::consts::TAU;
 
 fn oracle(name: &str) -> Value {
     let path = format!("{}/tests/data/shaping/{name}.json", env!("CARGO_MANIFEST_DIR"));
@@ -126,22 +132,24 @@ fn facets_are_the_oracles() {
         let tooth = row["tooth"].as_u64().expect("tooth") as u32;
         let side = if row["flank"] == "left" { Side::Left } else { Side::Right };
         let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, strokes)]);
-        scene.fields = Fields { profile_spacing_mm: 360.0 / f64::from(strokes) * 0.005, lead_spacing_mm: 30.0 };
+        scene.fields = Fields { profile_spacing_mm: 0.72 / f64::from(strokes), lead_spacing_mm: 30.0 };
         let job = Job::new(scene).expect("the gear");
         let generation = job.target_generation();
         let flank = job.target_flank(&generation, tooth, side).expect("flank");
-        let (pitch_arc, _) = flank.at_height(&job.blank, 0.0).expect("the pitch curve crosses the flank");
-        let cut = job.cut(&Cpu::default(), job.flank_field(&flank)).expect("native");
-        let found = cusps(&cut.field, &cut.layers[0], 0);
-        let after = found.iter().position(|c| c.arc_mm > pitch_arc).expect("a cusp above");
-        // The crest at the pitch point itself: crests change smoothly along the flank, a cubic through four of them is ample.
-        let height: f64 = found[after - 2..after + 2]
-            .iter()
-            .map(|a| {
-                let others = found[after - 2..after + 2].iter().filter(|b| b.arc_mm != a.arc_mm);
-                a.height_mm * others.map(|b| (pitch_arc - b.arc_mm) / (a.arc_mm - b.arc_mm)).product::<f64>()
-            })
-            .sum();
+        let field = job.flank_field(&flank);
+        // Two strokes, half a step before and after the contact that the row names: one crest.
+        let linkage = &job.finishing().linkage;
+        let psi_c = linkage.axes(number(&row["phi_contact"]), 0.0).psi_c_rad.value();
+        let strokes_around = StrokeSet::new(0, &job.cutter, StrokeLaw::Frozen, 2, |lambda| {
+            let phi = linkage.phi_at_work_angle(psi_c + (lambda - 0.5) * TAU / f64::from(strokes), 0.0);
+            let pose = linkage.pose(phi, 0.0);
+            Rigid2::new(pose.angle_rad, pose.center_mm)
+        });
+        let mut layer = field.blank_layer();
+        let plan = CutPlan::new(&field, &strokes_around, &job.cutter);
+        Cpu::default().cut(&field, job.cutter.edge(), &plan, &mut layer).expect("native");
+        let found = cusps(&field, &layer, 0);
+        let height = found.iter().map(|c| c.height_mm).fold(f64::INFINITY, f64::min);
         let (closed, crest) = (number(&row["closed_form_mm"]), number(&row["crest_simulated_mm"]));
         println!(
             "N {strokes} tooth {tooth}: {:.6} um, closed {:.6}, oracle crest {:.6}",
