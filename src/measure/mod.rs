@@ -4,6 +4,11 @@
 
 pub mod crossing;
 pub mod deviation;
+pub mod flank_report;
+pub mod gear_report;
 pub mod scallop;
 pub mod stock;
 pub mod unevenness;
+
+pub use flank_report::FlankReport;
+pub use gear_report::GearReport;

@@ -30,32 +30,23 @@ pub struct Stock {
     pub untouched: u64,
 }
 
-/// Height of an operation over the target, for every dexel as `f32` NaN where no pass reached it.
-pub fn height_or_nan(layer: &Layer, index: usize) -> f32 {
-    if layer.passes[index] == NO_PASS { f32::NAN } else { layer.heights_mm[index] }
-}
-
-/// Stock between an earlier and a later layer; `None` if the earlier operation reached nothing.
-pub fn stock(field: &Field, earlier: &Layer, later: &Layer) -> Option<Stock> {
+/// Smallest and largest value over a field's chosen columns; `None` if no dexel has one.
+pub fn extremes(
+    field: &Field,
+    column_counts: impl Fn(usize) -> bool,
+    value: impl Fn(usize) -> Option<f32>,
+) -> Option<[Extreme; 2]> {
     let rows = field.rows();
     let (mut low, mut high) = ((f32::INFINITY, 0), (f32::NEG_INFINITY, 0));
-    let (mut sum, mut dexels, mut untouched) = (0.0_f64, 0_u64, 0_u64);
-    for column in 0..field.columns.len() {
-        let range = column * rows..(column + 1) * rows;
-        for index in range {
-            if earlier.passes[index] == NO_PASS {
-                untouched += 1;
-                continue;
-            }
-            let value = earlier.heights_mm[index] - later.heights_mm[index];
+    for column in (0..field.columns.len()).filter(|&column| column_counts(column)) {
+        for index in column * rows..(column + 1) * rows {
+            let Some(value) = value(index) else { continue };
             if value < low.0 {
                 low = (value, index);
             }
             if value > high.0 {
                 high = (value, index);
             }
-            sum += f64::from(value);
-            dexels += 1;
         }
     }
     let place = |(value, index): (f32, usize)| Extreme {
@@ -63,11 +54,15 @@ pub fn stock(field: &Field, earlier: &Layer, later: &Layer) -> Option<Stock> {
         arc_mm: field.columns[index / rows].arc_mm,
         lead_mm: field.leads_mm[index % rows],
     };
-    (dexels > 0).then(|| Stock {
-        smallest: place(low),
-        largest: place(high),
-        mean_mm: sum / dexels as f64,
-        dexels,
-        untouched,
-    })
+    (low.0 <= high.0).then(|| [place(low), place(high)])
+}
+
+/// Stock between an earlier and a later layer; `None` if the earlier operation reached nothing.
+pub fn stock(field: &Field, earlier: &Layer, later: &Layer) -> Option<Stock> {
+    let at =
+        |index: usize| (earlier.passes[index] != NO_PASS).then(|| earlier.heights_mm[index] - later.heights_mm[index]);
+    let [smallest, largest] = extremes(field, |_| true, at)?;
+    let (sum, dexels) =
+        (0..field.len()).filter_map(at).fold((0.0, 0_u64), |(sum, n), value| (sum + f64::from(value), n + 1));
+    Some(Stock { smallest, largest, mean_mm: sum / dexels as f64, dexels, untouched: field.len() as u64 - dexels })
 }
