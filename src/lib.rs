@@ -13,6 +13,7 @@ pub mod linkage;
 pub mod measure;
 pub mod output;
 pub mod passes;
+pub mod run;
 pub mod scene;
 pub mod tool;
 pub mod units;
