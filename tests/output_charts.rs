@@ -174,7 +174,7 @@ fn the_same_chart_gives_the_same_bytes() {
 fn words_with_signs_of_xml_are_escaped_and_long_legends_wrap() {
     let (folder, _vanishes) = album();
     let mut chart = bars();
-    chart.title = "a < b & c > d".into();
+    chart.title = "a < b & c > d, Ångström, δ_d ≤ 2 µm".into();
     chart.categories = (0..42).map(|k| format!("tooth {k}")).collect();
     chart.series = (0..7)
         .map(|k| BarSeries {

@@ -111,9 +111,10 @@ mod tests {
     #[test]
     fn ranges_end_on_round_numbers_and_have_extent() {
         assert_eq!(round_range(0.03, 7.9), (0.0, 8.0));
-        assert_eq!(round_range(0.0, 0.0), (-0.6, 0.6));
-        let (low, high) = round_range(3.0, 3.0);
-        assert!(low < 3.0 && 3.0 < high);
+        for value in [0.0, 3.0, -1e-9] {
+            let (low, high) = round_range(value, value);
+            assert!(low < value && value < high, "{low} to {high} around {value}");
+        }
     }
 
     #[test]

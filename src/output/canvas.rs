@@ -185,19 +185,21 @@ impl<DB: DrawingBackend> Canvas<DB> {
         };
         let fine_per_px = self.scale * f64::from(finer);
         let [fine_left, fine_top] = [-back_px, -up_px].map(|offset| (offset * fine_per_px).round() as i32);
-        // Pixels that the letters can touch: the text's width and two lines of height, with a pixel around.
-        let (left, top) = (fine_left.div_euclid(finer) - 1, fine_top.div_euclid(finer) - 1);
-        let columns = (width_px * self.scale) as usize + 4;
-        let mut coverage = vec![0.0; columns * ((2.0 * font::LINE_HEIGHT_EM * em_px * self.scale) as usize + 4)];
+        // Pixels that the letters can touch: the text's width, a line, and a line more for accents and descenders.
+        let line_px = font::LINE_HEIGHT_EM * em_px * self.scale;
+        let (left, top) = (fine_left.div_euclid(finer) - 1, fine_top.div_euclid(finer) - (0.5 * line_px) as i32 - 1);
+        let (columns, rows) = ((width_px * self.scale) as usize + 4, (2.0 * line_px) as usize + 4);
+        let mut coverage = vec![0.0; columns * rows];
         let letters = font_desc(em_px * self.size_per_em * fine_per_px);
         let gathered: Result<(), Infallible> = letters
             .draw(words, (0, 0), |x, y, part| {
-                let column = ((x + fine_left).div_euclid(finer) - left) as usize;
-                let row = ((y + fine_top).div_euclid(finer) - top) as usize;
-                if column < columns
-                    && let Some(pixel) = coverage.get_mut(row * columns + column)
+                let column = usize::try_from((x + fine_left).div_euclid(finer) - left);
+                let row = usize::try_from((y + fine_top).div_euclid(finer) - top);
+                if let (Ok(column), Ok(row)) = (column, row)
+                    && column < columns
+                    && row < rows
                 {
-                    *pixel += f64::from(part) / f64::from(finer * finer);
+                    coverage[row * columns + column] += f64::from(part) / f64::from(finer * finer);
                 }
                 Ok(())
             })

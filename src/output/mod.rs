@@ -23,6 +23,7 @@ pub mod colormap;
 pub mod contact_sheet;
 mod exr_header;
 pub mod exr_map;
+pub mod flank_maps;
 pub mod folder;
 mod font;
 pub mod grid;
