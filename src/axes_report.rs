@@ -108,14 +108,7 @@ impl OperationAxes {
 /// Speed and acceleration of work, cutter and centre distance.
 fn in_order(peaks: &MachinePeaks) -> [&Peak; 6] {
     let MachinePeaks { work, cutter, center_distance: distance } = peaks;
-    [
-        &work.speed,
-        &work.acceleration,
-        &cutter.speed,
-        &cutter.acceleration,
-        &distance.speed,
-        &distance.acceleration,
-    ]
+    [&work.speed, &work.acceleration, &cutter.speed, &cutter.acceleration, &distance.speed, &distance.acceleration]
 }
 
 /// The linkage in words.

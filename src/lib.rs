@@ -18,7 +18,6 @@ pub mod passes;
 pub mod run;
 pub mod scene;
 pub mod tool;
-pub mod tooth_facts;
 pub mod units;
 
 pub use error::{Error, Refusal, Result};

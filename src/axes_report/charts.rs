@@ -9,6 +9,9 @@ use crate::linkage::dynamics::{AxisMotion, MachineMotion};
 use crate::output::line_chart::{Limit, LineChart, LineSeries, Panel};
 use crate::units::UM_PER_MM;
 
+/// Picks an axis.
+type AxisOf = fn(&MachineMotion) -> AxisMotion;
+
 /// All charts of an operation, each with the word that ends its file name.
 pub(super) fn all(job: &Job, operation: &PreparedOperation, rows: &[StrokeRow]) -> [(&'static str, LineChart); 4] {
     let limits = &job.scene.machine.limits;
@@ -57,7 +60,7 @@ fn moving(
     value: impl Fn(AxisMotion) -> f64,
     limits: [Option<f64>; 3],
 ) -> Vec<Panel> {
-    let axes: [(&str, &str, fn(&MachineMotion) -> AxisMotion); 3] = [
+    let axes: [(&str, &str, AxisOf); 3] = [
         ("work spindle", "°", |motion| motion.work),
         ("cutter spindle", "°", |motion| motion.cutter),
         ("centre distance", "mm", |motion| motion.center_distance),

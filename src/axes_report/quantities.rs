@@ -29,7 +29,7 @@ impl OperationAxes {
                 margin: Quantity::number_or(peak.margin(), "1", "1 - peak / limit", unlimited),
             }
         };
-        
+
         AxesResults {
             work_speed: one(0, "deg/s", "speed of the work spindle", "work_speed_deg_per_s"),
             work_acceleration: one(1, "deg/s^2", "acceleration of the work spindle", "work_acceleration_deg_per_s2"),

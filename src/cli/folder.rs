@@ -31,7 +31,11 @@ pub fn open(path: &Path, command: &str) -> Result<OutputFolder> {
 ///
 /// # Errors
 /// The folder cannot be completed.
-pub fn finish(folder: OutputFolder, command: &str, more: impl IntoIterator<Item = (&'static str, Value)>) -> Result<PathBuf> {
+pub fn finish(
+    folder: OutputFolder,
+    command: &str,
+    more: impl IntoIterator<Item = (&'static str, Value)>,
+) -> Result<PathBuf> {
     let mut record = Map::new();
     record.insert("program".to_owned(), json!("gearcut"));
     record.insert("program_version".to_owned(), json!(env!("CARGO_PKG_VERSION")));

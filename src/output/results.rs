@@ -6,8 +6,8 @@
 //! left out, so that all results of one schema version have the same keys. A change of keys or meanings raises
 //! [`SCHEMA_VERSION`]; new keys that old readers may overlook do not.
 //!
-//! Two surfaces are told apart everywhere. A **height** is measured from the target (the envelope of the last operation). A
-//! **stock** lies between the surfaces that two operations leave. Both run along the target's normal, positive where material is.
+//! Two measures are told apart everywhere. A **height** stands over the target, the envelope of the last operation. A **stock**
+//! is what an operation leaves over the finished surface. Both run along the target's normal, positive where material is.
 
 mod machine;
 mod teeth;
@@ -20,7 +20,7 @@ use super::atomic::write_bytes_atomically;
 use super::quantity::Quantity;
 use crate::{Error, Result};
 pub use machine::{AxesResults, AxisPeak, ReliefResults};
-pub use teeth::{FlankResults, ProfileDeviations, TargetFlankResults, TargetTooth, ToothResults};
+pub use teeth::{FinishedFlank, FinishedTooth, OperationTooth, ProfileDeviations, StockRange};
 
 /// Version of the layout.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -40,14 +40,14 @@ pub struct Results {
     pub scene: String,
     /// Whether all flanks were cut; false after Ctrl-C, when the numbers cover the finished flanks only.
     pub complete: bool,
+    /// Teeth after which the pitch curve repeats: the first period of tables and charts.
+    pub period_teeth: u32,
     /// What to look at first.
     pub headline: Headline,
-    /// The target of every tooth: where its flanks begin and end.
-    pub target: Vec<TargetTooth>,
-    /// What each operation did and left, in order.
+    /// What each operation did and left over the finished gear, in order.
     pub operations: Vec<OperationResults>,
-    /// Material between operations: each one against the next, and against the last.
-    pub stock: Vec<StockBetween>,
+    /// The finished gear, tooth by tooth.
+    pub teeth: Vec<FinishedTooth>,
 }
 
 /// The numbers that a gear engineer asks for first. Extremes over flanks carry their place.
@@ -65,12 +65,14 @@ pub struct Headline {
     pub tip_land: Quantity,
     /// Number of teeth that are pointed below the blank's outline.
     pub pointed_teeth: Quantity,
-    /// Highest feed mark that the last operation leaves.
+    /// Highest feed mark that the last operation leaves on an evaluated profile.
     pub scallop_height: Quantity,
     /// Smallest tooth thickness after the last operation, arc on the pitch curve.
     pub smallest_tooth_thickness: Quantity,
     /// Largest tooth thickness after the last operation.
     pub largest_tooth_thickness: Quantity,
+    /// Highest step that the first and last strokes of the last operation leave.
+    pub witness_mark: Quantity,
     /// What is left of the tightest axis limit, as a share of it; undefined without limits.
     pub axis_margin: Quantity,
     /// Smallest relief clearance on the return stroke, as a share of a circular gear's.
@@ -102,12 +104,14 @@ pub struct OperationResults {
     pub axes: AxesResults,
     /// Clearance on the return stroke.
     pub relief: ReliefResults,
-    /// What it left on each tooth.
-    pub teeth: Vec<ToothResults>,
+    /// Stock on all active flanks; undefined for the last operation.
+    pub flank_stock: StockRange,
+    /// Stock in all roots, which only the cutter's tip touches.
+    pub root_stock: StockRange,
     /// Unevenness of its allowance over the teeth.
     pub unevenness: Unevenness,
-    /// Witness mark: step in height between the first and the last stroke of the turn.
-    pub witness_mark: Quantity,
+    /// Stock and allowance of each tooth; empty for the last operation.
+    pub teeth: Vec<OperationTooth>,
 }
 
 /// Unevenness of an operation's allowance: of what was cut, and of its envelope (the limit of many strokes).
@@ -130,43 +134,6 @@ pub struct Spread {
     /// Largest.
     pub max: Quantity,
     /// Arithmetic mean.
-    pub mean: Quantity,
-}
-
-/// Material between the surfaces that two operations leave.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StockBetween {
-    /// The earlier operation.
-    pub from: String,
-    /// The later operation.
-    pub to: String,
-    /// Over all active flanks.
-    pub flanks: StockRange,
-    /// Over all roots, which only the cutter's tip touches.
-    pub roots: StockRange,
-    /// Flank by flank.
-    pub teeth: Vec<ToothStock>,
-}
-
-/// Stock on the flanks of one tooth.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ToothStock {
-    /// Tooth, from 1.
-    pub index: u32,
-    /// Left flank (larger arc).
-    pub left: StockRange,
-    /// Right flank (smaller arc).
-    pub right: StockRange,
-}
-
-/// Extremes and mean of a stock.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StockRange {
-    /// Smallest, with its place.
-    pub smallest: Quantity,
-    /// Largest, with its place.
-    pub largest: Quantity,
-    /// Mean over the dexels.
     pub mean: Quantity,
 }
 

@@ -30,13 +30,13 @@ impl Sheet {
     /// A table, indented under the heading: words to the left, numbers to the right, as wide as their widest cell.
     pub fn table(&mut self, rows: &[Vec<String>]) {
         let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-        let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max();
+        let width =
+            |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max();
         let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();
         for row in rows {
             let mut line = String::from(" ");
             for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
-                let _ =
-                    if column == 0 { write!(line, " {cell:<width$}") } else { write!(line, "   {cell:>width$}") };
+                let _ = if column == 0 { write!(line, " {cell:<width$}") } else { write!(line, "   {cell:>width$}") };
             }
             let _ = writeln!(self.text, "{}", line.trim_end());
         }
@@ -74,7 +74,8 @@ mod tests {
         sheet.heading("Machine");
         sheet.line("strokes", "4200");
         sheet.table(&[vec!["axis".into(), "peak".into()], vec!["work spindle".into(), "5.7 deg/s".into()]]);
-        let expected = "Machine\n  strokes                       4200\n  axis                peak\n  work spindle   5.7 deg/s\n";
+        let expected =
+            "Machine\n  strokes                       4200\n  axis                peak\n  work spindle   5.7 deg/s\n";
         assert_eq!(sheet.into_text(), expected);
     }
 }

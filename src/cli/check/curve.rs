@@ -25,10 +25,7 @@ pub fn print(sheet: &mut Sheet, job: &Job) {
         let word = if error_um > 0.0 { "too long" } else { "too short" };
         format!("{} um {word}", significant(error_um.abs(), 3))
     };
-    sheet.line(
-        "perimeter",
-        format!("{:.6} mm for pi m z = {wanted_mm:.6} mm: {closes}", curve.perimeter_mm()),
-    );
+    sheet.line("perimeter", format!("{:.6} mm for pi m z = {wanted_mm:.6} mm: {closes}", curve.perimeter_mm()));
     if facts.curvature_extrema.is_empty() {
         sheet.line("radius of curvature", format!("{:.3} mm everywhere; convex", facts.smallest_curvature_radius_mm));
         return;

@@ -5,13 +5,15 @@
 
 mod cost;
 mod curve;
+mod facts;
 mod teeth;
 
 use gearcut::axes_report::OperationAxes;
 use gearcut::job::Job;
 use gearcut::output::text::{Sheet, significant};
 use gearcut::scene::{self, model::Gear};
-use gearcut::tooth_facts::ToothFacts;
+
+use facts::ToothFacts;
 
 use super::args::SceneArguments;
 use super::failure::Failure;
@@ -31,7 +33,7 @@ pub fn run(arguments: &SceneArguments) -> Result<(), Failure> {
     for operation in &operations {
         operation.print(&mut sheet);
     }
-    cost::print(&mut sheet, &job, &facts)?;
+    cost::print(&mut sheet, &job, &facts).map_err(|refusal| Failure::of_scene(&scene, refusal.into()))?;
     let mut warnings = curve::warnings(&job);
     warnings.extend(teeth::warnings(&job, &facts));
     warnings.extend(operations.iter().flat_map(OperationAxes::warnings));

@@ -3,7 +3,8 @@
 use gearcut::gear::target::FlankEnd;
 use gearcut::job::Job;
 use gearcut::output::text::Sheet;
-use gearcut::tooth_facts::{FlankFacts, ToothFacts};
+
+use super::facts::{FlankFacts, ToothFacts};
 
 /// Tip lands below this (in modules) are called narrow: case-hardened tips break below about 0.2 to 0.3 modules.
 const NARROW_LAND_MODULES: f64 = 0.25;
@@ -32,7 +33,10 @@ pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) {
         sheet.line("tip land", format!("{narrow:.3} mm (tooth {}) to {wide:.3} mm (tooth {})", low.tooth, high.tooth));
     }
     sheet.line("undercut", flanks_with(facts, FlankFacts::is_undercut));
-    sheet.line("pointed teeth", list(facts.iter().filter(|tooth| tooth.is_pointed()).map(|tooth| tooth.tooth.to_string())));
+    sheet.line(
+        "pointed teeth",
+        list(facts.iter().filter(|tooth| tooth.is_pointed()).map(|tooth| tooth.tooth.to_string())),
+    );
 }
 
 pub fn warnings(job: &Job, facts: &[ToothFacts]) -> Vec<String> {

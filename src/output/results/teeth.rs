@@ -1,25 +1,67 @@
-//! What stands in `results.json` for every tooth.
+//! What stands in `results.json` for every tooth: the stock an operation left on it, and the tooth as it is finished.
 
 use serde::{Deserialize, Serialize};
 
 use crate::output::quantity::Quantity;
 
-/// Target of one tooth.
+/// What an operation left on one tooth over the finished surface.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct TargetTooth {
+pub struct OperationTooth {
+    /// Tooth, from 1.
+    pub index: u32,
+    /// Stock on the left flank (larger arc).
+    pub left: StockRange,
+    /// Stock on the right flank (smaller arc).
+    pub right: StockRange,
+    /// Allowance of the left flank: chord on the pitch curve from A (this operation) to B (finished).
+    #[serde(rename = "AB")]
+    pub ab: Quantity,
+    /// Allowance of the right flank: chord on the pitch curve from C (finished) to D (this operation).
+    #[serde(rename = "CD")]
+    pub cd: Quantity,
+    /// |AB - CD| divided by the mean of AB and CD.
+    pub unevenness_mean_denominator: Quantity,
+    /// |AB - CD| divided by delta_d tan(alpha).
+    pub unevenness_rack_denominator: Quantity,
+    /// AB in the limit of many strokes.
+    #[serde(rename = "envelope_AB")]
+    pub envelope_ab: Quantity,
+    /// CD in the limit of many strokes.
+    #[serde(rename = "envelope_CD")]
+    pub envelope_cd: Quantity,
+}
+
+/// Extremes and mean of a stock.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StockRange {
+    /// Smallest, with its place.
+    pub smallest: Quantity,
+    /// Largest, with its place.
+    pub largest: Quantity,
+    /// Mean over the dexels.
+    pub mean: Quantity,
+}
+
+/// One finished tooth.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FinishedTooth {
     /// Tooth, from 1.
     pub index: u32,
     /// Left flank (larger arc).
-    pub left: TargetFlankResults,
+    pub left: FinishedFlank,
     /// Right flank (smaller arc).
-    pub right: TargetFlankResults,
+    pub right: FinishedFlank,
     /// Width of the tip between the flanks.
     pub tip_land: Quantity,
+    /// Thickness along the pitch curve.
+    pub thickness_arc: Quantity,
+    /// Thickness straight from flank to flank on the pitch curve.
+    pub thickness_chord: Quantity,
 }
 
-/// Ends of one target flank.
+/// One finished flank.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct TargetFlankResults {
+pub struct FinishedFlank {
     /// Start of the involute, as height over the pitch curve.
     pub start_of_involute: Quantity,
     /// What begins there: `cutter corner` or `undercut`.
@@ -30,61 +72,41 @@ pub struct TargetFlankResults {
     pub end: Quantity,
     /// Length of the profile from start to tip.
     pub length: Quantity,
-}
-
-/// What an operation left on one tooth.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ToothResults {
-    /// Tooth, from 1.
-    pub index: u32,
-    /// Left flank (larger arc).
-    pub left: FlankResults,
-    /// Right flank (smaller arc).
-    pub right: FlankResults,
-    /// Allowance of the left flank, chord on the pitch curve from A (this operation) to B (last operation).
-    #[serde(rename = "AB")]
-    pub ab: Quantity,
-    /// Allowance of the right flank, chord on the pitch curve from C (last operation) to D (this operation).
-    #[serde(rename = "CD")]
-    pub cd: Quantity,
-    /// |AB - CD| divided by the mean of AB and CD.
-    pub unevenness_mean_denominator: Quantity,
-    /// |AB - CD| divided by delta_d tan(alpha).
-    pub unevenness_rack_denominator: Quantity,
-    /// Tooth thickness, arc on the pitch curve.
-    pub thickness: Quantity,
-}
-
-/// What an operation left on one flank.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FlankResults {
-    /// Lowest height over the target, with its place.
+    /// Arc from the start at which the evaluated profile begins.
+    pub evaluated_from: Quantity,
+    /// Arc from the start at which it ends.
+    pub evaluated_to: Quantity,
+    /// Lowest height over the target on the evaluated profile, with its place.
     pub smallest_height: Quantity,
-    /// Largest height over the target, with its place.
+    /// Largest height over the target on the evaluated profile, with its place.
     pub largest_height: Quantity,
-    /// Mean height over the target.
-    pub mean_height: Quantity,
-    /// Root mean square of the heights about their mean.
-    pub rms_height: Quantity,
+    /// Deepest cut below the target anywhere on the flank; undefined if there is none.
+    pub deepest_cut: Quantity,
+    /// Profile against the target in the middle of the face, in the manner of ISO 1328-1.
+    pub profile: ProfileDeviations,
+    /// Highest feed mark on the evaluated profile.
+    pub largest_scallop: Quantity,
+    /// Feed mark nearest to the pitch curve.
+    pub scallop_at_pitch_curve: Quantity,
+    /// Step that the first and last strokes stand above the rest of the flank.
+    pub witness_mark: Quantity,
+    /// Single pitch deviation f_p from the tooth before, arc on the pitch curve.
+    pub single_pitch: Quantity,
+    /// Cumulative pitch deviation F_p from tooth 1, arc on the pitch curve.
+    pub cumulative_pitch: Quantity,
+    /// Dexels cut deeper than their rays record.
+    pub below_range_dexels: Quantity,
     /// Dexels that no pass touched.
     pub untouched_dexels: Quantity,
-    /// Highest feed mark.
-    pub scallop_height: Quantity,
-    /// Profile against the target along its normal, in the manner of ISO 1328-1.
-    pub profile: ProfileDeviations,
-    /// Single pitch deviation f_p from the neighbouring tooth, arc on the pitch curve.
-    pub single_pitch: Quantity,
-    /// Cumulative pitch deviation F_p from tooth 1.
-    pub cumulative_pitch: Quantity,
 }
 
-/// Profile deviations between the evaluated heights; no tolerance class exists for a non-circular gear.
+/// Profile deviations between the evaluated ends; no tolerance class exists for a non-circular gear.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProfileDeviations {
     /// F_alpha.
     pub total: Quantity,
     /// f_f alpha.
     pub form: Quantity,
-    /// f_H alpha, positive where the profile rises towards the tip.
+    /// f_H alpha, positive where material is left towards the tip.
     pub slope: Quantity,
 }

@@ -1,17 +1,14 @@
 //! The teeth as finishing would leave them in the limit of many strokes: where flanks begin and end, how wide the tips are.
 //!
-//! In: a prepared [`Job`]. Out: [`ToothFacts`] of every tooth, and their part of `results.json`. Nothing is cut for this.
+//! In: a prepared [`Job`]. Out: [`ToothFacts`] of every tooth. Nothing is cut for this.
 //!
 //! Heights are measured over the pitch curve along its normal, so that they mean the same on every tooth of a non-circular gear.
 
+use gearcut::Refusal;
+use gearcut::gear::generation::Side;
+use gearcut::gear::target::{FlankEnd, TargetFlank};
+use gearcut::job::Job;
 use rayon::prelude::*;
-
-use crate::error::Refusal;
-use crate::gear::generation::Side;
-use crate::gear::target::{FlankEnd, TargetFlank};
-use crate::job::Job;
-use crate::output::quantity::Quantity;
-use crate::output::results::{TargetFlankResults, TargetTooth};
 
 /// One flank of the target.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,16 +65,6 @@ impl ToothFacts {
     pub fn is_pointed(&self) -> bool {
         self.left.end == FlankEnd::PointedTip || self.right.end == FlankEnd::PointedTip
     }
-
-    /// The tooth's part of `results.json`.
-    pub fn results(&self) -> TargetTooth {
-        TargetTooth {
-            index: self.tooth,
-            left: self.left.results(),
-            right: self.right.results(),
-            tip_land: Quantity::number(self.tip_land_mm, "mm", "width of the target's tip between its flanks"),
-        }
-    }
 }
 
 impl FlankFacts {
@@ -98,30 +85,5 @@ impl FlankFacts {
     /// Whether the cutter's tip has cut away the beginning of the flank.
     pub fn is_undercut(&self) -> bool {
         self.start == FlankEnd::Undercut
-    }
-
-    fn results(&self) -> TargetFlankResults {
-        let height = |value: f64, what: &'static str| Quantity::number(value, "mm", what);
-        TargetFlankResults {
-            start_of_involute: height(
-                self.start_height_mm,
-                "start of the involute, as height over the pitch curve along its normal",
-            ),
-            start: Quantity::text(end_words(self.start), "what the involute starts at"),
-            tip: height(self.tip_height_mm, "end of the flank, as height over the pitch curve along its normal"),
-            end: Quantity::text(end_words(self.end), "what the flank ends at"),
-            length: height(self.length_mm, "length of the profile from its start to its end"),
-        }
-    }
-}
-
-/// A flank's end in words.
-pub fn end_words(end: FlankEnd) -> &'static str {
-    match end {
-        FlankEnd::CutterCorner => "cutter corner",
-        FlankEnd::Undercut => "undercut",
-        FlankEnd::BlankOutline => "blank outline",
-        FlankEnd::CutterBase => "cutter base",
-        FlankEnd::PointedTip => "pointed tip",
     }
 }
