@@ -95,11 +95,26 @@ impl<DB: DrawingBackend> Canvas<DB> {
 
     /// Line through all points.
     pub(super) fn line(&mut self, points: &[Point], colour: RGBColor, width_px: f64) -> Drawn {
-        let mut places: Vec<_> = points.iter().map(|&point| self.place(point)).collect();
-        // Points that round to the same place have no direction between them, and plotters would draw a spike there.
-        places.dedup();
+        let mut places: Vec<(i32, i32)> = Vec::with_capacity(points.len());
+        for &point in points {
+            let next = self.place(point);
+            // Points that go straight on, or stand still, add nothing but bytes.
+            while let [.., a, b] = places[..]
+                && goes_straight_on(a, b, next)
+            {
+                places.pop();
+            }
+            if places.last() != Some(&next) {
+                places.push(next);
+            }
+        }
         let style = self.stroke(colour, width_px);
-        self.backend.draw_path(places, &style).map_err(text)
+        if self.letters_finer.is_none() {
+            return self.backend.draw_path(places, &style).map_err(text);
+        }
+        // plotters fills the outline of a wide line as one polygon, and spikes where its sides nearly coincide; piece by
+        // piece it does not.
+        places.windows(2).try_for_each(|piece| self.backend.draw_path(piece.iter().copied(), &style).map_err(text))
     }
 
     /// Dashed straight line.
@@ -229,6 +244,13 @@ impl<DB: DrawingBackend> Canvas<DB> {
     pub(super) fn finish(mut self) -> Drawn {
         self.backend.present().map_err(text)
     }
+}
+
+/// Whether the way from `a` over `b` to `c` keeps its direction; exact, in whole pixels.
+fn goes_straight_on(a: (i32, i32), b: (i32, i32), c: (i32, i32)) -> bool {
+    let difference = |from: (i32, i32), to: (i32, i32)| (i64::from(to.0 - from.0), i64::from(to.1 - from.1));
+    let (first, second) = (difference(a, b), difference(b, c));
+    first.0 * second.1 == first.1 * second.0 && first.0 * second.0 + first.1 * second.1 > 0
 }
 
 /// Width of a text, pixels.
