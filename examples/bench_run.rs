@@ -1,9 +1,12 @@
-use gearcut::*;
 use gearcut::cut::Backend;
 use gearcut::tool::CuttingTool;
+use gearcut::*;
 fn main() {
     let args: Vec<String> = std::env::args().collect();
-    let loaded = scene::load(std::path::Path::new(&args[1]), &args[2..]).unwrap_or_else(|e| { eprintln!("{e}"); std::process::exit(1) });
+    let loaded = scene::load(std::path::Path::new(&args[1]), &args[2..]).unwrap_or_else(|e| {
+        eprintln!("{e}");
+        std::process::exit(1)
+    });
     let job = job::Job::new(loaded.scene).unwrap();
     let g = job.target_generation();
     let (mut tf, mut tp, mut tc, mut tm, mut n, mut d) = (0.0, 0.0, 0.0, 0.0, 0u64, 0u64);
@@ -23,7 +26,8 @@ fn main() {
             let t = std::time::Instant::now();
             let s = cpu.cut(&field, job.cutter.edge(), &plan, &mut layer).unwrap();
             tc += t.elapsed().as_secs_f64();
-            n += s.dexel_passes; d += field.len() as u64;
+            n += s.dexel_passes;
+            d += field.len() as u64;
             layers.push(layer.clone());
         }
         let t = std::time::Instant::now();
@@ -31,5 +35,8 @@ fn main() {
         std::hint::black_box(measure::flank_report::measure(&job, &flank, &cut));
         tm += t.elapsed().as_secs_f64();
     }
-    println!("field {tf:.3} plan {tp:.3} cut {tc:.3} measure {tm:.3} per dexel-pass {:.2} ns, dexels {d} passes {n}", tc / n as f64 * 1e9);
+    println!(
+        "field {tf:.3} plan {tp:.3} cut {tc:.3} measure {tm:.3} per dexel-pass {:.2} ns, dexels {d} passes {n}",
+        tc / n as f64 * 1e9
+    );
 }

@@ -9,6 +9,9 @@ use crate::linkage::dynamics::{AxisMotion, MachineMotion};
 use crate::output::line_chart::{Limit, LineChart, LineSeries, Panel};
 use crate::units::UM_PER_MM;
 
+/// Speeds and accelerations are drawn in whole multiples of this, deg or mm per s or s^2.
+const STEADY: f64 = 1e-9;
+
 /// Picks an axis.
 type AxisOf = fn(&MachineMotion) -> AxisMotion;
 
@@ -69,12 +72,17 @@ fn moving(
         .zip(limits)
         .map(|((name, unit, axis), limit)| {
             let shown = |number: f64| if unit == "°" { number.to_degrees() } else { number };
-            let curve = series(rows, name, &|row| shown(value(axis(&row.motion))));
+            let curve = series(rows, name, &|row| without_rounding(shown(value(axis(&row.motion)))));
             let both = |limit: f64| [("limit", shown(limit)), ("limit", -shown(limit))];
             let limits = limit.into_iter().flat_map(both).map(|(name, value)| Limit { name: name.to_owned(), value });
             panel(what, &format!("{unit}{per}"), vec![curve], limits.collect())
         })
         .collect()
+}
+
+/// A steady axis shows as a straight line, not as the noise of its last digits.
+fn without_rounding(value: f64) -> f64 {
+    (value / STEADY).round() * STEADY
 }
 
 fn relief(job: &Job, rows: &[StrokeRow]) -> Vec<Panel> {

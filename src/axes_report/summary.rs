@@ -3,7 +3,7 @@
 use super::{OperationAxes, in_order, linkage_words};
 use crate::linkage::relief::ReliefFlank;
 use crate::output::progress::duration_text;
-use crate::output::text::{Sheet, significant};
+use crate::output::text::{Sheet, plain, significant};
 use crate::units::UM_PER_MM;
 
 /// Names and units of the peaks in their order.
@@ -16,11 +16,14 @@ const PEAKS: [(&str, &str); 6] = [
     ("centre distance acceleration", "mm/s^2"),
 ];
 
+/// A smaller beta than this, rad, is rounding: the curve is a circle.
+const ROUND_BETA_RAD: f64 = 1e-9;
+
 impl OperationAxes {
     /// Strokes, time, relief and the table of peaks.
     pub fn print(&self, sheet: &mut Sheet) {
         let operation = &self.operation;
-        let offset = significant(operation.offset_mm, 6);
+        let offset = plain(operation.offset_mm);
         sheet.heading(&format!(
             "Operation {}: {}, offset {offset} mm",
             operation.name,
@@ -34,26 +37,32 @@ impl OperationAxes {
         let feed = significant(self.circular_feed_mm_per_stroke, 3);
         sheet.line("circular feed", format!("{feed} mm per double stroke, mean over the pitch curve"));
         sheet.line("time", duration_text(self.cycle_time_s));
+        let round = self.largest_beta_rad < ROUND_BETA_RAD;
+        let beta_place = if round {
+            "everywhere".to_owned()
+        } else {
+            format!("at polar angle {:.2} deg", self.largest_beta_phi_rad.to_degrees())
+        };
         sheet.line(
             "largest beta",
-            format!(
-                "{:.2} deg at polar angle {:.2} deg (line of centres against the normal)",
-                self.largest_beta_rad.to_degrees(),
-                self.largest_beta_phi_rad.to_degrees()
-            ),
+            format!("{:.2} deg {beta_place} (line of centres against the normal)", self.largest_beta_rad.to_degrees()),
         );
         let flank = match self.relief.flank {
             ReliefFlank::Left => "left",
             ReliefFlank::Right => "right",
         };
+        let relief_place = if round {
+            "everywhere".to_owned()
+        } else {
+            format!("on the {flank} flank at polar angle {:.2} deg", self.relief.phi_rad.to_degrees())
+        };
         sheet.line(
             "smallest relief",
             format!(
-                "{} um for {} mm back-off, {:.0} % of a circular gear's; {flank} flank, polar angle {:.2} deg",
+                "{} um for {} mm back-off {relief_place}, {:.0} % of a circular gear's",
                 significant(UM_PER_MM * self.relief.clearance_mm(self.back_off_mm), 3),
-                significant(self.back_off_mm, 3),
+                plain(self.back_off_mm),
                 100.0 * self.relief.ratio,
-                self.relief.phi_rad.to_degrees()
             ),
         );
         sheet.table(&self.peak_rows());

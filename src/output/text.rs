@@ -58,9 +58,24 @@ pub fn significant(value: f64, digits: u32) -> String {
     if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".to_owned() } else { text }
 }
 
+/// A number as a scene gives it, to six decimals and without trailing zeros, such as "3", "0.5", "61.11".
+pub fn plain(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn given_numbers_look_as_given() {
+        assert_eq!(
+            [3.0, 0.5, 61.11, -1e-9, 100.0, 1.0 / 3.0].map(plain),
+            ["3", "0.5", "61.11", "0", "100", "0.333333"]
+        );
+    }
 
     #[test]
     fn numbers_keep_the_digits_that_matter() {

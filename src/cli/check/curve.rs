@@ -30,12 +30,23 @@ pub fn print(sheet: &mut Sheet, job: &Job) {
         sheet.line("radius of curvature", format!("{:.3} mm everywhere; convex", facts.smallest_curvature_radius_mm));
         return;
     }
+    // Lobes are equal but for rounding: the first one is named.
+    let sharpest: Vec<f64> = facts
+        .curvature_extrema
+        .iter()
+        .filter(|e| 1.0 / e.curvature_per_mm.abs() <= facts.smallest_curvature_radius_mm * (1.0 + 1e-9))
+        .map(|e| e.phi_rad.to_degrees())
+        .collect();
     sheet.line(
         "smallest radius of curvature",
         format!(
-            "{:.3} mm at polar angle {:.2} deg",
+            "{:.3} mm at polar angle {}",
             facts.smallest_curvature_radius_mm,
-            facts.smallest_curvature_radius_phi_rad.to_degrees()
+            match sharpest.as_slice() {
+                [] => "0.00 deg".to_owned(),
+                [one] => format!("{one:.2} deg"),
+                [first, others @ ..] => format!("{first:.2} deg and {} more", others.len()),
+            }
         ),
     );
     if facts.convex {

@@ -10,7 +10,7 @@ mod teeth;
 
 use gearcut::axes_report::OperationAxes;
 use gearcut::job::Job;
-use gearcut::output::text::{Sheet, significant};
+use gearcut::output::text::{Sheet, plain};
 use gearcut::scene::{self, model::Gear};
 
 use facts::ToothFacts;
@@ -46,8 +46,8 @@ fn gear_words(gear: &Gear) -> String {
     format!(
         "{} teeth, module {} mm, pressure angle {} deg, face width {} mm",
         gear.teeth,
-        significant(gear.module_mm, 4),
-        significant(gear.pressure_angle_rad.to_degrees(), 4),
-        significant(gear.face_width_mm, 4)
+        plain(gear.module_mm),
+        plain(gear.pressure_angle_rad.to_degrees()),
+        plain(gear.face_width_mm)
     )
 }

@@ -9,6 +9,9 @@ use super::facts::{FlankFacts, ToothFacts};
 /// Tip lands below this (in modules) are called narrow: case-hardened tips break below about 0.2 to 0.3 modules.
 const NARROW_LAND_MODULES: f64 = 0.25;
 
+/// Values closer than this print alike, mm.
+const SAME_MM: f64 = 5e-4;
+
 pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) {
     let cutter = &job.cutter;
     sheet.heading("Cutter");
@@ -21,16 +24,21 @@ pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) {
         ),
     );
     sheet.heading("Teeth");
-    sheet.line("start of involute", range(facts, "mm from the pitch curve", |flank| flank.start_height_mm));
-    sheet.line("end of flank", range(facts, "mm from the pitch curve", |flank| flank.tip_height_mm));
-    sheet.line("length of profile", range(facts, "mm", |flank| flank.length_mm));
+    sheet.line("start of involute", range(facts, " over the pitch curve", |flank| flank.start_height_mm));
+    sheet.line("end of flank", range(facts, " over the pitch curve", |flank| flank.tip_height_mm));
+    sheet.line("length of profile", range(facts, "", |flank| flank.length_mm));
     let land = |tooth: &ToothFacts| tooth.tip_land_mm;
     if let (Some(low), Some(high)) = (
         facts.iter().min_by(|a, b| land(a).total_cmp(&land(b))),
         facts.iter().max_by(|a, b| land(a).total_cmp(&land(b))),
     ) {
         let (narrow, wide) = (land(low), land(high));
-        sheet.line("tip land", format!("{narrow:.3} mm (tooth {}) to {wide:.3} mm (tooth {})", low.tooth, high.tooth));
+        let text = if wide - narrow < SAME_MM {
+            format!("{narrow:.3} mm on all teeth")
+        } else {
+            format!("{narrow:.3} mm (tooth {}) to {wide:.3} mm (tooth {})", low.tooth, high.tooth)
+        };
+        sheet.line("tip land", text);
     }
     sheet.line("undercut", flanks_with(facts, FlankFacts::is_undercut));
     sheet.line(
@@ -89,7 +97,7 @@ fn flanks_with(facts: &[ToothFacts], holds: impl Fn(&FlankFacts) -> bool) -> Str
 }
 
 /// Smallest and largest value over all flanks, each with its first place.
-fn range(facts: &[ToothFacts], unit: &str, value: impl Fn(&FlankFacts) -> f64) -> String {
+fn range(facts: &[ToothFacts], over: &str, value: impl Fn(&FlankFacts) -> f64) -> String {
     let flanks = facts.iter().flat_map(|tooth| {
         tooth.flanks().map(|(side, flank)| (value(&flank), format!("tooth {} {}", tooth.tooth, side.name())))
     });
@@ -102,8 +110,8 @@ fn range(facts: &[ToothFacts], unit: &str, value: impl Fn(&FlankFacts) -> f64) -
             high = (value, place);
         }
     }
-    if high.0 - low.0 < 5e-4 {
-        return format!("{:.3} {unit} on all flanks", high.0);
+    if high.0 - low.0 < SAME_MM {
+        return format!("{:.3} mm{over} on all flanks", high.0);
     }
-    format!("{:.3} ({}) to {:.3} {unit} ({})", low.0, low.1, high.0, high.1)
+    format!("{:.3} mm ({}) to {:.3} mm ({}){over}", low.0, low.1, high.0, high.1)
 }
