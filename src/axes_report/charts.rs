@@ -73,8 +73,11 @@ fn moving(
         .map(|((name, unit, axis), limit)| {
             let shown = |number: f64| if unit == "°" { number.to_degrees() } else { number };
             let curve = series(rows, name, &|row| without_rounding(shown(value(axis(&row.motion)))));
-            let both = |limit: f64| [("limit", shown(limit)), ("limit", -shown(limit))];
-            let limits = limit.into_iter().flat_map(both).map(|(name, value)| Limit { name: name.to_owned(), value });
+            // The limit below zero is of interest to an axis that turns back.
+            let turns_back = curve.points.iter().any(|point| point.1 < 0.0);
+            let signs = if turns_back { &[1.0, -1.0][..] } else { &[1.0] };
+            let at = |limit: f64| signs.iter().map(move |sign| Limit { name: "limit".to_owned(), value: sign * limit });
+            let limits = limit.into_iter().flat_map(|limit| at(shown(limit)));
             panel(what, &format!("{unit}{per}"), vec![curve], limits.collect())
         })
         .collect()
