@@ -33,6 +33,14 @@ pub enum Error {
         /// The writer's reason.
         reason: String,
     },
+    /// A file that was read is not what it should be.
+    #[error("cannot use {}: {reason}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// Stopped by the user.
     #[error("stopped by Ctrl-C")]
     Interrupted,

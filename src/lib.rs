@@ -3,6 +3,8 @@
 //!
 //! The modules follow the data's path, from the scene to the files; `run` alone knows the whole order.
 
+pub mod axes_report;
+pub mod compare;
 pub mod cut;
 pub mod dexel;
 pub mod error;

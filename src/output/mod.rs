@@ -7,6 +7,8 @@
 //! | --- | --- |
 //! | complete or absent: one file, one folder | [`atomic`], [`folder`] |
 //! | values with unit and definition, tables | [`quantity`], [`table`] |
+//! | the layout of `results.json` | [`results`] |
+//! | text for the terminal | [`text`] |
 //! | maps: the grid they lie on, all digits | [`grid`], [`exr_map`] |
 //! | pictures of maps: one, all flanks, their colours | [`map_png`], [`contact_sheet`], [`colormap`] |
 //! | charts: grouped bars, panels of curves | [`bar_chart`], [`line_chart`] |
@@ -32,4 +34,6 @@ pub mod map_png;
 pub mod progress;
 pub mod quantity;
 mod raster;
+pub mod results;
 pub mod table;
+pub mod text;

@@ -1,0 +1,1 @@
+//! `gearcut cut`: the whole job.
