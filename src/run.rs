@@ -3,6 +3,11 @@
 //! The unit of work is one flank through all operations; flanks go to the cores in parallel and are written as they are finished, so memory grows with the cores and not with the
 //! gear. The output folder appears under its name only when it is complete; Ctrl-C completes it with the flanks that are finished and says so.
 
+mod files;
+mod results;
+mod summary;
+mod tooth_results;
+
 use crate::cut::{Backend, CutStats};
 use crate::error::{Error, Result};
 use crate::gear::generation::Side;
@@ -12,7 +17,9 @@ use crate::output::flank_maps::FlankMaps;
 use crate::output::folder::OutputFolder;
 use crate::output::interrupt::Interrupt;
 use crate::output::progress::Progress;
+use crate::scene::LoadedScene;
 use rayon::prelude::*;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -104,4 +111,50 @@ pub fn cut_gear(
     }
     let report = gear_report::measure(job, backend, reports)?;
     Ok(CutGear { report, maps, stats, dexels, elapsed: started.elapsed(), interrupted })
+}
+
+/// A finished run.
+#[derive(Debug)]
+pub struct Done {
+    /// Where the files are.
+    pub folder: PathBuf,
+    /// Summary for the terminal.
+    pub summary: String,
+    /// `results.json`.
+    pub results: crate::output::results::Results,
+    /// Whether Ctrl-C ended it early.
+    pub interrupted: bool,
+}
+
+/// Cuts a scene and writes everything into `out`.
+///
+/// `backend_why` says why this backend was taken. The output folder is opened before the work begins, so that a bad path fails at once.
+///
+/// # Errors
+/// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
+pub fn cut(
+    scene: &LoadedScene,
+    out: &Path,
+    backend: &dyn Backend,
+    backend_why: &str,
+    progress: &Progress,
+    interrupt: &Interrupt,
+) -> Result<Done> {
+    let folder = OutputFolder::create(out)?;
+    let job = Job::new(scene.scene.clone())?;
+    let resolved = scene.resolved_toml();
+    // Timings stay out of maps: the same scene gives the same bytes.
+    let run =
+        serde_json::json!({"program": "gearcut", "version": env!("CARGO_PKG_VERSION"), "backend": backend.name()});
+    let notes = [("run".to_owned(), run.to_string()), ("scene".to_owned(), resolved.clone())];
+    let gear = cut_gear(&job, backend, progress, interrupt, Some((&folder, &notes)))?;
+    if gear.report.flanks.is_empty() {
+        return Err(Error::Interrupted);
+    }
+    let results = results::results(&job, &gear);
+    files::write(&job, &gear, &results, &folder)?;
+    let record = files::run_record(&resolved, (&backend.name(), backend_why), &gear, &folder)?;
+    folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
+    let summary = summary::summary(&job, &gear, &results, out, &backend.name());
+    Ok(Done { folder: folder.finish()?, summary, results, interrupted: gear.interrupted })
 }

@@ -125,13 +125,20 @@ fn stroke_allowances_are_the_oracles() {
 
 #[test]
 fn facets_are_the_oracles() {
-    let data = oracle("external_s0_facets");
+    let shape = paper_scene(Vec::new()).gear.pitch_curve;
+    check_facets(&oracle("external_s0_facets"), &shape);
+    check_facets(&oracle("external_circle")["facets"], &PitchCurveShape::Circle);
+}
+
+/// Crest heights, and with them the law K / N^2 between the two stroke counts that the oracle gives.
+fn check_facets(data: &Value, shape: &PitchCurveShape) {
     let tolerance = number(&data["tolerance"]["simulated_relative_at_N_ge_720"]);
     for row in data["rows"].as_array().expect("rows") {
         let strokes = row["N"].as_u64().expect("N") as u32;
         let tooth = row["tooth"].as_u64().expect("tooth") as u32;
         let side = if row["flank"] == "left" { Side::Left } else { Side::Right };
         let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, strokes)]);
+        scene.gear.pitch_curve = shape.clone();
         scene.fields = Fields { profile_spacing_mm: 0.72 / f64::from(strokes), lead_spacing_mm: 30.0 };
         let job = Job::new(scene).expect("the gear");
         let generation = job.target_generation();
@@ -158,5 +165,6 @@ fn facets_are_the_oracles() {
             crest * 1e3
         );
         assert!((height / crest - 1.0).abs() < tolerance, "N = {strokes}: {height} against {crest}");
+        assert!((height / closed - 1.0).abs() < tolerance, "N = {strokes}: {height} against {closed}");
     }
 }

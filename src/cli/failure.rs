@@ -27,8 +27,13 @@ impl Failure {
     pub fn report(&self) -> ExitCode {
         // Nobody is left to be told when standard error is closed.
         let _closed = writeln!(std::io::stderr(), "{}", self.text.trim_end());
-        if self.interrupted { u8::try_from(INTERRUPTED_EXIT_CODE).unwrap_or(1).into() } else { ExitCode::FAILURE }
+        if self.interrupted { interrupted() } else { ExitCode::FAILURE }
     }
+}
+
+/// Exit code of a run that Ctrl-C ended early.
+pub fn interrupted() -> ExitCode {
+    u8::try_from(INTERRUPTED_EXIT_CODE).unwrap_or(1).into()
 }
 
 impl From<Error> for Failure {

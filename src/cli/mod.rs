@@ -21,7 +21,11 @@ use failure::Failure;
 /// Runs the command and reports what went wrong.
 pub fn run(arguments: Arguments) -> ExitCode {
     let done = match arguments.command {
-        Command::Cut(arguments) => cut::run(&arguments),
+        Command::Cut(arguments) => match cut::run(&arguments) {
+            Ok(true) => Ok(()),
+            Ok(false) => return failure::interrupted(),
+            Err(failure) => Err(failure),
+        },
         Command::Check(arguments) => check::run(&arguments),
         Command::Axes(arguments) => axes::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),

@@ -18,7 +18,7 @@ impl Comparison {
             title: format!("Unevenness of the allowance, {what}"),
             category_name: "tooth".to_owned(),
             categories: (1..=teeth).map(|tooth| tooth.to_string()).collect(),
-            value_name: "|AB − CD| / mean of AB and CD".to_owned(),
+            value_name: "unevenness |AB−CD| : mean(AB, CD)".to_owned(),
             unit: unit.to_owned(),
             series: [&self.a, &self.b].map(|result| result.bars(teeth)).into(),
         };
