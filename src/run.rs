@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::gear::generation::Side;
 use crate::job::Job;
 use crate::measure::{FlankReport, GearReport, flank_report, gear_report};
-use crate::output::flank_maps::FlankMaps;
+use crate::output::flank_maps::{FlankMaps, OperationMaps};
 use crate::output::folder::OutputFolder;
 use crate::output::interrupt::Interrupt;
 use crate::output::progress::Progress;
@@ -60,7 +60,7 @@ pub fn cut_gear(
     folder: Option<(&OutputFolder, &[(String, String)])>,
 ) -> Result<CutGear> {
     let started = Instant::now();
-    let names: Vec<String> = job.operations.iter().map(|operation| operation.spec.name.clone()).collect();
+    let operations = map_operations(job);
     let flanks: Vec<(u32, Side)> =
         (1..=job.scene.gear.teeth).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]).collect();
     let step = progress.step("cut", flanks.len() as u64, "flanks");
@@ -75,7 +75,7 @@ pub fn cut_gear(
         let spacing_mm = job.scene.output.map_spacing_mm;
         let maps = FlankMaps::sample(tooth, side, &cut.field, &cut.layers, spacing_mm);
         if let Some((folder, notes)) = folder {
-            maps.write(folder, &names, notes)?;
+            maps.write(folder, &operations, notes)?;
         }
         step.advance(1);
         let dexels = (cut.field.len() * cut.layers.len()) as u64;
@@ -111,6 +111,15 @@ pub fn cut_gear(
     }
     let report = gear_report::measure(job, backend, reports)?;
     Ok(CutGear { report, maps, stats, dexels, elapsed: started.elapsed(), interrupted })
+}
+
+/// What the maps need to know of the operations.
+fn map_operations(job: &Job) -> Vec<OperationMaps> {
+    let finishing_mm = job.finishing().spec.offset_mm;
+    job.operations
+        .iter()
+        .map(|o| OperationMaps::new(&o.spec.name, o.spec.offset_mm - finishing_mm, job.scene.gear.pressure_angle_rad))
+        .collect()
 }
 
 /// A finished run.

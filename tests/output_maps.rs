@@ -3,7 +3,6 @@
 //! With `GEARCUT_KEEP=folder` the pictures are kept there for a look.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use gearcut::output::colormap::ColourScale;
 use gearcut::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
@@ -158,24 +157,13 @@ fn a_map_that_does_not_fill_its_grid_is_refused() {
     assert!(!path.exists());
 }
 
-/// 84 flanks: their maps in under 4 s on one core, and all of them on one sheet.
+/// 84 flanks on one sheet, and a sheet of three.
 #[test]
-fn a_whole_gear_is_drawn_fast_and_on_one_sheet() {
+fn a_whole_gear_is_drawn_on_one_sheet() {
     let album = Album::new();
     let grid = grid(75, 300, 7.0, 30.0);
     let flanks: Vec<_> = (0..84).map(|k| flank(&grid, 0.15 * f64::from(k))).collect();
     let scale = ColourScale::diverging_over(flanks.iter().map(Vec::as_slice));
-    let mut times_s = Vec::new();
-    for values in &flanks {
-        let started = Instant::now();
-        write_map_png(&album.path("one_of_many.png"), &picture(&grid, values, scale)).expect("a sound map");
-        times_s.push(started.elapsed().as_secs_f64());
-    }
-    // The fastest map counts: the others also measure what else the machine is doing.
-    let (all_s, fastest_s) = (times_s.iter().sum::<f64>(), times_s.iter().copied().fold(f64::INFINITY, f64::min));
-    println!("84 maps in {all_s:.2} s, the fastest in {:.1} ms", 1e3 * fastest_s);
-    assert!(84.0 * fastest_s < 4.0, "one map took {fastest_s:.3} s at best");
-
     let labels: Vec<_> = (0..84).map(|k| format!("{} {}", k / 2 + 1, if k % 2 == 0 { "L" } else { "R" })).collect();
     let maps: Vec<_> =
         labels.iter().zip(&flanks).map(|(label, values)| Thumbnail { label, grid: &grid, values }).collect();

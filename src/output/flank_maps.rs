@@ -1,8 +1,8 @@
 //! Maps of one flank: what every operation left, as pictures and as EXR for other programs.
 //!
 //! In: the cut field at dexel spacing. Out: `maps/<operation>/tooth_07_left.{png,exr}` (height over the target) and `allowance/tooth_07_left.{png,exr}` (stock of each earlier operation
-//! over the finished surface). Maps have a spacing of their own (the scene's `output.map_spacing_mm`): each value is the dexel nearest to the map's place, not a mean, so that no feed mark is
-//! smoothed into a wrong height.
+//! over the finished surface). Maps have a spacing of their own (the scene's `output.map_spacing_mm`), wider than facets: stock, height and pass id are those of the dexel nearest to the map's
+//! place, and beside them stands the **highest** dexel of each cell, which height pictures show. Single dexels would make moire of the feed marks, means would hide them.
 
 use super::colormap::ColourScale;
 use super::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
@@ -17,6 +17,24 @@ use crate::units::UM_PER_MM;
 /// What map readers need to know about u and v.
 const FRAME: &str = "flank frame: u = arc length along the target profile from the form point to the tip, v = place along the tooth from the middle of the face; heights along the target's outward normal, positive = material left";
 
+/// What maps need to know of an operation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OperationMaps {
+    /// Its name.
+    pub name: String,
+    /// Colours of its stock over the last operation, the same for all flanks so that they can be compared.
+    pub stock_scale: ColourScale,
+}
+
+impl OperationMaps {
+    /// Maps of an operation whose cutter stands `offset_mm` further back than the last one's: on a straight rack it leaves offset sin(alpha) on both flanks, and the colours go from nothing to
+    /// twice that. Where the fillet leaves more, they stay at their end.
+    pub fn new(name: &str, offset_mm: f64, pressure_angle_rad: f64) -> Self {
+        let even_mm = (offset_mm * pressure_angle_rad.sin()).max(1e-3);
+        Self { name: name.to_owned(), stock_scale: ColourScale::Sequential { low: 0.0, high: 2.0 * even_mm as f32 } }
+    }
+}
+
 /// Maps of one flank on its own grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankMaps {
@@ -28,6 +46,8 @@ pub struct FlankMaps {
     pub grid: MapGrid,
     /// Height over the target after each operation, mm; NaN where no pass came.
     pub heights_mm: Vec<Vec<f32>>,
+    /// Height of the highest dexel of each cell, mm; NaN where no pass came.
+    pub highest_mm: Vec<Vec<f32>>,
     /// Pass that left it, after each operation.
     pub passes: Vec<Vec<u32>>,
 }
@@ -45,24 +65,45 @@ impl FlankMaps {
             u: axis("u", "along the profile from the form point", 0.0, lengths[0]),
             v: axis("v", "along the tooth from the middle of the face", field.leads_mm[0], lengths[1]),
         };
-        let nearest = |place_mm: f64, places: &mut dyn Iterator<Item = f64>| {
-            places
-                .enumerate()
-                .min_by(|a, b| (a.1 - place_mm).abs().total_cmp(&(b.1 - place_mm).abs()))
-                .map_or(0, |(index, _)| index)
+        // Dexels of each cell of an axis: those nearer to its place than to the next one, at least the nearest.
+        let cells = |axis: &MapAxis, places: &[f64]| -> Vec<(usize, std::ops::Range<usize>)> {
+            (0..axis.count)
+                .map(|i| {
+                    let place_mm = axis.place_mm(i);
+                    let after = places.partition_point(|&p| p < place_mm);
+                    let nearest = [after.saturating_sub(1), after.min(places.len() - 1)]
+                        .into_iter()
+                        .min_by(|&a, &b| (places[a] - place_mm).abs().total_cmp(&(places[b] - place_mm).abs()))
+                        .unwrap_or(0);
+                    let from = places.partition_point(|&p| p < place_mm - 0.5 * spacing_mm);
+                    let to = places.partition_point(|&p| p < place_mm + 0.5 * spacing_mm);
+                    (nearest, from.min(nearest)..to.max(nearest + 1))
+                })
+                .collect()
         };
-        let columns: Vec<usize> = (0..grid.u.count)
-            .map(|i| nearest(grid.u.place_mm(i), &mut field.columns.iter().map(|c| c.arc_mm)))
-            .collect();
-        let leads: Vec<usize> =
-            (0..grid.v.count).map(|i| nearest(grid.v.place_mm(i), &mut field.leads_mm.iter().copied())).collect();
+        let arcs_mm: Vec<f64> = field.columns.iter().map(|c| c.arc_mm).collect();
+        let (columns, leads) = (cells(&grid.u, &arcs_mm), cells(&grid.v, &field.leads_mm));
         let dexels: Vec<usize> =
-            columns.iter().flat_map(|column| leads.iter().map(move |row| column * rows + row)).collect();
+            columns.iter().flat_map(|(column, _)| leads.iter().map(move |(row, _)| column * rows + row)).collect();
+        let highest = |layer: &Layer| -> Vec<f32> {
+            columns
+                .iter()
+                .flat_map(|(_, columns)| {
+                    leads.iter().map(move |(_, leads)| {
+                        let cell = columns.clone().flat_map(|column| leads.clone().map(move |row| column * rows + row));
+                        cell.filter(|&i| layer.passes[i] != NO_PASS)
+                            .map(|i| layer.heights_mm[i])
+                            .fold(f32::NAN, f32::max)
+                    })
+                })
+                .collect()
+        };
         let height = |layer: &Layer, i: usize| if layer.passes[i] == NO_PASS { f32::NAN } else { layer.heights_mm[i] };
         Self {
             tooth,
             side,
             heights_mm: layers.iter().map(|layer| dexels.iter().map(|&i| height(layer, i)).collect()).collect(),
+            highest_mm: layers.iter().map(highest).collect(),
             passes: layers.iter().map(|layer| dexels.iter().map(|&i| layer.passes[i]).collect()).collect(),
             grid,
         }
@@ -79,18 +120,18 @@ impl FlankMaps {
         format!("tooth_{:02}_{}", self.tooth, self.side.name())
     }
 
-    /// Writes all maps; `operations` are their names, `notes` go into the EXR headers.
+    /// Writes all maps; `operations` are their names and the largest stock that the colours of their allowance maps tell apart, `notes` go into the EXR headers.
     ///
     /// # Errors
     /// Files that cannot be written.
-    pub fn write(&self, folder: &OutputFolder, operations: &[String], notes: &[(String, String)]) -> Result<()> {
+    pub fn write(&self, folder: &OutputFolder, operations: &[OperationMaps], notes: &[(String, String)]) -> Result<()> {
         let stem = self.file_stem();
         let flank = format!("tooth {}, {} flank", self.tooth, self.side.name());
-        for (index, name) in operations.iter().enumerate() {
-            let heights_um: Vec<f32> = self.heights_mm[index].iter().map(|h| h * UM_PER_MM as f32).collect();
+        for (index, OperationMaps { name, .. }) in operations.iter().enumerate() {
+            let heights_um: Vec<f32> = self.highest_mm[index].iter().map(|h| h * UM_PER_MM as f32).collect();
             let picture = MapPicture {
                 title: &format!("{name}: {flank}"),
-                quantity: "height over the target",
+                quantity: "height over the target, highest of cell",
                 unit: "µm",
                 grid: &self.grid,
                 values: &heights_um,
@@ -105,6 +146,12 @@ impl FlankMaps {
                     Samples::F32(self.heights_mm[index].clone()),
                 ),
                 channel(
+                    "highest_mm",
+                    "mm",
+                    "height of the highest dexel of the cell over the target",
+                    Samples::F32(self.highest_mm[index].clone()),
+                ),
+                channel(
                     "pass_id",
                     "1",
                     "pass that left the surface; 4294967295 where none came",
@@ -114,21 +161,21 @@ impl FlankMaps {
             self.write_exr(&folder.path(format!("maps/{name}/{stem}.exr"))?, channels, notes)?;
         }
         let earlier = &operations[..operations.len() - 1];
-        if let Some((index, name)) = earlier.iter().enumerate().next_back() {
+        if let Some((index, OperationMaps { name, stock_scale })) = earlier.iter().enumerate().next_back() {
             let stock_mm = self.stock_mm(index);
             let picture = MapPicture {
-                title: &format!("Stock of {name} over {}: {flank}", operations[operations.len() - 1]),
+                title: &format!("Stock of {name} over {}: {flank}", operations[operations.len() - 1].name),
                 quantity: "normal stock",
                 unit: "mm",
                 grid: &self.grid,
                 values: &stock_mm,
-                scale: ColourScale::sequential_over([stock_mm.as_slice()]),
+                scale: *stock_scale,
             };
             write_map_png(&folder.path(format!("allowance/{stem}.png"))?, &picture)?;
             let mut channels: Vec<MapChannel> = earlier
                 .iter()
                 .enumerate()
-                .map(|(index, name)| {
+                .map(|(index, OperationMaps { name, .. })| {
                     let definition = format!("normal stock of {name} over the last operation");
                     channel(&format!("stock_{name}_mm"), "mm", &definition, Samples::F32(self.stock_mm(index)))
                 })

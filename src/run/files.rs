@@ -168,19 +168,20 @@ fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Resu
     if cut.maps.is_empty() {
         return Ok(());
     }
-    let sheet = |path: &str, title: String, quantity: &str, unit: &str, values: Vec<Vec<f32>>| -> Result<()> {
-        let labels: Vec<String> = cut.maps.iter().map(|m| format!("{} {}", m.tooth, m.side.name())).collect();
-        let thumbnails: Vec<Thumbnail> = cut
-            .maps
-            .iter()
-            .zip(&labels)
-            .zip(&values)
-            .map(|((map, label), values)| Thumbnail { label, grid: &map.grid, values })
-            .collect();
-        let scale = ColourScale::sequential_over(values.iter().map(Vec::as_slice));
-        let sheet = ContactSheet { title: &title, quantity, unit, scale, maps: &thumbnails };
-        write_contact_sheet(&folder.path(path)?, &sheet)
-    };
+    let sheet =
+        |path: &str, title: String, quantity: &str, unit: &str, scale: Option<ColourScale>, values: Vec<Vec<f32>>| {
+            let labels: Vec<String> = cut.maps.iter().map(|m| format!("{} {}", m.tooth, m.side.name())).collect();
+            let thumbnails: Vec<Thumbnail> = cut
+                .maps
+                .iter()
+                .zip(&labels)
+                .zip(&values)
+                .map(|((map, label), values)| Thumbnail { label, grid: &map.grid, values })
+                .collect();
+            let scale = scale.unwrap_or_else(|| ColourScale::sequential_over(values.iter().map(Vec::as_slice)));
+            let sheet = ContactSheet { title: &title, quantity, unit, scale, maps: &thumbnails };
+            write_contact_sheet(&folder.path(path)?, &sheet)
+        };
     for (index, operation) in job.operations[..last].iter().enumerate() {
         let name = &operation.spec.name;
         sheet(
@@ -188,6 +189,7 @@ fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Resu
             format!("{}: stock of {name}, all flanks", job.scene.name),
             "normal stock",
             "mm",
+            Some(super::map_operations(job)[index].stock_scale),
             cut.maps.iter().map(|m| m.stock_mm(index)).collect(),
         )?;
     }
@@ -196,9 +198,10 @@ fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Resu
     sheet(
         &format!("pictures/heights_{name}.png"),
         format!("{}: finished surface after {name}, all flanks", job.scene.name),
-        "height over the target",
+        "height over the target, highest of cell",
         "µm",
-        cut.maps.iter().map(|m| m.heights_mm[last].iter().map(to_um).collect()).collect(),
+        None,
+        cut.maps.iter().map(|m| m.highest_mm[last].iter().map(to_um).collect()).collect(),
     )
 }
 

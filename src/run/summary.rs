@@ -23,7 +23,7 @@ pub fn summary(job: &Job, cut: &CutGear, results: &Results, out: &Path, backend:
     let headline = &results.headline;
     sheet.line("smallest normal stock", shown(&headline.smallest_normal_stock));
     sheet.line("largest normal stock", shown(&headline.largest_normal_stock));
-    sheet.line("start of involute", format!("{} over the pitch curve", shown(&headline.start_of_involute)));
+    sheet.line("highest start of involute", shown(&headline.start_of_involute));
     sheet.line("undercut flanks", shown(&headline.undercut_flanks));
     sheet.line("narrowest tip land", shown(&headline.tip_land));
     sheet.line("pointed teeth", shown(&headline.pointed_teeth));
