@@ -49,8 +49,8 @@ pub enum Command {
     #[command(after_help = "Example:\n  \
         gearcut compare out/elliptical_traditional out/elliptical_normal\n\n\
         Writes a folder (compare_<A>_<B> beside B unless --out is given): comparison.csv with the headline numbers of\n\
-        both and their differences, and the unevenness of the finishing allowance as bars by tooth (%), over the first\n\
-        period of the pitch curve and over all teeth, as PNG and SVG. Prints the same table.")]
+        both and their differences, and the unevenness of the allowance as bars by tooth (%), both results in one chart\n\
+        (first period of the pitch curve, and all teeth) and each on its own scale, as PNG and SVG. Prints the table.")]
     Compare(CompareArguments),
     /// List what can compute here.
     #[command(after_help = "Example:\n  gearcut devices")]
