@@ -33,6 +33,9 @@ pub enum Error {
         /// The writer's reason.
         reason: String,
     },
+    /// A device failed, and the user wants the run to stop then.
+    #[error(transparent)]
+    Gpu(#[from] crate::cut::gpu::GpuProblem),
     /// Stopped by the user.
     #[error("stopped by Ctrl-C")]
     Interrupted,
