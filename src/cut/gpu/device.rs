@@ -6,6 +6,10 @@
 use super::adapter::{AdapterFacts, FoundAdapter};
 use super::problem::GpuProblem;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// How long a device that refuses a call may finish what it has before the reason is taken as it stands.
+const SETTLING: Duration = Duration::from_secs(10);
 
 /// An open device.
 pub struct Device {
@@ -65,8 +69,9 @@ impl Device {
         match first {
             None => Ok(value),
             Some(error) => {
-                // A lost device refuses calls before it says that it is lost.
-                let _ = self.handle.poll(wgpu::PollType::Poll);
+                // A lost device refuses calls before it says that it is lost, which it does once its queue has come to rest.
+                let settled = wgpu::PollType::Wait { submission_index: None, timeout: Some(SETTLING) };
+                let _ = self.handle.poll(settled);
                 self.alive()?;
                 Err(error.into())
             }

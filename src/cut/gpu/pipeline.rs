@@ -14,6 +14,8 @@ pub struct Stage {
     pub name: &'static str,
     /// Whole text.
     pub text: &'static str,
+    /// Its bindings in order, by the names that they have there.
+    pub bindings: &'static [&'static str],
     /// Constants of every variant that is used.
     pub variants: &'static [&'static [(&'static str, f64)]],
 }
@@ -26,6 +28,7 @@ pub const PLANAR_FLANK: Stage = Stage {
         include_str!("../../../shaders/shared/entry.wgsl"),
         include_str!("../../../shaders/planar_flank.wgsl"),
     ),
+    bindings: &["launch", "tiles", "columns", "records", "cells", "row_phases", "heights_mm", "passes", "unconverged"],
     variants: &[
         &[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64), ("FROZEN", 0.0)],
         &[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64), ("FROZEN", 1.0)],
