@@ -1,6 +1,7 @@
 //! Dexel-passes in a second: the planar kernel natively and on every adapter that is there, the same plan in one run.
 //!
-//! One flank of the paper's gear as shipped (5 um by 50 um), finished; strokes that move and strokes that rest. The rates hold for whole cuts, transfers included.
+//! One flank of the paper's gear as shipped (5 um by 50 um), finished; strokes that move and strokes that rest. The
+//! rates hold for whole cuts, transfers included.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gearcut::cut::Backend;

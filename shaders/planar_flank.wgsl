@@ -1,8 +1,9 @@
 // Lowers the dexels of a field by every pass that their tile visits.
 //
-// One thread per four rows of a column; one workgroup row (y) per tile, so that records are read in step. Reads launch, tiles, columns, records, cells,
-// row phases; lowers heights and passes in place; counts iterations that stopped short.
-// Twin: src/cut/cpu/planar.rs (derivation there). Adds at most 1 nm to a height, of which the rounding to f32 is a part.
+// One thread per four rows of a column; one workgroup row (y) per tile, so that records are read in step. Reads launch,
+// tiles, columns, records, cells, row phases; lowers heights and passes in place; counts iterations that stopped short.
+// Twin: src/cut/cpu/planar.rs (derivation there). Adds at most 1 nm to a height, of which the rounding to f32 is a
+// part.
 
 @group(0) @binding(0) var<uniform> launch: Launch;
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
@@ -35,14 +36,13 @@ fn planar_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocati
     let tile = tiles[group.y];
     let thread = group.x * WORKGROUP_THREADS + local;
     let column_in_tile = thread / launch.threads_per_column;
-    if column_in_tile >= tile.column_count {
-        return;
-    }
-    let column_index = tile.first_column + column_in_tile;
+    // Threads beyond the tile's last column repeat it, and write nothing: an early return would part the threads of a
+    // wave.
+    let column_index = tile.first_column + min(column_in_tile, tile.column_count - 1u);
     let column = columns[column_index];
     // Rows of one thread lie apart by the number of threads, so that neighbouring threads touch neighbouring rows.
     let rows = vec4(thread % launch.threads_per_column) + vec4(0u, 1u, 2u, 3u) * launch.threads_per_column;
-    let there = rows < vec4(launch.rows);
+    let there = (rows < vec4(launch.rows)) & vec4(column_in_tile < tile.column_count);
     // Lanes beyond the last row repeat it, and write nothing.
     let row = min(rows, vec4(launch.rows - 1u));
     let at = vec4(column_index * launch.rows) + row;

@@ -1,11 +1,13 @@
-// Entry of four rays into one segment. Coordinates count from the segment's base point, which lies near the contact: they are tenths of a
-// millimetre, so that f32 resolves a hundredth of a nanometre. Derivation: src/cut/cpu/planar.rs; base points: src/cut/gpu/compose.rs.
+// Entry of four rays into one segment. Coordinates count from the segment's base point, which lies near the contact:
+// they are tenths of a millimetre, so that f32 resolves a hundredth of a nanometre. Derivation: src/cut/cpu/planar.rs;
+// base points: src/cut/gpu/compose.rs.
 
 // Newton steps at most: two suffice from the tile's middle, grazing rays take five.
 const MAX_STEPS: u32 = 8u;
 // A step below this (10 nm) is the last one: the error after it is its square.
 const LAST_STEP_MM: f32 = 1e-5;
-// A last step above this has not arrived. The residual of a grazing ray is known to some 1e-8 mm, so its steps do not shrink further than this.
+// A last step above this has not arrived. The residual of a grazing ray is known to some 1e-8 mm, so its steps do not
+// shrink further than this.
 const CONVERGED_MM: f32 = 2e-5;
 // Heights are held within this of the start, so that no iterate grows beyond what f32 holds; rays are far shorter.
 const REACH_MM: f32 = 200.0;
@@ -56,7 +58,8 @@ fn enter_table(rays: Rays, record: PassRecord) -> Entries {
     return Entries(k, on_segment & converged, on_segment & !converged);
 }
 
-// First root of a circle, without cancellation where the ray points at it: q (q + 2 m) + excess, with m from the centre to the base point.
+// First root of a circle, without cancellation where the ray points at it: q (q + 2 m) + excess, with m from the centre
+// to the base point.
 fn enter_arc(rays: Rays, record: PassRecord) -> Entries {
     let m_x = record.base_x_mm;
     let m_y = record.base_y_mm;

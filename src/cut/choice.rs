@@ -1,6 +1,7 @@
 //! Which machine cuts: a real GPU if there is one, else the processor; anything else only when asked for.
 //!
-//! The native backend is faster than a software adapter on the same cores, so llvmpipe and its like are for checking the shaders.
+//! The native backend is faster than a software adapter on the same cores, so llvmpipe and its like are for checking
+//! the shaders.
 
 use super::Backend;
 use super::cpu::Cpu;

@@ -1,8 +1,10 @@
 //! Backends: subtract the passes of a plan from a field of dexels.
 //!
-//! One law, several machines: [`cpu::Cpu`] (f64, vectorised at run time) always works, [`gpu::Gpu`] (f32 in local frames, within nanometres) runs on any Vulkan, Metal or DirectX 12
-//! adapter; [`choice`] takes one of them. A backend reads the plan's records and the tool's edge tables and lowers the heights of a
-//! [`Layer`]; among passes that leave the same height the lowest id wins, so the result does not depend on any order of work.
+//! One law, several machines: [`cpu::Cpu`] (f64, vectorised at run time) always works, [`gpu::Gpu`] (f32 in local
+//! frames, within nanometres) runs on any Vulkan, Metal or DirectX 12 adapter; [`choice`] takes one of them. A backend
+//! reads the plan's records and the tool's edge tables and lowers the heights of a
+//! [`Layer`]; among passes that leave the same height the lowest id wins, so the result does not depend on any order of
+//! work.
 
 pub mod choice;
 pub mod cpu;
@@ -18,7 +20,8 @@ use crate::tool::edge::Edge;
 pub struct CutStats {
     /// (Dexel, pass) pairs evaluated.
     pub dexel_passes: u64,
-    /// Pairs whose ray meets the segment but whose root was not reached to a picometre; any at all makes the result untrustworthy.
+    /// Pairs whose ray meets the segment but whose root was not reached to a picometre; any at all makes the result
+    /// untrustworthy.
     pub unconverged: u64,
 }
 

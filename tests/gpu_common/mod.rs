@@ -1,7 +1,9 @@
 //! The GPU backend beside the native one: which adapter, which dexels count, how far apart.
 //!
-//! All dexels are compared. A difference above the bound is excused only where the native height itself is not **stable**: where it moves by more than the bound when the ray is
-//! shifted sideways by 2 nm, because the ray grazes a corner and hit or miss is a matter of a nanometre. Such dexels are counted, and must lie within the native heights of that shift.
+//! All dexels are compared. A difference above the bound is excused only where the native height itself is not
+//! **stable**: where it moves by more than the bound when the ray is shifted sideways by 2 nm, because the ray grazes a
+//! corner and hit or miss is a matter of a nanometre. Such dexels are counted, and must lie within the native heights
+//! of that shift.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 use gearcut::cut::Backend;

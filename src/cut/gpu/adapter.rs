@@ -1,6 +1,7 @@
 //! Adapters: which are there, what they allow, and which one serves.
 //!
-//! Real GPUs come first (discrete, integrated, virtual), software adapters such as llvmpipe last. One GPU may be listed under several interfaces (Vulkan and DirectX 12 on Windows).
+//! Real GPUs come first (discrete, integrated, virtual), software adapters such as llvmpipe last. One GPU may be listed
+//! under several interfaces (Vulkan and DirectX 12 on Windows).
 
 use super::problem::GpuProblem;
 use serde::Serialize;

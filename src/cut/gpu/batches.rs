@@ -1,7 +1,8 @@
 //! Cuts a field of any size into batches that a device can hold.
 //!
-//! In: the plan, what the device allows. Out: batches of whole columns, each with rounds of records. Dexels of a batch stay on the device through its rounds, which run in order, so that a
-//! tile with more records than one buffer holds is cut like any other.
+//! In: the plan, what the device allows. Out: batches of whole columns, each with rounds of records. Dexels of a batch
+//! stay on the device through its rounds, which run in order, so that a tile with more records than one buffer holds is
+//! cut like any other.
 
 use super::problem::GpuProblem;
 use super::{compose, records};
@@ -10,8 +11,8 @@ use std::ops::Range;
 
 /// Dexels of a batch at most: 32 MB of heights and ids; the next batch is composed while one is cut.
 const BATCH_DEXELS: usize = 4 << 20;
-/// (Dexel, pass) pairs of a launch at most: a twentieth of a second on a GPU of 1e10 pairs a second. Display drivers reset devices that
-/// do not answer for two seconds, so even one that is twenty times slower stays below that.
+/// (Dexel, pass) pairs of a launch at most: a twentieth of a second on a GPU of 1e10 pairs a second. Display drivers
+/// reset devices that do not answer for two seconds, so even one that is twenty times slower stays below that.
 const LAUNCH_PAIRS: u64 = 1 << 29;
 /// Workgroups in one dimension: what every WebGPU device has.
 const WORKGROUPS: usize = 65535;

@@ -2,11 +2,13 @@
 //!
 //! In: field, edge, plan. Out: [`records::PassRecord`], [`records::Column`] and one table of all segments' cells.
 //!
-//! A record of the plan maps the tile's frame to the segment's: millimetres on both sides, where f32 resolves half a nanometre and a Newton step on differences
-//! of such numbers loses several. So the last subtraction is done here, in f64: the tile's middle ray is put at the record's start height, its place becomes the
-//! origin on the tile's side, and a **base point** of the segment near it becomes the origin on the other: the start of the table cell that the ray
-//! stands over, or the point of the arc. What is left for f32 is some tenths of a millimetre, resolved to a hundredth of a nanometre. Start height, base x and base point
-//! are rounded to f32 *before* they are subtracted, so that the shader's own subtraction of the same numbers is exact.
+//! A record of the plan maps the tile's frame to the segment's: millimetres on both sides, where f32 resolves half a
+//! nanometre and a Newton step on differences of such numbers loses several. So the last subtraction is done here, in
+//! f64: the tile's middle ray is put at the record's start height, its place becomes the origin on the tile's side, and
+//! a **base point** of the segment near it becomes the origin on the other: the start of the table cell that the ray
+//! stands over, or the point of the arc. What is left for f32 is some tenths of a millimetre, resolved to a hundredth
+//! of a nanometre. Start height, base x and base point are rounded to f32 *before* they are subtracted, so that the
+//! shader's own subtraction of the same numbers is exact.
 //!
 //! Road not taken: pairs of f32. They need a fused multiply-add that WGSL does not promise.
 
@@ -16,8 +18,9 @@ use crate::passes::PassRecord;
 use crate::tool::edge::{Edge, Segment, SegmentShape};
 use glam::DVec2;
 
-/// Hits this far beyond a segment's end still count (half a nanometre): more than f32 errs near the base point, so that no ray slips through between two segments, and
-/// less than the sideways shift of 2 nm under which a dexel must be stable for its height to mean anything.
+/// Hits this far beyond a segment's end still count (half a nanometre): more than f32 errs near the base point, so that
+/// no ray slips through between two segments, and less than the sideways shift of 2 nm under which a dexel must be
+/// stable for its height to mean anything.
 pub const END_OVERLAP_MM: f64 = 5e-7;
 
 /// The cells of an edge's tables after each other.

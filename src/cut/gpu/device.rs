@@ -1,7 +1,7 @@
 //! A device that reports its problems as values: loss, refused memory, refused calls.
 //!
-//! Errors are caught in scopes of the calling thread, so flanks cut in parallel do not see each other's. What no scope catches, the loss of
-//! the device, is kept and ends every later call.
+//! Errors are caught in scopes of the calling thread, so flanks cut in parallel do not see each other's. What no scope
+//! catches, the loss of the device, is kept and ends every later call.
 
 use super::adapter::{AdapterFacts, FoundAdapter};
 use super::problem::GpuProblem;
@@ -69,7 +69,8 @@ impl Device {
         match first {
             None => Ok(value),
             Some(error) => {
-                // A lost device refuses calls before it says that it is lost, which it does once its queue has come to rest.
+                // A lost device refuses calls before it says that it is lost, which it does once its queue has come to
+                // rest.
                 let settled = wgpu::PollType::Wait { submission_index: None, timeout: Some(SETTLING) };
                 let _ = self.handle.poll(settled);
                 self.alive()?;

@@ -1,9 +1,10 @@
 //! The GPU backend: f32 in local frames through wgpu, on any Vulkan, Metal or DirectX 12 adapter, without a window.
 //!
-//! In: field, edge, plan, layer, as every backend. Out: heights within a nanometre of the native ones wherever these are stable, and the passes that left them.
-//! Everything far away is subtracted in f64 on the host ([`compose`]); fields of any size go through in [`batches`]; the host composes one batch while the
-//! device works on the one before. Nothing is written to the layer before all batches are back, so a device that fails loses nothing: the flank is cut again natively, or the
-//! run stops, as the user chose.
+//! In: field, edge, plan, layer, as every backend. Out: heights within a nanometre of the native ones wherever these
+//! are stable, and the passes that left them. Everything far away is subtracted in f64 on the host ([`compose`]);
+//! fields of any size go through in [`batches`]; the host composes one batch while the device works on the one before.
+//! Nothing is written to the layer before all batches are back, so a device that fails loses nothing: the flank is cut
+//! again natively, or the run stops, as the user chose.
 
 pub mod adapter;
 pub mod batches;

@@ -1,7 +1,7 @@
 //! Shaders as text and as pipelines.
 //!
-//! A stage's text is its file after the shared ones, joined as they are: no preprocessor stands between the files and what
-//! the driver sees. Variants are `override` constants. Bindings come from the shader itself.
+//! A stage's text is its file after the shared ones, joined as they are: no preprocessor stands between the files and
+//! what the driver sees. Variants are `override` constants. Bindings come from the shader itself.
 
 use super::device::Device;
 use super::problem::GpuProblem;

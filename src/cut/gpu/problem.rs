@@ -1,4 +1,5 @@
-//! What can go wrong on a device, as values: no call of this backend panics because of a driver, and none returns half a flank.
+//! What can go wrong on a device, as values: no call of this backend panics because of a driver, and none returns half
+//! a flank.
 
 use std::fmt::Write as _;
 

@@ -1,7 +1,8 @@
 //! A batch on its way: sent to the device, cut there, brought back.
 //!
-//! In: a batch with its composed rounds and the layer's part. Out: heights, passes, the number of iterations that stopped short, the device's own time. Sending returns at once; the next batch is
-//! composed and sent while the device works on this one.
+//! In: a batch with its composed rounds and the layer's part. Out: heights, passes, the number of iterations that
+//! stopped short, the device's own time. Sending returns at once; the next batch is composed and sent while the device
+//! works on this one.
 
 use super::batches::Round;
 use super::device::Device;
@@ -12,7 +13,8 @@ use std::sync::mpsc;
 use std::time::Duration;
 use wgpu::BufferUsages as Use;
 
-/// How long a batch may take: a launch is a second's work on the slowest GPU, minutes on a software adapter that shares two busy cores.
+/// How long a batch may take: a launch is a second's work on the slowest GPU, minutes on a software adapter that shares
+/// two busy cores.
 const PATIENCE: Duration = Duration::from_secs(600);
 /// Rounds of a batch that are timed; later ones, if a tile has that many records, are not.
 const TIMED_ROUNDS: usize = 256;

@@ -1,6 +1,7 @@
 //! What the shaders read, byte for byte: the only place where Rust and WGSL share a layout.
 //!
-//! Members stand in the order of `shaders/shared/records.wgsl` and are f32 and u32 alone; a test asks naga for names, offsets and sizes and compares.
+//! Members stand in the order of `shaders/shared/records.wgsl` and are f32 and u32 alone; a test asks naga for names,
+//! offsets and sizes and compares.
 
 use bytemuck::{Pod, Zeroable};
 
