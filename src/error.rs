@@ -36,6 +36,14 @@ pub enum Error {
     /// A device failed, and the user wants the run to stop then.
     #[error(transparent)]
     Gpu(#[from] crate::cut::gpu::GpuProblem),
+    /// A file that was read is not what it should be.
+    #[error("cannot use {}: {reason}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// Stopped by the user.
     #[error("stopped by Ctrl-C")]
     Interrupted,

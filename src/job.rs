@@ -10,7 +10,7 @@ use crate::frame::Rigid2;
 use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
 use crate::gear::generation::{Generation, Side};
-use crate::gear::target::{FlankEnd, TargetFlank, target_root};
+use crate::gear::target::{TargetFlank, target_root};
 use crate::linkage::{ShapingLinkage, StrokeSchedule};
 use crate::passes::strokes::StrokeLaw;
 use crate::passes::{CutPlan, StrokeSet};
@@ -24,6 +24,8 @@ use std::sync::Arc;
 const RAY_DEPTH_MODULES: f64 = 0.5;
 /// How far above the target a ray can reach, in modules: half a pitch, where the neighbouring tooth begins.
 const RAY_HEIGHT_MODULES: f64 = 0.5 * std::f64::consts::PI;
+/// Root fields are coarser than flanks, at least so far apart along profile and tooth: roots carry no feed marks that matter.
+const ROOT_SPACING_MM: [f64; 2] = [0.02, 1.0];
 /// Rays of a fillet stay within this share of its radius: further out they would cross each other.
 const FILLET_SHARE: f64 = 0.8;
 
@@ -214,7 +216,8 @@ impl Job {
         let generation = self.target_generation();
         let fields = self.scene.fields;
         let module_mm = self.scene.gear.module_mm;
-        let points = target_root(&generation, i64::from(space), fields.profile_spacing_mm);
+        let spacing_mm = fields.profile_spacing_mm.max(ROOT_SPACING_MM[0]);
+        let points = target_root(&generation, i64::from(space), spacing_mm);
         let columns = points
             .iter()
             .enumerate()
@@ -234,7 +237,7 @@ impl Job {
                 }
             })
             .collect();
-        Field { columns, leads_mm: self.leads_mm(fields.lead_spacing_mm) }
+        Field { columns, leads_mm: self.leads_mm(fields.lead_spacing_mm.max(ROOT_SPACING_MM[1])) }
     }
 
     /// Rows along the tooth: evenly over the face, both ends included.
@@ -258,10 +261,5 @@ impl Job {
             layers.push(layer);
         }
         Ok(CutFlank { field, layers, stats })
-    }
-
-    /// Whether a flank's end is the ordinary one.
-    pub fn is_ordinary_end(end: FlankEnd) -> bool {
-        matches!(end, FlankEnd::CutterCorner | FlankEnd::BlankOutline)
     }
 }

@@ -3,6 +3,8 @@
 //!
 //! The modules follow the data's path, from the scene to the files; `run` alone knows the whole order.
 
+pub mod axes_report;
+pub mod compare;
 pub mod cut;
 pub mod dexel;
 pub mod error;
@@ -10,8 +12,10 @@ pub mod frame;
 pub mod gear;
 pub mod job;
 pub mod linkage;
+pub mod measure;
 pub mod output;
 pub mod passes;
+pub mod run;
 pub mod scene;
 pub mod tool;
 pub mod units;

@@ -72,7 +72,11 @@ fn bindings_stand_in_the_order_of_the_stage_and_fit_every_device() {
 macro_rules! layout {
     ($record:ident { $($member:ident),* $(,)? }) => {{
         let record: records::$record = bytemuck::Zeroable::zeroed();
-        let members = vec![$((stringify!($member), offset_of!(records::$record, $member), size_of_val(&record.$member))),*];
+        let members = vec![$((
+            stringify!($member),
+            offset_of!(records::$record, $member),
+            size_of_val(&record.$member),
+        )),*];
         (stringify!($record), members, size_of::<records::$record>())
     }};
 }

@@ -9,7 +9,6 @@ use super::gpu::adapter::{self, AdapterFacts, AdapterWish, FoundAdapter};
 use super::gpu::{Gpu, GpuOptions, GpuProblem};
 use serde::Serialize;
 use std::fmt;
-use std::str::FromStr;
 
 /// What `--backend` says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -21,19 +20,6 @@ pub enum BackendWish {
     Gpu,
     /// The processor.
     Cpu,
-}
-
-impl FromStr for BackendWish {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text {
-            "auto" => Ok(Self::Auto),
-            "gpu" => Ok(Self::Gpu),
-            "cpu" => Ok(Self::Cpu),
-            other => Err(format!("`{other}` is no backend: auto, gpu or cpu")),
-        }
-    }
 }
 
 /// A backend and the reason for it, for the run record.
@@ -85,7 +71,7 @@ fn native(why: String) -> Choice {
 pub fn auto(adapters: &[AdapterFacts]) -> (Option<usize>, String) {
     let taken = adapter::pick(adapters, AdapterWish::Real);
     let why = match (taken, adapters.first()) {
-        (Some(index), _) => format!("auto: {} is a {}", adapters[index].name, adapters[index].kind),
+        (Some(index), _) => format!("auto: {} ({})", adapters[index].name, adapters[index].kind),
         (None, Some(first)) => format!("auto: no real GPU, only {} ({})", first.name, first.kind),
         (None, None) => "auto: no Vulkan, Metal or DirectX 12 adapter".into(),
     };
@@ -154,7 +140,7 @@ mod tests {
         assert_eq!(auto(&[]).0, None);
         assert_eq!(auto(std::slice::from_ref(&software)), (None, "auto: no real GPU, only llvmpipe (software)".into()));
         assert_eq!(auto(&[old.clone(), software.clone()]).0, None);
-        assert_eq!(auto(&[old, card, software]), (Some(1), "auto: card is a integrated GPU".into()));
+        assert_eq!(auto(&[old, card, software]), (Some(1), "auto: card (integrated GPU)".into()));
     }
 
     #[test]

@@ -22,13 +22,18 @@ impl<T: Write + Seek> Sink for T {}
 
 /// Writes `path` completely or not at all.
 ///
-/// The folder must exist. A file already there is replaced at the end. A reason that `fill` gives through
-/// [`io::Error::other`] reaches the user as it is.
+/// The folder must exist. A file already there is replaced at the end.
+///
+/// # Errors
+/// [`Error::Io`] with the system's reason, or with the reason that `fill` gave through [`io::Error::other`].
 pub fn write_atomically(path: &Path, fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>) -> Result<()> {
     write_through(path, |file| file, fill)
 }
 
 /// Writes `path` with the given contents, completely or not at all.
+///
+/// # Errors
+/// [`Error::Io`] with the system's reason.
 pub fn write_bytes_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
     write_atomically(path, |sink| sink.write_all(bytes))
 }

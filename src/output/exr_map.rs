@@ -68,13 +68,19 @@ pub struct ExrMap {
     pub notes: Vec<(String, String)>,
 }
 
-/// Writes a map; refuses values that do not fill the grid, and names used twice.
+/// Writes a map.
+///
+/// # Errors
+/// Values that do not fill the grid, no channels, header names used twice, and files that cannot be written.
 pub fn write_exr_map(path: &Path, map: &ExrMap) -> Result<()> {
     let bytes = encode(map).map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
     write_bytes_atomically(path, &bytes)
 }
 
 /// Reads a map that [`write_exr_map`] wrote.
+///
+/// # Errors
+/// Files that cannot be read, are damaged, or were written by another program.
 pub fn read_exr_map(path: &Path) -> Result<ExrMap> {
     let bytes = std::fs::read(path).map_err(Error::reading(path))?;
     decode(&bytes).map_err(|reason| Error::reading(path)(std::io::Error::other(reason)))

@@ -33,8 +33,8 @@ pub struct OutputFolder {
 impl OutputFolder {
     /// Opens a hidden folder beside `final_path`, whose missing parents are made.
     ///
-    /// Refuses at once if something stands at `final_path` that gearcut did not write, or if the place cannot be
-    /// written to.
+    /// # Errors
+    /// Something stands at `final_path` that gearcut did not write, or the place cannot be written to.
     pub fn create(final_path: &Path) -> Result<Self> {
         let name = final_path.file_name().ok_or_else(|| Error::Output {
             path: final_path.to_owned(),
@@ -52,6 +52,9 @@ impl OutputFolder {
     }
 
     /// Place of a file inside the folder, given relative to it; the subfolders on the way are made.
+    ///
+    /// # Errors
+    /// A subfolder cannot be made.
     pub fn path(&self, relative: impl AsRef<Path>) -> Result<PathBuf> {
         let path = self.temporary.path().join(relative);
         if let Some(parent) = path.parent() {
@@ -61,6 +64,9 @@ impl OutputFolder {
     }
 
     /// Writes a JSON document, indented, ending with a newline.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn write_json(&self, relative: impl AsRef<Path>, document: &serde_json::Value) -> Result<()> {
         write_bytes_atomically(&self.path(relative)?, format!("{document:#}\n").as_bytes())
     }
@@ -74,6 +80,9 @@ impl OutputFolder {
     ///
     /// The folder must hold its own `run.json`, or the next run could not replace it. If the new name cannot be
     /// given, the earlier folder is put back.
+    ///
+    /// # Errors
+    /// There is no `run.json`, somebody else's folder has appeared at the final name, or the system refuses to rename.
     pub fn finish(self) -> Result<PathBuf> {
         if !is_ours(self.temporary.path()) {
             return Err(Error::Output {

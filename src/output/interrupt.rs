@@ -24,7 +24,10 @@ pub struct Interrupt {
 }
 
 impl Interrupt {
-    /// Flag that listens to the process's signals; fails if another listener is there already.
+    /// Flag that listens to the process's signals.
+    ///
+    /// # Errors
+    /// Another listener is there already.
     pub fn listen() -> io::Result<Self> {
         let interrupt = Self::default();
         let on_signal = interrupt.clone();
@@ -47,7 +50,10 @@ impl Interrupt {
         self.raised.load(Ordering::SeqCst)
     }
 
-    /// [`Error::Interrupted`] once the flag is raised; for use with `?` between units of work.
+    /// For use with `?` between units of work.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`] once the flag is raised.
     pub fn check(&self) -> Result<()> {
         if self.is_raised() { Err(Error::Interrupted) } else { Ok(()) }
     }

@@ -7,15 +7,33 @@
 //! | --- | --- |
 //! | complete or absent: one file, one folder | [`atomic`], [`folder`] |
 //! | values with unit and definition, tables | [`quantity`], [`table`] |
+//! | the layout of `results.json` | [`results`] |
+//! | text for the terminal | [`text`] |
 //! | maps: the grid they lie on, all digits | [`grid`], [`exr_map`] |
+//! | pictures of maps: one, all flanks, their colours | [`map_png`], [`contact_sheet`], [`colormap`] |
+//! | charts: grouped bars, panels of curves | [`bar_chart`], [`line_chart`] |
 //! | progress and Ctrl-C | [`progress`], [`interrupt`] |
 
 pub mod atomic;
+mod axis;
+pub mod bar_chart;
+mod canvas;
+mod charts;
+pub mod colormap;
+pub mod contact_sheet;
 mod exr_header;
 pub mod exr_map;
+pub mod flank_maps;
 pub mod folder;
+mod font;
 pub mod grid;
+mod heat;
 pub mod interrupt;
+pub mod line_chart;
+pub mod map_png;
 pub mod progress;
 pub mod quantity;
+mod raster;
+pub mod results;
 pub mod table;
+pub mod text;

@@ -185,7 +185,7 @@ fn time_left_s(elapsed: Duration, done: u64, total: u64) -> Option<f64> {
 }
 
 /// A duration as people say it: "0.4 s", "12 s", "3 min 20 s", "2 h 5 min".
-fn duration_text(seconds: f64) -> String {
+pub fn duration_text(seconds: f64) -> String {
     let whole_s = seconds.round() as u64;
     match whole_s {
         0..10 => format!("{seconds:.1} s"),

@@ -11,8 +11,9 @@
 
 use std::borrow::Cow;
 
+use serde::de::Error as _;
 use serde::ser::SerializeMap;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// One value of the results with its unit and definition.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +33,7 @@ enum Value {
 }
 
 /// Where on the gear a value was found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Place {
     /// Tooth index, from 1.
     pub tooth: u32,
@@ -103,6 +104,57 @@ impl Quantity {
             Value::Text(_) | Value::Undefined { .. } => None,
         }
     }
+
+    /// The unit; none for text.
+    pub fn unit(&self) -> Option<&str> {
+        self.unit.as_deref()
+    }
+
+    /// What the value is.
+    pub fn definition(&self) -> &str {
+        &self.definition
+    }
+
+    /// Why there is no value, if there is none.
+    pub fn why(&self) -> Option<&str> {
+        match &self.value {
+            Value::Undefined { why } => Some(why),
+            _ => None,
+        }
+    }
+
+    /// Where the value was found, if it belongs to a place.
+    pub fn place(&self) -> Option<&Place> {
+        self.place.as_ref()
+    }
+}
+
+/// A quantity as it stands in a file.
+#[derive(Deserialize)]
+struct Written {
+    value: serde_json::Value,
+    unit: Option<String>,
+    definition: String,
+    why: Option<String>,
+    place: Option<Place>,
+}
+
+impl<'de> Deserialize<'de> for Quantity {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let Written { value, unit, definition, why, place } = Written::deserialize(deserializer)?;
+        let value = match (value, why) {
+            (serde_json::Value::Null, Some(why)) => Value::Undefined { why },
+            (serde_json::Value::Null, None) => return Err(D::Error::custom("a value is null without a \"why\"")),
+            (serde_json::Value::String(text), _) => Value::Text(text),
+            (serde_json::Value::Number(number), _) => match (number.as_u64(), number.as_f64()) {
+                (Some(count), _) => Value::Count(count),
+                (None, Some(value)) => Value::Number(value),
+                (None, None) => return Err(D::Error::custom(format!("{number} is out of range"))),
+            },
+            (other, _) => return Err(D::Error::custom(format!("a value is a number, a text or null, not {other}"))),
+        };
+        Ok(Self { value, unit: unit.map(Cow::Owned), definition: definition.into(), place })
+    }
 }
 
 impl Serialize for Quantity {
@@ -159,6 +211,22 @@ mod tests {
     fn counts_stay_whole_and_texts_have_no_unit() {
         assert_eq!(json(&Quantity::count(4200, "strokes", "strokes per revolution")).find("4200,"), Some(9));
         assert_eq!(json(&Quantity::text("cpu", "backend")), r#"{"value":"cpu","unit":null,"definition":"backend"}"#);
+    }
+
+    #[test]
+    fn quantities_read_back_as_they_were() {
+        let place = Place { tooth: 7, flank: "left".into(), u_mm: 1.5, v_mm: 12.0 };
+        for quantity in [
+            Quantity::number(0.1 + 0.2, "mm", "stock").at(place),
+            Quantity::count(84, "flanks", "flanks cut"),
+            Quantity::text("cpu", "backend"),
+            Quantity::undefined("mm", "tip land", "the tooth is pointed"),
+        ] {
+            let back: Quantity = serde_json::from_str(&json(&quantity)).expect("its own JSON");
+            assert_eq!(back, quantity);
+        }
+        let unexplained = r#"{"value": null, "unit": "mm", "definition": "tip land"}"#;
+        assert!(serde_json::from_str::<Quantity>(unexplained).is_err());
     }
 
     #[test]

@@ -65,7 +65,8 @@ impl Cell {
 
 /// Writes a table, row by row as they come, completely or not at all.
 ///
-/// A row with more or fewer cells than there are columns is refused.
+/// # Errors
+/// A row with more or fewer cells than there are columns, and files that cannot be written.
 pub fn write_table<Row>(path: &Path, columns: &[&str], rows: impl IntoIterator<Item = Row>) -> Result<()>
 where
     Row: IntoIterator<Item = Cell>,

@@ -8,7 +8,7 @@
 //!
 //! C takes absolute values and half as much again for what varies inside the tile.
 
-use super::window::NearPass;
+use super::near::NearPass;
 use crate::dexel::field::Column;
 use crate::tool::edge::{Segment, SegmentShape};
 use glam::DVec2;

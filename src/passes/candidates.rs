@@ -9,9 +9,9 @@
 //! special case here.
 
 use super::bounds::{Sampling, SegmentBounds, Verdict, undominated};
+use super::near::{NearPass, near_passes};
 use super::record::PassRecord;
 use super::strokes::StrokeSet;
-use super::window::{NearPass, near_passes};
 use crate::dexel::field::{Column, Field};
 use crate::frame::Rigid2;
 use crate::tool::CuttingTool;

@@ -2,9 +2,9 @@
 
 mod bounds;
 pub mod candidates;
+pub mod near;
 pub mod record;
 pub mod strokes;
-mod window;
 
 pub use candidates::{CutPlan, Tile};
 pub use record::PassRecord;

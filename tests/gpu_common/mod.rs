@@ -136,7 +136,8 @@ impl fmt::Display for Parity {
         let place = self.worst.as_ref().map_or("", |(_, place)| place.as_str());
         write!(
             f,
-            "{} dexels ({} cut): median {median:.4} nm, q99 {q99:.4} nm, max {max:.4} nm at {place}; {} unstable, {} by another pass, {:.0} nm under a shift of 2 nm",
+            "{} dexels ({} cut): median {median:.4} nm, q99 {q99:.4} nm, max {max:.4} nm at {place}; {} unstable, \
+             {} by another pass, {:.0} nm under a shift of 2 nm",
             self.count(),
             self.cut,
             self.unstable,

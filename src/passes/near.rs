@@ -5,6 +5,7 @@
 use super::strokes::StrokeSet;
 use crate::frame::Rigid2;
 use crate::tool::CuttingTool;
+use crate::tool::edge::Edge;
 use glam::DVec2;
 
 /// Phases at which bounds look at a pass: the whole range and its middle, or the one pose of a frozen stroke.
@@ -75,4 +76,29 @@ fn bound_poses(poses: &[Rigid2]) -> Vec<Rigid2> {
             Rigid2 { rotation: DVec2::new(c, s), translation_mm: DVec2::new(x, y) }
         })
         .collect()
+}
+
+/// Height at which the lowest of some passes meets a ray of the gear frame at the middle of the stroke, above `low_mm`; exact, without tables' neighbours or tiles.
+pub fn lowest_entry(near: &[NearPass], edge: &Edge, origin_mm: DVec2, direction: DVec2, low_mm: f64) -> Option<f64> {
+    let mut lowest: Option<f64> = None;
+    for pass in near {
+        let blade_from_work = &pass.blade_from_work[pass.blade_from_work.len() / 2];
+        let (o, n) = (blade_from_work.point(origin_mm), blade_from_work.direction(direction));
+        // The blade's circle against the ray's line.
+        if n.perp_dot(edge.center_mm - o).abs() > edge.reach_mm {
+            continue;
+        }
+        for segment in &edge.segments {
+            let segment_from_blade = segment.blade_from_segment.inverse();
+            let Some(hit) = segment.enter(segment_from_blade.point(o), segment_from_blade.direction(n)) else {
+                continue;
+            };
+            let [y_from, y_to] = segment.y_range_mm;
+            let on_segment = hit.y_mm >= y_from - 1e-9 && hit.y_mm <= y_to + 1e-9;
+            if on_segment && hit.height_mm > low_mm && lowest.is_none_or(|h| hit.height_mm < h) {
+                lowest = Some(hit.height_mm);
+            }
+        }
+    }
+    lowest
 }

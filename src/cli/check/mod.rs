@@ -1,0 +1,53 @@
+//! `gearcut check`: what a scene means, before anything is cut.
+//!
+//! One part per question: is this the pitch curve I meant, what does the cutter do to the teeth, can the machine follow, what
+//! will the cut cost.
+
+mod cost;
+mod curve;
+mod facts;
+mod teeth;
+
+use gearcut::axes_report::OperationAxes;
+use gearcut::job::Job;
+use gearcut::output::text::{Sheet, plain};
+use gearcut::scene::{self, model::Gear};
+
+use facts::ToothFacts;
+
+use super::args::SceneArguments;
+use super::failure::Failure;
+use super::print;
+
+/// Runs the command.
+pub fn run(arguments: &SceneArguments) -> Result<(), Failure> {
+    let scene = scene::load(&arguments.scene, &arguments.settings)?;
+    let job = Job::new(scene.scene.clone()).map_err(|error| Failure::of_scene(&scene, error))?;
+    let facts = ToothFacts::of_job(&job).map_err(|refusal| Failure::of_scene(&scene, refusal.into()))?;
+    let operations = OperationAxes::of_job(&job);
+
+    let mut sheet = Sheet::default();
+    sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
+    curve::print(&mut sheet, &job);
+    teeth::print(&mut sheet, &job, &facts);
+    for operation in &operations {
+        operation.print(&mut sheet);
+    }
+    cost::print(&mut sheet, &job, &facts).map_err(|refusal| Failure::of_scene(&scene, refusal.into()))?;
+    let mut warnings = curve::warnings(&job);
+    warnings.extend(teeth::warnings(&job, &facts));
+    warnings.extend(operations.iter().flat_map(OperationAxes::warnings));
+    print::to_stdout(&sheet.into_text())?;
+    print::warnings(&warnings);
+    Ok(())
+}
+
+fn gear_words(gear: &Gear) -> String {
+    format!(
+        "{} teeth, module {} mm, pressure angle {} deg, face width {} mm",
+        gear.teeth,
+        plain(gear.module_mm),
+        plain(gear.pressure_angle_rad.to_degrees()),
+        plain(gear.face_width_mm)
+    )
+}

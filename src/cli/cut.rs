@@ -1,0 +1,37 @@
+//! `gearcut cut`: the whole job.
+
+use std::path::PathBuf;
+
+use gearcut::cut::Backend;
+use gearcut::cut::cpu::Cpu;
+use gearcut::output::interrupt::Interrupt;
+use gearcut::output::progress::{Progress, ProgressMode};
+use gearcut::{Error, run, scene};
+
+use super::args::CutArguments;
+use super::failure::Failure;
+use super::print;
+
+/// Runs the command; true if all flanks were cut, false if Ctrl-C ended it early.
+pub fn run(arguments: &CutArguments) -> Result<bool, Failure> {
+    let scene = scene::load(&arguments.scene.scene, &arguments.scene.settings)?;
+    let default = || PathBuf::from("out").join(&scene.scene.name);
+    let out = arguments.out.clone().or_else(|| scene.scene.output.folder.clone()).unwrap_or_else(default);
+    let progress = Progress::new(ProgressMode::choose(arguments.quiet, arguments.json));
+    let interrupt = Interrupt::listen().map_err(|source| Error::Io {
+        action: "cannot listen for Ctrl-C",
+        path: out.clone(),
+        source,
+    })?;
+    let (backend, why): (Box<dyn Backend>, String) = (Box::new(Cpu::default()), "asked for".to_owned());
+    let done = run::cut(&scene, &out, backend.as_ref(), &why, &progress, &interrupt)
+        .map_err(|error| Failure::of_scene(&scene, error))?;
+    if arguments.json {
+        let text = serde_json::to_string_pretty(&done.results)
+            .map_err(|reason| Error::Output { path: done.folder.clone(), reason: reason.to_string() })?;
+        print::to_stdout(&format!("{text}\n"))?;
+    } else if !arguments.quiet {
+        print::to_stdout(&done.summary)?;
+    }
+    Ok(!done.interrupted)
+}

@@ -1,0 +1,60 @@
+//! What is printed when a command fails, and with which code it ends.
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use gearcut::output::interrupt::INTERRUPTED_EXIT_CODE;
+use gearcut::scene::{LoadedScene, SceneErrors};
+use gearcut::{Error, Refusal};
+
+/// Why a command did not do what it was asked.
+#[derive(Debug)]
+pub struct Failure {
+    text: String,
+    interrupted: bool,
+}
+
+impl Failure {
+    /// A failure of work on a scene: what geometry refuses is shown at its place in the scene file.
+    pub fn of_scene(scene: &LoadedScene, error: Error) -> Self {
+        match error {
+            Error::Refused(refusal) => scene.explain(&refusal).into(),
+            other => other.into(),
+        }
+    }
+
+    /// Prints the reason on standard error.
+    pub fn report(&self) -> ExitCode {
+        // Nobody is left to be told when standard error is closed.
+        let _closed = writeln!(std::io::stderr(), "{}", self.text.trim_end());
+        if self.interrupted { interrupted() } else { ExitCode::FAILURE }
+    }
+}
+
+/// Exit code of a run that Ctrl-C ended early.
+pub fn interrupted() -> ExitCode {
+    u8::try_from(INTERRUPTED_EXIT_CODE).unwrap_or(1).into()
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        let interrupted = matches!(error, Error::Interrupted);
+        let text = match error {
+            Error::Scene(errors) => errors.to_string(), // every problem says "error:" itself
+            other => format!("error: {other}"),
+        };
+        Self { text, interrupted }
+    }
+}
+
+impl From<SceneErrors> for Failure {
+    fn from(errors: SceneErrors) -> Self {
+        Error::Scene(errors).into()
+    }
+}
+
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        Error::Refused(refusal).into()
+    }
+}

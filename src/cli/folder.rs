@@ -1,0 +1,58 @@
+//! Output folders of the commands that do not cut.
+//!
+//! The rule: what `gearcut cut` wrote is replaced by `gearcut cut` alone. Axis tables and comparisons would otherwise wipe out
+//! a long run whose folder was named by mistake.
+
+use std::path::{Component, Path, PathBuf};
+
+use gearcut::output::folder::{OutputFolder, RUN_RECORD};
+use gearcut::{Error, Result};
+use serde_json::{Map, Value, json};
+
+/// Opens `path` for the files of `command`.
+///
+/// # Errors
+/// Something stands there that this command did not write.
+pub fn open(path: &Path, command: &str) -> Result<OutputFolder> {
+    let written_by = std::fs::read(path.join(RUN_RECORD))
+        .ok()
+        .and_then(|text| serde_json::from_slice::<Value>(&text).ok())
+        .map(|record| record.get("command").and_then(Value::as_str).unwrap_or("cut").to_owned());
+    match written_by {
+        Some(other) if other != command => Err(Error::Output {
+            path: path.to_owned(),
+            reason: format!("the folder holds what `gearcut {other}` wrote; choose another one with --out"),
+        }),
+        _ => OutputFolder::create(path),
+    }
+}
+
+/// Writes the record of the run into the folder and gives the folder its name.
+///
+/// # Errors
+/// The folder cannot be completed.
+pub fn finish(
+    folder: OutputFolder,
+    command: &str,
+    more: impl IntoIterator<Item = (&'static str, Value)>,
+) -> Result<PathBuf> {
+    let mut record = Map::new();
+    record.insert("program".to_owned(), json!("gearcut"));
+    record.insert("program_version".to_owned(), json!(env!("CARGO_PKG_VERSION")));
+    record.insert("command".to_owned(), json!(command));
+    record.extend(more.into_iter().map(|(key, value)| (key.to_owned(), value)));
+    folder.write_json(RUN_RECORD, &Value::Object(record))?;
+    folder.finish()
+}
+
+/// Name of a folder that may be given as `.`, `out/a/` or by the results file in it.
+pub fn name_of(path: &Path) -> String {
+    let folder = if path.is_file() { path.parent().unwrap_or(path) } else { path };
+    let named = |path: &Path| match path.components().next_back() {
+        Some(Component::Normal(name)) => Some(name.to_string_lossy().into_owned()),
+        _ => None,
+    };
+    named(folder)
+        .or_else(|| folder.canonicalize().ok().as_deref().and_then(named))
+        .unwrap_or_else(|| "results".to_owned())
+}

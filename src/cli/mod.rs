@@ -1,0 +1,40 @@
+//! The command line: one file per command.
+//!
+//! Results and reports go to standard output and into files, talk goes to standard error.
+
+pub mod args;
+mod axes;
+mod check;
+mod compare;
+mod cut;
+mod devices;
+mod failure;
+mod folder;
+mod new;
+mod print;
+
+use std::process::ExitCode;
+
+use args::{Arguments, Command};
+use failure::Failure;
+
+/// Runs the command and reports what went wrong.
+pub fn run(arguments: Arguments) -> ExitCode {
+    let done = match arguments.command {
+        Command::Cut(arguments) => match cut::run(&arguments) {
+            Ok(true) => Ok(()),
+            Ok(false) => return failure::interrupted(),
+            Err(failure) => Err(failure),
+        },
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Axes(arguments) => axes::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Devices => devices::run(),
+        Command::Schema => print::to_stdout(&gearcut::scene::schema::json_schema()).map_err(Failure::from),
+        Command::New(arguments) => new::run(&arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

@@ -1,0 +1,27 @@
+//! `gearcut new`: a commented scene to start from.
+
+use std::fs::OpenOptions;
+use std::io::{ErrorKind, Write};
+
+use gearcut::{Error, scene};
+
+use super::args::NewArguments;
+use super::failure::Failure;
+use super::print;
+
+/// Runs the command.
+pub fn run(arguments: &NewArguments) -> Result<(), Failure> {
+    // The argument parser has refused every other process.
+    let text = scene::template(&arguments.process).unwrap_or_default();
+    let Some(path) = &arguments.out else { return Ok(print::to_stdout(&text)?) };
+    let mut file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|failed| {
+        if failed.kind() == ErrorKind::AlreadyExists {
+            let reason = "the file exists, and a scene is never replaced; choose another name with --out".to_owned();
+            return Error::Output { path: path.clone(), reason };
+        }
+        Error::writing(path)(failed)
+    })?;
+    file.write_all(text.as_bytes()).map_err(Error::writing(path))?;
+    let next = format!("wrote {}; `gearcut check {}` says what it means\n", path.display(), path.display());
+    Ok(print::to_stdout(&next)?)
+}

@@ -1,0 +1,139 @@
+//! The gear as a whole: allowances and unevenness of every operation, pitch and thickness, root stock, tip lands.
+//!
+//! In: the job, the flank reports. Out: [`GearReport`].
+
+use super::crossing::Crossing;
+use super::deviation::{PitchDeviations, pitch};
+use super::flank_report::FlankReport;
+use super::stock::{Stock, stock};
+use super::unevenness::{Surface, ToothAllowance, allowances, rack_allowance_mm};
+use crate::cut::Backend;
+use crate::error::Result;
+use crate::gear::generation::Side;
+use crate::job::Job;
+use crate::scene::model::PitchCurveShape;
+use rayon::prelude::*;
+
+/// Allowances of one operation over the finished gear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OperationAllowance {
+    /// Index of the operation.
+    pub operation: usize,
+    /// delta_d tan(alpha), mm.
+    pub rack_mm: f64,
+    /// In the limit of many strokes.
+    pub envelope: Vec<ToothAllowance>,
+    /// What the strokes leave.
+    pub strokes: Vec<ToothAllowance>,
+}
+
+/// Thickness of one finished tooth on the pitch curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thickness {
+    /// Along the pitch curve, mm.
+    pub arc_mm: f64,
+    /// Straight, mm.
+    pub chord_mm: f64,
+}
+
+/// Stock in one root.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RootReport {
+    /// Space, after the tooth of this number.
+    pub space: u32,
+    /// Stock of every operation but the last, on rays long enough.
+    pub stock: Vec<Option<Stock>>,
+}
+
+/// The gear, measured.
+#[derive(Debug)]
+pub struct GearReport {
+    /// Flanks, in order of teeth, left before right; those of an interrupted run only.
+    pub flanks: Vec<FlankReport>,
+    /// Roots, in order.
+    pub roots: Vec<RootReport>,
+    /// Tip land of each tooth, mm.
+    pub tip_lands_mm: Vec<f64>,
+    /// Allowances of every operation but the last.
+    pub allowances: Vec<OperationAllowance>,
+    /// Thickness of each tooth; `None` where a flank does not reach the pitch curve.
+    pub thickness: Vec<Option<Thickness>>,
+    /// Pitch deviations of left and right flanks.
+    pub pitch: [Option<PitchDeviations>; 2],
+    /// Teeth after which the pitch curve repeats.
+    pub period_teeth: u32,
+}
+
+/// Measures what belongs to the whole gear; `flanks` as far as they were cut.
+///
+/// # Errors
+/// The backend's, in the roots.
+pub fn measure(job: &Job, backend: &dyn Backend, flanks: Vec<FlankReport>) -> Result<GearReport> {
+    let teeth = job.scene.gear.teeth;
+    let last = job.operations.len() - 1;
+    let allowances: Vec<OperationAllowance> = (0..last)
+        .map(|operation| {
+            Ok(OperationAllowance {
+                operation,
+                rack_mm: rack_allowance_mm(job, operation),
+                envelope: allowances(job, operation, Surface::Envelope)?,
+                strokes: allowances(job, operation, Surface::Strokes)?,
+            })
+        })
+        .collect::<Result<_>>()?;
+    // B and C of any operation are the finished flanks; with one operation they are asked for alone.
+    let finished = match allowances.first() {
+        Some(first) => first.strokes.clone(),
+        None => super::unevenness::allowances(job, last, Surface::Strokes)?,
+    };
+    let thickness = finished
+        .iter()
+        .map(|tooth| {
+            let (b, c) = (tooth.b?, tooth.c?);
+            Some(Thickness { arc_mm: b.arc_mm - c.arc_mm, chord_mm: b.point_mm.distance(c.point_mm) })
+        })
+        .collect();
+    let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
+    let deviations = |flank: fn(&ToothAllowance) -> Option<Crossing>| {
+        let crossings: Vec<_> = finished.iter().map(flank).collect();
+        pitch(&crossings, pitch_mm, job.curve.perimeter_mm())
+    };
+    let generation = job.target_generation();
+    let tip_lands_mm = (1..=teeth)
+        .into_par_iter()
+        .map(|tooth| {
+            let flank = |side| job.target_flank(&generation, tooth, side);
+            Ok(job.tip_land_mm(&flank(Side::Left)?, &flank(Side::Right)?))
+        })
+        .collect::<Result<_>>()?;
+    let roots = (1..=teeth)
+        .into_par_iter()
+        .map(|space| {
+            let cut = job.cut(backend, job.root_field(space))?;
+            let finished = &cut.layers[last];
+            let stock = cut.layers[..last].iter().map(|layer| stock(&cut.field, layer, finished)).collect();
+            Ok(RootReport { space, stock })
+        })
+        .collect::<Result<_>>()?;
+    Ok(GearReport {
+        flanks,
+        roots,
+        tip_lands_mm,
+        allowances,
+        thickness,
+        pitch: [deviations(|t| t.b), deviations(|t| t.c)],
+        period_teeth: period_teeth(&job.scene.gear.pitch_curve, teeth),
+    })
+}
+
+/// Teeth of one period: those of an n-th of the curve when n divides z, else all.
+fn period_teeth(shape: &PitchCurveShape, teeth: u32) -> u32 {
+    let order = match shape {
+        PitchCurveShape::Ellipse { order, .. }
+        | PitchCurveShape::SinusoidalRatio { order, .. }
+        | PitchCurveShape::Pascal { order, .. } => *order,
+        PitchCurveShape::Circle => teeth,
+        PitchCurveShape::Fourier { .. } | PitchCurveShape::Table { .. } => 1,
+    };
+    if teeth % order.max(1) == 0 { teeth / order.max(1) } else { teeth }
+}

@@ -1,0 +1,14 @@
+//! What is left, in numbers: stock between operations, crossings with the pitch curve and unevenness, deviations, scallops, thickness.
+//!
+//! In: cut fields and the job. Out: plain values in mm and percent; `run` gives them names, units and definitions in the results.
+
+pub mod crossing;
+pub mod deviation;
+pub mod flank_report;
+pub mod gear_report;
+pub mod scallop;
+pub mod stock;
+pub mod unevenness;
+
+pub use flank_report::FlankReport;
+pub use gear_report::GearReport;

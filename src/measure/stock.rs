@@ -1,0 +1,68 @@
+//! Normal stock: what one operation leaves over another one, along the target's normals.
+//!
+//! Dexels that the earlier operation never reached still have the blank's height; their stock is not a stock of machining. They are counted, and left out of the figures.
+
+use crate::dexel::{Field, Layer, NO_PASS};
+
+/// A value and where it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extreme {
+    /// Value, mm.
+    pub value_mm: f64,
+    /// Arc along the profile, mm.
+    pub arc_mm: f64,
+    /// Place along the tooth, mm.
+    pub lead_mm: f64,
+}
+
+/// Stock over one field.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stock {
+    /// Smallest.
+    pub smallest: Extreme,
+    /// Largest.
+    pub largest: Extreme,
+    /// Mean, mm.
+    pub mean_mm: f64,
+    /// Dexels with a figure.
+    pub dexels: u64,
+    /// Dexels that the earlier operation never reached.
+    pub untouched: u64,
+}
+
+/// Smallest and largest value over a field's chosen columns; `None` if no dexel has one.
+pub fn extremes(
+    field: &Field,
+    column_counts: impl Fn(usize) -> bool,
+    value: impl Fn(usize) -> Option<f32>,
+) -> Option<[Extreme; 2]> {
+    let rows = field.rows();
+    let (mut low, mut high) = ((f32::INFINITY, 0), (f32::NEG_INFINITY, 0));
+    for column in (0..field.columns.len()).filter(|&column| column_counts(column)) {
+        for index in column * rows..(column + 1) * rows {
+            let Some(value) = value(index) else { continue };
+            if value < low.0 {
+                low = (value, index);
+            }
+            if value > high.0 {
+                high = (value, index);
+            }
+        }
+    }
+    let place = |(value, index): (f32, usize)| Extreme {
+        value_mm: f64::from(value),
+        arc_mm: field.columns[index / rows].arc_mm,
+        lead_mm: field.leads_mm[index % rows],
+    };
+    (low.0 <= high.0).then(|| [place(low), place(high)])
+}
+
+/// Stock between an earlier and a later layer; `None` if the earlier operation reached nothing.
+pub fn stock(field: &Field, earlier: &Layer, later: &Layer) -> Option<Stock> {
+    let at =
+        |index: usize| (earlier.passes[index] != NO_PASS).then(|| earlier.heights_mm[index] - later.heights_mm[index]);
+    let [smallest, largest] = extremes(field, |_| true, at)?;
+    let (sum, dexels) =
+        (0..field.len()).filter_map(at).fold((0.0, 0_u64), |(sum, n), value| (sum + f64::from(value), n + 1));
+    Some(Stock { smallest, largest, mean_mm: sum / dexels as f64, dexels, untouched: field.len() as u64 - dexels })
+}

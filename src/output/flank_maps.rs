@@ -1,0 +1,197 @@
+//! Maps of one flank: what every operation left, as pictures and as EXR for other programs.
+//!
+//! In: the cut field at dexel spacing. Out: `maps/<operation>/tooth_07_left.{png,exr}` (height over the target) and `allowance/tooth_07_left.{png,exr}` (stock of each earlier operation
+//! over the finished surface). Maps have a spacing of their own (the scene's `output.map_spacing_mm`), wider than facets: stock, height and pass id are those of the dexel nearest to the map's
+//! place, and beside them stands the **highest** dexel of each cell, which height pictures show. Single dexels would make moire of the feed marks, means would hide them.
+
+use super::colormap::ColourScale;
+use super::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
+use super::folder::OutputFolder;
+use super::grid::{MapAxis, MapGrid};
+use super::map_png::{MapPicture, write_map_png};
+use crate::dexel::{Field, Layer, NO_PASS};
+use crate::error::Result;
+use crate::gear::generation::Side;
+use crate::units::UM_PER_MM;
+
+/// What map readers need to know about u and v.
+const FRAME: &str = "flank frame: u = arc length along the target profile from the form point to the tip, v = place along the tooth from the middle of the face; heights along the target's outward normal, positive = material left";
+
+/// What maps need to know of an operation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OperationMaps {
+    /// Its name.
+    pub name: String,
+    /// Colours of its stock over the last operation, the same for all flanks so that they can be compared.
+    pub stock_scale: ColourScale,
+}
+
+impl OperationMaps {
+    /// Maps of an operation whose cutter stands `offset_mm` further back than the last one's: on a straight rack it leaves offset sin(alpha) on both flanks, and the colours go from nothing to
+    /// twice that. Where the fillet leaves more, they stay at their end.
+    pub fn new(name: &str, offset_mm: f64, pressure_angle_rad: f64) -> Self {
+        let even_mm = (offset_mm * pressure_angle_rad.sin()).max(1e-3);
+        Self { name: name.to_owned(), stock_scale: ColourScale::Sequential { low: 0.0, high: 2.0 * even_mm as f32 } }
+    }
+}
+
+/// Maps of one flank on its own grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlankMaps {
+    /// Tooth, from 1.
+    pub tooth: u32,
+    /// Flank.
+    pub side: Side,
+    /// Places.
+    pub grid: MapGrid,
+    /// Height over the target after each operation, mm; NaN where no pass came.
+    pub heights_mm: Vec<Vec<f32>>,
+    /// Height of the highest dexel of each cell, mm; NaN where no pass came.
+    pub highest_mm: Vec<Vec<f32>>,
+    /// Pass that left it, after each operation.
+    pub passes: Vec<Vec<u32>>,
+}
+
+impl FlankMaps {
+    /// Takes the dexels nearest to the places of a map with `spacing_mm`.
+    pub fn sample(tooth: u32, side: Side, field: &Field, layers: &[Layer], spacing_mm: f64) -> Self {
+        let rows = field.rows();
+        let lengths = [field.columns.last().map_or(0.0, |c| c.arc_mm), field.leads_mm[rows - 1] - field.leads_mm[0]];
+        let axis = |name: &str, meaning: &str, start_mm: f64, length_mm: f64| {
+            let count = (length_mm / spacing_mm).floor() as usize + 1;
+            MapAxis { name: name.into(), meaning: meaning.into(), start_mm, step_mm: spacing_mm, count }
+        };
+        let grid = MapGrid {
+            u: axis("u", "along the profile from the form point", 0.0, lengths[0]),
+            v: axis("v", "along the tooth from the middle of the face", field.leads_mm[0], lengths[1]),
+        };
+        // Dexels of each cell of an axis: those nearer to its place than to the next one, at least the nearest.
+        let cells = |axis: &MapAxis, places: &[f64]| -> Vec<(usize, std::ops::Range<usize>)> {
+            (0..axis.count)
+                .map(|i| {
+                    let place_mm = axis.place_mm(i);
+                    let after = places.partition_point(|&p| p < place_mm);
+                    let nearest = [after.saturating_sub(1), after.min(places.len() - 1)]
+                        .into_iter()
+                        .min_by(|&a, &b| (places[a] - place_mm).abs().total_cmp(&(places[b] - place_mm).abs()))
+                        .unwrap_or(0);
+                    let from = places.partition_point(|&p| p < place_mm - 0.5 * spacing_mm);
+                    let to = places.partition_point(|&p| p < place_mm + 0.5 * spacing_mm);
+                    (nearest, from.min(nearest)..to.max(nearest + 1))
+                })
+                .collect()
+        };
+        let arcs_mm: Vec<f64> = field.columns.iter().map(|c| c.arc_mm).collect();
+        let (columns, leads) = (cells(&grid.u, &arcs_mm), cells(&grid.v, &field.leads_mm));
+        let dexels: Vec<usize> =
+            columns.iter().flat_map(|(column, _)| leads.iter().map(move |(row, _)| column * rows + row)).collect();
+        let highest = |layer: &Layer| -> Vec<f32> {
+            columns
+                .iter()
+                .flat_map(|(_, columns)| {
+                    leads.iter().map(move |(_, leads)| {
+                        let cell = columns.clone().flat_map(|column| leads.clone().map(move |row| column * rows + row));
+                        cell.filter(|&i| layer.passes[i] != NO_PASS)
+                            .map(|i| layer.heights_mm[i])
+                            .fold(f32::NAN, f32::max)
+                    })
+                })
+                .collect()
+        };
+        let height = |layer: &Layer, i: usize| if layer.passes[i] == NO_PASS { f32::NAN } else { layer.heights_mm[i] };
+        Self {
+            tooth,
+            side,
+            heights_mm: layers.iter().map(|layer| dexels.iter().map(|&i| height(layer, i)).collect()).collect(),
+            highest_mm: layers.iter().map(highest).collect(),
+            passes: layers.iter().map(|layer| dexels.iter().map(|&i| layer.passes[i]).collect()).collect(),
+            grid,
+        }
+    }
+
+    /// Stock of an operation over the last one, mm.
+    pub fn stock_mm(&self, operation: usize) -> Vec<f32> {
+        let last = self.heights_mm.len() - 1;
+        self.heights_mm[operation].iter().zip(&self.heights_mm[last]).map(|(a, b)| a - b).collect()
+    }
+
+    /// `tooth_07_left`.
+    pub fn file_stem(&self) -> String {
+        format!("tooth_{:02}_{}", self.tooth, self.side.name())
+    }
+
+    /// Writes all maps; `operations` are their names and the largest stock that the colours of their allowance maps tell apart, `notes` go into the EXR headers.
+    ///
+    /// # Errors
+    /// Files that cannot be written.
+    pub fn write(&self, folder: &OutputFolder, operations: &[OperationMaps], notes: &[(String, String)]) -> Result<()> {
+        let stem = self.file_stem();
+        let flank = format!("tooth {}, {} flank", self.tooth, self.side.name());
+        for (index, OperationMaps { name, .. }) in operations.iter().enumerate() {
+            let heights_um: Vec<f32> = self.highest_mm[index].iter().map(|h| h * UM_PER_MM as f32).collect();
+            let picture = MapPicture {
+                title: &format!("{name}: {flank}"),
+                quantity: "height over the target, highest of cell",
+                unit: "µm",
+                grid: &self.grid,
+                values: &heights_um,
+                scale: ColourScale::sequential_over([heights_um.as_slice()]),
+            };
+            write_map_png(&folder.path(format!("maps/{name}/{stem}.png"))?, &picture)?;
+            let channels = vec![
+                channel(
+                    "height_mm",
+                    "mm",
+                    "height over the target along its normal after this operation",
+                    Samples::F32(self.heights_mm[index].clone()),
+                ),
+                channel(
+                    "highest_mm",
+                    "mm",
+                    "height of the highest dexel of the cell over the target",
+                    Samples::F32(self.highest_mm[index].clone()),
+                ),
+                channel(
+                    "pass_id",
+                    "1",
+                    "pass that left the surface; 4294967295 where none came",
+                    Samples::U32(self.passes[index].clone()),
+                ),
+            ];
+            self.write_exr(&folder.path(format!("maps/{name}/{stem}.exr"))?, channels, notes)?;
+        }
+        let earlier = &operations[..operations.len() - 1];
+        if let Some((index, OperationMaps { name, stock_scale })) = earlier.iter().enumerate().next_back() {
+            let stock_mm = self.stock_mm(index);
+            let picture = MapPicture {
+                title: &format!("Stock of {name} over {}: {flank}", operations[operations.len() - 1].name),
+                quantity: "normal stock",
+                unit: "mm",
+                grid: &self.grid,
+                values: &stock_mm,
+                scale: *stock_scale,
+            };
+            write_map_png(&folder.path(format!("allowance/{stem}.png"))?, &picture)?;
+            let mut channels: Vec<MapChannel> = earlier
+                .iter()
+                .enumerate()
+                .map(|(index, OperationMaps { name, .. })| {
+                    let definition = format!("normal stock of {name} over the last operation");
+                    channel(&format!("stock_{name}_mm"), "mm", &definition, Samples::F32(self.stock_mm(index)))
+                })
+                .collect();
+            channels.sort_by(|a, b| a.name.cmp(&b.name));
+            self.write_exr(&folder.path(format!("allowance/{stem}.exr"))?, channels, notes)?;
+        }
+        Ok(())
+    }
+
+    fn write_exr(&self, path: &std::path::Path, channels: Vec<MapChannel>, notes: &[(String, String)]) -> Result<()> {
+        let map = ExrMap { grid: self.grid.clone(), frame: FRAME.to_owned(), channels, notes: notes.to_vec() };
+        write_exr_map(path, &map)
+    }
+}
+
+fn channel(name: &str, unit: &str, definition: &str, samples: Samples) -> MapChannel {
+    MapChannel { name: name.to_owned(), unit: unit.to_owned(), definition: definition.to_owned(), samples }
+}

@@ -1,0 +1,96 @@
+//! Aligned text for the terminal: labelled lines, tables, numbers with the digits that matter.
+//!
+//! Plain text without colours, the same on a terminal and in a log; units stand behind every number.
+
+use std::fmt::Write as _;
+
+/// Where values begin on labelled lines, in characters.
+const VALUE_COLUMN: usize = 32;
+
+/// Text that grows line by line.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Sheet {
+    text: String,
+}
+
+impl Sheet {
+    /// A heading, set off by an empty line unless it is the first.
+    pub fn heading(&mut self, words: &str) {
+        if !self.text.is_empty() {
+            self.text.push('\n');
+        }
+        let _ = writeln!(self.text, "{words}");
+    }
+
+    /// A label and its value, indented under the heading.
+    pub fn line(&mut self, label: &str, value: impl AsRef<str>) {
+        let _ = writeln!(self.text, "  {label:<width$}{}", value.as_ref(), width = VALUE_COLUMN - 2);
+    }
+
+    /// A table, indented under the heading: words to the left, numbers to the right, as wide as their widest cell.
+    pub fn table(&mut self, rows: &[Vec<String>]) {
+        let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+        let width =
+            |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max();
+        let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();
+        for row in rows {
+            let mut line = String::from(" ");
+            for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
+                let _ = if column == 0 { write!(line, " {cell:<width$}") } else { write!(line, "   {cell:>width$}") };
+            }
+            let _ = writeln!(self.text, "{}", line.trim_end());
+        }
+    }
+
+    /// The text, ending with a newline.
+    pub fn into_text(self) -> String {
+        self.text
+    }
+}
+
+/// A number with this many significant digits and no exponent, such as "0.0942", "14.95", "4200".
+pub fn significant(value: f64, digits: u32) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let decimals = (f64::from(digits) - 1.0 - value.abs().log10().floor()).clamp(0.0, 15.0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".to_owned() } else { text }
+}
+
+/// A number as a scene gives it, to six decimals and without trailing zeros, such as "3", "0.5", "61.11".
+pub fn plain(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn given_numbers_look_as_given() {
+        assert_eq!(
+            [3.0, 0.5, 61.11, -1e-9, 100.0, 1.0 / 3.0].map(plain),
+            ["3", "0.5", "61.11", "0", "100", "0.333333"]
+        );
+    }
+
+    #[test]
+    fn numbers_keep_the_digits_that_matter() {
+        let texts = [0.094_23, 14.948, 4200.0, -0.001, 123_456.7, 0.0, 1e-30].map(|value| significant(value, 4));
+        assert_eq!(texts, ["0.09423", "14.95", "4200", "-0.001000", "123457", "0", "0"]);
+    }
+
+    #[test]
+    fn values_and_columns_stand_below_each_other() {
+        let mut sheet = Sheet::default();
+        sheet.heading("Machine");
+        sheet.line("strokes", "4200");
+        sheet.table(&[vec!["axis".into(), "peak".into()], vec!["work spindle".into(), "5.7 deg/s".into()]]);
+        let expected =
+            "Machine\n  strokes                       4200\n  axis                peak\n  work spindle   5.7 deg/s\n";
+        assert_eq!(sheet.into_text(), expected);
+    }
+}

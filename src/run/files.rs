@@ -1,0 +1,252 @@
+//! What a run writes about the gear as a whole: tables, charts, contact sheets, results and run record.
+//!
+//! Maps of single flanks are written as the flanks are finished; everything here follows when all are.
+
+use super::CutGear;
+use crate::axes_report;
+use crate::error::{Error, Result};
+use crate::job::Job;
+use crate::measure::unevenness::ToothAllowance;
+use crate::output::bar_chart::{BarChart, BarSeries};
+use crate::output::colormap::ColourScale;
+use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
+use crate::output::folder::OutputFolder;
+use crate::output::results::{RESULTS_FILE, Results};
+use crate::output::table::{Cell, write_table};
+use crate::units::UM_PER_MM;
+use serde_json::{Map, Value, json};
+use sha2::{Digest, Sha256};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Writes everything but the run record.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write(job: &Job, cut: &CutGear, results: &Results, folder: &OutputFolder) -> Result<()> {
+    write_flank_table(cut, &folder.path("tables/flanks.csv")?, job)?;
+    write_tooth_table(cut, &folder.path("tables/teeth.csv")?)?;
+    for allowance in &cut.report.allowances {
+        let name = &job.operations[allowance.operation].spec.name;
+        let path = folder.path(format!("tables/allowance_{name}.csv"))?;
+        write_allowance_table(&allowance.strokes, &allowance.envelope, allowance.rack_mm, &path)?;
+        let chart = unevenness_chart(job, &allowance.strokes, name);
+        chart.write_png(&folder.path(format!("pictures/unevenness_{name}.png"))?)?;
+        chart.write_svg(&folder.path(format!("pictures/unevenness_{name}.svg"))?)?;
+    }
+    write_contact_sheets(job, cut, folder)?;
+    axes_report::write(job, folder)?;
+    results.write(&folder.path(RESULTS_FILE)?)
+}
+
+fn write_flank_table(cut: &CutGear, path: &Path, job: &Job) -> Result<()> {
+    let mut columns: Vec<String> =
+        ["tooth", "flank", "start_of_involute_mm", "tip_height_mm", "profile_length_mm"].map(str::to_owned).into();
+    for operation in &job.operations[..job.operations.len() - 1] {
+        for what in ["smallest", "largest", "mean"] {
+            columns.push(format!("{}_{what}_stock_mm", operation.spec.name));
+        }
+    }
+    columns.extend(
+        ["lowest_um", "highest_um", "F_alpha_um", "f_f_alpha_um", "f_H_alpha_um", "largest_scallop_um"]
+            .map(str::to_owned),
+    );
+    let um = |value: Option<f64>| Cell::from(value.map(|v| v * UM_PER_MM));
+    let rows = cut.report.flanks.iter().map(|f| {
+        let mut row: Vec<Cell> = vec![
+            f.tooth.into(),
+            f.side.name().into(),
+            f.form.height_mm.into(),
+            f.tip.height_mm.into(),
+            f.length_mm.into(),
+        ];
+        for stock in &f.stock {
+            row.push(stock.map(|s| s.smallest.value_mm).into());
+            row.push(stock.map(|s| s.largest.value_mm).into());
+            row.push(stock.map(|s| s.mean_mm).into());
+        }
+        row.push(um(f.finished.map(|h| h[0].value_mm)));
+        row.push(um(f.finished.map(|h| h[1].value_mm)));
+        row.push(um(f.profile.map(|p| p.total_mm)));
+        row.push(um(f.profile.map(|p| p.form_mm)));
+        row.push(um(f.profile.map(|p| p.slope_mm)));
+        row.push(um(f.scallops.map(|s| s.largest.height_mm)));
+        row
+    });
+    write_table(path, &columns.iter().map(String::as_str).collect::<Vec<_>>(), rows)
+}
+
+fn write_tooth_table(cut: &CutGear, path: &Path) -> Result<()> {
+    let columns = [
+        "tooth",
+        "thickness_arc_mm",
+        "thickness_chord_mm",
+        "tip_land_mm",
+        "left_single_pitch_um",
+        "left_cumulative_pitch_um",
+        "right_single_pitch_um",
+        "right_cumulative_pitch_um",
+    ];
+    let report = &cut.report;
+    let rows = report.thickness.iter().enumerate().map(|(i, thickness)| {
+        let mut row: Vec<Cell> = vec![
+            (i as u32 + 1).into(),
+            thickness.map(|t| t.arc_mm).into(),
+            thickness.map(|t| t.chord_mm).into(),
+            report.tip_lands_mm.get(i).copied().into(),
+        ];
+        for side in &report.pitch {
+            row.push(side.as_ref().map(|p| p.single_mm[i] * UM_PER_MM).into());
+            row.push(side.as_ref().map(|p| p.cumulative_mm[i] * UM_PER_MM).into());
+        }
+        row
+    });
+    write_table(path, &columns, rows)
+}
+
+fn write_allowance_table(
+    strokes: &[ToothAllowance],
+    envelope: &[ToothAllowance],
+    rack_mm: f64,
+    path: &Path,
+) -> Result<()> {
+    let columns = [
+        "tooth",
+        "A_x_mm",
+        "A_y_mm",
+        "B_x_mm",
+        "B_y_mm",
+        "C_x_mm",
+        "C_y_mm",
+        "D_x_mm",
+        "D_y_mm",
+        "AB_mm",
+        "CD_mm",
+        "unevenness_mean_denominator_percent",
+        "unevenness_rack_denominator_percent",
+        "envelope_AB_mm",
+        "envelope_CD_mm",
+        "envelope_unevenness_mean_denominator_percent",
+    ];
+    let rows = strokes.iter().zip(envelope).map(|(tooth, limit)| {
+        let mut row: Vec<Cell> = vec![tooth.tooth.into()];
+        for crossing in [tooth.a, tooth.b, tooth.c, tooth.d] {
+            row.push(crossing.map(|c| c.point_mm.x).into());
+            row.push(crossing.map(|c| c.point_mm.y).into());
+        }
+        row.extend([
+            Cell::from(tooth.ab_mm()),
+            tooth.cd_mm().into(),
+            tooth.unevenness_mean_percent().into(),
+            tooth.unevenness_rack_percent(rack_mm).into(),
+            limit.ab_mm().into(),
+            limit.cd_mm().into(),
+            limit.unevenness_mean_percent().into(),
+        ]);
+        row
+    });
+    write_table(path, &columns, rows)
+}
+
+fn unevenness_chart(job: &Job, teeth: &[ToothAllowance], operation: &str) -> BarChart {
+    BarChart {
+        title: format!("{}: unevenness of the allowance after {operation}", job.scene.name),
+        category_name: "tooth".to_owned(),
+        categories: teeth.iter().map(|t| t.tooth.to_string()).collect(),
+        value_name: "|AB - CD| / mean".to_owned(),
+        unit: "%".to_owned(),
+        series: vec![BarSeries {
+            name: operation.to_owned(),
+            values: teeth.iter().map(ToothAllowance::unevenness_mean_percent).collect(),
+        }],
+    }
+}
+
+/// All flanks on one picture: stock of each earlier operation, heights after the last.
+fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Result<()> {
+    let last = job.operations.len() - 1;
+    if cut.maps.is_empty() {
+        return Ok(());
+    }
+    let sheet =
+        |path: &str, title: String, quantity: &str, unit: &str, scale: Option<ColourScale>, values: Vec<Vec<f32>>| {
+            let labels: Vec<String> = cut.maps.iter().map(|m| format!("{} {}", m.tooth, m.side.name())).collect();
+            let thumbnails: Vec<Thumbnail> = cut
+                .maps
+                .iter()
+                .zip(&labels)
+                .zip(&values)
+                .map(|((map, label), values)| Thumbnail { label, grid: &map.grid, values })
+                .collect();
+            let scale = scale.unwrap_or_else(|| ColourScale::sequential_over(values.iter().map(Vec::as_slice)));
+            let sheet = ContactSheet { title: &title, quantity, unit, scale, maps: &thumbnails };
+            write_contact_sheet(&folder.path(path)?, &sheet)
+        };
+    for (index, operation) in job.operations[..last].iter().enumerate() {
+        let name = &operation.spec.name;
+        sheet(
+            &format!("pictures/stock_{name}.png"),
+            format!("{}: stock of {name}, all flanks", job.scene.name),
+            "normal stock",
+            "mm",
+            Some(super::map_operations(job)[index].stock_scale),
+            cut.maps.iter().map(|m| m.stock_mm(index)).collect(),
+        )?;
+    }
+    let to_um = |h: &f32| h * UM_PER_MM as f32;
+    let name = &job.finishing().spec.name;
+    sheet(
+        &format!("pictures/heights_{name}.png"),
+        format!("{}: finished surface after {name}, all flanks", job.scene.name),
+        "height over the target, highest of cell",
+        "µm",
+        None,
+        cut.maps.iter().map(|m| m.highest_mm[last].iter().map(to_um).collect()).collect(),
+    )
+}
+
+/// What is needed to repeat the run and to trust its files.
+///
+/// # Errors
+/// Files that cannot be read back for their checksums.
+pub fn run_record(resolved_scene: &str, backend: (&str, &str), cut: &CutGear, folder: &OutputFolder) -> Result<Value> {
+    let mut checksums = Map::new();
+    collect_checksums(&folder.path("")?, "", &mut checksums)?;
+    Ok(json!({
+        "program": "gearcut",
+        "program_version": env!("CARGO_PKG_VERSION"),
+        "command": "cut",
+        "scene": resolved_scene,
+        "backend": backend.0,
+        "backend_why": backend.1,
+        "complete": !cut.interrupted,
+        "dexels": cut.dexels,
+        "dexel_passes": cut.stats.dexel_passes,
+        "dexel_passes_per_dexel": cut.stats.dexel_passes as f64 / (cut.dexels.max(1)) as f64,
+        "wall_time_s": cut.elapsed.as_secs_f64(),
+        "threads": rayon::current_num_threads(),
+        "sha256": checksums,
+    }))
+}
+
+fn collect_checksums(folder: &Path, prefix: &str, into: &mut Map<String, Value>) -> Result<()> {
+    let mut entries: Vec<_> = std::fs::read_dir(folder)
+        .and_then(Iterator::collect::<std::io::Result<Vec<_>>>)
+        .map_err(Error::reading(folder))?;
+    entries.sort_by_key(std::fs::DirEntry::file_name);
+    for entry in entries {
+        let path = entry.path();
+        let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
+        if path.is_dir() {
+            collect_checksums(&path, &format!("{name}/"), into)?;
+        } else {
+            let digest = Sha256::digest(std::fs::read(&path).map_err(Error::reading(&path))?);
+            let hex = digest.iter().fold(String::new(), |mut text, byte| {
+                let _ = write!(text, "{byte:02x}");
+                text
+            });
+            into.insert(name, Value::String(hex));
+        }
+    }
+    Ok(())
+}

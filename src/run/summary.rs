@@ -1,0 +1,126 @@
+//! What is printed when a run is done: what a gear engineer asks first, stock before all.
+
+use super::CutGear;
+use crate::job::Job;
+use crate::output::quantity::Quantity;
+use crate::output::results::{OperationResults, Results};
+use crate::output::text::{Sheet, significant};
+use std::path::Path;
+
+/// The summary of a run.
+pub fn summary(job: &Job, cut: &CutGear, results: &Results, out: &Path, backend: &str) -> String {
+    let mut sheet = Sheet::default();
+    let gear = &job.scene.gear;
+    let state = if cut.interrupted { ", stopped before all flanks were done" } else { "" };
+    sheet.heading(&format!(
+        "{}: {} teeth, module {} mm, {} of {} flanks cut{state}",
+        results.scene,
+        gear.teeth,
+        gear.module_mm,
+        cut.report.flanks.len(),
+        2 * gear.teeth,
+    ));
+    let headline = &results.headline;
+    sheet.line("smallest normal stock", shown(&headline.smallest_normal_stock));
+    sheet.line("largest normal stock", shown(&headline.largest_normal_stock));
+    sheet.line("highest start of involute", shown(&headline.start_of_involute));
+    sheet.line("undercut flanks", shown(&headline.undercut_flanks));
+    sheet.line("narrowest tip land", shown(&headline.tip_land));
+    sheet.line("pointed teeth", shown(&headline.pointed_teeth));
+    sheet.line("highest scallop", shown(&headline.scallop_height));
+    sheet.line("witness mark", shown(&headline.witness_mark));
+    sheet.line(
+        "tooth thickness (arc)",
+        format!("{} to {}", shown(&headline.smallest_tooth_thickness), shown(&headline.largest_tooth_thickness)),
+    );
+    sheet.line("relief on the return stroke", share(&headline.relief_ratio, "of a circular gear's"));
+    sheet.line("tightest axis limit", share(&headline.axis_margin, "of it left"));
+    sheet.line("time of all strokes", minutes(&headline.cycle_time));
+    for operation in results.operations.iter().filter(|o| !o.teeth.is_empty()) {
+        print_unevenness(&mut sheet, operation, results.period_teeth);
+    }
+    for warning in warnings(cut) {
+        sheet.heading(&format!("warning: {warning}"));
+    }
+    sheet.heading("Run");
+    sheet.line("backend", backend);
+    let per_dexel = cut.stats.dexel_passes as f64 / cut.dexels.max(1) as f64;
+    sheet.line("dexels", format!("{:.1} million, {} passes each", cut.dexels as f64 / 1e6, significant(per_dexel, 3)));
+    sheet.line("cut, measured and mapped in", format!("{} s", significant(cut.elapsed.as_secs_f64(), 3)));
+    sheet.line("written to", out.display().to_string());
+    sheet.into_text()
+}
+
+fn print_unevenness(sheet: &mut Sheet, operation: &OperationResults, period_teeth: u32) {
+    sheet.heading(&format!("Allowance after {} ({})", operation.name, operation.linkage));
+    let percent = |q: &Quantity| q.value().map_or_else(|| "-".to_owned(), |v| significant(v, 4));
+    let u = &operation.unevenness;
+    let row = |name: &str, spread: &crate::output::results::Spread| {
+        vec![name.to_owned(), percent(&spread.max), percent(&spread.mean)]
+    };
+    sheet.table(&[
+        vec!["unevenness".to_owned(), "max %".to_owned(), "mean %".to_owned()],
+        row("|AB-CD| / mean of AB and CD, as cut", &u.mean_denominator),
+        row("  in the limit of many strokes", &u.envelope_mean_denominator),
+        row("|AB-CD| / (delta_d tan alpha), as cut", &u.rack_denominator),
+    ]);
+    let mm = |q: &Quantity| q.value().map_or_else(|| "-".to_owned(), |v| format!("{v:.4}"));
+    let mut rows = vec![["tooth", "AB mm", "CD mm", "unevenness %"].map(str::to_owned).to_vec()];
+    for tooth in operation.teeth.iter().take(period_teeth.max(1) as usize) {
+        rows.push(vec![
+            tooth.index.to_string(),
+            mm(&tooth.ab),
+            mm(&tooth.cd),
+            percent(&tooth.unevenness_mean_denominator),
+        ]);
+    }
+    sheet.table(&rows);
+}
+
+/// What a user must know before trusting the numbers.
+pub fn warnings(cut: &CutGear) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let below: u64 = cut.report.flanks.iter().map(|f| f.below_range).sum();
+    if below > 0 {
+        warnings.push(format!("{below} dexels were cut deeper than their rays record: heights there are upper bounds"));
+    }
+    let untouched: u64 = cut.report.flanks.iter().map(|f| f.untouched).sum();
+    if untouched > 0 {
+        warnings.push(format!("{untouched} dexels were touched by no pass: part of the flanks is still the blank"));
+    }
+    if cut.stats.unconverged > 0 {
+        let count = cut.stats.unconverged;
+        warnings
+            .push(format!("{count} rays did not converge: their heights may be too large; please report the scene"));
+    }
+    if cut.interrupted {
+        warnings.push("stopped by Ctrl-C: figures cover the finished flanks only".to_owned());
+    }
+    warnings
+}
+
+fn shown(quantity: &Quantity) -> String {
+    let Some(value) = quantity.value() else {
+        return format!("none ({})", quantity.why().unwrap_or("not defined"));
+    };
+    let unit = quantity.unit().unwrap_or("");
+    match quantity.place() {
+        Some(place) => format!(
+            "{} {unit} (tooth {} {}, {:.2} mm along the profile, {:+.1} mm along the tooth)",
+            significant(value, 4),
+            place.tooth,
+            place.flank,
+            place.u_mm,
+            place.v_mm
+        ),
+        None => format!("{} {unit}", significant(value, 4)),
+    }
+}
+
+fn share(quantity: &Quantity, of: &str) -> String {
+    quantity.value().map_or_else(|| shown(quantity), |value| format!("{:.1} % {of}", 100.0 * value))
+}
+
+fn minutes(quantity: &Quantity) -> String {
+    quantity.value().map_or_else(|| shown(quantity), crate::output::progress::duration_text)
+}

@@ -1,0 +1,184 @@
+//! `gearcut compare` on two small hand-made results.
+//!
+//! With `GEARCUT_KEEP=folder` the charts are kept there for a look.
+
+#[path = "common/command.rs"]
+mod command;
+
+use std::path::Path;
+
+use command::gearcut_in;
+use gearcut::output::results::Results;
+use serde_json::{Value, json};
+
+/// Teeth of the hand-made gear and of its period.
+const TEETH: u32 = 42;
+const PERIOD: u32 = 14;
+
+fn number(value: f64, unit: &str) -> Value {
+    json!({ "value": value, "unit": unit, "definition": "made by hand" })
+}
+
+fn none() -> Value {
+    json!({ "value": null, "unit": "%", "definition": "made by hand", "why": "made by hand" })
+}
+
+fn stock(level_mm: f64) -> Value {
+    let at = |value: f64| {
+        let mut stock = number(value, "mm");
+        stock["place"] = json!({ "tooth": 3, "flank": "left", "u_mm": 1.0, "v_mm": 0.0 });
+        stock
+    };
+    json!({ "smallest": at(0.5 * level_mm), "largest": at(1.5 * level_mm), "mean": number(level_mm, "mm") })
+}
+
+fn spread(max: Value, mean: Value) -> Value {
+    json!({ "max": max, "mean": mean })
+}
+
+/// Unevenness of a tooth in percent: the same in each of the three periods.
+fn unevenness(tooth: u32, level: f64) -> f64 {
+    level * (0.55 + 0.45 * (f64::from((tooth - 1) % PERIOD) / f64::from(PERIOD) * std::f64::consts::TAU).sin())
+}
+
+fn operation(name: &str, linkage: &str, level: Option<f64>) -> Value {
+    let peak =
+        || json!({ "peak": number(1.3, "deg/s"), "work_angle": number(0.0, "deg"), "limit": none(), "margin": none() });
+    let tooth = |index: u32, level: f64| {
+        json!({
+            "index": index, "left": stock(0.7), "right": stock(0.7), "AB": number(0.7, "mm"), "CD": number(0.72, "mm"),
+            "unevenness_mean_denominator": number(unevenness(index, level), "%"),
+            "unevenness_rack_denominator": number(unevenness(index, level), "%"),
+            "envelope_AB": number(0.7, "mm"), "envelope_CD": number(0.72, "mm"),
+        })
+    };
+    let percent = |share: f64| level.map_or_else(none, |level| number(share * level, "%"));
+    let both = || spread(percent(1.0), percent(0.55));
+    let teeth: Vec<Value> = level.map_or(Vec::new(), |level| (1..=TEETH).map(|index| tooth(index, level)).collect());
+    json!({
+        "name": name, "linkage": linkage, "offset": number(2.0, "mm"), "strokes": number(4200.0, "strokes"),
+        "circular_feed": number(0.0942, "mm"), "cycle_time": number(630.0, "s"),
+        "axes": {
+            "work_speed": peak(), "work_acceleration": peak(), "cutter_speed": peak(), "cutter_acceleration": peak(),
+            "center_distance_speed": peak(), "center_distance_acceleration": peak(),
+        },
+        "relief": {
+            "smallest_ratio": number(0.26, "1"), "smallest_clearance": number(44.0, "um"),
+            "flank": { "value": "right", "unit": null, "definition": "made by hand" },
+            "polar_angle": number(93.5, "deg"), "largest_beta": number(14.95, "deg"),
+        },
+        "flank_stock": stock(0.7), "root_stock": stock(2.0),
+        "unevenness": {
+            "mean_denominator": both(), "rack_denominator": both(),
+            "envelope_mean_denominator": both(), "envelope_rack_denominator": both(),
+        },
+        "teeth": teeth,
+    })
+}
+
+fn results(linkage: &str, level: f64, smallest_mm: f64) -> Value {
+    let keys = [
+        ("smallest_normal_stock", number(smallest_mm, "mm")),
+        ("largest_normal_stock", number(1.0, "mm")),
+        ("start_of_involute", number(-1.718, "mm")),
+        ("undercut_flanks", json!({ "value": 0, "unit": "flanks", "definition": "made by hand" })),
+        ("tip_land", number(2.081, "mm")),
+        ("pointed_teeth", json!({ "value": 0, "unit": "teeth", "definition": "made by hand" })),
+        ("scallop_height", number(0.000_08, "mm")),
+        ("witness_mark", none()),
+        ("smallest_tooth_thickness", number(4.7124, "mm")),
+        ("largest_tooth_thickness", number(4.7124, "mm")),
+        ("axis_margin", none()),
+        ("relief_ratio", number(0.26, "1")),
+        ("cycle_time", number(1260.0, "s")),
+        ("unevenness_max", number(level, "%")),
+        ("unevenness_mean", number(0.55 * level, "%")),
+    ];
+    json!({
+        "schema_version": 1, "program": "gearcut", "program_version": "0.1.0", "scene": "elliptical", "complete": true,
+        "period_teeth": PERIOD, "headline": keys.into_iter().map(|(key, value)| (key.to_owned(), value)).collect::<serde_json::Map<_, _>>(),
+        "operations": [operation("rough", linkage, Some(level)), operation("finish", linkage, None)], "teeth": [],
+    })
+}
+
+/// Two runs in `out/` of a new folder.
+fn two_runs() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    for (name, document) in [
+        ("traditional", results("traditional linkage", 129.52, 0.25)),
+        ("normal", results("normal linkage", 3.98, 0.65)),
+    ] {
+        let run = folder.path().join("out").join(name);
+        std::fs::create_dir_all(&run).expect("a folder in the test's folder");
+        std::fs::write(run.join("results.json"), document.to_string()).expect("a file in the test's folder");
+    }
+    folder
+}
+
+#[test]
+fn two_results_stand_side_by_side() {
+    let folder = two_runs();
+    gearcut_in(folder.path(), &["compare", "out/traditional", "out/normal"]).done().says(&[
+        "traditional and normal",
+        "smallest normal stock",
+        "0.2500",
+        "0.6500",
+        "0.4000",
+        "rough.unevenness.mean denominator.max",
+        "129.5",
+        "3.980",
+        "compare_traditional_normal",
+    ]);
+    let written = folder.path().join("out/compare_traditional_normal");
+    let csv = std::fs::read_to_string(written.join("comparison.csv")).expect("written");
+    assert!(csv.starts_with("quantity,unit,a,b,difference_b_minus_a,definition\nname,,traditional,normal,,"), "{csv}");
+    assert!(csv.contains("\nsmallest_normal_stock,mm,0.25,0.65,0.4,made by hand\n"), "{csv}");
+    assert!(csv.contains("\nwitness_mark,%,,,,made by hand\n"), "{csv}");
+    for name in ["unevenness_first_period", "unevenness_all_teeth"] {
+        let svg = std::fs::read_to_string(written.join(format!("{name}.svg"))).expect("written");
+        assert!(svg.contains("traditional linkage") && svg.contains("normal linkage"), "both are in the legend");
+        assert!(written.join(format!("{name}.png")).is_file());
+        if let Some(keep) = std::env::var_os("GEARCUT_KEEP") {
+            let kept = Path::new(&keep).join(format!("compare_{name}.png"));
+            std::fs::copy(written.join(format!("{name}.png")), kept).expect("the folder to keep pictures in");
+        }
+    }
+    // Again, by the files and into another folder.
+    let files = ["out/traditional/results.json", "out/normal/results.json"];
+    gearcut_in(folder.path(), &["compare", files[0], files[1], "--out", "both"])
+        .done()
+        .says(&["traditional and normal"]);
+    assert!(folder.path().join("both/comparison.csv").is_file());
+    gearcut_in(folder.path(), &["compare", "out/normal", "out/normal", "--out", "both"])
+        .done()
+        .says(&["normal (a) and normal (b)"]);
+}
+
+#[test]
+fn what_is_no_result_is_refused_with_a_reason() {
+    let folder = two_runs();
+    let compare = |a: &str| gearcut_in(folder.path(), &["compare", a, "out/normal"]);
+    compare("out/nothing").failed(1, &["out/nothing"]);
+    let write = |text: &str| std::fs::write(folder.path().join("bad.json"), text).expect("a file in the test's folder");
+    write("not json");
+    compare("bad.json").failed(1, &["bad.json", "not JSON"]);
+    write("{}");
+    compare("bad.json").failed(1, &["schema_version"]);
+    write(r#"{"schema_version": 99}"#);
+    compare("bad.json").failed(1, &["schema version 99", "reads 1"]);
+    write(r#"{"schema_version": 1, "program": "gearcut"}"#);
+    compare("bad.json").failed(1, &["not a complete result", "missing field"]);
+    assert!(!folder.path().join("out/compare_bad.json_normal").exists());
+}
+
+#[test]
+fn results_read_back_as_they_were_written() {
+    let folder = two_runs();
+    let results = Results::read(&folder.path().join("out/normal")).expect("a hand-made result");
+    let copy = folder.path().join("copy.json");
+    results.write(&copy).expect("there is room");
+    assert_eq!(Results::read(&copy).expect("just written"), results);
+    let [written, hand_made] = [copy, folder.path().join("out/normal/results.json")]
+        .map(|path| serde_json::from_str::<Value>(&std::fs::read_to_string(path).expect("there")).expect("JSON"));
+    assert_eq!(written, hand_made);
+}
