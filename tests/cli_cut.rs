@@ -85,6 +85,7 @@ fn json_prints_the_results() {
 
 /// Starts a long run and waits until its first maps stand in the temporary folder.
 #[cfg(unix)]
+#[expect(clippy::zombie_processes, reason = "every test waits for the child it is given; a panic ends the test anyway")]
 fn started(parent: &Path) -> (std::process::Child, PathBuf) {
     let out = parent.join("gear");
     let child = Command::new(env!("CARGO_BIN_EXE_gearcut"))

@@ -86,6 +86,9 @@ pub struct CutArguments {
     /// What computes: auto takes a GPU if there is a real one.
     #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
     pub backend: BackendChoice,
+    /// What happens to a flank whose GPU is lost or runs out of memory.
+    #[arg(long, value_enum, default_value_t = GpuFailureChoice::Redo)]
+    pub on_gpu_failure: GpuFailureChoice,
     /// Show no progress and no summary.
     #[arg(long, conflicts_with = "json")]
     pub quiet: bool,
@@ -103,6 +106,15 @@ pub enum BackendChoice {
     Gpu,
     /// The processor, in double precision.
     Cpu,
+}
+
+/// What to do when a GPU fails.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum GpuFailureChoice {
+    /// Cut the flank again on the processor.
+    Redo,
+    /// Stop the run.
+    Stop,
 }
 
 /// Arguments of `axes`.

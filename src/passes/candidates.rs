@@ -48,6 +48,10 @@ pub struct CutPlan {
 
 impl CutPlan {
     /// Plan with candidate passes only.
+    #[expect(
+        clippy::redundant_closure_for_method_calls,
+        reason = "the method's path is not general enough in its lifetimes"
+    )]
     pub fn new(field: &Field, set: &StrokeSet, tool: &dyn CuttingTool) -> Self {
         Self::build(field, set, tool, |planner, near, columns, seeds| planner.candidates(near, columns, seeds))
     }

@@ -7,6 +7,12 @@
 //! together. They meet the edge within a micrometre of each other, nearly always in the same cell of its table, whose four coefficients are then loaded once; when they straddle a cell's end, each
 //! row loads its own. Both ways compute the same numbers.
 
+#![expect(
+    clippy::inline_always,
+    reason = "the instruction set of the dispatching function holds only for what is inlined into it"
+)]
+#![expect(clippy::needless_bitwise_bool, reason = "lanes are evaluated without branches, or they would not vectorise")]
+
 use crate::cut::CutStats;
 use crate::dexel::Column;
 use crate::passes::PassRecord;
