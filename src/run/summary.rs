@@ -56,7 +56,9 @@ pub fn summary(job: &Job, cut: &CutGear, results: &Results, out: &Path, backend:
 
 fn print_unevenness(sheet: &mut Sheet, operation: &OperationResults, period_teeth: u32) {
     sheet.heading(&format!("Allowance after {} ({})", operation.name, operation.linkage));
-    let percent = |q: &Quantity| q.value().map_or_else(|| "-".to_owned(), |v| significant(v, 4));
+    // Below a billionth of a percent stands rounding, not unevenness.
+    let percent =
+        |q: &Quantity| q.value().map_or_else(|| "-".to_owned(), |v| significant(if v < 1e-9 { 0.0 } else { v }, 4));
     let u = &operation.unevenness;
     let row = |name: &str, spread: &crate::output::results::Spread| {
         vec![name.to_owned(), percent(&spread.max), percent(&spread.mean)]
