@@ -105,9 +105,8 @@ fn tooth_polygon(cutter: &ShaperCutter, chords: usize) -> Vec<DVec2> {
     };
     let (mut outline, mut left) = (flank(-1.0), flank(1.0));
     let tip_rad = left[left.len() - 1].to_angle();
-    outline.extend(
-        (1..16).map(|i| cutter.tip_radius_mm * DVec2::from_angle(tip_rad * (2.0 * f64::from(i) / 16.0 - 1.0))),
-    );
+    outline
+        .extend((1..16).map(|i| cutter.tip_radius_mm * DVec2::from_angle(tip_rad * (2.0 * f64::from(i) / 16.0 - 1.0))));
     left.reverse();
     outline.extend(left);
     outline
@@ -284,7 +283,10 @@ fn main() {
     let job = Job::new(scene()).expect("a round gear");
     let stations = stations(&job);
     let [scallops, highest] = rms_and_largest_um(stations.iter().map(|s| s.strokes_mm));
-    println!("{} rays compared; surface of the strokes: {scallops:.4} um rms off the involute, highest scallop {highest:.4} um\n", stations.len());
+    println!(
+        "{} rays compared; surface of the strokes: {scallops:.4} um rms off the involute, highest scallop {highest:.4} um\n",
+        stations.len()
+    );
     println!(
         "| method | time, ms | size of the result | off the strokes' surface: rms, um | largest, um | off the involute: rms, um |"
     );

@@ -3,7 +3,6 @@
 #[path = "common/command.rs"]
 mod command;
 
-
 use command::gearcut;
 
 const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
