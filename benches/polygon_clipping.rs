@@ -72,24 +72,36 @@ fn fastest<T>(runs: usize, mut work: impl FnMut() -> T) -> (Duration, T) {
     best
 }
 
-/// Everything gearcut does, from the scene to the heights of all flanks and roots; gives the heights of the flanks, and the number of rays.
-fn gearcut_flanks(backend: &Cpu) -> (Vec<Vec<f64>>, usize) {
+/// What gearcut made of the job.
+struct Cut {
+    /// Heights on the flanks, flank by flank, mm.
+    heights_mm: Vec<Vec<f64>>,
+    /// Number of rays, roots included.
+    rays: usize,
+    /// Time for curve, cutter and strokes; for targets and rays; for plans and kernel.
+    parts: [Duration; 3],
+}
+
+/// Everything gearcut does, from the scene to the heights of all flanks and roots.
+fn gearcut_flanks(backend: &Cpu) -> Cut {
+    let started = Instant::now();
     let job = Job::new(scene()).expect("a round gear");
+    let prepared = started.elapsed();
     let generation = job.target_generation();
     let section = |field: Field| Field { leads_mm: vec![0.0], ..field };
-    let mut rays = 0;
-    let heights = flanks()
-        .map(|(tooth, side)| {
-            let flank = job.target_flank(&generation, tooth, side).expect("a flank");
-            let cut = job.cut(backend, section(job.flank_field(&flank))).expect("native");
-            rays += cut.field.len();
-            cut.layers[0].heights_mm.iter().map(|&h| f64::from(h)).collect()
-        })
+    let on_flanks = flanks()
+        .map(|(tooth, side)| section(job.flank_field(&job.target_flank(&generation, tooth, side).expect("a flank"))));
+    let on_roots = (1..=TEETH).map(|space| section(job.root_field(space)));
+    let fields: Vec<Field> = on_flanks.chain(on_roots).collect();
+    let laid_out = started.elapsed();
+    let rays = fields.iter().map(Field::len).sum();
+    let mut heights_mm: Vec<Vec<f64>> = fields
+        .into_iter()
+        .map(|field| job.cut(backend, field).expect("native").layers[0].heights_mm.iter().map(|&h| h.into()).collect())
         .collect();
-    for space in 1..=TEETH {
-        rays += job.cut(backend, section(job.root_field(space))).expect("native").field.len();
-    }
-    (heights, rays)
+    heights_mm.truncate(flanks().count());
+    let parts = [prepared, laid_out.saturating_sub(prepared), started.elapsed().saturating_sub(laid_out)];
+    Cut { heights_mm, rays, parts }
 }
 
 /// One cutter tooth as a polygon in its own frame: flanks of `chords` chords with equal arrow heights, a tip arc, straight below the base circle.
@@ -274,7 +286,7 @@ fn row(what: &str, time: Duration, size: &str, heights_mm: &[f64], stations: &[S
         rms_and_largest_um(stations.iter().zip(heights_mm).map(|(s, height)| height - s.strokes_mm));
     let [off_involute, _] = rms_and_largest_um(heights_mm.iter().copied());
     let ms = 1e3 * time.as_secs_f64();
-    println!("| {what} | {ms:.1} | {size} | {off_strokes:.6} | {worst:.6} | {off_involute:.4} |");
+    println!("| {what} | {ms:.1} | {size} | {off_strokes:.2e} | {worst:.2e} | {off_involute:.4} |");
 }
 
 fn main() {
@@ -291,13 +303,15 @@ fn main() {
         "| method | time, ms | size of the result | off the strokes' surface: rms, um | largest, um | off the involute: rms, um |"
     );
     println!("| --- | --- | --- | --- | --- | --- |");
-    let mut ours = Duration::MAX;
+    let (mut ours, mut parts) = (Duration::MAX, [Duration::ZERO; 3]);
     for backend in common::backends() {
-        let (time, (heights, rays)) = fastest(RUNS, || gearcut_flanks(&backend));
-        let on_rays: Vec<f64> = stations.iter().map(|s| heights[s.flank][s.column]).collect();
+        let (time, cut) = fastest(RUNS, || gearcut_flanks(&backend));
+        let on_rays: Vec<f64> = stations.iter().map(|s| cut.heights_mm[s.flank][s.column]).collect();
         let what = format!("gearcut, {}", backend.instruction_set());
-        row(&what, time, &format!("{rays} rays"), &on_rays, &stations);
-        ours = ours.min(time);
+        row(&what, time, &format!("{} rays", cut.rays), &on_rays, &stations);
+        if time < ours {
+            (ours, parts) = (time, cut.parts);
+        }
     }
     let mut ratios = Vec::new();
     for (sectors, layout) in [(1, "one outline"), (TEETH, "24 sectors")] {
@@ -309,7 +323,10 @@ fn main() {
             ratios.push((what, time.as_secs_f64() / ours.as_secs_f64()));
         }
     }
-    println!();
+    let [prepared, laid_out, cut] = parts.map(|part| 1e3 * part.as_secs_f64());
+    println!(
+        "\ngearcut's time: {prepared:.1} ms curve, cutter, strokes; {laid_out:.1} ms targets and rays; {cut:.1} ms plans and kernel"
+    );
     for (what, ratio) in ratios {
         println!("gearcut is {ratio:.1} times faster than {what}");
     }
