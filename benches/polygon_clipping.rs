@@ -36,7 +36,7 @@ const STROKES: u32 = 1440;
 const TEETH: u32 = 24;
 /// Spacing of the rays: a few per facet, about as many as the clipped outline has vertices.
 const SPACING_MM: f64 = 0.02;
-/// Chords of the peer's cutter flank; 40 put its outline 0.17 um rms off the involute.
+/// Chords of the peer's cutter flank; 40 put its outline 0.2 um rms off the surface of the strokes.
 const CHORDS: [usize; 4] = [20, 40, 80, 160];
 /// Share of the profile left out at either end.
 const MARGIN: f64 = 0.05;
