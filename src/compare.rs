@@ -7,6 +7,7 @@
 //! | `comparison.csv` | one line per number: unit, both values, difference b - a, definition |
 //! | `unevenness_first_period.png`, `.svg` | bars by tooth over the first period of the pitch curve, with mean lines (Gao et al. 2017, Fig. 10) |
 //! | `unevenness_all_teeth.png`, `.svg` | the same over all teeth |
+//! | `unevenness_a.png`, `unevenness_b.png`, `.svg` | one result each, on its own scale, first period |
 //!
 //! Results of different gears may be compared: what one of them lacks stays empty.
 

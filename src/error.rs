@@ -33,6 +33,9 @@ pub enum Error {
         /// The writer's reason.
         reason: String,
     },
+    /// A device failed, and the user wants the run to stop then.
+    #[error(transparent)]
+    Gpu(#[from] crate::cut::gpu::GpuProblem),
     /// A file that was read is not what it should be.
     #[error("cannot use {}: {reason}", path.display())]
     Unreadable {

@@ -30,12 +30,14 @@ impl Rigid2 {
     }
 
     /// The motion back.
+    #[must_use]
     pub fn inverse(&self) -> Self {
         let rotation = DVec2::new(self.rotation.x, -self.rotation.y);
         Self { rotation, translation_mm: -rotation.rotate(self.translation_mm) }
     }
 
     /// `self` after `first`: `a_from_b.after(b_from_c)` is `a_from_c`.
+    #[must_use]
     pub fn after(&self, first: &Self) -> Self {
         Self { rotation: self.rotation.rotate(first.rotation), translation_mm: self.point(first.translation_mm) }
     }

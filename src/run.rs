@@ -162,8 +162,11 @@ pub fn cut(
     }
     let results = results::results(&job, &gear);
     files::write(&job, &gear, &results, &folder)?;
-    let record = files::run_record(&resolved, (&backend.name(), backend_why), &gear, &folder)?;
+    let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
+    for incident in backend.incidents() {
+        progress.note(&incident);
+    }
     let summary = summary::summary(&job, &gear, &results, out, &backend.name());
     Ok(Done { folder: folder.finish()?, summary, results, interrupted: gear.interrupted })
 }

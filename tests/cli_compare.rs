@@ -32,7 +32,7 @@ fn stock(level_mm: f64) -> Value {
     json!({ "smallest": at(0.5 * level_mm), "largest": at(1.5 * level_mm), "mean": number(level_mm, "mm") })
 }
 
-fn spread(max: Value, mean: Value) -> Value {
+fn spread(max: &Value, mean: &Value) -> Value {
     json!({ "max": max, "mean": mean })
 }
 
@@ -53,7 +53,7 @@ fn operation(name: &str, linkage: &str, level: Option<f64>) -> Value {
         })
     };
     let percent = |share: f64| level.map_or_else(none, |level| number(share * level, "%"));
-    let both = || spread(percent(1.0), percent(0.55));
+    let both = || spread(&percent(1.0), &percent(0.55));
     let teeth: Vec<Value> = level.map_or(Vec::new(), |level| (1..=TEETH).map(|index| tooth(index, level)).collect());
     json!({
         "name": name, "linkage": linkage, "offset": number(2.0, "mm"), "strokes": number(4200.0, "strokes"),
@@ -142,6 +142,9 @@ fn two_results_stand_side_by_side() {
             let kept = Path::new(&keep).join(format!("compare_{name}.png"));
             std::fs::copy(written.join(format!("{name}.png")), kept).expect("the folder to keep pictures in");
         }
+    }
+    for name in ["unevenness_a.png", "unevenness_b.svg"] {
+        assert!(written.join(name).is_file(), "{name}");
     }
     // Again, by the files and into another folder.
     let files = ["out/traditional/results.json", "out/normal/results.json"];

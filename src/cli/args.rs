@@ -49,8 +49,8 @@ pub enum Command {
     #[command(after_help = "Example:\n  \
         gearcut compare out/elliptical_traditional out/elliptical_normal\n\n\
         Writes a folder (compare_<A>_<B> beside B unless --out is given): comparison.csv with the headline numbers of\n\
-        both and their differences, and the unevenness of the finishing allowance as bars by tooth (%), over the first\n\
-        period of the pitch curve and over all teeth, as PNG and SVG. Prints the same table.")]
+        both and their differences, and the unevenness of the allowance as bars by tooth (%), both results in one chart\n\
+        (first period of the pitch curve, and all teeth) and each on its own scale, as PNG and SVG. Prints the table.")]
     Compare(CompareArguments),
     /// List what can compute here.
     #[command(after_help = "Example:\n  gearcut devices")]
@@ -86,6 +86,9 @@ pub struct CutArguments {
     /// What computes: auto takes a GPU if there is a real one.
     #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
     pub backend: BackendChoice,
+    /// What happens to a flank whose GPU is lost or runs out of memory.
+    #[arg(long, value_enum, default_value_t = GpuFailureChoice::Redo)]
+    pub on_gpu_failure: GpuFailureChoice,
     /// Show no progress and no summary.
     #[arg(long, conflicts_with = "json")]
     pub quiet: bool,
@@ -103,6 +106,15 @@ pub enum BackendChoice {
     Gpu,
     /// The processor, in double precision.
     Cpu,
+}
+
+/// What to do when a GPU fails.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum GpuFailureChoice {
+    /// Cut the flank again on the processor.
+    Redo,
+    /// Stop the run.
+    Stop,
 }
 
 /// Arguments of `axes`.

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use gearcut::cut::Backend;
-use gearcut::cut::cpu::Cpu;
+use gearcut::cut::choice::{BackendWish, choose};
+use gearcut::cut::gpu::{GpuOptions, OnGpuFailure};
 use gearcut::output::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::{Error, run, scene};
 
-use super::args::CutArguments;
+use super::args::{BackendChoice, CutArguments, GpuFailureChoice};
 use super::failure::Failure;
 use super::print;
 
@@ -23,8 +23,18 @@ pub fn run(arguments: &CutArguments) -> Result<bool, Failure> {
         path: out.clone(),
         source,
     })?;
-    let (backend, why): (Box<dyn Backend>, String) = (Box::new(Cpu::default()), "asked for".to_owned());
-    let done = run::cut(&scene, &out, backend.as_ref(), &why, &progress, &interrupt)
+    let wish = match arguments.backend {
+        BackendChoice::Auto => BackendWish::Auto,
+        BackendChoice::Gpu => BackendWish::Gpu,
+        BackendChoice::Cpu => BackendWish::Cpu,
+    };
+    let on_failure = match arguments.on_gpu_failure {
+        GpuFailureChoice::Redo => OnGpuFailure::RedoNatively,
+        GpuFailureChoice::Stop => OnGpuFailure::Stop,
+    };
+    let choice = choose(wish, GpuOptions { on_failure, ..GpuOptions::default() }).map_err(Error::from)?;
+    progress.note(&format!("backend: {} ({})", choice.backend.name(), choice.why));
+    let done = run::cut(&scene, &out, choice.backend.as_ref(), &choice.why, &progress, &interrupt)
         .map_err(|error| Failure::of_scene(&scene, error))?;
     if arguments.json {
         let text = serde_json::to_string_pretty(&done.results)

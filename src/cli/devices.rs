@@ -1,15 +1,11 @@
-//! `gearcut devices`: what can compute here.
+//! `gearcut devices`: what can compute here, and what `--backend auto` would take.
 
-use gearcut::cut::Backend;
-use gearcut::cut::cpu::Cpu;
-use gearcut::output::text::Sheet;
+use gearcut::cut::choice;
 
 use super::failure::Failure;
 use super::print;
 
 /// Runs the command.
 pub fn run() -> Result<(), Failure> {
-    let mut sheet = Sheet::default();
-    sheet.line("--backend cpu", Cpu::default().name());
-    Ok(print::to_stdout(&sheet.into_text())?)
+    Ok(print::to_stdout(&format!("{}\n", choice::devices()))?)
 }

@@ -1,4 +1,5 @@
-//! Unevenness of the allowance, tooth by tooth, of two results in one picture.
+//! Unevenness of the allowance, tooth by tooth: both results in one picture, and each on a scale of its own, since one may
+//! be a fiftieth of the other.
 
 use super::{Compared, Comparison};
 use crate::output::bar_chart::{BarChart, BarSeries};
@@ -6,26 +7,33 @@ use crate::output::quantity::Quantity;
 use crate::output::results::{OperationResults, OperationTooth};
 
 impl Comparison {
-    /// Both charts with their file names; none where neither result has an allowance.
+    /// The charts with their file names; none where neither result has an allowance.
     pub(super) fn charts(&self) -> Vec<(&'static str, BarChart)> {
         let period = self.a.first_period().max(self.b.first_period());
         let all = self.a.teeth().len().max(self.b.teeth().len());
         if all == 0 {
             return Vec::new();
         }
-        let unit = [&self.a, &self.b].into_iter().find_map(Compared::unit).unwrap_or("1");
-        let chart = |what: &str, teeth: usize| BarChart {
-            title: format!("Unevenness of the allowance, {what}"),
-            category_name: "tooth".to_owned(),
-            categories: (1..=teeth).map(|tooth| tooth.to_string()).collect(),
-            value_name: "unevenness |AB−CD| : mean(AB, CD)".to_owned(),
-            unit: unit.to_owned(),
-            series: [&self.a, &self.b].map(|result| result.bars(teeth)).into(),
-        };
+        let (a, b) = (&self.a, &self.b);
+        let first = format!("teeth 1 to {period}, the first period");
         vec![
-            ("unevenness_first_period", chart(&format!("teeth 1 to {period}, the first period"), period)),
-            ("unevenness_all_teeth", chart("all teeth", all)),
+            ("unevenness_first_period", chart(&first, period, &[a, b])),
+            ("unevenness_all_teeth", chart("all teeth", all, &[a, b])),
+            ("unevenness_a", chart(&first, period, &[a])),
+            ("unevenness_b", chart(&first, period, &[b])),
         ]
+    }
+}
+
+/// Bars of the first `teeth` teeth of some results.
+fn chart(what: &str, teeth: usize, results: &[&Compared]) -> BarChart {
+    BarChart {
+        title: format!("Unevenness of the allowance, {what}"),
+        category_name: "tooth".to_owned(),
+        categories: (1..=teeth).map(|tooth| tooth.to_string()).collect(),
+        value_name: "unevenness, mean denominator".to_owned(),
+        unit: results.iter().find_map(|result| result.unit()).unwrap_or("%").to_owned(),
+        series: results.iter().map(|result| result.bars(teeth)).collect(),
     }
 }
 

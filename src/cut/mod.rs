@@ -1,9 +1,13 @@
 //! Backends: subtract the passes of a plan from a field of dexels.
 //!
-//! One law, several machines: [`cpu::Cpu`] (f64, vectorised at run time) always works. A backend reads the plan's records and the tool's edge tables and lowers the heights of a
-//! [`Layer`]; among passes that leave the same height the lowest id wins, so the result does not depend on any order of work.
+//! One law, several machines: [`cpu::Cpu`] (f64, vectorised at run time) always works, [`gpu::Gpu`] (f32 in local
+//! frames, within nanometres) runs on any Vulkan, Metal or DirectX 12 adapter; [`choice`] takes one of them. A backend
+//! reads the plan's records and the tool's edge tables and lowers the heights of a [`Layer`]; among
+//! passes that leave the same height the lowest id wins, so the result does not depend on any order of work.
 
+pub mod choice;
 pub mod cpu;
+pub mod gpu;
 
 use crate::dexel::{Field, Layer};
 use crate::error::Error;
@@ -15,7 +19,8 @@ use crate::tool::edge::Edge;
 pub struct CutStats {
     /// (Dexel, pass) pairs evaluated.
     pub dexel_passes: u64,
-    /// Pairs whose ray meets the segment but whose root was not reached to a picometre; any at all makes the result untrustworthy.
+    /// Pairs whose ray meets the segment but whose root was not reached to a picometre; any at all makes the result
+    /// untrustworthy.
     pub unconverged: u64,
 }
 
@@ -24,6 +29,17 @@ impl std::ops::AddAssign for CutStats {
         self.dexel_passes += other.dexel_passes;
         self.unconverged += other.unconverged;
     }
+}
+
+/// Time that a device spent on one stage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StageTime {
+    /// Name of the stage: the shader's.
+    pub stage: &'static str,
+    /// Batches sent.
+    pub batches: u64,
+    /// Time between the first and the last of its threads, summed over launches, s.
+    pub device_s: f64,
 }
 
 /// A machine that cuts.
@@ -36,4 +52,14 @@ pub trait Backend: Sync {
     /// # Errors
     /// Whatever keeps the backend from finishing; the layer is then unusable.
     fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error>;
+
+    /// What went wrong so far and was made good: one line each, for the run record.
+    fn incidents(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The device's own time, stage by stage, where it can tell.
+    fn stage_times(&self) -> Vec<StageTime> {
+        Vec::new()
+    }
 }

@@ -1,6 +1,6 @@
 //! Dexels: rays with what is left on them.
 //!
-//! A [`flank_field::Field`] holds rays along the normals of a target curve, column by column along the profile and row by row along the tooth;
+//! A [`Field`] holds rays along the normals of a target curve, column by column along the profile and row by row along the tooth;
 //! a [`Layer`] holds, per ray and operation, the height that is left and the pass that left it.
 
 pub mod field;

@@ -101,7 +101,7 @@ impl<'a> TargetFlank<'a> {
         let sound = |c: &FlankContact| c.speed_mm_per_rad * forward > 0.0;
 
         let (phi_form, form_end) = {
-            let inside = |phi: f64| contact(phi).filter(|c| c.roll < roll_end && sound(c)).is_some();
+            let inside = |phi: f64| contact(phi).is_some_and(|c| c.roll < roll_end && sound(&c));
             let phi =
                 boundary(start.phi_rad, towards_form * step, inside).ok_or_else(|| nothing("it has no root end"))?;
             let undercut = contact(phi).is_none_or(|c| c.roll < roll_end - 1e-9);
@@ -111,7 +111,7 @@ impl<'a> TargetFlank<'a> {
             let top_mm = tip_height_mm.unwrap_or(blank.addendum_mm).min(blank.addendum_mm);
             let height = |c: &FlankContact| blank.height(c.point_mm, c.phi_rad).0;
             let inside =
-                |phi: f64| contact(phi).filter(|c| c.roll > roll_start && sound(c) && height(c) < top_mm).is_some();
+                |phi: f64| contact(phi).is_some_and(|c| c.roll > roll_start && sound(&c) && height(&c) < top_mm);
             let phi = boundary(start.phi_rad, -towards_form * step, inside).ok_or_else(|| nothing("it has no tip"))?;
             let end = contact(phi);
             let end = match end {

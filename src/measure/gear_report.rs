@@ -135,5 +135,5 @@ fn period_teeth(shape: &PitchCurveShape, teeth: u32) -> u32 {
         PitchCurveShape::Circle => teeth,
         PitchCurveShape::Fourier { .. } | PitchCurveShape::Table { .. } => 1,
     };
-    if teeth % order.max(1) == 0 { teeth / order.max(1) } else { teeth }
+    if teeth.is_multiple_of(order.max(1)) { teeth / order.max(1) } else { teeth }
 }

@@ -1,6 +1,6 @@
 //! Tiles and the passes that can leave the lowest surface on them.
 //!
-//! Every (dexel, pass) pair costs, so a tile (16 columns by all rows) visits only passes that can matter. Pass k is left out when some other pass is **lower at every dexel of the
+//! Every (dexel, pass) pair costs, so a tile (up to 16 columns by all rows) visits only passes that can matter. Pass k is left out when some other pass is **lower at every dexel of the
 //! tile, for certain**: see [`super::bounds`]. First a coarse look with cheap refusals finds the handful of passes near the lowest surface, then a finer one in quarters
 //! of the tile decides. What the bounds cannot judge (a ray grazing a corner round, a segment met partly beyond its end) is kept unless its box stays clear of the rays
 //! below the surface that is already certain. Equality with brute force over all passes is tested bit for bit.
@@ -18,8 +18,10 @@ use crate::tool::CuttingTool;
 use glam::DVec2;
 use std::ops::Range;
 
-/// Columns of a tile: twice the width of a facet at 4,200 strokes and 5 um; wider tiles carry more passes per dexel, narrower ones more records.
+/// Most columns of a tile; narrower tiles carry fewer passes per dexel but more records.
 pub const TILE_COLUMNS: usize = 16;
+/// Tiles are no wider than this where the columns are coarse: twice the width of a facet at 4,200 strokes. Wider ones collect passes of many facets.
+const TILE_WIDTH_MM: f64 = 0.08;
 /// Cells across a tile in which dominance is decided.
 const CELLS: usize = 4;
 /// Some columns and the passes that they visit.
@@ -46,6 +48,10 @@ pub struct CutPlan {
 
 impl CutPlan {
     /// Plan with candidate passes only.
+    #[expect(
+        clippy::redundant_closure_for_method_calls,
+        reason = "the method's path is not general enough in its lifetimes"
+    )]
     pub fn new(field: &Field, set: &StrokeSet, tool: &dyn CuttingTool) -> Self {
         Self::build(field, set, tool, |planner, near, columns, seeds| planner.candidates(near, columns, seeds))
     }
@@ -70,8 +76,11 @@ impl CutPlan {
         let blades: Vec<Rigid2> = (0..tool.blade_count()).map(|b| tool.tool_from_blade(b).inverse()).collect();
         let (mut tiles, mut records) = (Vec::new(), Vec::new());
         let mut seeds = Vec::new();
-        for start in (0..field.columns.len()).step_by(TILE_COLUMNS) {
-            let columns = start..(start + TILE_COLUMNS).min(field.columns.len());
+        let length_mm = field.columns.last().map_or(0.0, |last| last.arc_mm - field.columns[0].arc_mm);
+        let spacing_mm = length_mm / field.columns.len().saturating_sub(1).max(1) as f64;
+        let width = ((TILE_WIDTH_MM / spacing_mm.max(1e-9)).round() as usize).clamp(1, TILE_COLUMNS);
+        for start in (0..field.columns.len()).step_by(width) {
+            let columns = start..(start + width).min(field.columns.len());
             let rays = &field.columns[columns.clone()];
             let middle = rays[rays.len() / 2];
             let first = records.len();
@@ -88,7 +97,7 @@ impl CutPlan {
                     middle.origin_mm,
                 );
                 let (o, n) = record.ray_in_segment(DVec2::ZERO, middle.normal, 0.0);
-                record.start_mm = segment.enter(o, n).map_or(0.0, |hit| hit.height_mm);
+                record.start_mm = segment.enter(o, n).map_or(2.0 * middle.low_mm, |hit| hit.height_mm);
                 records.push(record);
             }
             tiles.push(Tile { columns, origin_mm: middle.origin_mm, records: first..records.len() });

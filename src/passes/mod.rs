@@ -1,6 +1,6 @@
 //! Passes: one blade's one trip through the work, and which passes can matter to which dexels.
 
-mod bounds;
+pub mod bounds;
 pub mod candidates;
 pub mod near;
 pub mod record;

@@ -15,7 +15,7 @@ pub struct PassRecord {
     pub pass: u32,
     /// Index of the segment in the blade's edge.
     pub segment: u32,
-    /// Where Newton's method starts: the height at which the tile's middle ray meets the segment, mm.
+    /// Where Newton's method starts: the height at which the tile's middle ray enters the segment or its continuation, mm; below all rays if it does not.
     pub start_mm: f64,
     /// Cosine of the rotation, coefficients of tau^0 to tau^3.
     pub cos: [f64; 4],

@@ -4,6 +4,7 @@
 
 use super::CutGear;
 use crate::axes_report;
+use crate::cut::Backend;
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::measure::unevenness::ToothAllowance;
@@ -209,7 +210,13 @@ fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Resu
 ///
 /// # Errors
 /// Files that cannot be read back for their checksums.
-pub fn run_record(resolved_scene: &str, backend: (&str, &str), cut: &CutGear, folder: &OutputFolder) -> Result<Value> {
+pub fn run_record(
+    resolved_scene: &str,
+    backend: &dyn Backend,
+    backend_why: &str,
+    cut: &CutGear,
+    folder: &OutputFolder,
+) -> Result<Value> {
     let mut checksums = Map::new();
     collect_checksums(&folder.path("")?, "", &mut checksums)?;
     Ok(json!({
@@ -217,8 +224,14 @@ pub fn run_record(resolved_scene: &str, backend: (&str, &str), cut: &CutGear, fo
         "program_version": env!("CARGO_PKG_VERSION"),
         "command": "cut",
         "scene": resolved_scene,
-        "backend": backend.0,
-        "backend_why": backend.1,
+        "backend": backend.name(),
+        "backend_why": backend_why,
+        "backend_incidents": backend.incidents(),
+        "stage_times": backend
+            .stage_times()
+            .iter()
+            .map(|t| json!({"stage": t.stage, "batches": t.batches, "device_s": t.device_s}))
+            .collect::<Vec<_>>(),
         "complete": !cut.interrupted,
         "dexels": cut.dexels,
         "dexel_passes": cut.stats.dexel_passes,

@@ -7,6 +7,9 @@ use crate::output::results::{OperationResults, Results};
 use crate::output::text::{Sheet, significant};
 use std::path::Path;
 
+/// Cuts below the target deeper than this are worth a warning: far above the resolution, below every tolerance on a gear drawing.
+const GOUGE_MM: f64 = 1e-4;
+
 /// The summary of a run.
 pub fn summary(job: &Job, cut: &CutGear, results: &Results, out: &Path, backend: &str) -> String {
     let mut sheet = Sheet::default();
@@ -87,6 +90,23 @@ pub fn warnings(cut: &CutGear) -> Vec<String> {
     let untouched: u64 = cut.report.flanks.iter().map(|f| f.untouched).sum();
     if untouched > 0 {
         warnings.push(format!("{untouched} dexels were touched by no pass: part of the flanks is still the blank"));
+    }
+    let deepest = cut
+        .report
+        .flanks
+        .iter()
+        .filter_map(|flank| Some((flank, flank.undercut?)))
+        .min_by(|a, b| a.1.value_mm.total_cmp(&b.1.value_mm))
+        .filter(|(_, deepest)| deepest.value_mm < -GOUGE_MM);
+    if let Some((flank, deepest)) = deepest {
+        let count = cut.report.flanks.iter().filter(|f| f.undercut.is_some_and(|u| u.value_mm < -GOUGE_MM)).count();
+        warnings.push(format!(
+            "{count} flanks are cut below the target, tooth {} {} by {} um, {:.2} mm above the start of the involute",
+            flank.tooth,
+            flank.side.name(),
+            significant(-deepest.value_mm * 1e3, 3),
+            deepest.arc_mm
+        ));
     }
     if cut.stats.unconverged > 0 {
         let count = cut.stats.unconverged;

@@ -136,7 +136,10 @@ fn chord_frame(start: DVec2, end: DVec2) -> Rigid2 {
 }
 
 impl Segment {
-    /// Part of an involute between two rolls, in the chain's direction; `Err`: the error that the table keeps.
+    /// Part of an involute between two rolls, in the chain's direction.
+    ///
+    /// # Errors
+    /// The error in mm that even the finest table keeps.
     pub fn involute(name: SegmentName, involute: Involute, rolls: [f64; 2]) -> Result<Self, f64> {
         // The right flank climbs from root to tip, the left one descends.
         let [from, to] = if involute.side > 0.0 { [rolls[1], rolls[0]] } else { rolls };
@@ -194,6 +197,7 @@ impl Segment {
     }
 
     /// The same segment on the other side of the blade's centre line.
+    #[must_use]
     pub fn mirrored(&self) -> Self {
         let name = match self.name {
             SegmentName::CornerLeft => SegmentName::CornerRight,

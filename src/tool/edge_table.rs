@@ -28,7 +28,8 @@ pub struct EdgeTable {
 impl EdgeTable {
     /// Table of a profile between two places, both given as y; halves the cells until the largest error met is below [`TABLE_TOLERANCE_MM`].
     ///
-    /// Returns the error that was left when even [`MAX_CELLS`] cells do not reach it.
+    /// # Errors
+    /// The error in mm that was left when even 4096 cells do not reach the tolerance.
     pub fn fit(profile: &impl Profile, y_range_mm: [f64; 2]) -> Result<Self, f64> {
         let mut count = 1;
         loop {
@@ -96,6 +97,7 @@ impl EdgeTable {
     }
 
     /// The table of x = U(-y).
+    #[must_use]
     pub fn mirrored(&self) -> Self {
         let w = 1.0 / self.cells_per_mm;
         let turn = |&[c0, c1, c2, c3]: &[f64; 4]| {

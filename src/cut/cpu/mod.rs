@@ -48,7 +48,7 @@ impl Cpu {
     }
 
     /// Name of the instruction set in use.
-    pub fn instruction_set(&self) -> &'static str {
+    pub fn instruction_set(self) -> &'static str {
         match self.vectors {
             Vectors::Baseline => "baseline",
             Vectors::Avx2 => "AVX2",
@@ -60,7 +60,7 @@ impl Cpu {
         }
     }
 
-    fn dispatch(&self, tile: planar::TileCut) -> CutStats {
+    fn dispatch(self, tile: planar::TileCut) -> CutStats {
         match self.vectors {
             Vectors::Widest => Arch::new().dispatch(tile),
             Vectors::Baseline => pulp::NullaryFnOnce::call(tile),

@@ -7,6 +7,12 @@
 //! together. They meet the edge within a micrometre of each other, nearly always in the same cell of its table, whose four coefficients are then loaded once; when they straddle a cell's end, each
 //! row loads its own. Both ways compute the same numbers.
 
+#![expect(
+    clippy::inline_always,
+    reason = "the instruction set of the dispatching function holds only for what is inlined into it"
+)]
+#![expect(clippy::needless_bitwise_bool, reason = "lanes are evaluated without branches, or they would not vectorise")]
+
 use crate::cut::CutStats;
 use crate::dexel::Column;
 use crate::passes::PassRecord;
@@ -16,8 +22,8 @@ use glam::DVec2;
 
 /// Rows that go together: two AVX-512 registers or four AVX2 registers per quantity hide the latency of the division.
 const LANES: usize = 16;
-/// Newton steps at most; from the tile's middle two suffice, five serve rays that graze.
-const MAX_STEPS: usize = 8;
+/// Newton steps at most; from the tile's middle two suffice, a dozen serve rays that graze.
+const MAX_STEPS: usize = 16;
 /// A step below this ends the iteration: the error after it is its square.
 const LAST_STEP_MM: f64 = 1e-8;
 /// Hits this far beyond a segment's end still count: neighbouring segments then leave no slit for a ray to slip through.
@@ -87,7 +93,9 @@ impl pulp::NullaryFnOnce for TileCut<'_> {
                 for ((tau, best), best_pass) in phases.iter().zip(&mut best).zip(&mut best_pass) {
                     let rays = rays_at(&ray, tau);
                     let entries = match &segment.shape {
-                        SegmentShape::Table(table) => enter_table(table, segment.y_range_mm, &rays, record.start_mm),
+                        SegmentShape::Table(table) => {
+                            enter_table(table, segment.y_range_mm, &rays, record.start_mm, 2.0 * column.low_mm)
+                        }
                         SegmentShape::Arc { radius_mm } => enter_arc(*radius_mm, segment.y_range_mm, &rays),
                     };
                     stats.unconverged += keep_lowest(&entries, column.low_mm, record.pass, best, best_pass);
@@ -128,13 +136,16 @@ fn rays_at(ray: &RayCubics, tau: &Lanes) -> Rays {
     Rays { x0: at(&ray.x0), y0: at(&ray.y0), nx: at(&ray.nx), ny: at(&ray.ny) }
 }
 
+/// Newton's method. The residual of a convex segment is convex in h: from any place where it falls the iteration runs to the entry, from the left without overshooting. A lane
+/// that finds itself where the residual rises goes back to `lowest_mm`, where it falls if there is any entry above at all; one that gets there twice has passed the bottom
+/// of a residual without roots: its ray misses the segment.
 #[inline(always)]
-fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_mm: f64) -> Entries {
+fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_mm: f64, lowest_mm: f64) -> Entries {
     let (y_start, y_end) = (table.y_start_mm, table.y_end_mm());
     let width = 1.0 / table.cells_per_mm;
     let last_cell = (table.cells.len() - 1) as f64;
     let mut h = [start_mm; LANES];
-    let (mut y, mut rate, mut step) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    let (mut y, mut rate, mut step, mut rises) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
     for _ in 0..MAX_STEPS {
         let (mut inside, mut cell) = ([0.0; LANES], [0.0; LANES]);
         for l in 0..LANES {
@@ -161,7 +172,9 @@ fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_m
         }
         let mut largest = 0.0_f64;
         for l in 0..LANES {
-            step[l] = residual[l] / rate[l];
+            let newton = residual[l] / rate[l];
+            step[l] = if rate[l] < 0.0 { newton } else { h[l] - lowest_mm };
+            rises[l] += if rate[l] < 0.0 { 0.0 } else { 1.0 };
             h[l] -= step[l];
         }
         for s in &step {
@@ -178,7 +191,7 @@ fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_m
             & (rate[l] < 0.0);
         let converged = step[l].abs() < 1e-6;
         entries.hit[l] = on_segment & converged;
-        entries.unconverged[l] = on_segment & !converged;
+        entries.unconverged[l] = on_segment & !converged & (rises[l] < 2.0);
     }
     entries
 }

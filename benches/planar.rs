@@ -1,0 +1,59 @@
+//! Dexel-passes in a second: the planar kernel natively and on every adapter that is there, the same plan in one run.
+//!
+//! One flank of the paper's gear as shipped (5 um by 50 um), finished; strokes that move and strokes that rest. The
+//! rates hold for whole cuts, transfers included.
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use gearcut::cut::Backend;
+use gearcut::cut::cpu::Cpu;
+use gearcut::cut::gpu::adapter::adapters;
+use gearcut::cut::gpu::{Gpu, GpuOptions};
+use gearcut::gear::generation::Side;
+use gearcut::job::Job;
+use gearcut::passes::CutPlan;
+use gearcut::scene::load;
+use gearcut::tool::CuttingTool;
+use std::path::Path;
+
+fn planar(criterion: &mut Criterion) {
+    let mut backends: Vec<(String, Box<dyn Backend>)> = vec![("native".into(), Box::new(Cpu::default()))];
+    for adapter in adapters() {
+        match Gpu::on(&adapter, GpuOptions::default()) {
+            Ok(gpu) => backends.push((adapter.facts.name, Box::new(gpu))),
+            Err(problem) => eprintln!("left out: {problem}"),
+        }
+    }
+    for feed_during_stroke in [true, false] {
+        let mut scene = load(Path::new("scenes/shaping/elliptical_normal.toml"), &[]).expect("the shipped scene").scene;
+        for operation in &mut scene.operations {
+            operation.feed_during_stroke = feed_during_stroke;
+        }
+        let job = Job::new(scene).expect("the shipped gear");
+        let generation = job.target_generation();
+        let field = job.flank_field(&job.target_flank(&generation, 5, Side::Left).expect("a flank"));
+        let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
+        let mut group = criterion.benchmark_group(if feed_during_stroke { "moving" } else { "frozen" });
+        group.throughput(Throughput::Elements(plan.dexel_passes())).sample_size(10);
+        println!("{} dexels, {} dexel-passes, {} records", field.len(), plan.dexel_passes(), plan.records.len());
+        for (name, backend) in &backends {
+            group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
+                bencher.iter(|| {
+                    let mut layer = field.blank_layer();
+                    backend.cut(&field, job.cutter.edge(), &plan, &mut layer).expect("cuts");
+                    layer
+                });
+            });
+            for time in backend.stage_times() {
+                let each_ms = time.device_s * 1e3 / time.batches as f64;
+                let rate = plan.dexel_passes() as f64 / each_ms * 1e-3;
+                println!(
+                    "{name}: {} takes {each_ms:.2} ms of the device, {rate:.0} million dexel-passes/s",
+                    time.stage
+                );
+            }
+        }
+    }
+}
+
+criterion_group!(benches, planar);
+criterion_main!(benches);

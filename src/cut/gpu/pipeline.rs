@@ -1,0 +1,68 @@
+//! Shaders as text and as pipelines.
+//!
+//! A stage's text is its file after the shared ones, joined as they are: no preprocessor stands between the files and
+//! what the driver sees. Variants are `override` constants. Bindings come from the shader itself.
+
+use super::device::Device;
+use super::problem::GpuProblem;
+use super::{ROWS_PER_THREAD, WORKGROUP_THREADS};
+
+/// A stage: one shader file, one entry point of the same name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stage {
+    /// Name of the file, the entry point, the label and the row in the timings.
+    pub name: &'static str,
+    /// Whole text.
+    pub text: &'static str,
+    /// Its bindings in order, by the names that they have there.
+    pub bindings: &'static [&'static str],
+    /// Constants of every variant that is used.
+    pub variants: &'static [&'static [(&'static str, f64)]],
+}
+
+/// The planar kernel: moving strokes, and frozen ones.
+pub const PLANAR_FLANK: Stage = Stage {
+    name: "planar_flank",
+    text: concat!(
+        include_str!("../../../shaders/shared/records.wgsl"),
+        include_str!("../../../shaders/shared/entry.wgsl"),
+        include_str!("../../../shaders/planar_flank.wgsl"),
+    ),
+    bindings: &["launch", "tiles", "columns", "records", "cells", "row_phases", "heights_mm", "passes", "unconverged"],
+    variants: &[
+        &[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64), ("FROZEN", 0.0)],
+        &[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64), ("FROZEN", 1.0)],
+    ],
+};
+
+/// All stages, for the tests that check every one.
+pub const STAGES: &[Stage] = &[PLANAR_FLANK];
+
+/// Pipelines of a stage, one for each variant.
+///
+/// # Errors
+/// The driver refuses the shader.
+pub fn pipelines(device: &Device, stage: &Stage) -> Result<Vec<wgpu::ComputePipeline>, GpuProblem> {
+    device.checked(|| {
+        let module = device.handle.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(stage.name),
+            source: wgpu::ShaderSource::Wgsl(stage.text.into()),
+        });
+        let pipeline = |constants: &&[(&'static str, f64)]| {
+            device.handle.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(stage.name),
+                layout: None,
+                module: &module,
+                entry_point: Some(stage.name),
+                compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
+                cache: None,
+            })
+        };
+        stage.variants.iter().map(pipeline).collect()
+    })
+}
+
+/// Threads that share the rows of one column.
+pub fn threads_per_column(rows: usize) -> usize {
+    rows.div_ceil(ROWS_PER_THREAD as usize)
+}
