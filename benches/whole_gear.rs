@@ -1,0 +1,100 @@
+//! How fast the native backend cuts: one flank in its parts, and the whole gear.
+//!
+//! Job: the third-order elliptical gear (m 3, z 42, face 30 mm), dexels every 5 um along the profile and 50 um along the tooth, roughing 2 mm off and finishing, each with 4,200 strokes.
+//! The flank (tooth 7, left) is timed in its parts, in one thread: the plan (which passes can matter to which tile), the cut, the measures. The whole gear runs once per instruction set through
+//! `run::cut_gear`, as `gearcut cut` does, without files, on all threads. A dexel-pass is one ray tried against one segment of one pass.
+//!
+//! `cargo bench --bench whole_gear` for both; `-- flank` for the parts alone.
+
+mod common;
+#[path = "../tests/common/mod.rs"]
+mod scenes;
+
+use criterion::{BatchSize, Criterion, Throughput};
+use gearcut::cut::Backend;
+use gearcut::cut::cpu::Cpu;
+use gearcut::gear::generation::Side;
+use gearcut::job::Job;
+use gearcut::measure::flank_report;
+use gearcut::output::interrupt::Interrupt;
+use gearcut::output::progress::{Progress, ProgressMode};
+use gearcut::passes::CutPlan;
+use gearcut::run;
+use gearcut::tool::CuttingTool;
+use std::hint::black_box;
+use std::time::Duration;
+
+const STROKES: u32 = 4200;
+
+fn job() -> Job {
+    let operation = |name, offset_mm| scenes::operation(name, scenes::NORMAL, offset_mm, STROKES);
+    Job::new(scenes::paper_scene(vec![operation("rough", 2.0), operation("finish", 0.0)])).expect("the paper's gear")
+}
+
+fn one_flank(criterion: &mut Criterion, job: &Job) {
+    let generation = job.target_generation();
+    let flank = job.target_flank(&generation, 7, Side::Left).expect("a flank");
+    let field = job.flank_field(&flank);
+    let finishing = job.finishing();
+    let plan = CutPlan::new(&field, &finishing.strokes, &job.cutter);
+    println!(
+        "flank 7 left: {} dexels, {} tiles, {} records, {:.2} dexel-passes per dexel in finishing",
+        field.len(),
+        plan.tiles.len(),
+        plan.records.len(),
+        plan.dexel_passes() as f64 / field.len() as f64
+    );
+    let mut group = criterion.benchmark_group("flank");
+    group.sample_size(10).warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(4));
+    group.bench_function("plan", |b| b.iter(|| CutPlan::new(black_box(&field), &finishing.strokes, &job.cutter)));
+    group.throughput(Throughput::Elements(plan.dexel_passes()));
+    for cpu in common::backends() {
+        group.bench_function(format!("cut, {}", cpu.instruction_set()), |b| {
+            let cut = |mut layer| cpu.cut(&field, job.cutter.edge(), &plan, &mut layer).map(|stats| (stats, layer));
+            b.iter_batched(|| field.blank_layer(), cut, BatchSize::LargeInput);
+        });
+    }
+    let cut = job.cut(&Cpu::default(), field.clone()).expect("native");
+    group.throughput(Throughput::Elements(field.len() as u64));
+    group.bench_function("measure", |b| b.iter(|| flank_report::measure(job, &flank, black_box(&cut))));
+    group.finish();
+}
+
+fn whole_gear(job: &Job) {
+    for cpu in common::backends() {
+        let quiet = Progress::new(ProgressMode::Quiet);
+        let gear = run::cut_gear(job, &cpu, &quiet, &Interrupt::default(), None).expect("native");
+        let seconds = gear.elapsed.as_secs_f64();
+        let visits = gear.stats.dexel_passes as f64;
+        println!(
+            "whole gear, {}: {seconds:.2} s; {:.1} million dexels (both operations), {:.1} million dexel-passes, {:.2} per dexel, {:.2} ns each (wall time, measures included); {}",
+            cpu.name(),
+            gear.dexels as f64 * 1e-6,
+            visits * 1e-6,
+            visits / gear.dexels as f64,
+            1e9 * seconds / visits,
+            peak_memory()
+        );
+        assert_eq!(gear.stats.unconverged, 0, "every root was found");
+    }
+}
+
+/// Largest resident memory of this process so far, where the system tells it.
+fn peak_memory() -> String {
+    std::fs::read_to_string("/proc/self/status")
+        .ok()
+        .and_then(|status| status.lines().find_map(|line| Some(line.strip_prefix("VmHWM:")?.trim().to_owned())))
+        .map_or_else(|| "peak memory unknown".to_owned(), |peak| format!("peak memory {peak} so far"))
+}
+
+fn main() {
+    println!("{}", common::machine());
+    let job = job();
+    let mut criterion = Criterion::default().configure_from_args();
+    one_flank(&mut criterion, &job);
+    criterion.final_summary();
+    // `cargo bench -- flank` asks for the parts alone; `cargo test --benches` only wants to see that it runs.
+    if !std::env::args().any(|argument| argument == "flank" || argument == "--test") {
+        whole_gear(&job);
+    }
+}
