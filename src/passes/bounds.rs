@@ -56,6 +56,27 @@ pub enum Verdict {
     Unjudged,
 }
 
+/// A ray of the work in a blade's frame, at one phase.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BladeRay {
+    /// Origin, mm.
+    pub origin_mm: DVec2,
+    /// Unit direction.
+    pub direction: DVec2,
+}
+
+impl BladeRay {
+    /// All places of a tile in a pass's blade frame, place by place, phase by phase.
+    pub fn of_pass<'a>(pass: &'a NearPass, places: &'a [Column]) -> impl Iterator<Item = Self> + 'a {
+        places.iter().flat_map(|ray| {
+            pass.blade_from_work.iter().map(|blade_from_work| Self {
+                origin_mm: blade_from_work.point(ray.origin_mm),
+                direction: blade_from_work.direction(ray.normal),
+            })
+        })
+    }
+}
+
 /// Segments with what the bounds need of them.
 pub struct SegmentBounds<'a> {
     /// The segments of the blade.
@@ -94,21 +115,14 @@ impl<'a> SegmentBounds<'a> {
         }
     }
 
-    /// Whether the segment's box comes within `margin_mm` of the ray between two heights, in any sampled phase.
-    pub fn box_meets(
-        &self,
-        pass: &NearPass,
-        segment: usize,
-        ray: &Column,
-        heights_mm: [f64; 2],
-        margin_mm: f64,
-    ) -> bool {
+    /// Whether the segment's box comes within `margin_mm` of a ray between two heights, in any sampled phase; `rays` are one place's.
+    pub fn box_meets(&self, rays: &[BladeRay], segment: usize, heights_mm: [f64; 2], margin_mm: f64) -> bool {
         let Segment { blade_from_segment, y_range_mm, .. } = &self.segments[segment];
         let [x_low, x_high] = self.x_ranges_mm[segment];
         let turn = DVec2::new(blade_from_segment.rotation.x, -blade_from_segment.rotation.y);
-        pass.blade_from_work.iter().any(|blade_from_work| {
-            let o = turn.rotate(blade_from_work.point(ray.origin_mm) - blade_from_segment.translation_mm);
-            let n = turn.rotate(blade_from_work.direction(ray.normal));
+        rays.iter().any(|ray| {
+            let o = turn.rotate(ray.origin_mm - blade_from_segment.translation_mm);
+            let n = turn.rotate(ray.direction);
             let [mut from, mut to] = heights_mm;
             let sides = [(o.x, n.x, x_low, x_high), (o.y, n.y, y_range_mm[0], y_range_mm[1])];
             for (o, n, low, high) in sides {
@@ -131,7 +145,7 @@ impl<'a> SegmentBounds<'a> {
     /// The residual of a convex segment falls ever more slowly along the ray, so one Newton step from the ceiling cannot overshoot the entry.
     pub fn stays_above(
         &self,
-        pass: &NearPass,
+        rays: &[BladeRay],
         segment_index: usize,
         sampling: &Sampling,
         ceilings_mm: &[f64],
@@ -144,25 +158,22 @@ impl<'a> SegmentBounds<'a> {
         let reach_mm2 = sampling.cell_mm * sampling.cell_mm + travel_mm * travel_mm;
         let bend = self.curvatures_per_mm[segment_index] + sampling.turn_per_mm;
         let margin_mm = CURVATURE_SAFETY * bend * reach_mm2 / 8.0 / GRAZING_COSINE.powi(3) + 1e-6;
-        let phases = &pass.blade_from_work;
-        sampling.places.iter().zip(ceilings_mm.chunks_exact(phases.len())).all(|(ray, ceilings_mm)| {
-            phases.iter().zip(ceilings_mm).all(|(blade_from_work, ceiling_mm)| {
-                let aim = ray.origin_mm + (ceiling_mm + margin_mm) * ray.normal;
-                let p = turn.rotate(blade_from_work.point(aim) - frame.translation_mm);
-                let n = turn.rotate(blade_from_work.direction(ray.normal));
-                let (residual_mm, normal) = match &segment.shape {
-                    SegmentShape::Table(table) => {
-                        let [x, slope] = table.x_and_slope(p.y);
-                        (p.x - x, DVec2::new(1.0, -slope))
-                    }
-                    SegmentShape::Arc { radius_mm } => {
-                        let from_center = p + DVec2::new(*radius_mm, 0.0);
-                        (from_center.length() - radius_mm, from_center)
-                    }
-                };
-                // Grazing rays are not for this test: the margin does not cover them.
-                residual_mm > 0.0 && -n.dot(normal) > GRAZING_COSINE * normal.length()
-            })
+        rays.iter().zip(ceilings_mm).all(|(ray, ceiling_mm)| {
+            let aim = ray.origin_mm + (ceiling_mm + margin_mm) * ray.direction;
+            let p = turn.rotate(aim - frame.translation_mm);
+            let n = turn.rotate(ray.direction);
+            let (residual_mm, normal) = match &segment.shape {
+                SegmentShape::Table(table) => {
+                    let [x, slope] = table.x_and_slope(p.y);
+                    (p.x - x, DVec2::new(1.0, -slope))
+                }
+                SegmentShape::Arc { radius_mm } => {
+                    let from_center = p + DVec2::new(*radius_mm, 0.0);
+                    (from_center.length() - radius_mm, from_center)
+                }
+            };
+            // Grazing rays are not for this test: the margin does not cover them.
+            residual_mm > 0.0 && -n.dot(normal) > GRAZING_COSINE * normal.length()
         })
     }
 

@@ -8,13 +8,14 @@
 //! Road not taken: the contact moment from the meshing condition. It knows only the finishing envelope; roughing, plunges, partial turns and undercut need no
 //! special case here.
 
-use super::bounds::{Sampling, SegmentBounds, Verdict, undominated};
+use super::bounds::{BladeRay, Sampling, SegmentBounds, Verdict, undominated};
 use super::near::{NearPass, near_passes};
 use super::record::PassRecord;
 use super::strokes::StrokeSet;
 use crate::dexel::field::{Column, Field};
 use crate::frame::Rigid2;
 use crate::tool::CuttingTool;
+use crate::tool::edge::Edge;
 use glam::DVec2;
 use std::ops::Range;
 
@@ -70,7 +71,7 @@ impl CutPlan {
         tool: &dyn CuttingTool,
         choose: impl Fn(&Planner, &[NearPass], &[Column], &mut Vec<usize>) -> Vec<(usize, usize)>,
     ) -> Self {
-        let planner = Planner { bounds: SegmentBounds::new(&tool.edge().segments) };
+        let planner = Planner { edge: tool.edge(), bounds: SegmentBounds::new(&tool.edge().segments) };
         let (center, reach) = Field::circle(&field.columns);
         let near = near_passes(set, tool, center, reach);
         let blades: Vec<Rigid2> = (0..tool.blade_count()).map(|b| tool.tool_from_blade(b).inverse()).collect();
@@ -115,6 +116,7 @@ impl CutPlan {
 
 /// Chooses candidates for tiles of one field.
 struct Planner<'a> {
+    edge: &'a Edge,
     bounds: SegmentBounds<'a>,
 }
 
@@ -133,13 +135,25 @@ impl Planner<'_> {
             coarse_places.iter().flat_map(|ray| std::iter::repeat_n(ray.blank_mm, phases)).collect();
         let mut ceiling_mm = rays.iter().map(|ray| ray.blank_mm).fold(0.0, f64::max);
         let (mut judged, mut unjudged) = (Vec::new(), Vec::new());
+        let mut blade_rays = Vec::new();
         let scouts = seeds.iter().copied().chain((0..near.len()).step_by(16)).map(|pass| (pass, false));
         for (pass, keep) in scouts.chain((0..near.len()).map(|pass| (pass, true))) {
             let travel_mm = travel_mm(&near[pass], &middle);
             let margin_mm = ends + travel_mm;
+            blade_rays.clear();
+            blade_rays.extend(BladeRay::of_pass(&near[pass], &coarse_places));
+            // The middle place's ray against the whole blade's circle before any segment is looked at.
+            let middle_rays = phases..2 * phases;
+            let passes_by = |ray: &BladeRay| {
+                ray.direction.perp_dot(self.edge.center_mm - ray.origin_mm).abs() > self.edge.reach_mm + margin_mm
+            };
+            if blade_rays[middle_rays.clone()].iter().all(passes_by) {
+                continue;
+            }
             for segment in 0..self.bounds.segments.len() {
-                if !self.bounds.box_meets(&near[pass], segment, &middle, [coarse.floor_mm, ceiling_mm], margin_mm)
-                    || self.bounds.stays_above(&near[pass], segment, &coarse, &ceilings_mm, travel_mm)
+                let heights_mm = [coarse.floor_mm, ceiling_mm];
+                if !self.bounds.box_meets(&blade_rays[middle_rays.clone()], segment, heights_mm, margin_mm)
+                    || self.bounds.stays_above(&blade_rays, segment, &coarse, &ceilings_mm, travel_mm)
                 {
                     continue;
                 }
@@ -177,7 +191,8 @@ impl Planner<'_> {
         seeds.dedup();
         chosen.extend(unjudged.into_iter().filter(|&(pass, segment)| {
             let margin_mm = ends + travel_mm(&near[pass], &middle);
-            self.bounds.box_meets(&near[pass], segment, &middle, [fine.floor_mm, ceiling_mm], margin_mm)
+            let rays: Vec<BladeRay> = BladeRay::of_pass(&near[pass], &[middle]).collect();
+            self.bounds.box_meets(&rays, segment, [fine.floor_mm, ceiling_mm], margin_mm)
         }));
         chosen.sort_unstable();
         chosen.dedup();
