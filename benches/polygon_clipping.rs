@@ -12,6 +12,10 @@
 //! `cargo bench --bench polygon_clipping`
 
 mod common;
+#[allow(
+    clippy::wildcard_imports,
+    reason = "a model of the whole scene is written out there; clippy lets test crates do so, not benches"
+)]
 #[path = "../tests/common/mod.rs"]
 mod scenes;
 

@@ -7,6 +7,10 @@
 //! `cargo bench --bench whole_gear` for both; `-- flank` for the parts alone.
 
 mod common;
+#[allow(
+    clippy::wildcard_imports,
+    reason = "a model of the whole scene is written out there; clippy lets test crates do so, not benches"
+)]
 #[path = "../tests/common/mod.rs"]
 mod scenes;
 
