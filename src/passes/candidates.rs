@@ -23,6 +23,8 @@ use std::ops::Range;
 pub const TILE_COLUMNS: usize = 16;
 /// Tiles are no wider than this where the columns are coarse: twice the width of a facet at 4,200 strokes. Wider ones collect passes of many facets.
 const TILE_WIDTH_MM: f64 = 0.08;
+/// Tiles of fewer dexels than this are widened all the same: planning one costs about as much as some thousand dexel-passes.
+const MIN_TILE_DEXELS: usize = 4096;
 /// Cells across a tile in which dominance is decided.
 const CELLS: usize = 4;
 /// Some columns and the passes that they visit.
@@ -79,7 +81,8 @@ impl CutPlan {
         let mut seeds = Vec::new();
         let length_mm = field.columns.last().map_or(0.0, |last| last.arc_mm - field.columns[0].arc_mm);
         let spacing_mm = length_mm / field.columns.len().saturating_sub(1).max(1) as f64;
-        let width = ((TILE_WIDTH_MM / spacing_mm.max(1e-9)).round() as usize).clamp(1, TILE_COLUMNS);
+        let by_width = (TILE_WIDTH_MM / spacing_mm.max(1e-9)).round() as usize;
+        let width = by_width.max(MIN_TILE_DEXELS / field.rows().max(1)).clamp(1, TILE_COLUMNS);
         for start in (0..field.columns.len()).step_by(width) {
             let columns = start..(start + width).min(field.columns.len());
             let rays = &field.columns[columns.clone()];
