@@ -115,10 +115,8 @@ fn stroke_allowances_are_the_oracles() {
                 worst = worst.max((tooth.cd_mm().expect("CD") - number(&expected["CD"][i])).abs());
             }
             println!("N = {strokes} {name}: worst {worst:.2e} mm");
-            assert!(
-                worst < 2.0 * number(&data["tolerance"]["discrete_points"]),
-                "N = {strokes} {name}: {worst:.2e} mm"
-            );
+            // Both programs are exact here: far inside the oracle's own tolerance (2e-6 mm), which serves polygon models.
+            assert!(worst < 1e-10, "N = {strokes} {name}: {worst:.2e} mm");
         }
     }
 }
