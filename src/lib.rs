@@ -15,6 +15,7 @@ pub mod linkage;
 pub mod measure;
 pub mod output;
 pub mod passes;
+pub mod planar_rays;
 pub mod run;
 pub mod scene;
 pub mod tool;
