@@ -18,6 +18,7 @@ pub mod passes;
 pub mod planar_rays;
 pub mod run;
 pub mod scene;
+pub mod surface;
 pub mod tool;
 pub mod units;
 
