@@ -11,6 +11,7 @@ pub(crate) mod periodic_integral;
 pub mod pitch_curve;
 pub(crate) mod roots;
 pub mod target;
+pub mod target_outline;
 
 pub use jet::Jet;
 pub use pitch_curve::{CurvatureExtremum, CurveFacts, PitchCurve, PitchFrame};

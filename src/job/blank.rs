@@ -6,10 +6,16 @@ use crate::dexel::{BlankField, BlankGrid};
 use crate::error::Refusal;
 use crate::frame::Rigid2;
 use crate::gear::blank_outline::BlankOutline;
+use crate::gear::generation::Side;
+use crate::gear::target::{FlankEnd, TargetFlank, target_root};
+use crate::gear::target_outline::TargetOutline;
 use crate::passes::StrokeSet;
 use crate::passes::strokes::StrokeLaw;
 use crate::tool::CuttingTool;
 use crate::tool::closed_tooth::ClosedTooth;
+use crate::units::TURN_RAD;
+use glam::DVec2;
+use rayon::prelude::*;
 
 /// The whole gear after all operations, and what each of them did.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,6 +93,59 @@ impl Job {
             cut.left_mm3.push(cut.field.volumes_mm3());
         }
         Ok(Some(cut))
+    }
+
+    /// The target's transverse section as a polygon with points `spacing_mm` apart; its error is the arrow height of so long a chord.
+    ///
+    /// # Errors
+    /// A tooth without a flank, or one whose tip the cutter's base shapes: its outline is not known in closed form.
+    pub fn target_outline(&self, spacing_mm: f64) -> Result<TargetOutline, Refusal> {
+        let teeth: Vec<Vec<DVec2>> = (1..=self.scene.gear.teeth)
+            .into_par_iter()
+            .map(|tooth| self.tooth_outline(tooth, spacing_mm))
+            .collect::<Result<_, _>>()?;
+        Ok(TargetOutline::new(teeth.concat()))
+    }
+
+    /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise.
+    fn tooth_outline(&self, tooth: u32, spacing_mm: f64) -> Result<Vec<DVec2>, Refusal> {
+        let generation = self.target_generation();
+        let [right, left] = [Side::Right, Side::Left].map(|side| self.target_flank(&generation, tooth, side));
+        let (right, left) = (right?, left?);
+        for flank in [&right, &left] {
+            if matches!(flank.tip_end, FlankEnd::CutterBase | FlankEnd::Undercut) {
+                return Err(Refusal::new(
+                    "tool.shaper_cutter",
+                    format!(
+                        "the tip of tooth {tooth} is shaped by the cutter's base; its target is not known in closed form"
+                    ),
+                    "use a smaller gear.addendum_coefficient or a cutter with more teeth",
+                ));
+            }
+        }
+        let along = |flank: &TargetFlank| -> Vec<DVec2> {
+            let count = (flank.length_mm() / spacing_mm).ceil().max(1.0) as usize;
+            (0..=count).map(|i| flank.at_arc(flank.length_mm() * i as f64 / count as f64).point_mm).collect()
+        };
+        let mut points = along(&right);
+        if left.tip_end == FlankEnd::BlankOutline && right.tip_end == FlankEnd::BlankOutline {
+            let foot = |flank: &TargetFlank| {
+                let tip = flank.at_arc(flank.length_mm());
+                self.blank.height(tip.point_mm, tip.phi_rad).1
+            };
+            let (from, to) = (foot(&right), foot(&left));
+            // Tips lie within a tooth of each other, but contact angles may be a turn apart.
+            let to = from + (to - from).rem_euclid(TURN_RAD);
+            let land = |phi: f64| {
+                let frame = self.curve.frame(phi);
+                frame.point_mm + self.blank.addendum_mm * frame.normal
+            };
+            let count = (land(from).distance(land(to)) / spacing_mm).ceil().max(1.0) as usize;
+            points.extend((1..count).map(|i| land(from + (to - from) * i as f64 / count as f64)));
+        }
+        points.extend(along(&left).into_iter().rev());
+        points.extend(target_root(&generation, i64::from(tooth), spacing_mm).iter().map(|p| p.point_mm));
+        Ok(points)
     }
 
     /// Steps that [`Self::cut_blank`] takes over a field.

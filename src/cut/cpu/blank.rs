@@ -21,6 +21,9 @@ use rayon::prelude::*;
 /// Rays of a tile: a cutter tooth of module 3 at 0.1 mm covers one or two tiles.
 const TILE_RAYS: usize = 64;
 
+/// Rays that meet an edge at least this steeply (cosine to its normal) tell how deep it lies: every edge is met so by one of the two families.
+const STEEP: f64 = 0.7;
+
 /// One operation over the blank field.
 pub struct BlankOperation<'a> {
     /// Strokes.
@@ -57,7 +60,7 @@ pub struct Rub {
     pub slice: u32,
     /// Middle of the entered material, gear frame.
     pub place_mm: DVec2,
-    /// How deep the edge goes in, along its normal, mm.
+    /// How deep the edge goes in, along its normal, mm; 0 on rays that graze it, whose place the other family's rays judge.
     pub depth_mm: f64,
     /// Volume of the ray's share, mm3, for one family of rays.
     pub volume_mm3: f64,
@@ -256,17 +259,17 @@ impl Tile<'_> {
                 if length_mm <= intervals::LEAST_SPAN_MM {
                     continue;
                 }
-                // The edge that is in the material is the nearer one; along its normal the material is as thick as this.
-                let ends = [from, to].map(|c| (c, intervals::contains(spans, c.at_mm)));
-                let depth = |c: &Crossing| length_mm * family.along(c.outward()).abs();
-                let inside = ends.iter().filter(|(_, inside)| *inside);
-                let depth_mm = inside.map(|(c, _)| depth(c)).reduce(f64::min).unwrap_or(length_mm);
+                // Along its normal the material is at most as thick as this; rays that graze say little and leave the depth to the other family.
+                let ends = [from, to].map(|c| (c.outward(), intervals::contains(spans, c.at_mm)));
+                let steep = |n: &DVec2| family.along(*n).abs() >= STEEP;
+                let inside = ends.iter().filter(|(n, inside)| *inside && steep(n));
+                let depth = inside.map(|(n, _)| length_mm * family.along(*n).abs()).reduce(f64::min);
                 let middle = if ends[0].1 { from.at_mm + 0.5 * length_mm } else { to.at_mm - 0.5 * length_mm };
                 rubs.push(Rub {
                     pass: id,
                     slice: self.slice,
                     place_mm: family.point(middle, at_mm),
-                    depth_mm,
+                    depth_mm: depth.unwrap_or(0.0),
                     volume_mm3: length_mm * volume_per_length,
                     family,
                 });
