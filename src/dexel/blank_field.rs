@@ -82,8 +82,9 @@ impl BlankGrid {
             ));
         }
         let row = |from: f64, to: f64| {
-            let first = (from / spacing_mm - 0.5).floor();
-            let last = (to / spacing_mm - 0.5).ceil();
+            // One ray beyond the blank on either side: surfaces have grid all round them.
+            let first = (from / spacing_mm - 0.5).floor() - 1.0;
+            let last = (to / spacing_mm - 0.5).ceil() + 1.0;
             RayRow { first_mm: (first + 0.5) * spacing_mm, spacing_mm, count: (last - first) as usize + 1 }
         };
         let leads_mm = match intervals {
