@@ -54,7 +54,7 @@ fn scene() -> Scene {
     let mut scene = scenes::paper_scene(vec![scenes::operation("finish", scenes::NORMAL, 0.0, STROKES)]);
     scene.gear.pitch_curve = PitchCurveShape::Circle;
     scene.gear.teeth = TEETH;
-    scene.fields = Fields { profile_spacing_mm: SPACING_MM, lead_spacing_mm: 30.0 };
+    scene.fields = Fields { profile_spacing_mm: SPACING_MM, lead_spacing_mm: 30.0, ..scene.fields };
     scene
 }
 

@@ -3,6 +3,10 @@
 //! In: the checked scene. Out: [`Job`], from which fields and plans are made one flank at a time, so that memory does not grow with the number of teeth.
 //! The last operation is the finishing one: its continuous envelope is the target.
 
+mod blank;
+
+pub use blank::CutBlank;
+
 use crate::cut::{Backend, CutStats};
 use crate::dexel::{Column, Field, Layer};
 use crate::error::{Error, Refusal, Result};
@@ -15,7 +19,7 @@ use crate::linkage::{ShapingLinkage, StrokeSchedule};
 use crate::passes::strokes::StrokeLaw;
 use crate::passes::{CutPlan, StrokeSet};
 use crate::scene::Scene;
-use crate::scene::model::Operation;
+use crate::scene::model::{Machine, Operation};
 use crate::tool::{CuttingTool, ShaperCutter};
 use glam::DVec2;
 use std::sync::Arc;
@@ -106,8 +110,7 @@ impl Job {
             } else {
                 StrokeLaw::Frozen
             };
-            // The gear sits off the work spindle by the eccentricity, and turns with it: a constant shift in the gear frame.
-            let eccentricity = machine.work_eccentricity_mm * DVec2::from_angle(machine.work_eccentricity_angle_rad);
+            let eccentricity = eccentricity_mm(machine);
             let strokes = StrokeSet::new(first_pass, &cutter, law, count, |lambda| {
                 let pose = schedule.state(lambda).pose;
                 Rigid2::new(pose.angle_rad, pose.center_mm - eccentricity)
@@ -119,6 +122,11 @@ impl Job {
         let pointed = (1..=job.scene.gear.teeth).map(|tooth| job.pointed_height(tooth)).collect::<Result<_>>()?;
         job.pointed_mm = pointed;
         Ok(job)
+    }
+
+    /// Where the gear axis sits off the work spindle, in the gear frame, mm.
+    fn eccentricity_mm(&self) -> DVec2 {
+        eccentricity_mm(&self.scene.machine)
     }
 
     /// The finishing operation.
@@ -281,4 +289,9 @@ impl Job {
         }
         Ok((layers, stats))
     }
+}
+
+/// The gear sits off the work spindle by the eccentricity, and turns with it: a constant shift in the gear frame.
+fn eccentricity_mm(machine: &Machine) -> DVec2 {
+    machine.work_eccentricity_mm * DVec2::from_angle(machine.work_eccentricity_angle_rad)
 }

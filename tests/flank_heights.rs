@@ -223,7 +223,7 @@ fn all_instruction_sets_give_the_same_bytes() {
     let mut op = operation("finish", NORMAL, 0.0, 1000);
     op.feed_during_stroke = true;
     let mut scene = paper_scene(vec![op]);
-    scene.fields = Fields { profile_spacing_mm: 0.02, lead_spacing_mm: 0.5 };
+    scene.fields = Fields { profile_spacing_mm: 0.02, lead_spacing_mm: 0.5, ..scene.fields };
     let job = Job::new(scene).expect("the gear");
     let generation = job.target_generation();
     let field = job.flank_field(&job.target_flank(&generation, 3, Side::Right).expect("a flank"));

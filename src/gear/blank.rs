@@ -35,6 +35,11 @@ impl Blank {
         Ok(Self { curve, addendum_mm })
     }
 
+    /// The pitch curve.
+    pub fn curve(&self) -> &PitchCurve {
+        &self.curve
+    }
+
     /// Height of a point over the pitch curve along the curve's normal, and the polar angle of the foot; Newton's method from `phi_guess_rad`.
     pub fn height(&self, point_mm: DVec2, phi_guess_rad: f64) -> (f64, f64) {
         let mut phi = phi_guess_rad;

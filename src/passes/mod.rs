@@ -1,5 +1,6 @@
 //! Passes: one blade's one trip through the work, and which passes can matter to which dexels.
 
+pub mod blank_candidates;
 pub mod bounds;
 pub mod candidates;
 pub mod near;

@@ -81,20 +81,7 @@ fn bound_poses(poses: &[Rigid2]) -> ArrayVec<Rigid2, MAX_PHASES> {
     if let [pose] = poses {
         return std::iter::once(*pose).collect();
     }
-    let entry = |pick: fn(&Rigid2) -> f64| super::strokes::cubic_through(&poses.iter().map(pick).collect::<Vec<_>>());
-    let entries = [
-        entry(|p| p.rotation.x),
-        entry(|p| p.rotation.y),
-        entry(|p| p.translation_mm.x),
-        entry(|p| p.translation_mm.y),
-    ];
-    BOUND_PHASES
-        .iter()
-        .map(|&tau| {
-            let [c, s, x, y] = entries.map(|e| e[0] + tau * (e[1] + tau * (e[2] + tau * e[3])));
-            Rigid2 { rotation: DVec2::new(c, s), translation_mm: DVec2::new(x, y) }
-        })
-        .collect()
+    super::strokes::poses_at(poses, &BOUND_PHASES).into_iter().collect()
 }
 
 /// Height at which the lowest of some passes meets a ray of the gear frame at the middle of the stroke, above `low_mm`; exact, without tables' neighbours or tiles.

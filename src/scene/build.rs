@@ -19,6 +19,7 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
         .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
         .collect();
     let flank = values.view("fields.flank");
+    let blank = values.view("fields.blank");
     let measure = values.view("measure");
     let output = values.view("output");
     Some(Scene {
@@ -30,6 +31,8 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
         fields: Fields {
             profile_spacing_mm: mm_from_um(flank, "profile_spacing_um")?,
             lead_spacing_mm: mm_from_um(flank, "lead_spacing_um")?,
+            blank_spacing_mm: blank.number("spacing_mm")?,
+            blank_slice_spacing_mm: blank.number("slice_spacing_mm")?,
         },
         measure: Measure {
             profile_start_height_mm: measure.number("profile_start_height_mm"),

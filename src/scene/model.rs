@@ -294,6 +294,10 @@ pub struct Fields {
     pub profile_spacing_mm: f64,
     /// Along the tooth.
     pub lead_spacing_mm: f64,
+    /// Of the rays through the whole blank.
+    pub blank_spacing_mm: f64,
+    /// Of the blank's slices, where sections differ along the tooth.
+    pub blank_slice_spacing_mm: f64,
 }
 
 /// Where profiles are evaluated, as heights over the pitch curve along its normal; `None`: from the form point to the tip, 5 % left out at each end.

@@ -3,6 +3,7 @@
 //! The instruction set is chosen when the program starts, so `cargo build --release` without flags is fast everywhere. No fused multiply-add is used and every
 //! chunk has the same 16 rows on all of them: AVX2, AVX-512 and plain x86-64 or ARM give the **same bytes**.
 
+pub mod blank;
 mod planar;
 
 use super::{Backend, CutStats};

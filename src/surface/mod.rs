@@ -1,0 +1,18 @@
+//! Surfaces of the cut gear as triangles.
+//!
+//! In: fields with what the operations left on them. Out: [`Mesh`]es in the gear frame, which files and pictures are made of.
+//!
+//! | what | where |
+//! | --- | --- |
+//! | the whole gear as one closed mesh, from the blank field | [`blank_mesh`] |
+//! | triangles with named values and parts; is it closed, volume, area | [`mesh`] |
+//! | one flank or root as a grid, thinned out to the spacing of meshes | [`flanks`] |
+
+pub mod blank_mesh;
+mod dual_cells;
+pub mod flanks;
+pub mod mesh;
+
+pub use blank_mesh::BlankMesh;
+pub use flanks::SurfaceGrid;
+pub use mesh::Mesh;
