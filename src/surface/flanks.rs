@@ -89,6 +89,16 @@ impl SurfaceGrid {
         self.points_mm[column * self.rows() + row].extend(self.leads_mm[row])
     }
 
+    /// Points of the target under the first row, gear frame, mm.
+    pub fn target_mm(&self) -> Vec<DVec2> {
+        (0..self.columns())
+            .map(|c| {
+                let i = c * self.rows();
+                self.points_mm[i] - f64::from(self.height_um[i]) / UM_PER_MM * self.normals[c]
+            })
+            .collect()
+    }
+
     /// Whether no pass came to a point, so that it lies on the blank's own surface or nowhere.
     pub fn is_uncut(&self, column: usize, row: usize) -> bool {
         self.passes[column * self.rows() + row] == NO_PASS
