@@ -1,7 +1,9 @@
-//! Meshes as binary PLY: places, colours and every quantity by vertex, the part by triangle.
+//! Meshes as binary PLY: places, colours and every quantity by vertex.
 //!
 //! Layout (G. Turk, 1994): a text header that names the properties, then the vertices and the triangles as little-endian records. Comments say units, frame, definitions and the names of the
 //! parts. Colours are sRGB, as PLY viewers take them; quantities are properties of their own name (`height_um`, `stock_mm`, `pass_id`), NaN where there is no value.
+//!
+//! Road not taken: the part as a property of the triangles. Widely used readers fail on any property beside the list.
 
 use crate::Result;
 use crate::output::atomic::write_atomically;
@@ -32,14 +34,11 @@ pub fn write_ply(path: &Path, file: &MeshFile) -> Result<()> {
             }
             sink.write_all(&record)?;
         }
-        for (number, part) in (0_u32..).zip(&mesh.parts) {
-            for triangle in &mesh.triangles[part.triangles.clone()] {
-                record.clear();
-                record.push(3);
-                record.extend(triangle.iter().flat_map(|vertex| vertex.to_le_bytes()));
-                record.extend(number.to_le_bytes());
-                sink.write_all(&record)?;
-            }
+        for triangle in &mesh.triangles {
+            record.clear();
+            record.push(3);
+            record.extend(triangle.iter().flat_map(|vertex| vertex.to_le_bytes()));
+            sink.write_all(&record)?;
         }
         Ok(())
     })
@@ -58,8 +57,8 @@ fn header(file: &MeshFile) -> String {
     for scalar in &mesh.scalars {
         line(&format!("comment {} [{}]: {}", scalar.name, scalar.unit, scalar.definition));
     }
-    for (number, part) in mesh.parts.iter().enumerate() {
-        line(&format!("comment part {number}: {}", part.name));
+    for part in &mesh.parts {
+        line(&format!("comment triangles {} to {}: {}", part.triangles.start, part.triangles.end - 1, part.name));
     }
     line(&format!("element vertex {}", mesh.positions_mm.len()));
     for name in ["x", "y", "z"] {
@@ -76,8 +75,7 @@ fn header(file: &MeshFile) -> String {
         line(&format!("property {kind} {}", scalar.name));
     }
     line(&format!("element face {}", mesh.triangles.len()));
-    line("property list uchar uint vertex_indices");
-    line("property uint part");
+    line("property list uchar int vertex_indices");
     line("end_header");
     text
 }

@@ -15,6 +15,7 @@ pub mod gear_solid;
 pub mod gear_surfaces;
 pub mod mesh;
 pub mod outline;
+pub mod render;
 
 pub use flanks::SurfaceGrid;
 pub use mesh::Mesh;
