@@ -4,6 +4,7 @@
 //! gear. The output folder appears under its name only when it is complete; Ctrl-C completes it with the flanks that are finished and says so.
 
 mod files;
+mod meshes;
 mod results;
 mod summary;
 mod tooth_results;
@@ -18,6 +19,7 @@ use crate::output::folder::OutputFolder;
 use crate::output::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use crate::scene::LoadedScene;
+use crate::surface::SurfaceGrid;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -30,6 +32,8 @@ pub struct CutGear {
     pub report: GearReport,
     /// Maps of all finished flanks at map spacing, in order.
     pub maps: Vec<FlankMaps>,
+    /// Surfaces of all finished flanks at mesh spacing, in order.
+    pub surfaces: Vec<SurfaceGrid>,
     /// What the backend met.
     pub stats: CutStats,
     /// Dexels cut, all operations.
@@ -44,6 +48,7 @@ pub struct CutGear {
 struct Finished {
     report: FlankReport,
     maps: FlankMaps,
+    surface: SurfaceGrid,
     stats: CutStats,
     dexels: u64,
 }
@@ -74,12 +79,14 @@ pub fn cut_gear(
         let report = flank_report::measure(job, &target, &cut);
         let spacing_mm = job.scene.output.map_spacing_mm;
         let maps = FlankMaps::sample(tooth, side, &cut.field, &cut.layers, spacing_mm);
+        let surface = SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm);
         if let Some((folder, notes)) = folder {
             maps.write(folder, &operations, notes)?;
+            meshes::write_flank(job, &surface, tooth, side, folder)?;
         }
         step.advance(1);
         let dexels = (cut.field.len() * cut.layers.len()) as u64;
-        Ok(Some(Finished { report, maps, stats: cut.stats, dexels }))
+        Ok(Some(Finished { report, maps, surface, stats: cut.stats, dexels }))
     };
     // The first failure stops the rest; what it was is kept, not the flanks' order of arrival.
     let failure = Mutex::new(None);
@@ -102,15 +109,17 @@ pub fn cut_gear(
     }
     step.finish();
     let interrupted = finished.iter().any(Option::is_none);
-    let (mut reports, mut maps, mut stats, mut dexels) = (Vec::new(), Vec::new(), CutStats::default(), 0);
+    let (mut reports, mut maps, mut surfaces) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut stats, mut dexels) = (CutStats::default(), 0);
     for flank in finished.into_iter().flatten() {
         reports.push(flank.report);
         maps.push(flank.maps);
+        surfaces.push(flank.surface);
         stats += flank.stats;
         dexels += flank.dexels;
     }
     let report = gear_report::measure(job, backend, reports)?;
-    Ok(CutGear { report, maps, stats, dexels, elapsed: started.elapsed(), interrupted })
+    Ok(CutGear { report, maps, surfaces, stats, dexels, elapsed: started.elapsed(), interrupted })
 }
 
 /// What the maps need to know of the operations.
@@ -162,6 +171,10 @@ pub fn cut(
     }
     let results = results::results(&job, &gear);
     files::write(&job, &gear, &results, &folder)?;
+    if !gear.interrupted {
+        let solid = meshes::gear(&job, backend, gear.surfaces.clone(), progress)?;
+        meshes::write_gear(&job, &solid, &folder, &notes)?;
+    }
     let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
     for incident in backend.incidents() {

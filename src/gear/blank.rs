@@ -40,6 +40,12 @@ impl Blank {
         &self.curve
     }
 
+    /// Point of the outline over the place of the pitch curve at `phi_rad`, gear frame, mm.
+    pub fn outline_mm(&self, phi_rad: f64) -> DVec2 {
+        let frame = self.curve.frame(phi_rad);
+        frame.point_mm + self.addendum_mm * frame.normal
+    }
+
     /// Height of a point over the pitch curve along the curve's normal, and the polar angle of the foot; Newton's method from `phi_guess_rad`.
     pub fn height(&self, point_mm: DVec2, phi_guess_rad: f64) -> (f64, f64) {
         let mut phi = phi_guess_rad;

@@ -11,6 +11,7 @@
 //! | text for the terminal | [`text`] |
 //! | maps: the grid they lie on, all digits | [`grid`], [`exr_map`] |
 //! | pictures of maps: one, all flanks, their colours | [`map_png`], [`contact_sheet`], [`colormap`] |
+//! | meshes for other programs | [`mesh_file`], [`mesh_stl`], [`mesh_ply`], [`mesh_glb`] |
 //! | charts: grouped bars, panels of curves | [`bar_chart`], [`line_chart`] |
 //! | progress and Ctrl-C | [`progress`], [`interrupt`] |
 
@@ -31,6 +32,10 @@ mod heat;
 pub mod interrupt;
 pub mod line_chart;
 pub mod map_png;
+pub mod mesh_file;
+pub mod mesh_glb;
+pub mod mesh_ply;
+pub mod mesh_stl;
 pub mod progress;
 pub mod quantity;
 mod raster;

@@ -40,6 +40,7 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
         },
         output: Output {
             map_spacing_mm: output.number("map_spacing_mm")?,
+            mesh_spacing_mm: output.number("mesh_spacing_mm")?,
             folder: output.text("folder").map(PathBuf::from),
         },
     })

@@ -312,8 +312,10 @@ pub struct Measure {
 /// What is written and how finely.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {
-    /// Spacing of maps and meshes.
+    /// Spacing of maps.
     pub map_spacing_mm: f64,
+    /// Spacing of vertices on meshes.
+    pub mesh_spacing_mm: f64,
     /// Folder given in the scene, if any; the command line wins.
     pub folder: Option<PathBuf>,
 }

@@ -27,7 +27,7 @@ pub struct SurfaceGrid {
     pub points_mm: Vec<DVec2>,
     /// Height over the target, µm.
     pub height_um: Vec<f32>,
-    /// Normal stock that the last operation found: the surface before it less the surface after it, mm; `None` if there was one operation only.
+    /// Normal stock that the last operation found: the surface before it less the surface after it, mm; NaN where one of them is the blank's own, `None` if there was one operation only.
     pub stock_mm: Option<Vec<f32>>,
     /// Pass that left the point; [`NO_PASS`] on the blank's own surface.
     pub passes: Vec<u32>,
@@ -56,8 +56,12 @@ impl SurfaceGrid {
             }
         });
         let dexels = || columns.iter().flat_map(|&column| rows.iter().map(move |&row| (column, column * all + row)));
-        let stock_mm =
-            before.map(|before| dexels().map(|(_, i)| before.heights_mm[i] - last.heights_mm[i]).collect::<Vec<f32>>());
+        let stock_mm = before.map(|before| {
+            // Where no pass came, the blank stands: what the last operation found there ends with the ray, not with a surface.
+            let cut = |i: usize| before.passes[i] != NO_PASS && last.passes[i] != NO_PASS;
+            let stock = |i: usize| if cut(i) { before.heights_mm[i] - last.heights_mm[i] } else { f32::NAN };
+            dexels().map(|(_, i)| stock(i)).collect::<Vec<f32>>()
+        });
         Self {
             arcs_mm: columns.iter().map(|&c| arcs_mm[c]).collect(),
             leads_mm: rows.iter().map(|&r| field.leads_mm[r]).collect(),
@@ -87,6 +91,16 @@ impl SurfaceGrid {
     /// Point of a column and row in space, mm.
     pub fn position_mm(&self, column: usize, row: usize) -> DVec3 {
         self.points_mm[column * self.rows() + row].extend(self.leads_mm[row])
+    }
+
+    /// Points of the target under the first row, gear frame, mm.
+    pub fn target_mm(&self) -> Vec<DVec2> {
+        (0..self.columns())
+            .map(|c| {
+                let i = c * self.rows();
+                self.points_mm[i] - f64::from(self.height_um[i]) / UM_PER_MM * self.normals[c]
+            })
+            .collect()
     }
 
     /// Whether no pass came to a point, so that it lies on the blank's own surface or nowhere.

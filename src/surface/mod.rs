@@ -7,11 +7,18 @@
 //! | the whole gear as one closed mesh, from the blank field | [`blank_mesh`] |
 //! | triangles with named values and parts; is it closed, volume, area | [`mesh`] |
 //! | one flank or root as a grid, thinned out to the spacing of meshes | [`flanks`] |
+//! | the fields of roots and tip lands | [`gear_surfaces`] |
+//! | all of them in one closed chain of columns | [`outline`] |
+//! | the gear as one closed body | [`gear_solid`] |
 
 pub mod blank_mesh;
 mod dual_cells;
 pub mod flanks;
+pub mod gear_solid;
+pub mod gear_surfaces;
 pub mod mesh;
+pub mod outline;
+pub mod render;
 
 pub use blank_mesh::BlankMesh;
 pub use flanks::SurfaceGrid;

@@ -192,7 +192,15 @@ pub(super) static AFTER_OPERATIONS: &[Section] = &[
                 unit: "mm",
                 default: Default::Number(0.1),
                 example: "0.1",
-                teach: "Spacing of written maps and meshes; the fields keep their own.",
+                teach: "Spacing of written maps; the fields keep their own.",
+            },
+            Key {
+                name: "mesh_spacing_mm",
+                kind: Kind::Number(Range::closed(0.001, 10.0)),
+                unit: "mm",
+                default: Default::Number(0.1),
+                example: "0.1",
+                teach: "Spacing of vertices on meshes; rows along the tooth are left out where the surface is straight to 0.1 um.",
             },
             Key {
                 name: "folder",

@@ -1,0 +1,63 @@
+//! Meshes of a run: one PLY per flank as it is finished, and the whole gear as one closed body in STL, PLY and glTF.
+
+use crate::cut::Backend;
+use crate::error::Result;
+use crate::gear::generation::Side;
+use crate::job::Job;
+use crate::output::colormap::ColourScale;
+use crate::output::folder::OutputFolder;
+use crate::output::mesh_file::MeshFile;
+use crate::output::mesh_glb::write_glb;
+use crate::output::mesh_ply::write_ply;
+use crate::output::mesh_stl::write_stl;
+use crate::output::progress::Progress;
+use crate::surface::gear_solid::gear_solid;
+use crate::surface::gear_surfaces;
+use crate::surface::outline::{Outline, flank_name};
+use crate::surface::{Mesh, SurfaceGrid};
+
+/// Heights shown beside each other on meshes of gears that were cut in one operation, µm: what good shaping leaves.
+const HEIGHT_COLOURS_UM: f32 = 5.0;
+
+/// Quantity that vertices are coloured by: the stock where there is one, else the height over the target.
+fn colour(job: &Job) -> (&'static str, ColourScale) {
+    match super::map_operations(job).iter().rev().nth(1) {
+        Some(before_last) => ("stock_mm", before_last.stock_scale),
+        None => ("height_um", ColourScale::Sequential { low: 0.0, high: HEIGHT_COLOURS_UM }),
+    }
+}
+
+/// Writes `mesh/flanks/tooth_07_left.ply`.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_flank(job: &Job, surface: &SurfaceGrid, tooth: u32, side: Side, folder: &OutputFolder) -> Result<()> {
+    let name = flank_name(tooth, side);
+    let title = format!("{}: tooth {tooth}, {} flank", job.scene.name, side.name());
+    let file = MeshFile { mesh: &surface.mesh(&name), title: &title, colour: colour(job), notes: &[] };
+    write_ply(&folder.path(format!("mesh/flanks/{name}.ply"))?, &file)
+}
+
+/// The gear as a closed body; roots and tips are cut here.
+///
+/// # Errors
+/// The backend's; a bore that reaches the teeth.
+pub fn gear(job: &Job, backend: &dyn Backend, flanks: Vec<SurfaceGrid>, progress: &Progress) -> Result<Mesh> {
+    let step = progress.step("roots and tips", u64::from(job.scene.gear.teeth), "teeth");
+    let surfaces = gear_surfaces::complete(job, backend, flanks, &|| step.advance(1))?;
+    step.finish();
+    let outline = Outline::new(&surfaces, &job.blank);
+    Ok(gear_solid(&outline, job.scene.gear.bore_diameter_mm)?)
+}
+
+/// Writes `mesh/gear.{stl,ply,glb}`; `notes` go into the glTF.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_gear(job: &Job, mesh: &Mesh, folder: &OutputFolder, notes: &[(String, String)]) -> Result<()> {
+    let title = format!("gear of {}", job.scene.name);
+    let file = MeshFile { mesh, title: &title, colour: colour(job), notes };
+    write_stl(&folder.path("mesh/gear.stl")?, &file)?;
+    write_ply(&folder.path("mesh/gear.ply")?, &file)?;
+    write_glb(&folder.path("mesh/gear.glb")?, &file)
+}

@@ -1,0 +1,200 @@
+//! Light on a stage, and the picture it makes.
+//!
+//! In: stage, camera, lights. Out: [`Rendered`]: sRGB pixels, and at every pixel's middle depth, normal, value and pass id.
+//!
+//! A point is lit by one lamp (with shadows, a little soft) and by the sky, of which it sees as much as rays over its hemisphere say (ambient occlusion), weighted by the cosine. Four rays per pixel, stratified;
+//! each asks the sky in directions of its own (a golden-ratio sequence, started by a hash of the pixel), and the share of the sky is then averaged over neighbours on the same smooth surface.
+//! Nothing is random: the same stage gives the same bytes.
+//!
+//! Colours stand for values, so that light changes their brightness and hardly their hue.
+
+use super::bodies::{Found, Stage};
+use super::camera::Camera;
+use crate::output::interrupt::Interrupt;
+use crate::{Error, Result};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Rays per pixel along one side.
+const SIDE: u32 = 2;
+/// Sky rays per camera ray.
+const SKY_RAYS: u32 = 2;
+/// Pixels to each side over which the sky's share is averaged.
+const SMOOTH_PX: i64 = 3;
+/// Radius of the lamp at unit distance: shadows grow soft by a fiftieth of their length.
+const LAMP_RADIUS: f64 = 0.02;
+/// Rays start this share of the stage's size off the surface, so that they do not meet it again.
+const OFF_SURFACE: f64 = 2e-6;
+
+/// How a stage is lit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lights {
+    /// Unit direction from the object to the lamp.
+    pub lamp: DVec3,
+    /// Share of the lamp; the rest comes from the sky.
+    pub lamp_share: f64,
+    /// How far surfaces take the sky from each other, as a share of the stage's size.
+    pub sky_reach: f64,
+}
+
+impl Lights {
+    /// A lamp over the viewer's left shoulder and a wide sky: for whole bodies.
+    pub fn studio(camera: &Camera) -> Self {
+        let lamp = (0.9 * camera.towards + 0.65 * camera.up - 0.75 * camera.right).normalize();
+        Self { lamp, lamp_share: 0.55, sky_reach: 0.25 }
+    }
+}
+
+/// A finished picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rendered {
+    /// Width and height, pixels.
+    pub size_px: (u32, u32),
+    /// sRGB, rows from the top.
+    pub rgb: Vec<[u8; 3]>,
+    /// Distance from the picture plane through the camera's target, mm, away from the viewer; infinite where nothing stands.
+    pub depth_mm: Vec<f32>,
+    /// Smooth unit normal in the stage's frame; zero where nothing stands.
+    pub normal: Vec<[f32; 3]>,
+    /// Value that the colour shows; NaN where there is none.
+    pub value: Vec<f32>,
+    /// Pass id; [`crate::dexel::NO_PASS`] where none is known.
+    pub pass: Vec<u32>,
+}
+
+/// What one pixel gathers.
+#[derive(Clone, Copy, Default)]
+struct Pixel {
+    /// Light of the lamp, summed over the rays.
+    lamp: DVec3,
+    /// Colour that the sky lights, summed over the rays.
+    sky: DVec3,
+    /// Rays that met something.
+    met: u32,
+    /// Sky rays sent and free.
+    asked: u32,
+    free: u32,
+    /// Found at the first ray that met something: to tell neighbours on the same surface.
+    normal: DVec3,
+    depth_mm: f64,
+}
+
+/// Draws a stage; rows of pixels in parallel.
+///
+/// # Errors
+/// Ctrl-C.
+pub fn render(stage: &Stage, camera: &Camera, lights: &Lights, interrupt: &Interrupt) -> Result<Rendered> {
+    let (width, height) = camera.size_px;
+    let far_mm = 2.0 * stage.size_mm + camera.extent_mm;
+    let rows: Vec<Vec<(Pixel, Option<Found>)>> = (0..height)
+        .into_par_iter()
+        .map(|y| {
+            interrupt.check()?;
+            Ok((0..width).map(|x| pixel(stage, camera, lights, far_mm, x, y)).collect())
+        })
+        .collect::<Result<_, Error>>()?;
+    let pixels: Vec<(Pixel, Option<Found>)> = rows.into_iter().flatten().collect();
+    let at = |x: i64, y: i64| {
+        let inside = (0..i64::from(width)).contains(&x) && (0..i64::from(height)).contains(&y);
+        inside.then(|| &pixels[(y * i64::from(width) + x) as usize].0)
+    };
+    let rgb = (0..pixels.len() as i64)
+        .into_par_iter()
+        .map(|i| {
+            let (x, y) = (i % i64::from(width), i / i64::from(width));
+            let here = &pixels[i as usize].0;
+            let (mut asked, mut free) = (0, 0);
+            for dy in -SMOOTH_PX..=SMOOTH_PX {
+                for dx in -SMOOTH_PX..=SMOOTH_PX {
+                    let Some(other) = at(x + dx, y + dy) else { continue };
+                    let reach_mm = 6.0 * camera.pixel_mm() * SMOOTH_PX as f64;
+                    if other.normal.dot(here.normal) > 0.9 && (other.depth_mm - here.depth_mm).abs() < reach_mm {
+                        asked += other.asked;
+                        free += other.free;
+                    }
+                }
+            }
+            let open = f64::from(free) / f64::from(asked.max(1));
+            let empty = f64::from(SIDE * SIDE - here.met);
+            let light = (here.lamp + here.sky * open + DVec3::splat(empty)) / f64::from(SIDE * SIDE);
+            light.to_array().map(srgb)
+        })
+        .collect();
+    let found = || pixels.iter().map(|(_, found)| found.as_ref());
+    Ok(Rendered {
+        size_px: camera.size_px,
+        rgb,
+        depth_mm: found().map(|f| f.map_or(f32::INFINITY, |f| (f.distance_mm - far_mm) as f32)).collect(),
+        normal: found().map(|f| f.map_or([0.0; 3], |f| f.normal.as_vec3().to_array())).collect(),
+        value: found().map(|f| f.map_or(f32::NAN, |f| f.value)).collect(),
+        pass: found().map(|f| f.and_then(|f| f.pass).unwrap_or(crate::dexel::NO_PASS)).collect(),
+    })
+}
+
+fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y: u32) -> (Pixel, Option<Found>) {
+    let mut gathered = Pixel::default();
+    let mut seed = hash(x, y);
+    for ray in 0..SIDE * SIDE {
+        let (i, j) = (ray % SIDE, ray / SIDE);
+        let place = |k: u32, of: u32| f64::from(of) + (f64::from(k) + 0.5) / f64::from(SIDE);
+        let origin_mm = camera.origin_mm(place(i, x), place(j, y), far_mm);
+        let Some(found) = stage.first(origin_mm, -camera.towards) else { continue };
+        let off_mm = OFF_SURFACE * stage.size_mm;
+        let place_mm = origin_mm - camera.towards * found.distance_mm + found.flat * off_mm;
+        if gathered.met == 0 {
+            (gathered.normal, gathered.depth_mm) = (found.normal, found.distance_mm);
+        }
+        gathered.met += 1;
+        let colour = DVec3::from_array(found.colour);
+        let side = lights.lamp.any_orthonormal_vector();
+        let across = lights.lamp.cross(side);
+        let [a, b] = next_pair(&mut seed);
+        let offset = DVec2::from_angle(std::f64::consts::TAU * a) * (LAMP_RADIUS * b.sqrt());
+        let lamp = (lights.lamp + offset.x * side + offset.y * across).normalize();
+        let cosine = found.normal.dot(lamp);
+        if cosine > 0.0 && found.flat.dot(lamp) > 0.0 && !stage.is_blocked(place_mm, lamp, far_mm) {
+            let half = (lamp + camera.towards).normalize();
+            let highlight = found.gloss * found.normal.dot(half).max(0.0).powi(40);
+            gathered.lamp += lights.lamp_share * (1.35 * cosine * colour + DVec3::splat(0.5 * highlight));
+        }
+        // The sky is a little brighter above than below, as in a room: faces turned away from the lamp keep their shape.
+        let sky = 0.75 + 0.25 * found.normal.dot(camera.up);
+        gathered.sky += (1.0 - lights.lamp_share) * 1.35 * sky * colour;
+        let tangent = found.normal.any_orthonormal_vector();
+        let bitangent = found.normal.cross(tangent);
+        for _ in 0..SKY_RAYS {
+            // Cosine-weighted (Malley): a disc lifted onto the hemisphere.
+            let [a, b] = next_pair(&mut seed);
+            let disc = DVec2::from_angle(std::f64::consts::TAU * a) * b.sqrt();
+            let direction = disc.x * tangent + disc.y * bitangent + (1.0 - b).sqrt() * found.normal;
+            gathered.asked += 1;
+            let open = found.flat.dot(direction) > 0.0
+                && !stage.is_blocked(place_mm, direction, lights.sky_reach * stage.size_mm);
+            gathered.free += u32::from(open);
+        }
+    }
+    let middle_mm = camera.origin_mm(f64::from(x) + 0.5, f64::from(y) + 0.5, far_mm);
+    (gathered, stage.first(middle_mm, -camera.towards))
+}
+
+/// Two numbers in [0, 1) of the plane's golden-ratio sequence (M. Roberts, 2018).
+fn next_pair(seed: &mut u32) -> [f64; 2] {
+    *seed = seed.wrapping_add(1);
+    let n = f64::from(*seed);
+    [(n * 0.754_877_666_246_692_7).fract(), (n * 0.569_840_290_998_053_2).fract()]
+}
+
+/// Scrambles a pixel's place (the finaliser of `MurmurHash3`), kept small so that products with it stay exact to 1e-9.
+fn hash(x: u32, y: u32) -> u32 {
+    let mut h = x.wrapping_mul(0x9E37_79B1) ^ y.wrapping_mul(0x85EB_CA77);
+    h = (h ^ (h >> 16)).wrapping_mul(0x85EB_CA6B);
+    h = (h ^ (h >> 13)).wrapping_mul(0xC2B2_AE35);
+    (h ^ (h >> 16)) >> 12
+}
+
+/// Linear light to an sRGB component (IEC 61966-2-1).
+fn srgb(light: f64) -> u8 {
+    let light = light.clamp(0.0, 1.0);
+    let c = if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
+    (c * 255.0).round() as u8
+}

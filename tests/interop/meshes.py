@@ -1,0 +1,103 @@
+"""Opens mesh/ of an output folder with trimesh, meshio and pygltflib, and compares what they see with each other."""
+
+import json
+import sys
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pygltflib
+import trimesh
+
+NO_PASS = 4294967295
+
+
+def check(name, holds, detail=""):
+    print(f"{'ok  ' if holds else 'FAIL'} {name} {detail}")
+    if not holds:
+        sys.exit(1)
+
+
+def main(folder):
+    mesh = folder / "mesh"
+    scene = json.loads((folder / "run.json").read_text())["scene"]
+
+    stl = trimesh.load(mesh / "gear.stl")
+    check("STL: watertight after welding equal corners", stl.is_watertight and stl.is_winding_consistent)
+    check("STL: one body", stl.body_count == 1, f"{len(stl.vertices)} vertices, {len(stl.faces)} triangles")
+
+    ply = trimesh.load(mesh / "gear.ply", process=False)
+    check("PLY: watertight as written, nothing welded", ply.is_watertight and ply.is_winding_consistent)
+    check("PLY: as many triangles as the STL", len(ply.faces) == len(stl.faces))
+    check("PLY: same box as the STL", np.array_equal(ply.bounds, stl.bounds), str(ply.bounds.round(4).tolist()))
+    check("PLY: same volume as the STL", np.isclose(ply.volume, stl.volume, rtol=1e-6), f"{ply.volume:.3f} mm^3")
+    check("PLY: positive volume", ply.volume > 0)
+
+    read = meshio.read(mesh / "gear.ply")
+    check("meshio: same vertices", np.array_equal(read.points.astype(np.float32), ply.vertices.astype(np.float32)))
+    quantities = set(read.point_data)
+    check("meshio: quantities by vertex", {"height_um", "pass_id", "red", "green", "blue"} <= quantities, str(sorted(quantities)))
+    passes = read.point_data["pass_id"]
+    cut = passes != NO_PASS
+    heights = read.point_data["height_um"]
+    check("meshio: a height wherever a pass came", np.isfinite(heights[cut]).all(), f"{cut.sum()} of {len(cut)} vertices cut")
+    check("meshio: no height where none came", np.isnan(heights[~cut]).all())
+    if "stock_mm" in quantities:
+        stock = read.point_data["stock_mm"][cut]
+        check("meshio: stock is not negative", (stock[np.isfinite(stock)] > -1e-6).all(), f"largest {np.nanmax(stock):.4f} mm")
+
+    gltf = pygltflib.GLTF2().load(str(mesh / "gear.glb"))
+    buffer = gltf.binary_blob()
+    names = [node.name for node in gltf.nodes]
+    flanks = sorted(name for name in names if name.startswith("tooth_"))
+    check("glTF: a node per flank", len(flanks) % 2 == 0 and len(flanks) == len(set(flanks)), f"{len(flanks)} flanks")
+    check("glTF: as many triangles as the STL", sum(gltf.accessors[p.indices].count for m in gltf.meshes for p in m.primitives) == 3 * len(stl.faces))
+    check("glTF: the scene is inside", gltf.asset.extras["scene"] == scene)
+    check("glTF: units, frame and colours are told", gltf.asset.extras["buffer_unit"] == "mm" and "gear frame" in gltf.asset.extras["frame"])
+
+    def values(index):
+        accessor = gltf.accessors[index]
+        view = gltf.bufferViews[accessor.bufferView]
+        kind = {5123: np.uint16, 5125: np.uint32, 5126: np.float32}[accessor.componentType]
+        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[accessor.type]
+        start = (view.byteOffset or 0) + (accessor.byteOffset or 0)
+        return np.frombuffer(buffer, kind, accessor.count * width, start).reshape(accessor.count, width)
+
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for part in gltf.meshes:
+        attributes = part.primitives[0].attributes
+        places = values(attributes.POSITION)
+        accessor = gltf.accessors[attributes.POSITION]
+        check_quietly(np.allclose(places.min(0), accessor.min) and np.allclose(places.max(0), accessor.max), part.name, "box")
+        lengths = np.linalg.norm(values(attributes.NORMAL).astype(float), axis=1)
+        check_quietly(np.allclose(lengths, 1, atol=1e-5), part.name, "unit normals")
+        check_quietly((values(part.primitives[0].indices) < len(places)).all(), part.name, "indices")
+        check_quietly(np.isfinite(places).all(), part.name, "finite")
+        if part.name.startswith("tooth_"):
+            check_quietly(hasattr(attributes, "_HEIGHT_UM"), part.name, "heights")
+        low, high = np.minimum(low, places.min(0)), np.maximum(high, places.max(0))
+    check("glTF: same box as the STL", np.allclose([low, high], stl.bounds))
+    check("glTF: boxes, normals, indices and heights of all parts", True, f"{len(gltf.meshes)} parts")
+
+    seen = trimesh.load(mesh / "gear.glb")
+    check("trimesh opens the glTF", len(seen.geometry) == len(gltf.meshes))
+    size = seen.bounds[1] - seen.bounds[0]
+    width = stl.bounds[1] - stl.bounds[0]
+    check("glTF: metres, y up", np.allclose(size * 1000, [width[0], width[2], width[1]], rtol=1e-4), f"{size.round(5).tolist()} m")
+
+    files = sorted((mesh / "flanks").glob("*.ply"))
+    check("a PLY per flank", [f.stem for f in files] == flanks)
+    for file in files:
+        flank = trimesh.load(file, process=False)
+        outward = (flank.face_normals[:, :2] * flank.triangles_center[:, :2]).sum(1)
+        # A flank leans outwards: most of it faces away from the axis or along the circumference, never inwards by far.
+        check_quietly(len(flank.faces) > 0 and outward.max() > 0, file.name, "faces outwards")
+    check("flanks open and face outwards", True, f"{len(files)} files")
+
+
+def check_quietly(holds, *where):
+    if not holds:
+        check(" ".join(where), False)
+
+
+main(Path(sys.argv[1]))

@@ -1,0 +1,106 @@
+//! Meshes of cut gears: closed, free of crossings, as large as polygon clipping says, and readable.
+
+mod common;
+
+use gearcut::cut::cpu::Cpu;
+use gearcut::gear::generation::Side;
+use gearcut::job::Job;
+use gearcut::scene;
+use gearcut::surface::gear_solid::gear_solid;
+use gearcut::surface::gear_surfaces::complete;
+use gearcut::surface::outline::Outline;
+use gearcut::surface::{Mesh, SurfaceGrid};
+use glam::DVec2;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+const COARSE: [&str; 2] = ["fields.flank.profile_spacing_um=20", "fields.flank.lead_spacing_um=2000"];
+
+fn load(path: &Path, settings: &[&str]) -> Job {
+    let settings: Vec<String> = COARSE.iter().chain(settings).map(|&s| s.to_owned()).collect();
+    Job::new(scene::load(path, &settings).expect("a shipped scene").scene).expect("can be cut")
+}
+
+fn outline_and_solid(job: &Job) -> (Outline, Mesh) {
+    let backend = Cpu::default();
+    let generation = job.target_generation();
+    let flanks = (1..=job.scene.gear.teeth)
+        .flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)])
+        .map(|(tooth, side)| {
+            let target = job.target_flank(&generation, tooth, side).expect("a flank");
+            let cut = job.cut(&backend, job.flank_field(&target)).expect("cut");
+            SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm)
+        })
+        .collect();
+    let surfaces = complete(job, &backend, flanks, &|| ()).expect("roots and tips");
+    let outline = Outline::new(&surfaces, &job.blank);
+    let solid = gear_solid(&outline, job.scene.gear.bore_diameter_mm).expect("a closed body");
+    (outline, solid)
+}
+
+/// Crossings of a closed contour with itself, found through a grid of 0.5 mm.
+fn crossings(contour: &[DVec2]) -> usize {
+    let count = contour.len();
+    let piece = |i: usize| (contour[i], contour[(i + 1) % count]);
+    let mut cells: HashMap<(i64, i64), Vec<usize>> = HashMap::new();
+    for i in 0..count {
+        let (a, b) = piece(i);
+        let cell = |p: DVec2| ((p.x * 2.0).floor() as i64, (p.y * 2.0).floor() as i64);
+        let (low, high) = (cell(a.min(b)), cell(a.max(b)));
+        for x in low.0..=high.0 {
+            for y in low.1..=high.1 {
+                cells.entry((x, y)).or_default().push(i);
+            }
+        }
+    }
+    let side = |a: DVec2, b: DVec2, p: DVec2| (b - a).perp_dot(p - a);
+    let mut found = 0;
+    for pieces in cells.values() {
+        for (k, &i) in pieces.iter().enumerate() {
+            for &j in &pieces[k + 1..] {
+                let ((a, b), (c, d)) = (piece(i), piece(j));
+                let apart = i.abs_diff(j) > 1 && i.abs_diff(j) < count - 1;
+                if apart && side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0 {
+                    found += 1;
+                }
+            }
+        }
+    }
+    found
+}
+
+fn area_mm2(contour: &[DVec2]) -> f64 {
+    (0..contour.len()).map(|i| 0.5 * contour[i].perp_dot(contour[(i + 1) % contour.len()])).sum()
+}
+
+fn shipped_scenes() -> Vec<PathBuf> {
+    let mut scenes: Vec<PathBuf> = std::fs::read_dir("scenes/shaping")
+        .expect("scenes")
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .collect();
+    scenes.sort();
+    assert!(scenes.len() >= 8);
+    scenes
+}
+
+#[test]
+fn every_shipped_scene_gives_a_closed_body() {
+    for path in shipped_scenes() {
+        let job = load(&path, &[]);
+        let (outline, solid) = outline_and_solid(&job);
+        assert!(solid.is_closed(), "{}: {:?}", path.display(), solid.edge_faults());
+        let row = outline.row_mm(0);
+        println!(
+            "{}: {} rows, {} columns, {} triangles, {:.3} mm^3",
+            path.display(),
+            outline.rows(),
+            row.len(),
+            solid.triangles.len(),
+            solid.volume_mm3()
+        );
+        for r in [0, outline.rows() - 1] {
+            assert_eq!(crossings(&outline.row_mm(r)), 0, "{}", path.display());
+        }
+    }
+}
