@@ -49,8 +49,18 @@ fn write_flank_table(cut: &CutGear, path: &Path, job: &Job) -> Result<()> {
         }
     }
     columns.extend(
-        ["lowest_um", "highest_um", "F_alpha_um", "f_f_alpha_um", "f_H_alpha_um", "largest_scallop_um"]
-            .map(str::to_owned),
+        [
+            "lowest_um",
+            "highest_um",
+            "F_alpha_um",
+            "f_f_alpha_um",
+            "f_H_alpha_um",
+            "F_beta_um",
+            "f_f_beta_um",
+            "f_H_beta_um",
+            "largest_scallop_um",
+        ]
+        .map(str::to_owned),
     );
     let um = |value: Option<f64>| Cell::from(value.map(|v| v * UM_PER_MM));
     let rows = cut.report.flanks.iter().map(|f| {
@@ -68,9 +78,11 @@ fn write_flank_table(cut: &CutGear, path: &Path, job: &Job) -> Result<()> {
         }
         row.push(um(f.finished.map(|h| h[0].value_mm)));
         row.push(um(f.finished.map(|h| h[1].value_mm)));
-        row.push(um(f.profile.map(|p| p.total_mm)));
-        row.push(um(f.profile.map(|p| p.form_mm)));
-        row.push(um(f.profile.map(|p| p.slope_mm)));
+        for deviation in [f.profile, f.lead] {
+            row.push(um(deviation.map(|d| d.total_mm)));
+            row.push(um(deviation.map(|d| d.form_mm)));
+            row.push(um(deviation.map(|d| d.slope_mm)));
+        }
         row.push(um(f.scallops.map(|s| s.largest.height_mm)));
         row
     });
@@ -87,6 +99,7 @@ fn write_tooth_table(cut: &CutGear, path: &Path) -> Result<()> {
         "left_cumulative_pitch_um",
         "right_single_pitch_um",
         "right_cumulative_pitch_um",
+        "runout_of_space_after_um",
     ];
     let report = &cut.report;
     let rows = report.thickness.iter().enumerate().map(|(i, thickness)| {
@@ -100,6 +113,7 @@ fn write_tooth_table(cut: &CutGear, path: &Path) -> Result<()> {
             row.push(side.as_ref().map(|p| p.single_mm[i] * UM_PER_MM).into());
             row.push(side.as_ref().map(|p| p.cumulative_mm[i] * UM_PER_MM).into());
         }
+        row.push(report.runout.as_ref().map(|r| r.radial_mm[i] * UM_PER_MM).into());
         row
     });
     write_table(path, &columns, rows)
