@@ -4,6 +4,7 @@
 //! gear. The output folder appears under its name only when it is complete; Ctrl-C completes it with the flanks that are finished and says so.
 
 mod files;
+mod report;
 mod results;
 mod summary;
 mod tooth_results;
@@ -17,6 +18,7 @@ use crate::output::flank_maps::{FlankMaps, OperationMaps};
 use crate::output::folder::OutputFolder;
 use crate::output::interrupt::Interrupt;
 use crate::output::progress::Progress;
+use crate::output::report::REPORT_FILE;
 use crate::scene::LoadedScene;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -161,7 +163,9 @@ pub fn cut(
         return Err(Error::Interrupted);
     }
     let results = results::results(&job, &gear);
-    files::write(&job, &gear, &results, &folder)?;
+    files::write(&job, &gear, &results, &folder, &notes)?;
+    let words = report::RunWords { resolved_scene: &resolved, backend: &backend.name(), backend_why };
+    report::page(&job, &gear, &results, &words)?.write(&folder.path(REPORT_FILE)?)?;
     let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
     for incident in backend.incidents() {

@@ -12,6 +12,7 @@
 //! | maps: the grid they lie on, all digits | [`grid`], [`exr_map`] |
 //! | pictures of maps: one, all flanks, their colours | [`map_png`], [`contact_sheet`], [`colormap`] |
 //! | charts: grouped bars, panels of curves | [`bar_chart`], [`line_chart`] |
+//! | the report: everything on one page that opens offline | [`report`] |
 //! | progress and Ctrl-C | [`progress`], [`interrupt`] |
 
 pub mod atomic;
@@ -34,6 +35,7 @@ pub mod map_png;
 pub mod progress;
 pub mod quantity;
 mod raster;
+pub mod report;
 pub mod results;
 pub mod table;
 pub mod text;
