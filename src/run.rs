@@ -5,6 +5,7 @@
 
 mod files;
 mod meshes;
+mod report;
 mod results;
 mod summary;
 mod tooth_results;
@@ -18,6 +19,7 @@ use crate::output::flank_maps::{FlankMaps, OperationMaps};
 use crate::output::folder::OutputFolder;
 use crate::output::interrupt::Interrupt;
 use crate::output::progress::Progress;
+use crate::output::report::REPORT_FILE;
 use crate::scene::LoadedScene;
 use crate::surface::SurfaceGrid;
 use rayon::prelude::*;
@@ -170,11 +172,13 @@ pub fn cut(
         return Err(Error::Interrupted);
     }
     let results = results::results(&job, &gear);
-    files::write(&job, &gear, &results, &folder)?;
+    files::write(&job, &gear, &results, &folder, &notes)?;
     if !gear.interrupted {
         let solid = meshes::gear(&job, backend, gear.surfaces.clone(), progress)?;
         meshes::write_gear(&job, &solid, &folder, &notes)?;
     }
+    let words = report::RunWords { resolved_scene: &resolved, backend: &backend.name(), backend_why };
+    report::page(&job, &gear, &results, &words)?.write(&folder.path(REPORT_FILE)?)?;
     let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
     for incident in backend.incidents() {

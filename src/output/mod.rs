@@ -13,6 +13,7 @@
 //! | pictures of maps: one, all flanks, their colours | [`map_png`], [`contact_sheet`], [`colormap`] |
 //! | meshes for other programs | [`mesh_file`], [`mesh_stl`], [`mesh_ply`], [`mesh_glb`] |
 //! | charts: grouped bars, panels of curves | [`bar_chart`], [`line_chart`] |
+//! | the report: everything on one page that opens offline | [`report`] |
 //! | progress and Ctrl-C | [`progress`], [`interrupt`] |
 
 pub mod atomic;
@@ -39,6 +40,7 @@ pub mod mesh_stl;
 pub mod progress;
 pub mod quantity;
 mod raster;
+pub mod report;
 pub mod results;
 pub mod table;
 pub mod text;

@@ -99,6 +99,30 @@ pub enum PitchCurveShape {
     },
 }
 
+impl PitchCurveShape {
+    /// The shape in words, such as "ellipse of order 3, eccentricity 0.1348".
+    pub fn words(&self) -> String {
+        match self {
+            Self::Circle => "circle".to_owned(),
+            Self::Ellipse { order, eccentricity, .. } => {
+                format!("ellipse of order {order}, eccentricity {eccentricity}")
+            }
+            Self::SinusoidalRatio { order, mean_ratio, ratio_amplitude, .. } => {
+                format!("driver of the ratio {mean_ratio} + {ratio_amplitude} sin({order} phi)")
+            }
+            Self::Pascal { order, eccentricity, .. } => {
+                format!("Pascal's limacon of order {order}, eccentricity {eccentricity}")
+            }
+            Self::Fourier { cosine, sine, .. } => {
+                format!("Fourier series with {} harmonics", cosine.len().max(sine.len()))
+            }
+            Self::Table { points_rad_mm, .. } => {
+                format!("periodic spline through {} points", points_rad_mm.len())
+            }
+        }
+    }
+}
+
 /// Shaper cutter by its projected transverse profile.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShaperCutter {

@@ -10,6 +10,7 @@
 //! | the fields of roots and tip lands | [`gear_surfaces`] |
 //! | all of them in one closed chain of columns | [`outline`] |
 //! | the gear as one closed body | [`gear_solid`] |
+//! | the target gear, thinned out for the report's 3D view | [`view_mesh`] |
 
 pub mod blank_mesh;
 mod dual_cells;
@@ -19,6 +20,7 @@ pub mod gear_surfaces;
 pub mod mesh;
 pub mod outline;
 pub mod render;
+pub mod view_mesh;
 
 pub use blank_mesh::BlankMesh;
 pub use flanks::SurfaceGrid;
