@@ -17,6 +17,7 @@ pub mod output;
 pub mod passes;
 pub mod run;
 pub mod scene;
+pub mod texture;
 pub mod tool;
 pub mod units;
 

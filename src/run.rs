@@ -18,6 +18,7 @@ use crate::output::folder::OutputFolder;
 use crate::output::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use crate::scene::LoadedScene;
+use crate::texture;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -151,6 +152,8 @@ pub fn cut(
 ) -> Result<Done> {
     let folder = OutputFolder::create(out)?;
     let job = Job::new(scene.scene.clone())?;
+    // A window that lies on no flank is refused before the first cut.
+    texture::windows(&job)?;
     let resolved = scene.resolved_toml();
     // Timings stay out of maps: the same scene gives the same bytes.
     let run =
@@ -160,8 +163,10 @@ pub fn cut(
     if gear.report.flanks.is_empty() {
         return Err(Error::Interrupted);
     }
-    let results = results::results(&job, &gear);
+    let textures = texture::measure(&job, backend, progress, interrupt)?;
+    let results = results::results(&job, &gear, &textures);
     files::write(&job, &gear, &results, &folder)?;
+    texture::write(&job, &textures, &folder, &notes)?;
     let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
     for incident in backend.incidents() {

@@ -8,6 +8,7 @@ pub mod flank_report;
 pub mod gear_report;
 pub mod scallop;
 pub mod stock;
+pub mod topography;
 pub mod unevenness;
 
 pub use flank_report::FlankReport;

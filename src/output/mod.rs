@@ -34,6 +34,8 @@ pub mod map_png;
 pub mod progress;
 pub mod quantity;
 mod raster;
+mod relief;
 pub mod results;
+pub mod surface_files;
 pub mod table;
 pub mod text;
