@@ -197,13 +197,19 @@ impl Job {
     /// Dexel field on a target flank with the scene's spacing.
     pub fn flank_field(&self, flank: &TargetFlank) -> Field {
         let fields = self.scene.fields;
-        let module_mm = self.scene.gear.module_mm;
         let count = (flank.length_mm() / fields.profile_spacing_mm).floor() as usize + 1;
+        let arcs_mm = (0..count).map(|i| i as f64 * fields.profile_spacing_mm);
+        self.field_over(flank, arcs_mm, self.leads_mm(fields.lead_spacing_mm))
+    }
+
+    /// Dexel field on a part of a target flank: places along the profile (arcs from the form point) and along the tooth, mm.
+    pub fn field_over(&self, flank: &TargetFlank, arcs_mm: impl Iterator<Item = f64>, leads_mm: Vec<f64>) -> Field {
+        let module_mm = self.scene.gear.module_mm;
         let mut exit_mm = 0.0;
-        let columns = (0..count)
-            .map(|i| {
-                // The last column stands on the tip itself.
-                let arc_mm = (i as f64 * fields.profile_spacing_mm).min(flank.length_mm());
+        let columns = arcs_mm
+            .map(|arc_mm| {
+                // Rounding must not carry the last column beyond the tip.
+                let arc_mm = arc_mm.min(flank.length_mm());
                 let contact = flank.at_arc(arc_mm);
                 let limit_mm = RAY_HEIGHT_MODULES * module_mm;
                 exit_mm = self.blank.exit_mm(contact.point_mm, contact.normal, contact.phi_rad, exit_mm, limit_mm);
@@ -216,7 +222,7 @@ impl Job {
                 }
             })
             .collect();
-        Field { columns, leads_mm: self.leads_mm(fields.lead_spacing_mm) }
+        Field { columns, leads_mm }
     }
 
     /// Dexel field on the root of a space (space j lies after tooth j).

@@ -19,6 +19,7 @@ pub mod planar_rays;
 pub mod run;
 pub mod scene;
 pub mod surface;
+pub mod texture;
 pub mod tool;
 pub mod units;
 

@@ -22,6 +22,7 @@ use crate::output::progress::Progress;
 use crate::output::report::REPORT_FILE;
 use crate::scene::LoadedScene;
 use crate::surface::SurfaceGrid;
+use crate::texture;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -162,6 +163,8 @@ pub fn cut(
 ) -> Result<Done> {
     let folder = OutputFolder::create(out)?;
     let job = Job::new(scene.scene.clone())?;
+    // A window that lies on no flank is refused before the first cut.
+    texture::windows(&job)?;
     let resolved = scene.resolved_toml();
     // Timings stay out of maps: the same scene gives the same bytes.
     let run =
@@ -171,8 +174,10 @@ pub fn cut(
     if gear.report.flanks.is_empty() {
         return Err(Error::Interrupted);
     }
-    let results = results::results(&job, &gear);
+    let textures = texture::measure(&job, backend, progress, interrupt)?;
+    let results = results::results(&job, &gear, &textures);
     files::write(&job, &gear, &results, &folder, &notes)?;
+    texture::write(&job, &textures, &folder, &notes)?;
     if !gear.interrupted {
         let solid = meshes::gear(&job, backend, gear.surfaces.clone(), progress)?;
         meshes::write_gear(&job, &solid, &folder, &notes)?;

@@ -11,6 +11,7 @@ pub mod gear_report;
 pub mod scallop;
 pub mod stock;
 pub mod stroke_faults;
+pub mod topography;
 pub mod unevenness;
 
 pub use blank_report::BlankReport;

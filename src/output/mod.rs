@@ -41,6 +41,8 @@ pub mod progress;
 pub mod quantity;
 mod raster;
 pub mod report;
+mod relief;
 pub mod results;
+pub mod surface_files;
 pub mod table;
 pub mod text;

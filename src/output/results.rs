@@ -11,6 +11,7 @@
 
 mod machine;
 mod teeth;
+mod texture;
 
 use std::path::Path;
 
@@ -21,6 +22,7 @@ use super::quantity::Quantity;
 use crate::{Error, Result};
 pub use machine::{AxesResults, AxisPeak, ReliefResults};
 pub use teeth::{FinishedFlank, FinishedTooth, OperationTooth, ProfileDeviations, StockRange};
+pub use texture::{AbbottCurve, Parameters, TextureResults};
 
 /// Version of the layout.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -48,6 +50,9 @@ pub struct Results {
     pub operations: Vec<OperationResults>,
     /// The finished gear, tooth by tooth.
     pub teeth: Vec<FinishedTooth>,
+    /// Surface texture of windows on flanks, after every operation; absent in results of programs before texture.
+    #[serde(default)]
+    pub texture: Vec<TextureResults>,
 }
 
 /// The numbers that a gear engineer asks for first. Extremes over flanks carry their place.

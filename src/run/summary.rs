@@ -3,7 +3,7 @@
 use super::CutGear;
 use crate::job::Job;
 use crate::output::quantity::Quantity;
-use crate::output::results::{OperationResults, Results};
+use crate::output::results::{OperationResults, Results, TextureResults};
 use crate::output::text::{Sheet, significant};
 use std::path::Path;
 
@@ -42,6 +42,7 @@ pub fn summary(job: &Job, cut: &CutGear, results: &Results, out: &Path, backend:
     for operation in results.operations.iter().filter(|o| !o.teeth.is_empty()) {
         print_unevenness(&mut sheet, operation, results.period_teeth);
     }
+    print_texture(&mut sheet, &results.texture);
     for warning in warnings(cut) {
         sheet.heading(&format!("warning: {warning}"));
     }
@@ -54,6 +55,32 @@ pub fn summary(job: &Job, cut: &CutGear, results: &Results, out: &Path, backend:
     sheet.line("cut, measured and mapped in", format!("{} s", significant(cut.elapsed.as_secs_f64(), 3)));
     sheet.line("written to", out.display().to_string());
     sheet.into_text()
+}
+
+/// Height and core parameters of every window.
+fn print_texture(sheet: &mut Sheet, textures: &[TextureResults]) {
+    if textures.is_empty() {
+        return;
+    }
+    sheet.heading("Surface texture (ISO 25178-2; chains and all parameters in results.json)");
+    let symbols = ["Sa", "Sq", "Sz", "Sk", "Spk", "Svk"];
+    let mut rows = vec![vec!["window".to_owned()]];
+    rows[0].extend(symbols.map(|symbol| format!("{symbol} um")));
+    for texture in textures {
+        let mut row = vec![format!("{}: tooth {} {}", texture.operation, texture.tooth, texture.flank)];
+        row.extend(symbols.map(|symbol| {
+            let value = texture.parameters.get(symbol).and_then(Quantity::value);
+            value.map_or_else(|| "-".to_owned(), |value| significant(value, 4))
+        }));
+        rows.push(row);
+    }
+    sheet.table(&rows);
+    for texture in textures {
+        for warning in &texture.warnings {
+            let window = format!("{}, tooth {} {}", texture.operation, texture.tooth, texture.flank);
+            sheet.heading(&format!("warning: {window}: {warning}"));
+        }
+    }
 }
 
 fn print_unevenness(sheet: &mut Sheet, operation: &OperationResults, period_teeth: u32) {

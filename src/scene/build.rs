@@ -7,9 +7,10 @@ use std::path::PathBuf;
 
 use super::model::{
     AxisLimits, Feed, Fields, Gear, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Output,
-    PitchCurveShape, Scene, ShaperCutter, StrokeSpacing, Tip, TraditionalDirection,
+    PitchCurveShape, Scene, ShaperCutter, StrokeSpacing, TextureWindow, Tip, TraditionalDirection, WindowSides,
 };
 use super::values::{Values, View};
+use crate::measure::topography::Form;
 use crate::units::UM_PER_MM;
 
 /// The scene called `name`.
@@ -28,6 +29,7 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
         tool: shaper_cutter(values)?,
         machine: machine(values)?,
         operations: operations?,
+        textures: (0..values.textures).map(|index| texture(values.view(&format!("texture.{index}")))).collect::<Option<_>>()?,
         fields: Fields {
             profile_spacing_mm: mm_from_um(flank, "profile_spacing_um")?,
             lead_spacing_mm: mm_from_um(flank, "lead_spacing_um")?,
@@ -177,6 +179,31 @@ fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<Ope
         overlap_rad: rad(operation, "overlap_deg")?,
         infeed: infeed(values, path, operation.variant("infeed")?)?,
         feed_during_stroke: operation.boolean("feed_during_stroke")?,
+    })
+}
+
+fn texture(window: View<'_>) -> Option<TextureWindow> {
+    Some(TextureWindow {
+        tooth: window.whole("tooth")?,
+        sides: match window.text("side")? {
+            "left" => WindowSides::Left,
+            "right" => WindowSides::Right,
+            "both" => WindowSides::Both,
+            _ => return None,
+        },
+        center_profile_mm: window.number("center_profile_mm"),
+        center_lead_mm: window.number("center_lead_mm")?,
+        length_profile_mm: window.number("length_profile_mm"),
+        length_lead_mm: window.number("length_lead_mm"),
+        profile_spacing_mm: mm_from_um(window, "profile_spacing_um"),
+        lead_spacing_mm: mm_from_um(window, "lead_spacing_um"),
+        form: match window.text("form")? {
+            "none" => Form::None,
+            "plane" => Form::Plane,
+            "poly2" => Form::Poly2,
+            "poly2-plus-cylinder" => Form::Poly2PlusCylinder,
+            _ => return None,
+        },
     })
 }
 

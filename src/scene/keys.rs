@@ -11,6 +11,7 @@ mod gear;
 mod machine;
 mod operation;
 mod range;
+mod texture;
 mod tool;
 
 pub use range::Range;
@@ -128,6 +129,8 @@ pub enum Role {
     Plain,
     /// A list of tables, `[[operation]]`.
     List,
+    /// A list of tables that may be left out, `[[texture]]`.
+    OptionalList,
     /// A table that holds exactly one of its variants, as a table of that name.
     Choice {
         /// Variant that holds when none is written; `None`: one must be written.
@@ -145,7 +148,7 @@ const ROOT: Section = Section { path: "", role: Role::Plain, keys: &[], groups: 
 /// All sections in the order of a scene file; a section stands after the one that holds it.
 pub fn sections() -> impl Iterator<Item = &'static Section> {
     static FIRST: &[Section] = &[ROOT];
-    [FIRST, gear::SECTIONS, tool::SECTIONS, machine::BEFORE_OPERATIONS, operation::SECTIONS, machine::AFTER_OPERATIONS]
+    [FIRST, gear::SECTIONS, tool::SECTIONS, machine::BEFORE_OPERATIONS, operation::SECTIONS, texture::SECTIONS, machine::AFTER_OPERATIONS]
         .into_iter()
         .flatten()
 }
@@ -182,6 +185,11 @@ impl Section {
         self.path.rsplit('.').next().unwrap_or_default().trim_end_matches("[]")
     }
 
+    /// Whether it is a list of tables.
+    pub fn is_list(&self) -> bool {
+        matches!(self.role, Role::List | Role::OptionalList)
+    }
+
     /// Path of the section that holds this one.
     pub fn parent_path(&self) -> &'static str {
         self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
@@ -195,7 +203,7 @@ impl Section {
     /// How the section's header is written: `[gear]`, `[[operation]]`, `[operation.linkage.shaping_normal]`.
     pub fn header(&self) -> String {
         let path = self.path.replace("[]", "");
-        if self.role == Role::List { format!("[[{path}]]") } else { format!("[{path}]") }
+        if self.is_list() { format!("[[{path}]]") } else { format!("[{path}]") }
     }
 }
 

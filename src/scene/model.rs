@@ -3,6 +3,7 @@
 //! Comes from [`super::load`], goes to `run`. Nothing here knows about TOML. Keys of the scene file
 //! are the field names with their unit (`face_width_mm`, `pressure_angle_deg`); angles are radians here.
 
+use crate::measure::topography::Form;
 use std::path::PathBuf;
 
 /// One job: what is cut, with what, how, and what is measured.
@@ -18,6 +19,8 @@ pub struct Scene {
     pub machine: Machine,
     /// Operations in the order they are cut; at least one. The last one defines the target flank.
     pub operations: Vec<Operation>,
+    /// Texture windows; empty: those that [`crate::texture`] takes by itself.
+    pub textures: Vec<TextureWindow>,
     /// Dexel spacing.
     pub fields: Fields,
     /// Where profiles are evaluated.
@@ -309,6 +312,40 @@ pub enum Infeed {
         /// Work angle over which it is fed.
         angle_rad: f64,
     },
+}
+
+/// A window on the flanks of one tooth whose texture is evaluated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TextureWindow {
+    /// Tooth, from 1.
+    pub tooth: u32,
+    /// Which of its flanks.
+    pub sides: WindowSides,
+    /// Middle along the profile, mm from the form point; `None`: the middle of the flank.
+    pub center_profile_mm: Option<f64>,
+    /// Middle along the tooth, mm from the middle of the face.
+    pub center_lead_mm: f64,
+    /// Length along the profile; `None`: the whole flank.
+    pub length_profile_mm: Option<f64>,
+    /// Length along the tooth; `None`: the whole face.
+    pub length_lead_mm: Option<f64>,
+    /// Distance of points along the profile; `None`: that of the flank field.
+    pub profile_spacing_mm: Option<f64>,
+    /// Distance of points along the tooth; `None`: a fiftieth of the length, at least that of the flank field.
+    pub lead_spacing_mm: Option<f64>,
+    /// F-operator.
+    pub form: Form,
+}
+
+/// Flanks that a window lies on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WindowSides {
+    /// The left one.
+    Left,
+    /// The right one.
+    Right,
+    /// Both, one after the other.
+    Both,
 }
 
 /// Dexel spacing of the fields.

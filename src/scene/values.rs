@@ -40,6 +40,8 @@ pub(super) struct Values {
     pub sections: BTreeMap<String, At>,
     /// How many operations there are.
     pub operations: usize,
+    /// How many texture windows are asked for.
+    pub textures: usize,
 }
 
 /// The values of one section.

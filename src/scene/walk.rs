@@ -88,8 +88,10 @@ impl Walk<'_, '_> {
                 let entry = table.entry(child.name());
                 let node = entry.map_or(&implied, |entry| &entry.node);
                 let at = entry.map_or(&At::Implied, |entry| &entry.name_at);
-                if child.role == Role::List {
+                if child.role == Role::List || (child.is_list() && entry.is_some()) {
                     self.list(child, &child_path, node, at);
+                } else if child.is_list() {
+                    // Left out, as it may be.
                 } else {
                     self.table(child, &child_path, node, at);
                 }
@@ -103,15 +105,18 @@ impl Walk<'_, '_> {
         match &list.value {
             Value::List(items) if items.is_empty() => self.problems.add(
                 at,
-                format!("`{name}` is an empty list: nothing would be cut"),
-                format!("write at least one [[{name}]], or leave the list out for a single finishing cut"),
+                format!("`{name}` is an empty list"),
+                format!("write at least one [[{name}]], or leave the list out: then its default holds"),
             ),
             Value::List(items) => {
                 for (index, item) in items.iter().enumerate() {
                     let item_at = if item.at == At::Implied { at } else { &item.at };
                     self.table(section, &format!("{path}.{index}"), item, item_at);
                 }
-                self.values.operations = items.len();
+                match section.role {
+                    Role::OptionalList => self.values.textures = items.len(),
+                    _ => self.values.operations = items.len(),
+                }
             }
             _ => self.problems.add(
                 at,

@@ -22,7 +22,12 @@ pub(super) fn resolved(name: &str, values: &Values) -> String {
         }
     }
     for section in keys::sections().skip_while(|section| !inside_operation(section)).filter(|s| !inside_operation(s)) {
-        write_section(&mut out, section, section.path, values);
+        match section.role {
+            Role::OptionalList => (0..values.textures).for_each(|index| {
+                write_section(&mut out, section, &section.path.replacen("[]", &format!(".{index}"), 1), values);
+            }),
+            _ => write_section(&mut out, section, section.path, values),
+        }
     }
     out
 }
@@ -31,7 +36,7 @@ pub(super) fn resolved(name: &str, values: &Values) -> String {
 fn write_section(out: &mut String, section: &Section, path: &str, values: &Values) {
     let is_header = match section.role {
         Role::Choice { .. } => false,
-        Role::List => true,
+        Role::List | Role::OptionalList => true,
         Role::Plain => !section.keys.is_empty(),
         Role::Variant => {
             let choice = path.rsplit_once('.').map_or("", |(choice, _)| choice);
