@@ -69,10 +69,6 @@ fn crossings(contour: &[DVec2]) -> usize {
     found
 }
 
-fn area_mm2(contour: &[DVec2]) -> f64 {
-    (0..contour.len()).map(|i| 0.5 * contour[i].perp_dot(contour[(i + 1) % contour.len()])).sum()
-}
-
 fn shipped_scenes() -> Vec<PathBuf> {
     let mut scenes: Vec<PathBuf> = std::fs::read_dir("scenes/shaping")
         .expect("scenes")
