@@ -3,6 +3,7 @@
 //! The unit of work is one flank through all operations; flanks go to the cores in parallel and are written as they are finished, so memory grows with the cores and not with the
 //! gear. The output folder appears under its name only when it is complete; Ctrl-C completes it with the flanks that are finished and says so.
 
+mod blank;
 mod files;
 mod results;
 mod summary;
@@ -151,6 +152,8 @@ pub fn cut(
 ) -> Result<Done> {
     let folder = OutputFolder::create(out)?;
     let job = Job::new(scene.scene.clone())?;
+    // Too large a blank field is refused before anything is cut.
+    job.blank_grid()?;
     let resolved = scene.resolved_toml();
     // Timings stay out of maps: the same scene gives the same bytes.
     let run =
@@ -160,7 +163,12 @@ pub fn cut(
     if gear.report.flanks.is_empty() {
         return Err(Error::Interrupted);
     }
-    let results = results::results(&job, &gear);
+    let whole = if gear.interrupted { None } else { blank::cut(&job, progress, interrupt)? };
+    if let Some((_, report)) = &whole {
+        blank::write_table_of_damage(&job, report, &folder)?;
+    }
+    let blank = whole.as_ref().map(|(cut, report)| blank::results(&job, cut, report));
+    let results = results::results(&job, &gear, blank);
     files::write(&job, &gear, &results, &folder)?;
     let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
