@@ -3,6 +3,7 @@
 //! The unit of work is one flank through all operations; flanks go to the cores in parallel and are written as they are finished, so memory grows with the cores and not with the
 //! gear. The output folder appears under its name only when it is complete; Ctrl-C completes it with the flanks that are finished and says so.
 
+mod blank;
 mod files;
 mod meshes;
 mod report;
@@ -165,6 +166,8 @@ pub fn cut(
     let job = Job::new(scene.scene.clone())?;
     // A window that lies on no flank is refused before the first cut.
     texture::windows(&job)?;
+    // Too large a blank field is refused before anything is cut.
+    job.blank_grid()?;
     let resolved = scene.resolved_toml();
     // Timings stay out of maps: the same scene gives the same bytes.
     let run =
@@ -175,7 +178,12 @@ pub fn cut(
         return Err(Error::Interrupted);
     }
     let textures = texture::measure(&job, backend, progress, interrupt)?;
-    let results = results::results(&job, &gear, &textures);
+    let whole = if gear.interrupted { None } else { blank::cut(&job, progress, interrupt)? };
+    if let Some((_, report)) = &whole {
+        blank::write_table_of_damage(&job, report, &folder)?;
+    }
+    let blank = whole.as_ref().map(|(cut, report)| blank::results(&job, cut, report));
+    let results = results::results(&job, &gear, blank, &textures);
     files::write(&job, &gear, &results, &folder, &notes)?;
     texture::write(&job, &textures, &folder, &notes)?;
     if !gear.interrupted {

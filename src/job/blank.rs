@@ -36,14 +36,22 @@ impl Job {
     /// # Errors
     /// A field that does not fit in memory.
     pub fn blank_field(&self) -> Result<BlankField, Refusal> {
+        let outline = BlankOutline::new(&self.blank);
+        Ok(BlankField::new(self.blank_grid()?, &outline, 0.5 * self.scene.gear.bore_diameter_mm))
+    }
+
+    /// Where its rays stand.
+    ///
+    /// # Errors
+    /// A field that does not fit in memory.
+    pub fn blank_grid(&self) -> Result<BlankGrid, Refusal> {
         let fields = &self.scene.fields;
         let outline = BlankOutline::new(&self.blank);
         // With all axes at rest during the strokes every section is the same one.
         let moving = self.operations.iter().any(|o| o.strokes.law != StrokeLaw::Frozen);
         let slice_spacing_mm = moving.then_some(fields.blank_slice_spacing_mm);
         let width_mm = self.scene.gear.face_width_mm;
-        let grid = BlankGrid::new(&self.blank, &outline, width_mm, fields.blank_spacing_mm, slice_spacing_mm)?;
-        Ok(BlankField::new(grid, &outline, 0.5 * self.scene.gear.bore_diameter_mm))
+        BlankGrid::new(&self.blank, &outline, width_mm, fields.blank_spacing_mm, slice_spacing_mm)
     }
 
     /// Poses of the return strokes of an operation: the cutter drawn back along the line of centres. `None` where the machine does not back off.
@@ -69,12 +77,8 @@ impl Job {
         ClosedTooth::new(self.cutter.edge(), (nearest_mm - blank_reach_mm - 1.0).max(0.0))
     }
 
-    /// Runs all operations over the blank; `advance` is called after every step and says whether to go on. `None`: stopped.
-    ///
-    /// # Errors
-    /// A field that does not fit in memory.
-    pub fn cut_blank(&self, advance: &(dyn Fn() -> bool + Sync)) -> Result<Option<CutBlank>, Refusal> {
-        let field = self.blank_field()?;
+    /// Runs all operations over the uncut blank; `advance` is called after every tile and says whether to go on. `None`: stopped.
+    pub fn cut_blank(&self, field: BlankField, advance: &(dyn Fn() -> bool + Sync)) -> Option<CutBlank> {
         let mut cut = CutBlank { blank_mm3: field.volumes_mm3(), field, left_mm3: Vec::new(), cuts: Vec::new() };
         let reach_mm = BlankOutline::new(&self.blank).reach_mm();
         for (index, operation) in self.operations.iter().enumerate() {
@@ -88,11 +92,10 @@ impl Job {
                 blank_reach_mm: reach_mm,
                 cull: true,
             };
-            let Some(done) = blank::cut(&mut cut.field, &operation, advance) else { return Ok(None) };
-            cut.cuts.push(done);
+            cut.cuts.push(blank::cut(&mut cut.field, &operation, advance)?);
             cut.left_mm3.push(cut.field.volumes_mm3());
         }
-        Ok(Some(cut))
+        Some(cut)
     }
 
     /// The target's transverse section as a polygon with points `spacing_mm` apart; its error is the arrow height of so long a chord.
@@ -146,10 +149,5 @@ impl Job {
         points.extend(along(&left).into_iter().rev());
         points.extend(target_root(&generation, i64::from(tooth), spacing_mm).iter().map(|p| p.point_mm));
         Ok(points)
-    }
-
-    /// Steps that [`Self::cut_blank`] takes over a field.
-    pub fn blank_steps(&self, field: &BlankField) -> u64 {
-        blank::steps(field) * self.operations.len() as u64
     }
 }

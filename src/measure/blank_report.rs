@@ -10,7 +10,7 @@
 //! * **Strokes.** See [`super::stroke_faults`].
 
 use super::gear_place::{GearPlace, Zone};
-use super::stroke_faults::{StrokeFault, stroke_faults};
+use super::stroke_faults::{LEAST_CELLS, StrokeFault, stroke_faults};
 use crate::cut::cpu::blank::BlankStats;
 use crate::dexel::intervals;
 use crate::dexel::{BlankGrid, NO_PASS};
@@ -106,6 +106,8 @@ pub struct BlankReport {
     pub rubbing: Vec<Rubbing>,
     /// Strokes that are missing, did not cut or were made twice.
     pub stroke_faults: Vec<PlacedStrokeFault>,
+    /// Whether each operation's strokes could be judged: its chips are large enough for the rays' distance.
+    pub strokes_judged: Vec<bool>,
     /// Work done.
     pub stats: BlankStats,
 }
@@ -137,6 +139,7 @@ pub fn measure(job: &Job, cut: &CutBlank, target: Option<&TargetOutline>) -> Bla
         left_mm3,
         operations,
         end_face: target.map(|target| end_face(job, cut, left_mm3, target)),
+        strokes_judged: (0..job.operations.len()).map(|operation| is_judged(job, cut, operation)).collect(),
         stroke_faults: faults(job, cut, &gouges, &interference),
         gouges,
         interference,
@@ -247,15 +250,11 @@ fn damage(job: &Job, cut: &CutBlank, target: &TargetOutline) -> Vec<Damage> {
     collect(job, findings.into_iter()).into_iter().map(|(damage, _)| damage).collect()
 }
 
-/// Pass that left a surface at either end of a gap, or the nearest beyond it.
+/// Pass that left the surface at an end of a gap. Where the target is gone from end to end the ray knows no pass; the rays across it, which end in what is left, do.
 fn pass_beside(spans: &[intervals::Span], low_mm: f64, high_mm: f64) -> Option<u32> {
-    let after = spans.partition_point(|s| s.low.at_mm < high_mm);
-    let above = spans.get(after).map(|s| s.low);
-    let before = spans.partition_point(|s| s.high.at_mm <= low_mm);
-    let below = before.checked_sub(1).map(|i| spans[i].high);
-    let cut = [above.map(|e| (e.at_mm - high_mm, e)), below.map(|e| (low_mm - e.at_mm, e))];
-    let nearest = cut.into_iter().flatten().filter(|(_, e)| e.pass != NO_PASS).min_by(|a, b| a.0.total_cmp(&b.0));
-    nearest.map(|(_, end)| end.pass)
+    let above = spans.iter().find(|s| s.low.at_mm == high_mm).map(|s| s.low.pass);
+    let below = spans.iter().find(|s| s.high.at_mm == low_mm).map(|s| s.high.pass);
+    above.into_iter().chain(below).find(|&pass| pass != NO_PASS)
 }
 
 fn operation_of(job: &Job, pass: u32) -> Option<usize> {
@@ -283,6 +282,15 @@ fn rubbing(job: &Job, cut: &CutBlank) -> Vec<Rubbing> {
     collect(job, findings).into_iter().map(|(damage, stays)| Rubbing { damage, stays }).collect()
 }
 
+/// Whether the mean stroke of an operation removes enough cells of the grid from a section.
+fn is_judged(job: &Job, cut: &CutBlank, operation: usize) -> bool {
+    let strokes = job.operations[operation].strokes.count() as f64;
+    let removed_mm3 = &cut.cuts[operation].removed_mm3;
+    let volume_mm3: f64 = removed_mm3.iter().map(|pass| 0.5 * (pass[0] + pass[1])).sum();
+    let cell_mm2 = cut.field.grid.spacing_mm().powi(2);
+    volume_mm3 / (strokes * job.scene.gear.face_width_mm * cell_mm2) >= LEAST_CELLS
+}
+
 /// Faults of strokes, less those that a gouge explains: a stroke that cut too deep stands alone as well.
 fn faults(job: &Job, cut: &CutBlank, gouges: &[Damage], interference: &[Damage]) -> Vec<PlacedStrokeFault> {
     let gouged = |operation: usize, stroke: usize| {
@@ -291,6 +299,9 @@ fn faults(job: &Job, cut: &CutBlank, gouges: &[Damage], interference: &[Damage])
     let mut placed = Vec::new();
     for (operation, (prepared, done)) in job.operations.iter().zip(&cut.cuts).enumerate() {
         let set = &prepared.strokes;
+        if !is_judged(job, cut, operation) {
+            continue;
+        }
         for fault in stroke_faults(&done.removed_mm3, set.blades) {
             if !gouged(operation, fault.stroke) {
                 let space = busiest_space(job, set, &done.removed_mm3, fault.stroke);

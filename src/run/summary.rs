@@ -3,7 +3,7 @@
 use super::CutGear;
 use crate::job::Job;
 use crate::output::quantity::Quantity;
-use crate::output::results::{OperationResults, Results, TextureResults};
+use crate::output::results::{BlankResults, OperationResults, Results, TextureResults};
 use crate::output::text::{Sheet, significant};
 use std::path::Path;
 
@@ -39,6 +39,9 @@ pub fn summary(job: &Job, cut: &CutGear, results: &Results, out: &Path, backend:
     sheet.line("relief on the return stroke", share(&headline.relief_ratio, "of a circular gear's"));
     sheet.line("tightest axis limit", share(&headline.axis_margin, "of it left"));
     sheet.line("time of all strokes", minutes(&headline.cycle_time));
+    if let Some(blank) = &results.blank {
+        print_blank(&mut sheet, blank);
+    }
     for operation in results.operations.iter().filter(|o| !o.teeth.is_empty()) {
         print_unevenness(&mut sheet, operation, results.period_teeth);
     }
@@ -80,6 +83,25 @@ fn print_texture(sheet: &mut Sheet, textures: &[TextureResults]) {
             let window = format!("{}, tooth {} {}", texture.operation, texture.tooth, texture.flank);
             sheet.heading(&format!("warning: {window}: {warning}"));
         }
+    }
+}
+
+/// The whole blank in a few lines.
+fn print_blank(sheet: &mut Sheet, blank: &BlankResults) {
+    let cm3 = |q: &Quantity| q.value().map_or_else(|| "-".to_owned(), |v| format!("{:.3} cm3", 1e-3 * v));
+    let removed: Vec<String> =
+        blank.operations.iter().map(|o| format!("{} {}", cm3(&o.removed_volume), o.name)).collect();
+    sheet.line("material removed", format!("{} of {}", removed.join(", "), cm3(&blank.blank_volume)));
+    let kinds = [
+        ("gouges", &blank.gouges),
+        ("interference", &blank.interference),
+        ("return strokes rub on the gear", &blank.rubbing_on_gear),
+        ("return strokes rub on stock", &blank.rubbing_on_stock),
+    ];
+    for (name, damage) in kinds {
+        let deepest = damage.deepest.value().map(|mm| format!(", up to {} mm deep", significant(mm, 3)));
+        let places = damage.places.value().unwrap_or(0.0);
+        sheet.line(name, deepest.map_or_else(|| "none".to_owned(), |deep| format!("{places} sides of teeth{deep}")));
     }
 }
 

@@ -39,7 +39,12 @@ pub fn paper_scene(operations: Vec<Operation>) -> Scene {
         },
         operations,
         textures: Vec::new(),
-        fields: Fields { profile_spacing_mm: 0.005, lead_spacing_mm: 0.05, blank_spacing_mm: 0.1, blank_slice_spacing_mm: 2.5 },
+        fields: Fields {
+            profile_spacing_mm: 0.005,
+            lead_spacing_mm: 0.05,
+            blank_spacing_mm: 0.1,
+            blank_slice_spacing_mm: 2.5,
+        },
         measure: Measure { profile_start_height_mm: None, profile_end_height_mm: None },
         output: Output { map_spacing_mm: 0.1, mesh_spacing_mm: 0.1, folder: None },
     }
