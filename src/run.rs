@@ -5,6 +5,7 @@
 
 mod files;
 mod meshes;
+mod pictures;
 mod results;
 mod summary;
 mod tooth_results;
@@ -174,6 +175,10 @@ pub fn cut(
     if !gear.interrupted {
         let solid = meshes::gear(&job, backend, gear.surfaces.clone(), progress)?;
         meshes::write_gear(&job, &solid, &folder, &notes)?;
+        let drawn = pictures::draw(&job, backend, &solid, progress, interrupt, &folder, &notes)?;
+        if drawn < job.scene.pictures.len() {
+            progress.note(&format!("stopped: {drawn} of {} pictures are drawn", job.scene.pictures.len()));
+        }
     }
     let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;

@@ -12,6 +12,7 @@
 //! | maps: the grid they lie on, all digits | [`grid`], [`exr_map`] |
 //! | pictures of maps: one, all flanks, their colours | [`map_png`], [`contact_sheet`], [`colormap`] |
 //! | meshes for other programs | [`mesh_file`], [`mesh_stl`], [`mesh_ply`], [`mesh_glb`] |
+//! | drawn bodies | [`render_png`] |
 //! | charts: grouped bars, panels of curves | [`bar_chart`], [`line_chart`] |
 //! | progress and Ctrl-C | [`progress`], [`interrupt`] |
 
@@ -39,6 +40,7 @@ pub mod mesh_stl;
 pub mod progress;
 pub mod quantity;
 mod raster;
+pub mod render_png;
 pub mod results;
 pub mod table;
 pub mod text;

@@ -88,8 +88,8 @@ impl Walk<'_, '_> {
                 let entry = table.entry(child.name());
                 let node = entry.map_or(&implied, |entry| &entry.node);
                 let at = entry.map_or(&At::Implied, |entry| &entry.name_at);
-                if child.role == Role::List {
-                    self.list(child, &child_path, node, at);
+                if let Role::List { fewest } = child.role {
+                    self.list(child, fewest, &child_path, node, at);
                 } else {
                     self.table(child, &child_path, node, at);
                 }
@@ -98,10 +98,10 @@ impl Walk<'_, '_> {
     }
 
     /// Checks the elements of a list of tables.
-    fn list(&mut self, section: &'static Section, path: &str, list: &Node, at: &At) {
+    fn list(&mut self, section: &'static Section, fewest: usize, path: &str, list: &Node, at: &At) {
         let name = section.name();
         match &list.value {
-            Value::List(items) if items.is_empty() => self.problems.add(
+            Value::List(items) if items.len() < fewest => self.problems.add(
                 at,
                 format!("`{name}` is an empty list: nothing would be cut"),
                 format!("write at least one [[{name}]], or leave the list out for a single finishing cut"),
@@ -111,7 +111,7 @@ impl Walk<'_, '_> {
                     let item_at = if item.at == At::Implied { at } else { &item.at };
                     self.table(section, &format!("{path}.{index}"), item, item_at);
                 }
-                self.values.operations = items.len();
+                self.values.counts.insert(name, items.len());
             }
             _ => self.problems.add(
                 at,
@@ -260,9 +260,13 @@ impl Walk<'_, '_> {
         if let Some(module_mm) = module_mm {
             self.default("gear", "face_width_mm", Checked::Number((10.0 * module_mm).min(1000.0)));
         }
-        for index in 0..self.values.operations {
+        for (list, count) in self.values.counts.clone() {
+            for index in 0..count {
+                self.default(&format!("{list}.{index}"), "name", Checked::Text(default_name(list, index)));
+            }
+        }
+        for index in 0..self.values.count("operation") {
             let path = format!("operation.{index}");
-            self.default(&path, "name", Checked::Text(default_name(index)));
             if let Some(teeth) = teeth
                 && !self.values.written.contains(&join(&path, "circular_feed_mm_per_stroke"))
             {

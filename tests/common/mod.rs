@@ -41,6 +41,7 @@ pub fn paper_scene(operations: Vec<Operation>) -> Scene {
         fields: Fields { profile_spacing_mm: 0.005, lead_spacing_mm: 0.05 },
         measure: Measure { profile_start_height_mm: None, profile_end_height_mm: None },
         output: Output { map_spacing_mm: 0.1, mesh_spacing_mm: 0.1, folder: None },
+        pictures: Vec::new(),
     }
 }
 
