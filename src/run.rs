@@ -4,6 +4,7 @@
 //! gear. The output folder appears under its name only when it is complete; Ctrl-C completes it with the flanks that are finished and says so.
 
 mod files;
+mod frames;
 mod meshes;
 mod pictures;
 mod results;
@@ -147,7 +148,7 @@ pub struct Done {
 
 /// Cuts a scene and writes everything into `out`.
 ///
-/// `backend_why` says why this backend was taken. The output folder is opened before the work begins, so that a bad path fails at once.
+/// `backend_why` says why this backend was taken; `frames` is how many pictures of the cut as it happens are drawn. The output folder is opened before the work begins, so that a bad path fails at once.
 ///
 /// # Errors
 /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
@@ -158,6 +159,7 @@ pub fn cut(
     backend_why: &str,
     progress: &Progress,
     interrupt: &Interrupt,
+    frames: Option<u32>,
 ) -> Result<Done> {
     let folder = OutputFolder::create(out)?;
     let job = Job::new(scene.scene.clone())?;
@@ -178,6 +180,12 @@ pub fn cut(
         let drawn = pictures::draw(&job, backend, &solid, progress, interrupt, &folder, &notes)?;
         if drawn < job.scene.pictures.len() {
             progress.note(&format!("stopped: {drawn} of {} pictures are drawn", job.scene.pictures.len()));
+        }
+        if let Some(count) = frames {
+            let drawn = frames::draw(&job, count, progress, interrupt, &folder)?;
+            if drawn < count {
+                progress.note(&format!("stopped: {drawn} of {count} frames are drawn"));
+            }
         }
     }
     let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;

@@ -12,10 +12,11 @@
 //! | maps: the grid they lie on, all digits | [`grid`], [`exr_map`] |
 //! | pictures of maps: one, all flanks, their colours | [`map_png`], [`contact_sheet`], [`colormap`] |
 //! | meshes for other programs | [`mesh_file`], [`mesh_stl`], [`mesh_ply`], [`mesh_glb`] |
-//! | drawn bodies | [`render_png`] |
+//! | drawn bodies, one or many | [`render_png`], [`apng`] |
 //! | charts: grouped bars, panels of curves | [`bar_chart`], [`line_chart`] |
 //! | progress and Ctrl-C | [`progress`], [`interrupt`] |
 
+pub mod apng;
 pub mod atomic;
 mod axis;
 pub mod bar_chart;

@@ -2,6 +2,7 @@
 //!
 //! Colours of the bar are those of the scale; on bodies light makes them brighter or darker.
 
+use crate::output::apng::Frame;
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::canvas::{Canvas, INK, Side};
 use crate::output::colormap::ColourScale;
@@ -41,6 +42,7 @@ pub struct RenderPicture<'a> {
 const TOP_PX: u32 = 56;
 const BELOW_PX: u32 = 52;
 const MARGIN_PX: u32 = 24;
+const BAR_GAP_PX: u32 = 20;
 const BAR_WIDTH_PX: u32 = 20;
 const EM_PX: f64 = 15.0;
 /// Narrowest picture that title and scale bar find room on.
@@ -51,16 +53,35 @@ const LEAST_WIDTH_PX: u32 = 360;
 /// # Errors
 /// An empty colour scale, and files that cannot be written.
 pub fn write_render_png(path: &Path, picture: &RenderPicture) -> Result<()> {
-    let bytes = draw(picture).map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
+    let bytes = draw(picture)
+        .and_then(|raster| raster.shaded_png())
+        .map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
     write_bytes_atomically(path, &bytes)
 }
 
-fn draw(picture: &RenderPicture) -> std::result::Result<Vec<u8>, String> {
+/// Draws a picture as a frame of several.
+///
+/// # Errors
+/// An empty colour scale.
+pub fn draw_frame(picture: &RenderPicture) -> Result<Frame> {
+    draw(picture).map(Frame).map_err(|reason| Error::Output { path: "frame".into(), reason })
+}
+
+/// Writes a frame as PNG.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_frame(path: &Path, Frame(raster): &Frame) -> Result<()> {
+    let bytes = raster.shaded_png().map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
+    write_bytes_atomically(path, &bytes)
+}
+
+fn draw(picture: &RenderPicture) -> std::result::Result<Raster, String> {
     if let Some(problem) = picture.legend.and_then(|legend| scale_problem(legend.scale)) {
         return Err(problem);
     }
     let (width, height) = picture.rendered.size_px;
-    let legend_px = picture.legend.map_or(0, |_| BAR_WIDTH_PX + ColourBar::LABEL_WIDTH_PX);
+    let legend_px = picture.legend.map_or(0, |_| BAR_GAP_PX + BAR_WIDTH_PX + ColourBar::LABEL_WIDTH_PX);
     let total_px = (width.max(LEAST_WIDTH_PX) + legend_px + MARGIN_PX, TOP_PX + height + BELOW_PX);
     let mut raster = Raster::white(total_px);
     for (i, &colour) in (0..).zip(&picture.rendered.rgb) {
@@ -68,7 +89,7 @@ fn draw(picture: &RenderPicture) -> std::result::Result<Vec<u8>, String> {
     }
     let bar = picture.legend.map(|legend| ColourBar {
         area: PixelBox {
-            left: width.max(LEAST_WIDTH_PX),
+            left: width.max(LEAST_WIDTH_PX) + BAR_GAP_PX,
             top: TOP_PX + height / 8,
             width: BAR_WIDTH_PX,
             height: (3 * height / 4).max(40),
@@ -97,7 +118,7 @@ fn draw(picture: &RenderPicture) -> std::result::Result<Vec<u8>, String> {
     let note_em_px = fitting_em_px(picture.note, EM_PX, f64::from(total_px.0) - left - note_left)?;
     canvas.text(picture.note, (f64::from(total_px.0) - left, y), note_em_px, Side::End)?;
     canvas.finish()?;
-    raster.shaded_png()
+    Ok(raster)
 }
 
 /// Smallest and largest value on the picture.

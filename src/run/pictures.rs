@@ -158,7 +158,7 @@ fn draw_flank(job: &Job, backend: &dyn Backend, picture: &Picture, interrupt: &I
     let generation = job.target_generation();
     let target = job.target_flank(&generation, picture.tooth, picture.side)?;
     let width_mm = job.scene.gear.face_width_mm;
-    let extent_mm = picture.extent_mm.unwrap_or(1.5 * target.length_mm());
+    let extent_mm = picture.extent_mm.unwrap_or(0.6 * target.length_mm());
     let reach_mm = (0.5 * extent_mm).min(0.5 * width_mm);
     let mut field = job.flank_field(&target);
     let rows = field.leads_mm.len();

@@ -9,6 +9,8 @@
 //! | the fields of roots and tip lands | [`gear_surfaces`] |
 //! | all of them in one closed chain of columns | [`outline`] |
 //! | the gear as one closed body | [`gear_solid`] |
+//! | the section of the half-cut work | [`section`] |
+//! | pictures of meshes | [`render`] |
 
 pub mod flanks;
 pub mod gear_solid;
@@ -16,6 +18,7 @@ pub mod gear_surfaces;
 pub mod mesh;
 pub mod outline;
 pub mod render;
+pub mod section;
 
 pub use flanks::SurfaceGrid;
 pub use mesh::Mesh;

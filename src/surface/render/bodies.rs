@@ -33,7 +33,7 @@ pub enum Look {
 }
 
 /// Clay.
-pub const CLAY: Look = Look::Plain { colour: [0.56, 0.53, 0.49], gloss: 0.05 };
+pub const CLAY: Look = Look::Plain { colour: [0.50, 0.475, 0.44], gloss: 0.05 };
 /// Steel of a tool.
 pub const STEEL: Look = Look::Plain { colour: [0.30, 0.36, 0.44], gloss: 0.6 };
 
@@ -144,7 +144,7 @@ impl<'a> Stage<'a> {
 }
 
 /// Where a coloured body has no value: light clay, which no scale contains.
-const BARE: [f64; 3] = [0.50, 0.49, 0.47];
+const BARE: [f64; 3] = [0.45, 0.44, 0.42];
 
 /// sRGB component (IEC 61966-2-1) to linear light, 0 to 1.
 pub fn linear(component: u8) -> f64 {

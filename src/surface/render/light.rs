@@ -43,7 +43,7 @@ impl Lights {
     /// A lamp over the viewer's left shoulder and a wide sky: for whole bodies.
     pub fn studio(camera: &Camera) -> Self {
         let lamp = (0.9 * camera.towards + 0.65 * camera.up - 0.75 * camera.right).normalize();
-        Self { lamp, lamp_share: 0.48, sky_reach: 0.25, gain: 1.35 }
+        Self { lamp, lamp_share: 0.48, sky_reach: 0.25, gain: 1.55 }
     }
 }
 
@@ -179,7 +179,7 @@ fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y
         }
         // The sky is a little brighter above than below, as in a room: faces turned away from the lamp keep their shape.
         let sky = 0.75 + 0.25 * found.normal.dot(camera.up);
-        gathered.sky += (1.0 - lights.lamp_share) * 1.35 * sky * colour;
+        gathered.sky += (1.0 - lights.lamp_share) * 1.7 * sky * colour;
         let tangent = found.normal.any_orthonormal_vector();
         let bitangent = found.normal.cross(tangent);
         for _ in 0..SKY_RAYS {
