@@ -5,7 +5,9 @@
 
 mod blank;
 mod files;
+mod frames;
 mod meshes;
+mod pictures;
 mod report;
 mod results;
 mod summary;
@@ -150,7 +152,7 @@ pub struct Done {
 
 /// Cuts a scene and writes everything into `out`.
 ///
-/// `backend_why` says why this backend was taken. The output folder is opened before the work begins, so that a bad path fails at once.
+/// `backend_why` says why this backend was taken; `frames` is how many pictures of the cut as it happens are drawn. The output folder is opened before the work begins, so that a bad path fails at once.
 ///
 /// # Errors
 /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
@@ -161,6 +163,7 @@ pub fn cut(
     backend_why: &str,
     progress: &Progress,
     interrupt: &Interrupt,
+    frames: Option<u32>,
 ) -> Result<Done> {
     let folder = OutputFolder::create(out)?;
     let job = Job::new(scene.scene.clone())?;
@@ -189,6 +192,16 @@ pub fn cut(
     if !gear.interrupted {
         let solid = meshes::gear(&job, backend, gear.surfaces.clone(), progress)?;
         meshes::write_gear(&job, &solid, &folder, &notes)?;
+        let drawn = pictures::draw(&job, backend, &solid, progress, interrupt, &folder, &notes)?;
+        if drawn < job.scene.pictures.len() {
+            progress.note(&format!("stopped: {drawn} of {} pictures are drawn", job.scene.pictures.len()));
+        }
+        if let Some(count) = frames {
+            let drawn = frames::draw(&job, count, progress, interrupt, &folder)?;
+            if drawn < count {
+                progress.note(&format!("stopped: {drawn} of {count} frames are drawn"));
+            }
+        }
     }
     let words = report::RunWords { resolved_scene: &resolved, backend: &backend.name(), backend_why };
     report::page(&job, &gear, &results, &words)?.write(&folder.path(REPORT_FILE)?)?;

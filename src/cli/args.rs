@@ -30,7 +30,7 @@ pub enum Command {
         gearcut cut scenes/shaping/elliptical_normal.toml --set operation.rough.offset_mm=1.5\n\n\
         Writes a folder (out/<scene> unless --out or the scene says otherwise): results.json with every number, its unit\n\
         and its definition; run.json to repeat the run; tables as CSV (mm, um, deg in the column names); maps of every\n\
-        flank as EXR and PNG (um); axis tables and charts. An existing folder is replaced only if gearcut wrote it, and\n\
+        flank as EXR and PNG (um); the gear as a closed mesh in STL, PLY and glTF (mm); pictures; axis tables and charts. An existing folder is replaced only if gearcut wrote it, and\n\
         only after the new one is complete. The summary goes to standard output, progress to standard error.")]
     Cut(CutArguments),
     /// Say what a scene means: pitch curve, teeth, axes, relief, warnings, cost. Cuts nothing.
@@ -101,6 +101,9 @@ pub struct CutArguments {
     /// What happens to a flank whose GPU is lost or runs out of memory.
     #[arg(long, value_enum, default_value_t = GpuFailureChoice::Redo)]
     pub on_gpu_failure: GpuFailureChoice,
+    /// Draw N pictures of the cut as it happens (frames/*.png, and all of them in frames/cut.apng).
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=5000))]
+    pub frames: Option<u32>,
     /// Show no progress and no summary.
     #[arg(long, conflicts_with = "json")]
     pub quiet: bool,

@@ -34,7 +34,7 @@ pub fn run(arguments: &CutArguments) -> Result<bool, Failure> {
     };
     let choice = choose(wish, GpuOptions { on_failure, ..GpuOptions::default() }).map_err(Error::from)?;
     progress.note(&format!("backend: {} ({})", choice.backend.name(), choice.why));
-    let done = run::cut(&scene, &out, choice.backend.as_ref(), &choice.why, &progress, &interrupt)
+    let done = run::cut(&scene, &out, choice.backend.as_ref(), &choice.why, &progress, &interrupt, arguments.frames)
         .map_err(|error| Failure::of_scene(&scene, error))?;
     if arguments.json {
         let text = serde_json::to_string_pretty(&done.results)

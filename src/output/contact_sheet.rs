@@ -154,7 +154,7 @@ fn columns_for(maps: u32, pitch_px: (u32, u32)) -> u32 {
 }
 
 /// Length of a scale bar, mm: 1, 2 or 5 times a power of ten, at most a third of the length.
-fn scale_bar_mm(length_mm: f64) -> f64 {
+pub(super) fn scale_bar_mm(length_mm: f64) -> f64 {
     let power = 10_f64.powf((length_mm / 3.0).log10().floor());
     [5.0, 2.0, 1.0].into_iter().map(|factor| factor * power).find(|bar| *bar <= length_mm / 3.0).unwrap_or(power)
 }

@@ -5,6 +5,7 @@
 //! allows no NaN and no 32-bit integers on vertices, so that parts with missing values go without the attribute, and pass ids are floats (exact up to 2^24).
 
 use crate::output::atomic::write_bytes_atomically;
+use crate::output::colormap::NO_VALUE;
 use crate::output::mesh_file::{FRAME, MeshFile};
 use crate::surface::mesh::{Scalar, ScalarValues};
 use crate::{Error, Result};
@@ -135,13 +136,13 @@ fn build(file: &MeshFile) -> (Root, Vec<u8>) {
             push(&mut root, &mut streams, NORMAL, normals, layout(count, Type::Vec3)),
         );
         let colour = vertices.iter().flat_map(|&v| {
-            let [r, g, b] = colours[v as usize].map(linear_u16);
+            let [r, g, b] = if part.measured { colours[v as usize] } else { NO_VALUE }.map(linear_u16);
             [r, g, b, u16::MAX]
         });
         let colour_layout = Layout { component: ComponentType::U16, normalized: true, ..layout(count, Type::Vec4) };
         let colour = push(&mut root, &mut streams, COLOUR, colour.flat_map(u16::to_le_bytes), colour_layout);
         attributes.insert(Valid(Semantic::Colors(0)), colour);
-        for scalar in &mesh.scalars {
+        for scalar in mesh.scalars.iter().filter(|_| part.measured) {
             if let Some(values) = finite_values(scalar, &vertices) {
                 let bytes = values.into_iter().flat_map(f32::to_le_bytes);
                 let place = push(&mut root, &mut streams, QUANTITY, bytes, layout(count, Type::Scalar));

@@ -12,10 +12,12 @@
 //! | maps: the grid they lie on, all digits | [`grid`], [`exr_map`] |
 //! | pictures of maps: one, all flanks, their colours | [`map_png`], [`contact_sheet`], [`colormap`] |
 //! | meshes for other programs | [`mesh_file`], [`mesh_stl`], [`mesh_ply`], [`mesh_glb`] |
+//! | drawn bodies, one or many | [`render_png`], [`apng`] |
 //! | charts: grouped bars, panels of curves | [`bar_chart`], [`line_chart`] |
 //! | the report: everything on one page that opens offline | [`report`] |
 //! | progress and Ctrl-C | [`progress`], [`interrupt`] |
 
+pub mod apng;
 pub mod atomic;
 mod axis;
 pub mod bar_chart;
@@ -40,8 +42,9 @@ pub mod mesh_stl;
 pub mod progress;
 pub mod quantity;
 mod raster;
-pub mod report;
 mod relief;
+pub mod render_png;
+pub mod report;
 pub mod results;
 pub mod surface_files;
 pub mod table;

@@ -19,11 +19,18 @@ use crate::surface::{Mesh, SurfaceGrid};
 /// Heights shown beside each other on meshes of gears that were cut in one operation, µm: what good shaping leaves.
 const HEIGHT_COLOURS_UM: f32 = 5.0;
 
+/// Colours of the stock that the last operation found, the same on maps, meshes and pictures.
+pub fn stock_scale(job: &Job) -> ColourScale {
+    let before_last = super::map_operations(job).iter().rev().nth(1).map(|operation| operation.stock_scale);
+    before_last.unwrap_or(ColourScale::Sequential { low: 0.0, high: 1.0 })
+}
+
 /// Quantity that vertices are coloured by: the stock where there is one, else the height over the target.
 fn colour(job: &Job) -> (&'static str, ColourScale) {
-    match super::map_operations(job).iter().rev().nth(1) {
-        Some(before_last) => ("stock_mm", before_last.stock_scale),
-        None => ("height_um", ColourScale::Sequential { low: 0.0, high: HEIGHT_COLOURS_UM }),
+    if job.operations.len() > 1 {
+        ("stock_mm", stock_scale(job))
+    } else {
+        ("height_um", ColourScale::Sequential { low: 0.0, high: HEIGHT_COLOURS_UM })
     }
 }
 

@@ -6,18 +6,23 @@
 use std::path::PathBuf;
 
 use super::model::{
-    AxisLimits, Feed, Fields, Gear, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Output,
-    PitchCurveShape, Scene, ShaperCutter, StrokeSpacing, TextureWindow, Tip, TraditionalDirection, WindowSides,
+    AxisLimits, Feed, Fields, Gear, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Output, Picture,
+    PictureColour, PictureView, PitchCurveShape, Scene, ShaperCutter, StrokeSpacing, TextureWindow, Tip,
+    TraditionalDirection, WindowSides,
 };
 use super::values::{Values, View};
+use crate::gear::generation::Side;
 use crate::measure::topography::Form;
 use crate::units::UM_PER_MM;
 
 /// The scene called `name`.
 pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
     let pressure_angle_rad = rad(values.view("gear"), "pressure_angle_deg")?;
-    let operations: Option<Vec<Operation>> = (0..values.operations)
+    let operations: Option<Vec<Operation>> = (0..values.count("operation"))
         .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
+        .collect();
+    let pictures: Option<Vec<Picture>> = (0..values.count("picture"))
+        .map(|index| picture(values.view(&format!("picture.{index}")), values.count("operation")))
         .collect();
     let flank = values.view("fields.flank");
     let blank = values.view("fields.blank");
@@ -29,7 +34,9 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
         tool: shaper_cutter(values)?,
         machine: machine(values)?,
         operations: operations?,
-        textures: (0..values.textures).map(|index| texture(values.view(&format!("texture.{index}")))).collect::<Option<_>>()?,
+        textures: (0..values.count("texture"))
+            .map(|index| texture(values.view(&format!("texture.{index}"))))
+            .collect::<Option<_>>()?,
         fields: Fields {
             profile_spacing_mm: mm_from_um(flank, "profile_spacing_um")?,
             lead_spacing_mm: mm_from_um(flank, "lead_spacing_um")?,
@@ -45,6 +52,7 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
             mesh_spacing_mm: output.number("mesh_spacing_mm")?,
             folder: output.text("folder").map(PathBuf::from),
         },
+        pictures: pictures?,
     })
 }
 
@@ -243,5 +251,44 @@ fn infeed(values: &Values, path: &str, way: &str) -> Option<Infeed> {
             angle_rad: rad(infeed, "angle_deg")?,
         },
         _ => return None,
+    })
+}
+
+fn picture(picture: View<'_>, operations: usize) -> Option<Picture> {
+    let view = match picture.text("view")? {
+        "gear" => PictureView::Gear,
+        "tooth" => PictureView::Tooth,
+        "flank" => PictureView::Flank,
+        _ => return None,
+    };
+    let [azimuth_deg, elevation_deg] = match view {
+        PictureView::Gear => [-60.0, 40.0],
+        PictureView::Tooth => [-25.0, 35.0],
+        PictureView::Flank => [0.0, 60.0],
+    };
+    Some(Picture {
+        name: picture.text("name")?.to_owned(),
+        view,
+        tooth: picture.whole("tooth")?,
+        side: match picture.text("side")? {
+            "left" => Side::Left,
+            "right" => Side::Right,
+            _ => return None,
+        },
+        colour: match picture.text("colour") {
+            Some("stock") => PictureColour::Stock,
+            Some("height") => PictureColour::Height,
+            Some("pass") => PictureColour::Pass,
+            Some("clay") => PictureColour::Clay,
+            Some(_) => return None,
+            None if operations > 1 && view != PictureView::Flank => PictureColour::Stock,
+            None => PictureColour::Clay,
+        },
+        azimuth_rad: picture.number("azimuth_deg").unwrap_or(azimuth_deg).to_radians(),
+        elevation_rad: picture.number("elevation_deg").unwrap_or(elevation_deg).to_radians(),
+        extent_mm: picture.number("extent_mm"),
+        exaggeration: picture.number("exaggeration"),
+        size_px: (picture.whole("width_px")?, picture.whole("height_px")?),
+        exr: picture.boolean("exr")?,
     })
 }

@@ -33,7 +33,10 @@ pub(super) fn cross_check(values: &Values, problems: &mut Problems<'_>) {
     ];
     tip(found);
     names(found);
-    for index in 0..values.operations {
+    for index in 0..values.count("picture") {
+        let _: Option<()> = picture_tooth(found, &format!("picture.{index}"));
+    }
+    for index in 0..values.count("operation") {
         let path = format!("operation.{index}");
         let _: [Option<()>; 6] = [
             window(found, &path),
@@ -175,15 +178,25 @@ fn profile(found: &mut Found) -> Option<()> {
 
 /// Names of operations are unique, also where folders do not tell capitals from small letters.
 fn names(found: &mut Found) {
-    let mut seen: BTreeMap<String, usize> = BTreeMap::new();
-    for index in 0..found.values.operations {
-        let path = format!("operation.{index}");
-        let Some(name) = found.values.view(&path).text("name") else { continue };
-        let (name, first) = (name.to_owned(), *seen.entry(name.to_lowercase()).or_insert(index));
-        let message = || format!("operations {} and {} are both named \"{name}\"", first + 1, index + 1);
-        let way_out = "give each operation its own name; capitals do not count, because folders are named after them";
-        found.blame(first != index, &join(&path, "name"), message, way_out);
+    for (list, what, written) in [("operation", "operations", "folders are"), ("picture", "pictures", "files are")] {
+        let mut seen: BTreeMap<String, usize> = BTreeMap::new();
+        for index in 0..found.values.count(list) {
+            let path = format!("{list}.{index}");
+            let Some(name) = found.values.view(&path).text("name") else { continue };
+            let (name, first) = (name.to_owned(), *seen.entry(name.to_lowercase()).or_insert(index));
+            let message = || format!("{what} {} and {} are both named \"{name}\"", first + 1, index + 1);
+            let way_out =
+                format!("give each {list} its own name; capitals do not count, because {written} named after them");
+            found.blame(first != index, &join(&path, "name"), message, &way_out);
+        }
     }
+}
+
+fn picture_tooth(found: &mut Found, path: &str) -> Option<()> {
+    let (tooth, teeth) = (found.values.view(path).whole("tooth")?, found.view("gear").whole("teeth")?);
+    let message = || format!("`picture.tooth`: there is no tooth {tooth} on a gear of {teeth}");
+    found.blame(tooth > teeth, &join(path, "tooth"), message, "teeth are counted from 1, the first at phi > 0");
+    Some(())
 }
 
 fn window(found: &mut Found, path: &str) -> Option<()> {

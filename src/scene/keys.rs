@@ -10,6 +10,7 @@
 mod gear;
 mod machine;
 mod operation;
+mod picture;
 mod range;
 mod texture;
 mod tool;
@@ -128,9 +129,10 @@ pub enum Role {
     /// A table, there even when it is not written.
     Plain,
     /// A list of tables, `[[operation]]`.
-    List,
-    /// A list of tables that may be left out, `[[texture]]`.
-    OptionalList,
+    List {
+        /// Shortest list that may be written.
+        fewest: usize,
+    },
     /// A table that holds exactly one of its variants, as a table of that name.
     Choice {
         /// Variant that holds when none is written; `None`: one must be written.
@@ -148,9 +150,18 @@ const ROOT: Section = Section { path: "", role: Role::Plain, keys: &[], groups: 
 /// All sections in the order of a scene file; a section stands after the one that holds it.
 pub fn sections() -> impl Iterator<Item = &'static Section> {
     static FIRST: &[Section] = &[ROOT];
-    [FIRST, gear::SECTIONS, tool::SECTIONS, machine::BEFORE_OPERATIONS, operation::SECTIONS, texture::SECTIONS, machine::AFTER_OPERATIONS]
-        .into_iter()
-        .flatten()
+    [
+        FIRST,
+        gear::SECTIONS,
+        tool::SECTIONS,
+        machine::BEFORE_OPERATIONS,
+        operation::SECTIONS,
+        texture::SECTIONS,
+        machine::AFTER_OPERATIONS,
+        picture::SECTIONS,
+    ]
+    .into_iter()
+    .flatten()
 }
 
 /// The section of this path, `[]` included.
@@ -185,11 +196,6 @@ impl Section {
         self.path.rsplit('.').next().unwrap_or_default().trim_end_matches("[]")
     }
 
-    /// Whether it is a list of tables.
-    pub fn is_list(&self) -> bool {
-        matches!(self.role, Role::List | Role::OptionalList)
-    }
-
     /// Path of the section that holds this one.
     pub fn parent_path(&self) -> &'static str {
         self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
@@ -203,7 +209,7 @@ impl Section {
     /// How the section's header is written: `[gear]`, `[[operation]]`, `[operation.linkage.shaping_normal]`.
     pub fn header(&self) -> String {
         let path = self.path.replace("[]", "");
-        if self.is_list() { format!("[[{path}]]") } else { format!("[{path}]") }
+        if matches!(self.role, Role::List { .. }) { format!("[[{path}]]") } else { format!("[{path}]") }
     }
 }
 

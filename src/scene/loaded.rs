@@ -63,7 +63,10 @@ pub fn parse(text: &str, file_name: &str, base_dir: &Path, overrides: &[String])
             return Err(SceneErrors::new(problems.list));
         }
     };
-    imply_operation(&mut root);
+    imply(&mut root, "operation", &[&[("name", "finish")]]);
+    // Texture windows that are not listed are chosen when the gear is known.
+    imply(&mut root, "texture", &[]);
+    imply(&mut root, "picture", PICTURES);
     for (index, argument) in overrides.iter().enumerate() {
         if let Err(problem) = overrides::apply(&mut root, index, argument) {
             problems.list.push(problem);
@@ -80,19 +83,27 @@ pub fn parse(text: &str, file_name: &str, base_dir: &Path, overrides: &[String])
     }
 }
 
-/// A scene without operations cuts one, named finish, with all defaults.
-fn imply_operation(root: &mut Node) {
-    if root.entry("operation").is_some() {
+/// Pictures of a scene that lists none.
+const PICTURES: &[&[(&str, &str)]] = &[
+    &[("name", "gear"), ("view", "gear")],
+    &[("name", "tooth"), ("view", "tooth")],
+    &[("name", "flank"), ("view", "flank")],
+];
+
+/// Puts in a list that is not written: elements with these texts and all other defaults. A scene without operations cuts one, named finish.
+fn imply(root: &mut Node, list: &str, elements: &[&[(&str, &str)]]) {
+    if root.entry(list).is_some() {
         return;
     }
-    let entry = |name: &str, value: Value| Entry {
-        name: name.to_owned(),
-        name_at: At::Implied,
-        node: Node { value, at: At::Implied },
+    let implied = |value: Value| Node { value, at: At::Implied };
+    let entry = |name: &str, value: Value| Entry { name: name.to_owned(), name_at: At::Implied, node: implied(value) };
+    let element = |texts: &&[(&str, &str)]| {
+        let entries = texts.iter().map(|(name, text)| entry(name, Value::Text((*text).to_owned())));
+        implied(Value::Table(entries.collect()))
     };
-    let finish = Node { value: Value::Table(vec![entry("name", Value::Text("finish".to_owned()))]), at: At::Implied };
+    let elements = elements.iter().map(element).collect();
     if let Some(entries) = root.entries_mut() {
-        entries.push(entry("operation", Value::List(vec![finish])));
+        entries.push(entry(list, Value::List(elements)));
     }
 }
 
@@ -137,7 +148,7 @@ impl LoadedScene {
         let by_name = || self.scene.operations.iter().position(|operation| operation.name == first);
         match by_number.or_else(by_name) {
             Some(index) => vec![join(&format!("operation.{index}"), deeper)],
-            None => (0..self.values.operations).map(|index| format!("operation.{index}.{rest}")).collect(),
+            None => (0..self.values.count("operation")).map(|index| format!("operation.{index}.{rest}")).collect(),
         }
     }
 }

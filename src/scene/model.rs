@@ -3,6 +3,7 @@
 //! Comes from [`super::load`], goes to `run`. Nothing here knows about TOML. Keys of the scene file
 //! are the field names with their unit (`face_width_mm`, `pressure_angle_deg`); angles are radians here.
 
+use crate::gear::generation::Side;
 use crate::measure::topography::Form;
 use std::path::PathBuf;
 
@@ -27,6 +28,8 @@ pub struct Scene {
     pub measure: Measure,
     /// What is written.
     pub output: Output,
+    /// Pictures to draw.
+    pub pictures: Vec<Picture>,
 }
 
 /// The gear: pitch curve, teeth and blank.
@@ -379,4 +382,55 @@ pub struct Output {
     pub mesh_spacing_mm: f64,
     /// Folder given in the scene, if any; the command line wins.
     pub folder: Option<PathBuf>,
+}
+
+/// One picture of the cut gear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// Name of its files, unique in the scene.
+    pub name: String,
+    /// What is shown.
+    pub view: PictureView,
+    /// Tooth, from 1; for the views tooth and flank.
+    pub tooth: u32,
+    /// Flank; for the view flank.
+    pub side: Side,
+    /// What colours show.
+    pub colour: PictureColour,
+    /// Where the viewer stands: counter-clockwise from phi = 0, from the tooth's direction, or from the root of a rolled-out flank.
+    pub azimuth_rad: f64,
+    /// How high over the transverse plane, or over the rolled-out flank.
+    pub elevation_rad: f64,
+    /// Width of the picture at the object; `None`: what the view shows by itself.
+    pub extent_mm: Option<f64>,
+    /// Factor on the heights of a flank; `None`: chosen from the heights.
+    pub exaggeration: Option<f64>,
+    /// Width and height without title and legend.
+    pub size_px: (u32, u32),
+    /// Write the values behind the pixels as EXR.
+    pub exr: bool,
+}
+
+/// What a picture shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureView {
+    /// The whole gear.
+    Gear,
+    /// A tooth with its neighbours.
+    Tooth,
+    /// A flank rolled out flat, heights exaggerated, under raking light.
+    Flank,
+}
+
+/// What the colours of a picture show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureColour {
+    /// Normal stock that the last operation found.
+    Stock,
+    /// Height over the target.
+    Height,
+    /// Pass that left the surface.
+    Pass,
+    /// Nothing.
+    Clay,
 }

@@ -64,7 +64,7 @@ fn put(root: &mut Node, names: &[&str], value: Node, name_at: At) -> Result<(), 
         pattern = child.map_or_else(|| join(&pattern, name), |child| child.path.to_owned());
         node = &mut entry.node;
         rest = deeper;
-        if child.is_some_and(|child| child.is_list())
+        if child.is_some_and(|child| matches!(child.role, Role::List { .. }))
             && let Some((&which, deeper)) = rest.split_first()
         {
             node = element(node, name, which)?;
@@ -97,22 +97,23 @@ fn element<'a>(list: &'a mut Node, list_name: &str, which: &str) -> Result<&'a m
     let Value::List(items) = &mut list.value else {
         return Err(format!("`{list_name}` is not a list in this scene"));
     };
-    let names: Vec<String> = items.iter().enumerate().map(|(index, item)| element_name(item, index)).collect();
+    let names: Vec<String> =
+        items.iter().enumerate().map(|(index, item)| element_name(item, list_name, index)).collect();
     let found = which.parse::<usize>().ok().or_else(|| names.iter().position(|name| name == which));
     found
         .and_then(|index| items.get_mut(index))
         .ok_or_else(|| format!("there is no {list_name} `{which}`; this scene has {}", keys::either(names.into_iter())))
 }
 
-/// Name of an operation: as written, or by its place.
-fn element_name(item: &Node, index: usize) -> String {
+/// Name of an element: as written, or by its place.
+fn element_name(item: &Node, list_name: &str, index: usize) -> String {
     match item.entry("name").map(|entry| &entry.node.value) {
         Some(Value::Text(name)) => name.clone(),
-        _ => default_name(index),
+        _ => default_name(list_name, index),
     }
 }
 
-/// Name of an operation that has none: `operation_1` for the first.
-pub(super) fn default_name(index: usize) -> String {
-    format!("operation_{}", index + 1)
+/// Name of an element that has none: `operation_1` for the first operation.
+pub(super) fn default_name(list_name: &str, index: usize) -> String {
+    format!("{list_name}_{}", index + 1)
 }

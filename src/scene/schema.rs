@@ -28,8 +28,10 @@ fn table(section: &'static Section) -> Map<String, Value> {
     }
     for child in section.children() {
         let inner = Value::Object(table(child));
-        let value =
-            if child.is_list() { json!({ "type": "array", "minItems": 1, "items": inner }) } else { inner };
+        let value = match child.role {
+            Role::List { fewest } => json!({ "type": "array", "minItems": fewest, "items": inner }),
+            _ => inner,
+        };
         properties.insert(child.name().to_owned(), value);
     }
     let mut schema = Map::new();
@@ -70,7 +72,7 @@ fn required_names(section: &'static Section) -> impl Iterator<Item = &'static st
 /// Whether a table must be written: it asks for something, and it is not one of several to choose from.
 fn must_be_there(section: &'static Section) -> bool {
     match section.role {
-        Role::Variant | Role::List | Role::OptionalList => false,
+        Role::Variant | Role::List { .. } => false,
         Role::Choice { default, .. } => default.is_none(),
         Role::Plain => required_names(section).next().is_some(),
     }

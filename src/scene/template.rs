@@ -55,7 +55,7 @@ fn write_section(out: &mut String, section: &'static Section) {
 fn is_active(section: &Section) -> bool {
     let choice = keys::section(section.parent_path()).map(|parent| parent.role);
     match (section.role, choice) {
-        (Role::OptionalList, _) => false,
+        (Role::List { fewest }, _) => fewest > 0,
         (Role::Variant, Some(Role::Choice { default, .. })) => default.is_none_or(|name| name == section.name()),
         _ => true,
     }

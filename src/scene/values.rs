@@ -38,10 +38,8 @@ pub(super) struct Values {
     pub variants: BTreeMap<String, &'static str>,
     /// Where each section that was written begins.
     pub sections: BTreeMap<String, At>,
-    /// How many operations there are.
-    pub operations: usize,
-    /// How many texture windows are asked for.
-    pub textures: usize,
+    /// How many elements each list has: `operation` -> 2.
+    pub counts: BTreeMap<&'static str, usize>,
 }
 
 /// The values of one section.
@@ -55,6 +53,11 @@ impl Values {
     /// The values under `path`.
     pub fn view<'a>(&'a self, path: &'a str) -> View<'a> {
         View { values: self, path }
+    }
+
+    /// How many elements a list has.
+    pub fn count(&self, list: &str) -> usize {
+        self.counts.get(list).copied().unwrap_or(0)
     }
 
     /// Place of a value or section, or of the nearest section around it that was written.

@@ -88,10 +88,8 @@ impl Walk<'_, '_> {
                 let entry = table.entry(child.name());
                 let node = entry.map_or(&implied, |entry| &entry.node);
                 let at = entry.map_or(&At::Implied, |entry| &entry.name_at);
-                if child.role == Role::List || (child.is_list() && entry.is_some()) {
-                    self.list(child, &child_path, node, at);
-                } else if child.is_list() {
-                    // Left out, as it may be.
+                if let Role::List { fewest } = child.role {
+                    self.list(child, fewest, &child_path, node, at);
                 } else {
                     self.table(child, &child_path, node, at);
                 }
@@ -100,23 +98,20 @@ impl Walk<'_, '_> {
     }
 
     /// Checks the elements of a list of tables.
-    fn list(&mut self, section: &'static Section, path: &str, list: &Node, at: &At) {
+    fn list(&mut self, section: &'static Section, fewest: usize, path: &str, list: &Node, at: &At) {
         let name = section.name();
         match &list.value {
-            Value::List(items) if items.is_empty() => self.problems.add(
+            Value::List(items) if items.len() < fewest => self.problems.add(
                 at,
-                format!("`{name}` is an empty list"),
-                format!("write at least one [[{name}]], or leave the list out: then its default holds"),
+                format!("`{name}` is an empty list: nothing would be cut"),
+                format!("write at least one [[{name}]], or leave the list out for a single finishing cut"),
             ),
             Value::List(items) => {
                 for (index, item) in items.iter().enumerate() {
                     let item_at = if item.at == At::Implied { at } else { &item.at };
                     self.table(section, &format!("{path}.{index}"), item, item_at);
                 }
-                match section.role {
-                    Role::OptionalList => self.values.textures = items.len(),
-                    _ => self.values.operations = items.len(),
-                }
+                self.values.counts.insert(name, items.len());
             }
             _ => self.problems.add(
                 at,
@@ -265,9 +260,14 @@ impl Walk<'_, '_> {
         if let Some(module_mm) = module_mm {
             self.default("gear", "face_width_mm", Checked::Number((10.0 * module_mm).min(1000.0)));
         }
-        for index in 0..self.values.operations {
+        for (list, count) in self.values.counts.clone() {
+            let is_named = keys::section(&format!("{list}[]")).is_some_and(|s| s.keys.iter().any(|k| k.name == "name"));
+            for index in (0..count).filter(|_| is_named) {
+                self.default(&format!("{list}.{index}"), "name", Checked::Text(default_name(list, index)));
+            }
+        }
+        for index in 0..self.values.count("operation") {
             let path = format!("operation.{index}");
-            self.default(&path, "name", Checked::Text(default_name(index)));
             if let Some(teeth) = teeth
                 && !self.values.written.contains(&join(&path, "circular_feed_mm_per_stroke"))
             {

@@ -11,22 +11,28 @@ use super::values::{Checked, Values};
 pub(super) fn resolved(name: &str, values: &Values) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let mut out = format!("# Scene {name} with every default filled in, written by gearcut {version}.\n");
-    let inside_operation = |section: &&Section| section.path.starts_with("operation[]");
-    for section in keys::sections().take_while(|section| !inside_operation(section)) {
-        write_section(&mut out, section, section.path, values);
-    }
-    for index in 0..values.operations {
-        for section in keys::sections().filter(inside_operation) {
-            let path = section.path.replacen("[]", &format!(".{index}"), 1);
-            write_section(&mut out, section, &path, values);
+    // Empty lists are keys of the file itself, which come before its first table.
+    for section in keys::sections().filter(|section| matches!(section.role, Role::List { .. })) {
+        if values.count(section.name()) == 0 {
+            let _ = writeln!(out, "{} = []", section.name());
         }
     }
-    for section in keys::sections().skip_while(|section| !inside_operation(section)).filter(|s| !inside_operation(s)) {
-        match section.role {
-            Role::OptionalList => (0..values.textures).for_each(|index| {
-                write_section(&mut out, section, &section.path.replacen("[]", &format!(".{index}"), 1), values);
-            }),
-            _ => write_section(&mut out, section, section.path, values),
+    let mut sections = keys::sections().peekable();
+    while let Some(section) = sections.next() {
+        let Some((list, _)) = section.path.split_once("[]") else {
+            write_section(&mut out, section, section.path, values);
+            continue;
+        };
+        // The list's own sections follow each other; they are written element by element.
+        let mut inside = vec![section];
+        while let Some(next) = sections.next_if(|next| next.path.split_once("[]").is_some_and(|(l, _)| l == list)) {
+            inside.push(next);
+        }
+        for index in 0..values.count(list) {
+            for section in &inside {
+                let path = section.path.replacen("[]", &format!(".{index}"), 1);
+                write_section(&mut out, section, &path, values);
+            }
         }
     }
     out
@@ -36,7 +42,7 @@ pub(super) fn resolved(name: &str, values: &Values) -> String {
 fn write_section(out: &mut String, section: &Section, path: &str, values: &Values) {
     let is_header = match section.role {
         Role::Choice { .. } => false,
-        Role::List | Role::OptionalList => true,
+        Role::List { .. } => true,
         Role::Plain => !section.keys.is_empty(),
         Role::Variant => {
             let choice = path.rsplit_once('.').map_or("", |(choice, _)| choice);

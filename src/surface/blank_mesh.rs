@@ -77,7 +77,7 @@ impl BlankMesh {
         let low = builder.triangles.len();
         builder.end_face(&rims[1], false);
         let all = builder.triangles.len();
-        let part = |name: &str, triangles| Part { name: name.to_owned(), triangles };
+        let part = |name: &str, triangles| Part { name: name.to_owned(), triangles, measured: name == "outline" };
         let parts =
             vec![part("outline", 0..outline), part("end_face_low", outline..low), part("end_face_high", low..all)];
         let heights = target.map(|target| {

@@ -125,7 +125,7 @@ impl SurfaceGrid {
                 if outward { [[a, b, d], [a, d, e]] } else { [[a, d, b], [a, e, d]] }
             })
             .collect();
-        let parts = vec![Part { name: name.to_owned(), triangles: 0..triangles.len() }];
+        let parts = vec![Part { name: name.to_owned(), triangles: 0..triangles.len(), measured: true }];
         Mesh { positions_mm, triangles, scalars: self.scalars(), parts }
     }
 

@@ -63,22 +63,22 @@ pub fn gear_solid(outline: &Outline, bore_diameter_mm: f64) -> Result<Mesh, Refu
             sewn[part].extend([[p, q, s], [p, s, t]]);
         }
     }
-    let mut add = |name: &str, triangles: Vec<[u32; 3]>| {
+    let mut add = |name: &str, triangles: Vec<[u32; 3]>, measured: bool| {
         if !triangles.is_empty() {
             let start = mesh.triangles.len();
             mesh.triangles.extend(triangles);
-            mesh.parts.push(Part { name: name.to_owned(), triangles: start..mesh.triangles.len() });
+            mesh.parts.push(Part { name: name.to_owned(), triangles: start..mesh.triangles.len(), measured });
         }
     };
     for (name, triangles) in outline.parts.iter().zip(sewn) {
-        add(name, triangles);
+        add(name, triangles, true);
     }
     let wall = (0..bore_columns).flat_map(|c| {
         let next = (c + 1) % bore_columns;
         let [p, q, s, t] = [bore_at(c, 0), bore_at(next, 0), bore_at(next, 1), bore_at(c, 1)];
         [[p, s, q], [p, t, s]]
     });
-    add("bore", wall.collect());
+    add("bore", wall.collect(), false);
     for (end, row, name) in [(0, 0, "face_bottom"), (1, rows - 1, "face_top")] {
         let outer = outline.row_mm(row);
         let vertex = |i: usize| if i < columns { at(i, row) } else { bore_at(i - columns, end) };
@@ -86,7 +86,7 @@ pub fn gear_solid(outline: &Outline, bore_diameter_mm: f64) -> Result<Mesh, Refu
             .into_iter()
             .map(|[a, b, c]| if end == 1 { [a, b, c] } else { [a, c, b] }.map(vertex))
             .collect();
-        add(name, triangles);
+        add(name, triangles, false);
     }
     let bore_vertices = 2 * bore_columns;
     let values = |pick: fn(&super::outline::OutlineColumn) -> &Vec<f32>| -> Vec<f32> {

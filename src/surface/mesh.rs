@@ -41,6 +41,8 @@ pub struct Part {
     pub name: String,
     /// Its triangles.
     pub triangles: Range<usize>,
+    /// Whether the vertices' values are the surface's own. An end face shares the vertices of the flanks round it, but not their heights.
+    pub measured: bool,
 }
 
 /// Triangles in the gear frame.

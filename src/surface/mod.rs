@@ -11,6 +11,8 @@
 //! | all of them in one closed chain of columns | [`outline`] |
 //! | the gear as one closed body | [`gear_solid`] |
 //! | the target gear, thinned out for the report's 3D view | [`view_mesh`] |
+//! | the section of the half-cut work | [`section`] |
+//! | pictures of meshes | [`render`] |
 
 pub mod blank_mesh;
 mod dual_cells;
@@ -20,6 +22,7 @@ pub mod gear_surfaces;
 pub mod mesh;
 pub mod outline;
 pub mod render;
+pub mod section;
 pub mod view_mesh;
 
 pub use blank_mesh::BlankMesh;

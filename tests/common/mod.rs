@@ -47,6 +47,7 @@ pub fn paper_scene(operations: Vec<Operation>) -> Scene {
         },
         measure: Measure { profile_start_height_mm: None, profile_end_height_mm: None },
         output: Output { map_spacing_mm: 0.1, mesh_spacing_mm: 0.1, folder: None },
+        pictures: Vec::new(),
     }
 }
 

@@ -31,7 +31,7 @@ const STROKES: Key = Key {
 pub(super) static SECTIONS: &[Section] = &[
     Section {
         path: "operation[]",
-        role: Role::List,
+        role: Role::List { fewest: 1 },
         keys: &[
             Key {
                 name: "name",

@@ -5,7 +5,7 @@ use super::{Default, Key, Kind, Range, Role, Section};
 /// `[[texture]]`.
 pub(super) static SECTIONS: &[Section] = &[Section {
     path: "texture[]",
-    role: Role::OptionalList,
+    role: Role::List { fewest: 0 },
     keys: &[
         Key {
             name: "tooth",

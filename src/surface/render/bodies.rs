@@ -29,13 +29,11 @@ pub enum Look {
         name: &'static str,
         /// Its colours.
         scale: ColourScale,
-        /// Factor between the mesh's values and the scale's.
-        factor: f32,
     },
 }
 
 /// Clay.
-pub const CLAY: Look = Look::Plain { colour: [0.56, 0.53, 0.49], gloss: 0.05 };
+pub const CLAY: Look = Look::Plain { colour: [0.50, 0.475, 0.44], gloss: 0.05 };
 /// Steel of a tool.
 pub const STEEL: Look = Look::Plain { colour: [0.30, 0.36, 0.44], gloss: 0.6 };
 
@@ -119,20 +117,22 @@ impl<'a> Stage<'a> {
         let normal = facing(normal.try_normalize().unwrap_or(flat));
         let vertices = mesh.triangles[triangle].map(|v| v as usize);
         let nearest = vertices[(0..3).max_by(|&i, &j| weights[i].total_cmp(&weights[j])).unwrap_or(0)];
-        let pass = mesh.scalar("pass_id").and_then(|scalar| match &scalar.values {
+        let part = mesh.parts.partition_point(|part| part.triangles.end <= triangle);
+        let measured = mesh.parts.get(part).is_none_or(|part| part.measured);
+        let pass = mesh.scalar("pass_id").filter(|_| measured).and_then(|scalar| match &scalar.values {
             ScalarValues::U32(values) => Some(values[nearest]),
             ScalarValues::F32(_) => None,
         });
         let (colour, gloss, value) = match look {
             Look::Plain { colour, gloss } => (colour, gloss, f32::NAN),
-            Look::Scalar { name, scale, factor } => {
-                let value = match mesh.scalar(name).map(|scalar| &scalar.values) {
+            Look::Scalar { name, scale } => {
+                let value = match mesh.scalar(name).filter(|_| measured).map(|scalar| &scalar.values) {
                     Some(ScalarValues::F32(values)) => {
                         let sum: f64 = (0..3).map(|k| weights[k] * f64::from(values[vertices[k]])).sum();
-                        sum as f32 * factor
+                        sum as f32
                     }
                     // Identifiers have no values in between.
-                    Some(ScalarValues::U32(values)) if values[nearest] != u32::MAX => values[nearest] as f32 * factor,
+                    Some(ScalarValues::U32(values)) if values[nearest] != u32::MAX => values[nearest] as f32,
                     _ => f32::NAN,
                 };
                 let colour = if value.is_nan() { BARE } else { scale.colour(value).map(linear) };
@@ -144,7 +144,7 @@ impl<'a> Stage<'a> {
 }
 
 /// Where a coloured body has no value: light clay, which no scale contains.
-const BARE: [f64; 3] = [0.50, 0.49, 0.47];
+const BARE: [f64; 3] = [0.45, 0.44, 0.42];
 
 /// sRGB component (IEC 61966-2-1) to linear light, 0 to 1.
 pub fn linear(component: u8) -> f64 {
@@ -237,11 +237,10 @@ mod tests {
         mesh.scalars.push(crate::surface::flanks::height_scalar(heights));
         mesh.scalars.push(crate::surface::flanks::pass_scalar((0..128).collect()));
         let scale = ColourScale::Sequential { low: 0.0, high: 10.0 };
-        let stage =
-            Stage::new(vec![Body { mesh: &mesh, look: Look::Scalar { name: "height_um", scale, factor: 2.0 } }]);
+        let stage = Stage::new(vec![Body { mesh: &mesh, look: Look::Scalar { name: "height_um", scale } }]);
         let found = stage.first(DVec3::new(30.0, 0.0, 2.0), DVec3::NEG_X).expect("meets the wall");
         assert!((found.distance_mm - 20.0).abs() < 1e-9);
-        assert!((found.value - 4.0).abs() < 1e-5);
+        assert!((found.value - 2.0).abs() < 1e-5);
         assert!(found.normal.distance(DVec3::X) < 1e-9);
         assert_eq!(found.pass, Some(0));
         assert!(stage.is_blocked(DVec3::ZERO, DVec3::X, 10.5) && !stage.is_blocked(DVec3::ZERO, DVec3::X, 9.5));

@@ -18,9 +18,9 @@ use rayon::prelude::*;
 /// Rays per pixel along one side.
 const SIDE: u32 = 2;
 /// Sky rays per camera ray.
-const SKY_RAYS: u32 = 2;
-/// Pixels to each side over which the sky's share is averaged.
-const SMOOTH_PX: i64 = 3;
+const SKY_RAYS: u32 = 1;
+/// Rounds over which the sky's share is averaged: squares of 7 by 7 pixels that lie this many pixels apart (the à-trous scheme of Dammertz et al., 2010).
+const SMOOTH_STEPS_PX: [i64; 2] = [1, 4];
 /// Radius of the lamp at unit distance: shadows grow soft by a fiftieth of their length.
 const LAMP_RADIUS: f64 = 0.02;
 /// Rays start this share of the stage's size off the surface, so that they do not meet it again.
@@ -35,13 +35,15 @@ pub struct Lights {
     pub lamp_share: f64,
     /// How far surfaces take the sky from each other, as a share of the stage's size.
     pub sky_reach: f64,
+    /// Brightness of a white surface that faces the lamp, before the shares: above 1 where the lamp grazes.
+    pub gain: f64,
 }
 
 impl Lights {
     /// A lamp over the viewer's left shoulder and a wide sky: for whole bodies.
     pub fn studio(camera: &Camera) -> Self {
         let lamp = (0.9 * camera.towards + 0.65 * camera.up - 0.75 * camera.right).normalize();
-        Self { lamp, lamp_share: 0.55, sky_reach: 0.25 }
+        Self { lamp, lamp_share: 0.48, sky_reach: 0.25, gain: 1.55 }
     }
 }
 
@@ -94,29 +96,13 @@ pub fn render(stage: &Stage, camera: &Camera, lights: &Lights, interrupt: &Inter
         })
         .collect::<Result<_, Error>>()?;
     let pixels: Vec<(Pixel, Option<Found>)> = rows.into_iter().flatten().collect();
-    let at = |x: i64, y: i64| {
-        let inside = (0..i64::from(width)).contains(&x) && (0..i64::from(height)).contains(&y);
-        inside.then(|| &pixels[(y * i64::from(width) + x) as usize].0)
-    };
-    let rgb = (0..pixels.len() as i64)
-        .into_par_iter()
-        .map(|i| {
-            let (x, y) = (i % i64::from(width), i / i64::from(width));
-            let here = &pixels[i as usize].0;
-            let (mut asked, mut free) = (0, 0);
-            for dy in -SMOOTH_PX..=SMOOTH_PX {
-                for dx in -SMOOTH_PX..=SMOOTH_PX {
-                    let Some(other) = at(x + dx, y + dy) else { continue };
-                    let reach_mm = 6.0 * camera.pixel_mm() * SMOOTH_PX as f64;
-                    if other.normal.dot(here.normal) > 0.9 && (other.depth_mm - here.depth_mm).abs() < reach_mm {
-                        asked += other.asked;
-                        free += other.free;
-                    }
-                }
-            }
-            let open = f64::from(free) / f64::from(asked.max(1));
+    let open = smoothed(&pixels, camera);
+    let rgb = pixels
+        .par_iter()
+        .zip(&open)
+        .map(|((here, _), open)| {
             let empty = f64::from(SIDE * SIDE - here.met);
-            let light = (here.lamp + here.sky * open + DVec3::splat(empty)) / f64::from(SIDE * SIDE);
+            let light = (here.lamp + here.sky * f64::from(*open) + DVec3::splat(empty)) / f64::from(SIDE * SIDE);
             light.to_array().map(srgb)
         })
         .collect();
@@ -129,6 +115,40 @@ pub fn render(stage: &Stage, camera: &Camera, lights: &Lights, interrupt: &Inter
         value: found().map(|f| f.map_or(f32::NAN, |f| f.value)).collect(),
         pass: found().map(|f| f.and_then(|f| f.pass).unwrap_or(crate::dexel::NO_PASS)).collect(),
     })
+}
+
+/// Share of the sky that every pixel sees, averaged over neighbours on the same smooth surface.
+fn smoothed(pixels: &[(Pixel, Option<Found>)], camera: &Camera) -> Vec<f32> {
+    let (width, height) = (i64::from(camera.size_px.0), i64::from(camera.size_px.1));
+    let mut sums: Vec<[f32; 2]> = pixels.iter().map(|(p, _)| [p.free as f32, p.asked as f32]).collect();
+    for step in SMOOTH_STEPS_PX {
+        // Neighbours further away in depth than twice as far as in the picture lie on another surface.
+        let reach_mm = 6.0 * step as f64 * camera.pixel_mm();
+        sums = (0..pixels.len() as i64)
+            .into_par_iter()
+            .map(|i| {
+                let (x, y) = (i % width, i / width);
+                let here = &pixels[i as usize].0;
+                let (mut free, mut asked) = (0.0, 0.0);
+                for dy in -3..=3 {
+                    for dx in -3..=3 {
+                        let (x, y) = (x + step * dx, y + step * dy);
+                        if !(0..width).contains(&x) || !(0..height).contains(&y) {
+                            continue;
+                        }
+                        let index = (y * width + x) as usize;
+                        let other = &pixels[index].0;
+                        if other.normal.dot(here.normal) > 0.9 && (other.depth_mm - here.depth_mm).abs() < reach_mm {
+                            free += sums[index][0];
+                            asked += sums[index][1];
+                        }
+                    }
+                }
+                [free, asked]
+            })
+            .collect();
+    }
+    sums.iter().map(|[free, asked]| if *asked > 0.0 { free / asked } else { 0.0 }).collect()
 }
 
 fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y: u32) -> (Pixel, Option<Found>) {
@@ -155,11 +175,11 @@ fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y
         if cosine > 0.0 && found.flat.dot(lamp) > 0.0 && !stage.is_blocked(place_mm, lamp, far_mm) {
             let half = (lamp + camera.towards).normalize();
             let highlight = found.gloss * found.normal.dot(half).max(0.0).powi(40);
-            gathered.lamp += lights.lamp_share * (1.35 * cosine * colour + DVec3::splat(0.5 * highlight));
+            gathered.lamp += lights.lamp_share * (lights.gain * cosine * colour + DVec3::splat(0.5 * highlight));
         }
         // The sky is a little brighter above than below, as in a room: faces turned away from the lamp keep their shape.
         let sky = 0.75 + 0.25 * found.normal.dot(camera.up);
-        gathered.sky += (1.0 - lights.lamp_share) * 1.35 * sky * colour;
+        gathered.sky += (1.0 - lights.lamp_share) * 1.7 * sky * colour;
         let tangent = found.normal.any_orthonormal_vector();
         let bitangent = found.normal.cross(tangent);
         for _ in 0..SKY_RAYS {

@@ -1,0 +1,257 @@
+//! Pictures of a run: the gear, a tooth, a flank under raking light, as the scene lists them.
+//!
+//! Gear and teeth are drawn from the closed body that is written as mesh. A flank is cut again, at the spacing of its dexels and only as wide as the picture: rolled out flat, so that the height over
+//! the target is all that is left of its shape, and light from the tip grazes every feed mark alike. The factor on its heights stands in the picture.
+
+use super::meshes::stock_scale;
+use crate::cut::Backend;
+use crate::dexel::NO_PASS;
+use crate::error::{Error, Result};
+use crate::gear::generation::Side;
+use crate::job::Job;
+use crate::output::colormap::ColourScale;
+use crate::output::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
+use crate::output::folder::OutputFolder;
+use crate::output::grid::{MapAxis, MapGrid};
+use crate::output::interrupt::Interrupt;
+use crate::output::progress::Progress;
+use crate::output::render_png::{Legend, RenderPicture, write_render_png};
+use crate::scene::model::{Picture, PictureColour, PictureView};
+use crate::surface::mesh::ScalarValues;
+use crate::surface::render::{Body, CLAY, Camera, Lights, Look, Rendered, Stage, render};
+use crate::surface::{Mesh, SurfaceGrid};
+use crate::units::UM_PER_MM;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Exaggerated feed marks lean about this much: steep enough for raking light to tell their sides apart, flat enough to hide nothing.
+const MARK_SLOPE: f64 = 0.12;
+/// The lamp over a rolled-out flank stands this high, rad: marks that lean by [`MARK_SLOPE`] stay in its light.
+const RAKING_RAD: f64 = 0.28;
+
+/// Draws all pictures of the scene into `pictures/`; how many were finished before Ctrl-C.
+///
+/// # Errors
+/// The backend's; files that cannot be written.
+pub fn draw(
+    job: &Job,
+    backend: &dyn Backend,
+    solid: &Mesh,
+    progress: &Progress,
+    interrupt: &Interrupt,
+    folder: &OutputFolder,
+    notes: &[(String, String)],
+) -> Result<usize> {
+    let pictures = &job.scene.pictures;
+    if pictures.is_empty() {
+        return Ok(0);
+    }
+    let step = progress.step("pictures", pictures.len() as u64, "pictures");
+    for (done, picture) in pictures.iter().enumerate() {
+        let drawn = match picture.view {
+            PictureView::Gear | PictureView::Tooth => draw_solid(job, picture, solid, interrupt),
+            PictureView::Flank => draw_flank(job, backend, picture, interrupt),
+        };
+        match drawn {
+            Ok(drawn) => drawn.write(picture, folder, notes)?,
+            Err(Error::Interrupted) => return Ok(done),
+            Err(other) => return Err(other),
+        }
+        step.advance(1);
+    }
+    step.finish();
+    Ok(pictures.len())
+}
+
+/// A picture, drawn.
+struct Drawn {
+    title: String,
+    note: String,
+    camera: Camera,
+    rendered: Rendered,
+    legend: Option<Legend<'static>>,
+}
+
+impl Drawn {
+    fn write(&self, picture: &Picture, folder: &OutputFolder, notes: &[(String, String)]) -> Result<()> {
+        let pixel_mm = self.camera.pixel_mm();
+        let page = RenderPicture {
+            title: &self.title,
+            note: &self.note,
+            rendered: &self.rendered,
+            pixel_mm,
+            legend: self.legend,
+        };
+        write_render_png(&folder.path(format!("pictures/{}.png", picture.name))?, &page)?;
+        if picture.exr {
+            let map = exr(&self.rendered, self.legend, pixel_mm, &self.title, notes);
+            write_exr_map(&folder.path(format!("pictures/{}.exr", picture.name))?, &map)?;
+        }
+        Ok(())
+    }
+}
+
+/// What colours show on a mesh.
+fn look(job: &Job, colour: PictureColour, mesh: &Mesh) -> (Look, Option<Legend<'static>>) {
+    let (name, quantity, unit) = match colour {
+        PictureColour::Clay => return (CLAY, None),
+        PictureColour::Stock => ("stock_mm", "normal stock before the last operation", "mm"),
+        PictureColour::Height => ("height_um", "height over the target", "µm"),
+        PictureColour::Pass => ("pass_id", "pass that left the surface, counted in time", "1"),
+    };
+    let scale = match (colour, mesh.scalar(name).map(|scalar| &scalar.values)) {
+        (PictureColour::Stock, _) => stock_scale(job),
+        (_, Some(ScalarValues::F32(values))) => most_of(values),
+        (_, Some(ScalarValues::U32(values))) => {
+            let cut: Vec<f32> = values.iter().filter(|&&v| v != NO_PASS).map(|&v| v as f32).collect();
+            ColourScale::sequential_over([cut.as_slice()])
+        }
+        (_, None) => ColourScale::Sequential { low: 0.0, high: 1.0 },
+    };
+    (Look::Scalar { name, scale }, Some(Legend { quantity, unit, scale }))
+}
+
+/// Scale over most of the values: the ends that one in fifty exceed are marked at the colour bar.
+fn most_of(values: &[f32]) -> ColourScale {
+    let mut sorted: Vec<f32> = values.iter().copied().filter(|v| v.is_finite()).collect();
+    sorted.sort_unstable_by(f32::total_cmp);
+    let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied().unwrap_or(0.0);
+    ColourScale::Sequential { low: at(0.01), high: at(0.98) }
+}
+
+fn draw_solid(job: &Job, picture: &Picture, solid: &Mesh, interrupt: &Interrupt) -> Result<Drawn> {
+    let (look, legend) = look(job, picture.colour, solid);
+    let (mut camera, title) = match picture.view {
+        PictureView::Tooth => {
+            let pitch_mm = PI * job.scene.gear.module_mm;
+            let phi = job.curve.phi_at_arc(pitch_mm * (f64::from(picture.tooth) - 0.5));
+            let frame = job.curve.frame(phi);
+            let (front, left) = (frame.normal.extend(0.0), frame.tangent.extend(0.0));
+            let towards = Camera::direction(front, left, picture.azimuth_rad, picture.elevation_rad);
+            // The near end of the tooth is what the viewer looks at.
+            let near_mm = 0.5 * job.scene.gear.face_width_mm * picture.elevation_rad.signum();
+            let target_mm = frame.point_mm.extend(near_mm - pitch_mm * picture.elevation_rad.signum());
+            let camera = Camera::new(target_mm, towards, DVec3::Z, 3.5 * pitch_mm, picture.size_px);
+            (camera, format!("{}: tooth {}", job.scene.name, picture.tooth))
+        }
+        _ => {
+            let towards = Camera::direction(DVec3::X, DVec3::Y, picture.azimuth_rad, picture.elevation_rad);
+            let camera = Camera::new(DVec3::ZERO, towards, DVec3::Z, 1.0, picture.size_px).fitted(&solid.positions_mm);
+            (
+                camera,
+                format!(
+                    "{}: gear of {} teeth, module {} mm",
+                    job.scene.name, job.scene.gear.teeth, job.scene.gear.module_mm
+                ),
+            )
+        }
+    };
+    if let Some(extent_mm) = picture.extent_mm {
+        camera.extent_mm = extent_mm;
+    }
+    let stage = Stage::new(vec![Body { mesh: solid, look }]);
+    let rendered = render(&stage, &camera, &Lights::studio(&camera), interrupt)?;
+    Ok(Drawn { title, note: String::new(), camera, rendered, legend })
+}
+
+fn draw_flank(job: &Job, backend: &dyn Backend, picture: &Picture, interrupt: &Interrupt) -> Result<Drawn> {
+    let generation = job.target_generation();
+    let target = job.target_flank(&generation, picture.tooth, picture.side)?;
+    let width_mm = job.scene.gear.face_width_mm;
+    let extent_mm = picture.extent_mm.unwrap_or(0.6 * target.length_mm());
+    let reach_mm = (0.5 * extent_mm).min(0.5 * width_mm);
+    let mut field = job.flank_field(&target);
+    let rows = field.leads_mm.len();
+    let inside: Vec<f64> = field.leads_mm.iter().copied().filter(|lead| lead.abs() <= reach_mm).collect();
+    field.leads_mm = if inside.len() >= 2 { inside } else { vec![field.leads_mm[0], field.leads_mm[rows - 1]] };
+    let cut = job.cut(backend, field)?;
+    let grid = SurfaceGrid::new(&cut.field, &cut.layers, job.scene.fields.profile_spacing_mm);
+    let exaggeration = picture.exaggeration.unwrap_or_else(|| exaggeration(&grid));
+    let flat = rolled_out(&grid, exaggeration);
+    let (look, legend) = look(job, picture.colour, &flat);
+    let towards = Camera::direction(DVec3::NEG_Y, DVec3::X, picture.azimuth_rad, picture.elevation_rad);
+    let middle_mm = DVec3::new(0.0, 0.5 * target.length_mm(), 0.0);
+    let camera = Camera::new(middle_mm, towards, DVec3::Y, 1.04 * extent_mm, picture.size_px);
+    let stage = Stage::new(vec![Body { mesh: &flat, look }]);
+    let lamp = DVec3::new(0.0, RAKING_RAD.cos(), RAKING_RAD.sin());
+    let lights = Lights { lamp, lamp_share: 0.85, sky_reach: 0.02, gain: 1.35 / RAKING_RAD.sin() * 0.8 };
+    let rendered = render(&stage, &camera, &lights, interrupt)?;
+    let side = if picture.side == Side::Left { "left" } else { "right" };
+    let title =
+        format!("{}: tooth {}, {side} flank after {}", job.scene.name, picture.tooth, job.finishing().spec.name);
+    let note = format!("profile rolled out, root below, tip above; heights \u{d7} {exaggeration}; light from the tip");
+    Ok(Drawn { title, note, camera, rendered, legend })
+}
+
+/// Factor (1, 2 or 5 times a power of ten) that makes the median slope along the profile at most [`MARK_SLOPE`].
+fn exaggeration(grid: &SurfaceGrid) -> f64 {
+    let (rows, count) = (grid.rows(), grid.columns());
+    let mut slopes: Vec<f64> = (1..count)
+        .map(|c| {
+            let rise_um = f64::from(grid.height_um[c * rows] - grid.height_um[(c - 1) * rows]);
+            (rise_um / UM_PER_MM / (grid.arcs_mm[c] - grid.arcs_mm[c - 1])).abs()
+        })
+        .collect();
+    slopes.sort_unstable_by(f64::total_cmp);
+    let median = slopes.get(slopes.len() / 2).copied().unwrap_or(0.0);
+    let wanted = (MARK_SLOPE / median.max(1e-12)).clamp(1.0, 1e6);
+    let power = 10_f64.powf(wanted.log10().floor());
+    [5.0, 2.0, 1.0].into_iter().map(|factor| factor * power).find(|f| *f <= wanted).unwrap_or(1.0)
+}
+
+/// The grid as a plane: x along the tooth, y along the profile, z the height times a factor.
+fn rolled_out(grid: &SurfaceGrid, exaggeration: f64) -> Mesh {
+    let mut mesh = grid.mesh("flank");
+    let rows = grid.rows();
+    for (i, position_mm) in mesh.positions_mm.iter_mut().enumerate() {
+        let height_mm = f64::from(grid.height_um[i]) / UM_PER_MM;
+        *position_mm = DVec3::new(grid.leads_mm[i % rows], grid.arcs_mm[i / rows], exaggeration * height_mm);
+    }
+    mesh
+}
+
+fn exr(rendered: &Rendered, legend: Option<Legend>, pixel_mm: f64, title: &str, notes: &[(String, String)]) -> ExrMap {
+    let axis = |name: &str, meaning: &str, count: u32| MapAxis {
+        name: name.to_owned(),
+        meaning: meaning.to_owned(),
+        start_mm: -0.5 * pixel_mm * f64::from(count - 1),
+        step_mm: pixel_mm,
+        count: count as usize,
+    };
+    let (width, height) = rendered.size_px;
+    let channel = |name: &str, unit: &str, definition: &str, samples: Samples| MapChannel {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        definition: definition.to_owned(),
+        samples,
+    };
+    let normal = |k: usize| Samples::F32(rendered.normal.iter().map(|n| n[k]).collect());
+    let (value_unit, value_words) = legend.map_or(("1", "nothing"), |l| (l.unit, l.quantity));
+    let mut notes = notes.to_vec();
+    notes.push(("title".to_owned(), title.to_owned()));
+    notes.sort();
+    ExrMap {
+        grid: MapGrid { u: axis("y", "down the picture from its middle", height), v: axis("x", "to the right", width) },
+        frame: "picture plane of a parallel projection, mm at the object; normals in the frame of what is drawn"
+            .to_owned(),
+        channels: vec![
+            channel(
+                "depth_mm",
+                "mm",
+                "distance behind the plane through the picture's target; infinite where nothing stands",
+                Samples::F32(rendered.depth_mm.clone()),
+            ),
+            channel("normal_x", "1", "unit normal towards the viewer; zero where nothing stands", normal(0)),
+            channel("normal_y", "1", "unit normal towards the viewer; zero where nothing stands", normal(1)),
+            channel("normal_z", "1", "unit normal towards the viewer; zero where nothing stands", normal(2)),
+            channel(
+                "pass_id",
+                "1",
+                "pass that left the surface; 4294967295 where none is known",
+                Samples::U32(rendered.pass.clone()),
+            ),
+            channel("value", value_unit, value_words, Samples::F32(rendered.value.clone())),
+        ],
+        notes,
+    }
+}
