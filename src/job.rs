@@ -125,7 +125,7 @@ impl Job {
     }
 
     /// Where the gear axis sits off the work spindle, in the gear frame, mm.
-    fn eccentricity_mm(&self) -> DVec2 {
+    pub(crate) fn eccentricity_mm(&self) -> DVec2 {
         eccentricity_mm(&self.scene.machine)
     }
 

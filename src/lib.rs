@@ -12,6 +12,7 @@ pub mod frame;
 pub mod gear;
 pub mod job;
 pub mod linkage;
+pub mod material;
 pub mod measure;
 pub mod output;
 pub mod passes;

@@ -272,7 +272,11 @@ fn cross(curve: &impl ClosedCurve, family: Family, part: &Part, at_mm: f64) -> C
     let mut place = curve.place(part.law, t);
     for _ in 0..60 {
         let residual = family.across(place[0]) - at_mm;
-        if residual > 0.0 { high = t } else { low = t }
+        if residual > 0.0 {
+            high = t
+        } else {
+            low = t
+        }
         let newton = t - residual / family.across(place[1]);
         // A step that leaves the bracket, as near a turning point, is replaced by its middle.
         let inside = (newton - low) * (newton - high) <= 0.0;

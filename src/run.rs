@@ -3,6 +3,8 @@
 //! The unit of work is one flank through all operations; flanks go to the cores in parallel and are written as they are finished, so memory grows with the cores and not with the
 //! gear. The output folder appears under its name only when it is complete; Ctrl-C completes it with the flanks that are finished and says so.
 
+mod chip_files;
+mod chip_results;
 mod files;
 mod results;
 mod summary;
@@ -12,6 +14,7 @@ use crate::cut::{Backend, CutStats};
 use crate::error::{Error, Result};
 use crate::gear::generation::Side;
 use crate::job::Job;
+use crate::measure::chips::ChipLedger;
 use crate::measure::{FlankReport, GearReport, flank_report, gear_report};
 use crate::output::flank_maps::{FlankMaps, OperationMaps};
 use crate::output::folder::OutputFolder;
@@ -28,6 +31,8 @@ use std::time::{Duration, Instant};
 pub struct CutGear {
     /// What was measured.
     pub report: GearReport,
+    /// What every stroke takes away.
+    pub chips: ChipLedger,
     /// Maps of all finished flanks at map spacing, in order.
     pub maps: Vec<FlankMaps>,
     /// What the backend met.
@@ -60,6 +65,7 @@ pub fn cut_gear(
     folder: Option<(&OutputFolder, &[(String, String)])>,
 ) -> Result<CutGear> {
     let started = Instant::now();
+    let chips = follow_chips(job, progress, interrupt)?;
     let operations = map_operations(job);
     let flanks: Vec<(u32, Side)> =
         (1..=job.scene.gear.teeth).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]).collect();
@@ -110,7 +116,18 @@ pub fn cut_gear(
         dexels += flank.dexels;
     }
     let report = gear_report::measure(job, backend, reports)?;
-    Ok(CutGear { report, maps, stats, dexels, elapsed: started.elapsed(), interrupted })
+    Ok(CutGear { report, chips, maps, stats, dexels, elapsed: started.elapsed(), interrupted })
+}
+
+/// All strokes in order of time, space by space.
+fn follow_chips(job: &Job, progress: &Progress, interrupt: &Interrupt) -> Result<ChipLedger> {
+    let step = progress.step("chips", u64::from(job.scene.gear.teeth), "tooth spaces");
+    let chips = ChipLedger::new(job, &|| {
+        step.advance(1);
+        !interrupt.is_raised()
+    });
+    step.finish();
+    chips.ok_or(Error::Interrupted)
 }
 
 /// What the maps need to know of the operations.
@@ -161,7 +178,7 @@ pub fn cut(
         return Err(Error::Interrupted);
     }
     let results = results::results(&job, &gear);
-    files::write(&job, &gear, &results, &folder)?;
+    files::write(&job, &gear, &results, &folder, &notes)?;
     let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
     for incident in backend.incidents() {

@@ -34,17 +34,33 @@ fn probe() {
     for (f, family) in gearcut::planar_rays::FAMILIES.into_iter().enumerate() {
         let row = cut.field.grid.rows[f];
         for (i, ray) in cut.field.slices[0].rays[f].iter().enumerate() {
-            for s in ray { for e in [s.low, s.high] { if e.pass != u32::MAX {
-                let p = family.point(e.at_mm, row.at_mm(i));
-                let d = target.distance_mm(p, 3.0).unwrap();
-                if d < worst[0] { worst[0] = d; println!("low {d:e} at {p} normal {:?}", e.normal); }
-                if d > worst[1] { worst[1] = d; println!("high {d:e} at {p} normal {:?}", e.normal); }
-                hist[((d.abs() * 1e6).log10().max(0.0) as usize).min(7)] += 1;
-            }}}
+            for s in ray {
+                for e in [s.low, s.high] {
+                    if e.pass != u32::MAX {
+                        let p = family.point(e.at_mm, row.at_mm(i));
+                        let d = target.distance_mm(p, 3.0).unwrap();
+                        if d < worst[0] {
+                            worst[0] = d;
+                            println!("low {d:e} at {p} normal {:?}", e.normal);
+                        }
+                        if d > worst[1] {
+                            worst[1] = d;
+                            println!("high {d:e} at {p} normal {:?}", e.normal);
+                        }
+                        hist[((d.abs() * 1e6).log10().max(0.0) as usize).min(7)] += 1;
+                    }
+                }
+            }
         }
     }
     println!("{worst:?} {hist:?}");
-    let ordered = cut.field.slices.iter().flat_map(|s| &s.rays).flatten().all(|r| r.windows(2).all(|w| w[0].high.at_mm < w[1].low.at_mm));
+    let ordered = cut
+        .field
+        .slices
+        .iter()
+        .flat_map(|s| &s.rays)
+        .flatten()
+        .all(|r| r.windows(2).all(|w| w[0].high.at_mm < w[1].low.at_mm));
     assert!(ordered);
     let _ = intervals::LEAST_SPAN_MM;
 }

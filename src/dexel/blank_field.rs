@@ -78,7 +78,10 @@ impl BlankGrid {
                     "the blank field at {spacing_mm} mm in {slices} slices needs about {:.2e} bytes; at most {MOST_BYTES:.0e} are taken",
                     need(spacing_mm)
                 ),
-                format!("use a spacing_mm of {:.4} or more, or a larger slice_spacing_mm", (1e4 * fits_mm).ceil() * 1e-4),
+                format!(
+                    "use a spacing_mm of {:.4} or more, or a larger slice_spacing_mm",
+                    (1e4 * fits_mm).ceil() * 1e-4
+                ),
             ));
         }
         let row = |from: f64, to: f64| {
@@ -163,7 +166,10 @@ fn blank_rays(outline: &BlankOutline, family: Family, row: &RayRow, bore_radius_
                 .as_chunks::<2>()
                 .0
                 .iter()
-                .map(|[a, b]| Span { low: End::of_blank(a.at_mm, a.outward()), high: End::of_blank(b.at_mm, b.outward()) })
+                .map(|[a, b]| Span {
+                    low: End::of_blank(a.at_mm, a.outward()),
+                    high: End::of_blank(b.at_mm, b.outward()),
+                })
                 .collect();
             let half_mm = (bore_radius_mm * bore_radius_mm - at_mm * at_mm).max(0.0).sqrt();
             if half_mm > 0.0 {

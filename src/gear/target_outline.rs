@@ -67,8 +67,7 @@ impl TargetOutline {
     /// How far the area by rays of a family may be off, mm2: half a spacing times the way of the outline along the rays.
     /// The midpoint rule errs by no more than that times the total variation of the length that it sums.
     pub fn area_bound_mm2(&self, family: Family, spacing_mm: f64) -> f64 {
-        let way: f64 =
-            (0..self.points_mm.len()).map(|i| self.segment(i)).map(|[a, b]| family.along(b - a).abs()).sum();
+        let way: f64 = (0..self.points_mm.len()).map(|i| self.segment(i)).map(|[a, b]| family.along(b - a).abs()).sum();
         0.5 * spacing_mm * way
     }
 
@@ -161,7 +160,16 @@ mod tests {
 
     fn square_with_loop() -> TargetOutline {
         // A square of 10 mm whose corner at (10, 10) carries a clockwise loop of 1 mm outside.
-        let points = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (10.0, 11.0), (11.0, 11.0), (11.0, 10.0), (10.0, 10.0), (0.0, 10.0)];
+        let points = [
+            (0.0, 0.0),
+            (10.0, 0.0),
+            (10.0, 10.0),
+            (10.0, 11.0),
+            (11.0, 11.0),
+            (11.0, 10.0),
+            (10.0, 10.0),
+            (0.0, 10.0),
+        ];
         TargetOutline::new(points.map(|(x, y)| DVec2::new(x, y)).to_vec())
     }
 

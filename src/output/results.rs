@@ -9,6 +9,7 @@
 //! Two measures are told apart everywhere. A **height** stands over the target, the envelope of the last operation. A **stock**
 //! is what an operation leaves over the finished surface. Both run along the target's normal, positive where material is.
 
+mod chips;
 mod machine;
 mod teeth;
 
@@ -19,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use super::atomic::write_bytes_atomically;
 use super::quantity::Quantity;
 use crate::{Error, Result};
+pub use chips::{ChipPeak, ChipResults};
 pub use machine::{AxesResults, AxisPeak, ReliefResults};
 pub use teeth::{FinishedFlank, FinishedTooth, OperationTooth, ProfileDeviations, StockRange};
 
@@ -79,6 +81,14 @@ pub struct Headline {
     pub relief_ratio: Quantity,
     /// Time of all strokes.
     pub cycle_time: Quantity,
+    /// Largest section of all chips of a stroke, over all operations.
+    pub largest_chip_section: ChipPeak,
+    /// Largest cutting force along the stroke.
+    pub largest_cutting_force: ChipPeak,
+    /// Volume taken away over the time of all strokes.
+    pub removal_rate: Quantity,
+    /// Strokes that cut nothing.
+    pub idle_strokes: Quantity,
     /// Largest unevenness of the stock that the last operation finds (denominator: mean of AB and CD).
     pub unevenness_max: Quantity,
     /// Mean of that unevenness over the teeth.
@@ -104,6 +114,8 @@ pub struct OperationResults {
     pub axes: AxesResults,
     /// Clearance on the return stroke.
     pub relief: ReliefResults,
+    /// Chips and cutting forces.
+    pub chips: ChipResults,
     /// Stock on all active flanks; undefined for the last operation.
     pub flank_stock: StockRange,
     /// Stock in all roots, which only the cutter's tip touches.

@@ -2,7 +2,7 @@
 //!
 //! Maps of single flanks are written as the flanks are finished; everything here follows when all are.
 
-use super::CutGear;
+use super::{CutGear, chip_files};
 use crate::axes_report;
 use crate::cut::Backend;
 use crate::error::{Error, Result};
@@ -24,7 +24,13 @@ use std::path::Path;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(job: &Job, cut: &CutGear, results: &Results, folder: &OutputFolder) -> Result<()> {
+pub fn write(
+    job: &Job,
+    cut: &CutGear,
+    results: &Results,
+    folder: &OutputFolder,
+    notes: &[(String, String)],
+) -> Result<()> {
     write_flank_table(cut, &folder.path("tables/flanks.csv")?, job)?;
     write_tooth_table(cut, &folder.path("tables/teeth.csv")?)?;
     for allowance in &cut.report.allowances {
@@ -36,6 +42,7 @@ pub fn write(job: &Job, cut: &CutGear, results: &Results, folder: &OutputFolder)
         chart.write_svg(&folder.path(format!("pictures/unevenness_{name}.svg"))?)?;
     }
     write_contact_sheets(job, cut, folder)?;
+    chip_files::write(job, &cut.chips, folder, notes)?;
     axes_report::write(job, folder)?;
     results.write(&folder.path(RESULTS_FILE)?)
 }

@@ -10,6 +10,7 @@ use super::model::{
     PitchCurveShape, Scene, ShaperCutter, StrokeSpacing, Tip, TraditionalDirection,
 };
 use super::values::{Values, View};
+use crate::material::EdgeForce;
 use crate::units::UM_PER_MM;
 
 /// The scene called `name`.
@@ -25,6 +26,7 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
     Some(Scene {
         name: name.to_owned(),
         gear: gear(values)?,
+        material: material(values)?,
         tool: shaper_cutter(values)?,
         machine: machine(values)?,
         operations: operations?,
@@ -33,6 +35,7 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
             lead_spacing_mm: mm_from_um(flank, "lead_spacing_um")?,
             blank_spacing_mm: blank.number("spacing_mm")?,
             blank_slice_spacing_mm: blank.number("slice_spacing_mm")?,
+            chip_spacing_mm: values.view("fields.chips").number("spacing_mm")?,
         },
         measure: Measure {
             profile_start_height_mm: measure.number("profile_start_height_mm"),
@@ -64,6 +67,16 @@ fn gear(values: &Values) -> Option<Gear> {
         bore_diameter_mm: gear.number("bore_diameter_mm")?,
         tooth_thickness_allowance_mm: gear.number("tooth_thickness_allowance_mm")?,
         pitch_curve: pitch_curve(values, gear.variant("pitch_curve")?)?,
+    })
+}
+
+fn material(values: &Values) -> Option<EdgeForce> {
+    let material = values.view("material");
+    Some(EdgeForce {
+        cutting_n_per_mm2: material.number("cutting_force_n_per_mm2")?,
+        cutting_edge_n_per_mm: material.number("cutting_edge_force_n_per_mm")?,
+        normal_n_per_mm2: material.number("normal_force_n_per_mm2")?,
+        normal_edge_n_per_mm: material.number("normal_edge_force_n_per_mm")?,
     })
 }
 

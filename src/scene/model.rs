@@ -5,6 +5,8 @@
 
 use std::path::PathBuf;
 
+use crate::material::EdgeForce;
+
 /// One job: what is cut, with what, how, and what is measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
@@ -12,6 +14,8 @@ pub struct Scene {
     pub name: String,
     /// The gear to cut.
     pub gear: Gear,
+    /// Force coefficients of the work's material.
+    pub material: EdgeForce,
     /// The shaper cutter.
     pub tool: ShaperCutter,
     /// The machine: stroke, clearances, mounting errors, axis limits.
@@ -298,6 +302,8 @@ pub struct Fields {
     pub blank_spacing_mm: f64,
     /// Of the blank's slices, where sections differ along the tooth.
     pub blank_slice_spacing_mm: f64,
+    /// Of the rays through a tooth space on which chips are followed, and of the places along the edge.
+    pub chip_spacing_mm: f64,
 }
 
 /// Where profiles are evaluated, as heights over the pitch curve along its normal; `None`: from the form point to the tip, 5 % left out at each end.

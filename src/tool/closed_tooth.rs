@@ -7,8 +7,8 @@
 //! Pieces turn by at most [`PIECE_TURN_RAD`], which makes the chord a good guess for Newton's method and leaves at most one place in a piece where it runs along a ray.
 
 use super::edge::{Edge, Segment};
-use crate::planar_rays::{ClosedCurve, Piece};
 use crate::frame::Rigid2;
+use crate::planar_rays::{ClosedCurve, Piece};
 use glam::DVec2;
 
 /// Largest turn of the tangent within a piece: 3 degrees of an arc of 30 mm stay within 10 um of their chord. Half as much doubles the pieces and saves no Newton step.

@@ -17,6 +17,7 @@ pub fn paper_scene(operations: Vec<Operation>) -> Scene {
             tooth_thickness_allowance_mm: 0.0,
             pitch_curve: PitchCurveShape::Ellipse { order: 3, eccentricity: 0.1348, semi_major_axis_mm: Some(61.11) },
         },
+        material: gearcut::material::MATERIALS[0].edge_force(),
         tool: ShaperCutter {
             teeth: 20,
             addendum_coefficient: 1.25,
@@ -38,7 +39,13 @@ pub fn paper_scene(operations: Vec<Operation>) -> Scene {
             limits: AxisLimits::default(),
         },
         operations,
-        fields: Fields { profile_spacing_mm: 0.005, lead_spacing_mm: 0.05, blank_spacing_mm: 0.1, blank_slice_spacing_mm: 2.5 },
+        fields: Fields {
+            profile_spacing_mm: 0.005,
+            lead_spacing_mm: 0.05,
+            blank_spacing_mm: 0.1,
+            blank_slice_spacing_mm: 2.5,
+            chip_spacing_mm: 0.05,
+        },
         measure: Measure { profile_start_height_mm: None, profile_end_height_mm: None },
         output: Output { map_spacing_mm: 0.1, folder: None },
     }

@@ -94,13 +94,15 @@ pub fn steps(field: &BlankField) -> u64 {
 }
 
 /// Runs an operation; `advance` is called after every tile and says whether to go on. `None`: stopped.
-pub fn cut(field: &mut BlankField, operation: &BlankOperation, advance: &(dyn Fn() -> bool + Sync)) -> Option<BlankCut> {
+pub fn cut(
+    field: &mut BlankField,
+    operation: &BlankOperation,
+    advance: &(dyn Fn() -> bool + Sync),
+) -> Option<BlankCut> {
     let set = operation.strokes;
     let grid = field.grid.clone();
-    let mut result = BlankCut {
-        removed_mm3: vec![[0.0; 2]; (set.end_pass() - set.first_pass) as usize],
-        ..BlankCut::default()
-    };
+    let mut result =
+        BlankCut { removed_mm3: vec![[0.0; 2]; (set.end_pass() - set.first_pass) as usize], ..BlankCut::default() };
     for ((index, slice), width_mm) in field.slices.iter_mut().enumerate().zip(grid.slice_widths_mm()) {
         let tau = set.law.tau(grid.leads_mm[index]);
         let reach_mm = if operation.cull { operation.blank_reach_mm } else { f64::INFINITY };
@@ -108,9 +110,13 @@ pub fn cut(field: &mut BlankField, operation: &BlankOperation, advance: &(dyn Fn
         let passes = place(set);
         let returns = operation.returns.map(place).unwrap_or_default();
         let tiles = slice.rays.iter_mut().zip(FAMILIES).zip(&grid.rows).flat_map(|((rays, family), row)| {
-            rays.chunks_mut(TILE_RAYS)
-                .enumerate()
-                .map(move |(tile, rays)| Tile { family, row, first: tile * TILE_RAYS, rays, slice: index as u32 })
+            rays.chunks_mut(TILE_RAYS).enumerate().map(move |(tile, rays)| Tile {
+                family,
+                row,
+                first: tile * TILE_RAYS,
+                rays,
+                slice: index as u32,
+            })
         });
         let tiles: Vec<Tile> = tiles.collect();
         let area_per_length = grid.spacing_mm() * width_mm;
@@ -218,11 +224,8 @@ impl Tile<'_> {
         let mut cuts = std::mem::take(&mut scratch.cuts);
         self.visit(operation, pass, scratch, &mut stats, |ray, _, crossings| {
             for [from, to] in crossings.as_chunks::<2>().0 {
-                let [from, to] = [from, to].map(|c| End {
-                    at_mm: c.at_mm,
-                    pass: id,
-                    normal: (-c.outward()).as_vec2().to_array(),
-                });
+                let [from, to] =
+                    [from, to].map(|c| End { at_mm: c.at_mm, pass: id, normal: (-c.outward()).as_vec2().to_array() });
                 cuts.push((ray, from, to));
             }
         });

@@ -163,6 +163,20 @@ pub(super) static AFTER_OPERATIONS: &[Section] = &[
         teach: "Rays through the whole blank: material removed, gouges, interference, meshes.",
     },
     Section {
+        path: "fields.chips",
+        role: Role::Plain,
+        keys: &[Key {
+            name: "spacing_mm",
+            kind: Kind::Number(Range::closed(0.002, 2.0)),
+            unit: "mm",
+            default: Default::Derived("module_mm / 60"),
+            example: "0.05",
+            teach: "Distance of the rays through a tooth space and of the places along the cutter's edge.",
+        }],
+        groups: &[],
+        teach: "The rays on which chips are followed from stroke to stroke; half the spacing doubles the time.",
+    },
+    Section {
         path: "measure",
         role: Role::Plain,
         keys: &[
