@@ -9,6 +9,7 @@ pub mod cut;
 pub mod dexel;
 pub mod error;
 pub mod frame;
+pub mod gcode;
 pub mod gear;
 pub mod job;
 pub mod linkage;

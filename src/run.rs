@@ -12,6 +12,7 @@ mod tooth_results;
 
 use crate::cut::{Backend, CutStats};
 use crate::error::{Error, Result};
+use crate::gcode;
 use crate::gear::generation::Side;
 use crate::job::Job;
 use crate::measure::chips::ChipLedger;
@@ -179,6 +180,9 @@ pub fn cut(
     }
     let results = results::results(&job, &gear);
     files::write(&job, &gear, &results, &folder, &notes)?;
+    for note in gcode::write_all(&job, &folder)? {
+        progress.note(&note);
+    }
     let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
     for incident in backend.incidents() {

@@ -17,8 +17,8 @@ use crate::output::table::{Cell, write_table};
 use crate::output::text::significant;
 use crate::units::UM_PER_MM;
 
-/// Charts and colours end at this many times the 99th percentile: a first stroke into the full blank would flatten everything else.
-const SHOWN_OVER_Q99: f64 = 1.5;
+/// Charts and colours end at this many times the 90th percentile: first strokes into the full blank would flatten everything else.
+const SHOWN_OVER_Q90: f64 = 2.0;
 
 /// Writes tables, charts and maps of all operations; `notes` go into the EXR headers.
 ///
@@ -129,19 +129,17 @@ fn charts(job: &Job, ledger: &ChipLedger, operation: usize) -> [(&'static str, L
         let end = shown_end(values.iter().flatten().map(|v| v.abs()));
         let beyond = (0..strokes.len()).filter(|&i| values.iter().any(|v| v[i].abs() > end)).count();
         let largest = values.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let value_name = match beyond {
-            0 => what.to_owned(),
-            1 => format!("{what} (1 stroke of {} not shown)", significant(largest, 3)),
-            _ => format!("{what} ({beyond} strokes up to {} not shown)", significant(largest, 3)),
+        let note = match beyond {
+            0 => String::new(),
+            1 => format!(" (1 stroke of {} {unit} not shown)", significant(largest, 3)),
+            _ => format!(" ({beyond} strokes up to {} {unit} not shown)", significant(largest, 3)),
         };
-        let series = curves.iter().zip(&values).map(|((name, _), values)| {
+        let series = curves.iter().zip(&values).enumerate().map(|(index, ((name, _), values))| {
             let shown = |&value: &f64| if value.abs() > end { f64::NAN } else { value };
-            LineSeries {
-                name: (*name).to_owned(),
-                points: angles_deg.iter().copied().zip(values.iter().map(shown)).collect(),
-            }
+            let points = angles_deg.iter().copied().zip(values.iter().map(shown)).collect();
+            LineSeries { name: format!("{name}{}", if index == 0 { note.as_str() } else { "" }), points }
         });
-        Panel { value_name, unit: unit.to_owned(), series: series.collect(), limits: Vec::new() }
+        Panel { value_name: what.to_owned(), unit: unit.to_owned(), series: series.collect(), limits: Vec::new() }
     };
     let chart = |what: &str, panels: Vec<Panel>| LineChart {
         title: format!("{} of {}: {what}", job.operations[operation].spec.name, job.scene.name),
@@ -198,7 +196,7 @@ fn charts(job: &Job, ledger: &ChipLedger, operation: usize) -> [(&'static str, L
                         "mm",
                         &[("tip", &contact(tip)), ("left flank", &contact(left)), ("right flank", &contact(right))],
                     ),
-                    panel("cutter teeth that cut", "", &[("chips", &|s| f64::from(s.chips))]),
+                    panel("in the cut", "teeth", &[("cutter teeth that cut", &|s| f64::from(s.chips))]),
                 ],
             ),
         ),
@@ -212,8 +210,8 @@ fn shown_end(values: impl Iterator<Item = f64>) -> f64 {
     match values.len() {
         0 => f64::INFINITY,
         n => {
-            let end = SHOWN_OVER_Q99 * values[(n - 1) * 99 / 100];
-            if values[n - 1] <= 2.0 * end { f64::INFINITY } else { end }
+            let end = SHOWN_OVER_Q90 * values[(n - 1) * 9 / 10];
+            if values[n - 1] <= 1.5 * end { f64::INFINITY } else { end }
         }
     }
 }

@@ -3,21 +3,21 @@
 //! Every value is there once the scene is without problems; a missing one ends the building, and a test over all
 //! variants keeps the table of keys and this file together.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::model::{
-    AxisLimits, Feed, Fields, Gear, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Output,
+    AxisLimits, Feed, Fields, GcodeDialect, Gear, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Output,
     PitchCurveShape, Scene, ShaperCutter, StrokeSpacing, Tip, TraditionalDirection,
 };
 use super::values::{Values, View};
 use crate::material::EdgeForce;
 use crate::units::UM_PER_MM;
 
-/// The scene called `name`.
-pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
+/// The scene called `name`; `base_dir` holds the files it refers to.
+pub(super) fn build(name: &str, base_dir: &Path, values: &Values) -> Option<Scene> {
     let pressure_angle_rad = rad(values.view("gear"), "pressure_angle_deg")?;
     let operations: Option<Vec<Operation>> = (0..values.operations)
-        .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
+        .map(|index| operation(values, &format!("operation.{index}"), base_dir, pressure_angle_rad))
         .collect();
     let flank = values.view("fields.flank");
     let blank = values.view("fields.blank");
@@ -44,6 +44,13 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
         output: Output {
             map_spacing_mm: output.number("map_spacing_mm")?,
             folder: output.text("folder").map(PathBuf::from),
+            gcode: match output.text("gcode")? {
+                "linear" => GcodeDialect::Linear,
+                "paper_g84" => GcodeDialect::PaperG84,
+                "none" => GcodeDialect::None,
+                _ => return None,
+            },
+            gcode_contour_error_mm: mm_from_um(output, "gcode_contour_error_um")?,
         },
     })
 }
@@ -159,7 +166,7 @@ fn machine(values: &Values) -> Option<Machine> {
     })
 }
 
-fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<Operation> {
+fn operation(values: &Values, path: &str, base_dir: &Path, pressure_angle_rad: f64) -> Option<Operation> {
     let operation = values.view(path);
     let offset_mm = match operation.number("stock_per_flank_mm") {
         Some(stock_mm) => stock_mm / pressure_angle_rad.sin(),
@@ -189,6 +196,7 @@ fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<Ope
         overlap_rad: rad(operation, "overlap_deg")?,
         infeed: infeed(values, path, operation.variant("infeed")?)?,
         feed_during_stroke: operation.boolean("feed_during_stroke")?,
+        program: operation.text("program").map(|name| base_dir.join(name)),
     })
 }
 

@@ -204,6 +204,8 @@ pub struct Operation {
     pub infeed: Infeed,
     /// The rotary feed goes on while the cutter is in the work (crank law); otherwise the pose is frozen during a stroke.
     pub feed_during_stroke: bool,
+    /// Axis program (G-code) that is cut instead of the linkage's own positions; the linkage remains the target.
+    pub program: Option<PathBuf>,
 }
 
 /// Linkage models of external shaping; Gao et al. 2017.
@@ -322,4 +324,19 @@ pub struct Output {
     pub map_spacing_mm: f64,
     /// Folder given in the scene, if any; the command line wins.
     pub folder: Option<PathBuf>,
+    /// Form of the axis programs.
+    pub gcode: GcodeDialect,
+    /// Largest displacement on the flanks that their straight lines may cause.
+    pub gcode_contour_error_mm: f64,
+}
+
+/// Form of axis programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GcodeDialect {
+    /// Straight lines in inverse time.
+    Linear,
+    /// The one-block form of Gao et al. 2017, marked as not to be run.
+    PaperG84,
+    /// None.
+    None,
 }

@@ -47,7 +47,12 @@ pub fn paper_scene(operations: Vec<Operation>) -> Scene {
             chip_spacing_mm: 0.05,
         },
         measure: Measure { profile_start_height_mm: None, profile_end_height_mm: None },
-        output: Output { map_spacing_mm: 0.1, folder: None },
+        output: Output {
+            map_spacing_mm: 0.1,
+            folder: None,
+            gcode: GcodeDialect::Linear,
+            gcode_contour_error_mm: 0.001,
+        },
     }
 }
 
@@ -64,6 +69,7 @@ pub fn operation(name: &str, linkage: Linkage, offset_mm: f64, strokes: u32) -> 
         overlap_rad: 0.0,
         infeed: Infeed::None,
         feed_during_stroke: false,
+        program: None,
     }
 }
 

@@ -60,6 +60,8 @@ pub struct Station {
     pub normal: DVec2,
     /// Part of the edge.
     pub side: EdgeSide,
+    /// Way along the edge to the nearest other part, mm.
+    pub to_corner_mm: f64,
 }
 
 /// Edge of one blade, sampled.
@@ -111,6 +113,7 @@ impl EdgePolygon {
                     point_mm,
                     normal: -along.perp().normalize(),
                     side: EdgeSide::of(segment.name),
+                    to_corner_mm: f64::INFINITY,
                 });
                 arc_mm += length_mm;
             }
@@ -121,6 +124,14 @@ impl EdgePolygon {
         corners_mm.push(DVec2::ZERO);
         for station in &mut stations {
             station.arc_mm -= tip_arc_mm;
+        }
+        let corners: Vec<f64> = stations
+            .windows(2)
+            .filter(|pair| pair[0].side != pair[1].side)
+            .map(|pair| pair[0].arc_mm + 0.5 * pair[0].length_mm)
+            .collect();
+        for station in &mut stations {
+            station.to_corner_mm = corners.iter().map(|c| (c - station.arc_mm).abs()).fold(f64::INFINITY, f64::min);
         }
         let tip_mm = DVec2::new(stations.iter().map(|s| s.point_mm.x).fold(0.0, f64::max), 0.0);
         let tip_zone_mm = tip_zone(&stations);

@@ -25,7 +25,7 @@ pub struct ToothChip {
     pub area_mm2: f64,
     /// Length of edge in contact: right, tip, left, mm.
     pub contact_mm: [f64; 3],
-    /// Largest uncut chip thickness: right, tip, left, mm.
+    /// Largest uncut chip thickness: right, tip, left, mm; on flanks, where the corner of the tip is further away than that.
     pub thickest_mm: [f64; 3],
     /// Cutting force along the stroke, N.
     pub cutting_n: f64,
@@ -90,7 +90,10 @@ impl ToothChip {
             }
             let side = station.side as usize;
             self.contact_mm[side] += station.length_mm;
-            self.thickest_mm[side] = self.thickest_mm[side].max(thickness_mm);
+            // Beside a corner the old surface is reached round it: a flank would show the thickness of the tip.
+            if station.side == EdgeSide::Tip || thickness_mm < station.to_corner_mm {
+                self.thickest_mm[side] = self.thickest_mm[side].max(thickness_mm);
+            }
             let [cutting_n, normal_n] = force.on_element(thickness_mm, station.length_mm);
             // The work pushes the tool back along the edge's outward normal.
             let on_tool = -normal_n * stand.work_from_blade.direction(station.normal);
