@@ -11,17 +11,19 @@ use crate::cut::{Backend, CutStats};
 use crate::dexel::{Column, Field, Layer};
 use crate::error::{Error, Refusal, Result};
 use crate::frame::Rigid2;
+use crate::gcode::{self, AxisProgram};
 use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
 use crate::gear::generation::{Generation, Side};
 use crate::gear::target::{TargetFlank, target_root};
-use crate::linkage::{ShapingLinkage, StrokeSchedule};
+use crate::linkage::{CutterPose, ShapingLinkage, StrokeSchedule};
 use crate::passes::strokes::StrokeLaw;
 use crate::passes::{CutPlan, StrokeSet};
 use crate::scene::Scene;
 use crate::scene::model::{Machine, Operation};
 use crate::tool::{CuttingTool, ShaperCutter};
 use glam::DVec2;
+use std::path::Path;
 use std::sync::Arc;
 
 /// How far below the target a ray records cuts, in modules: undercut and wrong linkages stay well inside.
@@ -42,8 +44,21 @@ pub struct PreparedOperation {
     pub linkage: ShapingLinkage,
     /// Axis positions at every stroke.
     pub schedule: StrokeSchedule,
+    /// Axis program that is cut instead of the schedule, if the scene names one.
+    pub program: Option<AxisProgram>,
     /// Poses for the dexels.
     pub strokes: StrokeSet,
+}
+
+impl PreparedOperation {
+    /// Cutter in the gear frame at a stroke coordinate, as it is cut.
+    pub fn pose(&self, stroke: f64) -> CutterPose {
+        pose(self.program.as_ref(), &self.schedule, stroke)
+    }
+}
+
+fn pose(program: Option<&AxisProgram>, schedule: &StrokeSchedule, stroke: f64) -> CutterPose {
+    program.map_or_else(|| schedule.state(stroke).pose, |program| program.at(stroke).pose())
 }
 
 /// Everything known before the first dexel is cut.
@@ -111,12 +126,13 @@ impl Job {
                 StrokeLaw::Frozen
             };
             let eccentricity = eccentricity_mm(machine);
+            let program = spec.program.as_deref().map(|path| read_program(path, &spec, &schedule)).transpose()?;
             let strokes = StrokeSet::new(first_pass, &cutter, law, count, |lambda| {
-                let pose = schedule.state(lambda).pose;
+                let pose = pose(program.as_ref(), &schedule, lambda);
                 Rigid2::new(pose.angle_rad, pose.center_mm - eccentricity)
             });
             first_pass = strokes.end_pass();
-            operations.push(PreparedOperation { spec, linkage, schedule, strokes });
+            operations.push(PreparedOperation { spec, linkage, schedule, program, strokes });
         }
         let mut job = Self { curve, cutter, blank, operations, pointed_mm: vec![None; gear.teeth as usize], scene };
         let pointed = (1..=job.scene.gear.teeth).map(|tooth| job.pointed_height(tooth)).collect::<Result<_>>()?;
@@ -125,7 +141,7 @@ impl Job {
     }
 
     /// Where the gear axis sits off the work spindle, in the gear frame, mm.
-    fn eccentricity_mm(&self) -> DVec2 {
+    pub(crate) fn eccentricity_mm(&self) -> DVec2 {
         eccentricity_mm(&self.scene.machine)
     }
 
@@ -295,6 +311,20 @@ impl Job {
         }
         Ok((layers, stats))
     }
+}
+
+/// The program that an operation is cut with.
+fn read_program(path: &Path, spec: &Operation, schedule: &StrokeSchedule) -> Result<AxisProgram> {
+    let program = gcode::read::file(path)?;
+    if program.count() != schedule.count() {
+        return Err(Refusal::new(
+            &format!("operation.{}.program", spec.name),
+            format!("{} makes {} strokes, the operation {}", path.display(), program.count(), schedule.count()),
+            "set strokes_per_revolution, revolutions, window_deg and infeed as they are in the program",
+        )
+        .into());
+    }
+    Ok(program)
 }
 
 /// The gear sits off the work spindle by the eccentricity, and turns with it: a constant shift in the gear frame.

@@ -4,6 +4,8 @@
 //! gear. The output folder appears under its name only when it is complete; Ctrl-C completes it with the flanks that are finished and says so.
 
 mod blank;
+mod chip_files;
+mod chip_results;
 mod files;
 mod frames;
 mod meshes;
@@ -15,8 +17,10 @@ mod tooth_results;
 
 use crate::cut::{Backend, CutStats};
 use crate::error::{Error, Result};
+use crate::gcode;
 use crate::gear::generation::Side;
 use crate::job::Job;
+use crate::measure::chips::ChipLedger;
 use crate::measure::{FlankReport, GearReport, flank_report, gear_report};
 use crate::output::flank_maps::{FlankMaps, OperationMaps};
 use crate::output::folder::OutputFolder;
@@ -36,6 +40,8 @@ use std::time::{Duration, Instant};
 pub struct CutGear {
     /// What was measured.
     pub report: GearReport,
+    /// What every stroke takes away.
+    pub chips: ChipLedger,
     /// Maps of all finished flanks at map spacing, in order.
     pub maps: Vec<FlankMaps>,
     /// Surfaces of all finished flanks at mesh spacing, in order.
@@ -71,6 +77,7 @@ pub fn cut_gear(
     folder: Option<(&OutputFolder, &[(String, String)])>,
 ) -> Result<CutGear> {
     let started = Instant::now();
+    let chips = follow_chips(job, progress, interrupt)?;
     let operations = map_operations(job);
     let flanks: Vec<(u32, Side)> =
         (1..=job.scene.gear.teeth).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]).collect();
@@ -125,7 +132,18 @@ pub fn cut_gear(
         dexels += flank.dexels;
     }
     let report = gear_report::measure(job, backend, reports)?;
-    Ok(CutGear { report, maps, surfaces, stats, dexels, elapsed: started.elapsed(), interrupted })
+    Ok(CutGear { report, chips, maps, surfaces, stats, dexels, elapsed: started.elapsed(), interrupted })
+}
+
+/// All strokes in order of time, space by space.
+fn follow_chips(job: &Job, progress: &Progress, interrupt: &Interrupt) -> Result<ChipLedger> {
+    let step = progress.step("chips", u64::from(job.scene.gear.teeth), "tooth spaces");
+    let chips = ChipLedger::new(job, &|| {
+        step.advance(1);
+        !interrupt.is_raised()
+    });
+    step.finish();
+    chips.ok_or(Error::Interrupted)
 }
 
 /// What the maps need to know of the operations.
@@ -202,6 +220,9 @@ pub fn cut(
                 progress.note(&format!("stopped: {drawn} of {count} frames are drawn"));
             }
         }
+    }
+    for note in gcode::write_all(&job, &folder)? {
+        progress.note(&note);
     }
     let words = report::RunWords { resolved_scene: &resolved, backend: &backend.name(), backend_why };
     report::page(&job, &gear, &results, &words)?.write(&folder.path(REPORT_FILE)?)?;

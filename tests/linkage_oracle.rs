@@ -198,6 +198,7 @@ fn operation(linkage: Linkage, offset_mm: f64, strokes: u32) -> Operation {
         overlap_rad: 0.0,
         infeed: Infeed::None,
         feed_during_stroke: false,
+        program: None,
     }
 }
 

@@ -54,6 +54,8 @@ fn defaults_are_allowed_and_units_stand_in_the_names() {
             "deg/s^2" => "_deg_per_s2",
             "mm/s^2" => "_mm_per_s2",
             "1/min" => "_per_minute",
+            "N/mm^2" => "_n_per_mm2",
+            "N/mm" => "_n_per_mm",
             "modules" => "_coefficient",
             "" | "relative to R" => "",
             unit => panic!("{path}: no rule for the unit {unit}"),

@@ -42,7 +42,7 @@ pub enum Command {
     #[command(after_help = "Example:\n  \
         gearcut axes scenes/shaping/elliptical_normal.toml --out out/axes_of_my_gear\n\n\
         Writes a folder (out/<scene>_axes unless --out is given): axes/<operation>.csv with one row per stroke (s, deg,\n\
-        mm, deg/s, mm/s, deg/s^2, mm/s^2), and charts of positions, velocities, accelerations and relief clearance over\n\
+        mm, deg/s, mm/s, deg/s^2, mm/s^2), <operation>.ngc (G-code in straight lines, see docs/gcode.md), and charts of positions, velocities, accelerations and relief clearance over\n\
         the work angle as PNG and SVG. Prints the peaks against the machine's limits.")]
     Axes(AxesArguments),
     /// Put two results side by side.

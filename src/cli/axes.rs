@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use gearcut::axes_report::{self, OperationAxes};
+use gearcut::gcode;
 use gearcut::job::Job;
 use gearcut::output::text::Sheet;
 use gearcut::scene;
@@ -20,6 +21,7 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
     let output = folder::open(&out, "axes")?;
     let job = Job::new(scene.scene.clone()).map_err(|error| Failure::of_scene(&scene, error))?;
     axes_report::write(&job, &output)?;
+    let left_out = gcode::write_all(&job, &output)?;
     let path = folder::finish(output, "axes", [("scene", json!(scene.resolved_toml()))])?;
 
     let operations = OperationAxes::of_job(&job);
@@ -27,8 +29,8 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
     for operation in &operations {
         operation.print(&mut sheet);
     }
-    let written = format!("\ntables and charts are in {}\n", path.join("axes").display());
+    let written = format!("\ntables, charts and programs are in {}\n", path.join("axes").display());
     print::to_stdout(&(sheet.into_text() + &written))?;
-    print::warnings(&operations.iter().flat_map(OperationAxes::warnings).collect::<Vec<_>>());
+    print::warnings(&operations.iter().flat_map(OperationAxes::warnings).chain(left_out).collect::<Vec<_>>());
     Ok(())
 }

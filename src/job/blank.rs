@@ -61,7 +61,7 @@ impl Job {
         let set = &operation.strokes;
         let eccentricity_mm = self.eccentricity_mm();
         let pose = |lambda: f64| {
-            let pose = operation.schedule.state(lambda).pose;
+            let pose = operation.pose(lambda);
             let back = pose.center_mm.normalize_or_zero() * back_off_mm;
             Rigid2::new(pose.angle_rad, pose.center_mm + back - eccentricity_mm)
         };

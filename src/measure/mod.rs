@@ -3,6 +3,7 @@
 //! In: cut fields and the job. Out: plain values in mm and percent; `run` gives them names, units and definitions in the results.
 
 pub mod blank_report;
+pub mod chips;
 pub mod crossing;
 pub mod deviation;
 pub mod flank_report;

@@ -10,6 +10,7 @@
 //! is what an operation leaves over the finished surface. Both run along the target's normal, positive where material is.
 
 mod blank;
+mod chips;
 mod machine;
 mod teeth;
 mod texture;
@@ -22,6 +23,7 @@ use super::atomic::write_bytes_atomically;
 use super::quantity::Quantity;
 use crate::{Error, Result};
 pub use blank::{BlankOperationResults, BlankResults, DamageResults};
+pub use chips::{ChipPeak, ChipResults};
 pub use machine::{AxesResults, AxisPeak, ReliefResults};
 pub use teeth::{FinishedFlank, FinishedTooth, OperationTooth, ProfileDeviations, StockRange};
 pub use texture::{AbbottCurve, Parameters, TextureResults};
@@ -89,6 +91,14 @@ pub struct Headline {
     pub relief_ratio: Quantity,
     /// Time of all strokes.
     pub cycle_time: Quantity,
+    /// Largest section of all chips of a stroke, over all operations.
+    pub largest_chip_section: ChipPeak,
+    /// Largest cutting force along the stroke.
+    pub largest_cutting_force: ChipPeak,
+    /// Volume taken away over the time of all strokes.
+    pub removal_rate: Quantity,
+    /// Strokes that cut nothing.
+    pub idle_strokes: Quantity,
     /// Largest unevenness of the stock that the last operation finds (denominator: mean of AB and CD).
     pub unevenness_max: Quantity,
     /// Mean of that unevenness over the teeth.
@@ -114,6 +124,8 @@ pub struct OperationResults {
     pub axes: AxesResults,
     /// Clearance on the return stroke.
     pub relief: ReliefResults,
+    /// Chips and cutting forces.
+    pub chips: ChipResults,
     /// Stock on all active flanks; undefined for the last operation.
     pub flank_stock: StockRange,
     /// Stock in all roots, which only the cutter's tip touches.

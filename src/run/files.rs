@@ -2,7 +2,7 @@
 //!
 //! Maps of single flanks are written as the flanks are finished; everything here follows when all are.
 
-use super::CutGear;
+use super::{CutGear, chip_files};
 use crate::axes_report;
 use crate::cut::Backend;
 use crate::error::{Error, Result};
@@ -45,6 +45,7 @@ pub fn write(
     write_contact_sheets(job, cut, folder)?;
     let (last, scale) = (&job.finishing().spec.name, deviation_scale(cut));
     cut.maps.par_iter().try_for_each(|map| map.write_deviation(folder, last, scale, notes))?;
+    chip_files::write(job, &cut.chips, folder, notes)?;
     axes_report::write(job, folder)?;
     results.write(&folder.path(RESULTS_FILE)?)
 }

@@ -3,11 +3,13 @@
 //! In: the job, the cut gear. Out: [`Results`]. Nothing is computed here but extremes over flanks.
 
 use super::CutGear;
+use super::chip_results::{chip_results, peak};
 use super::tooth_results::{finished_tooth, operation_tooth, stock_range};
 use crate::axes_report::{OperationAxes, linkage_words};
 use crate::gear::target::FlankEnd;
 use crate::job::Job;
 use crate::measure::FlankReport;
+use crate::measure::chips::StrokeChips;
 use crate::measure::stock::{Extreme, Stock};
 use crate::measure::unevenness::{ToothAllowance, Unevenness as Percent, summarise};
 use crate::output::quantity::{Place, Quantity};
@@ -90,6 +92,13 @@ fn headline(job: &Job, cut: &CutGear, axes: &[OperationAxes]) -> Headline {
     let relief = axes.iter().map(|a| a.relief.ratio).reduce(f64::min);
     let margin = axes.iter().filter_map(OperationAxes::smallest_margin).reduce(f64::min);
     let cycle_s: f64 = job.operations.iter().map(|o| o.schedule.time_s(o.schedule.count() as f64)).sum();
+    let removed_mm3: f64 =
+        (0..job.operations.len()).map(|index| cut.chips.area_mm2(index)).sum::<f64>() * job.scene.gear.face_width_mm;
+    // The operation in which something is largest.
+    let largest = |value: fn(&StrokeChips) -> f64| {
+        let of = |index: usize| cut.chips.operations[index].largest(value).map_or(0.0, |(_, stroke)| value(stroke));
+        (0..job.operations.len()).reduce(|best, next| if of(next) > of(best) { next } else { best }).unwrap_or(0)
+    };
     let thickness_why = "no tooth crosses the pitch curve with both flanks";
     Headline {
         smallest_normal_stock: quantity_at(
@@ -155,6 +164,32 @@ fn headline(job: &Job, cut: &CutGear, axes: &[OperationAxes]) -> Headline {
             none,
         ),
         cycle_time: Quantity::number(cycle_s, "s", "time of all double strokes of all operations"),
+        largest_chip_section: peak(
+            job,
+            &cut.chips,
+            largest(|s| s.area_mm2),
+            "section of all chips of a stroke, all operations",
+            "mm^2",
+            &|s| s.area_mm2,
+        ),
+        largest_cutting_force: peak(
+            job,
+            &cut.chips,
+            largest(|s| s.cutting_n),
+            "cutting force along the stroke, all operations",
+            "N",
+            &|s| s.cutting_n,
+        ),
+        removal_rate: Quantity::number(
+            removed_mm3 / (cycle_s / 60.0) / 1e3,
+            "cm^3/min",
+            "volume taken away by all operations over the time of their double strokes",
+        ),
+        idle_strokes: Quantity::count(
+            cut.chips.operations.iter().map(|o| o.idle() as u64).sum(),
+            "strokes",
+            "strokes of all operations in which no cutter tooth meets material",
+        ),
         unevenness_max: percent(
             unevenness.map(|u| u.max_percent),
             "largest |AB - CD| over the mean of AB and CD, all teeth, as cut",
@@ -205,6 +240,7 @@ fn operation(job: &Job, cut: &CutGear, axes: &[OperationAxes], index: usize) -> 
         ),
         axes: axes[index].axes_results(),
         relief: axes[index].relief_results(),
+        chips: chip_results(job, &cut.chips, index),
         flank_stock: stock_range(&over_flanks, "on all active flanks", why),
         root_stock: stock_range(&over_roots, "in all roots, on rays that do not end before it", why),
         unevenness: Unevenness {

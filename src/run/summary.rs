@@ -3,7 +3,7 @@
 use super::CutGear;
 use crate::job::Job;
 use crate::output::quantity::Quantity;
-use crate::output::results::{BlankResults, OperationResults, Results, TextureResults};
+use crate::output::results::{BlankResults, ChipPeak, OperationResults, Results, TextureResults};
 use crate::output::text::{Sheet, significant};
 use std::path::Path;
 
@@ -38,6 +38,9 @@ pub fn summary(job: &Job, cut: &CutGear, results: &Results, out: &Path, backend:
     );
     sheet.line("relief on the return stroke", share(&headline.relief_ratio, "of a circular gear's"));
     sheet.line("tightest axis limit", share(&headline.axis_margin, "of it left"));
+    sheet.line("largest chip section", at_stroke(&headline.largest_chip_section));
+    sheet.line("largest cutting force", at_stroke(&headline.largest_cutting_force));
+    sheet.line("removal rate", format!("{}, {} idle", shown(&headline.removal_rate), shown(&headline.idle_strokes)));
     sheet.line("time of all strokes", minutes(&headline.cycle_time));
     if let Some(blank) = &results.blank {
         print_blank(&mut sheet, blank);
@@ -187,6 +190,13 @@ fn shown(quantity: &Quantity) -> String {
             place.v_mm
         ),
         None => format!("{} {unit}", significant(value, 4)),
+    }
+}
+
+fn at_stroke(peak: &ChipPeak) -> String {
+    match (peak.stroke.value(), peak.space.value()) {
+        (Some(stroke), Some(space)) => format!("{} (stroke {stroke}, tooth space {space})", shown(&peak.value)),
+        _ => shown(&peak.value),
     }
 }
 

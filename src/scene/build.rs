@@ -3,23 +3,24 @@
 //! Every value is there once the scene is without problems; a missing one ends the building, and a test over all
 //! variants keeps the table of keys and this file together.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::model::{
-    AxisLimits, Feed, Fields, Gear, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Output, Picture,
-    PictureColour, PictureView, PitchCurveShape, Scene, ShaperCutter, StrokeSpacing, TextureWindow, Tip,
+    AxisLimits, Feed, Fields, GcodeDialect, Gear, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Output,
+    Picture, PictureColour, PictureView, PitchCurveShape, Scene, ShaperCutter, StrokeSpacing, TextureWindow, Tip,
     TraditionalDirection, WindowSides,
 };
 use super::values::{Values, View};
 use crate::gear::generation::Side;
+use crate::material::EdgeForce;
 use crate::measure::topography::Form;
 use crate::units::UM_PER_MM;
 
-/// The scene called `name`.
-pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
+/// The scene called `name`; `base_dir` holds the files it refers to.
+pub(super) fn build(name: &str, base_dir: &Path, values: &Values) -> Option<Scene> {
     let pressure_angle_rad = rad(values.view("gear"), "pressure_angle_deg")?;
     let operations: Option<Vec<Operation>> = (0..values.count("operation"))
-        .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
+        .map(|index| operation(values, &format!("operation.{index}"), base_dir, pressure_angle_rad))
         .collect();
     let pictures: Option<Vec<Picture>> = (0..values.count("picture"))
         .map(|index| picture(values.view(&format!("picture.{index}")), values.count("operation")))
@@ -31,6 +32,7 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
     Some(Scene {
         name: name.to_owned(),
         gear: gear(values)?,
+        material: material(values)?,
         tool: shaper_cutter(values)?,
         machine: machine(values)?,
         operations: operations?,
@@ -42,6 +44,7 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
             lead_spacing_mm: mm_from_um(flank, "lead_spacing_um")?,
             blank_spacing_mm: blank.number("spacing_mm")?,
             blank_slice_spacing_mm: blank.number("slice_spacing_mm")?,
+            chip_spacing_mm: values.view("fields.chips").number("spacing_mm")?,
         },
         measure: Measure {
             profile_start_height_mm: measure.number("profile_start_height_mm"),
@@ -51,6 +54,13 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
             map_spacing_mm: output.number("map_spacing_mm")?,
             mesh_spacing_mm: output.number("mesh_spacing_mm")?,
             folder: output.text("folder").map(PathBuf::from),
+            gcode: match output.text("gcode")? {
+                "linear" => GcodeDialect::Linear,
+                "paper_g84" => GcodeDialect::PaperG84,
+                "none" => GcodeDialect::None,
+                _ => return None,
+            },
+            gcode_contour_error_mm: mm_from_um(output, "gcode_contour_error_um")?,
         },
         pictures: pictures?,
     })
@@ -75,6 +85,16 @@ fn gear(values: &Values) -> Option<Gear> {
         bore_diameter_mm: gear.number("bore_diameter_mm")?,
         tooth_thickness_allowance_mm: gear.number("tooth_thickness_allowance_mm")?,
         pitch_curve: pitch_curve(values, gear.variant("pitch_curve")?)?,
+    })
+}
+
+fn material(values: &Values) -> Option<EdgeForce> {
+    let material = values.view("material");
+    Some(EdgeForce {
+        cutting_n_per_mm2: material.number("cutting_force_n_per_mm2")?,
+        cutting_edge_n_per_mm: material.number("cutting_edge_force_n_per_mm")?,
+        normal_n_per_mm2: material.number("normal_force_n_per_mm2")?,
+        normal_edge_n_per_mm: material.number("normal_edge_force_n_per_mm")?,
     })
 }
 
@@ -157,7 +177,7 @@ fn machine(values: &Values) -> Option<Machine> {
     })
 }
 
-fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<Operation> {
+fn operation(values: &Values, path: &str, base_dir: &Path, pressure_angle_rad: f64) -> Option<Operation> {
     let operation = values.view(path);
     let offset_mm = match operation.number("stock_per_flank_mm") {
         Some(stock_mm) => stock_mm / pressure_angle_rad.sin(),
@@ -187,6 +207,7 @@ fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<Ope
         overlap_rad: rad(operation, "overlap_deg")?,
         infeed: infeed(values, path, operation.variant("infeed")?)?,
         feed_during_stroke: operation.boolean("feed_during_stroke")?,
+        program: operation.text("program").map(|name| base_dir.join(name)),
     })
 }
 

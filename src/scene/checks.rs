@@ -16,12 +16,15 @@ const MOST_DEXELS: f64 = 1e8;
 /// Most strokes of one operation; ten thousand per tooth of a hundred-tooth gear are already beyond any machine.
 const MOST_STROKES: f64 = 1e7;
 
+/// Finest spacing of the rays on which chips are followed, per module: ten times finer than usual, maps take some hundred megabytes.
+const MOST_CHIP_SPACINGS_PER_MODULE: f64 = 600.0;
+
 /// Adds a problem for every contradiction.
 pub(super) fn cross_check(values: &Values, problems: &mut Problems<'_>) {
     let mut found = Found { values, problems };
     let found = &mut found;
     // A missing value ends only the check that asks for it.
-    let _: [Option<()>; 8] = [
+    let _: [Option<()>; 9] = [
         gear_bore(found),
         sinusoidal(found),
         fourier(found),
@@ -29,6 +32,7 @@ pub(super) fn cross_check(values: &Values, problems: &mut Problems<'_>) {
         cutter_thinning(found),
         pitch_errors(found),
         dexels(found),
+        chips(found),
         profile(found),
     ];
     tip(found);
@@ -164,6 +168,16 @@ fn dexels(found: &mut Found) -> Option<()> {
     let message = || format!("about {dexels:.1e} dexels on one flank; at most {MOST_DEXELS:.0e} are taken");
     let way_out = "make profile_spacing_um or lead_spacing_um larger";
     found.blame(dexels > MOST_DEXELS, "fields.flank.profile_spacing_um", message, way_out);
+    Some(())
+}
+
+fn chips(found: &mut Found) -> Option<()> {
+    let path = "fields.chips.spacing_mm";
+    let spacing_mm = found.view("fields.chips").number("spacing_mm")?;
+    let least_mm = found.view("gear").number("module_mm")? / MOST_CHIP_SPACINGS_PER_MODULE;
+    let message =
+        || format!("`{path}`: {spacing_mm} is finer than the maps of chips can hold for this module: {least_mm:.4} mm");
+    found.blame(spacing_mm < least_mm, path, message, "use module_mm / 600 or more; module_mm / 60 is the default");
     Some(())
 }
 

@@ -9,6 +9,7 @@
 
 mod gear;
 mod machine;
+mod material;
 mod operation;
 mod picture;
 mod range;
@@ -153,6 +154,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
     [
         FIRST,
         gear::SECTIONS,
+        material::SECTIONS,
         tool::SECTIONS,
         machine::BEFORE_OPERATIONS,
         operation::SECTIONS,

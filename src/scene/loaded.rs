@@ -77,7 +77,7 @@ pub fn parse(text: &str, file_name: &str, base_dir: &Path, overrides: &[String])
     checks::cross_check(&values, &mut problems);
     let list = problems.list;
     let stem = Path::new(file_name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
-    match build::build(stem, &values) {
+    match build::build(stem, base_dir, &values) {
         Some(scene) if list.is_empty() => Ok(LoadedScene { scene, values, sources }),
         _ => Err(SceneErrors::new(list)),
     }

@@ -7,6 +7,8 @@ use crate::gear::generation::Side;
 use crate::measure::topography::Form;
 use std::path::PathBuf;
 
+use crate::material::EdgeForce;
+
 /// One job: what is cut, with what, how, and what is measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
@@ -14,6 +16,8 @@ pub struct Scene {
     pub name: String,
     /// The gear to cut.
     pub gear: Gear,
+    /// Force coefficients of the work's material.
+    pub material: EdgeForce,
     /// The shaper cutter.
     pub tool: ShaperCutter,
     /// The machine: stroke, clearances, mounting errors, axis limits.
@@ -230,6 +234,8 @@ pub struct Operation {
     pub infeed: Infeed,
     /// The rotary feed goes on while the cutter is in the work (crank law); otherwise the pose is frozen during a stroke.
     pub feed_during_stroke: bool,
+    /// Axis program (G-code) that is cut instead of the linkage's own positions; the linkage remains the target.
+    pub program: Option<PathBuf>,
 }
 
 /// Linkage models of external shaping; Gao et al. 2017.
@@ -362,6 +368,8 @@ pub struct Fields {
     pub blank_spacing_mm: f64,
     /// Of the blank's slices, where sections differ along the tooth.
     pub blank_slice_spacing_mm: f64,
+    /// Of the rays through a tooth space on which chips are followed, and of the places along the edge.
+    pub chip_spacing_mm: f64,
 }
 
 /// Where profiles are evaluated, as heights over the pitch curve along its normal; `None`: from the form point to the tip, 5 % left out at each end.
@@ -382,6 +390,21 @@ pub struct Output {
     pub mesh_spacing_mm: f64,
     /// Folder given in the scene, if any; the command line wins.
     pub folder: Option<PathBuf>,
+    /// Form of the axis programs.
+    pub gcode: GcodeDialect,
+    /// Largest displacement on the flanks that their straight lines may cause.
+    pub gcode_contour_error_mm: f64,
+}
+
+/// Form of axis programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GcodeDialect {
+    /// Straight lines in inverse time.
+    Linear,
+    /// The one-block form of Gao et al. 2017, marked as not to be run.
+    PaperG84,
+    /// None.
+    None,
 }
 
 /// One picture of the cut gear.

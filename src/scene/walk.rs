@@ -11,6 +11,7 @@ use super::sources::{At, Sources};
 use super::suggest::{display_path, nearest};
 use super::tree::{Entry, Node, Value};
 use super::values::{Checked, Held, Values};
+use crate::material::Kienzle;
 
 /// Collects problems.
 pub(super) struct Problems<'a> {
@@ -259,6 +260,18 @@ impl Walk<'_, '_> {
         let (module_mm, teeth) = (gear.number("module_mm"), gear.whole("teeth"));
         if let Some(module_mm) = module_mm {
             self.default("gear", "face_width_mm", Checked::Number((10.0 * module_mm).min(1000.0)));
+            self.default("fields.chips", "spacing_mm", Checked::Number((module_mm / 60.0).max(0.002)));
+        }
+        if let Some(material) = self.values.view("material").text("name").and_then(Kienzle::named) {
+            let force = material.edge_force();
+            for (name, value) in [
+                ("cutting_force_n_per_mm2", force.cutting_n_per_mm2),
+                ("cutting_edge_force_n_per_mm", force.cutting_edge_n_per_mm),
+                ("normal_force_n_per_mm2", force.normal_n_per_mm2),
+                ("normal_edge_force_n_per_mm", force.normal_edge_n_per_mm),
+            ] {
+                self.default("material", name, Checked::Number(value));
+            }
         }
         for (list, count) in self.values.counts.clone() {
             let is_named = keys::section(&format!("{list}[]")).is_some_and(|s| s.keys.iter().any(|k| k.name == "name"));

@@ -17,6 +17,7 @@ pub fn paper_scene(operations: Vec<Operation>) -> Scene {
             tooth_thickness_allowance_mm: 0.0,
             pitch_curve: PitchCurveShape::Ellipse { order: 3, eccentricity: 0.1348, semi_major_axis_mm: Some(61.11) },
         },
+        material: gearcut::material::MATERIALS[0].edge_force(),
         tool: ShaperCutter {
             teeth: 20,
             addendum_coefficient: 1.25,
@@ -44,9 +45,16 @@ pub fn paper_scene(operations: Vec<Operation>) -> Scene {
             lead_spacing_mm: 0.05,
             blank_spacing_mm: 0.1,
             blank_slice_spacing_mm: 2.5,
+            chip_spacing_mm: 0.05,
         },
         measure: Measure { profile_start_height_mm: None, profile_end_height_mm: None },
-        output: Output { map_spacing_mm: 0.1, mesh_spacing_mm: 0.1, folder: None },
+        output: Output {
+            map_spacing_mm: 0.1,
+            mesh_spacing_mm: 0.1,
+            folder: None,
+            gcode: GcodeDialect::Linear,
+            gcode_contour_error_mm: 0.001,
+        },
         pictures: Vec::new(),
     }
 }
@@ -64,6 +72,7 @@ pub fn operation(name: &str, linkage: Linkage, offset_mm: f64, strokes: u32) -> 
         overlap_rad: 0.0,
         infeed: Infeed::None,
         feed_during_stroke: false,
+        program: None,
     }
 }
 

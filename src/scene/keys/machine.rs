@@ -163,6 +163,20 @@ pub(super) static AFTER_OPERATIONS: &[Section] = &[
         teach: "Rays through the whole blank: material removed, gouges, interference, meshes.",
     },
     Section {
+        path: "fields.chips",
+        role: Role::Plain,
+        keys: &[Key {
+            name: "spacing_mm",
+            kind: Kind::Number(Range::closed(0.002, 2.0)),
+            unit: "mm",
+            default: Default::Derived("module_mm / 60"),
+            example: "0.05",
+            teach: "Distance of the rays through a tooth space and of the places along the cutter's edge.",
+        }],
+        groups: &[],
+        teach: "The rays on which chips are followed from stroke to stroke; half the spacing doubles the time.",
+    },
+    Section {
         path: "measure",
         role: Role::Plain,
         keys: &[
@@ -209,6 +223,22 @@ pub(super) static AFTER_OPERATIONS: &[Section] = &[
                 default: Default::LeftOut("out/ and the name of the scene"),
                 example: "\"out/my_gear\"",
                 teach: "Where results are written; --out on the command line wins.",
+            },
+            Key {
+                name: "gcode",
+                kind: Kind::Word(&["linear", "paper_g84", "none"]),
+                unit: "",
+                default: Default::Word("linear"),
+                example: "\"linear\"",
+                teach: "Form of the axis programs: straight lines in inverse time, the one-block form of Gao et al. 2017 (not to be run: G84 taps on most machines), or none.",
+            },
+            Key {
+                name: "gcode_contour_error_um",
+                kind: Kind::Number(Range::closed(0.0001, 1000.0)),
+                unit: "um",
+                default: Default::Number(1.0),
+                example: "1.0",
+                teach: "Largest displacement on the cutter's flanks that the straight lines of a program may cause.",
             },
         ],
         groups: &[],

@@ -113,6 +113,14 @@ pub(super) static SECTIONS: &[Section] = &[
                 example: "false",
                 teach: "true: the rotary feed goes on while the cutter is in the work, as on a crank machine; false: the axes rest during each stroke.",
             },
+            Key {
+                name: "program",
+                kind: Kind::Path,
+                unit: "",
+                default: Default::LeftOut("the linkage moves the axes"),
+                example: "\"finish.ngc\"",
+                teach: "Axis program (G-code, relative to the scene file) that is cut instead of the linkage's own positions; the linkage remains the target, so that maps show what the program does wrong.",
+            },
         ],
         groups: &[
             Group { names: &["offset_mm", "stock_per_flank_mm"], required: false },

@@ -1,0 +1,48 @@
+//! Keys of the work's material: what the cutting forces follow from.
+
+use super::{Default, Key, Kind, Range, Role, Section};
+use crate::material::{MATERIAL_NAMES, MATERIALS};
+
+/// A coefficient of the force law.
+const fn coefficient(name: &'static str, unit: &'static str, example: &'static str, teach: &'static str) -> Key {
+    Key {
+        name,
+        kind: Kind::Number(Range::closed(0.0, 20_000.0)),
+        unit,
+        default: Default::Derived("from the material's name"),
+        example,
+        teach,
+    }
+}
+
+/// `[material]`.
+pub(super) static SECTIONS: &[Section] = &[Section {
+    path: "material",
+    role: Role::Plain,
+    keys: &[
+        Key {
+            name: "name",
+            kind: Kind::Word(&MATERIAL_NAMES),
+            unit: "",
+            default: Default::Word(MATERIALS[0].name),
+            example: "\"16MnCr5\"",
+            teach: "Steel whose built-in force coefficients hold: Kienzle's law after Koenig and Essel (1973), as a line from 0.01 to 0.3 mm of chip.",
+        },
+        coefficient(
+            "cutting_force_n_per_mm2",
+            "N/mm^2",
+            "3000.0",
+            "K_c: cutting force per area of chip, along the stroke.",
+        ),
+        coefficient(
+            "cutting_edge_force_n_per_mm",
+            "N/mm",
+            "60.0",
+            "K_ce: cutting force per length of edge that a chip of no thickness would need.",
+        ),
+        coefficient("normal_force_n_per_mm2", "N/mm^2", "1500.0", "K_n: force normal to the edge per area of chip."),
+        coefficient("normal_edge_force_n_per_mm", "N/mm", "30.0", "K_ne: force normal to the edge per length of edge."),
+    ],
+    groups: &[],
+    teach: "The work's material: cutting force = (K_c h + K_ce) b for a chip of thickness h over a length b of edge, and the same normal to the edge.",
+}];

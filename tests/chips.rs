@@ -1,0 +1,205 @@
+//! The chip ledger against closed forms, against exact polygon clipping of the same strokes, and against the blank field.
+
+mod common;
+
+use common::*;
+use gearcut::job::Job;
+use gearcut::material::EdgeForce;
+use gearcut::measure::chips::ChipLedger;
+use gearcut::measure::chips::edge_polygon::EdgeSide;
+use gearcut::scene::model::{Infeed, PitchCurveShape};
+use gearcut::tool::CuttingTool;
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::float::single::SingleFloatOverlay;
+use std::f64::consts::TAU;
+
+fn ledger(job: &Job) -> ChipLedger {
+    ChipLedger::new(job, &|| true).expect("not stopped")
+}
+
+fn round_job(strokes: u32) -> Job {
+    let mut scene = paper_scene(vec![operation("cut", NORMAL, 0.0, strokes)]);
+    scene.gear.teeth = 24;
+    scene.gear.pitch_curve = PitchCurveShape::Circle;
+    Job::new(scene).expect("an ordinary gear")
+}
+
+/// Twice the signed area of a polygon, halved.
+fn area(contour: &[[f64; 2]]) -> f64 {
+    let next = contour.iter().cycle().skip(1);
+    0.5 * contour.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
+}
+
+/// Area that each stroke takes from the blank, by clipping polygons with chords of some hundred nanometres.
+fn clipped_areas(job: &Job) -> Vec<f64> {
+    let mut blank: Vec<Vec<[f64; 2]>> = vec![
+        (0..20_000)
+            .map(|i| {
+                let frame = job.curve.frame(TAU * f64::from(i) / 20_000.0);
+                (frame.point_mm + job.blank.addendum_mm * frame.normal).to_array()
+            })
+            .collect(),
+    ];
+    let cutter = &job.cutter;
+    let mut tooth = Vec::new();
+    for segment in &cutter.edge().segments {
+        let [from, to] = segment.y_range_mm;
+        for i in 0..=80 {
+            let y = from + (to - from) * f64::from(i) / 80.0;
+            tooth.push(segment.blade_from_segment.point(glam::DVec2::new(segment.x_and_slope(y)[0], y)));
+        }
+    }
+    tooth.push(glam::DVec2::ZERO);
+    let total = |shape: &[Vec<[f64; 2]>]| shape.iter().map(|contour| area(contour)).sum::<f64>();
+    let set = &job.operations[0].strokes;
+    let mut left = total(&blank);
+    (0..set.count())
+        .map(|stroke| {
+            let pose = set.poses(stroke)[0];
+            let teeth: Vec<Vec<[f64; 2]>> = (0..cutter.blade_count())
+                .map(|blade| pose.after(&cutter.tool_from_blade(blade)))
+                .filter(|place| place.point(cutter.edge().center_mm).length() < 45.0)
+                .map(|place| tooth.iter().map(|&p| place.point(p).to_array()).collect())
+                .collect();
+            blank = blank.overlay(&teeth, OverlayRule::Difference, FillRule::NonZero).into_iter().flatten().collect();
+            let before = std::mem::replace(&mut left, total(&blank));
+            before - left
+        })
+        .collect()
+}
+
+#[test]
+fn sections_are_those_of_exact_polygons_stroke_by_stroke() {
+    let job = round_job(160);
+    let exact = clipped_areas(&job);
+    let ours = &ledger(&job).operations[0].strokes;
+    let sum: f64 = exact.iter().sum();
+    let taken: f64 = ours.iter().map(|s| s.area_mm2).sum();
+    let mut off: Vec<f64> = ours.iter().zip(&exact).map(|(s, exact)| (s.area_mm2 - exact).abs()).collect();
+    off.sort_by(f64::total_cmp);
+    let (median, worst) = (off[off.len() / 2], off[off.len() - 1]);
+    println!(
+        "sum {taken:.4} of {sum:.4} mm2; per stroke off by {median:.4} (median), {worst:.4} (worst) of {:.3}",
+        sum / 160.0
+    );
+    assert!((taken / sum - 1.0).abs() < 1e-3, "{taken} of {sum}");
+    // A chip ends within half a spacing: 0.025 mm at each of a few ends of chips some tenths of a millimetre thick.
+    assert!(median < 0.01 && worst < 0.1, "{median} {worst}");
+    // The check can fail: one stroke left out is more than the bound.
+    assert!((taken - ours[80].area_mm2) / sum < 1.0 - 1e-3);
+}
+
+#[test]
+fn the_ledger_and_the_blank_field_take_the_same_volume() {
+    let scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 420), operation("finish", NORMAL, 0.0, 420)]);
+    let job = Job::new(scene).expect("the paper's gear");
+    let blank = job.cut_blank(&|| true).expect("fits in memory").expect("not stopped");
+    let chips = ledger(&job);
+    for (index, cut) in blank.cuts.iter().enumerate() {
+        let removed = cut.removed_mm3.iter().fold(0.0, |sum, by_family| sum + 0.5 * (by_family[0] + by_family[1]));
+        let taken = chips.area_mm2(index) * job.scene.gear.face_width_mm;
+        println!("{taken:.1} of {removed:.1} mm3");
+        assert!((taken / removed - 1.0).abs() < 1e-3, "{taken} of {removed}");
+    }
+}
+
+#[test]
+fn a_plunging_tooth_takes_chips_of_known_thickness() {
+    // Strokes of 0.02 mm straight into the work: every place of the edge takes 0.02 mm times the share of its normal along the line of centres.
+    let mut scene = paper_scene(vec![operation("cut", NORMAL, 0.0, 240)]);
+    scene.gear.teeth = 24;
+    scene.gear.pitch_curve = PitchCurveShape::Circle;
+    scene.operations[0].infeed = Infeed::Plunge { depth_mm: 6.0, strokes: 300 };
+    scene.operations[0].window_rad = Some([0.0, 0.01]);
+    let job = Job::new(scene).expect("an ordinary gear");
+    let chips = ledger(&job);
+    let operation = &chips.operations[0];
+    let stations = chips.stations.len();
+    let mut checked = 0;
+    for stroke in 20..300 {
+        let (row, sum) =
+            (&operation.by_stroke.thickness_mm[stroke * stations..][..stations], &operation.strokes[stroke]);
+        // Later the neighbouring teeth cut too, at an angle.
+        if sum.chips != 1 {
+            break;
+        }
+        let depth_mm = 0.75 + 0.02 * stroke as f64;
+        for (station, &thickness) in chips.stations.iter().zip(row) {
+            let expected = 0.02 * station.normal.x;
+            let deep = station.point_mm.x > job.cutter.tip_radius_mm - depth_mm + 0.1;
+            if deep && station.to_corner_mm > 0.1 {
+                let off = (f64::from(thickness) - expected).abs();
+                assert!(off < 1e-4, "{stroke} {station:?}: {thickness} for {expected}");
+                checked += 1;
+            }
+        }
+        assert!((sum.thickest_mm[EdgeSide::Tip as usize] - 0.02).abs() < 1e-4);
+        let difference = sum.thickest_mm[EdgeSide::Left as usize] - sum.thickest_mm[EdgeSide::Right as usize];
+        assert!(difference.abs() < 1e-4, "{difference}");
+        assert!(sum.work_torque_nmm.abs() < 1e-3 * sum.cutting_n * job.cutter.tip_radius_mm, "the cut is symmetric");
+    }
+    assert!(checked > 2000, "{checked} places");
+}
+
+#[test]
+fn thickness_scales_with_the_feed() {
+    let median = |strokes: u32| {
+        let job = round_job(strokes);
+        let chips = ledger(&job);
+        let mut tips: Vec<f64> =
+            chips.operations[0].strokes.iter().map(|s| s.thickest_mm[EdgeSide::Tip as usize]).collect();
+        tips.sort_by(f64::total_cmp);
+        tips[tips.len() / 2]
+    };
+    let (coarse, fine) = (median(480), median(960));
+    println!("{coarse} and {fine} mm");
+    assert!((coarse / fine - 2.0).abs() < 0.05, "{coarse} {fine}");
+}
+
+#[test]
+fn forces_follow_from_section_and_contact_and_balance_the_torques() {
+    let only_section = EdgeForce {
+        cutting_n_per_mm2: 1000.0,
+        cutting_edge_n_per_mm: 0.0,
+        normal_n_per_mm2: 400.0,
+        normal_edge_n_per_mm: 0.0,
+    };
+    let only_edge = EdgeForce {
+        cutting_n_per_mm2: 0.0,
+        cutting_edge_n_per_mm: 50.0,
+        normal_n_per_mm2: 0.0,
+        normal_edge_n_per_mm: 20.0,
+    };
+    for force in [only_section, only_edge] {
+        let mut job = round_job(960);
+        job.scene.material = force;
+        let strokes = ledger(&job).operations[0].strokes.clone();
+        for (index, stroke) in strokes.iter().enumerate().take(700).skip(200) {
+            let expected = if force.cutting_edge_n_per_mm == 0.0 {
+                1000.0 * stroke.area_mm2
+            } else {
+                50.0 * stroke.contact_length_mm()
+            };
+            assert!((stroke.cutting_n / expected - 1.0).abs() < 0.04, "{index}: {} for {expected}", stroke.cutting_n);
+            // Whatever the edge does, the torques about both axes differ by the tangential force at the centre distance.
+            let l = job.operations[0].schedule.state(index as f64).center_distance_mm;
+            let balance = stroke.work_torque_nmm + stroke.cutter_torque_nmm + l * stroke.tangential_n;
+            assert!(balance.abs() < 1e-6 * l * stroke.cutting_n, "{balance}");
+            assert!(stroke.radial_n > 0.0, "the cut pushes the tool away");
+        }
+    }
+}
+
+#[test]
+fn runs_past_the_first_turn_are_idle() {
+    let mut scene = paper_scene(vec![operation("cut", NORMAL, 0.0, 240)]);
+    scene.gear.teeth = 24;
+    scene.gear.pitch_curve = PitchCurveShape::Circle;
+    scene.operations[0].revolutions = 2;
+    let job = Job::new(scene).expect("an ordinary gear");
+    let operation = &ledger(&job).operations[0];
+    // The second turn repeats the first: whole pitches apart, the same cutter angles come back.
+    assert!(operation.idle() >= 200, "{} idle", operation.idle());
+    assert!(operation.strokes[300..].iter().all(|s| s.area_mm2 < 1e-3));
+}
