@@ -139,8 +139,15 @@ gearcut.loaded.then((data) => {
   });
   const bodyShape = geometry(bodyMesh);
   const flankBody = new THREE.Mesh(flankShape, flankMaterial);
+  const body = new THREE.Mesh(bodyShape, bodyMaterial);
+  // Thin lines where the surface bends or a flank ends; faces step back a little so that the lines lie on them.
+  const edgeMaterial = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.45 });
+  const edges = [flankShape, bodyShape].map((shape) => new THREE.LineSegments(new THREE.EdgesGeometry(shape, 35), edgeMaterial));
+  for (const material of [flankMaterial, bodyMaterial]) {
+    Object.assign(material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  }
   const scene = new THREE.Scene();
-  scene.add(flankBody, new THREE.Mesh(bodyShape, bodyMaterial));
+  scene.add(flankBody, body, ...edges);
 
   flankShape.computeBoundingSphere();
   const radius = flankShape.boundingSphere.radius;
@@ -157,7 +164,7 @@ gearcut.loaded.then((data) => {
   canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
 
   const home = new THREE.Vector3(0.55, -1.0, 1.15).normalize();
-  const fitting = () => (1.12 * radius) / Math.sin((Math.PI / 360) * camera.fov) / Math.min(1, camera.aspect);
+  const fitting = () => (0.93 * radius) / Math.sin((Math.PI / 360) * camera.fov) / Math.min(1, camera.aspect);
   function look(direction, target, distance) {
     controls.target.copy(target);
     camera.position.copy(target).addScaledVector(direction, distance);
@@ -220,7 +227,7 @@ gearcut.loaded.then((data) => {
     const { left, top, width, height } = canvas.getBoundingClientRect();
     const at = new THREE.Vector2(((event.clientX - left) / width) * 2 - 1, 1 - ((event.clientY - top) / height) * 2);
     ray.setFromCamera(at, camera);
-    const [hit] = ray.intersectObjects(scene.children);
+    const [hit] = ray.intersectObjects([flankBody, body]);
     if (!hit || hit.object !== flankBody) return null;
     const mark = whose[hit.face.a];
     return { index: mark < 0 ? -1 - mark : mark, u: hit.uv1.x, v: hit.uv1.y };
@@ -270,6 +277,7 @@ gearcut.loaded.then((data) => {
   function theme() {
     flankMaterial.uniforms.metal.value.set(...colour("--body-metal"));
     flankMaterial.uniforms.accent.value.set(...colour("--s1"));
+    edgeMaterial.color.set(getComputedStyle(document.documentElement).getPropertyValue("--edge").trim());
     draw();
   }
   let fitted = false;

@@ -36,6 +36,8 @@ pub fn page(job: &Job, cut: &CutGear, results: &Results, run: &RunWords) -> Resu
     let axes = OperationAxes::of_job(job);
     let mut warnings = super::summary::warnings(cut);
     warnings.extend(axes.iter().flat_map(OperationAxes::warnings));
+    // The terminal's plain letters become signs.
+    let warnings = warnings.iter().map(|text| text.replace(" um", " µm").replace(" deg ", "° ")).collect();
     let mut sections = stock::section(job, cut, results).into_iter().collect::<Vec<_>>();
     sections.push(deviations::section(job, cut));
     sections.push(motion(job, results));
@@ -172,7 +174,7 @@ fn peak_table(operation: &OperationResults) -> Table {
     });
     Table {
         caption: "Peaks of the axes".to_owned(),
-        columns: ["Axis", "Largest", "Unit", "At work angle [°]", "Limit", "Left of it"].map(str::to_owned).into(),
+        columns: ["Axis", "Largest", "Unit", "At work angle [°]", "Limit", "Reserve"].map(str::to_owned).into(),
         rows: rows.collect(),
     }
 }

@@ -130,7 +130,9 @@ fn root(generation: &Generation, space: i64, left: (DVec2, DVec2), right: (DVec2
     let points = target_root(generation, space, SPACING_MM);
     let normal_at = |index: Option<usize>, other: DVec2| index.map_or(other, |i| points[i].normal);
     let mut root = vec![(left.0, normal_at((!points.is_empty()).then_some(0), left.1))];
-    root.extend(points.iter().map(|point| (point.point_mm, point.normal)));
+    // Points nearly on the flanks' ends would make needles of triangles.
+    let apart = |point: DVec2| point.distance(left.0).min(point.distance(right.0)) > 0.05 * SPACING_MM;
+    root.extend(points.iter().map(|point| (point.point_mm, point.normal)).filter(|&(point, _)| apart(point)));
     root.push((right.0, normal_at(points.len().checked_sub(1), right.1)));
     root
 }
