@@ -68,6 +68,20 @@ gearcut.loaded.then((data) => {
     return shape;
   }
 
+  // A shape without its end faces: inside them there is nothing to draw lines at, and their rims belong to the walls.
+  function walls(shape) {
+    const index = shape.getIndex().array;
+    const normals = shape.getAttribute("normal");
+    const kept = [];
+    for (let corner = 0; corner < index.length; corner += 3) {
+      if (Math.abs(normals.getZ(index[corner])) < 0.99) kept.push(index[corner], index[corner + 1], index[corner + 2]);
+    }
+    const without = new THREE.BufferGeometry();
+    without.setAttribute("position", shape.getAttribute("position"));
+    without.setIndex(kept);
+    return without;
+  }
+
   const flankShape = geometry(flankMesh);
   const places = new Float32Array(data.bytes, flankMesh.places, 2 * flankMesh.corners);
   const onAtlas = new Float32Array(2 * flankMesh.corners);
@@ -142,7 +156,7 @@ gearcut.loaded.then((data) => {
   const body = new THREE.Mesh(bodyShape, bodyMaterial);
   // Thin lines where the surface bends or a flank ends; faces step back a little so that the lines lie on them.
   const edgeMaterial = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.45 });
-  const edges = [flankShape, bodyShape].map((shape) => new THREE.LineSegments(new THREE.EdgesGeometry(shape, 35), edgeMaterial));
+  const edges = [flankShape, walls(bodyShape)].map((shape) => new THREE.LineSegments(new THREE.EdgesGeometry(shape, 35), edgeMaterial));
   for (const material of [flankMaterial, bodyMaterial]) {
     Object.assign(material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   }

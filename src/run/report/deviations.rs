@@ -32,7 +32,7 @@ pub fn section(job: &Job, cut: &CutGear) -> Section {
     ];
     blocks.extend(pitch_charts(job, cut));
     blocks.push(Block::Note(
-        "Pitch and thickness are arcs of the pitch curve in the middle of the face. Runout is the place, along the curve's normal, of a probe that touches both flanks of a space there; a round gear's F_r. No tolerance class is given: the standard's classes are for round gears."
+        "Pitch and thickness are arcs of the pitch curve in the middle of the face. Runout is the place, along the curve's normal, of a probe that touches both flanks of a space there; a round gear's Fr. No tolerance class is given: the standard's classes are for round gears."
             .to_owned(),
     ));
     Section {
