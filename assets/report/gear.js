@@ -178,7 +178,7 @@ gearcut.loaded.then((data) => {
   canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
 
   const home = new THREE.Vector3(0.55, -1.0, 1.15).normalize();
-  const fitting = () => (0.93 * radius) / Math.sin((Math.PI / 360) * camera.fov) / Math.min(1, camera.aspect);
+  const fitting = () => (0.93 * radius) / Math.sin((Math.PI / 360) * camera.fov) / Math.min(1, camera.aspect / 1.2);
   function look(direction, target, distance) {
     controls.target.copy(target);
     camera.position.copy(target).addScaledVector(direction, distance);
@@ -198,7 +198,7 @@ gearcut.loaded.then((data) => {
     // From outside and a little above, so that the tooth in front does not hide it.
     const outwards = new THREE.Vector3(middle.x, middle.y, 0).normalize();
     const direction = normal.normalize().addScaledVector(outwards, 1.1).add(new THREE.Vector3(0, 0, 0.5)).normalize();
-    look(direction, middle, (2.2 * Math.max(...sizes[chosen.flank])) / Math.min(1, camera.aspect));
+    look(direction, middle, (2.9 * Math.max(...sizes[chosen.flank])) / Math.min(1, camera.aspect));
   }
 
   // Turns by angles about the gear axis and towards it; a factor below one comes closer.
@@ -314,7 +314,7 @@ gearcut.loaded.then((data) => {
     if ("flank" in change) {
       flankMaterial.uniforms.picked.value = chosen.flank;
       flankMaterial.uniforms.size.value.set(...sizes[chosen.flank]);
-      flankMaterial.uniforms.border.value = Math.min(...sizes[chosen.flank]) * 0.07;
+      flankMaterial.uniforms.border.value = Math.min(...sizes[chosen.flank]) * 0.05;
     }
     draw();
   });

@@ -114,12 +114,12 @@ fn key_numbers(results: &Results, cut: &CutGear) -> Vec<KeyNumber> {
     });
     numbers.push(key_number("Highest scallop", &h.scallop_height));
     numbers.extend(deviations::key_numbers(cut));
-    let (thinnest, thickest) = (&h.smallest_tooth_thickness, &h.largest_tooth_thickness);
-    numbers.push(match thickest.value() {
-        Some(value) => {
-            with_note(key_number("Thinnest tooth, arc", thinnest), format!("thickest {} mm", significant(value, 6)))
+    let thinnest = key_number("Thinnest tooth, arc", &h.smallest_tooth_thickness);
+    numbers.push(match (h.smallest_tooth_thickness.value(), h.largest_tooth_thickness.value()) {
+        (Some(low), Some(high)) => {
+            KeyNumber { value: format!("{low:.4}"), note: format!("thickest {high:.4} mm"), ..thinnest }
         }
-        None => key_number("Thinnest tooth, arc", thinnest),
+        _ => thinnest,
     });
     numbers.extend([
         key_number("Highest start of involute", &h.start_of_involute),

@@ -82,9 +82,9 @@ impl ViewMesh {
             rims.push((right[0], left[0]));
         }
         let mut rim: Vec<DVec2> = Vec::new();
-        for (index, &(right, left)) in rims.iter().enumerate() {
+        for (space, (index, &(right, left))) in (1..).zip(rims.iter().enumerate()) {
             let next = rims[(index + 1) % rims.len()].0;
-            let root = root(&generation, index as i64 + 1, left, next);
+            let root = root(&generation, space, left, next);
             body.wall(&root, leads_mm, true);
             rim.push(right.0);
             rim.extend(root[..root.len() - 1].iter().map(|(point, _)| *point));

@@ -24,8 +24,7 @@ def main(report, pictures, chromium):
         check_text(wide)
         check_gear(wide)
         check_picker(wide)
-        wide.page.evaluate("window.scrollTo(0, 0)")
-        wide.page.screenshot(path=pictures / "wide_light.png", full_page=True)
+        keep_pictures(wide, "wide_light")
         check_print(wide, pictures / "print.pdf")
         wide.close()
         for name, width, height, scheme in [
@@ -37,7 +36,7 @@ def main(report, pictures, chromium):
             overflow = other.page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
             assert overflow <= 0, f"{name}: the page is {overflow} px wider than the screen"
             assert drawn_share(other) > 0.05, f"{name}: the gear is not drawn"
-            other.page.screenshot(path=pictures / f"{name}.png", full_page=True)
+            keep_pictures(other, name)
             other.close()
         check_without_scripts(browser, address)
         browser.close()
@@ -71,6 +70,16 @@ def open_page(browser, address, pictures, width, height, scheme):
             break
         page.wait_for_timeout(100)
     return opened
+
+
+def keep_pictures(opened, name):
+    """The head and every section: one picture of the whole page would be larger than browsers can make."""
+    page = opened.page
+    page.locator("[data-view=home]").click()
+    page.evaluate("window.scrollTo(0, 0)")
+    page.screenshot(path=opened.pictures / f"{name}_head.png")
+    for section in page.locator("main > section").all():
+        section.screenshot(path=opened.pictures / f"{name}_{section.get_attribute('id')}.png")
 
 
 def check_text(opened):

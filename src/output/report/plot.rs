@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use maud::{Markup, PreEscaped, html};
 
 use crate::output::axis::{Ticks, round_range, value_text};
-use crate::output::bar_chart::BarChart;
+use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, Panel, thinned};
 
 const WIDTH: f64 = 960.0;
@@ -99,7 +99,7 @@ pub(super) fn path(points: &[(f64, f64)]) -> String {
     text
 }
 
-pub(super) fn svg(width: f64, height: f64, label: &str, content: Markup) -> Markup {
+pub(super) fn svg(width: f64, height: f64, label: &str, content: &Markup) -> Markup {
     // As wide as drawn and a tenth more, so that letters keep their size on every sheet.
     let style = format!("max-width: {}px", px(1.1 * width));
     html! {
@@ -167,7 +167,7 @@ fn line_panel(chart: &LineChart, panel: &Panel, last: bool) -> Markup {
                 (panel_name(&panel.value_name, &frame.ticks().unit_text(&panel.unit)))
                 (legend(&curves.chain(limits).collect::<Vec<_>>()))
             }
-            (svg(WIDTH, height, &format!("{}: {}", chart.title, panel.value_name), content))
+            (svg(WIDTH, height, &format!("{}: {}", chart.title, panel.value_name), &content))
             @if last { div class="x-name" { (panel_name(&chart.x_name, &x_ticks.unit_text(&chart.x_unit))) } }
         }
     }
@@ -192,16 +192,17 @@ fn category_labels(categories: &[String], bottom: f64) -> Markup {
 
 /// Grouped bars with the mean of each series as a dashed line.
 pub fn bars(chart: &BarChart) -> Markup {
-    let values = || chart.series.iter().flat_map(|series| series.finite());
+    let values = || chart.series.iter().flat_map(BarSeries::finite);
     let frame = Frame::new(236.0, round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max)));
     let entries: Vec<(String, String)> = chart
         .series
         .iter()
         .enumerate()
         .map(|(k, series)| {
-            let mean = series
-                .mean()
-                .map_or_else(|| ": no values".to_owned(), |mean| format!(", mean {} {}", value_text(mean), chart.unit));
+            let mean = series.mean().map_or_else(
+                || ": no values".to_owned(),
+                |mean| format!(", mean {} {}", value_text(without_rounding(mean, frame.high - frame.low)), chart.unit),
+            );
             (format!("block s{k}"), format!("{}{mean}", series.name))
         })
         .collect();
@@ -239,8 +240,13 @@ pub fn bars(chart: &BarChart) -> Markup {
         &frame.ticks().unit_text(&chart.unit),
         &entries,
         &chart.category_name,
-        svg(WIDTH, frame.bottom + AXIS, &chart.title, content),
+        &svg(WIDTH, frame.bottom + AXIS, &chart.title, &content),
     )
+}
+
+/// Zero instead of what adding up numbers of this size leaves of zero.
+fn without_rounding(sum: f64, size: f64) -> f64 {
+    if sum.abs() < 1e-9 * size { 0.0 } else { sum }
 }
 
 /// Floating bars.
@@ -280,7 +286,7 @@ pub fn ranges(chart: &RangeChart) -> Markup {
         &frame.ticks().unit_text(&chart.unit),
         &entries,
         &chart.category_name,
-        svg(WIDTH, frame.bottom + AXIS, &chart.title, content),
+        &svg(WIDTH, frame.bottom + AXIS, &chart.title, &content),
     )
 }
 
@@ -290,7 +296,7 @@ fn category_figure(
     unit: &str,
     entries: &[(String, String)],
     category_name: &str,
-    plot: Markup,
+    plot: &Markup,
 ) -> Markup {
     html! {
         figure class="chart" {
@@ -310,7 +316,6 @@ pub(super) fn own(text: impl Into<String>) -> PreEscaped<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::bar_chart::BarSeries;
 
     #[test]
     fn bars_stand_on_zero_and_tell_their_value() {

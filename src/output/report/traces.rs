@@ -88,7 +88,7 @@ impl TraceSheet {
                         @if self.mirrored { "←" } @else { "→" }
                     }
                 }
-                (svg(width, TOP + HEIGHT + 12.0 + ROW * rows, &self.title, content))
+                (svg(width, TOP + HEIGHT + 12.0 + ROW * rows, &self.title, &content))
             }
         }
     }

@@ -105,7 +105,7 @@ fn shown_um(value_mm: f64) -> f64 {
 }
 
 /// Flanks of one side to be traced: evenly around, and the teeth with the largest `total`.
-fn traced<'a>(cut: &'a CutGear, side: Side, total: impl Fn(&FlankReport) -> Option<f64>) -> Vec<&'a FlankReport> {
+fn traced(cut: &CutGear, side: Side, total: impl Fn(&FlankReport) -> Option<f64>) -> Vec<&FlankReport> {
     let teeth = cut.report.thickness.len() as u32;
     let mut numbers: Vec<u32> = (0..TRACED_TEETH.min(teeth)).map(|k| 1 + k * teeth / TRACED_TEETH.min(teeth)).collect();
     for of in [Side::Left, Side::Right] {
