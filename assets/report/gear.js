@@ -68,6 +68,20 @@ gearcut.loaded.then((data) => {
     return shape;
   }
 
+  // A shape without its end faces: inside them there is nothing to draw lines at, and their rims belong to the walls.
+  function walls(shape) {
+    const index = shape.getIndex().array;
+    const normals = shape.getAttribute("normal");
+    const kept = [];
+    for (let corner = 0; corner < index.length; corner += 3) {
+      if (Math.abs(normals.getZ(index[corner])) < 0.99) kept.push(index[corner], index[corner + 1], index[corner + 2]);
+    }
+    const without = new THREE.BufferGeometry();
+    without.setAttribute("position", shape.getAttribute("position"));
+    without.setIndex(kept);
+    return without;
+  }
+
   const flankShape = geometry(flankMesh);
   const places = new Float32Array(data.bytes, flankMesh.places, 2 * flankMesh.corners);
   const onAtlas = new Float32Array(2 * flankMesh.corners);
@@ -139,8 +153,15 @@ gearcut.loaded.then((data) => {
   });
   const bodyShape = geometry(bodyMesh);
   const flankBody = new THREE.Mesh(flankShape, flankMaterial);
+  const body = new THREE.Mesh(bodyShape, bodyMaterial);
+  // Thin lines where the surface bends or a flank ends; faces step back a little so that the lines lie on them.
+  const edgeMaterial = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.45 });
+  const edges = [flankShape, walls(bodyShape)].map((shape) => new THREE.LineSegments(new THREE.EdgesGeometry(shape, 35), edgeMaterial));
+  for (const material of [flankMaterial, bodyMaterial]) {
+    Object.assign(material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  }
   const scene = new THREE.Scene();
-  scene.add(flankBody, new THREE.Mesh(bodyShape, bodyMaterial));
+  scene.add(flankBody, body, ...edges);
 
   flankShape.computeBoundingSphere();
   const radius = flankShape.boundingSphere.radius;
@@ -157,7 +178,7 @@ gearcut.loaded.then((data) => {
   canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
 
   const home = new THREE.Vector3(0.55, -1.0, 1.15).normalize();
-  const fitting = () => (1.12 * radius) / Math.sin((Math.PI / 360) * camera.fov) / Math.min(1, camera.aspect);
+  const fitting = () => (0.93 * radius) / Math.sin((Math.PI / 360) * camera.fov) / Math.min(1, camera.aspect / 1.2);
   function look(direction, target, distance) {
     controls.target.copy(target);
     camera.position.copy(target).addScaledVector(direction, distance);
@@ -177,7 +198,7 @@ gearcut.loaded.then((data) => {
     // From outside and a little above, so that the tooth in front does not hide it.
     const outwards = new THREE.Vector3(middle.x, middle.y, 0).normalize();
     const direction = normal.normalize().addScaledVector(outwards, 1.1).add(new THREE.Vector3(0, 0, 0.5)).normalize();
-    look(direction, middle, (2.2 * Math.max(...sizes[chosen.flank])) / Math.min(1, camera.aspect));
+    look(direction, middle, (2.9 * Math.max(...sizes[chosen.flank])) / Math.min(1, camera.aspect));
   }
 
   // Turns by angles about the gear axis and towards it; a factor below one comes closer.
@@ -220,7 +241,7 @@ gearcut.loaded.then((data) => {
     const { left, top, width, height } = canvas.getBoundingClientRect();
     const at = new THREE.Vector2(((event.clientX - left) / width) * 2 - 1, 1 - ((event.clientY - top) / height) * 2);
     ray.setFromCamera(at, camera);
-    const [hit] = ray.intersectObjects(scene.children);
+    const [hit] = ray.intersectObjects([flankBody, body]);
     if (!hit || hit.object !== flankBody) return null;
     const mark = whose[hit.face.a];
     return { index: mark < 0 ? -1 - mark : mark, u: hit.uv1.x, v: hit.uv1.y };
@@ -270,6 +291,7 @@ gearcut.loaded.then((data) => {
   function theme() {
     flankMaterial.uniforms.metal.value.set(...colour("--body-metal"));
     flankMaterial.uniforms.accent.value.set(...colour("--s1"));
+    edgeMaterial.color.set(getComputedStyle(document.documentElement).getPropertyValue("--edge").trim());
     draw();
   }
   let fitted = false;
@@ -292,7 +314,7 @@ gearcut.loaded.then((data) => {
     if ("flank" in change) {
       flankMaterial.uniforms.picked.value = chosen.flank;
       flankMaterial.uniforms.size.value.set(...sizes[chosen.flank]);
-      flankMaterial.uniforms.border.value = Math.min(...sizes[chosen.flank]) * 0.07;
+      flankMaterial.uniforms.border.value = Math.min(...sizes[chosen.flank]) * 0.05;
     }
     draw();
   });

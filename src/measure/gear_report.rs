@@ -102,7 +102,7 @@ pub fn measure(job: &Job, backend: &dyn Backend, flanks: Vec<FlankReport>) -> Re
     };
     let runout = {
         let side = |flank: fn(&ToothAllowance) -> Option<Crossing>| finished.iter().map(flank).collect::<Vec<_>>();
-        runout(&side(|t| t.b), &side(|t| t.c), job.curve.perimeter_mm(), job.scene.gear.pressure_angle_rad)
+        runout(&job.curve, &side(|t| t.b), &side(|t| t.c), job.scene.gear.pressure_angle_rad)
     };
     let generation = job.target_generation();
     let tip_lands_mm = (1..=teeth)
@@ -143,4 +143,31 @@ fn period_teeth(shape: &PitchCurveShape, teeth: u32) -> u32 {
         PitchCurveShape::Fourier { .. } | PitchCurveShape::Table { .. } => 1,
     };
     if teeth.is_multiple_of(order.max(1)) { teeth / order.max(1) } else { teeth }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene;
+    use std::path::Path;
+
+    /// A round gear clamped off its axis by e and cut: a probe on the gear's own axis runs out by 2 e, and the left and right pitch errors swing with it.
+    #[test]
+    fn a_gear_cut_off_its_axis_runs_out_by_twice_the_eccentricity() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping/circular_m3_z24.toml");
+        let mut scene = scene::load(&path, &[]).expect("a shipped scene").scene;
+        let eccentricity_mm = 0.02;
+        scene.machine.work_eccentricity_mm = eccentricity_mm;
+        let job = Job::new(scene).expect("a gear");
+        let cut = allowances(&job, job.operations.len() - 1, Surface::Strokes).expect("all flanks");
+        let side = |flank: fn(&ToothAllowance) -> Option<Crossing>| cut.iter().map(flank).collect::<Vec<_>>();
+        let (left, right) = (side(|t| t.b), side(|t| t.c));
+        let alpha = job.scene.gear.pressure_angle_rad;
+        let runout = runout(&job.curve, &left, &right, alpha).expect("all cross");
+        // The space after the last tooth is centred on phi = 0, the side that the gear was shifted to, towards the cutter: it is cut deepest, and the probe lies deepest.
+        let innermost = runout.radial_mm.iter().copied().fold(f64::INFINITY, f64::min);
+        assert_eq!(runout.radial_mm.last(), Some(&innermost));
+        // Feed marks of 0.1 um and the second order in e / d are all that may be between.
+        assert!((runout.total_mm() - 2.0 * eccentricity_mm).abs() < 2e-4, "{} mm", runout.total_mm());
+    }
 }

@@ -59,6 +59,13 @@ impl ColourScale {
         Self::Diverging { limit: low.abs().max(high.abs()) }
     }
 
+    /// Scale for heights over a target: sequential where all lie above it, diverging about zero where some lie below it by more than a hundredth of the largest magnitude.
+    pub fn heights_over<'a>(maps: impl IntoIterator<Item = &'a [f32]>) -> Self {
+        let (low, high) = finite_range(maps);
+        let limit = low.abs().max(high.abs());
+        if low < -0.01 * limit { Self::Diverging { limit } } else { Self::Sequential { low, high } }
+    }
+
     /// Values at the two ends.
     pub fn ends(self) -> (f32, f32) {
         match self {

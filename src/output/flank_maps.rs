@@ -146,7 +146,7 @@ impl FlankMaps {
                 unit: "µm",
                 grid: &self.grid,
                 values: &heights_um,
-                scale: ColourScale::sequential_over([heights_um.as_slice()]),
+                scale: ColourScale::heights_over([heights_um.as_slice()]),
             };
             write_map_png(&folder.path(format!("maps/{name}/{stem}.png"))?, &picture)?;
             // Ids are whole numbers; those of one flank lie close together, and as f32 they are exact up to 16 million.
@@ -249,4 +249,37 @@ fn mean(values: &mut dyn Iterator<Item = f32>) -> f32 {
 
 fn channel(name: &str, unit: &str, definition: &str, samples: Samples) -> MapChannel {
     MapChannel { name: name.to_owned(), unit: unit.to_owned(), definition: definition.to_owned(), samples }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dexel::Column;
+    use glam::DVec2;
+
+    /// Cells of four dexels, one of them untouched: the highest keeps the mark, the mean takes it with its share.
+    #[test]
+    fn a_cell_keeps_its_highest_dexel_and_its_mean() {
+        let column = |i: u32| Column {
+            arc_mm: f64::from(i) * 0.05,
+            origin_mm: DVec2::ZERO,
+            normal: DVec2::X,
+            low_mm: -1.0,
+            blank_mm: 1.0,
+        };
+        let field = Field { columns: (0..4).map(column).collect(), leads_mm: vec![-0.05, 0.0, 0.05, 0.1] };
+        let mut layer = field.blank_layer();
+        for index in 0..16 {
+            (layer.heights_mm[index], layer.passes[index]) = (index as f32, 7);
+        }
+        layer.passes[5] = NO_PASS;
+        let maps = FlankMaps::sample(1, Side::Left, &field, &[layer], 0.1);
+        assert_eq!((maps.grid.u.count, maps.grid.v.count), (2, 2));
+        // The cell at u 0.1, v -0.05 holds the columns at 0.05 (half way, upper cell) and 0.1, and the first row: dexels 4 and 8.
+        assert_eq!(maps.highest_mm[0][2], 8.0);
+        assert_eq!(maps.deviation_mm[2], 6.0);
+        // The cell at u 0.1, v 0.05 holds rows 1 and 2 of both columns: 5 (untouched), 6, 9, 10.
+        assert_eq!(maps.highest_mm[0][3], 10.0);
+        assert!((maps.deviation_mm[3] - 25.0 / 3.0).abs() < 1e-6);
+    }
 }

@@ -147,7 +147,7 @@ impl ColourBar<'_> {
         } else {
             canvas.text(&value_text(low.into()), (right + 9.0, 0.5 * (top + bottom)), Self::EM_PX, Side::Start)?;
         }
-        let name = format!("{} [{unit}]", self.quantity);
+        let name = if unit == "1" { self.quantity.to_owned() } else { format!("{} [{unit}]", self.quantity) };
         let at = (right + f64::from(Self::LABEL_WIDTH_PX) - 24.0, 0.5 * (top + bottom));
         canvas.text_upward(&name, at, fitting_em_px(&name, Self::EM_PX, room_px)?, Side::Middle)
     }

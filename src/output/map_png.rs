@@ -14,7 +14,7 @@ use std::path::Path;
 use plotters::prelude::DrawingBackend;
 
 use crate::output::atomic::write_bytes_atomically;
-use crate::output::axis::{Ticks, value_text};
+use crate::output::axis::{Ticks, number_text, value_text};
 use crate::output::canvas::{Canvas, Drawn, INK, PAPER, Point, Side};
 use crate::output::colormap::{ColourScale, NO_VALUE};
 use crate::output::grid::{MapAxis, MapGrid};
@@ -160,7 +160,9 @@ fn draw_notes<DB: DrawingBackend>(
         let along = (u_mm - picture.grid.u.low_edge_mm()) / picture.grid.u.length_mm();
         draw_mark(canvas, (left + across * (right - left), bottom - along * (bottom - top)), upward)?;
         draw_mark(canvas, (column_x + 7.0, y), upward)?;
-        let words = format!("{word} {} {} at v {v_mm:.2}, u {u_mm:.2} mm", value_text(value.into()), picture.unit);
+        let unit = if picture.unit == "1" { String::new() } else { format!(" {}", picture.unit) };
+        let (u, v) = (number_text(u_mm, 2), number_text(v_mm, 2));
+        let words = format!("{word} {}{unit} at v {v}, u {u} mm", value_text(value.into()));
         let em_px = fitting_em_px(&words, EM_PX, column_px - 30.0)?;
         canvas.text(&words, (column_x + 20.0, y), em_px, Side::Start)?;
         column_x += column_px;

@@ -210,7 +210,7 @@ impl Page {
                 ol class="operations" { @for operation in &self.operations { li { (operation) } } }
                 ul class="chips" {
                     @if self.complete { li class="good" { "all flanks cut" } } @else { li class="bad" { "stopped before all flanks were cut" } }
-                    li class=(if self.warnings.is_empty() { "good" } else { "bad" }) { (warned) }
+                    @if self.warnings.is_empty() { li class="good" { (warned) } } @else { li class="bad" { a href="#warnings" { (warned) } } }
                 }
             }
         }
@@ -220,9 +220,11 @@ impl Page {
         html! {
             section id="key-numbers" aria-labelledby="key-numbers-title" {
                 h2 id="key-numbers-title" { "Key numbers" }
-                @for warning in &self.warnings { p class="warning" role="note" { strong { "Warning. " } (warning) } }
                 dl class="numbers" {
                     @for (index, number) in self.key_numbers.iter().enumerate() { (number.markup(index < 2)) }
+                }
+                div id="warnings" {
+                    @for warning in &self.warnings { p class="warning" role="note" { strong { "Warning. " } (warning) } }
                 }
             }
         }
@@ -528,7 +530,11 @@ mod tests {
     #[test]
     fn the_library_is_the_one_that_its_record_names() {
         let record = include_str!("../../assets/three/README.md");
-        let hash: String = Sha256::digest(THREE).iter().map(|byte| format!("{byte:02x}")).collect();
+        let hash: String = Sha256::digest(THREE)
+            .iter()
+            .flat_map(|byte| [byte >> 4, byte & 15])
+            .filter_map(|half| char::from_digit(half.into(), 16))
+            .collect();
         assert!(record.contains(&hash), "assets/three/README.md does not name {hash}");
     }
 }

@@ -5,6 +5,7 @@
 use super::{CutGear, chip_files};
 use crate::axes_report;
 use crate::cut::Backend;
+use crate::dexel::NO_PASS;
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::measure::unevenness::ToothAllowance;
@@ -195,26 +196,30 @@ pub fn deviation_scale(cut: &CutGear) -> ColourScale {
     }
 }
 
-/// All flanks on one picture: stock of each earlier operation, heights and deviations after the last.
+/// Pass ids of one flank less its lowest; NaN where no pass came.
+fn passes_from_first(ids: &[u32]) -> Vec<f32> {
+    let first = ids.iter().copied().min().unwrap_or(0);
+    ids.iter().map(|&id| if id == NO_PASS { f32::NAN } else { (id - first) as f32 }).collect()
+}
+
+/// All flanks on one picture: stock of each earlier operation; heights, deviations and passes after the last.
 fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Result<()> {
     let last = job.operations.len() - 1;
     if cut.maps.is_empty() {
         return Ok(());
     }
-    let sheet =
-        |path: &str, title: String, quantity: &str, unit: &str, scale: Option<ColourScale>, values: Vec<Vec<f32>>| {
-            let labels: Vec<String> = cut.maps.iter().map(|m| format!("{} {}", m.tooth, m.side.name())).collect();
-            let thumbnails: Vec<Thumbnail> = cut
-                .maps
-                .iter()
-                .zip(&labels)
-                .zip(&values)
-                .map(|((map, label), values)| Thumbnail { label, grid: &map.grid, values })
-                .collect();
-            let scale = scale.unwrap_or_else(|| ColourScale::sequential_over(values.iter().map(Vec::as_slice)));
-            let sheet = ContactSheet { title: &title, quantity, unit, scale, maps: &thumbnails };
-            write_contact_sheet(&folder.path(path)?, &sheet)
-        };
+    let sheet = |path: &str, title: String, quantity: &str, unit: &str, scale: ColourScale, values: Vec<Vec<f32>>| {
+        let labels: Vec<String> = cut.maps.iter().map(|m| format!("{} {}", m.tooth, m.side.name())).collect();
+        let thumbnails: Vec<Thumbnail> = cut
+            .maps
+            .iter()
+            .zip(&labels)
+            .zip(&values)
+            .map(|((map, label), values)| Thumbnail { label, grid: &map.grid, values })
+            .collect();
+        let sheet = ContactSheet { title: &title, quantity, unit, scale, maps: &thumbnails };
+        write_contact_sheet(&folder.path(path)?, &sheet)
+    };
     for (index, operation) in job.operations[..last].iter().enumerate() {
         let name = &operation.spec.name;
         sheet(
@@ -222,27 +227,37 @@ fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Resu
             format!("{}: stock of {name}, all flanks", job.scene.name),
             "normal stock",
             "mm",
-            Some(super::map_operations(job)[index].stock_scale),
+            super::map_operations(job)[index].stock_scale,
             cut.maps.iter().map(|m| m.stock_mm(index)).collect(),
         )?;
     }
     let to_um = |h: &f32| h * UM_PER_MM as f32;
     let name = &job.finishing().spec.name;
+    let heights_um: Vec<Vec<f32>> = cut.maps.iter().map(|m| m.highest_mm[last].iter().map(to_um).collect()).collect();
     sheet(
         &format!("pictures/heights_{name}.png"),
         format!("{}: finished surface after {name}, all flanks", job.scene.name),
         "height over the target, highest of cell",
         "µm",
-        None,
-        cut.maps.iter().map(|m| m.highest_mm[last].iter().map(to_um).collect()).collect(),
+        ColourScale::heights_over(heights_um.iter().map(Vec::as_slice)),
+        heights_um,
     )?;
     sheet(
         &format!("pictures/deviation_{name}.png"),
         format!("{}: deviation after {name}, all flanks", job.scene.name),
         "mean height of cell over the target",
         "µm",
-        Some(deviation_scale(cut)),
+        deviation_scale(cut),
         cut.maps.iter().map(|m| m.deviation_mm.iter().map(to_um).collect()).collect(),
+    )?;
+    let passes: Vec<Vec<f32>> = cut.maps.iter().map(|m| passes_from_first(&m.passes[last])).collect();
+    sheet(
+        &format!("pictures/passes_{name}.png"),
+        format!("{}: the passes of {name} in the order of time, all flanks", job.scene.name),
+        "pass id, counted from the flank's first",
+        "1",
+        ColourScale::sequential_over(passes.iter().map(Vec::as_slice)),
+        passes,
     )
 }
 

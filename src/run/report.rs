@@ -36,6 +36,8 @@ pub fn page(job: &Job, cut: &CutGear, results: &Results, run: &RunWords) -> Resu
     let axes = OperationAxes::of_job(job);
     let mut warnings = super::summary::warnings(cut);
     warnings.extend(axes.iter().flat_map(OperationAxes::warnings));
+    // The terminal's plain letters become signs.
+    let warnings = warnings.iter().map(|text| text.replace(" um", " µm").replace(" deg ", "° ")).collect();
     let mut sections = stock::section(job, cut, results).into_iter().collect::<Vec<_>>();
     sections.push(deviations::section(job, cut));
     sections.push(motion(job, results));
@@ -112,12 +114,12 @@ fn key_numbers(results: &Results, cut: &CutGear) -> Vec<KeyNumber> {
     });
     numbers.push(key_number("Highest scallop", &h.scallop_height));
     numbers.extend(deviations::key_numbers(cut));
-    let (thinnest, thickest) = (&h.smallest_tooth_thickness, &h.largest_tooth_thickness);
-    numbers.push(match thickest.value() {
-        Some(value) => {
-            with_note(key_number("Thinnest tooth, arc", thinnest), format!("thickest {} mm", significant(value, 6)))
+    let thinnest = key_number("Thinnest tooth, arc", &h.smallest_tooth_thickness);
+    numbers.push(match (h.smallest_tooth_thickness.value(), h.largest_tooth_thickness.value()) {
+        (Some(low), Some(high)) => {
+            KeyNumber { value: format!("{low:.4}"), note: format!("thickest {high:.4} mm"), ..thinnest }
         }
-        None => key_number("Thinnest tooth, arc", thinnest),
+        _ => thinnest,
     });
     numbers.extend([
         key_number("Highest start of involute", &h.start_of_involute),
@@ -172,7 +174,7 @@ fn peak_table(operation: &OperationResults) -> Table {
     });
     Table {
         caption: "Peaks of the axes".to_owned(),
-        columns: ["Axis", "Largest", "Unit", "At work angle [°]", "Limit", "Left of it"].map(str::to_owned).into(),
+        columns: ["Axis", "Largest", "Unit", "At work angle [°]", "Limit", "Reserve"].map(str::to_owned).into(),
         rows: rows.collect(),
     }
 }

@@ -82,9 +82,9 @@ impl ViewMesh {
             rims.push((right[0], left[0]));
         }
         let mut rim: Vec<DVec2> = Vec::new();
-        for (index, &(right, left)) in rims.iter().enumerate() {
+        for (space, (index, &(right, left))) in (1..).zip(rims.iter().enumerate()) {
             let next = rims[(index + 1) % rims.len()].0;
-            let root = root(&generation, index as i64 + 1, left, next);
+            let root = root(&generation, space, left, next);
             body.wall(&root, leads_mm, true);
             rim.push(right.0);
             rim.extend(root[..root.len() - 1].iter().map(|(point, _)| *point));
@@ -130,7 +130,9 @@ fn root(generation: &Generation, space: i64, left: (DVec2, DVec2), right: (DVec2
     let points = target_root(generation, space, SPACING_MM);
     let normal_at = |index: Option<usize>, other: DVec2| index.map_or(other, |i| points[i].normal);
     let mut root = vec![(left.0, normal_at((!points.is_empty()).then_some(0), left.1))];
-    root.extend(points.iter().map(|point| (point.point_mm, point.normal)));
+    // Points nearly on the flanks' ends would make needles of triangles.
+    let apart = |point: DVec2| point.distance(left.0).min(point.distance(right.0)) > 0.05 * SPACING_MM;
+    root.extend(points.iter().map(|point| (point.point_mm, point.normal)).filter(|&(point, _)| apart(point)));
     root.push((right.0, normal_at(points.len().checked_sub(1), right.1)));
     root
 }

@@ -10,10 +10,10 @@ use std::fmt::Write as _;
 use maud::{Markup, PreEscaped, html};
 
 use crate::output::axis::{Ticks, round_range, value_text};
-use crate::output::bar_chart::BarChart;
+use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, Panel, thinned};
 
-const WIDTH: f64 = 760.0;
+const WIDTH: f64 = 960.0;
 const LEFT: f64 = 56.0;
 const RIGHT: f64 = 10.0;
 const TOP: f64 = 8.0;
@@ -99,10 +99,12 @@ pub(super) fn path(points: &[(f64, f64)]) -> String {
     text
 }
 
-pub(super) fn svg(width: f64, height: f64, label: &str, content: Markup) -> Markup {
+pub(super) fn svg(width: f64, height: f64, label: &str, content: &Markup) -> Markup {
+    // As wide as drawn and a tenth more, so that letters keep their size on every sheet.
+    let style = format!("max-width: {}px", px(1.1 * width));
     html! {
         div class="plot" tabindex="0" role="group" aria-label=(label) {
-            svg viewBox=(format!("0 0 {} {}", px(width), px(height))) role="img" aria-label=(label) { (content) }
+            svg style=(style) viewBox=(format!("0 0 {} {}", px(width), px(height))) role="img" aria-label=(label) { (content) }
         }
     }
 }
@@ -113,7 +115,7 @@ pub(super) fn legend(entries: &[(String, String)]) -> Markup {
 }
 
 fn panel_name(name: &str, unit: &str) -> Markup {
-    html! { span class="panel-name" { (name) " " span class="unit" { "[" (unit) "]" } } }
+    html! { span class="panel-name" { (name) @if unit != "1" { " " span class="unit" { "[" (unit) "]" } } } }
 }
 
 /// Curves over a common axis.
@@ -132,7 +134,7 @@ fn line_panel(chart: &LineChart, panel: &Panel, last: bool) -> Markup {
     let (low, high) = chart.x_range();
     let x = |value: f64| LEFT + (value - low) / (high - low) * (WIDTH - LEFT - RIGHT);
     let x_ticks = Ticks::over(low, high, 12);
-    let frame = Frame::new(if chart.panels.len() > 1 { 130.0 } else { 220.0 }, panel.range());
+    let frame = Frame::new(if chart.panels.len() > 1 { 130.0 } else { 236.0 }, panel.range());
     let shown = |value: f64| (frame.low..=frame.high).contains(&value);
     let curves = panel.series.iter().enumerate().map(|(k, series)| (format!("line s{k}"), series.name.clone()));
     let limits = panel.limits.iter().map(|limit| {
@@ -165,8 +167,8 @@ fn line_panel(chart: &LineChart, panel: &Panel, last: bool) -> Markup {
                 (panel_name(&panel.value_name, &frame.ticks().unit_text(&panel.unit)))
                 (legend(&curves.chain(limits).collect::<Vec<_>>()))
             }
-            (svg(WIDTH, height, &format!("{}: {}", chart.title, panel.value_name), content))
-            @if last { div class="x-name" { (chart.x_name) " [" (x_ticks.unit_text(&chart.x_unit)) "]" } }
+            (svg(WIDTH, height, &format!("{}: {}", chart.title, panel.value_name), &content))
+            @if last { div class="x-name" { (panel_name(&chart.x_name, &x_ticks.unit_text(&chart.x_unit))) } }
         }
     }
 }
@@ -190,16 +192,17 @@ fn category_labels(categories: &[String], bottom: f64) -> Markup {
 
 /// Grouped bars with the mean of each series as a dashed line.
 pub fn bars(chart: &BarChart) -> Markup {
-    let values = || chart.series.iter().flat_map(|series| series.finite());
-    let frame = Frame::new(220.0, round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max)));
+    let values = || chart.series.iter().flat_map(BarSeries::finite);
+    let frame = Frame::new(236.0, round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max)));
     let entries: Vec<(String, String)> = chart
         .series
         .iter()
         .enumerate()
         .map(|(k, series)| {
-            let mean = series
-                .mean()
-                .map_or_else(|| ": no values".to_owned(), |mean| format!(", mean {} {}", value_text(mean), chart.unit));
+            let mean = series.mean().map_or_else(
+                || ": no values".to_owned(),
+                |mean| format!(", mean {} {}", value_text(without_rounding(mean, frame.high - frame.low)), chart.unit),
+            );
             (format!("block s{k}"), format!("{}{mean}", series.name))
         })
         .collect();
@@ -237,14 +240,19 @@ pub fn bars(chart: &BarChart) -> Markup {
         &frame.ticks().unit_text(&chart.unit),
         &entries,
         &chart.category_name,
-        svg(WIDTH, frame.bottom + AXIS, &chart.title, content),
+        &svg(WIDTH, frame.bottom + AXIS, &chart.title, &content),
     )
+}
+
+/// Zero instead of what adding up numbers of this size leaves of zero.
+fn without_rounding(sum: f64, size: f64) -> f64 {
+    if sum.abs() < 1e-9 * size { 0.0 } else { sum }
 }
 
 /// Floating bars.
 pub fn ranges(chart: &RangeChart) -> Markup {
     let values = || chart.series.iter().flat_map(|series| series.values.iter().flatten().flatten().copied());
-    let frame = Frame::new(220.0, round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max)));
+    let frame = Frame::new(236.0, round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max)));
     let slot = (WIDTH - LEFT - RIGHT) / chart.categories.len().max(1) as f64;
     let width = 0.8 * slot / chart.series.len().max(1) as f64;
     let entries: Vec<(String, String)> =
@@ -278,7 +286,7 @@ pub fn ranges(chart: &RangeChart) -> Markup {
         &frame.ticks().unit_text(&chart.unit),
         &entries,
         &chart.category_name,
-        svg(WIDTH, frame.bottom + AXIS, &chart.title, content),
+        &svg(WIDTH, frame.bottom + AXIS, &chart.title, &content),
     )
 }
 
@@ -288,7 +296,7 @@ fn category_figure(
     unit: &str,
     entries: &[(String, String)],
     category_name: &str,
-    plot: Markup,
+    plot: &Markup,
 ) -> Markup {
     html! {
         figure class="chart" {
@@ -308,7 +316,6 @@ pub(super) fn own(text: impl Into<String>) -> PreEscaped<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::bar_chart::BarSeries;
 
     #[test]
     fn bars_stand_on_zero_and_tell_their_value() {

@@ -125,7 +125,7 @@ fn material_ratio(window: &TextureWindow) -> Markup {
                     ("line s1".to_owned(), "equivalent line, 40 % window thick".to_owned()),
                 ]))
             }
-            (svg(WIDTH, BOTTOM + 26.0, &format!("Material ratio curve of {}", window.title), content))
+            (svg(WIDTH, BOTTOM + 26.0, &format!("Material ratio curve of {}", window.title), &content))
             div class="x-name" { "material ratio [%]" }
         }
     }

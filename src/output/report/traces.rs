@@ -41,7 +41,7 @@ pub struct TraceColumn {
 const COLUMN: f64 = 84.0;
 const LEFT: f64 = 42.0;
 const TOP: f64 = 26.0;
-const HEIGHT: f64 = 250.0;
+const HEIGHT: f64 = 240.0;
 const ROW: f64 = 16.0;
 /// Divisions from the zero line to the edge of a column.
 const DIVISIONS: f64 = 4.0;
@@ -88,7 +88,7 @@ impl TraceSheet {
                         @if self.mirrored { "←" } @else { "→" }
                     }
                 }
-                (svg(width, TOP + HEIGHT + 12.0 + ROW * rows, &self.title, content))
+                (svg(width, TOP + HEIGHT + 12.0 + ROW * rows, &self.title, &content))
             }
         }
     }

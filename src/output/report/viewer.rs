@@ -209,7 +209,8 @@ fn thinning_factor(grids: &[&MapGrid]) -> usize {
         counts.clone().map(|[u, v]| u * v).sum::<usize>() <= CELLS_PER_QUANTITY
             && counts.flatten().all(|count| count <= CELLS_PER_AXIS)
     };
-    (1..).find(|&factor| fits(factor)).unwrap_or(1)
+    // Maps have fewer cells than this along an axis: one cell per map is always reached.
+    (1..1 << 20).find(|&factor| fits(factor)).unwrap_or(1 << 20)
 }
 
 fn thinned_grid(grid: &MapGrid, factor: usize) -> MapGrid {

@@ -32,13 +32,13 @@ pub fn section(job: &Job, cut: &CutGear) -> Section {
     ];
     blocks.extend(pitch_charts(job, cut));
     blocks.push(Block::Note(
-        "Pitch and thickness are arcs of the pitch curve in the middle of the face. Runout is the place, along the curve's normal, of a wedge with flanks at the pressure angle in each space; a round gear's F_r. No tolerance class is given: the standard's classes are for round gears."
+        "Pitch and thickness are arcs of the pitch curve in the middle of the face. Runout is the place, along the curve's normal, of a probe that touches both flanks of a space there; a round gear's Fr. No tolerance class is given: the standard's classes are for round gears."
             .to_owned(),
     ));
     Section {
         id: "deviations",
-        title: "Deviations of the finished gear".to_owned(),
-        lead: "Against the target: the surface that the last operation would leave with infinitely many strokes and no error.".to_owned(),
+        title: "Deviations".to_owned(),
+        lead: "The finished gear against the target: the surface that the last operation would leave with infinitely many strokes and no error.".to_owned(),
         blocks,
     }
 }
@@ -105,7 +105,7 @@ fn shown_um(value_mm: f64) -> f64 {
 }
 
 /// Flanks of one side to be traced: evenly around, and the teeth with the largest `total`.
-fn traced<'a>(cut: &'a CutGear, side: Side, total: impl Fn(&FlankReport) -> Option<f64>) -> Vec<&'a FlankReport> {
+fn traced(cut: &CutGear, side: Side, total: impl Fn(&FlankReport) -> Option<f64>) -> Vec<&FlankReport> {
     let teeth = cut.report.thickness.len() as u32;
     let mut numbers: Vec<u32> = (0..TRACED_TEETH.min(teeth)).map(|k| 1 + k * teeth / TRACED_TEETH.min(teeth)).collect();
     for of in [Side::Left, Side::Right] {

@@ -61,7 +61,7 @@ fn quantities(job: &Job, cut: &CutGear) -> Vec<ViewerQuantity> {
         name: format!("Height after {finishing}"),
         definition: "Highest place of each cell over the target, feed marks included.".to_owned(),
         unit: "µm".to_owned(),
-        scale: ColourScale::sequential_over(heights.iter().map(Vec::as_slice)),
+        scale: ColourScale::heights_over(heights.iter().map(Vec::as_slice)),
         thinning: Thinning::Highest,
         values: heights,
     });
