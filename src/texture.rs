@@ -82,7 +82,12 @@ impl WindowTexture {
 ///
 /// # Errors
 /// Geometry and the backend. After Ctrl-C the windows that are finished are returned.
-pub fn measure(job: &Job, backend: &dyn Backend, progress: &Progress, interrupt: &Interrupt) -> Result<Vec<WindowTexture>> {
+pub fn measure(
+    job: &Job,
+    backend: &dyn Backend,
+    progress: &Progress,
+    interrupt: &Interrupt,
+) -> Result<Vec<WindowTexture>> {
     let windows = windows(job)?;
     let step = progress.step("texture", windows.len() as u64, "windows");
     let textures: Vec<Vec<WindowTexture>> = windows

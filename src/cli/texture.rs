@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
+use gearcut::Refusal;
 use gearcut::measure::topography::parameters::of_profile;
 use gearcut::measure::topography::{Arguments, Chain, Evaluation, Form, Parameter, Profile, Surface};
 use gearcut::output::surface_files::{Format, SurfaceFile, read_surface, write_surface};
 use gearcut::output::text::{Sheet, plain, significant};
 use gearcut::texture::quantities;
-use gearcut::Refusal;
 use serde_json::{Value, json};
 
 use super::args::{FormChoice, TextureArguments};
@@ -53,10 +53,8 @@ pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
         )
     };
     let (surface, words) = chain.apply(&file.surface).map_err(unsuited)?;
-    let more = Arguments {
-        heights_um: arguments.at_height_um.clone(),
-        ratios_percent: arguments.at_ratio_percent.clone(),
-    };
+    let more =
+        Arguments { heights_um: arguments.at_height_um.clone(), ratios_percent: arguments.at_ratio_percent.clone() };
     let evaluation = Evaluation::of(&surface, &more);
     let lines = arguments.line.iter().map(|wish| line(wish, &surface)).collect::<Result<Vec<_>, _>>()?;
     let text = if arguments.json {
@@ -177,7 +175,10 @@ fn sheet(
     let read = &file.surface;
     sheet.heading(&format!("{}", path.display()));
     let [x, y] = read.size_mm();
-    sheet.line("points", format!("{} x {}, {} x {} um apart", read.nx(), read.ny(), plain(read.dx_um()), plain(read.dy_um())));
+    sheet.line(
+        "points",
+        format!("{} x {}, {} x {} um apart", read.nx(), read.ny(), plain(read.dx_um()), plain(read.dy_um())),
+    );
     sheet.line("size", format!("{} x {} mm", significant(x, 4), significant(y, 4)));
     if read.holes() > 0 {
         sheet.line("holes", read.holes().to_string());

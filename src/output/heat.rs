@@ -54,7 +54,8 @@ pub(super) fn shade_cells(raster: &mut Raster, area: PixelBox, grid: &MapGrid, b
     for (row, &(u_first, u_end)) in rows.iter().enumerate() {
         let y = area.top + area.height - 1 - row as u32;
         for (x, &(v_first, v_end)) in (area.left..).zip(&columns) {
-            let cells = (u_first..u_end).flat_map(|u| &brightness[u * grid.v.count + v_first..u * grid.v.count + v_end]);
+            let cells =
+                (u_first..u_end).flat_map(|u| &brightness[u * grid.v.count + v_first..u * grid.v.count + v_end]);
             let light = mean(cells);
             if !light.is_nan() {
                 raster.shade(x, y, light);

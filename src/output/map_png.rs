@@ -19,8 +19,8 @@ use crate::output::canvas::{Canvas, Drawn, INK, PAPER, Point, Side};
 use crate::output::colormap::{ColourScale, NO_VALUE};
 use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::heat::{ColourBar, PixelBox, fitting_em_px, paint_cells, scale_problem, shade_cells, shown_range};
-pub use crate::output::relief::Relief;
 use crate::output::raster::Raster;
+pub use crate::output::relief::Relief;
 use crate::{Error, Result};
 
 /// A map to be drawn.

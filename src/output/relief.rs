@@ -54,7 +54,10 @@ impl Relief {
 
     /// What stands below the picture.
     pub fn words(&self) -> String {
-        format!("shaded relief: light from the upper left, heights exaggerated {} times against u and v", self.exaggeration)
+        format!(
+            "shaded relief: light from the upper left, heights exaggerated {} times against u and v",
+            self.exaggeration
+        )
     }
 }
 
@@ -62,7 +65,14 @@ impl Relief {
 fn round_factor(factor: f64) -> f64 {
     let power = 10_f64.powf(factor.log10().floor());
     let lead = factor / power;
-    power * if lead >= 5.0 { 5.0 } else if lead >= 2.0 { 2.0 } else { 1.0 }
+    power
+        * if lead >= 5.0 {
+            5.0
+        } else if lead >= 2.0 {
+            2.0
+        } else {
+            1.0
+        }
 }
 
 #[cfg(test)]

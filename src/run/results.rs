@@ -11,8 +11,8 @@ use crate::measure::FlankReport;
 use crate::measure::stock::{Extreme, Stock};
 use crate::measure::unevenness::{ToothAllowance, Unevenness as Percent, summarise};
 use crate::output::quantity::{Place, Quantity};
-use crate::texture::{self, WindowTexture};
 use crate::output::results::{Headline, OperationResults, Results, SCHEMA_VERSION, Spread, Unevenness};
+use crate::texture::{self, WindowTexture};
 
 /// Why a single operation has no stock.
 const SINGLE: &str = "the scene has one operation; stock is what an earlier operation leaves";

@@ -28,7 +28,9 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
         tool: shaper_cutter(values)?,
         machine: machine(values)?,
         operations: operations?,
-        textures: (0..values.textures).map(|index| texture(values.view(&format!("texture.{index}")))).collect::<Option<_>>()?,
+        textures: (0..values.textures)
+            .map(|index| texture(values.view(&format!("texture.{index}"))))
+            .collect::<Option<_>>()?,
         fields: Fields {
             profile_spacing_mm: mm_from_um(flank, "profile_spacing_um")?,
             lead_spacing_mm: mm_from_um(flank, "lead_spacing_um")?,

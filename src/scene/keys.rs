@@ -148,9 +148,17 @@ const ROOT: Section = Section { path: "", role: Role::Plain, keys: &[], groups: 
 /// All sections in the order of a scene file; a section stands after the one that holds it.
 pub fn sections() -> impl Iterator<Item = &'static Section> {
     static FIRST: &[Section] = &[ROOT];
-    [FIRST, gear::SECTIONS, tool::SECTIONS, machine::BEFORE_OPERATIONS, operation::SECTIONS, texture::SECTIONS, machine::AFTER_OPERATIONS]
-        .into_iter()
-        .flatten()
+    [
+        FIRST,
+        gear::SECTIONS,
+        tool::SECTIONS,
+        machine::BEFORE_OPERATIONS,
+        operation::SECTIONS,
+        texture::SECTIONS,
+        machine::AFTER_OPERATIONS,
+    ]
+    .into_iter()
+    .flatten()
 }
 
 /// The section of this path, `[]` included.

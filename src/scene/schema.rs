@@ -28,8 +28,7 @@ fn table(section: &'static Section) -> Map<String, Value> {
     }
     for child in section.children() {
         let inner = Value::Object(table(child));
-        let value =
-            if child.is_list() { json!({ "type": "array", "minItems": 1, "items": inner }) } else { inner };
+        let value = if child.is_list() { json!({ "type": "array", "minItems": 1, "items": inner }) } else { inner };
         properties.insert(child.name().to_owned(), value);
     }
     let mut schema = Map::new();

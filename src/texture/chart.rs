@@ -22,10 +22,7 @@ pub fn abbott(title: String, curve: &MaterialRatio, core: &Core) -> LineChart {
     let window = [core.window_percent, (core.window_percent + WINDOW_PERCENT).min(100.0)];
     let mut all = vec![
         series("material ratio curve".to_owned(), points(curve, POINTS)),
-        series(
-            format!("equivalent line, Sk {:.4} µm between its ends", core.sk),
-            vec![(0.0, upper), (100.0, lower)],
-        ),
+        series(format!("equivalent line, Sk {:.4} µm between its ends", core.sk), vec![(0.0, upper), (100.0, lower)]),
         series(
             "40 % window of the flattest secant".to_owned(),
             window.map(|percent| (percent, on_line(percent))).to_vec(),
@@ -44,10 +41,7 @@ pub fn abbott(title: String, curve: &MaterialRatio, core: &Core) -> LineChart {
         x_name: "areal material ratio".to_owned(),
         x_unit: "%".to_owned(),
         panels: vec![Panel {
-            value_name: "height".to_owned(),
-            unit: "µm".to_owned(),
-            series: all,
-            limits: Vec::new(),
+            value_name: "height".to_owned(), unit: "µm".to_owned(), series: all, limits: Vec::new()
         }],
     }
 }

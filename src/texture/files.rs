@@ -61,7 +61,12 @@ fn write_one(
     let Some(heights) = &texture.heights else { return Ok(()) };
     let [x, y] = window.start_mm;
     let mut all = vec![
-        ("frame".to_owned(), format!("{FRAME}; first point at x = {x} mm from the middle of the face, y = {y} mm from the start of the involute")),
+        (
+            "frame".to_owned(),
+            format!(
+                "{FRAME}; first point at x = {x} mm from the middle of the face, y = {y} mm from the start of the involute"
+            ),
+        ),
         ("surface".to_owned(), what.clone()),
     ];
     all.extend_from_slice(notes);
@@ -84,11 +89,8 @@ fn write_one(
     };
     let relief = Relief::of(&grid, &values, 1.0 / UM_PER_MM);
     write_relief_png(&folder.path(format!("{stem}_relief.png"))?, &picture, &relief)?;
-    let chart = chart::abbott(
-        format!("Material ratio of {what}"),
-        &evaluated.evaluation.curve,
-        &evaluated.evaluation.core,
-    );
+    let chart =
+        chart::abbott(format!("Material ratio of {what}"), &evaluated.evaluation.curve, &evaluated.evaluation.core);
     chart.write_png(&folder.path(format!("{stem}_abbott.png"))?)?;
     chart.write_svg(&folder.path(format!("{stem}_abbott.svg"))?)
 }

@@ -131,14 +131,22 @@ fn resolve(job: &Job, index: usize, spec: &TextureWindow, side: Side) -> Result<
     if profile[0] < -1e-9 || profile[1] > flank_mm + 1e-9 {
         return refuse(
             "length_profile_mm",
-            format!("the window from {:.3} to {:.3} mm does not lie on {where_}, whose flank is {flank_mm:.3} mm long", profile[0], profile[1]),
+            format!(
+                "the window from {:.3} to {:.3} mm does not lie on {where_}, whose flank is {flank_mm:.3} mm long",
+                profile[0], profile[1]
+            ),
             "make the window shorter, or move its center_profile_mm",
         );
     }
     if lead[0] < -0.5 * face_mm - 1e-9 || lead[1] > 0.5 * face_mm + 1e-9 {
         return refuse(
             "length_lead_mm",
-            format!("the window from {:.3} to {:.3} mm does not lie on the face, which ends at +-{:.3} mm", lead[0], lead[1], 0.5 * face_mm),
+            format!(
+                "the window from {:.3} to {:.3} mm does not lie on the face, which ends at +-{:.3} mm",
+                lead[0],
+                lead[1],
+                0.5 * face_mm
+            ),
             "make the window shorter, or move its center_lead_mm",
         );
     }
@@ -153,10 +161,18 @@ fn resolve(job: &Job, index: usize, spec: &TextureWindow, side: Side) -> Result<
     let count = steps.map(|steps| (steps + 5e-7).floor() as usize + 1);
     for (k, name) in ["lead_spacing_um", "profile_spacing_um"].into_iter().enumerate() {
         if count[k] < 2 {
-            return refuse(name, format!("the window on {where_} has a single row of points"), "use a smaller spacing or a longer window");
+            return refuse(
+                name,
+                format!("the window on {where_} has a single row of points"),
+                "use a smaller spacing or a longer window",
+            );
         }
         if (count[0] as f64) * (count[1] as f64) > MOST_POINTS {
-            return refuse(name, format!("the window on {where_} has {} x {} points, more than 40 million", count[0], count[1]), "use a wider spacing or a smaller window");
+            return refuse(
+                name,
+                format!("the window on {where_} has {} x {} points, more than 40 million", count[0], count[1]),
+                "use a wider spacing or a smaller window",
+            );
         }
     }
     // What is left over of the last step is shared by both ends.

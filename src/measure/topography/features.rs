@@ -66,10 +66,7 @@ fn curvature(surface: &Surface, peak: usize) -> f64 {
 /// Mean of the five largest.
 fn five(surface: &Surface, hills: &[Hill], sign: f64, what: &str) -> Result<f64, String> {
     if hills.len() < FIVE {
-        return Err(format!(
-            "only {} significant {what} lie wholly inside the window, five are needed",
-            hills.len()
-        ));
+        return Err(format!("only {} significant {what} lie wholly inside the window, five are needed", hills.len()));
     }
     let mut heights: Vec<f64> = hills.iter().map(|hill| sign * surface.heights_um()[hill.peak]).collect();
     heights.sort_unstable_by(|a, b| b.total_cmp(a));

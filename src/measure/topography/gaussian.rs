@@ -11,9 +11,9 @@
 //!
 //! The sums over neighbourhoods are convolutions with `s`, `x s`, `y s` and so on, all separable; lines go through the Fourier transform, so that the time does not grow with L.
 
+use rayon::prelude::*;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rayon::prelude::*;
 use std::f64::consts::{LN_2, PI};
 use std::sync::Arc;
 
@@ -295,7 +295,8 @@ mod tests {
             let law = 2_f64.powf(-(index / wave).powi(2));
             let middle = |s: &Surface| s.row(40)[60..180].to_vec();
             let (given, left) = (middle(&surface), middle(&filtered));
-            let passed = given.iter().zip(&left).map(|(a, b)| a * b).sum::<f64>() / given.iter().map(|a| a * a).sum::<f64>();
+            let passed =
+                given.iter().zip(&left).map(|(a, b)| a * b).sum::<f64>() / given.iter().map(|a| a * a).sum::<f64>();
             assert!((passed - law).abs() < 2e-6, "wave {wave}: {passed} is not {law}");
         }
     }
@@ -311,7 +312,9 @@ mod tests {
 
     #[test]
     fn a_robust_filter_is_not_pulled_into_dales() {
-        let scratched = surface(120, 60, |x, y| 0.01 * x + 0.05 * (x * 1.7 + y).sin() - if (x - 100.0).abs() < 5.0 { 20.0 } else { 0.0 });
+        let scratched = surface(120, 60, |x, y| {
+            0.01 * x + 0.05 * (x * 1.7 + y).sin() - if (x - 100.0).abs() < 5.0 { 20.0 } else { 0.0 }
+        });
         let plane = surface(120, 60, |x, _| 0.01 * x);
         let plain = furthest(&low_pass(&scratched, 60.0).expect("a filter"), &plane);
         let (robust, rounds) = robust_low_pass(&scratched, 60.0).expect("a filter");

@@ -87,11 +87,22 @@ pub fn of_profile(profile: &Profile) -> Vec<Parameter> {
     list.um(family, "Rq", profile.rq, "root mean square height of the profile");
     list.um(family, "Rz", profile.rz, "mean of the heights of five sections of the profile");
     list.um(family, "Rt", profile.rt, "height of the whole profile");
-    list.add(family, "RSm", profile.rsm.clone(), "um", "mean spacing of profile elements, crossing-the-line segmentation");
+    list.add(
+        family,
+        "RSm",
+        profile.rsm.clone(),
+        "um",
+        "mean spacing of profile elements, crossing-the-line segmentation",
+    );
     list.moment(family, "Rsk", profile.rsk, "skewness of the profile");
     list.moment(family, "Rku", profile.rku, "kurtosis of the profile; 3 for Gaussian heights");
     let core = &profile.core;
-    list.um(family, "Rk", core.sk, "core height of the profile's material ratio curve, least-squares line in the 40 % window");
+    list.um(
+        family,
+        "Rk",
+        core.sk,
+        "core height of the profile's material ratio curve, least-squares line in the 40 % window",
+    );
     list.um(family, "Rpk", core.spk, "reduced peak height of the profile");
     list.um(family, "Rvk", core.svk, "reduced pit depth of the profile");
     list.add(family, "Mr1", Ok(core.smr1), "%", "material ratio of the profile's peaks above the core");
@@ -140,8 +151,20 @@ impl List {
     fn spatial(&mut self, s: &Spatial) {
         let family = "spatial";
         let correlation = "of the unbiased linear autocorrelation";
-        self.add(family, "Sal", s.sal.clone(), "um", format!("autocorrelation length: shortest decay to 0.2 {correlation}"));
-        self.add(family, "Str", s.str.clone(), "1", format!("texture aspect ratio: shortest over longest decay to 0.2 {correlation}"));
+        self.add(
+            family,
+            "Sal",
+            s.sal.clone(),
+            "um",
+            format!("autocorrelation length: shortest decay to 0.2 {correlation}"),
+        );
+        self.add(
+            family,
+            "Str",
+            s.str.clone(),
+            "1",
+            format!("texture aspect ratio: shortest over longest decay to 0.2 {correlation}"),
+        );
         self.add(
             family,
             "Std",
@@ -154,21 +177,48 @@ impl List {
 
     fn hybrid(&mut self, h: Hybrid) {
         self.add("hybrid", "Sdq", Ok(h.sdq), "1", "root mean square gradient, forward differences");
-        self.add("hybrid", "Sdr", Ok(h.sdr), "%", "developed interfacial area ratio, mean of both diagonal splits of each cell");
+        self.add(
+            "hybrid",
+            "Sdr",
+            Ok(h.sdr),
+            "%",
+            "developed interfacial area ratio, mean of both diagonal splits of each cell",
+        );
     }
 
     fn core(&mut self, c: &Core, flat: bool) {
         let family = "core";
         let guarded = |value: f64| if flat { Err("the surface is flat".to_owned()) } else { Ok(value) };
-        self.um(family, "Sk", c.sk, "core height: least-squares line in the 40 % window of the flattest secant, from 0 to 100 %");
-        self.um(family, "Spk", c.spk, "reduced peak height: triangle on Smr1 with the area of the hills above the core");
-        self.um(family, "Svk", c.svk, "reduced dale height: triangle on 100 - Smr2 with the area of the dales below the core");
+        self.um(
+            family,
+            "Sk",
+            c.sk,
+            "core height: least-squares line in the 40 % window of the flattest secant, from 0 to 100 %",
+        );
+        self.um(
+            family,
+            "Spk",
+            c.spk,
+            "reduced peak height: triangle on Smr1 with the area of the hills above the core",
+        );
+        self.um(
+            family,
+            "Svk",
+            c.svk,
+            "reduced dale height: triangle on 100 - Smr2 with the area of the dales below the core",
+        );
         self.add(family, "Smr1", guarded(c.smr1), "%", "material ratio at the upper end of the core");
         self.add(family, "Smr2", guarded(c.smr2), "%", "material ratio at the lower end of the core");
         self.um(family, "Spkx", c.spkx, "height of the highest point over the core");
         self.um(family, "Svkx", c.svkx, "depth of the lowest point under the core");
         self.add(family, "Sak1", Ok(c.sak1), "um^3/um^2", "hills above the core, volume per unit area: Spk Smr1 / 200");
-        self.add(family, "Sak2", Ok(c.sak2), "um^3/um^2", "dales below the core, volume per unit area: Svk (100 - Smr2) / 200");
+        self.add(
+            family,
+            "Sak2",
+            Ok(c.sak2),
+            "um^3/um^2",
+            "dales below the core, volume per unit area: Svk (100 - Smr2) / 200",
+        );
     }
 
     fn functions(&mut self, curve: &MaterialRatio, arguments: &Arguments) {

@@ -61,7 +61,8 @@ impl Profile {
             high - low
         };
         let rt = range(&z);
-        let rz = (0..SECTIONS).map(|i| range(&z[i * n / SECTIONS..(i + 1) * n / SECTIONS])).sum::<f64>() / SECTIONS as f64;
+        let rz =
+            (0..SECTIONS).map(|i| range(&z[i * n / SECTIONS..(i + 1) * n / SECTIONS])).sum::<f64>() / SECTIONS as f64;
         let over = |moment: f64, power: i32| if rt == 0.0 { f64::NAN } else { moment / rq.powi(power) };
         Ok(Self {
             length_mm: (count - 1.0) * spacing_um * 1e-3,
@@ -126,7 +127,9 @@ mod tests {
         // 20 waves of 50 points, amplitude 2 um, 0.5 um apart.
         let heights: Vec<f64> = (0..1000).map(|i| 7.0 + 2.0 * (TAU * (f64::from(i) + 0.3) / 50.0).sin()).collect();
         let profile = Profile::of(&heights, 0.5).expect("a good line");
-        let near = |value: f64, closed: f64, share: f64| assert!((value - closed).abs() <= share * closed, "{value} is not {closed}");
+        let near = |value: f64, closed: f64, share: f64| {
+            assert!((value - closed).abs() <= share * closed, "{value} is not {closed}")
+        };
         near(profile.ra, 4.0 / PI, 1e-3);
         near(profile.rq, 2_f64.sqrt(), 1e-3);
         near(profile.rz, 4.0, 2e-3);
@@ -139,9 +142,8 @@ mod tests {
 
     #[test]
     fn small_ripples_are_no_elements() {
-        let heights: Vec<f64> = (0..1000)
-            .map(|i| (TAU * f64::from(i) / 200.0).sin() + 0.03 * (TAU * f64::from(i) / 7.0).sin())
-            .collect();
+        let heights: Vec<f64> =
+            (0..1000).map(|i| (TAU * f64::from(i) / 200.0).sin() + 0.03 * (TAU * f64::from(i) / 7.0).sin()).collect();
         let rsm = Profile::of(&heights, 1.0).expect("a good line").rsm.expect("whole waves");
         assert!((rsm - 200.0).abs() < 3.0, "{rsm}");
     }

@@ -50,7 +50,8 @@ impl Spatial {
         let (std, ssw) = match spectrum {
             Some(spectrum) => directions(&spectrum, centred),
             None => {
-                let why = format!("the map has {holes} holes, and a Fourier spectrum needs every point; crop them away");
+                let why =
+                    format!("the map has {holes} holes, and a Fourier spectrum needs every point; crop them away");
                 (Err(why.clone()), Err(why))
             }
         };
@@ -155,7 +156,8 @@ fn decay(products: &Products, [dx, dy]: [f64; 2]) -> (Result<f64, String>, Resul
         return (Err(why.to_owned()), Err(why.to_owned()));
     }
     let str = if open {
-        Err("the autocorrelation does not fall to 0.2 inside the window in every direction, as along feed marks".to_owned())
+        Err("the autocorrelation does not fall to 0.2 inside the window in every direction, as along feed marks"
+            .to_owned())
     } else {
         Ok(shortest / longest)
     };

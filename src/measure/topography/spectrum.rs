@@ -5,8 +5,8 @@
 //!
 //! Road not taken: the circular autocorrelation. It correlates the upper edge with the lower one, which moves Sal by several per cent.
 
-use realfft::RealFftPlanner;
 use rayon::prelude::*;
+use realfft::RealFftPlanner;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 

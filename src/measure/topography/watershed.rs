@@ -127,9 +127,10 @@ impl Grid<'_> {
                 if heights[index].is_nan() {
                     continue;
                 }
-                let up = self.neighbours(index).filter(|&n| self.above(n, index)).reduce(|best, n| {
-                    if self.above(n, best) { n } else { best }
-                });
+                let up = self
+                    .neighbours(index)
+                    .filter(|&n| self.above(n, index))
+                    .reduce(|best, n| if self.above(n, best) { n } else { best });
                 *step = up.unwrap_or(index) as u32;
             }
         });
@@ -226,7 +227,11 @@ mod tests {
         assert_eq!(peaks_of(&surface, 1.0, 1.2), [1, 7, 9], "3 rises 1 over 2");
         assert_eq!(peaks_of(&surface, 1.0, 2.0), [1, 7], "2 rises 1.5 over 0.5, 5 rises 4 over 1");
         assert_eq!(peaks_of(&surface, 1.0, 100.0), [7], "the highest peak is never pruned");
-        assert_eq!(peaks_of(&surface, -1.0, 1.2), [0, 4, 8, 10], "dales: 4.5 falls 0.3 and 2 falls 1 under the way out");
+        assert_eq!(
+            peaks_of(&surface, -1.0, 1.2),
+            [0, 4, 8, 10],
+            "dales: 4.5 falls 0.3 and 2 falls 1 under the way out"
+        );
     }
 
     #[test]

@@ -45,7 +45,9 @@ pub(super) fn encode(surface: &Surface) -> Vec<u8> {
 pub(super) fn decode(bytes: &[u8], path: &Path, spacing_um: Option<SpacingUm>) -> Result<SurfaceFile, String> {
     let beside = std::fs::read_to_string(sidecar(path)).ok();
     let facts: Option<Value> = match beside {
-        Some(text) => Some(serde_json::from_str(&text).map_err(|reason| format!("{}: {reason}", sidecar(path).display()))?),
+        Some(text) => {
+            Some(serde_json::from_str(&text).map_err(|reason| format!("{}: {reason}", sidecar(path).display()))?)
+        }
         None => None,
     };
     let written = facts.as_ref().and_then(|f| Some([f["dx_um"].as_f64()?, f["dy_um"].as_f64()?]));
@@ -62,7 +64,9 @@ pub(super) fn decode(bytes: &[u8], path: &Path, spacing_um: Option<SpacingUm>) -
 fn array(bytes: &[u8]) -> Result<([usize; 2], Vec<f64>), String> {
     let short = || "the NPY header is cut off".to_owned();
     let (start, length) = match bytes.get(6).ok_or_else(short)? {
-        1 => (10, usize::from(u16::from_le_bytes([*bytes.get(8).ok_or_else(short)?, *bytes.get(9).ok_or_else(short)?]))),
+        1 => {
+            (10, usize::from(u16::from_le_bytes([*bytes.get(8).ok_or_else(short)?, *bytes.get(9).ok_or_else(short)?])))
+        }
         2 | 3 => {
             let raw: [u8; 4] = bytes.get(8..12).ok_or_else(short)?.try_into().map_err(|_| short())?;
             (12, u32::from_le_bytes(raw) as usize)
@@ -100,7 +104,9 @@ fn array(bytes: &[u8]) -> Result<([usize; 2], Vec<f64>), String> {
         "f4" | "i4" => 4,
         "f8" | "i8" => 8,
         "i2" => 2,
-        other => return Err(format!("heights of type `{other}` are not read; use float64, float32 or signed integers")),
+        other => {
+            return Err(format!("heights of type `{other}` are not read; use float64, float32 or signed integers"));
+        }
     };
     let data = &bytes[start + length..];
     let count = nx.checked_mul(ny).filter(|n| n.checked_mul(size).is_some_and(|b| b <= data.len()));

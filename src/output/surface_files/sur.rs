@@ -50,9 +50,7 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
     for at in [276, 280, 284] {
         put(at, &1_f32.to_le_bytes());
     }
-    bytes.extend(
-        surface.heights_um().iter().flat_map(|z| if z.is_nan() { invalid } else { steps(*z) }.to_le_bytes()),
-    );
+    bytes.extend(surface.heights_um().iter().flat_map(|z| if z.is_nan() { invalid } else { steps(*z) }.to_le_bytes()));
     Ok(bytes)
 }
 
@@ -63,7 +61,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
     }
     let kind = all.i16(18)?;
     if ![2, 6].contains(&kind) {
-        return Err(format!("the file holds an object of type {kind}; only surfaces (2) and surface series (6) are read"));
+        return Err(format!(
+            "the file holds an object of type {kind}; only surfaces (2) and surface series (6) are read"
+        ));
     }
     let raw = match all.i16(98)? {
         16 => Raw::I16,

@@ -124,9 +124,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
     if nz != 1 {
         return Err(format!("the file holds {nz} layers; only one is read"));
     }
-    let link = record.text("Record3/DataLink/PointDataLink").map_err(|_| {
-        "the heights stand as text in the XML record; only those in a binary file are read".to_owned()
-    })?;
+    let link = record
+        .text("Record3/DataLink/PointDataLink")
+        .map_err(|_| "the heights stand as text in the XML record; only those in a binary file are read".to_owned())?;
     let data = entry(&mut zip, link)?;
     if let Ok(name) = record.text("Record4/ChecksumFile") {
         check_main(&entry(&mut zip, name)?, &main, &data)?;
