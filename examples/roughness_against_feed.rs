@@ -1,7 +1,8 @@
 //! Roughness of both flanks of tooth 3 of the paper's gear against the circular feed: the table and the chart in docs/texture.md.
 //!
 //! `cargo run --release --example roughness_against_feed -- [FOLDER]` writes `roughness_against_feed.csv`, `.png` and `.svg` into FOLDER (default `out/roughness`) and prints the table. Rough and finishing cut take the
-//! same feed; the rough one stands 2 mm off, along the normal or along the line of centres.
+//! same feed; the rough one stands 2 mm off, along the normal or along the line of centres. Three windows: 4 mm in the middle of the flank, 2 mm about
+//! the pitch curve, and the whole flank, on which the cusps' height itself changes.
 
 use gearcut::cut::cpu::Cpu;
 use gearcut::gear::generation::Side;
@@ -16,10 +17,13 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 const FEEDS_MM: [f64; 9] = [0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0];
+/// Length of the windows along the profile, mm: in the middle of the flank, about the pitch curve.
+const LENGTHS_MM: [f64; 2] = [4.0, 2.0];
 const SYMBOLS: [&str; 5] = ["Sa", "Sq", "Sk", "Spk", "Svk"];
 
 /// What one operation left on one flank at one feed.
 struct Row {
+    window: &'static str,
     surface: String,
     side: Side,
     feed_mm: f64,
@@ -34,24 +38,36 @@ fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn 
     for operation in &mut scene.operations {
         operation.feed = feed;
     }
-    scene.textures = vec![TextureWindow {
+    let window = |sides, center_profile_mm, length_profile_mm| TextureWindow {
         tooth: 3,
-        sides: WindowSides::Both,
-        center_profile_mm: None,
+        sides,
+        center_profile_mm,
         center_lead_mm: 0.0,
-        length_profile_mm: None,
+        length_profile_mm,
         length_lead_mm: Some(1.0),
         profile_spacing_mm: Some(0.002),
         lead_spacing_mm: Some(0.1),
         form: Form::Poly2,
-    }];
+    };
+    let probe = Job::new(scene.clone())?;
+    let generation = probe.target_generation();
+    let crossing = |side| -> Result<Option<f64>, Box<dyn Error>> {
+        Ok(probe.target_flank(&generation, 3, side)?.at_height(&probe.blank, 0.0).map(|(arc_mm, _)| arc_mm))
+    };
+    scene.textures = vec![
+        window(WindowSides::Both, None, Some(LENGTHS_MM[0])),
+        window(WindowSides::Left, crossing(Side::Left)?, Some(LENGTHS_MM[1])),
+        window(WindowSides::Right, crossing(Side::Right)?, Some(LENGTHS_MM[1])),
+        window(WindowSides::Both, None, None),
+    ];
     let job = Job::new(scene)?;
-    for window in windows(&job)? {
+    for (index, window) in windows(&job)?.into_iter().enumerate() {
         for texture in cut_window(&job, &Cpu::default(), &window)? {
             let operation = &job.operations[texture.operation];
             let evaluated = texture.evaluated.clone()?;
             let linkage = if path.contains("traditional") { "traditional" } else { "normal" };
             rows.push(Row {
+                window: ["middle", "middle", "pitch curve", "pitch curve", "whole", "whole"][index],
                 surface: format!("{}, {linkage}", operation.spec.name),
                 side: window.side,
                 feed_mm: job.curve.perimeter_mm() / operation.schedule.count() as f64,
@@ -74,7 +90,7 @@ fn panel(rows: &[Row], surfaces: &[&str], index: usize) -> Panel {
                 name: format!("{surface}, {} flank", side.name()),
                 points: rows
                     .iter()
-                    .filter(|row| row.surface == *surface && row.side == side)
+                    .filter(|row| row.window == "middle" && row.surface == *surface && row.side == side)
                     .map(|row| (row.feed_mm, row.values_um[index]))
                     .collect(),
             })
@@ -93,8 +109,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             measured(scene, feed, &mut rows)?;
         }
     }
-    rows.sort_by(|a, b| (&a.surface, a.side).cmp(&(&b.surface, b.side)).then(a.feed_mm.total_cmp(&b.feed_mm)));
-    let mut columns = vec!["surface", "flank", "feed_mm_per_stroke", "strokes_per_revolution", "marks"];
+    rows.sort_by(|a, b| (a.window, &a.surface, a.side).cmp(&(b.window, &b.surface, b.side)).then(a.feed_mm.total_cmp(&b.feed_mm)));
+    let mut columns = vec!["window", "surface", "flank", "feed_mm_per_stroke", "strokes_per_revolution", "marks"];
     let named = SYMBOLS.map(|symbol| format!("{symbol}_um"));
     columns.extend(named.iter().map(String::as_str));
     write_table(
@@ -102,6 +118,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         &columns,
         rows.iter().map(|row| {
             let mut cells: Vec<Cell> = vec![
+                row.window.into(),
                 row.surface.as_str().into(),
                 row.side.name().into(),
                 row.feed_mm.into(),
@@ -112,12 +129,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             cells
         }),
     )?;
-    println!("| surface | flank | feed mm | strokes | marks | Sa | Sq | Sk | Spk | Svk um |");
-    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+    println!("| window | surface | flank | feed mm | strokes | marks | Sa | Sq | Sk | Spk | Svk um |");
+    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     for row in &rows {
         let values = row.values_um.map(|value| format!("{value:.4}")).join(" | ");
-        let (surface, side) = (&row.surface, row.side.name());
-        println!("| {surface} | {side} | {:.3} | {} | {} | {values} |", row.feed_mm, row.strokes, row.marks);
+        let (window, surface, side) = (row.window, &row.surface, row.side.name());
+        println!("| {window} | {surface} | {side} | {:.3} | {} | {} | {values} |", row.feed_mm, row.strokes, row.marks);
     }
     let finished = ["finish, normal"];
     let chart = LineChart {

@@ -37,6 +37,9 @@ def gearcut(program, *arguments):
 def write_csv(path, z):
     with open(path, "w") as out:
         out.write(f"# dx_um = {DX_UM}\n# dy_um = {DY_UM}\n")
+        # Notes go into comments and trailers of the formats that have some: readers must not stumble over them.
+        notes = {"scene": "[gear]\nmodule_mm = 3.0 # * < & >", "frame": "x \u00b5m"}
+        out.write(f"# notes = {json.dumps(notes)}\n")
         for row in z:
             out.write(",".join("" if np.isnan(v) else repr(float(v)) for v in row) + "\n")
 
