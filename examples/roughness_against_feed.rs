@@ -109,7 +109,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             measured(scene, feed, &mut rows)?;
         }
     }
-    rows.sort_by(|a, b| (a.window, &a.surface, a.side).cmp(&(b.window, &b.surface, b.side)).then(a.feed_mm.total_cmp(&b.feed_mm)));
+    rows.sort_by(|a, b| {
+        (a.window, &a.surface, a.side).cmp(&(b.window, &b.surface, b.side)).then(a.feed_mm.total_cmp(&b.feed_mm))
+    });
     let mut columns = vec!["window", "surface", "flank", "feed_mm_per_stroke", "strokes_per_revolution", "marks"];
     let named = SYMBOLS.map(|symbol| format!("{symbol}_um"));
     columns.extend(named.iter().map(String::as_str));
