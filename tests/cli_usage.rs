@@ -5,7 +5,7 @@ mod command;
 
 use command::{gearcut, gearcut_in};
 
-const COMMANDS: [&str; 7] = ["cut", "check", "axes", "compare", "devices", "schema", "new"];
+const COMMANDS: [&str; 8] = ["cut", "check", "axes", "compare", "texture", "devices", "schema", "new"];
 
 #[test]
 fn help_teaches_every_command_with_an_example() {

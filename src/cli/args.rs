@@ -53,13 +53,13 @@ pub enum Command {
         (first period of the pitch curve, and all teeth) and each on its own scale, as PNG and SVG. Prints the table.")]
     Compare(CompareArguments),
     /// Evaluate the texture of a surface, measured or cut: ISO 25178-2 and ISO 21920-2 parameters.
-    #[command(after_help = "Examples:\n  \
+    #[command(after_help = "Example:\n  \
         gearcut texture out/elliptical_normal/texture/finish/tooth_03_left.x3p\n  \
         gearcut texture measured.sdf --form poly2 --s-filter-um 8 --l-filter-um 800 --crop-um 400\n  \
         gearcut texture heights.npy --spacing-um 2 5 --line y=500 --json\n  \
         gearcut texture measured.sur --save measured.x3p\n\n\
-        Reads X3P, SDF (binary and ASCII), SUR, NPY, CSV and gearcut's EXR maps; heights in files without units are um. The\n\
-        chain is applied in this order: form, S-filter, L-filter, crop; it is printed beside the numbers. Holes are left\n\
+        Reads X3P, SDF (binary and ASCII), SUR, NPY, CSV and gearcut's EXR maps; heights in files without units are um.\n\
+        The chain is applied in this order and printed beside the numbers: form, S-filter, L-filter, crop. Holes are left\n\
         out where a parameter allows it. A value that does not exist is printed as none with the reason (null in JSON).\n\
         Angles count counter-clockwise from +x (along a row) towards +y (from row to row). Writes no files but those\n\
         named by --save.")]

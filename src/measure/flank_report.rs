@@ -78,6 +78,16 @@ pub struct FlankReport {
 /// Cuts shallower than this below the target are numerical: the edge tables, f32 heights and Newton's last step together.
 pub const RESOLUTION_MM: f64 = 1e-6;
 
+/// Arcs between which profiles and textures are evaluated, mm from the form point: as the scene says, else without 5 % of the flank at either end.
+pub fn evaluated_profile_mm(job: &Job, flank: &TargetFlank) -> [f64; 2] {
+    let arc_at = |height: Option<f64>| height.and_then(|h| flank.at_height(&job.blank, h)).map(|(arc, _)| arc);
+    let length_mm = flank.length_mm();
+    [
+        arc_at(job.scene.measure.profile_start_height_mm).unwrap_or(DEFAULT_MARGIN * length_mm),
+        arc_at(job.scene.measure.profile_end_height_mm).unwrap_or((1.0 - DEFAULT_MARGIN) * length_mm),
+    ]
+}
+
 /// Measures a flank.
 pub fn measure(job: &Job, flank: &TargetFlank, cut: &CutFlank) -> FlankReport {
     let CutFlank { field, layers, .. } = cut;
@@ -88,11 +98,7 @@ pub fn measure(job: &Job, flank: &TargetFlank, cut: &CutFlank) -> FlankReport {
         FlankLimit { end, height_mm, radius_mm: contact.point_mm.length() }
     };
     let length_mm = flank.length_mm();
-    let arc_at = |height: Option<f64>| height.and_then(|h| flank.at_height(&job.blank, h)).map(|(arc, _)| arc);
-    let evaluated_mm = [
-        arc_at(job.scene.measure.profile_start_height_mm).unwrap_or(DEFAULT_MARGIN * length_mm),
-        arc_at(job.scene.measure.profile_end_height_mm).unwrap_or((1.0 - DEFAULT_MARGIN) * length_mm),
-    ];
+    let evaluated_mm = evaluated_profile_mm(job, flank);
     let rows = field.rows();
     let middle = rows / 2;
     let inside = |arc: f64| arc >= evaluated_mm[0] && arc <= evaluated_mm[1];

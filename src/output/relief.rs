@@ -39,7 +39,8 @@ impl Relief {
             .collect();
         let finite = || slopes.iter().map(|[x, y]| x * x + y * y).filter(|s| s.is_finite());
         let mean_square = finite().sum::<f64>() / finite().count().max(1) as f64;
-        let exaggeration = if mean_square > 0.0 { round_factor(SHOWN_SLOPE / mean_square.sqrt()) } else { 1.0 };
+        let exaggeration =
+            if mean_square > 0.0 { round_factor(SHOWN_SLOPE / mean_square.sqrt()).max(1.0) } else { 1.0 };
         let brightness = slopes
             .iter()
             .map(|[x, y]| {

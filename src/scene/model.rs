@@ -330,11 +330,11 @@ pub struct TextureWindow {
     pub tooth: u32,
     /// Which of its flanks.
     pub sides: WindowSides,
-    /// Middle along the profile, mm from the form point; `None`: the middle of the flank.
+    /// Middle along the profile, mm from the form point; `None`: the middle of the evaluated profile.
     pub center_profile_mm: Option<f64>,
     /// Middle along the tooth, mm from the middle of the face.
     pub center_lead_mm: f64,
-    /// Length along the profile; `None`: the whole flank.
+    /// Length along the profile; `None`: the evaluated profile.
     pub length_profile_mm: Option<f64>,
     /// Length along the tooth; `None`: the whole face.
     pub length_lead_mm: Option<f64>,

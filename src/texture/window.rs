@@ -1,11 +1,12 @@
 //! Where texture is looked at: the scene's windows, or those that every gear gets.
 //!
-//! Without a `[[texture]]` in the scene, both whole flanks of three teeth are taken: the one with the largest and the one with the smallest pitch-curve radius, where curvature and so the marks differ most, and
+//! Without a `[[texture]]` in the scene, the whole active flanks (the evaluated profile over the whole face) of three teeth are taken: the one with the largest and the one with the smallest pitch-curve radius, where curvature and so the marks differ most, and
 //! tooth 3, which Gao et al. (2017, Fig. 13) measured.
 
 use crate::error::{Refusal, Result};
 use crate::gear::generation::Side;
 use crate::job::Job;
+use crate::measure::flank_report::evaluated_profile_mm;
 use crate::measure::topography::Form;
 use crate::scene::model::{TextureWindow, WindowSides};
 
@@ -118,14 +119,16 @@ fn resolve(job: &Job, index: usize, spec: &TextureWindow, side: Side) -> Result<
         return refuse("tooth", format!("the gear has {teeth} teeth"), "name a tooth that the gear has");
     }
     let generation = job.target_generation();
-    let flank_mm = job.target_flank(&generation, spec.tooth, side)?.length_mm();
+    let flank = job.target_flank(&generation, spec.tooth, side)?;
+    let (flank_mm, [form_mm, tip_mm]) = (flank.length_mm(), evaluated_profile_mm(job, &flank));
     let face_mm = job.scene.gear.face_width_mm;
     let fields = job.scene.fields;
 
     let span = |center: f64, length: Option<f64>, low: f64, high: f64| {
         length.map_or([low, high], |length| [center - 0.5 * length, center + 0.5 * length])
     };
-    let profile = span(spec.center_profile_mm.unwrap_or(0.5 * flank_mm), spec.length_profile_mm, 0.0, flank_mm);
+    let middle_mm = spec.center_profile_mm.unwrap_or(0.5 * (form_mm + tip_mm));
+    let profile = span(middle_mm, spec.length_profile_mm, form_mm, tip_mm);
     let lead = span(spec.center_lead_mm, spec.length_lead_mm, -0.5 * face_mm, 0.5 * face_mm);
     let where_ = format!("tooth {} {}", spec.tooth, side.name());
     if profile[0] < -1e-9 || profile[1] > flank_mm + 1e-9 {

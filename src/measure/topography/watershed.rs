@@ -31,17 +31,12 @@ struct Saddle {
 
 /// Hills of a surface (`sign` 1) or its dales (`sign` -1) that rise at least `threshold_um` over their highest saddle.
 pub(super) fn hills(surface: &Surface, sign: f64, threshold_um: f64) -> Vec<Hill> {
-    let grid = Grid { surface, sign };
-    let (mut hill_of, peaks) = grid.climb();
+    let grid = Grid::new(surface, sign);
+    let (hill_of, peaks) = grid.climb();
     let open = grid.open(&hill_of, peaks.len());
     let mut saddles = grid.saddles(&hill_of);
-    hill_of.clear();
+    drop(hill_of);
     saddles.par_sort_unstable_by(|a, b| b.height.total_cmp(&a.height).then(a.hills.cmp(&b.hills)));
-    let rank = |hill: u32| (grid.at(peaks[hill as usize]), std::cmp::Reverse(peaks[hill as usize]));
-    let higher = |a: u32, b: u32| {
-        let (ra, rb) = (rank(a), rank(b));
-        ra.0.total_cmp(&rb.0).then(ra.1.cmp(&rb.1)).is_gt()
-    };
     // Islands: what has met already, each with its highest peak as the root. Merged: hills given to a neighbour.
     let mut islands = Parents::new(peaks.len());
     let mut merged = Parents::new(peaks.len());
@@ -50,10 +45,10 @@ pub(super) fn hills(surface: &Surface, sign: f64, threshold_um: f64) -> Vec<Hill
         if island_a == island_b {
             continue;
         }
-        let (winner, loser, side) =
-            if higher(island_a, island_b) { (island_a, island_b, a) } else { (island_b, island_a, b) };
+        let a_is_higher = grid.above(peaks[island_a as usize], peaks[island_b as usize]);
+        let (winner, loser, side) = if a_is_higher { (island_a, island_b, a) } else { (island_b, island_a, b) };
         islands.0[loser as usize] = winner;
-        if grid.at(peaks[loser as usize]) - height < threshold_um {
+        if grid.z[peaks[loser as usize]] - height < threshold_um {
             // A hill that ends here has met only lower ones, all given to it: it is one hill.
             let into = merged.root(side);
             merged.0[loser as usize] = into;
@@ -66,7 +61,7 @@ pub(super) fn hills(surface: &Surface, sign: f64, threshold_um: f64) -> Vec<Hill
     }
     (0..peaks.len())
         .filter(|&hill| merged.0[hill] as usize == hill)
-        .map(|hill| Hill { peak: peaks[hill], open: is_open[hill] })
+        .map(|hill| Hill { peak: grid.index_in_surface(peaks[hill]), open: is_open[hill] })
         .collect()
 }
 
@@ -88,50 +83,65 @@ impl Parents {
     }
 }
 
-/// No hill: a hole.
+/// No hill: a hole, or the frame round the map.
 const HOLE: u32 = u32::MAX;
 
-struct Grid<'a> {
-    surface: &'a Surface,
-    sign: f64,
+/// Heights in a frame of one point, so that every point has eight neighbours at fixed distances. Frame and holes lie below everything.
+struct Grid {
+    z: Vec<f64>,
+    /// Points along a row, frame included.
+    width: usize,
+    nx: usize,
+    ny: usize,
+    holes: bool,
 }
 
-impl Grid<'_> {
-    fn at(&self, index: usize) -> f64 {
-        self.sign * self.surface.heights_um()[index]
+impl Grid {
+    fn new(surface: &Surface, sign: f64) -> Self {
+        let (nx, ny) = (surface.nx(), surface.ny());
+        let width = nx + 2;
+        let mut z = vec![f64::NEG_INFINITY; width * (ny + 2)];
+        z.par_chunks_mut(width).skip(1).take(ny).enumerate().for_each(|(y, row)| {
+            for (framed, height) in row[1..=nx].iter_mut().zip(surface.row(y)) {
+                if !height.is_nan() {
+                    *framed = sign * height;
+                }
+            }
+        });
+        Self { z, width, nx, ny, holes: surface.holes() > 0 }
     }
 
-    /// Whether point `a` stands above point `b`; equal ones by their place. Never for holes.
+    fn index_in_surface(&self, index: usize) -> usize {
+        (index / self.width - 1) * self.nx + index % self.width - 1
+    }
+
+    /// The eight neighbours of a point that is not on the frame.
+    fn neighbours(&self, index: usize) -> [usize; 8] {
+        let (up, down) = (index - self.width, index + self.width);
+        [up - 1, up, up + 1, index - 1, index + 1, down - 1, down, down + 1]
+    }
+
+    /// Whether point `a` stands above point `b`; equal ones by their place.
     fn above(&self, a: usize, b: usize) -> bool {
-        let (za, zb) = (self.at(a), self.at(b));
-        za > zb || (za == zb && a < b)
-    }
-
-    /// Indices of the neighbours of a point that lie in the map.
-    fn neighbours(&self, index: usize) -> impl Iterator<Item = usize> + use<> {
-        let (nx, ny) = (self.surface.nx(), self.surface.ny());
-        let (x, y) = (index % nx, index / nx);
-        (y.saturating_sub(1)..(y + 2).min(ny))
-            .flat_map(move |v| (x.saturating_sub(1)..(x + 2).min(nx)).map(move |u| v * nx + u))
-            .filter(move |&n| n != index)
+        self.z[a] > self.z[b] || (self.z[a] == self.z[b] && a < b)
     }
 
     /// The hill of every point, and the peak of every hill.
     fn climb(&self) -> (Vec<u32>, Vec<usize>) {
-        let nx = self.surface.nx();
-        let heights = self.surface.heights_um();
-        let mut way: Vec<u32> = vec![HOLE; heights.len()];
-        way.par_chunks_mut(nx).enumerate().for_each(|(y, row)| {
-            for (x, step) in row.iter_mut().enumerate() {
-                let index = y * nx + x;
-                if heights[index].is_nan() {
+        let mut way: Vec<u32> = vec![HOLE; self.z.len()];
+        way.par_chunks_mut(self.width).enumerate().skip(1).take(self.ny).for_each(|(y, row)| {
+            for (x, step) in row.iter_mut().enumerate().skip(1).take(self.nx) {
+                let index = y * self.width + x;
+                if self.z[index] == f64::NEG_INFINITY {
                     continue;
                 }
-                let up = self
-                    .neighbours(index)
-                    .filter(|&n| self.above(n, index))
-                    .reduce(|best, n| if self.above(n, best) { n } else { best });
-                *step = up.unwrap_or(index) as u32;
+                let mut best = index;
+                for n in self.neighbours(index) {
+                    if self.above(n, best) {
+                        best = n;
+                    }
+                }
+                *step = best as u32;
             }
         });
         let mut peaks = Vec::new();
@@ -157,16 +167,17 @@ impl Grid<'_> {
         (hill_of, peaks)
     }
 
-    /// Which hills reach the edge of the map or a hole.
+    /// Which hills reach the edge of the map or a hole: those with the frame or a hole beside them.
     fn open(&self, hill_of: &[u32], hills: usize) -> Vec<bool> {
-        let (nx, ny) = (self.surface.nx(), self.surface.ny());
         let mut open = vec![false; hills];
-        let holes = hill_of.contains(&HOLE);
-        for (index, &hill) in hill_of.iter().enumerate().filter(|(_, hill)| **hill != HOLE) {
-            let (x, y) = (index % nx, index / nx);
-            let edge = x == 0 || y == 0 || x + 1 == nx || y + 1 == ny;
-            if edge || (holes && self.neighbours(index).any(|n| hill_of[n] == HOLE)) {
-                open[hill as usize] = true;
+        for y in 1..=self.ny {
+            let inside = y > 1 && y < self.ny && !self.holes;
+            let step = if inside { (self.nx - 1).max(1) } else { 1 };
+            for index in (y * self.width + 1..=y * self.width + self.nx).step_by(step) {
+                let hill = hill_of[index];
+                if hill != HOLE && self.neighbours(index).into_iter().any(|n| hill_of[n] == HOLE) {
+                    open[hill as usize] = true;
+                }
             }
         }
         open
@@ -174,12 +185,11 @@ impl Grid<'_> {
 
     /// Passes between hills, one for each point and each other hill among its higher neighbours.
     fn saddles(&self, hill_of: &[u32]) -> Vec<Saddle> {
-        let nx = self.surface.nx();
-        let rows: Vec<Vec<Saddle>> = (0..self.surface.ny())
+        let rows: Vec<Vec<Saddle>> = (1..=self.ny)
             .into_par_iter()
             .map(|y| {
                 let mut found = Vec::new();
-                for index in y * nx..(y + 1) * nx {
+                for index in y * self.width + 1..=y * self.width + self.nx {
                     let hill = hill_of[index];
                     if hill == HOLE {
                         continue;
@@ -188,7 +198,7 @@ impl Grid<'_> {
                     for n in self.neighbours(index) {
                         let other = hill_of[n];
                         if other != hill && other != HOLE && self.above(n, index) {
-                            let saddle = Saddle { height: self.at(index), hills: [hill, other] };
+                            let saddle = Saddle { height: self.z[index], hills: [hill, other] };
                             if found[first..].iter().all(|s: &Saddle| s.hills != saddle.hills) {
                                 found.push(saddle);
                             }

@@ -81,8 +81,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
     let [x_m, y_m, z_m] = [unit(180)?, unit(196)?, unit(212)?];
     let [dx, dy, step] = [all.f32(120)?, all.f32(124)?, all.f32(128)?].map(f64::from);
     let offset = f64::from(all.f32(474)?);
-    let comment = usize::from(all.u16(406)?);
-    let private = usize::from(all.u16(408)?);
+    let comment = usize::from(all.u16(334)?);
+    let private = usize::from(all.u16(336)?);
     let data = all.at(HEADER + comment + private, bytes.len().saturating_sub(HEADER + comment + private))?;
     let points = nx.checked_mul(ny).ok_or("the size in the header is too large")?;
     let height = |z: f64| if has_holes && z == low - 2.0 { f64::NAN } else { (z * step + offset) * z_m * 1e6 };

@@ -120,3 +120,29 @@ fn spacing_is_needed_once_and_must_not_contradict() {
     std::fs::write(&path, "# dx_um = 1\n# dy_um = 1\n1,2\n3,x\n").expect("written");
     assert!(read_surface(&path, None).expect_err("a word").to_string().contains("line 4: `x`"));
 }
+
+/// Files that surfalize, SurfaceTopography and x3pio wrote (`tests/interop/run --keep`): the same heights and spacing, holes included.
+#[test]
+fn files_of_other_programs_hold_the_surface_they_were_given() {
+    let folder = data("written_elsewhere");
+    let text = std::fs::read_to_string(folder.join("truth.json")).expect("a copy");
+    let truth: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let rows = truth["heights_um"].as_array().expect("rows");
+    let columns = rows[0].as_array().expect("a row").len();
+    let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+    let whole: Vec<f64> = rows.iter().flat_map(|row| row.as_array().expect("a row")).map(number).collect();
+    let mut holed = whole.clone();
+    let hole = [0, 1].map(|k| truth["hole"][k].as_u64().expect("an index") as usize);
+    holed[hole[0] * columns + hole[1]] = f64::NAN;
+    let spacing = ["dx_um", "dy_um"].map(|name| number(&truth[name]));
+    let surface = |heights: &Vec<f64>| {
+        Surface::new(columns, rows.len(), spacing[0], spacing[1], heights.clone()).expect("a grid")
+    };
+    for name in ["surfalize.x3p", "surfalize.sdf", "surfalize.sur", "surfacetopography.x3p", "x3pio.x3p"] {
+        for (prefix, heights) in [("", &whole), ("hole_", &holed)] {
+            let name = format!("{prefix}{name}");
+            let read = read_surface(&folder.join(&name), None).unwrap_or_else(|reason| panic!("{name}: {reason}"));
+            assert!(close(&read.surface, &surface(heights), 2e-6), "{name}: {:?}", read.surface);
+        }
+    }
+}

@@ -27,7 +27,7 @@ pub(super) static SECTIONS: &[Section] = &[Section {
             name: "center_profile_mm",
             kind: Kind::Number(Range::closed(0.0, 500.0)),
             unit: "mm",
-            default: Default::LeftOut("the middle of the flank"),
+            default: Default::LeftOut("the middle of the evaluated profile"),
             example: "3.0",
             teach: "Middle of the window along the profile, as arc from the start of the involute.",
         },
@@ -41,7 +41,7 @@ pub(super) static SECTIONS: &[Section] = &[Section {
         },
         length(
             "length_profile_mm",
-            "the whole flank",
+            "the evaluated profile",
             "2.0",
             "Length of the window along the profile; five marks at least make the numbers mean something.",
         ),
@@ -72,7 +72,7 @@ pub(super) static SECTIONS: &[Section] = &[Section {
         },
     ],
     groups: &[],
-    teach: "A window on a flank whose surface texture is evaluated after every operation. Without any, the whole flanks of the teeth with the largest and the smallest pitch-curve radius and of tooth 3 are taken.",
+    teach: "A window on a flank whose surface texture is evaluated after every operation. Without any, the active flanks of the teeth with the largest and the smallest pitch-curve radius and of tooth 3 are taken.",
 }];
 
 const fn length(name: &'static str, left_out: &'static str, example: &'static str, teach: &'static str) -> Key {

@@ -1,0 +1,157 @@
+//! Roughness of both flanks of tooth 3 of the paper's gear against the circular feed: the table and the chart in docs/texture.md.
+//!
+//! `cargo run --release --example roughness_against_feed -- [FOLDER]` writes `roughness_against_feed.csv`, `.png` and `.svg` into FOLDER (default `out/roughness`) and prints the table. Rough and finishing cut take the
+//! same feed; the rough one stands 2 mm off, along the normal or along the line of centres. Three windows: 4 mm in the middle of the flank, 2 mm about
+//! the pitch curve, and the whole flank, on which the cusps' height itself changes.
+
+use gearcut::cut::cpu::Cpu;
+use gearcut::gear::generation::Side;
+use gearcut::job::Job;
+use gearcut::measure::topography::Form;
+use gearcut::output::line_chart::{LineChart, LineSeries, Panel};
+use gearcut::output::table::{Cell, write_table};
+use gearcut::scene::load;
+use gearcut::scene::model::{Feed, TextureWindow, WindowSides};
+use gearcut::texture::{cut_window, windows};
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+const FEEDS_MM: [f64; 9] = [0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0];
+/// Length of the windows along the profile, mm: in the middle of the flank, about the pitch curve.
+const LENGTHS_MM: [f64; 2] = [4.0, 2.0];
+const SYMBOLS: [&str; 5] = ["Sa", "Sq", "Sk", "Spk", "Svk"];
+
+/// What one operation left on one flank at one feed.
+struct Row {
+    window: &'static str,
+    surface: String,
+    side: Side,
+    feed_mm: f64,
+    strokes: usize,
+    values_um: [f64; 5],
+    marks: usize,
+}
+
+fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn Error>> {
+    let path = format!("scenes/shaping/{scene}.toml");
+    let mut scene = load(Path::new(&path), &[]).map_err(|problems| problems.to_string())?.scene;
+    for operation in &mut scene.operations {
+        operation.feed = feed;
+    }
+    let window = |sides, center_profile_mm, length_profile_mm| TextureWindow {
+        tooth: 3,
+        sides,
+        center_profile_mm,
+        center_lead_mm: 0.0,
+        length_profile_mm,
+        length_lead_mm: Some(1.0),
+        profile_spacing_mm: Some(0.002),
+        lead_spacing_mm: Some(0.1),
+        form: Form::Poly2,
+    };
+    let probe = Job::new(scene.clone())?;
+    let generation = probe.target_generation();
+    let crossing = |side| -> Result<Option<f64>, Box<dyn Error>> {
+        Ok(probe.target_flank(&generation, 3, side)?.at_height(&probe.blank, 0.0).map(|(arc_mm, _)| arc_mm))
+    };
+    scene.textures = vec![
+        window(WindowSides::Both, None, Some(LENGTHS_MM[0])),
+        window(WindowSides::Left, crossing(Side::Left)?, Some(LENGTHS_MM[1])),
+        window(WindowSides::Right, crossing(Side::Right)?, Some(LENGTHS_MM[1])),
+        window(WindowSides::Both, None, None),
+    ];
+    let job = Job::new(scene)?;
+    for (index, window) in windows(&job)?.into_iter().enumerate() {
+        for texture in cut_window(&job, &Cpu::default(), &window)? {
+            let operation = &job.operations[texture.operation];
+            let evaluated = texture.evaluated.clone()?;
+            let linkage = if path.contains("traditional") { "traditional" } else { "normal" };
+            rows.push(Row {
+                window: ["middle", "middle", "pitch curve", "pitch curve", "whole", "whole"][index],
+                surface: format!("{}, {linkage}", operation.spec.name),
+                side: window.side,
+                feed_mm: job.curve.perimeter_mm() / operation.schedule.count() as f64,
+                strokes: operation.schedule.count(),
+                values_um: SYMBOLS.map(|symbol| evaluated.evaluation.value(symbol).unwrap_or(f64::NAN)),
+                marks: texture.marks[1],
+            });
+        }
+    }
+    Ok(())
+}
+
+fn panel(rows: &[Row], surfaces: &[&str], index: usize) -> Panel {
+    let series = surfaces.iter().flat_map(|surface| [(surface, Side::Left), (surface, Side::Right)]);
+    Panel {
+        value_name: SYMBOLS[index].to_owned(),
+        unit: "µm".to_owned(),
+        series: series
+            .map(|(surface, side)| LineSeries {
+                name: format!("{surface}, {} flank", side.name()),
+                points: rows
+                    .iter()
+                    .filter(|row| row.window == "middle" && row.surface == *surface && row.side == side)
+                    .map(|row| (row.feed_mm, row.values_um[index]))
+                    .collect(),
+            })
+            .collect(),
+        limits: Vec::new(),
+    }
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder = std::env::args().nth(1).map_or_else(|| PathBuf::from("out/roughness"), PathBuf::from);
+    std::fs::create_dir_all(&folder)?;
+    let mut rows = Vec::new();
+    let feeds = FEEDS_MM.map(Feed::CircularMmPerStroke);
+    for feed in feeds.into_iter().chain([Feed::StrokesPerRevolution(360)]) {
+        for scene in ["elliptical_normal", "elliptical_traditional"] {
+            measured(scene, feed, &mut rows)?;
+        }
+    }
+    rows.sort_by(|a, b| {
+        (a.window, &a.surface, a.side).cmp(&(b.window, &b.surface, b.side)).then(a.feed_mm.total_cmp(&b.feed_mm))
+    });
+    let mut columns = vec!["window", "surface", "flank", "feed_mm_per_stroke", "strokes_per_revolution", "marks"];
+    let named = SYMBOLS.map(|symbol| format!("{symbol}_um"));
+    columns.extend(named.iter().map(String::as_str));
+    write_table(
+        &folder.join("roughness_against_feed.csv"),
+        &columns,
+        rows.iter().map(|row| {
+            let mut cells: Vec<Cell> = vec![
+                row.window.into(),
+                row.surface.as_str().into(),
+                row.side.name().into(),
+                row.feed_mm.into(),
+                (row.strokes as u32).into(),
+                (row.marks as u32).into(),
+            ];
+            cells.extend(row.values_um.map(Cell::from));
+            cells
+        }),
+    )?;
+    println!("| window | surface | flank | feed mm | strokes | marks | Sa | Sq | Sk | Spk | Svk um |");
+    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+    for row in &rows {
+        let values = row.values_um.map(|value| format!("{value:.4}")).join(" | ");
+        let (window, surface, side) = (row.window, &row.surface, row.side.name());
+        println!("| {window} | {surface} | {side} | {:.3} | {} | {} | {values} |", row.feed_mm, row.strokes, row.marks);
+    }
+    let finished = ["finish, normal"];
+    let chart = LineChart {
+        title: "Roughness of tooth 3 against circular feed: paper's gear, both linkages finish alike".to_owned(),
+        x_name: "circular feed per double stroke".to_owned(),
+        x_unit: "mm".to_owned(),
+        panels: vec![
+            panel(&rows, &finished, 0),
+            panel(&rows, &finished, 2),
+            panel(&rows, &finished, 3),
+            panel(&rows, &finished, 4),
+            panel(&rows, &["rough, normal", "rough, traditional"], 0),
+        ],
+    };
+    chart.write_png(&folder.join("roughness_against_feed.png"))?;
+    chart.write_svg(&folder.join("roughness_against_feed.svg"))?;
+    Ok(())
+}
