@@ -137,7 +137,9 @@ fn a_plunging_tooth_takes_chips_of_known_thickness() {
         assert!((sum.thickest_mm[EdgeSide::Tip as usize] - 0.02).abs() < 1e-4);
         let difference = sum.thickest_mm[EdgeSide::Left as usize] - sum.thickest_mm[EdgeSide::Right as usize];
         assert!(difference.abs() < 1e-4, "{difference}");
-        assert!(sum.work_torque_nmm.abs() < 1e-3 * sum.cutting_n * job.cutter.tip_radius_mm, "the cut is symmetric");
+        // Symmetric but for a station more on one side, where the chip ends.
+        let station_n = job.scene.material.on_element(0.02, 2.0 * chips.spacing_mm)[1];
+        assert!(sum.work_torque_nmm.abs() < station_n * 50.0, "{}", sum.work_torque_nmm);
     }
     assert!(checked > 2000, "{checked} places");
 }

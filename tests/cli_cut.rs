@@ -9,7 +9,14 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
-const COARSE: [&str; 4] = ["--set", "fields.flank.profile_spacing_um=50", "--set", "fields.flank.lead_spacing_um=5000"];
+const COARSE: [&str; 6] = [
+    "--set",
+    "fields.flank.profile_spacing_um=50",
+    "--set",
+    "fields.flank.lead_spacing_um=5000",
+    "--set",
+    "fields.chips.spacing_mm=0.2",
+];
 
 fn read_json(path: &Path) -> Value {
     serde_json::from_slice(&std::fs::read(path).expect("a file")).expect("JSON")

@@ -23,7 +23,9 @@ use crate::error::Result;
 use crate::job::{Job, PreparedOperation};
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::folder::OutputFolder;
+use crate::output::text::{plain, significant};
 use crate::scene::model::{GcodeDialect, Linkage, NormalReading};
+use crate::units::UM_PER_MM;
 
 /// Writes the programs of all operations as `axes/<operation>.ngc`; gives a sentence for each that was not written.
 ///
@@ -53,20 +55,26 @@ pub fn text(job: &Job, operation: &PreparedOperation) -> Option<Result<String, S
     }
     Some(match output.gcode {
         GcodeDialect::PaperG84 => paper::text(job, operation),
-        _ => {
-            let program = AxisProgram::fit(
-                &operation.schedule,
-                job.cutter.tip_radius_mm,
-                output.gcode_contour_error_mm,
-                operation.spec.feed_during_stroke,
-            );
-            let exceeded = program.exceeded(&job.scene.machine.limits);
-            match exceeded.first() {
-                Some(first) => {
-                    Err(format!("{first}; take more strokes per revolution or fewer double strokes per minute"))
-                }
-                None => Ok(write::text(job, operation, &program)),
-            }
-        }
+        _ => linear(job, operation),
     })
+}
+
+/// The program in straight lines, or what keeps it from being written.
+fn linear(job: &Job, operation: &PreparedOperation) -> Result<String, String> {
+    let asked_mm = job.scene.output.gcode_contour_error_mm;
+    let (schedule, tip_radius_mm) = (&operation.schedule, job.cutter.tip_radius_mm);
+    let continuous = operation.spec.feed_during_stroke;
+    let program = AxisProgram::fit(schedule, tip_radius_mm, asked_mm, continuous);
+    let (reached_mm, stroke) = program.contour_error_mm(schedule, tip_radius_mm, continuous);
+    if reached_mm > asked_mm {
+        return Err(format!(
+            "blocks of one double stroke leave a contour error of {} um at stroke {stroke}, {} um are asked; ask for no less, or take more strokes per revolution",
+            significant(reached_mm * UM_PER_MM, 3),
+            plain(asked_mm * UM_PER_MM),
+        ));
+    }
+    match program.exceeded(&job.scene.machine.limits).first() {
+        Some(first) => Err(format!("{first}; take more strokes per revolution or fewer double strokes per minute")),
+        None => Ok(write::text(job, operation, &program)),
+    }
 }

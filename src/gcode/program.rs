@@ -68,7 +68,23 @@ impl Digits {
     }
 }
 
+/// Places per stroke at which a program is held against the schedule.
+fn samples_per_stroke(continuous: bool) -> usize {
+    if continuous { SAMPLES_PER_STROKE } else { 1 }
+}
+
 impl Knot {
+    /// Where a schedule has the axes.
+    fn of(schedule: &StrokeSchedule, stroke: f64) -> Self {
+        let state = schedule.state(stroke);
+        Self {
+            stroke,
+            psi_c_rad: state.psi_c_rad,
+            psi_b_rad: state.psi_b_rad,
+            center_distance_mm: state.center_distance_mm,
+        }
+    }
+
     /// Cutter in the gear frame.
     pub fn pose(&self) -> CutterPose {
         CutterPose {
@@ -107,23 +123,13 @@ impl Knot {
 }
 
 impl AxisProgram {
-    /// Longest straight lines, one after the other, that keep every stroke of a schedule within `contour_error_mm`; with `continuous` also what lies between the strokes. Knots stand on
-    /// whole strokes and are rounded as they will be written.
+    /// Longest straight lines, one after the other, that keep every stroke of a schedule within `contour_error_mm`; with `continuous` also what lies between the strokes, as far as
+    /// blocks of one stroke can. Knots stand on whole strokes and are rounded as they will be written.
     pub fn fit(schedule: &StrokeSchedule, tip_radius_mm: f64, contour_error_mm: f64, continuous: bool) -> Self {
-        let per_stroke = if continuous { SAMPLES_PER_STROKE } else { 1 };
+        let per_stroke = samples_per_stroke(continuous);
         let last = schedule.count() - 1;
-        let exact: Vec<Knot> = (0..=last * per_stroke)
-            .map(|sample| {
-                let stroke = sample as f64 / per_stroke as f64;
-                let state = schedule.state(stroke);
-                Knot {
-                    stroke,
-                    psi_c_rad: state.psi_c_rad,
-                    psi_b_rad: state.psi_b_rad,
-                    center_distance_mm: state.center_distance_mm,
-                }
-            })
-            .collect();
+        let exact: Vec<Knot> =
+            (0..=last * per_stroke).map(|sample| Knot::of(schedule, sample as f64 / per_stroke as f64)).collect();
         let reach_mm = exact.iter().map(|k| k.center_distance_mm).fold(0.0, f64::max) + tip_radius_mm;
         let digits = Digits::new(contour_error_mm, reach_mm);
         let fits = |from: usize, to: usize| {
@@ -170,20 +176,15 @@ impl AxisProgram {
         }
     }
 
-    /// Largest displacement from a schedule over its whole strokes, mm, and the stroke.
-    pub fn contour_error_mm(&self, schedule: &StrokeSchedule, tip_radius_mm: f64) -> (f64, usize) {
-        (0..schedule.count())
-            .map(|stroke| {
-                let state = schedule.state(stroke as f64);
-                let exact = Knot {
-                    stroke: stroke as f64,
-                    psi_c_rad: state.psi_c_rad,
-                    psi_b_rad: state.psi_b_rad,
-                    center_distance_mm: state.center_distance_mm,
-                };
-                (exact.displacement_mm(&self.at(stroke as f64), tip_radius_mm), stroke)
+    /// Largest displacement from a schedule at its strokes, with `continuous` also between them, mm, and the stroke coordinate.
+    pub fn contour_error_mm(&self, schedule: &StrokeSchedule, tip_radius_mm: f64, continuous: bool) -> (f64, f64) {
+        let per_stroke = samples_per_stroke(continuous);
+        (0..=(schedule.count() - 1) * per_stroke)
+            .map(|sample| {
+                let stroke = sample as f64 / per_stroke as f64;
+                (Knot::of(schedule, stroke).displacement_mm(&self.at(stroke), tip_radius_mm), stroke)
             })
-            .fold((0.0, 0), |worst, next| if next.0 > worst.0 { next } else { worst })
+            .fold((0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst })
     }
 
     /// What the program asks beyond the machine's limits: speeds within blocks, and steps of speed between blocks taken within one double stroke.

@@ -10,7 +10,8 @@ use std::fmt::Write as _;
 pub fn text(job: &Job, operation: &PreparedOperation, program: &AxisProgram) -> String {
     let output = &job.scene.output;
     let tip_radius_mm = job.cutter.tip_radius_mm;
-    let (error_mm, worst) = program.contour_error_mm(&operation.schedule, tip_radius_mm);
+    let (error_mm, worst) =
+        program.contour_error_mm(&operation.schedule, tip_radius_mm, operation.spec.feed_during_stroke);
     let reach_mm = program.knots.iter().map(|k| k.center_distance_mm).fold(0.0, f64::max) + tip_radius_mm;
     let digits = Digits::new(output.gcode_contour_error_mm, reach_mm);
     let feed = if operation.spec.feed_during_stroke {

@@ -26,7 +26,7 @@ pub(super) static SECTIONS: &[Section] = &[Section {
             unit: "",
             default: Default::Word(MATERIALS[0].name),
             example: "\"16MnCr5\"",
-            teach: "Steel whose built-in force coefficients hold: Kienzle's law after Koenig and Essel (1973), as a line from 0.01 to 0.3 mm of chip.",
+            teach: "Steel whose built-in force coefficients hold: Kienzle's law after Koenig and Essel (1973), as a line from 0.01 to 0.1 mm of chip.",
         },
         coefficient(
             "cutting_force_n_per_mm2",
