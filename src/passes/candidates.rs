@@ -14,7 +14,7 @@ use super::record::PassRecord;
 use super::strokes::StrokeSet;
 use crate::dexel::field::{Column, Field};
 use crate::frame::Rigid2;
-use crate::tool::CuttingTool;
+use crate::tool::PlanarTool;
 use crate::tool::edge::Edge;
 use glam::DVec2;
 use std::ops::Range;
@@ -55,12 +55,12 @@ impl CutPlan {
         clippy::redundant_closure_for_method_calls,
         reason = "the method's path is not general enough in its lifetimes"
     )]
-    pub fn new(field: &Field, set: &StrokeSet, tool: &dyn CuttingTool) -> Self {
+    pub fn new(field: &Field, set: &StrokeSet, tool: &dyn PlanarTool) -> Self {
         Self::build(field, set, tool, |planner, near, columns, seeds| planner.candidates(near, columns, seeds))
     }
 
     /// Plan with every segment of every pass that can reach the field: what candidates are proved against.
-    pub fn brute_force(field: &Field, set: &StrokeSet, tool: &dyn CuttingTool) -> Self {
+    pub fn brute_force(field: &Field, set: &StrokeSet, tool: &dyn PlanarTool) -> Self {
         let segments = tool.edge().segments.len();
         Self::build(field, set, tool, |_, near, _, _| {
             (0..near.len()).flat_map(|pass| (0..segments).map(move |segment| (pass, segment))).collect()
@@ -70,7 +70,7 @@ impl CutPlan {
     fn build(
         field: &Field,
         set: &StrokeSet,
-        tool: &dyn CuttingTool,
+        tool: &dyn PlanarTool,
         choose: impl Fn(&Planner, &[NearPass], &[Column], &mut Vec<usize>) -> Vec<(usize, usize)>,
     ) -> Self {
         let planner = Planner { edge: tool.edge(), bounds: SegmentBounds::new(&tool.edge().segments) };

@@ -8,7 +8,7 @@
 //! theta = arccos(2 (z - z_m) / L). The stroke's own moment is the one when the middle of the face is cut.
 
 use crate::frame::Rigid2;
-use crate::tool::CuttingTool;
+use crate::tool::PlanarTool;
 
 /// Nodes of the cubic in tau (Chebyshev of the first kind on [-1, 1]).
 pub const NODES: [f64; 4] =
@@ -78,7 +78,7 @@ impl StrokeSet {
     /// Strokes 0 to `count` - 1; `work_from_tool(lambda)` gives the pose at any real stroke number.
     pub fn new(
         first_pass: u32,
-        tool: &dyn CuttingTool,
+        tool: &dyn PlanarTool,
         law: StrokeLaw,
         count: usize,
         mut work_from_tool: impl FnMut(f64) -> Rigid2,

@@ -3,6 +3,10 @@
 //! Comes from [`super::load`], goes to `run`. Nothing here knows about TOML. Keys of the scene file
 //! are the field names with their unit (`face_width_mm`, `pressure_angle_deg`); angles are radians here.
 
+mod hobbing;
+
+pub use hobbing::{EvenMotion, ExtraRotation, GashForm, Hand, Hob, HobSize, LinkageForm, Protuberance, Worm};
+
 use std::path::PathBuf;
 
 /// One job: what is cut, with what, how, and what is measured.

@@ -4,7 +4,7 @@
 //! angle on the pitch circle r_c = m z0 / 2, tooth thickness pi m / 2 + 2 x0 m tan(alpha) - thinning, tip circle (ha0 + x0) m above it. Below the base circle the flank goes on
 //! straight along the tangent of the involute's last point, as cutters are relieved there; its exact run touches only gear tips that reach below the cutter's involute.
 
-use super::CuttingTool;
+use super::{CuttingTool, PlanarTool};
 use super::edge::{Edge, Segment, SegmentName};
 use super::involute::{Involute, inv};
 use crate::error::Refusal;
@@ -236,7 +236,9 @@ impl CuttingTool for ShaperCutter {
     fn edge(&self) -> &Edge {
         &self.edge
     }
+}
 
+impl PlanarTool for ShaperCutter {
     fn tool_from_blade(&self, index: u32) -> Rigid2 {
         Rigid2::new(self.tooth_angles_rad[index as usize], self.runout_mm)
     }
