@@ -1,14 +1,15 @@
-//! The native backend: f64, one tile at a time, 16 rows at once, with the widest vectors that the processor has.
+//! The native backend: f64, one tile at a time, 16 rows at once (8 in space), with the widest vectors that the processor has.
 //!
 //! The instruction set is chosen when the program starts, so `cargo build --release` without flags is fast everywhere. No fused multiply-add is used and every
-//! chunk has the same 16 rows on all of them: AVX2, AVX-512 and plain x86-64 or ARM give the **same bytes**.
+//! chunk has the same rows on all of them: AVX2, AVX-512 and plain x86-64 or ARM give the **same bytes**.
 
 mod planar;
+mod spatial;
 
 use super::{Backend, CutStats};
-use crate::dexel::{Field, Layer};
+use crate::dexel::{Field, Layer, SpatialField};
 use crate::error::Error;
-use crate::passes::CutPlan;
+use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
 use pulp::Arch;
 #[cfg(target_arch = "x86_64")]
@@ -60,7 +61,7 @@ impl Cpu {
         }
     }
 
-    fn dispatch(self, tile: planar::TileCut) -> CutStats {
+    fn dispatch<T: pulp::NullaryFnOnce<Output = CutStats>>(self, tile: T) -> CutStats {
         match self.vectors {
             Vectors::Widest => Arch::new().dispatch(tile),
             Vectors::Baseline => pulp::NullaryFnOnce::call(tile),
@@ -93,6 +94,27 @@ impl Backend for Cpu {
                 row_phases: &plan.row_phases,
                 heights_mm: &mut layer.heights_mm[dexels.clone()],
                 passes: &mut layer.passes[dexels],
+            });
+        }
+        Ok(stats)
+    }
+
+    fn cut_spatial(
+        &self,
+        field: &SpatialField,
+        edge: &Edge,
+        plan: &SweepPlan,
+        layer: &mut Layer,
+    ) -> Result<CutStats, Error> {
+        let mut stats = CutStats::default();
+        for tile in &plan.tiles {
+            stats += self.dispatch(spatial::SpatialTileCut {
+                field,
+                tile,
+                records: &plan.records[tile.records.clone()],
+                segments: &edge.segments,
+                heights_mm: &mut layer.heights_mm,
+                passes: &mut layer.passes,
             });
         }
         Ok(stats)

@@ -17,9 +17,9 @@ pub mod records;
 
 use super::cpu::Cpu;
 use super::{Backend, CutStats, StageTime};
-use crate::dexel::{Field, Layer};
+use crate::dexel::{Field, Layer, SpatialField};
 use crate::error::Error;
-use crate::passes::CutPlan;
+use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
 use adapter::{AdapterFacts, AdapterWish, FoundAdapter};
 use batches::{Allowance, Batch, Round};
@@ -206,6 +206,16 @@ impl Backend for Gpu {
                 self.native.cut(field, edge, plan, layer)
             }
         }
+    }
+
+    fn cut_spatial(
+        &self,
+        field: &SpatialField,
+        edge: &Edge,
+        plan: &SweepPlan,
+        layer: &mut Layer,
+    ) -> Result<CutStats, Error> {
+        self.native.cut_spatial(field, edge, plan, layer)
     }
 
     fn incidents(&self) -> Vec<String> {
