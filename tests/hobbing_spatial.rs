@@ -62,3 +62,41 @@ fn patches_agree_with_the_independent_solver() {
         assert!(worst.0 < BOUND_NM, "{name}: {worst:?}");
     }
 }
+
+#[test]
+fn target_rays_are_those_of_the_independent_implementation() {
+    for name in ["p09_patch_s2_axial", "p10_patch_s2_diag_VL"] {
+        let (_, _, field, file) = patch(name);
+        for point in file["nominal_points"].as_array().expect("points") {
+            let index = |key: &str| point[key].as_u64().expect("an index") as usize;
+            let ray = field.ray(index("isigma"), index("iz"));
+            let exchanged = |v: &Value| {
+                let v = numbers(v);
+                glam::DVec3::new(v[1], v[0], -v[2])
+            };
+            let (p, n) = (exchanged(&point["P"]), exchanged(&point["N"]));
+            println!("{name}: {} against {p}, {} against {n}", ray.origin_mm, ray.normal);
+            assert!(ray.origin_mm.distance(p) < 1e-9 && ray.normal.distance(n) < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn debug() {
+    let (case, passes, field, file) = patch("p09_patch_s2_axial");
+    for e in data("p08_events_s2")["axial"]["events"].as_array().unwrap() {
+        let g = number(e, "g");
+        let pts = numbers(&e["edge_points_workpiece"]["left"][1]);
+        let p = glam::DVec3::new(pts[1], pts[0], -pts[2]);
+        let head = passes.motion.head_from_work(g * TAU / 10.0);
+        println!("g {g} thread {} -> head {}", number(e, "thread_axial"), head.point(p));
+    }
+    let field = case.patch(3, 1.0, &[-10.0, -2.0, 5.0], &[-2.0, 0.0, 1.0]);
+    let plan = SweepPlan::brute_force(&field, &passes, case.hob.edge());
+    println!("brute: {} records {} segments", plan.records.len(), case.hob.edge().segments.len());
+    for s in &case.hob.edge().segments { println!("{:?} {:?} {:?}", s.name, s.blade_from_segment, s.y_range_mm); }
+    let mut layer = field.blank_layer();
+    let stats = Cpu::default().cut_spatial(&field, case.hob.edge(), &plan, &mut layer).expect("cuts");
+    println!("{:?} {:?} {:?}", layer.heights_mm, layer.passes, stats);
+    println!("{:?}", numbers(&file["z"])[0]);
+}
