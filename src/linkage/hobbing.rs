@@ -255,9 +255,8 @@ impl HobbingLinkage {
             }
         };
         let drift = if printed {
-            let integral = self
-                .integral(|theta| 1.0 / (rate(theta) * self.curve.radius(theta).value()))
-                .ok_or_else(backwards)?;
+            let integral =
+                self.integral(|theta| 1.0 / (rate(theta) * self.curve.radius(theta).value())).ok_or_else(backwards)?;
             let resultant = slide_rate + shift_rate * g.head_angle_rad.sin();
             Some(Drift {
                 start_rad: drift_rad,
@@ -316,9 +315,10 @@ impl HobbingLinkage {
             Clock::Arc(rate) => self.curve.phi_at_arc(stretch.arc_mm + rate * passed),
             Clock::Polar(integral, start) => integral.angle_at(start + passed),
         };
-        let drift = stretch.drift.as_ref().map_or(0.0, |d| {
-            d.start_rad + d.rate_mm_per_s * (d.integral.at(theta) - d.start_integral)
-        });
+        let drift = stretch
+            .drift
+            .as_ref()
+            .map_or(0.0, |d| d.start_rad + d.rate_mm_per_s * (d.integral.at(theta) - d.start_integral));
         [theta, drift]
     }
 
@@ -411,6 +411,12 @@ impl HobbingLinkage {
         work_from_machine(&axes).after(&self.machine_from_tool(&axes))
     }
 
+    /// Pose of the head in the gear frame: the tool frame as it stands at hob angle 0, carried along but not turning with the hob.
+    pub fn work_from_head(&self, time_s: f64) -> Rigid3 {
+        let axes = HobbingAxes { hob_rad: Jet::constant(0.0), ..self.axes::<1>(time_s) };
+        work_from_machine(&axes).after(&self.machine_from_tool(&axes))
+    }
+
     /// Pose with velocity, gear frame.
     pub fn motion(&self, time_s: f64) -> RigidMotion3 {
         let axes = self.axes::<2>(time_s);
@@ -449,24 +455,23 @@ impl HobbingLinkage {
     pub fn time_at_hob_angle(&self, hob_rad: f64) -> f64 {
         let mean_speed = self.curve.perimeter_mm() / (self.geometry.arc_per_hob_rad_mm() * self.cycle_s);
         let mut time_s = hob_rad / mean_speed;
+        // Speeds vary by a bounded factor and jump at corners: Newton's step, cut to the bracket that the residuals have drawn.
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for _ in 0..100 {
             let hob = self.axes::<2>(time_s).hob_rad;
             let missing = hob_rad - hob.value();
-            if missing > 0.0 {
+            if missing >= 0.0 {
                 low = time_s;
-            } else {
+            }
+            if missing <= 0.0 {
                 high = time_s;
             }
-            let mut next = time_s + missing / hob.derivative(1).max(0.05 * mean_speed);
-            if next <= low || next >= high {
-                next = f64::midpoint(low, high);
-            }
-            let step = next - time_s;
-            time_s = next;
-            if step.abs() <= 1e-15 * (1.0 + time_s.abs()) || !step.is_finite() {
+            let step = missing / hob.derivative(1).max(0.05 * mean_speed);
+            if step.abs() <= 4.0 * f64::EPSILON * (1.0 + time_s.abs()) {
                 break;
             }
+            let next = time_s + step;
+            time_s = if next > low && next < high { next } else { f64::midpoint(low, high) };
         }
         time_s
     }

@@ -66,6 +66,7 @@ pub struct Hob {
     /// Teeth in blade order.
     pub teeth: Vec<HobTooth>,
     edge: Edge,
+    flank: Flank,
     rake_twist_rad_per_mm: f64,
 }
 
@@ -96,6 +97,7 @@ impl HobTooth {
 }
 
 /// Left flank in the rake face over its distance from the axis.
+#[derive(Debug, Clone)]
 struct Flank {
     worm: Worm,
     /// Distance from the axis before regrinding at which the half thickness is `half_mm`.
@@ -234,16 +236,22 @@ impl Hob {
             flank_end_radius_mm,
             teeth,
             edge: Edge::new(segments),
+            flank,
             rake_twist_rad_per_mm,
         })
     }
 
+    /// Half the thickness of a tooth in its rake face at a distance from the axis: y of the left flank, analytic, mm.
+    pub fn half_thickness_mm(&self, radius_mm: f64) -> f64 {
+        self.flank.half_and_slope(radius_mm + self.flank.regrind_mm)[0]
+    }
+
     /// Distance between teeth that follow each other along a thread, along the axis, mm.
     pub fn tooth_spacing_mm(&self) -> f64 {
-        self.teeth.windows(2).find(|w| w[0].start == w[1].start).map_or(
-            self.lead_mm / f64::from(self.gashes),
-            |w| w[0].axial_mm - w[1].axial_mm,
-        )
+        self.teeth
+            .windows(2)
+            .find(|w| w[0].start == w[1].start)
+            .map_or(self.lead_mm / f64::from(self.gashes), |w| w[0].axial_mm - w[1].axial_mm)
     }
 }
 
@@ -269,7 +277,10 @@ fn tooth_edge(
     {
         return Err(Refusal::new(
             "tool.hob.protuberance_height_mm",
-            format!("a protuberance beginning {:.3} mm below the tip does not stand out of the flank", tip_mm - start_mm),
+            format!(
+                "a protuberance beginning {:.3} mm below the tip does not stand out of the flank",
+                tip_mm - start_mm
+            ),
             "use a height below the whole tooth depth and a protuberance_angle_deg smaller than the pressure angle",
         ));
     }
@@ -299,7 +310,9 @@ fn tooth_edge(
         return Err(Refusal::new(
             key,
             problem,
-            format!("the tip is {sharp_land_mm:.3} mm wide without a round; use a smaller round or addendum_coefficient"),
+            format!(
+                "the tip is {sharp_land_mm:.3} mm wide without a round; use a smaller round or addendum_coefficient"
+            ),
         ));
     }
     let no_fit = |error_mm: f64| {

@@ -4,9 +4,9 @@
 //! angle on the pitch circle r_c = m z0 / 2, tooth thickness pi m / 2 + 2 x0 m tan(alpha) - thinning, tip circle (ha0 + x0) m above it. Below the base circle the flank goes on
 //! straight along the tangent of the involute's last point, as cutters are relieved there; its exact run touches only gear tips that reach below the cutter's involute.
 
-use super::{CuttingTool, PlanarTool};
 use super::edge::{Edge, Segment, SegmentName};
 use super::involute::{Involute, inv};
+use super::{CuttingTool, PlanarTool};
 use crate::error::Refusal;
 use crate::frame::Rigid2;
 use crate::scene::model;
