@@ -81,22 +81,48 @@ fn target_rays_are_those_of_the_independent_implementation() {
     }
 }
 
+/// Two plans of one field leave the same bytes.
+fn same_as_brute_force(name: &str, case: &Case, passes: &HobTeeth, field: &SpatialField) {
+    let run = |plan: &SweepPlan| {
+        let mut layer = field.blank_layer();
+        let stats = Cpu::default().cut_spatial(field, case.hob.edge(), plan, &mut layer).expect("cuts");
+        assert_eq!(stats.unconverged, 0, "{name}");
+        layer
+    };
+    let [plan, all] = [SweepPlan::new, SweepPlan::brute_force].map(|make| make(field, passes, case.hob.edge()));
+    let (few, brute) = (run(&plan), run(&all));
+    let differ = (0..field.len()).filter(|&i| few.heights_mm[i] != brute.heights_mm[i] || few.passes[i] != brute.passes[i]);
+    let differ: Vec<usize> = differ.collect();
+    println!(
+        "{name}: {} tiles, {} of {} records, {} dexels differ",
+        plan.tiles.len(),
+        plan.records.len(),
+        all.records.len(),
+        differ.len()
+    );
+    assert!(differ.is_empty(), "{name}: dexel {} of {}", differ[0], field.len());
+}
+
 #[test]
-fn debug() {
-    let (case, passes, field, file) = patch("p09_patch_s2_axial");
-    for e in data("p08_events_s2")["axial"]["events"].as_array().unwrap() {
-        let g = number(e, "g");
-        let pts = numbers(&e["edge_points_workpiece"]["left"][1]);
-        let p = glam::DVec3::new(pts[1], pts[0], -pts[2]);
-        let head = passes.motion.head_from_work(g * TAU / 10.0);
-        println!("g {g} thread {} -> head {}", number(e, "thread_axial"), head.point(p));
+fn candidates_leave_what_all_passes_leave() {
+    let even = |from: f64, to: f64, count: usize| -> Vec<f64> {
+        (0..count).map(|i| from + (to - from) * i as f64 / (count - 1) as f64).collect()
+    };
+    // Tiles as in use (20 um by 50 um), stratified over the profile from the tip corner's trochoid to the gear's tip; the ends have the longest lists.
+    let cases: [(&str, &[[f64; 2]]); 3] = [
+        ("p09_patch_s2_axial", &[[-26.0, -2.6], [-14.0, 0.7], [8.0, -1.0], [23.0, 0.7]]),
+        ("p10_patch_s2_diag_VL", &[[-3.0, -2.6], [23.0, -2.6]]),
+        ("p13_patch_s4_ellipse", &[[-26.0, 0.7], [8.0, -2.6]]),
+    ];
+    for (name, places) in cases {
+        let (case, passes, _, file) = patch(name);
+        let (space, flank) = (file["space"].as_i64().expect("space"), number(&file, "flank"));
+        for &[sigma, z] in places {
+            let field = case.patch(space, flank, &even(sigma, sigma + 0.8, 16), &even(z, z + 1.55, 32));
+            same_as_brute_force(&format!("{name} at {sigma}, {z}"), &case, &passes, &field);
+        }
+        // A whole flank, coarse: regions as large as the first halvings.
+        let field = case.patch(space, flank, &even(-26.0, 24.0, 20), &even(-12.0, 12.0, 34));
+        same_as_brute_force(&format!("{name}, whole"), &case, &passes, &field);
     }
-    let field = case.patch(3, 1.0, &[-10.0, -2.0, 5.0], &[-2.0, 0.0, 1.0]);
-    let plan = SweepPlan::brute_force(&field, &passes, case.hob.edge());
-    println!("brute: {} records {} segments", plan.records.len(), case.hob.edge().segments.len());
-    for s in &case.hob.edge().segments { println!("{:?} {:?} {:?}", s.name, s.blade_from_segment, s.y_range_mm); }
-    let mut layer = field.blank_layer();
-    let stats = Cpu::default().cut_spatial(&field, case.hob.edge(), &plan, &mut layer).expect("cuts");
-    println!("{:?} {:?} {:?}", layer.heights_mm, layer.passes, stats);
-    println!("{:?}", numbers(&file["z"])[0]);
 }

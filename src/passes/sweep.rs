@@ -9,8 +9,8 @@
 //! and the point's distance from the axis is then exactly `R + q t`: no square root, no transcendental function, and nothing large is subtracted from anything
 //! large once r counts from a point of the edge. A helically gashed tool has rake faces that turn with y; the point is turned back by that angle first.
 //!
-//! The work moves meanwhile. Its pose in those axes is a polynomial in t over the little that a tile needs: cubic for the tile's origin (140 mm away from the axis it turns
-//! about), quadratic for directions. On a ray o + h n this gives two equations, the moment and the edge, in the unknowns h and t; Newton's method solves both at once.
+//! The work moves meanwhile. Its pose in those axes is a polynomial in u = t - t^3 / 3 + t^5 / 5, which is delta / 2 but for t^7 / 7, over the little that a tile needs: cubic for
+//! the tile's origin (140 mm away from the axis it turns about), quadratic for directions. On a ray o + h n this gives two equations, the moment and the edge, in the unknowns h and t; Newton's method solves both at once.
 //!
 //! Road not taken: eliminating t beforehand by a polynomial in the tile's three coordinates. It needs order four in one of them, and long rays leave its range.
 
@@ -22,15 +22,24 @@ use glam::{DMat3, DVec3};
 
 /// Largest |t|: a sweep's whole range from one of its ends.
 const LARGEST_T: f64 = 1.0;
+
+/// u and du/dt: nearly half the angle, by a polynomial that every backend computes alike.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "called inside vector code")]
+pub fn half_angle(t: f64) -> [f64; 2] {
+    let z = t * t;
+    [t * (1.0 - z * (1.0 / 3.0 - z * 0.2)), 1.0 - z + z * z]
+}
+
 /// Newton steps at most.
 const MAX_STEPS: usize = 24;
 
 /// A sweep near a tile, for all segments of the blade.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sweep {
-    /// Directions: `(r, q, y) = (turn[0] + t turn[1] + t^2 turn[2]) p_tile + place(t)`.
+    /// Directions: `(r, q, y) = (turn[0] + u turn[1] + u^2 turn[2]) p_tile + place(u)`.
     turn: [DMat3; 3],
-    /// Tile's origin: coefficients of t^0 to t^3; r from the tool's axis.
+    /// Tile's origin: coefficients of u^0 to u^3; r from the tool's axis.
     place_mm: [DVec3; 4],
     /// Turn of the rake face against t = 0 per mm of y, rad/mm, in the direction of q.
     twist_rad_per_mm: f64,
@@ -51,9 +60,9 @@ pub struct SweepRecord {
     pub radius_mm: f64,
     /// Turn of the rake face per mm of y, rad/mm.
     pub twist_rad_per_mm: f64,
-    /// Rows r, q, y of the rotation; coefficients of t^0 to t^2.
+    /// Rows r, q, y of the rotation; coefficients of u^0 to u^2.
     pub turn: [[[f64; 3]; 3]; 3],
-    /// Tile's origin in (r, q, y): coefficients of t^0 to t^3, mm.
+    /// Tile's origin in (r, q, y): coefficients of u^0 to u^3, mm.
     pub place_mm: [[f64; 3]; 4],
 }
 
@@ -110,8 +119,9 @@ impl Sweep {
         let radius_mm = at.x.hypot(at.y);
         let range = (0.6 * reach_mm / (radius_mm - reach_mm).max(0.3 * radius_mm)).min(LARGEST_T);
         let (mut turns, mut places) = ([[0.0; 4]; 9], [[0.0; 4]; 3]);
-        for (node, &u) in NODES.iter().enumerate() {
-            let delta = 2.0 * (range * u).atan();
+        let largest_u = half_angle(range)[0];
+        for (node, &share) in NODES.iter().enumerate() {
+            let delta = 2.0 * t_at(largest_u * share).atan();
             let head_from_work = set.motion.head_from_work(pass.tool_angle_rad + set.turn * (swept + delta));
             let turn = (from_head * head_from_work.rotation).to_cols_array();
             let origin = head_from_work.point(origin_mm) - DVec3::new(0.0, 0.0, place.axial_mm);
@@ -120,13 +130,13 @@ impl Sweep {
             places.iter_mut().zip(origin).for_each(|(entry, value)| entry[node] = value);
         }
         let turns = turns.map(|values| {
-            // u^3 is 3/4 u but for the polynomial T3, which is smallest in its worst place: a quadratic is enough.
+            // A cube is 3/4 of its base but for the Chebyshev polynomial T3, the smallest in its worst place: a quadratic is enough.
             let [c0, c1, c2, c3] = cubic_through(&values);
-            [c0, (c1 + 0.75 * c3) / range, c2 / (range * range)]
+            [c0, (c1 + 0.75 * c3) / largest_u, c2 / largest_u.powi(2)]
         });
         let places = places.map(|values| {
             let [c0, c1, c2, c3] = cubic_through(&values);
-            [c0, c1 / range, c2 / (range * range), c3 / range.powi(3)]
+            [c0, c1 / largest_u, c2 / largest_u.powi(2), c3 / largest_u.powi(3)]
         });
         Some(Self {
             turn: [0, 1, 2].map(|k| DMat3::from_cols_array(&turns.map(|entry| entry[k]))),
@@ -160,9 +170,10 @@ impl Sweep {
     pub fn in_rake_face(&self, p_mm: DVec3) -> Option<[f64; 2]> {
         let mut t = 0.0_f64;
         for _ in 0..MAX_STEPS {
+            let [u, _] = half_angle(t);
             let point = self.place_mm[0]
-                + t * (self.place_mm[1] + t * (self.place_mm[2] + t * self.place_mm[3]))
-                + (self.turn[0] * p_mm + t * (self.turn[1] * p_mm + t * (self.turn[2] * p_mm)));
+                + u * (self.place_mm[1] + u * (self.place_mm[2] + u * self.place_mm[3]))
+                + (self.turn[0] * p_mm + u * (self.turn[1] * p_mm + u * (self.turn[2] * p_mm)));
             let point = DMat3::from_rotation_z(-self.twist_rad_per_mm * point.z) * point;
             // tan(delta / 2) of the point, exactly.
             let next = point.y / (point.x + point.x.hypot(point.y));
@@ -180,6 +191,16 @@ impl Sweep {
     }
 }
 
+/// Inverse of [`half_angle`].
+fn t_at(u: f64) -> f64 {
+    let mut t = u.tan();
+    for _ in 0..4 {
+        let [value, rate] = half_angle(t);
+        t -= (value - u) / rate;
+    }
+    t
+}
+
 /// Residuals of both equations with their derivatives.
 struct Residuals {
     /// The moment: value, rate over h, rate over t.
@@ -193,12 +214,13 @@ struct Residuals {
 
 impl SweepRecord {
     fn residuals(&self, segment: &Segment, ray: &LocalRay, h: f64, t: f64) -> Residuals {
-        let place = ray.place[0] + t * (ray.place[1] + t * (ray.place[2] + t * ray.place[3]));
-        let place_t = ray.place[1] + t * (2.0 * ray.place[2] + t * (3.0 * ray.place[3]));
-        let along = ray.along[0] + t * (ray.along[1] + t * ray.along[2]);
-        let along_t = ray.along[1] + t * (2.0 * ray.along[2]);
+        let [u, u_t] = half_angle(t);
+        let place = ray.place[0] + u * (ray.place[1] + u * (ray.place[2] + u * ray.place[3]));
+        let place_u = ray.place[1] + u * (2.0 * ray.place[2] + u * (3.0 * ray.place[3]));
+        let along = ray.along[0] + u * (ray.along[1] + u * ray.along[2]);
+        let along_u = ray.along[1] + u * (2.0 * ray.along[2]);
         let mut p = place + h * along;
-        let mut p_t = place_t + h * along_t;
+        let mut p_t = u_t * (place_u + h * along_u);
         let mut p_h = along;
         if self.twist_rad_per_mm != 0.0 {
             let (sin, cos) = (self.twist_rad_per_mm * p.z).sin_cos();
@@ -283,7 +305,7 @@ impl SweepRecord {
     }
 }
 
-/// A ray in the record's axes: polynomials in t.
+/// A ray in the record's axes: polynomials in u.
 struct LocalRay {
     place: [DVec3; 4],
     along: [DVec3; 3],

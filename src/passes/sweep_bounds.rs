@@ -57,7 +57,7 @@ impl Region {
             let (column, row) = place(i);
             f64::from(field.blank_mm[field.index(column, row)])
         });
-        let ends = (0..RAYS).flat_map(|i| [2.0 * field.low_mm, blank_mm[i]].map(|h| rays[i].at(h).length()));
+        let ends = (0..RAYS).flat_map(|i| [field.low_mm, blank_mm[i]].map(|h| rays[i].at(h).length()));
         let reach_mm = 1.05 * ends.fold(0.0, f64::max);
         Self { origin_mm, reach_mm, rays, blank_mm, low_mm: field.low_mm }
     }

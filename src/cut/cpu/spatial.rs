@@ -15,7 +15,7 @@
 
 use crate::cut::CutStats;
 use crate::dexel::SpatialField;
-use crate::passes::sweep::SweepRecord;
+use crate::passes::sweep::{SweepRecord, half_angle};
 use crate::passes::sweep_plan::SweepTile;
 use crate::tool::edge::{Segment, SegmentShape};
 use crate::tool::edge_table::EdgeTable;
@@ -52,7 +52,7 @@ struct Rays {
     normal: [Lanes; 3],
 }
 
-/// Eight rays in a record's axes (r, q, y): polynomials in t.
+/// Eight rays in a record's axes (r, q, y): polynomials in u.
 struct Paths {
     place: [[Lanes; 3]; 4],
     along: [[Lanes; 3]; 3],
@@ -152,17 +152,21 @@ fn lower<const TWISTED: bool>(
     for _ in 0..MAX_STEPS {
         // The point and its rates over h and t, in (r, q, y).
         let (mut p, mut p_h, mut p_t) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3], [[0.0; LANES]; 3]);
+        let (mut u, mut u_t) = ([0.0; LANES], [0.0; LANES]);
+        for l in 0..LANES {
+            [u[l], u_t[l]] = half_angle(t[l]);
+        }
         for row in 0..3 {
             for l in 0..LANES {
                 let (c, d) = (&paths.place, &paths.along);
-                let along = d[0][row][l] + t[l] * (d[1][row][l] + t[l] * d[2][row][l]);
-                let along_t = d[1][row][l] + 2.0 * t[l] * d[2][row][l];
+                let along = d[0][row][l] + u[l] * (d[1][row][l] + u[l] * d[2][row][l]);
+                let along_u = d[1][row][l] + 2.0 * u[l] * d[2][row][l];
                 p_h[row][l] = along;
                 p[row][l] = c[0][row][l]
-                    + t[l] * (c[1][row][l] + t[l] * (c[2][row][l] + t[l] * c[3][row][l]))
+                    + u[l] * (c[1][row][l] + u[l] * (c[2][row][l] + u[l] * c[3][row][l]))
                     + h[l] * along;
-                p_t[row][l] =
-                    c[1][row][l] + t[l] * (2.0 * c[2][row][l] + t[l] * (3.0 * c[3][row][l])) + h[l] * along_t;
+                let place_u = c[1][row][l] + u[l] * (2.0 * c[2][row][l] + u[l] * (3.0 * c[3][row][l]));
+                p_t[row][l] = u_t[l] * (place_u + h[l] * along_u);
             }
         }
         if TWISTED {
