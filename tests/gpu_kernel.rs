@@ -195,7 +195,7 @@ fn a_planted_difference_is_noticed() {
         let mut planted = layers[3].clone();
         plant(&mut planted);
         let mut parity = Parity::default();
-        parity.add("planted", &field, &layers[0], &[layers[1].clone(), layers[2].clone()], &planted);
+        parity.add("planted", field.rows(), &layers[0], &[layers[1].clone(), layers[2].clone()], &planted);
         parity.verdict()
     };
     let at = layers[0].passes.iter().position(|&pass| pass != u32::MAX).expect("a cut dexel");
