@@ -9,9 +9,9 @@ mod summary;
 mod tooth_results;
 
 use crate::cut::{Backend, CutStats};
-use crate::error::{Error, Result};
+use crate::error::{Error, Refusal, Result};
 use crate::gear::generation::Side;
-use crate::job::Job;
+use crate::job::{Job, Prepared};
 use crate::measure::{FlankReport, GearReport, flank_report, gear_report};
 use crate::output::flank_maps::{FlankMaps, OperationMaps};
 use crate::output::folder::OutputFolder;
@@ -150,7 +150,17 @@ pub fn cut(
     interrupt: &Interrupt,
 ) -> Result<Done> {
     let folder = OutputFolder::create(out)?;
-    let job = Job::new(scene.scene.clone())?;
+    let job = match Prepared::new(&scene.scene)? {
+        Prepared::Shaping(job) => *job,
+        Prepared::Hobbing(_) => {
+            return Err(Refusal::new(
+                "tool.hob",
+                "cutting with a hob is not possible yet: its teeth sweep through space, and the fields of this version are cut by strokes in transverse planes",
+                "use `gearcut check` and `gearcut axes` for hobbing scenes",
+            )
+            .into());
+        }
+    };
     let resolved = scene.resolved_toml();
     // Timings stay out of maps: the same scene gives the same bytes.
     let run =

@@ -36,7 +36,7 @@ impl Random {
 /// A blade of the paper's cutter, with rounded tips: tables and arcs large and small.
 fn edge() -> Edge {
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 100)]);
-    scene.tool.tip = Tip::Round { radius_mm: 0.4 };
+    scene.shaping_mut().expect("shaping").tool.tip = Tip::Round { radius_mm: 0.4 };
     Job::new(scene).expect("the paper's gear").cutter.edge().clone()
 }
 

@@ -8,6 +8,9 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use gearcut::gear::PitchCurve;
+use gearcut::gear::blank::Blank;
+use gearcut::gear::generation::Side;
+use gearcut::gear::rack_generation::{ProfilePart, Rack, RackGeneration};
 use gearcut::linkage::hobbing::{FeedPath, HobbingAxes, HobbingGeometry, HobbingLaw, HobbingLinkage};
 use gearcut::scene::model::{
     EvenMotion, ExtraRotation, GashForm, Hand, Hob as HobSpec, HobSize, LinkageForm, PitchCurveShape, Worm,
@@ -338,5 +341,69 @@ fn as_printed_parts_work_and_carriage() {
             close(&format!("{model} {name}"), found, expected, rel * expected);
         }
         close(&format!("{model} turned"), grid[720][2], number(&case["eps_end"]), rel);
+    }
+}
+
+/// The rack of the papers' hob: sharp tips 1.25 m high.
+fn rack(beta: f64, hand: f64) -> Rack {
+    let transverse_module_mm = 8.0 / beta.cos();
+    Rack {
+        transverse_module_mm,
+        pressure_angle_rad: (20_f64.to_radians().tan() / beta.cos()).atan(),
+        half_thickness_mm: 0.25 * PI * transverse_module_mm,
+        tip_height_mm: 10.0,
+        tip_radius_mm: 0.0,
+        helix_angle_rad: beta,
+        hand,
+    }
+}
+
+#[test]
+fn target_profiles_at_350_points() {
+    let file = data("p07_points350_s2");
+    let tolerance = number(&file["tol_mm"]);
+    let beta = (10.0 + 34.0 / 60.0_f64).to_radians();
+    let curve = ellipse(3, 0.1, None, beta, 35);
+    close("A", curve.size_mm(), number(&file["A_scaled"]), 1e-9);
+    let blank = Blank::new(curve.clone(), 8.0).unwrap();
+    let target = RackGeneration { curve, rack: rack(beta, -1.0) };
+    let (mut worst, mut fillets) = (0.0_f64, 0);
+    for row in file["rows"].as_array().unwrap() {
+        let [space, flank, height, foot, x_c, y_c, kind] = numbers(row)[..] else { panic!("seven columns") };
+        let side = if flank > 0.0 { Side::Left } else { Side::Right };
+        let found = target.crossing(&blank, space as i64, side, height, 0.0).expect("a crossing");
+        assert_eq!(found.part == ProfilePart::Fillet, kind == 1.0, "space {space} {side:?} at {height}");
+        worst = worst.max(found.point_mm.distance(DVec2::new(y_c, x_c))).max((found.foot_arc_mm - foot).abs());
+        fillets += usize::from(kind == 1.0);
+    }
+    println!("350 points: worst {:.2e} um, {fillets} on fillets", 1e3 * worst);
+    assert!(worst < tolerance, "{worst:e} mm");
+    assert_eq!(fillets, 20);
+}
+
+#[test]
+fn nominal_points_of_the_patches() {
+    let beta = (10.0 + 34.0 / 60.0_f64).to_radians();
+    let target = RackGeneration { curve: ellipse(3, 0.1, None, beta, 35), rack: rack(beta, -1.0) };
+    // The first corner and the middle of the flank of space 3 that both patches of S2 stand on; z_c = -z.
+    for (roll, z_c, point, normal) in [
+        (
+            -10.0,
+            -3.0,
+            [63.77717736546778, 130.46685569922124],
+            [0.9363918619989371, -0.3057384220460156, -0.17232033561647897],
+        ),
+        (
+            0.05025125628140614,
+            0.015075376884421843,
+            [62.84580450156031, 126.4578963327214],
+            [0.9077586712659427, -0.38246554965710866, -0.17232033561647897],
+        ),
+    ] {
+        let contact = target.flank_contact(3, Side::Left, roll, -z_c);
+        let expected = DVec3::new(point[1], point[0], -z_c);
+        assert!(contact.point_mm.distance(expected) < 1e-9, "{} not {expected}", contact.point_mm);
+        let expected = DVec3::new(normal[1], normal[0], -normal[2]);
+        assert!(contact.normal.distance(expected) < 1e-12, "{} not {expected}", contact.normal);
     }
 }

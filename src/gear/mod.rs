@@ -8,6 +8,7 @@ pub mod generation;
 pub mod jet;
 pub(crate) mod periodic_integral;
 pub mod pitch_curve;
+pub mod rack_generation;
 pub(crate) mod roots;
 pub mod target;
 

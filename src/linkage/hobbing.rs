@@ -35,10 +35,12 @@ use crate::scene::model::{EvenMotion, ExtraRotation, LinkageForm};
 use crate::tool::Hob;
 
 mod path;
+pub mod plan;
 #[cfg(test)]
 mod tests;
 
 pub use path::{FeedPath, FeedPhase};
+pub use plan::FeedPlan;
 
 /// Accuracy of the time integrals, s: 1e-10 mm at a metre per second.
 const TIME_ACCURACY_S: f64 = 1e-13;

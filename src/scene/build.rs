@@ -3,30 +3,31 @@
 //! Every value is there once the scene is without problems; a missing one ends the building, and a test over all
 //! variants keeps the table of keys and this file together.
 
+mod hobbing;
+
 use std::path::PathBuf;
 
 use super::model::{
     AxisLimits, Feed, Fields, Gear, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Output,
-    PitchCurveShape, Scene, ShaperCutter, StrokeSpacing, Tip, TraditionalDirection,
+    PitchCurveShape, Process, Scene, ShaperCutter, Shaping, StrokeSpacing, Tip, TraditionalDirection,
 };
+use super::process::ProcessName;
 use super::values::{Values, View};
 use crate::units::UM_PER_MM;
 
 /// The scene called `name`.
 pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
     let pressure_angle_rad = rad(values.view("gear"), "pressure_angle_deg")?;
-    let operations: Option<Vec<Operation>> = (0..values.operations)
-        .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
-        .collect();
     let flank = values.view("fields.flank");
     let measure = values.view("measure");
     let output = values.view("output");
     Some(Scene {
         name: name.to_owned(),
         gear: gear(values)?,
-        tool: shaper_cutter(values)?,
-        machine: machine(values)?,
-        operations: operations?,
+        process: match ProcessName::of(values)? {
+            ProcessName::Shaping => Process::Shaping(shaping(values, pressure_angle_rad)?),
+            ProcessName::Hobbing => Process::Hobbing(hobbing::hobbing(values, pressure_angle_rad)?),
+        },
         fields: Fields {
             profile_spacing_mm: mm_from_um(flank, "profile_spacing_um")?,
             lead_spacing_mm: mm_from_um(flank, "lead_spacing_um")?,
@@ -50,12 +51,29 @@ fn mm_from_um(view: View<'_>, name: &str) -> Option<f64> {
     view.number(name).map(|um| um / UM_PER_MM)
 }
 
+fn shaping(values: &Values, pressure_angle_rad: f64) -> Option<Shaping> {
+    let operations: Option<Vec<Operation>> = (0..values.operations)
+        .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
+        .collect();
+    Some(Shaping { tool: shaper_cutter(values)?, machine: machine(values)?, operations: operations? })
+}
+
+/// How far the tool stays back: given, or from the stock on each flank.
+fn stock_or_offset(operation: View<'_>, pressure_angle_rad: f64) -> Option<f64> {
+    match operation.number("stock_per_flank_mm") {
+        Some(stock_mm) => Some(stock_mm / pressure_angle_rad.sin()),
+        None => operation.number("offset_mm"),
+    }
+}
+
 fn gear(values: &Values) -> Option<Gear> {
     let gear = values.view("gear");
     Some(Gear {
         module_mm: gear.number("module_mm")?,
         teeth: gear.whole("teeth")?,
         pressure_angle_rad: rad(gear, "pressure_angle_deg")?,
+        helix_angle_rad: rad(gear, "helix_angle_deg")?,
+        hand: hobbing::hand(gear.text("hand")?)?,
         face_width_mm: gear.number("face_width_mm")?,
         addendum_coefficient: gear.number("addendum_coefficient")?,
         bore_diameter_mm: gear.number("bore_diameter_mm")?,
@@ -145,10 +163,6 @@ fn machine(values: &Values) -> Option<Machine> {
 
 fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<Operation> {
     let operation = values.view(path);
-    let offset_mm = match operation.number("stock_per_flank_mm") {
-        Some(stock_mm) => stock_mm / pressure_angle_rad.sin(),
-        None => operation.number("offset_mm")?,
-    };
     let feed = match operation.number("circular_feed_mm_per_stroke") {
         Some(feed_mm) => Feed::CircularMmPerStroke(feed_mm),
         None => Feed::StrokesPerRevolution(operation.whole("strokes_per_revolution")?),
@@ -159,7 +173,7 @@ fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<Ope
     };
     Some(Operation {
         name: operation.text("name")?.to_owned(),
-        offset_mm,
+        offset_mm: stock_or_offset(operation, pressure_angle_rad)?,
         linkage: linkage(values, path, operation.variant("linkage")?)?,
         feed,
         spacing: match operation.text("stroke_spacing")? {

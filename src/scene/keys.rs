@@ -8,6 +8,7 @@
 //! a value inside a choice, and keep ranges, units and sentences somewhere else.
 
 mod gear;
+mod hobbing;
 mod machine;
 mod operation;
 mod range;
@@ -145,9 +146,19 @@ const ROOT: Section = Section { path: "", role: Role::Plain, keys: &[], groups: 
 /// All sections in the order of a scene file; a section stands after the one that holds it.
 pub fn sections() -> impl Iterator<Item = &'static Section> {
     static FIRST: &[Section] = &[ROOT];
-    [FIRST, gear::SECTIONS, tool::SECTIONS, machine::BEFORE_OPERATIONS, operation::SECTIONS, machine::AFTER_OPERATIONS]
-        .into_iter()
-        .flatten()
+    [
+        FIRST,
+        gear::SECTIONS,
+        tool::SECTIONS,
+        hobbing::TOOL,
+        machine::BEFORE_OPERATIONS,
+        hobbing::MACHINE,
+        operation::SECTIONS,
+        hobbing::LINKAGES,
+        machine::AFTER_OPERATIONS,
+    ]
+    .into_iter()
+    .flatten()
 }
 
 /// The section of this path, `[]` included.

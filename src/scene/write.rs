@@ -4,35 +4,39 @@
 
 use std::fmt::Write as _;
 
-use super::keys::{self, Default, Role, Section, join};
+use super::keys::{Default, Role, Section, join};
+use super::process::{ProcessName, sections_of};
 use super::values::{Checked, Values};
 
 /// The whole scene called `name`.
 pub(super) fn resolved(name: &str, values: &Values) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let mut out = format!("# Scene {name} with every default filled in, written by gearcut {version}.\n");
+    let Some(process) = ProcessName::of(values) else { return out };
     let inside_operation = |section: &&Section| section.path.starts_with("operation[]");
-    for section in keys::sections().take_while(|section| !inside_operation(section)) {
-        write_section(&mut out, section, section.path, values);
+    for section in sections_of(process).take_while(|section| !inside_operation(section)) {
+        write_section(&mut out, process, section, section.path, values);
     }
     for index in 0..values.operations {
-        for section in keys::sections().filter(inside_operation) {
+        for section in sections_of(process).filter(inside_operation) {
             let path = section.path.replacen("[]", &format!(".{index}"), 1);
-            write_section(&mut out, section, &path, values);
+            write_section(&mut out, process, section, &path, values);
         }
     }
-    for section in keys::sections().skip_while(|section| !inside_operation(section)).filter(|s| !inside_operation(s)) {
-        write_section(&mut out, section, section.path, values);
+    for section in
+        sections_of(process).skip_while(|section| !inside_operation(section)).filter(|s| !inside_operation(s))
+    {
+        write_section(&mut out, process, section, section.path, values);
     }
     out
 }
 
 /// One section, unless another variant of its choice holds.
-fn write_section(out: &mut String, section: &Section, path: &str, values: &Values) {
+fn write_section(out: &mut String, process: ProcessName, section: &Section, path: &str, values: &Values) {
     let is_header = match section.role {
         Role::Choice { .. } => false,
         Role::List => true,
-        Role::Plain => !section.keys.is_empty(),
+        Role::Plain => section.keys.iter().any(|key| process.knows(&join(section.path, key.name))),
         Role::Variant => {
             let choice = path.rsplit_once('.').map_or("", |(choice, _)| choice);
             if values.variants.get(choice) != Some(&section.name()) {
@@ -44,7 +48,7 @@ fn write_section(out: &mut String, section: &Section, path: &str, values: &Value
     if is_header {
         let _ = write!(out, "\n{}\n", section.header());
     }
-    for key in section.keys {
+    for key in section.keys.iter().filter(|key| process.knows(&join(section.path, key.name))) {
         let rival_holds = section.group_of(key.name).is_some_and(|group| {
             let first = group.names.iter().find(|name| values.held.contains_key(&join(path, name)));
             first != Some(&key.name)

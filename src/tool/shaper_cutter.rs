@@ -254,6 +254,8 @@ mod tests {
             module_mm: 3.0,
             teeth: 42,
             pressure_angle_rad: 20_f64.to_radians(),
+            helix_angle_rad: 0.0,
+            hand: model::Hand::Right,
             face_width_mm: 30.0,
             addendum_coefficient: 1.0,
             bore_diameter_mm: 20.0,

@@ -1,5 +1,9 @@
 //! Keys of the operations: linkage, feed, offset and infeed.
 
+use super::hobbing::{
+    APPROACH, APPROACH_WAY, AXIAL_FEED, FEED_DIRECTION, HEAD_ANGLE, HOB_SPEED, OVERRUN_WAY, RADIAL_FEED,
+    RIDGE_TOLERANCE, SHIFT_START,
+};
 use super::{Default, Group, Key, Kind, Range, Role, Section};
 
 /// A depth of an infeed.
@@ -47,7 +51,7 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "mm",
                 default: Default::Number(0.0),
                 example: "0.0",
-                teach: "delta_d: how far the cutter stays back, along the direction the linkage gives; 0 cuts to depth.",
+                teach: "delta_d: how far the tool stays back, along the direction the linkage gives (radially in hobbing); 0 cuts to depth.",
             },
             Key {
                 name: "stock_per_flank_mm",
@@ -113,6 +117,16 @@ pub(super) static SECTIONS: &[Section] = &[
                 example: "false",
                 teach: "true: the rotary feed goes on while the cutter is in the work, as on a crank machine; false: the axes rest during each stroke.",
             },
+            HOB_SPEED,
+            AXIAL_FEED,
+            FEED_DIRECTION,
+            APPROACH,
+            RADIAL_FEED,
+            APPROACH_WAY,
+            OVERRUN_WAY,
+            HEAD_ANGLE,
+            SHIFT_START,
+            RIDGE_TOLERANCE,
         ],
         groups: &[
             Group { names: &["offset_mm", "stock_per_flank_mm"], required: false },
@@ -125,7 +139,7 @@ pub(super) static SECTIONS: &[Section] = &[
         role: Role::Choice { default: Some("shaping_normal"), what: "linkage" },
         keys: &[],
         groups: &[],
-        teach: "Law that moves the axes. With an offset of 0 both linkages cut the same gear.",
+        teach: "Law that moves the axes. With an offset of 0 both linkages of shaping cut the same gear; with [tool.hob] the default is hobbing.",
     },
     Section {
         path: "operation[].linkage.shaping_traditional",
