@@ -3,6 +3,7 @@
 //! In: the checked scene. Out: [`Prepared`], which holds pitch curve, tool, blank, linkages and passes. What the processes share lives in the modules they
 //! are made of; a process adds its own job here and nothing else.
 
+pub mod hobbed;
 pub mod hobbing;
 pub mod shaping;
 
@@ -10,6 +11,7 @@ use crate::error::Result;
 use crate::scene::Scene;
 use crate::scene::model::Process;
 
+pub use hobbed::{HobbedFlank, HobCutter};
 pub use hobbing::HobbingJob;
 pub use shaping::{CutFlank, Job, PreparedOperation};
 

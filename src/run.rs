@@ -73,7 +73,7 @@ pub fn cut_gear(
         let cut = job.cut(backend, job.flank_field(&target))?;
         let report = flank_report::measure(job, &target, &cut);
         let spacing_mm = job.scene.output.map_spacing_mm;
-        let maps = FlankMaps::sample(tooth, side, &cut.field, &cut.layers, spacing_mm);
+        let maps = FlankMaps::sample(tooth, side, [&cut.field.arcs_mm(), &cut.field.leads_mm], &cut.layers, spacing_mm);
         if let Some((folder, notes)) = folder {
             maps.write(folder, &operations, notes)?;
         }

@@ -4,6 +4,7 @@
 //! work axis, polar angle phi counter-clockwise, fixed to the work.
 
 pub mod blank;
+pub mod flank_patch;
 pub mod generation;
 pub mod jet;
 pub(crate) mod periodic_integral;

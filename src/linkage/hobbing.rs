@@ -419,6 +419,13 @@ impl HobbingLinkage {
         work_from_machine(&axes).after(&self.machine_from_tool(&axes))
     }
 
+    /// Pose of the work in the hob's head, the frame that carries the hob without turning with it, when the hob has turned to `hob_rad`.
+    pub fn head_from_work(&self, hob_rad: f64) -> Rigid3 {
+        let tool_from_work = self.work_from_tool(self.time_at_hob_angle(hob_rad)).inverse();
+        let rotation = DMat3::from_rotation_z(self.geometry.hob_hand * hob_rad);
+        Rigid3 { rotation, translation_mm: DVec3::ZERO }.after(&tool_from_work)
+    }
+
     /// Pose with velocity, gear frame.
     pub fn motion(&self, time_s: f64) -> RigidMotion3 {
         let axes = self.axes::<2>(time_s);

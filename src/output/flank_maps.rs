@@ -9,7 +9,7 @@ use super::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
 use super::folder::OutputFolder;
 use super::grid::{MapAxis, MapGrid};
 use super::map_png::{MapPicture, write_map_png};
-use crate::dexel::{Field, Layer, NO_PASS};
+use crate::dexel::{Layer, NO_PASS};
 use crate::error::Result;
 use crate::gear::generation::Side;
 use crate::units::UM_PER_MM;
@@ -53,17 +53,23 @@ pub struct FlankMaps {
 }
 
 impl FlankMaps {
-    /// Takes the dexels nearest to the places of a map with `spacing_mm`.
-    pub fn sample(tooth: u32, side: Side, field: &Field, layers: &[Layer], spacing_mm: f64) -> Self {
-        let rows = field.rows();
-        let lengths = [field.columns.last().map_or(0.0, |c| c.arc_mm), field.leads_mm[rows - 1] - field.leads_mm[0]];
+    /// Takes the dexels nearest to the places of a map with `spacing_mm`; dexels stand at `arcs_mm` along the profile and `leads_mm` along the tooth.
+    pub fn sample(
+        tooth: u32,
+        side: Side,
+        [arcs_mm, leads_mm]: [&[f64]; 2],
+        layers: &[Layer],
+        spacing_mm: f64,
+    ) -> Self {
+        let rows = leads_mm.len();
+        let lengths = [arcs_mm.last().copied().unwrap_or(0.0), leads_mm[rows - 1] - leads_mm[0]];
         let axis = |name: &str, meaning: &str, start_mm: f64, length_mm: f64| {
             let count = (length_mm / spacing_mm).floor() as usize + 1;
             MapAxis { name: name.into(), meaning: meaning.into(), start_mm, step_mm: spacing_mm, count }
         };
         let grid = MapGrid {
             u: axis("u", "along the profile from the form point", 0.0, lengths[0]),
-            v: axis("v", "along the tooth from the middle of the face", field.leads_mm[0], lengths[1]),
+            v: axis("v", "along the tooth from the middle of the face", leads_mm[0], lengths[1]),
         };
         // Dexels of each cell of an axis: those nearer to its place than to the next one, at least the nearest.
         let cells = |axis: &MapAxis, places: &[f64]| -> Vec<(usize, std::ops::Range<usize>)> {
@@ -81,8 +87,7 @@ impl FlankMaps {
                 })
                 .collect()
         };
-        let arcs_mm: Vec<f64> = field.columns.iter().map(|c| c.arc_mm).collect();
-        let (columns, leads) = (cells(&grid.u, &arcs_mm), cells(&grid.v, &field.leads_mm));
+        let (columns, leads) = (cells(&grid.u, arcs_mm), cells(&grid.v, leads_mm));
         let dexels: Vec<usize> =
             columns.iter().flat_map(|(column, _)| leads.iter().map(move |(row, _)| column * rows + row)).collect();
         let highest = |layer: &Layer| -> Vec<f32> {

@@ -23,36 +23,43 @@ type Panel = [[f64; ENTRIES]; TERMS];
 /// `head_from_work` over a range of tool angles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionTable {
-    start_rad: f64,
-    panel_rad: f64,
+    /// Ends of the panels, one more than there are panels.
+    ends_rad: Vec<f64>,
     panels: Vec<Panel>,
 }
 
 impl MotionTable {
-    /// Table over `range_rad`, rounded up to whole panels.
-    pub fn new(range_rad: [f64; 2], head_from_work: impl Fn(f64) -> Rigid3 + Sync) -> Self {
-        let panel_rad = TAU / PANELS_PER_TURN;
-        let count = ((range_rad[1] - range_rad[0]) / panel_rad).ceil().max(1.0) as usize;
-        let panels = (0..count)
-            .into_par_iter()
-            .map(|index| {
-                let middle = range_rad[0] + (index as f64 + 0.5) * panel_rad;
-                panel(|u| entries(&head_from_work(middle + 0.5 * panel_rad * u)))
+    /// Table over `range_rad`, with panels that end at the tool angles `corners_rad` where rates jump.
+    pub fn new(range_rad: [f64; 2], corners_rad: &[f64], head_from_work: impl Fn(f64) -> Rigid3 + Sync) -> Self {
+        let inside = |angle: &f64| *angle > range_rad[0] && *angle < range_rad[1];
+        let mut corners: Vec<f64> = corners_rad.iter().copied().filter(inside).chain(range_rad).collect();
+        corners.sort_by(f64::total_cmp);
+        corners.dedup();
+        let mut ends_rad = vec![corners[0]];
+        for pair in corners.windows(2) {
+            let count = ((pair[1] - pair[0]) / TAU * PANELS_PER_TURN).ceil().max(1.0) as usize;
+            ends_rad.extend((1..=count).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / count as f64));
+        }
+        let panels = ends_rad
+            .par_windows(2)
+            .map(|ends| {
+                let (middle, half) = (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]));
+                panel(|u| entries(&head_from_work(middle + half * u)))
             })
             .collect();
-        Self { start_rad: range_rad[0], panel_rad, panels }
+        Self { ends_rad, panels }
     }
 
     /// First and last tool angle of the table.
     pub fn range_rad(&self) -> [f64; 2] {
-        [self.start_rad, self.start_rad + self.panel_rad * self.panels.len() as f64]
+        [self.ends_rad[0], self.ends_rad[self.panels.len()]]
     }
 
     /// Pose of the work in the head; beyond its ends the table goes on with its last polynomials.
     pub fn head_from_work(&self, tool_angle_rad: f64) -> Rigid3 {
-        let place = (tool_angle_rad - self.start_rad) / self.panel_rad;
-        let index = (place.max(0.0) as usize).min(self.panels.len() - 1);
-        let u = 2.0 * (place - index as f64) - 1.0;
+        let index = self.ends_rad.partition_point(|&end| end <= tool_angle_rad).clamp(1, self.panels.len()) - 1;
+        let (start, end) = (self.ends_rad[index], self.ends_rad[index + 1]);
+        let u = (2.0 * tool_angle_rad - start - end) / (end - start);
         let panel = &self.panels[index];
         let mut entries = panel[TERMS - 1];
         for term in panel[..TERMS - 1].iter().rev() {
@@ -71,7 +78,8 @@ impl MotionTable {
             .map(|index| {
                 let errors = (0..=TERMS).map(|extreme| {
                     let u = (PI * extreme as f64 / TERMS as f64).cos() * (1.0 - 1e-12);
-                    let angle = self.start_rad + self.panel_rad * (index as f64 + 0.5 + 0.5 * u);
+                    let (start, end) = (self.ends_rad[index], self.ends_rad[index + 1]);
+                    let angle = 0.5 * (start + end) + 0.5 * (end - start) * u;
                     let (table, exact) = (self.head_from_work(angle), head_from_work(angle));
                     let turn = (table.rotation - exact.rotation).to_cols_array().iter().map(|e| e * e).sum::<f64>();
                     (table.translation_mm - exact.translation_mm).length() + reach_mm * turn.sqrt()
@@ -130,8 +138,8 @@ mod tests {
 
     #[test]
     fn the_table_is_the_motion() {
-        let table = MotionTable::new([-3.0, 40.0], pose);
-        assert!(table.range_rad()[1] >= 40.0);
+        let table = MotionTable::new([-3.0, 40.0], &[1.0, 17.3], pose);
+        assert_eq!(table.range_rad(), [-3.0, 40.0]);
         let error = table.error_mm(150.0, pose);
         assert!(error < 1e-10, "{error:e} mm");
         // The measure is alive: another motion is seen.

@@ -5,7 +5,6 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 use gearcut::dexel::{Ray, SpatialField};
-use gearcut::frame::Rigid3;
 use gearcut::gear::PitchCurve;
 use gearcut::linkage::HobbingLinkage;
 use gearcut::linkage::hobbing::{FeedPath, HobbingGeometry, HobbingLaw};
@@ -14,7 +13,7 @@ use gearcut::scene::model::{
     EvenMotion, ExtraRotation, GashForm, Hand, Hob as HobSpec, HobSize, LinkageForm, PitchCurveShape, Worm,
 };
 use gearcut::tool::Hob;
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -108,15 +107,8 @@ impl Case {
         Self::with(setup, 1.0, 1.0)
     }
 
-    /// Pose of the work in the hob's head, which does not turn.
-    pub fn head_from_work(&self, hob_rad: f64) -> Rigid3 {
-        let pose = self.linkage.work_from_tool(self.linkage.time_at_hob_angle(hob_rad)).inverse();
-        let turn = Rigid3 { rotation: DMat3::from_rotation_z(self.hob.hand * hob_rad), translation_mm: DVec3::ZERO };
-        turn.after(&pose)
-    }
-
     pub fn passes(&self, hob_range_rad: [f64; 2]) -> HobTeeth {
-        let motion = MotionTable::new(hob_range_rad, |angle| self.head_from_work(angle));
+        let motion = MotionTable::new(hob_range_rad, &[], |angle| self.linkage.head_from_work(angle));
         HobTeeth::new(0, &self.hob, self.hob.hand, motion)
     }
 
