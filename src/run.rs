@@ -4,12 +4,13 @@
 //! gear. The output folder appears under its name only when it is complete; Ctrl-C completes it with the flanks that are finished and says so.
 
 mod files;
+pub mod hobbing;
 mod results;
 mod summary;
 mod tooth_results;
 
 use crate::cut::{Backend, CutStats};
-use crate::error::{Error, Refusal, Result};
+use crate::error::{Error, Result};
 use crate::gear::generation::Side;
 use crate::job::{Job, Prepared};
 use crate::measure::{FlankReport, GearReport, flank_report, gear_report};
@@ -22,6 +23,19 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
+
+/// How much work a run was.
+#[derive(Debug, Clone, Copy)]
+pub struct Work {
+    /// What the backend met.
+    pub stats: CutStats,
+    /// Dexels cut, all operations.
+    pub dexels: u64,
+    /// Wall time of cutting and measuring, files of flanks included.
+    pub elapsed: Duration,
+    /// Stopped by the user before all flanks were done.
+    pub interrupted: bool,
+}
 
 /// A cut and measured gear, before anything is written about it as a whole.
 #[derive(Debug)]
@@ -81,9 +95,27 @@ pub fn cut_gear(
         let dexels = (cut.field.len() * cut.layers.len()) as u64;
         Ok(Some(Finished { report, maps, stats: cut.stats, dexels }))
     };
-    // The first failure stops the rest; what it was is kept, not the flanks' order of arrival.
+    let finished = all_flanks(&flanks, cut_one)?;
+    step.finish();
+    let interrupted = finished.iter().any(Option::is_none);
+    let (mut reports, mut maps, mut stats, mut dexels) = (Vec::new(), Vec::new(), CutStats::default(), 0);
+    for flank in finished.into_iter().flatten() {
+        reports.push(flank.report);
+        maps.push(flank.maps);
+        stats += flank.stats;
+        dexels += flank.dexels;
+    }
+    let report = gear_report::measure(job, backend, reports)?;
+    Ok(CutGear { report, maps, stats, dexels, elapsed: started.elapsed(), interrupted })
+}
+
+/// Runs something over all flanks in parallel; nothing for those that were left out. The first failure stops the rest; what it was is kept, not the flanks' order of arrival.
+fn all_flanks<T: Send>(
+    flanks: &[(u32, Side)],
+    cut_one: impl Fn(&(u32, Side)) -> Result<Option<T>> + Sync,
+) -> Result<Vec<Option<T>>> {
     let failure = Mutex::new(None);
-    let finished: Vec<Option<Finished>> = flanks
+    let finished = flanks
         .par_iter()
         .map(|flank| {
             if failure.lock().is_ok_and(|f: std::sync::MutexGuard<Option<Error>>| f.is_some()) {
@@ -97,20 +129,10 @@ pub fn cut_gear(
             })
         })
         .collect();
-    if let Some(error) = failure.into_inner().unwrap_or_default() {
-        return Err(error);
+    match failure.into_inner().unwrap_or_default() {
+        Some(error) => Err(error),
+        None => Ok(finished),
     }
-    step.finish();
-    let interrupted = finished.iter().any(Option::is_none);
-    let (mut reports, mut maps, mut stats, mut dexels) = (Vec::new(), Vec::new(), CutStats::default(), 0);
-    for flank in finished.into_iter().flatten() {
-        reports.push(flank.report);
-        maps.push(flank.maps);
-        stats += flank.stats;
-        dexels += flank.dexels;
-    }
-    let report = gear_report::measure(job, backend, reports)?;
-    Ok(CutGear { report, maps, stats, dexels, elapsed: started.elapsed(), interrupted })
 }
 
 /// What the maps need to know of the operations.
@@ -130,7 +152,7 @@ pub struct Done {
     /// Summary for the terminal.
     pub summary: String,
     /// `results.json`.
-    pub results: crate::output::results::Results,
+    pub results: serde_json::Value,
     /// Whether Ctrl-C ended it early.
     pub interrupted: bool,
 }
@@ -150,33 +172,48 @@ pub fn cut(
     interrupt: &Interrupt,
 ) -> Result<Done> {
     let folder = OutputFolder::create(out)?;
-    let job = match Prepared::new(&scene.scene)? {
-        Prepared::Shaping(job) => *job,
-        Prepared::Hobbing(_) => {
-            return Err(Refusal::new(
-                "tool.hob",
-                "cutting with a hob is not possible yet: its teeth sweep through space, and the fields of this version are cut by strokes in transverse planes",
-                "use `gearcut check` and `gearcut axes` for hobbing scenes",
-            )
-            .into());
-        }
-    };
     let resolved = scene.resolved_toml();
     // Timings stay out of maps: the same scene gives the same bytes.
     let run =
         serde_json::json!({"program": "gearcut", "version": env!("CARGO_PKG_VERSION"), "backend": backend.name()});
     let notes = [("run".to_owned(), run.to_string()), ("scene".to_owned(), resolved.clone())];
+    let job = match Prepared::new(&scene.scene)? {
+        Prepared::Shaping(job) => *job,
+        Prepared::Hobbing(job) => {
+            let gear = hobbing::cut_gear(&job, backend, progress, interrupt, Some((&folder, &notes)))?;
+            let results = hobbing::write(&job, &gear, &folder)?;
+            let summary = hobbing::summary(&job, &gear, out, &backend.name());
+            let done = (results, summary, gear.work);
+            return finish(done, &resolved, backend, backend_why, progress, folder);
+        }
+    };
     let gear = cut_gear(&job, backend, progress, interrupt, Some((&folder, &notes)))?;
     if gear.report.flanks.is_empty() {
         return Err(Error::Interrupted);
     }
     let results = results::results(&job, &gear);
     files::write(&job, &gear, &results, &folder)?;
-    let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;
+    let summary = summary::summary(&job, &gear, &results, out, &backend.name());
+    let CutGear { stats, dexels, elapsed, interrupted, .. } = gear;
+    let results = serde_json::to_value(&results)
+        .map_err(|reason| Error::Output { path: out.to_owned(), reason: reason.to_string() })?;
+    let done = (results, summary, Work { stats, dexels, elapsed, interrupted });
+    finish(done, &resolved, backend, backend_why, progress, folder)
+}
+
+/// Run record, incidents, the folder under its name.
+fn finish(
+    (results, summary, work): (serde_json::Value, String, Work),
+    resolved: &str,
+    backend: &dyn Backend,
+    backend_why: &str,
+    progress: &Progress,
+    folder: OutputFolder,
+) -> Result<Done> {
+    let record = files::run_record(resolved, backend, backend_why, &work, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
     for incident in backend.incidents() {
         progress.note(&incident);
     }
-    let summary = summary::summary(&job, &gear, &results, out, &backend.name());
-    Ok(Done { folder: folder.finish()?, summary, results, interrupted: gear.interrupted })
+    Ok(Done { folder: folder.finish()?, summary, results, interrupted: work.interrupted })
 }

@@ -32,6 +32,11 @@ pub fn profile(field: &Field, layer: &Layer, row: usize, [from_mm, to_mm]: [f64;
                 .then(|| (column.arc_mm, f64::from(layer.heights_mm[i * rows + row])))
         })
         .collect::<Option<_>>()?;
+    of_points(&points)
+}
+
+/// Deviations of heights over places of an evaluated length, both in mm; `None` with fewer than three of them.
+pub fn of_points(points: &[(f64, f64)]) -> Option<ProfileDeviation> {
     if points.len() < 3 {
         return None;
     }

@@ -6,6 +6,7 @@ pub mod crossing;
 pub mod deviation;
 pub mod flank_report;
 pub mod gear_report;
+pub mod hobbed_report;
 pub mod scallop;
 pub mod stock;
 pub mod unevenness;

@@ -2,7 +2,7 @@
 //!
 //! Maps of single flanks are written as the flanks are finished; everything here follows when all are.
 
-use super::CutGear;
+use super::{CutGear, Work};
 use crate::axes_report;
 use crate::cut::Backend;
 use crate::error::{Error, Result};
@@ -11,6 +11,7 @@ use crate::measure::unevenness::ToothAllowance;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::colormap::ColourScale;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
+use crate::output::flank_maps::{FlankMaps, OperationMaps};
 use crate::output::folder::OutputFolder;
 use crate::output::results::{RESULTS_FILE, Results};
 use crate::output::table::{Cell, write_table};
@@ -166,44 +167,69 @@ fn unevenness_chart(job: &Job, teeth: &[ToothAllowance], operation: &str) -> Bar
 /// All flanks on one picture: stock of each earlier operation, heights after the last.
 fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Result<()> {
     let last = job.operations.len() - 1;
-    if cut.maps.is_empty() {
+    let scales = super::map_operations(job);
+    for (index, operation) in scales[..last].iter().enumerate() {
+        write_stock_sheet(&job.scene.name, operation, index, &cut.maps, folder)?;
+    }
+    write_height_sheet(&job.scene.name, &job.finishing().spec.name, &cut.maps, folder)
+}
+
+/// Stock of one earlier operation on all flanks.
+pub(super) fn write_stock_sheet(
+    scene: &str,
+    operation: &OperationMaps,
+    index: usize,
+    maps: &[FlankMaps],
+    folder: &OutputFolder,
+) -> Result<()> {
+    let name = &operation.name;
+    write_sheet(
+        &folder.path(format!("pictures/stock_{name}.png"))?,
+        &format!("{scene}: stock of {name}, all flanks"),
+        ["normal stock", "mm"],
+        Some(operation.stock_scale),
+        maps,
+        &maps.iter().map(|m| m.stock_mm(index)).collect::<Vec<_>>(),
+    )
+}
+
+/// Finished surface of all flanks.
+pub(super) fn write_height_sheet(scene: &str, operation: &str, maps: &[FlankMaps], folder: &OutputFolder) -> Result<()> {
+    let to_um = |h: &f32| h * UM_PER_MM as f32;
+    let values: Vec<Vec<f32>> = maps
+        .iter()
+        .map(|m| m.highest_mm.last().map_or_else(Vec::new, |heights| heights.iter().map(to_um).collect()))
+        .collect();
+    write_sheet(
+        &folder.path(format!("pictures/heights_{operation}.png"))?,
+        &format!("{scene}: finished surface after {operation}, all flanks"),
+        ["height over the target, highest of cell", "µm"],
+        None,
+        maps,
+        &values,
+    )
+}
+
+fn write_sheet(
+    path: &Path,
+    title: &str,
+    [quantity, unit]: [&str; 2],
+    scale: Option<ColourScale>,
+    maps: &[FlankMaps],
+    values: &[Vec<f32>],
+) -> Result<()> {
+    if maps.is_empty() {
         return Ok(());
     }
-    let sheet =
-        |path: &str, title: String, quantity: &str, unit: &str, scale: Option<ColourScale>, values: Vec<Vec<f32>>| {
-            let labels: Vec<String> = cut.maps.iter().map(|m| format!("{} {}", m.tooth, m.side.name())).collect();
-            let thumbnails: Vec<Thumbnail> = cut
-                .maps
-                .iter()
-                .zip(&labels)
-                .zip(&values)
-                .map(|((map, label), values)| Thumbnail { label, grid: &map.grid, values })
-                .collect();
-            let scale = scale.unwrap_or_else(|| ColourScale::sequential_over(values.iter().map(Vec::as_slice)));
-            let sheet = ContactSheet { title: &title, quantity, unit, scale, maps: &thumbnails };
-            write_contact_sheet(&folder.path(path)?, &sheet)
-        };
-    for (index, operation) in job.operations[..last].iter().enumerate() {
-        let name = &operation.spec.name;
-        sheet(
-            &format!("pictures/stock_{name}.png"),
-            format!("{}: stock of {name}, all flanks", job.scene.name),
-            "normal stock",
-            "mm",
-            Some(super::map_operations(job)[index].stock_scale),
-            cut.maps.iter().map(|m| m.stock_mm(index)).collect(),
-        )?;
-    }
-    let to_um = |h: &f32| h * UM_PER_MM as f32;
-    let name = &job.finishing().spec.name;
-    sheet(
-        &format!("pictures/heights_{name}.png"),
-        format!("{}: finished surface after {name}, all flanks", job.scene.name),
-        "height over the target, highest of cell",
-        "µm",
-        None,
-        cut.maps.iter().map(|m| m.highest_mm[last].iter().map(to_um).collect()).collect(),
-    )
+    let labels: Vec<String> = maps.iter().map(|m| format!("{} {}", m.tooth, m.side.name())).collect();
+    let thumbnails: Vec<Thumbnail> = maps
+        .iter()
+        .zip(&labels)
+        .zip(values)
+        .map(|((map, label), values)| Thumbnail { label, grid: &map.grid, values })
+        .collect();
+    let scale = scale.unwrap_or_else(|| ColourScale::sequential_over(values.iter().map(Vec::as_slice)));
+    write_contact_sheet(path, &ContactSheet { title, quantity, unit, scale, maps: &thumbnails })
 }
 
 /// What is needed to repeat the run and to trust its files.
@@ -214,7 +240,7 @@ pub fn run_record(
     resolved_scene: &str,
     backend: &dyn Backend,
     backend_why: &str,
-    cut: &CutGear,
+    work: &Work,
     folder: &OutputFolder,
 ) -> Result<Value> {
     let mut checksums = Map::new();
@@ -232,11 +258,11 @@ pub fn run_record(
             .iter()
             .map(|t| json!({"stage": t.stage, "batches": t.batches, "device_s": t.device_s}))
             .collect::<Vec<_>>(),
-        "complete": !cut.interrupted,
-        "dexels": cut.dexels,
-        "dexel_passes": cut.stats.dexel_passes,
-        "dexel_passes_per_dexel": cut.stats.dexel_passes as f64 / (cut.dexels.max(1)) as f64,
-        "wall_time_s": cut.elapsed.as_secs_f64(),
+        "complete": !work.interrupted,
+        "dexels": work.dexels,
+        "dexel_passes": work.stats.dexel_passes,
+        "dexel_passes_per_dexel": work.stats.dexel_passes as f64 / (work.dexels.max(1)) as f64,
+        "wall_time_s": work.elapsed.as_secs_f64(),
         "threads": rayon::current_num_threads(),
         "sha256": checksums,
     }))
