@@ -5,7 +5,7 @@
 //! products. The number of terms is doubled until an error measured between the nodes is small enough.
 //!
 //! Along the profile the patch runs from where the flank is whole over the whole face (the latest start of the involute in any section: near the ends of an undercut tooth a little
-//! flank below is left out) to the blank's outline, by equal shares of the profile's length in each section.
+//! flank below is left out) to the blank's outline, by shares of the roll between them: the profile's length is no smooth coordinate where the envelope nearly stands still.
 
 use super::blank::Blank;
 use super::generation::Side;
@@ -27,8 +27,10 @@ const GAUSS: [(f64, f64); 4] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
 ];
 
-/// Components: point, normal, and the profile's length in the section.
-const PARTS: usize = 7;
+/// Components: point and normal.
+const PARTS: usize = 6;
+/// Panels of the profile's length.
+const PANELS: usize = 64;
 
 /// A target flank.
 #[derive(Debug, Clone)]
@@ -42,6 +44,8 @@ pub struct FlankPatch {
     pub undercut: bool,
     /// Largest distance from the flank found between the nodes, mm.
     pub error_mm: f64,
+    /// Length of the profile in the middle section up to the ends of equal shares of its roll, mm.
+    lengths_mm: Vec<f64>,
 }
 
 /// One section of a patch: polynomials along the profile.
@@ -74,7 +78,7 @@ impl FlankPatch {
     ) -> Result<Self, Refusal> {
         // The left flank of a tooth bounds the space after it.
         let space = i64::from(tooth) - i64::from(side == Side::Right);
-        let sections = 17;
+        let sections = 9;
         let forms = (0..sections).map(|i| {
             let z_mm = face_width_mm * (f64::from(i) / f64::from(sections - 1) - 0.5);
             generation.form_point(blank, space, side, z_mm)
@@ -84,25 +88,21 @@ impl FlankPatch {
         let latest = forms
             .iter()
             .min_by(|a, b| (side.sign() * a.roll_mm).total_cmp(&(side.sign() * b.roll_mm)))
-            .expect("seventeen sections");
+            .expect("nine sections");
         let source = Source { generation, blank, space, side, face_width_mm, form_roll_mm: latest.roll_mm };
         let undercut = forms.iter().any(|form| form.undercut);
         let mut terms = TERMS[0];
         loop {
-            let coefficients = source.coefficients(terms).ok_or_else(|| {
+            let parts = source.coefficients(terms).zip(source.lengths_mm());
+            let (coefficients, lengths_mm) = parts.ok_or_else(|| {
                 Refusal::new(
                     "gear.addendum_coefficient",
                     format!("the {} flank of tooth {tooth} does not reach the blank's outline", side.name()),
                     "use a smaller addendum_coefficient",
                 )
             })?;
-            let mut patch = Self {
-                coefficients,
-                face_width_mm,
-                form_height_mm: latest.height_mm,
-                undercut,
-                error_mm: 0.0,
-            };
+            let form_height_mm = latest.height_mm;
+            let mut patch = Self { coefficients, face_width_mm, form_height_mm, undercut, error_mm: 0.0, lengths_mm };
             patch.error_mm = source.error_mm(&patch);
             if patch.error_mm <= TOLERANCE_MM {
                 return Ok(patch);
@@ -129,29 +129,52 @@ impl FlankPatch {
     }
 }
 
-impl Section {
-    /// Ray at a share of the profile, 0 at its beginning and 1 at the tip.
-    pub fn ray(&self, share: f64) -> Ray {
-        let [x, y, z, nx, ny, nz, _] = clenshaw(&self.coefficients, 2.0 * share - 1.0);
-        Ray { origin_mm: DVec3::new(x, y, z), normal: DVec3::new(nx, ny, nz) }
+impl FlankPatch {
+    /// Length of the profile in the middle of the face, mm.
+    pub fn length_mm(&self) -> f64 {
+        self.lengths_mm[PANELS]
     }
 
-    /// Length of the profile in this section, mm.
-    pub fn length_mm(&self) -> f64 {
-        clenshaw(&self.coefficients, 0.0)[PARTS - 1]
+    /// Share of the roll at which the profile of the middle section has a length, mm. Between panels the length is a parabola through its own rates: a column stands
+    /// within some nanometres of its place, and on the flank exactly.
+    pub fn share_at(&self, length_mm: f64) -> f64 {
+        let length_mm = length_mm.clamp(0.0, self.length_mm());
+        let panel = self.lengths_mm.partition_point(|&l| l <= length_mm).clamp(1, PANELS) - 1;
+        let at = |i: usize| self.lengths_mm[i];
+        let first = panel.clamp(1, PANELS - 1) - 1;
+        // Parabola through three ends of panels, in panels from the first.
+        let (a, b, c) = (at(first), at(first + 1), at(first + 2));
+        let (slope, bend) = (0.5 * (4.0 * b - 3.0 * a - c), 0.5 * (a - 2.0 * b + c));
+        let missing = length_mm - a;
+        let x = 2.0 * missing / (slope + (slope * slope + 4.0 * bend * missing).max(0.0).sqrt());
+        ((first as f64 + x) / PANELS as f64).clamp(0.0, 1.0)
+    }
+}
+
+impl Section {
+    /// Ray at a share of the roll, 0 at the beginning and 1 at the tip.
+    pub fn ray(&self, share: f64) -> Ray {
+        let [x, y, z, nx, ny, nz] = clenshaw(&self.coefficients, 2.0 * share - 1.0);
+        Ray { origin_mm: DVec3::new(x, y, z), normal: DVec3::new(nx, ny, nz) }
     }
 }
 
 impl Source<'_> {
-    /// Profile length between two rolls.
-    fn length_mm(&self, [from, to]: [f64; 2], z_mm: f64) -> f64 {
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let speed = |roll: f64| self.generation.flank_contact(self.space, self.side, roll, z_mm).length_per_roll;
-        let sum: f64 = GAUSS
-            .iter()
-            .map(|&(node, weight)| weight * (speed(middle - half * node) + speed(middle + half * node)))
-            .sum();
-        (half * sum).abs()
+    /// Lengths of the middle section's profile up to the panels' ends.
+    fn lengths_mm(&self) -> Option<Vec<f64>> {
+        let tip = self.tip_roll_mm(0.0)?;
+        let half = 0.5 * (tip - self.form_roll_mm) / PANELS as f64;
+        let speed = |roll: f64| self.generation.flank_contact(self.space, self.side, roll, 0.0).length_per_roll;
+        let mut lengths_mm = vec![0.0];
+        for panel in 0..PANELS {
+            let middle = self.form_roll_mm + half * (2 * panel + 1) as f64;
+            let sum: f64 = GAUSS
+                .iter()
+                .map(|&(node, weight)| weight * (speed(middle - half * node) + speed(middle + half * node)))
+                .sum();
+            lengths_mm.push(lengths_mm[panel] + (half * sum).abs());
+        }
+        Some(lengths_mm)
     }
 
     fn tip_roll_mm(&self, z_mm: f64) -> Option<f64> {
@@ -172,23 +195,12 @@ impl Source<'_> {
         Some(0.5 * (low + high))
     }
 
-    /// Ray and profile length at a share of the profile in a section.
+    /// Point and normal at a share of the roll in a section.
     fn at(&self, share: f64, z_mm: f64, tip_roll_mm: f64) -> [f64; PARTS] {
-        let form = self.form_roll_mm;
-        let length = self.length_mm([form, tip_roll_mm], z_mm);
-        let mut roll = form + share * (tip_roll_mm - form);
-        for _ in 0..30 {
-            let missing = share * length - self.length_mm([form, roll], z_mm);
-            let speed = self.generation.flank_contact(self.space, self.side, roll, z_mm).length_per_roll;
-            let step = missing / speed * (tip_roll_mm - form).signum();
-            roll += step;
-            if step.abs() < 1e-13 {
-                break;
-            }
-        }
+        let roll = self.form_roll_mm + share * (tip_roll_mm - self.form_roll_mm);
         let contact = self.generation.flank_contact(self.space, self.side, roll, z_mm);
         let (p, n) = (contact.point_mm, contact.normal);
-        [p.x, p.y, p.z, n.x, n.y, n.z, length]
+        [p.x, p.y, p.z, n.x, n.y, n.z]
     }
 
     fn coefficients(&self, terms: usize) -> Option<Vec<Vec<[f64; PARTS]>>> {
@@ -281,9 +293,14 @@ mod tests {
             let section = patch.section(13.0);
             let (a, b) = (section.ray(0.25), section.ray(0.75));
             assert!((a.origin_mm.z - 13.0).abs() < 1e-12 && (a.normal.length() - 1.0).abs() < 1e-10);
-            // Equal shares are equal lengths, but for the curve of the profile.
-            let chord = a.origin_mm.distance(b.origin_mm);
-            assert!((chord / (0.5 * section.length_mm()) - 1.0).abs() < 0.02);
+            // Columns stand evenly along the profile of the middle section.
+            let middle = patch.section(0.0);
+            let steps = [0.1, 0.5, 0.9].map(|part| {
+                let at = |mm: f64| middle.ray(patch.share_at(part * patch.length_mm() + mm)).origin_mm;
+                at(0.05).distance(at(-0.05))
+            });
+            assert!(steps.iter().all(|step| (step / 0.1 - 1.0).abs() < 1e-3), "{steps:?}");
+            assert!(a.origin_mm.distance(b.origin_mm) > 1.0);
             let tip = section.ray(1.0).origin_mm.truncate();
             assert!((blank.height(tip, tip.to_angle()).0 - 8.0).abs() < 1e-8);
         }

@@ -82,7 +82,7 @@ impl<'a> HobCutter<'a> {
         let width_mm = gear.face_width_mm;
         let target = FlankPatch::new(&job.target, &job.blank, tooth, side, width_mm)?;
         let fields = job.scene.fields;
-        let length_mm = target.section(0.0).length_mm();
+        let length_mm = target.length_mm();
         let intervals = |length: f64, spacing: f64| (length / spacing).round().max(1.0) as usize;
         let columns = intervals(length_mm, fields.profile_spacing_mm);
         let rows = intervals(width_mm, fields.lead_spacing_mm);
@@ -108,11 +108,11 @@ impl<'a> HobCutter<'a> {
             let at = |i: usize, j: usize| exits[i * BLANK_PLACES + j];
             (1.0 - p) * ((1.0 - q) * at(i, j) + q * at(i, j + 1)) + p * ((1.0 - q) * at(i + 1, j) + q * at(i + 1, j + 1))
         };
+        let shares: Vec<f64> = arcs_mm.iter().map(|&arc| target.share_at(arc)).collect();
         let sections: Vec<_> = leads_mm.iter().map(|&lead| target.section(lead)).collect();
         let low_mm = -RAY_DEPTH_MODULES * gear.module_mm;
         let field = SpatialField::new(columns + 1, rows + 1, low_mm, |column, row| {
-            let share = column as f64 / columns as f64;
-            (sections[row].ray(share), blank_at(share, row as f64 / rows as f64))
+            (sections[row].ray(shares[column]), blank_at(shares[column], row as f64 / rows as f64))
         });
         Ok((target, field, [arcs_mm, leads_mm]))
     }

@@ -57,6 +57,11 @@ pub fn number(value: &Value, key: &str) -> f64 {
 impl Case {
     /// Case of a file's setup, its gashes made more or fewer and its feed changed by factors.
     pub fn with(setup: &Value, gash_factor: f64, feed_factor: f64) -> Self {
+        Self::with_gashes(setup, gash_factor, feed_factor, GashForm::Axial)
+    }
+
+    /// The same with another form of gashes.
+    pub fn with_gashes(setup: &Value, gash_factor: f64, feed_factor: f64, gash_form: GashForm) -> Self {
         let get = |key: &str| number(setup, key);
         let (normal_module_mm, helix_angle_rad) = (get("mn"), get("beta"));
         let teeth = get("Z") as u32;
@@ -73,7 +78,7 @@ impl Case {
             starts: get("K") as u32,
             hand: hand(get("hb")),
             gashes: (get("Zb") * gash_factor).round() as u32,
-            gash_form: GashForm::Axial,
+            gash_form,
             size: HobSize::LeadAngle(get("lam")),
             length_mm: 400.0,
             addendum_coefficient: get("ha0"),

@@ -6,6 +6,8 @@
 mod planar;
 mod spatial;
 
+pub use spatial::Taken;
+
 use super::{Backend, CutStats};
 use crate::dexel::{Field, Layer, SpatialField};
 use crate::error::Error;
@@ -59,6 +61,37 @@ impl Cpu {
             Vectors::Widest if V3::try_new().is_some() => "AVX2",
             Vectors::Widest => "baseline",
         }
+    }
+
+    /// Runs all records of a plan in their order and books what each takes from the rays: one entry for each record of the plan. `spread_per_mm`: how much the rays
+    /// of each column part (curvature of the curve that they stand on), so that lengths become areas.
+    ///
+    /// The plan must hold every pass that reaches the field: what a pruned one would have taken would be booked on another.
+    pub fn cut_with_ledger(
+        self,
+        field: &SpatialField,
+        edge: &Edge,
+        plan: &SweepPlan,
+        spread_per_mm: &[f64],
+        layer: &mut Layer,
+    ) -> (CutStats, Vec<Taken>) {
+        let mut stats = CutStats::default();
+        let mut taken = vec![Taken::default(); plan.records.len()];
+        for tile in &plan.tiles {
+            stats += self.dispatch(spatial::LedgerCut {
+                cut: spatial::SpatialTileCut {
+                    field,
+                    tile,
+                    records: &plan.records[tile.records.clone()],
+                    segments: &edge.segments,
+                    heights_mm: &mut layer.heights_mm,
+                    passes: &mut layer.passes,
+                },
+                spread_per_mm,
+                taken: &mut taken[tile.records.clone()],
+            });
+        }
+        (stats, taken)
     }
 
     fn dispatch<T: pulp::NullaryFnOnce<Output = CutStats>>(self, tile: T) -> CutStats {

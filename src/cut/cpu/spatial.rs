@@ -67,37 +67,123 @@ impl pulp::NullaryFnOnce for SpatialTileCut<'_> {
         let mut stats = CutStats::default();
         for column in tile.columns.clone() {
             for first in tile.rows.clone().step_by(LANES) {
-                // Lanes beyond the tile's last row repeat it and write nothing.
                 let there = (tile.rows.end - first).min(LANES);
                 let base = field.index(column, first);
-                let mut rays = Rays { origin: [[0.0; LANES]; 3], normal: [[0.0; LANES]; 3] };
-                let (mut best, mut best_pass) = ([0.0; LANES], [0_u32; LANES]);
-                for l in 0..LANES {
-                    let at = base + l.min(there - 1);
-                    for axis in 0..3 {
-                        rays.origin[axis][l] = field.origins_mm()[axis][at] - tile.origin_mm[axis];
-                        rays.normal[axis][l] = field.normals()[axis][at];
-                    }
-                    best[l] = f64::from(heights_mm[at]);
-                    best_pass[l] = passes[at];
-                }
+                let mut chunk = Chunk::load(field, tile, base, there, heights_mm, passes);
                 for record in records {
-                    let segment = &segments[record.segment as usize];
-                    let unknown = if record.twist_rad_per_mm == 0.0 {
-                        lower::<false>(record, segment, &rays, field.low_mm, &mut best, &mut best_pass)
-                    } else {
-                        lower::<true>(record, segment, &rays, field.low_mm, &mut best, &mut best_pass)
-                    };
+                    let (unknown, _) = chunk.lower(record, segments, field.low_mm);
                     stats.unconverged += unknown[..there].iter().sum::<u64>();
                 }
-                for l in 0..there {
-                    heights_mm[base + l] = best[l] as f32;
-                    passes[base + l] = best_pass[l];
-                }
+                chunk.store(base, there, heights_mm, passes);
             }
         }
         stats.dexel_passes = (tile.columns.len() * tile.rows.len() * records.len()) as u64;
         stats
+    }
+}
+
+/// What one record took from the rays of a ledger.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Taken {
+    /// Sum over the rays of the length taken, each weighted by (1 + curvature x height), mm.
+    pub length_mm: f64,
+    /// Largest thickness taken across the edge's surface, mm.
+    pub thickness_mm: f64,
+    /// Rays that lost something.
+    pub rays: u32,
+}
+
+/// One tile's work with a ledger: every record in the order of time, and what each took.
+pub struct LedgerCut<'a> {
+    pub cut: SpatialTileCut<'a>,
+    /// How much rays part as they leave the work, 1 / mm, column by column of the field.
+    pub spread_per_mm: &'a [f64],
+    /// One entry for each record.
+    pub taken: &'a mut [Taken],
+}
+
+impl pulp::NullaryFnOnce for LedgerCut<'_> {
+    type Output = CutStats;
+
+    #[inline(always)]
+    fn call(self) -> CutStats {
+        let Self { cut, spread_per_mm, taken } = self;
+        let mut stats = CutStats::default();
+        for column in cut.tile.columns.clone() {
+            let spread = 0.5 * spread_per_mm[column];
+            for first in cut.tile.rows.clone().step_by(LANES) {
+                let there = (cut.tile.rows.end - first).min(LANES);
+                let base = cut.field.index(column, first);
+                let mut chunk = Chunk::load(cut.field, cut.tile, base, there, cut.heights_mm, cut.passes);
+                for (record, taken) in cut.records.iter().zip(taken.iter_mut()) {
+                    let before = chunk.best;
+                    let (unknown, cosines) = chunk.lower(record, cut.segments, cut.field.low_mm);
+                    stats.unconverged += unknown[..there].iter().sum::<u64>();
+                    for l in 0..there {
+                        let length = before[l] - chunk.best[l];
+                        if length > 0.0 {
+                            taken.length_mm += length * (1.0 + spread * (before[l] + chunk.best[l]));
+                            taken.thickness_mm = taken.thickness_mm.max(length * cosines[l]);
+                            taken.rays += 1;
+                        }
+                    }
+                }
+                chunk.store(base, there, cut.heights_mm, cut.passes);
+            }
+        }
+        stats.dexel_passes = (cut.tile.columns.len() * cut.tile.rows.len() * cut.records.len()) as u64;
+        stats
+    }
+}
+
+/// Eight rays with what is left on them.
+struct Chunk {
+    rays: Rays,
+    best: Lanes,
+    best_pass: [u32; LANES],
+}
+
+impl Chunk {
+    #[inline(always)]
+    fn load(
+        field: &SpatialField,
+        tile: &SweepTile,
+        base: usize,
+        there: usize,
+        heights_mm: &[f32],
+        passes: &[u32],
+    ) -> Self {
+        let mut rays = Rays { origin: [[0.0; LANES]; 3], normal: [[0.0; LANES]; 3] };
+        let (mut best, mut best_pass) = ([0.0; LANES], [0_u32; LANES]);
+        for l in 0..LANES {
+            // Lanes beyond the tile's last row repeat it and write nothing.
+            let at = base + l.min(there - 1);
+            for axis in 0..3 {
+                rays.origin[axis][l] = field.origins_mm()[axis][at] - tile.origin_mm[axis];
+                rays.normal[axis][l] = field.normals()[axis][at];
+            }
+            best[l] = f64::from(heights_mm[at]);
+            best_pass[l] = passes[at];
+        }
+        Self { rays, best, best_pass }
+    }
+
+    #[inline(always)]
+    fn store(&self, base: usize, there: usize, heights_mm: &mut [f32], passes: &mut [u32]) {
+        for l in 0..there {
+            heights_mm[base + l] = self.best[l] as f32;
+            passes[base + l] = self.best_pass[l];
+        }
+    }
+
+    #[inline(always)]
+    fn lower(&mut self, record: &SweepRecord, segments: &[Segment], low_mm: f64) -> ([u64; LANES], Lanes) {
+        let segment = &segments[record.segment as usize];
+        if record.twist_rad_per_mm == 0.0 {
+            lower::<false>(record, segment, &self.rays, low_mm, &mut self.best, &mut self.best_pass)
+        } else {
+            lower::<true>(record, segment, &self.rays, low_mm, &mut self.best, &mut self.best_pass)
+        }
     }
 }
 
@@ -131,7 +217,7 @@ fn small_turn(angle: f64) -> [f64; 2] {
     ]
 }
 
-/// Lowers eight heights by one record; gives for every lane whether its root is unknown though it may lie below what is there.
+/// Lowers eight heights by one record; gives for every lane whether its root is unknown though it may lie below what is there, and the cosine at which the ray met the edge.
 #[inline(always)]
 fn lower<const TWISTED: bool>(
     record: &SweepRecord,
@@ -140,7 +226,7 @@ fn lower<const TWISTED: bool>(
     low_mm: f64,
     best: &mut Lanes,
     best_pass: &mut [u32; LANES],
-) -> [u64; LANES] {
+) -> ([u64; LANES], Lanes) {
     let paths = paths(record, rays);
     let [y_from, y_to] = segment.y_range_mm;
     let [cos, sin] = segment.blade_from_segment.rotation.to_array();
@@ -148,6 +234,7 @@ fn lower<const TWISTED: bool>(
     let lowest = 2.0 * low_mm;
     let (mut h, mut t) = ([record.start_mm; LANES], [0.0; LANES]);
     let (mut step_h, mut step_t, mut falls) = ([0.0; LANES], [0.0; LANES], [false; LANES]);
+    let mut cosine = [0.0; LANES];
     let (mut y_last, mut x_last, mut rises) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
     for _ in 0..MAX_STEPS {
         // The point and its rates over h and t, in (r, q, y).
@@ -219,6 +306,8 @@ fn lower<const TWISTED: bool>(
             // Negative where the edge's residual falls along the ray, since moment_t is negative.
             let determinant = moment_h * edge_t - moment_t * edge_h;
             falls[l] = determinant < 0.0;
+            // moment_t is negative: the residual falls by this per mm of the ray, against the length of its gradient.
+            cosine[l] = determinant / moment_t / (g_x[l] * g_x[l] + g_y[l] * g_y[l]).sqrt();
             let inverse = 1.0 / if falls[l] { determinant } else { -1.0 };
             let newton_h = (moment * edge_t - moment_t * edge[l]) * inverse;
             let newton_t = (moment_h * edge[l] - edge_h * moment) * inverse;
@@ -257,7 +346,7 @@ fn lower<const TWISTED: bool>(
         best[l] = if lower { height } else { best[l] };
         best_pass[l] = if lower { record.pass } else { best_pass[l] };
     }
-    unknown
+    (unknown, cosine)
 }
 
 /// Residual x - U(y) and its rate over y.
