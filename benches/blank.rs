@@ -29,7 +29,7 @@ fn main() {
             scenes::operation("rough", scenes::NORMAL, 2.0, 4200),
             scenes::operation("finish", scenes::NORMAL, 0.0, 4200),
         ]);
-        for operation in &mut scene.operations {
+        for operation in &mut scene.shaping_mut().expect("shaping").operations {
             operation.feed_during_stroke = feed_during_stroke;
         }
         let job = Job::new(scene).expect("the paper's gear");

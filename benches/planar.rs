@@ -25,7 +25,7 @@ fn planar(criterion: &mut Criterion) {
     }
     for feed_during_stroke in [true, false] {
         let mut scene = load(Path::new("scenes/shaping/elliptical_normal.toml"), &[]).expect("the shipped scene").scene;
-        for operation in &mut scene.operations {
+        for operation in &mut scene.shaping_mut().expect("shaping").operations {
             operation.feed_during_stroke = feed_during_stroke;
         }
         let job = Job::new(scene).expect("the shipped gear");

@@ -27,7 +27,7 @@ use gearcut::job::Job;
 use gearcut::scene::Scene;
 use gearcut::scene::model::{Fields, PitchCurveShape};
 use gearcut::tool::involute::Involute;
-use gearcut::tool::{CuttingTool, ShaperCutter};
+use gearcut::tool::{CuttingTool, PlanarTool, ShaperCutter};
 use glam::DVec2;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;

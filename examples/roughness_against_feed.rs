@@ -35,7 +35,7 @@ struct Row {
 fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn Error>> {
     let path = format!("scenes/shaping/{scene}.toml");
     let mut scene = load(Path::new(&path), &[]).map_err(|problems| problems.to_string())?.scene;
-    for operation in &mut scene.operations {
+    for operation in &mut scene.shaping_mut().expect("shaping").operations {
         operation.feed = feed;
     }
     let window = |sides, center_profile_mm, length_profile_mm| TextureWindow {

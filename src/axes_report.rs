@@ -67,7 +67,7 @@ impl OperationAxes {
     /// Peaks, relief and times of operation `index` of a job.
     pub fn new(job: &Job, index: usize) -> Self {
         let PreparedOperation { spec, linkage, schedule, .. } = &job.operations[index];
-        let machine = &job.scene.machine;
+        let machine = &job.machine;
         let pressure_angle_rad = job.scene.gear.pressure_angle_rad;
         let beta = |phi: f64| {
             let motion = linkage.pose_motion(phi, spec.offset_mm);

@@ -8,6 +8,7 @@ mod chip_files;
 mod chip_results;
 mod files;
 mod frames;
+pub mod hobbing;
 mod meshes;
 mod pictures;
 mod report;
@@ -19,7 +20,7 @@ use crate::cut::{Backend, CutStats};
 use crate::error::{Error, Result};
 use crate::gcode;
 use crate::gear::generation::Side;
-use crate::job::Job;
+use crate::job::{Job, Prepared};
 use crate::measure::chips::ChipLedger;
 use crate::measure::{FlankReport, GearReport, flank_report, gear_report};
 use crate::output::flank_maps::{FlankMaps, OperationMaps};
@@ -34,6 +35,19 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
+
+/// How much work a run was.
+#[derive(Debug, Clone, Copy)]
+pub struct Work {
+    /// What the backend met.
+    pub stats: CutStats,
+    /// Dexels cut, all operations.
+    pub dexels: u64,
+    /// Wall time of cutting and measuring, files of flanks included.
+    pub elapsed: Duration,
+    /// Stopped by the user before all flanks were done.
+    pub interrupted: bool,
+}
 
 /// A cut and measured gear, before anything is written about it as a whole.
 #[derive(Debug)]
@@ -91,7 +105,7 @@ pub fn cut_gear(
         let cut = job.cut(backend, job.flank_field(&target))?;
         let report = flank_report::measure(job, &target, &cut);
         let spacing_mm = job.scene.output.map_spacing_mm;
-        let maps = FlankMaps::sample(tooth, side, &cut.field, &cut.layers, spacing_mm);
+        let maps = FlankMaps::sample(tooth, side, [&cut.field.arcs_mm(), &cut.field.leads_mm], &cut.layers, spacing_mm);
         let surface = SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm);
         if let Some((folder, notes)) = folder {
             maps.write(folder, &operations, notes)?;
@@ -101,25 +115,7 @@ pub fn cut_gear(
         let dexels = (cut.field.len() * cut.layers.len()) as u64;
         Ok(Some(Finished { report, maps, surface, stats: cut.stats, dexels }))
     };
-    // The first failure stops the rest; what it was is kept, not the flanks' order of arrival.
-    let failure = Mutex::new(None);
-    let finished: Vec<Option<Finished>> = flanks
-        .par_iter()
-        .map(|flank| {
-            if failure.lock().is_ok_and(|f: std::sync::MutexGuard<Option<Error>>| f.is_some()) {
-                return None;
-            }
-            cut_one(flank).unwrap_or_else(|error| {
-                if let Ok(mut first) = failure.lock() {
-                    first.get_or_insert(error);
-                }
-                None
-            })
-        })
-        .collect();
-    if let Some(error) = failure.into_inner().unwrap_or_default() {
-        return Err(error);
-    }
+    let finished = all_flanks(&flanks, cut_one)?;
     step.finish();
     let interrupted = finished.iter().any(Option::is_none);
     let (mut reports, mut maps, mut surfaces) = (Vec::new(), Vec::new(), Vec::new());
@@ -146,6 +142,32 @@ fn follow_chips(job: &Job, progress: &Progress, interrupt: &Interrupt) -> Result
     chips.ok_or(Error::Interrupted)
 }
 
+/// Runs something over all flanks in parallel; nothing for those that were left out. The first failure stops the rest; what it was is kept, not the flanks' order of arrival.
+fn all_flanks<T: Send>(
+    flanks: &[(u32, Side)],
+    cut_one: impl Fn(&(u32, Side)) -> Result<Option<T>> + Sync,
+) -> Result<Vec<Option<T>>> {
+    let failure = Mutex::new(None);
+    let finished = flanks
+        .par_iter()
+        .map(|flank| {
+            if failure.lock().is_ok_and(|f: std::sync::MutexGuard<Option<Error>>| f.is_some()) {
+                return None;
+            }
+            cut_one(flank).unwrap_or_else(|error| {
+                if let Ok(mut first) = failure.lock() {
+                    first.get_or_insert(error);
+                }
+                None
+            })
+        })
+        .collect();
+    match failure.into_inner().unwrap_or_default() {
+        Some(error) => Err(error),
+        None => Ok(finished),
+    }
+}
+
 /// What the maps need to know of the operations.
 fn map_operations(job: &Job) -> Vec<OperationMaps> {
     let finishing_mm = job.finishing().spec.offset_mm;
@@ -163,7 +185,7 @@ pub struct Done {
     /// Summary for the terminal.
     pub summary: String,
     /// `results.json`.
-    pub results: crate::output::results::Results,
+    pub results: serde_json::Value,
     /// Whether Ctrl-C ended it early.
     pub interrupted: bool,
 }
@@ -184,16 +206,24 @@ pub fn cut(
     frames: Option<u32>,
 ) -> Result<Done> {
     let folder = OutputFolder::create(out)?;
-    let job = Job::new(scene.scene.clone())?;
-    // A window that lies on no flank is refused before the first cut.
-    texture::windows(&job)?;
-    // Too large a blank field is refused before anything is cut.
-    job.blank_grid()?;
     let resolved = scene.resolved_toml();
     // Timings stay out of maps: the same scene gives the same bytes.
     let run =
         serde_json::json!({"program": "gearcut", "version": env!("CARGO_PKG_VERSION"), "backend": backend.name()});
     let notes = [("run".to_owned(), run.to_string()), ("scene".to_owned(), resolved.clone())];
+    let job = match Prepared::new(&scene.scene)? {
+        Prepared::Shaping(job) => *job,
+        Prepared::Hobbing(job) => {
+            let gear = hobbing::cut_gear(&job, backend, progress, interrupt, Some((&folder, &notes)))?;
+            let results = hobbing::write(&job, &gear, &folder)?;
+            let summary = hobbing::summary(&job, &gear, out, &backend.name());
+            let done = (results, summary, gear.work);
+            return finish(done, &resolved, backend, backend_why, progress, folder);
+        }
+    };
+    // A window that lies on no flank, or too large a blank field, is refused before the first cut.
+    texture::windows(&job)?;
+    job.blank_grid()?;
     let gear = cut_gear(&job, backend, progress, interrupt, Some((&folder, &notes)))?;
     if gear.report.flanks.is_empty() {
         return Err(Error::Interrupted);
@@ -226,11 +256,27 @@ pub fn cut(
     }
     let words = report::RunWords { resolved_scene: &resolved, backend: &backend.name(), backend_why };
     report::page(&job, &gear, &results, &words)?.write(&folder.path(REPORT_FILE)?)?;
-    let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;
+    let summary = summary::summary(&job, &gear, &results, out, &backend.name());
+    let CutGear { stats, dexels, elapsed, interrupted, .. } = gear;
+    let results = serde_json::to_value(&results)
+        .map_err(|reason| Error::Output { path: out.to_owned(), reason: reason.to_string() })?;
+    let done = (results, summary, Work { stats, dexels, elapsed, interrupted });
+    finish(done, &resolved, backend, backend_why, progress, folder)
+}
+
+/// Run record, incidents, the folder under its name.
+fn finish(
+    (results, summary, work): (serde_json::Value, String, Work),
+    resolved: &str,
+    backend: &dyn Backend,
+    backend_why: &str,
+    progress: &Progress,
+    folder: OutputFolder,
+) -> Result<Done> {
+    let record = files::run_record(resolved, backend, backend_why, &work, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
     for incident in backend.incidents() {
         progress.note(&incident);
     }
-    let summary = summary::summary(&job, &gear, &results, out, &backend.name());
-    Ok(Done { folder: folder.finish()?, summary, results, interrupted: gear.interrupted })
+    Ok(Done { folder: folder.finish()?, summary, results, interrupted: work.interrupted })
 }

@@ -70,8 +70,8 @@ fn candidates_leave_the_same_bits_as_all_passes() {
     for (feed_during_stroke, runout_mm) in [(false, 0.05), (true, 0.0)] {
         let mut scene =
             paper_scene(vec![operation("rough", TRADITIONAL, 1.0, 150), operation("finish", NORMAL, 0.0, 150)]);
-        scene.operations[1].feed_during_stroke = feed_during_stroke;
-        scene.tool.runout_mm = runout_mm;
+        scene.shaping_mut().expect("shaping").operations[1].feed_during_stroke = feed_during_stroke;
+        scene.shaping_mut().expect("shaping").tool.runout_mm = runout_mm;
         scene.fields.blank_spacing_mm = 0.6;
         scene.fields.blank_slice_spacing_mm = 10.0;
         let job = job(scene);
@@ -167,7 +167,7 @@ fn volumes_balance_and_sections_are_the_targets() {
 fn surfaces_lie_on_the_target() {
     // Rounded corners leave no teeth in the fillets; at 4,200 strokes nothing stands more than 0.2 um over the target, and nothing lies below it but the chords of the target's own fillets.
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 4200)]);
-    scene.tool.tip = gearcut::scene::model::Tip::Round { radius_mm: 0.6 };
+    scene.shaping_mut().expect("shaping").tool.tip = gearcut::scene::model::Tip::Round { radius_mm: 0.6 };
     scene.fields.blank_spacing_mm = 0.2;
     let job = job(scene);
     let target = job.target_outline(TARGET_SPACING_MM).expect("ordinary teeth");
@@ -292,7 +292,7 @@ fn meshes_of_all_scenes_are_closed() {
         assert!((2.0 * volume_mm3 / (x + y) - 1.0).abs() < 1e-3, "{name}");
         assert_eq!(guessed, 0, "{name}");
         // A cutter that runs out by 5 um gouges as deep as that, and no deeper; nothing else does.
-        let runout_mm = job.scene.tool.runout_mm;
+        let runout_mm = job.cutter_spec.runout_mm;
         let damage = || report.gouges.iter().chain(&report.interference);
         assert_eq!(damage().count() > 0, runout_mm > 0.0, "{name}");
         assert!(damage().all(|d| d.depth_mm < 1.05 * runout_mm), "{name}: {:?}", damage().collect::<Vec<_>>());
@@ -308,7 +308,7 @@ const STEEP: f32 = 0.7;
 #[test]
 fn the_gpu_leaves_the_same_spans_and_volumes() {
     let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 360), operation("finish", NORMAL, 0.0, 360)]);
-    scene.operations[1].feed_during_stroke = true;
+    scene.shaping_mut().expect("shaping").operations[1].feed_during_stroke = true;
     scene.fields.blank_spacing_mm = 0.3;
     scene.fields.blank_slice_spacing_mm = 30.0;
     let job = job(scene);
@@ -393,7 +393,7 @@ fn fields_beyond_memory_are_refused_with_a_spacing_that_fits() {
     let mut scene = machine_scene();
     scene.fields.blank_spacing_mm = 0.001;
     scene.fields.blank_slice_spacing_mm = 0.5;
-    scene.operations[1].feed_during_stroke = true;
+    scene.shaping_mut().expect("shaping").operations[1].feed_during_stroke = true;
     let refusal = job(scene.clone()).blank_grid().expect_err("a thousand million spans");
     assert_eq!(refusal.key, "fields.blank.spacing_mm");
     assert!(refusal.problem.contains("61 slices") && refusal.problem.contains("bytes"), "{refusal}");
@@ -504,7 +504,8 @@ fn shifted_teeth_are_found_and_named() {
         let mut scene = machine_scene();
         let blade = (3 * run + 1) % 20;
         let shift_mm = if run % 2 == 0 { 0.05 } else { -0.05 } * (1.0 + f64::from(run) / 10.0);
-        scene.tool.pitch_errors_mm = (0..20).map(|b| if b == blade { shift_mm } else { 0.0 }).collect();
+        scene.shaping_mut().expect("shaping").tool.pitch_errors_mm =
+            (0..20).map(|b| if b == blade { shift_mm } else { 0.0 }).collect();
         let job = job(scene);
         let report = blank_report::measure(&job, &cut(&job), Some(&target));
         // Cutter tooth b cuts the spaces b, b + 20, b + 40 of 42 in turn against its own count: each of them is damaged on one side, as deep as the shift along the flank's normal.

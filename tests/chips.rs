@@ -8,7 +8,7 @@ use gearcut::material::EdgeForce;
 use gearcut::measure::chips::ChipLedger;
 use gearcut::measure::chips::edge_polygon::EdgeSide;
 use gearcut::scene::model::{Infeed, PitchCurveShape};
-use gearcut::tool::CuttingTool;
+use gearcut::tool::{CuttingTool, PlanarTool};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
@@ -94,7 +94,7 @@ fn sections_are_those_of_exact_polygons_stroke_by_stroke() {
 fn the_ledger_and_the_blank_field_take_the_same_volume() {
     let scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 420), operation("finish", NORMAL, 0.0, 420)]);
     let job = Job::new(scene).expect("the paper's gear");
-    let blank = job.cut_blank(&|| true).expect("fits in memory").expect("not stopped");
+    let blank = job.cut_blank(job.blank_field().expect("fits in memory"), &|| true).expect("not stopped");
     let chips = ledger(&job);
     for (index, cut) in blank.cuts.iter().enumerate() {
         let removed = cut.removed_mm3.iter().fold(0.0, |sum, by_family| sum + 0.5 * (by_family[0] + by_family[1]));
@@ -110,8 +110,8 @@ fn a_plunging_tooth_takes_chips_of_known_thickness() {
     let mut scene = paper_scene(vec![operation("cut", NORMAL, 0.0, 240)]);
     scene.gear.teeth = 24;
     scene.gear.pitch_curve = PitchCurveShape::Circle;
-    scene.operations[0].infeed = Infeed::Plunge { depth_mm: 6.0, strokes: 300 };
-    scene.operations[0].window_rad = Some([0.0, 0.01]);
+    scene.shaping_mut().expect("shaping").operations[0].infeed = Infeed::Plunge { depth_mm: 6.0, strokes: 300 };
+    scene.shaping_mut().expect("shaping").operations[0].window_rad = Some([0.0, 0.01]);
     let job = Job::new(scene).expect("an ordinary gear");
     let chips = ledger(&job);
     let operation = &chips.operations[0];
@@ -198,7 +198,7 @@ fn runs_past_the_first_turn_are_idle() {
     let mut scene = paper_scene(vec![operation("cut", NORMAL, 0.0, 240)]);
     scene.gear.teeth = 24;
     scene.gear.pitch_curve = PitchCurveShape::Circle;
-    scene.operations[0].revolutions = 2;
+    scene.shaping_mut().expect("shaping").operations[0].revolutions = 2;
     let job = Job::new(scene).expect("an ordinary gear");
     let operation = &ledger(&job).operations[0];
     // The second turn repeats the first: whole pitches apart, the same cutter angles come back.

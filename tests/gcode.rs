@@ -145,7 +145,7 @@ fn limits_are_checked_and_as_printed_is_never_written() {
     assert!(why.contains("as printed"), "{why}");
 
     let mut fast = job(operation("cut", NORMAL, 0.0, 600));
-    fast.scene.machine.limits.work_speed_rad_per_s = Some(0.001);
+    fast.machine.limits.work_speed_rad_per_s = Some(0.001);
     let why = gcode::text(&fast, &fast.operations[0]).expect("wanted").expect_err("too fast");
     assert!(why.contains("work spindle") && why.contains("deg/s"), "{why}");
 }

@@ -36,7 +36,7 @@ impl Random {
 /// A blade of the paper's cutter, with rounded tips: tables and arcs large and small.
 fn edge() -> Edge {
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 100)]);
-    scene.tool.tip = Tip::Round { radius_mm: 0.4 };
+    scene.shaping_mut().expect("shaping").tool.tip = Tip::Round { radius_mm: 0.4 };
     Job::new(scene).expect("the paper's gear").cutter.edge().clone()
 }
 
@@ -195,7 +195,7 @@ fn a_planted_difference_is_noticed() {
         let mut planted = layers[3].clone();
         plant(&mut planted);
         let mut parity = Parity::default();
-        parity.add("planted", &field, &layers[0], &[layers[1].clone(), layers[2].clone()], &planted);
+        parity.add("planted", field.rows(), &layers[0], &[layers[1].clone(), layers[2].clone()], &planted);
         parity.verdict()
     };
     let at = layers[0].passes.iter().position(|&pass| pass != u32::MAX).expect("a cut dexel");

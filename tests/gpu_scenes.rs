@@ -42,7 +42,7 @@ fn fields(job: &Job) -> Vec<(String, Field)> {
 
 fn compare(gpu: &dyn Backend, mut scene: Scene, feed_during_stroke: bool) -> Parity {
     scene.fields.lead_spacing_mm = scene.gear.face_width_mm / ROW_INTERVALS;
-    for operation in &mut scene.operations {
+    for operation in &mut scene.shaping_mut().expect("shaping").operations {
         operation.feed_during_stroke = feed_during_stroke;
     }
     let name = scene.name.clone();

@@ -1,7 +1,7 @@
 //! The shaders as naga sees them: every file in every variant is valid, and both sides of the border agree.
 
 use gearcut::cut::gpu::pipeline::{STAGES, Stage};
-use gearcut::cut::gpu::{ROWS_PER_THREAD, WORKGROUP_THREADS, records};
+use gearcut::cut::gpu::{ROWS_PER_THREAD, WORKGROUP_THREADS, records, sweep_records};
 use naga::back::pipeline_constants::process_overrides;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Literal, Module, ShaderStage, TypeInner};
@@ -70,51 +70,77 @@ fn bindings_stand_in_the_order_of_the_stage_and_fit_every_device() {
 
 /// Name, offset and size of every member of a Rust record.
 macro_rules! layout {
-    ($record:ident { $($member:ident),* $(,)? }) => {{
-        let record: records::$record = bytemuck::Zeroable::zeroed();
+    ($stage:literal, $home:ident::$record:ident { $($member:ident),* $(,)? }) => {{
+        let record: $home::$record = bytemuck::Zeroable::zeroed();
         let members = vec![$((
             stringify!($member),
-            offset_of!(records::$record, $member),
+            offset_of!($home::$record, $member),
             size_of_val(&record.$member),
         )),*];
-        (stringify!($record), members, size_of::<records::$record>())
+        ($stage, stringify!($record), members, size_of::<$home::$record>())
     }};
 }
 
 #[test]
 fn records_have_the_same_members_on_both_sides() {
     let layouts = [
-        layout!(Launch { rows, threads_per_column }),
-        layout!(Tile { first_column, column_count, first_record, record_count }),
-        layout!(Column { offset_mm, normal, normal_change, low_mm, padding }),
-        layout!(PassRecord {
-            cos,
-            sin,
-            x_mm,
-            y_mm,
-            start_mm,
-            y_from_mm,
-            y_to_mm,
-            base_x_mm,
-            base_y_mm,
-            arc_excess_mm2,
-            cells_per_mm,
-            cell_width_mm,
-            first_cell,
-            last_cell,
-            base_cell,
-            pass_id,
-        }),
-        layout!(BlankLaunch { spacing_mm, units_per_mm, capacity, turn }),
-        layout!(BlankTile { first_pass, pass_count, first_ray, ray_count }),
-        layout!(BlankPass { first_part, part_count, pass_id, padding }),
-        layout!(BlankPart { along, across, across_end_mm, padding_1, padding_2, padding_3 }),
-        layout!(BlankSpan { low_mm, high_mm, low_pass, high_pass, low_normal, high_normal }),
+        layout!(0, records::Launch { rows, threads_per_column }),
+        layout!(0, records::Tile { first_column, column_count, first_record, record_count }),
+        layout!(0, records::Column { offset_mm, normal, normal_change, low_mm, padding }),
+        layout!(
+            0,
+            records::PassRecord {
+                cos,
+                sin,
+                x_mm,
+                y_mm,
+                start_mm,
+                y_from_mm,
+                y_to_mm,
+                base_x_mm,
+                base_y_mm,
+                arc_excess_mm2,
+                cells_per_mm,
+                cell_width_mm,
+                first_cell,
+                last_cell,
+                base_cell,
+                pass_id,
+            }
+        ),
+        layout!(1, records::BlankLaunch { spacing_mm, units_per_mm, capacity, turn }),
+        layout!(1, records::BlankTile { first_pass, pass_count, first_ray, ray_count }),
+        layout!(1, records::BlankPass { first_part, part_count, pass_id, padding }),
+        layout!(1, records::BlankPart { along, across, across_end_mm, padding_1, padding_2, padding_3 }),
+        layout!(1, records::BlankSpan { low_mm, high_mm, low_pass, high_pass, low_normal, high_normal }),
+        layout!(2, sweep_records::SweepTile { middle, first_group, group_count, first_record, record_count }),
+        layout!(
+            2,
+            sweep_records::SweepRecord {
+                turn,
+                place_3,
+                radius_mm,
+                twist_rad_per_mm,
+                cos,
+                sin,
+                y_from_mm,
+                y_to_mm,
+                base_x_mm,
+                base_y_mm,
+                arc_excess_mm2,
+                arc_half_curvature,
+                cells_per_mm,
+                cell_width_mm,
+                first_cell,
+                last_cell,
+                base_cell,
+                pass_id,
+            }
+        ),
     ];
-    let (planar, _) = checked(&STAGES[0]);
-    let (blank, _) = checked(&STAGES[1]);
-    for (name, rust, size) in layouts {
-        let module = if name.starts_with("Blank") { &blank } else { &planar };
+    for (stage, name, rust, size) in layouts {
+        let stage: usize = stage;
+        let (module, _) = checked(&STAGES[stage]);
         let (_, ty) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).expect(name);
         let TypeInner::Struct { members, span } = &ty.inner else { panic!("{name} is no struct") };
         let wgsl: Vec<(&str, usize, usize)> = members

@@ -40,7 +40,8 @@ fn cutter_runout_moves_flanks_by_its_part_along_the_normal() {
     let sound = Job::new(fine_scene()).expect("the gear");
     let (runout_mm, angle_rad) = (0.01, 0.6);
     let mut scene = fine_scene();
-    (scene.tool.runout_mm, scene.tool.runout_angle_rad) = (runout_mm, angle_rad);
+    let cutter = &mut scene.shaping_mut().expect("shaping").tool;
+    (cutter.runout_mm, cutter.runout_angle_rad) = (runout_mm, angle_rad);
     let faulty = Job::new(scene).expect("the gear");
     let mut worst_um = 0.0_f64;
     for (tooth, side) in FLANKS {
@@ -68,7 +69,8 @@ fn a_cutter_pitch_error_appears_on_the_spaces_of_its_tooth() {
     let mut scene = fine_scene();
     let error_mm = 0.01;
     // Space 2 is cut by cutter tooth -2, that is 18 of 20.
-    scene.tool.pitch_errors_mm = (0..20).map(|j| if j == 18 { error_mm } else { 0.0 }).collect();
+    scene.shaping_mut().expect("shaping").tool.pitch_errors_mm =
+        (0..20).map(|j| if j == 18 { error_mm } else { 0.0 }).collect();
     let faulty = Job::new(scene).expect("the gear");
     let cos = 20_f64.to_radians().cos();
     let shift = |tooth, side| -> (f64, f64) {
@@ -91,7 +93,8 @@ fn work_eccentricity_shifts_the_whole_gear() {
     let sound = Job::new(fine_scene()).expect("the gear");
     let mut scene = fine_scene();
     let shift = 0.01 * DVec2::from_angle(2.0);
-    (scene.machine.work_eccentricity_mm, scene.machine.work_eccentricity_angle_rad) = (0.01, 2.0);
+    let machine = &mut scene.shaping_mut().expect("shaping").machine;
+    (machine.work_eccentricity_mm, machine.work_eccentricity_angle_rad) = (0.01, 2.0);
     let faulty = Job::new(scene).expect("the gear");
     let mut worst_um = 0.0_f64;
     for (tooth, side) in FLANKS {

@@ -48,6 +48,7 @@ fn defaults_are_allowed_and_units_stand_in_the_names() {
             "um" => "_um",
             "deg" => "_deg",
             "mm per stroke" => "_mm_per_stroke",
+            "mm per revolution" => "_mm_per_revolution",
             "deg, mm" => "_deg_mm",
             "deg/s" => "_deg_per_s",
             "mm/s" => "_mm_per_s",

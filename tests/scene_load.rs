@@ -4,9 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use gearcut::scene::model::{Feed, Infeed, Linkage, NormalReading, PitchCurveShape, Tip, TraditionalDirection};
+use gearcut::scene::model::{Scene, Shaping};
 use gearcut::scene::{LoadedScene, load, parse, reference, schema, template};
 
 const SHORTEST: &str = "[gear]\nmodule_mm = 3.0\nteeth = 24\n[tool.shaper_cutter]\nteeth = 20\n";
+
+fn shaping(scene: &Scene) -> &Shaping {
+    scene.shaping().expect("a shaping scene")
+}
 
 fn read(text: &str) -> LoadedScene {
     parse(text, "test.toml", Path::new("scenes/shaping"), &[]).unwrap_or_else(|errors| panic!("{errors}"))
@@ -40,10 +45,10 @@ fn the_paper_scene_means_what_it_says() {
     assert_eq!(scene.gear.pitch_curve, ellipse);
     assert_eq!((scene.gear.module_mm, scene.gear.teeth, scene.gear.face_width_mm), (3.0, 42, 30.0));
     assert!((scene.gear.pressure_angle_rad - std::f64::consts::PI / 9.0).abs() < 1e-15);
-    assert_eq!((scene.tool.teeth, scene.tool.addendum_coefficient), (20, 1.25));
-    let offsets: Vec<f64> = scene.operations.iter().map(|operation| operation.offset_mm).collect();
+    assert_eq!((shaping(&scene).tool.teeth, shaping(&scene).tool.addendum_coefficient), (20, 1.25));
+    let offsets: Vec<f64> = shaping(&scene).operations.iter().map(|operation| operation.offset_mm).collect();
     assert_eq!(offsets, [2.0, 0.0]);
-    assert!(scene.operations.iter().all(|operation| operation.feed == Feed::StrokesPerRevolution(4200)));
+    assert!(shaping(&scene).operations.iter().all(|operation| operation.feed == Feed::StrokesPerRevolution(4200)));
     assert_eq!((scene.fields.profile_spacing_mm, scene.fields.lead_spacing_mm), (0.005, 0.05));
 }
 
@@ -89,7 +94,9 @@ fn the_shortest_scene_cuts_one_finishing_operation() {
     assert_eq!(scene.name, "test");
     assert_eq!(scene.gear.pitch_curve, PitchCurveShape::Circle);
     assert_eq!(scene.gear.face_width_mm, 30.0);
-    let [finish] = scene.operations.as_slice() else { panic!("{} operations", scene.operations.len()) };
+    let [finish] = shaping(&scene).operations.as_slice() else {
+        panic!("{} operations", shaping(&scene).operations.len())
+    };
     assert_eq!((finish.name.as_str(), finish.offset_mm), ("finish", 0.0));
     assert_eq!(finish.linkage, Linkage::ShapingNormal { reading: NormalReading::Corrected });
     assert_eq!(finish.feed, Feed::StrokesPerRevolution(2400));
@@ -98,7 +105,7 @@ fn the_shortest_scene_cuts_one_finishing_operation() {
 #[test]
 fn stock_per_flank_becomes_an_offset() {
     let scene = load(Path::new("scenes/shaping/elliptical_finishing_stock.toml"), &[]).expect("loads").scene;
-    let rough = &scene.operations[0];
+    let rough = &shaping(&scene).operations[0];
     assert!((rough.offset_mm * scene.gear.pressure_angle_rad.sin() - 0.2).abs() < 1e-15);
     assert_eq!(rough.infeed, Infeed::Spiral { depth_mm: 6.2, angle_rad: std::f64::consts::FRAC_PI_2 });
 }
@@ -143,9 +150,9 @@ fn every_variant_loads_and_reads_back_from_its_resolved_text() {
     }
     println!("{count} combinations read back");
     let scene = read(&format!("{SHORTEST}[tool.shaper_cutter.tip.round]\nradius_mm = 0.3\n[[operation]]\n[operation.linkage.shaping_traditional]\n")).scene;
-    assert_eq!(scene.tool.tip, Tip::Round { radius_mm: 0.3 });
+    assert_eq!(shaping(&scene).tool.tip, Tip::Round { radius_mm: 0.3 });
     let centre_line = Linkage::ShapingTraditional { direction: TraditionalDirection::CenterLine };
-    assert_eq!(scene.operations[0].linkage, centre_line);
+    assert_eq!(shaping(&scene).operations[0].linkage, centre_line);
 }
 
 /// All combinations of five lists.
@@ -174,7 +181,7 @@ fn shipped_scenes_read_back_from_their_resolved_text() {
 fn the_template_loads() {
     assert!(template("knitting").is_none());
     let scene = read(&template("shaping").expect("a template")).scene;
-    assert_eq!(scene.operations[0].name, "operation_1");
+    assert_eq!(shaping(&scene).operations[0].name, "operation_1");
     assert_eq!(scene.gear.face_width_mm, 30.0);
 }
 

@@ -4,9 +4,14 @@ use std::path::Path;
 
 use gearcut::Refusal;
 use gearcut::scene::model::{Feed, Linkage, NormalReading, PitchCurveShape, StrokeSpacing, TraditionalDirection};
+use gearcut::scene::model::{Scene, Shaping};
 use gearcut::scene::{LoadedScene, Place, load, parse};
 
 const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
+
+fn shaping(scene: &Scene) -> &Shaping {
+    scene.shaping().expect("a shaping scene")
+}
 
 fn set(settings: &[&str]) -> LoadedScene {
     let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
@@ -27,8 +32,11 @@ fn settings_take_the_place_of_written_values_and_defaults() {
     ])
     .scene;
     assert_eq!(scene.gear.module_mm, 2.5);
-    assert_eq!((scene.operations[0].offset_mm, scene.operations[1].offset_mm), (1.5, 0.25));
-    assert_eq!((scene.operations[1].name.as_str(), scene.operations[0].spacing), ("last", StrokeSpacing::Arc));
+    assert_eq!((shaping(&scene).operations[0].offset_mm, shaping(&scene).operations[1].offset_mm), (1.5, 0.25));
+    assert_eq!(
+        (shaping(&scene).operations[1].name.as_str(), shaping(&scene).operations[0].spacing),
+        ("last", StrokeSpacing::Arc)
+    );
     assert_eq!(scene.output.folder.as_deref(), Some(Path::new("out/a-b.c")));
 }
 
@@ -42,9 +50,9 @@ fn a_setting_takes_the_place_of_its_rivals() {
     ]);
     let traditional = Linkage::ShapingTraditional { direction: TraditionalDirection::CenterLine };
     let as_printed = Linkage::ShapingNormal { reading: NormalReading::AsPrinted };
-    assert_eq!(loaded.scene.operations[0].linkage, traditional);
-    assert_eq!(loaded.scene.operations[1].linkage, as_printed);
-    assert_eq!(loaded.scene.operations[1].feed, Feed::CircularMmPerStroke(0.2));
+    assert_eq!(shaping(&loaded.scene).operations[0].linkage, traditional);
+    assert_eq!(shaping(&loaded.scene).operations[1].linkage, as_printed);
+    assert_eq!(shaping(&loaded.scene).operations[1].feed, Feed::CircularMmPerStroke(0.2));
     assert_eq!(loaded.scene.gear.pitch_curve, PitchCurveShape::Circle);
 }
 
@@ -53,7 +61,7 @@ fn settings_reach_the_operation_that_nobody_wrote() {
     let text = "[gear]\nmodule_mm = 3.0\nteeth = 24\n[tool.shaper_cutter]\nteeth = 20\n";
     let settings = ["operation.finish.strokes_per_revolution=480".to_owned()];
     let scene = parse(text, "short.toml", Path::new(""), &settings).expect("loads").scene;
-    assert_eq!(scene.operations[0].feed, Feed::StrokesPerRevolution(480));
+    assert_eq!(shaping(&scene).operations[0].feed, Feed::StrokesPerRevolution(480));
 }
 
 #[test]

@@ -112,7 +112,7 @@ fn finishing_scene(module_mm: f64, teeth: u32, cutter_teeth: u32, shape: PitchCu
     scene.gear.teeth = teeth;
     scene.gear.pitch_curve = shape;
     scene.gear.face_width_mm = 10.0;
-    scene.tool.teeth = cutter_teeth;
+    scene.shaping_mut().expect("shaping").tool.teeth = cutter_teeth;
     scene.fields.profile_spacing_mm = 0.002;
     scene.fields.lead_spacing_mm = 10.0;
     scene

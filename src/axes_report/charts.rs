@@ -17,7 +17,7 @@ type AxisOf = fn(&MachineMotion) -> AxisMotion;
 
 /// All charts of an operation, each with the word that ends its file name.
 pub(super) fn all(job: &Job, operation: &PreparedOperation, rows: &[StrokeRow]) -> [(&'static str, LineChart); 4] {
-    let limits = &job.scene.machine.limits;
+    let limits = &job.machine.limits;
     let words = linkage_words(operation.spec.linkage);
     let chart = |what: &str, panels: Vec<Panel>| LineChart {
         title: format!("{} of {}: {what} ({words})", operation.spec.name, job.scene.name),
@@ -89,7 +89,7 @@ fn without_rounding(value: f64) -> f64 {
 }
 
 fn relief(job: &Job, rows: &[StrokeRow]) -> Vec<Panel> {
-    let circular_um = UM_PER_MM * job.scene.machine.back_off_mm * job.scene.gear.pressure_angle_rad.sin();
+    let circular_um = UM_PER_MM * job.machine.back_off_mm * job.scene.gear.pressure_angle_rad.sin();
     let limit = |name: &str, value: f64| Limit { name: name.to_owned(), value };
     let flanks = |scale: f64| {
         vec![

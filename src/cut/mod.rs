@@ -9,9 +9,9 @@ pub mod choice;
 pub mod cpu;
 pub mod gpu;
 
-use crate::dexel::{Field, Layer};
+use crate::dexel::{Field, Layer, SpatialField};
 use crate::error::Error;
-use crate::passes::CutPlan;
+use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
 
 /// What a backend met besides heights.
@@ -55,6 +55,18 @@ pub trait Backend: Sync {
     /// # Errors
     /// Whatever keeps the backend from finishing; the layer is then unusable.
     fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error>;
+
+    /// Runs all records of a plan of sweeps over a field of rays in space, lowering `layer`.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    fn cut_spatial(
+        &self,
+        field: &SpatialField,
+        edge: &Edge,
+        plan: &SweepPlan,
+        layer: &mut Layer,
+    ) -> Result<CutStats, Error>;
 
     /// What went wrong so far and was made good: one line each, for the run record.
     fn incidents(&self) -> Vec<String> {

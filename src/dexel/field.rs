@@ -48,6 +48,11 @@ impl Field {
         self.leads_mm.len()
     }
 
+    /// Places of the columns along the profile, mm.
+    pub fn arcs_mm(&self) -> Vec<f64> {
+        self.columns.iter().map(|column| column.arc_mm).collect()
+    }
+
     /// Number of dexels.
     pub fn len(&self) -> usize {
         self.columns.len() * self.rows()

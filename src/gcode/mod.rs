@@ -73,7 +73,7 @@ fn linear(job: &Job, operation: &PreparedOperation) -> Result<String, String> {
             plain(asked_mm * UM_PER_MM),
         ));
     }
-    match program.exceeded(&job.scene.machine.limits).first() {
+    match program.exceeded(&job.machine.limits).first() {
         Some(first) => Err(format!("{first}; take more strokes per revolution or fewer double strokes per minute")),
         None => Ok(write::text(job, operation, &program)),
     }

@@ -5,10 +5,12 @@
 
 pub mod blank;
 pub mod blank_outline;
+pub mod flank_patch;
 pub mod generation;
 pub mod jet;
 pub(crate) mod periodic_integral;
 pub mod pitch_curve;
+pub mod rack_generation;
 pub(crate) mod roots;
 pub mod target;
 pub mod target_outline;

@@ -11,8 +11,8 @@ use crate::gear::target::{FlankEnd, TargetFlank, target_root};
 use crate::gear::target_outline::TargetOutline;
 use crate::passes::StrokeSet;
 use crate::passes::strokes::StrokeLaw;
-use crate::tool::CuttingTool;
 use crate::tool::closed_tooth::ClosedTooth;
+use crate::tool::{CuttingTool, PlanarTool};
 use crate::units::TURN_RAD;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -57,7 +57,7 @@ impl Job {
     /// Poses of the return strokes of an operation: the cutter drawn back along the line of centres. `None` where the machine does not back off.
     pub fn return_strokes(&self, operation: usize) -> Option<StrokeSet> {
         let operation = &self.operations[operation];
-        let back_off_mm = self.scene.machine.back_off_mm;
+        let back_off_mm = self.machine.back_off_mm;
         let set = &operation.strokes;
         let eccentricity_mm = self.eccentricity_mm();
         let pose = |lambda: f64| {

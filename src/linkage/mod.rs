@@ -13,6 +13,7 @@
 mod axes;
 pub mod dynamics;
 mod extremum;
+pub mod hobbing;
 mod inverse;
 pub mod relief;
 pub mod schedule;
@@ -23,5 +24,6 @@ mod shaping_traditional;
 mod tests;
 
 pub use axes::{Axes, CutterPose, PoseMotion};
+pub use hobbing::HobbingLinkage;
 pub use schedule::{StrokeIncrement, StrokeSchedule, StrokeState};
 pub use shaping::ShapingLinkage;

@@ -19,7 +19,7 @@ use crate::gear::target_outline::TargetOutline;
 use crate::job::{CutBlank, Job};
 use crate::passes::StrokeSet;
 use crate::planar_rays::FAMILIES;
-use crate::tool::CuttingTool;
+use crate::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 use std::collections::BTreeMap;
 

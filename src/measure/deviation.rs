@@ -60,30 +60,35 @@ impl Trace {
             .filter(|&(&place, _)| place >= from_mm - 1e-9 && place <= to_mm + 1e-9)
             .map(|(&place, &height)| height.is_finite().then_some((place, height)))
             .collect::<Option<_>>()?;
-        if points.len() < 3 {
-            return None;
-        }
-        let n = points.len() as f64;
-        let (x_mean, y_mean) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + p.1 / n));
-        let (xx, xy) = points.iter().fold((0.0, 0.0), |(xx, xy), p| {
-            let dx = p.0 - x_mean;
-            (xx + dx * dx, xy + dx * (p.1 - y_mean))
-        });
-        let slope = xy / xx;
-        let range = |value: &dyn Fn(&(f64, f64)) -> f64| {
-            let (low, high) =
-                points.iter().map(value).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-            high - low
-        };
-        let between_mm = [points[0].0, points[points.len() - 1].0];
-        Some(TraceDeviation {
-            total_mm: range(&|p| p.1),
-            slope_mm: slope * (between_mm[1] - between_mm[0]),
-            form_mm: range(&|p| p.1 - slope * (p.0 - x_mean)),
-            between_mm,
-            mean_line_mm: between_mm.map(|place| y_mean + slope * (place - x_mean)),
-        })
+        of_points(&points)
     }
+}
+
+/// Deviations of heights over places of an evaluated length, both in mm; `None` with fewer than three of them.
+pub fn of_points(points: &[(f64, f64)]) -> Option<TraceDeviation> {
+    if points.len() < 3 {
+        return None;
+    }
+    let n = points.len() as f64;
+    let (x_mean, y_mean) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + p.1 / n));
+    let (xx, xy) = points.iter().fold((0.0, 0.0), |(xx, xy), p| {
+        let dx = p.0 - x_mean;
+        (xx + dx * dx, xy + dx * (p.1 - y_mean))
+    });
+    let slope = xy / xx;
+    let range = |value: &dyn Fn(&(f64, f64)) -> f64| {
+        let (low, high) =
+            points.iter().map(value).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        high - low
+    };
+    let between_mm = [points[0].0, points[points.len() - 1].0];
+    Some(TraceDeviation {
+        total_mm: range(&|p| p.1),
+        slope_mm: slope * (between_mm[1] - between_mm[0]),
+        form_mm: range(&|p| p.1 - slope * (p.0 - x_mean)),
+        between_mm,
+        mean_line_mm: between_mm.map(|place| y_mean + slope * (place - x_mean)),
+    })
 }
 
 fn height_mm(layer: &Layer, index: usize) -> f64 {

@@ -157,7 +157,7 @@ mod tests {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping/circular_m3_z24.toml");
         let mut scene = scene::load(&path, &[]).expect("a shipped scene").scene;
         let eccentricity_mm = 0.02;
-        scene.machine.work_eccentricity_mm = eccentricity_mm;
+        scene.shaping_mut().expect("shaping").machine.work_eccentricity_mm = eccentricity_mm;
         let job = Job::new(scene).expect("a gear");
         let cut = allowances(&job, job.operations.len() - 1, Surface::Strokes).expect("all flanks");
         let side = |flank: fn(&ToothAllowance) -> Option<Crossing>| cut.iter().map(flank).collect::<Vec<_>>();

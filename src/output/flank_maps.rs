@@ -18,7 +18,7 @@ use super::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
 use super::folder::OutputFolder;
 use super::grid::{MapAxis, MapGrid};
 use super::map_png::{MapPicture, write_map_png};
-use crate::dexel::{Field, Layer, NO_PASS};
+use crate::dexel::{Layer, NO_PASS};
 use crate::error::Result;
 use crate::gear::generation::Side;
 use crate::units::UM_PER_MM;
@@ -64,17 +64,17 @@ pub struct FlankMaps {
 }
 
 impl FlankMaps {
-    /// Takes the dexels nearest to the places of a map with `spacing_mm`.
-    pub fn sample(tooth: u32, side: Side, field: &Field, layers: &[Layer], spacing_mm: f64) -> Self {
-        let rows = field.rows();
-        let lengths = [field.columns.last().map_or(0.0, |c| c.arc_mm), field.leads_mm[rows - 1] - field.leads_mm[0]];
+    /// Takes the dexels nearest to the places of a map with `spacing_mm`; dexels stand at `arcs_mm` along the profile and `leads_mm` along the tooth.
+    pub fn sample(tooth: u32, side: Side, [arcs_mm, leads_mm]: [&[f64]; 2], layers: &[Layer], spacing_mm: f64) -> Self {
+        let rows = leads_mm.len();
+        let lengths = [arcs_mm.last().copied().unwrap_or(0.0), leads_mm[rows - 1] - leads_mm[0]];
         let axis = |name: &str, meaning: &str, start_mm: f64, length_mm: f64| {
             let count = (length_mm / spacing_mm).floor() as usize + 1;
             MapAxis { name: name.into(), meaning: meaning.into(), start_mm, step_mm: spacing_mm, count }
         };
         let grid = MapGrid {
             u: axis("u", "along the profile from the form point", 0.0, lengths[0]),
-            v: axis("v", "along the tooth from the middle of the face", field.leads_mm[0], lengths[1]),
+            v: axis("v", "along the tooth from the middle of the face", leads_mm[0], lengths[1]),
         };
         // Dexels of each cell of an axis: those nearer to its place than to the next one, at least the nearest.
         let cells = |axis: &MapAxis, places: &[f64]| -> Vec<(usize, std::ops::Range<usize>)> {
@@ -92,8 +92,7 @@ impl FlankMaps {
                 })
                 .collect()
         };
-        let arcs_mm: Vec<f64> = field.columns.iter().map(|c| c.arc_mm).collect();
-        let (columns, leads) = (cells(&grid.u, &arcs_mm), cells(&grid.v, &field.leads_mm));
+        let (columns, leads) = (cells(&grid.u, arcs_mm), cells(&grid.v, leads_mm));
         let dexels: Vec<usize> =
             columns.iter().flat_map(|(column, _)| leads.iter().map(move |(row, _)| column * rows + row)).collect();
         // One value for all dexels of a cell that a pass has touched.
@@ -254,7 +253,7 @@ fn channel(name: &str, unit: &str, definition: &str, samples: Samples) -> MapCha
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dexel::Column;
+    use crate::dexel::{Column, Field};
     use glam::DVec2;
 
     /// Cells of four dexels, one of them untouched: the highest keeps the mark, the mean takes it with its share.
@@ -273,7 +272,7 @@ mod tests {
             (layer.heights_mm[index], layer.passes[index]) = (index as f32, 7);
         }
         layer.passes[5] = NO_PASS;
-        let maps = FlankMaps::sample(1, Side::Left, &field, &[layer], 0.1);
+        let maps = FlankMaps::sample(1, Side::Left, [&field.arcs_mm(), &field.leads_mm], &[layer], 0.1);
         assert_eq!((maps.grid.u.count, maps.grid.v.count), (2, 2));
         // The cell at u 0.1, v -0.05 holds the columns at 0.05 (half way, upper cell) and 0.1, and the first row: dexels 4 and 8.
         assert_eq!(maps.highest_mm[0][2], 8.0);

@@ -6,7 +6,7 @@
 use super::strokes::StrokeSet;
 use crate::frame::Rigid2;
 use crate::planar_rays::Family;
-use crate::tool::CuttingTool;
+use crate::tool::PlanarTool;
 use crate::tool::closed_tooth::ClosedTooth;
 use glam::DVec2;
 
@@ -27,7 +27,7 @@ pub struct PlacedPass {
 pub fn passes_at(
     set: &StrokeSet,
     tau: f64,
-    tool: &dyn CuttingTool,
+    tool: &dyn PlanarTool,
     tooth: &ClosedTooth,
     blank_reach_mm: f64,
 ) -> Vec<PlacedPass> {

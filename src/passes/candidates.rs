@@ -16,7 +16,7 @@ use super::spells::{Content, Spell, SpellTree};
 use super::strokes::StrokeSet;
 use crate::dexel::field::{Column, Field};
 use crate::frame::Rigid2;
-use crate::tool::CuttingTool;
+use crate::tool::PlanarTool;
 use crate::tool::edge::Edge;
 use arrayvec::ArrayVec;
 use glam::DVec2;
@@ -61,12 +61,12 @@ impl CutPlan {
         clippy::redundant_closure_for_method_calls,
         reason = "the method's path is not general enough in its lifetimes"
     )]
-    pub fn new(field: &Field, set: &StrokeSet, tool: &dyn CuttingTool) -> Self {
+    pub fn new(field: &Field, set: &StrokeSet, tool: &dyn PlanarTool) -> Self {
         Self::build(field, set, tool, |planner, columns, seeds| planner.candidates(columns, seeds))
     }
 
     /// Plan with every segment of every pass that can reach the field: what candidates are proved against.
-    pub fn brute_force(field: &Field, set: &StrokeSet, tool: &dyn CuttingTool) -> Self {
+    pub fn brute_force(field: &Field, set: &StrokeSet, tool: &dyn PlanarTool) -> Self {
         let segments = tool.edge().segments.len();
         Self::build(field, set, tool, |planner, _, _| {
             (0..planner.near.len()).flat_map(|pass| (0..segments).map(move |segment| (pass, segment))).collect()
@@ -76,7 +76,7 @@ impl CutPlan {
     fn build(
         field: &Field,
         set: &StrokeSet,
-        tool: &dyn CuttingTool,
+        tool: &dyn PlanarTool,
         choose: impl Fn(&Planner, &[Column], &mut Vec<usize>) -> Vec<(usize, usize)>,
     ) -> Self {
         let planner = Planner::new(field, set, tool);
@@ -133,7 +133,7 @@ struct Planner<'a> {
 type Segments = u64;
 
 impl<'a> Planner<'a> {
-    fn new(field: &Field, set: &StrokeSet, tool: &'a dyn CuttingTool) -> Self {
+    fn new(field: &Field, set: &StrokeSet, tool: &'a dyn PlanarTool) -> Self {
         let edge = tool.edge();
         assert!(edge.segments.len() <= Segments::BITS as usize, "a blade's segments fit into a set of bits");
         let (center_mm, reach_mm) = Field::circle(&field.columns);

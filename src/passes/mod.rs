@@ -3,12 +3,20 @@
 pub mod blank_candidates;
 pub mod bounds;
 pub mod candidates;
+pub mod hob_teeth;
+pub mod motion;
 pub mod near;
 pub mod record;
 pub mod rulers;
 pub mod spells;
 pub mod strokes;
+pub mod sweep;
+mod sweep_bounds;
+pub mod sweep_plan;
 
 pub use candidates::{CutPlan, Tile};
+pub use hob_teeth::HobTeeth;
+pub use motion::MotionTable;
 pub use record::PassRecord;
 pub use strokes::StrokeSet;
+pub use sweep_plan::SweepPlan;

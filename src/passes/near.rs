@@ -5,7 +5,7 @@
 use super::bounds::MAX_PHASES;
 use super::strokes::StrokeSet;
 use crate::frame::Rigid2;
-use crate::tool::CuttingTool;
+use crate::tool::PlanarTool;
 use crate::tool::edge::Edge;
 use arrayvec::ArrayVec;
 use glam::DVec2;
@@ -42,7 +42,7 @@ impl NearPass {
 }
 
 /// All passes whose blade comes within `reach_mm` of `center_mm` (gear frame), in time order.
-pub fn near_passes(set: &StrokeSet, tool: &dyn CuttingTool, center_mm: DVec2, reach_mm: f64) -> Vec<NearPass> {
+pub fn near_passes(set: &StrokeSet, tool: &dyn PlanarTool, center_mm: DVec2, reach_mm: f64) -> Vec<NearPass> {
     let blades: Vec<Rigid2> = (0..tool.blade_count()).map(|blade| tool.tool_from_blade(blade)).collect();
     let edge = tool.edge();
     let limit_mm = reach_mm + edge.reach_mm;

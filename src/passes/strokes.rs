@@ -8,7 +8,7 @@
 //! theta = arccos(2 (z - z_m) / L). The stroke's own moment is the one when the middle of the face is cut.
 
 use crate::frame::Rigid2;
-use crate::tool::CuttingTool;
+use crate::tool::PlanarTool;
 use glam::DVec2;
 
 /// Nodes of the cubic in tau (Chebyshev of the first kind on [-1, 1]).
@@ -91,7 +91,7 @@ impl StrokeSet {
     /// Strokes 0 to `count` - 1; `work_from_tool(lambda)` gives the pose at any real stroke number.
     pub fn new(
         first_pass: u32,
-        tool: &dyn CuttingTool,
+        tool: &dyn PlanarTool,
         law: StrokeLaw,
         count: usize,
         work_from_tool: impl FnMut(f64) -> Rigid2,
@@ -102,7 +102,7 @@ impl StrokeSet {
     /// The way back after each of those strokes: poses at the moments when the ram passes the same places again.
     pub fn returning(
         first_pass: u32,
-        tool: &dyn CuttingTool,
+        tool: &dyn PlanarTool,
         law: StrokeLaw,
         count: usize,
         work_from_tool: impl FnMut(f64) -> Rigid2,
@@ -112,7 +112,7 @@ impl StrokeSet {
 
     fn at_shares(
         first_pass: u32,
-        tool: &dyn CuttingTool,
+        tool: &dyn PlanarTool,
         law: StrokeLaw,
         count: usize,
         share: impl Fn(f64) -> f64,

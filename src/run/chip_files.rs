@@ -88,7 +88,7 @@ fn write_chip_table(job: &Job, ledger: &ChipLedger, operation: usize, path: &std
     ];
     let schedule = &job.operations[operation].schedule;
     let width_mm = job.scene.gear.face_width_mm;
-    let per_minute = job.scene.machine.double_strokes_per_minute;
+    let per_minute = job.machine.double_strokes_per_minute;
     let rows = ledger.operations[operation].strokes.iter().enumerate().map(|(index, s)| {
         let whole = |value: u32| Cell::from(value);
         let of_busy = |value: u32| if s.is_idle() { Cell::Empty } else { Cell::from(value) };

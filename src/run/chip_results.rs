@@ -85,7 +85,7 @@ pub fn chip_results(job: &Job, ledger: &ChipLedger, operation: usize) -> ChipRes
 
 /// Largest speed of the ram on its crank, mm/s.
 pub fn ram_speed_mm_per_s(job: &Job) -> f64 {
-    let machine = &job.scene.machine;
+    let machine = &job.machine;
     let stroke_mm = machine.approach_mm + job.scene.gear.face_width_mm + machine.overrun_mm;
     PI * stroke_mm * machine.double_strokes_per_minute / 60.0
 }

@@ -2,7 +2,7 @@
 //!
 //! Maps of single flanks are written as the flanks are finished; everything here follows when all are.
 
-use super::{CutGear, chip_files};
+use super::{CutGear, Work, chip_files};
 use crate::axes_report;
 use crate::cut::Backend;
 use crate::dexel::NO_PASS;
@@ -12,6 +12,7 @@ use crate::measure::unevenness::ToothAllowance;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::colormap::ColourScale;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
+use crate::output::flank_maps::{FlankMaps, OperationMaps};
 use crate::output::folder::OutputFolder;
 use crate::output::results::{RESULTS_FILE, Results};
 use crate::output::table::{Cell, write_table};
@@ -205,60 +206,94 @@ fn passes_from_first(ids: &[u32]) -> Vec<f32> {
 /// All flanks on one picture: stock of each earlier operation; heights, deviations and passes after the last.
 fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Result<()> {
     let last = job.operations.len() - 1;
-    if cut.maps.is_empty() {
-        return Ok(());
+    let scales = super::map_operations(job);
+    for (index, operation) in scales[..last].iter().enumerate() {
+        write_stock_sheet(&job.scene.name, operation, index, &cut.maps, folder)?;
     }
-    let sheet = |path: &str, title: String, quantity: &str, unit: &str, scale: ColourScale, values: Vec<Vec<f32>>| {
-        let labels: Vec<String> = cut.maps.iter().map(|m| format!("{} {}", m.tooth, m.side.name())).collect();
-        let thumbnails: Vec<Thumbnail> = cut
-            .maps
-            .iter()
-            .zip(&labels)
-            .zip(&values)
-            .map(|((map, label), values)| Thumbnail { label, grid: &map.grid, values })
-            .collect();
-        let sheet = ContactSheet { title: &title, quantity, unit, scale, maps: &thumbnails };
-        write_contact_sheet(&folder.path(path)?, &sheet)
-    };
-    for (index, operation) in job.operations[..last].iter().enumerate() {
-        let name = &operation.spec.name;
-        sheet(
-            &format!("pictures/stock_{name}.png"),
-            format!("{}: stock of {name}, all flanks", job.scene.name),
-            "normal stock",
-            "mm",
-            super::map_operations(job)[index].stock_scale,
-            cut.maps.iter().map(|m| m.stock_mm(index)).collect(),
-        )?;
-    }
-    let to_um = |h: &f32| h * UM_PER_MM as f32;
-    let name = &job.finishing().spec.name;
-    let heights_um: Vec<Vec<f32>> = cut.maps.iter().map(|m| m.highest_mm[last].iter().map(to_um).collect()).collect();
-    sheet(
-        &format!("pictures/heights_{name}.png"),
-        format!("{}: finished surface after {name}, all flanks", job.scene.name),
-        "height over the target, highest of cell",
-        "µm",
-        ColourScale::heights_over(heights_um.iter().map(Vec::as_slice)),
-        heights_um,
-    )?;
-    sheet(
-        &format!("pictures/deviation_{name}.png"),
-        format!("{}: deviation after {name}, all flanks", job.scene.name),
-        "mean height of cell over the target",
-        "µm",
+    let (scene, name) = (&job.scene.name, &job.finishing().spec.name);
+    write_height_sheet(scene, name, &cut.maps, folder)?;
+    write_sheet(
+        &folder.path(format!("pictures/deviation_{name}.png"))?,
+        &format!("{scene}: deviation after {name}, all flanks"),
+        ["mean height of cell over the target", "µm"],
         deviation_scale(cut),
-        cut.maps.iter().map(|m| m.deviation_mm.iter().map(to_um).collect()).collect(),
+        &cut.maps,
+        &cut.maps.iter().map(|m| m.deviation_mm.iter().map(um).collect()).collect::<Vec<_>>(),
     )?;
     let passes: Vec<Vec<f32>> = cut.maps.iter().map(|m| passes_from_first(&m.passes[last])).collect();
-    sheet(
-        &format!("pictures/passes_{name}.png"),
-        format!("{}: the passes of {name} in the order of time, all flanks", job.scene.name),
-        "pass id, counted from the flank's first",
-        "1",
+    write_sheet(
+        &folder.path(format!("pictures/passes_{name}.png"))?,
+        &format!("{scene}: the passes of {name} in the order of time, all flanks"),
+        ["pass id, counted from the flank's first", "1"],
         ColourScale::sequential_over(passes.iter().map(Vec::as_slice)),
-        passes,
+        &cut.maps,
+        &passes,
     )
+}
+
+fn um(height_mm: &f32) -> f32 {
+    height_mm * UM_PER_MM as f32
+}
+
+/// Stock of one earlier operation on all flanks.
+pub(super) fn write_stock_sheet(
+    scene: &str,
+    operation: &OperationMaps,
+    index: usize,
+    maps: &[FlankMaps],
+    folder: &OutputFolder,
+) -> Result<()> {
+    let name = &operation.name;
+    write_sheet(
+        &folder.path(format!("pictures/stock_{name}.png"))?,
+        &format!("{scene}: stock of {name}, all flanks"),
+        ["normal stock", "mm"],
+        operation.stock_scale,
+        maps,
+        &maps.iter().map(|m| m.stock_mm(index)).collect::<Vec<_>>(),
+    )
+}
+
+/// Finished surface of all flanks.
+pub(super) fn write_height_sheet(
+    scene: &str,
+    operation: &str,
+    maps: &[FlankMaps],
+    folder: &OutputFolder,
+) -> Result<()> {
+    let values: Vec<Vec<f32>> = maps
+        .iter()
+        .map(|m| m.highest_mm.last().map_or_else(Vec::new, |heights| heights.iter().map(um).collect()))
+        .collect();
+    write_sheet(
+        &folder.path(format!("pictures/heights_{operation}.png"))?,
+        &format!("{scene}: finished surface after {operation}, all flanks"),
+        ["height over the target, highest of cell", "µm"],
+        ColourScale::heights_over(values.iter().map(Vec::as_slice)),
+        maps,
+        &values,
+    )
+}
+
+fn write_sheet(
+    path: &Path,
+    title: &str,
+    [quantity, unit]: [&str; 2],
+    scale: ColourScale,
+    maps: &[FlankMaps],
+    values: &[Vec<f32>],
+) -> Result<()> {
+    if maps.is_empty() {
+        return Ok(());
+    }
+    let labels: Vec<String> = maps.iter().map(|m| format!("{} {}", m.tooth, m.side.name())).collect();
+    let thumbnails: Vec<Thumbnail> = maps
+        .iter()
+        .zip(&labels)
+        .zip(values)
+        .map(|((map, label), values)| Thumbnail { label, grid: &map.grid, values })
+        .collect();
+    write_contact_sheet(path, &ContactSheet { title, quantity, unit, scale, maps: &thumbnails })
 }
 
 /// What is needed to repeat the run and to trust its files.
@@ -269,7 +304,7 @@ pub fn run_record(
     resolved_scene: &str,
     backend: &dyn Backend,
     backend_why: &str,
-    cut: &CutGear,
+    work: &Work,
     folder: &OutputFolder,
 ) -> Result<Value> {
     let mut checksums = Map::new();
@@ -287,12 +322,12 @@ pub fn run_record(
             .iter()
             .map(|t| json!({"stage": t.stage, "batches": t.batches, "device_s": t.device_s}))
             .collect::<Vec<_>>(),
-        "complete": !cut.interrupted,
-        "dexels": cut.dexels,
-        "dexel_passes": cut.stats.dexel_passes,
-        "dexels_cut": cut.stats.dexels,
-        "dexel_passes_per_dexel_cut": cut.stats.dexel_passes as f64 / cut.stats.dexels.max(1) as f64,
-        "wall_time_s": cut.elapsed.as_secs_f64(),
+        "complete": !work.interrupted,
+        "dexels": work.dexels,
+        "dexel_passes": work.stats.dexel_passes,
+        "dexels_cut": work.stats.dexels,
+        "dexel_passes_per_dexel_cut": work.stats.dexel_passes as f64 / work.stats.dexels.max(1) as f64,
+        "wall_time_s": work.elapsed.as_secs_f64(),
         "threads": rayon::current_num_threads(),
         "sha256": checksums,
     }))

@@ -74,7 +74,7 @@ fn work(job: &Job, section: &Section, stroke: usize) -> (Mesh, Mesh) {
     let along = pose.translation_mm.normalize_or(DVec2::X);
     let machine_from_work = Rigid2 { rotation: DVec2::new(along.x, -along.y), translation_mm: DVec2::ZERO };
     let half_mm = 0.5 * job.scene.gear.face_width_mm;
-    let above_mm = half_mm + job.scene.machine.approach_mm;
+    let above_mm = half_mm + job.machine.approach_mm;
     (
         section.solid([-half_mm, half_mm], machine_from_work.rotation),
         cutter_solid(job, [above_mm, above_mm + 0.6 * half_mm], &machine_from_work.after(&pose)),
@@ -90,7 +90,7 @@ fn camera(job: &Job) -> Camera {
         .map(|i| Section::work_from_tool(job, (strokes - 1) * i / 200).translation_mm.length())
         .fold(0.0, f64::max);
     let cutter_mm = job.cutter.tip_radius_mm;
-    let top_mm = half_mm + job.scene.machine.approach_mm + 0.6 * half_mm;
+    let top_mm = half_mm + job.machine.approach_mm + 0.6 * half_mm;
     let ring = |x: f64, radius: f64, z: f64| {
         (0..24).map(move |i| (DVec2::new(x, 0.0) + radius * DVec2::from_angle(f64::from(i) * 0.2618)).extend(z))
     };

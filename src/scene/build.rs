@@ -3,13 +3,16 @@
 //! Every value is there once the scene is without problems; a missing one ends the building, and a test over all
 //! variants keeps the table of keys and this file together.
 
+mod hobbing;
+
 use std::path::{Path, PathBuf};
 
 use super::model::{
     AxisLimits, Feed, Fields, GcodeDialect, Gear, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Output,
-    Picture, PictureColour, PictureView, PitchCurveShape, Scene, ShaperCutter, StrokeSpacing, TextureWindow, Tip,
-    TraditionalDirection, WindowSides,
+    Picture, PictureColour, PictureView, PitchCurveShape, Process, Scene, ShaperCutter, Shaping, StrokeSpacing,
+    TextureWindow, Tip, TraditionalDirection, WindowSides,
 };
+use super::process::ProcessName;
 use super::values::{Values, View};
 use crate::gear::generation::Side;
 use crate::material::EdgeForce;
@@ -19,9 +22,6 @@ use crate::units::UM_PER_MM;
 /// The scene called `name`; `base_dir` holds the files it refers to.
 pub(super) fn build(name: &str, base_dir: &Path, values: &Values) -> Option<Scene> {
     let pressure_angle_rad = rad(values.view("gear"), "pressure_angle_deg")?;
-    let operations: Option<Vec<Operation>> = (0..values.count("operation"))
-        .map(|index| operation(values, &format!("operation.{index}"), base_dir, pressure_angle_rad))
-        .collect();
     let pictures: Option<Vec<Picture>> = (0..values.count("picture"))
         .map(|index| picture(values.view(&format!("picture.{index}")), values.count("operation")))
         .collect();
@@ -33,9 +33,10 @@ pub(super) fn build(name: &str, base_dir: &Path, values: &Values) -> Option<Scen
         name: name.to_owned(),
         gear: gear(values)?,
         material: material(values)?,
-        tool: shaper_cutter(values)?,
-        machine: machine(values)?,
-        operations: operations?,
+        process: match ProcessName::of(values)? {
+            ProcessName::Shaping => Process::Shaping(shaping(values, base_dir, pressure_angle_rad)?),
+            ProcessName::Hobbing => Process::Hobbing(hobbing::hobbing(values, pressure_angle_rad)?),
+        },
         textures: (0..values.count("texture"))
             .map(|index| texture(values.view(&format!("texture.{index}"))))
             .collect::<Option<_>>()?,
@@ -74,12 +75,29 @@ fn mm_from_um(view: View<'_>, name: &str) -> Option<f64> {
     view.number(name).map(|um| um / UM_PER_MM)
 }
 
+fn shaping(values: &Values, base_dir: &Path, pressure_angle_rad: f64) -> Option<Shaping> {
+    let operations: Option<Vec<Operation>> = (0..values.count("operation"))
+        .map(|index| operation(values, &format!("operation.{index}"), base_dir, pressure_angle_rad))
+        .collect();
+    Some(Shaping { tool: shaper_cutter(values)?, machine: machine(values)?, operations: operations? })
+}
+
+/// How far the tool stays back: given, or from the stock on each flank.
+fn stock_or_offset(operation: View<'_>, pressure_angle_rad: f64) -> Option<f64> {
+    match operation.number("stock_per_flank_mm") {
+        Some(stock_mm) => Some(stock_mm / pressure_angle_rad.sin()),
+        None => operation.number("offset_mm"),
+    }
+}
+
 fn gear(values: &Values) -> Option<Gear> {
     let gear = values.view("gear");
     Some(Gear {
         module_mm: gear.number("module_mm")?,
         teeth: gear.whole("teeth")?,
         pressure_angle_rad: rad(gear, "pressure_angle_deg")?,
+        helix_angle_rad: rad(gear, "helix_angle_deg")?,
+        hand: hobbing::hand(gear.text("hand")?)?,
         face_width_mm: gear.number("face_width_mm")?,
         addendum_coefficient: gear.number("addendum_coefficient")?,
         bore_diameter_mm: gear.number("bore_diameter_mm")?,
@@ -179,10 +197,6 @@ fn machine(values: &Values) -> Option<Machine> {
 
 fn operation(values: &Values, path: &str, base_dir: &Path, pressure_angle_rad: f64) -> Option<Operation> {
     let operation = values.view(path);
-    let offset_mm = match operation.number("stock_per_flank_mm") {
-        Some(stock_mm) => stock_mm / pressure_angle_rad.sin(),
-        None => operation.number("offset_mm")?,
-    };
     let feed = match operation.number("circular_feed_mm_per_stroke") {
         Some(feed_mm) => Feed::CircularMmPerStroke(feed_mm),
         None => Feed::StrokesPerRevolution(operation.whole("strokes_per_revolution")?),
@@ -193,7 +207,7 @@ fn operation(values: &Values, path: &str, base_dir: &Path, pressure_angle_rad: f
     };
     Some(Operation {
         name: operation.text("name")?.to_owned(),
-        offset_mm,
+        offset_mm: stock_or_offset(operation, pressure_angle_rad)?,
         linkage: linkage(values, path, operation.variant("linkage")?)?,
         feed,
         spacing: match operation.text("stroke_spacing")? {

@@ -8,6 +8,7 @@
 //! a value inside a choice, and keep ranges, units and sentences somewhere else.
 
 mod gear;
+mod hobbing;
 mod machine;
 mod material;
 mod operation;
@@ -156,8 +157,11 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         gear::SECTIONS,
         material::SECTIONS,
         tool::SECTIONS,
+        hobbing::TOOL,
         machine::BEFORE_OPERATIONS,
+        hobbing::MACHINE,
         operation::SECTIONS,
+        hobbing::LINKAGES,
         texture::SECTIONS,
         machine::AFTER_OPERATIONS,
         picture::SECTIONS,

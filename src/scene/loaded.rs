@@ -9,7 +9,7 @@ use super::sources::{At, Sources};
 use super::tree::{Entry, Node, Value, parse_document};
 use super::values::Values;
 use super::walk::{Problems, walk};
-use super::{Scene, build, checks, overrides, write};
+use super::{Scene, build, checks, overrides, process, write};
 use crate::error::Refusal;
 
 /// A scene without problems, with the memory of where each value was written.
@@ -72,7 +72,9 @@ pub fn parse(text: &str, file_name: &str, base_dir: &Path, overrides: &[String])
             problems.list.push(problem);
         }
     }
+    process::imply_linkages(&mut root);
     let mut values = walk(&root, &mut problems);
+    process::keep_own(&mut values, &mut problems);
     read_points(&mut values, base_dir, &mut problems);
     checks::cross_check(&values, &mut problems);
     let list = problems.list;
@@ -145,7 +147,7 @@ impl LoadedScene {
         let Some(rest) = plain.strip_prefix("operation.") else { return vec![plain] };
         let (first, deeper) = rest.split_once('.').unwrap_or((rest, ""));
         let by_number = first.parse::<usize>().ok();
-        let by_name = || self.scene.operations.iter().position(|operation| operation.name == first);
+        let by_name = || self.scene.operation_names().iter().position(|name| *name == first);
         match by_number.or_else(by_name) {
             Some(index) => vec![join(&format!("operation.{index}"), deeper)],
             None => (0..self.values.count("operation")).map(|index| format!("operation.{index}.{rest}")).collect(),

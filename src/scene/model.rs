@@ -3,6 +3,13 @@
 //! Comes from [`super::load`], goes to `run`. Nothing here knows about TOML. Keys of the scene file
 //! are the field names with their unit (`face_width_mm`, `pressure_angle_deg`); angles are radians here.
 
+mod hobbing;
+
+pub use hobbing::{
+    Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, Hand, Hob, HobSize, Hobbing,
+    HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
+};
+
 use crate::gear::generation::Side;
 use crate::measure::topography::Form;
 use std::path::PathBuf;
@@ -18,12 +25,8 @@ pub struct Scene {
     pub gear: Gear,
     /// Force coefficients of the work's material.
     pub material: EdgeForce,
-    /// The shaper cutter.
-    pub tool: ShaperCutter,
-    /// The machine: stroke, clearances, mounting errors, axis limits.
-    pub machine: Machine,
-    /// Operations in the order they are cut; at least one. The last one defines the target flank.
-    pub operations: Vec<Operation>,
+    /// How it is cut: tool, machine and operations of one process.
+    pub process: Process,
     /// Texture windows; empty: those that [`crate::texture`] takes by itself.
     pub textures: Vec<TextureWindow>,
     /// Dexel spacing.
@@ -36,15 +39,76 @@ pub struct Scene {
     pub pictures: Vec<Picture>,
 }
 
+/// A process with all that is its own.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Process {
+    /// Shaping with a pinion cutter.
+    Shaping(Shaping),
+    /// Hobbing.
+    Hobbing(Hobbing),
+}
+
+/// Shaping: tool, machine and operations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shaping {
+    /// The shaper cutter.
+    pub tool: ShaperCutter,
+    /// The machine: stroke, clearances, mounting errors, axis limits.
+    pub machine: Machine,
+    /// Operations in the order they are cut; at least one. The last one defines the target flank.
+    pub operations: Vec<Operation>,
+}
+
+impl Gear {
+    /// Transverse module m_t = m / cos(beta): pi m_t of the pitch curve for every tooth.
+    pub fn transverse_module_mm(&self) -> f64 {
+        self.module_mm / self.helix_angle_rad.cos()
+    }
+
+    /// Transverse pressure angle: tan(alpha_t) = tan(alpha) / cos(beta).
+    pub fn transverse_pressure_angle_rad(&self) -> f64 {
+        (self.pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
+    }
+}
+
+impl Scene {
+    /// The shaping part, if the scene shapes.
+    pub fn shaping(&self) -> Option<&Shaping> {
+        if let Process::Shaping(shaping) = &self.process { Some(shaping) } else { None }
+    }
+
+    /// The shaping part, to try other values.
+    pub fn shaping_mut(&mut self) -> Option<&mut Shaping> {
+        if let Process::Shaping(shaping) = &mut self.process { Some(shaping) } else { None }
+    }
+
+    /// The hobbing part, if the scene hobs.
+    pub fn hobbing(&self) -> Option<&Hobbing> {
+        if let Process::Hobbing(hobbing) = &self.process { Some(hobbing) } else { None }
+    }
+
+    /// Names of the operations in order.
+    pub fn operation_names(&self) -> Vec<&str> {
+        match &self.process {
+            Process::Shaping(shaping) => shaping.operations.iter().map(|o| o.name.as_str()).collect(),
+            Process::Hobbing(hobbing) => hobbing.operations.iter().map(|o| o.name.as_str()).collect(),
+        }
+    }
+}
+
 /// The gear: pitch curve, teeth and blank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gear {
-    /// Module m in mm.
+    /// Module m in mm; on a helical gear the normal module, the tool's own.
     pub module_mm: f64,
     /// Number of teeth z on the closed pitch curve.
     pub teeth: u32,
-    /// Pressure angle alpha of gear and cutter on the pitch curve.
+    /// Pressure angle alpha of gear and cutter on the pitch curve; on a helical gear in the normal section.
     pub pressure_angle_rad: f64,
+    /// Helix angle beta on the pitch curve; 0 for a spur gear.
+    pub helix_angle_rad: f64,
+    /// Hand of the helix.
+    pub hand: Hand,
     /// Face width B.
     pub face_width_mm: f64,
     /// Addendum of the blank over the pitch curve, in modules.

@@ -1,64 +1,82 @@
 //! A commented scene to start from: every key with its unit, its range and its default.
 //!
 //! Printed from the table of keys. Keys that must be written and those with a fixed default stand ready; the others,
-//! and all variants but the default ones, stand behind a `#` without a blank. The process to write for is the linkages' family.
+//! and all variants but the default ones, stand behind a `#` without a blank. Keys of other processes are left out.
 
 use std::fmt::Write as _;
 
-use super::keys::{self, Default, Key, Role, Section};
+use super::keys::{self, Default, Key, Role, Section, join};
+use super::process::{ProcessName, sections_of};
 
 /// Processes that a template can be written for.
-pub const PROCESSES: &[&str] = &["shaping"];
+pub const PROCESSES: &[&str] = &["shaping", "hobbing"];
 
 /// Width of a comment line.
 const COMMENT_CHARS: usize = 100;
 
 /// The scene for `process`, or `None` if it is not one of [`PROCESSES`].
 pub fn template(process: &str) -> Option<String> {
-    if !PROCESSES.contains(&process) {
-        return None;
-    }
-    let mut out = String::from(
-        "# Scene for cutting a gear with a shaper cutter.\n\
+    let process = ProcessName::ALL.into_iter().find(|name| name.name() == process)?;
+    let (tool, needed) = match process {
+        ProcessName::Shaping => ("a shaper cutter", "the module and the numbers of teeth"),
+        ProcessName::Hobbing => ("a hob", "the module, the number of teeth and the hob's size"),
+    };
+    let mut out = format!(
+        "# Scene for cutting a gear with {tool}.\n\
          #\n\
-         # Remove what you do not need: every key but the module and the numbers of teeth has a default.\n\
+         # Remove what you do not need: every key but {needed} has a default.\n\
          # Lines that begin with # and no blank are keys and sections to switch on.\n\
          # `gearcut check` says what the scene means; `gearcut cut` cuts it.\n",
     );
-    for section in keys::sections().filter(|section| !section.path.is_empty()) {
-        write_section(&mut out, section);
+    for section in sections_of(process).filter(|section| !section.path.is_empty()) {
+        write_section(&mut out, process, section);
     }
     Some(out)
 }
 
-fn write_section(out: &mut String, section: &'static Section) {
-    if section.role == Role::Plain && section.keys.is_empty() {
+fn write_section(out: &mut String, process: ProcessName, section: &'static Section) {
+    let known: Vec<&Key> = section.keys.iter().filter(|key| process.knows(&join(section.path, key.name))).collect();
+    if section.role == Role::Plain && known.is_empty() {
         return;
     }
     out.push('\n');
     write_comment(out, section.teach);
     if let Role::Choice { default, what } = section.role {
-        let names = keys::either(section.children().map(|child| child.name().to_owned()));
+        let children = section.children().filter(|child| process.knows(child.path));
+        let names = keys::either(children.map(|child| child.name().to_owned()));
+        let default = default.map(|name| default_of(process, section, name));
         let default = default.map_or(String::new(), |name| format!("; default {name}"));
         write_comment(out, &format!("The {what} is one of: {names}{default}."));
         return;
     }
-    let active = is_active(section);
+    let active = is_active(process, section);
     let mark = if active { "" } else { "#" };
     let _ = writeln!(out, "{mark}{}", section.header());
-    for key in section.keys {
-        write_key(out, key, active && stands_ready(key));
+    let mut grouped: Vec<&str> = Vec::new();
+    for key in known {
+        // Of a group that must be written, the first stands ready.
+        let group = section.group_of(key.name).filter(|group| group.required);
+        let first = group.is_some_and(|group| !grouped.iter().any(|name| group.names.contains(name)));
+        grouped.extend(group.map(|_| key.name));
+        write_key(out, key, active && (first || stands_ready(key)));
     }
 }
 
 /// Whether a section stands ready: it holds by default, or there is nothing else to choose.
-fn is_active(section: &Section) -> bool {
+fn is_active(process: ProcessName, section: &Section) -> bool {
     let choice = keys::section(section.parent_path()).map(|parent| parent.role);
     match (section.role, choice) {
         (Role::List { fewest }, _) => fewest > 0,
-        (Role::Variant, Some(Role::Choice { default, .. })) => default.is_none_or(|name| name == section.name()),
+        (Role::Variant, Some(Role::Choice { default, .. })) => {
+            default.is_none_or(|name| default_of(process, section, name) == section.name())
+        }
         _ => true,
     }
+}
+
+/// The variant that holds by default: the linkage depends on the process.
+fn default_of(process: ProcessName, section: &Section, name: &'static str) -> &'static str {
+    if section.path.starts_with("operation[].linkage") { process.default_linkage() } else { name }
 }
 
 /// Whether a key stands ready, with the value that holds without it, or with its example if it must be written.

@@ -19,11 +19,11 @@ pub enum SegmentName {
     BaseRight,
     /// Right (clockwise) flank.
     FlankRight,
-    /// Round or chamfer between right flank and tip.
+    /// Round, chamfer or protuberance between right flank and tip.
     CornerRight,
     /// Tip circle.
     Tip,
-    /// Round or chamfer between tip and left flank.
+    /// Round, chamfer or protuberance between tip and left flank.
     CornerLeft,
     /// Left (counter-clockwise) flank.
     FlankLeft,
@@ -120,6 +120,40 @@ impl Profile for InvoluteProfile {
     }
 }
 
+/// A smooth curve in the blade frame over a parameter, nearly proportional to the place along its chord.
+pub trait BladeCurve {
+    /// Point (mm) and derivative with respect to the parameter.
+    fn point_and_rate(&self, parameter: f64) -> [DVec2; 2];
+}
+
+/// Part of a [`BladeCurve`] as a profile over its chord.
+struct CurveProfile<'a, C> {
+    curve: &'a C,
+    segment_from_blade: Rigid2,
+    range: [f64; 2],
+}
+
+impl<C: BladeCurve> Profile for CurveProfile<'_, C> {
+    fn x_and_slope(&self, y_mm: f64) -> [f64; 2] {
+        let at = |w: f64| {
+            let [point, rate] = self.curve.point_and_rate(w);
+            [self.segment_from_blade.point(point), self.segment_from_blade.direction(rate)]
+        };
+        let ([w0, w1], [y0, y1]) = (self.range, self.range.map(|w| at(w)[0].y));
+        let mut w = w0 + (w1 - w0) * (y_mm - y0) / (y1 - y0);
+        for _ in 0..50 {
+            let [point, rate] = at(w);
+            let step = (y_mm - point.y) / rate.y;
+            w += step;
+            if step.abs() < 1e-15 * (1.0 + w.abs()) {
+                break;
+            }
+        }
+        let [point, rate] = at(w);
+        [point.x, rate.x / rate.y]
+    }
+}
+
 /// The chord itself.
 struct StraightProfile;
 
@@ -148,6 +182,19 @@ impl Segment {
         let segment_from_blade = blade_from_segment.inverse();
         let half_mm = 0.5 * start.distance(end);
         let profile = InvoluteProfile { involute, segment_from_blade, roll_range: rolls };
+        let table = EdgeTable::fit(&profile, [-half_mm, half_mm])?;
+        Ok(Self::from_table(name, blade_from_segment, table, [-half_mm, half_mm]))
+    }
+
+    /// Part of a curve between two parameters, in the chain's direction.
+    ///
+    /// # Errors
+    /// The error in mm that even the finest table keeps.
+    pub fn curve(name: SegmentName, curve: &impl BladeCurve, range: [f64; 2]) -> Result<Self, f64> {
+        let [start, end] = range.map(|w| curve.point_and_rate(w)[0]);
+        let blade_from_segment = chord_frame(start, end);
+        let half_mm = 0.5 * start.distance(end);
+        let profile = CurveProfile { curve, segment_from_blade: blade_from_segment.inverse(), range };
         let table = EdgeTable::fit(&profile, [-half_mm, half_mm])?;
         Ok(Self::from_table(name, blade_from_segment, table, [-half_mm, half_mm]))
     }

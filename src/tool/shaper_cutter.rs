@@ -4,9 +4,9 @@
 //! angle on the pitch circle r_c = m z0 / 2, tooth thickness pi m / 2 + 2 x0 m tan(alpha) - thinning, tip circle (ha0 + x0) m above it. Below the base circle the flank goes on
 //! straight along the tangent of the involute's last point, as cutters are relieved there; its exact run touches only gear tips that reach below the cutter's involute.
 
-use super::CuttingTool;
 use super::edge::{Edge, Segment, SegmentName};
 use super::involute::{Involute, inv};
+use super::{CuttingTool, PlanarTool};
 use crate::error::Refusal;
 use crate::frame::Rigid2;
 use crate::scene::model;
@@ -236,7 +236,9 @@ impl CuttingTool for ShaperCutter {
     fn edge(&self) -> &Edge {
         &self.edge
     }
+}
 
+impl PlanarTool for ShaperCutter {
     fn tool_from_blade(&self, index: u32) -> Rigid2 {
         Rigid2::new(self.tooth_angles_rad[index as usize], self.runout_mm)
     }
@@ -252,6 +254,8 @@ mod tests {
             module_mm: 3.0,
             teeth: 42,
             pressure_angle_rad: 20_f64.to_radians(),
+            helix_angle_rad: 0.0,
+            hand: model::Hand::Right,
             face_width_mm: 30.0,
             addendum_coefficient: 1.0,
             bore_diameter_mm: 20.0,

@@ -10,9 +10,10 @@ use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
 use gearcut::cut::gpu::adapter::{AdapterWish, adapters};
 use gearcut::cut::gpu::{Gpu, GpuOptions, OnGpuFailure};
-use gearcut::dexel::{Field, Layer};
-use gearcut::passes::CutPlan;
+use gearcut::dexel::{Field, Layer, Ray, SpatialField};
+use gearcut::passes::{CutPlan, SweepPlan};
 use gearcut::tool::edge::Edge;
+use glam::DVec3;
 use std::fmt;
 
 /// Largest difference between the GPU's height and the native one.
@@ -58,10 +59,10 @@ pub struct Parity {
 
 impl Parity {
     /// Adds what two backends made of one field; `shifted`: the native layers with rays shifted to both sides.
-    pub fn add(&mut self, place: &str, field: &Field, native: &Layer, shifted: &[Layer; 2], gpu: &Layer) {
-        let rows = field.rows();
-        for dexel in 0..field.len() {
-            let heights = [native, &shifted[0], &shifted[1]].map(|layer| f64::from(layer.heights_mm[dexel]) * 1e6);
+    pub fn add(&mut self, place: &str, rows: usize, native: &Layer, shifted: &[Layer], gpu: &Layer) {
+        for dexel in 0..native.heights_mm.len() {
+            let layers = std::iter::once(native).chain(shifted);
+            let heights: Vec<f64> = layers.map(|layer| f64::from(layer.heights_mm[dexel]) * 1e6).collect();
             let got = f64::from(gpu.heights_mm[dexel]) * 1e6;
             let blank = gpu.passes[dexel] == u32::MAX;
             self.poisoned += usize::from(!got.is_finite());
@@ -181,6 +182,42 @@ pub fn cut_both(
     ];
     let mut parity = Parity::default();
     let [center, left, right, got] = &layers;
-    parity.add(place, field, center, &[left.clone(), right.clone()], got);
+    parity.add(place, field.rows(), center, &[left.clone(), right.clone()], got);
     (parity, layers)
+}
+
+/// A field in space with every ray shifted sideways along one of two directions.
+fn shifted_in_space(field: &SpatialField, by_mm: [f64; 2]) -> SpatialField {
+    SpatialField::new(field.columns(), field.rows(), field.low_mm, |column, row| {
+        let ray = field.ray(column, row);
+        let along = ray.normal.cross(DVec3::Z).normalize();
+        let origin_mm = ray.origin_mm + by_mm[0] * along + by_mm[1] * ray.normal.cross(along);
+        (Ray { origin_mm, ..ray }, f64::from(field.blank_mm[field.index(column, row)]))
+    })
+}
+
+/// Runs one plan of sweeps on both backends from the blank and compares; gives the native layer, those of four shifts, and the GPU's.
+pub fn cut_both_in_space(
+    gpu: &dyn Backend,
+    place: &str,
+    field: &SpatialField,
+    edge: &Edge,
+    plan: &SweepPlan,
+) -> (Parity, Layer, Vec<Layer>, Layer) {
+    let run = |backend: &dyn Backend, field: &SpatialField| {
+        let mut layer = field.blank_layer();
+        let stats =
+            backend.cut_spatial(field, edge, plan, &mut layer).unwrap_or_else(|error| panic!("{place}: {error}"));
+        assert_eq!(stats.unconverged, 0, "{place}: iterations of {} stopped short", backend.name());
+        assert_eq!(stats.dexel_passes, plan.dexel_passes(), "{place}");
+        layer
+    };
+    let native = Cpu::default();
+    let center = run(&native, field);
+    let shifts = [[SHIFT_MM, 0.0], [-SHIFT_MM, 0.0], [0.0, SHIFT_MM], [0.0, -SHIFT_MM]];
+    let shifted: Vec<Layer> = shifts.map(|by| run(&native, &shifted_in_space(field, by))).into();
+    let got = run(gpu, field);
+    let mut parity = Parity::default();
+    parity.add(place, field.rows(), &center, &shifted, &got);
+    (parity, center, shifted, got)
 }

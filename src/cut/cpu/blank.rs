@@ -13,7 +13,7 @@ use crate::dexel::intervals::{self, End};
 use crate::passes::StrokeSet;
 use crate::passes::blank_candidates::{PlacedPass, passes_at, reaching_strip};
 use crate::planar_rays::{Crossing, FAMILIES, Family, RayCrossings, RayRow};
-use crate::tool::CuttingTool;
+use crate::tool::PlanarTool;
 use crate::tool::closed_tooth::{ClosedTooth, PlacedScratch};
 use glam::DVec2;
 use rayon::prelude::*;
@@ -31,7 +31,7 @@ pub struct BlankOperation<'a> {
     /// Poses of the return strokes, if they are to be checked.
     pub returns: Option<&'a StrokeSet>,
     /// The cutter.
-    pub tool: &'a dyn CuttingTool,
+    pub tool: &'a dyn PlanarTool,
     /// Its tooth as a closed region.
     pub tooth: &'a ClosedTooth,
     /// Largest distance of the blank from the gear axis, mm.

@@ -1,15 +1,18 @@
-//! The native backend: f64, one tile at a time, 16 rows at once, with the widest vectors that the processor has.
+//! The native backend: f64, one tile at a time, 16 rows at once (8 in space), with the widest vectors that the processor has.
 //!
 //! The instruction set is chosen when the program starts, so `cargo build --release` without flags is fast everywhere. No fused multiply-add is used and every
-//! chunk has the same 16 rows on all of them: AVX2, AVX-512 and plain x86-64 or ARM give the **same bytes**.
+//! chunk has the same rows on all of them: AVX2, AVX-512 and plain x86-64 or ARM give the **same bytes**.
 
 pub mod blank;
 mod planar;
+mod spatial;
+
+pub use spatial::Taken;
 
 use super::{Backend, CutStats};
-use crate::dexel::{Field, Layer};
+use crate::dexel::{Field, Layer, SpatialField};
 use crate::error::Error;
-use crate::passes::CutPlan;
+use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
 use pulp::Arch;
 #[cfg(target_arch = "x86_64")]
@@ -61,7 +64,38 @@ impl Cpu {
         }
     }
 
-    fn dispatch(self, tile: planar::TileCut) -> CutStats {
+    /// Runs all records of a plan in their order and books what each takes from the rays: one entry for each record of the plan. `spread_per_mm`: how much the rays
+    /// of each column part (curvature of the curve that they stand on), so that lengths become areas.
+    ///
+    /// The plan must hold every pass that reaches the field: what a pruned one would have taken would be booked on another.
+    pub fn cut_with_ledger(
+        self,
+        field: &SpatialField,
+        edge: &Edge,
+        plan: &SweepPlan,
+        spread_per_mm: &[f64],
+        layer: &mut Layer,
+    ) -> (CutStats, Vec<Taken>) {
+        let mut stats = CutStats::default();
+        let mut taken = vec![Taken::default(); plan.records.len()];
+        for tile in &plan.tiles {
+            stats += self.dispatch(spatial::LedgerCut {
+                cut: spatial::SpatialTileCut {
+                    field,
+                    tile,
+                    records: &plan.records[tile.records.clone()],
+                    segments: &edge.segments,
+                    heights_mm: &mut layer.heights_mm,
+                    passes: &mut layer.passes,
+                },
+                spread_per_mm,
+                taken: &mut taken[tile.records.clone()],
+            });
+        }
+        (stats, taken)
+    }
+
+    fn dispatch<T: pulp::NullaryFnOnce<Output = CutStats>>(self, tile: T) -> CutStats {
         match self.vectors {
             Vectors::Widest => Arch::new().dispatch(tile),
             Vectors::Baseline => pulp::NullaryFnOnce::call(tile),
@@ -94,6 +128,27 @@ impl Backend for Cpu {
                 row_phases: &plan.row_phases,
                 heights_mm: &mut layer.heights_mm[dexels.clone()],
                 passes: &mut layer.passes[dexels],
+            });
+        }
+        Ok(stats)
+    }
+
+    fn cut_spatial(
+        &self,
+        field: &SpatialField,
+        edge: &Edge,
+        plan: &SweepPlan,
+        layer: &mut Layer,
+    ) -> Result<CutStats, Error> {
+        let mut stats = CutStats { dexels: field.len() as u64, ..CutStats::default() };
+        for tile in &plan.tiles {
+            stats += self.dispatch(spatial::SpatialTileCut {
+                field,
+                tile,
+                records: &plan.records[tile.records.clone()],
+                segments: &edge.segments,
+                heights_mm: &mut layer.heights_mm,
+                passes: &mut layer.passes,
             });
         }
         Ok(stats)

@@ -64,37 +64,85 @@ impl EdgeCells {
             pass_id: record.pass,
             ..bytemuck::Zeroable::zeroed()
         };
-        let base = match &segment.shape {
-            SegmentShape::Table(table) => {
-                let cells = table.cells.len();
-                let place = (y[0].clamp(table.y_start_mm, table.y_end_mm()) - table.y_start_mm) * table.cells_per_mm;
-                let index = (place as usize).min(cells - 1);
-                let base_cell = self.first[record.segment as usize] + index as u32;
-                out.base_x_mm = self.cells[base_cell as usize][0];
-                out.cells_per_mm = table.cells_per_mm as f32;
-                out.cell_width_mm = (1.0 / table.cells_per_mm) as f32;
-                out.first_cell = -(index as f32);
-                out.last_cell = (cells - 1 - index) as f32;
-                out.base_cell = base_cell;
-                DVec2::new(f64::from(out.base_x_mm), table.y_start_mm + index as f64 / table.cells_per_mm)
-            }
-            SegmentShape::Arc { radius_mm } => {
-                let from_center = DVec2::new(x[0] + radius_mm, y[0]).normalize_or(DVec2::X) * *radius_mm;
-                out.base_x_mm = from_center.x as f32;
-                out.base_y_mm = from_center.y as f32;
-                let rounded = DVec2::new(f64::from(out.base_x_mm), f64::from(out.base_y_mm));
-                out.arc_excess_mm2 = (rounded.length_squared() - radius_mm * radius_mm) as f32;
-                rounded - DVec2::new(*radius_mm, 0.0)
-            }
-        };
-        x[0] -= base.x;
-        y[0] -= base.y;
+        let base = self.base(record.segment as usize, segment, DVec2::new(x[0], y[0]));
+        x[0] -= base.point.x;
+        y[0] -= base.point.y;
         out.x_mm = x.map(|c| c as f32);
         out.y_mm = y.map(|c| c as f32);
-        out.y_from_mm = (segment.y_range_mm[0] - END_OVERLAP_MM - base.y) as f32;
-        out.y_to_mm = (segment.y_range_mm[1] + END_OVERLAP_MM - base.y) as f32;
+        [out.y_from_mm, out.y_to_mm] = base.y_range_mm;
+        out.base_x_mm = base.x_mm;
+        out.base_y_mm = base.y_mm;
+        out.arc_excess_mm2 = base.arc_excess_mm2;
+        out.cells_per_mm = base.cells_per_mm;
+        out.cell_width_mm = base.cell_width_mm;
+        out.first_cell = base.first_cell;
+        out.last_cell = base.last_cell;
+        out.base_cell = base.cell;
         out
     }
+
+    /// Base point of a segment for what comes near `place` (segment frame).
+    pub fn base(&self, index: usize, segment: &Segment, place: DVec2) -> Base {
+        let mut base = match &segment.shape {
+            SegmentShape::Table(table) => {
+                let cells = table.cells.len();
+                let at = (place.y.clamp(table.y_start_mm, table.y_end_mm()) - table.y_start_mm) * table.cells_per_mm;
+                let before = (at as usize).min(cells - 1);
+                let cell = self.first[index] + before as u32;
+                let x_mm = self.cells[cell as usize][0];
+                Base {
+                    point: DVec2::new(f64::from(x_mm), table.y_start_mm + before as f64 / table.cells_per_mm),
+                    x_mm,
+                    cells_per_mm: table.cells_per_mm as f32,
+                    cell_width_mm: (1.0 / table.cells_per_mm) as f32,
+                    first_cell: -(before as f32),
+                    last_cell: (cells - 1 - before) as f32,
+                    cell,
+                    ..Base::default()
+                }
+            }
+            SegmentShape::Arc { radius_mm } => {
+                let from_center = (place + DVec2::new(*radius_mm, 0.0)).normalize_or(DVec2::X) * *radius_mm;
+                let (x_mm, y_mm) = (from_center.x as f32, from_center.y as f32);
+                let rounded = DVec2::new(f64::from(x_mm), f64::from(y_mm));
+                Base {
+                    point: rounded - DVec2::new(*radius_mm, 0.0),
+                    x_mm,
+                    y_mm,
+                    arc_excess_mm2: (rounded.length_squared() - radius_mm * radius_mm) as f32,
+                    ..Base::default()
+                }
+            }
+        };
+        let [from, to] = segment.y_range_mm;
+        base.y_range_mm = [from - END_OVERLAP_MM - base.point.y, to + END_OVERLAP_MM - base.point.y].map(|y| y as f32);
+        base
+    }
+}
+
+/// Where a segment's coordinates start for one record, and what the shader needs of the segment from there.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Base {
+    /// The base point, segment frame, mm.
+    pub point: DVec2,
+    /// Ends of the segment against it, overlapping, mm.
+    pub y_range_mm: [f32; 2],
+    /// Table: x of the base cell. Arc: x of the base point against the centre, mm.
+    pub x_mm: f32,
+    /// Arc: y of the base point against the centre, mm.
+    pub y_mm: f32,
+    /// Arc: square of its distance from the centre less that of the radius, mm^2.
+    pub arc_excess_mm2: f32,
+    /// Table: cells in a millimetre; 0 for an arc.
+    pub cells_per_mm: f32,
+    /// Table: width of a cell, mm.
+    pub cell_width_mm: f32,
+    /// Table: first cell against the base cell.
+    pub first_cell: f32,
+    /// Table: last cell against the base cell.
+    pub last_cell: f32,
+    /// Table: base cell among the cells of all segments.
+    pub cell: u32,
 }
 
 /// A column for the shader, in the frame of its tile.

@@ -15,18 +15,20 @@ pub mod pipeline;
 mod problem;
 mod readback;
 pub mod records;
+mod spatial;
+pub mod sweep_records;
 
 use super::cpu::Cpu;
 use super::{Backend, CutStats, StageTime};
-use crate::dexel::{Field, Layer};
+use crate::dexel::{Field, Layer, SpatialField};
 use crate::error::Error;
-use crate::passes::CutPlan;
+use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
 use adapter::{AdapterFacts, AdapterWish, FoundAdapter};
 use batches::{Allowance, Batch, Round};
 use compose::EdgeCells;
 use device::Device;
-use readback::{InFlight, Returned, Shipment};
+use readback::{InFlight, Input, Launch, Returned, Shipment};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 pub use problem::GpuProblem;
@@ -64,6 +66,7 @@ pub struct Gpu {
     device: Device,
     planar_flank: Vec<wgpu::ComputePipeline>,
     blank_rays: Vec<wgpu::ComputePipeline>,
+    spatial_flank: Vec<wgpu::ComputePipeline>,
     options: GpuOptions,
     native: Cpu,
     log: Mutex<Log>,
@@ -72,8 +75,20 @@ pub struct Gpu {
 #[derive(Default)]
 struct Log {
     incidents: Vec<String>,
-    batches: u64,
-    device_ns: f64,
+    stages: Vec<StageTime>,
+}
+
+impl Log {
+    fn count(&mut self, stage: &'static str, device_ns: Option<f64>) {
+        let device_s = device_ns.unwrap_or(0.0) * 1e-9;
+        match self.stages.iter_mut().find(|time| time.stage == stage) {
+            Some(time) => {
+                time.batches += 1;
+                time.device_s += device_s;
+            }
+            None => self.stages.push(StageTime { stage, batches: 1, device_s }),
+        }
+    }
 }
 
 impl Gpu {
@@ -93,7 +108,9 @@ impl Gpu {
         let device = Device::open(adapter)?;
         let planar_flank = pipeline::pipelines(&device, &pipeline::PLANAR_FLANK)?;
         let blank_rays = pipeline::pipelines(&device, &pipeline::BLANK_RAYS)?;
-        Ok(Self { device, planar_flank, blank_rays, options, native: Cpu::default(), log: Mutex::default() })
+        let spatial_flank = pipeline::pipelines(&device, &pipeline::SPATIAL_FLANK)?;
+        let native = Cpu::default();
+        Ok(Self { device, planar_flank, blank_rays, spatial_flank, options, native, log: Mutex::default() })
     }
 
     /// The adapter in use.
@@ -104,6 +121,35 @@ impl Gpu {
     /// Gives the device up as a driver reset would: whatever is on it is lost, and so is all that follows.
     pub fn lose_device(&self) {
         self.device.handle.destroy();
+    }
+
+    fn allowance(&self) -> Allowance {
+        let facts = &self.device.facts;
+        Allowance {
+            buffer_bytes: facts.binding_bytes.min(facts.buffer_bytes),
+            batch_bytes: self.options.memory_limit_bytes.map_or(facts.buffer_bytes, |all| all / IN_FLIGHT as u64),
+        }
+    }
+
+    /// Cuts on the device, or natively if that is what a failure asks for.
+    fn cut_or_redo(
+        &self,
+        layer: &mut Layer,
+        [dexels, dexel_passes]: [u64; 2],
+        on_device: impl FnOnce(&Layer) -> Result<(Layer, u64), GpuProblem>,
+        natively: impl FnOnce(&mut Layer) -> Result<CutStats, Error>,
+    ) -> Result<CutStats, Error> {
+        match on_device(layer) {
+            Ok((cut, unconverged)) => {
+                *layer = cut;
+                Ok(CutStats { dexels, dexel_passes, unconverged })
+            }
+            Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
+            Err(problem) => {
+                self.log().incidents.push(format!("{problem}; cut again on {}", self.native.name()));
+                natively(layer)
+            }
+        }
     }
 
     fn log(&self) -> MutexGuard<'_, Log> {
@@ -121,11 +167,7 @@ impl Gpu {
         self.device.alive()?;
         let work = Work { gpu: self, field, edge, plan, layer, cells: EdgeCells::new(edge) };
         let row_phases: Vec<f32> = plan.row_phases.iter().map(|&tau| tau as f32).collect();
-        let facts = &self.device.facts;
-        let allowance = Allowance {
-            buffer_bytes: facts.binding_bytes.min(facts.buffer_bytes),
-            batch_bytes: self.options.memory_limit_bytes.map_or(facts.buffer_bytes, |all| all / IN_FLIGHT as u64),
-        };
+        let allowance = self.allowance();
         let mut result = layer.clone();
         let mut unconverged = 0;
         let mut waiting: Vec<(Batch, InFlight)> = Vec::new();
@@ -135,9 +177,7 @@ impl Gpu {
             result.heights_mm[dexels.clone()].copy_from_slice(&heights_mm);
             result.passes[dexels].copy_from_slice(&passes);
             unconverged += u64::from(short);
-            let mut log = self.log();
-            log.batches += 1;
-            log.device_ns += device_ns.unwrap_or(0.0);
+            self.log().count(pipeline::PLANAR_FLANK.name, device_ns);
             Ok(())
         };
         for batch in batches::batches(plan, allowance)? {
@@ -174,15 +214,40 @@ impl Work<'_> {
             field.columns[piece.columns.clone()].iter().map(move |ray| compose::column(ray, tile.origin_mm, &middle))
         });
         let dexels = batch.columns.start * rows..batch.columns.end * rows;
+        let columns: Vec<records::Column> = columns.collect();
+        let rounds: Vec<Round> = rounds.filter(|round| !round.records.is_empty()).collect();
+        let launch =
+            records::Launch { rows: rows as u32, threads_per_column: pipeline::threads_per_column(rows) as u32 };
+        let shared = |label, bytes| Input::Shared { label, bytes, usage: wgpu::BufferUsages::STORAGE };
+        let launches: Vec<Launch> = rounds
+            .iter()
+            .map(|round| Launch {
+                pipeline: &gpu.planar_flank[usize::from(round.is_frozen())],
+                tiles: bytemuck::cast_slice(&round.tiles),
+                records: bytemuck::cast_slice(&round.records),
+                workgroups: [
+                    (round.widest as u32 * launch.threads_per_column).div_ceil(WORKGROUP_THREADS),
+                    round.tiles.len() as u32,
+                ],
+            })
+            .collect();
         readback::send(
             &gpu.device,
-            &gpu.planar_flank,
             &Shipment {
-                rows,
-                columns: columns.collect(),
-                rounds: rounds.filter(|round| !round.records.is_empty()).collect(),
-                cells: &cells.cells,
-                row_phases,
+                stage: pipeline::PLANAR_FLANK.name,
+                inputs: &[
+                    Input::Shared {
+                        label: "launch",
+                        bytes: bytemuck::bytes_of(&launch),
+                        usage: wgpu::BufferUsages::UNIFORM,
+                    },
+                    Input::Tiles,
+                    shared("columns", bytemuck::cast_slice(&columns)),
+                    Input::Records,
+                    shared("cells", bytemuck::cast_slice(&cells.cells)),
+                    shared("row phases", bytemuck::cast_slice(row_phases)),
+                ],
+                launches: &launches,
                 heights_mm: &layer.heights_mm[dexels.clone()],
                 passes: &layer.passes[dexels],
                 poison: gpu.options.poison_outputs,
@@ -198,17 +263,27 @@ impl Backend for Gpu {
     }
 
     fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error> {
-        match self.cut_on_device(field, edge, plan, layer) {
-            Ok((cut, unconverged)) => {
-                *layer = cut;
-                Ok(CutStats { dexels: field.len() as u64, dexel_passes: plan.dexel_passes(), unconverged })
-            }
-            Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
-            Err(problem) => {
-                self.log().incidents.push(format!("{problem}; cut again on {}", self.native.name()));
-                self.native.cut(field, edge, plan, layer)
-            }
-        }
+        self.cut_or_redo(
+            layer,
+            [field.len() as u64, plan.dexel_passes()],
+            |layer| self.cut_on_device(field, edge, plan, layer),
+            |layer| self.native.cut(field, edge, plan, layer),
+        )
+    }
+
+    fn cut_spatial(
+        &self,
+        field: &SpatialField,
+        edge: &Edge,
+        plan: &SweepPlan,
+        layer: &mut Layer,
+    ) -> Result<CutStats, Error> {
+        self.cut_or_redo(
+            layer,
+            [field.len() as u64, plan.dexel_passes()],
+            |layer| spatial::cut_on_device(self, field, edge, plan, layer),
+            |layer| self.native.cut_spatial(field, edge, plan, layer),
+        )
     }
 
     fn incidents(&self) -> Vec<String> {
@@ -219,8 +294,6 @@ impl Backend for Gpu {
         if !self.device.facts.timestamps {
             return Vec::new();
         }
-        let log = self.log();
-        let stage = pipeline::PLANAR_FLANK.name;
-        vec![StageTime { stage, batches: log.batches, device_s: log.device_ns * 1e-9 }]
+        self.log().stages.clone()
     }
 }

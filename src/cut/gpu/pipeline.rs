@@ -46,8 +46,22 @@ pub const BLANK_RAYS: Stage = Stage {
     variants: &[&[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64)]],
 };
 
+/// The spatial kernel: rake faces that are planes, and helical ones.
+pub const SPATIAL_FLANK: Stage = Stage {
+    name: "spatial_flank",
+    text: concat!(
+        include_str!("../../../shaders/shared/sweep_records.wgsl"),
+        include_str!("../../../shaders/spatial_flank.wgsl"),
+    ),
+    bindings: &["tiles", "records", "cells", "rays", "heights_mm", "passes", "unconverged"],
+    variants: &[
+        &[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64), ("TWISTED", 0.0)],
+        &[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64), ("TWISTED", 1.0)],
+    ],
+};
+
 /// All stages, for the tests that check every one.
-pub const STAGES: &[Stage] = &[PLANAR_FLANK, BLANK_RAYS];
+pub const STAGES: &[Stage] = &[PLANAR_FLANK, BLANK_RAYS, SPATIAL_FLANK];
 
 /// Pipelines of a stage, one for each variant.
 ///

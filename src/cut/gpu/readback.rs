@@ -4,11 +4,8 @@
 //! stopped short, the device's own time. Sending returns at once; the next batch is composed and sent while the device
 //! works on this one.
 
-use super::batches::Round;
 use super::device::Device;
-use super::pipeline::threads_per_column;
 use super::problem::GpuProblem;
-use super::records::{Column, Launch};
 use std::sync::mpsc;
 use std::time::Duration;
 use wgpu::BufferUsages as Use;
@@ -19,18 +16,43 @@ const PATIENCE: Duration = Duration::from_secs(600);
 /// Rounds of a batch that are timed; later ones, if a tile has that many records, are not.
 const TIMED_ROUNDS: usize = 256;
 
+/// What a binding before heights and passes holds.
+pub enum Input<'a> {
+    /// The same bytes in all launches of the batch.
+    Shared {
+        /// Name of the binding.
+        label: &'static str,
+        /// Its bytes.
+        bytes: &'a [u8],
+        /// `UNIFORM` or `STORAGE`.
+        usage: Use,
+    },
+    /// The launch's tiles.
+    Tiles,
+    /// The launch's records.
+    Records,
+}
+
+/// One launch of a stage.
+pub struct Launch<'a> {
+    /// The stage's pipeline in the variant that serves.
+    pub pipeline: &'a wgpu::ComputePipeline,
+    /// Tiles as bytes.
+    pub tiles: &'a [u8],
+    /// Records as bytes.
+    pub records: &'a [u8],
+    /// Workgroups in both dimensions.
+    pub workgroups: [u32; 2],
+}
+
 /// What goes to the device.
 pub struct Shipment<'a> {
-    /// Rows of the field.
-    pub rows: usize,
-    /// Columns of the batch.
-    pub columns: Vec<Column>,
+    /// Name of the stage.
+    pub stage: &'static str,
+    /// Bindings in order; heights, passes and the count of iterations that stopped short follow them.
+    pub inputs: &'a [Input<'a>],
     /// Launches in order.
-    pub rounds: Vec<Round>,
-    /// Cells of all segments.
-    pub cells: &'a [[f32; 4]],
-    /// Phase of every row.
-    pub row_phases: &'a [f32],
+    pub launches: &'a [Launch<'a>],
     /// Heights before.
     pub heights_mm: &'a [f32],
     /// Passes before.
@@ -65,24 +87,26 @@ pub struct Returned {
 ///
 /// # Errors
 /// The device is lost, or refuses memory or a call.
-pub fn send(device: &Device, pipelines: &[wgpu::ComputePipeline], shipment: &Shipment) -> Result<InFlight, GpuProblem> {
+pub fn send(device: &Device, shipment: &Shipment) -> Result<InFlight, GpuProblem> {
     device.checked(|| {
         let buffer = |label: &str, bytes: &[u8], usage: Use| {
             let buffer = empty(device, label, bytes.len() as u64, usage | Use::COPY_DST);
             device.queue.write_buffer(&buffer, 0, bytes);
             buffer
         };
-        let launch =
-            Launch { rows: shipment.rows as u32, threads_per_column: threads_per_column(shipment.rows) as u32 };
-        let launch_buffer = buffer("launch", bytemuck::bytes_of(&launch), Use::UNIFORM);
-        let columns = buffer("columns", bytemuck::cast_slice(&shipment.columns), Use::STORAGE);
-        let cells = buffer("cells", bytemuck::cast_slice(shipment.cells), Use::STORAGE);
-        let row_phases = buffer("row phases", bytemuck::cast_slice(shipment.row_phases), Use::STORAGE);
+        let shared: Vec<Option<wgpu::Buffer>> = shipment
+            .inputs
+            .iter()
+            .map(|input| match *input {
+                Input::Shared { label, bytes, usage } => Some(buffer(label, bytes, usage)),
+                Input::Tiles | Input::Records => None,
+            })
+            .collect();
         let heights = buffer("heights", bytemuck::cast_slice(shipment.heights_mm), Use::STORAGE | Use::COPY_SRC);
         let passes = buffer("passes", bytemuck::cast_slice(shipment.passes), Use::STORAGE | Use::COPY_SRC);
         let unconverged = buffer("unconverged", bytemuck::bytes_of(&0_u32), Use::STORAGE | Use::COPY_SRC);
 
-        let timed = if device.facts.timestamps { shipment.rounds.len().min(TIMED_ROUNDS) } else { 0 };
+        let timed = if device.facts.timestamps { shipment.launches.len().min(TIMED_ROUNDS) } else { 0 };
         let stamps = (timed > 0).then(|| Stamps::new(device, timed));
         let dexel_bytes = size_of_val(shipment.heights_mm);
         let back_bytes = 2 * dexel_bytes + 8 + 16 * timed;
@@ -92,30 +116,31 @@ pub fn send(device: &Device, pipelines: &[wgpu::ComputePipeline], shipment: &Shi
         }
 
         let mut encoder = device.handle.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        for (index, round) in shipment.rounds.iter().enumerate() {
-            let pipeline = &pipelines[usize::from(round.is_frozen())];
-            let tiles = buffer("tiles", bytemuck::cast_slice(&round.tiles), Use::STORAGE);
-            let records = buffer("records", bytemuck::cast_slice(&round.records), Use::STORAGE);
-            let bindings =
-                [&launch_buffer, &tiles, &columns, &records, &cells, &row_phases, &heights, &passes, &unconverged];
+        for (index, launch) in shipment.launches.iter().enumerate() {
+            let tiles = buffer("tiles", launch.tiles, Use::STORAGE);
+            let records = buffer("records", launch.records, Use::STORAGE);
+            let inputs = shipment.inputs.iter().zip(&shared).map(|(input, shared)| match (input, shared) {
+                (Input::Records, _) => &records,
+                (_, Some(shared)) => shared,
+                (_, None) => &tiles,
+            });
             let entries: Vec<wgpu::BindGroupEntry> = (0..)
-                .zip(bindings)
+                .zip(inputs.chain([&heights, &passes, &unconverged]))
                 .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
                 .collect();
+            let pipeline = launch.pipeline;
             let group = device.handle.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: None,
                 layout: &pipeline.get_bind_group_layout(0),
                 entries: &entries,
             });
             let timestamp_writes = stamps.as_ref().filter(|_| index < timed).map(|s| s.writes(index));
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: Some(super::pipeline::PLANAR_FLANK.name),
-                timestamp_writes,
-            });
+            let mut pass = encoder
+                .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(shipment.stage), timestamp_writes });
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &group, &[]);
-            let threads = round.widest as u32 * launch.threads_per_column;
-            pass.dispatch_workgroups(threads.div_ceil(super::WORKGROUP_THREADS), round.tiles.len() as u32, 1);
+            let [x, y] = launch.workgroups;
+            pass.dispatch_workgroups(x, y, 1);
         }
         encoder.copy_buffer_to_buffer(&heights, 0, &back, 0, dexel_bytes as u64);
         encoder.copy_buffer_to_buffer(&passes, 0, &back, dexel_bytes as u64, dexel_bytes as u64);

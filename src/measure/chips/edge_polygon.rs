@@ -180,7 +180,7 @@ fn tip_zone(stations: &[Station]) -> [DVec2; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::model::{Gear, PitchCurveShape, ShaperCutter as Spec, Tip};
+    use crate::scene::model::{Gear, Hand, PitchCurveShape, ShaperCutter as Spec, Tip};
     use crate::tool::{CuttingTool, ShaperCutter};
 
     fn polygon(tip: Tip) -> EdgePolygon {
@@ -192,6 +192,8 @@ mod tests {
             addendum_coefficient: 1.0,
             bore_diameter_mm: 20.0,
             tooth_thickness_allowance_mm: 0.0,
+            helix_angle_rad: 0.0,
+            hand: Hand::Right,
             pitch_curve: PitchCurveShape::Circle,
         };
         let spec = Spec {

@@ -5,7 +5,7 @@ use super::section::Section;
 use super::stroke::{LEAST_CHIP_MM, Stand, StrokeChips, ToothChip};
 use crate::frame::Rigid2;
 use crate::job::Job;
-use crate::tool::CuttingTool;
+use crate::tool::{CuttingTool, PlanarTool};
 use crate::units::TURN_RAD;
 use glam::DVec2;
 use rayon::prelude::*;

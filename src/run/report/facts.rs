@@ -28,7 +28,7 @@ fn table(caption: &str, rows: Vec<(&str, String)>) -> Block {
 
 /// Tables of gear, cutter and machine.
 pub fn section(job: &Job) -> Section {
-    let (gear, tool, machine) = (&job.scene.gear, &job.scene.tool, &job.scene.machine);
+    let (gear, tool, machine) = (&job.scene.gear, &job.cutter_spec, &job.machine);
     let mm = |value: f64| format!("{} mm", plain(value));
     let facts = job.curve.facts();
     let limit = |value: Option<f64>, unit: &str| {

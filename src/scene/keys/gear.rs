@@ -63,6 +63,22 @@ pub(super) static SECTIONS: &[Section] = &[
                 teach: "Pressure angle of gear and cutter on the pitch curve.",
             },
             Key {
+                name: "helix_angle_deg",
+                kind: Kind::Number(Range::closed(0.0, 45.0)),
+                unit: "deg",
+                default: Default::Number(0.0),
+                example: "10.5",
+                teach: "Helix angle on the pitch curve; 0 is a spur gear. Module and pressure angle are those of the normal section. Only hobbing cuts helical gears so far.",
+            },
+            Key {
+                name: "hand",
+                kind: Kind::Word(&["right", "left"]),
+                unit: "",
+                default: Default::Word("right"),
+                example: "\"right\"",
+                teach: "Hand of the helix.",
+            },
+            Key {
                 name: "face_width_mm",
                 kind: Kind::Number(Range::closed(0.1, 1000.0)),
                 unit: "mm",

@@ -1,5 +1,9 @@
 //! Keys of the operations: linkage, feed, offset and infeed.
 
+use super::hobbing::{
+    APPROACH, APPROACH_WAY, AXIAL_FEED, FEED_DIRECTION, HEAD_ANGLE, HOB_SPEED, OVERRUN_WAY, RADIAL_FEED,
+    RIDGE_TOLERANCE, SHIFT_START,
+};
 use super::{Default, Group, Key, Kind, Range, Role, Section};
 
 /// A depth of an infeed.
@@ -47,7 +51,7 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "mm",
                 default: Default::Number(0.0),
                 example: "0.0",
-                teach: "delta_d: how far the cutter stays back, along the direction the linkage gives; 0 cuts to depth.",
+                teach: "delta_d: how far the tool stays back, along the direction the linkage gives (radially in hobbing); 0 cuts to depth.",
             },
             Key {
                 name: "stock_per_flank_mm",
@@ -121,6 +125,16 @@ pub(super) static SECTIONS: &[Section] = &[
                 example: "\"finish.ngc\"",
                 teach: "Axis program (G-code, relative to the scene file) that is cut instead of the linkage's own positions; the linkage remains the target, so that maps show what the program does wrong.",
             },
+            HOB_SPEED,
+            AXIAL_FEED,
+            FEED_DIRECTION,
+            APPROACH,
+            RADIAL_FEED,
+            APPROACH_WAY,
+            OVERRUN_WAY,
+            HEAD_ANGLE,
+            SHIFT_START,
+            RIDGE_TOLERANCE,
         ],
         groups: &[
             Group { names: &["offset_mm", "stock_per_flank_mm"], required: false },
@@ -133,7 +147,7 @@ pub(super) static SECTIONS: &[Section] = &[
         role: Role::Choice { default: Some("shaping_normal"), what: "linkage" },
         keys: &[],
         groups: &[],
-        teach: "Law that moves the axes. With an offset of 0 both linkages cut the same gear.",
+        teach: "Law that moves the axes. With an offset of 0 both linkages of shaping cut the same gear; with [tool.hob] the default is hobbing.",
     },
     Section {
         path: "operation[].linkage.shaping_traditional",

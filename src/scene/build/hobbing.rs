@@ -1,0 +1,152 @@
+//! Checked values of a hobbing scene to the model.
+
+use super::{mm_from_um, rad, stock_or_offset};
+use crate::scene::model::{
+    Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, Hand, Hob, HobSize, Hobbing,
+    HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
+};
+use crate::scene::values::{Values, View};
+use crate::units::TURN_RAD;
+
+pub(super) fn hobbing(values: &Values, pressure_angle_rad: f64) -> Option<Hobbing> {
+    let operations: Option<Vec<HobbingOperation>> = (0..values.count("operation"))
+        .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
+        .collect();
+    Some(Hobbing { tool: hob(values.view("tool.hob"))?, limits: limits(values), operations: operations? })
+}
+
+pub(super) fn hand(word: &str) -> Option<Hand> {
+    match word {
+        "right" => Some(Hand::Right),
+        "left" => Some(Hand::Left),
+        _ => None,
+    }
+}
+
+fn hob(hob: View<'_>) -> Option<Hob> {
+    Some(Hob {
+        starts: hob.whole("starts")?,
+        hand: hand(hob.text("hand")?)?,
+        gashes: hob.whole("gashes")?,
+        gash_form: match hob.text("gash_form")? {
+            "axial" => GashForm::Axial,
+            "helical" => GashForm::Helical,
+            _ => return None,
+        },
+        size: match (rad(hob, "lead_angle_deg"), hob.number("reference_diameter_mm")) {
+            (Some(angle), _) => HobSize::LeadAngle(angle),
+            (None, diameter_mm) => HobSize::ReferenceDiameter(diameter_mm?),
+        },
+        length_mm: hob.number("length_mm")?,
+        addendum_coefficient: hob.number("addendum_coefficient")?,
+        dedendum_coefficient: hob.number("dedendum_coefficient")?,
+        worm: match hob.text("worm")? {
+            "involute" => Worm::Involute,
+            "straight_sided" => Worm::StraightSided,
+            _ => return None,
+        },
+        tip_radius_mm: hob.number("tip_radius_mm")?,
+        protuberance: match hob.number("protuberance_height_mm") {
+            Some(height_mm) => Some(Protuberance { height_mm, angle_rad: rad(hob, "protuberance_angle_deg")? }),
+            None => None,
+        },
+        thinning_mm: hob.number("thinning_mm")?,
+        regrind_mm: hob.number("regrind_mm")?,
+    })
+}
+
+fn limits(values: &Values) -> HobbingAxisLimits {
+    let limits = values.view("machine.hobbing_limits");
+    HobbingAxisLimits {
+        speeds: [
+            rad(limits, "hob_speed_deg_per_s"),
+            rad(limits, "work_speed_deg_per_s"),
+            limits.number("tangential_speed_mm_per_s"),
+            limits.number("radial_speed_mm_per_s"),
+            limits.number("slide_speed_mm_per_s"),
+            limits.number("shift_speed_mm_per_s"),
+        ],
+        accelerations: [
+            rad(limits, "hob_acceleration_deg_per_s2"),
+            rad(limits, "work_acceleration_deg_per_s2"),
+            limits.number("tangential_acceleration_mm_per_s2"),
+            limits.number("radial_acceleration_mm_per_s2"),
+            None,
+            None,
+        ],
+    }
+}
+
+fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<HobbingOperation> {
+    let operation = values.view(path);
+    Some(HobbingOperation {
+        name: operation.text("name")?.to_owned(),
+        offset_mm: stock_or_offset(operation, pressure_angle_rad)?,
+        kind: kind(values, path, operation.variant("linkage")?)?,
+        hob_speed_rad_per_s: operation.number("hob_speed_per_minute")? * TURN_RAD / 60.0,
+        axial_feed_mm_per_revolution: operation.number("axial_feed_mm_per_revolution")?,
+        feed_direction: match operation.text("feed_direction")? {
+            "climb" => FeedDirection::Climb,
+            "conventional" => FeedDirection::Conventional,
+            _ => return None,
+        },
+        approach: match operation.text("approach")? {
+            "axial" => Approach::Axial,
+            "radial" => Approach::Radial { feed_mm_per_revolution: operation.number("radial_feed_mm_per_revolution")? },
+            _ => return None,
+        },
+        approach_mm: operation.number("approach_mm"),
+        overrun_mm: operation.number("overrun_mm"),
+        head_angle_rad: rad(operation, "head_angle_deg"),
+        shift_start_mm: operation.number("shift_start_mm"),
+        ridge_tolerance_mm: mm_from_um(operation, "ridge_tolerance_um")?,
+    })
+}
+
+fn kind(values: &Values, path: &str, law: &str) -> Option<HobbingKind> {
+    let path = format!("{path}.linkage.{law}");
+    let linkage = values.view(&path);
+    let form = match linkage.text("form")? {
+        "exact" => LinkageForm::Exact,
+        "as_printed" => LinkageForm::AsPrinted,
+        _ => return None,
+    };
+    Some(match law {
+        "hobbing" => HobbingKind::Plain {
+            even: match linkage.text("even_motion")? {
+                "arc_length" => EvenMotion::ArcLength,
+                "rotation_angle" => EvenMotion::RotationAngle,
+                "polar_angle" => EvenMotion::PolarAngle,
+                _ => return None,
+            },
+            extra: match linkage.text("extra_rotation")? {
+                "work" => ExtraRotation::Work,
+                "hob" => ExtraRotation::Hob,
+                _ => return None,
+            },
+            form,
+        },
+        "hobbing_diagonal" => HobbingKind::Diagonal {
+            shift_mm_per_revolution: linkage.number("shift_mm_per_revolution")?,
+            direction: match linkage.text("shift_direction")? {
+                "adds" => ShiftDirection::Adds,
+                "subtracts" => ShiftDirection::Subtracts,
+                _ => return None,
+            },
+            strategy: match linkage.text("strategy")? {
+                "one_way" => ShiftStrategy::OneWay,
+                "repeating" => ShiftStrategy::Repeating { return_mm_per_s: linkage.number("return_mm_per_s")? },
+                "reciprocating" => ShiftStrategy::Reciprocating,
+                _ => return None,
+            },
+            stroke_mm: linkage.number("stroke_mm"),
+            feed_of: match linkage.text("feed_of")? {
+                "slide" => FeedOf::Slide,
+                "resultant" => FeedOf::Resultant,
+                _ => return None,
+            },
+            form,
+        },
+        _ => return None,
+    })
+}

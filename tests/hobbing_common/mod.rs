@@ -1,0 +1,148 @@
+//! Hobbing cases of the independent implementation: gear, hob, linkage, and flank rays on its (z, sigma) grid.
+//!
+//! Its gear frame has x and y exchanged and z turned over against the project's; `flank` +1 faces the low-arc side of the space. Target: the rack's flank rolled
+//! with the phase of each section, contact at the foot of the normal from the pitch point.
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+use gearcut::dexel::{Ray, SpatialField};
+use gearcut::gear::PitchCurve;
+use gearcut::linkage::HobbingLinkage;
+use gearcut::linkage::hobbing::{FeedPath, HobbingGeometry, HobbingLaw};
+use gearcut::passes::{HobTeeth, MotionTable};
+use gearcut::scene::model::{
+    EvenMotion, ExtraRotation, GashForm, Hand, Hob as HobSpec, HobSize, LinkageForm, PitchCurveShape, Worm,
+};
+use gearcut::tool::Hob;
+use glam::{DVec2, DVec3};
+use serde_json::Value;
+use std::sync::Arc;
+
+/// Everything of one case.
+pub struct Case {
+    pub curve: Arc<PitchCurve>,
+    pub hob: Hob,
+    pub linkage: HobbingLinkage,
+    pub teeth: u32,
+    pub normal_module_mm: f64,
+    pub helix_angle_rad: f64,
+    pub gear_hand: f64,
+    pub pressure_angle_rad: f64,
+    pub hob_speed_rad_per_s: f64,
+    pub setup: Value,
+}
+
+pub fn data(name: &str) -> Value {
+    let path = format!("tests/data/hobbing/{name}.json");
+    serde_json::from_slice(&std::fs::read(&path).unwrap_or_else(|e| panic!("{path}: {e}"))).expect("JSON")
+}
+
+/// Rows of heights, mm.
+pub fn heights(name: &str, file: &Value) -> Vec<Vec<f64>> {
+    if let Some(rows) = file.get("heights") {
+        return rows.as_array().expect("rows").iter().map(numbers).collect();
+    }
+    let bytes = std::fs::read(format!("tests/data/hobbing/{name}.f64le")).expect("heights");
+    let values: Vec<f64> = bytes.chunks_exact(8).map(|b| f64::from_le_bytes(b.try_into().expect("eight"))).collect();
+    values.chunks(file["sigma"].as_array().expect("sigma").len()).map(<[f64]>::to_vec).collect()
+}
+
+pub fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().expect("a list").iter().map(|v| v.as_f64().expect("a number")).collect()
+}
+
+pub fn number(value: &Value, key: &str) -> f64 {
+    value[key].as_f64().unwrap_or_else(|| panic!("{key}"))
+}
+
+impl Case {
+    /// Case of a file's setup, its gashes made more or fewer and its feed changed by factors.
+    pub fn with(setup: &Value, gash_factor: f64, feed_factor: f64) -> Self {
+        Self::with_gashes(setup, gash_factor, feed_factor, GashForm::Axial)
+    }
+
+    /// The same with another form of gashes.
+    pub fn with_gashes(setup: &Value, gash_factor: f64, feed_factor: f64, gash_form: GashForm) -> Self {
+        let get = |key: &str| number(setup, key);
+        let (normal_module_mm, helix_angle_rad) = (get("mn"), get("beta"));
+        let teeth = get("Z") as u32;
+        let order = get("n") as u32;
+        let shape = if get("e") == 0.0 {
+            PitchCurveShape::Circle
+        } else {
+            PitchCurveShape::Ellipse { order, eccentricity: get("e"), semi_major_axis_mm: None }
+        };
+        let curve =
+            Arc::new(PitchCurve::new(&shape, normal_module_mm / helix_angle_rad.cos(), teeth).expect("a curve"));
+        let hand = |h: f64| if h > 0.0 { Hand::Right } else { Hand::Left };
+        let pressure_angle_rad = get("alpha_n");
+        let spec = HobSpec {
+            starts: get("K") as u32,
+            hand: hand(get("hb")),
+            gashes: (get("Zb") * gash_factor).round() as u32,
+            gash_form,
+            size: HobSize::LeadAngle(get("lam")),
+            length_mm: 400.0,
+            addendum_coefficient: get("ha0"),
+            dedendum_coefficient: 1.25,
+            worm: Worm::Involute,
+            tip_radius_mm: 0.0,
+            protuberance: None,
+            thinning_mm: 0.0,
+            regrind_mm: 0.0,
+        };
+        let hob = Hob::new(&spec, normal_module_mm, pressure_angle_rad).expect("a hob");
+        let geometry = HobbingGeometry::new(&hob, helix_angle_rad, get("h"));
+        let law = HobbingLaw { even: EvenMotion::ArcLength, extra: ExtraRotation::Work, form: LinkageForm::Exact };
+        let path = FeedPath::steady(1.0, get("vz") * feed_factor, get("udot") * feed_factor);
+        let linkage = HobbingLinkage::new(curve.clone(), geometry, law, get("wb"), &path).expect("a linkage");
+        Self {
+            curve,
+            hob,
+            linkage,
+            teeth,
+            normal_module_mm,
+            helix_angle_rad,
+            gear_hand: get("h"),
+            pressure_angle_rad,
+            hob_speed_rad_per_s: get("wb"),
+            setup: setup.clone(),
+        }
+    }
+
+    pub fn new(setup: &Value) -> Self {
+        Self::with(setup, 1.0, 1.0)
+    }
+
+    pub fn passes(&self, hob_range_rad: [f64; 2]) -> HobTeeth {
+        let motion = MotionTable::new(hob_range_rad, &[], |angle| self.linkage.head_from_work(angle));
+        HobTeeth::new(0, &self.hob, self.hob.hand, motion)
+    }
+
+    /// Point and normal of the target flank, gear frame. `sigma`: roll past the crossing of flank and pitch line in the section `z` (the oracle's z).
+    pub fn target(&self, space: i64, flank: f64, sigma: f64, z: f64) -> Ray {
+        let (beta, h, e) = (self.helix_angle_rad, self.gear_hand, flank);
+        let module = self.normal_module_mm / beta.cos();
+        let pitch = std::f64::consts::PI * module;
+        let arc = space as f64 * pitch - e * pitch / 4.0 - h * z * beta.tan() + sigma;
+        let alpha = (self.pressure_angle_rad.tan() / beta.cos()).atan();
+        let theta = self.curve.phi_at_arc(arc);
+        let frame = self.curve.frame(theta);
+        let contact = -e * sigma * alpha.cos();
+        let normal = DVec3::new(e * alpha.cos(), alpha.sin(), h * e * beta.tan() * alpha.cos());
+        // From the machine: x along the pitch line against growing arcs at P, y outwards.
+        let to_work = |v: DVec2| v.x * frame.tangent + v.y * frame.normal;
+        let point = frame.point_mm + contact * to_work(DVec2::new(normal.x, normal.y));
+        let direction = to_work(DVec2::new(normal.x, normal.y));
+        Ray {
+            origin_mm: DVec3::new(point.x, point.y, -z),
+            normal: DVec3::new(direction.x, direction.y, -normal.z).normalize(),
+        }
+    }
+
+    /// Rays of a patch: columns are sigmas, rows are z.
+    pub fn patch(&self, space: i64, flank: f64, sigmas: &[f64], z: &[f64]) -> SpatialField {
+        SpatialField::new(sigmas.len(), z.len(), -4.0, |column, row| {
+            (self.target(space, flank, sigmas[column], z[row]), 12.0)
+        })
+    }
+}

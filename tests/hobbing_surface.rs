@@ -1,0 +1,258 @@
+//! What hobbing leaves: marks and their lattice, the limit of fine feed, the load of the hob's teeth.
+
+mod hobbing_common;
+
+use gearcut::cut::Backend;
+use gearcut::cut::cpu::Cpu;
+use gearcut::dexel::SpatialField;
+use gearcut::measure::hob_load::{LedgerGrid, ToothLoad, of_space};
+use gearcut::measure::marks::{FlankMetric, MarkedFlank, autocorrelation_steps, crossing_arc_mm, lattice, mark};
+use gearcut::passes::SweepPlan;
+use gearcut::scene::model::GashForm;
+use gearcut::tool::CuttingTool;
+use glam::DVec2;
+use hobbing_common::*;
+use serde_json::{Value, json};
+use std::f64::consts::{PI, TAU};
+
+fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|i| from + (to - from) * i as f64 / (count - 1) as f64).collect()
+}
+
+/// Heights of a patch cut by all passes that matter, column by column, mm.
+fn simulated(case: &Case, field: &SpatialField, cycles: [f64; 2]) -> Vec<f64> {
+    let cycle = TAU * f64::from(case.teeth) / number(&case.setup, "K");
+    let passes = case.passes(cycles.map(|c| c * cycle));
+    let plan = SweepPlan::new(field, &passes, case.hob.edge());
+    let mut layer = field.blank_layer();
+    let stats = Cpu::default().cut_spatial(field, case.hob.edge(), &plan, &mut layer).expect("cuts");
+    assert_eq!(stats.unconverged, 0);
+    assert!(layer.passes.iter().all(|&pass| pass != u32::MAX));
+    layer.heights_mm.iter().map(|&h| f64::from(h)).collect()
+}
+
+fn marked(case: &Case, space: i64, side: f64) -> MarkedFlank {
+    let module = case.normal_module_mm / case.helix_angle_rad.cos();
+    MarkedFlank {
+        side,
+        crossing_arc_mm: crossing_arc_mm(space, side, module, 0.25 * PI * module),
+        pressure_angle_rad: (case.pressure_angle_rad.tan() / case.helix_angle_rad.cos()).atan(),
+    }
+}
+
+fn metric(case: &Case, side: f64) -> FlankMetric {
+    let pressure_angle_rad = (case.pressure_angle_rad.tan() / case.helix_angle_rad.cos()).atan();
+    FlankMetric {
+        side,
+        gear_hand: case.gear_hand,
+        helix_angle_rad: case.helix_angle_rad,
+        pressure_angle_rad,
+        length_per_roll: 1.0,
+    }
+}
+
+#[test]
+fn marks_stand_where_the_independent_implementation_has_them() {
+    let file = data("p08_events_s2");
+    for name in ["axial", "diagonal_VL"] {
+        let part = &file[name];
+        let case = Case::new(&part["setup"]);
+        let flank = marked(&case, part["space"].as_i64().expect("space"), number(part, "flank"));
+        for event in part["events"].as_array().expect("events") {
+            let passage = event["g"].as_i64().expect("g");
+            let found = mark(&case.linkage, 10, &flank, passage).expect("a mark");
+            let wanted = &event["mark"];
+            let apart = DVec2::new(found.roll_mm - number(wanted, "sigma"), found.z_mm - number(wanted, "z")).length();
+            assert!(apart < 1e-9, "{name} gash {passage}: {found:?} against {wanted}");
+        }
+    }
+    // Reduced lattices of S2's conditions.
+    let setup = &file["axial"]["setup"];
+    for wanted in data("p06_marks_s2")["cases"].as_array().expect("cases") {
+        let (condition, shift) = (wanted["condition"].as_str().expect("a name"), number(wanted, "vd"));
+        let mut setup = setup.clone();
+        let hand = if condition.ends_with('L') { -1.0 } else { 1.0 };
+        let udot = if condition.starts_with('U') { -shift } else { shift };
+        let gamma = hand * number(&setup, "beta") + number(&setup, "lam");
+        setup["h"] = json!(hand);
+        setup["udot"] = json!(udot);
+        setup["vz"] = json!(-50.0 / 300.0 - udot * gamma.sin());
+        let case = Case::new(&setup);
+        let steps = lattice(&case.linkage, 10, 35, &marked(&case, 3, 1.0), 28).expect("marks");
+        for (step, key) in steps.iter().zip(["v1", "v2"]) {
+            let v = numbers(&wanted[key]);
+            assert!(step.distance(DVec2::new(v[0], v[1])) < 1e-7, "{condition} {shift} {key}: {step} {v:?}");
+        }
+        let reduced = metric(&case, 1.0).reduced(steps);
+        println!("{condition} {shift}: {reduced:?}");
+    }
+}
+
+#[test]
+fn the_surface_shows_the_lattice_of_the_kinematics() {
+    for name in ["p09_patch_s2_axial", "p10_patch_s2_diag_VL"] {
+        let file = data(name);
+        let case = Case::new(&file["setup"]);
+        let space = file["space"].as_i64().expect("space");
+        let side = number(&file, "flank");
+        let count = [121, 121];
+        let (sigmas, z) = (even(-6.0, 6.0, count[0]), even(-5.0, 5.0, count[1]));
+        let field = case.patch(space, side, &sigmas, &z);
+        let heights = simulated(&case, &field, [-3.5, 4.5]);
+        let metric = metric(&case, side);
+        let length = |step: DVec2| metric.step(step).length_mm;
+        let steps = autocorrelation_steps(&heights, count, [12.0 / 120.0, 10.0 / 120.0], length);
+        let kinematic = lattice(&case.linkage, 10, case.teeth, &marked(&case, space, side), 28).expect("marks");
+        println!("{name}: kinematics {kinematic:?}, surface {steps:?}");
+        // Every step on the surface is a whole combination of the kinematic ones, within a fiftieth of the shortest.
+        let shortest = metric.reduced(kinematic)[0].length_mm;
+        let [a, b] = kinematic;
+        assert!(steps.len() >= 2);
+        for step in &steps[..2] {
+            let determinant = a.perp_dot(b);
+            let (i, j) = ((step.perp_dot(b) / determinant).round(), (a.perp_dot(*step) / determinant).round());
+            let apart = length(*step - (i * a + j * b));
+            println!("  {step} = {i} v1 + {j} v2, {:.4} mm off", apart);
+            assert!(apart < 0.02 * shortest, "{step}: {apart} mm off {i}, {j}");
+        }
+        // And the shortest ones of both agree.
+        let reduced = metric.reduced([steps[0], steps[1]]);
+        for (seen, known) in reduced.iter().zip(metric.reduced(kinematic)) {
+            assert!((seen.length_mm / known.length_mm - 1.0).abs() < 0.02, "{seen:?} against {known:?}");
+            assert!((seen.to_trace_rad.abs() - known.to_trace_rad.abs()).abs() < 0.03, "{seen:?} against {known:?}");
+        }
+    }
+}
+
+#[test]
+fn a_circular_helical_gear_tends_to_its_involute_helicoid_quadratically() {
+    let setup = &data("p11_patch_circle")["setup"];
+    let field_of = |case: &Case| case.patch(0, 1.0, &even(-6.0, 6.0, 81), &even(-2.0, 2.0, 81));
+    let mut highest = Vec::new();
+    for factor in [1.0, 2.0, 4.0] {
+        let case = Case::with(setup, factor, 1.0 / factor);
+        let heights = simulated(&case, &field_of(&case), [-3.5 * factor, 3.5 * factor]);
+        let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(lowest > -1e-9, "{lowest} mm: the target is cut into");
+        highest.push(heights.iter().copied().fold(0.0, f64::max));
+    }
+    println!("highest marks {highest:?} mm");
+    for pair in highest.windows(2) {
+        assert!((3.7..4.4).contains(&(pair[0] / pair[1])), "{highest:?}");
+    }
+}
+
+#[test]
+fn feed_and_generating_marks_have_their_closed_heights() {
+    let spur = &data("p12_patch_spur")["setup"];
+    let mut lobed = spur.clone();
+    lobed["n"] = json!(3);
+    lobed["e"] = json!(0.1);
+    let check = |setup: &Value, space: i64, name: &str| {
+        let case = Case::new(setup);
+        let (sigmas, z) = (even(-1.5, 1.5, 121), even(-2.5, 2.5, 121));
+        let field = case.patch(space, -1.0, &sigmas, &z);
+        let heights = simulated(&case, &field, [-3.5, 4.5]);
+        let at = |column: usize, row: usize| heights[field.index(column, row)];
+        // Along the tooth through a mark only the feed leaves anything; along the profile through a mark only the gashes do.
+        let highest_along = |column: usize| (0..z.len()).map(|row| at(column, row)).fold(0.0, f64::max);
+        let feed_mark = (0..sigmas.len()).map(highest_along).fold(f64::INFINITY, f64::min);
+        let through_marks = (0..z.len())
+            .min_by(|&a, &b| {
+                let top = |row: usize| (0..sigmas.len()).map(|column| at(column, row)).fold(0.0, f64::max);
+                top(a).total_cmp(&top(b))
+            })
+            .expect("rows");
+        let ridge =
+            (0..sigmas.len()).max_by(|&a, &b| at(a, through_marks).total_cmp(&at(b, through_marks))).expect("columns");
+        let generating_mark = at(ridge, through_marks);
+        let feed = number(setup, "vz").abs() * case.linkage.cycle_s();
+        let (sin, cos) = case.pressure_angle_rad.sin_cos();
+        let tilt = case.linkage.geometry().head_angle_rad;
+        // Contact at the pitch point: the hob's pitch radius.
+        let feed_closed = (feed / tilt.cos()).powi(2) * sin / (8.0 * case.hob.pitch_radius_mm);
+        // The involute's own curvature there: rho sin(alpha) + c; the facets are tangents of it.
+        let module = case.normal_module_mm;
+        let sigma = sigmas[ridge];
+        let frame = case.curve.frame(case.curve.phi_at_arc(PI * module * (space as f64 + 0.25) + sigma));
+        let (rho, c) = (1.0 / frame.curvature_per_mm, sigma * cos);
+        let arc = lattice(&case.linkage, 10, case.teeth, &marked(&case, space, -1.0), 0).expect("marks")[0].x;
+        let generating_closed = arc * arc * (sin + c / rho) / (8.0 * rho);
+        println!(
+            "{name}: rho {rho:.1}, feed mark {:.4} against {:.4} um, generating mark {:.4} against {:.4} um",
+            feed_mark * 1e3,
+            feed_closed * 1e3,
+            generating_mark * 1e3,
+            generating_closed * 1e3
+        );
+        (feed_mark / feed_closed - 1.0, generating_mark / generating_closed - 1.0)
+    };
+    for (setup, space, name) in [(spur, 0, "spur"), (&lobed, 0, "lobe"), (&lobed, 6, "flat")] {
+        let (feed, generating) = check(setup, space, name);
+        assert!(feed.abs() < 0.01, "{name}: feed mark {feed:+.3} off");
+        assert!(generating.abs() < 0.01, "{name}: generating mark {generating:+.3} off");
+    }
+}
+
+#[test]
+fn helical_gashes_leave_the_same_flank() {
+    let setup = &data("p11_patch_circle")["setup"];
+    let highest = [GashForm::Axial, GashForm::Helical].map(|form| {
+        let case = Case::with_gashes(setup, 1.0, 1.0, form);
+        let field = case.patch(0, 1.0, &even(-6.0, 6.0, 41), &even(-2.0, 2.0, 41));
+        let heights = simulated(&case, &field, [-3.5, 3.5]);
+        let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(lowest > -1e-8, "{form:?}: {lowest} mm");
+        heights.iter().copied().fold(0.0, f64::max)
+    });
+    println!("highest marks {highest:?} mm");
+    assert!((highest[0] / highest[1] - 1.0).abs() < 0.05 && highest[0] != highest[1], "{highest:?}");
+}
+
+#[test]
+fn teeth_take_their_shares() {
+    let file = data("p14_engagement");
+    let axial = data("p08_events_s2")["axial"]["setup"].clone();
+    let mut circle = axial.clone();
+    circle["e"] = json!(0.0);
+    circle["n"] = json!(1);
+    // Every other space of S2's gear: eighteen phases of its three lobes.
+    for (name, setup, spaces) in
+        [("circle_r142", &circle, vec![0]), ("s2_three_lobe", &axial, (0..35).step_by(2).collect())]
+    {
+        let case = Case::new(setup);
+        let cycle = TAU * f64::from(case.teeth);
+        let passes = case.passes([-16.0 * cycle, 16.0 * cycle]);
+        let module = case.normal_module_mm / case.helix_angle_rad.cos();
+        let grid = LedgerGrid { slices_mm: vec![0.0], spacing_mm: 0.4, heights_mm: [-10.5, 8.0] };
+        let mut loads = vec![ToothLoad::default(); case.hob.teeth.len()];
+        for &space in &spaces {
+            let arc = |z: f64| space as f64 * PI * module + case.gear_hand * case.helix_angle_rad.tan() * z;
+            let (of, stats) = of_space(&case.curve, &passes, case.hob.edge(), &grid, PI * module, arc);
+            assert_eq!(stats.unconverged, 0);
+            for (sum, load) in loads.iter_mut().zip(&of) {
+                sum.area_mm2 += load.area_mm2;
+                sum.thickness_mm = sum.thickness_mm.max(load.thickness_mm);
+            }
+        }
+        let total: f64 = loads.iter().map(|load| load.area_mm2).sum();
+        let per_space = total / spaces.len() as f64;
+        let wanted = &file[name];
+        println!("{name}: {per_space:.2} mm2 per space against {}", wanted["area_per_space"]);
+        assert!((per_space / number(wanted, "area_per_space") - 1.0).abs() < 0.01);
+        let (js, shares) = (numbers(&wanted["j"]), numbers(&wanted["share"]));
+        let mut worst = 0.0_f64;
+        for (j, share) in js.iter().zip(&shares) {
+            // Count from the tooth at the pitch point: gash passages, growing towards the leaving end.
+            let got: f64 = (0..loads.len())
+                .filter(|&i| case.hob.teeth[i].passage as f64 == *j)
+                .map(|i| loads[i].area_mm2 / total)
+                .sum();
+            worst = worst.max((got - share).abs());
+            println!("  j {j}: {got:.4} against {share:.4}");
+        }
+        let thickest = loads.iter().map(|load| load.thickness_mm).fold(0.0, f64::max);
+        println!("  worst share {worst:.4}, thickest chip {thickest:.3} mm");
+        assert!(worst < number(&file, "tol_share_abs"), "{name}: {worst}");
+    }
+}
