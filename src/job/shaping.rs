@@ -262,19 +262,38 @@ impl Job {
         (0..=intervals).map(|i| width_mm * (i as f64 / intervals as f64 - 0.5)).collect()
     }
 
-    /// Runs all operations over a field.
+    /// Whether every row of a field is cut alike: the cutter stands still while it is in the work, so its pose is the same at all places along the tooth.
+    pub fn rows_are_alike(&self) -> bool {
+        self.operations.iter().all(|operation| operation.strokes.law == StrokeLaw::Frozen)
+    }
+
+    /// Runs all operations over a field. Where all rows are alike, one is cut for all: every height and pass id is what cutting each of them would give.
     ///
     /// # Errors
     /// The backend's.
     pub fn cut(&self, backend: &dyn Backend, field: Field) -> Result<CutFlank, Error> {
+        if self.rows_are_alike() && field.rows() > 1 {
+            let (layers, stats) = self.cut_rows(backend, &field.section())?;
+            let rows = field.rows();
+            return Ok(CutFlank { layers: layers.iter().map(|layer| layer.repeated(rows)).collect(), field, stats });
+        }
+        let (layers, stats) = self.cut_rows(backend, &field)?;
+        Ok(CutFlank { field, layers, stats })
+    }
+
+    /// Runs all operations over every row of a field.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_rows(&self, backend: &dyn Backend, field: &Field) -> Result<(Vec<Layer>, CutStats), Error> {
         let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
         let mut stats = CutStats::default();
         for operation in &self.operations {
-            let plan = CutPlan::new(&field, &operation.strokes, &self.cutter);
+            let plan = CutPlan::new(field, &operation.strokes, &self.cutter);
             let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
-            stats += backend.cut(&field, self.cutter.edge(), &plan, &mut layer)?;
+            stats += backend.cut(field, self.cutter.edge(), &plan, &mut layer)?;
             layers.push(layer);
         }
-        Ok(CutFlank { field, layers, stats })
+        Ok((layers, stats))
     }
 }

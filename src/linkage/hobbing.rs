@@ -35,6 +35,7 @@ use crate::scene::model::{EvenMotion, ExtraRotation, LinkageForm};
 use crate::tool::Hob;
 
 mod path;
+pub mod peaks;
 pub mod plan;
 #[cfg(test)]
 mod tests;

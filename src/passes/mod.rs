@@ -4,6 +4,8 @@ pub mod bounds;
 pub mod candidates;
 pub mod near;
 pub mod record;
+pub mod rulers;
+pub mod spells;
 pub mod strokes;
 
 pub use candidates::{CutPlan, Tile};

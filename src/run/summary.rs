@@ -47,8 +47,10 @@ pub fn summary(job: &Job, cut: &CutGear, results: &Results, out: &Path, backend:
     }
     sheet.heading("Run");
     sheet.line("backend", backend);
-    let per_dexel = cut.stats.dexel_passes as f64 / cut.dexels.max(1) as f64;
-    sheet.line("dexels", format!("{:.1} million, {} passes each", cut.dexels as f64 / 1e6, significant(per_dexel, 3)));
+    let per_dexel = cut.stats.dexel_passes as f64 / cut.stats.dexels.max(1) as f64;
+    let alike = if cut.stats.dexels < cut.dexels { "; rows are alike, so one was cut for all" } else { "" };
+    let millions = cut.dexels as f64 / 1e6;
+    sheet.line("dexels", format!("{millions:.1} million, {} passes each{alike}", significant(per_dexel, 3)));
     sheet.line("cut, measured and mapped in", format!("{} s", significant(cut.elapsed.as_secs_f64(), 3)));
     sheet.line("written to", out.display().to_string());
     sheet.into_text()

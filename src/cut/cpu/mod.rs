@@ -82,7 +82,7 @@ impl Backend for Cpu {
 
     fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error> {
         let rows = field.rows();
-        let mut stats = CutStats::default();
+        let mut stats = CutStats { dexels: field.len() as u64, ..CutStats::default() };
         for tile in &plan.tiles {
             let dexels = tile.columns.start * rows..tile.columns.end * rows;
             stats += self.dispatch(planar::TileCut {

@@ -198,7 +198,7 @@ impl Backend for Gpu {
         match self.cut_on_device(field, edge, plan, layer) {
             Ok((cut, unconverged)) => {
                 *layer = cut;
-                Ok(CutStats { dexel_passes: plan.dexel_passes(), unconverged })
+                Ok(CutStats { dexels: field.len() as u64, dexel_passes: plan.dexel_passes(), unconverged })
             }
             Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
             Err(problem) => {

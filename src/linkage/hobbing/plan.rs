@@ -155,7 +155,7 @@ impl FeedPlan {
     ) -> (f64, f64) {
         // Half the chord that the tip line cuts from the blank, no longer than the hob or the blank; a flat curve has no chord of its own.
         let facts = curve.facts();
-        let flattest = facts.curvature_extrema.iter().map(|e| e.curvature_per_mm).fold(f64::INFINITY, f64::min);
+        let flattest = facts.smallest_curvature.curvature_per_mm;
         let outline_mm = if flattest > 0.0 { 1.0 / flattest + gear_addendum_mm } else { f64::INFINITY };
         let chord_mm = (outline_mm.powi(2) - (outline_mm - depth_mm).powi(2)).sqrt();
         let longest_mm = (0.5 * hob.length_mm * tilt.cos()).min(facts.largest_radius_mm + gear_addendum_mm);
