@@ -18,8 +18,8 @@ fn read(text: &str) -> LoadedScene {
 }
 
 fn shipped() -> Vec<PathBuf> {
-    let folder = fs::read_dir("scenes/shaping").expect("the folder of scenes");
-    let mut paths: Vec<PathBuf> = folder.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    let folders = ["scenes/shaping", "scenes/hobbing"].map(|folder| fs::read_dir(folder).expect("a folder of scenes"));
+    let mut paths: Vec<PathBuf> = folders.into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path())).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
     paths.sort();
     assert!(paths.len() >= 8, "only {} scenes found", paths.len());
@@ -32,7 +32,8 @@ fn shipped_scenes_load_and_are_listed_in_the_reference() {
     for path in shipped() {
         let loaded = load(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(Some(loaded.scene.name.as_str()), path.file_stem().and_then(|stem| stem.to_str()));
-        let name = format!("`shaping/{}.toml`", loaded.scene.name);
+        let process = if loaded.scene.hobbing().is_some() { "hobbing" } else { "shaping" };
+        let name = format!("`{process}/{}.toml`", loaded.scene.name);
         assert!(reference.contains(&name), "{name} is not listed in src/scene/reference_introduction.md");
         assert!(fs::read_to_string(&path).is_ok_and(|text| text.starts_with("# ")), "{name} opens without explanation");
     }

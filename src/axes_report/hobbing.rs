@@ -28,8 +28,14 @@ const CHART_POINTS: u32 = 1440;
 const STEADY: f64 = 1e-9;
 
 /// Names and units of the axes in their order.
-const AXES: [(&str, &str); 6] =
-    [("hob spindle", "°"), ("work spindle", "°"), ("X tangential", "mm"), ("Y radial", "mm"), ("Z slide", "mm"), ("shift", "mm")];
+const AXES: [(&str, &str); 6] = [
+    ("hob spindle", "°"),
+    ("work spindle", "°"),
+    ("X tangential", "mm"),
+    ("Y radial", "mm"),
+    ("Z slide", "mm"),
+    ("shift", "mm"),
+];
 
 /// What one operation asks of the machine.
 #[derive(Debug)]
@@ -124,7 +130,10 @@ impl HobbingAxesReport {
         };
         sheet.line("feed of the slide", format!("{feeds} mm per revolution of the work"));
         let [approach, face, overrun] = self.way;
-        sheet.line("way of the slide", format!("{approach:.3} mm before the face, {face:.3} across, {overrun:.3} beyond"));
+        sheet.line(
+            "way of the slide",
+            format!("{approach:.3} mm before the face, {face:.3} across, {overrun:.3} beyond"),
+        );
         if let HobbingKind::Diagonal { shift_mm_per_revolution, .. } = spec.kind {
             let [from, to] = self.shift_range_mm;
             sheet.line(
@@ -137,14 +146,21 @@ impl HobbingAxesReport {
                 ),
             );
         }
-        let idle = if self.idle_s > 0.0 { format!(", {} of it idle", duration_text(self.idle_s)) } else { String::new() };
-        sheet.line("time", format!("{}{idle}; {:.2} cycles along the pitch curve", duration_text(self.time_s), self.cycles));
+        let idle =
+            if self.idle_s > 0.0 { format!(", {} of it idle", duration_text(self.idle_s)) } else { String::new() };
+        sheet.line(
+            "time",
+            format!("{}{idle}; {:.2} cycles along the pitch curve", duration_text(self.time_s), self.cycles),
+        );
         sheet.line("passes", format!("{:.0} of hob teeth", self.passes));
         sheet.line("feed marks", format!("up to {} um high", significant(UM_PER_MM * self.feed_mark_mm, 3)));
         let [flat, sharp] = self.generating_marks_mm.map(|mark| significant(UM_PER_MM * mark, 3));
         sheet.line(
             "generating marks",
-            format!("{flat} um where the curve is flattest, {sharp} um where it is sharpest, one every {:.4} mm of arc", self.gash_arc_mm),
+            format!(
+                "{flat} um where the curve is flattest, {sharp} um where it is sharpest, one every {:.4} mm of arc",
+                self.gash_arc_mm
+            ),
         );
         sheet.table(&self.peak_rows());
     }
@@ -247,8 +263,8 @@ impl HobbingAxesReport {
         let longest = corners.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
         let [from, to] = longest.map_or([0.0, 1.0], |c| [c[0], c[1]]);
         // From where a cycle begins, if the stretch holds a whole one.
-        let middle = 0.5 * (from + to - linkage.cycle_s()).max(from);
-        let turn = (linkage.axes::<1>(middle.max(from)).polar_rad.value() / TURN_RAD).ceil();
+        let middle = (0.5 * (from + to - linkage.cycle_s())).max(from);
+        let turn = (linkage.axes::<1>(middle).polar_rad.value() / TURN_RAD).ceil();
         let start = polar_time(operation, turn * TURN_RAD, middle);
         let end = polar_time(operation, (turn + 1.0) * TURN_RAD, start + linkage.cycle_s());
         (0..=CHART_POINTS)
@@ -270,8 +286,7 @@ impl HobbingAxesReport {
     fn accelerations(&self, job: &HobbingJob, operation: &PreparedHobbing) -> LineChart {
         let cycle = Self::cycle(operation);
         let start = cycle.first().map_or(0.0, |(t, _)| *t);
-        let panels =
-            self.moving(&cycle, 2, |t, _| t - start, &job.limits.accelerations, "acceleration", "/s²");
+        let panels = self.moving(&cycle, 2, |t, _| t - start, &job.limits.accelerations, "acceleration", "/s²");
         self.chart(job, "axis accelerations", ["time within the cycle", "s"], panels)
     }
 

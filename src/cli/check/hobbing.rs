@@ -40,10 +40,8 @@ fn print_hob(sheet: &mut Sheet, job: &HobbingJob) {
     sheet.heading("Hob");
     let starts = if hob.starts == 1 { "1 start".to_owned() } else { format!("{} starts", hob.starts) };
     sheet.line("thread", format!("{starts}, {hand}-hand, lead angle {:.4} deg", hob.lead_angle_rad.to_degrees()));
-    sheet.line(
-        "diameters",
-        format!("pitch {:.3} mm, tip {:.3} mm", 2.0 * hob.pitch_radius_mm, 2.0 * hob.tip_radius_mm),
-    );
+    sheet
+        .line("diameters", format!("pitch {:.3} mm, tip {:.3} mm", 2.0 * hob.pitch_radius_mm, 2.0 * hob.tip_radius_mm));
     let (first, last) = (&hob.teeth[0], &hob.teeth[hob.teeth.len() - 1]);
     sheet.line(
         "teeth",
@@ -64,7 +62,9 @@ fn print_hob(sheet: &mut Sheet, job: &HobbingJob) {
         match (hob.starts, common) {
             (1, _) => "one start cuts every tooth".to_owned(),
             (_, 1) => "every start cuts every tooth".to_owned(),
-            (starts, common) => format!("{starts} starts and {} teeth share the divisor {common}", job.scene.gear.teeth),
+            (starts, common) => {
+                format!("{starts} starts and {} teeth share the divisor {common}", job.scene.gear.teeth)
+            }
         },
     );
 }
