@@ -184,6 +184,37 @@ fn the_template_loads() {
     let scene = read(&template("shaping").expect("a template")).scene;
     assert_eq!(shaping(&scene).operations[0].name, "operation_1");
     assert_eq!(scene.gear.face_width_mm, 30.0);
+    let scene = read(&template("hobbing").expect("a template")).scene;
+    assert_eq!(scene.hobbing().expect("a hobbing scene").operations[0].name, "operation_1");
+}
+
+#[test]
+fn every_variant_of_hobbing_reads_back_from_its_resolved_text() {
+    let hobs = [
+        "lead_angle_deg = 3.3\nhand = \"left\"\nworm = \"straight_sided\"",
+        "reference_diameter_mm = 80.1\nstarts = 2\ngash_form = \"helical\"\nprotuberance_height_mm = 1.7\nregrind_mm = 0.3",
+    ];
+    let linkages = [
+        "hobbing]\neven_motion = \"rotation_angle\"\nextra_rotation = \"hob\"",
+        "hobbing]\neven_motion = \"polar_angle\"\nform = \"as_printed\"",
+        "hobbing_diagonal]\nshift_mm_per_revolution = 3.1\nshift_direction = \"adds\"\nfeed_of = \"resultant\"",
+        "hobbing_diagonal]\nstrategy = \"repeating\"\nstroke_mm = 33.3\nreturn_mm_per_s = 7.7",
+    ];
+    for hob in hobs {
+        for linkage in linkages {
+            let text = format!(
+                "[gear]\nmodule_mm = 3.0\nteeth = 24\nhelix_angle_deg = 12.3\nhand = \"left\"\n[tool.hob]\nlength_mm = 90\n{hob}\n\
+                 [machine.hobbing_limits]\nhob_speed_deg_per_s = 1234.5\n[[operation]]\napproach = \"radial\"\n\
+                 stock_per_flank_mm = 0.1\n[[operation]]\nfeed_direction = \"conventional\"\noverrun_mm = 7.1\n\
+                 head_angle_deg = 8.8\n[operation.linkage.{linkage}\n"
+            );
+            let first = read(&text);
+            let second = read(&first.resolved_toml());
+            assert_eq!(first.scene, second.scene, "{}", first.resolved_toml());
+            // Nothing of the other process stands in the resolved text.
+            assert!(!first.resolved_toml().contains("strokes"), "{}", first.resolved_toml());
+        }
+    }
 }
 
 /// Blocks of the template stand between empty lines; `#` without a blank marks what can be switched on.

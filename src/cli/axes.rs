@@ -24,7 +24,9 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
         Prepared::Shaping(job) => {
             axes_report::write(job, &output)?;
             let operations = OperationAxes::of_job(job);
-            operations.iter().for_each(|operation| operation.print(&mut sheet));
+            for operation in &operations {
+                operation.print(&mut sheet);
+            }
             operations.iter().flat_map(OperationAxes::warnings).collect()
         }
         Prepared::Hobbing(job) => {
