@@ -6,9 +6,12 @@
 //! The laws stand in [`crate::linkage::dynamics`] and [`crate::linkage::relief`]; here their numbers get degrees and micrometres.
 
 mod charts;
+mod hobbing;
 mod quantities;
 mod summary;
 mod table;
+
+pub use hobbing::HobbingAxesReport;
 
 use crate::job::{Job, PreparedOperation};
 use crate::linkage::StrokeSchedule;

@@ -17,7 +17,7 @@ use gearcut::planar_rays::FAMILIES;
 use gearcut::scene::load;
 use gearcut::scene::model::{PitchCurveShape, Scene};
 use gearcut::surface::BlankMesh;
-use gearcut::tool::CuttingTool;
+use gearcut::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;

@@ -11,6 +11,7 @@ use gearcut::gear::PitchCurve;
 use gearcut::gear::blank::Blank;
 use gearcut::gear::generation::Side;
 use gearcut::gear::rack_generation::{ProfilePart, Rack, RackGeneration};
+use gearcut::linkage::hobbing::marks::{Marks, angle_to_trace_rad, reduced};
 use gearcut::linkage::hobbing::{FeedPath, HobbingAxes, HobbingGeometry, HobbingLaw, HobbingLinkage};
 use gearcut::scene::model::{
     EvenMotion, ExtraRotation, GashForm, Hand, Hob as HobSpec, HobSize, LinkageForm, PitchCurveShape, Worm,
@@ -271,8 +272,15 @@ fn edges_stand_in_the_work_where_they_should() {
         let path = FeedPath::steady(1.0, number(&setup["vz"]), number(&setup["udot"]));
         let exact = law(EvenMotion::ArcLength, ExtraRotation::Work, LinkageForm::Exact);
         let linkage = HobbingLinkage::new(curve, geometry, exact, number(&setup["wb"]), &path).unwrap();
+        let target = RackGeneration { curve: linkage.curve().clone(), rack: rack(number(&setup["beta"]), -1.0) };
+        let side = if number(&case["flank"]) > 0.0 { Side::Left } else { Side::Right };
+        let marks = Marks { linkage: &linkage, target: &target, hob: &hob, side };
         for event in case["events"].as_array().unwrap() {
             let gash = number(&event["g"]);
+            let mark = marks.mark(gash as i64, number(&case["space"]) as i64);
+            close("sigma of the mark", mark.roll_mm, number(&event["mark"]["sigma"]), tolerance);
+            close("z of the mark", -mark.z_mm, number(&event["mark"]["z"]), tolerance);
+            close("time of the mark", mark.time_s, number(&event["mark"]["t"]), tolerance);
             let t = linkage.time_at_hob_angle(TAU * gash / f64::from(hob.gashes));
             close("t", t, number(&event["t"]), 1e-13);
             let axes = linkage.axes::<1>(t);
@@ -405,5 +413,92 @@ fn nominal_points_of_the_patches() {
         assert!(contact.point_mm.distance(expected) < 1e-9, "{} not {expected}", contact.point_mm);
         let expected = DVec3::new(normal[1], normal[0], -normal[2]);
         assert!(contact.normal.distance(expected) < 1e-12, "{} not {expected}", contact.normal);
+    }
+}
+
+#[test]
+fn lattices_of_marks() {
+    let file = data("p06_marks_s2");
+    let rel = number(&file["tol_rel"]);
+    let beta = (10.0 + 34.0 / 60.0_f64).to_radians();
+    let hob = hob();
+    for case in file["cases"].as_array().unwrap() {
+        let condition = case["condition"].as_str().unwrap();
+        let hand = if condition.ends_with('R') { 1.0 } else { -1.0 };
+        let kappa = if condition.starts_with('U') { 1.0 } else { -1.0 };
+        let geometry = HobbingGeometry::new(&hob, beta, hand);
+        let shift = -kappa * number(&case["vd"]);
+        let slide = -50.0 / 300.0 - shift * geometry.head_angle_rad.sin();
+        let exact = law(EvenMotion::ArcLength, ExtraRotation::Work, LinkageForm::Exact);
+        let curve = ellipse(3, 0.1, None, beta, 35);
+        let linkage =
+            HobbingLinkage::new(curve.clone(), geometry, exact, 14.661, &FeedPath::steady(60.0, slide, shift)).unwrap();
+        let target = RackGeneration { curve, rack: rack(beta, hand) };
+        let marks = Marks { linkage: &linkage, target: &target, hob: &hob, side: Side::Left };
+        let (gash, mark) = marks.nearest(0, 0.0);
+        // Without shift two gashes are equally near the pitch line, and the file takes either.
+        let v1_file = number(&case["v1"][0]);
+        let off = |gash: &i64| (marks.to_next_gash(*gash, 0).x - v1_file).abs();
+        let tied = |gash: &i64| (marks.mark(*gash, 0).roll_mm.abs() - mark.roll_mm.abs()).abs() < 0.01;
+        let near = (gash - 1..=gash + 1).filter(tied);
+        let gash = near.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
+        // The data count z the other way: steps and angles change the sign of z with it.
+        let theirs = |step: DVec2| DVec2::new(step.x, -step.y);
+        let expect = |name: &str, found: DVec2, expected: &Value| {
+            let expected = numbers(expected);
+            let scale = found.length();
+            close(&format!("{condition} {name} roll"), found.x, expected[0], rel * scale);
+            close(&format!("{condition} {name} z"), found.y, expected[1], rel * scale);
+        };
+        let (v1, v2) = (marks.to_next_gash(gash, 0), marks.to_same_tooth(gash, 0, 35));
+        assert!(mark.roll_mm.abs() < 0.6 * v1.x);
+        expect("v1", theirs(v1), &case["v1"]);
+        expect("v2", theirs(v2), &case["v2"]);
+        // On the pitch line a roll takes sin(alpha_t) of its length along the profile.
+        let on_flank = |step: DVec2| marks.on_flank(step, target.rack.pressure_angle_rad.sin());
+        let same_tooth = -angle_to_trace_rad(on_flank(v2)).to_degrees();
+        close("same tooth", same_tooth, number(&case["same_tooth_inclination_deg"]), 1e-5);
+        for (step, expected) in reduced(v1, v2, on_flank).into_iter().zip(case["reduced"].as_array().unwrap()) {
+            let vector = on_flank(step);
+            close("length", vector.length(), number(&expected["length"]), rel * vector.length());
+            close("angle", -angle_to_trace_rad(vector), number(&expected["angle"]), 1e-6);
+        }
+    }
+}
+
+#[test]
+fn generating_marks_are_spaced_alike_by_every_law() {
+    let file = data("p04_spacing");
+    let rel = number(&file["tol_rel"]);
+    let s4 = &file["s4"];
+    let beta = number(&s4["beta"]);
+    let curve = ellipse(1, 0.6, Some(150.0), beta, 33);
+    let geometry = HobbingGeometry::new(&hob(), beta, -1.0);
+    let per_gash = TAU / number(&s4["Zb"]);
+    close("arc per gash", geometry.arc_per_hob_rad_mm() * per_gash, number(&s4["gash_arc"]), rel);
+    let target = RackGeneration { curve: curve.clone(), rack: rack(beta, -1.0) };
+    for (i, theta) in numbers(&s4["theta"]).into_iter().enumerate() {
+        let rho = 1.0 / curve.frame(theta).curvature_per_mm;
+        close("rho", rho, numbers(&s4["rho"])[i], rel * rho);
+        // Profile length per gash: at the pitch point, and 5 mm above it on the line of action.
+        let spacing =
+            |c: f64| (target.rack.pressure_angle_rad.sin() + c / rho) * geometry.arc_per_hob_rad_mm() * per_gash;
+        close("spacing", spacing(0.0), numbers(&s4["profile_spacing_at_pitch"])[i], rel);
+        close("spacing", spacing(5.0), numbers(&s4["profile_spacing_c_plus5"])[i], rel);
+        // What differs between the laws is the arc per time: marks of a constant period, such as a servo's, not those of gashes.
+        for model in ["I", "III", "V"] {
+            let (_, even, extra) = SCHEMES.into_iter().find(|s| s.0 == model).unwrap();
+            let law = law(even, extra, LinkageForm::Exact);
+            let hob_speed = speed(&curve, &geometry, number(&s4["T"]));
+            let path = FeedPath::steady(1.5, 0.0, 0.0);
+            let linkage = HobbingLinkage::new(curve.clone(), geometry, law, hob_speed, &path).unwrap();
+            let axes = at_polar(&linkage, theta).1;
+            let expected = numbers(&s4["arc_rate"][model])[i];
+            close(model, axes.arc_mm.derivative(1), expected, rel * expected);
+            // Between two gashes the arc is the same wherever and however it is rolled.
+            let gash = (axes.hob_rad.value() / per_gash).round();
+            let arc = |g: f64| linkage.axes::<1>(linkage.time_at_hob_angle(g * per_gash)).arc_mm.value();
+            close("arc between gashes", arc(gash + 1.0) - arc(gash), number(&s4["gash_arc"]), 1e-9);
+        }
     }
 }

@@ -18,8 +18,8 @@ fn read(text: &str) -> LoadedScene {
 }
 
 fn shipped() -> Vec<PathBuf> {
-    let folder = fs::read_dir("scenes/shaping").expect("the folder of scenes");
-    let mut paths: Vec<PathBuf> = folder.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    let folders = ["scenes/shaping", "scenes/hobbing"].map(|folder| fs::read_dir(folder).expect("a folder of scenes"));
+    let mut paths: Vec<PathBuf> = folders.into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path())).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
     paths.sort();
     assert!(paths.len() >= 8, "only {} scenes found", paths.len());
@@ -32,7 +32,8 @@ fn shipped_scenes_load_and_are_listed_in_the_reference() {
     for path in shipped() {
         let loaded = load(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(Some(loaded.scene.name.as_str()), path.file_stem().and_then(|stem| stem.to_str()));
-        let name = format!("`shaping/{}.toml`", loaded.scene.name);
+        let process = if loaded.scene.hobbing().is_some() { "hobbing" } else { "shaping" };
+        let name = format!("`{process}/{}.toml`", loaded.scene.name);
         assert!(reference.contains(&name), "{name} is not listed in src/scene/reference_introduction.md");
         assert!(fs::read_to_string(&path).is_ok_and(|text| text.starts_with("# ")), "{name} opens without explanation");
     }
@@ -183,6 +184,37 @@ fn the_template_loads() {
     let scene = read(&template("shaping").expect("a template")).scene;
     assert_eq!(shaping(&scene).operations[0].name, "operation_1");
     assert_eq!(scene.gear.face_width_mm, 30.0);
+    let scene = read(&template("hobbing").expect("a template")).scene;
+    assert_eq!(scene.hobbing().expect("a hobbing scene").operations[0].name, "operation_1");
+}
+
+#[test]
+fn every_variant_of_hobbing_reads_back_from_its_resolved_text() {
+    let hobs = [
+        "lead_angle_deg = 3.3\nhand = \"left\"\nworm = \"straight_sided\"",
+        "reference_diameter_mm = 80.1\nstarts = 2\ngash_form = \"helical\"\nprotuberance_height_mm = 1.7\nregrind_mm = 0.3",
+    ];
+    let linkages = [
+        "hobbing]\neven_motion = \"rotation_angle\"\nextra_rotation = \"hob\"",
+        "hobbing]\neven_motion = \"polar_angle\"\nform = \"as_printed\"",
+        "hobbing_diagonal]\nshift_mm_per_revolution = 3.1\nshift_direction = \"adds\"\nfeed_of = \"resultant\"",
+        "hobbing_diagonal]\nstrategy = \"repeating\"\nstroke_mm = 33.3\nreturn_mm_per_s = 7.7",
+    ];
+    for hob in hobs {
+        for linkage in linkages {
+            let text = format!(
+                "[gear]\nmodule_mm = 3.0\nteeth = 24\nhelix_angle_deg = 12.3\nhand = \"left\"\n[tool.hob]\nlength_mm = 90\n{hob}\n\
+                 [machine.hobbing_limits]\nhob_speed_deg_per_s = 1234.5\n[[operation]]\napproach = \"radial\"\n\
+                 stock_per_flank_mm = 0.1\n[[operation]]\nfeed_direction = \"conventional\"\noverrun_mm = 7.1\n\
+                 head_angle_deg = 8.8\n[operation.linkage.{linkage}\n"
+            );
+            let first = read(&text);
+            let second = read(&first.resolved_toml());
+            assert_eq!(first.scene, second.scene, "{}", first.resolved_toml());
+            // Nothing of the other process stands in the resolved text.
+            assert!(!first.resolved_toml().contains("strokes"), "{}", first.resolved_toml());
+        }
+    }
 }
 
 /// Blocks of the template stand between empty lines; `#` without a blank marks what can be switched on.

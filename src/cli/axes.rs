@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use gearcut::axes_report::{self, OperationAxes};
+use gearcut::axes_report::{self, HobbingAxesReport, OperationAxes};
 use gearcut::gcode;
-use gearcut::job::Job;
+use gearcut::job::Prepared;
 use gearcut::output::text::Sheet;
 use gearcut::scene;
 use serde_json::json;
@@ -19,18 +19,30 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
     let default = || PathBuf::from("out").join(format!("{}_axes", scene.scene.name));
     let out = arguments.out.clone().unwrap_or_else(default);
     let output = folder::open(&out, "axes")?;
-    let job = Job::new(scene.scene.clone()).map_err(|error| Failure::of_scene(&scene, error))?;
-    axes_report::write(&job, &output)?;
-    let left_out = gcode::write_all(&job, &output)?;
-    let path = folder::finish(output, "axes", [("scene", json!(scene.resolved_toml()))])?;
-
-    let operations = OperationAxes::of_job(&job);
+    let prepared = Prepared::new(&scene.scene).map_err(|error| Failure::of_scene(&scene, error))?;
     let mut sheet = Sheet::default();
-    for operation in &operations {
-        operation.print(&mut sheet);
-    }
+    let warnings: Vec<String> = match &prepared {
+        Prepared::Shaping(job) => {
+            axes_report::write(job, &output)?;
+            let operations = OperationAxes::of_job(job);
+            for operation in &operations {
+                operation.print(&mut sheet);
+            }
+            let left_out = gcode::write_all(job, &output)?;
+            operations.iter().flat_map(OperationAxes::warnings).chain(left_out).collect()
+        }
+        Prepared::Hobbing(job) => {
+            let operations = HobbingAxesReport::of_job(job);
+            for operation in &operations {
+                operation.write(job, &output)?;
+                operation.print(&mut sheet);
+            }
+            operations.iter().flat_map(HobbingAxesReport::warnings).collect()
+        }
+    };
+    let path = folder::finish(output, "axes", [("scene", json!(scene.resolved_toml()))])?;
     let written = format!("\ntables, charts and programs are in {}\n", path.join("axes").display());
     print::to_stdout(&(sheet.into_text() + &written))?;
-    print::warnings(&operations.iter().flat_map(OperationAxes::warnings).chain(left_out).collect::<Vec<_>>());
+    print::warnings(&warnings);
     Ok(())
 }

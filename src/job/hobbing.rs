@@ -158,13 +158,10 @@ fn rack(gear: &Gear, hob: &Hob, tip_radius_mm: f64, thinning_mm: f64) -> Rack {
 /// A hob's tips lie on a straight line in the transverse plane, so a hollow of the pitch curve is hit by teeth to both sides of the one that cuts: refuses curves where they would go
 /// deeper than the gear's root, as far as the hob reaches.
 fn refuse_hollows(curve: &PitchCurve, hob: &Hob) -> Result<(), Refusal> {
-    let tightest = curve
-        .facts()
-        .curvature_extrema
-        .iter()
-        .min_by(|a, b| a.curvature_per_mm.total_cmp(&b.curvature_per_mm))
-        .filter(|e| e.curvature_per_mm < 0.0);
-    let Some(hollow) = tightest else { return Ok(()) };
+    let hollow = curve.facts().smallest_curvature;
+    if hollow.curvature_per_mm >= 0.0 {
+        return Ok(());
+    }
     let [places, along] = HOLLOW_PLACES;
     let mut deepest_mm = 0.0_f64;
     for i in 0..places {

@@ -34,7 +34,9 @@ use crate::gear::{Jet, PitchCurve};
 use crate::scene::model::{EvenMotion, ExtraRotation, LinkageForm};
 use crate::tool::Hob;
 
+pub mod marks;
 mod path;
+pub mod peaks;
 pub mod plan;
 #[cfg(test)]
 mod tests;

@@ -1,15 +1,15 @@
 //! The pitch curve: size, closure, curvature.
 
-use gearcut::job::Job;
+use gearcut::gear::PitchCurve;
 use gearcut::output::text::{Sheet, significant};
-use gearcut::scene::model::PitchCurveShape;
+use gearcut::scene::model::{Gear, PitchCurveShape};
 use gearcut::units::UM_PER_MM;
 
 /// A closure error above this (in modules) is worth a warning: single pitch deviations of good gears are of this size.
 const NOTABLE_CLOSURE_MODULES: f64 = 1e-3;
 
-pub fn print(sheet: &mut Sheet, job: &Job) {
-    let (curve, gear) = (&job.curve, &job.scene.gear);
+/// `rolling_radius_mm`: pitch radius of a cutter that has to roll in hollows.
+pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_mm: Option<f64>) {
     let facts = curve.facts();
     sheet.heading("Pitch curve");
     sheet.line("shape", gear.pitch_curve.words());
@@ -17,7 +17,7 @@ pub fn print(sheet: &mut Sheet, job: &Job) {
     let origin = if given { "given" } else { "solved so that the curve closes" };
     sheet.line(name, format!("{:.6} mm, {origin}", curve.size_mm()));
     sheet.line("radius", format!("{:.3} to {:.3} mm", facts.smallest_radius_mm, facts.largest_radius_mm));
-    let wanted_mm = std::f64::consts::PI * gear.module_mm * f64::from(gear.teeth);
+    let wanted_mm = std::f64::consts::PI * gear.transverse_module_mm() * f64::from(gear.teeth);
     let error_um = UM_PER_MM * curve.closure_error_mm();
     let closes = if error_um.abs() < 1e-5 {
         "closes".to_owned()
@@ -63,22 +63,22 @@ pub fn print(sheet: &mut Sheet, job: &Job) {
     sheet.line(
         "tightest hollow",
         format!(
-            "radius {hollow_mm:.3} mm at polar angle {:.2} deg; the cutter rolls on {:.3} mm",
+            "radius {hollow_mm:.3} mm at polar angle {:.2} deg{}",
             facts.smallest_curvature.phi_rad.to_degrees(),
-            job.cutter.pitch_radius_mm
+            rolling_radius_mm.map_or(String::new(), |radius_mm| format!("; the cutter rolls on {radius_mm:.3} mm"))
         ),
     );
 }
 
-pub fn warnings(job: &Job) -> Vec<String> {
-    let error_mm = job.curve.closure_error_mm();
-    let notable = error_mm.abs() > NOTABLE_CLOSURE_MODULES * job.scene.gear.module_mm;
+pub fn warnings(curve: &PitchCurve, gear: &Gear) -> Vec<String> {
+    let error_mm = curve.closure_error_mm();
+    let notable = error_mm.abs() > NOTABLE_CLOSURE_MODULES * gear.module_mm;
     let text = || {
         format!(
             "the pitch curve is {} um {} for {} teeth: the last tooth pays for it; leave the size out and it is solved",
             significant(UM_PER_MM * error_mm.abs(), 3),
             if error_mm > 0.0 { "too long" } else { "too short" },
-            job.scene.gear.teeth
+            gear.teeth
         )
     };
     notable.then(text).into_iter().collect()

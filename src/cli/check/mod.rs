@@ -6,12 +6,13 @@
 mod cost;
 mod curve;
 mod facts;
+mod hobbing;
 mod teeth;
 
 use gearcut::axes_report::OperationAxes;
-use gearcut::job::Job;
+use gearcut::job::{Job, Prepared};
 use gearcut::output::text::{Sheet, plain};
-use gearcut::scene::{self, model::Gear};
+use gearcut::scene::{self, LoadedScene, model::Gear};
 
 use facts::ToothFacts;
 
@@ -22,20 +23,26 @@ use super::print;
 /// Runs the command.
 pub fn run(arguments: &SceneArguments) -> Result<(), Failure> {
     let scene = scene::load(&arguments.scene, &arguments.settings)?;
-    let job = Job::new(scene.scene.clone()).map_err(|error| Failure::of_scene(&scene, error))?;
-    let facts = ToothFacts::of_job(&job).map_err(|refusal| Failure::of_scene(&scene, refusal.into()))?;
-    let operations = OperationAxes::of_job(&job);
+    match Prepared::new(&scene.scene).map_err(|error| Failure::of_scene(&scene, error))? {
+        Prepared::Shaping(job) => shaping(&scene, &job),
+        Prepared::Hobbing(job) => hobbing::run(&job),
+    }
+}
+
+fn shaping(scene: &LoadedScene, job: &Job) -> Result<(), Failure> {
+    let facts = ToothFacts::of_job(job).map_err(|refusal| Failure::of_scene(scene, refusal.into()))?;
+    let operations = OperationAxes::of_job(job);
 
     let mut sheet = Sheet::default();
     sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
-    curve::print(&mut sheet, &job);
-    teeth::print(&mut sheet, &job, &facts);
+    curve::print(&mut sheet, &job.curve, &job.scene.gear, Some(job.cutter.pitch_radius_mm));
+    teeth::print(&mut sheet, job, &facts);
     for operation in &operations {
         operation.print(&mut sheet);
     }
-    cost::print(&mut sheet, &job, &facts).map_err(|refusal| Failure::of_scene(&scene, refusal.into()))?;
-    let mut warnings = curve::warnings(&job);
-    warnings.extend(teeth::warnings(&job, &facts));
+    cost::print(&mut sheet, job, &facts).map_err(|refusal| Failure::of_scene(scene, refusal.into()))?;
+    let mut warnings = curve::warnings(&job.curve, &job.scene.gear);
+    warnings.extend(teeth::warnings(job, &facts));
     warnings.extend(operations.iter().flat_map(OperationAxes::warnings));
     print::to_stdout(&sheet.into_text())?;
     print::warnings(&warnings);
@@ -43,8 +50,12 @@ pub fn run(arguments: &SceneArguments) -> Result<(), Failure> {
 }
 
 fn gear_words(gear: &Gear) -> String {
+    let helix = match gear.helix_angle_rad {
+        0.0 => String::new(),
+        angle => format!(", helix angle {} deg {}-hand", plain(angle.to_degrees()), gear.hand.name()),
+    };
     format!(
-        "{} teeth, module {} mm, pressure angle {} deg, face width {} mm",
+        "{} teeth, module {} mm, pressure angle {} deg{helix}, face width {} mm",
         gear.teeth,
         plain(gear.module_mm),
         plain(gear.pressure_angle_rad.to_degrees()),

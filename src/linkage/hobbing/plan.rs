@@ -41,6 +41,22 @@ pub struct FeedPlan {
     pub feed_mark_mm: f64,
 }
 
+/// What a diagonal path has to cover.
+struct Way {
+    /// +1 if the slide feeds along +z.
+    direction: f64,
+    /// Way of the slide, mm.
+    travel_mm: f64,
+    /// How far the hob's middle may stand from the pitch point, mm.
+    room_mm: f64,
+    /// Whole depth of cut, mm.
+    depth_mm: f64,
+    /// Tilt of the hob's axis.
+    tilt: f64,
+    /// Time of one cycle, s.
+    cycle_s: f64,
+}
+
 /// Feed mark of a cylinder of radius R: f^2 sin(alpha_n) / (8 R), normal to the flank, mm.
 pub fn feed_mark_mm(feed_mm: f64, head_angle_rad: f64, pressure_angle_rad: f64, contact_radius_mm: f64) -> f64 {
     (feed_mm / head_angle_rad.cos()).powi(2) * pressure_angle_rad.sin() / (8.0 * contact_radius_mm)
@@ -135,7 +151,8 @@ impl FeedPlan {
                 });
             }
             HobbingKind::Diagonal { .. } => {
-                plan.diagonal(operation, direction, travel_mm, room_mm, depth_mm, tilt, cycle_s)?;
+                let way = Way { direction, travel_mm, room_mm, depth_mm, tilt, cycle_s };
+                plan.diagonal(operation, &way)?;
             }
         }
         let largest_mm = plan.slide_feeds_mm[0].max(plan.slide_feeds_mm[1]);
@@ -155,7 +172,7 @@ impl FeedPlan {
     ) -> (f64, f64) {
         // Half the chord that the tip line cuts from the blank, no longer than the hob or the blank; a flat curve has no chord of its own.
         let facts = curve.facts();
-        let flattest = facts.curvature_extrema.iter().map(|e| e.curvature_per_mm).fold(f64::INFINITY, f64::min);
+        let flattest = facts.smallest_curvature.curvature_per_mm;
         let outline_mm = if flattest > 0.0 { 1.0 / flattest + gear_addendum_mm } else { f64::INFINITY };
         let chord_mm = (outline_mm.powi(2) - (outline_mm - depth_mm).powi(2)).sqrt();
         let longest_mm = (0.5 * hob.length_mm * tilt.cos()).min(facts.largest_radius_mm + gear_addendum_mm);
@@ -177,16 +194,8 @@ impl FeedPlan {
         ))
     }
 
-    fn diagonal(
-        &mut self,
-        operation: &HobbingOperation,
-        direction: f64,
-        travel_mm: f64,
-        room_mm: f64,
-        depth_mm: f64,
-        tilt: f64,
-        cycle_s: f64,
-    ) -> Result<(), Refusal> {
+    fn diagonal(&mut self, operation: &HobbingOperation, way: &Way) -> Result<(), Refusal> {
+        let Way { direction, travel_mm, room_mm, depth_mm, tilt, cycle_s } = *way;
         let HobbingKind::Diagonal { shift_mm_per_revolution, direction: first, strategy, stroke_mm, feed_of, .. } =
             operation.kind
         else {
@@ -279,5 +288,128 @@ impl FeedPlan {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::job::HobbingJob;
+    use crate::scene;
+    use std::path::Path;
+
+    fn job(file: &str, settings: &[&str]) -> crate::Result<HobbingJob> {
+        let settings: Vec<String> = settings.iter().map(|&s| format!("operation.finish.{s}")).collect();
+        HobbingJob::new(&scene::load(Path::new(&format!("scenes/hobbing/{file}.toml")), &settings)?.scene)
+    }
+
+    fn diagonal(settings: &[&str]) -> crate::Result<HobbingJob> {
+        job("third_order_diagonal", settings)
+    }
+
+    /// Key and problem of a refusal.
+    fn refused(result: crate::Result<HobbingJob>) -> (String, String) {
+        match result {
+            Err(crate::Error::Refused(refusal)) => (refusal.key, refusal.problem),
+            other => panic!("not refused: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_slide_crosses_the_face_and_the_shift_stays_on_the_hob() {
+        for strategy in ["reciprocating", "repeating"] {
+            let strategy = format!("linkage.hobbing_diagonal.strategy={strategy}");
+            let job = diagonal(&[&strategy]).unwrap();
+            let operation = job.finishing();
+            let (plan, linkage) = (&operation.plan, &operation.linkage);
+            let [low, high] = plan.shift_range_mm;
+            assert!((high + plan.contact_half_length_mm - 0.5 * job.hob.length_mm).abs() < 1e-9);
+            let (start, end) = (linkage.axes::<1>(0.0), linkage.axes::<1>(linkage.end_s()));
+            // A left-hand hob climbs downwards, from above the face to below it.
+            assert!((start.slide_mm.value() - 25.0 - plan.approach_mm).abs() < 1e-9);
+            assert!((end.slide_mm.value() + 25.0 + plan.overrun_mm).abs() < 1e-6, "{}", end.slide_mm.value());
+            let (mut least, mut most, mut idle_s) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
+            let steps = 20_000;
+            for i in 0..=steps {
+                let axes = linkage.axes::<2>(linkage.end_s() * f64::from(i) / f64::from(steps));
+                (least, most) = (axes.shift_mm.value().min(least), axes.shift_mm.value().max(most));
+                if axes.slide_mm.derivative(1) == 0.0 {
+                    idle_s += linkage.end_s() / f64::from(steps);
+                }
+            }
+            assert!(least > low - 1e-6 && most < high + 1e-6 && most - least > 0.99 * (high - low));
+            assert!((idle_s - plan.idle_s).abs() < 0.3, "{idle_s} {}", plan.idle_s);
+            assert_eq!(plan.idle_s > 0.0, strategy.ends_with("repeating"));
+        }
+    }
+
+    #[test]
+    fn the_papers_feeds_follow_from_their_resultant() {
+        // Liu et al. 2015, Table 1, with the shift that belongs to it: v_z for v*_z = -50 / 300 mm/s.
+        for (direction, hand, expected) in [
+            ("adds", "left", 0.22976615123458155),
+            ("adds", "right", 0.046693835497048974),
+            ("subtracts", "left", 0.10356718209875178),
+            ("subtracts", "right", 0.28663949783628434),
+        ] {
+            let settings = [
+                format!("operation.finish.linkage.hobbing_diagonal.shift_direction={direction}"),
+                "operation.finish.linkage.hobbing_diagonal.feed_of=resultant".to_owned(),
+                format!("gear.hand={hand}"),
+            ];
+            let scene = scene::load(Path::new("scenes/hobbing/third_order_diagonal.toml"), &settings).unwrap().scene;
+            let job = HobbingJob::new(&scene).unwrap();
+            // The scene's feeds are per revolution of nearly 15 s.
+            let found = job.finishing().plan.slide_feeds_mm[0] / 15.0;
+            assert!((found - expected).abs() < 1e-9, "{direction} {hand}: {found}");
+        }
+    }
+
+    #[test]
+    fn shifts_and_hobs_that_do_not_fit_are_refused() {
+        let (key, problem) = refused(diagonal(&[
+            "linkage.hobbing_diagonal.strategy=one_way",
+            "linkage.hobbing_diagonal.shift_mm_per_revolution=75",
+        ]));
+        assert!(key.ends_with("strategy") && problem.contains("mm of shift"), "{problem}");
+        let (key, _) = refused(diagonal(&["linkage.hobbing_diagonal.stroke_mm=90"]));
+        assert!(key.ends_with("stroke_mm"));
+        let (key, _) = refused(diagonal(&["shift_start_mm=60"]));
+        assert!(key.ends_with("shift_start_mm"));
+        let (key, _) = refused(diagonal(&[
+            "linkage.hobbing_diagonal.feed_of=resultant",
+            "linkage.hobbing_diagonal.shift_mm_per_revolution=75",
+        ]));
+        assert!(key.ends_with("shift_mm_per_revolution"));
+        let short =
+            scene::load(Path::new("scenes/hobbing/third_order_plain.toml"), &["tool.hob.length_mm=40".to_owned()]);
+        let (key, problem) = refused(HobbingJob::new(&short.unwrap().scene));
+        assert!(key == "tool.hob.length_mm" && problem.contains("whole contact"), "{problem}");
+    }
+
+    #[test]
+    fn hollow_curves_are_refused_and_say_why() {
+        let settings = ["gear.pitch_curve.ellipse.eccentricity=0.2".to_owned()];
+        let scene = scene::load(Path::new("scenes/hobbing/third_order_plain.toml"), &settings).unwrap().scene;
+        let (key, problem) = refused(HobbingJob::new(&scene));
+        assert!(key == "gear.pitch_curve" && problem.contains("straight line"), "{problem}");
+        // The limit of convexity, 1 / (n^2 - 1), is not refused.
+        let settings = ["gear.pitch_curve.ellipse.eccentricity=0.125".to_owned()];
+        let scene = scene::load(Path::new("scenes/hobbing/third_order_plain.toml"), &settings).unwrap().scene;
+        HobbingJob::new(&scene).unwrap();
+    }
+
+    #[test]
+    fn two_cuts_keep_the_phase_and_conventional_turns_the_feed() {
+        let job = job("circular_helical", &[]).unwrap();
+        let [rough, finish] = job.operations.as_slice() else { panic!("two operations") };
+        assert!((rough.offset_mm * 20_f64.to_radians().sin() - 0.15).abs() < 1e-12);
+        let slide = |o: &crate::job::hobbing::PreparedHobbing| o.linkage.axes::<2>(o.linkage.end_s()).slide_mm;
+        // Right-hand hob: climb feeds up, conventional down.
+        assert!(slide(rough).derivative(1) > 0.0 && slide(finish).derivative(1) < 0.0);
+        let start = rough.linkage.axes::<1>(0.0).radial_mm.value();
+        assert!(
+            start > 6.0
+                && (rough.linkage.axes::<1>(rough.linkage.end_s()).radial_mm.value() - rough.offset_mm).abs() < 1e-9
+        );
     }
 }

@@ -50,7 +50,7 @@ fn edges_lie_on_an_involute_helicoid() {
         (model::Hand::Left, 2, GashForm::Helical),
     ] {
         let size = HobSize::ReferenceDiameter(140.0);
-        let hob = hob(&model::Hob { hand, starts, gash_form, size, ..spec() }).unwrap();
+        let hob = hob(&model::Hob { starts, hand, gash_form, size, ..spec() }).unwrap();
         let p = hob.lead_mm / TAU;
         let base = p / (hob.lead_angle_rad.cos() * 20_f64.to_radians().cos()).acos().tan();
         // Every edge point, brought back along the screw into one axial section, lies on one curve z(rho).
@@ -100,7 +100,7 @@ fn the_chain_is_closed_whatever_the_tip() {
     for (tip_radius_mm, protuberance) in [(0.0, None), (2.0, None), (1.5, protuberance), (0.0, protuberance)] {
         for worm in [Worm::Involute, Worm::StraightSided] {
             for regrind_mm in [0.0, 2.5] {
-                let spec = model::Hob { tip_radius_mm, protuberance, worm, regrind_mm, ..spec() };
+                let spec = model::Hob { worm, tip_radius_mm, protuberance, regrind_mm, ..spec() };
                 let hob = hob(&spec).unwrap();
                 let ends: Vec<[DVec2; 2]> =
                     hob.edge().segments.iter().map(points).map(|p| [p[0], p[p.len() - 1]]).collect();
@@ -135,7 +135,7 @@ fn teeth_stand_on_the_thread() {
         (model::Hand::Right, GashForm::Helical, 3),
     ] {
         let size = HobSize::ReferenceDiameter(150.0);
-        let hob = hob(&model::Hob { hand, gash_form, starts, size, ..spec() }).unwrap();
+        let hob = hob(&model::Hob { starts, hand, gash_form, size, ..spec() }).unwrap();
         assert_eq!(hob.teeth[0].label(1), "1");
         for tooth in &hob.teeth {
             let on_thread = hob.hand * hob.lead_mm / TAU * tooth.angle_rad;

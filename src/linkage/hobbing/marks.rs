@@ -1,0 +1,154 @@
+//! Cutting marks on the flanks from kinematics alone: where each gash touches, and the lattice that the touches form.
+//!
+//! In: linkage, target, hob. Out: [`Mark`]s in flank coordinates (roll past the pitch line, z), steps between them as vectors on the flank, the shortest two of the lattice.
+//!
+//! **Law.** Hob and gear are conjugate to one rack; both touch it where its flank's normal passes the pitch point of each: on the line of action `Q = (0, 0, z) + lambda N` of the
+//! machine frame, N the rack's normal, z the slide. The rack stands at lambda = -e sigma cos(alpha_n) cos(beta) along it, sigma the roll in the section z. A gash's mark is where its rake
+//! face holds Q at that moment. There the edge lies on the target exactly; between marks it leaves ridges.
+//!
+//! Neighbours in the lattice are the next gash (v1) and the same hob tooth when the work has come round, gear teeth / starts turns of the hob later (v2). Without shift v2 is the axial feed along the
+//! tooth; with shift it crosses the profile.
+
+use super::HobbingLinkage;
+use crate::gear::generation::Side;
+use crate::gear::rack_generation::RackGeneration;
+use crate::tool::{Hob, SpatialTool};
+use crate::units::TURN_RAD;
+use glam::{DVec2, DVec3};
+
+/// Where a gash touches a flank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mark {
+    /// Roll past the flank's crossing with the pitch line, mm.
+    pub roll_mm: f64,
+    /// Place along the gear's axis, gear frame, mm.
+    pub z_mm: f64,
+    /// When.
+    pub time_s: f64,
+}
+
+/// Everything marks follow from.
+#[derive(Debug, Clone, Copy)]
+pub struct Marks<'a> {
+    /// How the axes move.
+    pub linkage: &'a HobbingLinkage,
+    /// The rack and the pitch curve.
+    pub target: &'a RackGeneration,
+    /// The hob.
+    pub hob: &'a Hob,
+    /// Which flanks.
+    pub side: Side,
+}
+
+impl Marks<'_> {
+    /// Mark of gash passage `gash` (any integer, counted from hob angle 0) on the flank of `space` (any integer, counted along the rolled arc without wrapping).
+    pub fn mark(&self, gash: i64, space: i64) -> Mark {
+        let start = self.linkage.time_at_hob_angle(TURN_RAD * gash as f64 / f64::from(self.hob.gashes));
+        let residual = |t: f64| self.touch(gash, space, t).0;
+        // Secant steps: the residual is the hob's angle plus little.
+        let (mut t0, mut f0) = (start, residual(start));
+        let mut t1 = start + 1e-4 * self.linkage.cycle_s();
+        for _ in 0..60 {
+            let f1 = residual(t1);
+            if f1 == f0 {
+                break;
+            }
+            let next = t1 - f1 * (t1 - t0) / (f1 - f0);
+            (t0, f0, t1) = (t1, f1, next);
+            if (t1 - t0).abs() < 1e-15 * (1.0 + t1.abs()) {
+                break;
+            }
+        }
+        self.touch(gash, space, t1).1
+    }
+
+    /// Angle by which the rake face is past Q, and the mark that Q would be.
+    fn touch(&self, gash: i64, space: i64, time_s: f64) -> (f64, Mark) {
+        let g = self.linkage.geometry();
+        let axes = self.linkage.axes::<1>(time_s);
+        let rack = &self.target.rack;
+        let e = self.side.sign();
+        let (sin_t, cos_t) = rack.pressure_angle_rad.sin_cos();
+        let (sin_b, cos_b) = g.helix_angle_rad.sin_cos();
+        // alpha_n from the transverse section: tan(alpha_n) = tan(alpha_t) cos(beta).
+        let (sin_n, cos_n) = (sin_t / cos_t * cos_b).atan().sin_cos();
+        let normal = DVec3::new(e * cos_n * cos_b, sin_n, e * g.gear_hand * cos_n * sin_b);
+        let slide_mm = axes.slide_mm.value();
+        let roll_at_slide = axes.arc_mm.value() - self.target.crossing_arc_mm(space, self.side, -slide_mm);
+        let lambda = -e * cos_n * cos_b * roll_at_slide;
+        let axis = g.hob_axis();
+        let across = axis.cross(DVec3::NEG_Y);
+        let from_axis = lambda * normal - DVec3::new(0.0, g.pitch_radius_mm + axes.radial_mm.value(), 0.0);
+        let place = from_axis.dot(across).atan2(-from_axis.y);
+        let axial_mm = from_axis.dot(axis) - axes.shift_mm.value();
+        let passed = axes.hob_rad.value() - TURN_RAD * gash as f64 / f64::from(self.hob.gashes);
+        let rake = g.hob_hand * passed - self.hob.rake_twist_rad_per_mm() * axial_mm;
+        let transverse_mm = lambda * normal.x.hypot(normal.y);
+        let mark = Mark { roll_mm: -e * transverse_mm / cos_t, z_mm: -(slide_mm + lambda * normal.z), time_s };
+        (rake - place, mark)
+    }
+
+    /// Mark nearest to the pitch line of the flank of `space` at the height `z_mm`, and its gash.
+    pub fn nearest(&self, space: i64, z_mm: f64) -> (i64, Mark) {
+        // The slide passes z once; the space comes by once per cycle. Fixed point: the time at which both hold, then gash by gash.
+        let arc_mm = self.target.crossing_arc_mm(space, self.side, z_mm);
+        let per_gash = TURN_RAD / f64::from(self.hob.gashes);
+        let turns = arc_mm / self.linkage.geometry().arc_per_hob_rad_mm();
+        let guess = (turns / per_gash).round() as i64;
+        (guess - 4..=guess + 4)
+            .map(|gash| (gash, self.mark(gash, space)))
+            .min_by(|a, b| a.1.roll_mm.abs().total_cmp(&b.1.roll_mm.abs()))
+            .expect("nine gashes")
+    }
+
+    /// Step from a mark to the one of the next gash.
+    pub fn to_next_gash(&self, gash: i64, space: i64) -> DVec2 {
+        step(self.mark(gash, space), self.mark(gash + 1, space))
+    }
+
+    /// Step from a mark to the one of the same hob tooth when the work has come round.
+    pub fn to_same_tooth(&self, gash: i64, space: i64, gear_teeth: u32) -> DVec2 {
+        let teeth = i64::from(gear_teeth);
+        let turns = teeth * i64::from(self.hob.gashes) / i64::from(self.hob.starts);
+        step(self.mark(gash, space), self.mark(gash + turns, space + teeth))
+    }
+
+    /// A step (roll, z) as a vector on the flank where the profile takes `length_per_roll` (see
+    /// [`crate::gear::rack_generation::RackContact::length_per_roll`]): along the tooth trace and across it, mm.
+    pub fn on_flank(&self, step: DVec2, length_per_roll: f64) -> DVec2 {
+        let (sin_t, cos_t) = self.target.rack.pressure_angle_rad.sin_cos();
+        let g = self.linkage.geometry();
+        let (sin_b, cos_b) = g.helix_angle_rad.sin_cos();
+        let e = self.side.sign();
+        let profile = DVec3::new(sin_t, -e * cos_t, 0.0);
+        let trace = DVec3::new(g.gear_hand * sin_b, 0.0, cos_b);
+        let vector = length_per_roll * step.x * profile + step.y / cos_b * trace;
+        let along = vector.dot(trace);
+        DVec2::new(along, (vector - along * trace).length().copysign(step.x))
+    }
+}
+
+fn step(from: Mark, to: Mark) -> DVec2 {
+    DVec2::new(to.roll_mm - from.roll_mm, to.z_mm - from.z_mm)
+}
+
+/// Angle of a vector on the flank against the tooth trace, -pi/2 to pi/2.
+pub fn angle_to_trace_rad(vector: DVec2) -> f64 {
+    (vector.y / vector.x).atan()
+}
+
+/// The two shortest steps that span the same lattice as `v1` and `v2` (Lagrange's reduction), the shortest first; `vector` gives the length of a step.
+pub fn reduced(v1: DVec2, v2: DVec2, vector: impl Fn(DVec2) -> DVec2) -> [DVec2; 2] {
+    let (mut a, mut b) = (v1, v2);
+    for _ in 0..100 {
+        if vector(a).length_squared() > vector(b).length_squared() {
+            (a, b) = (b, a);
+        }
+        let times = (vector(a).dot(vector(b)) / vector(a).length_squared()).round();
+        if times == 0.0 {
+            break;
+        }
+        b -= times * a;
+    }
+    [a, b]
+}
