@@ -51,15 +51,15 @@ fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn 
     };
     let probe = Job::new(scene.clone())?;
     let generation = probe.target_generation();
-    let crossing = |side| -> Result<Option<f64>, Box<dyn Error>> {
-        Ok(probe.target_flank(&generation, 3, side)?.at_height(&probe.blank, 0.0).map(|(arc_mm, _)| arc_mm))
-    };
-    scene.textures = vec![
-        window(WindowSides::Both, None, Some(LENGTHS_MM[0])),
-        window(WindowSides::Left, crossing(Side::Left)?, Some(LENGTHS_MM[1])),
-        window(WindowSides::Right, crossing(Side::Right)?, Some(LENGTHS_MM[1])),
-        window(WindowSides::Both, None, None),
-    ];
+    let mut about_pitch_curve = Vec::new();
+    let mut whole = Vec::new();
+    for (side, sides) in [(Side::Left, WindowSides::Left), (Side::Right, WindowSides::Right)] {
+        let flank = probe.target_flank(&generation, 3, side)?;
+        let crossing_mm = flank.at_height(&probe.blank, 0.0).map(|(arc_mm, _)| arc_mm);
+        about_pitch_curve.push(window(sides, crossing_mm, Some(LENGTHS_MM[1])));
+        whole.push(window(sides, Some(0.5 * flank.length_mm()), Some(flank.length_mm())));
+    }
+    scene.textures = [vec![window(WindowSides::Both, None, Some(LENGTHS_MM[0]))], about_pitch_curve, whole].concat();
     let job = Job::new(scene)?;
     for (index, window) in windows(&job)?.into_iter().enumerate() {
         for texture in cut_window(&job, &Cpu::default(), &window)? {
