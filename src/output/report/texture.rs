@@ -101,16 +101,16 @@ fn material_ratio(window: &TextureWindow) -> Markup {
             polygon class="valley" points=(points(&[(x(100.0), y(base)), (x(sk.smr2_percent), y(base)), (x(100.0), y(base - sk.svk_um))])) {}
             @for (height, percent) in [(top, sk.smr1_percent), (base, sk.smr2_percent)] {
                 line class="limit" x1=(px(x(0.0))) x2=(px(x(100.0))) y1=(px(y(height))) y2=(px(y(height))) {}
-                line class="limit" x1=(px(x(percent))) x2=(px(x(percent))) y1=(px(y(height))) y2=(BOTTOM) {}
+                line class="limit" x1=(px(x(percent))) x2=(px(x(percent))) y1="10" y2=(BOTTOM) {}
             }
-            text class="label end" x=(px(x(sk.smr1_percent) - 4.0)) y=(px(BOTTOM - 6.0)) { "Smr1" }
-            text class="label" x=(px((x(sk.smr2_percent) + 4.0).min(WIDTH - RIGHT))) y=(px(BOTTOM - 6.0)) { "Smr2" }
+            text class="label" x=(px(x(sk.smr1_percent) + 4.0)) y="24" { "Smr1" }
+            text class="label end" x=(px(x(sk.smr2_percent) - 4.0)) y="24" { "Smr2" }
             path class="curve s1" d=(path(&[(x(0.0), y(top)), (x(100.0), y(base))])) {}
             path class="window" d=(path(&sk.window_percent.map(|p| (x(p), y(top + (base - top) * p / 100.0))))) {}
             line class="dimension" x1=(px(x(100.0) + 12.0)) x2=(px(x(100.0) + 12.0)) y1=(px(y(top))) y2=(px(y(base))) {}
             text class="label" x=(px(x(100.0) + 18.0)) y=(px(0.5 * (y(top) + y(base)) + 4.0)) { "Sk" }
-            @if sk.spk_um > 0.0 { text class="label" x=(px(x(0.0) + 6.0)) y=(px(y(top + sk.spk_um) + 12.0)) { "Spk" } }
-            @if sk.svk_um > 0.0 { text class="label end" x=(px(x(100.0) - 6.0)) y=(px(y(base - sk.svk_um) - 4.0)) { "Svk" } }
+            @if sk.spk_um > 0.0 { text class="label" x=(px(x(0.0) + 6.0)) y=(px(y(top + 0.2 * sk.spk_um))) { "Spk" } }
+            @if sk.svk_um > 0.0 { text class="label end" x=(px(x(100.0) - 6.0)) y=(px(y(base - 0.2 * sk.svk_um))) { "Svk" } }
         }
         path class="curve s0" d=(path(&curve)) {}
         rect class="frame" x=(LEFT) y="10" width=(WIDTH - LEFT - RIGHT) height=(BOTTOM - 10.0) {}
