@@ -5,7 +5,7 @@
 //! | what | where |
 //! | --- | --- |
 //! | height over the target after each operation | `maps/<operation>/tooth_07_left.{png,exr}` |
-//! | pass that left the surface, a picture of the same EXR | `maps/<operation>/tooth_07_left_pass.png` |
+//! | pass that left the finished surface (a channel of every EXR above) | `maps/<last operation>/tooth_07_left_pass.png` |
 //! | stock of each earlier operation over the finished surface | `allowance/tooth_07_left.{png,exr}` |
 //! | deviation of the finished flank | `deviation/tooth_07_left.{png,exr}` |
 //!
@@ -148,18 +148,23 @@ impl FlankMaps {
                 scale: ColourScale::heights_over([heights_um.as_slice()]),
             };
             write_map_png(&folder.path(format!("maps/{name}/{stem}.png"))?, &picture)?;
-            // Ids are whole numbers; those of one flank lie close together, and as f32 they are exact up to 16 million.
-            let ids: Vec<f32> =
-                self.passes[index].iter().map(|&pass| if pass == NO_PASS { f32::NAN } else { pass as f32 }).collect();
-            let picture = MapPicture {
-                title: &format!("{name}: {flank}, the pass that left each place"),
-                quantity: "pass id, in the order of time",
-                unit: "1",
-                values: &ids,
-                scale: ColourScale::sequential_over([ids.as_slice()]),
-                ..picture
-            };
-            write_map_png(&folder.path(format!("maps/{name}/{stem}_pass.png"))?, &picture)?;
+            // One picture of passes is enough to see the order of cutting: that of the finished surface. The EXR has all.
+            if index + 1 == operations.len() {
+                let ids: Vec<f32> = self.passes[index]
+                    .iter()
+                    // As f32, ids are exact up to 16 million.
+                    .map(|&pass| if pass == NO_PASS { f32::NAN } else { pass as f32 })
+                    .collect();
+                let picture = MapPicture {
+                    title: &format!("{name}: {flank}, the pass that left each place"),
+                    quantity: "pass id, in the order of time",
+                    unit: "1",
+                    values: &ids,
+                    scale: ColourScale::sequential_over([ids.as_slice()]),
+                    ..picture
+                };
+                write_map_png(&folder.path(format!("maps/{name}/{stem}_pass.png"))?, &picture)?;
+            }
             let channels = vec![
                 channel(
                     "height_mm",

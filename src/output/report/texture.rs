@@ -101,16 +101,16 @@ fn material_ratio(window: &TextureWindow) -> Markup {
             polygon class="valley" points=(points(&[(x(100.0), y(base)), (x(sk.smr2_percent), y(base)), (x(100.0), y(base - sk.svk_um))])) {}
             @for (height, percent) in [(top, sk.smr1_percent), (base, sk.smr2_percent)] {
                 line class="limit" x1=(px(x(0.0))) x2=(px(x(100.0))) y1=(px(y(height))) y2=(px(y(height))) {}
-                line class="limit" x1=(px(x(percent))) x2=(px(x(percent))) y1=(px(y(height))) y2=(BOTTOM) {}
+                line class="limit" x1=(px(x(percent))) x2=(px(x(percent))) y1="10" y2=(BOTTOM) {}
             }
-            text class="label end" x=(px(x(sk.smr1_percent) - 4.0)) y=(px(BOTTOM - 6.0)) { "Smr1" }
-            text class="label" x=(px((x(sk.smr2_percent) + 4.0).min(WIDTH - RIGHT))) y=(px(BOTTOM - 6.0)) { "Smr2" }
+            text class="label" x=(px(x(sk.smr1_percent) + 4.0)) y="24" { "Smr1" }
+            text class="label end" x=(px(x(sk.smr2_percent) - 4.0)) y="24" { "Smr2" }
             path class="curve s1" d=(path(&[(x(0.0), y(top)), (x(100.0), y(base))])) {}
             path class="window" d=(path(&sk.window_percent.map(|p| (x(p), y(top + (base - top) * p / 100.0))))) {}
             line class="dimension" x1=(px(x(100.0) + 12.0)) x2=(px(x(100.0) + 12.0)) y1=(px(y(top))) y2=(px(y(base))) {}
             text class="label" x=(px(x(100.0) + 18.0)) y=(px(0.5 * (y(top) + y(base)) + 4.0)) { "Sk" }
-            @if sk.spk_um > 0.0 { text class="label" x=(px(x(0.0) + 6.0)) y=(px(y(top + sk.spk_um) + 12.0)) { "Spk" } }
-            @if sk.svk_um > 0.0 { text class="label end" x=(px(x(100.0) - 6.0)) y=(px(y(base - sk.svk_um) - 4.0)) { "Svk" } }
+            @if sk.spk_um > 0.0 { text class="label" x=(px(x(0.0) + 6.0)) y=(px(y(top + 0.2 * sk.spk_um))) { "Spk" } }
+            @if sk.svk_um > 0.0 { text class="label end" x=(px(x(100.0) - 6.0)) y=(px(y(base - 0.2 * sk.svk_um))) { "Svk" } }
         }
         path class="curve s0" d=(path(&curve)) {}
         rect class="frame" x=(LEFT) y="10" width=(WIDTH - LEFT - RIGHT) height=(BOTTOM - 10.0) {}
@@ -138,30 +138,66 @@ fn points(corners: &[(f64, f64)]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::report::{Block, Page, Section};
 
-    #[test]
-    fn the_construction_is_drawn_where_the_numbers_say() {
-        let window = TextureWindow {
-            title: "tooth 3 <left>".into(),
+    /// A row of parabolic feed marks of 1 um: the ratio curve is (1 - p)^2, its core line in closed form.
+    fn scallops() -> TextureWindow {
+        let mean = 1.0 / 3.0;
+        let height = |ratio: f64| (1.0 - ratio).powi(2) - mean;
+        TextureWindow {
+            title: "tooth 3, <left> flank".into(),
             chain: "plane removed; no filter".into(),
-            parameters: vec![["Sk".into(), "0.40 µm".into(), "core height".into()]],
+            parameters: [
+                ("Sa", "0.257 µm"),
+                ("Sq", "0.298 µm"),
+                ("Sk", "0.400 µm"),
+                ("Spk", "0.576 µm"),
+                ("Svk", "0 µm"),
+            ]
+            .map(|(name, value)| [name.into(), value.into(), "of parabolic marks".into()])
+            .into(),
             warnings: vec!["fewer than five marks".into()],
             png: None,
-            material_ratio: (0..=100).map(|p| (f64::from(p), 0.5 - 0.01 * f64::from(p))).collect(),
+            material_ratio: (0..=200).map(|k| f64::from(k) / 200.0).map(|p| (100.0 * p, height(p))).collect(),
             sk: Some(SkConstruction {
-                line_um: [0.5, -0.5],
-                window_percent: [30.0, 70.0],
-                smr1_percent: 10.0,
-                smr2_percent: 90.0,
-                spk_um: 0.1,
+                line_um: [0.373_333 - mean, -0.026_667 - mean],
+                window_percent: [60.0, 100.0],
+                smr1_percent: 38.9,
+                smr2_percent: 100.0,
+                spk_um: 0.576,
                 svk_um: 0.0,
             }),
-        };
-        let text = super::window(&window).into_string();
-        assert!(text.contains("tooth 3 &lt;left&gt;") && text.contains("fewer than five marks"));
-        assert!(text.contains(">Spk<") && !text.contains(">Svk<"), "no valley, no name for it");
-        // Sk is measured between the line's ends: y(0.5) and y(-0.5) on axes from -0.6 to 0.6.
-        let sheet = material_ratio(&window).into_string();
-        assert!(sheet.contains(r#"class="dimension""#) && sheet.contains(">Sk<"), "{sheet}");
+        }
+    }
+
+    /// With `GEARCUT_KEEP=folder` a page with the window is kept there for a look.
+    #[test]
+    fn the_construction_is_drawn_where_the_numbers_say() {
+        let text = window(&scallops()).into_string();
+        assert!(text.contains("tooth 3, &lt;left&gt; flank") && text.contains("fewer than five marks"));
+        assert!(text.contains(">Sk<") && text.contains(">Spk<") && !text.contains(">Svk</text>"), "no valley, no name");
+        // The equivalent line runs over the whole width, from 0 % at the left to 100 % at the right of the frame.
+        assert!(text.contains(r#"class="curve s1" d="M52 "#), "{text}");
+        assert!(text.contains(r#"class="dimension""#));
+        if let Some(folder) = std::env::var_os("GEARCUT_KEEP") {
+            let section = Section {
+                id: "texture",
+                title: "Texture".into(),
+                lead: String::new(),
+                blocks: vec![Block::Texture(scallops())],
+            };
+            let page = Page {
+                title: "texture".into(),
+                subtitle: String::new(),
+                operations: Vec::new(),
+                complete: true,
+                program: "gearcut".into(),
+                key_numbers: Vec::new(),
+                warnings: Vec::new(),
+                viewer: None,
+                sections: vec![section],
+            };
+            page.write(&std::path::Path::new(&folder).join("texture.html")).expect("a folder to keep pages in");
+        }
     }
 }
