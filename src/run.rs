@@ -176,5 +176,5 @@ pub fn cut(
         progress.note(&incident);
     }
     let summary = summary::summary(&job, &gear, &results, out, &backend.name());
-    Ok(Done { folder: folder.finish()?, summary, results, interrupted: gear.interrupted })
+    Ok(Done { folder: folder.finish()?, summary, results, interrupted: whole.is_none() })
 }
