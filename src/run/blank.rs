@@ -177,7 +177,7 @@ pub(super) fn write_table_of_damage(job: &Job, report: &BlankReport, folder: &Ou
             d.point_mm.y.into(),
             d.depth_mm.into(),
             d.volume_mm3.into(),
-            Cell::Whole(d.stroke as i64),
+            (d.stroke as u32).into(),
             d.blade.into(),
         ]
     };
@@ -195,10 +195,10 @@ pub(super) fn write_table_of_damage(job: &Job, report: &BlankReport, folder: &Ou
             "space behind the tooth".into(),
         ];
         cells.extend((0..6).map(|_| none()));
-        cells.push(Cell::Whole(f.fault.stroke as i64));
+        cells.push((f.fault.stroke as u32).into());
         cells.push(none());
         cells
     });
     let rows: Vec<Vec<Cell>> = gouges.chain(interference).chain(rubbing).chain(strokes).collect();
-    write_table(&folder.path("tables/damage.csv")?, &columns, rows.into_iter())
+    write_table(&folder.path("tables/damage.csv")?, &columns, rows)
 }
