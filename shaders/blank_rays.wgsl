@@ -2,7 +2,7 @@
 //
 // One thread per ray, one workgroup per tile. Reads launch, tiles, passes, parts; rewrites spans and their counts; adds what every pass removed, in fixed point, so that the sum
 // does not depend on the order of threads. A list that has no room says how much it needs, and the host comes back with more.
-// Twin: src/cut/cpu/blank.rs (derivation there). Adds at most 0.1 um to an end that its ray meets at 45 degrees or steeper.
+// Twin: src/cut/cpu/blank.rs (derivation there). Adds at most 30 nm to an end that its ray meets at 45 degrees or steeper.
 
 @group(0) @binding(0) var<uniform> launch: BlankLaunch;
 @group(0) @binding(1) var<storage, read> tiles: array<BlankTile>;

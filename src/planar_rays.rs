@@ -309,9 +309,9 @@ fn cross(curve: &impl ClosedCurve, family: Family, part: &Part, at_mm: f64) -> C
     for _ in 0..60 {
         let residual = family.across(place[0]) - at_mm;
         if residual > 0.0 {
-            high = t
+            high = t;
         } else {
-            low = t
+            low = t;
         }
         let newton = t - residual / family.across(place[1]);
         // A step that leaves the bracket, as near a turning point, is replaced by its middle.

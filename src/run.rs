@@ -257,7 +257,8 @@ pub fn cut(
     let words = report::RunWords { resolved_scene: &resolved, backend: &backend.name(), backend_why };
     report::page(&job, &gear, &results, &words)?.write(&folder.path(REPORT_FILE)?)?;
     let summary = summary::summary(&job, &gear, &results, out, &backend.name());
-    let CutGear { stats, dexels, elapsed, interrupted, .. } = gear;
+    let CutGear { stats, dexels, elapsed, .. } = gear;
+    let interrupted = whole.is_none();
     let results = serde_json::to_value(&results)
         .map_err(|reason| Error::Output { path: out.to_owned(), reason: reason.to_string() })?;
     let done = (results, summary, Work { stats, dexels, elapsed, interrupted });

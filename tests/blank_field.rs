@@ -25,8 +25,8 @@ use i_overlay::core::solver::Solver;
 use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 use std::path::PathBuf;
 
-/// Points of the target's outline, mm: chords of a fillet of 0.8 mm then miss 60 nm.
-const TARGET_SPACING_MM: f64 = 0.02;
+/// Points of the target's outline, mm: chords of a fillet of 0.8 mm then miss 0.25 um, a quarter of the least damage that is reported.
+const TARGET_SPACING_MM: f64 = 0.04;
 
 fn job(scene: Scene) -> Job {
     Job::new(scene).expect("a scene that cuts")
@@ -170,7 +170,7 @@ fn surfaces_lie_on_the_target() {
     scene.shaping_mut().expect("shaping").tool.tip = gearcut::scene::model::Tip::Round { radius_mm: 0.6 };
     scene.fields.blank_spacing_mm = 0.2;
     let job = job(scene);
-    let target = job.target_outline(TARGET_SPACING_MM).expect("ordinary teeth");
+    let target = job.target_outline(0.02).expect("ordinary teeth");
     let cut = cut(&job);
     let heights: Vec<f64> = cut_ends(&cut.field).map(|p| target.distance_mm(p, 3.0).expect("near")).collect();
     let low = heights.iter().copied().fold(0.0, f64::min);
@@ -277,7 +277,10 @@ fn meshes_of_all_scenes_are_closed() {
         let BlankMesh { mesh, guessed } = BlankMesh::new(&cut.field, None);
         let volume_mm3 = mesh.volume_mm3();
         let [x, y] = cut.field.volumes_mm3();
-        let report = report(&job, &cut);
+        // The cutter's base shapes the tips of one scene: there is no target in closed form, and nothing to damage.
+        let target = job.target_outline(TARGET_SPACING_MM).ok();
+        assert_eq!(target.is_none(), name == "fourier_concave", "{name}");
+        let report = blank_report::measure(&job, &cut, target.as_ref());
         println!(
             "{name}: {} slices, {} triangles, {guessed} guessed, volume {:.5} of the rays', {} gouges, {} interference, {} rubs, faults {:?}",
             cut.field.slices.len(),
@@ -291,25 +294,25 @@ fn meshes_of_all_scenes_are_closed() {
         assert!(mesh.is_closed(), "{name}: {:?}", mesh.edge_faults());
         assert!((2.0 * volume_mm3 / (x + y) - 1.0).abs() < 1e-3, "{name}");
         assert_eq!(guessed, 0, "{name}");
-        // A cutter that runs out by 5 um gouges as deep as that, and no deeper; nothing else does.
+        // A cutter that runs out by 5 um gouges as deep as that, and no deeper but for the target's chords; nothing else does.
         let runout_mm = job.cutter_spec.runout_mm;
         let damage = || report.gouges.iter().chain(&report.interference);
         assert_eq!(damage().count() > 0, runout_mm > 0.0, "{name}");
-        assert!(damage().all(|d| d.depth_mm < 1.05 * runout_mm), "{name}: {:?}", damage().collect::<Vec<_>>());
+        assert!(damage().all(|d| d.depth_mm < runout_mm + 5e-4), "{name}: {:?}", damage().collect::<Vec<_>>());
         assert!(report.stroke_faults.is_empty(), "{name}: {:?}", report.stroke_faults);
     }
 }
 
-/// How far an end on the GPU may be off the native one, mm: a dozen ulps of f32 at 70 mm.
-const GPU_BOUND_MM: f64 = 1e-4;
+/// How far an end on the GPU may be off the native one, mm: four ulps of f32 at 70 mm.
+const GPU_BOUND_MM: f64 = 3e-5;
 /// An end that its ray meets at 45 degrees or steeper, where a place is known as well as the ray's coordinates are.
 const STEEP: f32 = 0.7;
 
 #[test]
 fn the_gpu_leaves_the_same_spans_and_volumes() {
-    let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 360), operation("finish", NORMAL, 0.0, 360)]);
+    let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 240), operation("finish", NORMAL, 0.0, 240)]);
     scene.shaping_mut().expect("shaping").operations[1].feed_during_stroke = true;
-    scene.fields.blank_spacing_mm = 0.3;
+    scene.fields.blank_spacing_mm = 0.5;
     scene.fields.blank_slice_spacing_mm = 30.0;
     let job = job(scene);
     let native = cut(&job);
@@ -363,9 +366,9 @@ fn the_gpu_leaves_the_same_spans_and_volumes() {
         "{ends} steep ends at most {:.1} nm apart, {apart} further; {others} of {lists} lists of other lengths; volumes {off:?} apart",
         1e6 * worst_mm
     );
-    assert!(ends > 5000 && 1000 * apart <= ends);
+    assert!(ends > 2000 && 1000 * apart <= ends);
     assert!(1000 * others <= 2 * lists, "lists differ only by slivers of some nanometres");
-    assert!(off[0] < 1e-6 && off[1] < 1e-6);
+    assert!(off[0] < 1e-7 && off[1] < 1e-7);
     // What every pass removed, and all of them together.
     for (native, cut) in native.cuts.iter().zip(&cuts) {
         for f in 0..2 {
@@ -381,7 +384,7 @@ fn the_gpu_leaves_the_same_spans_and_volumes() {
     assert!(run(0, None).0 == field);
     let schedule = &job.operations[1].schedule;
     let law = job.operations[1].strokes.law;
-    let fewer = StrokeSet::new(job.operations[1].strokes.first_pass, &job.cutter, law, 359, |lambda| {
+    let fewer = StrokeSet::new(job.operations[1].strokes.first_pass, &job.cutter, law, 239, |lambda| {
         let pose = schedule.state(if lambda > 99.5 { lambda + 1.0 } else { lambda }).pose;
         Rigid2::new(pose.angle_rad, pose.center_mm)
     });

@@ -26,6 +26,9 @@ use std::collections::BTreeMap;
 /// Damage and rubbing less deep than this are not reported: above the errors of the outline (chords of the target, 0.1 um in a fillet), below what any machine holds.
 pub const LEAST_DEPTH_MM: f64 = 1e-3;
 
+/// Strokes beside a gouging one that are not called faulty: it stands out, and the next ones find their chips gone.
+const GOUGE_SHADOW: usize = 4;
+
 /// Damage or rubbing on one side of a tooth by one operation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Damage {
@@ -294,7 +297,7 @@ fn is_judged(job: &Job, cut: &CutBlank, operation: usize) -> bool {
 /// Faults of strokes, less those that a gouge explains: a stroke that cut too deep stands alone as well.
 fn faults(job: &Job, cut: &CutBlank, gouges: &[Damage], interference: &[Damage]) -> Vec<PlacedStrokeFault> {
     let gouged = |operation: usize, stroke: usize| {
-        gouges.iter().chain(interference).any(|d| d.operation == operation && d.stroke.abs_diff(stroke) <= 1)
+        gouges.iter().chain(interference).any(|d| d.operation == operation && d.stroke.abs_diff(stroke) <= GOUGE_SHADOW)
     };
     let mut placed = Vec::new();
     for (operation, (prepared, done)) in job.operations.iter().zip(&cut.cuts).enumerate() {

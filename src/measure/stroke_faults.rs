@@ -118,6 +118,7 @@ fn scatter(volumes: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use StrokeFaultKind::{DidNotCut, Doubled, MissingBefore};
 
     #[test]
     fn a_tooth_that_comes_into_the_work_is_no_fault_and_hides_none() {
@@ -150,7 +151,6 @@ mod tests {
         strokes[40] = [6.5, 3.4];
         strokes[50] = [3.4, 0.0];
         let found: Vec<_> = stroke_faults(&strokes, 1).iter().map(|f| (f.stroke, f.kind)).collect();
-        use StrokeFaultKind::{DidNotCut, Doubled, MissingBefore};
         assert_eq!(found, [(10, MissingBefore), (20, Doubled), (30, DidNotCut)]);
     }
 }

@@ -43,6 +43,8 @@ pub(super) fn results(job: &Job, cut: &CutBlank, report: &BlankReport) -> BlankR
     let volume = |families: [f64; 2], definition: &'static str| Quantity::number(mean(families), "mm3", definition);
     let area = |value: Option<f64>, definition: &'static str| Quantity::number_or(value, "mm2", definition, NO_TARGET);
     let end_face = report.end_face;
+    let against_target =
+        |places: &[Damage], what| if end_face.is_some() { damage(places, what) } else { unjudged(what) };
     let imbalance = report.operations.iter().map(blank_report::OperationVolume::imbalance).fold(0.0, f64::max);
     let rubbing =
         |stays: bool| -> Vec<Damage> { report.rubbing.iter().filter(|r| r.stays == stays).map(|r| r.damage).collect() };
@@ -85,8 +87,8 @@ pub(super) fn results(job: &Job, cut: &CutBlank, report: &BlankReport) -> BlankR
             end_face.map(|e| e.bound_mm2[0].max(e.bound_mm2[1])),
             "how far the section may be off because of the rays' distance: half of it times the way of the outline along the rays",
         ),
-        gouges: damage(&report.gouges, "target material that the last operation took"),
-        interference: damage(&report.interference, "target material that an earlier operation took"),
+        gouges: against_target(&report.gouges, "target material that the last operation took"),
+        interference: against_target(&report.interference, "target material that an earlier operation took"),
         rubbing_on_gear: damage(
             &rubbing(true),
             "material that the cutter enters on its way back, on surfaces that stay",
@@ -106,6 +108,17 @@ pub(super) fn results(job: &Job, cut: &CutBlank, report: &BlankReport) -> BlankR
             "pairs of ray and pass in which the ray crosses the cutter tooth",
         ),
         ray_passes_removing: Quantity::count(report.stats.removing, "pairs", "those of them that removed material"),
+    }
+}
+
+/// Damage where there is no target.
+fn unjudged(what: &'static str) -> DamageResults {
+    let undefined = |unit: &'static str| Quantity::undefined(unit, what, NO_TARGET);
+    DamageResults {
+        places: undefined("sides of teeth"),
+        deepest: undefined("mm"),
+        place: undefined(""),
+        volume: undefined("mm3"),
     }
 }
 
@@ -164,7 +177,7 @@ pub(super) fn write_table_of_damage(job: &Job, report: &BlankReport, folder: &Ou
             d.point_mm.y.into(),
             d.depth_mm.into(),
             d.volume_mm3.into(),
-            Cell::Whole(d.stroke as i64),
+            (d.stroke as u32).into(),
             d.blade.into(),
         ]
     };
@@ -182,10 +195,10 @@ pub(super) fn write_table_of_damage(job: &Job, report: &BlankReport, folder: &Ou
             "space behind the tooth".into(),
         ];
         cells.extend((0..6).map(|_| none()));
-        cells.push(Cell::Whole(f.fault.stroke as i64));
+        cells.push((f.fault.stroke as u32).into());
         cells.push(none());
         cells
     });
     let rows: Vec<Vec<Cell>> = gouges.chain(interference).chain(rubbing).chain(strokes).collect();
-    write_table(&folder.path("tables/damage.csv")?, &columns, rows.into_iter())
+    write_table(&folder.path("tables/damage.csv")?, &columns, rows)
 }

@@ -103,7 +103,10 @@ fn print_blank(sheet: &mut Sheet, blank: &BlankResults) {
     ];
     for (name, damage) in kinds {
         let deepest = damage.deepest.value().map(|mm| format!(", up to {} mm deep", significant(mm, 3)));
-        let places = damage.places.value().unwrap_or(0.0);
+        let Some(places) = damage.places.value() else {
+            sheet.line(name, "not judged: the target's outline is not known in closed form");
+            continue;
+        };
         sheet.line(name, deepest.map_or_else(|| "none".to_owned(), |deep| format!("{places} sides of teeth{deep}")));
     }
 }

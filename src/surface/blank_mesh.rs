@@ -193,7 +193,7 @@ impl<'a> Builder<'a> {
         point = point.clamp(low + margin, low + size - margin);
         // Opposite corners of one section: each vertex keeps to its corner's half of the cell.
         let section = (pattern | pattern >> 4) & 0b1111;
-        let single = pattern & 0b1111 == 0 || pattern >> 4 == 0;
+        let single = pattern.trailing_zeros() >= 4 || pattern.leading_zeros() >= 4;
         if single && (section == 0b1001 || section == 0b0110) {
             let corner = corner_of(labels, label, pattern);
             let away = ((point - low) / size - corner).abs();
@@ -389,7 +389,7 @@ fn best_meeting(crosses: &[Cross]) -> DVec2 {
 
 /// The inside corner (0 or 1 in x and y) of a section that a sheet goes round, in a cell with one section.
 fn corner_of(labels: &[u8; 12], label: u8, pattern: u8) -> DVec2 {
-    let slice = usize::from(pattern & 0b1111 == 0);
+    let slice = usize::from(pattern.trailing_zeros() >= 4);
     let section = if slice == 1 { pattern >> 4 } else { pattern };
     let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
     let met = corners.into_iter().find(|&(x, y): &(usize, usize)| {
