@@ -127,7 +127,8 @@ fn a_plunging_tooth_takes_chips_of_known_thickness() {
         let depth_mm = 0.75 + 0.02 * stroke as f64;
         for (station, &thickness) in chips.stations.iter().zip(row) {
             let expected = 0.02 * station.normal.x;
-            let deep = station.point_mm.x > job.cutter.tip_radius_mm - depth_mm + 0.1;
+            // Within some spacings of its end, the chip's old surface is known less well.
+            let deep = station.point_mm.x > job.cutter.tip_radius_mm - depth_mm + 0.25;
             if deep && station.to_corner_mm > 0.1 {
                 let off = (f64::from(thickness) - expected).abs();
                 assert!(off < 1e-4, "{stroke} {station:?}: {thickness} for {expected}");

@@ -41,6 +41,24 @@ fn unevenness(tooth: u32, level: f64) -> f64 {
     level * (0.55 + 0.45 * (f64::from((tooth - 1) % PERIOD) / f64::from(PERIOD) * std::f64::consts::TAU).sin())
 }
 
+fn chip_peak(unit: &str) -> Value {
+    json!({
+        "value": number(0.3, unit), "stroke": number(7.0, "strokes"), "time": number(1.05, "s"),
+        "work_angle": number(0.6, "deg"), "space": number(1.0, "1"), "cutter_tooth": number(0.0, "1"),
+    })
+}
+
+fn chips() -> Value {
+    json!({
+        "largest_section": chip_peak("mm^2"), "largest_thickness": chip_peak("um"), "largest_force": chip_peak("N"),
+        "largest_work_torque": chip_peak("N m"), "largest_cutter_torque": chip_peak("N m"),
+        "median_section": number(0.2, "mm^2"), "median_force": number(1500.0, "N"), "largest_power": number(800.0, "W"),
+        "removed_volume": number(22000.0, "mm^3"), "removal_rate": number(1.8, "cm^3/min"),
+        "idle_strokes": number(0.0, "strokes"), "two_flank_chips": number(12.0, "chips"),
+        "three_flank_chips": number(4000.0, "chips"),
+    })
+}
+
 fn operation(name: &str, linkage: &str, level: Option<f64>) -> Value {
     let peak =
         || json!({ "peak": number(1.3, "deg/s"), "work_angle": number(0.0, "deg"), "limit": none(), "margin": none() });
@@ -67,6 +85,7 @@ fn operation(name: &str, linkage: &str, level: Option<f64>) -> Value {
             "flank": { "value": "right", "unit": null, "definition": "made by hand" },
             "polar_angle": number(93.5, "deg"), "largest_beta": number(14.95, "deg"),
         },
+        "chips": chips(),
         "flank_stock": stock(0.7), "root_stock": stock(2.0),
         "unevenness": {
             "mean_denominator": both(), "rack_denominator": both(),
@@ -91,6 +110,10 @@ fn results(linkage: &str, level: f64, smallest_mm: f64) -> Value {
         ("axis_margin", none()),
         ("relief_ratio", number(0.26, "1")),
         ("cycle_time", number(1260.0, "s")),
+        ("largest_chip_section", chip_peak("mm^2")),
+        ("largest_cutting_force", chip_peak("N")),
+        ("removal_rate", number(1.8, "cm^3/min")),
+        ("idle_strokes", number(0.0, "strokes")),
         ("unevenness_max", number(level, "%")),
         ("unevenness_mean", number(0.55 * level, "%")),
     ];

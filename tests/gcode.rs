@@ -83,7 +83,7 @@ fn cutting_the_written_program_gives_the_same_gear() {
         operation.feed_during_stroke = continuous;
         let mut job = job(operation.clone());
         let direct = heights(&job);
-        let tight_mm = if continuous { 2e-4 } else { 1e-6 };
+        let tight_mm = if continuous { 4e-4 } else { 1e-6 };
         for error_mm in [1e-3, tight_mm] {
             job.scene.output.gcode_contour_error_mm = error_mm;
             let program = text(&job);

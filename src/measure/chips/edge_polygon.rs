@@ -161,9 +161,9 @@ fn arc_length_mm(segment: &Segment) -> f64 {
 /// The triangle between the bisectors of both tip corners, widened beyond the tip. Its sides start where the normal is half-way between tip and flank.
 fn tip_zone(stations: &[Station]) -> [DVec2; 3] {
     let half_way = |normal: DVec2| normal.to_angle().abs();
+    // Where the left flank begins, beside the tip.
     let flank =
-        stations.iter().filter(|s| s.side == EdgeSide::Left).map(|s| half_way(s.normal)).fold(f64::INFINITY, f64::min);
-    let flank = if flank.is_finite() { flank } else { std::f64::consts::FRAC_PI_2 };
+        stations.iter().find(|s| s.side == EdgeSide::Left).map_or(std::f64::consts::FRAC_PI_2, |s| half_way(s.normal));
     // The first place past the half-way normal, from the middle of the tip to the left.
     let corner = stations
         .iter()
@@ -236,7 +236,7 @@ mod tests {
             assert!((b - a).perp_dot(c - a) > 0.0);
             let inside = |p: DVec2| [(a, b), (b, c), (c, a)].iter().all(|(p0, p1)| (*p1 - *p0).perp_dot(p - *p0) > 0.0);
             for station in &polygon.stations {
-                let flat = station.normal.to_angle().abs() < 0.1;
+                let flat = station.side == EdgeSide::Tip && station.normal.to_angle().abs() < 0.1;
                 if flat {
                     assert!(inside(station.point_mm), "{station:?} outside {:?}", polygon.tip_zone_mm);
                 } else if station.side != EdgeSide::Tip {

@@ -91,7 +91,7 @@ impl ToothChip {
             let side = station.side as usize;
             self.contact_mm[side] += station.length_mm;
             // Beside a corner the old surface is reached round it: a flank would show the thickness of the tip.
-            if station.side == EdgeSide::Tip || thickness_mm < station.to_corner_mm {
+            if station.side == EdgeSide::Tip || thickness_mm.max(station.length_mm) < station.to_corner_mm {
                 self.thickest_mm[side] = self.thickest_mm[side].max(thickness_mm);
             }
             let [cutting_n, normal_n] = force.on_element(thickness_mm, station.length_mm);
