@@ -1,15 +1,15 @@
 //! gearcut against two-dimensional polygon clipping stroke by stroke, the way gear cutting is usually simulated.
 //!
-//! Job: the finishing of the round gear m 3, z 24 with the cutter z0 20 in 1,440 strokes, one transverse section, everything in one thread of one process. The peer subtracts the cutter's teeth,
+//! Job: the finishing of the round gear m 3, z 24 with the cutter z0 20 in 1,440 strokes, one transverse section, in one process. The peer, in one thread because strokes follow each other, subtracts the cutter's teeth,
 //! as polygons, from the blank's outline once per stroke (i_overlay 9, 32-bit engine, its buffers kept between strokes). It runs twice: on the outline as one polygon, and on an outline split into one
-//! sector per tooth space, so that a stroke touches a few sectors only. gearcut cuts all 48 flanks and 24 roots; its time runs from the scene to the heights: curve, targets, rays, plans and kernel.
+//! sector per tooth space, so that a stroke touches a few sectors only. gearcut cuts all 48 flanks and 24 roots, in one thread and in all; its time runs from the scene to the heights: curve, targets, rays, plans and kernel.
 //!
 //! Distances are taken on the same rays for both: normals of the exact involute, every 20 um along the profile, 5 % left out at either end. Two references answer two questions:
 //!
 //! * the **surface of the strokes**, the lowest involute over all strokes and cutter teeth, found on each ray from the involute's closed form: the error of the method;
 //! * the **involute** that infinitely many strokes would leave: the error of the method and the scallops that 1,440 strokes leave, whoever computes them.
 //!
-//! `cargo bench --bench polygon_clipping`
+//! `cargo bench --bench polygon_clipping`; the same job with shapely: `benches/peers/shapely_clipping.py`.
 
 mod common;
 #[allow(
@@ -33,6 +33,7 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::Solver;
 use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
+use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::time::{Duration, Instant};
 
@@ -53,7 +54,7 @@ fn scene() -> Scene {
     let mut scene = scenes::paper_scene(vec![scenes::operation("finish", scenes::NORMAL, 0.0, STROKES)]);
     scene.gear.pitch_curve = PitchCurveShape::Circle;
     scene.gear.teeth = TEETH;
-    scene.fields = Fields { profile_spacing_mm: SPACING_MM, lead_spacing_mm: 30.0 };
+    scene.fields = Fields { profile_spacing_mm: SPACING_MM, lead_spacing_mm: 30.0, ..scene.fields };
     scene
 }
 
@@ -79,15 +80,20 @@ fn gearcut_flanks(backend: Cpu, rows: usize) -> Cut {
     let generation = job.target_generation();
     let leads_mm: Vec<f64> = (0..rows).map(|row| 0.05 * (row as f64 - (rows / 2) as f64)).collect();
     let section = |field: Field| Field { leads_mm: leads_mm.clone(), ..field };
-    let on_flanks = flanks()
-        .map(|(tooth, side)| section(job.flank_field(&job.target_flank(&generation, tooth, side).expect("a flank"))));
-    let on_roots = (1..=TEETH).map(|space| section(job.root_field(space)));
+    let places: Vec<(u32, Side)> = flanks().collect();
+    let on_flanks = places
+        .par_iter()
+        .map(|&(tooth, side)| section(job.flank_field(&job.target_flank(&generation, tooth, side).expect("a flank"))));
+    let on_roots = (1..=TEETH).into_par_iter().map(|space| section(job.root_field(space)));
     let fields: Vec<Field> = on_flanks.chain(on_roots).collect();
     let laid_out = started.elapsed();
     let rays = fields.iter().map(Field::len).sum();
+    // Every section is cut, also where all of them are alike.
     let mut heights_mm: Vec<Vec<f64>> = fields
-        .into_iter()
-        .map(|field| job.cut(&backend, field).expect("native").layers[0].heights_mm.iter().map(|&h| h.into()).collect())
+        .into_par_iter()
+        .map(|field| {
+            job.cut_rows(&backend, &field).expect("native").0[0].heights_mm.iter().map(|&h| h.into()).collect()
+        })
         .collect();
     heights_mm.truncate(flanks().count());
     let parts = [prepared, laid_out.saturating_sub(prepared), started.elapsed().saturating_sub(laid_out)];
@@ -292,7 +298,7 @@ struct Outcome {
 
 fn main() {
     println!("{}", common::machine());
-    println!("m 3, z 24, z0 20, {STROKES} strokes, one thread; fastest of {ROUNDS} runs\n");
+    println!("m 3, z 24, z0 20, {STROKES} strokes; fastest of {ROUNDS} runs\n");
     let job = Job::new(scene()).expect("a round gear");
     let stations = stations(&job);
     let [scallops, highest] = rms_and_largest_um(stations.iter().map(|s| s.strokes_mm));
@@ -301,18 +307,22 @@ fn main() {
         stations.len()
     );
     let (job, stations) = (&job, &stations);
+    let threads = |count: usize| rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("threads");
+    let pools = [("one thread", threads(1)), ("all threads", threads(0))];
     let mut methods: Vec<Method> = Vec::new();
     for backend in common::backends() {
-        for rows in [1, 601] {
-            let cut = move || {
-                let started = Instant::now();
-                let cut = gearcut_flanks(backend, rows);
-                let time = started.elapsed();
-                let heights_mm = stations.iter().map(|s| cut.heights_mm[s.flank][s.column * rows + rows / 2]).collect();
-                Outcome { time, size: format!("{} rays", cut.rays), heights_mm, parts: Some(cut.parts) }
-            };
-            let sections = if rows == 1 { "one section" } else { "601 sections" };
-            methods.push((format!("gearcut, {}, {sections}", backend.instruction_set()), Box::new(cut)));
+        for (rows, sections) in [(1, "one section"), (601, "601 sections")] {
+            for (crew, pool) in &pools {
+                let cut = move || {
+                    let started = Instant::now();
+                    let cut = pool.install(|| gearcut_flanks(backend, rows));
+                    let time = started.elapsed();
+                    let height = |s: &Station| cut.heights_mm[s.flank][s.column * rows + rows / 2];
+                    let heights_mm = stations.iter().map(height).collect();
+                    Outcome { time, size: format!("{} rays", cut.rays), heights_mm, parts: Some(cut.parts) }
+                };
+                methods.push((format!("gearcut, {}, {crew}, {sections}", backend.instruction_set()), Box::new(cut)));
+            }
         }
     }
     for (sectors, layout) in [(1, "one outline"), (TEETH, "24 sectors")] {
@@ -353,9 +363,12 @@ fn main() {
             "{what}: {prepared:.1} ms curve, cutter, strokes; {laid_out:.1} ms targets and rays; {cut:.1} ms plans and kernel"
         );
     }
-    let in_one_section = |(what, outcome): &&(&str, Outcome)| outcome.parts.is_some() && what.ends_with("one section");
+    let in_one_section = |(what, _): &&(&str, Outcome)| what.ends_with("one thread, one section");
     let Some(ours) = outcomes.iter().filter(in_one_section).map(|(_, outcome)| outcome.time).min() else { return };
     for (what, outcome) in outcomes.iter().filter(|(_, outcome)| outcome.parts.is_none()) {
-        println!("{what}: {:.1} times the time of gearcut", outcome.time.as_secs_f64() / ours.as_secs_f64());
+        println!(
+            "{what}: {:.1} times the time of gearcut in one thread",
+            outcome.time.as_secs_f64() / ours.as_secs_f64()
+        );
     }
 }

@@ -30,8 +30,12 @@ use std::time::Duration;
 
 const STROKES: u32 = 4200;
 
-fn job() -> Job {
-    let operation = |name, offset_mm| scenes::operation(name, scenes::NORMAL, offset_mm, STROKES);
+/// With frozen strokes all rows are alike and one is cut for all; when the feed goes on during the stroke every dexel is cut.
+fn job(feed_during_stroke: bool) -> Job {
+    let operation = |name, offset_mm| gearcut::scene::model::Operation {
+        feed_during_stroke,
+        ..scenes::operation(name, scenes::NORMAL, offset_mm, STROKES)
+    };
     Job::new(scenes::paper_scene(vec![operation("rough", 2.0), operation("finish", 0.0)])).expect("the paper's gear")
 }
 
@@ -64,18 +68,19 @@ fn one_flank(criterion: &mut Criterion, job: &Job) {
     group.finish();
 }
 
-fn whole_gear(job: &Job) {
+fn whole_gear(job: &Job, strokes: &str) {
     for cpu in common::backends() {
         let quiet = Progress::new(ProgressMode::Quiet);
         let gear = run::cut_gear(job, &cpu, &quiet, &Interrupt::default(), None).expect("native");
         let seconds = gear.elapsed.as_secs_f64();
         let visits = gear.stats.dexel_passes as f64;
         println!(
-            "whole gear, {}: {seconds:.2} s; {:.1} million dexels (both operations), {:.1} million dexel-passes, {:.2} per dexel, {:.2} ns each (wall time, measures included); {}",
+            "whole gear, {strokes}, {}: {seconds:.2} s; {:.1} million dexels (both operations), {:.2} million cut, {:.2} million dexel-passes, {:.2} per dexel cut, {:.2} ns each (wall time, measures included); {}",
             cpu.name(),
             gear.dexels as f64 * 1e-6,
+            gear.stats.dexels as f64 * 1e-6,
             visits * 1e-6,
-            visits / gear.dexels as f64,
+            visits / gear.stats.dexels as f64,
             1e9 * seconds / visits,
             peak_memory()
         );
@@ -93,12 +98,13 @@ fn peak_memory() -> String {
 
 fn main() {
     println!("{}", common::machine());
-    let job = job();
+    let job_of_moving_strokes = job(true);
     let mut criterion = Criterion::default().configure_from_args();
-    one_flank(&mut criterion, &job);
+    one_flank(&mut criterion, &job_of_moving_strokes);
     criterion.final_summary();
     // `cargo bench -- flank` asks for the parts alone; `cargo test --benches` only wants to see that it runs.
     if !std::env::args().any(|argument| argument == "flank" || argument == "--test") {
-        whole_gear(&job);
+        whole_gear(&job_of_moving_strokes, "feed during the stroke");
+        whole_gear(&job(false), "frozen strokes");
     }
 }

@@ -15,6 +15,7 @@ use crate::linkage::StrokeSchedule;
 use crate::linkage::dynamics::{self, MachineMotion, MachinePeaks, Peak};
 use crate::linkage::relief::{self, ReliefRatio, SmallestRelief};
 use crate::output::folder::OutputFolder;
+use crate::output::line_chart::LineChart;
 use crate::scene::model::{AxisLimits, Linkage, NormalReading, Operation, TraditionalDirection};
 use crate::units::TURN_RAD;
 use crate::{Error, Result};
@@ -132,6 +133,12 @@ pub fn write(job: &Job, folder: &OutputFolder) -> Result<()> {
         write_operation(job, operation, folder)?;
     }
     Ok(())
+}
+
+/// The charts of operation `index`: positions, velocities, accelerations, relief.
+pub fn charts(job: &Job, index: usize) -> Vec<LineChart> {
+    let operation = &job.operations[index];
+    charts::all(job, operation, &rows(job, operation)).into_iter().map(|(_, chart)| chart).collect()
 }
 
 fn write_operation(job: &Job, operation: &PreparedOperation, folder: &OutputFolder) -> Result<(), Error> {

@@ -3,6 +3,10 @@
 //! In: the checked scene. Out: [`Job`], from which fields and plans are made one flank at a time, so that memory does not grow with the number of teeth.
 //! The last operation is the finishing one: its continuous envelope is the target.
 
+mod blank;
+
+pub use blank::CutBlank;
+
 use crate::cut::{Backend, CutStats};
 use crate::dexel::{Column, Field, Layer};
 use crate::error::{Error, Refusal, Result};
@@ -15,7 +19,7 @@ use crate::linkage::{ShapingLinkage, StrokeSchedule};
 use crate::passes::strokes::StrokeLaw;
 use crate::passes::{CutPlan, StrokeSet};
 use crate::scene::Scene;
-use crate::scene::model::Operation;
+use crate::scene::model::{Machine, Operation};
 use crate::tool::{CuttingTool, ShaperCutter};
 use glam::DVec2;
 use std::sync::Arc;
@@ -106,8 +110,7 @@ impl Job {
             } else {
                 StrokeLaw::Frozen
             };
-            // The gear sits off the work spindle by the eccentricity, and turns with it: a constant shift in the gear frame.
-            let eccentricity = machine.work_eccentricity_mm * DVec2::from_angle(machine.work_eccentricity_angle_rad);
+            let eccentricity = eccentricity_mm(machine);
             let strokes = StrokeSet::new(first_pass, &cutter, law, count, |lambda| {
                 let pose = schedule.state(lambda).pose;
                 Rigid2::new(pose.angle_rad, pose.center_mm - eccentricity)
@@ -119,6 +122,11 @@ impl Job {
         let pointed = (1..=job.scene.gear.teeth).map(|tooth| job.pointed_height(tooth)).collect::<Result<_>>()?;
         job.pointed_mm = pointed;
         Ok(job)
+    }
+
+    /// Where the gear axis sits off the work spindle, in the gear frame, mm.
+    fn eccentricity_mm(&self) -> DVec2 {
+        eccentricity_mm(&self.scene.machine)
     }
 
     /// The finishing operation.
@@ -189,13 +197,19 @@ impl Job {
     /// Dexel field on a target flank with the scene's spacing.
     pub fn flank_field(&self, flank: &TargetFlank) -> Field {
         let fields = self.scene.fields;
-        let module_mm = self.scene.gear.module_mm;
         let count = (flank.length_mm() / fields.profile_spacing_mm).floor() as usize + 1;
+        let arcs_mm = (0..count).map(|i| i as f64 * fields.profile_spacing_mm);
+        self.field_over(flank, arcs_mm, self.leads_mm(fields.lead_spacing_mm))
+    }
+
+    /// Dexel field on a part of a target flank: places along the profile (arcs from the form point) and along the tooth, mm.
+    pub fn field_over(&self, flank: &TargetFlank, arcs_mm: impl Iterator<Item = f64>, leads_mm: Vec<f64>) -> Field {
+        let module_mm = self.scene.gear.module_mm;
         let mut exit_mm = 0.0;
-        let columns = (0..count)
-            .map(|i| {
-                // The last column stands on the tip itself.
-                let arc_mm = (i as f64 * fields.profile_spacing_mm).min(flank.length_mm());
+        let columns = arcs_mm
+            .map(|arc_mm| {
+                // Rounding must not carry the last column beyond the tip.
+                let arc_mm = arc_mm.min(flank.length_mm());
                 let contact = flank.at_arc(arc_mm);
                 let limit_mm = RAY_HEIGHT_MODULES * module_mm;
                 exit_mm = self.blank.exit_mm(contact.point_mm, contact.normal, contact.phi_rad, exit_mm, limit_mm);
@@ -208,7 +222,7 @@ impl Job {
                 }
             })
             .collect();
-        Field { columns, leads_mm: self.leads_mm(fields.lead_spacing_mm) }
+        Field { columns, leads_mm }
     }
 
     /// Dexel field on the root of a space (space j lies after tooth j).
@@ -247,19 +261,43 @@ impl Job {
         (0..=intervals).map(|i| width_mm * (i as f64 / intervals as f64 - 0.5)).collect()
     }
 
-    /// Runs all operations over a field.
+    /// Whether every row of a field is cut alike: the cutter stands still while it is in the work, so its pose is the same at all places along the tooth.
+    pub fn rows_are_alike(&self) -> bool {
+        self.operations.iter().all(|operation| operation.strokes.law == StrokeLaw::Frozen)
+    }
+
+    /// Runs all operations over a field. Where all rows are alike, one is cut for all: every height and pass id is what cutting each of them would give.
     ///
     /// # Errors
     /// The backend's.
     pub fn cut(&self, backend: &dyn Backend, field: Field) -> Result<CutFlank, Error> {
+        if self.rows_are_alike() && field.rows() > 1 {
+            let (layers, stats) = self.cut_rows(backend, &field.section())?;
+            let rows = field.rows();
+            return Ok(CutFlank { layers: layers.iter().map(|layer| layer.repeated(rows)).collect(), field, stats });
+        }
+        let (layers, stats) = self.cut_rows(backend, &field)?;
+        Ok(CutFlank { field, layers, stats })
+    }
+
+    /// Runs all operations over every row of a field.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_rows(&self, backend: &dyn Backend, field: &Field) -> Result<(Vec<Layer>, CutStats), Error> {
         let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
         let mut stats = CutStats::default();
         for operation in &self.operations {
-            let plan = CutPlan::new(&field, &operation.strokes, &self.cutter);
+            let plan = CutPlan::new(field, &operation.strokes, &self.cutter);
             let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
-            stats += backend.cut(&field, self.cutter.edge(), &plan, &mut layer)?;
+            stats += backend.cut(field, self.cutter.edge(), &plan, &mut layer)?;
             layers.push(layer);
         }
-        Ok(CutFlank { field, layers, stats })
+        Ok((layers, stats))
     }
+}
+
+/// The gear sits off the work spindle by the eccentricity, and turns with it: a constant shift in the gear frame.
+fn eccentricity_mm(machine: &Machine) -> DVec2 {
+    machine.work_eccentricity_mm * DVec2::from_angle(machine.work_eccentricity_angle_rad)
 }

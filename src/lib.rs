@@ -15,9 +15,11 @@ pub mod linkage;
 pub mod measure;
 pub mod output;
 pub mod passes;
+pub mod planar_rays;
 pub mod run;
 pub mod scene;
 pub mod surface;
+pub mod texture;
 pub mod tool;
 pub mod units;
 

@@ -3,10 +3,12 @@
 //! The unit of work is one flank through all operations; flanks go to the cores in parallel and are written as they are finished, so memory grows with the cores and not with the
 //! gear. The output folder appears under its name only when it is complete; Ctrl-C completes it with the flanks that are finished and says so.
 
+mod blank;
 mod files;
 mod frames;
 mod meshes;
 mod pictures;
+mod report;
 mod results;
 mod summary;
 mod tooth_results;
@@ -20,8 +22,10 @@ use crate::output::flank_maps::{FlankMaps, OperationMaps};
 use crate::output::folder::OutputFolder;
 use crate::output::interrupt::Interrupt;
 use crate::output::progress::Progress;
+use crate::output::report::REPORT_FILE;
 use crate::scene::LoadedScene;
 use crate::surface::SurfaceGrid;
+use crate::texture;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -163,6 +167,10 @@ pub fn cut(
 ) -> Result<Done> {
     let folder = OutputFolder::create(out)?;
     let job = Job::new(scene.scene.clone())?;
+    // A window that lies on no flank is refused before the first cut.
+    texture::windows(&job)?;
+    // Too large a blank field is refused before anything is cut.
+    job.blank_grid()?;
     let resolved = scene.resolved_toml();
     // Timings stay out of maps: the same scene gives the same bytes.
     let run =
@@ -172,8 +180,15 @@ pub fn cut(
     if gear.report.flanks.is_empty() {
         return Err(Error::Interrupted);
     }
-    let results = results::results(&job, &gear);
-    files::write(&job, &gear, &results, &folder)?;
+    let textures = texture::measure(&job, backend, progress, interrupt)?;
+    let whole = if gear.interrupted { None } else { blank::cut(&job, progress, interrupt)? };
+    if let Some((_, report)) = &whole {
+        blank::write_table_of_damage(&job, report, &folder)?;
+    }
+    let blank = whole.as_ref().map(|(cut, report)| blank::results(&job, cut, report));
+    let results = results::results(&job, &gear, blank, &textures);
+    files::write(&job, &gear, &results, &folder, &notes)?;
+    texture::write(&job, &textures, &folder, &notes)?;
     if !gear.interrupted {
         let solid = meshes::gear(&job, backend, gear.surfaces.clone(), progress)?;
         meshes::write_gear(&job, &solid, &folder, &notes)?;
@@ -188,6 +203,8 @@ pub fn cut(
             }
         }
     }
+    let words = report::RunWords { resolved_scene: &resolved, backend: &backend.name(), backend_why };
+    report::page(&job, &gear, &results, &words)?.write(&folder.path(REPORT_FILE)?)?;
     let record = files::run_record(&resolved, backend, backend_why, &gear, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
     for incident in backend.incidents() {

@@ -105,9 +105,16 @@ fn records_have_the_same_members_on_both_sides() {
             base_cell,
             pass_id,
         }),
+        layout!(BlankLaunch { spacing_mm, units_per_mm, capacity, turn }),
+        layout!(BlankTile { first_pass, pass_count, first_ray, ray_count }),
+        layout!(BlankPass { first_part, part_count, pass_id, padding }),
+        layout!(BlankPart { along, across, across_end_mm, padding_1, padding_2, padding_3 }),
+        layout!(BlankSpan { low_mm, high_mm, low_pass, high_pass, low_normal, high_normal }),
     ];
-    let (module, _) = checked(&STAGES[0]);
+    let (planar, _) = checked(&STAGES[0]);
+    let (blank, _) = checked(&STAGES[1]);
     for (name, rust, size) in layouts {
+        let module = if name.starts_with("Blank") { &blank } else { &planar };
         let (_, ty) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).expect(name);
         let TypeInner::Struct { members, span } = &ty.inner else { panic!("{name} is no struct") };
         let wgsl: Vec<(&str, usize, usize)> = members

@@ -14,7 +14,7 @@ const FLANKS: [(u32, Side); 4] = [(2, Side::Left), (5, Side::Right), (8, Side::L
 
 fn fine_scene() -> Scene {
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 4200)]);
-    scene.fields = Fields { profile_spacing_mm: 0.05, lead_spacing_mm: 30.0 };
+    scene.fields = Fields { profile_spacing_mm: 0.05, lead_spacing_mm: 30.0, ..scene.fields };
     scene
 }
 

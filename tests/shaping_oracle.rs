@@ -137,7 +137,7 @@ fn check_facets(data: &Value, shape: &PitchCurveShape) {
         let side = if row["flank"] == "left" { Side::Left } else { Side::Right };
         let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, strokes)]);
         scene.gear.pitch_curve = shape.clone();
-        scene.fields = Fields { profile_spacing_mm: 0.72 / f64::from(strokes), lead_spacing_mm: 30.0 };
+        scene.fields = Fields { profile_spacing_mm: 0.72 / f64::from(strokes), lead_spacing_mm: 30.0, ..scene.fields };
         let job = Job::new(scene).expect("the gear");
         let generation = job.target_generation();
         let flank = job.target_flank(&generation, tooth, side).expect("flank");

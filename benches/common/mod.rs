@@ -1,4 +1,5 @@
 //! What every benchmark says about the machine it runs on.
+#![allow(dead_code, reason = "each benchmark uses its own part")]
 
 use gearcut::cut::cpu::{Cpu, Vectors};
 

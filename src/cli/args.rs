@@ -52,6 +52,18 @@ pub enum Command {
         both and their differences, and the unevenness of the allowance as bars by tooth (%), both results in one chart\n\
         (first period of the pitch curve, and all teeth) and each on its own scale, as PNG and SVG. Prints the table.")]
     Compare(CompareArguments),
+    /// Evaluate the texture of a surface, measured or cut: ISO 25178-2 and ISO 21920-2 parameters.
+    #[command(after_help = "Examples:\n  \
+        gearcut texture out/elliptical_normal/texture/finish/tooth_03_left.x3p\n  \
+        gearcut texture measured.sdf --form poly2 --s-filter-um 8 --l-filter-um 800 --crop-um 400\n  \
+        gearcut texture heights.npy --spacing-um 2 5 --line y=500 --json\n  \
+        gearcut texture measured.sur --save measured.x3p\n\n\
+        Reads X3P, SDF (binary and ASCII), SUR, NPY, CSV and gearcut's EXR maps; heights in files without units are um. The\n\
+        chain is applied in this order: form, S-filter, L-filter, crop; it is printed beside the numbers. Holes are left\n\
+        out where a parameter allows it. A value that does not exist is printed as none with the reason (null in JSON).\n\
+        Angles count counter-clockwise from +x (along a row) towards +y (from row to row). Writes no files but those\n\
+        named by --save.")]
+    Texture(TextureArguments),
     /// List what can compute here.
     #[command(after_help = "Example:\n  gearcut devices")]
     Devices,
@@ -141,6 +153,60 @@ pub struct CompareArguments {
     /// Folder to write [default: compare_<A>_<B> beside B].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// Arguments of `texture`.
+#[derive(Debug, Args)]
+pub struct TextureArguments {
+    /// Surface file.
+    pub file: PathBuf,
+    /// Distance of points along x and y, for files that carry none; one value holds for both.
+    #[arg(long, value_name = "DX [DY]", num_args = 1..=2)]
+    pub spacing_um: Vec<f64>,
+    /// F-operator: what is taken off before texture is evaluated.
+    #[arg(long, value_enum, default_value_t = FormChoice::Plane)]
+    pub form: FormChoice,
+    /// Nesting index of the S-filter: shorter waves are taken off (Gaussian, ISO 16610-61).
+    #[arg(long, value_name = "UM")]
+    pub s_filter_um: Option<f64>,
+    /// Nesting index of the L-filter: longer waves are taken off (Gaussian, ISO 16610-61).
+    #[arg(long, value_name = "UM")]
+    pub l_filter_um: Option<f64>,
+    /// Make the L-filter the robust one (ISO 16610-71), which deep scratches do not pull.
+    #[arg(long, requires = "l_filter_um")]
+    pub robust: bool,
+    /// Margin to leave out on every side, after the filters.
+    #[arg(long, value_name = "UM", default_value_t = 0.0)]
+    pub crop_um: f64,
+    /// Give Smr also at this height over the mean plane; may be repeated.
+    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
+    pub at_height_um: Vec<f64>,
+    /// Give Smc, Vm and Vv also at this material ratio; may be repeated.
+    #[arg(long, value_name = "PERCENT")]
+    pub at_ratio_percent: Vec<f64>,
+    /// Profile parameters along the row next to y=UM or the column next to x=UM; may be repeated.
+    #[arg(long, value_name = "x=UM|y=UM")]
+    pub line: Vec<String>,
+    /// Save the surface as it was read; the ending says how: x3p, sdf, ascii.sdf, sur, npy, csv; may be repeated.
+    #[arg(long, value_name = "FILE")]
+    pub save: Vec<PathBuf>,
+    /// Print JSON: every value with unit and definition, or null and why.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// F-operators.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FormChoice {
+    /// Nothing but the mean.
+    None,
+    /// Least-squares plane.
+    Plane,
+    /// Least-squares polynomial of second order.
+    Poly2,
+    /// That polynomial together with a circular cylinder.
+    #[value(name = "poly2-plus-cylinder")]
+    Poly2PlusCylinder,
 }
 
 /// Arguments of `new`.

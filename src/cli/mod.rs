@@ -12,6 +12,7 @@ mod failure;
 mod folder;
 mod new;
 mod print;
+mod texture;
 
 use std::process::ExitCode;
 
@@ -29,6 +30,7 @@ pub fn run(arguments: Arguments) -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Axes(arguments) => axes::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Texture(arguments) => texture::run(&arguments),
         Command::Devices => devices::run(),
         Command::Schema => print::to_stdout(&gearcut::scene::schema::json_schema()).map_err(Failure::from),
         Command::New(arguments) => new::run(&arguments),

@@ -17,6 +17,8 @@ use crate::tool::edge::Edge;
 /// What a backend met besides heights.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct CutStats {
+    /// Dexels that were cut; fewer than there are where rows are alike and one of them was cut for all.
+    pub dexels: u64,
     /// (Dexel, pass) pairs evaluated.
     pub dexel_passes: u64,
     /// Pairs whose ray meets the segment but whose root was not reached to a picometre; any at all makes the result
@@ -26,6 +28,7 @@ pub struct CutStats {
 
 impl std::ops::AddAssign for CutStats {
     fn add_assign(&mut self, other: Self) {
+        self.dexels += other.dexels;
         self.dexel_passes += other.dexel_passes;
         self.unconverged += other.unconverged;
     }

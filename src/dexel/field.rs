@@ -65,6 +65,12 @@ impl Field {
         Layer { heights_mm, passes: vec![NO_PASS; self.len()] }
     }
 
+    /// The same rays in the middle of the face alone: all there is to cut where the passes do not change along the tooth.
+    #[must_use]
+    pub fn section(&self) -> Self {
+        Self { columns: self.columns.clone(), leads_mm: vec![0.0] }
+    }
+
     /// Circle round all rays of some columns between their lowest and their blank height: centre and radius.
     pub fn circle(columns: &[Column]) -> (DVec2, f64) {
         let ends = |c: &Column| [c.origin_mm + c.low_mm * c.normal, c.origin_mm + c.blank_mm * c.normal];
@@ -77,6 +83,15 @@ impl Field {
 }
 
 impl Layer {
+    /// The layer of a field with so many rows, all of them like the one row of this.
+    #[must_use]
+    pub fn repeated(&self, rows: usize) -> Self {
+        Self {
+            heights_mm: self.heights_mm.iter().flat_map(|&height| std::iter::repeat_n(height, rows)).collect(),
+            passes: self.passes.iter().flat_map(|&pass| std::iter::repeat_n(pass, rows)).collect(),
+        }
+    }
+
     /// Heights of one column.
     pub fn column(&self, column: usize, rows: usize) -> &[f32] {
         &self.heights_mm[column * rows..(column + 1) * rows]

@@ -35,6 +35,11 @@ impl Blank {
         Ok(Self { curve, addendum_mm })
     }
 
+    /// The pitch curve.
+    pub fn curve(&self) -> &PitchCurve {
+        &self.curve
+    }
+
     /// Point of the outline over the place of the pitch curve at `phi_rad`, gear frame, mm.
     pub fn outline_mm(&self, phi_rad: f64) -> DVec2 {
         let frame = self.curve.frame(phi_rad);

@@ -4,12 +4,14 @@
 //! work axis, polar angle phi counter-clockwise, fixed to the work.
 
 pub mod blank;
+pub mod blank_outline;
 pub mod generation;
 pub mod jet;
 pub(crate) mod periodic_integral;
 pub mod pitch_curve;
 pub(crate) mod roots;
 pub mod target;
+pub mod target_outline;
 
 pub use jet::Jet;
 pub use pitch_curve::{CurvatureExtremum, CurveFacts, PitchCurve, PitchFrame};

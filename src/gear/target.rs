@@ -55,6 +55,45 @@ pub struct TargetFlank<'a> {
     phi_tip: f64,
     /// Arc length at the panel ends, from the form point.
     arcs_mm: Vec<f64>,
+    /// Speed of the contact (mm per rad of phi) in every panel.
+    speeds: Vec<PanelSpeed>,
+}
+
+/// Speed in one panel as the quartic through its five Gauss points, in Legendre polynomials of x = -1 to 1: its integral is the Gauss rule's at x = 1 and as
+/// accurate in between, so places on the flank are found from arcs without going back to the meshing condition.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct PanelSpeed([f64; 5]);
+
+impl PanelSpeed {
+    /// From the speed at x.
+    fn new(speed: impl Fn(f64) -> f64) -> Self {
+        let mut coefficients = [0.0; 5];
+        for (node, weight) in GAUSS {
+            let value = weight * speed(node);
+            for (k, (c, p)) in coefficients.iter_mut().zip(legendre(node)).enumerate() {
+                *c += (k as f64 + 0.5) * value * p;
+            }
+        }
+        Self(coefficients)
+    }
+
+    /// Speed at x, and its integral from -1 to x.
+    fn at(&self, x: f64) -> [f64; 2] {
+        let p = legendre(x);
+        let value = self.0.iter().zip(p).map(|(c, p)| c * p).sum();
+        let higher = (1..5).map(|k| self.0[k] * (p[k + 1] - p[k - 1]) / (2 * k + 1) as f64);
+        [value, self.0[0] * (x + 1.0) + higher.sum::<f64>()]
+    }
+}
+
+/// Legendre polynomials of degree 0 to 5.
+fn legendre(x: f64) -> [f64; 6] {
+    let mut p = [1.0, x, 0.0, 0.0, 0.0, 0.0];
+    for k in 1..5 {
+        let n = k as f64;
+        p[k + 1] = ((2.0 * n + 1.0) * x * p[k] - n * p[k - 1]) / (n + 1.0);
+    }
+    p
 }
 
 /// Tooth space that a flank belongs to: tooth j lies between spaces j - 1 and j.
@@ -127,17 +166,22 @@ impl<'a> TargetFlank<'a> {
             };
             (phi, end)
         };
-        let mut flank =
-            Self { tooth, side, form_end, tip_end, generation, space, phi_form, phi_tip, arcs_mm: vec![0.0] };
-        let width = (phi_tip - phi_form) / PANELS as f64;
+        let mut flank = Self {
+            tooth,
+            side,
+            form_end,
+            tip_end,
+            generation,
+            space,
+            phi_form,
+            phi_tip,
+            arcs_mm: vec![0.0],
+            speeds: Vec::with_capacity(PANELS),
+        };
         for panel in 0..PANELS {
-            let middle = phi_form + width * (panel as f64 + 0.5);
-            let sum: f64 = GAUSS
-                .iter()
-                .map(|&(node, weight)| weight * flank.contact(middle + 0.5 * width * node).speed_mm_per_rad.abs())
-                .sum();
-            let arc = flank.arcs_mm[panel] + 0.5 * width.abs() * sum;
-            flank.arcs_mm.push(arc);
+            let speed = PanelSpeed::new(|x| flank.contact(flank.phi_in_panel(panel, x)).speed_mm_per_rad.abs());
+            flank.arcs_mm.push(flank.arcs_mm[panel] + flank.half_panel_rad().abs() * speed.at(1.0)[1]);
+            flank.speeds.push(speed);
         }
         Ok(flank)
     }
@@ -154,30 +198,31 @@ impl<'a> TargetFlank<'a> {
             .expect("contact exists between form point and tip")
     }
 
+    fn half_panel_rad(&self) -> f64 {
+        0.5 * (self.phi_tip - self.phi_form) / PANELS as f64
+    }
+
+    /// Polar angle at x = -1 to 1 in a panel.
+    fn phi_in_panel(&self, panel: usize, x: f64) -> f64 {
+        self.phi_form + self.half_panel_rad() * (2.0 * panel as f64 + 1.0 + x)
+    }
+
     /// Contact at an arc length from the form point (clamped to the flank).
     pub fn at_arc(&self, arc_mm: f64) -> FlankContact {
         let arc_mm = arc_mm.clamp(0.0, self.length_mm());
         let panel = self.arcs_mm.partition_point(|&a| a <= arc_mm).clamp(1, PANELS) - 1;
-        let width = (self.phi_tip - self.phi_form) / PANELS as f64;
-        let phi_start = self.phi_form + width * panel as f64;
-        let share = (arc_mm - self.arcs_mm[panel]) / (self.arcs_mm[panel + 1] - self.arcs_mm[panel]);
-        let mut phi = phi_start + width * share;
+        let [start_mm, end_mm] = [self.arcs_mm[panel], self.arcs_mm[panel + 1]];
+        let half = self.half_panel_rad().abs();
+        let mut x = 2.0 * (arc_mm - start_mm) / (end_mm - start_mm) - 1.0;
         for _ in 0..8 {
-            // Arc from the panel's start by the same rule, Newton with the local speed.
-            let part = phi - phi_start;
-            let arc: f64 = GAUSS
-                .iter()
-                .map(|&(node, weight)| {
-                    weight * self.contact(phi_start + 0.5 * part * (1.0 + node)).speed_mm_per_rad.abs()
-                })
-                .sum();
-            let missing_mm = arc_mm - self.arcs_mm[panel] - 0.5 * part.abs() * arc;
-            if missing_mm.abs() < 1e-11 {
+            let [speed, integral] = self.speeds[panel].at(x);
+            let missing_mm = arc_mm - start_mm - half * integral;
+            if missing_mm.abs() < 1e-13 {
                 break;
             }
-            phi += missing_mm / self.contact(phi).speed_mm_per_rad.abs() * width.signum();
+            x += missing_mm / (half * speed);
         }
-        self.contact(phi)
+        self.contact(self.phi_in_panel(panel, x))
     }
 
     /// Contact where the flank crosses a height over the pitch curve, if it does: arc length from the form point and contact.

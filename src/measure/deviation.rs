@@ -1,57 +1,92 @@
-//! Profile, pitch and thickness deviations in the style of ISO 1328-1:2013, for gears that are not round.
+//! Profile, lead, pitch and runout deviations in the style of ISO 1328:2013, for gears that are not round.
 //!
-//! Profile: heights over the target along its local normals, over a stated range of the profile: total deviation F_alpha (range), slope deviation f_H_alpha (the mean line's rise over the range)
-//! and form deviation f_f_alpha (range about the mean line). Pitch: places where the flanks cross the pitch curve, as arcs of that curve, against one pitch pi m each: single f_p and cumulative F_p. No
+//! Profile and lead: heights over the target along its local normals, over a stated range of a line: total deviation F_alpha or F_beta (range), slope deviation f_H (the mean line's rise over the
+//! range) and form deviation f_f (range about the mean line). Pitch: places where the flanks cross the pitch curve, as arcs of that curve, against one pitch pi m each: single f_p and cumulative F_p. No
 //! tolerance class is given: the standard's classes are for round gears.
 
 use super::crossing::Crossing;
 use crate::dexel::{Field, Layer, NO_PASS};
 
-/// Profile deviations of one flank in one row.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ProfileDeviation {
-    /// F_alpha, mm.
-    pub total_mm: f64,
-    /// f_H_alpha, mm: positive when material is left towards the tip.
-    pub slope_mm: f64,
-    /// f_f_alpha, mm.
-    pub form_mm: f64,
+/// Finished heights along one line of a flank, as a measuring machine traces it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trace {
+    /// Places of the dexels, mm, increasing: arc from the form point, or place along the tooth.
+    pub places_mm: Vec<f64>,
+    /// Heights over the target, mm; NaN where no pass came.
+    pub heights_mm: Vec<f64>,
 }
 
-/// Profile deviation of a row between two arc lengths; `None` with fewer than three dexels or untouched ones among them.
-pub fn profile(field: &Field, layer: &Layer, row: usize, [from_mm, to_mm]: [f64; 2]) -> Option<ProfileDeviation> {
-    let rows = field.rows();
-    let inside = |arc: f64| arc >= from_mm - 1e-9 && arc <= to_mm + 1e-9;
-    let points: Vec<(f64, f64)> = field
-        .columns
-        .iter()
-        .enumerate()
-        .filter(|(_, column)| inside(column.arc_mm))
-        .map(|(i, column)| {
-            (layer.passes[i * rows + row] != NO_PASS)
-                .then(|| (column.arc_mm, f64::from(layer.heights_mm[i * rows + row])))
-        })
-        .collect::<Option<_>>()?;
-    if points.len() < 3 {
-        return None;
+/// Deviations of one trace in one evaluated range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TraceDeviation {
+    /// F_alpha or F_beta, mm: range of the heights.
+    pub total_mm: f64,
+    /// f_H_alpha or f_H_beta, mm: rise of the mean line; positive when material is left towards the tip, or towards larger v.
+    pub slope_mm: f64,
+    /// f_f_alpha or f_f_beta, mm: range about the mean line.
+    pub form_mm: f64,
+    /// First and last evaluated place, mm.
+    pub between_mm: [f64; 2],
+    /// Heights of the mean line (least squares) at these places, mm.
+    pub mean_line_mm: [f64; 2],
+}
+
+impl Trace {
+    /// The profile of one row.
+    pub fn along_profile(field: &Field, layer: &Layer, row: usize) -> Self {
+        let rows = field.rows();
+        Self {
+            places_mm: field.columns.iter().map(|column| column.arc_mm).collect(),
+            heights_mm: (0..field.columns.len()).map(|column| height_mm(layer, column * rows + row)).collect(),
+        }
     }
-    let n = points.len() as f64;
-    let (x_mean, y_mean) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + p.1 / n));
-    let (xx, xy) = points.iter().fold((0.0, 0.0), |(xx, xy), p| {
-        let dx = p.0 - x_mean;
-        (xx + dx * dx, xy + dx * (p.1 - y_mean))
-    });
-    let slope = xy / xx;
-    let range = |value: &dyn Fn(&(f64, f64)) -> f64| {
-        let (low, high) =
-            points.iter().map(value).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-        high - low
-    };
-    Some(ProfileDeviation {
-        total_mm: range(&|p| p.1),
-        slope_mm: slope * (points[points.len() - 1].0 - points[0].0),
-        form_mm: range(&|p| p.1 - slope * (p.0 - x_mean)),
-    })
+
+    /// The line along the tooth of one column.
+    pub fn along_tooth(field: &Field, layer: &Layer, column: usize) -> Self {
+        let rows = field.rows();
+        Self {
+            places_mm: field.leads_mm.clone(),
+            heights_mm: (0..rows).map(|row| height_mm(layer, column * rows + row)).collect(),
+        }
+    }
+
+    /// Deviations between two places; `None` with fewer than three dexels or untouched ones among them.
+    pub fn deviation(&self, [from_mm, to_mm]: [f64; 2]) -> Option<TraceDeviation> {
+        let points: Vec<(f64, f64)> = self
+            .places_mm
+            .iter()
+            .zip(&self.heights_mm)
+            .filter(|&(&place, _)| place >= from_mm - 1e-9 && place <= to_mm + 1e-9)
+            .map(|(&place, &height)| height.is_finite().then_some((place, height)))
+            .collect::<Option<_>>()?;
+        if points.len() < 3 {
+            return None;
+        }
+        let n = points.len() as f64;
+        let (x_mean, y_mean) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + p.1 / n));
+        let (xx, xy) = points.iter().fold((0.0, 0.0), |(xx, xy), p| {
+            let dx = p.0 - x_mean;
+            (xx + dx * dx, xy + dx * (p.1 - y_mean))
+        });
+        let slope = xy / xx;
+        let range = |value: &dyn Fn(&(f64, f64)) -> f64| {
+            let (low, high) =
+                points.iter().map(value).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+            high - low
+        };
+        let between_mm = [points[0].0, points[points.len() - 1].0];
+        Some(TraceDeviation {
+            total_mm: range(&|p| p.1),
+            slope_mm: slope * (between_mm[1] - between_mm[0]),
+            form_mm: range(&|p| p.1 - slope * (p.0 - x_mean)),
+            between_mm,
+            mean_line_mm: between_mm.map(|place| y_mean + slope * (place - x_mean)),
+        })
+    }
+}
+
+fn height_mm(layer: &Layer, index: usize) -> f64 {
+    if layer.passes[index] == NO_PASS { f64::NAN } else { f64::from(layer.heights_mm[index]) }
 }
 
 /// Pitch deviations of all flanks of one side.
@@ -85,4 +120,82 @@ pub fn pitch(crossings: &[Option<Crossing>], pitch_mm: f64, perimeter_mm: f64) -
         single_mm: (0..arcs.len()).map(|i| arcs[i] - previous(i) - pitch_mm).collect(),
         cumulative_mm: arcs.iter().enumerate().map(|(i, arc)| arc - first - pitch_mm * i as f64).collect(),
     })
+}
+
+/// Radial places of a probe in the spaces of a gear, about their mean.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Runout {
+    /// Of the space after each tooth, mm, positive outwards.
+    pub radial_mm: Vec<f64>,
+}
+
+impl Runout {
+    /// F_r: range, mm.
+    pub fn total_mm(&self) -> f64 {
+        let fold = |(low, high): (f64, f64), &v: &f64| (low.min(v), high.max(v));
+        let (low, high) = self.radial_mm.iter().fold((f64::INFINITY, f64::NEG_INFINITY), fold);
+        high - low
+    }
+}
+
+/// Runout from the crossings of all flanks with the pitch curve, in order of teeth; `None` if one is missing.
+///
+/// The probe is a wedge with flanks at the pressure angle, as a cutter tooth or a ball touching at the pitch curve: in a space that is wider by w (arc of the pitch curve) it lies
+/// w / (2 tan alpha) deeper along the curve's normal. On a round gear the range is F_r of ISO 1328-2:1997 for small deviations; on other gears no axis is common to all spaces, and the
+/// figure says how evenly they were cut to depth.
+pub fn runout(
+    left: &[Option<Crossing>],
+    right: &[Option<Crossing>],
+    perimeter_mm: f64,
+    pressure_angle_rad: f64,
+) -> Option<Runout> {
+    let arcs = |side: &[Option<Crossing>]| side.iter().map(|c| c.map(|c| c.arc_mm)).collect::<Option<Vec<f64>>>();
+    let (left, right) = (arcs(left)?, arcs(right)?);
+    let first = right.first()? + perimeter_mm;
+    // The space after a tooth lies between its left flank and the next tooth's right one.
+    let widths: Vec<f64> = left.iter().zip(right[1..].iter().chain([&first])).map(|(l, r)| r - l).collect();
+    let mean = widths.iter().sum::<f64>() / widths.len() as f64;
+    let depth = 2.0 * pressure_angle_rad.tan();
+    Some(Runout { radial_mm: widths.iter().map(|width| (mean - width) / depth).collect() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    /// A parabola over a slope has its figures in closed form.
+    #[test]
+    fn a_bent_and_tilted_trace_has_the_figures_of_its_formula() {
+        let places_mm: Vec<f64> = (0..=2000).map(|i| f64::from(i) * 1e-3 - 1.0).collect();
+        let heights_mm = places_mm.iter().map(|x| 0.004 * x + 0.002 * x * x).collect();
+        let trace = Trace { places_mm, heights_mm };
+        let deviation = trace.deviation([-1.0, 1.0]).expect("it is complete");
+        assert!((deviation.slope_mm - 0.008).abs() < 1e-12);
+        assert!((deviation.form_mm - 0.002).abs() < 1e-12);
+        // Lowest at the vertex x = -1 (f = -0.002), highest at x = 1 (f = 0.006).
+        assert!((deviation.total_mm - 0.008).abs() < 1e-12);
+        let mean_mm = 0.002 / 3.0;
+        assert!((deviation.mean_line_mm[0] - (mean_mm - 0.004)).abs() < 1e-6);
+        let mut holed = trace;
+        holed.heights_mm[700] = f64::NAN;
+        assert_eq!(holed.deviation([-1.0, 1.0]), None);
+        assert!(holed.deviation([0.0, 1.0]).is_some(), "the hole is outside");
+    }
+
+    /// Spaces cut e cos(phi) too deep: on a rack-like space each flank moves by e cos(phi) tan(alpha), and the probe follows by e cos(phi): F_r = 2 e.
+    #[test]
+    fn an_eccentric_cut_runs_out_by_twice_the_eccentricity() {
+        let (teeth, pitch_mm, alpha, e) = (24_u32, 9.0, 20_f64.to_radians(), 0.03);
+        let crossing = |arc_mm| Some(Crossing { point_mm: DVec2::ZERO, phi_rad: 0.0, arc_mm });
+        let shift = |space: f64| e * (std::f64::consts::TAU * space / f64::from(teeth)).cos() * alpha.tan();
+        // Space k is centred on k pitches; tooth j lies between spaces j - 1 and j.
+        let left: Vec<_> = (1..=teeth).map(|j| crossing(f64::from(j) * pitch_mm - 2.0 - shift(f64::from(j)))).collect();
+        let right: Vec<_> =
+            (1..=teeth).map(|j| crossing(f64::from(j - 1) * pitch_mm + 2.0 + shift(f64::from(j - 1)))).collect();
+        let runout = runout(&left, &right, f64::from(teeth) * pitch_mm, alpha).expect("all flanks cross");
+        assert!((runout.total_mm() - 2.0 * e).abs() < 1e-12, "{}", runout.total_mm());
+        // The space at phi = 0 (after the last tooth) is the widest: the probe lies deepest there.
+        assert!((runout.radial_mm[teeth as usize - 1] + e).abs() < 1e-12);
+    }
 }

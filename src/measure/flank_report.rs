@@ -3,7 +3,7 @@
 //! In: the job, the target flank, the cut field. Out: [`FlankReport`]: where the flank begins and ends, stock between each operation and the finished surface, heights, scallops,
 //! profile deviations, undercut, the witness mark. Heights come from the dexels; begin and end from the closed form.
 
-use super::deviation::{self, ProfileDeviation};
+use super::deviation::{Trace, TraceDeviation};
 use super::scallop::{Cusp, cusps};
 use super::stock::{Extreme, Stock, extremes, stock};
 use crate::dexel::NO_PASS;
@@ -11,7 +11,7 @@ use crate::gear::generation::Side;
 use crate::gear::target::{FlankEnd, TargetFlank};
 use crate::job::{CutFlank, Job};
 
-/// Share of the flank left out at either end when the scene does not say where profiles are evaluated.
+/// Share of the flank left out at either end when the scene does not say where profiles are evaluated, and of the face.
 const DEFAULT_MARGIN: f64 = 0.05;
 /// Strokes at either end of an operation that count as its seam.
 const SEAM_STROKES: usize = 2;
@@ -58,7 +58,13 @@ pub struct FlankReport {
     /// Deepest cut below the target anywhere on the flank (undercut, gouge), if deeper than the dexels' resolution.
     pub undercut: Option<Extreme>,
     /// Profile deviations in the middle of the face.
-    pub profile: Option<ProfileDeviation>,
+    pub profile: Option<TraceDeviation>,
+    /// Lead deviations at the pitch curve, over the face without 5 % at either end.
+    pub lead: Option<TraceDeviation>,
+    /// The profile in the middle of the face.
+    pub profile_trace: Trace,
+    /// The line along the tooth at the pitch curve, or in the middle of the evaluated profile where the flank does not reach the curve.
+    pub lead_trace: Trace,
     /// Scallops in the middle of the face.
     pub scallops: Option<Scallops>,
     /// What the first and last finishing strokes stand above the rest of this flank (0 if nothing), where they touched it.
@@ -129,6 +135,17 @@ pub fn measure(job: &Job, flank: &TargetFlank, cut: &CutFlank) -> FlankReport {
         let rest_mm = highest(false).map_or(0.0, |rest| rest.value_mm);
         Extreme { value_mm: (seam.value_mm - rest_mm).max(0.0), ..seam }
     });
+    let profile_trace = Trace::along_profile(field, finished, middle);
+    let lead_arc_mm = pitch_arc_mm.unwrap_or(0.5 * (evaluated_mm[0] + evaluated_mm[1]));
+    let lead_column = (0..field.columns.len())
+        .min_by(|&a, &b| {
+            let distance = |column: usize| (field.columns[column].arc_mm - lead_arc_mm).abs();
+            distance(a).total_cmp(&distance(b))
+        })
+        .unwrap_or(0);
+    let lead_trace = Trace::along_tooth(field, finished, lead_column);
+    let (v_first, v_last) = (field.leads_mm[0], field.leads_mm[rows - 1]);
+    let v_margin = DEFAULT_MARGIN * (v_last - v_first);
     let below_range = (0..field.columns.len())
         .map(|column| {
             let low = field.columns[column].low_mm as f32;
@@ -145,7 +162,10 @@ pub fn measure(job: &Job, flank: &TargetFlank, cut: &CutFlank) -> FlankReport {
         stock: layers[..layers.len() - 1].iter().map(|layer| stock(field, layer, finished)).collect(),
         finished: evaluated,
         undercut: deepest.filter(|low| low.value_mm < -RESOLUTION_MM),
-        profile: deviation::profile(field, finished, middle, evaluated_mm),
+        profile: profile_trace.deviation(evaluated_mm),
+        lead: lead_trace.deviation([v_first + v_margin, v_last - v_margin]),
+        profile_trace,
+        lead_trace,
         scallops,
         witness,
         below_range,

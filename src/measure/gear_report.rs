@@ -3,7 +3,7 @@
 //! In: the job, the flank reports. Out: [`GearReport`].
 
 use super::crossing::Crossing;
-use super::deviation::{PitchDeviations, pitch};
+use super::deviation::{PitchDeviations, Runout, pitch, runout};
 use super::flank_report::FlankReport;
 use super::stock::{Stock, stock};
 use super::unevenness::{Surface, ToothAllowance, allowances, rack_allowance_mm};
@@ -60,6 +60,8 @@ pub struct GearReport {
     pub thickness: Vec<Option<Thickness>>,
     /// Pitch deviations of left and right flanks.
     pub pitch: [Option<PitchDeviations>; 2],
+    /// Radial places of a probe in the space after each tooth.
+    pub runout: Option<Runout>,
     /// Teeth after which the pitch curve repeats.
     pub period_teeth: u32,
 }
@@ -98,6 +100,10 @@ pub fn measure(job: &Job, backend: &dyn Backend, flanks: Vec<FlankReport>) -> Re
         let crossings: Vec<_> = finished.iter().map(flank).collect();
         pitch(&crossings, pitch_mm, job.curve.perimeter_mm())
     };
+    let runout = {
+        let side = |flank: fn(&ToothAllowance) -> Option<Crossing>| finished.iter().map(flank).collect::<Vec<_>>();
+        runout(&side(|t| t.b), &side(|t| t.c), job.curve.perimeter_mm(), job.scene.gear.pressure_angle_rad)
+    };
     let generation = job.target_generation();
     let tip_lands_mm = (1..=teeth)
         .into_par_iter()
@@ -122,6 +128,7 @@ pub fn measure(job: &Job, backend: &dyn Backend, flanks: Vec<FlankReport>) -> Re
         allowances,
         thickness,
         pitch: [deviations(|t| t.b), deviations(|t| t.c)],
+        runout,
         period_teeth: period_teeth(&job.scene.gear.pitch_curve, teeth),
     })
 }

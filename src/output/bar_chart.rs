@@ -43,11 +43,11 @@ pub struct BarSeries {
 }
 
 impl BarSeries {
-    fn finite(&self) -> impl Iterator<Item = f64> {
+    pub(super) fn finite(&self) -> impl Iterator<Item = f64> {
         self.values.iter().flatten().copied().filter(|value| value.is_finite())
     }
 
-    fn mean(&self) -> Option<f64> {
+    pub(super) fn mean(&self) -> Option<f64> {
         let count = self.finite().count();
         (count > 0).then(|| self.finite().sum::<f64>() / count as f64)
     }

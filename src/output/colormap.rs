@@ -84,6 +84,11 @@ impl ColourScale {
     }
 }
 
+/// Colours of the sequential and of the diverging scale at 256 even places, for programs that colour values themselves.
+pub(super) fn tables() -> [[[u8; 3]; 256]; 2] {
+    [&VIRIDIS[..], &BLUE_WHITE_RED].map(|anchors| std::array::from_fn(|i| between(anchors, i as f64 / 255.0)))
+}
+
 /// Smallest and largest finite value; zeros if there is none.
 fn finite_range<'a>(maps: impl IntoIterator<Item = &'a [f32]>) -> (f32, f32) {
     let finite = maps.into_iter().flatten().copied().filter(|value| value.is_finite());

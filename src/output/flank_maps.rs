@@ -1,8 +1,17 @@
 //! Maps of one flank: what every operation left, as pictures and as EXR for other programs.
 //!
-//! In: the cut field at dexel spacing. Out: `maps/<operation>/tooth_07_left.{png,exr}` (height over the target) and `allowance/tooth_07_left.{png,exr}` (stock of each earlier operation
-//! over the finished surface). Maps have a spacing of their own (the scene's `output.map_spacing_mm`), wider than facets: stock, height and pass id are those of the dexel nearest to the map's
-//! place, and beside them stands the **highest** dexel of each cell, which height pictures show. Single dexels would make moire of the feed marks, means would hide them.
+//! In: the cut field at dexel spacing. Out, each as picture and EXR:
+//!
+//! | what | where |
+//! | --- | --- |
+//! | height over the target after each operation | `maps/<operation>/tooth_07_left.{png,exr}` |
+//! | pass that left the surface, a picture of the same EXR | `maps/<operation>/tooth_07_left_pass.png` |
+//! | stock of each earlier operation over the finished surface | `allowance/tooth_07_left.{png,exr}` |
+//! | deviation of the finished flank | `deviation/tooth_07_left.{png,exr}` |
+//!
+//! Maps have a spacing of their own (the scene's `output.map_spacing_mm`), wider than facets: stock, height and pass id are those of the dexel nearest to the map's place. Two more values
+//! stand for whole cells: height pictures show the **highest** dexel, so that no feed mark is lost (single dexels would make moire of them); deviations are the **mean** of the finished
+//! dexels, because an error of form or position is what remains when the feed marks are averaged.
 
 use super::colormap::ColourScale;
 use super::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
@@ -50,6 +59,8 @@ pub struct FlankMaps {
     pub highest_mm: Vec<Vec<f32>>,
     /// Pass that left it, after each operation.
     pub passes: Vec<Vec<u32>>,
+    /// Mean height of each cell after the last operation, mm; NaN where no pass came.
+    pub deviation_mm: Vec<f32>,
 }
 
 impl FlankMaps {
@@ -85,15 +96,14 @@ impl FlankMaps {
         let (columns, leads) = (cells(&grid.u, &arcs_mm), cells(&grid.v, &field.leads_mm));
         let dexels: Vec<usize> =
             columns.iter().flat_map(|(column, _)| leads.iter().map(move |(row, _)| column * rows + row)).collect();
-        let highest = |layer: &Layer| -> Vec<f32> {
+        // One value for all dexels of a cell that a pass has touched.
+        let over_cells = |layer: &Layer, value: fn(&mut dyn Iterator<Item = f32>) -> f32| -> Vec<f32> {
             columns
                 .iter()
                 .flat_map(|(_, columns)| {
                     leads.iter().map(move |(_, leads)| {
                         let cell = columns.clone().flat_map(|column| leads.clone().map(move |row| column * rows + row));
-                        cell.filter(|&i| layer.passes[i] != NO_PASS)
-                            .map(|i| layer.heights_mm[i])
-                            .fold(f32::NAN, f32::max)
+                        value(&mut cell.filter(|&i| layer.passes[i] != NO_PASS).map(|i| layer.heights_mm[i]))
                     })
                 })
                 .collect()
@@ -103,7 +113,8 @@ impl FlankMaps {
             tooth,
             side,
             heights_mm: layers.iter().map(|layer| dexels.iter().map(|&i| height(layer, i)).collect()).collect(),
-            highest_mm: layers.iter().map(highest).collect(),
+            highest_mm: layers.iter().map(|layer| over_cells(layer, |cell| cell.fold(f32::NAN, f32::max))).collect(),
+            deviation_mm: layers.last().map_or_else(Vec::new, |layer| over_cells(layer, mean)),
             passes: layers.iter().map(|layer| dexels.iter().map(|&i| layer.passes[i]).collect()).collect(),
             grid,
         }
@@ -138,6 +149,18 @@ impl FlankMaps {
                 scale: ColourScale::sequential_over([heights_um.as_slice()]),
             };
             write_map_png(&folder.path(format!("maps/{name}/{stem}.png"))?, &picture)?;
+            // Ids are whole numbers; those of one flank lie close together, and as f32 they are exact up to 16 million.
+            let ids: Vec<f32> =
+                self.passes[index].iter().map(|&pass| if pass == NO_PASS { f32::NAN } else { pass as f32 }).collect();
+            let picture = MapPicture {
+                title: &format!("{name}: {flank}, the pass that left each place"),
+                quantity: "pass id, in the order of time",
+                unit: "1",
+                values: &ids,
+                scale: ColourScale::sequential_over([ids.as_slice()]),
+                ..picture
+            };
+            write_map_png(&folder.path(format!("maps/{name}/{stem}_pass.png"))?, &picture)?;
             let channels = vec![
                 channel(
                     "height_mm",
@@ -186,10 +209,42 @@ impl FlankMaps {
         Ok(())
     }
 
+    /// Writes the deviation map; `scale` (µm) is that of all flanks, so that they can be compared.
+    ///
+    /// # Errors
+    /// Files that cannot be written.
+    pub fn write_deviation(
+        &self,
+        folder: &OutputFolder,
+        last: &str,
+        scale: ColourScale,
+        notes: &[(String, String)],
+    ) -> Result<()> {
+        let stem = self.file_stem();
+        let values_um: Vec<f32> = self.deviation_mm.iter().map(|h| h * UM_PER_MM as f32).collect();
+        let picture = MapPicture {
+            title: &format!("Deviation after {last}: tooth {}, {} flank", self.tooth, self.side.name()),
+            quantity: "mean height of cell over the target",
+            unit: "µm",
+            grid: &self.grid,
+            values: &values_um,
+            scale,
+        };
+        write_map_png(&folder.path(format!("deviation/{stem}.png"))?, &picture)?;
+        let definition = "mean height of the cell's dexels over the target after the last operation";
+        let channel = channel("deviation_mm", "mm", definition, Samples::F32(self.deviation_mm.clone()));
+        self.write_exr(&folder.path(format!("deviation/{stem}.exr"))?, vec![channel], notes)
+    }
+
     fn write_exr(&self, path: &std::path::Path, channels: Vec<MapChannel>, notes: &[(String, String)]) -> Result<()> {
         let map = ExrMap { grid: self.grid.clone(), frame: FRAME.to_owned(), channels, notes: notes.to_vec() };
         write_exr_map(path, &map)
     }
+}
+
+fn mean(values: &mut dyn Iterator<Item = f32>) -> f32 {
+    let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), value| (sum + f64::from(value), count + 1));
+    (sum / f64::from(count)) as f32
 }
 
 fn channel(name: &str, unit: &str, definition: &str, samples: Samples) -> MapChannel {

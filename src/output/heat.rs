@@ -48,6 +48,22 @@ pub(super) fn paint_cells(raster: &mut Raster, area: PixelBox, grid: &MapGrid, v
     }
 }
 
+/// Darkens and lightens what was painted: 1 leaves a colour, 0 makes it black, 2 white.
+pub(super) fn shade_cells(raster: &mut Raster, area: PixelBox, grid: &MapGrid, brightness: &[f32]) {
+    let (columns, rows) = (ranges(area.width, grid.v.count), ranges(area.height, grid.u.count));
+    for (row, &(u_first, u_end)) in rows.iter().enumerate() {
+        let y = area.top + area.height - 1 - row as u32;
+        for (x, &(v_first, v_end)) in (area.left..).zip(&columns) {
+            let cells =
+                (u_first..u_end).flat_map(|u| &brightness[u * grid.v.count + v_first..u * grid.v.count + v_end]);
+            let light = mean(cells);
+            if !light.is_nan() {
+                raster.shade(x, y, light);
+            }
+        }
+    }
+}
+
 fn row_colours(
     grid: &MapGrid,
     values: &[f32],

@@ -80,7 +80,7 @@ impl LineChart {
     }
 
     /// Extent of all points along x.
-    fn x_range(&self) -> (f64, f64) {
+    pub(super) fn x_range(&self) -> (f64, f64) {
         let points = self.panels.iter().flat_map(|panel| panel.series.iter().flat_map(LineSeries::finite));
         let (low, high) = extent(points.map(|point| point.0));
         if low < high { (low, high) } else { round_range(low, high) }
@@ -88,7 +88,7 @@ impl LineChart {
 }
 
 impl LineSeries {
-    fn finite(&self) -> impl Iterator<Item = (f64, f64)> {
+    pub(super) fn finite(&self) -> impl Iterator<Item = (f64, f64)> {
         self.points.iter().copied().filter(|(x, value)| x.is_finite() && value.is_finite())
     }
 }
@@ -101,7 +101,7 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 impl Panel {
     /// Values at the bottom and the top: the curves, and those limits that at most double their extent.
-    fn range(&self) -> (f64, f64) {
+    pub(super) fn range(&self) -> (f64, f64) {
         let (low, high) = extent(self.series.iter().flat_map(LineSeries::finite).map(|point| point.1));
         let reach = high - low;
         let near =
@@ -199,7 +199,7 @@ impl Panel {
 }
 
 /// First and last point of each half pixel column, and between them its lowest and highest where they stand out.
-fn thinned(places: &[Point]) -> Vec<Point> {
+pub(super) fn thinned(places: &[Point]) -> Vec<Point> {
     /// Less than this cannot be seen; joining such points would only make the line ragged.
     const VISIBLE_PX: f64 = 0.5;
     let column = |place: &Point| (2.0 * place.0).floor();

@@ -18,8 +18,9 @@ use crate::output::axis::{Ticks, value_text};
 use crate::output::canvas::{Canvas, Drawn, INK, PAPER, Point, Side};
 use crate::output::colormap::{ColourScale, NO_VALUE};
 use crate::output::grid::{MapAxis, MapGrid};
-use crate::output::heat::{ColourBar, PixelBox, fitting_em_px, paint_cells, scale_problem, shown_range};
+use crate::output::heat::{ColourBar, PixelBox, fitting_em_px, paint_cells, scale_problem, shade_cells, shown_range};
 use crate::output::raster::Raster;
+pub use crate::output::relief::Relief;
 use crate::{Error, Result};
 
 /// A map to be drawn.
@@ -53,11 +54,23 @@ const EM_PX: f64 = 15.0;
 /// # Errors
 /// Values that do not fill the grid, an empty colour scale, and files that cannot be written.
 pub fn write_map_png(path: &Path, picture: &MapPicture) -> Result<()> {
-    let bytes = draw(picture).map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
+    write(path, picture, None)
+}
+
+/// Writes a map as PNG, lit from the side so that its relief shows; the exaggeration stands below it.
+///
+/// # Errors
+/// As [`write_map_png`].
+pub fn write_relief_png(path: &Path, picture: &MapPicture, relief: &Relief) -> Result<()> {
+    write(path, picture, Some(relief))
+}
+
+fn write(path: &Path, picture: &MapPicture, relief: Option<&Relief>) -> Result<()> {
+    let bytes = draw(picture, relief).map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
     write_bytes_atomically(path, &bytes)
 }
 
-fn draw(picture: &MapPicture) -> std::result::Result<Vec<u8>, String> {
+fn draw(picture: &MapPicture, relief: Option<&Relief>) -> std::result::Result<Vec<u8>, String> {
     if let Some(problem) = picture.grid.mismatch(picture.values.len()).or_else(|| scale_problem(picture.scale)) {
         return Err(problem);
     }
@@ -72,8 +85,12 @@ fn draw(picture: &MapPicture) -> std::result::Result<Vec<u8>, String> {
         shown: shown_range(picture.values),
     };
     let width_px = bar.area.left + BAR_WIDTH_PX + ColourBar::LABEL_WIDTH_PX;
-    let mut raster = Raster::white((width_px, TOP_PX + height_px + BELOW_PX));
+    let below_px = BELOW_PX + if relief.is_some() { 22 } else { 0 };
+    let mut raster = Raster::white((width_px, TOP_PX + height_px + below_px));
     paint_cells(&mut raster, map, picture.grid, picture.values, picture.scale);
+    if let Some(relief) = relief {
+        shade_cells(&mut raster, map, picture.grid, &relief.brightness);
+    }
     bar.paint(&mut raster);
 
     let size_px = raster.size_px;
@@ -83,6 +100,10 @@ fn draw(picture: &MapPicture) -> std::result::Result<Vec<u8>, String> {
     draw_axes(&mut canvas, map, picture.grid)?;
     bar.annotate(&mut canvas, f64::from(height_px + TOP_PX + BELOW_PX) - 60.0)?;
     draw_notes(&mut canvas, map, picture, f64::from(height_px) / true_height_px)?;
+    if let Some(relief) = relief {
+        let at = (f64::from(LEFT_PX), f64::from(TOP_PX + height_px) + 100.0);
+        canvas.text(&relief.words(), at, EM_PX, Side::Start)?;
+    }
     canvas.finish()?;
     raster.png()
 }

@@ -14,6 +14,7 @@
 //! | meshes for other programs | [`mesh_file`], [`mesh_stl`], [`mesh_ply`], [`mesh_glb`] |
 //! | drawn bodies, one or many | [`render_png`], [`apng`] |
 //! | charts: grouped bars, panels of curves | [`bar_chart`], [`line_chart`] |
+//! | the report: everything on one page that opens offline | [`report`] |
 //! | progress and Ctrl-C | [`progress`], [`interrupt`] |
 
 pub mod apng;
@@ -41,7 +42,10 @@ pub mod mesh_stl;
 pub mod progress;
 pub mod quantity;
 mod raster;
+mod relief;
 pub mod render_png;
+pub mod report;
 pub mod results;
+pub mod surface_files;
 pub mod table;
 pub mod text;

@@ -25,6 +25,16 @@ impl Raster {
         self.rgb[start..start + 3].copy_from_slice(&colour);
     }
 
+    /// Darkens (`light` below 1) or lightens (above 1) one pixel, which must lie inside.
+    pub(super) fn shade(&mut self, x: u32, y: u32, light: f32) {
+        let start = (y as usize * self.size_px.0 as usize + x as usize) * 3;
+        for value in &mut self.rgb[start..start + 3] {
+            let colour = f32::from(*value);
+            let shaded = if light <= 1.0 { colour * light } else { colour + (255.0 - colour) * (light - 1.0) };
+            *value = shaded.round().clamp(0.0, 255.0) as u8;
+        }
+    }
+
     /// Picture of half the size, each pixel the mean of four; smooths what was drawn at twice the size.
     pub(super) fn halved(&self) -> Self {
         let (width, height) = (self.size_px.0 / 2, self.size_px.1 / 2);

@@ -9,8 +9,10 @@
 //! Two measures are told apart everywhere. A **height** stands over the target, the envelope of the last operation. A **stock**
 //! is what an operation leaves over the finished surface. Both run along the target's normal, positive where material is.
 
+mod blank;
 mod machine;
 mod teeth;
+mod texture;
 
 use std::path::Path;
 
@@ -19,8 +21,10 @@ use serde::{Deserialize, Serialize};
 use super::atomic::write_bytes_atomically;
 use super::quantity::Quantity;
 use crate::{Error, Result};
+pub use blank::{BlankOperationResults, BlankResults, DamageResults};
 pub use machine::{AxesResults, AxisPeak, ReliefResults};
 pub use teeth::{FinishedFlank, FinishedTooth, OperationTooth, ProfileDeviations, StockRange};
+pub use texture::{AbbottCurve, Parameters, TextureResults};
 
 /// Version of the layout.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -46,8 +50,14 @@ pub struct Results {
     pub headline: Headline,
     /// What each operation did and left over the finished gear, in order.
     pub operations: Vec<OperationResults>,
+    /// The whole gear: volumes, damage, rubbing; null after Ctrl-C, and in files of older programs left out.
+    #[serde(default)]
+    pub blank: Option<BlankResults>,
     /// The finished gear, tooth by tooth.
     pub teeth: Vec<FinishedTooth>,
+    /// Surface texture of windows on flanks, after every operation; absent in results of programs before texture.
+    #[serde(default)]
+    pub texture: Vec<TextureResults>,
 }
 
 /// The numbers that a gear engineer asks for first. Extremes over flanks carry their place.

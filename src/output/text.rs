@@ -27,6 +27,11 @@ impl Sheet {
         let _ = writeln!(self.text, "  {label:<width$}{}", value.as_ref(), width = VALUE_COLUMN - 2);
     }
 
+    /// A line of words, indented under the heading.
+    pub fn words(&mut self, words: &str) {
+        let _ = writeln!(self.text, "  {words}");
+    }
+
     /// A table, indented under the heading: words to the left, numbers to the right, as wide as their widest cell.
     pub fn table(&mut self, rows: &[Vec<String>]) {
         let columns = rows.iter().map(Vec::len).max().unwrap_or(0);

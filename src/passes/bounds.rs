@@ -7,12 +7,23 @@
 //! `a'' = (1 + a k_t) / cos^2 theta [ k_e (1 + a k_t) / cos theta - k_t ] + k_t (1 + a k_t) tan^2 theta + a k_t' tan theta`
 //!
 //! C takes absolute values and half as much again for what varies inside the tile.
+//!
+//! Most passes need no samples: a segment is convex, so it lies behind its tangent at any place, and a tile whose lowest certain surface stays in front of that tangent by more than the
+//! edge can bulge between two samples is not touched. The same look refuses a whole spell of strokes at once ([`super::spells`]): there the tangent must stay away by as much as any
+//! of the strokes moves the blade.
 
 use super::near::NearPass;
+use super::rulers::Ceilings;
 use crate::dexel::field::Column;
+use crate::frame::Rigid2;
 use crate::tool::edge::{Segment, SegmentShape};
+use arrayvec::ArrayVec;
 use glam::DVec2;
 
+/// Phases at which a pass is sampled: three, or one when frozen.
+pub const MAX_PHASES: usize = 3;
+/// Places across a tile at which a pass is sampled at most.
+pub const MAX_PLACES: usize = 5;
 /// Safety on every bound of a second derivative, for what varies between samples.
 const CURVATURE_SAFETY: f64 = 1.5;
 /// Rays steeper than this against an edge's normal (cosine) are judged by boxes instead of interpolation.
@@ -38,7 +49,7 @@ pub struct Samples {
     /// Segment of the blade.
     pub segment: usize,
     /// Place by place across the tile, phase by phase, mm.
-    pub heights_mm: Vec<f64>,
+    pub heights_mm: ArrayVec<f64, { MAX_PLACES * MAX_PHASES }>,
     /// Error of interpolation between neighbouring samples.
     pub error_mm: f64,
     /// All samples and all that lies between them enter the segment itself, not its continuation.
@@ -66,15 +77,26 @@ pub struct BladeRay {
 }
 
 impl BladeRay {
+    /// A ray of the work seen from one pose of a blade.
+    pub fn of_pose(blade_from_work: &Rigid2, ray: &Column) -> Self {
+        Self { origin_mm: blade_from_work.point(ray.origin_mm), direction: blade_from_work.direction(ray.normal) }
+    }
+
     /// All places of a tile in a pass's blade frame, place by place, phase by phase.
     pub fn of_pass<'a>(pass: &'a NearPass, places: &'a [Column]) -> impl Iterator<Item = Self> + 'a {
-        places.iter().flat_map(|ray| {
-            pass.blade_from_work.iter().map(|blade_from_work| Self {
-                origin_mm: blade_from_work.point(ray.origin_mm),
-                direction: blade_from_work.direction(ray.normal),
-            })
-        })
+        places
+            .iter()
+            .flat_map(|ray| pass.blade_from_work.iter().map(|blade_from_work| Self::of_pose(blade_from_work, ray)))
     }
+}
+
+/// How far the poses that one look stands for may differ from the one looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Stray {
+    /// Largest distance of any point of the field in the blade's frame, mm.
+    pub distance_mm: f64,
+    /// Largest turn, rad.
+    pub turn_rad: f64,
 }
 
 /// Segments with what the bounds need of them.
@@ -140,26 +162,28 @@ impl<'a> SegmentBounds<'a> {
         })
     }
 
-    /// Whether the segment surely meets all rays of the tile above the ceilings (place by place, phase by phase): one residual each instead of a root.
+    /// Whether the segment surely meets all rays of the tile above the ceilings, one for each of `rays`: one residual each instead of a root.
     ///
-    /// The residual of a convex segment falls ever more slowly along the ray, so one Newton step from the ceiling cannot overshoot the entry.
+    /// A convex segment lies behind its tangent at the aimed point's y; a ray that still runs towards it there enters it further up. Between neighbouring samples the segment
+    /// can bulge by `k_e L^2 / 8` and the surface of the ceilings by `k_t L^2 / 8`; `stray` is what the poses themselves may differ.
     pub fn stays_above(
         &self,
         rays: &[BladeRay],
         segment_index: usize,
         sampling: &Sampling,
-        ceilings_mm: &[f64],
+        ceilings: &Ceilings,
         travel_mm: f64,
+        stray: Stray,
     ) -> bool {
         let segment = &self.segments[segment_index];
         let frame = &segment.blade_from_segment;
         let turn = DVec2::new(frame.rotation.x, -frame.rotation.y);
-        // The bound of the module head at the grazing limit, for the tile's cells and for the motion during the stroke.
+        let curvature = self.curvatures_per_mm[segment_index];
         let reach_mm2 = sampling.cell_mm * sampling.cell_mm + travel_mm * travel_mm;
-        let bend = self.curvatures_per_mm[segment_index] + sampling.turn_per_mm;
-        let margin_mm = CURVATURE_SAFETY * bend * reach_mm2 / 8.0 / GRAZING_COSINE.powi(3) + 1e-6;
-        rays.iter().zip(ceilings_mm).all(|(ray, ceiling_mm)| {
-            let aim = ray.origin_mm + (ceiling_mm + margin_mm) * ray.direction;
+        let grazing = GRAZING_COSINE + 2.0 * curvature * stray.distance_mm + stray.turn_rad;
+        let slope = ceilings.climb_mm / sampling.cell_mm.max(1e-9);
+        rays.iter().zip(&ceilings.heights_mm).all(|(ray, ceiling_mm)| {
+            let aim = ray.origin_mm + ceiling_mm * ray.direction;
             let p = turn.rotate(aim - frame.translation_mm);
             let n = turn.rotate(ray.direction);
             let (residual_mm, normal) = match &segment.shape {
@@ -169,21 +193,25 @@ impl<'a> SegmentBounds<'a> {
                 }
                 SegmentShape::Arc { radius_mm } => {
                     let from_center = p + DVec2::new(*radius_mm, 0.0);
-                    (from_center.length() - radius_mm, from_center)
+                    let distance_mm = from_center.length();
+                    (distance_mm - radius_mm, from_center / distance_mm.max(1e-12))
                 }
             };
-            // Grazing rays are not for this test: the margin does not cover them.
-            residual_mm > 0.0 && -n.dot(normal) > GRAZING_COSINE * normal.length()
+            let stretch = normal.length_squared();
+            let length = stretch.sqrt();
+            let surface = sampling.turn_per_mm * (1.0 + 2.0 * slope + ceiling_mm.abs() * sampling.turn_per_mm);
+            let bulge_mm = CURVATURE_SAFETY * (curvature * stretch + surface) * reach_mm2 / 8.0;
+            residual_mm > length * (bulge_mm + stray.distance_mm + 1e-9) && -n.dot(normal) > grazing * length
         })
     }
 
     /// Samples one segment's pass.
-    pub fn judge(&self, near: &[NearPass], pass: usize, segment_index: usize, sampling: &Sampling) -> Verdict {
+    pub fn judge(&self, near: &NearPass, pass: usize, segment_index: usize, sampling: &Sampling) -> Verdict {
         let segment = &self.segments[segment_index];
         let segment_from_blade = segment.blade_from_segment.inverse();
-        let phases = &near[pass].blade_from_work;
+        let phases = &near.blade_from_work;
         let samples = sampling.places.len() * phases.len();
-        let (mut heights_mm, mut curvature) = (Vec::with_capacity(samples), 0.0_f64);
+        let (mut heights_mm, mut curvature) = (ArrayVec::new(), 0.0_f64);
         let (mut y_low, mut y_high) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut missed, mut away) = (false, 0);
         for ray in sampling.places {

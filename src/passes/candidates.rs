@@ -1,21 +1,24 @@
 //! Tiles and the passes that can leave the lowest surface on them.
 //!
 //! Every (dexel, pass) pair costs, so a tile (up to 16 columns by all rows) visits only passes that can matter. Pass k is left out when some other pass is **lower at every dexel of the
-//! tile, for certain**: see [`super::bounds`]. First a coarse look with cheap refusals finds the handful of passes near the lowest surface, then a finer one in quarters
+//! tile, for certain**: see [`super::bounds`]. First a coarse look down the trees of [`super::spells`] finds the handful of passes near the lowest surface, then a finer one in quarters
 //! of the tile decides. What the bounds cannot judge (a ray grazing a corner round, a segment met partly beyond its end) is kept unless its box stays clear of the rays
 //! below the surface that is already certain. Equality with brute force over all passes is tested bit for bit.
 //!
 //! Road not taken: the contact moment from the meshing condition. It knows only the finishing envelope; roughing, plunges, partial turns and undercut need no
 //! special case here.
 
-use super::bounds::{BladeRay, Sampling, SegmentBounds, Verdict, undominated};
+use super::bounds::{BladeRay, MAX_PHASES, MAX_PLACES, Samples, Sampling, SegmentBounds, Stray, Verdict, undominated};
 use super::near::{NearPass, near_passes};
 use super::record::PassRecord;
+use super::rulers::Rulers;
+use super::spells::{Content, Spell, SpellTree};
 use super::strokes::StrokeSet;
 use crate::dexel::field::{Column, Field};
 use crate::frame::Rigid2;
 use crate::tool::CuttingTool;
 use crate::tool::edge::Edge;
+use arrayvec::ArrayVec;
 use glam::DVec2;
 use std::ops::Range;
 
@@ -27,6 +30,9 @@ const TILE_WIDTH_MM: f64 = 0.08;
 const MIN_TILE_DEXELS: usize = 4096;
 /// Cells across a tile in which dominance is decided.
 const CELLS: usize = 4;
+/// Cells of the first, coarse look.
+const COARSE_CELLS: usize = 2;
+
 /// Some columns and the passes that they visit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tile {
@@ -56,14 +62,14 @@ impl CutPlan {
         reason = "the method's path is not general enough in its lifetimes"
     )]
     pub fn new(field: &Field, set: &StrokeSet, tool: &dyn CuttingTool) -> Self {
-        Self::build(field, set, tool, |planner, near, columns, seeds| planner.candidates(near, columns, seeds))
+        Self::build(field, set, tool, |planner, columns, seeds| planner.candidates(columns, seeds))
     }
 
     /// Plan with every segment of every pass that can reach the field: what candidates are proved against.
     pub fn brute_force(field: &Field, set: &StrokeSet, tool: &dyn CuttingTool) -> Self {
         let segments = tool.edge().segments.len();
-        Self::build(field, set, tool, |_, near, _, _| {
-            (0..near.len()).flat_map(|pass| (0..segments).map(move |segment| (pass, segment))).collect()
+        Self::build(field, set, tool, |planner, _, _| {
+            (0..planner.near.len()).flat_map(|pass| (0..segments).map(move |segment| (pass, segment))).collect()
         })
     }
 
@@ -71,11 +77,9 @@ impl CutPlan {
         field: &Field,
         set: &StrokeSet,
         tool: &dyn CuttingTool,
-        choose: impl Fn(&Planner, &[NearPass], &[Column], &mut Vec<usize>) -> Vec<(usize, usize)>,
+        choose: impl Fn(&Planner, &[Column], &mut Vec<usize>) -> Vec<(usize, usize)>,
     ) -> Self {
-        let planner = Planner { edge: tool.edge(), bounds: SegmentBounds::new(&tool.edge().segments) };
-        let (center, reach) = Field::circle(&field.columns);
-        let near = near_passes(set, tool, center, reach);
+        let planner = Planner::new(field, set, tool);
         let blades: Vec<Rigid2> = (0..tool.blade_count()).map(|b| tool.tool_from_blade(b).inverse()).collect();
         let (mut tiles, mut records) = (Vec::new(), Vec::new());
         let mut seeds = Vec::new();
@@ -88,8 +92,8 @@ impl CutPlan {
             let rays = &field.columns[columns.clone()];
             let middle = rays[rays.len() / 2];
             let first = records.len();
-            for (pass, segment_index) in choose(&planner, &near, rays, &mut seeds) {
-                let NearPass { stroke, blade, .. } = near[pass];
+            for (pass, segment_index) in choose(&planner, rays, &mut seeds) {
+                let NearPass { stroke, blade, .. } = planner.near[pass];
                 let segment = &planner.bounds.segments[segment_index];
                 let mut record = PassRecord::new(
                     set,
@@ -121,68 +125,61 @@ impl CutPlan {
 struct Planner<'a> {
     edge: &'a Edge,
     bounds: SegmentBounds<'a>,
+    near: Vec<NearPass>,
+    spells: SpellTree,
 }
 
-impl Planner<'_> {
+/// A set of the blade's segments, one bit each.
+type Segments = u64;
+
+impl<'a> Planner<'a> {
+    fn new(field: &Field, set: &StrokeSet, tool: &'a dyn CuttingTool) -> Self {
+        let edge = tool.edge();
+        assert!(edge.segments.len() <= Segments::BITS as usize, "a blade's segments fit into a set of bits");
+        let (center_mm, reach_mm) = Field::circle(&field.columns);
+        let near = near_passes(set, tool, center_mm, reach_mm);
+        // Rays are followed down to twice their lowest height.
+        let below_mm = field.columns.iter().map(|column| -column.low_mm).fold(0.0, f64::max);
+        let spells = SpellTree::new(&near, center_mm, reach_mm + below_mm);
+        Self { edge, bounds: SegmentBounds::new(&edge.segments), near, spells }
+    }
+
     /// (Index of near pass, segment) pairs that may leave the lowest surface somewhere on the tile, in time order.
     ///
     /// `seeds` carries the lowest passes of the neighbouring tile: good first guesses make early refusals cheap.
-    fn candidates(&self, near: &[NearPass], rays: &[Column], seeds: &mut Vec<usize>) -> Vec<(usize, usize)> {
-        let Some(phases) = near.first().map(|pass| pass.blade_from_work.len()) else { return Vec::new() };
-        let middle = rays[rays.len() / 2];
-        let ends = rays[0].origin_mm.distance(rays[rays.len() - 1].origin_mm);
-        let coarse_places = places(rays, 2);
-        let coarse = sampling(&coarse_places);
-        // The lowest heights that are certain so far, place by place and phase by phase, and over the whole tile.
-        let mut ceilings_mm: Vec<f64> =
-            coarse_places.iter().flat_map(|ray| std::iter::repeat_n(ray.blank_mm, phases)).collect();
-        let mut ceiling_mm = rays.iter().map(|ray| ray.blank_mm).fold(0.0, f64::max);
-        let (mut judged, mut unjudged) = (Vec::new(), Vec::new());
-        let mut blade_rays = Vec::new();
-        let scouts = seeds.iter().copied().chain((0..near.len()).step_by(16)).map(|pass| (pass, false));
-        for (pass, keep) in scouts.chain((0..near.len()).map(|pass| (pass, true))) {
-            let travel_mm = travel_mm(&near[pass], &middle);
-            let margin_mm = ends + travel_mm;
-            blade_rays.clear();
-            blade_rays.extend(BladeRay::of_pass(&near[pass], &coarse_places));
-            // The middle place's ray against the whole blade's circle before any segment is looked at.
-            let middle_rays = phases..2 * phases;
-            let passes_by = |ray: &BladeRay| {
-                ray.direction.perp_dot(self.edge.center_mm - ray.origin_mm).abs() > self.edge.reach_mm + margin_mm
-            };
-            if blade_rays[middle_rays.clone()].iter().all(passes_by) {
-                continue;
-            }
-            for segment in 0..self.bounds.segments.len() {
-                let heights_mm = [coarse.floor_mm, ceiling_mm];
-                if !self.bounds.box_meets(&blade_rays[middle_rays.clone()], segment, heights_mm, margin_mm)
-                    || self.bounds.stays_above(&blade_rays, segment, &coarse, &ceilings_mm, travel_mm)
-                {
-                    continue;
-                }
-                match self.bounds.judge(near, pass, segment, &coarse) {
-                    Verdict::Unjudged if keep => unjudged.push((pass, segment)),
-                    Verdict::Clear | Verdict::Unjudged => {}
-                    Verdict::Judged(samples) => {
-                        if samples.certain {
-                            let highest = samples.heights_mm.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-                            ceiling_mm = ceiling_mm.min(highest + samples.error_mm);
-                            for (ceiling, height) in ceilings_mm.iter_mut().zip(&samples.heights_mm) {
-                                *ceiling = ceiling.min(height + samples.error_mm);
-                            }
-                        }
-                        if keep {
-                            judged.push(samples);
-                        }
-                    }
-                }
+    fn candidates(&self, rays: &[Column], seeds: &mut Vec<usize>) -> Vec<(usize, usize)> {
+        let Some(phases) = self.near.first().map(|pass| pass.blade_from_work.len()) else { return Vec::new() };
+        let all_segments = Segments::MAX >> (Segments::BITS as usize - self.bounds.segments.len());
+        let highest_mm = rays.iter().map(|ray| ray.blank_mm).fold(0.0, f64::max);
+        let coarse_places = places(rays, COARSE_CELLS);
+        let mut look = Look {
+            planner: self,
+            middle: rays[rays.len() / 2],
+            ends_mm: rays[0].origin_mm.distance(rays[rays.len() - 1].origin_mm),
+            coarse: sampling(&coarse_places),
+            rulers: Rulers::new(COARSE_CELLS, phases, highest_mm),
+            judged: Vec::new(),
+            unjudged: Vec::new(),
+        };
+        for &pass in seeds.iter() {
+            look.at_pass(pass, all_segments, false);
+        }
+        let mut spells: Vec<(usize, Segments)> = self.spells.roots.iter().map(|&root| (root, all_segments)).collect();
+        while let Some((index, segments)) = spells.pop() {
+            let spell = &self.spells.spells[index];
+            let segments = look.at_spell(spell, segments);
+            match spell.content {
+                _ if segments == 0 => {}
+                Content::Halves([earlier, later]) => spells.extend([(later, segments), (earlier, segments)]),
+                Content::Pass(pass) => look.at_pass(pass, segments, true),
             }
         }
+        let Look { middle, ends_mm, rulers, judged, mut unjudged, .. } = look;
         let fine_places = places(rays, CELLS);
         let fine = sampling(&fine_places);
         let mut finely_judged = Vec::new();
-        for coarse in undominated(judged, 2) {
-            match self.bounds.judge(near, coarse.pass, coarse.segment, &fine) {
+        for coarse in undominated(judged, COARSE_CELLS) {
+            match self.bounds.judge(&self.near[coarse.pass], coarse.pass, coarse.segment, &fine) {
                 Verdict::Clear => {}
                 Verdict::Unjudged => unjudged.push((coarse.pass, coarse.segment)),
                 Verdict::Judged(samples) => finely_judged.push(samples),
@@ -191,11 +188,13 @@ impl Planner<'_> {
         let mut chosen: Vec<(usize, usize)> =
             undominated(finely_judged, CELLS).iter().map(|s| (s.pass, s.segment)).collect();
         *seeds = chosen.iter().map(|&(pass, _)| pass).collect();
+        seeds.sort_unstable();
         seeds.dedup();
         chosen.extend(unjudged.into_iter().filter(|&(pass, segment)| {
-            let margin_mm = ends + travel_mm(&near[pass], &middle);
-            let rays: Vec<BladeRay> = BladeRay::of_pass(&near[pass], &[middle]).collect();
-            self.bounds.box_meets(&rays, segment, [fine.floor_mm, ceiling_mm], margin_mm)
+            let pass = &self.near[pass];
+            let rays: ArrayVec<BladeRay, MAX_PHASES> = BladeRay::of_pass(pass, &[middle]).collect();
+            let margin_mm = ends_mm + travel_mm(pass, &middle);
+            self.bounds.box_meets(&rays, segment, [fine.floor_mm, rulers.ceiling_mm], margin_mm)
         }));
         chosen.sort_unstable();
         chosen.dedup();
@@ -203,8 +202,93 @@ impl Planner<'_> {
     }
 }
 
+/// The coarse look at one tile: what is certain so far, and who is left.
+struct Look<'a> {
+    planner: &'a Planner<'a>,
+    middle: Column,
+    ends_mm: f64,
+    coarse: Sampling<'a>,
+    rulers: Rulers,
+    judged: Vec<Samples>,
+    unjudged: Vec<(usize, usize)>,
+}
+
+impl Look<'_> {
+    /// The segments of a spell that some pass of it may lower the tile with.
+    fn at_spell(&self, spell: &Spell, mut segments: Segments) -> Segments {
+        let Planner { edge, bounds, .. } = self.planner;
+        let rays: ArrayVec<BladeRay, MAX_PLACES> =
+            self.coarse.places.iter().map(|ray| BladeRay::of_pose(&spell.blade_from_work, ray)).collect();
+        let middle = BladeRay::of_pose(&spell.blade_from_work, &self.middle);
+        let margin_mm = self.ends_mm + spell.stray.distance_mm;
+        if passes_by(edge, &middle, margin_mm) {
+            return 0;
+        }
+        for segment in members(segments) {
+            let heights_mm = [self.coarse.floor_mm, self.rulers.ceiling_mm];
+            if !bounds.box_meets(&[middle], segment, heights_mm, margin_mm)
+                || bounds.stays_above(&rays, segment, &self.coarse, &self.rulers.all_phases, 0.0, spell.stray)
+            {
+                segments &= !(1 << segment);
+            }
+        }
+        segments
+    }
+
+    /// Samples the segments of a pass that are not refused at once; with `keep` unset it only lowers what is certain.
+    fn at_pass(&mut self, index: usize, segments: Segments, keep: bool) {
+        let Planner { edge, bounds, near, .. } = self.planner;
+        let pass = &near[index];
+        let travel_mm = travel_mm(pass, &self.middle);
+        let margin_mm = self.ends_mm + travel_mm;
+        let middle: ArrayVec<BladeRay, MAX_PHASES> = BladeRay::of_pass(pass, &[self.middle]).collect();
+        // The middle ray against the whole blade's circle before any segment is looked at.
+        if middle.iter().all(|ray| passes_by(edge, ray, margin_mm)) {
+            return;
+        }
+        let rays: ArrayVec<BladeRay, { MAX_PLACES * MAX_PHASES }> =
+            BladeRay::of_pass(pass, self.coarse.places).collect();
+        let reach_mm = self.ends_mm - self.coarse.floor_mm + self.rulers.ceiling_mm;
+        let stray = Stray { distance_mm: pass.bend_mm(self.middle.origin_mm, reach_mm), turn_rad: 0.0 };
+        for segment in members(segments) {
+            let heights_mm = [self.coarse.floor_mm, self.rulers.ceiling_mm];
+            if !bounds.box_meets(&middle, segment, heights_mm, margin_mm)
+                || bounds.stays_above(&rays, segment, &self.coarse, &self.rulers.by_phase, travel_mm, stray)
+            {
+                continue;
+            }
+            match bounds.judge(pass, index, segment, &self.coarse) {
+                Verdict::Unjudged if keep => self.unjudged.push((index, segment)),
+                Verdict::Clear | Verdict::Unjudged => {}
+                Verdict::Judged(samples) => {
+                    if samples.certain {
+                        self.rulers.lower(&samples);
+                    }
+                    if keep {
+                        self.judged.push(samples);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Numbers of the segments in a set.
+fn members(mut segments: Segments) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let first = (segments != 0).then(|| segments.trailing_zeros() as usize)?;
+        segments &= segments - 1;
+        Some(first)
+    })
+}
+
+/// Whether a ray stays away from the blade's circle by more than a margin.
+fn passes_by(edge: &Edge, ray: &BladeRay, margin_mm: f64) -> bool {
+    ray.direction.perp_dot(edge.center_mm - ray.origin_mm).abs() > edge.reach_mm + margin_mm
+}
+
 /// `cells` + 1 rays evenly across a tile.
-fn places(rays: &[Column], cells: usize) -> Vec<Column> {
+fn places(rays: &[Column], cells: usize) -> ArrayVec<Column, MAX_PLACES> {
     (0..=cells).map(|i| rays[i * (rays.len() - 1) / cells]).collect()
 }
 

@@ -2,14 +2,19 @@
 //!
 //! No assumption about which tooth cuts which space: runout, pitch errors, several turns and plunges need no special case.
 
+use super::bounds::MAX_PHASES;
 use super::strokes::StrokeSet;
 use crate::frame::Rigid2;
 use crate::tool::CuttingTool;
 use crate::tool::edge::Edge;
+use arrayvec::ArrayVec;
 use glam::DVec2;
 
 /// Phases at which bounds look at a pass: the whole range and its middle, or the one pose of a frozen stroke.
 const BOUND_PHASES: [f64; 3] = [-1.0, 0.0, 1.0];
+
+/// Safety on the bend of a path that three poses show.
+const BEND_SAFETY: f64 = 1.5;
 
 /// A pass near a region, with its poses at the phases where bounds are taken.
 #[derive(Debug, Clone)]
@@ -19,7 +24,21 @@ pub struct NearPass {
     /// Blade of the tool.
     pub blade: u32,
     /// Poses of the work in the blade frame: one when frozen, else at tau = -1, 0, 1.
-    pub blade_from_work: Vec<Rigid2>,
+    pub blade_from_work: ArrayVec<Rigid2, MAX_PHASES>,
+}
+
+impl NearPass {
+    /// Pose at the middle of the stroke.
+    pub fn middle(&self) -> &Rigid2 {
+        &self.blade_from_work[self.blade_from_work.len() / 2]
+    }
+
+    /// How far the path of any point within `reach_mm` of `center_mm` strays from the chords between the poses, mm.
+    pub fn bend_mm(&self, center_mm: DVec2, reach_mm: f64) -> f64 {
+        let [before, middle, after] = &self.blade_from_work[..] else { return 0.0 };
+        let bend = |pick: &dyn Fn(&Rigid2) -> DVec2| (pick(before) - 2.0 * pick(middle) + pick(after)).length();
+        BEND_SAFETY / 8.0 * (bend(&|pose| pose.point(center_mm)) + bend(&|pose| pose.rotation) * reach_mm)
+    }
 }
 
 /// All passes whose blade comes within `reach_mm` of `center_mm` (gear frame), in time order.
@@ -58,31 +77,18 @@ pub fn near_passes(set: &StrokeSet, tool: &dyn CuttingTool, center_mm: DVec2, re
 }
 
 /// Poses at [`BOUND_PHASES`] from those at the nodes.
-fn bound_poses(poses: &[Rigid2]) -> Vec<Rigid2> {
+fn bound_poses(poses: &[Rigid2]) -> ArrayVec<Rigid2, MAX_PHASES> {
     if let [pose] = poses {
-        return vec![*pose];
+        return std::iter::once(*pose).collect();
     }
-    let entry = |pick: fn(&Rigid2) -> f64| super::strokes::cubic_through(&poses.iter().map(pick).collect::<Vec<_>>());
-    let entries = [
-        entry(|p| p.rotation.x),
-        entry(|p| p.rotation.y),
-        entry(|p| p.translation_mm.x),
-        entry(|p| p.translation_mm.y),
-    ];
-    BOUND_PHASES
-        .iter()
-        .map(|&tau| {
-            let [c, s, x, y] = entries.map(|e| e[0] + tau * (e[1] + tau * (e[2] + tau * e[3])));
-            Rigid2 { rotation: DVec2::new(c, s), translation_mm: DVec2::new(x, y) }
-        })
-        .collect()
+    super::strokes::poses_at(poses, &BOUND_PHASES).into_iter().collect()
 }
 
 /// Height at which the lowest of some passes meets a ray of the gear frame at the middle of the stroke, above `low_mm`; exact, without tables' neighbours or tiles.
 pub fn lowest_entry(near: &[NearPass], edge: &Edge, origin_mm: DVec2, direction: DVec2, low_mm: f64) -> Option<f64> {
     let mut lowest: Option<f64> = None;
     for pass in near {
-        let blade_from_work = &pass.blade_from_work[pass.blade_from_work.len() / 2];
+        let blade_from_work = pass.middle();
         let (o, n) = (blade_from_work.point(origin_mm), blade_from_work.direction(direction));
         // The blade's circle against the ray's line.
         if n.perp_dot(edge.center_mm - o).abs() > edge.reach_mm {

@@ -9,6 +9,7 @@
 
 use crate::frame::Rigid2;
 use crate::tool::CuttingTool;
+use glam::DVec2;
 
 /// Nodes of the cubic in tau (Chebyshev of the first kind on [-1, 1]).
 pub const NODES: [f64; 4] =
@@ -59,6 +60,18 @@ impl StrokeLaw {
             Self::Crank { half_share, .. } => tau * half_share,
         }
     }
+
+    /// Fraction of a double stroke from the stroke's own moment to the one at which the return stroke passes the same place again; 0 where the axes rest.
+    /// The ram is there at theta and at 2 pi - theta.
+    pub fn return_share(&self, tau: f64) -> f64 {
+        match *self {
+            Self::Frozen => 0.0,
+            Self::Crank { length_mm, middle_mm, .. } => {
+                1.0 - (-2.0 * middle_mm / length_mm).clamp(-1.0, 1.0).acos() / std::f64::consts::PI
+                    - self.stroke_share(tau)
+            }
+        }
+    }
 }
 
 /// Poses of all strokes of an operation.
@@ -81,12 +94,33 @@ impl StrokeSet {
         tool: &dyn CuttingTool,
         law: StrokeLaw,
         count: usize,
-        mut work_from_tool: impl FnMut(f64) -> Rigid2,
+        work_from_tool: impl FnMut(f64) -> Rigid2,
     ) -> Self {
-        let poses = (0..count)
-            .flat_map(|stroke| Self::node_phases(law).iter().map(move |&tau| stroke as f64 + law.stroke_share(tau)))
-            .map(&mut work_from_tool)
-            .collect();
+        Self::at_shares(first_pass, tool, law, count, |tau| law.stroke_share(tau), work_from_tool)
+    }
+
+    /// The way back after each of those strokes: poses at the moments when the ram passes the same places again.
+    pub fn returning(
+        first_pass: u32,
+        tool: &dyn CuttingTool,
+        law: StrokeLaw,
+        count: usize,
+        work_from_tool: impl FnMut(f64) -> Rigid2,
+    ) -> Self {
+        Self::at_shares(first_pass, tool, law, count, |tau| law.return_share(tau), work_from_tool)
+    }
+
+    fn at_shares(
+        first_pass: u32,
+        tool: &dyn CuttingTool,
+        law: StrokeLaw,
+        count: usize,
+        share: impl Fn(f64) -> f64,
+        work_from_tool: impl FnMut(f64) -> Rigid2,
+    ) -> Self {
+        let shares: Vec<f64> = Self::node_phases(law).iter().map(|&tau| share(tau)).collect();
+        let moments = (0..count).flat_map(|stroke| shares.iter().map(move |share| stroke as f64 + share));
+        let poses = moments.map(work_from_tool).collect();
         Self { first_pass, blades: tool.blade_count(), law, poses }
     }
 
@@ -111,6 +145,14 @@ impl StrokeSet {
     pub fn poses(&self, stroke: usize) -> &[Rigid2] {
         let nodes = self.phases().len();
         &self.poses[stroke * nodes..(stroke + 1) * nodes]
+    }
+
+    /// Pose of one stroke at phase `tau`: the cubics through its nodes.
+    pub fn pose_at(&self, stroke: usize, tau: f64) -> Rigid2 {
+        match self.poses(stroke) {
+            [pose] => *pose,
+            poses => poses_at(poses, &[tau])[0],
+        }
     }
 
     /// Id of a pass.
@@ -143,6 +185,23 @@ pub fn cubic_through(values: &[f64]) -> [f64; 4] {
     }
     let [c0, c1, c2, c3] = chebyshev;
     [c0 - c2, c1 - 3.0 * c3, 2.0 * c2, 4.0 * c3]
+}
+
+/// Poses at some phases from those at the nodes.
+pub(super) fn poses_at(poses: &[Rigid2], taus: &[f64]) -> Vec<Rigid2> {
+    let entry = |pick: fn(&Rigid2) -> f64| cubic_through(&poses.iter().map(pick).collect::<Vec<_>>());
+    let entries = [
+        entry(|p| p.rotation.x),
+        entry(|p| p.rotation.y),
+        entry(|p| p.translation_mm.x),
+        entry(|p| p.translation_mm.y),
+    ];
+    taus.iter()
+        .map(|&tau| {
+            let [c, s, x, y] = entries.map(|e| e[0] + tau * (e[1] + tau * (e[2] + tau * e[3])));
+            Rigid2 { rotation: DVec2::new(c, s), translation_mm: DVec2::new(x, y) }
+        })
+        .collect()
 }
 
 fn chebyshev_polynomial(k: usize, x: f64) -> f64 {

@@ -15,6 +15,7 @@ use crate::output::folder::OutputFolder;
 use crate::output::results::{RESULTS_FILE, Results};
 use crate::output::table::{Cell, write_table};
 use crate::units::UM_PER_MM;
+use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
@@ -24,7 +25,13 @@ use std::path::Path;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(job: &Job, cut: &CutGear, results: &Results, folder: &OutputFolder) -> Result<()> {
+pub fn write(
+    job: &Job,
+    cut: &CutGear,
+    results: &Results,
+    folder: &OutputFolder,
+    notes: &[(String, String)],
+) -> Result<()> {
     write_flank_table(cut, &folder.path("tables/flanks.csv")?, job)?;
     write_tooth_table(cut, &folder.path("tables/teeth.csv")?)?;
     for allowance in &cut.report.allowances {
@@ -36,6 +43,8 @@ pub fn write(job: &Job, cut: &CutGear, results: &Results, folder: &OutputFolder)
         chart.write_svg(&folder.path(format!("pictures/unevenness_{name}.svg"))?)?;
     }
     write_contact_sheets(job, cut, folder)?;
+    let (last, scale) = (&job.finishing().spec.name, deviation_scale(cut));
+    cut.maps.par_iter().try_for_each(|map| map.write_deviation(folder, last, scale, notes))?;
     axes_report::write(job, folder)?;
     results.write(&folder.path(RESULTS_FILE)?)
 }
@@ -49,8 +58,18 @@ fn write_flank_table(cut: &CutGear, path: &Path, job: &Job) -> Result<()> {
         }
     }
     columns.extend(
-        ["lowest_um", "highest_um", "F_alpha_um", "f_f_alpha_um", "f_H_alpha_um", "largest_scallop_um"]
-            .map(str::to_owned),
+        [
+            "lowest_um",
+            "highest_um",
+            "F_alpha_um",
+            "f_f_alpha_um",
+            "f_H_alpha_um",
+            "F_beta_um",
+            "f_f_beta_um",
+            "f_H_beta_um",
+            "largest_scallop_um",
+        ]
+        .map(str::to_owned),
     );
     let um = |value: Option<f64>| Cell::from(value.map(|v| v * UM_PER_MM));
     let rows = cut.report.flanks.iter().map(|f| {
@@ -68,9 +87,11 @@ fn write_flank_table(cut: &CutGear, path: &Path, job: &Job) -> Result<()> {
         }
         row.push(um(f.finished.map(|h| h[0].value_mm)));
         row.push(um(f.finished.map(|h| h[1].value_mm)));
-        row.push(um(f.profile.map(|p| p.total_mm)));
-        row.push(um(f.profile.map(|p| p.form_mm)));
-        row.push(um(f.profile.map(|p| p.slope_mm)));
+        for deviation in [f.profile, f.lead] {
+            row.push(um(deviation.map(|d| d.total_mm)));
+            row.push(um(deviation.map(|d| d.form_mm)));
+            row.push(um(deviation.map(|d| d.slope_mm)));
+        }
         row.push(um(f.scallops.map(|s| s.largest.height_mm)));
         row
     });
@@ -87,6 +108,7 @@ fn write_tooth_table(cut: &CutGear, path: &Path) -> Result<()> {
         "left_cumulative_pitch_um",
         "right_single_pitch_um",
         "right_cumulative_pitch_um",
+        "runout_of_space_after_um",
     ];
     let report = &cut.report;
     let rows = report.thickness.iter().enumerate().map(|(i, thickness)| {
@@ -100,6 +122,7 @@ fn write_tooth_table(cut: &CutGear, path: &Path) -> Result<()> {
             row.push(side.as_ref().map(|p| p.single_mm[i] * UM_PER_MM).into());
             row.push(side.as_ref().map(|p| p.cumulative_mm[i] * UM_PER_MM).into());
         }
+        row.push(report.runout.as_ref().map(|r| r.radial_mm[i] * UM_PER_MM).into());
         row
     });
     write_table(path, &columns, rows)
@@ -163,7 +186,15 @@ fn unevenness_chart(job: &Job, teeth: &[ToothAllowance], operation: &str) -> Bar
     }
 }
 
-/// All flanks on one picture: stock of each earlier operation, heights after the last.
+/// Colours of the deviations of all flanks, µm.
+pub fn deviation_scale(cut: &CutGear) -> ColourScale {
+    match ColourScale::diverging_over(cut.maps.iter().map(|map| map.deviation_mm.as_slice())) {
+        ColourScale::Diverging { limit } => ColourScale::Diverging { limit: limit * UM_PER_MM as f32 },
+        scale @ ColourScale::Sequential { .. } => scale,
+    }
+}
+
+/// All flanks on one picture: stock of each earlier operation, heights and deviations after the last.
 fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Result<()> {
     let last = job.operations.len() - 1;
     if cut.maps.is_empty() {
@@ -203,6 +234,14 @@ fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Resu
         "µm",
         None,
         cut.maps.iter().map(|m| m.highest_mm[last].iter().map(to_um).collect()).collect(),
+    )?;
+    sheet(
+        &format!("pictures/deviation_{name}.png"),
+        format!("{}: deviation after {name}, all flanks", job.scene.name),
+        "mean height of cell over the target",
+        "µm",
+        Some(deviation_scale(cut)),
+        cut.maps.iter().map(|m| m.deviation_mm.iter().map(to_um).collect()).collect(),
     )
 }
 
@@ -235,7 +274,8 @@ pub fn run_record(
         "complete": !cut.interrupted,
         "dexels": cut.dexels,
         "dexel_passes": cut.stats.dexel_passes,
-        "dexel_passes_per_dexel": cut.stats.dexel_passes as f64 / (cut.dexels.max(1)) as f64,
+        "dexels_cut": cut.stats.dexels,
+        "dexel_passes_per_dexel_cut": cut.stats.dexel_passes as f64 / cut.stats.dexels.max(1) as f64,
         "wall_time_s": cut.elapsed.as_secs_f64(),
         "threads": rayon::current_num_threads(),
         "sha256": checksums,

@@ -11,13 +11,14 @@ use crate::measure::FlankReport;
 use crate::measure::stock::{Extreme, Stock};
 use crate::measure::unevenness::{ToothAllowance, Unevenness as Percent, summarise};
 use crate::output::quantity::{Place, Quantity};
-use crate::output::results::{Headline, OperationResults, Results, SCHEMA_VERSION, Spread, Unevenness};
+use crate::output::results::{BlankResults, Headline, OperationResults, Results, SCHEMA_VERSION, Spread, Unevenness};
+use crate::texture::{self, WindowTexture};
 
 /// Why a single operation has no stock.
 const SINGLE: &str = "the scene has one operation; stock is what an earlier operation leaves";
 
 /// Fills in the results.
-pub fn results(job: &Job, cut: &CutGear) -> Results {
+pub fn results(job: &Job, cut: &CutGear, blank: Option<BlankResults>, textures: &[WindowTexture]) -> Results {
     let axes = OperationAxes::of_job(job);
     Results {
         schema_version: SCHEMA_VERSION,
@@ -28,7 +29,9 @@ pub fn results(job: &Job, cut: &CutGear) -> Results {
         period_teeth: cut.report.period_teeth,
         headline: headline(job, cut, &axes),
         operations: (0..job.operations.len()).map(|index| operation(job, cut, &axes, index)).collect(),
+        blank,
         teeth: (1..=job.scene.gear.teeth).map(|tooth| finished_tooth(&cut.report, tooth)).collect(),
+        texture: texture::results(job, textures),
     }
 }
 

@@ -3,7 +3,7 @@
 use super::CutGear;
 use crate::job::Job;
 use crate::output::quantity::Quantity;
-use crate::output::results::{OperationResults, Results};
+use crate::output::results::{BlankResults, OperationResults, Results, TextureResults};
 use crate::output::text::{Sheet, significant};
 use std::path::Path;
 
@@ -39,19 +39,70 @@ pub fn summary(job: &Job, cut: &CutGear, results: &Results, out: &Path, backend:
     sheet.line("relief on the return stroke", share(&headline.relief_ratio, "of a circular gear's"));
     sheet.line("tightest axis limit", share(&headline.axis_margin, "of it left"));
     sheet.line("time of all strokes", minutes(&headline.cycle_time));
+    if let Some(blank) = &results.blank {
+        print_blank(&mut sheet, blank);
+    }
     for operation in results.operations.iter().filter(|o| !o.teeth.is_empty()) {
         print_unevenness(&mut sheet, operation, results.period_teeth);
     }
+    print_texture(&mut sheet, &results.texture);
     for warning in warnings(cut) {
         sheet.heading(&format!("warning: {warning}"));
     }
     sheet.heading("Run");
     sheet.line("backend", backend);
-    let per_dexel = cut.stats.dexel_passes as f64 / cut.dexels.max(1) as f64;
-    sheet.line("dexels", format!("{:.1} million, {} passes each", cut.dexels as f64 / 1e6, significant(per_dexel, 3)));
+    let per_dexel = cut.stats.dexel_passes as f64 / cut.stats.dexels.max(1) as f64;
+    let alike = if cut.stats.dexels < cut.dexels { "; rows are alike, so one was cut for all" } else { "" };
+    let millions = cut.dexels as f64 / 1e6;
+    sheet.line("dexels", format!("{millions:.1} million, {} passes each{alike}", significant(per_dexel, 3)));
     sheet.line("cut, measured and mapped in", format!("{} s", significant(cut.elapsed.as_secs_f64(), 3)));
     sheet.line("written to", out.display().to_string());
     sheet.into_text()
+}
+
+/// Height and core parameters of every window.
+fn print_texture(sheet: &mut Sheet, textures: &[TextureResults]) {
+    if textures.is_empty() {
+        return;
+    }
+    sheet.heading("Surface texture (ISO 25178-2; chains and all parameters in results.json)");
+    let symbols = ["Sa", "Sq", "Sz", "Sk", "Spk", "Svk"];
+    let mut rows = vec![vec!["window".to_owned()]];
+    rows[0].extend(symbols.map(|symbol| format!("{symbol} um")));
+    for texture in textures {
+        let mut row = vec![format!("{}: tooth {} {}", texture.operation, texture.tooth, texture.flank)];
+        row.extend(symbols.map(|symbol| {
+            let value = texture.parameters.get(symbol).and_then(Quantity::value);
+            value.map_or_else(|| "-".to_owned(), |value| significant(value, 4))
+        }));
+        rows.push(row);
+    }
+    sheet.table(&rows);
+    for texture in textures {
+        for warning in &texture.warnings {
+            let window = format!("{}, tooth {} {}", texture.operation, texture.tooth, texture.flank);
+            sheet.heading(&format!("warning: {window}: {warning}"));
+        }
+    }
+}
+
+/// The whole blank in a few lines.
+fn print_blank(sheet: &mut Sheet, blank: &BlankResults) {
+    let cm3 = |q: &Quantity| q.value().map_or_else(|| "-".to_owned(), |v| format!("{:.3} cm3", 1e-3 * v));
+    let removed: Vec<String> =
+        blank.operations.iter().map(|o| format!("{} {}", cm3(&o.removed_volume), o.name)).collect();
+    sheet.line("material removed", format!("{} of {}", removed.join(", "), cm3(&blank.blank_volume)));
+    let kinds = [
+        ("gouges", &blank.gouges),
+        ("interference", &blank.interference),
+        ("return strokes rub on the gear", &blank.rubbing_on_gear),
+        ("return strokes rub on stock", &blank.rubbing_on_stock),
+    ];
+    for (name, damage) in kinds {
+        let deepest = damage.deepest.value().map(|mm| format!(", up to {} mm deep", significant(mm, 3)));
+        let places = damage.places.value().unwrap_or(0.0);
+        sheet.line(name, deepest.map_or_else(|| "none".to_owned(), |deep| format!("{places} sides of teeth{deep}")));
+    }
 }
 
 fn print_unevenness(sheet: &mut Sheet, operation: &OperationResults, period_teeth: u32) {

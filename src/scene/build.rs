@@ -7,10 +7,12 @@ use std::path::PathBuf;
 
 use super::model::{
     AxisLimits, Feed, Fields, Gear, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Output, Picture,
-    PictureColour, PictureView, PitchCurveShape, Scene, ShaperCutter, StrokeSpacing, Tip, TraditionalDirection,
+    PictureColour, PictureView, PitchCurveShape, Scene, ShaperCutter, StrokeSpacing, TextureWindow, Tip,
+    TraditionalDirection, WindowSides,
 };
 use super::values::{Values, View};
 use crate::gear::generation::Side;
+use crate::measure::topography::Form;
 use crate::units::UM_PER_MM;
 
 /// The scene called `name`.
@@ -23,6 +25,7 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
         .map(|index| picture(values.view(&format!("picture.{index}")), values.count("operation")))
         .collect();
     let flank = values.view("fields.flank");
+    let blank = values.view("fields.blank");
     let measure = values.view("measure");
     let output = values.view("output");
     Some(Scene {
@@ -31,9 +34,14 @@ pub(super) fn build(name: &str, values: &Values) -> Option<Scene> {
         tool: shaper_cutter(values)?,
         machine: machine(values)?,
         operations: operations?,
+        textures: (0..values.count("texture"))
+            .map(|index| texture(values.view(&format!("texture.{index}"))))
+            .collect::<Option<_>>()?,
         fields: Fields {
             profile_spacing_mm: mm_from_um(flank, "profile_spacing_um")?,
             lead_spacing_mm: mm_from_um(flank, "lead_spacing_um")?,
+            blank_spacing_mm: blank.number("spacing_mm")?,
+            blank_slice_spacing_mm: blank.number("slice_spacing_mm")?,
         },
         measure: Measure {
             profile_start_height_mm: measure.number("profile_start_height_mm"),
@@ -179,6 +187,31 @@ fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<Ope
         overlap_rad: rad(operation, "overlap_deg")?,
         infeed: infeed(values, path, operation.variant("infeed")?)?,
         feed_during_stroke: operation.boolean("feed_during_stroke")?,
+    })
+}
+
+fn texture(window: View<'_>) -> Option<TextureWindow> {
+    Some(TextureWindow {
+        tooth: window.whole("tooth")?,
+        sides: match window.text("side")? {
+            "left" => WindowSides::Left,
+            "right" => WindowSides::Right,
+            "both" => WindowSides::Both,
+            _ => return None,
+        },
+        center_profile_mm: window.number("center_profile_mm"),
+        center_lead_mm: window.number("center_lead_mm")?,
+        length_profile_mm: window.number("length_profile_mm"),
+        length_lead_mm: window.number("length_lead_mm"),
+        profile_spacing_mm: mm_from_um(window, "profile_spacing_um"),
+        lead_spacing_mm: mm_from_um(window, "lead_spacing_um"),
+        form: match window.text("form")? {
+            "none" => Form::None,
+            "plane" => Form::Plane,
+            "poly2" => Form::Poly2,
+            "poly2-plus-cylinder" => Form::Poly2PlusCylinder,
+            _ => return None,
+        },
     })
 }
 

@@ -12,6 +12,7 @@ mod machine;
 mod operation;
 mod picture;
 mod range;
+mod texture;
 mod tool;
 
 pub use range::Range;
@@ -155,6 +156,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         tool::SECTIONS,
         machine::BEFORE_OPERATIONS,
         operation::SECTIONS,
+        texture::SECTIONS,
         machine::AFTER_OPERATIONS,
         picture::SECTIONS,
     ]
@@ -194,6 +196,11 @@ impl Section {
         self.path.rsplit('.').next().unwrap_or_default().trim_end_matches("[]")
     }
 
+    /// Whether it is a list of tables.
+    pub fn is_list(&self) -> bool {
+        matches!(self.role, Role::List { .. })
+    }
+
     /// Path of the section that holds this one.
     pub fn parent_path(&self) -> &'static str {
         self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
@@ -207,7 +214,7 @@ impl Section {
     /// How the section's header is written: `[gear]`, `[[operation]]`, `[operation.linkage.shaping_normal]`.
     pub fn header(&self) -> String {
         let path = self.path.replace("[]", "");
-        if matches!(self.role, Role::List { .. }) { format!("[[{path}]]") } else { format!("[{path}]") }
+        if self.is_list() { format!("[[{path}]]") } else { format!("[{path}]") }
     }
 }
 

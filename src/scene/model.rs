@@ -4,6 +4,7 @@
 //! are the field names with their unit (`face_width_mm`, `pressure_angle_deg`); angles are radians here.
 
 use crate::gear::generation::Side;
+use crate::measure::topography::Form;
 use std::path::PathBuf;
 
 /// One job: what is cut, with what, how, and what is measured.
@@ -19,6 +20,8 @@ pub struct Scene {
     pub machine: Machine,
     /// Operations in the order they are cut; at least one. The last one defines the target flank.
     pub operations: Vec<Operation>,
+    /// Texture windows; empty: those that [`crate::texture`] takes by itself.
+    pub textures: Vec<TextureWindow>,
     /// Dexel spacing.
     pub fields: Fields,
     /// Where profiles are evaluated.
@@ -100,6 +103,30 @@ pub enum PitchCurveShape {
         /// Scale the radii so that the curve closes.
         scale_to_close: bool,
     },
+}
+
+impl PitchCurveShape {
+    /// The shape in words, such as "ellipse of order 3, eccentricity 0.1348".
+    pub fn words(&self) -> String {
+        match self {
+            Self::Circle => "circle".to_owned(),
+            Self::Ellipse { order, eccentricity, .. } => {
+                format!("ellipse of order {order}, eccentricity {eccentricity}")
+            }
+            Self::SinusoidalRatio { order, mean_ratio, ratio_amplitude, .. } => {
+                format!("driver of the ratio {mean_ratio} + {ratio_amplitude} sin({order} phi)")
+            }
+            Self::Pascal { order, eccentricity, .. } => {
+                format!("Pascal's limacon of order {order}, eccentricity {eccentricity}")
+            }
+            Self::Fourier { cosine, sine, .. } => {
+                format!("Fourier series with {} harmonics", cosine.len().max(sine.len()))
+            }
+            Self::Table { points_rad_mm, .. } => {
+                format!("periodic spline through {} points", points_rad_mm.len())
+            }
+        }
+    }
 }
 
 /// Shaper cutter by its projected transverse profile.
@@ -290,6 +317,40 @@ pub enum Infeed {
     },
 }
 
+/// A window on the flanks of one tooth whose texture is evaluated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TextureWindow {
+    /// Tooth, from 1.
+    pub tooth: u32,
+    /// Which of its flanks.
+    pub sides: WindowSides,
+    /// Middle along the profile, mm from the form point; `None`: the middle of the flank.
+    pub center_profile_mm: Option<f64>,
+    /// Middle along the tooth, mm from the middle of the face.
+    pub center_lead_mm: f64,
+    /// Length along the profile; `None`: the whole flank.
+    pub length_profile_mm: Option<f64>,
+    /// Length along the tooth; `None`: the whole face.
+    pub length_lead_mm: Option<f64>,
+    /// Distance of points along the profile; `None`: that of the flank field.
+    pub profile_spacing_mm: Option<f64>,
+    /// Distance of points along the tooth; `None`: a fiftieth of the length, at least that of the flank field.
+    pub lead_spacing_mm: Option<f64>,
+    /// F-operator.
+    pub form: Form,
+}
+
+/// Flanks that a window lies on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WindowSides {
+    /// The left one.
+    Left,
+    /// The right one.
+    Right,
+    /// Both, one after the other.
+    Both,
+}
+
 /// Dexel spacing of the fields.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fields {
@@ -297,6 +358,10 @@ pub struct Fields {
     pub profile_spacing_mm: f64,
     /// Along the tooth.
     pub lead_spacing_mm: f64,
+    /// Of the rays through the whole blank.
+    pub blank_spacing_mm: f64,
+    /// Of the blank's slices, where sections differ along the tooth.
+    pub blank_slice_spacing_mm: f64,
 }
 
 /// Where profiles are evaluated, as heights over the pitch curve along its normal; `None`: from the form point to the tip, 5 % left out at each end.

@@ -64,7 +64,7 @@ fn put(root: &mut Node, names: &[&str], value: Node, name_at: At) -> Result<(), 
         pattern = child.map_or_else(|| join(&pattern, name), |child| child.path.to_owned());
         node = &mut entry.node;
         rest = deeper;
-        if child.is_some_and(|child| matches!(child.role, Role::List { .. }))
+        if child.is_some_and(|child| child.is_list())
             && let Some((&which, deeper)) = rest.split_first()
         {
             node = element(node, name, which)?;

@@ -89,7 +89,10 @@ impl Walk<'_, '_> {
                 let node = entry.map_or(&implied, |entry| &entry.node);
                 let at = entry.map_or(&At::Implied, |entry| &entry.name_at);
                 if let Role::List { fewest } = child.role {
-                    self.list(child, fewest, &child_path, node, at);
+                    // A list that may be left out is not there then.
+                    if fewest > 0 || entry.is_some() {
+                        self.list(child, fewest, &child_path, node, at);
+                    }
                 } else {
                     self.table(child, &child_path, node, at);
                 }
@@ -103,8 +106,8 @@ impl Walk<'_, '_> {
         match &list.value {
             Value::List(items) if items.len() < fewest => self.problems.add(
                 at,
-                format!("`{name}` is an empty list: nothing would be cut"),
-                format!("write at least one [[{name}]], or leave the list out for a single finishing cut"),
+                format!("`{name}` is an empty list"),
+                format!("write at least one [[{name}]], or leave the list out: then its default holds"),
             ),
             Value::List(items) => {
                 for (index, item) in items.iter().enumerate() {
@@ -261,7 +264,8 @@ impl Walk<'_, '_> {
             self.default("gear", "face_width_mm", Checked::Number((10.0 * module_mm).min(1000.0)));
         }
         for (list, count) in self.values.counts.clone() {
-            for index in 0..count {
+            let named = keys::section(&format!("{list}[]")).is_some_and(|section| section.key("name").is_some());
+            for index in (0..count).filter(|_| named) {
                 self.default(&format!("{list}.{index}"), "name", Checked::Text(default_name(list, index)));
             }
         }

@@ -11,6 +11,12 @@ use super::values::{Checked, Values};
 pub(super) fn resolved(name: &str, values: &Values) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let mut out = format!("# Scene {name} with every default filled in, written by gearcut {version}.\n");
+    // Lists without elements stand first: behind a table's header they would belong to that table.
+    for section in keys::sections().filter(|section| matches!(section.role, Role::List { .. })) {
+        if values.count(section.name()) == 0 {
+            let _ = writeln!(out, "{} = []", section.name());
+        }
+    }
     let mut sections = keys::sections().peekable();
     while let Some(section) = sections.next() {
         let Some((list, _)) = section.path.split_once("[]") else {
@@ -27,9 +33,6 @@ pub(super) fn resolved(name: &str, values: &Values) -> String {
                 let path = section.path.replacen("[]", &format!(".{index}"), 1);
                 write_section(&mut out, section, &path, values);
             }
-        }
-        if values.count(list) == 0 {
-            let _ = write!(out, "\n{list} = []\n");
         }
     }
     out

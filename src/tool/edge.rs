@@ -196,6 +196,17 @@ impl Segment {
         }
     }
 
+    /// x in mm and dx/dy of the edge at `y_mm`, in the segment's frame.
+    pub fn x_and_slope(&self, y_mm: f64) -> [f64; 2] {
+        match &self.shape {
+            SegmentShape::Table(table) => table.x_and_slope(y_mm),
+            SegmentShape::Arc { radius_mm } => {
+                let rise = (radius_mm * radius_mm - y_mm * y_mm).max(0.0).sqrt();
+                [-y_mm * y_mm / (radius_mm + rise), -y_mm / rise.max(f64::MIN_POSITIVE)]
+            }
+        }
+    }
+
     /// The same segment on the other side of the blade's centre line.
     #[must_use]
     pub fn mirrored(&self) -> Self {

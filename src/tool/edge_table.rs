@@ -93,7 +93,8 @@ impl EdgeTable {
         let [_, c1, c2, c3] = self.cells[index];
         let t = y_mm - self.y_start_mm - index as f64 / self.cells_per_mm;
         let slope = c1 + t * (2.0 * c2 + t * (3.0 * c3));
-        -(2.0 * c2 + 6.0 * c3 * t) / (1.0 + slope * slope).powf(1.5)
+        let stretch = 1.0 + slope * slope;
+        -(2.0 * c2 + 6.0 * c3 * t) / (stretch * stretch.sqrt())
     }
 
     /// The table of x = U(-y).

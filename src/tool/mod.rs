@@ -4,6 +4,7 @@
 //! y counter-clockwise) and the place of every blade in the tool. Shaper cutters are given by their projected transverse profile:
 //! the edge as seen along the stroke. A ground cutter (rake cone, relief, regrind) changes that projection and nothing else here.
 
+pub mod closed_tooth;
 pub mod edge;
 pub mod edge_table;
 pub mod involute;

@@ -12,7 +12,7 @@ pub fn print(sheet: &mut Sheet, job: &Job) {
     let (curve, gear) = (&job.curve, &job.scene.gear);
     let facts = curve.facts();
     sheet.heading("Pitch curve");
-    sheet.line("shape", shape_words(&gear.pitch_curve));
+    sheet.line("shape", gear.pitch_curve.words());
     let (name, given) = size_words(&gear.pitch_curve);
     let origin = if given { "given" } else { "solved so that the curve closes" };
     sheet.line(name, format!("{:.6} mm, {origin}", curve.size_mm()));
@@ -82,27 +82,6 @@ pub fn warnings(job: &Job) -> Vec<String> {
         )
     };
     notable.then(text).into_iter().collect()
-}
-
-fn shape_words(shape: &PitchCurveShape) -> String {
-    match shape {
-        PitchCurveShape::Circle => "circle".to_owned(),
-        PitchCurveShape::Ellipse { order, eccentricity, .. } => {
-            format!("ellipse of order {order}, eccentricity {eccentricity}")
-        }
-        PitchCurveShape::SinusoidalRatio { order, mean_ratio, ratio_amplitude, .. } => {
-            format!("driver of the ratio {mean_ratio} + {ratio_amplitude} sin({order} phi)")
-        }
-        PitchCurveShape::Pascal { order, eccentricity, .. } => {
-            format!("Pascal's limacon of order {order}, eccentricity {eccentricity}")
-        }
-        PitchCurveShape::Fourier { cosine, sine, .. } => {
-            format!("Fourier series with {} harmonics", cosine.len().max(sine.len()))
-        }
-        PitchCurveShape::Table { points_rad_mm, .. } => {
-            format!("periodic spline through {} points", points_rad_mm.len())
-        }
-    }
 }
 
 /// What the size of a shape is called, and whether the scene gives it.

@@ -3,6 +3,7 @@
 //! The instruction set is chosen when the program starts, so `cargo build --release` without flags is fast everywhere. No fused multiply-add is used and every
 //! chunk has the same 16 rows on all of them: AVX2, AVX-512 and plain x86-64 or ARM give the **same bytes**.
 
+pub mod blank;
 mod planar;
 
 use super::{Backend, CutStats};
@@ -82,7 +83,7 @@ impl Backend for Cpu {
 
     fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error> {
         let rows = field.rows();
-        let mut stats = CutStats::default();
+        let mut stats = CutStats { dexels: field.len() as u64, ..CutStats::default() };
         for tile in &plan.tiles {
             let dexels = tile.columns.start * rows..tile.columns.end * rows;
             stats += self.dispatch(planar::TileCut {

@@ -8,6 +8,7 @@
 
 pub mod adapter;
 pub mod batches;
+mod blank;
 pub mod compose;
 mod device;
 pub mod pipeline;
@@ -62,6 +63,7 @@ pub struct GpuOptions {
 pub struct Gpu {
     device: Device,
     planar_flank: Vec<wgpu::ComputePipeline>,
+    blank_rays: Vec<wgpu::ComputePipeline>,
     options: GpuOptions,
     native: Cpu,
     log: Mutex<Log>,
@@ -90,7 +92,8 @@ impl Gpu {
     pub fn on(adapter: &FoundAdapter, options: GpuOptions) -> Result<Self, GpuProblem> {
         let device = Device::open(adapter)?;
         let planar_flank = pipeline::pipelines(&device, &pipeline::PLANAR_FLANK)?;
-        Ok(Self { device, planar_flank, options, native: Cpu::default(), log: Mutex::default() })
+        let blank_rays = pipeline::pipelines(&device, &pipeline::BLANK_RAYS)?;
+        Ok(Self { device, planar_flank, blank_rays, options, native: Cpu::default(), log: Mutex::default() })
     }
 
     /// The adapter in use.
@@ -198,7 +201,7 @@ impl Backend for Gpu {
         match self.cut_on_device(field, edge, plan, layer) {
             Ok((cut, unconverged)) => {
                 *layer = cut;
-                Ok(CutStats { dexel_passes: plan.dexel_passes(), unconverged })
+                Ok(CutStats { dexels: field.len() as u64, dexel_passes: plan.dexel_passes(), unconverged })
             }
             Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
             Err(problem) => {

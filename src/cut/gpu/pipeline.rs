@@ -35,8 +35,19 @@ pub const PLANAR_FLANK: Stage = Stage {
     ],
 };
 
+/// Rays through the blank.
+pub const BLANK_RAYS: Stage = Stage {
+    name: "blank_rays",
+    text: concat!(
+        include_str!("../../../shaders/shared/blank_records.wgsl"),
+        include_str!("../../../shaders/blank_rays.wgsl"),
+    ),
+    bindings: &["launch", "tiles", "passes", "parts", "spans", "counts", "removed", "needs"],
+    variants: &[&[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64)]],
+};
+
 /// All stages, for the tests that check every one.
-pub const STAGES: &[Stage] = &[PLANAR_FLANK];
+pub const STAGES: &[Stage] = &[PLANAR_FLANK, BLANK_RAYS];
 
 /// Pipelines of a stage, one for each variant.
 ///

@@ -1,6 +1,6 @@
 //! What the shaders read, byte for byte: the only place where Rust and WGSL share a layout.
 //!
-//! Members stand in the order of `shaders/shared/records.wgsl` and are f32 and u32 alone; a test asks naga for names,
+//! Members stand in the order of `shaders/shared/*records.wgsl` and are f32 and u32 alone; a test asks naga for names,
 //! offsets and sizes and compares.
 
 use bytemuck::{Pod, Zeroable};
@@ -81,4 +81,82 @@ pub struct PassRecord {
     pub base_cell: u32,
     /// Id of the pass.
     pub pass_id: u32,
+}
+
+/// What holds for a whole launch over the blank field.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct BlankLaunch {
+    /// Distance of neighbouring rays, mm.
+    pub spacing_mm: f32,
+    /// Units of the ledger in a millimetre.
+    pub units_per_mm: f32,
+    /// Spans that a ray has room for.
+    pub capacity: u32,
+    /// 1 for rays along x, -1 for rays along y.
+    pub turn: f32,
+}
+
+/// Neighbouring rays of the blank and their passes in order of time.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct BlankTile {
+    /// First pass of the launch.
+    pub first_pass: u32,
+    /// Number of passes.
+    pub pass_count: u32,
+    /// First ray of the group.
+    pub first_ray: u32,
+    /// Number of rays.
+    pub ray_count: u32,
+}
+
+/// One tooth in one stroke over one tile.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct BlankPass {
+    /// First part of the launch.
+    pub first_part: u32,
+    /// Number of parts.
+    pub part_count: u32,
+    /// Id of the pass.
+    pub pass_id: u32,
+    /// Nothing.
+    pub padding: u32,
+}
+
+/// Part of a tooth's outline that runs one way across the rays: cubics in a parameter from 0 to 1.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct BlankPart {
+    /// Along the rays, mm.
+    pub along: [f32; 4],
+    /// Across them, from the tile's first ray, mm.
+    pub across: [f32; 4],
+    /// Place across of the end, mm: the same bits as the start of the next part.
+    pub across_end_mm: f32,
+    /// Nothing.
+    pub padding_1: f32,
+    /// Nothing.
+    pub padding_2: f32,
+    /// Nothing.
+    pub padding_3: f32,
+}
+
+/// Material on a ray; normals out of it, as components along and across the rays.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct BlankSpan {
+    /// Lower end, mm.
+    pub low_mm: f32,
+    /// Upper end, mm.
+    pub high_mm: f32,
+    /// Pass that left the lower end.
+    pub low_pass: u32,
+    /// Pass that left the upper end.
+    pub high_pass: u32,
+    /// Normal at the lower end.
+    pub low_normal: [f32; 2],
+    /// Normal at the upper end.
+    pub high_normal: [f32; 2],
 }

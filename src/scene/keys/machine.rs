@@ -139,6 +139,30 @@ pub(super) static AFTER_OPERATIONS: &[Section] = &[
         teach: "Rays along the normals of the target flanks: half the spacing along the profile doubles time and memory.",
     },
     Section {
+        path: "fields.blank",
+        role: Role::Plain,
+        keys: &[
+            Key {
+                name: "spacing_mm",
+                kind: Kind::Number(Range::closed(0.001, 10.0)),
+                unit: "mm",
+                default: Default::Number(0.1),
+                example: "0.1",
+                teach: "Distance of the rays in both directions; meshes and pictures resolve as much.",
+            },
+            Key {
+                name: "slice_spacing_mm",
+                kind: Kind::Number(Range::closed(0.01, 1000.0)),
+                unit: "mm",
+                default: Default::Number(2.5),
+                example: "2.5",
+                teach: "Largest distance of transverse slices where the feed goes on during a stroke; with the axes at rest all sections are equal and one slice stands for the face.",
+            },
+        ],
+        groups: &[],
+        teach: "Rays through the whole blank: material removed, gouges, interference, meshes.",
+    },
+    Section {
         path: "measure",
         role: Role::Plain,
         keys: &[

@@ -1,0 +1,87 @@
+//! The whole blank: rays through the elliptical gear's stock at 0.1 mm, 4,200 strokes, both operations.
+//!
+//! Prints a table of its own: time, memory and pairs of ray and pass stand beside each other. `cargo bench --bench blank`
+
+mod common;
+#[allow(
+    clippy::wildcard_imports,
+    reason = "a model of the whole scene is written out there; clippy lets test crates do so, not benches"
+)]
+#[path = "../tests/common/mod.rs"]
+mod scenes;
+
+use gearcut::cut::cpu::blank::{BlankOperation, BlankStats};
+use gearcut::cut::gpu::adapter::AdapterWish;
+use gearcut::cut::gpu::{Gpu, GpuOptions};
+use gearcut::gear::blank_outline::BlankOutline;
+use gearcut::job::Job;
+use gearcut::measure::blank_report;
+use gearcut::surface::BlankMesh;
+use std::time::Instant;
+
+/// Rounds; the fastest counts.
+const ROUNDS: usize = 3;
+
+fn main() {
+    println!("{}", common::machine());
+    for (name, feed_during_stroke) in [("axes at rest", false), ("feed during the stroke, 13 slices", true)] {
+        let mut scene = scenes::paper_scene(vec![
+            scenes::operation("rough", scenes::NORMAL, 2.0, 4200),
+            scenes::operation("finish", scenes::NORMAL, 0.0, 4200),
+        ]);
+        for operation in &mut scene.operations {
+            operation.feed_during_stroke = feed_during_stroke;
+        }
+        let job = Job::new(scene).expect("the paper's gear");
+        let mut fastest = f64::INFINITY;
+        let mut last = None;
+        for _ in 0..ROUNDS {
+            let started = Instant::now();
+            let field = job.blank_field().expect("fits in memory");
+            last = job.cut_blank(field, &|| true);
+            fastest = fastest.min(started.elapsed().as_secs_f64());
+        }
+        let cut = last.expect("not stopped");
+        let mut stats = BlankStats::default();
+        for done in &cut.cuts {
+            stats += done.stats;
+        }
+        println!("\n{name}");
+        println!("cut, return strokes checked: {fastest:.2} s on {} threads", rayon::current_num_threads());
+        println!("field: {:.2} MB, {} spans", 1e-6 * cut.field.bytes() as f64, cut.field.spans());
+        println!(
+            "ray-passes: {:.2} million cross a tooth, {:.2} million solved, {:.2} million removed something",
+            1e-6 * stats.visited as f64,
+            1e-6 * stats.solved as f64,
+            1e-6 * stats.removing as f64
+        );
+        let started = Instant::now();
+        let target = job.target_outline(0.02).expect("ordinary teeth");
+        println!("target outline: {:.2} s, {} points", started.elapsed().as_secs_f64(), target.points_mm().len());
+        let started = Instant::now();
+        let report = blank_report::measure(&job, &cut, Some(&target));
+        println!("report: {:.2} s, {} gouges", started.elapsed().as_secs_f64(), report.gouges.len());
+        let started = Instant::now();
+        let mesh = BlankMesh::new(&cut.field, Some(&target)).mesh;
+        println!("mesh: {:.2} s, {} triangles", started.elapsed().as_secs_f64(), mesh.triangles.len());
+        for wish in [AdapterWish::Real, AdapterWish::Software] {
+            let Ok(gpu) = Gpu::new(wish, GpuOptions::default()) else { continue };
+            let started = Instant::now();
+            let mut field = job.blank_field().expect("fits in memory");
+            let reach_mm = BlankOutline::new(&job.blank).reach_mm();
+            for prepared in &job.operations {
+                let tooth = job.closed_tooth(&prepared.strokes, reach_mm);
+                let operation = BlankOperation {
+                    strokes: &prepared.strokes,
+                    returns: None,
+                    tool: &job.cutter,
+                    tooth: &tooth,
+                    blank_reach_mm: reach_mm,
+                    cull: true,
+                };
+                gpu.cut_blank(&mut field, &operation, None).expect("the device works");
+            }
+            println!("{}: {:.2} s without return strokes", gpu.adapter().name, started.elapsed().as_secs_f64());
+        }
+    }
+}

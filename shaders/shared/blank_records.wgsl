@@ -1,0 +1,52 @@
+// What the host hands over for the blank field, member by member the same as src/cut/gpu/records.rs; a test compares both.
+
+// What holds for a whole launch.
+struct BlankLaunch {
+    // Distance of neighbouring rays, mm.
+    spacing_mm: f32,
+    // Units of the ledger in a millimetre.
+    units_per_mm: f32,
+    // Spans that a ray has room for.
+    capacity: u32,
+    // 1 for rays along x, -1 for rays along y: which side of a curve is outside.
+    turn: f32,
+}
+
+// Neighbouring rays and their passes in order of time.
+struct BlankTile {
+    first_pass: u32,
+    pass_count: u32,
+    first_ray: u32,
+    ray_count: u32,
+}
+
+// One tooth in one stroke over one tile.
+struct BlankPass {
+    first_part: u32,
+    part_count: u32,
+    pass_id: u32,
+    padding: u32,
+}
+
+// Part of a tooth's outline that runs one way across the rays: cubics in a parameter from 0 to 1.
+struct BlankPart {
+    // Along the rays, mm.
+    along: vec4<f32>,
+    // Across them, from the tile's first ray, mm.
+    across: vec4<f32>,
+    // Place across of the end: the same bits as the start of the next part.
+    across_end_mm: f32,
+    padding_1: f32,
+    padding_2: f32,
+    padding_3: f32,
+}
+
+// Material on a ray; normals out of it, as components along and across the rays.
+struct BlankSpan {
+    low_mm: f32,
+    high_mm: f32,
+    low_pass: u32,
+    high_pass: u32,
+    low_normal: vec2<f32>,
+    high_normal: vec2<f32>,
+}

@@ -1,0 +1,242 @@
+//! `gearcut texture`: parameters of a surface from any instrument or simulation.
+
+use std::path::Path;
+
+use gearcut::Refusal;
+use gearcut::measure::topography::parameters::of_profile;
+use gearcut::measure::topography::{Arguments, Chain, Evaluation, Form, Parameter, Profile, Surface};
+use gearcut::output::surface_files::{Format, SurfaceFile, read_surface, write_surface};
+use gearcut::output::text::{Sheet, plain, significant};
+use gearcut::texture::quantities;
+use serde_json::{Value, json};
+
+use super::args::{FormChoice, TextureArguments};
+use super::failure::Failure;
+use super::print;
+
+/// Profile parameters along one line.
+struct Line {
+    name: String,
+    parameters: Result<Vec<Parameter>, String>,
+}
+
+/// Runs the command.
+pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
+    check(arguments)?;
+    let spacing_um = match arguments.spacing_um[..] {
+        [both] => Some([both, both]),
+        [x, y] => Some([x, y]),
+        _ => None,
+    };
+    let formats = arguments.save.iter().map(|path| format_of(path)).collect::<Result<Vec<_>, _>>()?;
+    let file = read_surface(&arguments.file, spacing_um)?;
+    for (path, format) in arguments.save.iter().zip(formats) {
+        write_surface(path, format, &file)?;
+    }
+    let chain = Chain {
+        form: match arguments.form {
+            FormChoice::None => Form::None,
+            FormChoice::Plane => Form::Plane,
+            FormChoice::Poly2 => Form::Poly2,
+            FormChoice::Poly2PlusCylinder => Form::Poly2PlusCylinder,
+        },
+        s_filter_um: arguments.s_filter_um,
+        l_filter_um: arguments.l_filter_um,
+        robust: arguments.robust,
+        crop_um: arguments.crop_um,
+    };
+    let unsuited = |problem: String| {
+        Refusal::new(
+            "gearcut texture",
+            format!("{}: {problem}", arguments.file.display()),
+            "use another form, other nesting indices or a smaller crop",
+        )
+    };
+    let (surface, words) = chain.apply(&file.surface).map_err(unsuited)?;
+    let more =
+        Arguments { heights_um: arguments.at_height_um.clone(), ratios_percent: arguments.at_ratio_percent.clone() };
+    let evaluation = Evaluation::of(&surface, &more);
+    let lines = arguments.line.iter().map(|wish| line(wish, &surface)).collect::<Result<Vec<_>, _>>()?;
+    let text = if arguments.json {
+        let document = document(&arguments.file, &file, &surface, &words, &evaluation, &lines);
+        format!("{document:#}\n")
+    } else {
+        sheet(&arguments.file, &file, &surface, &words, &evaluation, &lines)
+    };
+    Ok(print::to_stdout(&text)?)
+}
+
+/// Numbers that no file can make sensible.
+fn check(arguments: &TextureArguments) -> Result<(), Refusal> {
+    let positive = |name: &str, values: &[f64]| match values.iter().find(|v| !(v.is_finite() && **v > 0.0)) {
+        Some(value) => Err(Refusal::new(name, format!("{value} um is not a positive length"), "give a number above 0")),
+        None => Ok(()),
+    };
+    positive("--spacing-um", &arguments.spacing_um)?;
+    positive("--s-filter-um", arguments.s_filter_um.as_slice())?;
+    positive("--l-filter-um", arguments.l_filter_um.as_slice())?;
+    if !(arguments.crop_um.is_finite() && arguments.crop_um >= 0.0) {
+        let problem = format!("{} um is not a margin", arguments.crop_um);
+        return Err(Refusal::new("--crop-um", problem, "give 0 or a positive number"));
+    }
+    if let Some(ratio) = arguments.at_ratio_percent.iter().find(|p| !(0.0..=100.0).contains(*p)) {
+        let problem = format!("{ratio} % is no material ratio");
+        return Err(Refusal::new("--at-ratio-percent", problem, "give a number from 0 to 100"));
+    }
+    if let Some(height) = arguments.at_height_um.iter().find(|c| !c.is_finite()) {
+        return Err(Refusal::new("--at-height-um", format!("{height} is no height"), "give a number of um"));
+    }
+    Ok(())
+}
+
+fn format_of(path: &Path) -> Result<Format, Refusal> {
+    let name = path.file_name().map(|name| name.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let endings = [
+        ("ascii.sdf", Format::SdfAscii),
+        (".sdf", Format::SdfBinary),
+        (".x3p", Format::X3p),
+        (".sur", Format::Sur),
+        (".npy", Format::Npy),
+        (".csv", Format::Csv),
+    ];
+    endings.into_iter().find(|(ending, _)| name.ends_with(ending)).map(|(_, format)| format).ok_or_else(|| {
+        Refusal::new(
+            "--save",
+            format!("{} has no ending that names a format", path.display()),
+            "use .x3p, .sdf, ascii.sdf, .sur, .npy or .csv",
+        )
+    })
+}
+
+fn line(wish: &str, surface: &Surface) -> Result<Line, Refusal> {
+    let refuse = |problem: String| Refusal::new("--line", problem, "write y=UM for a row or x=UM for a column");
+    let (axis, place) = wish.split_once('=').ok_or_else(|| refuse(format!("`{wish}` names no line")))?;
+    let place_um: f64 = place.parse().map_err(|_| refuse(format!("`{place}` is not a number of um")))?;
+    let (spacing_um, count) = match axis {
+        "y" => (surface.dy_um(), surface.ny()),
+        "x" => (surface.dx_um(), surface.nx()),
+        other => return Err(refuse(format!("`{other}` is neither x nor y"))),
+    };
+    let index = (place_um / spacing_um).round();
+    if !(index >= 0.0 && index < count as f64) {
+        let end_um = spacing_um * (count - 1) as f64;
+        return Err(refuse(format!("{axis} = {place_um} um lies outside the evaluated area, 0 to {end_um} um")));
+    }
+    let index = index as usize;
+    let profile = match axis {
+        "y" => Profile::of(surface.row(index), surface.dx_um()),
+        _ => Profile::of(&surface.column(index), surface.dy_um()),
+    };
+    let along = if axis == "y" { "x" } else { "y" };
+    let name = format!("profile along {along} at {axis} = {} um", plain(index as f64 * spacing_um));
+    Ok(Line { name, parameters: profile.map(|profile| of_profile(&profile)) })
+}
+
+fn document(
+    path: &Path,
+    file: &SurfaceFile,
+    surface: &Surface,
+    chain: &[String],
+    evaluation: &Evaluation,
+    lines: &[Line],
+) -> Value {
+    let lines: Vec<Value> = lines
+        .iter()
+        .map(|line| match &line.parameters {
+            Ok(parameters) => json!({"line": line.name, "parameters": quantities(parameters)}),
+            Err(why) => json!({"line": line.name, "parameters": null, "why": why}),
+        })
+        .collect();
+    let notes: serde_json::Map<String, Value> =
+        file.notes.iter().map(|(name, text)| (name.clone(), text.clone().into())).collect();
+    json!({
+        "program": "gearcut",
+        "program_version": env!("CARGO_PKG_VERSION"),
+        "file": path.display().to_string(),
+        "notes": notes,
+        "read": {"nx": file.surface.nx(), "ny": file.surface.ny(), "dx_um": file.surface.dx_um(), "dy_um": file.surface.dy_um(), "holes": file.surface.holes()},
+        "evaluated": {"nx": surface.nx(), "ny": surface.ny(), "holes": surface.holes()},
+        "angles": "counter-clockwise from +x (along a row) towards +y (from row to row)",
+        "chain": chain,
+        "parameters": quantities(&evaluation.parameters),
+        "profiles": lines,
+    })
+}
+
+fn sheet(
+    path: &Path,
+    file: &SurfaceFile,
+    surface: &Surface,
+    chain: &[String],
+    evaluation: &Evaluation,
+    lines: &[Line],
+) -> String {
+    let mut sheet = Sheet::default();
+    let read = &file.surface;
+    sheet.heading(&format!("{}", path.display()));
+    let [x, y] = read.size_mm();
+    sheet.line(
+        "points",
+        format!("{} x {}, {} x {} um apart", read.nx(), read.ny(), plain(read.dx_um()), plain(read.dy_um())),
+    );
+    sheet.line("size", format!("{} x {} mm", significant(x, 4), significant(y, 4)));
+    if read.holes() > 0 {
+        sheet.line("holes", read.holes().to_string());
+    }
+    for step in chain {
+        let (name, what) = step.split_once(": ").unwrap_or((step, ""));
+        sheet.line(name, what);
+    }
+    let [x, y] = surface.size_mm();
+    sheet.line("evaluated", format!("{} x {} mm", significant(x, 4), significant(y, 4)));
+    let mut family = "";
+    let mut rows = Vec::new();
+    for parameter in &evaluation.parameters {
+        if parameter.family != family {
+            flush(&mut sheet, family, &mut rows);
+            family = parameter.family;
+        }
+        rows.push(row(parameter));
+    }
+    flush(&mut sheet, family, &mut rows);
+    for line in lines {
+        sheet.heading(&line.name);
+        match &line.parameters {
+            Ok(parameters) => table(&mut sheet, &parameters.iter().map(row).collect::<Vec<_>>()),
+            Err(why) => sheet.line("none", why),
+        }
+    }
+    sheet.into_text()
+}
+
+/// Symbol, value with unit, definition.
+fn row(parameter: &Parameter) -> [String; 3] {
+    let value = match &parameter.value {
+        Ok(value) if parameter.unit == "1" => number(*value),
+        Ok(value) => format!("{} {}", number(*value), parameter.unit),
+        Err(why) => return [parameter.symbol.clone(), "none".to_owned(), format!("{why} ({})", parameter.definition)],
+    };
+    [parameter.symbol.clone(), value, parameter.definition.clone()]
+}
+
+/// Five digits, with an exponent where a plain number would be mostly zeros.
+fn number(value: f64) -> String {
+    if value != 0.0 && value.abs() < 1e-4 { format!("{value:.4e}") } else { significant(value, 5) }
+}
+
+fn flush(sheet: &mut Sheet, family: &str, rows: &mut Vec<[String; 3]>) {
+    if !rows.is_empty() {
+        sheet.heading(&format!("{family} parameters"));
+        table(sheet, rows);
+        rows.clear();
+    }
+}
+
+/// Values to the right, words after them to the left.
+fn table(sheet: &mut Sheet, rows: &[[String; 3]]) {
+    let width = |k: usize| rows.iter().map(|row| row[k].chars().count()).max().unwrap_or(0);
+    let (symbols, values) = (width(0), width(1));
+    for [symbol, value, words] in rows {
+        sheet.words(&format!("{symbol:<symbols$}   {value:>values$}   {words}"));
+    }
+}

@@ -1,0 +1,282 @@
+//! The blank kernel: strokes of an operation taken from the blank field in order of time.
+//!
+//! In: a [`BlankField`], the strokes, the closed tooth of the cutter. Out: the field after the operation, the volume that every pass removed, and where the return strokes rub.
+//!
+//! A tile is some neighbouring rays of one family in one slice. It takes its candidate passes in order of time: the tooth's outline is placed in the work once, [`RayCrossings`] lays it
+//! over the rays, and rays whose crossings cannot reach material are left alone before anything is solved. What a ray is left with does not depend on tiles, threads or
+//! candidates, and the volumes are summed in the order of the tiles: same scene, same bytes.
+//!
+//! After each stroke the cutter goes back, drawn off by the relief motion; if return poses are given, material that their teeth would enter is reported, and left where it is.
+
+use crate::dexel::blank_field::{BlankField, Ray};
+use crate::dexel::intervals::{self, End};
+use crate::passes::StrokeSet;
+use crate::passes::blank_candidates::{PlacedPass, passes_at, reaching_strip};
+use crate::planar_rays::{Crossing, FAMILIES, Family, RayCrossings, RayRow};
+use crate::tool::CuttingTool;
+use crate::tool::closed_tooth::{ClosedTooth, PlacedScratch};
+use glam::DVec2;
+use rayon::prelude::*;
+
+/// Rays of a tile: a cutter tooth of module 3 at 0.1 mm covers one or two tiles.
+const TILE_RAYS: usize = 64;
+
+/// Rays that meet an edge at least this steeply (cosine to its normal) tell how deep it lies: every edge is met so by one of the two families.
+const STEEP: f64 = 0.7;
+
+/// One operation over the blank field.
+pub struct BlankOperation<'a> {
+    /// Strokes.
+    pub strokes: &'a StrokeSet,
+    /// Poses of the return strokes, if they are to be checked.
+    pub returns: Option<&'a StrokeSet>,
+    /// The cutter.
+    pub tool: &'a dyn CuttingTool,
+    /// Its tooth as a closed region.
+    pub tooth: &'a ClosedTooth,
+    /// Largest distance of the blank from the gear axis, mm.
+    pub blank_reach_mm: f64,
+    /// Whether candidates are chosen; otherwise every pass visits every ray: what candidates are proved against.
+    pub cull: bool,
+}
+
+/// Work done, ray by ray and pass by pass.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct BlankStats {
+    /// (Ray, pass) pairs in which the ray crosses the tooth.
+    pub visited: u64,
+    /// Pairs that bounds could not tell clear of material, so that the crossings were solved.
+    pub solved: u64,
+    /// Pairs that removed material.
+    pub removing: u64,
+}
+
+/// A place where a return stroke enters material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rub {
+    /// Pass after whose stroke it happens, by id: stroke and cutter tooth.
+    pub pass: u32,
+    /// Slice of the field.
+    pub slice: u32,
+    /// Middle of the entered material, gear frame.
+    pub place_mm: DVec2,
+    /// How deep the edge goes in, along its normal, mm; 0 on rays that graze it, whose place the other family's rays judge.
+    pub depth_mm: f64,
+    /// Volume of the ray's share, mm3, for one family of rays.
+    pub volume_mm3: f64,
+    /// Family of the ray.
+    pub family: Family,
+}
+
+/// What an operation did to the blank field.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct BlankCut {
+    /// Volume that each pass removed by family X and Y, mm3, from the operation's first pass on.
+    pub removed_mm3: Vec<[f64; 2]>,
+    /// Where return strokes rub, in order of slice, family, ray and time.
+    pub rubs: Vec<Rub>,
+    /// Work done.
+    pub stats: BlankStats,
+}
+
+/// One tile's share of a [`BlankCut`].
+#[derive(Default)]
+struct TileCut {
+    removed_mm: Vec<(u32, f64)>,
+    rubs: Vec<Rub>,
+    stats: BlankStats,
+}
+
+/// Steps that [`cut`] reports for a field: tiles in all slices.
+pub fn steps(field: &BlankField) -> u64 {
+    let tiles: usize = field.grid.rows.iter().map(|row| row.count.div_ceil(TILE_RAYS)).sum();
+    (tiles * field.slices.len()) as u64
+}
+
+/// Runs an operation; `advance` is called after every tile and says whether to go on. `None`: stopped.
+pub fn cut(
+    field: &mut BlankField,
+    operation: &BlankOperation,
+    advance: &(dyn Fn() -> bool + Sync),
+) -> Option<BlankCut> {
+    let set = operation.strokes;
+    let grid = field.grid.clone();
+    let mut result =
+        BlankCut { removed_mm3: vec![[0.0; 2]; (set.end_pass() - set.first_pass) as usize], ..BlankCut::default() };
+    for ((index, slice), width_mm) in field.slices.iter_mut().enumerate().zip(grid.slice_widths_mm()) {
+        let tau = set.law.tau(grid.leads_mm[index]);
+        let reach_mm = if operation.cull { operation.blank_reach_mm } else { f64::INFINITY };
+        let place = |set| passes_at(set, tau, operation.tool, operation.tooth, reach_mm);
+        let passes = place(set);
+        let returns = operation.returns.map(place).unwrap_or_default();
+        let tiles = slice.rays.iter_mut().zip(FAMILIES).zip(&grid.rows).flat_map(|((rays, family), row)| {
+            rays.chunks_mut(TILE_RAYS).enumerate().map(move |(tile, rays)| Tile {
+                family,
+                row,
+                first: tile * TILE_RAYS,
+                rays,
+                slice: index as u32,
+            })
+        });
+        let tiles: Vec<Tile> = tiles.collect();
+        let area_per_length = grid.spacing_mm() * width_mm;
+        let cuts: Vec<(Family, Option<TileCut>)> = tiles
+            .into_par_iter()
+            .map(|tile| (tile.family, advance().then(|| tile.cut(operation, &passes, &returns, area_per_length))))
+            .collect();
+        for (family, cut) in cuts {
+            let cut = cut?;
+            for (pass, length_mm) in cut.removed_mm {
+                result.removed_mm3[(pass - set.first_pass) as usize][family as usize] += length_mm * area_per_length;
+            }
+            result.rubs.extend(cut.rubs);
+            result.stats += cut.stats;
+        }
+    }
+    Some(result)
+}
+
+impl std::ops::AddAssign for BlankStats {
+    fn add_assign(&mut self, other: Self) {
+        self.visited += other.visited;
+        self.solved += other.solved;
+        self.removing += other.removing;
+    }
+}
+
+/// Neighbouring rays of one family in one slice.
+struct Tile<'a> {
+    family: Family,
+    row: &'a RayRow,
+    first: usize,
+    rays: &'a mut [Ray],
+    slice: u32,
+}
+
+/// Scratch memory of a tile.
+#[derive(Default)]
+struct Scratch {
+    placed: PlacedScratch,
+    crossings: RayCrossings,
+    found: Vec<Crossing>,
+    cuts: Vec<(usize, End, End)>,
+}
+
+impl Tile<'_> {
+    fn cut(
+        mut self,
+        operation: &BlankOperation,
+        passes: &[PlacedPass],
+        returns: &[PlacedPass],
+        volume_per_length: f64,
+    ) -> TileCut {
+        let strip = if operation.cull {
+            [self.row.at_mm(self.first), self.row.at_mm(self.first + self.rays.len() - 1)]
+        } else {
+            [f64::NEG_INFINITY, f64::INFINITY]
+        };
+        let mut scratch = Scratch::default();
+        let mut done = TileCut::default();
+        let mut returns = reaching_strip(returns, operation.tooth, self.family, strip).peekable();
+        for pass in reaching_strip(passes, operation.tooth, self.family, strip) {
+            while let Some(back) = returns.next_if(|back| back.stroke < pass.stroke) {
+                self.check_return(operation, back, volume_per_length, &mut scratch, &mut done);
+            }
+            self.take(operation, pass, &mut scratch, &mut done);
+        }
+        for back in returns {
+            self.check_return(operation, back, volume_per_length, &mut scratch, &mut done);
+        }
+        done
+    }
+
+    /// Calls `act` with every ray that the tooth crosses near material, the crossings solved.
+    fn visit(
+        &self,
+        operation: &BlankOperation,
+        pass: &PlacedPass,
+        scratch: &mut Scratch,
+        stats: &mut BlankStats,
+        mut act: impl FnMut(usize, f64, &[Crossing]),
+    ) {
+        let tooth = operation.tooth.placed(&pass.work_from_blade, &mut scratch.placed);
+        scratch.crossings.lay(&tooth, self.family, self.row, self.first..self.first + self.rays.len());
+        for ray in scratch.crossings.touched() {
+            if !scratch.crossings.crosses(ray) {
+                continue;
+            }
+            stats.visited += 1;
+            let at_mm = self.row.at_mm(ray);
+            let [low, high] = scratch.crossings.bounds_mm(ray, at_mm);
+            if !intervals::overlaps(&self.rays[ray - self.first], low, high) {
+                continue;
+            }
+            stats.solved += 1;
+            scratch.crossings.solve(&tooth, self.family, ray, at_mm, &mut scratch.found);
+            act(ray - self.first, at_mm, &scratch.found);
+        }
+    }
+
+    fn take(&mut self, operation: &BlankOperation, pass: &PlacedPass, scratch: &mut Scratch, done: &mut TileCut) {
+        let id = operation.strokes.pass_id(pass.stroke as usize, pass.blade);
+        let mut stats = done.stats;
+        let mut removed_mm = 0.0;
+        let mut cuts = std::mem::take(&mut scratch.cuts);
+        self.visit(operation, pass, scratch, &mut stats, |ray, _, crossings| {
+            for [from, to] in crossings.as_chunks::<2>().0 {
+                let [from, to] =
+                    [from, to].map(|c| End { at_mm: c.at_mm, pass: id, normal: (-c.outward()).as_vec2().to_array() });
+                cuts.push((ray, from, to));
+            }
+        });
+        for (ray, from, to) in cuts.drain(..) {
+            let length_mm = intervals::subtract(&mut self.rays[ray], from, to);
+            if length_mm > 0.0 {
+                removed_mm += length_mm;
+                stats.removing += 1;
+            }
+        }
+        if removed_mm > 0.0 {
+            done.removed_mm.push((id, removed_mm));
+        }
+        scratch.cuts = cuts;
+        done.stats = stats;
+    }
+
+    fn check_return(
+        &self,
+        operation: &BlankOperation,
+        pass: &PlacedPass,
+        volume_per_length: f64,
+        scratch: &mut Scratch,
+        done: &mut TileCut,
+    ) {
+        let id = operation.strokes.pass_id(pass.stroke as usize, pass.blade);
+        let mut uncounted = BlankStats::default();
+        let family = self.family;
+        let rubs = &mut done.rubs;
+        self.visit(operation, pass, scratch, &mut uncounted, |ray, at_mm, crossings| {
+            let spans = &self.rays[ray];
+            for [from, to] in crossings.as_chunks::<2>().0 {
+                let length_mm = intervals::overlap_mm(spans, from.at_mm, to.at_mm);
+                if length_mm <= intervals::LEAST_SPAN_MM {
+                    continue;
+                }
+                // Along its normal the material is at most as thick as this; rays that graze say little and leave the depth to the other family.
+                let ends = [from, to].map(|c| (c.outward(), intervals::contains(spans, c.at_mm)));
+                let steep = |n: &DVec2| family.along(*n).abs() >= STEEP;
+                let inside = ends.iter().filter(|(n, inside)| *inside && steep(n));
+                let depth = inside.map(|(n, _)| length_mm * family.along(*n).abs()).reduce(f64::min);
+                let middle = if ends[0].1 { from.at_mm + 0.5 * length_mm } else { to.at_mm - 0.5 * length_mm };
+                rubs.push(Rub {
+                    pass: id,
+                    slice: self.slice,
+                    place_mm: family.point(middle, at_mm),
+                    depth_mm: depth.unwrap_or(0.0),
+                    volume_mm3: length_mm * volume_per_length,
+                    family,
+                });
+            }
+        });
+    }
+}

@@ -1,0 +1,328 @@
+//! What the blank field says about the whole gear: volumes by two ways, damage to the target, return strokes that rub, strokes that are missing.
+//!
+//! In: the job and its cut blank. Out: [`BlankReport`].
+//!
+//! * **Balance.** The volume that the passes removed, summed pass by pass, against what is missing from the rays; the section that is left against the area of the target's outline, which
+//!   comes from the meshing condition and knows neither rays nor strokes.
+//! * **Gouges and interference.** Material of the target that is not there, deeper than [`LEAST_DEPTH_MM`]: a gouge if the last operation took it, interference if an earlier one did. Strokes
+//!   only approach the target from outside, so a clean cut shows none at any number of strokes.
+//! * **Rubbing.** Material that the cutter enters on its way back; on surfaces that stay, or on stock that a later stroke takes away.
+//! * **Strokes.** See [`super::stroke_faults`].
+
+use super::gear_place::{GearPlace, Zone};
+use super::stroke_faults::{LEAST_CELLS, StrokeFault, stroke_faults};
+use crate::cut::cpu::blank::BlankStats;
+use crate::dexel::intervals;
+use crate::dexel::{BlankGrid, NO_PASS};
+use crate::gear::generation::Side;
+use crate::gear::target_outline::TargetOutline;
+use crate::job::{CutBlank, Job};
+use crate::passes::StrokeSet;
+use crate::planar_rays::FAMILIES;
+use crate::tool::CuttingTool;
+use glam::DVec2;
+use std::collections::BTreeMap;
+
+/// Damage and rubbing less deep than this are not reported: above the errors of the outline (chords of the target, 0.1 um in a fillet), below what any machine holds.
+pub const LEAST_DEPTH_MM: f64 = 1e-3;
+
+/// Damage or rubbing on one side of a tooth by one operation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Damage {
+    /// Index of the operation.
+    pub operation: usize,
+    /// Where it is deepest.
+    pub place: GearPlace,
+    /// That place in the gear frame, mm.
+    pub point_mm: DVec2,
+    /// And along the tooth from the middle of the face, mm.
+    pub lead_mm: f64,
+    /// Largest depth along the normal, mm.
+    pub depth_mm: f64,
+    /// Volume, mm3: mean of both families. For rubbing the sum over strokes.
+    pub volume_mm3: f64,
+    /// Stroke that made the deepest place.
+    pub stroke: usize,
+    /// Cutter tooth that made it.
+    pub blade: u32,
+}
+
+/// Rubbing of return strokes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rubbing {
+    /// Where and how much.
+    pub damage: Damage,
+    /// On a surface that stays; otherwise on stock that is still to be removed.
+    pub stays: bool,
+}
+
+/// Volume that an operation removed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OperationVolume {
+    /// Pass by pass, mm3, by both families.
+    pub by_passes_mm3: [f64; 2],
+    /// As missing from the rays, mm3, by both families.
+    pub by_rays_mm3: [f64; 2],
+}
+
+/// Section that is left against the target's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EndFace {
+    /// Mean section by rays of both families, mm2.
+    pub cut_mm2: [f64; 2],
+    /// Area of the target's outline less the bore, mm2.
+    pub target_mm2: f64,
+    /// How far rays at this spacing may be off, mm2, by both families.
+    pub bound_mm2: [f64; 2],
+}
+
+/// A fault of a stroke with its tooth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlacedStrokeFault {
+    /// Index of the operation.
+    pub operation: usize,
+    /// The fault.
+    pub fault: StrokeFault,
+    /// Tooth space in which most of the chip was: the one behind this tooth.
+    pub space: u32,
+}
+
+/// Everything that the blank field says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlankReport {
+    /// Volume of the uncut blank, mm3, by both families.
+    pub blank_mm3: [f64; 2],
+    /// Volume that is left, mm3, by both families.
+    pub left_mm3: [f64; 2],
+    /// Operations in order.
+    pub operations: Vec<OperationVolume>,
+    /// End face; nothing where the target's outline is not known in closed form.
+    pub end_face: Option<EndFace>,
+    /// Target material that the last operation took.
+    pub gouges: Vec<Damage>,
+    /// Target material that an earlier operation took.
+    pub interference: Vec<Damage>,
+    /// Return strokes that rub.
+    pub rubbing: Vec<Rubbing>,
+    /// Strokes that are missing, did not cut or were made twice.
+    pub stroke_faults: Vec<PlacedStrokeFault>,
+    /// Whether each operation's strokes could be judged: its chips are large enough for the rays' distance.
+    pub strokes_judged: Vec<bool>,
+    /// Work done.
+    pub stats: BlankStats,
+}
+
+impl OperationVolume {
+    /// Largest difference of the two ways, relative to the volume.
+    pub fn imbalance(&self) -> f64 {
+        let off = |f: usize| {
+            let scale = self.by_rays_mm3[f].abs().max(f64::MIN_POSITIVE);
+            (self.by_passes_mm3[f] - self.by_rays_mm3[f]).abs() / scale
+        };
+        off(0).max(off(1))
+    }
+}
+
+/// Report on a cut blank; `target` as from [`Job::target_outline`], if there is one.
+pub fn measure(job: &Job, cut: &CutBlank, target: Option<&TargetOutline>) -> BlankReport {
+    let operations = volumes(cut);
+    let left_mm3 = cut.left_mm3.last().copied().unwrap_or(cut.blank_mm3);
+    let last = job.operations.len() - 1;
+    let damage = target.map(|target| damage(job, cut, target)).unwrap_or_default();
+    let (gouges, interference): (Vec<Damage>, Vec<Damage>) = damage.into_iter().partition(|d| d.operation == last);
+    let mut stats = BlankStats::default();
+    for done in &cut.cuts {
+        stats += done.stats;
+    }
+    BlankReport {
+        blank_mm3: cut.blank_mm3,
+        left_mm3,
+        operations,
+        end_face: target.map(|target| end_face(job, cut, left_mm3, target)),
+        strokes_judged: (0..job.operations.len()).map(|operation| is_judged(job, cut, operation)).collect(),
+        stroke_faults: faults(job, cut, &gouges, &interference),
+        gouges,
+        interference,
+        rubbing: rubbing(job, cut),
+        stats,
+    }
+}
+
+fn volumes(cut: &CutBlank) -> Vec<OperationVolume> {
+    let before = std::iter::once(&cut.blank_mm3).chain(&cut.left_mm3);
+    let pairs = before.zip(&cut.left_mm3).zip(&cut.cuts);
+    pairs
+        .map(|((before, after), done)| OperationVolume {
+            by_passes_mm3: [0, 1].map(|f| done.removed_mm3.iter().map(|pass| pass[f]).sum()),
+            by_rays_mm3: [0, 1].map(|f| before[f] - after[f]),
+        })
+        .collect()
+}
+
+fn end_face(job: &Job, cut: &CutBlank, left_mm3: [f64; 2], target: &TargetOutline) -> EndFace {
+    let gear = &job.scene.gear;
+    let spacing_mm = cut.field.grid.spacing_mm();
+    let bore_radius_mm = 0.5 * gear.bore_diameter_mm;
+    EndFace {
+        cut_mm2: left_mm3.map(|v| v / gear.face_width_mm),
+        target_mm2: target.area_mm2() - std::f64::consts::PI * bore_radius_mm * bore_radius_mm,
+        // The bore adds four radii of way along the rays, half a spacing each.
+        bound_mm2: FAMILIES.map(|f| target.area_bound_mm2(f, spacing_mm) + 2.0 * bore_radius_mm * spacing_mm),
+    }
+}
+
+/// Damage of one side of a tooth: what [`collect`] sorts by.
+type Where = (usize, u32, Side, Zone, bool);
+
+/// One ray's share of some damage.
+struct Finding {
+    operation: usize,
+    stays: bool,
+    point_mm: DVec2,
+    lead_mm: f64,
+    depth_mm: f64,
+    volume_mm3: f64,
+    pass: u32,
+}
+
+/// Findings side by side of the teeth, deepest place and volume each; only those at least [`LEAST_DEPTH_MM`] deep.
+fn collect(job: &Job, findings: impl Iterator<Item = Finding>) -> Vec<(Damage, bool)> {
+    let mut sides: BTreeMap<Where, Damage> = BTreeMap::new();
+    for finding in findings {
+        let place = GearPlace::of(job, finding.point_mm);
+        let (stroke, blade) = job.operations[finding.operation].strokes.stroke_and_blade(finding.pass);
+        let key = (finding.operation, place.tooth, place.side, place.zone, finding.stays);
+        let damage = sides.entry(key).or_insert(Damage {
+            operation: finding.operation,
+            place,
+            point_mm: finding.point_mm,
+            lead_mm: finding.lead_mm,
+            depth_mm: finding.depth_mm,
+            volume_mm3: 0.0,
+            stroke,
+            blade,
+        });
+        let volume_mm3 = damage.volume_mm3 + finding.volume_mm3;
+        if finding.depth_mm > damage.depth_mm {
+            let (point_mm, lead_mm, depth_mm) = (finding.point_mm, finding.lead_mm, finding.depth_mm);
+            *damage = Damage { place, point_mm, lead_mm, depth_mm, stroke, blade, ..*damage };
+        }
+        damage.volume_mm3 = volume_mm3;
+    }
+    let deep = sides.into_iter().filter(|(_, damage)| damage.depth_mm >= LEAST_DEPTH_MM);
+    deep.map(|((.., stays), damage)| (damage, stays)).collect()
+}
+
+fn damage(job: &Job, cut: &CutBlank, target: &TargetOutline) -> Vec<Damage> {
+    let grid = &cut.field.grid;
+    let bore_radius_mm = 0.5 * job.scene.gear.bore_diameter_mm;
+    let widths_mm = grid.slice_widths_mm();
+    let mut findings = Vec::new();
+    for (f, family) in FAMILIES.into_iter().enumerate() {
+        let row = &grid.rows[f];
+        let wanted = target.spans(family, row, bore_radius_mm);
+        for ((slice, width_mm), &lead_mm) in cut.field.slices.iter().zip(&widths_mm).zip(&grid.leads_mm) {
+            for (ray, spans) in slice.rays[f].iter().enumerate() {
+                let gaps = intervals::missing(&wanted[ray], spans);
+                for [low, high] in gaps.into_iter().filter(|[low, high]| high - low > LEAST_DEPTH_MM) {
+                    let at = |along: f64| family.point(along, row.at_mm(ray));
+                    let depth = |p: DVec2| -target.distance_mm(p, 0.5 * job.scene.gear.module_mm).unwrap_or(0.0);
+                    let deepest = [at(low), at(0.5 * (low + high)), at(high)]
+                        .map(|p| (depth(p), p))
+                        .into_iter()
+                        .reduce(|a, b| if b.0 > a.0 { b } else { a })
+                        .expect("three points");
+                    let Some(pass) = pass_beside(spans, low, high) else { continue };
+                    let Some(operation) = operation_of(job, pass) else { continue };
+                    findings.push(Finding {
+                        operation,
+                        stays: true,
+                        point_mm: deepest.1,
+                        lead_mm,
+                        depth_mm: deepest.0,
+                        volume_mm3: 0.5 * (high - low) * row.spacing_mm * width_mm,
+                        pass,
+                    });
+                }
+            }
+        }
+    }
+    collect(job, findings.into_iter()).into_iter().map(|(damage, _)| damage).collect()
+}
+
+/// Pass that left the surface at an end of a gap. Where the target is gone from end to end the ray knows no pass; the rays across it, which end in what is left, do.
+fn pass_beside(spans: &[intervals::Span], low_mm: f64, high_mm: f64) -> Option<u32> {
+    let above = spans.iter().find(|s| s.low.at_mm == high_mm).map(|s| s.low.pass);
+    let below = spans.iter().find(|s| s.high.at_mm == low_mm).map(|s| s.high.pass);
+    above.into_iter().chain(below).find(|&pass| pass != NO_PASS)
+}
+
+fn operation_of(job: &Job, pass: u32) -> Option<usize> {
+    job.operations.iter().position(|o| (o.strokes.first_pass..o.strokes.end_pass()).contains(&pass))
+}
+
+fn rubbing(job: &Job, cut: &CutBlank) -> Vec<Rubbing> {
+    let grid: &BlankGrid = &cut.field.grid;
+    let findings = cut.cuts.iter().enumerate().flat_map(|(operation, done)| {
+        done.rubs.iter().map(move |rub| {
+            let row = &grid.rows[rub.family as usize];
+            let ray = row.first_at_or_above(rub.family.across(rub.place_mm));
+            let spans = &cut.field.slices[rub.slice as usize].rays[rub.family as usize][ray];
+            Finding {
+                operation,
+                stays: intervals::contains(spans, rub.family.along(rub.place_mm)),
+                point_mm: rub.place_mm,
+                lead_mm: grid.leads_mm[rub.slice as usize],
+                depth_mm: rub.depth_mm,
+                volume_mm3: 0.5 * rub.volume_mm3,
+                pass: rub.pass,
+            }
+        })
+    });
+    collect(job, findings).into_iter().map(|(damage, stays)| Rubbing { damage, stays }).collect()
+}
+
+/// Whether the mean stroke of an operation removes enough cells of the grid from a section.
+fn is_judged(job: &Job, cut: &CutBlank, operation: usize) -> bool {
+    let strokes = job.operations[operation].strokes.count() as f64;
+    let removed_mm3 = &cut.cuts[operation].removed_mm3;
+    let volume_mm3: f64 = removed_mm3.iter().map(|pass| 0.5 * (pass[0] + pass[1])).sum();
+    let cell_mm2 = cut.field.grid.spacing_mm().powi(2);
+    volume_mm3 / (strokes * job.scene.gear.face_width_mm * cell_mm2) >= LEAST_CELLS
+}
+
+/// Faults of strokes, less those that a gouge explains: a stroke that cut too deep stands alone as well.
+fn faults(job: &Job, cut: &CutBlank, gouges: &[Damage], interference: &[Damage]) -> Vec<PlacedStrokeFault> {
+    let gouged = |operation: usize, stroke: usize| {
+        gouges.iter().chain(interference).any(|d| d.operation == operation && d.stroke.abs_diff(stroke) <= 1)
+    };
+    let mut placed = Vec::new();
+    for (operation, (prepared, done)) in job.operations.iter().zip(&cut.cuts).enumerate() {
+        let set = &prepared.strokes;
+        if !is_judged(job, cut, operation) {
+            continue;
+        }
+        for fault in stroke_faults(&done.removed_mm3, set.blades) {
+            if !gouged(operation, fault.stroke) {
+                let space = busiest_space(job, set, &done.removed_mm3, fault.stroke);
+                placed.push(PlacedStrokeFault { operation, fault, space });
+            }
+        }
+    }
+    placed
+}
+
+/// Tooth space (behind the tooth of this number) in which the strokes round this one took most.
+fn busiest_space(job: &Job, set: &StrokeSet, removed_mm3: &[[f64; 2]], stroke: usize) -> u32 {
+    let blades = set.blades as usize;
+    let near = stroke.saturating_sub(1)..(stroke + 2).min(set.count());
+    let taken = |blade: usize| near.clone().map(|s| removed_mm3[s * blades + blade].iter().sum::<f64>()).sum::<f64>();
+    let busiest = (0..blades).max_by(|&a, &b| taken(a).total_cmp(&taken(b))).unwrap_or(0);
+    let work_from_blade = set.poses(stroke)[0].after(&job.cutter.tool_from_blade(busiest as u32));
+    let place = GearPlace::of(job, work_from_blade.point(job.cutter.edge().center_mm));
+    // The middle of a cutter tooth stands in a space: behind a tooth on its left side, else behind the tooth before.
+    match place.side {
+        Side::Left => place.tooth,
+        Side::Right => (place.tooth + job.scene.gear.teeth - 2) % job.scene.gear.teeth + 1,
+    }
+}

@@ -1,0 +1,182 @@
+//! The gear inspector's sheet: one upright trace per tooth, deviation across, as on the printout of a gear measuring machine.
+//!
+//! In: traces (place, deviation) with their evaluated range, mean line and figures. Out: markup. All traces of a sheet share one magnification, a round number of micrometres per division, chosen so that the
+//! evaluated parts fit; what lies outside (a tip break, an undercut) is cut off at the edge of its column.
+
+use maud::{Markup, html};
+
+use super::plot::{path, px, svg};
+use crate::output::axis::{Ticks, round_step, value_text};
+
+/// A sheet of traces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TraceSheet {
+    /// What is shown, such as "Profile, left flanks".
+    pub title: String,
+    /// What runs upwards, such as "u: arc from the form point".
+    pub place_name: String,
+    /// Unit of the places.
+    pub place_unit: String,
+    /// Unit of the deviations.
+    pub unit: String,
+    /// Whether material (positive) is drawn to the left, as on the left flanks of a tooth seen from above.
+    pub mirrored: bool,
+    /// The traces.
+    pub traces: Vec<TraceColumn>,
+}
+
+/// One trace.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TraceColumn {
+    /// Label, such as "tooth 7".
+    pub label: String,
+    /// Places and deviations; NaN interrupts.
+    pub points: Vec<(f64, f64)>,
+    /// First and last evaluated place with the mean line's deviation there.
+    pub mean_line: Option<[(f64, f64); 2]>,
+    /// Figures under the trace: name and value in the unit of the deviations.
+    pub figures: Vec<(String, Option<f64>)>,
+}
+
+const COLUMN: f64 = 84.0;
+const LEFT: f64 = 42.0;
+const TOP: f64 = 26.0;
+const HEIGHT: f64 = 250.0;
+const ROW: f64 = 16.0;
+/// Divisions from the zero line to the edge of a column.
+const DIVISIONS: f64 = 4.0;
+
+impl TraceSheet {
+    /// Deviation of one division.
+    fn division(&self) -> f64 {
+        let evaluated = self.traces.iter().flat_map(|trace| {
+            let inside = |place: f64| trace.mean_line.is_none_or(|[from, to]| place >= from.0 && place <= to.0);
+            trace.points.iter().filter(move |point| inside(point.0)).map(|point| point.1.abs())
+        });
+        let largest = evaluated.filter(|value| value.is_finite()).fold(0.0, f64::max);
+        // A flank without any deviation still gets a scale: a nanometre.
+        round_step((largest / DIVISIONS).max(1e-3))
+    }
+
+    /// The sheet as markup.
+    pub fn markup(&self) -> Markup {
+        let division = self.division();
+        let places = || self.traces.iter().flat_map(|trace| trace.points.iter().map(|point| point.0));
+        let (low, high) = (places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max));
+        let (low, high) = if low < high { (low, high) } else { (0.0, 1.0) };
+        let y = |place: f64| TOP + HEIGHT - (place - low) / (high - low) * HEIGHT;
+        let ticks = Ticks::over(low, high, 7);
+        let rows = self.traces.iter().map(|trace| trace.figures.len()).max().unwrap_or(0) as f64;
+        let width = LEFT + COLUMN * self.traces.len() as f64 + 4.0;
+        let content = html! {
+            @for (&value, label) in ticks.values.iter().zip(&ticks.labels) {
+                line class="grid" x1=(LEFT) x2=(px(width - 4.0)) y1=(px(y(value))) y2=(px(y(value))) {}
+                text class="tick end" x=(LEFT - 6.0) y=(px(y(value) + 4.0)) { (label) }
+            }
+            @for (index, trace) in self.traces.iter().enumerate() {
+                @let zero = LEFT + COLUMN * (index as f64 + 0.5);
+                (self.column(trace, zero, division, y))
+            }
+        };
+        html! {
+            figure class="chart traces" {
+                figcaption { (self.title) }
+                div class="panel-head" {
+                    span class="panel-name" { (self.place_name) " " span class="unit" { "[" (self.place_unit) "]" } }
+                    span class="scale" {
+                        "1 division = " (value_text(division)) " " (self.unit) ", material "
+                        @if self.mirrored { "←" } @else { "→" }
+                    }
+                }
+                (svg(width, TOP + HEIGHT + 12.0 + ROW * rows, &self.title, content))
+            }
+        }
+    }
+
+    fn column(&self, trace: &TraceColumn, zero: f64, division: f64, y: impl Fn(f64) -> f64) -> Markup {
+        let half = 0.5 * COLUMN - 4.0;
+        let sign = if self.mirrored { -1.0 } else { 1.0 };
+        let x = |deviation: f64| {
+            let across = (deviation / division * (half / DIVISIONS)).clamp(-half, half);
+            zero + sign * across
+        };
+        let bottom = TOP + HEIGHT;
+        let points: Vec<(f64, f64)> = trace.points.iter().map(|&(place, value)| (x(value), y(place))).collect();
+        html! {
+            text class="label middle" x=(px(zero)) y="16" { (trace.label) }
+            @for step in 1..=(DIVISIONS as i32) {
+                @for side in [-1.0, 1.0] {
+                    @let at = zero + side * f64::from(step) * half / DIVISIONS;
+                    line class="division" x1=(px(at)) x2=(px(at)) y1=(TOP) y2=(px(bottom)) {}
+                }
+            }
+            line class="zero" x1=(px(zero)) x2=(px(zero)) y1=(TOP) y2=(px(bottom)) {}
+            path class="trace" d=(path(&thinned_upright(&points))) {}
+            @if let Some(ends) = trace.mean_line {
+                @for (place, _) in ends {
+                    line class="limit" x1=(px(zero - half)) x2=(px(zero + half)) y1=(px(y(place))) y2=(px(y(place))) {}
+                }
+                path class="mean-line" d=(path(&ends.map(|(place, value)| (x(value), y(place))))) {}
+            }
+            @for (row, (name, value)) in trace.figures.iter().enumerate() {
+                @let at = px(bottom + 8.0 + ROW * (row as f64 + 0.75));
+                text class="figure-name" x=(px(zero - half)) y=(at) { (name) }
+                text class="figure end" x=(px(zero + half)) y=(at) { (value.map_or_else(|| "–".to_owned(), value_text)) }
+            }
+        }
+    }
+}
+
+/// First, last, leftmost and rightmost point of each half pixel of height.
+fn thinned_upright(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut kept = Vec::new();
+    for group in points.chunk_by(|a, b| (2.0 * a.1).floor() == (2.0 * b.1).floor() && a.0.is_nan() == b.0.is_nan()) {
+        let last = group.len() - 1;
+        let mut indices = vec![0, last];
+        indices.extend((0..=last).reduce(|best, next| if group[next].0 < group[best].0 { next } else { best }));
+        indices.extend((0..=last).reduce(|best, next| if group[next].0 > group[best].0 { next } else { best }));
+        indices.sort_unstable();
+        indices.dedup();
+        kept.extend(indices.into_iter().map(|index| group[index]));
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sheet(largest_um: f64) -> TraceSheet {
+        TraceSheet {
+            title: "Profile".into(),
+            place_name: "u".into(),
+            place_unit: "mm".into(),
+            unit: "µm".into(),
+            mirrored: false,
+            traces: vec![TraceColumn {
+                label: "tooth 1".into(),
+                points: vec![(0.0, -50.0), (1.0, 0.0), (2.0, largest_um), (3.0, f64::NAN), (4.0, 0.5)],
+                mean_line: Some([(1.0, 0.1), (4.0, 0.2)]),
+                figures: vec![("Fα".into(), Some(largest_um)), ("fHα".into(), None)],
+            }],
+        }
+    }
+
+    #[test]
+    fn the_division_is_round_and_fits_the_evaluated_part() {
+        assert_eq!(sheet(3.1).division(), 1.0);
+        assert_eq!(sheet(0.06).division(), 0.2);
+        let text = sheet(3.1).markup().into_string();
+        assert!(text.contains("1 division = 1.00 µm, material →"), "{text}");
+        assert!(text.contains("3.10") && text.contains("–"), "{text}");
+    }
+
+    #[test]
+    fn thinning_keeps_extremes_and_gaps() {
+        let points: Vec<(f64, f64)> = (0..1000).map(|k| (f64::from((k * 37) % 101), f64::from(k) * 1e-4)).collect();
+        let kept = thinned_upright(&points);
+        assert!(kept.len() <= 4 && kept.iter().any(|p| p.0 == 100.0) && kept.iter().any(|p| p.0 == 0.0));
+        let gap = [(0.0, 0.0), (f64::NAN, 0.1), (1.0, 0.2)];
+        assert_eq!(path(&thinned_upright(&gap)), "M0 0M1 0.2");
+    }
+}

@@ -1,0 +1,122 @@
+//! The same surface through every format; files of other programs; damaged files.
+
+use super::*;
+use std::path::PathBuf;
+
+const FORMATS: [(Format, &str); 6] = [
+    (Format::X3p, "s.x3p"),
+    (Format::SdfBinary, "s.sdf"),
+    (Format::SdfAscii, "s_ascii.sdf"),
+    (Format::Sur, "s.sur"),
+    (Format::Npy, "s.npy"),
+    (Format::Csv, "s.csv"),
+];
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/topography").join(name)
+}
+
+/// Not symmetric in any way, with a hole.
+fn sample() -> SurfaceFile {
+    let mut heights: Vec<f64> = (0..35).map(|i| 0.1 * f64::from(i * i % 17) - 0.7).collect();
+    heights[12] = f64::NAN;
+    SurfaceFile {
+        surface: Surface::new(7, 5, 2.0, 3.0, heights).expect("a grid"),
+        notes: vec![
+            ("frame".to_owned(), "x along the tooth, y along the profile; a * and a \"quote\"".to_owned()),
+            ("scene".to_owned(), "[gear]\nmodule_mm = 3.0 # \u{b5}m < > &\n".to_owned()),
+        ],
+    }
+}
+
+fn close(a: &Surface, b: &Surface, share: f64) -> bool {
+    let same = |p: f64, q: f64| (p.is_nan() && q.is_nan()) || (p - q).abs() <= share * 2.0;
+    (a.nx(), a.ny()) == (b.nx(), b.ny())
+        && (a.dx_um() - b.dx_um()).abs() <= share * a.dx_um()
+        && (a.dy_um() - b.dy_um()).abs() <= share * a.dy_um()
+        && a.heights_um().iter().zip(b.heights_um()).all(|(&p, &q)| same(p, q))
+}
+
+#[test]
+fn every_format_gives_back_what_it_was_given_and_the_same_bytes_again() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let given = sample();
+    for (format, name) in FORMATS {
+        let path = folder.path().join(name);
+        write_surface(&path, format, &given).expect("written");
+        let bytes = std::fs::read(&path).expect("there");
+        write_surface(&path, format, &given).expect("written");
+        assert_eq!(std::fs::read(&path).expect("there"), bytes, "{format:?}");
+        let back = read_surface(&path, None).expect("read");
+        let share = if format == Format::Sur { 1e-6 } else { 1e-15 };
+        assert!(close(&back.surface, &given.surface, share), "{format:?}: {:?}", back.surface);
+        if format != Format::Sur {
+            assert_eq!(back.notes, given.notes, "{format:?}");
+        }
+    }
+}
+
+#[test]
+fn the_reference_files_hold_the_reference_surface() {
+    let truth: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(data("formats/truth.json")).expect("a copy")).expect("JSON");
+    let heights: Vec<f64> = truth["heights_m"]
+        .as_array()
+        .expect("rows")
+        .iter()
+        .flat_map(|row| row.as_array().expect("a row"))
+        .map(|z| z.as_f64().expect("a height") * 1e6)
+        .collect();
+    let surface = Surface::new(5, 3, 2.0, 3.0, heights.clone()).expect("a grid");
+    for name in ["tiny_double.x3p", "tiny_int16.x3p", "tiny_double.sdf", "tiny_ascii.sdf", "tiny.sur"] {
+        let read = read_surface(&data("formats").join(name), None).expect(name);
+        assert!(close(&read.surface, &surface, 1e-7), "{name}: {:?}", read.surface);
+    }
+    let mut holed = heights;
+    holed[7] = f64::NAN;
+    let read = read_surface(&data("formats/tiny_nan.x3p"), None).expect("read");
+    assert!(close(&read.surface, &Surface::new(5, 3, 2.0, 3.0, holed).expect("a grid"), 1e-7));
+}
+
+/// Every byte cut off and many bytes changed: a reason, never a panic.
+#[test]
+fn damaged_files_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    for (format, name) in FORMATS {
+        let path = folder.path().join(name);
+        write_surface(&path, format, &sample()).expect("written");
+        let bytes = std::fs::read(&path).expect("there");
+        for length in (0..bytes.len()).step_by(13) {
+            std::fs::write(&path, &bytes[..length]).expect("written");
+            let _refused_or_read = read_surface(&path, None);
+        }
+        for place in (0..bytes.len()).step_by(9) {
+            let mut changed = bytes.clone();
+            changed[place] ^= 0x5a;
+            std::fs::write(&path, &changed).expect("written");
+            let _refused_or_read = read_surface(&path, None);
+        }
+    }
+    let path = folder.path().join("x.x3p");
+    write_surface(&path, Format::X3p, &sample()).expect("written");
+    let mut bytes = std::fs::read(&path).expect("there");
+    bytes.truncate(bytes.len() / 2);
+    std::fs::write(&path, bytes).expect("written");
+    assert!(read_surface(&path, None).expect_err("half a zip").to_string().contains("x.x3p"));
+}
+
+#[test]
+fn spacing_is_needed_once_and_must_not_contradict() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let path = folder.path().join("plain.csv");
+    std::fs::write(&path, "1;2;3\n4;;6\n").expect("written");
+    let reason = read_surface(&path, None).expect_err("no spacing").to_string();
+    assert!(reason.contains("--spacing-um"), "{reason}");
+    let read = read_surface(&path, Some([2.0, 4.0])).expect("spacing given");
+    assert_eq!((read.surface.nx(), read.surface.ny(), read.surface.holes()), (3, 2, 1));
+    let x3p = data("formats/tiny_double.x3p");
+    assert!(read_surface(&x3p, Some([2.0, 3.0])).is_ok());
+    assert!(read_surface(&x3p, Some([2.0, 2.0])).expect_err("contradicts").to_string().contains("2 x 3 um apart"));
+    std::fs::write(&path, "# dx_um = 1\n# dy_um = 1\n1,2\n3,x\n").expect("written");
+    assert!(read_surface(&path, None).expect_err("a word").to_string().contains("line 4: `x`"));
+}

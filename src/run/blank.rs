@@ -1,0 +1,191 @@
+//! The blank field's part of a run: cut, report, results, table.
+
+use crate::cut::cpu::blank;
+use crate::error::Result;
+use crate::gear::generation::Side;
+use crate::job::{CutBlank, Job};
+use crate::measure::blank_report::{self, BlankReport, Damage, LEAST_DEPTH_MM};
+use crate::output::folder::OutputFolder;
+use crate::output::interrupt::Interrupt;
+use crate::output::progress::Progress;
+use crate::output::quantity::Quantity;
+use crate::output::results::{BlankOperationResults, BlankResults, DamageResults};
+use crate::output::table::{Cell, write_table};
+
+/// Distance of the target outline's points: chords of a fillet then miss about 60 nm, a fifteenth of the least depth that is reported.
+const TARGET_SPACING_MM: f64 = 0.02;
+/// What is counted.
+const STROKE_FAULTS: &str = "strokes that are missing, did not cut or were made twice, told from what each stroke removed; operations whose chips are smaller than ten cells of the grid are not judged";
+/// Why there is no target.
+const NO_TARGET: &str = "the target's outline is not known in closed form: the cutter's base shapes the tips";
+
+/// The cut blank and what it says; nothing after Ctrl-C.
+///
+/// # Errors
+/// A field that does not fit in memory.
+pub(super) fn cut(job: &Job, progress: &Progress, interrupt: &Interrupt) -> Result<Option<(CutBlank, BlankReport)>> {
+    let field = job.blank_field()?;
+    let step = progress.step("cut the whole blank", blank::steps(&field) * job.operations.len() as u64, "tiles");
+    let advance = || {
+        step.advance(1);
+        !interrupt.is_raised()
+    };
+    let Some(cut) = job.cut_blank(field, &advance) else { return Ok(None) };
+    step.finish();
+    let target = job.target_outline(TARGET_SPACING_MM).ok();
+    let report = blank_report::measure(job, &cut, target.as_ref());
+    Ok(Some((cut, report)))
+}
+
+/// Names, units and definitions.
+pub(super) fn results(job: &Job, cut: &CutBlank, report: &BlankReport) -> BlankResults {
+    let mean = |families: [f64; 2]| 0.5 * (families[0] + families[1]);
+    let volume = |families: [f64; 2], definition: &'static str| Quantity::number(mean(families), "mm3", definition);
+    let area = |value: Option<f64>, definition: &'static str| Quantity::number_or(value, "mm2", definition, NO_TARGET);
+    let end_face = report.end_face;
+    let imbalance = report.operations.iter().map(blank_report::OperationVolume::imbalance).fold(0.0, f64::max);
+    let rubbing =
+        |stays: bool| -> Vec<Damage> { report.rubbing.iter().filter(|r| r.stays == stays).map(|r| r.damage).collect() };
+    BlankResults {
+        spacing: Quantity::number(cut.field.grid.spacing_mm(), "mm", "distance of the rays through the blank"),
+        slices: Quantity::count(
+            cut.field.slices.len() as u64,
+            "slices",
+            "transverse sections; one stands for the whole face where all are equal",
+        ),
+        blank_volume: volume(
+            report.blank_mm3,
+            "volume of the uncut blank less its bore; mean of both families of rays",
+        ),
+        left_volume: volume(report.left_mm3, "volume that is left after the last operation"),
+        operations: job
+            .operations
+            .iter()
+            .zip(&report.operations)
+            .map(|(operation, removed)| BlankOperationResults {
+                name: operation.spec.name.clone(),
+                removed_volume: volume(removed.by_passes_mm3, "volume that its passes removed, summed pass by pass"),
+            })
+            .collect(),
+        imbalance: Quantity::number(
+            imbalance,
+            "1",
+            "largest difference of an operation between what its passes removed, summed pass by pass, and what is missing from the rays, relative to it",
+        ),
+        end_face_area: Quantity::number(
+            mean(report.left_mm3) / job.scene.gear.face_width_mm,
+            "mm2",
+            "transverse section that is left, mean over the face",
+        ),
+        target_end_face_area: area(
+            end_face.map(|e| e.target_mm2),
+            "area of the target's outline less the bore, from the meshing condition",
+        ),
+        end_face_area_bound: area(
+            end_face.map(|e| e.bound_mm2[0].max(e.bound_mm2[1])),
+            "how far the section may be off because of the rays' distance: half of it times the way of the outline along the rays",
+        ),
+        gouges: damage(&report.gouges, "target material that the last operation took"),
+        interference: damage(&report.interference, "target material that an earlier operation took"),
+        rubbing_on_gear: damage(
+            &rubbing(true),
+            "material that the cutter enters on its way back, on surfaces that stay",
+        ),
+        rubbing_on_stock: damage(
+            &rubbing(false),
+            "material that the cutter enters on its way back, on stock that a later stroke removes",
+        ),
+        stroke_faults: if report.strokes_judged.contains(&true) {
+            Quantity::count(report.stroke_faults.len() as u64, "strokes", STROKE_FAULTS)
+        } else {
+            Quantity::undefined("strokes", STROKE_FAULTS, "no operation takes chips as large as ten cells of the grid")
+        },
+        ray_passes_visited: Quantity::count(
+            report.stats.visited,
+            "pairs",
+            "pairs of ray and pass in which the ray crosses the cutter tooth",
+        ),
+        ray_passes_removing: Quantity::count(report.stats.removing, "pairs", "those of them that removed material"),
+    }
+}
+
+fn damage(places: &[Damage], what: &'static str) -> DamageResults {
+    let deepest = places.iter().max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm));
+    let none = format!("there is none deeper than {LEAST_DEPTH_MM} mm");
+    DamageResults {
+        places: Quantity::count(places.len() as u64, "sides of teeth", format!("{what}, deeper than {LEAST_DEPTH_MM} mm")),
+        deepest: Quantity::number_or(deepest.map(|d| d.depth_mm), "mm", "largest depth along the normal", none.clone()),
+        place: deepest.map_or_else(
+            || Quantity::undefined("", "where it is deepest", none.clone()),
+            |d| {
+                let (tooth, side, zone) = (d.place.tooth, d.place.side.name(), d.place.zone.name());
+                let (height, stroke) = (d.place.height_mm, d.stroke);
+                let text = format!(
+                    "tooth {tooth} {side}, {zone}, {height:.3} mm over the pitch curve, stroke {stroke}, cutter tooth {}",
+                    d.blade
+                );
+                Quantity::text(text, "where it is deepest")
+            },
+        ),
+        volume: Quantity::number(places.iter().map(|d| d.volume_mm3).sum(), "mm3", "volume, all places together"),
+    }
+}
+
+/// `tables/damage.csv`: every place of damage, rubbing and every fault of a stroke.
+///
+/// # Errors
+/// A table that cannot be written.
+pub(super) fn write_table_of_damage(job: &Job, report: &BlankReport, folder: &OutputFolder) -> Result<()> {
+    let columns = [
+        "kind",
+        "operation",
+        "tooth",
+        "side",
+        "zone",
+        "height_mm",
+        "lead_mm",
+        "x_mm",
+        "y_mm",
+        "depth_mm",
+        "volume_mm3",
+        "stroke",
+        "cutter_tooth",
+    ];
+    let row = |kind: &'static str, d: &Damage| -> Vec<Cell> {
+        vec![
+            kind.into(),
+            job.operations[d.operation].spec.name.as_str().into(),
+            d.place.tooth.into(),
+            d.place.side.name().into(),
+            d.place.zone.name().into(),
+            d.place.height_mm.into(),
+            d.lead_mm.into(),
+            d.point_mm.x.into(),
+            d.point_mm.y.into(),
+            d.depth_mm.into(),
+            d.volume_mm3.into(),
+            Cell::Whole(d.stroke as i64),
+            d.blade.into(),
+        ]
+    };
+    let gouges = report.gouges.iter().map(|d| row("gouge", d));
+    let interference = report.interference.iter().map(|d| row("interference", d));
+    let rubbing =
+        report.rubbing.iter().map(|r| row(if r.stays { "rubbing_on_gear" } else { "rubbing_on_stock" }, &r.damage));
+    let strokes = report.stroke_faults.iter().map(|f| {
+        let none = || Cell::from(None::<f64>);
+        let mut cells: Vec<Cell> = vec![
+            f.fault.kind.name().into(),
+            job.operations[f.operation].spec.name.as_str().into(),
+            f.space.into(),
+            Side::Left.name().into(),
+            "space behind the tooth".into(),
+        ];
+        cells.extend((0..6).map(|_| none()));
+        cells.push(Cell::Whole(f.fault.stroke as i64));
+        cells.push(none());
+        cells
+    });
+    let rows: Vec<Vec<Cell>> = gouges.chain(interference).chain(rubbing).chain(strokes).collect();
+    write_table(&folder.path("tables/damage.csv")?, &columns, rows.into_iter())
+}

@@ -1,0 +1,98 @@
+//! What was cut, with what, on which machine.
+
+use crate::job::Job;
+use crate::output::report::{Block, Section, Table};
+use crate::output::text::plain;
+use crate::scene::model::{Gear, Tip};
+use crate::units::UM_PER_MM;
+
+/// The gear in a line.
+pub fn gear_words(gear: &Gear) -> String {
+    format!(
+        "External spur gear, {} teeth, module {} mm, pressure angle {}°, face width {} mm; pitch curve: {}",
+        gear.teeth,
+        plain(gear.module_mm),
+        plain(gear.pressure_angle_rad.to_degrees()),
+        plain(gear.face_width_mm),
+        gear.pitch_curve.words(),
+    )
+}
+
+fn table(caption: &str, rows: Vec<(&str, String)>) -> Block {
+    Block::Table(Table {
+        caption: caption.to_owned(),
+        columns: Vec::new(),
+        rows: rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect(),
+    })
+}
+
+/// Tables of gear, cutter and machine.
+pub fn section(job: &Job) -> Section {
+    let (gear, tool, machine) = (&job.scene.gear, &job.scene.tool, &job.scene.machine);
+    let mm = |value: f64| format!("{} mm", plain(value));
+    let facts = job.curve.facts();
+    let limit = |value: Option<f64>, unit: &str| {
+        value.map_or_else(|| "not given".to_owned(), |v| format!("{} {unit}", plain(v)))
+    };
+    let shape = if facts.convex { "convex" } else { "concave in places" };
+    let tip = match tool.tip {
+        Tip::Sharp => "sharp corners".to_owned(),
+        Tip::Round { radius_mm } => format!("rounds of {}", mm(radius_mm)),
+        Tip::Chamfer { height_mm, angle_rad } => {
+            format!("chamfers {} high at {}°", mm(height_mm), plain(angle_rad.to_degrees()))
+        }
+    };
+    let blocks = vec![
+        table(
+            "Gear",
+            vec![
+                ("Pitch curve", gear.pitch_curve.words()),
+                ("Pitch radius", format!("{:.3} to {:.3} mm", facts.smallest_radius_mm, facts.largest_radius_mm)),
+                ("Smallest radius of curvature", format!("{:.3} mm, {shape}", facts.smallest_curvature_radius_mm)),
+                ("Closing error of the curve", format!("{:.4} µm", UM_PER_MM * job.curve.closure_error_mm())),
+                ("Module, teeth", format!("{}, {}", mm(gear.module_mm), gear.teeth)),
+                ("Pressure angle", format!("{}°", plain(gear.pressure_angle_rad.to_degrees()))),
+                ("Face width, bore", format!("{}, {}", mm(gear.face_width_mm), mm(gear.bore_diameter_mm))),
+                ("Addendum", format!("{} m", plain(gear.addendum_coefficient))),
+                ("Thickness allowance", format!("{} µm", plain(UM_PER_MM * gear.tooth_thickness_allowance_mm))),
+            ],
+        ),
+        table(
+            "Shaper cutter",
+            vec![
+                ("Teeth, pitch radius", format!("{}, {}", tool.teeth, mm(job.cutter.pitch_radius_mm))),
+                (
+                    "Addendum, dedendum",
+                    format!("{} m, {} m", plain(tool.addendum_coefficient), plain(tool.dedendum_coefficient)),
+                ),
+                ("Profile shift", format!("{} m", plain(tool.profile_shift_coefficient))),
+                ("Thinning", format!("{} µm", plain(UM_PER_MM * tool.thinning_mm))),
+                ("Tip", tip),
+                ("Runout", format!("{} µm", plain(UM_PER_MM * tool.runout_mm))),
+                (
+                    "Pitch errors",
+                    if tool.pitch_errors_mm.is_empty() { "none".to_owned() } else { "given for each tooth".to_owned() },
+                ),
+            ],
+        ),
+        table(
+            "Machine",
+            vec![
+                ("Double strokes", format!("{} per minute", plain(machine.double_strokes_per_minute))),
+                ("Approach, overrun", format!("{}, {}", mm(machine.approach_mm), mm(machine.overrun_mm))),
+                ("Back-off on the return stroke", mm(machine.back_off_mm)),
+                ("Work eccentricity", format!("{} µm", plain(UM_PER_MM * machine.work_eccentricity_mm))),
+                (
+                    "Speed limits",
+                    format!(
+                        "work {}, cutter {}, centre distance {}",
+                        limit(machine.limits.work_speed_rad_per_s.map(f64::to_degrees), "°/s"),
+                        limit(machine.limits.cutter_speed_rad_per_s.map(f64::to_degrees), "°/s"),
+                        limit(machine.limits.center_distance_speed_mm_per_s, "mm/s"),
+                    ),
+                ),
+            ],
+        ),
+    ];
+    Section { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
+}

@@ -1,0 +1,87 @@
+//! Keys of the texture windows.
+
+use super::{Default, Key, Kind, Range, Role, Section};
+
+/// `[[texture]]`.
+pub(super) static SECTIONS: &[Section] = &[Section {
+    path: "texture[]",
+    role: Role::List { fewest: 0 },
+    keys: &[
+        Key {
+            name: "tooth",
+            kind: Kind::Whole { min: 1, max: 2000 },
+            unit: "",
+            default: Default::Required,
+            example: "3",
+            teach: "Tooth on which the window lies, counted from 1 at the first one of positive polar angle.",
+        },
+        Key {
+            name: "side",
+            kind: Kind::Word(&["both", "left", "right"]),
+            unit: "",
+            default: Default::Word("both"),
+            example: "\"left\"",
+            teach: "Flank of the tooth; left is the one at the larger arc of the pitch curve.",
+        },
+        Key {
+            name: "center_profile_mm",
+            kind: Kind::Number(Range::closed(0.0, 500.0)),
+            unit: "mm",
+            default: Default::LeftOut("the middle of the flank"),
+            example: "3.0",
+            teach: "Middle of the window along the profile, as arc from the start of the involute.",
+        },
+        Key {
+            name: "center_lead_mm",
+            kind: Kind::Number(Range::closed(-500.0, 500.0)),
+            unit: "mm",
+            default: Default::Number(0.0),
+            example: "0.0",
+            teach: "Middle of the window along the tooth, from the middle of the face.",
+        },
+        length(
+            "length_profile_mm",
+            "the whole flank",
+            "2.0",
+            "Length of the window along the profile; five marks at least make the numbers mean something.",
+        ),
+        length("length_lead_mm", "the whole face", "2.0", "Length of the window along the tooth."),
+        Key {
+            name: "profile_spacing_um",
+            kind: Kind::Number(Range::closed(0.1, 1000.0)),
+            unit: "um",
+            default: Default::LeftOut("fields.flank.profile_spacing_um"),
+            example: "2.0",
+            teach: "Distance of points along the profile, uniform in arc length.",
+        },
+        Key {
+            name: "lead_spacing_um",
+            kind: Kind::Number(Range::closed(0.1, 10000.0)),
+            unit: "um",
+            default: Default::LeftOut("a fiftieth of the length, at least fields.flank.lead_spacing_um"),
+            example: "50.0",
+            teach: "Distance of points along the tooth.",
+        },
+        Key {
+            name: "form",
+            kind: Kind::Word(&["none", "plane", "poly2", "poly2-plus-cylinder"]),
+            unit: "",
+            default: Default::Word("poly2"),
+            example: "\"plane\"",
+            teach: "F-operator: what is taken off the heights over the target flank before texture is evaluated.",
+        },
+    ],
+    groups: &[],
+    teach: "A window on a flank whose surface texture is evaluated after every operation. Without any, the whole flanks of the teeth with the largest and the smallest pitch-curve radius and of tooth 3 are taken.",
+}];
+
+const fn length(name: &'static str, left_out: &'static str, example: &'static str, teach: &'static str) -> Key {
+    Key {
+        name,
+        kind: Kind::Number(Range::above(0.0, 500.0)),
+        unit: "mm",
+        default: Default::LeftOut(left_out),
+        example,
+        teach,
+    }
+}

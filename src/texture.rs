@@ -1,0 +1,148 @@
+//! Surface texture of cut flanks: windows, their heights after every operation, ISO 25178 numbers, files and pictures.
+//!
+//! In: a [`Job`] and a backend. Out: [`WindowTexture`] per window and operation, which goes to `results.json` and into `texture/<operation>/`:
+//!
+//! | file | what |
+//! | --- | --- |
+//! | `tooth_03_left.x3p`, `.sdf`, `.npy`, `.csv` | heights over the target flank, nothing removed |
+//! | `tooth_03_left_relief.png` | heights after the chain, lit from the side, exaggeration stated |
+//! | `tooth_03_left_abbott.png`, `.svg` | material ratio curve with the construction of Sk |
+//!
+//! A window has its own dexels: places uniform in **arc length** along the profile (y) and along the tooth (x), heights along the target's normals. Equal steps of roll angle would make arcs that grow with the
+//! roll, and Sdq, Sdr, Sal and Std wrong with them. The target is subtracted by the dexels themselves; what the F-operator takes off beyond it is named in the chain.
+
+mod chart;
+mod files;
+mod results;
+mod window;
+
+pub use files::write;
+pub use results::{quantities, results};
+pub use window::{Window, windows};
+
+use crate::cut::Backend;
+use crate::dexel::NO_PASS;
+use crate::error::Result;
+use crate::job::Job;
+use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
+use crate::output::interrupt::Interrupt;
+use crate::output::progress::Progress;
+use crate::units::UM_PER_MM;
+use rayon::prelude::*;
+
+/// Marks that a window should hold in a direction in which marks follow each other.
+pub const ENOUGH_MARKS: usize = 5;
+
+/// What one operation left in one window.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WindowTexture {
+    /// The window.
+    pub window: Window,
+    /// Index of the operation.
+    pub operation: usize,
+    /// Heights over the target flank, um; x along the tooth, y along the profile towards the tip; NaN where no pass came. None where none came at all.
+    pub heights: Option<Surface>,
+    /// Marks that follow each other along the tooth and along the profile: `[x, y]`.
+    pub marks: [usize; 2],
+    /// What was evaluated, or why nothing could be.
+    pub evaluated: Result<Evaluated, String>,
+}
+
+/// A window after its chain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evaluated {
+    /// Heights after the chain, um.
+    pub surface: Surface,
+    /// What was done, step by step.
+    pub chain: Vec<String>,
+    /// Parameters, curve, core.
+    pub evaluation: Evaluation,
+}
+
+impl WindowTexture {
+    /// What a reader must know before trusting the numbers.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for (marks, direction) in self.marks.iter().zip(["along the tooth", "along the profile"]) {
+            if (1..ENOUGH_MARKS).contains(marks) {
+                warnings.push(format!(
+                    "the window holds only {marks} marks {direction}; {ENOUGH_MARKS} at least make its numbers representative"
+                ));
+            }
+        }
+        let holes = self.heights.as_ref().map_or(0, Surface::holes);
+        if holes > 0 {
+            warnings.push(format!("no pass reached {holes} points of the window: they are holes"));
+        }
+        warnings
+    }
+}
+
+/// Cuts and evaluates all windows of a job.
+///
+/// # Errors
+/// Geometry and the backend. After Ctrl-C the windows that are finished are returned.
+pub fn measure(
+    job: &Job,
+    backend: &dyn Backend,
+    progress: &Progress,
+    interrupt: &Interrupt,
+) -> Result<Vec<WindowTexture>> {
+    let windows = windows(job)?;
+    let step = progress.step("texture", windows.len() as u64, "windows");
+    let textures: Vec<Vec<WindowTexture>> = windows
+        .par_iter()
+        .map(|window| {
+            let done = if interrupt.is_raised() { Ok(Vec::new()) } else { cut_window(job, backend, window) };
+            step.advance(1);
+            done
+        })
+        .collect::<Result<_>>()?;
+    step.finish();
+    Ok(textures.concat())
+}
+
+/// Cuts one window through all operations and evaluates what each of them left.
+///
+/// # Errors
+/// Geometry and the backend.
+pub fn cut_window(job: &Job, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
+    let generation = job.target_generation();
+    let flank = job.target_flank(&generation, window.tooth, window.side)?;
+    let field = job.field_over(&flank, window.arcs_mm(), window.leads_mm());
+    let (columns, rows) = (field.columns.len(), field.rows());
+    let cut = job.cut(backend, field)?;
+    Ok(cut
+        .layers
+        .iter()
+        .enumerate()
+        .map(|(operation, layer)| {
+            let height = |i: usize| {
+                if layer.passes[i] == NO_PASS { f64::NAN } else { f64::from(layer.heights_mm[i]) * UM_PER_MM }
+            };
+            let heights_um: Vec<f64> = (0..columns * rows).map(height).collect();
+            let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);
+            let heights = Surface::new(rows, columns, dx, dy, heights_um);
+            let marks = [
+                changes(&layer.passes[columns / 2 * rows..(columns / 2 + 1) * rows]),
+                changes(&layer.passes.iter().skip(rows / 2).step_by(rows).copied().collect::<Vec<_>>()),
+            ];
+            let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, window));
+            WindowTexture { window: window.clone(), operation, heights: heights.ok(), marks, evaluated }
+        })
+        .collect())
+}
+
+/// Marks along a line: one more than the changes of the pass that left it; none where a single pass left all.
+fn changes(passes: &[u32]) -> usize {
+    match passes.windows(2).filter(|pair| pair[0] != pair[1]).count() {
+        0 => 0,
+        changes => changes + 1,
+    }
+}
+
+fn evaluate(heights: &Surface, window: &Window) -> Result<Evaluated, String> {
+    let (surface, chain) = Chain::of_form(window.form).apply(heights)?;
+    let evaluation = Evaluation::of(&surface, &Arguments::default());
+    Ok(Evaluated { surface, chain, evaluation })
+}

@@ -1,0 +1,182 @@
+//! Where texture is looked at: the scene's windows, or those that every gear gets.
+//!
+//! Without a `[[texture]]` in the scene, both whole flanks of three teeth are taken: the one with the largest and the one with the smallest pitch-curve radius, where curvature and so the marks differ most, and
+//! tooth 3, which Gao et al. (2017, Fig. 13) measured.
+
+use crate::error::{Refusal, Result};
+use crate::gear::generation::Side;
+use crate::job::Job;
+use crate::measure::topography::Form;
+use crate::scene::model::{TextureWindow, WindowSides};
+
+/// Tooth that the paper measured.
+const PAPER_TOOTH: u32 = 3;
+/// Points along the tooth of a window that does not say otherwise.
+const LEAD_POINTS: f64 = 50.0;
+/// Points that a window may have: some 100 bytes each while it is evaluated.
+const MOST_POINTS: f64 = 4e7;
+
+/// A window on one flank, resolved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Window {
+    /// Tooth, from 1.
+    pub tooth: u32,
+    /// Flank.
+    pub side: Side,
+    /// First point: along the tooth from the middle of the face, and along the profile from the form point, mm.
+    pub start_mm: [f64; 2],
+    /// Distance of points along the tooth and along the profile, mm.
+    step_mm: [f64; 2],
+    /// Points along the tooth and along the profile.
+    pub count: [usize; 2],
+    /// F-operator.
+    pub form: Form,
+}
+
+impl Window {
+    /// Places along the profile, mm from the form point.
+    pub fn arcs_mm(&self) -> impl Iterator<Item = f64> {
+        let (start, step) = (self.start_mm[1], self.step_mm[1]);
+        (0..self.count[1]).map(move |i| start + step * i as f64)
+    }
+
+    /// Places along the tooth, mm from the middle of the face.
+    pub fn leads_mm(&self) -> Vec<f64> {
+        (0..self.count[0]).map(|i| self.start_mm[0] + self.step_mm[0] * i as f64).collect()
+    }
+
+    /// Distance of points along the tooth and along the profile, mm.
+    pub fn spacing_mm(&self) -> [f64; 2] {
+        self.step_mm
+    }
+
+    /// Length along the tooth and along the profile, from the first to the last point, mm.
+    pub fn length_mm(&self) -> [f64; 2] {
+        std::array::from_fn(|k| self.step_mm[k] * (self.count[k] - 1) as f64)
+    }
+
+    /// Middle, mm: along the tooth, along the profile.
+    pub fn center_mm(&self) -> [f64; 2] {
+        let length = self.length_mm();
+        std::array::from_fn(|k| self.start_mm[k] + 0.5 * length[k])
+    }
+}
+
+/// All windows of a job.
+///
+/// # Errors
+/// A tooth that the gear does not have, a window that does not lie on its flank, or one with too few or too many points.
+pub fn windows(job: &Job) -> Result<Vec<Window>> {
+    let asked = if job.scene.textures.is_empty() { default_windows(job) } else { job.scene.textures.clone() };
+    let mut windows = Vec::new();
+    for (index, spec) in asked.iter().enumerate() {
+        let sides = match spec.sides {
+            WindowSides::Left => &[Side::Left][..],
+            WindowSides::Right => &[Side::Right],
+            WindowSides::Both => &[Side::Left, Side::Right],
+        };
+        for &side in sides {
+            windows.push(resolve(job, index, spec, side)?);
+        }
+    }
+    Ok(windows)
+}
+
+fn default_windows(job: &Job) -> Vec<TextureWindow> {
+    let teeth = job.scene.gear.teeth;
+    let pitch_mm = job.curve.perimeter_mm() / f64::from(teeth);
+    // Differences below a nanometre are rounding: a circular gear then takes its first tooth.
+    let radius_nm = |tooth: u32| {
+        let phi = job.curve.phi_at_arc((f64::from(tooth) - 0.5) * pitch_mm);
+        (job.curve.frame(phi).point_mm.length() * 1e6).round() as i64
+    };
+    let largest = (1..=teeth).max_by_key(|&tooth| (radius_nm(tooth), std::cmp::Reverse(tooth))).unwrap_or(1);
+    let smallest = (1..=teeth).min_by_key(|&tooth| (radius_nm(tooth), tooth)).unwrap_or(1);
+    let mut chosen = vec![largest, smallest, PAPER_TOOTH.min(teeth)];
+    chosen.sort_unstable();
+    chosen.dedup();
+    let window = |tooth| TextureWindow {
+        tooth,
+        sides: WindowSides::Both,
+        center_profile_mm: None,
+        center_lead_mm: 0.0,
+        length_profile_mm: None,
+        length_lead_mm: None,
+        profile_spacing_mm: None,
+        lead_spacing_mm: None,
+        form: Form::Poly2,
+    };
+    chosen.into_iter().map(window).collect()
+}
+
+fn resolve(job: &Job, index: usize, spec: &TextureWindow, side: Side) -> Result<Window> {
+    let teeth = job.scene.gear.teeth;
+    let refuse = |name: &str, problem: String, way_out: &str| {
+        Err(Refusal::new(&format!("texture[{index}].{name}"), problem, way_out).into())
+    };
+    if spec.tooth > teeth {
+        return refuse("tooth", format!("the gear has {teeth} teeth"), "name a tooth that the gear has");
+    }
+    let generation = job.target_generation();
+    let flank_mm = job.target_flank(&generation, spec.tooth, side)?.length_mm();
+    let face_mm = job.scene.gear.face_width_mm;
+    let fields = job.scene.fields;
+
+    let span = |center: f64, length: Option<f64>, low: f64, high: f64| {
+        length.map_or([low, high], |length| [center - 0.5 * length, center + 0.5 * length])
+    };
+    let profile = span(spec.center_profile_mm.unwrap_or(0.5 * flank_mm), spec.length_profile_mm, 0.0, flank_mm);
+    let lead = span(spec.center_lead_mm, spec.length_lead_mm, -0.5 * face_mm, 0.5 * face_mm);
+    let where_ = format!("tooth {} {}", spec.tooth, side.name());
+    if profile[0] < -1e-9 || profile[1] > flank_mm + 1e-9 {
+        return refuse(
+            "length_profile_mm",
+            format!(
+                "the window from {:.3} to {:.3} mm does not lie on {where_}, whose flank is {flank_mm:.3} mm long",
+                profile[0], profile[1]
+            ),
+            "make the window shorter, or move its center_profile_mm",
+        );
+    }
+    if lead[0] < -0.5 * face_mm - 1e-9 || lead[1] > 0.5 * face_mm + 1e-9 {
+        return refuse(
+            "length_lead_mm",
+            format!(
+                "the window from {:.3} to {:.3} mm does not lie on the face, which ends at +-{:.3} mm",
+                lead[0],
+                lead[1],
+                0.5 * face_mm
+            ),
+            "make the window shorter, or move its center_lead_mm",
+        );
+    }
+    let length = [lead[1] - lead[0], profile[1] - profile[0]];
+    // A field coarser than the window still gives two rows of points.
+    let step_mm = [
+        spec.lead_spacing_mm.unwrap_or((length[0] / LEAD_POINTS).max(fields.lead_spacing_mm).min(length[0])),
+        spec.profile_spacing_mm.unwrap_or(fields.profile_spacing_mm.min(length[1])),
+    ];
+    let steps = [length[0] / step_mm[0], length[1] / step_mm[1]];
+    // Half a millionth of a step more: lengths that hold whole steps shall not lose the last by rounding.
+    let count = steps.map(|steps| (steps + 5e-7).floor() as usize + 1);
+    for (k, name) in ["lead_spacing_um", "profile_spacing_um"].into_iter().enumerate() {
+        if count[k] < 2 {
+            return refuse(
+                name,
+                format!("the window on {where_} has a single row of points"),
+                "use a smaller spacing or a longer window",
+            );
+        }
+        if (count[0] as f64) * (count[1] as f64) > MOST_POINTS {
+            return refuse(
+                name,
+                format!("the window on {where_} has {} x {} points, more than 40 million", count[0], count[1]),
+                "use a wider spacing or a smaller window",
+            );
+        }
+    }
+    // What is left over of the last step is shared by both ends.
+    let start = |[low, high]: [f64; 2], k: usize| low + 0.5 * ((high - low) - step_mm[k] * (count[k] - 1) as f64);
+    let start_mm = [start(lead, 0), start(profile, 1).max(0.0)];
+    Ok(Window { tooth: spec.tooth, side, start_mm, step_mm, count, form: spec.form })
+}
