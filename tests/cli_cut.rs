@@ -9,13 +9,15 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
-const COARSE: [&str; 6] = [
+const COARSE: [&str; 8] = [
     "--set",
     "fields.flank.profile_spacing_um=50",
     "--set",
     "fields.flank.lead_spacing_um=5000",
     "--set",
     "fields.chips.spacing_mm=0.2",
+    "--set",
+    "picture=[]",
 ];
 
 fn read_json(path: &Path) -> Value {
@@ -136,4 +138,43 @@ fn a_killed_run_leaves_nothing_under_the_final_name() {
     child.kill().expect("killed");
     child.wait().expect("an end");
     assert!(!out.exists());
+}
+
+#[test]
+fn meshes_pictures_and_frames_are_written_and_are_the_same_every_time() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let small = "picture=[{name='gear',width_px=96,height_px=72},{name='mark',view='flank',tooth=3,side='right',\
+                 colour='pass',width_px=96,height_px=72,exr=true}]";
+    let cut = |name: &str| {
+        let out = folder.path().join(name);
+        let arguments = [
+            &["cut", "scenes/shaping/circular_m3_z24.toml", "--quiet", "--backend", "cpu", "--frames", "3", "--out"],
+            &[out.to_str().expect("a path")][..],
+            &COARSE[..4],
+            &["--set", small],
+        ];
+        gearcut(&arguments.concat()).done();
+        files(&out)
+    };
+    let written = cut("a");
+    assert!(written == cut("b"), "the same scene gave other bytes");
+    let bytes = |name: &str| &written.iter().find(|(path, _)| path == Path::new(name)).expect(name).1;
+    assert!(bytes("mesh/gear.stl").starts_with(b"gearcut, mm: gear of circular_m3_z24 "));
+    assert!(bytes("mesh/gear.glb").starts_with(b"glTF\x02\0\0\0"));
+    assert_eq!(written.iter().filter(|(path, _)| path.starts_with("mesh/flanks")).count(), 48);
+    for name in ["pictures/gear.png", "pictures/mark.png", "frames/frame_0003.png"] {
+        let picture = image::load_from_memory(bytes(name)).expect("a PNG").into_rgb8();
+        let colours: std::collections::BTreeSet<_> = picture.pixels().map(|p| p.0).collect();
+        assert!(colours.len() > 50, "{name} shows hardly anything: {} colours", colours.len());
+    }
+    // An animated PNG says in its acTL chunk how many frames it has.
+    let moving = bytes("frames/cut.apng");
+    let control = moving.windows(4).position(|chunk| chunk == b"acTL").expect("an animation");
+    assert_eq!(moving[control + 4..control + 8], 3_u32.to_be_bytes());
+    let map = gearcut::output::exr_map::read_exr_map(&folder.path().join("a/pictures/mark.exr")).expect("an EXR");
+    let names: Vec<&str> = map.channels.iter().map(|channel| channel.name.as_str()).collect();
+    assert_eq!(names, ["depth_mm", "normal_x", "normal_y", "normal_z", "pass_id", "value"]);
+    assert_eq!((map.grid.u.count, map.grid.v.count), (72, 96));
+    let gearcut::output::exr_map::Samples::U32(passes) = &map.channels[4].samples else { panic!("pass ids are whole") };
+    assert!(passes.iter().filter(|&&pass| pass != u32::MAX).count() > 3000);
 }

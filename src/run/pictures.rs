@@ -161,9 +161,10 @@ fn draw_flank(job: &Job, backend: &dyn Backend, picture: &Picture, interrupt: &I
     let extent_mm = picture.extent_mm.unwrap_or(0.6 * target.length_mm());
     let reach_mm = (0.5 * extent_mm).min(0.5 * width_mm);
     let mut field = job.flank_field(&target);
-    let rows = field.leads_mm.len();
-    let inside: Vec<f64> = field.leads_mm.iter().copied().filter(|lead| lead.abs() <= reach_mm).collect();
-    field.leads_mm = if inside.len() >= 2 { inside } else { vec![field.leads_mm[0], field.leads_mm[rows - 1]] };
+    // The dexels' own rows, and one at either side of the picture.
+    field.leads_mm.retain(|lead| lead.abs() < reach_mm);
+    field.leads_mm.insert(0, -reach_mm);
+    field.leads_mm.push(reach_mm);
     let cut = job.cut(backend, field)?;
     let grid = SurfaceGrid::new(&cut.field, &cut.layers, job.scene.fields.profile_spacing_mm);
     let exaggeration = picture.exaggeration.unwrap_or_else(|| exaggeration(&grid));
