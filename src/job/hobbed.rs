@@ -76,7 +76,14 @@ impl<'a> HobCutter<'a> {
     }
 
     /// Rays of a flank with the scene's spacing: target, field, places along profile and tooth.
-    fn field(&self, tooth: u32, side: Side) -> Result<(FlankPatch, SpatialField, [Vec<f64>; 2]), Refusal> {
+    ///
+    /// # Errors
+    /// A flank without a target.
+    pub fn field(
+        &self,
+        tooth: u32,
+        side: Side,
+    ) -> Result<(FlankPatch, SpatialField, [Vec<f64>; 2]), Refusal> {
         let job = self.job;
         let gear = &job.scene.gear;
         let width_mm = gear.face_width_mm;

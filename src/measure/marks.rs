@@ -107,9 +107,14 @@ pub fn lattice(
 ) -> Option<[DVec2; 2]> {
     let starts = linkage.geometry().starts;
     let cycle = (f64::from(gashes) * f64::from(teeth) / starts).round() as i64;
-    let at = |passage: i64| mark(linkage, gashes, flank, passage).map(|m| DVec2::new(m.roll_mm, m.z_mm));
-    let first = at(passage)?;
-    Some([at(passage + 1)? - first, at(passage + cycle)? - first])
+    let at = |turns: f64, passage: i64| {
+        // A cycle later the same space is a whole perimeter further on.
+        let crossing_arc_mm = flank.crossing_arc_mm + turns * linkage.curve().perimeter_mm();
+        let mark = mark(linkage, gashes, &MarkedFlank { crossing_arc_mm, ..*flank }, passage)?;
+        Some(DVec2::new(mark.roll_mm, mark.z_mm))
+    };
+    let first = at(0.0, passage)?;
+    Some([at(0.0, passage + 1)? - first, at(1.0, passage + cycle)? - first])
 }
 
 /// Lengths and angles of steps on a flank.

@@ -93,15 +93,21 @@ pub struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Candidates that may leave the lowest surface somewhere in the region, in their order.
-    pub fn keep(&self, candidates: Vec<Candidate>) -> Vec<Candidate> {
+    /// Candidates that may leave the lowest surface somewhere in the region, in their order, and a height that this surface is certainly below; `ceiling_mm` is such a height of a
+    /// region around this one.
+    pub fn keep(&self, candidates: Vec<Candidate>, ceiling_mm: f64) -> (Vec<Candidate>, f64) {
         let (mut judged, mut unjudged) = (Vec::new(), Vec::new());
         for of_pass in candidates.chunk_by(|a, b| a.pass.pass == b.pass.pass) {
             let pass = &of_pass[0].pass;
             let Some(sweep) = Sweep::new(self.set, pass, self.region.origin_mm, self.region.reach_mm) else {
                 continue;
             };
+            // Boxes first: they cost a tenth of samples, and the ceiling makes them low.
+            let Some(bounds) = self.rake_face_box(&sweep, ceiling_mm) else { continue };
             for candidate in of_pass {
+                if !bounds.meets(&self.edge.segments[candidate.segment]) {
+                    continue;
+                }
                 match self.sample(&sweep, candidate) {
                     Some(Ok(samples)) => judged.push(samples),
                     Some(Err(())) => unjudged.push((sweep, *candidate)),
@@ -109,16 +115,19 @@ impl Judge<'_> {
                 }
             }
         }
-        let ceiling_mm = self.ceiling_mm(&judged);
+        let ceiling_mm = self.ceiling_mm(&judged).min(ceiling_mm);
         let mut kept: Vec<Candidate> = self.undominated(&judged);
         kept.extend(
             unjudged
                 .into_iter()
-                .filter(|(sweep, candidate)| self.may_meet(sweep, &self.edge.segments[candidate.segment], ceiling_mm))
+                .filter(|(sweep, candidate)| {
+                    let bounds = self.rake_face_box(sweep, ceiling_mm);
+                    bounds.is_some_and(|b| b.meets(&self.edge.segments[candidate.segment]))
+                })
                 .map(|(_, candidate)| candidate),
         );
         kept.sort_unstable_by_key(|candidate| (candidate.pass.pass, candidate.segment));
-        kept
+        (kept, ceiling_mm)
     }
 
     /// Samples of one candidate; an error if they do not judge it, nothing if it is clear of the region.
@@ -225,8 +234,8 @@ impl Judge<'_> {
             .collect()
     }
 
-    /// Whether the segment's box meets the rays between their lowest height and a ceiling.
-    fn may_meet(&self, sweep: &Sweep, segment: &Segment, ceiling_mm: f64) -> bool {
+    /// Box in the rake face of all that the rays pass between their lowest height and a ceiling while the blade sweeps; nothing if they pass no rake face.
+    fn rake_face_box(&self, sweep: &Sweep, ceiling_mm: f64) -> Option<RakeFaceBox> {
         let floor_mm = 2.0 * self.region.low_mm;
         let heights_mm = [floor_mm, 0.5 * (floor_mm + ceiling_mm), ceiling_mm];
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -244,18 +253,35 @@ impl Judge<'_> {
                 }
             }
         }
-        if inside == 0 || outside > 0 {
-            return inside > 0;
+        if inside == 0 {
+            return None;
+        }
+        if outside > 0 {
+            return Some(RakeFaceBox { low: [f64::NEG_INFINITY; 2], high: [f64::INFINITY; 2] });
         }
         // Between the samples the way through the rake face bends by no more than the tool's radius makes it.
         let [width_mm, length_mm] = self.region.extent_mm();
         let cell_mm = (0.5 * width_mm).hypot(0.5 * length_mm).max(0.5 * (ceiling_mm - floor_mm));
         let margin_mm = cell_mm * cell_mm / (8.0 * 0.5 * low[0].max(1.0)) + 1e-3;
+        Some(RakeFaceBox { low: low.map(|v| v - margin_mm), high: high.map(|v| v + margin_mm) })
+    }
+}
+
+/// Ranges of the distance from the tool's axis and of the blade's y, mm.
+struct RakeFaceBox {
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl RakeFaceBox {
+    fn meets(&self, segment: &Segment) -> bool {
+        // The chord's box, widened by what the segment's circle has beyond half the chord.
         let center = segment.blade_from_segment.translation_mm.to_array();
-        (0..2).all(|axis| {
-            low[axis] - margin_mm <= center[axis] + segment.reach_mm
-                && high[axis] + margin_mm >= center[axis] - segment.reach_mm
-        })
+        let [x, y] = segment.blade_from_segment.rotation.to_array();
+        let half = 0.5 * (segment.y_range_mm[1] - segment.y_range_mm[0]);
+        let bulge = (segment.reach_mm * segment.reach_mm - half * half).max(0.0).sqrt();
+        let reach = [(half * y).abs() + bulge, (half * x).abs() + bulge];
+        (0..2).all(|axis| self.low[axis] <= center[axis] + reach[axis] && self.high[axis] >= center[axis] - reach[axis])
     }
 }
 

@@ -86,16 +86,23 @@ impl Planner<'_> {
             .into_iter()
             .flat_map(|pass| (0..self.edge.segments.len()).map(move |segment| Candidate { pass, segment }))
             .collect();
-        self.halve(columns, rows, near, &mut plan);
+        self.halve(columns, rows, near, f64::from(self.field.blank_mm.iter().copied().fold(0.0, f32::max)), &mut plan);
         plan
     }
 
-    fn halve(&self, columns: Range<usize>, rows: Range<usize>, candidates: Vec<Candidate>, plan: &mut SweepPlan) {
+    fn halve(
+        &self,
+        columns: Range<usize>,
+        rows: Range<usize>,
+        candidates: Vec<Candidate>,
+        ceiling_mm: f64,
+        plan: &mut SweepPlan,
+    ) {
         let region = Region::new(self.field, columns.clone(), rows.clone());
-        let kept = if self.prune {
-            Judge { set: self.set, edge: self.edge, region: &region }.keep(candidates)
+        let (kept, ceiling_mm) = if self.prune {
+            Judge { set: self.set, edge: self.edge, region: &region }.keep(candidates, ceiling_mm)
         } else {
-            candidates
+            (candidates, ceiling_mm)
         };
         let (tiles_wide, tiles_long) = (columns.len().div_ceil(TILE_COLUMNS), rows.len().div_ceil(TILE_ROWS));
         if tiles_wide == 1 && tiles_long == 1 {
@@ -106,12 +113,12 @@ impl Planner<'_> {
         let [width_mm, length_mm] = region.extent_mm();
         if tiles_long == 1 || (tiles_wide > 1 && 2.5 * width_mm > length_mm) {
             let middle = columns.start + tiles_wide / 2 * TILE_COLUMNS;
-            self.halve(columns.start..middle, rows.clone(), kept.clone(), plan);
-            self.halve(middle..columns.end, rows, kept, plan);
+            self.halve(columns.start..middle, rows.clone(), kept.clone(), ceiling_mm, plan);
+            self.halve(middle..columns.end, rows, kept, ceiling_mm, plan);
         } else {
             let middle = rows.start + tiles_long / 2 * TILE_ROWS;
-            self.halve(columns.clone(), rows.start..middle, kept.clone(), plan);
-            self.halve(columns, middle..rows.end, kept, plan);
+            self.halve(columns.clone(), rows.start..middle, kept.clone(), ceiling_mm, plan);
+            self.halve(columns, middle..rows.end, kept, ceiling_mm, plan);
         }
     }
 
