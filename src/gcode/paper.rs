@@ -7,7 +7,10 @@ use crate::job::{Job, PreparedOperation};
 use crate::output::text::plain;
 use crate::scene::model::{Linkage, PitchCurveShape};
 
-/// The program, or why this form cannot say it.
+/// The program.
+///
+/// # Errors
+/// Why this form cannot say it.
 pub fn text(job: &Job, operation: &PreparedOperation) -> Result<String, String> {
     let PitchCurveShape::Ellipse { order, eccentricity, .. } = job.scene.gear.pitch_curve else {
         return Err("the one-block form knows elliptical pitch curves only; use gcode = \"linear\"".to_owned());

@@ -52,7 +52,7 @@ impl Digits {
     }
 
     fn round(value: f64, digits: usize) -> f64 {
-        let scale = 10_f64.powi(digits as i32);
+        let scale = 10_f64.powf(digits as f64);
         (value * scale).round() / scale
     }
 

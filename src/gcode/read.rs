@@ -25,6 +25,7 @@ pub fn file(path: &Path) -> Result<AxisProgram> {
 }
 
 /// What the blocks so far have said.
+#[expect(clippy::struct_excessive_bools, reason = "modal states of a control are switches")]
 #[derive(Default)]
 struct State {
     position: [Option<f64>; 3],

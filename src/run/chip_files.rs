@@ -20,6 +20,9 @@ use crate::units::UM_PER_MM;
 /// Charts and colours end at this many times the 90th percentile: first strokes into the full blank would flatten everything else.
 const SHOWN_OVER_Q90: f64 = 2.0;
 
+/// A curve of a chart: its name and its value at a stroke.
+type Curve<'a> = (&'a str, &'a dyn Fn(&StrokeChips) -> f64);
+
 /// Writes tables, charts and maps of all operations; `notes` go into the EXR headers.
 ///
 /// # Errors
@@ -124,7 +127,7 @@ fn charts(job: &Job, ledger: &ChipLedger, operation: usize) -> [(&'static str, L
     let schedule = &job.operations[operation].schedule;
     let angles_deg: Vec<f64> =
         (0..strokes.len()).map(|stroke| schedule.state(stroke as f64).psi_c_rad.to_degrees()).collect();
-    let panel = |what: &str, unit: &str, curves: &[(&str, &dyn Fn(&StrokeChips) -> f64)]| {
+    let panel = |what: &str, unit: &str, curves: &[Curve]| {
         let values: Vec<Vec<f64>> = curves.iter().map(|(_, value)| strokes.iter().map(value).collect()).collect();
         let end = shown_end(values.iter().flatten().map(|v| v.abs()));
         let beyond = (0..strokes.len()).filter(|&i| values.iter().any(|v| v[i].abs() > end)).count();

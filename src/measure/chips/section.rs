@@ -73,7 +73,7 @@ impl<'a> Section<'a> {
             let row = RayRow { first_mm: from, spacing_mm, count };
             let mut ends = vec![Vec::new(); count];
             lay(outline_mm, family, &row, |ray, along_mm, _, _| ends[ray].push(along_mm));
-            let rays = ends.into_iter().map(|ends| blank_spans(ends)).collect();
+            let rays = ends.into_iter().map(blank_spans).collect();
             Side {
                 family,
                 row,
