@@ -4,6 +4,7 @@
 
 pub mod crossing;
 pub mod deviation;
+pub mod engagement;
 pub mod flank_report;
 pub mod gear_report;
 pub mod scallop;
