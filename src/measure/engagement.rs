@@ -97,7 +97,9 @@ impl Engagement {
         // Sums in the order of the columns: the same bytes on any number of threads.
         let columns: Vec<Self> = (0..columns).into_par_iter().map(column).collect();
         let mut all = Self::default();
-        columns.iter().for_each(|booked| all.add(booked));
+        for booked in &columns {
+            all.add(booked);
+        }
         all
     }
 }
