@@ -13,6 +13,7 @@ use gearcut::gear::generation::Side;
 use gearcut::gear::rack_generation::{ProfilePart, Rack, RackGeneration};
 use gearcut::linkage::hobbing::marks::{Marks, angle_to_trace_rad, reduced};
 use gearcut::linkage::hobbing::{FeedPath, HobbingAxes, HobbingGeometry, HobbingLaw, HobbingLinkage};
+use gearcut::measure::engagement::Engagement;
 use gearcut::scene::model::{
     EvenMotion, ExtraRotation, GashForm, Hand, Hob as HobSpec, HobSize, LinkageForm, PitchCurveShape, Worm,
 };
@@ -50,13 +51,17 @@ fn ellipse(order: u32, eccentricity: f64, a: Option<f64>, helix: f64, teeth: u32
 
 /// The hob of both papers: module 8, one start, 10 gashes, lead angle 3 deg 19', left-hand.
 fn hob() -> Hob {
+    hob_of_length(132.0)
+}
+
+fn hob_of_length(length_mm: f64) -> Hob {
     let spec = HobSpec {
         starts: 1,
         hand: Hand::Left,
         gashes: 10,
         gash_form: GashForm::Axial,
         size: HobSize::LeadAngle((3.0 + 19.0 / 60.0_f64).to_radians()),
-        length_mm: 132.0,
+        length_mm,
         addendum_coefficient: 1.25,
         dedendum_coefficient: 1.25,
         worm: Worm::Involute,
@@ -500,5 +505,37 @@ fn generating_marks_are_spaced_alike_by_every_law() {
             let arc = |g: f64| linkage.axes::<1>(linkage.time_at_hob_angle(g * per_gash)).arc_mm.value();
             close("arc between gashes", arc(gash + 1.0) - arc(gash), number(&s4["gash_arc"]), 1e-9);
         }
+    }
+}
+
+#[test]
+fn teeth_share_the_work() {
+    let file = data("p14_engagement");
+    let beta = (10.0 + 34.0 / 60.0_f64).to_radians();
+    // The file's grid for one space; coarser for the third-order gear, where every fifth space stands for all 35.
+    for (name, order, eccentricity, spaces, spacing) in
+        [("circle_r142", 1, 0.0, vec![0], 0.2), ("s2_three_lobe", 3, 0.1, vec![0, 5, 10, 15, 20, 25, 30], 0.4)]
+    {
+        let expected = &file[name];
+        let curve = ellipse(order, eccentricity, None, beta, 35);
+        let long_hob = hob_of_length(240.0);
+        let geometry = HobbingGeometry::new(&long_hob, beta, -1.0);
+        let exact = law(EvenMotion::ArcLength, ExtraRotation::Work, LinkageForm::Exact);
+        let feed = FeedPath { start_slide_mm: 75.0, ..FeedPath::steady(900.0, -2.5 / 15.0, 0.0) };
+        let linkage = HobbingLinkage::new(curve.clone(), geometry, exact, 14.661, &feed).unwrap();
+        let target = RackGeneration { curve, rack: rack(beta, -1.0) };
+        let mut all = Engagement::default();
+        for space in &spaces {
+            all.add(&Engagement::of_space(&linkage, &target, &long_hob, *space, 0.0, [10.0, 8.0, spacing]));
+        }
+        let area = all.total_mm2() / spaces.len() as f64;
+        let wanted = number(&expected["area_per_space"]);
+        let mut worst = 0.0_f64;
+        for (j, share) in numbers(&expected["j"]).into_iter().zip(numbers(&expected["share"])) {
+            worst = worst.max((all.share(j as i64) - share).abs());
+        }
+        println!("{name}: area {area:.2} for {wanted:.2} mm2, shares within {worst:.4}, peak {:?}", all.peak());
+        assert!((area / wanted - 1.0).abs() < number(&file["tol_area_rel"]), "{name}: {area} mm2");
+        assert!(worst < number(&file["tol_share_abs"]), "{name}: {worst}");
     }
 }

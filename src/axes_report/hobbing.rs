@@ -2,7 +2,7 @@
 //!
 //! In: a prepared [`HobbingJob`]. Out: [`HobbingAxesReport`] with its text for the terminal, and per operation in `axes/`: `<operation>.csv` (even steps of time over the whole
 //! operation), `<operation>_velocities` over the polar angle and `<operation>_accelerations` over time, both for one cycle in the middle of the cut (as figures 4 and 5 of Liu et al.
-//! 2013 and 5 and 6 of Liu et al. 2015), and `<operation>_path` with slide, shift and infeed.
+//! 2013 and 5 and 6 of Liu et al. 2015), `<operation>_path` with slide, shift and infeed; for the first operation `<operation>_teeth`, how the hob's teeth share the work.
 
 use crate::error::Result;
 use crate::job::HobbingJob;
@@ -10,6 +10,8 @@ use crate::job::hobbing::PreparedHobbing;
 use crate::linkage::dynamics::Peak;
 use crate::linkage::hobbing::peaks::{HobbingPeaks, in_order, peaks};
 use crate::linkage::hobbing::{HobbingAxes, HobbingLaw};
+use crate::measure::engagement::Engagement;
+use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::{Limit, LineChart, LineSeries, Panel};
 use crate::output::progress::duration_text;
@@ -20,6 +22,8 @@ use crate::units::{TURN_RAD, UM_PER_MM};
 
 /// Rows of the axis table per cycle along the pitch curve.
 const ROWS_PER_CYCLE: f64 = 360.0;
+/// Spacing of the points at which the work of the teeth is shared out, modules.
+const ENGAGEMENT_MODULES: f64 = 0.05;
 /// Most rows of the axis table; longer operations get wider steps.
 const MOST_ROWS: f64 = 50_000.0;
 /// Points of a chart.
@@ -244,7 +248,36 @@ impl HobbingAxesReport {
             chart.write_png(&folder.path(format!("axes/{name}_{what}.png"))?)?;
             chart.write_svg(&folder.path(format!("axes/{name}_{what}.svg"))?)?;
         }
+        if self.index == 0 {
+            let chart = self.work_of_teeth(job, operation);
+            chart.write_png(&folder.path(format!("axes/{name}_teeth.png"))?)?;
+            chart.write_svg(&folder.path(format!("axes/{name}_teeth.svg"))?)?;
+        }
         Ok(())
+    }
+
+    /// Share of the first operation's work on every hob tooth: one space in the middle of the face stands for all.
+    fn work_of_teeth(&self, job: &HobbingJob, operation: &PreparedHobbing) -> BarChart {
+        let module_mm = job.scene.gear.module_mm;
+        let depth_mm = job.hob.tip_radius_mm - job.hob.pitch_radius_mm;
+        let grid = [depth_mm, job.blank.addendum_mm, ENGAGEMENT_MODULES * module_mm];
+        let work = Engagement::of_space(&operation.linkage, &job.target, &job.hob, 0, 0.0, grid);
+        let numbered = job.hob.teeth.iter().filter(|tooth| tooth.start == 0);
+        let (categories, values) =
+            numbered.map(|tooth| (tooth.number.to_string(), Some(100.0 * work.share(tooth.passage)))).unzip();
+        BarChart {
+            title: format!(
+                "{} of {}: area that each hob tooth takes, space 0 ({})",
+                self.spec.name,
+                job.scene.name,
+                self.words()
+            ),
+            category_name: "hob tooth along the thread".to_owned(),
+            categories,
+            value_name: "share of the space".to_owned(),
+            unit: "%".to_owned(),
+            series: vec![BarSeries { name: "all starts".to_owned(), values }],
+        }
     }
 
     fn chart(&self, job: &HobbingJob, what: &str, x: [&str; 2], panels: Vec<Panel>) -> LineChart {

@@ -6,6 +6,7 @@ pub mod blank_report;
 pub mod chips;
 pub mod crossing;
 pub mod deviation;
+pub mod engagement;
 pub mod flank_report;
 pub mod gear_place;
 pub mod gear_report;
