@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::scene::Scene;
 use crate::scene::model::Process;
 
-pub use hobbed::{HobbedFlank, HobCutter};
+pub use hobbed::{HobCutter, HobbedFlank};
 pub use hobbing::HobbingJob;
 pub use shaping::{CutFlank, Job, PreparedOperation};
 

@@ -27,13 +27,9 @@ fn patch(name: &str) -> (Case, HobTeeth, SpatialField, Value) {
 
 #[test]
 fn patches_agree_with_the_independent_solver() {
-    for name in [
-        "p09_patch_s2_axial",
-        "p10_patch_s2_diag_VL",
-        "p11_patch_circle",
-        "p12_patch_spur",
-        "p13_patch_s4_ellipse",
-    ] {
+    for name in
+        ["p09_patch_s2_axial", "p10_patch_s2_diag_VL", "p11_patch_circle", "p12_patch_spur", "p13_patch_s4_ellipse"]
+    {
         let (case, passes, field, file) = patch(name);
         let wanted = heights(name, &file);
         let plan = SweepPlan::new(&field, &passes, case.hob.edge());
@@ -91,7 +87,8 @@ fn same_as_brute_force(name: &str, case: &Case, passes: &HobTeeth, field: &Spati
     };
     let [plan, all] = [SweepPlan::new, SweepPlan::brute_force].map(|make| make(field, passes, case.hob.edge()));
     let (few, brute) = (run(&plan), run(&all));
-    let differ = (0..field.len()).filter(|&i| few.heights_mm[i] != brute.heights_mm[i] || few.passes[i] != brute.passes[i]);
+    let differ =
+        (0..field.len()).filter(|&i| few.heights_mm[i] != brute.heights_mm[i] || few.passes[i] != brute.passes[i]);
     let differ: Vec<usize> = differ.collect();
     println!(
         "{name}: {} tiles, {} of {} records, {} dexels differ",

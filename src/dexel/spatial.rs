@@ -38,12 +38,7 @@ pub struct SpatialField {
 
 impl SpatialField {
     /// Field of `columns` by `rows` rays; `ray(column, row)` gives each with the height of the blank's surface along it.
-    pub fn new(
-        columns: usize,
-        rows: usize,
-        low_mm: f64,
-        mut ray: impl FnMut(usize, usize) -> (Ray, f64),
-    ) -> Self {
+    pub fn new(columns: usize, rows: usize, low_mm: f64, mut ray: impl FnMut(usize, usize) -> (Ray, f64)) -> Self {
         let mut field = Self {
             columns,
             rows,

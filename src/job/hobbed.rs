@@ -79,11 +79,7 @@ impl<'a> HobCutter<'a> {
     ///
     /// # Errors
     /// A flank without a target.
-    pub fn field(
-        &self,
-        tooth: u32,
-        side: Side,
-    ) -> Result<(FlankPatch, SpatialField, [Vec<f64>; 2]), Refusal> {
+    pub fn field(&self, tooth: u32, side: Side) -> Result<(FlankPatch, SpatialField, [Vec<f64>; 2]), Refusal> {
         let job = self.job;
         let gear = &job.scene.gear;
         let width_mm = gear.face_width_mm;
@@ -113,7 +109,8 @@ impl<'a> HobCutter<'a> {
             let [i, j] = [x, y].map(|v| (v as usize).min(last - 1));
             let (p, q) = (x - i as f64, y - j as f64);
             let at = |i: usize, j: usize| exits[i * BLANK_PLACES + j];
-            (1.0 - p) * ((1.0 - q) * at(i, j) + q * at(i, j + 1)) + p * ((1.0 - q) * at(i + 1, j) + q * at(i + 1, j + 1))
+            (1.0 - p) * ((1.0 - q) * at(i, j) + q * at(i, j + 1))
+                + p * ((1.0 - q) * at(i + 1, j) + q * at(i + 1, j + 1))
         };
         let shares: Vec<f64> = arcs_mm.iter().map(|&arc| target.share_at(arc)).collect();
         let sections: Vec<_> = leads_mm.iter().map(|&lead| target.section(lead)).collect();

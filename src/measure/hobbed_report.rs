@@ -48,7 +48,7 @@ pub struct HobbedReport {
     pub profile: Option<ProfileDeviation>,
     /// Helix deviations in the middle of the profile.
     pub helix: Option<ProfileDeviation>,
-    /// Dexels that no pass of any operation reached.
+    /// Dexels of the evaluated part that no pass reached. (On the tip's own edge the blank ends where the target does.)
     pub untouched: u64,
 }
 
@@ -70,7 +70,8 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
     };
     let last = flank.layers.len() - 1;
     let line = |points: Vec<(f64, Option<f64>)>| {
-        let points: Option<Vec<(f64, f64)>> = points.into_iter().map(|(place, height)| Some((place, height?))).collect();
+        let points: Option<Vec<(f64, f64)>> =
+            points.into_iter().map(|(place, height)| Some((place, height?))).collect();
         of_points(&points?)
     };
     let (middle_column, middle_row) = (flank.arcs_mm.len() / 2, flank.leads_mm.len() / 2);
@@ -86,7 +87,7 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
         stock: (0..last).map(|layer| over(&|i| Some(at(layer, i)? - at(last, i)?))).collect(),
         profile: line(profile),
         helix: line(helix),
-        untouched: finished.passes.iter().filter(|&&pass| pass == NO_PASS).count() as u64,
+        untouched: dexels().filter(|&i| finished.passes[i] == NO_PASS).count() as u64,
     }
 }
 

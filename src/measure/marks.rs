@@ -63,9 +63,8 @@ pub fn mark(linkage: &HobbingLinkage, gashes: u32, flank: &MarkedFlank, passage:
     let axis = g.hob_axis();
     let parameter_mm = 0.5 * g.starts * g.module_mm / g.lead_angle_rad.cos();
     let gash_rad = TAU * passage as f64 / f64::from(gashes);
-    let roll = |time_s: f64, z: f64| {
-        linkage.axes::<1>(time_s).arc_mm.value() - flank.crossing_arc_mm + h * z * tan_helix
-    };
+    let roll =
+        |time_s: f64, z: f64| linkage.axes::<1>(time_s).arc_mm.value() - flank.crossing_arc_mm + h * z * tan_helix;
     let residuals = |time_s: f64, z: f64| -> DVec2 {
         let axes = linkage.axes::<1>(time_s);
         let c = -e * roll(time_s, z) * cos;
@@ -210,8 +209,10 @@ pub fn autocorrelation_steps(
     };
     let width = 2 * reach[1] + 1;
     // Half a plane of lags, with a border: the other half mirrors it.
-    let lags: Vec<f64> =
-        (-1..=reach[0]).flat_map(|du| (-reach[1]..=reach[1]).map(move |dv| (du, dv))).map(|(du, dv)| correlation(du, dv)).collect();
+    let lags: Vec<f64> = (-1..=reach[0])
+        .flat_map(|du| (-reach[1]..=reach[1]).map(move |dv| (du, dv)))
+        .map(|(du, dv)| correlation(du, dv))
+        .collect();
     let at = |du: i64, dv: i64| lags[((du + 1) * width + dv + reach[1]) as usize];
     let mut peaks: Vec<DVec2> = Vec::new();
     for du in 0..reach[0] {
@@ -223,7 +224,8 @@ pub fn autocorrelation_steps(
             if around.iter().any(|&(i, j)| at(du + i, dv + j) > at(du, dv)) {
                 continue;
             }
-            let vertex = |before: f64, middle: f64, after: f64| 0.5 * (before - after) / (before - 2.0 * middle + after);
+            let vertex =
+                |before: f64, middle: f64, after: f64| 0.5 * (before - after) / (before - 2.0 * middle + after);
             let fine = DVec2::new(
                 du as f64 + vertex(at(du - 1, dv), at(du, dv), at(du + 1, dv)),
                 dv as f64 + vertex(at(du, dv - 1), at(du, dv), at(du, dv + 1)),

@@ -54,13 +54,7 @@ pub struct FlankMaps {
 
 impl FlankMaps {
     /// Takes the dexels nearest to the places of a map with `spacing_mm`; dexels stand at `arcs_mm` along the profile and `leads_mm` along the tooth.
-    pub fn sample(
-        tooth: u32,
-        side: Side,
-        [arcs_mm, leads_mm]: [&[f64]; 2],
-        layers: &[Layer],
-        spacing_mm: f64,
-    ) -> Self {
+    pub fn sample(tooth: u32, side: Side, [arcs_mm, leads_mm]: [&[f64]; 2], layers: &[Layer], spacing_mm: f64) -> Self {
         let rows = leads_mm.len();
         let lengths = [arcs_mm.last().copied().unwrap_or(0.0), leads_mm[rows - 1] - leads_mm[0]];
         let axis = |name: &str, meaning: &str, start_mm: f64, length_mm: f64| {

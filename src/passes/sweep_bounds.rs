@@ -174,7 +174,8 @@ impl Judge<'_> {
         }
         let certain = CELLS.map(|cell| {
             let y = corners(cell).map(|corner| hits[corner].y_mm);
-            let (low, high) = (y.into_iter().fold(f64::INFINITY, f64::min), y.into_iter().fold(-f64::INFINITY, f64::max));
+            let (low, high) =
+                (y.into_iter().fold(f64::INFINITY, f64::min), y.into_iter().fold(-f64::INFINITY, f64::max));
             low - slack(low, high) > y_start && high + slack(low, high) < y_end
         });
         Some(Ok(Samples { candidate: *candidate, hits, certain }))
@@ -190,7 +191,8 @@ impl Judge<'_> {
                     .filter(|samples| samples.certain[cell])
                     .map(|samples| {
                         let heights = samples.hits.map(|hit| hit.height_mm);
-                        let top = corners(CELLS[cell]).map(|c| heights[c]).into_iter().fold(f64::NEG_INFINITY, f64::max);
+                        let top =
+                            corners(CELLS[cell]).map(|c| heights[c]).into_iter().fold(f64::NEG_INFINITY, f64::max);
                         top + bend_mm(&heights)
                     })
                     .fold(blank_mm, f64::min)
@@ -225,9 +227,7 @@ impl Judge<'_> {
             .filter(|(index, k)| {
                 !(0..CELLS.len()).all(|cell| {
                     above(k, &|i| self.region.blank_mm[i], cell)
-                        || rulers[cell]
-                            .iter()
-                            .any(|&r| r != *index && above(k, &|i| judged[r].hits[i].height_mm, cell))
+                        || rulers[cell].iter().any(|&r| r != *index && above(k, &|i| judged[r].hits[i].height_mm, cell))
                 })
             })
             .map(|(_, samples)| samples.candidate)

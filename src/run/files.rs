@@ -194,7 +194,12 @@ pub(super) fn write_stock_sheet(
 }
 
 /// Finished surface of all flanks.
-pub(super) fn write_height_sheet(scene: &str, operation: &str, maps: &[FlankMaps], folder: &OutputFolder) -> Result<()> {
+pub(super) fn write_height_sheet(
+    scene: &str,
+    operation: &str,
+    maps: &[FlankMaps],
+    folder: &OutputFolder,
+) -> Result<()> {
     let to_um = |h: &f32| h * UM_PER_MM as f32;
     let values: Vec<Vec<f32>> = maps
         .iter()

@@ -117,8 +117,16 @@ fn write_flank_table(job: &HobbingJob, gear: &HobbedGear, path: &Path) -> Result
         columns.extend(["smallest", "largest", "mean"].map(|what| format!("{}_{what}_stock_mm", operation.spec.name)));
     }
     let measures = [
-        "lowest_um", "highest_um", "mean_um", "Sq_um", "F_alpha_um", "f_f_alpha_um", "f_H_alpha_um", "F_beta_um",
-        "f_f_beta_um", "f_H_beta_um",
+        "lowest_um",
+        "highest_um",
+        "mean_um",
+        "Sq_um",
+        "F_alpha_um",
+        "f_f_alpha_um",
+        "f_H_alpha_um",
+        "F_beta_um",
+        "f_f_beta_um",
+        "f_H_beta_um",
     ];
     columns.extend(measures.map(str::to_owned));
     let um = |value: Option<f64>| Cell::from(value.map(|v| v * UM_PER_MM));
@@ -150,10 +158,7 @@ fn write_flank_table(job: &HobbingJob, gear: &HobbedGear, path: &Path) -> Result
 
 /// Largest value over all flanks with its flank.
 fn largest(gear: &HobbedGear, value: impl Fn(&HobbedReport) -> Option<f64>) -> Option<(f64, &HobbedReport)> {
-    gear.flanks
-        .iter()
-        .filter_map(|flank| value(flank).map(|v| (v, flank)))
-        .max_by(|a, b| a.0.total_cmp(&b.0))
+    gear.flanks.iter().filter_map(|flank| value(flank).map(|v| (v, flank))).max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 /// Headline quantities by key.
@@ -209,10 +214,7 @@ fn headline(job: &HobbingJob, gear: &HobbedGear) -> Vec<(&'static str, Quantity)
                 "arc per gash squared times sin(alpha_t) cos(beta_b) / (8 rho) where the pitch curve bends most",
             ),
         ),
-        (
-            "profile_deviation",
-            extreme(&|f| f.profile.map(|d| d.total_mm), "largest F_alpha in the middle of the face"),
-        ),
+        ("profile_deviation", extreme(&|f| f.profile.map(|d| d.total_mm), "largest F_alpha in the middle of the face")),
         ("helix_deviation", extreme(&|f| f.helix.map(|d| d.total_mm), "largest F_beta in the middle of the profile")),
         (
             "undercut_flanks",
@@ -307,11 +309,17 @@ pub fn summary(job: &HobbingJob, gear: &HobbedGear, out: &Path, backend: &str) -
     );
     let untouched: u64 = gear.flanks.iter().map(|f| f.untouched).sum();
     if untouched > 0 {
-        sheet.line("warning", format!("{untouched} dexels were reached by no pass: the hob does not cover the whole face"));
+        sheet.line(
+            "warning",
+            format!("{untouched} dexels were reached by no pass: the hob does not cover the whole face"),
+        );
     }
     if work.stats.unconverged > 0 {
         let count = work.stats.unconverged;
-        sheet.line("warning", format!("{count} rays did not converge: their heights may be too large; please report the scene"));
+        sheet.line(
+            "warning",
+            format!("{count} rays did not converge: their heights may be too large; please report the scene"),
+        );
     }
     sheet.line("files", out.display().to_string());
     sheet.into_text()

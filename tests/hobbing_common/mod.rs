@@ -71,7 +71,8 @@ impl Case {
         } else {
             PitchCurveShape::Ellipse { order, eccentricity: get("e"), semi_major_axis_mm: None }
         };
-        let curve = Arc::new(PitchCurve::new(&shape, normal_module_mm / helix_angle_rad.cos(), teeth).expect("a curve"));
+        let curve =
+            Arc::new(PitchCurve::new(&shape, normal_module_mm / helix_angle_rad.cos(), teeth).expect("a curve"));
         let hand = |h: f64| if h > 0.0 { Hand::Right } else { Hand::Left };
         let pressure_angle_rad = get("alpha_n");
         let spec = HobSpec {

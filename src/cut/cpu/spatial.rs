@@ -195,8 +195,7 @@ fn paths(record: &SweepRecord, rays: &Rays) -> Paths {
             let [x, y, z] = record.turn[k][row];
             let from = record.place_mm[k][row];
             for l in 0..LANES {
-                paths.place[k][row][l] =
-                    from + (x * rays.origin[0][l] + y * rays.origin[1][l] + z * rays.origin[2][l]);
+                paths.place[k][row][l] = from + (x * rays.origin[0][l] + y * rays.origin[1][l] + z * rays.origin[2][l]);
                 paths.along[k][row][l] = x * rays.normal[0][l] + y * rays.normal[1][l] + z * rays.normal[2][l];
             }
         }
@@ -249,9 +248,8 @@ fn lower<const TWISTED: bool>(
                 let along = d[0][row][l] + u[l] * (d[1][row][l] + u[l] * d[2][row][l]);
                 let along_u = d[1][row][l] + 2.0 * u[l] * d[2][row][l];
                 p_h[row][l] = along;
-                p[row][l] = c[0][row][l]
-                    + u[l] * (c[1][row][l] + u[l] * (c[2][row][l] + u[l] * c[3][row][l]))
-                    + h[l] * along;
+                p[row][l] =
+                    c[0][row][l] + u[l] * (c[1][row][l] + u[l] * (c[2][row][l] + u[l] * c[3][row][l])) + h[l] * along;
                 let place_u = c[1][row][l] + u[l] * (2.0 * c[2][row][l] + u[l] * (3.0 * c[3][row][l]));
                 p_t[row][l] = u_t[l] * (place_u + h[l] * along_u);
             }

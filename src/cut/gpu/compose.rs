@@ -115,8 +115,7 @@ impl EdgeCells {
             }
         };
         let [from, to] = segment.y_range_mm;
-        base.y_range_mm =
-            [from - END_OVERLAP_MM - base.point.y, to + END_OVERLAP_MM - base.point.y].map(|y| y as f32);
+        base.y_range_mm = [from - END_OVERLAP_MM - base.point.y, to + END_OVERLAP_MM - base.point.y].map(|y| y as f32);
         base
     }
 }

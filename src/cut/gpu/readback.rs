@@ -135,10 +135,8 @@ pub fn send(device: &Device, shipment: &Shipment) -> Result<InFlight, GpuProblem
                 entries: &entries,
             });
             let timestamp_writes = stamps.as_ref().filter(|_| index < timed).map(|s| s.writes(index));
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: Some(shipment.stage),
-                timestamp_writes,
-            });
+            let mut pass = encoder
+                .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(shipment.stage), timestamp_writes });
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &group, &[]);
             let [x, y] = launch.workgroups;

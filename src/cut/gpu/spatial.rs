@@ -123,10 +123,8 @@ fn send(
     let (mut tiles, mut records, mut rays) = (Vec::new(), Vec::new(), Vec::<[f32; ROWS]>::new());
     let mut first_group = 0;
     for tile in plan_tiles {
-        let middle = field.ray(
-            (tile.columns.start + tile.columns.end - 1) / 2,
-            (tile.rows.start + tile.rows.end - 1) / 2,
-        );
+        let middle =
+            field.ray((tile.columns.start + tile.columns.end - 1) / 2, (tile.rows.start + tile.rows.end - 1) / 2);
         let middle = middle.normal.as_vec3();
         tiles.push(SweepTile {
             middle: middle.extend(field.low_mm as f32).to_array(),
