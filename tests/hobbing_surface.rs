@@ -158,7 +158,8 @@ fn feed_and_generating_marks_have_their_closed_heights() {
         let case = Case::new(setup);
         let flank = marked(&case, space, -1.0);
         // The mark nearest to the pitch line, from the kinematics; then straight lines along the tooth and along the profile through it.
-        let around = ((flank.crossing_arc_mm / case.linkage.geometry().arc_per_hob_rad_mm()) / TAU * 10.0).round() as i64;
+        let around =
+            ((flank.crossing_arc_mm / case.linkage.geometry().arc_per_hob_rad_mm()) / TAU * 10.0).round() as i64;
         let at = (around - 4..=around + 4)
             .filter_map(|passage| mark(&case.linkage, 10, &flank, passage))
             .min_by(|a, b| a.roll_mm.abs().total_cmp(&b.roll_mm.abs()))

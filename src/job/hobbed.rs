@@ -79,11 +79,7 @@ impl<'a> HobCutter<'a> {
     ///
     /// # Errors
     /// A flank without a target.
-    pub fn field(
-        &self,
-        tooth: u32,
-        side: Side,
-    ) -> Result<(FlankPatch, SpatialField, [Vec<f64>; 2]), Refusal> {
+    pub fn field(&self, tooth: u32, side: Side) -> Result<(FlankPatch, SpatialField, [Vec<f64>; 2]), Refusal> {
         let job = self.job;
         let gear = &job.scene.gear;
         let width_mm = gear.face_width_mm;

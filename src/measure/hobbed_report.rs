@@ -48,7 +48,7 @@ pub struct HobbedReport {
     pub profile: Option<TraceDeviation>,
     /// Helix deviations in the middle of the profile.
     pub helix: Option<TraceDeviation>,
-    /// Dexels that no pass of any operation reached.
+    /// Dexels of the evaluated part that no pass reached. (On the tip's own edge the blank ends where the target does.)
     pub untouched: u64,
 }
 
@@ -87,7 +87,7 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
         stock: (0..last).map(|layer| over(&|i| Some(at(layer, i)? - at(last, i)?))).collect(),
         profile: line(profile),
         helix: line(helix),
-        untouched: finished.passes.iter().filter(|&&pass| pass == NO_PASS).count() as u64,
+        untouched: dexels().filter(|&i| finished.passes[i] == NO_PASS).count() as u64,
     }
 }
 
