@@ -237,17 +237,28 @@ pub fn cut(
     let results = results::results(&job, &gear, blank, &textures);
     files::write(&job, &gear, &results, &folder, &notes)?;
     texture::write(&job, &textures, &folder, &notes)?;
-    if !gear.interrupted {
-        let solid = meshes::gear(&job, backend, gear.surfaces.clone(), progress)?;
-        meshes::write_gear(&job, &solid, &folder, &notes)?;
-        let drawn = pictures::draw(&job, backend, &solid, progress, interrupt, &folder, &notes)?;
-        if drawn < job.scene.pictures.len() {
-            progress.note(&format!("stopped: {drawn} of {} pictures are drawn", job.scene.pictures.len()));
+    let mut interrupted = whole.is_none();
+    if let Some((cut, _)) = &whole {
+        meshes::write_blank(&job, cut, &folder)?;
+        match meshes::gear(&job, backend, gear.surfaces.clone(), progress) {
+            Ok(solid) => {
+                meshes::write_gear(&job, &solid, &folder, &notes)?;
+                let drawn = pictures::draw(&job, backend, &solid, progress, interrupt, &folder, &notes)?;
+                if drawn < job.scene.pictures.len() {
+                    progress.note(&format!("stopped: {drawn} of {} pictures are drawn", job.scene.pictures.len()));
+                    interrupted = true;
+                }
+            }
+            // What was cut and measured is not lost for a mesh.
+            Err(Error::Refused(refusal)) => progress
+                .note(&format!("mesh/gear.* and its pictures are left out; mesh/blank.ply shows the gear. {refusal}")),
+            Err(error) => return Err(error),
         }
         if let Some(count) = frames {
             let drawn = frames::draw(&job, count, progress, interrupt, &folder)?;
             if drawn < count {
                 progress.note(&format!("stopped: {drawn} of {count} frames are drawn"));
+                interrupted = true;
             }
         }
     }
@@ -255,10 +266,9 @@ pub fn cut(
         progress.note(&note);
     }
     let words = report::RunWords { resolved_scene: &resolved, backend: &backend.name(), backend_why };
-    report::page(&job, &gear, &results, &words)?.write(&folder.path(REPORT_FILE)?)?;
+    report::page(&job, &gear, &results, &words, &folder)?.write(&folder.path(REPORT_FILE)?)?;
     let summary = summary::summary(&job, &gear, &results, out, &backend.name());
     let CutGear { stats, dexels, elapsed, .. } = gear;
-    let interrupted = whole.is_none();
     let results = serde_json::to_value(&results)
         .map_err(|reason| Error::Output { path: out.to_owned(), reason: reason.to_string() })?;
     let done = (results, summary, Work { stats, dexels, elapsed, interrupted });

@@ -120,7 +120,8 @@ fn results(linkage: &str, level: f64, smallest_mm: f64) -> Value {
     json!({
         "schema_version": 1, "program": "gearcut", "program_version": "0.1.0", "scene": "elliptical", "complete": true,
         "period_teeth": PERIOD, "headline": keys.into_iter().map(|(key, value)| (key.to_owned(), value)).collect::<serde_json::Map<_, _>>(),
-        "operations": [operation("rough", linkage, Some(level)), operation("finish", linkage, None)], "teeth": [],
+        "operations": [operation("rough", linkage, Some(level)), operation("finish", linkage, None)],
+        "blank": null, "teeth": [], "texture": [],
     })
 }
 

@@ -9,13 +9,15 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
-const COARSE: [&str; 8] = [
+const COARSE: [&str; 10] = [
     "--set",
     "fields.flank.profile_spacing_um=50",
     "--set",
     "fields.flank.lead_spacing_um=5000",
     "--set",
     "fields.chips.spacing_mm=0.2",
+    "--set",
+    "fields.blank.spacing_mm=0.5",
     "--set",
     "picture=[]",
 ];

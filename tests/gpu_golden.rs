@@ -10,7 +10,7 @@ use gpu_common::*;
 use std::path::Path;
 
 /// FNV-1a over the bits of heights and passes: llvmpipe rounds alike in all its versions, widths and thread counts.
-const GOLDEN: u64 = 0x5d86_024f_77d0_68e5;
+const GOLDEN: u64 = 0x0037_441a_9734_a667;
 
 fn hash(layers: &[Layer]) -> u64 {
     let bits = layers.iter().flat_map(|l| l.heights_mm.iter().map(|h| h.to_bits()).chain(l.passes.iter().copied()));
@@ -28,7 +28,7 @@ fn the_finishing_stock_scene_has_its_golden_bytes() {
     let mut layers = Vec::new();
     for (tooth, side) in [(1, Side::Left), (15, Side::Right)] {
         let flank = job.target_flank(&generation, tooth, side).expect("a flank");
-        layers.extend(job.cut(&gpu, job.flank_field(&flank)).expect("cuts").layers);
+        layers.extend(job.cut_rows(&gpu, &job.flank_field(&flank)).expect("cuts").0);
     }
     let dexels: usize = layers.iter().map(|l| l.passes.len()).sum();
     println!("{dexels} dexels, hash {:#018x}", hash(&layers));

@@ -57,6 +57,7 @@ fn defaults_are_allowed_and_units_stand_in_the_names() {
             "1/min" => "_per_minute",
             "N/mm^2" => "_n_per_mm2",
             "N/mm" => "_n_per_mm",
+            "pixels" => "_px",
             "modules" => "_coefficient",
             "" | "relative to R" => "",
             unit => panic!("{path}: no rule for the unit {unit}"),

@@ -3,7 +3,7 @@
 use crate::cut::Backend;
 use crate::error::Result;
 use crate::gear::generation::Side;
-use crate::job::Job;
+use crate::job::{CutBlank, Job};
 use crate::output::colormap::ColourScale;
 use crate::output::folder::OutputFolder;
 use crate::output::mesh_file::MeshFile;
@@ -14,7 +14,7 @@ use crate::output::progress::Progress;
 use crate::surface::gear_solid::gear_solid;
 use crate::surface::gear_surfaces;
 use crate::surface::outline::{Outline, flank_name};
-use crate::surface::{Mesh, SurfaceGrid};
+use crate::surface::{BlankMesh, Mesh, SurfaceGrid};
 
 /// Heights shown beside each other on meshes of gears that were cut in one operation, µm: what good shaping leaves.
 const HEIGHT_COLOURS_UM: f32 = 5.0;
@@ -55,6 +55,18 @@ pub fn gear(job: &Job, backend: &dyn Backend, flanks: Vec<SurfaceGrid>, progress
     step.finish();
     let outline = Outline::new(&surfaces, &job.blank);
     Ok(gear_solid(&outline, job.scene.gear.bore_diameter_mm)?)
+}
+
+/// Writes `mesh/blank.ply`: the gear as the rays through the blank have it, whatever its shape, with the pass that left every place.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_blank(job: &Job, cut: &CutBlank, folder: &OutputFolder) -> Result<()> {
+    let title = format!("gear of {}, from rays through the blank", job.scene.name);
+    let passes = job.operations.last().map_or(0, |operation| operation.strokes.end_pass());
+    let colour = ("pass_id", ColourScale::Sequential { low: 0.0, high: passes as f32 });
+    let mesh = BlankMesh::new(&cut.field, None).mesh;
+    write_ply(&folder.path("mesh/blank.ply")?, &MeshFile { mesh: &mesh, title: &title, colour, notes: &[] })
 }
 
 /// Writes `mesh/gear.{stl,ply,glb}`; `notes` go into the glTF.

@@ -6,11 +6,13 @@ mod deviations;
 mod facts;
 mod maps;
 mod stock;
+mod texture;
 
 use super::CutGear;
 use crate::axes_report::{self, OperationAxes};
 use crate::error::Result;
 use crate::job::Job;
+use crate::output::folder::OutputFolder;
 use crate::output::progress::duration_text;
 use crate::output::quantity::Quantity;
 use crate::output::report::{Block, KeyNumber, Page, Section, Table};
@@ -31,8 +33,8 @@ pub struct RunWords<'a> {
 /// The page of a run.
 ///
 /// # Errors
-/// No flank is generated on some tooth.
-pub fn page(job: &Job, cut: &CutGear, results: &Results, run: &RunWords) -> Result<Page> {
+/// No flank is generated on some tooth; a picture of the folder cannot be read back.
+pub fn page(job: &Job, cut: &CutGear, results: &Results, run: &RunWords, folder: &OutputFolder) -> Result<Page> {
     let axes = OperationAxes::of_job(job);
     let mut warnings = super::summary::warnings(cut);
     warnings.extend(axes.iter().flat_map(OperationAxes::warnings));
@@ -40,6 +42,7 @@ pub fn page(job: &Job, cut: &CutGear, results: &Results, run: &RunWords) -> Resu
     let warnings = warnings.iter().map(|text| text.replace(" um", " µm").replace(" deg ", "° ")).collect();
     let mut sections = stock::section(job, cut, results).into_iter().collect::<Vec<_>>();
     sections.push(deviations::section(job, cut));
+    sections.extend(texture::section(results, folder)?);
     sections.push(motion(job, results));
     sections.push(facts::section(job));
     sections.push(record(cut, run));

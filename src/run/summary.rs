@@ -98,8 +98,8 @@ fn print_blank(sheet: &mut Sheet, blank: &BlankResults) {
     let kinds = [
         ("gouges", &blank.gouges),
         ("interference", &blank.interference),
-        ("return strokes rub on the gear", &blank.rubbing_on_gear),
-        ("return strokes rub on stock", &blank.rubbing_on_stock),
+        ("return stroke on the gear", &blank.rubbing_on_gear),
+        ("return stroke on stock", &blank.rubbing_on_stock),
     ];
     for (name, damage) in kinds {
         let deepest = damage.deepest.value().map(|mm| format!(", up to {} mm deep", significant(mm, 3)));
