@@ -118,7 +118,7 @@ fn the_surface_shows_the_lattice_of_the_kinematics() {
             let determinant = a.perp_dot(b);
             let (i, j) = ((step.perp_dot(b) / determinant).round(), (a.perp_dot(*step) / determinant).round());
             let apart = length(*step - (i * a + j * b));
-            println!("  {step} = {i} v1 + {j} v2, {:.4} mm off", apart);
+            println!("  {step} = {i} v1 + {j} v2, {apart:.4} mm off");
             assert!(apart < 0.02 * shortest, "{step}: {apart} mm off {i}, {j}");
         }
         // And the shortest ones of both agree.
@@ -235,7 +235,7 @@ fn teeth_take_their_shares() {
         let grid = LedgerGrid { slices_mm: vec![0.0], spacing_mm: 0.5, heights_mm: [-10.5, 8.0] };
         let mut loads = vec![ToothLoad::default(); case.hob.teeth.len()];
         for &space in &spaces {
-            let arc = |z: f64| space as f64 * PI * module + case.gear_hand * case.helix_angle_rad.tan() * z;
+            let arc = |z: f64| f64::from(space) * PI * module + case.gear_hand * case.helix_angle_rad.tan() * z;
             let (of, stats) = of_space(&case.curve, &passes, case.hob.edge(), &grid, PI * module, arc);
             assert_eq!(stats.unconverged, 0);
             for (sum, load) in loads.iter_mut().zip(&of) {

@@ -95,7 +95,7 @@ pub struct Judge<'a> {
 impl Judge<'_> {
     /// Candidates that may leave the lowest surface somewhere in the region, in their order, and a height that this surface is certainly below; `ceiling_mm` is such a height of a
     /// region around this one.
-    pub fn keep(&self, candidates: Vec<Candidate>, ceiling_mm: f64) -> (Vec<Candidate>, f64) {
+    pub fn keep(&self, candidates: &[Candidate], ceiling_mm: f64) -> (Vec<Candidate>, f64) {
         let (mut judged, mut unjudged) = (Vec::new(), Vec::new());
         for of_pass in candidates.chunk_by(|a, b| a.pass.pass == b.pass.pass) {
             let pass = &of_pass[0].pass;

@@ -1,7 +1,7 @@
 //! Tiles of a spatial field and the sweeps that can leave the lowest surface on them.
 //!
 //! A field is halved again and again, down to tiles of 16 by 32 dexels; at every level the passes that the level above has kept are sampled on nine rays, and those go that another
-//! one surely undercuts (see [`super::sweep_bounds`]). A flank hobbed in twenty cycles is reached by some two thousand sweeps; half of them fall in the first halvings,
+//! one surely undercuts (see `sweep_bounds`). A flank hobbed in twenty cycles is reached by some two thousand sweeps; half of them fall in the first halvings,
 //! where a sample stands for a thousand dexels, so that the tiles themselves see a dozen.
 //!
 //! Equality with brute force over all passes is tested bit for bit.
@@ -100,7 +100,7 @@ impl Planner<'_> {
     ) {
         let region = Region::new(self.field, columns.clone(), rows.clone());
         let (kept, ceiling_mm) = if self.prune {
-            Judge { set: self.set, edge: self.edge, region: &region }.keep(candidates, ceiling_mm)
+            Judge { set: self.set, edge: self.edge, region: &region }.keep(&candidates, ceiling_mm)
         } else {
             (candidates, ceiling_mm)
         };

@@ -218,7 +218,7 @@ fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Resu
         ["mean height of cell over the target", "µm"],
         deviation_scale(cut),
         &cut.maps,
-        &cut.maps.iter().map(|m| m.deviation_mm.iter().map(um).collect()).collect::<Vec<_>>(),
+        &cut.maps.iter().map(|m| m.deviation_mm.iter().map(|&height| um(height)).collect()).collect::<Vec<_>>(),
     )?;
     let passes: Vec<Vec<f32>> = cut.maps.iter().map(|m| passes_from_first(&m.passes[last])).collect();
     write_sheet(
@@ -231,7 +231,7 @@ fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Resu
     )
 }
 
-fn um(height_mm: &f32) -> f32 {
+fn um(height_mm: f32) -> f32 {
     height_mm * UM_PER_MM as f32
 }
 
@@ -263,7 +263,9 @@ pub(super) fn write_height_sheet(
 ) -> Result<()> {
     let values: Vec<Vec<f32>> = maps
         .iter()
-        .map(|m| m.highest_mm.last().map_or_else(Vec::new, |heights| heights.iter().map(um).collect()))
+        .map(|m| {
+            m.highest_mm.last().map_or_else(Vec::new, |heights| heights.iter().map(|&height| um(height)).collect())
+        })
         .collect();
     write_sheet(
         &folder.path(format!("pictures/heights_{operation}.png"))?,

@@ -6,7 +6,7 @@
 //! the other family does not know of a crossing (both see the same surface, so only rounding at a node can do that), its middle stands in. Between slices, where sections differ by micrometres, a crossing
 //! is where the straight line between the sections passes the node. Nothing is assumed about the result, and features thinner than the grid are left out.
 //!
-//! **Vertices** stand one per cell and sheet of the surface ([`super::dual_cells`]), where the tangents at the sheet's crossings meet best (dual contouring: Ju et al. 2002): sharp edges stay sharp. They keep inside
+//! **Vertices** stand one per cell and sheet of the surface (`dual_cells`), where the tangents at the sheet's crossings meet best (dual contouring: Ju et al. 2002): sharp edges stay sharp. They keep inside
 //! their cells, so sections of different cells never cross. **Polygons** stand one per crossed edge. In a face whose inside is at two opposite nodes two edges of the mesh could
 //! join the same two vertices; there each gets a vertex of its own in its middle.
 //!

@@ -3,8 +3,8 @@
 //! In: a job and a number of strokes. Out: the section in the middle of the face after exactly these strokes: the blank's outline less every cutter tooth that has passed, none left out. It serves
 //! the pictures of the cut as it happens, where all strokes up to a moment count; what is measured comes from dexels.
 //!
-//! Chords of the cutter's flanks lie within [`CHORD_MM`] of the edge, far below a pixel; clipping is exact on a grid of some nanometres. Teeth are wedges down to the cutter's axis. Strokes are
-//! clipped [`BATCH`] at a time: the union of neighbours is small, while the outline with its thousands of facets is gone through once per batch.
+//! Chords of the cutter's flanks lie within `CHORD_MM` of the edge, far below a pixel; clipping is exact on a grid of some nanometres. Teeth are wedges down to the cutter's axis. Strokes are
+//! clipped `BATCH` at a time: the union of neighbours is small, while the outline with its thousands of facets is gone through once per batch.
 
 use super::mesh::{Mesh, Part};
 use crate::frame::Rigid2;

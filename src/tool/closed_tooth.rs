@@ -4,8 +4,8 @@
 //! run towards the blade's origin, the cutter's axis, to a radius that the blank never reaches; so whatever of the blank lies in the cutter lies in the region of one of
 //! its teeth, and the lines themselves never meet material that the edge has not taken.
 //!
-//! Pieces turn by at most [`PIECE_TURN_RAD`], which makes the chord a good guess for Newton's method and leaves at most one place in a piece where it runs along a ray, and they lie within
-//! [`CUBIC_MM`] of the cubic through their ends, which stands for them in f32 kernels.
+//! Pieces turn by at most `PIECE_TURN_RAD`, which makes the chord a good guess for Newton's method and leaves at most one place in a piece where it runs along a ray, and they lie within
+//! `CUBIC_MM` of the cubic through their ends, which stands for them in f32 kernels.
 
 use super::edge::{Edge, Segment};
 use crate::frame::Rigid2;

@@ -11,7 +11,6 @@
     reason = "the instruction set of the dispatching function holds only for what is inlined into it"
 )]
 #![expect(clippy::needless_bitwise_bool, reason = "lanes are evaluated without branches, or they would not vectorise")]
-#![expect(clippy::needless_range_loop, reason = "lanes of several arrays go together")]
 
 use crate::cut::CutStats;
 use crate::dexel::SpatialField;
@@ -314,7 +313,7 @@ fn lower<const TWISTED: bool>(
             step_t[l] = if falls[l] { newton_t } else { (moment - moment_h * step_h[l]) / moment_t };
             rises[l] += if falls[l] { 0.0 } else { 1.0 };
             h[l] -= step_h[l];
-            t[l] = (t[l] - step_t[l]).max(-LARGEST_T).min(LARGEST_T);
+            t[l] = (t[l] - step_t[l]).clamp(-LARGEST_T, LARGEST_T);
             x_last[l] = x[l] - (x_h[l] * step_h[l] + x_t[l] * step_t[l]);
             y_last[l] = y[l] - (y_h[l] * step_h[l] + y_t[l] * step_t[l]);
         }

@@ -1,6 +1,6 @@
 //! The cutter tooth as the chip ledger sees it: a polygon to cut with, stations to measure at, and a zone for every family of rays.
 //!
-//! In: a blade's [`Edge`]. Out, all in the blade frame: the edge as chords that stay within [`CHORD_MM`] of it, closed through the tool's axis; **stations** in the middle of equal
+//! In: a blade's [`Edge`]. Out, all in the blade frame: the edge as chords that stay within `CHORD_MM` of it, closed through the tool's axis; **stations** in the middle of equal
 //! steps along the edge, with exact point and normal; and the **tip zone**, the part of the tooth that lies nearer to its tip than to its flanks.
 //!
 //! Why zones: a chip of ten micrometres under the tip lies between two rays that run along it, and is seen by one stroke in five. Rays across it see it always. So the chip's area is

@@ -110,6 +110,7 @@ impl Fit {
         });
         let mut matrix = [[0.0; 7]; 6];
         let mut next = 0;
+        #[expect(clippy::needless_range_loop, reason = "both halves of a symmetric matrix are written")]
         for i in 0..6 {
             for j in i..6 {
                 matrix[i][j] = sums[next];

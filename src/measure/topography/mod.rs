@@ -8,10 +8,10 @@
 //! | F-operator, S- and L-filter, crop | [`chain`]: [`form`], [`gaussian`] |
 //! | Sa Sq Ssk Sku Sp Sv Sz | [`height`] |
 //! | Sdq Sdr | [`hybrid`] |
-//! | Sal Str Std Ssw | [`spatial`], from the [`spectrum`] |
+//! | Sal Str Std Ssw | [`spatial`], from the `spectrum` |
 //! | Smr Smc Sdc Sxp Vm Vv Vmp Vmc Vvc Vvv | [`ratio`] |
 //! | Sk Spk Svk Smr1 Smr2 Spkx Svkx Sak1 Sak2 | [`core`] |
-//! | Spd Spc S10z S5p S5v | [`features`], from the [`watershed`] |
+//! | Spd Spc S10z S5p S5v | [`features`], from the `watershed` |
 //! | Ra Rq Rz Rt RSm Rsk Rku Rk Rpk Rvk Mr1 Mr2 | [`profile`] |
 //!
 //! Holes are left out of sums and curves, count as the edge of the map for hills, and keep Std and Ssw from being defined; the autocorrelation divides by the pairs that were measured.

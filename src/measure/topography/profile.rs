@@ -128,7 +128,7 @@ mod tests {
         let heights: Vec<f64> = (0..1000).map(|i| 7.0 + 2.0 * (TAU * (f64::from(i) + 0.3) / 50.0).sin()).collect();
         let profile = Profile::of(&heights, 0.5).expect("a good line");
         let near = |value: f64, closed: f64, share: f64| {
-            assert!((value - closed).abs() <= share * closed, "{value} is not {closed}")
+            assert!((value - closed).abs() <= share * closed, "{value} is not {closed}");
         };
         near(profile.ra, 4.0 / PI, 1e-3);
         near(profile.rq, 2_f64.sqrt(), 1e-3);

@@ -21,6 +21,7 @@ mod sdf_ascii;
 mod sur;
 mod x3p;
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::measure::topography::Surface;
@@ -116,7 +117,7 @@ fn notes_json(notes: &[(String, String)]) -> String {
         } else {
             let mut units = [0; 2];
             for unit in c.encode_utf16(&mut units) {
-                out.push_str(&format!("\\u{unit:04x}"));
+                let _ = write!(out, "\\u{unit:04x}");
             }
         }
     }

@@ -5,6 +5,7 @@
 //!
 //! Read: types D, F, L and I (with increment and offset), validity bits, both revisions. A checksum of `data.bin` where one of `main.xml` should stand is accepted, because a common writer puts it there.
 
+use std::fmt::Write as _;
 use std::io::{Cursor, Read, Write};
 
 use md5::{Digest, Md5};
@@ -107,7 +108,10 @@ fn main_xml(file: &SurfaceFile, data_checksum: &str) -> String {
 
 /// MD5 in lower case.
 fn hex(bytes: &[u8]) -> String {
-    Md5::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    Md5::digest(bytes).iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
 }
 
 pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {

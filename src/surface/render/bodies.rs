@@ -2,7 +2,7 @@
 //!
 //! In: meshes, each with its look. Out: [`Stage`]: one tree over all triangles, normals at their corners, and what a ray finds where it meets one.
 //!
-//! Normals at a corner are the mean, weighted by angles, of the triangles round it that lean less than [`CREASE_RAD`] against this one: flanks look smooth, edges stay sharp, whatever the mesh.
+//! Normals at a corner are the mean, weighted by angles, of the triangles round it that lean less than `CREASE_RAD` against this one: flanks look smooth, edges stay sharp, whatever the mesh.
 
 use super::bvh::{Bvh, Hit};
 use crate::output::colormap::ColourScale;
@@ -11,7 +11,7 @@ use crate::surface::mesh::ScalarValues;
 use glam::DVec3;
 
 /// Triangles that lean more than this against each other meet at an edge: 30 degrees, between the turn of a fillet per 0.1 mm and the corner at a tip.
-const CREASE_RAD: f64 = 0.5236;
+const CREASE_RAD: f64 = std::f64::consts::FRAC_PI_6;
 
 /// How a body looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
