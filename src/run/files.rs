@@ -225,10 +225,18 @@ fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Resu
         &folder.path(format!("pictures/passes_{name}.png"))?,
         &format!("{scene}: the passes of {name} in the order of time, all flanks"),
         ["pass id, counted from the flank's first", "1"],
-        ColourScale::sequential_over(passes.iter().map(Vec::as_slice)),
+        usual_span(&passes),
         &cut.maps,
         &passes,
     )
+}
+
+/// Colours over the span of passes that the middle one of all flanks has: those that the end of the turn meets the start on span all of it.
+fn usual_span(passes: &[Vec<f32>]) -> ColourScale {
+    let largest = |flank: &Vec<f32>| flank.iter().copied().fold(1.0, f32::max);
+    let mut spans: Vec<f32> = passes.iter().map(largest).collect();
+    spans.sort_by(f32::total_cmp);
+    ColourScale::Sequential { low: 0.0, high: spans.get(spans.len() / 2).copied().unwrap_or(1.0) }
 }
 
 fn um(height_mm: f32) -> f32 {
