@@ -3,7 +3,8 @@
 mod common;
 
 use common::*;
-use gearcut::job::Job;
+use gearcut::cut::cpu::Cpu;
+use gearcut::job::{CutBlank, Job};
 use gearcut::material::EdgeForce;
 use gearcut::measure::chips::ChipLedger;
 use gearcut::measure::chips::edge_polygon::EdgeSide;
@@ -16,6 +17,12 @@ use std::f64::consts::TAU;
 
 fn ledger(job: &Job) -> ChipLedger {
     ChipLedger::new(job, &|| true).expect("not stopped")
+}
+
+fn cut_blank(job: &Job) -> CutBlank {
+    job.cut_blank(&Cpu::default(), job.blank_field().expect("fits in memory"), &|| true)
+        .expect("the native backend")
+        .expect("not stopped")
 }
 
 fn round_job(strokes: u32) -> Job {
@@ -94,7 +101,7 @@ fn sections_are_those_of_exact_polygons_stroke_by_stroke() {
 fn the_ledger_and_the_blank_field_take_the_same_volume() {
     let scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 420), operation("finish", NORMAL, 0.0, 420)]);
     let job = Job::new(scene).expect("the paper's gear");
-    let blank = job.cut_blank(job.blank_field().expect("fits in memory"), &|| true).expect("not stopped");
+    let blank = cut_blank(&job);
     let chips = ledger(&job);
     for (index, cut) in blank.cuts.iter().enumerate() {
         let removed = cut.removed_mm3.iter().fold(0.0, |sum, by_family| sum + 0.5 * (by_family[0] + by_family[1]));

@@ -101,7 +101,7 @@ fn look(job: &Job, colour: PictureColour, mesh: &Mesh) -> (Look, Option<Legend<'
     };
     let scale = match (colour, mesh.scalar(name).map(|scalar| &scalar.values)) {
         (PictureColour::Stock, _) => stock_scale(job),
-        (_, Some(ScalarValues::F32(values))) => most_of(values),
+        (_, Some(ScalarValues::F32(values))) => ColourScale::usual_over([values.as_slice()]),
         (_, Some(ScalarValues::U32(values))) => {
             let cut: Vec<f32> = values.iter().filter(|&&v| v != NO_PASS).map(|&v| v as f32).collect();
             ColourScale::sequential_over([cut.as_slice()])
@@ -109,14 +109,6 @@ fn look(job: &Job, colour: PictureColour, mesh: &Mesh) -> (Look, Option<Legend<'
         (_, None) => ColourScale::Sequential { low: 0.0, high: 1.0 },
     };
     (Look::Scalar { name, scale }, Some(Legend { quantity, unit, scale }))
-}
-
-/// Scale over most of the values: the ends that one in fifty exceed are marked at the colour bar.
-fn most_of(values: &[f32]) -> ColourScale {
-    let mut sorted: Vec<f32> = values.iter().copied().filter(|v| v.is_finite()).collect();
-    sorted.sort_unstable_by(f32::total_cmp);
-    let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied().unwrap_or(0.0);
-    ColourScale::Sequential { low: at(0.01), high: at(0.98) }
 }
 
 fn draw_solid(job: &Job, picture: &Picture, solid: &Mesh, interrupt: &Interrupt) -> Result<Drawn> {

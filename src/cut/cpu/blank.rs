@@ -136,6 +136,21 @@ pub fn cut(
     Some(result)
 }
 
+/// Where the return strokes rub on one tile of a slice, its strokes taken from a copy: for backends that know that something rubs there and not where.
+pub(in crate::cut) fn rubs_of_tile(
+    field: &BlankField,
+    [slice, family, first]: [usize; 3],
+    count: usize,
+    operation: &BlankOperation,
+    [passes, returns]: [&[PlacedPass]; 2],
+) -> Vec<Rub> {
+    let grid = &field.grid;
+    let mut rays = field.slices[slice].rays[family][first..first + count].to_vec();
+    let (row, family) = (&grid.rows[family], FAMILIES[family]);
+    let tile = Tile { family, row, first, rays: &mut rays, slice: slice as u32 };
+    tile.cut(operation, passes, returns, grid.spacing_mm() * grid.slice_widths_mm()[slice]).rubs
+}
+
 impl std::ops::AddAssign for BlankStats {
     fn add_assign(&mut self, other: Self) {
         self.visited += other.visited;

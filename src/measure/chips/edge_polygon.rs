@@ -36,7 +36,8 @@ impl EdgeSide {
         }
     }
 
-    fn of(name: SegmentName) -> Self {
+    /// The part that a segment belongs to.
+    pub fn of(name: SegmentName) -> Self {
         match name {
             SegmentName::RootRight | SegmentName::BaseRight | SegmentName::FlankRight => Self::Right,
             SegmentName::CornerRight | SegmentName::Tip | SegmentName::CornerLeft => Self::Tip,
