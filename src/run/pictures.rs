@@ -28,6 +28,12 @@ use std::f64::consts::PI;
 const MARK_SLOPE: f64 = 0.12;
 /// The lamp over a rolled-out flank stands this high, rad: marks that lean by [`MARK_SLOPE`] stay in its light.
 const RAKING_RAD: f64 = 0.28;
+/// Share of that lamp in the light; the rest comes from the sky.
+const RAKING_SHARE: f64 = 0.85;
+/// How far marks take the sky from each other, as a share of the flank: hardly, or every valley would be dark.
+const RAKING_SKY_REACH: f64 = 0.02;
+/// Light that it throws on a white surface without marks: a little more than a studio's, so that both sides of a mark show.
+const RAKING_LIGHT: f64 = 1.08;
 
 /// Draws all pictures of the scene into `pictures/`; how many were finished before Ctrl-C.
 ///
@@ -167,7 +173,8 @@ fn draw_flank(job: &Job, backend: &dyn Backend, picture: &Picture, interrupt: &I
     let camera = Camera::new(middle_mm, towards, DVec3::Y, 1.04 * extent_mm, picture.size_px);
     let stage = Stage::new(vec![Body { mesh: &flat, look }]);
     let lamp = DVec3::new(0.0, RAKING_RAD.cos(), RAKING_RAD.sin());
-    let lights = Lights { lamp, lamp_share: 0.85, sky_reach: 0.02, gain: 1.35 / RAKING_RAD.sin() * 0.8 };
+    let gain = RAKING_LIGHT / RAKING_RAD.sin();
+    let lights = Lights { lamp, lamp_share: RAKING_SHARE, sky_reach: RAKING_SKY_REACH, gain };
     let rendered = render(&stage, &camera, &lights, interrupt)?;
     let side = if picture.side == Side::Left { "left" } else { "right" };
     let title =

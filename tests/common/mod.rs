@@ -30,6 +30,7 @@ pub fn paper_scene(operations: Vec<Operation>) -> Scene {
                 profile_shift_coefficient: 0.0,
                 thinning_mm: 0.0,
                 tip: Tip::Sharp,
+                rake_angle_rad: 0.0,
                 runout_mm: 0.0,
                 runout_angle_rad: 0.0,
                 pitch_errors_mm: Vec::new(),

@@ -14,9 +14,11 @@ use super::edge_polygon::EdgeSide;
 use crate::dexel::field::{Column, Field, NO_PASS};
 use crate::frame::Rigid2;
 use crate::job::{Job, PreparedOperation};
-use crate::passes::near::near_passes;
-use crate::tool::edge::{Edge, Segment};
+use crate::passes::bounds::MAX_PHASES;
+use crate::passes::near::{NearPass, near_passes};
+use crate::tool::edge::{Edge, Segment, SegmentShape};
 use crate::tool::{CuttingTool, PlanarTool};
+use arrayvec::ArrayVec;
 use glam::DVec2;
 
 /// Hits this far beyond a segment's end still count, as in the kernels, mm.
@@ -52,11 +54,14 @@ struct Near {
     operation: usize,
     stroke: usize,
     blade: u32,
-    /// Centre of the blade's circle in the middle of its stroke, gear frame.
-    center_mm: DVec2,
-    /// How far the circle moves along the face, mm.
+    /// Poses of the work in the blade frame at both ends and in the middle of its way along the face, or the only one.
+    blade_from_work: ArrayVec<Rigid2, MAX_PHASES>,
+    /// How far the blade moves meanwhile, mm.
     travel_mm: f64,
 }
+
+/// A set of the blade's segments, one bit each.
+type SegmentSet = u64;
 
 /// The blade's segments, each with the motion into its frame.
 struct Segments<'a> {
@@ -70,13 +75,13 @@ pub fn last_chips(job: &Job, field: &Field) -> Vec<LastChips> {
     let segments = Segments::new(job.cutter.edge());
     let blades: Vec<Rigid2> = (0..job.cutter.blade_count()).map(|b| job.cutter.tool_from_blade(b).inverse()).collect();
     let near = passes_near(job, field);
-    // Passes whose blade's circle meets a column's rays, in order of time.
-    let reaching: Vec<Vec<usize>> = field
+    // Passes whose edge can meet a column's rays, in order of time, and which segments of it.
+    let reaching: Vec<Vec<(usize, SegmentSet)>> = field
         .columns
         .iter()
         .map(|ray| {
-            let meets = |pass: &Near| distance_mm(ray, pass.center_mm) <= segments.edge.reach_mm + pass.travel_mm;
-            (0..near.len()).filter(|&i| meets(&near[i])).collect()
+            let meeting = near.iter().map(|pass| segments.meeting(pass, ray)).enumerate();
+            meeting.filter(|&(_, segments)| segments != 0).collect()
         })
         .collect();
     let mut after: Vec<Vec<Surface>> = vec![Vec::new(); job.operations.len()];
@@ -95,10 +100,9 @@ pub fn last_chips(job: &Job, field: &Field) -> Vec<LastChips> {
             let mut surface = Surface { height_mm: ray.blank_mm, thickness_mm: f64::NAN, side: None, pass: NO_PASS };
             let mut passes = passes.iter().peekable();
             for (operation, after) in after.iter_mut().enumerate() {
-                while let Some(&&i) = passes.peek().filter(|&&&i| near[i].operation == operation) {
+                while let Some(&(i, set)) = passes.next_if(|&&(i, _)| near[i].operation == operation) {
                     let id = job.operations[operation].strokes.pass_id(near[i].stroke, near[i].blade);
-                    segments.lower(&mut surface, &blade_from_work[i], ray, id);
-                    passes.next();
+                    segments.lower(&mut surface, &blade_from_work[i], ray, id, set);
                 }
                 after.push(surface);
             }
@@ -125,22 +129,40 @@ impl<'a> Segments<'a> {
         Self { edge, parts }
     }
 
-    /// Takes one pass from a ray.
-    fn lower(&self, surface: &mut Surface, blade_from_work: &Rigid2, ray: &Column, pass: u32) {
-        let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
-        if direction.perp_dot(self.edge.center_mm - origin).abs() > self.edge.reach_mm {
-            return;
+    /// Segments whose places across a column's rays lie in their range somewhere on the way of a pass.
+    fn meeting(&self, pass: &Near, ray: &Column) -> SegmentSet {
+        let mut set = 0;
+        for blade_from_work in &pass.blade_from_work {
+            let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
+            if direction.perp_dot(self.edge.center_mm - origin).abs() > self.edge.reach_mm + pass.travel_mm {
+                continue;
+            }
+            for (index, (segment, segment_from_blade)) in self.parts.iter().enumerate() {
+                let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
+                let ends = [2.0 * ray.low_mm, ray.blank_mm].map(|h| o.y + h * n.y);
+                let [from, to] = [segment.y_range_mm[0] - pass.travel_mm, segment.y_range_mm[1] + pass.travel_mm];
+                if ends[0].max(ends[1]) >= from - END_OVERLAP_MM && ends[0].min(ends[1]) <= to + END_OVERLAP_MM {
+                    set |= 1 << index;
+                }
+            }
         }
+        set
+    }
+
+    /// Takes one pass from a ray.
+    fn lower(&self, surface: &mut Surface, blade_from_work: &Rigid2, ray: &Column, pass: u32, set: SegmentSet) {
+        let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
         // Kernels follow rays down to twice their lowest height and record the lowest one there.
         let below_mm = 2.0 * ray.low_mm;
         let mut lowest: Option<(f64, f64, EdgeSide)> = None;
-        for (segment, segment_from_blade) in &self.parts {
+        for (segment, segment_from_blade) in
+            self.parts.iter().enumerate().filter(|(index, _)| set & (1 << index) != 0).map(|(_, part)| part)
+        {
             let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
-            let [from, to] = [segment.y_range_mm[0] - END_OVERLAP_MM, segment.y_range_mm[1] + END_OVERLAP_MM];
-            let ends = [below_mm, surface.height_mm].map(|h| o.y + h * n.y);
-            if ends[0].max(ends[1]) < from || ends[0].min(ends[1]) > to {
+            if is_above(segment, o, n, surface.height_mm) {
                 continue;
             }
+            let [from, to] = [segment.y_range_mm[0] - END_OVERLAP_MM, segment.y_range_mm[1] + END_OVERLAP_MM];
             let Some(hit) = segment.enter(o, n).filter(|hit| (from..=to).contains(&hit.y_mm)) else { continue };
             if hit.height_mm > below_mm && lowest.is_none_or(|(h, ..)| hit.height_mm < h) {
                 lowest = Some((hit.height_mm, hit.normal.dot(n).abs(), EdgeSide::of(segment.name)));
@@ -158,21 +180,25 @@ impl<'a> Segments<'a> {
 /// All passes of all operations near a field, in order of time.
 fn passes_near(job: &Job, field: &Field) -> Vec<Near> {
     let (center_mm, reach_mm) = Field::circle(&field.columns);
-    let blade_center_mm = job.cutter.edge().center_mm;
     let of_operation = |(operation, prepared): (usize, &PreparedOperation)| {
         let near = near_passes(&prepared.strokes, &job.cutter, center_mm, reach_mm);
         near.into_iter().map(move |pass| {
-            let places = pass.blade_from_work.iter().map(|pose| pose.inverse().point(blade_center_mm));
-            let center_mm = pass.middle().inverse().point(blade_center_mm);
-            let travel_mm = places.map(|p| p.distance(center_mm)).fold(0.0, f64::max);
-            Near { operation, stroke: pass.stroke, blade: pass.blade, center_mm, travel_mm }
+            let middle = *pass.middle();
+            let strays = |pose: &Rigid2| {
+                let turn = (pose.rotation - middle.rotation).length();
+                pose.point(center_mm).distance(middle.point(center_mm)) + turn * reach_mm
+            };
+            let travel_mm = pass.blade_from_work.iter().map(strays).fold(0.0, f64::max);
+            let NearPass { stroke, blade, blade_from_work } = pass;
+            Near { operation, stroke, blade, blade_from_work, travel_mm }
         })
     };
     job.operations.iter().enumerate().flat_map(of_operation).collect()
 }
 
-/// Distance of a point from a column's rays, from twice their lowest height to the blank.
-fn distance_mm(ray: &Column, point_mm: DVec2) -> f64 {
-    let along_mm = (point_mm - ray.origin_mm).dot(ray.normal).clamp(2.0 * ray.low_mm, ray.blank_mm);
-    (ray.origin_mm + along_mm * ray.normal).distance(point_mm)
+/// Whether a ray that runs into a segment does so above a height, by one look at the segment there: the residual of a convex segment is convex in h, so where it is positive and falls its root lies higher.
+fn is_above(segment: &Segment, o: DVec2, n: DVec2, height_mm: f64) -> bool {
+    let SegmentShape::Table(_) = segment.shape else { return false };
+    let [x, slope] = segment.x_and_slope(o.y + height_mm * n.y);
+    o.x + height_mm * n.x > x && n.x < slope * n.y
 }

@@ -12,6 +12,7 @@
 pub mod edge_polygon;
 pub mod flank;
 pub mod ledger;
+pub mod oblique;
 pub mod section;
 pub mod stroke;
 
