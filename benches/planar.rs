@@ -4,6 +4,11 @@
 //! rates hold for whole cuts, transfers included. Candidates leave four passes for a dexel, so that most of the time may go into bringing dexels to the device and back; the same records
 //! twenty times over show what a pass costs beside that.
 
+#[path = "common/limits.rs"]
+mod limits;
+#[path = "common/mod.rs"]
+mod machine;
+
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
@@ -18,13 +23,12 @@ use gearcut::tool::CuttingTool;
 use std::path::Path;
 
 fn planar(criterion: &mut Criterion) {
-    let mut backends: Vec<(String, Box<dyn Backend>)> = vec![("native".into(), Box::new(Cpu::default()))];
-    for adapter in adapters() {
-        match Gpu::on(&adapter, GpuOptions::default()) {
-            Ok(gpu) => backends.push((adapter.facts.name, Box::new(gpu))),
-            Err(problem) => eprintln!("left out: {problem}"),
-        }
-    }
+    println!(
+        "{}; limits measured here: {:.1e} f64 operations/s, {:.1} GB/s to and from memory",
+        machine::machine(),
+        limits::operations_per_s(),
+        limits::memory_bytes_per_s() * 1e-9
+    );
     for feed_during_stroke in [true, false] {
         let mut scene = load(Path::new("scenes/shaping/elliptical_normal.toml"), &[]).expect("the shipped scene").scene;
         for operation in &mut scene.shaping_mut().expect("shaping").operations {
@@ -38,7 +42,7 @@ fn planar(criterion: &mut Criterion) {
         for (name, plan) in
             [(kind.to_owned(), plan.clone()), (format!("{kind}, records 20 times over"), repeated(&plan, 20))]
         {
-            compare(criterion, &name, &job, &field, &plan, &backends);
+            compare(criterion, &name, &job, &field, &plan);
         }
     }
 }
@@ -54,18 +58,19 @@ fn repeated(plan: &CutPlan, times: usize) -> CutPlan {
     CutPlan { tiles: tiles.collect(), records, row_phases: plan.row_phases.clone() }
 }
 
-fn compare(
-    criterion: &mut Criterion,
-    group: &str,
-    job: &Job,
-    field: &Field,
-    plan: &CutPlan,
-    backends: &[(String, Box<dyn Backend>)],
-) {
+fn compare(criterion: &mut Criterion, group: &str, job: &Job, field: &Field, plan: &CutPlan) {
+    // Opened anew, so that stage times are this group's.
+    let mut backends: Vec<(String, Box<dyn Backend>)> = vec![("native".into(), Box::new(Cpu::default()))];
+    for adapter in adapters() {
+        match Gpu::on(&adapter, GpuOptions::default()) {
+            Ok(gpu) => backends.push((adapter.facts.name, Box::new(gpu))),
+            Err(problem) => eprintln!("left out: {problem}"),
+        }
+    }
     let mut group = criterion.benchmark_group(group);
     group.throughput(Throughput::Elements(plan.dexel_passes())).sample_size(10);
     println!("{} dexels, {} dexel-passes, {} records", field.len(), plan.dexel_passes(), plan.records.len());
-    for (name, backend) in backends {
+    for (name, backend) in &backends {
         group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
             bencher.iter(|| {
                 let mut layer = field.blank_layer();
