@@ -76,8 +76,8 @@ fn a_device_lost_in_the_middle_of_a_flank_loses_nothing() {
     };
     let mut lost = 0;
     for delay_ms in [1, 5, 20, 50] {
-        // So little memory that the flank goes through in hundreds of batches.
-        let gpu = software_gpu(redoing(Some(100_000)));
+        // So little memory that the flank goes through in many batches.
+        let gpu = software_gpu(redoing(Some(120_000)));
         let mut layer = field.blank_layer();
         std::thread::scope(|scope| {
             scope.spawn(|| {

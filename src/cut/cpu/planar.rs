@@ -24,8 +24,8 @@ use glam::DVec2;
 const LANES: usize = 16;
 /// Newton steps at most; from the tile's middle two suffice, a dozen serve rays that graze.
 const MAX_STEPS: usize = 16;
-/// A step below this ends the iteration: the error after it is its square.
-const LAST_STEP_MM: f64 = 1e-8;
+/// A step below this (10 nm) is the last one: the error after it is its square times half the bend of the edge along the ray, 5e-11 mm where the radius is 1 mm.
+const LAST_STEP_MM: f64 = 1e-5;
 /// Hits this far beyond a segment's end still count: neighbouring segments then leave no slit for a ray to slip through.
 const END_OVERLAP_MM: f64 = 1e-9;
 
@@ -189,7 +189,7 @@ fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_m
         let on_segment = (rays.y0[l] + h[l] * rays.ny[l] >= y_from - END_OVERLAP_MM)
             & (rays.y0[l] + h[l] * rays.ny[l] <= y_to + END_OVERLAP_MM)
             & (rate[l] < 0.0);
-        let converged = step[l].abs() < 1e-6;
+        let converged = step[l].abs() < LAST_STEP_MM;
         entries.hit[l] = on_segment & converged;
         entries.unconverged[l] = on_segment & !converged & (rises[l] < 2.0);
     }
