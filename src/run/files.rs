@@ -203,7 +203,7 @@ fn passes_from_first(ids: &[u32]) -> Vec<f32> {
     ids.iter().map(|&id| if id == NO_PASS { f32::NAN } else { (id - first) as f32 }).collect()
 }
 
-/// All flanks on one picture: stock of each earlier operation; heights, deviations and passes after the last.
+/// All flanks on one picture: stock of each earlier operation; heights, deviations, passes and their chips after the last.
 fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Result<()> {
     let last = job.operations.len() - 1;
     let scales = super::map_operations(job);
@@ -228,6 +228,16 @@ fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Resu
         usual_span(&passes),
         &cut.maps,
         &passes,
+    )?;
+    let chips_um = |map: &FlankMaps| map.chips.last().map(|chips| chips.thickness_mm.iter().map(|&h| um(h)).collect());
+    let chips: Vec<Vec<f32>> = cut.maps.iter().filter_map(chips_um).collect();
+    write_sheet(
+        &folder.path(format!("pictures/chip_thickness_{name}.png"))?,
+        &format!("{scene}: chips that left the finished surface, all flanks"),
+        ["uncut chip thickness", "µm"],
+        ColourScale::usual_over(chips.iter().map(Vec::as_slice)),
+        &cut.maps,
+        &chips,
     )
 }
 

@@ -21,8 +21,9 @@ mod spatial;
 pub mod sweep_records;
 
 use super::cpu::Cpu;
+use super::cpu::blank::{BlankCut, BlankOperation};
 use super::{Backend, CutStats, StageTime};
-use crate::dexel::{Field, Layer, SpatialField};
+use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
 use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
@@ -289,6 +290,22 @@ impl Backend for Gpu {
             |layer| self.cut_on_device(field, edge, plan, layer),
             |layer| self.native.cut(field, edge, plan, layer),
         )
+    }
+
+    fn cut_blank(
+        &self,
+        field: &mut BlankField,
+        operation: &BlankOperation,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<BlankCut>, Error> {
+        match self.cut_blank_on_device(field, operation, None, advance) {
+            Ok(cut) => Ok(cut),
+            Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
+            Err(problem) => {
+                self.log().incidents.push(format!("{problem}; the blank is cut again on {}", self.native.name()));
+                self.native.cut_blank(field, operation, advance)
+            }
+        }
     }
 
     fn cut_spatial(

@@ -118,8 +118,8 @@ pub struct BlankPass {
     pub part_count: u32,
     /// Id of the pass.
     pub pass_id: u32,
-    /// Nothing.
-    pub padding: u32,
+    /// 1: a return stroke, which takes nothing.
+    pub returns: u32,
 }
 
 /// Part of a tooth's outline that runs one way across the rays: cubics in a parameter from 0 to 1.
