@@ -3,7 +3,6 @@
 import json
 import os
 import subprocess
-import sys
 import tempfile
 import time
 import warnings
@@ -26,11 +25,11 @@ ARGUMENTS = {"Smc": (10,)}
 ROUNDS = 2
 
 
-def main(root):
+def main():
     folder = tempfile.mkdtemp(prefix="gearcut_texture_")
     path = os.path.join(folder, "map.npy")
     command = ["cargo", "bench", "--quiet", "--bench", "texture", "--", "--json", "--map", path]
-    ours = json.loads(subprocess.run(command, cwd=root, check=True, capture_output=True, text=True).stdout)
+    ours = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout)
     z = np.load(path)
     print(f"full set in gearcut: {ours['all']:.0f} ms")
     print(f"{'parameter':10s} {'gearcut ms':>11s} {'surfalize ms':>13s} {'ratio':>7s}")
@@ -56,4 +55,4 @@ def main(root):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main()
