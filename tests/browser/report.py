@@ -26,6 +26,7 @@ def main(report, pictures, chromium):
         check_text(wide)
         check_gear(wide)
         check_picker(wide)
+        check_tables_and_pictures(wide)
         keep_pictures(wide, "wide_light")
         check_print(wide, pictures / "print.pdf")
         wide.close()
@@ -235,6 +236,21 @@ def check_picker(opened):
     canvas.scroll_into_view_if_needed()
     canvas.click()
     page.wait_for_function("(title) => document.getElementById('map-title').textContent === title", arg=title, timeout=20_000)
+
+
+def check_tables_and_pictures(opened):
+    """On a wide screen nothing is hidden at the side, and every picture is one."""
+    page = opened.page
+    page.evaluate("document.querySelectorAll('details').forEach((folded) => { folded.open = true; })")
+    hidden = page.evaluate(
+        """[...document.querySelectorAll(".table, .first-parameters, .plot, .picture")]
+            .filter((box) => box.scrollWidth > box.clientWidth + 1)
+            .map((box) => box.ariaLabel ?? box.closest("section").id)"""
+    )
+    assert not hidden, f"too wide for the screen: {hidden}"
+    pictures = page.evaluate("[...document.images].map((picture) => picture.complete && picture.naturalWidth > 600)")
+    assert pictures and all(pictures), f"a picture is empty: {pictures}"
+    page.evaluate("document.querySelectorAll('details').forEach((folded) => { folded.open = false; })")
 
 
 def check_print(opened, path):
