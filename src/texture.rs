@@ -1,6 +1,6 @@
 //! Surface texture of cut flanks: windows, their heights after every operation, ISO 25178 numbers, files and pictures.
 //!
-//! In: a [`Job`] and a backend. Out: [`WindowTexture`] per window and operation, which goes to `results.json` and into `texture/<operation>/`:
+//! In: a [`GearJob`] and a backend. Out: [`WindowTexture`] per window and operation, which goes to `results.json` and into `texture/<operation>/`:
 //!
 //! | file | what |
 //! | --- | --- |
@@ -23,7 +23,7 @@ pub use window::{Window, windows};
 use crate::cut::Backend;
 use crate::dexel::NO_PASS;
 use crate::error::Result;
-use crate::job::Job;
+use crate::job::GearJob;
 use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
 use crate::output::interrupt::Interrupt;
 use crate::output::progress::Progress;
@@ -83,7 +83,7 @@ impl WindowTexture {
 /// # Errors
 /// Geometry and the backend. After Ctrl-C the windows that are finished are returned.
 pub fn measure(
-    job: &Job,
+    job: &dyn GearJob,
     backend: &dyn Backend,
     progress: &Progress,
     interrupt: &Interrupt,
@@ -106,14 +106,11 @@ pub fn measure(
 ///
 /// # Errors
 /// Geometry and the backend.
-pub fn cut_window(job: &Job, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
-    let generation = job.target_generation();
-    let flank = job.target_flank(&generation, window.tooth, window.side)?;
-    let field = job.field_over(&flank, window.arcs_mm(), window.leads_mm());
-    let (columns, rows) = (field.columns.len(), field.rows());
-    let cut = job.cut(backend, field)?;
-    Ok(cut
-        .layers
+pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
+    let (arcs_mm, leads_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.leads_mm());
+    let (columns, rows) = (arcs_mm.len(), leads_mm.len());
+    let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &leads_mm)?;
+    Ok(layers
         .iter()
         .enumerate()
         .map(|(operation, layer)| {

@@ -54,11 +54,11 @@ pub struct HobbedReport {
 
 /// Measures a cut flank.
 pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
-    let [columns, rows] = [flank.arcs_mm.len(), flank.leads_mm.len()].map(inner);
+    let [columns, rows] = [flank.rays.arcs_mm.len(), flank.rays.leads_mm.len()].map(inner);
     let finished = flank.layers.last().expect("at least one operation");
     let dexels = || {
         let rows = rows.clone();
-        columns.clone().flat_map(move |column| rows.clone().map(move |row| flank.field.index(column, row)))
+        columns.clone().flat_map(move |column| rows.clone().map(move |row| flank.rays.field.index(column, row)))
     };
     let over = |height: &dyn Fn(usize) -> Option<f64>| {
         let values: Option<Vec<f64>> = dexels().map(height).collect();
@@ -74,21 +74,29 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
             points.into_iter().map(|(place, height)| Some((place, height?))).collect();
         of_points(&points?)
     };
-    let (middle_column, middle_row) = (flank.arcs_mm.len() / 2, flank.leads_mm.len() / 2);
-    let profile = columns.clone().map(|c| (flank.arcs_mm[c], at(last, flank.field.index(c, middle_row)))).collect();
-    let helix = rows.clone().map(|r| (flank.leads_mm[r], at(last, flank.field.index(middle_column, r)))).collect();
+    let (middle_column, middle_row) = (flank.rays.arcs_mm.len() / 2, flank.rays.leads_mm.len() / 2);
+    let profile =
+        columns.clone().map(|c| (flank.rays.arcs_mm[c], at(last, flank.rays.field.index(c, middle_row)))).collect();
+    let helix =
+        rows.clone().map(|r| (flank.rays.leads_mm[r], at(last, flank.rays.field.index(middle_column, r)))).collect();
     HobbedReport {
         tooth,
         side,
         form_height_mm: flank.target.form_height_mm,
         undercut: flank.target.undercut,
-        length_mm: flank.arcs_mm.last().copied().unwrap_or(0.0),
+        length_mm: flank.rays.arcs_mm.last().copied().unwrap_or(0.0),
         finished: over(&|i| at(last, i)),
         stock: (0..last).map(|layer| over(&|i| Some(at(layer, i)? - at(last, i)?))).collect(),
         profile: line(profile),
         helix: line(helix),
         untouched: dexels().filter(|&i| finished.passes[i] == NO_PASS).count() as u64,
     }
+}
+
+/// Ends of the evaluated part of a length, mm.
+pub fn evaluated_mm([from_mm, to_mm]: [f64; 2]) -> [f64; 2] {
+    let margin_mm = MARGIN * (to_mm - from_mm);
+    [from_mm + margin_mm, to_mm - margin_mm]
 }
 
 /// Indices without the margins.

@@ -54,7 +54,7 @@ pub fn page(job: &Job, cut: &CutGear, results: &Results, run: &RunWords, folder:
         program: format!("gearcut {}", env!("CARGO_PKG_VERSION")),
         key_numbers: key_numbers(results, cut),
         warnings,
-        viewer: Some(maps::viewer(job, cut)?),
+        viewer: Some(maps::viewer(job, &cut.maps)?),
         sections,
     })
 }
