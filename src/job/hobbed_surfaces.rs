@@ -1,7 +1,7 @@
 //! Surfaces of a hobbed gear, as meshes, pictures and texture ask for them.
 //!
 //! Everything stands section by section along the tooth, each section's rays turned with the helix. Roots are taken along the normals of the target's fillet and root curve, tips along the normals of the
-//! pitch curve; a tip ray that no pass reached says that the blank's own surface stands there.
+//! pitch curve; they are cut only by a hob that tops the gear, and otherwise the blank's own surface stands there. The linkage as printed destroys flanks and tips alike: [`crate::run`] makes no closed body of it.
 
 use super::gear_job::{GearJob, Profile, band_mm, leads_mm};
 use super::hobbed::HobCutter;
@@ -156,11 +156,22 @@ impl GearJob for HobCutter<'_> {
         let [from, to] = ends[ends.len() / 2];
         let arcs_mm = (0..count as usize).map(|column| (to - from) * share(column)).collect();
         let rays = PlacedRays { field, arcs_mm, leads_mm };
-        self.surface(backend, &rays, job.scene.output.mesh_spacing_mm).map(Some)
+        let spacing_mm = job.scene.output.mesh_spacing_mm;
+        if self.tops_the_gear() {
+            return self.surface(backend, &rays, spacing_mm).map(Some);
+        }
+        Ok(Some(SurfaceGrid::new(&rays, &[rays.field.blank_layer()], spacing_mm)))
     }
 }
 
 impl HobCutter<'_> {
+    /// Whether the hob's roots come down to the blank's outline at full depth. If they do not, no edge reaches a tip land: it is highest over the hob where it passes the pitch point.
+    fn tops_the_gear(&self) -> bool {
+        let dedendum = self.job.scene.hobbing().map_or(0.0, |hobbing| hobbing.tool.dedendum_coefficient);
+        let deepest_mm = self.job.operations.iter().map(|o| o.offset_mm).fold(f64::INFINITY, f64::min);
+        dedendum * self.job.scene.gear.module_mm + deepest_mm <= self.job.blank.addendum_mm
+    }
+
     /// Root of the space after tooth `space` in every section.
     fn roots(&self, space: u32, spacing_mm: f64, leads_mm: &[f64]) -> Result<Vec<Vec<RackRootPoint>>> {
         let job = self.job;

@@ -105,7 +105,9 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools, out: &Path) -> Result<(Value,
     let results = results::results(&cutter, &gear, &textures)?;
     files::write(&cutter, &gear, &results, folder, notes)?;
     texture::write(&cutter, &textures, folder, notes)?;
-    if !gear.work.interrupted {
+    if job.operations.iter().any(|operation| operation.linkage.law().is_as_printed()) {
+        progress.note("mesh/gear.* and pictures of the gear are left out: what the linkage as printed leaves has no flanks to join");
+    } else if !gear.work.interrupted {
         let surfaces = std::mem::take(&mut gear.surfaces);
         gear.work.interrupted = !write_meshes_and_pictures(&cutter, surfaces, tools)?;
     }
