@@ -1,13 +1,14 @@
 //! What is printed when a hobbed gear is done.
 
-use super::HobbedGear;
 use super::results::headline;
+use super::{HobbedGear, marks, points};
 use crate::job::HobbingJob;
+use crate::measure::marks::MarkLattice;
 use crate::output::text::{Sheet, significant};
 use std::path::Path;
 
 /// What is printed when a run is done.
-pub fn summary(job: &HobbingJob, gear: &HobbedGear, out: &Path, backend: &str) -> String {
+pub fn summary(job: &HobbingJob, gear: &HobbedGear, lattices: &[MarkLattice], out: &Path, backend: &str) -> String {
     let mut sheet = Sheet::default();
     let spec = &job.scene.gear;
     let work = &gear.work;
@@ -31,6 +32,18 @@ pub fn summary(job: &HobbingJob, gear: &HobbedGear, out: &Path, backend: &str) -
         };
         sheet.line(&label, value);
     }
+    for errors in points::errors(gear) {
+        if let Some(spread) = errors.spread {
+            let [mean, sigma] = [spread.mean_um, spread.sigma_um].map(|um| significant(um, 3));
+            sheet.line(
+                &errors.key.replace('_', " "),
+                format!("{mean} um, sigma {sigma} um over {} points", spread.count),
+            );
+        }
+    }
+    for lattice in lattices {
+        sheet.line(&format!("marks, tooth {} {}", lattice.tooth, lattice.side.name()), marks::words(lattice));
+    }
     let seconds = work.elapsed.as_secs_f64();
     sheet.line(
         "work",
@@ -40,20 +53,28 @@ pub fn summary(job: &HobbingJob, gear: &HobbedGear, out: &Path, backend: &str) -
             work.stats.dexel_passes as f64 / work.dexels.max(1) as f64
         ),
     );
-    let untouched: u64 = gear.flanks.iter().map(|f| f.untouched).sum();
-    if untouched > 0 {
-        sheet.line(
-            "warning",
-            format!("{untouched} dexels were reached by no pass: the hob does not cover the whole face"),
-        );
-    }
-    if work.stats.unconverged > 0 {
-        let count = work.stats.unconverged;
-        sheet.line(
-            "warning",
-            format!("{count} rays did not converge: their heights may be too large; please report the scene"),
-        );
+    for warning in warnings(gear) {
+        sheet.line("warning", warning);
     }
     sheet.line("files", out.display().to_string());
     sheet.into_text()
+}
+
+/// What a reader must know before trusting the numbers.
+pub(in crate::run) fn warnings(gear: &HobbedGear) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let untouched: u64 = gear.flanks.iter().map(|f| f.untouched).sum();
+    if untouched > 0 {
+        warnings.push(format!("{untouched} dexels were reached by no pass: the hob does not cover the whole face"));
+    }
+    let unconverged = gear.work.stats.unconverged;
+    if unconverged > 0 {
+        warnings.push(format!(
+            "{unconverged} rays did not converge: their heights may be too large; please report the scene"
+        ));
+    }
+    if gear.work.interrupted {
+        warnings.push("stopped by Ctrl-C: figures cover the finished flanks only".to_owned());
+    }
+    warnings
 }
