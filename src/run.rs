@@ -143,7 +143,12 @@ pub fn cut(
         Tools { resolved: &resolved, backend, backend_why, progress, interrupt, folder: &folder, notes: &notes };
     let (results, summary, work) = match Prepared::new(&scene.scene)? {
         Prepared::Shaping(job) => shaping::run(&job, &tools, out, frames)?,
-        Prepared::Hobbing(job) => hobbing::run(&job, &tools, out)?,
+        Prepared::Hobbing(job) => {
+            if frames.is_some() {
+                progress.note("no frames are drawn: pictures of the cut as it happens exist for shaping only");
+            }
+            hobbing::run(&job, &tools, out)?
+        }
     };
     let record = files::run_record(&resolved, backend, backend_why, &work, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;

@@ -47,7 +47,8 @@ fn points_on_five_curves_are_those_of_the_paper_and_agree_with_the_flanks_height
             // The flank's own ray through the target's point, along its normal.
             let flank = cutter.target(tooth, side).expect("a flank");
             let section = flank.section(0.0);
-            let distance = |arc: f64| section.ray(flank.share_at(arc)).origin_mm.truncate().distance(point.target.point_mm);
+            let distance =
+                |arc: f64| section.ray(flank.share_at(arc)).origin_mm.truncate().distance(point.target.point_mm);
             let (mut low, mut high) = (0.0, flank.length_mm());
             for _ in 0..100 {
                 let [a, b] = [(2.0 * low + high) / 3.0, (low + 2.0 * high) / 3.0];
@@ -62,7 +63,10 @@ fn points_on_five_curves_are_those_of_the_paper_and_agree_with_the_flanks_height
             largest_um = largest_um.max(1e3 * along_mm);
             // Facets of marks lean by some thousandths against the target.
             let apart_mm = (along_mm - expected_mm).abs();
-            println!("tooth {tooth} {side:?} at {}: {along_mm:.6} mm along, {expected_mm:.6} by the normal", point.offset_mm);
+            println!(
+                "tooth {tooth} {side:?} at {}: {along_mm:.6} mm along, {expected_mm:.6} by the normal",
+                point.offset_mm
+            );
             assert!(apart_mm < 1e-6 + 0.02 * along_mm, "{along_mm} and {expected_mm} mm");
         }
     }
@@ -71,7 +75,9 @@ fn points_on_five_curves_are_those_of_the_paper_and_agree_with_the_flanks_height
 
 #[test]
 fn a_surface_shows_the_marks_that_the_motion_makes() {
-    for settings in [&[][..], &["gear.pitch_curve.ellipse.eccentricity=0.05", "operation.finish.axial_feed_mm_per_revolution=4"]] {
+    for settings in
+        [&[][..], &["gear.pitch_curve.ellipse.eccentricity=0.05", "operation.finish.axial_feed_mm_per_revolution=4"]]
+    {
         let job = job(settings);
         let cutter = HobCutter::new(&job).expect("passes");
         for (tooth, side) in [(6, Side::Left), (18, Side::Right)] {

@@ -20,6 +20,8 @@ use glam::DVec2;
 /// Lower peaks are chance: marks repeat with correlations above 0.9.
 const SMALLEST_PEAK: f64 = 0.5;
 
+/// A peak is the highest of so many lags to either side: along a ridge that crosses the grid askew, single lags stand out that are no marks.
+const LOBE: i64 = 8;
 /// Points of the patch along roll and z.
 const POINTS: usize = 121;
 /// Lags of the autocorrelation reach a third of the patch to either side: it is so many steps of the lattice wide.
@@ -117,8 +119,8 @@ pub fn between_rad(a_rad: f64, b_rad: f64) -> f64 {
 
 /// Steps from mark to mark as the surface shows them: peaks of its autocorrelation, nearest first by `length`, none the negative of another.
 ///
-/// `heights` stand on a regular grid, `count[0]` columns of `count[1]` rows, `spacing_mm` apart. Lags reach a third of the grid. A parabola through a peak's neighbours places it
-/// between grid points.
+/// `heights` stand on a regular grid, `count[0]` columns of `count[1]` rows, `spacing_mm` apart. Lags reach a third of the grid, and steps shorter than [`LOBE`] points are not told from the marks themselves. A
+/// paraboloid through a peak's neighbours places it between grid points.
 pub fn autocorrelation_steps(
     heights: &[f64],
     count: [usize; 2],
@@ -144,28 +146,34 @@ pub fn autocorrelation_steps(
         product / (here * there).sqrt()
     };
     let width = 2 * reach[1] + 1;
-    // Half a plane of lags, with a border: the other half mirrors it.
-    let lags: Vec<f64> = (-1..=reach[0])
+    // Half a plane of lags; the other half mirrors it.
+    let lags: Vec<f64> = (0..=reach[0])
         .flat_map(|du| (-reach[1]..=reach[1]).map(move |dv| (du, dv)))
         .map(|(du, dv)| correlation(du, dv))
         .collect();
-    let at = |du: i64, dv: i64| lags[((du + 1) * width + dv + reach[1]) as usize];
+    let at = |du: i64, dv: i64| {
+        let (du, dv) = if du < 0 { (-du, -dv) } else { (du, dv) };
+        lags[(du * width + dv + reach[1]) as usize]
+    };
+    let is_peak = |du: i64, dv: i64| {
+        let here = at(du, dv);
+        let near = |center: i64, reach: i64| (center - LOBE).max(-reach)..=(center + LOBE).min(reach);
+        near(du, reach[0]).all(|i| near(dv, reach[1]).all(|j| at(i, j) <= here))
+    };
     let mut peaks: Vec<DVec2> = Vec::new();
     for du in 0..reach[0] {
         for dv in -reach[1] + 1..reach[1] {
-            if (du == 0 && dv <= 0) || at(du, dv) < SMALLEST_PEAK {
+            if (du == 0 && dv <= 0) || at(du, dv) < SMALLEST_PEAK || !is_peak(du, dv) {
                 continue;
             }
-            let around = [(-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)];
-            if around.iter().any(|&(i, j)| at(du + i, dv + j) > at(du, dv)) {
-                continue;
-            }
-            let vertex =
-                |before: f64, middle: f64, after: f64| 0.5 * (before - after) / (before - 2.0 * middle + after);
-            let fine = DVec2::new(
-                du as f64 + vertex(at(du - 1, dv), at(du, dv), at(du + 1, dv)),
-                dv as f64 + vertex(at(du, dv - 1), at(du, dv), at(du, dv + 1)),
-            );
+            // Vertex of the paraboloid through the nine lags around: on a ridge that runs askew both directions belong together.
+            let d = |i: i64, j: i64| at(du + i, dv + j);
+            let gradient = 0.5 * DVec2::new(d(1, 0) - d(-1, 0), d(0, 1) - d(0, -1));
+            let (uu, vv) = (d(1, 0) - 2.0 * d(0, 0) + d(-1, 0), d(0, 1) - 2.0 * d(0, 0) + d(0, -1));
+            let uv = 0.25 * (d(1, 1) - d(1, -1) - d(-1, 1) + d(-1, -1));
+            let determinant = uu * vv - uv * uv;
+            let vertex = DVec2::new(uv * gradient.y - vv * gradient.x, uv * gradient.x - uu * gradient.y) / determinant;
+            let fine = DVec2::new(du as f64, dv as f64) + vertex.clamp(DVec2::NEG_ONE, DVec2::ONE);
             peaks.push(fine * DVec2::from_array(spacing_mm));
         }
     }

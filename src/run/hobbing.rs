@@ -14,6 +14,7 @@ use super::{Tools, Work, all_flanks, flanks_of, map_operations, meshes, report, 
 use crate::axes_report::HobbingAxesReport;
 use crate::cut::{Backend, CutStats};
 use crate::error::{Error, Result};
+use crate::gcode;
 use crate::gear::generation::Side;
 use crate::job::{HobCutter, HobbingJob};
 use crate::measure::crossing::Crossing;
@@ -163,6 +164,9 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools, out: &Path) -> Result<(Value,
     }
     for operation in HobbingAxesReport::of_job(job) {
         operation.write(job, folder)?;
+    }
+    for note in gcode::hobbing::write_all(job, folder)? {
+        progress.note(&note);
     }
     let words = RunWords { resolved_scene: resolved, backend: &backend.name(), backend_why };
     report::hobbing::page(&cutter, &gear, &texture::results(&cutter, &textures), &lattices, &words, folder)?

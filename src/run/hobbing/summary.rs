@@ -2,6 +2,7 @@
 
 use super::results::headline;
 use super::{HobbedGear, marks, points};
+use crate::axes_report::HobbingAxesReport;
 use crate::job::HobbingJob;
 use crate::measure::marks::MarkLattice;
 use crate::output::text::{Sheet, significant};
@@ -53,7 +54,8 @@ pub fn summary(job: &HobbingJob, gear: &HobbedGear, lattices: &[MarkLattice], ou
             work.stats.dexel_passes as f64 / work.dexels.max(1) as f64
         ),
     );
-    for warning in warnings(gear) {
+    let of_axes = HobbingAxesReport::of_job(job);
+    for warning in warnings(gear).into_iter().chain(of_axes.iter().flat_map(HobbingAxesReport::warnings)) {
         sheet.line("warning", warning);
     }
     sheet.line("files", out.display().to_string());
