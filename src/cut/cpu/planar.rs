@@ -154,10 +154,11 @@ fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_m
             cell[l] = ((inside[l] - y_start) * table.cells_per_mm).floor().min(last_cell);
         }
         let first = cell[0];
-        let mut same = true;
-        for &c in &cell {
-            same &= c == first;
+        let mut apart = [0.0; LANES];
+        for l in 0..LANES {
+            apart[l] = cell[l] - first;
         }
+        let same = all_below(&apart, 0.5);
         let mut residual = [0.0; LANES];
         if same {
             let c = table.cells[first as usize];
@@ -170,17 +171,13 @@ fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_m
                 (residual[l], rate[l]) = newton_terms(&c, cell[l], width, y_start, inside[l], y[l], h[l], rays, l);
             }
         }
-        let mut largest = 0.0_f64;
         for l in 0..LANES {
             let newton = residual[l] / rate[l];
             step[l] = if rate[l] < 0.0 { newton } else { h[l] - lowest_mm };
             rises[l] += if rate[l] < 0.0 { 0.0 } else { 1.0 };
             h[l] -= step[l];
         }
-        for s in &step {
-            largest = largest.max(s.abs());
-        }
-        if largest < LAST_STEP_MM {
+        if all_below(&step, LAST_STEP_MM) {
             break;
         }
     }
@@ -194,6 +191,16 @@ fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_m
         entries.unconverged[l] = on_segment & !converged & (rises[l] < 2.0);
     }
     entries
+}
+
+/// All lanes are smaller in magnitude than the limit: one comparison of vectors, where a largest value would be sought lane after lane.
+#[inline(always)]
+fn all_below(lanes: &Lanes, limit: f64) -> bool {
+    let mut below = true;
+    for l in 0..LANES {
+        below &= lanes[l].abs() < limit;
+    }
+    below
 }
 
 /// Residual and its rate along the ray for one lane.
