@@ -4,8 +4,11 @@
 //! are made of; a process adds its own job here and nothing else.
 
 mod blank;
+pub mod gear_job;
 pub mod hobbed;
+mod hobbed_surfaces;
 pub mod hobbing;
+mod shaped_surfaces;
 pub mod shaping;
 
 use crate::error::Result;
@@ -13,6 +16,7 @@ use crate::scene::Scene;
 use crate::scene::model::Process;
 
 pub use blank::CutBlank;
+pub use gear_job::GearJob;
 pub use hobbed::{HobCutter, HobbedFlank};
 pub use hobbing::HobbingJob;
 pub use shaping::{CutFlank, Job, PreparedOperation};

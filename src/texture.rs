@@ -1,6 +1,6 @@
 //! Surface texture of cut flanks: windows, their heights after every operation, ISO 25178 numbers, files and pictures.
 //!
-//! In: a [`Job`] and a backend. Out: [`WindowTexture`] per window and operation, which goes to `results.json` and into `texture/<operation>/`:
+//! In: a [`GearJob`] and a backend. Out: [`WindowTexture`] per window and operation, which goes to `results.json` and into `texture/<operation>/`:
 //!
 //! | file | what |
 //! | --- | --- |
@@ -23,7 +23,7 @@ pub use window::{Window, windows};
 use crate::cut::Backend;
 use crate::dexel::NO_PASS;
 use crate::error::Result;
-use crate::job::Job;
+use crate::job::GearJob;
 use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
 use crate::output::interrupt::Interrupt;
 use crate::output::progress::Progress;
@@ -84,7 +84,7 @@ impl WindowTexture {
 /// # Errors
 /// Geometry and the backend. After Ctrl-C the windows that are finished are returned.
 pub fn measure(
-    job: &Job,
+    job: &dyn GearJob,
     backend: &dyn Backend,
     progress: &Progress,
     interrupt: &Interrupt,
@@ -107,14 +107,11 @@ pub fn measure(
 ///
 /// # Errors
 /// Geometry and the backend.
-pub fn cut_window(job: &Job, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
-    let generation = job.target_generation();
-    let flank = job.target_flank(&generation, window.tooth, window.side)?;
-    let field = job.field_over(&flank, window.arcs_mm(), window.leads_mm());
-    let (columns, rows) = (field.columns.len(), field.rows());
-    let cut = job.cut(backend, field)?;
-    Ok(cut
-        .layers
+pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
+    let (arcs_mm, leads_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.leads_mm());
+    let (columns, rows) = (arcs_mm.len(), leads_mm.len());
+    let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &leads_mm)?;
+    Ok(layers
         .iter()
         .enumerate()
         .map(|(operation, layer)| {
@@ -124,22 +121,22 @@ pub fn cut_window(job: &Job, backend: &dyn Backend, window: &Window) -> Result<V
             let heights_um: Vec<f64> = (0..columns * rows).map(height).collect();
             let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);
             let heights = Surface::new(rows, columns, dx, dy, heights_um);
-            let along_tooth = if job.operations[operation].spec.feed_during_stroke {
-                facets(&layer.passes[columns / 2 * rows..(columns / 2 + 1) * rows])
-            } else {
-                0
-            };
-            let along_profile = facets(&layer.passes.iter().skip(rows / 2).step_by(rows).copied().collect::<Vec<_>>());
-            let marks = [along_tooth, along_profile];
+            let marks = [
+                facets(&layer.passes[columns / 2 * rows..(columns / 2 + 1) * rows]),
+                facets(&layer.passes.iter().skip(rows / 2).step_by(rows).copied().collect::<Vec<_>>()),
+            ];
             let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, window));
             WindowTexture { window: window.clone(), operation, heights: heights.ok(), marks, evaluated }
         })
         .collect())
 }
 
-/// Facets along a line: one more than the changes of the pass that left it.
+/// Facets along a line: one more than the changes of the pass that left it; none where a single pass left all, as along the tooth where strokes rest.
 fn facets(passes: &[u32]) -> usize {
-    passes.windows(2).filter(|pair| pair[0] != pair[1]).count() + 1
+    match passes.windows(2).filter(|pair| pair[0] != pair[1]).count() {
+        0 => 0,
+        changes => changes + 1,
+    }
 }
 
 fn evaluate(heights: &Surface, window: &Window) -> Result<Evaluated, String> {

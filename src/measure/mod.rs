@@ -13,6 +13,7 @@ pub mod gear_report;
 pub mod hob_load;
 pub mod hobbed_report;
 pub mod marks;
+pub mod offset_curves;
 pub mod scallop;
 pub mod stock;
 pub mod stroke_faults;

@@ -5,18 +5,18 @@ use crate::output::folder::OutputFolder;
 use crate::output::quantity::Quantity;
 use crate::output::report::texture::{Parameter, SkConstruction, TextureWindow};
 use crate::output::report::{Block, Section, Table};
-use crate::output::results::{Results, TextureResults};
+use crate::output::results::TextureResults;
 use crate::output::text::significant;
 
 /// The section; none if no window was evaluated. Pictures are those that the folder holds.
 ///
 /// # Errors
 /// A picture cannot be read back.
-pub fn section(results: &Results, folder: &OutputFolder) -> Result<Option<Section>> {
-    let Some(last) = results.texture.last().map(|window| &window.operation) else { return Ok(None) };
-    let mut blocks = vec![overview(&results.texture, last)];
+pub fn section(windows: &[TextureResults], folder: &OutputFolder) -> Result<Option<Section>> {
+    let Some(last) = windows.last().map(|window| &window.operation) else { return Ok(None) };
+    let mut blocks = vec![overview(windows, last)];
     let mut earlier: Vec<(String, Vec<Block>)> = Vec::new();
-    for window in &results.texture {
+    for window in windows {
         let block = Block::Texture(shown(window, folder)?);
         if window.operation == *last {
             blocks.push(block);
@@ -32,7 +32,7 @@ pub fn section(results: &Results, folder: &OutputFolder) -> Result<Option<Sectio
         id: "texture",
         title: "Surface texture".to_owned(),
         lead: format!(
-            "Areal parameters by ISO 25178-2 of windows on flanks after {last}: what the cutter's motion leaves. Chips, wear and vibration of a real cut come on top. All parameters stand in results.json, the surfaces as X3P, SDF, NPY and CSV beside it."
+            "Areal parameters by ISO 25178-2 of windows on flanks after {last}: what the tool's motion leaves. Chips, wear and vibration of a real cut come on top. All parameters stand in results.json, the surfaces as X3P, SDF, NPY and CSV beside it."
         ),
         blocks,
     }))
