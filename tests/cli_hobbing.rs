@@ -40,7 +40,11 @@ fn what_cannot_be_hobbed_is_refused_with_the_reason_and_a_way_out() {
             &["stroke_mm", "full contact", "longer hob"],
         ),
         (DIAGONAL, "operation.finish.linkage.hobbing_diagonal.strategy=one_way", &["mm of shift", "reciprocating"]),
-        (PLAIN, "tool.hob.starts=7", &["lead_angle_deg", "fewer starts"]),
+        (
+            "scenes/hobbing/circular_spur.toml",
+            "tool.hob.starts=10",
+            &["tool.hob.reference_diameter_mm", "lead angle 22.02 deg", "fewer starts"],
+        ),
         (PLAIN, "tool.hob.length_mm=40", &["whole contact", "longer hob"]),
     ] {
         gearcut(&["check", scene, "--set", setting, "--set", "operation.finish.axial_feed_mm_per_revolution=1.5"])
