@@ -42,7 +42,7 @@ pub struct WindowTexture {
     pub operation: usize,
     /// Heights over the target flank, um; x along the tooth, y along the profile towards the tip; NaN where no pass came. None where none came at all.
     pub heights: Option<Surface>,
-    /// Marks that follow each other along the tooth and along the profile: `[x, y]`.
+    /// Marks that follow each other along the tooth and along the profile: `[x, y]`; 0 along the tooth where the axes rest during strokes, so that marks run along it without end.
     pub marks: [usize; 2],
     /// What was evaluated, or why nothing could be.
     pub evaluated: Result<Evaluated, String>,
@@ -65,8 +65,9 @@ impl WindowTexture {
         let mut warnings = Vec::new();
         for (marks, direction) in self.marks.iter().zip(["along the tooth", "along the profile"]) {
             if (1..ENOUGH_MARKS).contains(marks) {
+                let marks = if *marks == 1 { "1 mark".to_owned() } else { format!("{marks} marks") };
                 warnings.push(format!(
-                    "the window holds only {marks} marks {direction}; {ENOUGH_MARKS} at least make its numbers representative"
+                    "the window holds only {marks} {direction}; {ENOUGH_MARKS} at least make its numbers representative"
                 ));
             }
         }
@@ -121,8 +122,8 @@ pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> 
             let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);
             let heights = Surface::new(rows, columns, dx, dy, heights_um);
             let marks = [
-                changes(&layer.passes[columns / 2 * rows..(columns / 2 + 1) * rows]),
-                changes(&layer.passes.iter().skip(rows / 2).step_by(rows).copied().collect::<Vec<_>>()),
+                facets(&layer.passes[columns / 2 * rows..(columns / 2 + 1) * rows]),
+                facets(&layer.passes.iter().skip(rows / 2).step_by(rows).copied().collect::<Vec<_>>()),
             ];
             let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, window));
             WindowTexture { window: window.clone(), operation, heights: heights.ok(), marks, evaluated }
@@ -130,8 +131,8 @@ pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> 
         .collect())
 }
 
-/// Marks along a line: one more than the changes of the pass that left it; none where a single pass left all.
-fn changes(passes: &[u32]) -> usize {
+/// Facets along a line: one more than the changes of the pass that left it; none where a single pass left all, as along the tooth where strokes rest.
+fn facets(passes: &[u32]) -> usize {
     match passes.windows(2).filter(|pair| pair[0] != pair[1]).count() {
         0 => 0,
         changes => changes + 1,

@@ -190,7 +190,10 @@ fn windows_and_undercut_leave_closed_bodies_in_the_blank() {
     for settings in [&window[..], &["gear.teeth=12"]] {
         let settings = [settings, &["fields.blank.spacing_mm=0.2"]].concat();
         let job = load(Path::new("scenes/shaping/circular_m3_z24.toml"), &settings);
-        let cut = job.cut_blank(job.blank_field().expect("fits"), &|| true).expect("not stopped");
+        let cut = job
+            .cut_blank(&Cpu::default(), job.blank_field().expect("fits"), &|| true)
+            .expect("native")
+            .expect("not stopped");
         let BlankMesh { mesh, guessed } = BlankMesh::new(&cut.field, None);
         assert!(mesh.is_closed() && guessed == 0, "{settings:?}: {:?}", mesh.edge_faults());
     }

@@ -203,7 +203,7 @@ fn passes_from_first(ids: &[u32]) -> Vec<f32> {
     ids.iter().map(|&id| if id == NO_PASS { f32::NAN } else { (id - first) as f32 }).collect()
 }
 
-/// All flanks on one picture: stock of each earlier operation; heights, deviations and passes after the last.
+/// All flanks on one picture: stock of each earlier operation; heights, deviations, passes and, where they are known, their chips after the last.
 pub fn write_contact_sheets(job: &dyn GearJob, maps: &[FlankMaps], folder: &OutputFolder) -> Result<()> {
     let scales = super::map_operations(job);
     let last = scales.len() - 1;
@@ -229,6 +229,19 @@ pub fn write_contact_sheets(job: &dyn GearJob, maps: &[FlankMaps], folder: &Outp
         usual_span(&passes),
         maps,
         &passes,
+    )?;
+    let chips_um = |map: &FlankMaps| map.chips.last().map(|chips| chips.thickness_mm.iter().map(|&h| um(h)).collect());
+    let chips: Vec<Vec<f32>> = maps.iter().filter_map(chips_um).collect();
+    if chips.len() < maps.len() {
+        return Ok(());
+    }
+    write_sheet(
+        &folder.path(format!("pictures/chip_thickness_{name}.png"))?,
+        &format!("{scene}: chips that left the finished surface, all flanks"),
+        ["uncut chip thickness", "µm"],
+        ColourScale::usual_over(chips.iter().map(Vec::as_slice)),
+        maps,
+        &chips,
     )
 }
 

@@ -28,6 +28,12 @@ use std::f64::consts::PI;
 const MARK_SLOPE: f64 = 0.12;
 /// The lamp over a rolled-out flank stands this high, rad: marks that lean by [`MARK_SLOPE`] stay in its light.
 const RAKING_RAD: f64 = 0.28;
+/// Share of that lamp in the light; the rest comes from the sky.
+const RAKING_SHARE: f64 = 0.85;
+/// How far marks take the sky from each other, as a share of the flank: hardly, or every valley would be dark.
+const RAKING_SKY_REACH: f64 = 0.02;
+/// Light that it throws on a white surface without marks: a little more than a studio's, so that both sides of a mark show.
+const RAKING_LIGHT: f64 = 1.08;
 
 /// Draws all pictures of the scene into `pictures/`; how many were finished before Ctrl-C.
 ///
@@ -101,7 +107,7 @@ fn look(job: &dyn GearJob, colour: PictureColour, mesh: &Mesh) -> (Look, Option<
     };
     let scale = match (colour, mesh.scalar(name).map(|scalar| &scalar.values)) {
         (PictureColour::Stock, _) => stock_scale(job),
-        (_, Some(ScalarValues::F32(values))) => most_of(values),
+        (_, Some(ScalarValues::F32(values))) => ColourScale::usual_over([values.as_slice()]),
         (_, Some(ScalarValues::U32(values))) => {
             let cut: Vec<f32> = values.iter().filter(|&&v| v != NO_PASS).map(|&v| v as f32).collect();
             ColourScale::sequential_over([cut.as_slice()])
@@ -109,14 +115,6 @@ fn look(job: &dyn GearJob, colour: PictureColour, mesh: &Mesh) -> (Look, Option<
         (_, None) => ColourScale::Sequential { low: 0.0, high: 1.0 },
     };
     (Look::Scalar { name, scale }, Some(Legend { quantity, unit, scale }))
-}
-
-/// Scale over most of the values: the ends that one in fifty exceed are marked at the colour bar.
-fn most_of(values: &[f32]) -> ColourScale {
-    let mut sorted: Vec<f32> = values.iter().copied().filter(|v| v.is_finite()).collect();
-    sorted.sort_unstable_by(f32::total_cmp);
-    let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied().unwrap_or(0.0);
-    ColourScale::Sequential { low: at(0.01), high: at(0.98) }
 }
 
 fn draw_solid(job: &dyn GearJob, picture: &Picture, solid: &Mesh, interrupt: &Interrupt) -> Result<Drawn> {
@@ -169,7 +167,8 @@ fn draw_flank(job: &dyn GearJob, backend: &dyn Backend, picture: &Picture, inter
     let camera = Camera::new(middle_mm, towards, DVec3::Y, 1.04 * extent_mm, picture.size_px);
     let stage = Stage::new(vec![Body { mesh: &flat, look }]);
     let lamp = DVec3::new(0.0, RAKING_RAD.cos(), RAKING_RAD.sin());
-    let lights = Lights { lamp, lamp_share: 0.85, sky_reach: 0.02, gain: 1.35 / RAKING_RAD.sin() * 0.8 };
+    let gain = RAKING_LIGHT / RAKING_RAD.sin();
+    let lights = Lights { lamp, lamp_share: RAKING_SHARE, sky_reach: RAKING_SKY_REACH, gain };
     let rendered = render(&stage, &camera, &lights, interrupt)?;
     let side = if picture.side == Side::Left { "left" } else { "right" };
     let finishing = job.operations().last().map_or("", |(name, _)| *name);

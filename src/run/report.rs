@@ -133,7 +133,7 @@ fn key_numbers(results: &Results, inspection: &Inspection) -> Vec<KeyNumber> {
         key_number("Pointed teeth", &h.pointed_teeth),
         key_number("Witness mark", &h.witness_mark),
         with_note(key_number("Relief on the return stroke", &h.relief_ratio), "of a circular gear's".to_owned()),
-        key_number("Left of the tightest axis limit", &h.axis_margin),
+        key_number("Reserve to the tightest axis limit", &h.axis_margin),
         key_number("Time of all strokes", &h.cycle_time),
     ]);
     known_first(numbers)

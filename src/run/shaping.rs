@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::gcode;
 use crate::gear::generation::Side;
 use crate::job::Job;
-use crate::measure::chips::ChipLedger;
+use crate::measure::chips::{ChipLedger, last_chips};
 use crate::measure::{FlankReport, GearReport, flank_report, gear_report};
 use crate::output::flank_maps::FlankMaps;
 use crate::output::folder::OutputFolder;
@@ -77,7 +77,9 @@ pub fn cut_gear(
         let cut = job.cut(backend, job.flank_field(&target))?;
         let report = flank_report::measure(job, &target, &cut);
         let spacing_mm = job.scene.output.map_spacing_mm;
-        let maps = FlankMaps::sample(tooth, side, [&cut.field.arcs_mm(), &cut.field.leads_mm], &cut.layers, spacing_mm);
+        let places = [&cut.field.arcs_mm()[..], &cut.field.leads_mm];
+        let mut maps = FlankMaps::sample(tooth, side, places, &cut.layers, spacing_mm);
+        maps.chips = last_chips(job, &cut.field.at([&maps.dexels[0], &maps.dexels[1]]));
         let surface = SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm);
         if let Some((folder, notes)) = folder {
             maps.write(folder, &operations, notes)?;
@@ -128,7 +130,7 @@ pub(super) fn run(job: &Job, tools: &Tools, out: &Path, frames: Option<u32>) -> 
         return Err(Error::Interrupted);
     }
     let textures = texture::measure(job, backend, progress, interrupt)?;
-    let whole = if gear.interrupted { None } else { blank::cut(job, progress, interrupt)? };
+    let whole = if gear.interrupted { None } else { blank::cut(job, backend, progress, interrupt)? };
     if let Some((_, report)) = &whole {
         blank::write_table_of_damage(job, report, folder)?;
     }

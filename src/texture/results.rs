@@ -61,11 +61,11 @@ fn one(job: &dyn GearJob, texture: &WindowTexture, files: String) -> TextureResu
         spacing_lead: um(spacing[0], "distance of points along the tooth"),
         marks_along_profile: marks(
             texture.marks[1],
-            "facets that follow each other along the profile in the middle of the window; 0: a single pass left all",
+            "facets that follow each other along the profile in the middle of the window",
         ),
         marks_along_tooth: marks(
             texture.marks[0],
-            "facets that follow each other along the tooth in the middle of the window; 0: a single pass left all, the marks run along the tooth",
+            "facets that follow each other along the tooth in the middle of the window; 0: the axes rest during strokes, marks run along the tooth without end",
         ),
         chain,
         warnings,

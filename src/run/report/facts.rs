@@ -134,6 +134,7 @@ pub fn section(job: &Job) -> Section {
                 ("Profile shift", format!("{} m", plain(tool.profile_shift_coefficient))),
                 ("Thinning", format!("{} µm", plain(UM_PER_MM * tool.thinning_mm))),
                 ("Tip", tip),
+                ("Top rake", format!("{}°", plain(tool.rake_angle_rad.to_degrees()))),
                 ("Runout", format!("{} µm", plain(UM_PER_MM * tool.runout_mm))),
                 (
                     "Pitch errors",
