@@ -42,8 +42,8 @@ fn what_cannot_be_hobbed_is_refused_with_the_reason_and_a_way_out() {
         (DIAGONAL, "operation.finish.linkage.hobbing_diagonal.strategy=one_way", &["mm of shift", "reciprocating"]),
         (
             "scenes/hobbing/circular_spur.toml",
-            "tool.hob.starts=10",
-            &["tool.hob.reference_diameter_mm", "lead angle 22.02 deg", "fewer starts"],
+            "tool.hob.reference_diameter_mm=8.4",
+            &["tool.hob.reference_diameter_mm", "lead angle 20.92 deg", "fewer starts"],
         ),
         (PLAIN, "tool.hob.length_mm=40", &["whole contact", "longer hob"]),
     ] {
@@ -56,7 +56,7 @@ fn what_cannot_be_hobbed_is_refused_with_the_reason_and_a_way_out() {
 const SMALL: [&str; 11] = [
     "gear.module_mm=2",
     "gear.helix_angle_deg=15",
-    "gear.face_width_mm=6",
+    "gear.face_width_mm=8",
     "tool.hob.length_mm=60",
     "tool.hob.tip_radius_mm=0.3",
     "operation.finish.axial_feed_mm_per_revolution=1.5",
