@@ -363,7 +363,7 @@ fn text(
     });
     if let Some(gearbox) = gearbox {
         head.push(format!(
-            "SET UP gearbox C = {:.15} B + {:.15} Z + {:.15} W, deg per deg and deg per mm; switch it on before the first block, at the positions of the first block",
+            "SET UP gearbox C = {:.15} B {:+.15} Z {:+.15} W, deg per deg and deg per mm; switch it on before the first block, at the positions of the first block",
             gearbox.per_hob,
             gearbox.per_slide.to_degrees(),
             gearbox.per_shift.to_degrees()
