@@ -40,7 +40,11 @@ fn what_cannot_be_hobbed_is_refused_with_the_reason_and_a_way_out() {
             &["stroke_mm", "full contact", "longer hob"],
         ),
         (DIAGONAL, "operation.finish.linkage.hobbing_diagonal.strategy=one_way", &["mm of shift", "reciprocating"]),
-        (PLAIN, "tool.hob.starts=7", &["lead_angle_deg", "fewer starts"]),
+        (
+            "scenes/hobbing/circular_spur.toml",
+            "tool.hob.reference_diameter_mm=8.4",
+            &["tool.hob.reference_diameter_mm", "lead angle 20.92 deg", "fewer starts"],
+        ),
         (PLAIN, "tool.hob.length_mm=40", &["whole contact", "longer hob"]),
     ] {
         gearcut(&["check", scene, "--set", setting, "--set", "operation.finish.axial_feed_mm_per_revolution=1.5"])
@@ -52,7 +56,7 @@ fn what_cannot_be_hobbed_is_refused_with_the_reason_and_a_way_out() {
 const SMALL: [&str; 11] = [
     "gear.module_mm=2",
     "gear.helix_angle_deg=15",
-    "gear.face_width_mm=6",
+    "gear.face_width_mm=8",
     "tool.hob.length_mm=60",
     "tool.hob.tip_radius_mm=0.3",
     "operation.finish.axial_feed_mm_per_revolution=1.5",
