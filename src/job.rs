@@ -5,6 +5,7 @@
 
 mod blank;
 pub mod hobbed;
+mod hobbed_blank;
 pub mod hobbing;
 pub mod shaping;
 
@@ -14,6 +15,7 @@ use crate::scene::model::Process;
 
 pub use blank::CutBlank;
 pub use hobbed::{HobCutter, HobbedFlank};
+pub use hobbed_blank::HobbedBlank;
 pub use hobbing::HobbingJob;
 pub use shaping::{CutFlank, Job, PreparedOperation};
 

@@ -20,7 +20,7 @@ use crate::cut::{Backend, CutStats};
 use crate::error::{Error, Result};
 use crate::gcode;
 use crate::gear::generation::Side;
-use crate::job::{Job, Prepared};
+use crate::job::{HobCutter, Job, Prepared};
 use crate::measure::chips::ChipLedger;
 use crate::measure::{FlankReport, GearReport, flank_report, gear_report};
 use crate::output::flank_maps::{FlankMaps, OperationMaps};
@@ -214,10 +214,17 @@ pub fn cut(
     let job = match Prepared::new(&scene.scene)? {
         Prepared::Shaping(job) => *job,
         Prepared::Hobbing(job) => {
+            // Too large a blank field is refused before the first cut.
+            job.blank_grid()?;
             let gear = hobbing::cut_gear(&job, backend, progress, interrupt, Some((&folder, &notes)))?;
-            let results = hobbing::write(&job, &gear, &folder)?;
+            let cutter = HobCutter::new(&job)?;
+            let whole =
+                if gear.work.interrupted { None } else { hobbing::blank::cut(&cutter, progress, interrupt)? };
+            let results = hobbing::write(&job, &gear, whole.as_ref().map(|whole| (&cutter, whole)), &folder)?;
             let summary = hobbing::summary(&job, &gear, out, &backend.name());
-            let done = (results, summary, gear.work);
+            let mut work = gear.work;
+            work.interrupted |= whole.is_none();
+            let done = (results, summary, work);
             return finish(done, &resolved, backend, backend_why, progress, folder);
         }
     };

@@ -156,6 +156,11 @@ impl RackGeneration {
         sign(side) * self.rack.flank_end_height_mm() / (sin * cos)
     }
 
+    /// Rolled arc at which the tip corner of a space stands deepest in the section `z_mm`: its centre is under the pitch point.
+    pub fn corner_bottom_arc_mm(&self, space: i64, side: Side, z_mm: f64) -> f64 {
+        self.space_arc_mm(space, z_mm) + sign(side) * self.rack.corner_center_mm().x
+    }
+
     /// Point left by the tip corner of a space at the rolled arc `arc_mm`, in the section `z_mm`.
     pub fn corner_point_mm(&self, space: i64, side: Side, arc_mm: f64, z_mm: f64) -> DVec2 {
         let center = self.rack.corner_center_mm();
@@ -193,7 +198,7 @@ impl RackGeneration {
         let tip_roll = -e * 4.0 * self.rack.transverse_module_mm;
         let on_flank = bracketed(|roll| flank_at(roll).0 - height_mm, root_roll, tip_roll).map(|roll| flank_at(roll).1);
         // The corner is deepest when its centre stands under the pitch point, and climbs on the flank's side after that.
-        let bottom = self.space_arc_mm(space, z_mm) + e * self.rack.corner_center_mm().x;
+        let bottom = self.corner_bottom_arc_mm(space, side, z_mm);
         let step = e * CORNER_STEP_MODULES * self.rack.transverse_module_mm;
         let reached =
             (1..=CORNER_STEPS).map(|i| bottom + step * f64::from(i)).find(|&arc| corner_at(arc).0 >= height_mm);

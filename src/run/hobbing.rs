@@ -1,5 +1,9 @@
 //! Hobbing scenes: cut and measured flank by flank, and what is written about the gear as a whole.
 
+pub mod blank;
+pub mod load;
+
+use self::blank::WholeBlank;
 use super::{Work, all_flanks, files};
 use crate::cut::{Backend, CutStats};
 use crate::error::{Error, Result};
@@ -93,11 +97,16 @@ fn map_operations(job: &HobbingJob) -> Vec<OperationMaps> {
         .collect()
 }
 
-/// Writes tables, pictures and results; gives the results.
+/// Writes tables, pictures and results; gives the results. `whole`: the cut blank, unless the run was stopped.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(job: &HobbingJob, gear: &HobbedGear, folder: &OutputFolder) -> Result<Value> {
+pub fn write(
+    job: &HobbingJob,
+    gear: &HobbedGear,
+    whole: Option<(&HobCutter, &WholeBlank)>,
+    folder: &OutputFolder,
+) -> Result<Value> {
     write_flank_table(job, gear, &folder.path("tables/flanks.csv")?)?;
     let operations = map_operations(job);
     let last = operations.len() - 1;
@@ -105,7 +114,14 @@ pub fn write(job: &HobbingJob, gear: &HobbedGear, folder: &OutputFolder) -> Resu
         files::write_stock_sheet(&job.scene.name, operation, index, &gear.maps, folder)?;
     }
     files::write_height_sheet(&job.scene.name, &operations[last].name, &gear.maps, folder)?;
-    let results = results(job, gear)?;
+    let mut results = results(job, gear)?;
+    if let Some((cutter, whole)) = whole {
+        let loads = load::measure(cutter, &whole.blank);
+        load::write(job, &loads, folder)?;
+        results["hob_load"] = load::results(job, &loads)?;
+        blank::write(cutter, whole, folder)?;
+        results["blank"] = blank::results(cutter, whole)?;
+    }
     folder.write_json(RESULTS_FILE, &results)?;
     Ok(results)
 }
@@ -235,11 +251,13 @@ fn headline(job: &HobbingJob, gear: &HobbedGear) -> Vec<(&'static str, Quantity)
     ]
 }
 
+/// A quantity as it stands in `results.json`.
+fn value(quantity: &Quantity) -> Result<Value> {
+    serde_json::to_value(quantity)
+        .map_err(|reason| Error::Output { path: RESULTS_FILE.into(), reason: reason.to_string() })
+}
+
 fn results(job: &HobbingJob, gear: &HobbedGear) -> Result<Value> {
-    let value = |quantity: &Quantity| {
-        serde_json::to_value(quantity)
-            .map_err(|reason| Error::Output { path: RESULTS_FILE.into(), reason: reason.to_string() })
-    };
     let mut head = serde_json::Map::new();
     for (key, quantity) in headline(job, gear) {
         head.insert(key.to_owned(), value(&quantity)?);
