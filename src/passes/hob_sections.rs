@@ -24,16 +24,16 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Longest piece of the edge, as a share of the distance of its tip from the axis: a cubic over it misses some nanometres where the sweep leaves the work.
-const PIECE_SHARE: f64 = 0.02;
+const PIECE_SHARE: f64 = 0.03;
 /// Largest turn of the edge within a piece, rad.
 const PIECE_TURN_RAD: f64 = 0.1;
 /// Powers of a pass's pose over its sweep.
 const TERMS: usize = 6;
 /// Rotation, column by column, and translation.
 const ENTRIES: usize = 12;
-/// Steps to the moment at most, and the last one, rad.
+/// Steps to the moment at most, and the last one, rad: the error after it is of its square.
 const MOST_STEPS: usize = 20;
-const LAST_STEP_RAD: f64 = 1e-11;
+const LAST_STEP_RAD: f64 = 1e-6;
 /// A section is looked for up to this angle: a little beyond the sweep, where the outline is closed.
 const LARGEST_ANGLE_RAD: f64 = 1.25;
 /// Distance of the places along the face at which passes are judged beforehand, mm.

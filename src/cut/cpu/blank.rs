@@ -9,7 +9,7 @@
 //! After each stroke the cutter goes back, drawn off by the relief motion; if return poses are given, material that their teeth would enter is reported, and left where it is.
 
 use crate::dexel::blank_field::{BlankField, Ray};
-use crate::dexel::intervals::{self, End};
+use crate::dexel::intervals::{self, End, Span};
 use crate::passes::StrokeSet;
 use crate::passes::blank_candidates::{PlacedPass, passes_at, reaching_strip};
 use crate::planar_rays::{ClosedCurve, Crossing, FAMILIES, Family, RayCrossings, RayRow};
@@ -223,14 +223,14 @@ impl Tile<'_> {
         }
     }
 
-    /// Takes what lies inside a curve; gives the length removed, mm. `chip` is told what each ray lost: its place across, the ends of the cut and the length.
+    /// Takes what lies inside a curve; gives the length removed, mm. `chip` is shown each ray before: its place across, its spans, the ends of the cut.
     pub fn take(
         &mut self,
         curve: &impl ClosedCurve,
         pass: u32,
         scratch: &mut Scratch,
         stats: &mut BlankStats,
-        mut chip: impl FnMut(f64, [End; 2], f64),
+        mut chip: impl FnMut(f64, &[Span], [End; 2]),
     ) -> f64 {
         let mut removed_mm = 0.0;
         let mut cuts = std::mem::take(&mut scratch.cuts);
@@ -242,11 +242,11 @@ impl Tile<'_> {
             }
         });
         for (ray, from, to) in cuts.drain(..) {
+            chip(self.row.at_mm(self.first + ray), &self.rays[ray], [from, to]);
             let length_mm = intervals::subtract(&mut self.rays[ray], from, to);
             if length_mm > 0.0 {
                 removed_mm += length_mm;
                 stats.removing += 1;
-                chip(self.row.at_mm(self.first + ray), [from, to], length_mm);
             }
         }
         scratch.cuts = cuts;

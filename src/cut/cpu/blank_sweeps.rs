@@ -7,14 +7,12 @@
 
 use super::blank::{BlankCut, BlankStats, Scratch, Tile};
 use crate::dexel::blank_field::{BlankField, BlankGrid, Slice};
+use crate::dexel::intervals::{self, End, Span};
 use crate::passes::hob_sections::{HobSections, SweptSection};
-use crate::planar_rays::FAMILIES;
+use crate::planar_rays::{FAMILIES, Family, RayCrossings};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::ops::Range;
-
-/// Rays within 45 degrees of the radial direction tell how thick a chip is: others run along it.
-const RADIAL_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// What a pass took.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,35 +82,86 @@ fn cut_slice(
 ) -> (Vec<PassChip>, BlankStats) {
     let (mut chips, mut stats) = (Vec::new(), BlankStats::default());
     let (mut scratch, mut section) = (Scratch::default(), SweptSection::default());
+    let (mut surfaces, mut reach_mm) = (ChipSurfaces::default(), Vec::new());
     for pass in 0..sections.len() {
         if !sections.section(pass, grid.leads_mm[index], &mut section) {
             continue;
         }
-        let (mut removed_mm3, mut thickness_mm) = ([0.0; 2], 0.0_f64);
+        let mut removed_mm3 = [0.0; 2];
+        surfaces.clear();
         for (f, family) in FAMILIES.into_iter().enumerate() {
             let row = &grid.rows[f];
             let [low, high] = section.across_mm(family).map(|across| row.first_at_or_above(across));
             if low >= high {
                 continue;
             }
-            let rays = &mut slice.rays[f][low..high];
-            let mut tile = Tile { family, row, first: low, rays, slice: index as u32 };
-            let removed_mm = tile.take(&section, section.pass, &mut scratch, &mut stats, |across_mm, ends, length_mm| {
-                let inner = if ends[0].at_mm.abs() < ends[1].at_mm.abs() { ends[0] } else { ends[1] };
-                let place = family.point(inner.at_mm, across_mm);
-                if family.along(place).abs() < RADIAL_COSINE * place.length() {
-                    return;
-                }
-                let normal = DVec2::from_array(inner.normal.map(f64::from));
-                let cosine = family.along(normal).abs() * section.upright(normal);
-                thickness_mm = thickness_mm.max(length_mm * cosine);
+            // Most passes go where nothing is left: bounds of all rays come first, and only the rays between the first and the last one near material are laid on the curve.
+            RayCrossings::reach_mm(&section, family, row, low..high, &mut reach_mm);
+            let rays = &slice.rays[f];
+            let near = |ray: &usize| {
+                let [from, to] = reach_mm[ray - low];
+                from <= to && intervals::overlaps(&rays[*ray], from, to)
+            };
+            stats.visited += (high - low) as u64;
+            let Some(first) = (low..high).find(near) else { continue };
+            let last = (first..high).rev().find(near).unwrap_or(first);
+            let rays = &mut slice.rays[f][first..=last];
+            let mut tile = Tile { family, row, first, rays, slice: index as u32 };
+            // Rays are counted above.
+            let mut met = BlankStats::default();
+            let removed_mm = tile.take(&section, section.pass, &mut scratch, &mut met, |across_mm, spans, cut| {
+                surfaces.add(family, across_mm, spans, cut);
             });
+            stats.solved += met.solved;
+            stats.removing += met.removing;
             removed_mm3[f] = removed_mm * grid.spacing_mm() * width_mm;
         }
         if removed_mm3 != [0.0; 2] {
+            let thickness_mm = surfaces.thickness_mm(&section);
             let way_mm = section.way_per_mm * width_mm;
             chips.push(PassChip { pass: section.pass, removed_mm3, thickness_mm, way_mm });
         }
     }
     (chips, stats)
+}
+
+/// Points of the surfaces of one chip in one slice, with their normals.
+#[derive(Default)]
+struct ChipSurfaces {
+    /// Left by earlier passes, or the blank's own.
+    old: Vec<[DVec2; 2]>,
+    /// Left by this one.
+    new: Vec<[DVec2; 2]>,
+}
+
+impl ChipSurfaces {
+    fn clear(&mut self) {
+        self.old.clear();
+        self.new.clear();
+    }
+
+    /// What a cut takes from one ray.
+    fn add(&mut self, family: Family, across_mm: f64, spans: &[Span], [from, to]: [End; 2]) {
+        let place = |end: &End| [family.point(end.at_mm, across_mm), DVec2::from_array(end.normal.map(f64::from))];
+        let first = spans.partition_point(|span| span.high.at_mm <= from.at_mm);
+        for span in spans[first..].iter().take_while(|span| span.low.at_mm < to.at_mm) {
+            for (own, cut, inside) in
+                [(&span.low, &from, span.low.at_mm > from.at_mm), (&span.high, &to, span.high.at_mm < to.at_mm)]
+            {
+                if inside { self.old.push(place(own)) } else { self.new.push(place(cut)) }
+            }
+        }
+    }
+
+    /// Largest distance of the new surface from the tangents at the nearest points of the old one, across the swept surface.
+    fn thickness_mm(&self, section: &SweptSection) -> f64 {
+        let thickness = self.new.iter().filter_map(|[at, normal]| {
+            let nearest = self
+                .old
+                .iter()
+                .min_by(|a, b| a[0].distance_squared(*at).total_cmp(&b[0].distance_squared(*at)))?;
+            Some((nearest[0] - *at).dot(nearest[1]).abs() * section.upright(*normal))
+        });
+        thickness.fold(0.0, f64::max)
+    }
 }
