@@ -190,10 +190,13 @@ impl RayCrossings {
             let along_slack_mm = slack_mm * (1.0 + slope * slope).sqrt() + 1e-9;
             let from = row.first_at_or_above(a[0].min(b[0]) - slack_mm).max(window.start);
             let to = row.first_at_or_above(a[0].max(b[0]) + slack_mm).min(window.end);
-            for ray in from..to {
-                let near = a[1] + slope * (row.at_mm(ray) - a[0]);
-                let reach = &mut reach_mm[ray - window.start];
-                // Not a number where the run is zero: then the piece's own ends are taken.
+            if from >= to {
+                continue;
+            }
+            // Not a number where the run is zero: then the piece's own ends are taken.
+            let (first, step) = (a[1] + slope * (row.at_mm(from) - a[0]), slope * row.spacing_mm);
+            for (i, reach) in reach_mm[from - window.start..to - window.start].iter_mut().enumerate() {
+                let near = first + step * i as f64;
                 reach[0] = reach[0].min((near - along_slack_mm).max(low));
                 reach[1] = reach[1].max((near + along_slack_mm).min(high));
             }

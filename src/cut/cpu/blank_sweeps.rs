@@ -12,6 +12,7 @@ use crate::passes::hob_sections::{HobSections, SweptSection};
 use crate::planar_rays::{FAMILIES, Family, RayCrossings};
 use glam::DVec2;
 use rayon::prelude::*;
+use std::f64::consts::PI;
 use std::ops::Range;
 
 /// What a pass took.
@@ -117,7 +118,9 @@ fn cut_slice(
             removed_mm3[f] = removed_mm * grid.spacing_mm() * width_mm;
         }
         if removed_mm3 != [0.0; 2] {
-            let thickness_mm = surfaces.thickness_mm(&section);
+            // Around a place that far from the old surface the chip holds a quarter of a disc at least: where it is thinner than the rays are apart, single rays run along it and tell nothing.
+            let area_mm2 = removed_mm3[0].min(removed_mm3[1]) / width_mm;
+            let thickness_mm = surfaces.thickness_mm(&section).min((4.0 * area_mm2 / PI).sqrt());
             let way_mm = section.way_per_mm * width_mm;
             chips.push(PassChip { pass: section.pass, removed_mm3, thickness_mm, way_mm });
         }
