@@ -10,10 +10,11 @@ mod common;
 #[path = "../tests/common/mod.rs"]
 mod scenes;
 
-use gearcut::cut::cpu::blank::{BlankOperation, BlankStats};
+use gearcut::cut::Backend;
+use gearcut::cut::cpu::Cpu;
+use gearcut::cut::cpu::blank::BlankStats;
 use gearcut::cut::gpu::adapter::AdapterWish;
 use gearcut::cut::gpu::{Gpu, GpuOptions};
-use gearcut::gear::blank_outline::BlankOutline;
 use gearcut::job::Job;
 use gearcut::measure::blank_report;
 use gearcut::surface::BlankMesh;
@@ -38,7 +39,7 @@ fn main() {
         for _ in 0..ROUNDS {
             let started = Instant::now();
             let field = job.blank_field().expect("fits in memory");
-            last = job.cut_blank(field, &|| true);
+            last = job.cut_blank(&Cpu::default(), field, &|| true).expect("native");
             fastest = fastest.min(started.elapsed().as_secs_f64());
         }
         let cut = last.expect("not stopped");
@@ -67,21 +68,14 @@ fn main() {
         for wish in [AdapterWish::Real, AdapterWish::Software] {
             let Ok(gpu) = Gpu::new(wish, GpuOptions::default()) else { continue };
             let started = Instant::now();
-            let mut field = job.blank_field().expect("fits in memory");
-            let reach_mm = BlankOutline::new(&job.blank).reach_mm();
-            for prepared in &job.operations {
-                let tooth = job.closed_tooth(&prepared.strokes, reach_mm);
-                let operation = BlankOperation {
-                    strokes: &prepared.strokes,
-                    returns: None,
-                    tool: &job.cutter,
-                    tooth: &tooth,
-                    blank_reach_mm: reach_mm,
-                    cull: true,
-                };
-                gpu.cut_blank(&mut field, &operation, None).expect("the device works");
-            }
-            println!("{}: {:.2} s without return strokes", gpu.adapter().name, started.elapsed().as_secs_f64());
+            let field = job.blank_field().expect("fits in memory");
+            let cut = job.cut_blank(&gpu, field, &|| true).expect("the device works").expect("not stopped");
+            let rubs: usize = cut.cuts.iter().map(|done| done.rubs.len()).sum();
+            println!(
+                "{}: {:.2} s, return strokes checked, {rubs} rays rub",
+                gpu.name(),
+                started.elapsed().as_secs_f64()
+            );
         }
     }
 }

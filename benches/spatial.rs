@@ -26,7 +26,7 @@ fn spatial(criterion: &mut Criterion) {
     (scene.fields.profile_spacing_mm, scene.fields.lead_spacing_mm) = (0.02, 0.05);
     let job = HobbingJob::new(&scene).expect("the gear");
     let cutter = HobCutter::new(&job).expect("passes");
-    let (_, field, _) = cutter.field(5, Side::Left).expect("a flank");
+    let field = cutter.rays(5, Side::Left).expect("a flank").1.field;
     let plan = SweepPlan::new(&field, &cutter.operations[0], job.hob.edge());
     println!("{} dexels, {} dexel-passes, {} records", field.len(), plan.dexel_passes(), plan.records.len());
     let mut group = criterion.benchmark_group("spatial");

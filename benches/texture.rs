@@ -6,9 +6,9 @@
 use gearcut::measure::topography::core::Core;
 use gearcut::measure::topography::features::Features;
 use gearcut::measure::topography::height::Heights;
-use gearcut::measure::topography::hybrid::Hybrid;
+use gearcut::measure::topography::hybrid::{sdq, sdr};
 use gearcut::measure::topography::ratio::MaterialRatio;
-use gearcut::measure::topography::spatial::Spatial;
+use gearcut::measure::topography::spatial::{correlation_lengths, ssw_um, std_deg};
 use gearcut::measure::topography::{Arguments, Evaluation, Surface};
 use gearcut::output::surface_files::{Format, SurfaceFile, write_surface};
 use std::hint::black_box;
@@ -63,11 +63,14 @@ fn main() {
     // Every row is what a parameter of the family costs alone, centring and sorting included.
     let rows = [
         ("height", best_ms(|| Heights::of(&surface.centred()))),
-        ("hybrid", best_ms(|| Hybrid::of(&surface))),
+        ("gradient", best_ms(|| sdq(&surface))),
+        ("area", best_ms(|| sdr(&surface))),
         ("ratio", best_ms(|| MaterialRatio::of(&surface.centred()).smc_um(10.0))),
         ("core", best_ms(|| Core::of(&MaterialRatio::of(&surface.centred())))),
         ("volume", best_ms(|| MaterialRatio::of(&surface.centred()).material_um(80.0))),
-        ("spatial", best_ms(|| Spatial::of(&surface.centred(), false))),
+        ("correlation", best_ms(|| correlation_lengths(&surface.centred()))),
+        ("direction", best_ms(|| std_deg(&surface.centred()))),
+        ("wavelength", best_ms(|| ssw_um(&surface.centred()))),
         ("feature", best_ms(|| Features::of(&surface.centred(), heights.sp + heights.sv))),
         ("all", best_ms(|| Evaluation::of(&surface, &Arguments::default()))),
     ];
@@ -82,6 +85,6 @@ fn main() {
     }
     println!("{SIDE} x {SIDE} points, {} threads, best of {ROUNDS}", rayon::current_num_threads());
     for (name, ms) in rows {
-        println!("{name:10} {ms:9.1} ms");
+        println!("{name:12} {ms:9.1} ms");
     }
 }

@@ -10,7 +10,7 @@
 @group(0) @binding(3) var<storage, read> parts: array<BlankPart>;
 @group(0) @binding(4) var<storage, read_write> spans: array<BlankSpan>;
 @group(0) @binding(5) var<storage, read_write> counts: array<u32>;
-// Per pass of a tile, in launch.units_per_mm.
+// Per pass of a tile, in launch.units_per_mm: taken by a stroke, met by a return stroke.
 @group(0) @binding(6) var<storage, read_write> removed: array<atomic<u32>>;
 // Largest list that had no room; crossings of one tooth that had none.
 @group(0) @binding(7) var<storage, read_write> needs: array<atomic<u32>, 2>;
@@ -106,6 +106,14 @@ fn blank_rays(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
                 last++;
             }
             if first == last {
+                continue;
+            }
+            if tooth.returns != 0u {
+                length_mm -= max(entry.along_mm - spans[base + first].low_mm, 0.0);
+                length_mm -= max(spans[base + last - 1u].high_mm - exit.along_mm, 0.0);
+                if length_mm > LEAST_SPAN_MM {
+                    atomicAdd(&removed[tile.first_pass + p], u32(length_mm * launch.units_per_mm));
+                }
                 continue;
             }
             var before = spans[base + first];

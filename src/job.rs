@@ -4,9 +4,12 @@
 //! are made of; a process adds its own job here and nothing else.
 
 mod blank;
+pub mod gear_job;
 pub mod hobbed;
 mod hobbed_blank;
+mod hobbed_surfaces;
 pub mod hobbing;
+mod shaped_surfaces;
 pub mod shaping;
 
 use crate::error::Result;
@@ -14,6 +17,7 @@ use crate::scene::Scene;
 use crate::scene::model::Process;
 
 pub use blank::CutBlank;
+pub use gear_job::GearJob;
 pub use hobbed::{HobCutter, HobbedFlank};
 pub use hobbed_blank::HobbedBlank;
 pub use hobbing::HobbingJob;

@@ -4,8 +4,7 @@
 //!
 //! `F_c = (K_c h + K_ce) b` against its motion, and `F_n = (K_n h + K_ne) b` along its normal, away from the work.
 //!
-//! The rake face is the transverse plane and every edge element lies across the stroke: inclination zero, so the third component of oblique cutting, along the edge, vanishes by
-//! symmetry. Cutters ground with a rake cone have some degrees of inclination on their flanks; the component left out is then about sin(inclination) of F_c.
+//! The coefficients belong to an element square to the cutting motion, with the rake of the cutter's tip; what becomes of them on inclined flanks is in [`crate::measure::chips::oblique`].
 //!
 //! **Built-in materials** come from Kienzle's law F_c = k_c1.1 b h^(1 - m_c) (Kienzle and Victor 1957; constants after König and Essel 1973, as shop tables print them), turned
 //! into a line by least squares of the relative error over [`FITTED_MM`], the thicknesses that shaping meets; it stays within 15 % of the law there and lies 30 % above it at 0.3 mm. Kienzle's constants were measured at 0.05 mm and more; below that the line is an extrapolation. They

@@ -2,6 +2,8 @@
 //!
 //! The unit of work is one flank through all operations; flanks go to the cores in parallel and are written as they are finished, so memory grows with the cores and not with the
 //! gear. The output folder appears under its name only when it is complete; Ctrl-C completes it with the flanks that are finished and says so.
+//!
+//! Here stands what all processes share; [`shaping`] and [`hobbing`] measure and write what is their own.
 
 mod blank;
 mod chip_files;
@@ -13,28 +15,26 @@ mod meshes;
 mod pictures;
 mod report;
 mod results;
+pub mod shaping;
 mod summary;
 mod tooth_results;
 
+pub use shaping::{CutGear, cut_gear};
+
 use crate::cut::{Backend, CutStats};
 use crate::error::{Error, Result};
-use crate::gcode;
 use crate::gear::generation::Side;
-use crate::job::{HobCutter, Job, Prepared};
-use crate::measure::chips::ChipLedger;
-use crate::measure::{FlankReport, GearReport, flank_report, gear_report};
-use crate::output::flank_maps::{FlankMaps, OperationMaps};
+use crate::job::{GearJob, Prepared};
+use crate::output::flank_maps::OperationMaps;
 use crate::output::folder::OutputFolder;
 use crate::output::interrupt::Interrupt;
 use crate::output::progress::Progress;
-use crate::output::report::REPORT_FILE;
 use crate::scene::LoadedScene;
 use crate::surface::SurfaceGrid;
-use crate::texture;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// How much work a run was.
 #[derive(Debug, Clone, Copy)]
@@ -47,99 +47,6 @@ pub struct Work {
     pub elapsed: Duration,
     /// Stopped by the user before all flanks were done.
     pub interrupted: bool,
-}
-
-/// A cut and measured gear, before anything is written about it as a whole.
-#[derive(Debug)]
-pub struct CutGear {
-    /// What was measured.
-    pub report: GearReport,
-    /// What every stroke takes away.
-    pub chips: ChipLedger,
-    /// Maps of all finished flanks at map spacing, in order.
-    pub maps: Vec<FlankMaps>,
-    /// Surfaces of all finished flanks at mesh spacing, in order.
-    pub surfaces: Vec<SurfaceGrid>,
-    /// What the backend met.
-    pub stats: CutStats,
-    /// Dexels cut, all operations.
-    pub dexels: u64,
-    /// Wall time of cutting and measuring, files of flanks included.
-    pub elapsed: Duration,
-    /// Stopped by the user before all flanks were done.
-    pub interrupted: bool,
-}
-
-/// One flank, done.
-struct Finished {
-    report: FlankReport,
-    maps: FlankMaps,
-    surface: SurfaceGrid,
-    stats: CutStats,
-    dexels: u64,
-}
-
-/// Cuts and measures all flanks of a job; maps go to `folder` as soon as a flank is done.
-///
-/// # Errors
-/// Geometry, the backend, files. Ctrl-C is no error: what is finished is returned.
-pub fn cut_gear(
-    job: &Job,
-    backend: &dyn Backend,
-    progress: &Progress,
-    interrupt: &Interrupt,
-    folder: Option<(&OutputFolder, &[(String, String)])>,
-) -> Result<CutGear> {
-    let started = Instant::now();
-    let chips = follow_chips(job, progress, interrupt)?;
-    let operations = map_operations(job);
-    let flanks: Vec<(u32, Side)> =
-        (1..=job.scene.gear.teeth).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]).collect();
-    let step = progress.step("cut", flanks.len() as u64, "flanks");
-    let cut_one = |&(tooth, side): &(u32, Side)| -> Result<Option<Finished>> {
-        if interrupt.is_raised() {
-            return Ok(None);
-        }
-        let generation = job.target_generation();
-        let target = job.target_flank(&generation, tooth, side)?;
-        let cut = job.cut(backend, job.flank_field(&target))?;
-        let report = flank_report::measure(job, &target, &cut);
-        let spacing_mm = job.scene.output.map_spacing_mm;
-        let maps = FlankMaps::sample(tooth, side, [&cut.field.arcs_mm(), &cut.field.leads_mm], &cut.layers, spacing_mm);
-        let surface = SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm);
-        if let Some((folder, notes)) = folder {
-            maps.write(folder, &operations, notes)?;
-            meshes::write_flank(job, &surface, tooth, side, folder)?;
-        }
-        step.advance(1);
-        let dexels = (cut.field.len() * cut.layers.len()) as u64;
-        Ok(Some(Finished { report, maps, surface, stats: cut.stats, dexels }))
-    };
-    let finished = all_flanks(&flanks, cut_one)?;
-    step.finish();
-    let interrupted = finished.iter().any(Option::is_none);
-    let (mut reports, mut maps, mut surfaces) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut stats, mut dexels) = (CutStats::default(), 0);
-    for flank in finished.into_iter().flatten() {
-        reports.push(flank.report);
-        maps.push(flank.maps);
-        surfaces.push(flank.surface);
-        stats += flank.stats;
-        dexels += flank.dexels;
-    }
-    let report = gear_report::measure(job, backend, reports)?;
-    Ok(CutGear { report, chips, maps, surfaces, stats, dexels, elapsed: started.elapsed(), interrupted })
-}
-
-/// All strokes in order of time, space by space.
-fn follow_chips(job: &Job, progress: &Progress, interrupt: &Interrupt) -> Result<ChipLedger> {
-    let step = progress.step("chips", u64::from(job.scene.gear.teeth), "tooth spaces");
-    let chips = ChipLedger::new(job, &|| {
-        step.advance(1);
-        !interrupt.is_raised()
-    });
-    step.finish();
-    chips.ok_or(Error::Interrupted)
 }
 
 /// Runs something over all flanks in parallel; nothing for those that were left out. The first failure stops the rest; what it was is kept, not the flanks' order of arrival.
@@ -168,13 +75,20 @@ fn all_flanks<T: Send>(
     }
 }
 
+/// Both flanks of every tooth, in order.
+fn flanks_of(job: &dyn GearJob) -> Vec<(u32, Side)> {
+    (1..=job.scene().gear.teeth).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]).collect()
+}
+
 /// What the maps need to know of the operations.
-fn map_operations(job: &Job) -> Vec<OperationMaps> {
-    let finishing_mm = job.finishing().spec.offset_mm;
-    job.operations
+fn map_operations(job: &dyn GearJob) -> Vec<OperationMaps> {
+    let operations = job.operations();
+    let finishing_mm = operations.last().map_or(0.0, |(_, offset_mm)| *offset_mm);
+    let pressure_angle_rad = job.scene().gear.transverse_pressure_angle_rad();
+    let maps = operations
         .iter()
-        .map(|o| OperationMaps::new(&o.spec.name, o.spec.offset_mm - finishing_mm, job.scene.gear.pressure_angle_rad))
-        .collect()
+        .map(|(name, offset_mm)| OperationMaps::new(name, offset_mm - finishing_mm, pressure_angle_rad));
+    maps.collect()
 }
 
 /// A finished run.
@@ -188,6 +102,20 @@ pub struct Done {
     pub results: serde_json::Value,
     /// Whether Ctrl-C ended it early.
     pub interrupted: bool,
+}
+
+/// Everything that a run is done with.
+struct Tools<'a> {
+    /// The scene with every value written out.
+    resolved: &'a str,
+    backend: &'a dyn Backend,
+    /// Why it was taken.
+    backend_why: &'a str,
+    progress: &'a Progress,
+    interrupt: &'a Interrupt,
+    folder: &'a OutputFolder,
+    /// Scene and program, for the heads of files.
+    notes: &'a [(String, String)],
 }
 
 /// Cuts a scene and writes everything into `out`.
@@ -211,90 +139,44 @@ pub fn cut(
     let run =
         serde_json::json!({"program": "gearcut", "version": env!("CARGO_PKG_VERSION"), "backend": backend.name()});
     let notes = [("run".to_owned(), run.to_string()), ("scene".to_owned(), resolved.clone())];
-    let job = match Prepared::new(&scene.scene)? {
-        Prepared::Shaping(job) => *job,
+    let tools =
+        Tools { resolved: &resolved, backend, backend_why, progress, interrupt, folder: &folder, notes: &notes };
+    let (results, summary, work) = match Prepared::new(&scene.scene)? {
+        Prepared::Shaping(job) => shaping::run(&job, &tools, out, frames)?,
         Prepared::Hobbing(job) => {
-            // Too large a blank field is refused before the first cut.
-            job.blank_grid()?;
-            let gear = hobbing::cut_gear(&job, backend, progress, interrupt, Some((&folder, &notes)))?;
-            let cutter = HobCutter::new(&job)?;
-            let whole =
-                if gear.work.interrupted { None } else { hobbing::blank::cut(&cutter, progress, interrupt)? };
-            let results = hobbing::write(&job, &gear, whole.as_ref().map(|whole| (&cutter, whole)), &folder)?;
-            let summary = hobbing::summary(&job, &gear, out, &backend.name());
-            let mut work = gear.work;
-            work.interrupted |= whole.is_none();
-            let done = (results, summary, work);
-            return finish(done, &resolved, backend, backend_why, progress, folder);
+            if frames.is_some() {
+                progress.note("no frames are drawn: pictures of the cut as it happens exist for shaping only");
+            }
+            hobbing::run(&job, &tools, out)?
         }
     };
-    // A window that lies on no flank, or too large a blank field, is refused before the first cut.
-    texture::windows(&job)?;
-    job.blank_grid()?;
-    let gear = cut_gear(&job, backend, progress, interrupt, Some((&folder, &notes)))?;
-    if gear.report.flanks.is_empty() {
-        return Err(Error::Interrupted);
-    }
-    let textures = texture::measure(&job, backend, progress, interrupt)?;
-    let whole = if gear.interrupted { None } else { blank::cut(&job, progress, interrupt)? };
-    if let Some((_, report)) = &whole {
-        blank::write_table_of_damage(&job, report, &folder)?;
-    }
-    let blank = whole.as_ref().map(|(cut, report)| blank::results(&job, cut, report));
-    let results = results::results(&job, &gear, blank, &textures);
-    files::write(&job, &gear, &results, &folder, &notes)?;
-    texture::write(&job, &textures, &folder, &notes)?;
-    let mut interrupted = whole.is_none();
-    if let Some((cut, _)) = &whole {
-        meshes::write_blank(&job, cut, &folder)?;
-        match meshes::gear(&job, backend, gear.surfaces.clone(), progress) {
-            Ok(solid) => {
-                meshes::write_gear(&job, &solid, &folder, &notes)?;
-                let drawn = pictures::draw(&job, backend, &solid, progress, interrupt, &folder, &notes)?;
-                if drawn < job.scene.pictures.len() {
-                    progress.note(&format!("stopped: {drawn} of {} pictures are drawn", job.scene.pictures.len()));
-                    interrupted = true;
-                }
-            }
-            // What was cut and measured is not lost for a mesh.
-            Err(Error::Refused(refusal)) => progress
-                .note(&format!("mesh/gear.* and its pictures are left out; mesh/blank.ply shows the gear. {refusal}")),
-            Err(error) => return Err(error),
-        }
-        if let Some(count) = frames {
-            let drawn = frames::draw(&job, count, progress, interrupt, &folder)?;
-            if drawn < count {
-                progress.note(&format!("stopped: {drawn} of {count} frames are drawn"));
-                interrupted = true;
-            }
-        }
-    }
-    for note in gcode::write_all(&job, &folder)? {
-        progress.note(&note);
-    }
-    let words = report::RunWords { resolved_scene: &resolved, backend: &backend.name(), backend_why };
-    report::page(&job, &gear, &results, &words, &folder)?.write(&folder.path(REPORT_FILE)?)?;
-    let summary = summary::summary(&job, &gear, &results, out, &backend.name());
-    let CutGear { stats, dexels, elapsed, .. } = gear;
-    let results = serde_json::to_value(&results)
-        .map_err(|reason| Error::Output { path: out.to_owned(), reason: reason.to_string() })?;
-    let done = (results, summary, Work { stats, dexels, elapsed, interrupted });
-    finish(done, &resolved, backend, backend_why, progress, folder)
-}
-
-/// Run record, incidents, the folder under its name.
-fn finish(
-    (results, summary, work): (serde_json::Value, String, Work),
-    resolved: &str,
-    backend: &dyn Backend,
-    backend_why: &str,
-    progress: &Progress,
-    folder: OutputFolder,
-) -> Result<Done> {
-    let record = files::run_record(resolved, backend, backend_why, &work, &folder)?;
+    let record = files::run_record(&resolved, backend, backend_why, &work, &folder)?;
     folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
     for incident in backend.incidents() {
         progress.note(&incident);
     }
     Ok(Done { folder: folder.finish()?, summary, results, interrupted: work.interrupted })
+}
+
+/// Meshes of the whole gear and the scene's pictures of it; whether all pictures were drawn.
+fn write_meshes_and_pictures(job: &dyn GearJob, flanks: Vec<SurfaceGrid>, tools: &Tools) -> Result<bool> {
+    let Tools { backend, progress, interrupt, folder, notes, .. } = *tools;
+    match meshes::gear(job, backend, flanks, progress) {
+        Ok(solid) => {
+            meshes::write_gear(job, &solid, folder, notes)?;
+            let drawn = pictures::draw(job, backend, &solid, progress, interrupt, folder, notes)?;
+            let asked = job.scene().pictures.len();
+            if drawn < asked {
+                progress.note(&format!("stopped: {drawn} of {asked} pictures are drawn"));
+            }
+            Ok(drawn == asked)
+        }
+        // What was cut and measured is not lost for a mesh.
+        Err(Error::Refused(refusal)) => {
+            progress
+                .note(&format!("mesh/gear.* and its pictures are left out; mesh/blank.ply shows the gear. {refusal}"));
+            Ok(true)
+        }
+        Err(error) => Err(error),
+    }
 }

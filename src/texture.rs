@@ -1,6 +1,6 @@
 //! Surface texture of cut flanks: windows, their heights after every operation, ISO 25178 numbers, files and pictures.
 //!
-//! In: a [`Job`] and a backend. Out: [`WindowTexture`] per window and operation, which goes to `results.json` and into `texture/<operation>/`:
+//! In: a [`GearJob`] and a backend. Out: [`WindowTexture`] per window and operation, which goes to `results.json` and into `texture/<operation>/`:
 //!
 //! | file | what |
 //! | --- | --- |
@@ -23,7 +23,7 @@ pub use window::{Window, windows};
 use crate::cut::Backend;
 use crate::dexel::NO_PASS;
 use crate::error::Result;
-use crate::job::Job;
+use crate::job::GearJob;
 use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
 use crate::output::interrupt::Interrupt;
 use crate::output::progress::Progress;
@@ -42,7 +42,7 @@ pub struct WindowTexture {
     pub operation: usize,
     /// Heights over the target flank, um; x along the tooth, y along the profile towards the tip; NaN where no pass came. None where none came at all.
     pub heights: Option<Surface>,
-    /// Marks that follow each other along the tooth and along the profile: `[x, y]`.
+    /// Marks that follow each other along the tooth and along the profile: `[x, y]`; 0 along the tooth where the axes rest during strokes, so that marks run along it without end.
     pub marks: [usize; 2],
     /// What was evaluated, or why nothing could be.
     pub evaluated: Result<Evaluated, String>,
@@ -65,8 +65,9 @@ impl WindowTexture {
         let mut warnings = Vec::new();
         for (marks, direction) in self.marks.iter().zip(["along the tooth", "along the profile"]) {
             if (1..ENOUGH_MARKS).contains(marks) {
+                let marks = if *marks == 1 { "1 mark".to_owned() } else { format!("{marks} marks") };
                 warnings.push(format!(
-                    "the window holds only {marks} marks {direction}; {ENOUGH_MARKS} at least make its numbers representative"
+                    "the window holds only {marks} {direction}; {ENOUGH_MARKS} at least make its numbers representative"
                 ));
             }
         }
@@ -83,7 +84,7 @@ impl WindowTexture {
 /// # Errors
 /// Geometry and the backend. After Ctrl-C the windows that are finished are returned.
 pub fn measure(
-    job: &Job,
+    job: &dyn GearJob,
     backend: &dyn Backend,
     progress: &Progress,
     interrupt: &Interrupt,
@@ -106,14 +107,11 @@ pub fn measure(
 ///
 /// # Errors
 /// Geometry and the backend.
-pub fn cut_window(job: &Job, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
-    let generation = job.target_generation();
-    let flank = job.target_flank(&generation, window.tooth, window.side)?;
-    let field = job.field_over(&flank, window.arcs_mm(), window.leads_mm());
-    let (columns, rows) = (field.columns.len(), field.rows());
-    let cut = job.cut(backend, field)?;
-    Ok(cut
-        .layers
+pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
+    let (arcs_mm, leads_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.leads_mm());
+    let (columns, rows) = (arcs_mm.len(), leads_mm.len());
+    let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &leads_mm)?;
+    Ok(layers
         .iter()
         .enumerate()
         .map(|(operation, layer)| {
@@ -124,8 +122,8 @@ pub fn cut_window(job: &Job, backend: &dyn Backend, window: &Window) -> Result<V
             let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);
             let heights = Surface::new(rows, columns, dx, dy, heights_um);
             let marks = [
-                changes(&layer.passes[columns / 2 * rows..(columns / 2 + 1) * rows]),
-                changes(&layer.passes.iter().skip(rows / 2).step_by(rows).copied().collect::<Vec<_>>()),
+                facets(&layer.passes[columns / 2 * rows..(columns / 2 + 1) * rows]),
+                facets(&layer.passes.iter().skip(rows / 2).step_by(rows).copied().collect::<Vec<_>>()),
             ];
             let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, window));
             WindowTexture { window: window.clone(), operation, heights: heights.ok(), marks, evaluated }
@@ -133,8 +131,8 @@ pub fn cut_window(job: &Job, backend: &dyn Backend, window: &Window) -> Result<V
         .collect())
 }
 
-/// Marks along a line: one more than the changes of the pass that left it; none where a single pass left all.
-fn changes(passes: &[u32]) -> usize {
+/// Facets along a line: one more than the changes of the pass that left it; none where a single pass left all, as along the tooth where strokes rest.
+fn facets(passes: &[u32]) -> usize {
     match passes.windows(2).filter(|pair| pair[0] != pair[1]).count() {
         0 => 0,
         changes => changes + 1,

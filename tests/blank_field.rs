@@ -4,7 +4,8 @@ mod common;
 mod gpu_common;
 
 use common::*;
-use gearcut::cut::cpu::blank::{self, BlankCut, BlankOperation};
+use gearcut::cut::cpu::Cpu;
+use gearcut::cut::cpu::blank::{self, BlankCut, BlankOperation, Rub};
 use gearcut::dexel::{BlankField, NO_PASS};
 use gearcut::frame::Rigid2;
 use gearcut::gear::blank_outline::BlankOutline;
@@ -33,7 +34,9 @@ fn job(scene: Scene) -> Job {
 }
 
 fn cut(job: &Job) -> CutBlank {
-    job.cut_blank(job.blank_field().expect("fits in memory"), &|| true).expect("not stopped")
+    job.cut_blank(&Cpu::default(), job.blank_field().expect("fits in memory"), &|| true)
+        .expect("the native backend")
+        .expect("not stopped")
 }
 
 fn target(job: &Job) -> TargetOutline {
@@ -324,15 +327,20 @@ fn the_gpu_leaves_the_same_spans_and_volumes() {
         for (index, prepared) in job.operations.iter().enumerate() {
             let strokes = strokes.filter(|_| index == 1).unwrap_or(&prepared.strokes);
             let tooth = job.closed_tooth(strokes, reach_mm);
+            let returns = job.return_strokes(index);
             let operation = BlankOperation {
                 strokes,
-                returns: None,
+                returns: returns.as_ref(),
                 tool: &job.cutter,
                 tooth: &tooth,
                 blank_reach_mm: reach_mm,
                 cull: true,
             };
-            cuts.push(gpu.cut_blank(&mut field, &operation, Some(rooms)).expect("a software adapter works"));
+            cuts.push(
+                gpu.cut_blank_on_device(&mut field, &operation, Some(rooms), &|| true)
+                    .expect("a software adapter works")
+                    .expect("not stopped"),
+            );
         }
         (field, cuts)
     };
@@ -379,6 +387,20 @@ fn the_gpu_leaves_the_same_spans_and_volumes() {
             println!("single passes at most {apart:.1e} mm3 apart");
             assert!(apart < 0.05);
         }
+    }
+    // Return strokes that rub are worked out natively where the device met any: none that counts is missed, none is made up.
+    for (native, cut) in native.cuts.iter().zip(&cuts) {
+        let deep = native.rubs.iter().filter(|rub| rub.depth_mm > blank_report::LEAST_DEPTH_MM).count();
+        println!("{} rays rub, {deep} of them deep, {} on the GPU", native.rubs.len(), cut.rubs.len());
+        let alike = |a: &Rub, b: &Rub| {
+            let same = (a.pass, a.slice, a.family) == (b.pass, b.slice, b.family);
+            same && a.place_mm.distance(b.place_mm) < 1e-3 && (a.depth_mm - b.depth_mm).abs() < 1e-4
+        };
+        let all_in = |these: &[Rub], those: &[Rub]| {
+            let deep = these.iter().filter(|rub| rub.depth_mm > blank_report::LEAST_DEPTH_MM);
+            deep.clone().all(|rub| those.iter().any(|other| alike(rub, other)))
+        };
+        assert!(deep > 100 && all_in(&native.rubs, &cut.rubs) && all_in(&cut.rubs, &native.rubs));
     }
     // Lists that begin without room grow, and end the same; one stroke less does not.
     assert!(run(0, None).0 == field);

@@ -3,10 +3,13 @@
 mod common;
 
 use common::*;
-use gearcut::job::Job;
+use gearcut::cut::cpu::Cpu;
+use gearcut::frame::Rigid2;
+use gearcut::job::{CutBlank, Job};
 use gearcut::material::EdgeForce;
 use gearcut::measure::chips::ChipLedger;
 use gearcut::measure::chips::edge_polygon::EdgeSide;
+use gearcut::passes::StrokeSet;
 use gearcut::scene::model::{Infeed, PitchCurveShape};
 use gearcut::tool::{CuttingTool, PlanarTool};
 use i_overlay::core::fill_rule::FillRule;
@@ -16,6 +19,12 @@ use std::f64::consts::TAU;
 
 fn ledger(job: &Job) -> ChipLedger {
     ChipLedger::new(job, &|| true).expect("not stopped")
+}
+
+fn cut_blank(job: &Job) -> CutBlank {
+    job.cut_blank(&Cpu::default(), job.blank_field().expect("fits in memory"), &|| true)
+        .expect("the native backend")
+        .expect("not stopped")
 }
 
 fn round_job(strokes: u32) -> Job {
@@ -94,7 +103,7 @@ fn sections_are_those_of_exact_polygons_stroke_by_stroke() {
 fn the_ledger_and_the_blank_field_take_the_same_volume() {
     let scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 420), operation("finish", NORMAL, 0.0, 420)]);
     let job = Job::new(scene).expect("the paper's gear");
-    let blank = job.cut_blank(job.blank_field().expect("fits in memory"), &|| true).expect("not stopped");
+    let blank = cut_blank(&job);
     let chips = ledger(&job);
     for (index, cut) in blank.cuts.iter().enumerate() {
         let removed = cut.removed_mm3.iter().fold(0.0, |sum, by_family| sum + 0.5 * (by_family[0] + by_family[1]));
@@ -192,6 +201,83 @@ fn forces_follow_from_section_and_contact_and_balance_the_torques() {
             assert!(stroke.radial_n > 0.0, "the cut pushes the tool away");
         }
     }
+}
+
+#[test]
+fn a_dropped_pass_turns_the_balance_red() {
+    // Stroke by stroke against the blank field, which has other rays and another kernel.
+    let job = round_job(480);
+    let removed = &cut_blank(&job).cuts[0].removed_mm3;
+    let width_mm = job.scene.gear.face_width_mm;
+    let by_blank: Vec<f64> = removed
+        .chunks(job.cutter.blade_count() as usize)
+        .map(|passes| passes.iter().map(|pass| 0.5 * (pass[0] + pass[1])).sum::<f64>() / width_mm)
+        .collect();
+    // The largest difference of a stroke, as a share of the mean stroke; the first one takes a plug, the last ones meet what it left.
+    let mean_mm2 = by_blank.iter().sum::<f64>() / by_blank.len() as f64;
+    let worst = |ledger: &[f64]| {
+        let pairs = ledger.iter().zip(&by_blank).skip(1).take(440);
+        pairs.map(|(a, b)| (a - b).abs() / mean_mm2).fold(0.0, f64::max)
+    };
+    let sections = |chips: &ChipLedger| chips.operations[0].strokes.iter().map(|s| s.area_mm2).collect::<Vec<f64>>();
+    let clean = sections(&ledger(&job));
+    println!("strokes within {:.4} of the mean stroke", worst(&clean));
+    assert!(worst(&clean) < 0.1);
+    // A chip lost by the ledger: the sums part by it.
+    let mut lost = clean.clone();
+    lost[200] = 0.0;
+    assert!(worst(&lost) > 0.9);
+    let parts = |ledger: &[f64]| (ledger.iter().sum::<f64>() / by_blank.iter().sum::<f64>() - 1.0).abs();
+    println!("sums within {:.1e}, {:.1e} without a chip", parts(&clean), parts(&lost));
+    assert!(parts(&clean) < 1e-3 && parts(&lost) > 1.5e-3);
+    // A stroke that was never made: the next one takes both chips, and is found out by as much.
+    let mut fewer = round_job(480);
+    let (law, schedule) = (fewer.operations[0].strokes.law, &fewer.operations[0].schedule);
+    let strokes = StrokeSet::new(0, &fewer.cutter, law, 480, |lambda| {
+        let pose = schedule.state(if (lambda - 200.0).abs() < 0.5 { 199.0 } else { lambda }).pose;
+        Rigid2::new(pose.angle_rad, pose.center_mm)
+    });
+    fewer.operations[0].strokes = strokes;
+    let missed = sections(&ledger(&fewer));
+    assert!(missed[200] < 0.01 * mean_mm2 && missed[201] > 1.8 * clean[201]);
+    assert!(worst(&missed) > 0.9);
+}
+
+#[test]
+fn a_raked_cutter_changes_forces_and_keeps_their_balance() {
+    let with_rake = |rake_rad: f64| {
+        let mut job = round_job(960);
+        job.cutter_spec.rake_angle_rad = rake_rad;
+        (ledger(&job).operations[0].strokes.clone(), job)
+    };
+    let (flat, _) = with_rake(0.0);
+    let (raked, job) = with_rake(5_f64.to_radians());
+    for (index, (stroke, flat)) in raked.iter().zip(&flat).enumerate().take(700).skip(200) {
+        assert_eq!(stroke.area_mm2, flat.area_mm2, "rake changes forces, not shapes");
+        // Flanks lose rake against the tip, to which the coefficients belong: a little more force, far below the share of the angle.
+        let more = stroke.cutting_n / flat.cutting_n - 1.0;
+        assert!((1e-4..0.06).contains(&more), "{index}: {more}");
+        let l = job.operations[0].schedule.state(index as f64).center_distance_mm;
+        let balance = stroke.work_torque_nmm + stroke.cutter_torque_nmm + l * stroke.tangential_n;
+        assert!(balance.abs() < 1e-6 * l * stroke.cutting_n, "{balance}");
+        // Flanks with less rake are pushed away more; of that the pull along them takes a part back.
+        assert!((1e-3..0.1).contains(&(stroke.radial_n / flat.radial_n - 1.0)), "{index}: {}", stroke.radial_n);
+    }
+}
+
+#[test]
+fn a_first_stroke_at_depth_stands_apart() {
+    let job = round_job(480);
+    let operation = &ledger(&job).operations[0];
+    let entry = operation.entry().expect("no infeed");
+    let (stroke, largest) = operation.largest(|s| s.cutting_n).expect("it cuts");
+    println!("{} N on entry, {} N in stroke {stroke}", entry.cutting_n, largest.cutting_n);
+    assert!(stroke > 0 && entry.cutting_n > 10.0 * largest.cutting_n);
+    let mut scene = job.scene.clone();
+    scene.shaping_mut().expect("shaping").operations[0].infeed = Infeed::Spiral { depth_mm: 6.0, angle_rad: 1.0 };
+    let fed = &ledger(&Job::new(scene).expect("an ordinary gear")).operations[0];
+    assert!(fed.entry().is_none());
+    assert!(fed.largest(|s| s.cutting_n).expect("it cuts").1.cutting_n < 0.2 * entry.cutting_n);
 }
 
 #[test]

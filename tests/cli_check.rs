@@ -20,6 +20,9 @@ fn the_papers_gear_is_described() {
         "26 % of a circular gear's",
         "undercut                      none",
         "million dexels",
+        "rays 0.1 mm apart in 1 sections; 8.7 million cross a cutter tooth",
+        "thousand cutter teeth reach the blank",
+        "of it for blank and chips",
         "MB",
     ]);
     assert!(outcome.err.contains("warning: operation finish: backing off by 0.5 mm"), "{}", outcome.err);

@@ -51,6 +51,7 @@ fn chip_peak(unit: &str) -> Value {
 fn chips() -> Value {
     json!({
         "largest_section": chip_peak("mm^2"), "largest_thickness": chip_peak("um"), "largest_force": chip_peak("N"),
+        "entry_section": none(), "entry_force": none(),
         "largest_work_torque": chip_peak("N m"), "largest_cutter_torque": chip_peak("N m"),
         "median_section": number(0.2, "mm^2"), "median_force": number(1500.0, "N"), "largest_power": number(800.0, "W"),
         "removed_volume": number(22000.0, "mm^3"), "removal_rate": number(1.8, "cm^3/min"),
@@ -112,6 +113,7 @@ fn results(linkage: &str, level: f64, smallest_mm: f64) -> Value {
         ("cycle_time", number(1260.0, "s")),
         ("largest_chip_section", chip_peak("mm^2")),
         ("largest_cutting_force", chip_peak("N")),
+        ("entry_cutting_force", none()),
         ("removal_rate", number(1.8, "cm^3/min")),
         ("idle_strokes", number(0.0, "strokes")),
         ("unevenness_max", number(level, "%")),

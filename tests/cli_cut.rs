@@ -4,6 +4,7 @@
 mod command;
 
 use command::gearcut;
+use gearcut::output::surface_files::read_surface;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -69,6 +70,16 @@ fn every_shipped_scene_is_cut_and_the_same_scene_gives_the_same_bytes() {
         let checksums = record["sha256"].as_object().expect("checksums");
         assert_eq!(checksums.len(), files(&out).len());
         assert!(record["scene"].as_str().expect("the scene").contains("[gear]"));
+    }
+    // What a surface is of goes with it in every format.
+    for ending in ["x3p", "sdf", "npy", "csv"] {
+        let path = folder.path().join(format!("elliptical_normal/texture/finish/tooth_03_left.{ending}"));
+        let notes = read_surface(&path, None).expect("a surface with its spacing").notes;
+        for (name, words) in [("frame", "arc length along the target profile"), ("scene", "[gear]"), ("run", "version")]
+        {
+            let note = notes.iter().find(|note| note.0 == name);
+            assert!(note.is_some_and(|note| note.1.contains(words)), "{ending}: {name} is {note:?}");
+        }
     }
     let again = folder.path().join("again");
     let text = again.to_str().expect("a path");

@@ -47,6 +47,24 @@ fn a_flank_after_the_loss_is_cut_natively_and_the_loss_is_told() {
 }
 
 #[test]
+fn a_blank_after_the_loss_is_cut_natively_and_the_loss_is_told() {
+    let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 90)]);
+    scene.fields.blank_spacing_mm = 0.5;
+    let job = Job::new(scene).expect("the paper's gear");
+    let cut = |backend: &dyn Backend| job.cut_blank(backend, job.blank_field().expect("fits"), &|| true);
+    let gpu = software_gpu(redoing(None));
+    gpu.lose_device();
+    assert!(cut(&gpu).expect("cut natively") == cut(&Cpu::default()).expect("the native backend"));
+    assert!(gpu.incidents()[0].contains("the blank is cut again on cpu"), "{:?}", gpu.incidents());
+    let strict = software_gpu(strict());
+    strict.lose_device();
+    assert!(matches!(cut(&strict), Err(Error::Gpu(GpuProblem::Lost { .. }))));
+    // Ctrl-C between tiles.
+    let working = software_gpu(redoing(None));
+    assert!(job.cut_blank(&working, job.blank_field().expect("fits"), &|| false).expect("no failure").is_none());
+}
+
+#[test]
 fn a_device_lost_in_the_middle_of_a_flank_loses_nothing() {
     let job = job();
     let field = field(&job, 7);
@@ -58,8 +76,8 @@ fn a_device_lost_in_the_middle_of_a_flank_loses_nothing() {
     };
     let mut lost = 0;
     for delay_ms in [1, 5, 20, 50] {
-        // So little memory that the flank goes through in hundreds of batches.
-        let gpu = software_gpu(redoing(Some(100_000)));
+        // So little memory that the flank goes through in many batches.
+        let gpu = software_gpu(redoing(Some(120_000)));
         let mut layer = field.blank_layer();
         std::thread::scope(|scope| {
             scope.spawn(|| {

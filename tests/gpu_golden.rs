@@ -10,7 +10,7 @@ use gpu_common::*;
 use std::path::Path;
 
 /// FNV-1a over the bits of heights and passes: llvmpipe rounds alike in all its versions, widths and thread counts.
-const GOLDEN: u64 = 0x0037_441a_9734_a667;
+const GOLDEN: u64 = 0x95f2_78c8_524e_98a1;
 
 fn hash(layers: &[Layer]) -> u64 {
     let bits = layers.iter().flat_map(|l| l.heights_mm.iter().map(|h| h.to_bits()).chain(l.passes.iter().copied()));

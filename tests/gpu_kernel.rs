@@ -167,7 +167,7 @@ fn small_batches_give_the_same_bytes() {
     let job = Job::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 720)])).expect("the paper's gear");
     let generation = job.target_generation();
     let mut field = job.flank_field(&job.target_flank(&generation, 5, Side::Left).expect("a flank"));
-    field.leads_mm.truncate(21);
+    field.leads_mm.truncate(200);
     let plan = CutPlan::brute_force(&field, &job.finishing().strokes, &job.cutter);
     let cut = |memory_limit_bytes: Option<u64>| {
         let gpu = software_gpu(gearcut::cut::gpu::GpuOptions { memory_limit_bytes, ..strict() });
@@ -176,8 +176,8 @@ fn small_batches_give_the_same_bytes() {
         (layer, gpu.stage_times())
     };
     let (whole, one) = cut(None);
-    // One column and a handful of records at a time.
-    let (parts, many) = cut(Some(20_000));
+    // A few columns and one round of records at a time.
+    let (parts, many) = cut(Some(260_000));
     println!("{} batches against {}", many[0].batches, one[0].batches);
     assert!(many[0].batches > 50 * one[0].batches);
     assert!(whole == parts, "batches change the result");

@@ -1,7 +1,7 @@
 //! The shaders as naga sees them: every file in every variant is valid, and both sides of the border agree.
 
-use gearcut::cut::gpu::pipeline::{STAGES, Stage};
-use gearcut::cut::gpu::{ROWS_PER_THREAD, WORKGROUP_THREADS, records, sweep_records};
+use gearcut::cut::gpu::pipeline::{QUADS_PER_THREAD, ROUND_RECORDS, STAGES, Stage};
+use gearcut::cut::gpu::{WORKGROUP_THREADS, records, sweep_records};
 use naga::back::pipeline_constants::process_overrides;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Literal, Module, ShaderStage, TypeInner};
@@ -84,7 +84,7 @@ macro_rules! layout {
 #[test]
 fn records_have_the_same_members_on_both_sides() {
     let layouts = [
-        layout!(0, records::Launch { rows, threads_per_column }),
+        layout!(0, records::Launch { rows, quads, threads_per_column }),
         layout!(0, records::Tile { first_column, column_count, first_record, record_count }),
         layout!(0, records::Column { offset_mm, normal, normal_change, low_mm, padding }),
         layout!(
@@ -97,20 +97,17 @@ fn records_have_the_same_members_on_both_sides() {
                 start_mm,
                 y_from_mm,
                 y_to_mm,
-                base_x_mm,
-                base_y_mm,
-                arc_excess_mm2,
-                cells_per_mm,
-                cell_width_mm,
-                first_cell,
-                last_cell,
-                base_cell,
                 pass_id,
+                curve,
+                curve_5,
+                is_arc,
+                padding_1,
+                padding_2,
             }
         ),
         layout!(1, records::BlankLaunch { spacing_mm, units_per_mm, capacity, turn }),
         layout!(1, records::BlankTile { first_pass, pass_count, first_ray, ray_count }),
-        layout!(1, records::BlankPass { first_part, part_count, pass_id, padding }),
+        layout!(1, records::BlankPass { first_part, part_count, pass_id, returns }),
         layout!(1, records::BlankPart { along, across, across_end_mm, padding_1, padding_2, padding_3 }),
         layout!(1, records::BlankSpan { low_mm, high_mm, low_pass, high_pass, low_normal, high_normal }),
         layout!(2, sweep_records::SweepTile { middle, first_group, group_count, first_record, record_count }),
@@ -159,10 +156,11 @@ fn records_have_the_same_members_on_both_sides() {
 #[test]
 fn constants_agree() {
     let (module, _) = checked(&STAGES[0]);
-    let (_, rows) =
-        module.constants.iter().find(|(_, c)| c.name.as_deref() == Some("ROWS_PER_THREAD")).expect("the constant");
-    let naga::Expression::Literal(Literal::U32(rows)) = module.global_expressions[rows.init] else {
-        panic!("ROWS_PER_THREAD is no literal")
-    };
-    assert_eq!(rows, ROWS_PER_THREAD);
+    for (name, ours) in [("QUADS_PER_THREAD", QUADS_PER_THREAD), ("ROUND_RECORDS", ROUND_RECORDS)] {
+        let (_, constant) = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name)).expect(name);
+        let naga::Expression::Literal(Literal::U32(theirs)) = module.global_expressions[constant.init] else {
+            panic!("{name} is no literal")
+        };
+        assert_eq!(theirs, ours, "{name}");
+    }
 }

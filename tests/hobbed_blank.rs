@@ -70,7 +70,11 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
                 }
             }
         }
-        println!("{scene}: {} of {} passes, {points} points, {worst_nm:.2} nm off the edge", sections.len(), set.count());
+        println!(
+            "{scene}: {} of {} passes, {points} points, {worst_nm:.2} nm off the edge",
+            sections.len(),
+            set.count()
+        );
         assert!(points > 3000 && worst_nm < 20.0);
     }
 }
@@ -87,7 +91,9 @@ fn candidates_leave_what_all_passes_leave() {
                     let set = &cutter.operations[operation];
                     let sections = cutter.sections(operation, cull);
                     println!("{scene}, cull {cull}: {} of {} passes", sections.len(), set.count());
-                    blank_sweeps::cut(&mut field, &sections, set.first_pass..set.end_pass(), &|| true).expect("done").chips
+                    blank_sweeps::cut(&mut field, &sections, set.first_pass..set.end_pass(), &|| true)
+                        .expect("done")
+                        .chips
                 })
                 .collect();
             (field, chips)
@@ -120,7 +126,10 @@ fn what_is_left_is_the_target_and_its_marks() {
             assert!(removed.imbalance() < 1e-9);
         }
         let section = report.section;
-        println!("{scene}: section {:?} against {} mm2, bound {:?}", section.cut_mm2, section.target_mm2, section.bound_mm2);
+        println!(
+            "{scene}: section {:?} against {} mm2, bound {:?}",
+            section.cut_mm2, section.target_mm2, section.bound_mm2
+        );
         assert!((section.cut_mm2[0] - section.cut_mm2[1]).abs() < section.bound_mm2[0]);
         assert!((0..2).all(|f| (section.cut_mm2[f] - section.target_mm2).abs() < section.bound_mm2[f]));
         assert!(report.gouges.is_empty() && report.interference.is_empty(), "{:?}", report.gouges);
@@ -145,7 +154,9 @@ fn what_is_left_is_the_target_and_its_marks() {
                 }
             }
         }
-        println!("{scene}: {ends} ends, {lowest_um:.4} um and more over the target, at most {highest_um:.2} at the pitch curve; marks {marks_um:.2}");
+        println!(
+            "{scene}: {ends} ends, {lowest_um:.4} um and more over the target, at most {highest_um:.2} at the pitch curve; marks {marks_um:.2}"
+        );
         // 0.2 um: chords of the outline over hollow fillets lie in the material's stead. Marks are formulas for the pitch line.
         assert!(ends > 10_000 && lowest_um > -0.2);
         assert!(highest_um < 1.3 * marks_um && highest_um > 0.5 * marks_um);
@@ -195,7 +206,10 @@ fn ends_of_spans_are_the_flank_kernels_heights() {
 
 #[test]
 fn the_mesh_is_closed_and_loads_are_those_of_the_ledger() {
-    let job = job("circular_spur", &["gear.face_width_mm=10", "fields.blank.spacing_mm=0.3", "fields.blank.slice_spacing_mm=1.0"]);
+    let job = job(
+        "circular_spur",
+        &["gear.face_width_mm=10", "fields.blank.spacing_mm=0.3", "fields.blank.slice_spacing_mm=1.0"],
+    );
     let cutter = HobCutter::new(&job).expect("passes");
     let blank = cutter.cut_blank(job.blank_field().expect("fits"), &|| true).expect("not stopped");
     let mesh = BlankMesh::new(&blank.cut.field, None).mesh;
@@ -227,10 +241,16 @@ fn the_mesh_is_closed_and_loads_are_those_of_the_ledger() {
         worst = worst.max((shares[0] - shares[1]).abs());
         thickest = [thickest[0].max(tooth.thickness_mm), thickest[1].max(wanted.thickness_mm)];
         if shares[1] > 0.005 {
-            println!("  {index}: {:.4} {:.4}, {:.3} {:.3} mm", shares[0], shares[1], tooth.thickness_mm, wanted.thickness_mm);
+            println!(
+                "  {index}: {:.4} {:.4}, {:.3} {:.3} mm",
+                shares[0], shares[1], tooth.thickness_mm, wanted.thickness_mm
+            );
         }
     }
-    println!("worst share {worst:.4}, thickest chips {thickest:?} mm, way {:.1} m", 1e-3 * load.teeth.iter().map(|t| t.way_mm).sum::<f64>());
+    println!(
+        "worst share {worst:.4}, thickest chips {thickest:?} mm, way {:.1} m",
+        1e-3 * load.teeth.iter().map(|t| t.way_mm).sum::<f64>()
+    );
     assert!(worst < 0.004);
     assert!((thickest[0] / thickest[1] - 1.0).abs() < 0.25);
 }

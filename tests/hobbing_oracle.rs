@@ -11,7 +11,7 @@ use gearcut::gear::PitchCurve;
 use gearcut::gear::blank::Blank;
 use gearcut::gear::generation::Side;
 use gearcut::gear::rack_generation::{ProfilePart, Rack, RackGeneration};
-use gearcut::linkage::hobbing::marks::{Marks, angle_to_trace_rad, reduced};
+use gearcut::linkage::hobbing::marks::Marks;
 use gearcut::linkage::hobbing::{FeedPath, HobbingAxes, HobbingGeometry, HobbingLaw, HobbingLinkage};
 use gearcut::measure::engagement::Engagement;
 use gearcut::scene::model::{
@@ -440,7 +440,8 @@ fn lattices_of_marks() {
             HobbingLinkage::new(curve.clone(), geometry, exact, 14.661, &FeedPath::steady(60.0, slide, shift)).unwrap();
         let target = RackGeneration { curve, rack: rack(beta, hand) };
         let marks = Marks { linkage: &linkage, target: &target, hob: &hob, side: Side::Left };
-        let (gash, mark) = marks.nearest(0, 0.0);
+        let (gash, space, mark) = marks.nearest(0, 35, 0.0);
+        assert_eq!(space, 0);
         // Without shift two gashes are equally near the pitch line, and the file takes either.
         let v1_file = number(&case["v1"][0]);
         let off = |gash: &i64| (marks.to_next_gash(*gash, 0).x - v1_file).abs();
@@ -460,13 +461,13 @@ fn lattices_of_marks() {
         expect("v1", theirs(v1), &case["v1"]);
         expect("v2", theirs(v2), &case["v2"]);
         // On the pitch line a roll takes sin(alpha_t) of its length along the profile.
-        let on_flank = |step: DVec2| marks.on_flank(step, target.rack.pressure_angle_rad.sin());
-        let same_tooth = -angle_to_trace_rad(on_flank(v2)).to_degrees();
+        let length_per_roll = target.rack.pressure_angle_rad.sin();
+        let same_tooth = -marks.on_flank(v2, length_per_roll).to_trace_rad().to_degrees();
         close("same tooth", same_tooth, number(&case["same_tooth_inclination_deg"]), 1e-5);
-        for (step, expected) in reduced(v1, v2, on_flank).into_iter().zip(case["reduced"].as_array().unwrap()) {
-            let vector = on_flank(step);
-            close("length", vector.length(), number(&expected["length"]), rel * vector.length());
-            close("angle", -angle_to_trace_rad(vector), number(&expected["angle"]), 1e-6);
+        let reduced = marks.reduced([v1, v2], length_per_roll);
+        for (step, expected) in reduced.into_iter().zip(case["reduced"].as_array().unwrap()) {
+            close("length", step.length_mm(), number(&expected["length"]), rel * step.length_mm());
+            close("angle", -step.to_trace_rad(), number(&expected["angle"]), 1e-6);
         }
     }
 }

@@ -124,3 +124,30 @@ fn candidates_leave_what_all_passes_leave() {
         same_as_brute_force(&format!("{name}, whole"), &case, &passes, &field);
     }
 }
+
+/// A gash touches the target in one point, where it lies on it exactly: a ray there is left by a tooth of that gash and of no other.
+#[test]
+fn marks_are_left_by_the_gashes_of_the_independent_implementation() {
+    let file = data("p08_events_s2");
+    for name in ["axial", "diagonal_VL"] {
+        let part = &file[name];
+        let case = Case::new(&part["setup"]);
+        let cycle = TAU * f64::from(case.teeth);
+        let passes = case.passes([-3.5 * cycle, 4.5 * cycle]);
+        let gash_rad = TAU / number(&part["setup"], "Zb");
+        let (space, flank) = (part["space"].as_i64().expect("space"), number(part, "flank"));
+        let events = part["events"].as_array().expect("events");
+        for event in events {
+            let mark = &event["mark"];
+            let field = case.patch(space, flank, &[number(mark, "sigma")], &[number(mark, "z")]);
+            let plan = SweepPlan::new(&field, &passes, case.hob.edge());
+            let mut layer = field.blank_layer();
+            Cpu::default().cut_spatial(&field, case.hob.edge(), &plan, &mut layer).expect("cuts");
+            let pass = passes.pass(layer.passes[0] - passes.first_pass);
+            let gash = (pass.tool_angle_rad / gash_rad).round() as i64;
+            assert_eq!(gash, event["g"].as_i64().expect("g"), "{name} at {mark}");
+            assert!(layer.heights_mm[0].abs() < 1e-7, "{name} at {mark}: {} mm", layer.heights_mm[0]);
+        }
+        assert!(events.len() >= 17);
+    }
+}

@@ -5,8 +5,11 @@ mod hobbing_common;
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::SpatialField;
+use gearcut::gear::generation::Side;
+use gearcut::gear::rack_generation::RackGeneration;
+use gearcut::linkage::hobbing::marks::Marks;
 use gearcut::measure::hob_load::{LedgerGrid, SpaceLedger, ToothLoad};
-use gearcut::measure::marks::{FlankMetric, MarkedFlank, autocorrelation_steps, crossing_arc_mm, lattice, mark};
+use gearcut::measure::marks::{autocorrelation_steps, between_rad};
 use gearcut::passes::SweepPlan;
 use gearcut::scene::model::GashForm;
 use gearcut::tool::CuttingTool;
@@ -31,67 +34,10 @@ fn simulated(case: &Case, field: &SpatialField, cycles: [f64; 2]) -> Vec<f64> {
     layer.heights_mm.iter().map(|&h| f64::from(h)).collect()
 }
 
-fn marked(case: &Case, space: i64, side: f64) -> MarkedFlank {
-    let module = case.normal_module_mm / case.helix_angle_rad.cos();
-    MarkedFlank {
-        side,
-        crossing_arc_mm: crossing_arc_mm(space, side, module, 0.25 * PI * module),
-        pressure_angle_rad: (case.pressure_angle_rad.tan() / case.helix_angle_rad.cos()).atan(),
-    }
-}
-
-fn metric(case: &Case, side: f64) -> FlankMetric {
-    let pressure_angle_rad = (case.pressure_angle_rad.tan() / case.helix_angle_rad.cos()).atan();
-    FlankMetric {
-        side,
-        gear_hand: case.gear_hand,
-        helix_angle_rad: case.helix_angle_rad,
-        pressure_angle_rad,
-        length_per_roll: 1.0,
-    }
-}
-
-#[test]
-fn marks_stand_where_the_independent_implementation_has_them() {
-    let file = data("p08_events_s2");
-    for name in ["axial", "diagonal_VL"] {
-        let part = &file[name];
-        let case = Case::new(&part["setup"]);
-        let flank = marked(&case, part["space"].as_i64().expect("space"), number(part, "flank"));
-        for event in part["events"].as_array().expect("events") {
-            let passage = event["g"].as_i64().expect("g");
-            let found = mark(&case.linkage, 10, &flank, passage).expect("a mark");
-            let wanted = &event["mark"];
-            let apart = DVec2::new(found.roll_mm - number(wanted, "sigma"), found.z_mm - number(wanted, "z")).length();
-            assert!(apart < 1e-9, "{name} gash {passage}: {found:?} against {wanted}");
-        }
-    }
-    // Reduced lattices of S2's conditions.
-    let setup = &file["axial"]["setup"];
-    for wanted in data("p06_marks_s2")["cases"].as_array().expect("cases") {
-        let (condition, shift) = (wanted["condition"].as_str().expect("a name"), number(wanted, "vd"));
-        let mut setup = setup.clone();
-        let hand = if condition.ends_with('L') { -1.0 } else { 1.0 };
-        let udot = if condition.starts_with('U') { -shift } else { shift };
-        let gamma = hand * number(&setup, "beta") + number(&setup, "lam");
-        setup["h"] = json!(hand);
-        setup["udot"] = json!(udot);
-        setup["vz"] = json!(-50.0 / 300.0 - udot * gamma.sin());
-        let case = Case::new(&setup);
-        // The oracle does not say at which gash it took its vectors; they change by some 1e-4 from gash to gash.
-        let wanted_steps = ["v1", "v2"].map(|key| DVec2::from_slice(&numbers(&wanted[key])));
-        let apart = |steps: &[DVec2; 2]| steps[0].distance(wanted_steps[0]) + steps[1].distance(wanted_steps[1]);
-        let steps = [1.0, -1.0]
-            .into_iter()
-            .flat_map(|side| (-12..13).map(move |passage| (side, passage)))
-            .filter_map(|(side, passage)| lattice(&case.linkage, 10, 35, &marked(&case, 0, side), passage))
-            .min_by(|a, b| apart(a).total_cmp(&apart(b)))
-            .expect("marks");
-        println!("{condition} {shift}: {:.2e} mm off", apart(&steps));
-        assert!(apart(&steps) < 1e-3, "{condition} {shift}: {steps:?} against {wanted_steps:?}");
-        let reduced = metric(&case, 1.0).reduced(steps);
-        println!("{condition} {shift}: {reduced:?}");
-    }
+/// Marks of one side; +1 is the low-arc side of a space.
+fn marks<'a>(case: &'a Case, target: &'a RackGeneration, side: f64) -> Marks<'a> {
+    let side = if side > 0.0 { Side::Left } else { Side::Right };
+    Marks { linkage: &case.linkage, target, hob: &case.hob, side }
 }
 
 #[test]
@@ -105,13 +51,18 @@ fn the_surface_shows_the_lattice_of_the_kinematics() {
         let (sigmas, z) = (even(-6.0, 6.0, count[0]), even(-5.0, 5.0, count[1]));
         let field = case.patch(space, side, &sigmas, &z);
         let heights = simulated(&case, &field, [-3.5, 4.5]);
-        let metric = metric(&case, side);
-        let length = |step: DVec2| metric.step(step).length_mm;
-        let steps = autocorrelation_steps(&heights, count, [12.0 / 120.0, 10.0 / 120.0], length);
-        let kinematic = lattice(&case.linkage, 10, case.teeth, &marked(&case, space, side), 28).expect("marks");
+        let target = case.rack_generation();
+        let marks = marks(&case, &target, side);
+        let length = |step: DVec2| marks.on_flank(step, 1.0).length_mm();
+        // The patch counts z against the gear's axis.
+        let turned_over = |step: DVec2| DVec2::new(step.x, -step.y);
+        let spacing_mm = [12.0 / 120.0, 10.0 / 120.0];
+        let steps = autocorrelation_steps(&heights, count, spacing_mm, |step| length(turned_over(step)));
+        let steps: Vec<DVec2> = steps.into_iter().map(turned_over).collect();
+        let kinematic = [marks.to_next_gash(28, space), marks.to_same_tooth(28, space, case.teeth)];
         println!("{name}: kinematics {kinematic:?}, surface {steps:?}");
         // Every step on the surface is a whole combination of the kinematic ones, within a fiftieth of the shortest.
-        let shortest = metric.reduced(kinematic)[0].length_mm;
+        let shortest = marks.reduced(kinematic, 1.0)[0].length_mm();
         let [a, b] = kinematic;
         assert!(steps.len() >= 2);
         for step in &steps[..2] {
@@ -122,10 +73,10 @@ fn the_surface_shows_the_lattice_of_the_kinematics() {
             assert!(apart < 0.02 * shortest, "{step}: {apart} mm off {i}, {j}");
         }
         // And the shortest ones of both agree.
-        let reduced = metric.reduced([steps[0], steps[1]]);
-        for (seen, known) in reduced.iter().zip(metric.reduced(kinematic)) {
-            assert!((seen.length_mm / known.length_mm - 1.0).abs() < 0.02, "{seen:?} against {known:?}");
-            assert!((seen.to_trace_rad.abs() - known.to_trace_rad.abs()).abs() < 0.03, "{seen:?} against {known:?}");
+        let reduced = marks.reduced([steps[0], steps[1]], 1.0);
+        for (seen, known) in reduced.iter().zip(marks.reduced(kinematic, 1.0)) {
+            assert!((seen.length_mm() / known.length_mm() - 1.0).abs() < 0.02, "{seen:?} against {known:?}");
+            assert!(between_rad(seen.to_trace_rad(), known.to_trace_rad()) < 0.03, "{seen:?} against {known:?}");
         }
     }
 }
@@ -156,12 +107,13 @@ fn feed_and_generating_marks_have_their_closed_heights() {
     lobed["e"] = json!(0.1);
     let check = |setup: &Value, space: i64, name: &str| {
         let case = Case::new(setup);
-        let flank = marked(&case, space, -1.0);
+        let target = case.rack_generation();
+        let marks = marks(&case, &target, -1.0);
+        let crossing_arc_mm = target.crossing_arc_mm(space, Side::Right, 0.0);
         // The mark nearest to the pitch line, from the kinematics; then straight lines along the tooth and along the profile through it.
-        let around =
-            ((flank.crossing_arc_mm / case.linkage.geometry().arc_per_hob_rad_mm()) / TAU * 10.0).round() as i64;
+        let around = ((crossing_arc_mm / case.linkage.geometry().arc_per_hob_rad_mm()) / TAU * 10.0).round() as i64;
         let (passage, at) = (around - 4..=around + 4)
-            .filter_map(|passage| Some((passage, mark(&case.linkage, 10, &flank, passage)?)))
+            .map(|passage| (passage, marks.mark(passage, space)))
             .min_by(|a, b| a.1.roll_mm.abs().total_cmp(&b.1.roll_mm.abs()))
             .expect("a mark");
         let highest = |sigmas: &[f64], z: &[f64]| {
@@ -169,10 +121,10 @@ fn feed_and_generating_marks_have_their_closed_heights() {
             simulated(&case, &field, [-3.5, 4.5])
         };
         let lines = 4001;
-        let along_tooth = highest(&[at.roll_mm], &even(at.z_mm, at.z_mm + 2.5, lines));
+        let along_tooth = highest(&[at.roll_mm], &even(-at.z_mm, -at.z_mm + 2.5, lines));
         let feed_mark = along_tooth.iter().copied().fold(0.0, f64::max);
         let sigmas = even(at.roll_mm, at.roll_mm + 2.5, lines);
-        let along_profile = highest(&sigmas, &[at.z_mm]);
+        let along_profile = highest(&sigmas, &[-at.z_mm]);
         let ridge = (0..lines).max_by(|&a, &b| along_profile[a].total_cmp(&along_profile[b])).expect("heights");
         let generating_mark = along_profile[ridge];
         let feed = number(setup, "vz").abs() * case.linkage.cycle_s();
@@ -186,7 +138,7 @@ fn feed_and_generating_marks_have_their_closed_heights() {
         let sigma = sigmas[ridge];
         let frame = case.curve.frame(case.curve.phi_at_arc(PI * module * (space as f64 + 0.25) + sigma));
         let (rho, c) = (1.0 / frame.curvature_per_mm, sigma * cos);
-        let step = lattice(&case.linkage, 10, case.teeth, &flank, passage).expect("marks")[0];
+        let step = marks.to_next_gash(passage, space);
         let generating_closed = step.x * step.x * (sin + c / rho) / (8.0 * rho);
         println!(
             "{name}: rho {rho:.1}, feed mark {:.4} against {:.4} um, generating mark {:.4} against {:.4} um",
@@ -233,8 +185,7 @@ fn teeth_take_their_shares() {
         let passes = case.passes([-24.0 * cycle, 6.0 * cycle]);
         let module = case.normal_module_mm / case.helix_angle_rad.cos();
         // One slice that stands for a millimetre: volumes in mm3 are areas in mm2.
-        let grid =
-            LedgerGrid { slices_mm: vec![0.0], slice_width_mm: 1.0, spacing_mm: 0.5, heights_mm: [-10.5, 8.0] };
+        let grid = LedgerGrid { slices_mm: vec![0.0], slice_width_mm: 1.0, spacing_mm: 0.5, heights_mm: [-10.5, 8.0] };
         let mut loads = vec![ToothLoad::default(); case.hob.teeth.len()];
         for &space in &spaces {
             let arc = |z: f64| f64::from(space) * PI * module + case.gear_hand * case.helix_angle_rad.tan() * z;

@@ -4,7 +4,7 @@ mod common;
 
 use gearcut::cut::cpu::Cpu;
 use gearcut::gear::generation::Side;
-use gearcut::job::Job;
+use gearcut::job::{GearJob, HobCutter, HobbingJob, Job};
 use gearcut::scene;
 use gearcut::surface::gear_solid::gear_solid;
 use gearcut::surface::gear_surfaces::complete;
@@ -117,6 +117,71 @@ fn the_body_is_as_large_as_clipping_says() {
     assert!(section.solid([-1.0, 1.0], DVec2::X).is_closed());
 }
 
+/// Hobbed gears, helical and undercut among them, are closed bodies, as large as their face width times the area inside the target's polygon: feed and generating marks of some micrometres stand over it.
+#[test]
+fn hobbed_gears_give_closed_bodies() {
+    let backend = Cpu::default();
+    let body = |name: &str, settings: &[&str]| {
+        let coarse =
+            ["fields.flank.profile_spacing_um=100", "fields.flank.lead_spacing_um=2500", "output.mesh_spacing_mm=0.3"];
+        let settings: Vec<String> = coarse.iter().chain(settings).map(|&s| s.to_owned()).collect();
+        let path = format!("scenes/hobbing/{name}.toml");
+        let job = HobbingJob::new(&scene::load(Path::new(&path), &settings).expect("a scene").scene).expect("a job");
+        let cutter = HobCutter::new(&job).expect("passes");
+        let flanks = (1..=job.scene.gear.teeth)
+            .flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)])
+            .map(|(tooth, side)| {
+                let cut = cutter.cut(&backend, tooth, side).expect("cut");
+                SurfaceGrid::new(&cut.rays, &cut.layers, job.scene.output.mesh_spacing_mm)
+            })
+            .collect();
+        let surfaces = complete(&cutter, &backend, flanks, &|| ()).expect("roots and tips");
+        let outline = Outline::new(&surfaces, &job.blank);
+        let solid = gear_solid(&outline, 20.0).expect("a closed body");
+        assert!(solid.is_closed(), "{name}: {:?}", solid.edge_faults());
+        for r in [0, outline.rows() / 2, outline.rows() - 1] {
+            assert_eq!(crossings(&outline.row_mm(r)), 0, "{name} row {r}");
+        }
+        println!("{name}: {} triangles, {:.1} mm^3", solid.triangles.len(), solid.volume_mm3());
+        (solid.volume_mm3(), job)
+    };
+    for (name, settings) in [
+        (
+            "circular_helical",
+            &["gear.teeth=13", "gear.face_width_mm=10", "tool.hob.starts=1", "tool.hob.gashes=28"][..],
+        ),
+        (
+            "third_order_plain",
+            &["gear.face_width_mm=5", "fields.flank.profile_spacing_um=400", "output.mesh_spacing_mm=0.5"],
+        ),
+    ] {
+        let (volume_mm3, job) = body(name, settings);
+        let gear = &job.scene.gear;
+        let cutter = HobCutter::new(&job).expect("passes");
+        let section = section_area_mm2(&cutter) - 100.0 * std::f64::consts::PI;
+        let expected = section * gear.face_width_mm;
+        println!("{name}: {volume_mm3:.1} for {expected:.1} mm^3");
+        assert!((volume_mm3 / expected - 1.0).abs() < 5e-4, "{name}: {volume_mm3} for {expected}");
+    }
+}
+
+/// Area of the target's polygon in the middle of the face.
+fn section_area_mm2(job: &dyn GearJob) -> f64 {
+    let mut points: Vec<DVec2> = Vec::new();
+    for tooth in 1..=job.scene().gear.teeth {
+        let profile = |side| job.target_profiles(tooth, side, 0.1, &[0.0]).expect("a flank").1[0].clone();
+        let [right, left] = [Side::Right, Side::Left].map(profile);
+        let foot = |point: DVec2| job.blank().height(point, point.to_angle()).1;
+        let [from, to] = [&right, &left].map(|flank| foot(flank[flank.len() - 1].0));
+        let land = (to - from).rem_euclid(std::f64::consts::TAU);
+        points.extend(right.iter().map(|p| p.0));
+        points.extend((1..20).map(|i| job.blank().outline_mm(from + land * f64::from(i) / 20.0)));
+        points.extend(left.iter().rev().map(|p| p.0));
+        points.extend(job.target_roots(tooth, 0.1, &[0.0]).expect("a root")[0].iter().map(|p| p.0));
+    }
+    (0..points.len()).map(|i| 0.5 * points[i].perp_dot(points[(i + 1) % points.len()])).sum()
+}
+
 /// A few teeth of a gear whose other teeth no pass reaches, and a small pinion that the cutter undercuts.
 #[test]
 fn windows_and_undercut_leave_closed_bodies_in_the_blank() {
@@ -125,7 +190,10 @@ fn windows_and_undercut_leave_closed_bodies_in_the_blank() {
     for settings in [&window[..], &["gear.teeth=12"]] {
         let settings = [settings, &["fields.blank.spacing_mm=0.2"]].concat();
         let job = load(Path::new("scenes/shaping/circular_m3_z24.toml"), &settings);
-        let cut = job.cut_blank(job.blank_field().expect("fits"), &|| true).expect("not stopped");
+        let cut = job
+            .cut_blank(&Cpu::default(), job.blank_field().expect("fits"), &|| true)
+            .expect("native")
+            .expect("not stopped");
         let BlankMesh { mesh, guessed } = BlankMesh::new(&cut.field, None);
         assert!(mesh.is_closed() && guessed == 0, "{settings:?}: {:?}", mesh.edge_faults());
     }

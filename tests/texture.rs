@@ -249,6 +249,44 @@ fn textures(job: &Job) -> Vec<WindowTexture> {
     windows.iter().flat_map(|window| cut_window(job, &Cpu::default(), window).expect("cut")).collect()
 }
 
+#[test]
+fn without_windows_the_extreme_teeth_and_tooth_3_are_taken_whole() {
+    let job = Job::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 360)])).expect("a job");
+    let windows = windows(&job).expect("windows");
+    // r is largest at 0 and smallest at 60 deg, a sixth of 42 pitches: beside tooth 1 and beside tooth 7.
+    let flanks: Vec<_> = windows.iter().map(|w| (w.tooth, w.side)).collect();
+    assert_eq!(flanks, [1, 3, 7].map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]).concat());
+    for window in &windows {
+        assert_eq!(window.form, Form::Poly2);
+        let [along_tooth, along_profile] = window.length_mm();
+        assert!((along_tooth - 30.0).abs() < 0.61 && (4.0..7.0).contains(&along_profile), "{window:?}");
+        // Equal steps of arc, not of roll angle.
+        let arcs: Vec<f64> = window.arcs_mm().collect();
+        assert!(arcs.windows(2).all(|pair| (pair[1] - pair[0] - 0.005).abs() < 1e-12), "{window:?}");
+    }
+}
+
+/// Marks are a tenth of a millimetre apart on the profile, and lean by one of them over the face where the feed goes on during the stroke.
+#[test]
+fn a_window_with_too_few_marks_says_so() {
+    for (during_stroke, length_mm, directions) in [
+        (false, 0.05, &["along the profile"][..]),
+        (false, 2.0, &[]),
+        (true, 0.05, &["along the tooth", "along the profile"]),
+        (true, 2.0, &["along the tooth"]),
+    ] {
+        let mut scene = finishing_scene(2.0, 30, 25, PitchCurveShape::Circle, 0.3);
+        scene.shaping_mut().expect("shaping").operations[0].feed_during_stroke = during_stroke;
+        scene.textures = vec![window(3, WindowSides::Left, None, Some(length_mm), 1e-3, Form::Plane)];
+        let textures = textures(&Job::new(scene).expect("a job"));
+        let warnings = textures[0].warnings();
+        assert_eq!(warnings.len(), directions.len(), "{during_stroke}, {length_mm} mm: {warnings:?}");
+        for (warning, direction) in warnings.iter().zip(directions) {
+            assert!(warning.contains("the window holds only") && warning.contains(direction), "{warning}");
+        }
+    }
+}
+
 /// A gear and a cutter so large that a few marks are all alike: the fingerprint of parabolic scallops, cut and not painted.
 #[test]
 fn a_cut_scallop_surface_has_the_fingerprint_of_its_shape() {

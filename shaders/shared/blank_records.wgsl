@@ -25,7 +25,8 @@ struct BlankPass {
     first_part: u32,
     part_count: u32,
     pass_id: u32,
-    padding: u32,
+    // 1: a return stroke, which takes nothing.
+    returns: u32,
 }
 
 // Part of a tooth's outline that runs one way across the rays: cubics in a parameter from 0 to 1.

@@ -4,11 +4,10 @@
 
 // Newton steps at most: two suffice from the tile's middle, grazing rays take five.
 const MAX_STEPS: u32 = 8u;
-// A step below this (10 nm) is the last one: the error after it is its square.
-const LAST_STEP_MM: f32 = 1e-5;
-// A last step above this has not arrived. The residual of a grazing ray is known to some 1e-8 mm, so its steps do not
-// shrink further than this.
-const CONVERGED_MM: f32 = 2e-5;
+// A step below this (100 nm) is the last one: the error after it is its square times half the bend of the edge along the
+// ray, 0.005 nm where the radius is 1 mm. The residual of a grazing ray is known to some 1e-8 mm, so its steps may not
+// shrink much further.
+const LAST_STEP_MM: f32 = 1e-4;
 // Heights are held within this of the start, so that no iterate grows beyond what f32 holds; rays are far shorter.
 const REACH_MM: f32 = 200.0;
 // Smallest slope of a residual that is divided by: flatter ones graze at less than 0.2 seconds of arc.
@@ -29,21 +28,19 @@ struct Entries {
     unconverged: vec4<bool>,
 }
 
-// Falling root of x + k nx - U(y + k ny), U a table of cubics.
-fn enter_table(rays: Rays, record: PassRecord) -> Entries {
+// Falling root of x + k nx - U(y + k ny), U the record's polynomial.
+fn enter_curve(rays: Rays, record: PassRecord) -> Entries {
+    let c = record.curve;
+    let c5 = record.curve_5;
     var k = vec4<f32>(0.0);
     var rate = vec4<f32>(0.0);
     var step = vec4<f32>(0.0);
     for (var i = 0u; i < MAX_STEPS; i++) {
         let y = rays.y + k * rays.ny;
-        let cell = clamp(floor(y * record.cells_per_mm), vec4(record.first_cell), vec4(record.last_cell));
-        let index = vec4<u32>(vec4<i32>(cell) + vec4<i32>(i32(record.base_cell)));
-        let c = transpose(mat4x4<f32>(cells[index.x], cells[index.y], cells[index.z], cells[index.w]));
-        let t = y - cell * record.cell_width_mm;
-        // Beyond its ends the table goes on along its end tangents.
-        let inside = clamp(t, vec4(0.0), vec4(record.cell_width_mm));
-        let slope = c[1] + inside * (2.0 * c[2] + inside * (3.0 * c[3]));
-        let x = (c[0] - record.base_x_mm) + inside * (c[1] + inside * (c[2] + inside * c[3])) + (t - inside) * slope;
+        // Beyond its ends the polynomial goes on along its end tangents.
+        let t = clamp(y, vec4(record.y_from_mm), vec4(record.y_to_mm));
+        let slope = c.x + t * (2.0 * c.y + t * (3.0 * c.z + t * (4.0 * c.w + t * (5.0 * c5))));
+        let x = t * (c.x + t * (c.y + t * (c.z + t * (c.w + t * c5)))) + (y - t) * slope;
         rate = rays.nx - slope * rays.ny;
         let divisor = select(rate, vec4(FLATTEST), abs(rate) < vec4(FLATTEST));
         step = (rays.x + k * rays.nx - x) / divisor;
@@ -54,17 +51,17 @@ fn enter_table(rays: Rays, record: PassRecord) -> Entries {
     }
     let y = rays.y + k * rays.ny;
     let on_segment = (y >= vec4(record.y_from_mm)) & (y <= vec4(record.y_to_mm)) & (rate < vec4(0.0));
-    let converged = abs(step) < vec4(CONVERGED_MM);
+    let converged = abs(step) < vec4(LAST_STEP_MM);
     return Entries(k, on_segment & converged, on_segment & !converged);
 }
 
 // First root of a circle, without cancellation where the ray points at it: q (q + 2 m) + excess, with m from the centre
 // to the base point.
 fn enter_arc(rays: Rays, record: PassRecord) -> Entries {
-    let m_x = record.base_x_mm;
-    let m_y = record.base_y_mm;
+    let m_x = record.curve.x;
+    let m_y = record.curve.y;
     let b = rays.nx * (rays.x + m_x) + rays.ny * (rays.y + m_y);
-    let c = rays.x * (rays.x + 2.0 * m_x) + rays.y * (rays.y + 2.0 * m_y) + record.arc_excess_mm2;
+    let c = rays.x * (rays.x + 2.0 * m_x) + rays.y * (rays.y + 2.0 * m_y) + record.curve.z;
     let discriminant = b * b - c;
     let root = sqrt(max(discriminant, vec4(0.0)));
     let towards = b < vec4(0.0);

@@ -4,6 +4,8 @@
 struct Launch {
     // Rows of the field, along the tooth.
     rows: u32,
+    // Quads of rows in a column, the last one filled up.
+    quads: u32,
     // Threads that share the rows of one column.
     threads_per_column: u32,
 }
@@ -42,19 +44,15 @@ struct PassRecord {
     // y that belongs to the segment, against the base point, ends overlapping.
     y_from_mm: f32,
     y_to_mm: f32,
-    // Table: x of the base cell. Arc: base point against the centre.
-    base_x_mm: f32,
-    base_y_mm: f32,
-    // Arc: square of the base point's distance from the centre less that of the radius.
-    arc_excess_mm2: f32,
-    // Table: cells in a millimetre, 0 for an arc.
-    cells_per_mm: f32,
-    cell_width_mm: f32,
-    // First and last cell against the base cell.
-    first_cell: f32,
-    last_cell: f32,
-    // Base cell in the table of all segments.
-    base_cell: u32,
     // Id of the pass.
     pass_id: u32,
+    // Table: coefficients of t to t^4, t = y against the base point. Arc: base point against the centre; square of its distance
+    // from the centre less that of the radius; nothing.
+    curve: vec4<f32>,
+    // Table: coefficient of t^5.
+    curve_5: f32,
+    // 1 for an arc, 0 for a table.
+    is_arc: u32,
+    padding_1: u32,
+    padding_2: u32,
 }

@@ -15,10 +15,12 @@ use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::{Limit, LineChart, LineSeries, Panel};
 use crate::output::progress::duration_text;
+use crate::output::quantity::Quantity;
 use crate::output::table::{Cell, write_table};
 use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::{HobbingKind, HobbingOperation, ShiftDirection, ShiftStrategy};
 use crate::units::{TURN_RAD, UM_PER_MM};
+use serde_json::{Value, json};
 
 /// Rows of the axis table per cycle along the pitch curve.
 const ROWS_PER_CYCLE: f64 = 360.0;
@@ -102,8 +104,13 @@ impl HobbingAxesReport {
         (0..job.operations.len()).map(|index| Self::new(job, index)).collect()
     }
 
+    /// Name of the operation.
+    pub fn name(&self) -> &str {
+        &self.spec.name
+    }
+
     /// Linkage in words.
-    fn words(&self) -> String {
+    pub fn words(&self) -> String {
         let printed = if self.law.is_as_printed() { ", as printed" } else { "" };
         match self.spec.kind {
             HobbingKind::Plain { .. } => format!("five axes, scheme {}{printed}", self.law.scheme()),
@@ -169,7 +176,8 @@ impl HobbingAxesReport {
         sheet.table(&self.peak_rows());
     }
 
-    fn peak_rows(&self) -> Vec<Vec<String>> {
+    /// Peaks of the axes against their limits: a row of titles, then one per axis.
+    pub fn peak_rows(&self) -> Vec<Vec<String>> {
         let titles = ["axis", "largest", "at", "limit", "left"].map(str::to_owned).to_vec();
         let rows = self.named_peaks().map(|(name, unit, peak)| {
             let text = |value: f64| format!("{} {unit}", significant(shown(value, unit), 4));
@@ -192,6 +200,31 @@ impl HobbingAxesReport {
         let speeds = speeds.map(move |((name, u), peak)| (format!("{name} speed"), unit(u, true), peak));
         let accelerations = AXES.iter().zip(&self.peaks.accelerations).take(4);
         speeds.chain(accelerations.map(move |((name, u), peak)| (format!("{name} acceleration"), unit(u, false), peak)))
+    }
+
+    /// What is left of the tightest limit, as a share of it; `None` without limits.
+    pub fn smallest_margin(&self) -> Option<f64> {
+        self.named_peaks().filter_map(|(.., peak)| peak.margin()).min_by(f64::total_cmp)
+    }
+
+    /// Peaks as they stand in `results.json`, by axis.
+    pub fn axes_results(&self) -> serde_json::Map<String, Value> {
+        let one = |(axis, unit, peak): (String, &'static str, &Peak)| {
+            let unlimited = "machine.limits gives none for this axis";
+            let value = json!({
+                "peak": Quantity::number(shown(peak.value, unit), unit, format!("largest {axis} during the operation")),
+                "time": Quantity::number(peak.stroke, "s", format!("when the {axis} is largest, from the operation's start")),
+                "limit": Quantity::number_or(
+                    peak.limit.map(|limit| shown(limit, unit)),
+                    unit,
+                    format!("largest {axis} that the machine allows"),
+                    unlimited,
+                ),
+                "margin": Quantity::number_or(peak.margin(), "1", "1 - peak / limit", unlimited),
+            });
+            (axis.to_lowercase().replace(' ', "_"), value)
+        };
+        self.named_peaks().map(one).collect()
     }
 
     /// What the user should know before cutting.
@@ -240,24 +273,30 @@ impl HobbingAxesReport {
             cells(t, &linkage.axes::<3>(t))
         });
         write_table(&folder.path(format!("axes/{name}.csv"))?, &COLUMNS, rows)?;
-        for (what, chart) in [
-            ("velocities", self.velocities(job, operation)),
-            ("accelerations", self.accelerations(job, operation)),
-            ("path", self.path(job, operation)),
-        ] {
+        for (what, chart) in self.charts(job) {
             chart.write_png(&folder.path(format!("axes/{name}_{what}.png"))?)?;
             chart.write_svg(&folder.path(format!("axes/{name}_{what}.svg"))?)?;
         }
-        if self.index == 0 {
-            let chart = self.work_of_teeth(job, operation);
+        if let Some(chart) = self.work_of_teeth(job) {
             chart.write_png(&folder.path(format!("axes/{name}_teeth.png"))?)?;
             chart.write_svg(&folder.path(format!("axes/{name}_teeth.svg"))?)?;
         }
         Ok(())
     }
 
-    /// Share of the first operation's work on every hob tooth: one space in the middle of the face stands for all.
-    fn work_of_teeth(&self, job: &HobbingJob, operation: &PreparedHobbing) -> BarChart {
+    /// Velocities, accelerations and the feed path, each with the word that ends its file name.
+    pub fn charts(&self, job: &HobbingJob) -> [(&'static str, LineChart); 3] {
+        let operation = &job.operations[self.index];
+        [
+            ("velocities", self.velocities(job, operation)),
+            ("accelerations", self.accelerations(job, operation)),
+            ("path", self.path(job, operation)),
+        ]
+    }
+
+    /// Share of the first operation's work on every hob tooth: one space in the middle of the face stands for all; none for later operations.
+    pub fn work_of_teeth(&self, job: &HobbingJob) -> Option<BarChart> {
+        let operation = job.operations.first().filter(|_| self.index == 0)?;
         let module_mm = job.scene.gear.module_mm;
         let depth_mm = job.hob.tip_radius_mm - job.hob.pitch_radius_mm;
         let grid = [depth_mm, job.blank.addendum_mm, ENGAGEMENT_MODULES * module_mm];
@@ -265,7 +304,7 @@ impl HobbingAxesReport {
         let numbered = job.hob.teeth.iter().filter(|tooth| tooth.start == 0);
         let (categories, values) =
             numbered.map(|tooth| (tooth.number.to_string(), Some(100.0 * work.share(tooth.passage)))).unzip();
-        BarChart {
+        Some(BarChart {
             title: format!(
                 "{} of {}: area that each hob tooth takes, space 0 ({})",
                 self.spec.name,
@@ -277,7 +316,7 @@ impl HobbingAxesReport {
             value_name: "share of the space".to_owned(),
             unit: "%".to_owned(),
             series: vec![BarSeries { name: "all starts".to_owned(), values }],
-        }
+        })
     }
 
     fn chart(&self, job: &HobbingJob, what: &str, x: [&str; 2], panels: Vec<Panel>) -> LineChart {

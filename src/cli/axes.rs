@@ -37,7 +37,8 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
                 operation.write(job, &output)?;
                 operation.print(&mut sheet);
             }
-            operations.iter().flat_map(HobbingAxesReport::warnings).collect()
+            let left_out = gcode::hobbing::write_all(job, &output)?;
+            operations.iter().flat_map(HobbingAxesReport::warnings).chain(left_out).collect()
         }
     };
     let path = folder::finish(output, "axes", [("scene", json!(scene.resolved_toml()))])?;

@@ -9,10 +9,11 @@ pub mod choice;
 pub mod cpu;
 pub mod gpu;
 
-use crate::dexel::{Field, Layer, SpatialField};
+use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
 use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
+use cpu::blank::{BlankCut, BlankOperation};
 
 /// What a backend met besides heights.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -55,6 +56,18 @@ pub trait Backend: Sync {
     /// # Errors
     /// Whatever keeps the backend from finishing; the layer is then unusable.
     fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error>;
+
+    /// Takes all strokes of an operation from the blank and checks its return strokes; `advance` is called after every tile and says whether to go on. `None`: stopped, the field
+    /// is then as it was or partly cut.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    fn cut_blank(
+        &self,
+        field: &mut BlankField,
+        operation: &BlankOperation,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<BlankCut>, Error>;
 
     /// Runs all records of a plan of sweeps over a field of rays in space, lowering `layer`.
     ///

@@ -102,6 +102,12 @@ impl BlankGrid {
         self.rows[0].spacing_mm
     }
 
+    /// What all its slices are estimated to need once teeth are cut, bytes.
+    pub fn estimated_bytes(&self, blank: &Blank) -> f64 {
+        let [x, y] = [1, 0].map(|f: usize| self.rows[f].spacing_mm * self.rows[f].count as f64);
+        self.leads_mm.len() as f64 * section_bytes(blank, DVec2::new(x, y), self.spacing_mm())
+    }
+
     /// Share of the face that each slice stands for, mm: the trapezoidal rule.
     pub fn slice_widths_mm(&self) -> Vec<f64> {
         let leads = &self.leads_mm;

@@ -76,6 +76,15 @@ impl Field {
         Self { columns: self.columns.clone(), leads_mm: vec![0.0] }
     }
 
+    /// The same rays at some columns and rows alone.
+    #[must_use]
+    pub fn at(&self, [columns, rows]: [&[usize]; 2]) -> Self {
+        Self {
+            columns: columns.iter().map(|&column| self.columns[column]).collect(),
+            leads_mm: rows.iter().map(|&row| self.leads_mm[row]).collect(),
+        }
+    }
+
     /// Circle round all rays of some columns between their lowest and their blank height: centre and radius.
     pub fn circle(columns: &[Column]) -> (DVec2, f64) {
         let ends = |c: &Column| [c.origin_mm + c.low_mm * c.normal, c.origin_mm + c.blank_mm * c.normal];

@@ -10,8 +10,11 @@
 //! The dialect that is read: `G0`, `G1`, `G4 P` (dwell, s), `G21`, `G90`, `G93`, `G94`, `M3`, `M5`, `M2`, `M30`, words `N S F X B C`, comments in round brackets or after `;`, `%`. Everything
 //! else is refused by line and word: a word that is passed over may be the one that matters.
 //!
+//! Hobbing machines have programs of their own: [`hobbing`].
+//!
 //! Road not taken: one point per stroke. It is exact, and at 4,200 strokes it starves the block buffer of older controls; straight lines within a micrometre need a tenth.
 
+pub mod hobbing;
 pub mod paper;
 pub mod program;
 pub mod read;

@@ -51,7 +51,8 @@ impl Digits {
         Self { angle: digits((step_mm / reach_mm).to_degrees()), length: digits(step_mm) }
     }
 
-    fn round(value: f64, digits: usize) -> f64 {
+    /// A value as it is written.
+    pub(super) fn round(value: f64, digits: usize) -> f64 {
         let scale = 10_f64.powf(digits as f64);
         (value * scale).round() / scale
     }
@@ -122,6 +123,28 @@ impl Knot {
     }
 }
 
+/// Ends of the longest lines that fit, one after the other, from place 0 to place `last`; where not even a line to the next place fits, it is taken.
+pub(super) fn longest_lines(last: usize, fits: impl Fn(usize, usize) -> bool) -> Vec<usize> {
+    let mut ends = Vec::new();
+    let mut from = 0;
+    while from < last {
+        // Double the length until it no longer fits, then halve the doubt.
+        let (mut good, mut step) = (from + 1, 2);
+        while from + step <= last && fits(from, from + step) {
+            good = from + step;
+            step *= 2;
+        }
+        let mut bad = (from + step).min(last + 1);
+        while bad - good > 1 {
+            let middle = usize::midpoint(good, bad);
+            if fits(from, middle) { good = middle } else { bad = middle }
+        }
+        ends.push(good);
+        from = good;
+    }
+    ends
+}
+
 impl AxisProgram {
     /// Longest straight lines, one after the other, that keep every stroke of a schedule within `contour_error_mm`; with `continuous` also what lies between the strokes, as far as
     /// blocks of one stroke can. Knots stand on whole strokes and are rounded as they will be written.
@@ -139,22 +162,7 @@ impl AxisProgram {
                 .all(|knot| Knot::between(&a, &b, knot.stroke).displacement_mm(knot, tip_radius_mm) <= contour_error_mm)
         };
         let mut knots = vec![digits.rounded(&exact[0])];
-        let mut from = 0;
-        while from < last {
-            // Double the length until it no longer fits, then halve the doubt.
-            let (mut good, mut step) = (from + 1, 2);
-            while from + step <= last && fits(from, from + step) {
-                good = from + step;
-                step *= 2;
-            }
-            let mut bad = (from + step).min(last + 1);
-            while bad - good > 1 {
-                let middle = usize::midpoint(good, bad);
-                if fits(from, middle) { good = middle } else { bad = middle }
-            }
-            knots.push(digits.rounded(&exact[good * per_stroke]));
-            from = good;
-        }
+        knots.extend(longest_lines(last, fits).into_iter().map(|end| digits.rounded(&exact[end * per_stroke])));
         Self { double_strokes_per_minute: 60.0 / schedule.time_s(1.0), knots }
     }
 

@@ -69,14 +69,17 @@ pub fn program(text: &str) -> Result<AxisProgram, String> {
 }
 
 /// A word: letter, number, and the text for messages.
-struct Word<'a> {
-    letter: char,
-    number: f64,
-    text: &'a str,
+pub(super) struct Word<'a> {
+    /// Upper-case letter.
+    pub letter: char,
+    /// Its number.
+    pub number: f64,
+    /// As it stands in the program.
+    pub text: &'a str,
 }
 
 /// Splits a line into words, comments left out.
-fn words(line: &str) -> Result<Vec<Word<'_>>, String> {
+pub(super) fn words(line: &str) -> Result<Vec<Word<'_>>, String> {
     let mut found = Vec::new();
     let mut rest = line.trim();
     while let Some(first) = rest.chars().next() {

@@ -38,6 +38,8 @@ pub struct FlankPatch {
     /// Coefficients along the tooth of coefficients along the profile.
     coefficients: Vec<Vec<[f64; PARTS]>>,
     face_width_mm: f64,
+    /// Roll past the pitch line at which the patch begins in every section, mm.
+    pub form_roll_mm: f64,
     /// Height over the pitch curve where the patch begins, in the section where the flank begins last, mm.
     pub form_height_mm: f64,
     /// Whether the tip corner has undercut the flank in any section.
@@ -102,7 +104,9 @@ impl FlankPatch {
                 )
             })?;
             let form_height_mm = latest.height_mm;
-            let mut patch = Self { coefficients, face_width_mm, form_height_mm, undercut, error_mm: 0.0, lengths_mm };
+            let form_roll_mm = latest.roll_mm;
+            let mut patch =
+                Self { coefficients, face_width_mm, form_roll_mm, form_height_mm, undercut, error_mm: 0.0, lengths_mm };
             patch.error_mm = source.error_mm(&patch);
             if patch.error_mm <= TOLERANCE_MM {
                 return Ok(patch);

@@ -11,6 +11,7 @@ pub mod jet;
 pub(crate) mod periodic_integral;
 pub mod pitch_curve;
 pub mod rack_generation;
+pub mod rack_root;
 pub(crate) mod roots;
 pub mod target;
 pub mod target_outline;

@@ -156,11 +156,6 @@ impl RackGeneration {
         sign(side) * self.rack.flank_end_height_mm() / (sin * cos)
     }
 
-    /// Rolled arc at which the tip corner of a space stands deepest in the section `z_mm`: its centre is under the pitch point.
-    pub fn corner_bottom_arc_mm(&self, space: i64, side: Side, z_mm: f64) -> f64 {
-        self.space_arc_mm(space, z_mm) + sign(side) * self.rack.corner_center_mm().x
-    }
-
     /// Point left by the tip corner of a space at the rolled arc `arc_mm`, in the section `z_mm`.
     pub fn corner_point_mm(&self, space: i64, side: Side, arc_mm: f64, z_mm: f64) -> DVec2 {
         let center = self.rack.corner_center_mm();
@@ -197,14 +192,7 @@ impl RackGeneration {
         let root_roll = self.sound_roll_mm(space, side, z_mm);
         let tip_roll = -e * 4.0 * self.rack.transverse_module_mm;
         let on_flank = bracketed(|roll| flank_at(roll).0 - height_mm, root_roll, tip_roll).map(|roll| flank_at(roll).1);
-        // The corner is deepest when its centre stands under the pitch point, and climbs on the flank's side after that.
-        let bottom = self.corner_bottom_arc_mm(space, side, z_mm);
-        let step = e * CORNER_STEP_MODULES * self.rack.transverse_module_mm;
-        let reached =
-            (1..=CORNER_STEPS).map(|i| bottom + step * f64::from(i)).find(|&arc| corner_at(arc).0 >= height_mm);
-        let on_corner = reached
-            .and_then(|end| bracketed(|arc| corner_at(arc).0 - height_mm, end - step, end))
-            .map(|arc| corner_at(arc).1);
+        let on_corner = self.corner_arc_at_height_mm(blank, space, side, height_mm, z_mm).map(|arc| corner_at(arc).1);
         match (on_flank, on_corner) {
             // The tooth of a left flank lies at the low arc: what reaches further that way has removed more.
             (Some(flank), Some(corner)) if e * (flank.foot_arc_mm - corner.foot_arc_mm) > CORNER_SLACK_MM => {
@@ -213,6 +201,30 @@ impl RackGeneration {
             (Some(flank), _) => Some(flank),
             (None, corner) => corner,
         }
+    }
+
+    /// Rolled arc at which the tip corner is deepest: its centre stands under the pitch point.
+    pub fn corner_bottom_arc_mm(&self, space: i64, side: Side, z_mm: f64) -> f64 {
+        self.space_arc_mm(space, z_mm) + sign(side) * self.rack.corner_center_mm().x
+    }
+
+    /// Rolled arc at which the path of the tip corner has climbed on the flank's side to `height_mm` over the pitch curve; `None` where it does not reach that height.
+    pub fn corner_arc_at_height_mm(
+        &self,
+        blank: &Blank,
+        space: i64,
+        side: Side,
+        height_mm: f64,
+        z_mm: f64,
+    ) -> Option<f64> {
+        let over = |arc: f64| {
+            let point = self.corner_point_mm(space, side, arc, z_mm);
+            blank.height(point, self.curve.phi_at_arc(arc)).0 - height_mm
+        };
+        let bottom = self.corner_bottom_arc_mm(space, side, z_mm);
+        let step = sign(side) * CORNER_STEP_MODULES * self.rack.transverse_module_mm;
+        let end = (1..=CORNER_STEPS).map(|i| bottom + step * f64::from(i)).find(|&arc| over(arc) >= 0.0)?;
+        bracketed(over, end - step, end)
     }
 
     /// Last roll towards the root at which the flank is sound: the corner's, or just before the envelope turns back.

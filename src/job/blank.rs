@@ -1,9 +1,10 @@
 //! The blank field of a job: rays through the whole stock, cut by all operations.
 
 use super::Job;
-use crate::cut::cpu::blank::{self, BlankCut, BlankOperation};
+use crate::cut::Backend;
+use crate::cut::cpu::blank::{BlankCut, BlankOperation};
 use crate::dexel::{BlankField, BlankGrid};
-use crate::error::Refusal;
+use crate::error::{Refusal, Result};
 use crate::frame::Rigid2;
 use crate::gear::blank_outline::BlankOutline;
 use crate::gear::generation::Side;
@@ -78,7 +79,15 @@ impl Job {
     }
 
     /// Runs all operations over the uncut blank; `advance` is called after every tile and says whether to go on. `None`: stopped.
-    pub fn cut_blank(&self, field: BlankField, advance: &(dyn Fn() -> bool + Sync)) -> Option<CutBlank> {
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_blank(
+        &self,
+        backend: &dyn Backend,
+        field: BlankField,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<CutBlank>> {
         let mut cut = CutBlank { blank_mm3: field.volumes_mm3(), field, left_mm3: Vec::new(), cuts: Vec::new() };
         let reach_mm = BlankOutline::new(&self.blank).reach_mm();
         for (index, operation) in self.operations.iter().enumerate() {
@@ -92,10 +101,11 @@ impl Job {
                 blank_reach_mm: reach_mm,
                 cull: true,
             };
-            cut.cuts.push(blank::cut(&mut cut.field, &operation, advance)?);
+            let Some(done) = backend.cut_blank(&mut cut.field, &operation, advance)? else { return Ok(None) };
+            cut.cuts.push(done);
             cut.left_mm3.push(cut.field.volumes_mm3());
         }
-        Some(cut)
+        Ok(Some(cut))
     }
 
     /// The target's transverse section as a polygon with points `spacing_mm` apart; its error is the arrow height of so long a chord.

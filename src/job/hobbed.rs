@@ -3,20 +3,18 @@
 //! In: [`HobbingJob`]. Out: fields and layers, one flank at a time, so that memory does not grow with the number of teeth.
 
 use super::HobbingJob;
+use super::gear_job::leads_mm;
+use super::shaping::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES};
 use crate::cut::{Backend, CutStats};
 use crate::dexel::{Layer, SpatialField};
-use crate::error::{Error, Refusal, Result};
+use crate::error::{Refusal, Result};
 use crate::gear::flank_patch::FlankPatch;
 use crate::gear::generation::Side;
 use crate::passes::hob_teeth::SWEEP_RAD;
 use crate::passes::{HobTeeth, MotionTable, SweepPlan};
+use crate::surface::flanks::PlacedRays;
 use crate::tool::CuttingTool;
-use std::f64::consts::PI;
 
-/// How far below the target a ray records cuts, in modules.
-const RAY_DEPTH_MODULES: f64 = 0.5;
-/// How far above the target a ray can reach, in modules: half a pitch, where the neighbouring tooth begins.
-const RAY_HEIGHT_MODULES: f64 = 0.5 * PI;
 /// Places along profile and tooth at which the blank's height over the flank is taken; between them it is bilinear: it matters only where nothing cuts.
 const BLANK_PLACES: usize = 17;
 
@@ -33,12 +31,8 @@ pub struct HobCutter<'a> {
 pub struct HobbedFlank {
     /// The target.
     pub target: FlankPatch,
-    /// Rays.
-    pub field: SpatialField,
-    /// Places of the columns along the profile, mm, in the mean section.
-    pub arcs_mm: Vec<f64>,
-    /// Places of the rows along the tooth from the middle of the face, mm.
-    pub leads_mm: Vec<f64>,
+    /// Rays; columns stand at arcs of the middle section.
+    pub rays: PlacedRays,
     /// What each operation left, in order.
     pub layers: Vec<Layer>,
     /// What the backend met.
@@ -75,22 +69,35 @@ impl<'a> HobCutter<'a> {
         Ok(Self { job, operations })
     }
 
-    /// Rays of a flank with the scene's spacing: target, field, places along profile and tooth.
+    /// Target flank of a tooth.
+    ///
+    /// # Errors
+    /// The hob generates no flank there.
+    pub fn target(&self, tooth: u32, side: Side) -> Result<FlankPatch, Refusal> {
+        let job = self.job;
+        FlankPatch::new(&job.target, &job.blank, tooth, side, job.scene.gear.face_width_mm)
+    }
+
+    /// Rays of a flank with the scene's spacing.
     ///
     /// # Errors
     /// A flank without a target.
-    pub fn field(&self, tooth: u32, side: Side) -> Result<(FlankPatch, SpatialField, [Vec<f64>; 2]), Refusal> {
+    pub fn rays(&self, tooth: u32, side: Side) -> Result<(FlankPatch, PlacedRays), Refusal> {
+        let target = self.target(tooth, side)?;
+        let fields = self.job.scene.fields;
+        let length_mm = target.length_mm();
+        let columns = (length_mm / fields.profile_spacing_mm).round().max(1.0) as usize;
+        let arcs_mm: Vec<f64> = (0..=columns).map(|i| length_mm * i as f64 / columns as f64).collect();
+        let leads_mm = leads_mm(self.job.scene.gear.face_width_mm, fields.lead_spacing_mm);
+        let rays = self.rays_over(&target, arcs_mm, leads_mm);
+        Ok((target, rays))
+    }
+
+    /// Rays of a part of a flank: places along the profile, arcs of the middle section from where the patch begins, and along the tooth, mm.
+    pub fn rays_over(&self, target: &FlankPatch, arcs_mm: Vec<f64>, leads_mm: Vec<f64>) -> PlacedRays {
         let job = self.job;
         let gear = &job.scene.gear;
         let width_mm = gear.face_width_mm;
-        let target = FlankPatch::new(&job.target, &job.blank, tooth, side, width_mm)?;
-        let fields = job.scene.fields;
-        let length_mm = target.length_mm();
-        let intervals = |length: f64, spacing: f64| (length / spacing).round().max(1.0) as usize;
-        let columns = intervals(length_mm, fields.profile_spacing_mm);
-        let rows = intervals(width_mm, fields.lead_spacing_mm);
-        let arcs_mm: Vec<f64> = (0..=columns).map(|i| length_mm * i as f64 / columns as f64).collect();
-        let leads_mm: Vec<f64> = (0..=rows).map(|i| width_mm * (i as f64 / rows as f64 - 0.5)).collect();
         // The stock is taken as long as the rays need it: at the faces, where normals lean out of it, only the surface counts.
         let limit_mm = RAY_HEIGHT_MODULES * gear.module_mm;
         let last = BLANK_PLACES - 1;
@@ -115,26 +122,35 @@ impl<'a> HobCutter<'a> {
         let shares: Vec<f64> = arcs_mm.iter().map(|&arc| target.share_at(arc)).collect();
         let sections: Vec<_> = leads_mm.iter().map(|&lead| target.section(lead)).collect();
         let low_mm = -RAY_DEPTH_MODULES * gear.module_mm;
-        let field = SpatialField::new(columns + 1, rows + 1, low_mm, |column, row| {
-            (sections[row].ray(shares[column]), blank_at(shares[column], row as f64 / rows as f64))
+        let field = SpatialField::new(arcs_mm.len(), leads_mm.len(), low_mm, |column, row| {
+            (sections[row].ray(shares[column]), blank_at(shares[column], leads_mm[row] / width_mm + 0.5))
         });
-        Ok((target, field, [arcs_mm, leads_mm]))
+        PlacedRays { field, arcs_mm, leads_mm }
+    }
+
+    /// Runs all operations over a field.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_field(&self, backend: &dyn Backend, field: &SpatialField) -> Result<(Vec<Layer>, CutStats)> {
+        let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
+        let mut stats = CutStats::default();
+        for passes in &self.operations {
+            let plan = SweepPlan::new(field, passes, self.job.hob.edge());
+            let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
+            stats += backend.cut_spatial(field, self.job.hob.edge(), &plan, &mut layer)?;
+            layers.push(layer);
+        }
+        Ok((layers, stats))
     }
 
     /// Cuts one flank through all operations.
     ///
     /// # Errors
     /// A flank without a target, the backend's.
-    pub fn cut(&self, backend: &dyn Backend, tooth: u32, side: Side) -> Result<HobbedFlank, Error> {
-        let (target, field, [arcs_mm, leads_mm]) = self.field(tooth, side)?;
-        let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
-        let mut stats = CutStats::default();
-        for passes in &self.operations {
-            let plan = SweepPlan::new(&field, passes, self.job.hob.edge());
-            let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
-            stats += backend.cut_spatial(&field, self.job.hob.edge(), &plan, &mut layer)?;
-            layers.push(layer);
-        }
-        Ok(HobbedFlank { target, field, arcs_mm, leads_mm, layers, stats })
+    pub fn cut(&self, backend: &dyn Backend, tooth: u32, side: Side) -> Result<HobbedFlank> {
+        let (target, rays) = self.rays(tooth, side)?;
+        let (layers, stats) = self.cut_field(backend, &rays.field)?;
+        Ok(HobbedFlank { target, rays, layers, stats })
     }
 }

@@ -56,7 +56,8 @@ impl HobbingJob {
     fn tooth_outline(&self, tooth: i64, z_mm: f64, spacing_mm: f64) -> Vec<DVec2> {
         let target = &self.target;
         let steps = |length_mm: f64| (length_mm.abs() / spacing_mm).ceil().max(1.0) as usize;
-        let between = |from: f64, to: f64, count: usize| (0..=count).map(move |i| from + (to - from) * i as f64 / count as f64);
+        let between =
+            |from: f64, to: f64, count: usize| (0..=count).map(move |i| from + (to - from) * i as f64 / count as f64);
         let limit_mm = 4.0 * target.rack.transverse_module_mm;
         // From the tip corner to the blank's outline, as rolls.
         let flank = |space: i64, side: Side| -> Vec<DVec2> {

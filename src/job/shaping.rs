@@ -3,6 +3,7 @@
 //! In: the checked scene. Out: [`Job`], from which fields and plans are made one flank at a time, so that memory does not grow with the number of teeth.
 //! The last operation is the finishing one: its continuous envelope is the target.
 
+use super::gear_job::leads_mm;
 use crate::cut::{Backend, CutStats};
 use crate::dexel::{Column, Field, Layer};
 use crate::error::{Error, Refusal, Result};
@@ -23,13 +24,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// How far below the target a ray records cuts, in modules: undercut and wrong linkages stay well inside.
-const RAY_DEPTH_MODULES: f64 = 0.5;
+pub(super) const RAY_DEPTH_MODULES: f64 = 0.5;
 /// How far above the target a ray can reach, in modules: half a pitch, where the neighbouring tooth begins.
-const RAY_HEIGHT_MODULES: f64 = 0.5 * std::f64::consts::PI;
+pub(super) const RAY_HEIGHT_MODULES: f64 = 0.5 * std::f64::consts::PI;
 /// Root fields are coarser than flanks, at least so far apart along profile and tooth: roots carry no feed marks that matter.
-const ROOT_SPACING_MM: [f64; 2] = [0.02, 1.0];
+pub(super) const ROOT_SPACING_MM: [f64; 2] = [0.02, 1.0];
 /// Rays of a fillet stay within this share of its radius: further out they would cross each other.
-const FILLET_SHARE: f64 = 0.8;
+pub(super) const FILLET_SHARE: f64 = 0.8;
 
 /// One operation with its strokes.
 #[derive(Debug)]
@@ -293,9 +294,7 @@ impl Job {
 
     /// Rows along the tooth: evenly over the face, both ends included.
     fn leads_mm(&self, spacing_mm: f64) -> Vec<f64> {
-        let width_mm = self.scene.gear.face_width_mm;
-        let intervals = (width_mm / spacing_mm).round().max(1.0) as usize;
-        (0..=intervals).map(|i| width_mm * (i as f64 / intervals as f64 - 0.5)).collect()
+        leads_mm(self.scene.gear.face_width_mm, spacing_mm)
     }
 
     /// Whether every row of a field is cut alike: the cutter stands still while it is in the work, so its pose is the same at all places along the tooth.

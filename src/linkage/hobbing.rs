@@ -113,6 +113,16 @@ impl HobbingGeometry {
     pub fn hob_axis(&self) -> DVec3 {
         DVec3::new(self.head_angle_rad.cos(), 0.0, self.head_angle_rad.sin())
     }
+
+    /// Pose of the tool in the machine frame, whose origin is the pitch point: hob angle (rad), distance from full depth, slide and shift (mm).
+    pub fn machine_from_tool(&self, hob_rad: f64, radial_mm: f64, slide_mm: f64, shift_mm: f64) -> Rigid3 {
+        let axis = self.hob_axis();
+        let (sin, cos) = (self.hob_hand * hob_rad).sin_cos();
+        let (towards, across) = (DVec3::NEG_Y, axis.cross(DVec3::NEG_Y));
+        let x = towards * cos + across * sin;
+        let stand = DVec3::new(0.0, self.pitch_radius_mm + radial_mm, slide_mm);
+        Rigid3 { rotation: DMat3::from_cols(x, axis.cross(x), axis), translation_mm: stand + axis * shift_mm }
+    }
 }
 
 /// Axes as series in time (s) with N terms.
@@ -450,16 +460,12 @@ impl HobbingLinkage {
     }
 
     fn machine_from_tool<const N: usize>(&self, axes: &HobbingAxes<N>) -> Rigid3 {
-        let g = &self.geometry;
-        let axis = g.hob_axis();
-        let (sin, cos) = (g.hob_hand * axes.hob_rad.value()).sin_cos();
-        let (towards, across) = (DVec3::NEG_Y, axis.cross(DVec3::NEG_Y));
-        let x = towards * cos + across * sin;
-        let stand = DVec3::new(0.0, g.pitch_radius_mm + axes.radial_mm.value(), axes.slide_mm.value());
-        Rigid3 {
-            rotation: DMat3::from_cols(x, axis.cross(x), axis),
-            translation_mm: stand + axis * axes.shift_mm.value(),
-        }
+        self.geometry.machine_from_tool(
+            axes.hob_rad.value(),
+            axes.radial_mm.value(),
+            axes.slide_mm.value(),
+            axes.shift_mm.value(),
+        )
     }
 
     /// Time at which the hob has turned to `hob_rad`; it always turns forwards.
@@ -490,10 +496,12 @@ impl HobbingLinkage {
 
 /// The gear frame from the machine frame: turned over, moved to the work's centre, turned with the work.
 fn work_from_machine<const N: usize>(axes: &HobbingAxes<N>) -> Rigid3 {
-    let (sin, cos) = axes.work_rad.value().sin_cos();
+    work_from_machine_at(axes.work_rad.value(), axes.x_mm.value(), axes.y_mm.value())
+}
+
+/// The same from the work's angle (rad) and the place of the pitch point against its axis, tangential and radial (mm).
+pub fn work_from_machine_at(work_rad: f64, x_mm: f64, y_mm: f64) -> Rigid3 {
+    let (sin, cos) = work_rad.sin_cos();
     let (x, y) = (DVec3::new(-sin, cos, 0.0), DVec3::new(cos, sin, 0.0));
-    Rigid3 {
-        rotation: DMat3::from_cols(x, y, DVec3::NEG_Z),
-        translation_mm: x * axes.x_mm.value() + y * axes.y_mm.value(),
-    }
+    Rigid3 { rotation: DMat3::from_cols(x, y, DVec3::NEG_Z), translation_mm: x * x_mm + y * y_mm }
 }

@@ -229,8 +229,8 @@ pub(super) fn collect_by(
 
 fn damage(job: &Job, cut: &CutBlank, target: &TargetOutline) -> Vec<Damage> {
     let slices = 0..cut.field.slices.len();
-    let findings =
-        slices.flat_map(|slice| missing_in_slice(&cut.field, slice, target, &job.scene.gear, |pass| operation_of(job, pass)));
+    let findings = slices
+        .flat_map(|slice| missing_in_slice(&cut.field, slice, target, &job.scene.gear, |pass| operation_of(job, pass)));
     collect(job, findings).into_iter().map(|(damage, _)| damage).collect()
 }
 

@@ -65,7 +65,7 @@ impl Trace {
 }
 
 /// Deviations of heights over places of an evaluated length, both in mm; `None` with fewer than three of them.
-pub fn of_points(points: &[(f64, f64)]) -> Option<TraceDeviation> {
+fn of_points(points: &[(f64, f64)]) -> Option<TraceDeviation> {
     if points.len() < 3 {
         return None;
     }

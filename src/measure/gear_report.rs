@@ -36,6 +36,13 @@ pub struct Thickness {
     pub chord_mm: f64,
 }
 
+impl Thickness {
+    /// From where the left and the right flank of a tooth cross the pitch curve.
+    pub fn between(left: Crossing, right: Crossing) -> Self {
+        Self { arc_mm: left.arc_mm - right.arc_mm, chord_mm: left.point_mm.distance(right.point_mm) }
+    }
+}
+
 /// Stock in one root.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RootReport {
@@ -88,13 +95,7 @@ pub fn measure(job: &Job, backend: &dyn Backend, flanks: Vec<FlankReport>) -> Re
         Some(first) => first.strokes.clone(),
         None => super::unevenness::allowances(job, last, Surface::Strokes)?,
     };
-    let thickness = finished
-        .iter()
-        .map(|tooth| {
-            let (b, c) = (tooth.b?, tooth.c?);
-            Some(Thickness { arc_mm: b.arc_mm - c.arc_mm, chord_mm: b.point_mm.distance(c.point_mm) })
-        })
-        .collect();
+    let thickness = finished.iter().map(|tooth| Some(Thickness::between(tooth.b?, tooth.c?))).collect();
     let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
     let deviations = |flank: fn(&ToothAllowance) -> Option<Crossing>| {
         let crossings: Vec<_> = finished.iter().map(flank).collect();

@@ -64,12 +64,7 @@ pub struct SpaceLedger<'a> {
 
 impl<'a> SpaceLedger<'a> {
     /// The uncut space whose middle crosses the pitch line at the arc `space_arc_mm(z)` in the slice z.
-    pub fn new(
-        curve: &PitchCurve,
-        grid: &'a LedgerGrid,
-        pitch_mm: f64,
-        space_arc_mm: impl Fn(f64) -> f64,
-    ) -> Self {
+    pub fn new(curve: &PitchCurve, grid: &'a LedgerGrid, pitch_mm: f64, space_arc_mm: impl Fn(f64) -> f64) -> Self {
         let columns = (pitch_mm / grid.spacing_mm).round().max(1.0) as usize;
         let step_mm = pitch_mm / columns as f64;
         let [low_mm, high_mm] = grid.heights_mm;

@@ -40,8 +40,7 @@ pub fn measure(cutter: &HobCutter, cut: &CutBlank) -> HobbedBlankReport {
     let job = cutter.job;
     let gear = &job.scene.gear;
     let grid = &cut.field.grid;
-    let operation_of =
-        |pass: u32| cutter.operations.iter().position(|o| (o.first_pass..o.end_pass()).contains(&pass));
+    let operation_of = |pass: u32| cutter.operations.iter().position(|o| (o.first_pass..o.end_pass()).contains(&pass));
     let slices: Vec<_> = (0..cut.field.slices.len())
         .into_par_iter()
         .map(|slice| {
@@ -80,5 +79,13 @@ pub fn measure(cutter: &HobCutter, cut: &CutBlank) -> HobbedBlankReport {
     for done in &cut.cuts {
         stats += done.stats;
     }
-    HobbedBlankReport { blank_mm3: cut.blank_mm3, left_mm3, operations: volumes(cut), section, gouges, interference, stats }
+    HobbedBlankReport {
+        blank_mm3: cut.blank_mm3,
+        left_mm3,
+        operations: volumes(cut),
+        section,
+        gouges,
+        interference,
+        stats,
+    }
 }

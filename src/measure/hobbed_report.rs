@@ -5,7 +5,7 @@
 //! The evaluated part leaves out a twentieth at both ends of profile and face. Profile deviations are those of the middle row, helix deviations those of the middle
 //! column (ISO 1328-1:2013: F_alpha and F_beta total, f_H slope, f_f form), along the target's local normals: on a gear that is not round the target takes the place of the design helix.
 
-use super::deviation::{TraceDeviation, of_points};
+use super::deviation::{Trace, TraceDeviation};
 use crate::dexel::NO_PASS;
 use crate::gear::generation::Side;
 use crate::job::HobbedFlank;
@@ -44,9 +44,13 @@ pub struct HobbedReport {
     pub finished: Option<Heights>,
     /// What each earlier operation left over the finished surface.
     pub stock: Vec<Option<Heights>>,
-    /// Profile deviations in the middle of the face.
+    /// Heights along the profile in the middle of the face.
+    pub profile_trace: Trace,
+    /// Its deviations.
     pub profile: Option<TraceDeviation>,
-    /// Helix deviations in the middle of the profile.
+    /// Heights along the tooth in the middle of the profile.
+    pub helix_trace: Trace,
+    /// Its deviations.
     pub helix: Option<TraceDeviation>,
     /// Dexels of the evaluated part that no pass reached. (On the tip's own edge the blank ends where the target does.)
     pub untouched: u64,
@@ -54,11 +58,11 @@ pub struct HobbedReport {
 
 /// Measures a cut flank.
 pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
-    let [columns, rows] = [flank.arcs_mm.len(), flank.leads_mm.len()].map(inner);
+    let [columns, rows] = [flank.rays.arcs_mm.len(), flank.rays.leads_mm.len()].map(inner);
     let finished = flank.layers.last().expect("at least one operation");
     let dexels = || {
         let rows = rows.clone();
-        columns.clone().flat_map(move |column| rows.clone().map(move |row| flank.field.index(column, row)))
+        columns.clone().flat_map(move |column| rows.clone().map(move |row| flank.rays.field.index(column, row)))
     };
     let over = |height: &dyn Fn(usize) -> Option<f64>| {
         let values: Option<Vec<f64>> = dexels().map(height).collect();
@@ -69,26 +73,39 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
         (layer.passes[i] != NO_PASS).then(|| f64::from(layer.heights_mm[i]))
     };
     let last = flank.layers.len() - 1;
-    let line = |points: Vec<(f64, Option<f64>)>| {
-        let points: Option<Vec<(f64, f64)>> =
-            points.into_iter().map(|(place, height)| Some((place, height?))).collect();
-        of_points(&points?)
+    let trace = |places_mm: &[f64], index: &dyn Fn(usize) -> usize| Trace {
+        places_mm: places_mm.to_vec(),
+        heights_mm: (0..places_mm.len()).map(|i| at(last, index(i)).unwrap_or(f64::NAN)).collect(),
     };
-    let (middle_column, middle_row) = (flank.arcs_mm.len() / 2, flank.leads_mm.len() / 2);
-    let profile = columns.clone().map(|c| (flank.arcs_mm[c], at(last, flank.field.index(c, middle_row)))).collect();
-    let helix = rows.clone().map(|r| (flank.leads_mm[r], at(last, flank.field.index(middle_column, r)))).collect();
+    let (arcs_mm, leads_mm) = (&flank.rays.arcs_mm, &flank.rays.leads_mm);
+    let (middle_column, middle_row) = (arcs_mm.len() / 2, leads_mm.len() / 2);
+    let profile_trace = trace(arcs_mm, &|column| flank.rays.field.index(column, middle_row));
+    let helix_trace = trace(leads_mm, &|row| flank.rays.field.index(middle_column, row));
+    // The places of the inner dexels themselves, so that rounding takes none of them away.
+    let between = |places_mm: &[f64], inner: Range<usize>| [places_mm[inner.start], places_mm[inner.end - 1]];
+    let deviation = |trace: &Trace, inner: Range<usize>| {
+        if inner.is_empty() { None } else { trace.deviation(between(&trace.places_mm, inner)) }
+    };
     HobbedReport {
         tooth,
         side,
         form_height_mm: flank.target.form_height_mm,
         undercut: flank.target.undercut,
-        length_mm: flank.arcs_mm.last().copied().unwrap_or(0.0),
+        length_mm: flank.rays.arcs_mm.last().copied().unwrap_or(0.0),
         finished: over(&|i| at(last, i)),
         stock: (0..last).map(|layer| over(&|i| Some(at(layer, i)? - at(last, i)?))).collect(),
-        profile: line(profile),
-        helix: line(helix),
+        profile: deviation(&profile_trace, columns.clone()),
+        profile_trace,
+        helix: deviation(&helix_trace, rows.clone()),
+        helix_trace,
         untouched: dexels().filter(|&i| finished.passes[i] == NO_PASS).count() as u64,
     }
+}
+
+/// Ends of the evaluated part of a length, mm.
+pub fn evaluated_mm([from_mm, to_mm]: [f64; 2]) -> [f64; 2] {
+    let margin_mm = MARGIN * (to_mm - from_mm);
+    [from_mm + margin_mm, to_mm - margin_mm]
 }
 
 /// Indices without the margins.

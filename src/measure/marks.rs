@@ -1,188 +1,126 @@
-//! The lattice of cutting marks on a hobbed flank: from the machine's motion, and from the surface itself.
+//! The lattice of cutting marks on a hobbed flank: from the machine's motion, and from the surface itself, side by side.
 //!
-//! **From kinematics.** A gash leaves its mark where its rake face passes the point in which worm, rack and gear touch. In the machine frame (origin in the pitch point, see
-//! [`crate::linkage::hobbing`]) the gear touches the rack at p = c (e cos(alpha_t), sin(alpha_t), .) + z, c = -e sigma cos(alpha_t), sigma the roll past the flank's crossing with the pitch line; the worm
-//! touches the rack's plane (normal N) where the screw motion of the worm, less the rack's translation, has no part along N:
+//! **From kinematics** ([`crate::linkage::hobbing::marks`]): a gash leaves its mark where its rake face passes the point in which worm, rack and gear touch. Neither the pitch curve nor the law in time enters: in the
+//! coordinates (roll, z) the marks of an even feed are one lattice on every gear.
 //!
-//! `N . (h_b d0 x (p - C) + (lead / 2 pi) d0) = 0`,  C the hob's centre;
+//! **From the surface.** A patch about the pitch line in the middle of the face, regular in (roll, z), is cut by all passes; the autocorrelation of its heights has peaks at the vectors from mark to mark. Nothing of
+//! the kinematics enters but the size of the patch.
 //!
-//! and the rake face of gash g holds p when the hob has turned by p's own angle about the axis from g's. Two equations for time and z; the heights of the surface left are zero
-//! there. Neither the pitch curve nor the law in time enters: in the coordinates (sigma, z) the marks of an even feed are one lattice on every gear.
-//!
-//! **From the surface.** Its autocorrelation has peaks at the vectors from mark to mark.
-//!
-//! Lengths and angles are those on the flank: a step of sigma is (sin(alpha_t) + c / rho) long in the transverse plane, a step of z at constant sigma 1 / cos(beta) along the tooth
-//! trace.
+//! Lengths and angles are those on the flank at the pitch line, where a step of roll is sin(alpha_t) long in the transverse plane, and a step of z at constant roll 1 / cos(beta) along the tooth trace.
 
-use crate::linkage::HobbingLinkage;
-use glam::{DVec2, DVec3};
-use std::f64::consts::{PI, TAU};
+use crate::cut::Backend;
+use crate::dexel::{NO_PASS, Ray, SpatialField};
+use crate::error::Result;
+use crate::gear::generation::Side;
+use crate::job::HobCutter;
+use crate::linkage::hobbing::marks::{MarkStep, Marks};
+use crate::units::TURN_RAD;
+use glam::DVec2;
 
-/// A flank as the marks see it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MarkedFlank {
-    /// +1 for left flanks (low-arc side of their space), -1 for right ones.
-    pub side: f64,
-    /// Arc of the pitch curve at which the flank crosses the pitch line in the section z = 0, mm.
-    pub crossing_arc_mm: f64,
-    /// alpha_t.
-    pub pressure_angle_rad: f64,
+/// Lower peaks are chance: marks repeat with correlations above 0.9.
+const SMALLEST_PEAK: f64 = 0.5;
+
+/// A peak is the highest of so many lags to either side: along a ridge that crosses the grid askew, single lags stand out that are no marks.
+const LOBE: i64 = 8;
+/// Points of the patch along roll and z.
+const POINTS: usize = 121;
+/// Lags of the autocorrelation reach a third of the patch to either side: it is so many steps of the lattice wide.
+const STEPS: f64 = 4.4;
+/// Steps that enclose a smaller area than this share of a rectangle's run along one line.
+const ALONG_ONE_LINE: f64 = 0.2;
+
+/// The lattice on one flank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MarkLattice {
+    /// Tooth, from 1.
+    pub tooth: u32,
+    /// Flank.
+    pub side: Side,
+    /// The shortest two steps from the machine's motion.
+    pub kinematic: [MarkStep; 2],
+    /// The same from the surface, in the same order and direction, or why it shows none.
+    pub surface: Result<[MarkStep; 2], String>,
 }
 
-/// A mark: roll past the crossing of its section, place along the work's rotation vector, moment.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mark {
-    /// sigma, mm.
-    pub roll_mm: f64,
-    /// z, machine frame, mm.
-    pub z_mm: f64,
-    /// Time, s.
-    pub time_s: f64,
-}
-
-/// A vector from one mark to another.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MarkStep {
-    /// Step in (sigma, z), mm.
-    pub step_mm: DVec2,
-    /// Length on the flank, mm.
-    pub length_mm: f64,
-    /// Angle to the tooth trace, -pi/2 to pi/2, positive towards growing sigma.
-    pub to_trace_rad: f64,
-    /// Angle to the gear's axis, 0 to pi/2.
-    pub to_axis_rad: f64,
-}
-
-/// Mark of a gash passage (counted from hob angle 0) on a flank; `None` if the equations have no root near the moment when the gash looks at the gear.
-pub fn mark(linkage: &HobbingLinkage, gashes: u32, flank: &MarkedFlank, passage: i64) -> Option<Mark> {
-    let g = linkage.geometry();
-    let (e, h, hand) = (flank.side, g.gear_hand, g.hob_hand);
-    let (sin, cos) = flank.pressure_angle_rad.sin_cos();
-    let tan_helix = g.helix_angle_rad.tan();
-    let normal = DVec3::new(e * cos, sin, h * e * tan_helix * cos);
-    let axis = g.hob_axis();
-    let parameter_mm = 0.5 * g.starts * g.module_mm / g.lead_angle_rad.cos();
-    let gash_rad = TAU * passage as f64 / f64::from(gashes);
-    let roll =
-        |time_s: f64, z: f64| linkage.axes::<1>(time_s).arc_mm.value() - flank.crossing_arc_mm + h * z * tan_helix;
-    let residuals = |time_s: f64, z: f64| -> DVec2 {
-        let axes = linkage.axes::<1>(time_s);
-        let c = -e * roll(time_s, z) * cos;
-        let point = DVec3::new(c * e * cos, c * sin, z);
-        let stand = DVec3::new(0.0, g.pitch_radius_mm + axes.radial_mm.value(), axes.slide_mm.value());
-        let from_center = point - stand - axis * axes.shift_mm.value();
-        let worm = normal.dot(hand * axis.cross(from_center) + parameter_mm * axis);
-        let angle = from_center.dot(axis.cross(DVec3::NEG_Y)).atan2(-from_center.y);
-        DVec2::new(worm, g.pitch_radius_mm * (angle - hand * (axes.hob_rad.value() - gash_rad)))
+/// Both lattices on the flank of `tooth` after the last operation.
+///
+/// # Errors
+/// The backend's.
+pub fn measure(cutter: &HobCutter, backend: &dyn Backend, tooth: u32, side: Side) -> Result<MarkLattice> {
+    let job = cutter.job;
+    let teeth = job.scene.gear.teeth;
+    let marks = Marks { linkage: &job.finishing().linkage, target: &job.target, hob: &job.hob, side };
+    let space = i64::from(tooth) - i64::from(side == Side::Right);
+    let (gash, turned, _) = marks.nearest(space, teeth, 0.0);
+    let spanning = [marks.to_next_gash(gash, turned), marks.to_same_tooth(gash, turned, teeth)];
+    let length_per_roll = job.target.rack.pressure_angle_rad.sin();
+    let kinematic = marks.reduced(spanning, length_per_roll);
+    let lattice = |surface| MarkLattice { tooth, side, kinematic, surface };
+    // A patch that holds the steps, and lies on the flank.
+    let widest = |pick: fn(DVec2) -> f64| kinematic.iter().map(|step| pick(step.step_mm).abs()).fold(0.0, f64::max);
+    let half_mm = [widest(|step| step.x), widest(|step| step.y)].map(|step| 0.5 * STEPS * step);
+    let target = cutter.target(tooth, side)?;
+    let tip_roll_mm =
+        -side.sign() * job.blank.addendum_mm / (length_per_roll * job.target.rack.pressure_angle_rad.cos());
+    let room_mm = [target.form_roll_mm.abs().min(tip_roll_mm.abs()), 0.5 * job.scene.gear.face_width_mm];
+    if half_mm[0] > room_mm[0] || half_mm[1] > room_mm[1] {
+        return Ok(lattice(Err(format!(
+            "the patch of {:.2} mm of roll and {:.2} mm along the axis that would show the steps is larger than the flank",
+            2.0 * half_mm[0],
+            2.0 * half_mm[1]
+        ))));
+    }
+    let place = |half_mm: f64, i: usize| half_mm * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0);
+    let low_mm = -0.5 * job.scene.gear.module_mm;
+    let field = SpatialField::new(POINTS, POINTS, low_mm, |column, row| {
+        let contact = job.target.flank_contact(space, side, place(half_mm[0], column), place(half_mm[1], row));
+        (Ray { origin_mm: contact.point_mm, normal: contact.normal }, job.scene.gear.module_mm)
+    });
+    let (layers, _) = cutter.cut_field(backend, &field)?;
+    let finished = layers.last().expect("at least one operation");
+    if finished.passes.contains(&NO_PASS) {
+        return Ok(lattice(Err("no pass reached a place of the patch".to_owned())));
+    }
+    let heights: Vec<f64> = finished.heights_mm.iter().map(|&height| f64::from(height)).collect();
+    let spacing_mm = half_mm.map(|half_mm| 2.0 * half_mm / (POINTS - 1) as f64);
+    let length = |step: DVec2| marks.on_flank(step, length_per_roll).length_mm();
+    let steps = autocorrelation_steps(&heights, [POINTS, POINTS], spacing_mm, length);
+    let across = |a: DVec2, b: DVec2| {
+        let [a, b] = [a, b].map(|step| marks.on_flank(step, length_per_roll).on_flank_mm);
+        a.perp_dot(b).abs() > ALONG_ONE_LINE * a.length() * b.length()
     };
-    let mut time_s = linkage.time_at_hob_angle(gash_rad);
-    let mut z = linkage.axes::<1>(time_s).slide_mm.value();
-    let step_s = 1e-6 * linkage.cycle_s();
-    for _ in 0..40 {
-        let r = residuals(time_s, z);
-        // Central differences: the motion is smooth, and Newton's method corrects itself.
-        let over_t = (residuals(time_s + step_s, z) - residuals(time_s - step_s, z)) / (2.0 * step_s);
-        let over_z = (residuals(time_s, z + 1e-4) - residuals(time_s, z - 1e-4)) / 2e-4;
-        let determinant = over_t.perp_dot(over_z);
-        let (dt, dz) = (r.perp_dot(over_z) / determinant, over_t.perp_dot(r) / determinant);
-        time_s -= dt;
-        z -= dz;
-        if !(dt.is_finite() && dz.is_finite()) {
-            return None;
-        }
-        if dz.abs() < 1e-11 && dt.abs() < 1e-13 * linkage.cycle_s().max(1.0) {
-            break;
-        }
-    }
-    (residuals(time_s, z).length() < 1e-8).then(|| Mark { roll_mm: roll(time_s, z), z_mm: z, time_s })
-}
-
-/// Vectors to the mark of the next gash and to the next mark of the same hob tooth, which comes back after `teeth` / starts turns of the hob, (sigma, z) in mm.
-pub fn lattice(
-    linkage: &HobbingLinkage,
-    gashes: u32,
-    teeth: u32,
-    flank: &MarkedFlank,
-    passage: i64,
-) -> Option<[DVec2; 2]> {
-    let starts = linkage.geometry().starts;
-    let cycle = (f64::from(gashes) * f64::from(teeth) / starts).round() as i64;
-    let at = |turns: f64, passage: i64| {
-        // A cycle later the same space is a whole perimeter further on.
-        let crossing_arc_mm = flank.crossing_arc_mm + turns * linkage.curve().perimeter_mm();
-        let mark = mark(linkage, gashes, &MarkedFlank { crossing_arc_mm, ..*flank }, passage)?;
-        Some(DVec2::new(mark.roll_mm, mark.z_mm))
+    let second = steps.first().and_then(|&first| steps[1..].iter().copied().find(|&step| across(first, step)));
+    let (Some(&first), Some(second)) = (steps.first(), second) else {
+        return Ok(lattice(Err("the heights repeat themselves in fewer than two directions".to_owned())));
     };
-    let first = at(0.0, passage)?;
-    Some([at(0.0, passage + 1)? - first, at(1.0, passage + cycle)? - first])
+    let found = marks.reduced([first, second], length_per_roll);
+    Ok(lattice(Ok(like(found, kinematic))))
 }
 
-/// Lengths and angles of steps on a flank.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FlankMetric {
-    /// +1 for left flanks, -1 for right ones.
-    pub side: f64,
-    /// h: +1 for a right-hand gear.
-    pub gear_hand: f64,
-    /// beta.
-    pub helix_angle_rad: f64,
-    /// alpha_t.
-    pub pressure_angle_rad: f64,
-    /// Profile length per roll, sin(alpha_t) + c / rho.
-    pub length_per_roll: f64,
+/// Steps of a lattice in the order and direction of those of another: each of `others` takes the nearest, forwards or backwards.
+fn like(found: [MarkStep; 2], others: [MarkStep; 2]) -> [MarkStep; 2] {
+    let turned = |step: MarkStep, other: MarkStep| {
+        let back = step.on_flank_mm.dot(other.on_flank_mm) < 0.0;
+        if back { MarkStep { step_mm: -step.step_mm, on_flank_mm: -step.on_flank_mm, ..step } } else { step }
+    };
+    let pair = |order: [usize; 2]| [0, 1].map(|i| turned(found[order[i]], others[i]));
+    let apart = |pair: &[MarkStep; 2]| -> f64 {
+        pair.iter().zip(&others).map(|(a, b)| a.on_flank_mm.distance(b.on_flank_mm)).sum()
+    };
+    let [straight, crossed] = [pair([0, 1]), pair([1, 0])];
+    if apart(&straight) <= apart(&crossed) { straight } else { crossed }
 }
 
-impl FlankMetric {
-    /// A step on the flank, machine frame at the pitch point.
-    fn on_flank(&self, step: DVec2) -> DVec3 {
-        let (sin, cos) = self.pressure_angle_rad.sin_cos();
-        // With growing sigma the contact of a left flank runs towards the root.
-        let along_profile = DVec3::new(sin, -self.side * cos, 0.0);
-        self.length_per_roll * step.x * along_profile + step.y / self.helix_angle_rad.cos() * self.trace()
-    }
-
-    fn trace(&self) -> DVec3 {
-        let (sin, cos) = self.helix_angle_rad.sin_cos();
-        DVec3::new(-self.gear_hand * sin, 0.0, cos)
-    }
-
-    /// Length and angles of a step (sigma, z).
-    pub fn step(&self, step_mm: DVec2) -> MarkStep {
-        let v = self.on_flank(step_mm);
-        let length_mm = v.length();
-        let along = v.dot(self.trace());
-        let across = (length_mm * length_mm - along * along).max(0.0).sqrt();
-        let sign = if step_mm.x * along < 0.0 { -1.0 } else { 1.0 };
-        MarkStep {
-            step_mm,
-            length_mm,
-            to_trace_rad: sign * across.atan2(along.abs()),
-            to_axis_rad: v.truncate().length().atan2(v.z.abs()),
-        }
-    }
-
-    /// The shortest two independent steps of the lattice that two steps span (Lagrange and Gauss), shortest first.
-    pub fn reduced(&self, [a, b]: [DVec2; 2]) -> [MarkStep; 2] {
-        let (mut a, mut b) = (a, b);
-        for _ in 0..64 {
-            if self.on_flank(a).length_squared() > self.on_flank(b).length_squared() {
-                (a, b) = (b, a);
-            }
-            let (u, v) = (self.on_flank(a), self.on_flank(b));
-            let times = (u.dot(v) / u.length_squared()).round();
-            if times == 0.0 {
-                break;
-            }
-            b -= times * a;
-        }
-        [self.step(a), self.step(b)]
-    }
+/// Angle between two directions without arrows, rad, 0 to pi/2.
+pub fn between_rad(a_rad: f64, b_rad: f64) -> f64 {
+    let apart = (a_rad - b_rad).rem_euclid(0.5 * TURN_RAD);
+    apart.min(0.5 * TURN_RAD - apart)
 }
 
 /// Steps from mark to mark as the surface shows them: peaks of its autocorrelation, nearest first by `length`, none the negative of another.
 ///
-/// `heights` stand on a regular grid, `count[0]` columns of `count[1]` rows, `spacing_mm` apart. Lags reach a third of the grid. A parabola through a peak's neighbours places it
-/// between grid points.
+/// `heights` stand on a regular grid, `count[0]` columns of `count[1]` rows, `spacing_mm` apart. Lags reach a third of the grid, and steps shorter than [`LOBE`] points are not told from the marks themselves. A
+/// paraboloid through a peak's neighbours places it between grid points.
 pub fn autocorrelation_steps(
     heights: &[f64],
     count: [usize; 2],
@@ -208,39 +146,37 @@ pub fn autocorrelation_steps(
         product / (here * there).sqrt()
     };
     let width = 2 * reach[1] + 1;
-    // Half a plane of lags, with a border: the other half mirrors it.
-    let lags: Vec<f64> = (-1..=reach[0])
+    // Half a plane of lags; the other half mirrors it.
+    let lags: Vec<f64> = (0..=reach[0])
         .flat_map(|du| (-reach[1]..=reach[1]).map(move |dv| (du, dv)))
         .map(|(du, dv)| correlation(du, dv))
         .collect();
-    let at = |du: i64, dv: i64| lags[((du + 1) * width + dv + reach[1]) as usize];
+    let at = |du: i64, dv: i64| {
+        let (du, dv) = if du < 0 { (-du, -dv) } else { (du, dv) };
+        lags[(du * width + dv + reach[1]) as usize]
+    };
+    let is_peak = |du: i64, dv: i64| {
+        let here = at(du, dv);
+        let near = |center: i64, reach: i64| (center - LOBE).max(-reach)..=(center + LOBE).min(reach);
+        near(du, reach[0]).all(|i| near(dv, reach[1]).all(|j| at(i, j) <= here))
+    };
     let mut peaks: Vec<DVec2> = Vec::new();
     for du in 0..reach[0] {
         for dv in -reach[1] + 1..reach[1] {
-            if (du == 0 && dv <= 0) || at(du, dv) < SMALLEST_PEAK {
+            if (du == 0 && dv <= 0) || at(du, dv) < SMALLEST_PEAK || !is_peak(du, dv) {
                 continue;
             }
-            let around = [(-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)];
-            if around.iter().any(|&(i, j)| at(du + i, dv + j) > at(du, dv)) {
-                continue;
-            }
-            let vertex =
-                |before: f64, middle: f64, after: f64| 0.5 * (before - after) / (before - 2.0 * middle + after);
-            let fine = DVec2::new(
-                du as f64 + vertex(at(du - 1, dv), at(du, dv), at(du + 1, dv)),
-                dv as f64 + vertex(at(du, dv - 1), at(du, dv), at(du, dv + 1)),
-            );
+            // Vertex of the paraboloid through the nine lags around: on a ridge that runs askew both directions belong together.
+            let d = |i: i64, j: i64| at(du + i, dv + j);
+            let gradient = 0.5 * DVec2::new(d(1, 0) - d(-1, 0), d(0, 1) - d(0, -1));
+            let (uu, vv) = (d(1, 0) - 2.0 * d(0, 0) + d(-1, 0), d(0, 1) - 2.0 * d(0, 0) + d(0, -1));
+            let uv = 0.25 * (d(1, 1) - d(1, -1) - d(-1, 1) + d(-1, -1));
+            let determinant = uu * vv - uv * uv;
+            let vertex = DVec2::new(uv * gradient.y - vv * gradient.x, uv * gradient.x - uu * gradient.y) / determinant;
+            let fine = DVec2::new(du as f64, dv as f64) + vertex.clamp(DVec2::NEG_ONE, DVec2::ONE);
             peaks.push(fine * DVec2::from_array(spacing_mm));
         }
     }
     peaks.sort_by(|a, b| length(*a).total_cmp(&length(*b)));
     peaks
-}
-
-/// Lower peaks are chance: marks repeat with correlations above 0.9.
-const SMALLEST_PEAK: f64 = 0.5;
-
-/// Arc at which a flank of a space crosses the pitch line in the section z = 0, for teeth of the space's half width `half_mm`.
-pub fn crossing_arc_mm(space: i64, side: f64, transverse_module_mm: f64, half_mm: f64) -> f64 {
-    space as f64 * PI * transverse_module_mm - side * half_mm
 }

@@ -14,6 +14,7 @@ pub mod hob_load;
 pub mod hobbed_blank;
 pub mod hobbed_report;
 pub mod marks;
+pub mod offset_curves;
 pub mod scallop;
 pub mod stock;
 pub mod stroke_faults;

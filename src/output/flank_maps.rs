@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | height over the target after each operation | `maps/<operation>/tooth_07_left.{png,exr}` |
 //! | pass that left the finished surface (a channel of every EXR above) | `maps/<last operation>/tooth_07_left_pass.png` |
+//! | uncut chip thickness with which the surface was cut last, and the part of the edge (channels of every EXR above) | `maps/<last operation>/tooth_07_left_chip.png` |
 //! | stock of each earlier operation over the finished surface | `allowance/tooth_07_left.{png,exr}` |
 //! | deviation of the finished flank | `deviation/tooth_07_left.{png,exr}` |
 //!
@@ -21,6 +22,7 @@ use super::map_png::{MapPicture, write_map_png};
 use crate::dexel::{Layer, NO_PASS};
 use crate::error::Result;
 use crate::gear::generation::Side;
+use crate::measure::chips::LastChips;
 use crate::units::UM_PER_MM;
 
 /// What map readers need to know about u and v.
@@ -61,6 +63,10 @@ pub struct FlankMaps {
     pub passes: Vec<Vec<u32>>,
     /// Mean height of each cell after the last operation, mm; NaN where no pass came.
     pub deviation_mm: Vec<f32>,
+    /// Column and row of the dexel that stands for each place along u and v.
+    pub dexels: [Vec<usize>; 2],
+    /// The chips that left those dexels' surface after each operation; empty where they are not known.
+    pub chips: Vec<LastChips>,
 }
 
 impl FlankMaps {
@@ -115,6 +121,8 @@ impl FlankMaps {
             highest_mm: layers.iter().map(|layer| over_cells(layer, |cell| cell.fold(f32::NAN, f32::max))).collect(),
             deviation_mm: layers.last().map_or_else(Vec::new, |layer| over_cells(layer, mean)),
             passes: layers.iter().map(|layer| dexels.iter().map(|&i| layer.passes[i]).collect()).collect(),
+            dexels: [&columns, &leads].map(|cells| cells.iter().map(|(nearest, _)| *nearest).collect()),
+            chips: Vec::new(),
             grid,
         }
     }
@@ -148,8 +156,9 @@ impl FlankMaps {
                 scale: ColourScale::heights_over([heights_um.as_slice()]),
             };
             write_map_png(&folder.path(format!("maps/{name}/{stem}.png"))?, &picture)?;
+            let last = index + 1 == operations.len();
             // One picture of passes is enough to see the order of cutting: that of the finished surface. The EXR has all.
-            if index + 1 == operations.len() {
+            if last {
                 let ids: Vec<f32> = self.passes[index]
                     .iter()
                     // As f32, ids are exact up to 16 million.
@@ -165,7 +174,18 @@ impl FlankMaps {
                 };
                 write_map_png(&folder.path(format!("maps/{name}/{stem}_pass.png"))?, &picture)?;
             }
-            let channels = vec![
+            if let Some(chips) = self.chips.get(index).filter(|_| last) {
+                let thickness_um: Vec<f32> = chips.thickness_mm.iter().map(|h| h * UM_PER_MM as f32).collect();
+                let picture = MapPicture {
+                    title: &format!("{name}: {flank}, the chip that left each place"),
+                    quantity: "uncut chip thickness",
+                    values: &thickness_um,
+                    scale: ColourScale::usual_over([thickness_um.as_slice()]),
+                    ..picture
+                };
+                write_map_png(&folder.path(format!("maps/{name}/{stem}_chip.png"))?, &picture)?;
+            }
+            let mut channels = vec![
                 channel(
                     "height_mm",
                     "mm",
@@ -185,6 +205,21 @@ impl FlankMaps {
                     Samples::U32(self.passes[index].clone()),
                 ),
             ];
+            if let Some(chips) = self.chips.get(index) {
+                channels.push(channel(
+                    "chip_thickness_mm",
+                    "mm",
+                    "uncut chip thickness of that pass there: solid material before the edge along the target's normal, times the cosine to the edge's normal; NaN where none came",
+                    Samples::F32(chips.thickness_mm.clone()),
+                ));
+                channels.push(channel(
+                    "edge_part",
+                    "1",
+                    "part of the cutter's edge that took it: 0 none, 1 right flank, 2 tip with its corners, 3 left flank",
+                    Samples::U32(chips.sides.clone()),
+                ));
+                channels.sort_by(|a, b| a.name.cmp(&b.name));
+            }
             self.write_exr(&folder.path(format!("maps/{name}/{stem}.exr"))?, channels, notes)?;
         }
         let earlier = &operations[..operations.len() - 1];

@@ -2,8 +2,8 @@
 //!
 //! In: a grid, its values, title, quantity, unit and colour scale. Out: one PNG, v to the right, u upward.
 //!
-//! Both axes have the same scale unless that would make the map lower than 160 or higher than 640 pixels; a line below the map says by
-//! how much one of them is stretched then. The smallest and largest values are marked where they are, so that a single outlying
+//! Both axes have the same scale unless that would make the map lower than 160 pixels (a relief 480: marks along a long tooth need
+//! the height) or higher than 640; a line below the map says by how much one of them is stretched then. The smallest and largest values are marked where they are, so that a single outlying
 //! cell is found even where it is smaller than a pixel.
 //!
 //! Road not taken: a general chart library for the cells. It draws a rectangle per cell, which takes a second per map;
@@ -75,7 +75,8 @@ fn draw(picture: &MapPicture, relief: Option<&Relief>) -> std::result::Result<Ve
         return Err(problem);
     }
     let true_height_px = f64::from(MAP_WIDTH_PX) * picture.grid.u.length_mm() / picture.grid.v.length_mm();
-    let height_px = true_height_px.round().clamp(160.0, 640.0) as u32;
+    let lowest_px = if relief.is_some() { 480.0 } else { 160.0 };
+    let height_px = true_height_px.round().clamp(lowest_px, 640.0) as u32;
     let map = PixelBox { left: LEFT_PX, top: TOP_PX, width: MAP_WIDTH_PX, height: height_px };
     let bar = ColourBar {
         area: PixelBox { left: LEFT_PX + MAP_WIDTH_PX + BAR_GAP_PX, width: BAR_WIDTH_PX, ..map },

@@ -1,12 +1,14 @@
 //! Light on a map: how bright each cell is when a lamp stands to the upper left.
 //!
-//! Lambert's law on the surface's normals, the lamp 45 deg over the map. Flanks would look flat in true scale, where slopes are thousandths: heights are exaggerated by a round factor that makes the
-//! root mean square slope about a half, and the factor is stated.
+//! Lambert's law on the surface's normals, the lamp 45 deg over the map. Flanks would look flat in true scale, where slopes are thousandths: heights are exaggerated by a round factor that makes nine
+//! slopes in ten smaller than 0.7 (a single step on the surface is no reason to draw all else flat), and the factor is stated.
 
 use crate::output::grid::MapGrid;
 
-/// Slope that the exaggeration aims at.
-const SHOWN_SLOPE: f64 = 0.5;
+/// Slope that the exaggeration aims at, of which [`STEEPER`] are steeper.
+const SHOWN_SLOPE: f64 = 0.7;
+/// Share of the cells that may be drawn steeper.
+const STEEPER: f64 = 0.1;
 /// Direction to the lamp: along v (right), along u (up), out of the map.
 const LAMP: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];
 
@@ -37,10 +39,12 @@ impl Relief {
                 ]
             })
             .collect();
-        let finite = || slopes.iter().map(|[x, y]| x * x + y * y).filter(|s| s.is_finite());
-        let mean_square = finite().sum::<f64>() / finite().count().max(1) as f64;
-        let exaggeration =
-            if mean_square > 0.0 { round_factor(SHOWN_SLOPE / mean_square.sqrt()).max(1.0) } else { 1.0 };
+        let mut steepness: Vec<f64> = slopes.iter().map(|[x, y]| x.hypot(*y)).filter(|s| s.is_finite()).collect();
+        let steep = match steepness.len() {
+            0 => 0.0,
+            count => *steepness.select_nth_unstable_by((STEEPER * count as f64) as usize, |a, b| b.total_cmp(a)).1,
+        };
+        let exaggeration = if steep > 0.0 { round_factor(SHOWN_SLOPE / steep).max(1.0) } else { 1.0 };
         let brightness = slopes
             .iter()
             .map(|[x, y]| {

@@ -95,6 +95,8 @@ pub struct Headline {
     pub largest_chip_section: ChipPeak,
     /// Largest cutting force along the stroke.
     pub largest_cutting_force: ChipPeak,
+    /// Largest cutting force of a first stroke at full depth without infeed.
+    pub entry_cutting_force: Quantity,
     /// Volume taken away over the time of all strokes.
     pub removal_rate: Quantity,
     /// Strokes that cut nothing.

@@ -83,7 +83,8 @@ impl HobSections {
     pub fn new(set: &HobTeeth, edge: &Edge, reach_mm: f64, face_width_mm: f64, cull: bool) -> Self {
         let tip_mm = edge.segments.iter().flat_map(|s| s.y_range_mm.map(|y| place(s, y)[0].x)).fold(0.0, f64::max);
         let (mut nodes_mm, mut rates_mm) = edge_pieces(edge, PIECE_SHARE * tip_mm);
-        let passes: Vec<Sweeping> = (0..set.count()).into_par_iter().map(|i| Sweeping::new(set, &set.pass(i))).collect();
+        let passes: Vec<Sweeping> =
+            (0..set.count()).into_par_iter().map(|i| Sweeping::new(set, &set.pass(i))).collect();
         // Seen along the gear axis the rake face may show its other side: inside is on the left there too.
         if passes.first().is_some_and(Sweeping::is_turned_over) {
             nodes_mm.reverse();
@@ -148,7 +149,8 @@ impl HobSections {
         // Nearer to the axis than this the edge is behind the blank, or never in this slice.
         let least_mm = (behind_mm.abs() + pass.lean() * self.widest_mm).hypot(SWEEP_RAD.cos() * self.tip_mm);
         let reaches = |node: &DVec2| node.x >= least_mm;
-        let (Some(first), Some(last)) = (self.nodes_mm.iter().position(reaches), self.nodes_mm.iter().rposition(reaches))
+        let (Some(first), Some(last)) =
+            (self.nodes_mm.iter().position(reaches), self.nodes_mm.iter().rposition(reaches))
         else {
             return false;
         };
@@ -179,8 +181,7 @@ impl HobSections {
                 into.rates_mm.push([crossing.rate(self.rates_mm[index][0]), DVec2::ZERO]);
             }
             if index == first || index == last {
-                inner_mm[usize::from(index == last)] =
-                    crossing.place_mm - (node.x - least_mm) * crossing.over_radius;
+                inner_mm[usize::from(index == last)] = crossing.place_mm - (node.x - least_mm) * crossing.over_radius;
             }
             into.nodes_mm.push(crossing.place_mm);
         }
@@ -232,10 +233,7 @@ impl ClosedCurve for SweptSection {
         let [from, to] = self.rates_mm[law as usize];
         let run = end - start;
         let (square, cube) = (3.0 * run - 2.0 * from - to, from + to - 2.0 * run);
-        [
-            start + share * (from + share * (square + share * cube)),
-            from + share * (2.0 * square + 3.0 * share * cube),
-        ]
+        [start + share * (from + share * (square + share * cube)), from + share * (2.0 * square + 3.0 * share * cube)]
     }
 
     fn tangents(&self, index: usize) -> [DVec2; 2] {
@@ -338,10 +336,8 @@ impl Sweeping {
             let [x, y, z, shift] = self.entries(swept, [2, 5, 8, 11]);
             let [place, turning] = self.in_head(swept, node, twist_rad_per_mm);
             let value = x[0] * place.x + y[0] * place.y + z[0] * place.z + shift[0] - z_mm;
-            let rate = x[0] * turning.x
-                + y[0] * turning.y
-                + (x[1] * place.x + y[1] * place.y + z[1] * place.z)
-                + shift[1];
+            let rate =
+                x[0] * turning.x + y[0] * turning.y + (x[1] * place.x + y[1] * place.y + z[1] * place.z) + shift[1];
             let step = value / rate;
             swept -= step;
             if step.abs() < LAST_STEP_RAD {

@@ -1,5 +1,6 @@
 //! The blank field's part of a run: cut, report, results, table.
 
+use crate::cut::Backend;
 use crate::cut::cpu::blank;
 use crate::error::Result;
 use crate::gear::generation::Side;
@@ -22,15 +23,20 @@ const NO_TARGET: &str = "the target's outline is not known in closed form: the c
 /// The cut blank and what it says; nothing after Ctrl-C.
 ///
 /// # Errors
-/// A field that does not fit in memory.
-pub(super) fn cut(job: &Job, progress: &Progress, interrupt: &Interrupt) -> Result<Option<(CutBlank, BlankReport)>> {
+/// A field that does not fit in memory; the backend's.
+pub(super) fn cut(
+    job: &Job,
+    backend: &dyn Backend,
+    progress: &Progress,
+    interrupt: &Interrupt,
+) -> Result<Option<(CutBlank, BlankReport)>> {
     let field = job.blank_field()?;
     let step = progress.step("cut the whole blank", blank::steps(&field) * job.operations.len() as u64, "tiles");
     let advance = || {
         step.advance(1);
         !interrupt.is_raised()
     };
-    let Some(cut) = job.cut_blank(field, &advance) else { return Ok(None) };
+    let Some(cut) = job.cut_blank(backend, field, &advance)? else { return Ok(None) };
     step.finish();
     let target = job.target_outline(TARGET_SPACING_MM).ok();
     let report = blank_report::measure(job, &cut, target.as_ref());
@@ -102,12 +108,20 @@ pub(super) fn results(job: &Job, cut: &CutBlank, report: &BlankReport) -> BlankR
         } else {
             Quantity::undefined("strokes", STROKE_FAULTS, "no operation takes chips as large as ten cells of the grid")
         },
-        ray_passes_visited: Quantity::count(
+        ray_passes_visited: pairs(
             report.stats.visited,
-            "pairs",
             "pairs of ray and pass in which the ray crosses the cutter tooth",
         ),
-        ray_passes_removing: Quantity::count(report.stats.removing, "pairs", "those of them that removed material"),
+        ray_passes_removing: pairs(report.stats.removing, "those of them that removed material"),
+    }
+}
+
+/// Work that the native backend counts.
+fn pairs(count: u64, definition: &'static str) -> Quantity {
+    if count > 0 {
+        Quantity::count(count, "pairs", definition)
+    } else {
+        Quantity::undefined("pairs", definition, "the GPU does not count them")
     }
 }
 

@@ -8,6 +8,11 @@ use crate::units::UM_PER_MM;
 use std::f64::consts::PI;
 
 const IDLE: &str = "all strokes are idle";
+const ENTRY_SECTION: &str = "section of a first stroke at full depth without infeed: whole tooth spaces at once, as no machine cuts; the largest values leave it out";
+/// What the force of an entry is.
+pub const ENTRY_FORCE: &str =
+    "cutting force of a first stroke at full depth without infeed; the largest values leave it out";
+const NO_ENTRY: &str = "the cutter is fed in, or its first stroke meets nothing";
 /// N mm in a N m.
 const NMM_PER_NM: f64 = 1e3;
 
@@ -35,6 +40,8 @@ pub fn chip_results(job: &Job, ledger: &ChipLedger, operation: usize) -> ChipRes
             s.thickest_anywhere_mm() * UM_PER_MM
         }),
         largest_force: peak("cutting force along the stroke", "N", &|s| s.cutting_n),
+        entry_section: entry(chips.entry().map(|s| s.area_mm2), "mm^2", ENTRY_SECTION),
+        entry_force: entry(chips.entry().map(|s| s.cutting_n), "N", ENTRY_FORCE),
         largest_work_torque: peak("torque of the cut on the work spindle, without its sign", "N m", &|s| {
             s.work_torque_nmm.abs() / NMM_PER_NM
         }),
@@ -81,6 +88,11 @@ pub fn chip_results(job: &Job, ledger: &ChipLedger, operation: usize) -> ChipRes
             "chips that form on tip and both flanks of a cutter tooth at once",
         ),
     }
+}
+
+/// What is told of a first stroke at full depth.
+pub fn entry(value: Option<f64>, unit: &'static str, definition: &'static str) -> Quantity {
+    Quantity::number_or(value, unit, definition, NO_ENTRY)
 }
 
 /// Largest speed of the ram on its crank, mm/s.

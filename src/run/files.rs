@@ -7,7 +7,7 @@ use crate::axes_report;
 use crate::cut::Backend;
 use crate::dexel::NO_PASS;
 use crate::error::{Error, Result};
-use crate::job::Job;
+use crate::job::{GearJob, Job};
 use crate::measure::unevenness::ToothAllowance;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::colormap::ColourScale;
@@ -44,8 +44,8 @@ pub fn write(
         chart.write_png(&folder.path(format!("pictures/unevenness_{name}.png"))?)?;
         chart.write_svg(&folder.path(format!("pictures/unevenness_{name}.svg"))?)?;
     }
-    write_contact_sheets(job, cut, folder)?;
-    let (last, scale) = (&job.finishing().spec.name, deviation_scale(cut));
+    write_contact_sheets(job, &cut.maps, folder)?;
+    let (last, scale) = (&job.finishing().spec.name, deviation_scale(&cut.maps));
     cut.maps.par_iter().try_for_each(|map| map.write_deviation(folder, last, scale, notes))?;
     chip_files::write(job, &cut.chips, folder, notes)?;
     axes_report::write(job, folder)?;
@@ -190,8 +190,8 @@ fn unevenness_chart(job: &Job, teeth: &[ToothAllowance], operation: &str) -> Bar
 }
 
 /// Colours of the deviations of all flanks, µm.
-pub fn deviation_scale(cut: &CutGear) -> ColourScale {
-    match ColourScale::diverging_over(cut.maps.iter().map(|map| map.deviation_mm.as_slice())) {
+pub fn deviation_scale(maps: &[FlankMaps]) -> ColourScale {
+    match ColourScale::diverging_over(maps.iter().map(|map| map.deviation_mm.as_slice())) {
         ColourScale::Diverging { limit } => ColourScale::Diverging { limit: limit * UM_PER_MM as f32 },
         scale @ ColourScale::Sequential { .. } => scale,
     }
@@ -203,31 +203,45 @@ fn passes_from_first(ids: &[u32]) -> Vec<f32> {
     ids.iter().map(|&id| if id == NO_PASS { f32::NAN } else { (id - first) as f32 }).collect()
 }
 
-/// All flanks on one picture: stock of each earlier operation; heights, deviations and passes after the last.
-fn write_contact_sheets(job: &Job, cut: &CutGear, folder: &OutputFolder) -> Result<()> {
-    let last = job.operations.len() - 1;
+/// All flanks on one picture: stock of each earlier operation; heights, deviations, passes and, where they are known, their chips after the last.
+pub fn write_contact_sheets(job: &dyn GearJob, maps: &[FlankMaps], folder: &OutputFolder) -> Result<()> {
     let scales = super::map_operations(job);
+    let last = scales.len() - 1;
+    let scene = &job.scene().name;
     for (index, operation) in scales[..last].iter().enumerate() {
-        write_stock_sheet(&job.scene.name, operation, index, &cut.maps, folder)?;
+        write_stock_sheet(scene, operation, index, maps, folder)?;
     }
-    let (scene, name) = (&job.scene.name, &job.finishing().spec.name);
-    write_height_sheet(scene, name, &cut.maps, folder)?;
+    let name = &scales[last].name;
+    write_height_sheet(scene, name, maps, folder)?;
     write_sheet(
         &folder.path(format!("pictures/deviation_{name}.png"))?,
         &format!("{scene}: deviation after {name}, all flanks"),
         ["mean height of cell over the target", "µm"],
-        deviation_scale(cut),
-        &cut.maps,
-        &cut.maps.iter().map(|m| m.deviation_mm.iter().map(|&height| um(height)).collect()).collect::<Vec<_>>(),
+        deviation_scale(maps),
+        maps,
+        &maps.iter().map(|m| m.deviation_mm.iter().map(|&height| um(height)).collect()).collect::<Vec<_>>(),
     )?;
-    let passes: Vec<Vec<f32>> = cut.maps.iter().map(|m| passes_from_first(&m.passes[last])).collect();
+    let passes: Vec<Vec<f32>> = maps.iter().map(|m| passes_from_first(&m.passes[last])).collect();
     write_sheet(
         &folder.path(format!("pictures/passes_{name}.png"))?,
         &format!("{scene}: the passes of {name} in the order of time, all flanks"),
         ["pass id, counted from the flank's first", "1"],
         usual_span(&passes),
-        &cut.maps,
+        maps,
         &passes,
+    )?;
+    let chips_um = |map: &FlankMaps| map.chips.last().map(|chips| chips.thickness_mm.iter().map(|&h| um(h)).collect());
+    let chips: Vec<Vec<f32>> = maps.iter().filter_map(chips_um).collect();
+    if chips.len() < maps.len() {
+        return Ok(());
+    }
+    write_sheet(
+        &folder.path(format!("pictures/chip_thickness_{name}.png"))?,
+        &format!("{scene}: chips that left the finished surface, all flanks"),
+        ["uncut chip thickness", "µm"],
+        ColourScale::usual_over(chips.iter().map(Vec::as_slice)),
+        maps,
+        &chips,
     )
 }
 
@@ -244,7 +258,7 @@ fn um(height_mm: f32) -> f32 {
 }
 
 /// Stock of one earlier operation on all flanks.
-pub(super) fn write_stock_sheet(
+fn write_stock_sheet(
     scene: &str,
     operation: &OperationMaps,
     index: usize,
@@ -263,12 +277,7 @@ pub(super) fn write_stock_sheet(
 }
 
 /// Finished surface of all flanks.
-pub(super) fn write_height_sheet(
-    scene: &str,
-    operation: &str,
-    maps: &[FlankMaps],
-    folder: &OutputFolder,
-) -> Result<()> {
+fn write_height_sheet(scene: &str, operation: &str, maps: &[FlankMaps], folder: &OutputFolder) -> Result<()> {
     let values: Vec<Vec<f32>> = maps
         .iter()
         .map(|m| {

@@ -3,7 +3,7 @@
 use crate::cut::Backend;
 use crate::error::Result;
 use crate::gear::generation::Side;
-use crate::job::{CutBlank, Job};
+use crate::job::{CutBlank, GearJob, Job};
 use crate::output::colormap::ColourScale;
 use crate::output::folder::OutputFolder;
 use crate::output::mesh_file::MeshFile;
@@ -20,14 +20,14 @@ use crate::surface::{BlankMesh, Mesh, SurfaceGrid};
 const HEIGHT_COLOURS_UM: f32 = 5.0;
 
 /// Colours of the stock that the last operation found, the same on maps, meshes and pictures.
-pub fn stock_scale(job: &Job) -> ColourScale {
+pub fn stock_scale(job: &dyn GearJob) -> ColourScale {
     let before_last = super::map_operations(job).iter().rev().nth(1).map(|operation| operation.stock_scale);
     before_last.unwrap_or(ColourScale::Sequential { low: 0.0, high: 1.0 })
 }
 
 /// Quantity that vertices are coloured by: the stock where there is one, else the height over the target.
-fn colour(job: &Job) -> (&'static str, ColourScale) {
-    if job.operations.len() > 1 {
+fn colour(job: &dyn GearJob) -> (&'static str, ColourScale) {
+    if job.operations().len() > 1 {
         ("stock_mm", stock_scale(job))
     } else {
         ("height_um", ColourScale::Sequential { low: 0.0, high: HEIGHT_COLOURS_UM })
@@ -38,9 +38,15 @@ fn colour(job: &Job) -> (&'static str, ColourScale) {
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write_flank(job: &Job, surface: &SurfaceGrid, tooth: u32, side: Side, folder: &OutputFolder) -> Result<()> {
+pub fn write_flank(
+    job: &dyn GearJob,
+    surface: &SurfaceGrid,
+    tooth: u32,
+    side: Side,
+    folder: &OutputFolder,
+) -> Result<()> {
     let name = flank_name(tooth, side);
-    let title = format!("{}: tooth {tooth}, {} flank", job.scene.name, side.name());
+    let title = format!("{}: tooth {tooth}, {} flank", job.scene().name, side.name());
     let file = MeshFile { mesh: &surface.mesh(&name), title: &title, colour: colour(job), notes: &[] };
     write_ply(&folder.path(format!("mesh/flanks/{name}.ply"))?, &file)
 }
@@ -49,12 +55,12 @@ pub fn write_flank(job: &Job, surface: &SurfaceGrid, tooth: u32, side: Side, fol
 ///
 /// # Errors
 /// The backend's; a bore that reaches the teeth.
-pub fn gear(job: &Job, backend: &dyn Backend, flanks: Vec<SurfaceGrid>, progress: &Progress) -> Result<Mesh> {
-    let step = progress.step("roots and tips", u64::from(job.scene.gear.teeth), "teeth");
+pub fn gear(job: &dyn GearJob, backend: &dyn Backend, flanks: Vec<SurfaceGrid>, progress: &Progress) -> Result<Mesh> {
+    let step = progress.step("roots and tips", u64::from(job.scene().gear.teeth), "teeth");
     let surfaces = gear_surfaces::complete(job, backend, flanks, &|| step.advance(1))?;
     step.finish();
-    let outline = Outline::new(&surfaces, &job.blank);
-    Ok(gear_solid(&outline, job.scene.gear.bore_diameter_mm)?)
+    let outline = Outline::new(&surfaces, job.blank());
+    Ok(gear_solid(&outline, job.scene().gear.bore_diameter_mm)?)
 }
 
 /// Writes `mesh/blank.ply`: the gear as the rays through the blank have it, whatever its shape, with the pass that left every place.
@@ -73,8 +79,8 @@ pub fn write_blank(job: &Job, cut: &CutBlank, folder: &OutputFolder) -> Result<(
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write_gear(job: &Job, mesh: &Mesh, folder: &OutputFolder, notes: &[(String, String)]) -> Result<()> {
-    let title = format!("gear of {}", job.scene.name);
+pub fn write_gear(job: &dyn GearJob, mesh: &Mesh, folder: &OutputFolder, notes: &[(String, String)]) -> Result<()> {
+    let title = format!("gear of {}", job.scene().name);
     let file = MeshFile { mesh, title: &title, colour: colour(job), notes };
     write_stl(&folder.path("mesh/gear.stl")?, &file)?;
     write_ply(&folder.path("mesh/gear.ply")?, &file)?;

@@ -8,7 +8,7 @@ use crate::cut::Backend;
 use crate::dexel::NO_PASS;
 use crate::error::{Error, Result};
 use crate::gear::generation::Side;
-use crate::job::Job;
+use crate::job::GearJob;
 use crate::output::colormap::ColourScale;
 use crate::output::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
 use crate::output::folder::OutputFolder;
@@ -28,13 +28,19 @@ use std::f64::consts::PI;
 const MARK_SLOPE: f64 = 0.12;
 /// The lamp over a rolled-out flank stands this high, rad: marks that lean by [`MARK_SLOPE`] stay in its light.
 const RAKING_RAD: f64 = 0.28;
+/// Share of that lamp in the light; the rest comes from the sky.
+const RAKING_SHARE: f64 = 0.85;
+/// How far marks take the sky from each other, as a share of the flank: hardly, or every valley would be dark.
+const RAKING_SKY_REACH: f64 = 0.02;
+/// Light that it throws on a white surface without marks: a little more than a studio's, so that both sides of a mark show.
+const RAKING_LIGHT: f64 = 1.08;
 
 /// Draws all pictures of the scene into `pictures/`; how many were finished before Ctrl-C.
 ///
 /// # Errors
 /// The backend's; files that cannot be written.
 pub fn draw(
-    job: &Job,
+    job: &dyn GearJob,
     backend: &dyn Backend,
     solid: &Mesh,
     progress: &Progress,
@@ -42,7 +48,7 @@ pub fn draw(
     folder: &OutputFolder,
     notes: &[(String, String)],
 ) -> Result<usize> {
-    let pictures = &job.scene.pictures;
+    let pictures = &job.scene().pictures;
     if pictures.is_empty() {
         return Ok(0);
     }
@@ -92,7 +98,7 @@ impl Drawn {
 }
 
 /// What colours show on a mesh.
-fn look(job: &Job, colour: PictureColour, mesh: &Mesh) -> (Look, Option<Legend<'static>>) {
+fn look(job: &dyn GearJob, colour: PictureColour, mesh: &Mesh) -> (Look, Option<Legend<'static>>) {
     let (name, quantity, unit) = match colour {
         PictureColour::Clay => return (CLAY, None),
         PictureColour::Stock => ("stock_mm", "normal stock before the last operation", "mm"),
@@ -101,7 +107,7 @@ fn look(job: &Job, colour: PictureColour, mesh: &Mesh) -> (Look, Option<Legend<'
     };
     let scale = match (colour, mesh.scalar(name).map(|scalar| &scalar.values)) {
         (PictureColour::Stock, _) => stock_scale(job),
-        (_, Some(ScalarValues::F32(values))) => most_of(values),
+        (_, Some(ScalarValues::F32(values))) => ColourScale::usual_over([values.as_slice()]),
         (_, Some(ScalarValues::U32(values))) => {
             let cut: Vec<f32> = values.iter().filter(|&&v| v != NO_PASS).map(|&v| v as f32).collect();
             ColourScale::sequential_over([cut.as_slice()])
@@ -111,28 +117,20 @@ fn look(job: &Job, colour: PictureColour, mesh: &Mesh) -> (Look, Option<Legend<'
     (Look::Scalar { name, scale }, Some(Legend { quantity, unit, scale }))
 }
 
-/// Scale over most of the values: the ends that one in fifty exceed are marked at the colour bar.
-fn most_of(values: &[f32]) -> ColourScale {
-    let mut sorted: Vec<f32> = values.iter().copied().filter(|v| v.is_finite()).collect();
-    sorted.sort_unstable_by(f32::total_cmp);
-    let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied().unwrap_or(0.0);
-    ColourScale::Sequential { low: at(0.01), high: at(0.98) }
-}
-
-fn draw_solid(job: &Job, picture: &Picture, solid: &Mesh, interrupt: &Interrupt) -> Result<Drawn> {
+fn draw_solid(job: &dyn GearJob, picture: &Picture, solid: &Mesh, interrupt: &Interrupt) -> Result<Drawn> {
     let (look, legend) = look(job, picture.colour, solid);
     let (mut camera, title) = match picture.view {
         PictureView::Tooth => {
-            let pitch_mm = PI * job.scene.gear.module_mm;
-            let phi = job.curve.phi_at_arc(pitch_mm * (f64::from(picture.tooth) - 0.5));
-            let frame = job.curve.frame(phi);
+            let pitch_mm = PI * job.scene().gear.transverse_module_mm();
+            let phi = job.curve().phi_at_arc(pitch_mm * (f64::from(picture.tooth) - 0.5));
+            let frame = job.curve().frame(phi);
             let (front, left) = (frame.normal.extend(0.0), frame.tangent.extend(0.0));
             let towards = Camera::direction(front, left, picture.azimuth_rad, picture.elevation_rad);
             // The near end of the tooth is what the viewer looks at.
-            let near_mm = 0.5 * job.scene.gear.face_width_mm * picture.elevation_rad.signum();
+            let near_mm = 0.5 * job.scene().gear.face_width_mm * picture.elevation_rad.signum();
             let target_mm = frame.point_mm.extend(near_mm - pitch_mm * picture.elevation_rad.signum());
             let camera = Camera::new(target_mm, towards, DVec3::Z, 3.5 * pitch_mm, picture.size_px);
-            (camera, format!("{}: tooth {}", job.scene.name, picture.tooth))
+            (camera, format!("{}: tooth {}", job.scene().name, picture.tooth))
         }
         _ => {
             let towards = Camera::direction(DVec3::X, DVec3::Y, picture.azimuth_rad, picture.elevation_rad);
@@ -141,7 +139,9 @@ fn draw_solid(job: &Job, picture: &Picture, solid: &Mesh, interrupt: &Interrupt)
                 camera,
                 format!(
                     "{}: gear of {} teeth, module {} mm",
-                    job.scene.name, job.scene.gear.teeth, job.scene.gear.module_mm
+                    job.scene().name,
+                    job.scene().gear.teeth,
+                    job.scene().gear.module_mm
                 ),
             )
         }
@@ -154,32 +154,25 @@ fn draw_solid(job: &Job, picture: &Picture, solid: &Mesh, interrupt: &Interrupt)
     Ok(Drawn { title, note: String::new(), camera, rendered, legend })
 }
 
-fn draw_flank(job: &Job, backend: &dyn Backend, picture: &Picture, interrupt: &Interrupt) -> Result<Drawn> {
-    let generation = job.target_generation();
-    let target = job.target_flank(&generation, picture.tooth, picture.side)?;
-    let width_mm = job.scene.gear.face_width_mm;
-    let extent_mm = picture.extent_mm.unwrap_or(0.6 * target.length_mm());
-    let reach_mm = (0.5 * extent_mm).min(0.5 * width_mm);
-    let mut field = job.flank_field(&target);
-    // The dexels' own rows, and one at either side of the picture.
-    field.leads_mm.retain(|lead| lead.abs() < reach_mm);
-    field.leads_mm.insert(0, -reach_mm);
-    field.leads_mm.push(reach_mm);
-    let cut = job.cut(backend, field)?;
-    let grid = SurfaceGrid::new(&cut.field, &cut.layers, job.scene.fields.profile_spacing_mm);
+fn draw_flank(job: &dyn GearJob, backend: &dyn Backend, picture: &Picture, interrupt: &Interrupt) -> Result<Drawn> {
+    let profile_mm = job.profile_length_mm(picture.tooth, picture.side)?;
+    let extent_mm = picture.extent_mm.unwrap_or(0.6 * profile_mm);
+    let reach_mm = (0.5 * extent_mm).min(0.5 * job.scene().gear.face_width_mm);
+    let grid = job.flank_surface(backend, picture.tooth, picture.side, reach_mm)?;
     let exaggeration = picture.exaggeration.unwrap_or_else(|| exaggeration(&grid));
     let flat = rolled_out(&grid, exaggeration);
     let (look, legend) = look(job, picture.colour, &flat);
     let towards = Camera::direction(DVec3::NEG_Y, DVec3::X, picture.azimuth_rad, picture.elevation_rad);
-    let middle_mm = DVec3::new(0.0, 0.5 * target.length_mm(), 0.0);
+    let middle_mm = DVec3::new(0.0, 0.5 * profile_mm, 0.0);
     let camera = Camera::new(middle_mm, towards, DVec3::Y, 1.04 * extent_mm, picture.size_px);
     let stage = Stage::new(vec![Body { mesh: &flat, look }]);
     let lamp = DVec3::new(0.0, RAKING_RAD.cos(), RAKING_RAD.sin());
-    let lights = Lights { lamp, lamp_share: 0.85, sky_reach: 0.02, gain: 1.35 / RAKING_RAD.sin() * 0.8 };
+    let gain = RAKING_LIGHT / RAKING_RAD.sin();
+    let lights = Lights { lamp, lamp_share: RAKING_SHARE, sky_reach: RAKING_SKY_REACH, gain };
     let rendered = render(&stage, &camera, &lights, interrupt)?;
     let side = if picture.side == Side::Left { "left" } else { "right" };
-    let title =
-        format!("{}: tooth {}, {side} flank after {}", job.scene.name, picture.tooth, job.finishing().spec.name);
+    let finishing = job.operations().last().map_or("", |(name, _)| *name);
+    let title = format!("{}: tooth {}, {side} flank after {finishing}", job.scene().name, picture.tooth);
     let note = format!("profile rolled out, root below, tip above; heights \u{d7} {exaggeration}; light from the tip");
     Ok(Drawn { title, note, camera, rendered, legend })
 }

@@ -4,12 +4,15 @@
 
 mod deviations;
 mod facts;
+pub(super) mod hobbing;
 mod maps;
 mod stock;
 mod texture;
 
+use self::deviations::Inspection;
 use super::CutGear;
 use crate::axes_report::{self, OperationAxes};
+use crate::cut::CutStats;
 use crate::error::Result;
 use crate::job::Job;
 use crate::output::folder::OutputFolder;
@@ -38,23 +41,22 @@ pub fn page(job: &Job, cut: &CutGear, results: &Results, run: &RunWords, folder:
     let axes = OperationAxes::of_job(job);
     let mut warnings = super::summary::warnings(cut);
     warnings.extend(axes.iter().flat_map(OperationAxes::warnings));
-    // The terminal's plain letters become signs.
-    let warnings = warnings.iter().map(|text| text.replace(" um", " µm").replace(" deg ", "° ")).collect();
     let mut sections = stock::section(job, cut, results).into_iter().collect::<Vec<_>>();
-    sections.push(deviations::section(job, cut));
-    sections.extend(texture::section(results, folder)?);
+    let inspection = Inspection::of_shaping(&cut.report, job.scene.gear.module_mm);
+    sections.push(deviations::section(&inspection));
+    sections.extend(texture::section(&results.texture, folder)?);
     sections.push(motion(job, results));
     sections.push(facts::section(job));
-    sections.push(record(cut, run));
+    sections.push(record(cut.report.flanks.len(), &cut.stats, cut.dexels, run));
     Ok(Page {
         title: job.scene.name.clone(),
         subtitle: facts::gear_words(&job.scene.gear),
         operations: results.operations.iter().map(|operation| operation_words(operation, results)).collect(),
         complete: !cut.interrupted,
         program: format!("gearcut {}", env!("CARGO_PKG_VERSION")),
-        key_numbers: key_numbers(results, cut),
-        warnings,
-        viewer: Some(maps::viewer(job, cut)?),
+        key_numbers: key_numbers(results, &inspection),
+        warnings: with_signs(&warnings),
+        viewer: Some(maps::viewer(job, &cut.maps)?),
         sections,
     })
 }
@@ -101,7 +103,7 @@ fn key_number(name: &str, quantity: &Quantity) -> KeyNumber {
     }
 }
 
-fn key_numbers(results: &Results, cut: &CutGear) -> Vec<KeyNumber> {
+fn key_numbers(results: &Results, inspection: &Inspection) -> Vec<KeyNumber> {
     let h = &results.headline;
     let with_note = |number: KeyNumber, note: String| KeyNumber { note, ..number };
     let mut numbers = vec![
@@ -116,7 +118,7 @@ fn key_numbers(results: &Results, cut: &CutGear) -> Vec<KeyNumber> {
         unevenness
     });
     numbers.push(key_number("Highest scallop", &h.scallop_height));
-    numbers.extend(deviations::key_numbers(cut));
+    numbers.extend(deviations::key_numbers(inspection));
     let thinnest = key_number("Thinnest tooth, arc", &h.smallest_tooth_thickness);
     numbers.push(match (h.smallest_tooth_thickness.value(), h.largest_tooth_thickness.value()) {
         (Some(low), Some(high)) => {
@@ -131,13 +133,22 @@ fn key_numbers(results: &Results, cut: &CutGear) -> Vec<KeyNumber> {
         key_number("Pointed teeth", &h.pointed_teeth),
         key_number("Witness mark", &h.witness_mark),
         with_note(key_number("Relief on the return stroke", &h.relief_ratio), "of a circular gear's".to_owned()),
-        key_number("Left of the tightest axis limit", &h.axis_margin),
+        key_number("Reserve to the tightest axis limit", &h.axis_margin),
         key_number("Time of all strokes", &h.cycle_time),
     ]);
-    // What does not exist here goes to the end.
+    known_first(numbers)
+}
+
+/// What does not exist here goes to the end.
+fn known_first(numbers: Vec<KeyNumber>) -> Vec<KeyNumber> {
     let (mut known, unknown): (Vec<_>, Vec<_>) = numbers.into_iter().partition(|number| number.value != "–");
     known.extend(unknown);
     known
+}
+
+/// The terminal's plain letters become signs.
+fn with_signs(warnings: &[String]) -> Vec<String> {
+    warnings.iter().map(|text| text.replace(" um", " µm").replace(" deg ", "° ")).collect()
 }
 
 fn motion(job: &Job, results: &Results) -> Section {
@@ -182,17 +193,18 @@ fn peak_table(operation: &OperationResults) -> Table {
     }
 }
 
-fn record(cut: &CutGear, run: &RunWords) -> Section {
+/// What is needed to repeat the run.
+fn record(flanks: usize, stats: &CutStats, dexels: u64, run: &RunWords) -> Section {
     let row = |name: &str, value: String| vec![name.to_owned(), value];
-    let per_dexel = cut.stats.dexel_passes as f64 / cut.dexels.max(1) as f64;
+    let per_dexel = stats.dexel_passes as f64 / dexels.max(1) as f64;
     let table = Table {
         caption: "Run".to_owned(),
         columns: Vec::new(),
         rows: vec![
             row("Program", format!("gearcut {}", env!("CARGO_PKG_VERSION"))),
             row("Backend", format!("{} ({})", run.backend, run.backend_why)),
-            row("Flanks cut", format!("{}", cut.report.flanks.len())),
-            row("Dexels", format!("{:.2} million, {} passes each", cut.dexels as f64 / 1e6, significant(per_dexel, 3))),
+            row("Flanks cut", flanks.to_string()),
+            row("Dexels", format!("{:.2} million, {} passes each", dexels as f64 / 1e6, significant(per_dexel, 3))),
         ],
     };
     Section {

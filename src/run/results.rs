@@ -3,7 +3,7 @@
 //! In: the job, the cut gear. Out: [`Results`]. Nothing is computed here but extremes over flanks.
 
 use super::CutGear;
-use super::chip_results::{chip_results, peak};
+use super::chip_results::{ENTRY_FORCE, chip_results, entry, peak};
 use super::tooth_results::{finished_tooth, operation_tooth, stock_range};
 use crate::axes_report::{OperationAxes, linkage_words};
 use crate::gear::target::FlankEnd;
@@ -179,6 +179,11 @@ fn headline(job: &Job, cut: &CutGear, axes: &[OperationAxes]) -> Headline {
             "cutting force along the stroke, all operations",
             "N",
             &|s| s.cutting_n,
+        ),
+        entry_cutting_force: entry(
+            cut.chips.operations.iter().filter_map(|o| o.entry()).map(|s| s.cutting_n).reduce(f64::max),
+            "N",
+            ENTRY_FORCE,
         ),
         removal_rate: Quantity::number(
             removed_mm3 / (cycle_s / 60.0) / 1e3,

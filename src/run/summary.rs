@@ -40,6 +40,10 @@ pub fn summary(job: &Job, cut: &CutGear, results: &Results, out: &Path, backend:
     sheet.line("tightest axis limit", share(&headline.axis_margin, "of it left"));
     sheet.line("largest chip section", at_stroke(&headline.largest_chip_section));
     sheet.line("largest cutting force", at_stroke(&headline.largest_cutting_force));
+    if headline.entry_cutting_force.value().is_some() {
+        let force = shown(&headline.entry_cutting_force);
+        sheet.line("first stroke at full depth", format!("{force} (no machine cuts so: give the operation an infeed)"));
+    }
     sheet.line("removal rate", format!("{}, {} idle", shown(&headline.removal_rate), shown(&headline.idle_strokes)));
     sheet.line("time of all strokes", minutes(&headline.cycle_time));
     if let Some(blank) = &results.blank {

@@ -168,6 +168,7 @@ fn shaper_cutter(values: &Values) -> Option<ShaperCutter> {
             }
             _ => return None,
         },
+        rake_angle_rad: rad(cutter, "rake_angle_deg")?,
         runout_mm: mm_from_um(cutter, "runout_um")?,
         runout_angle_rad: rad(cutter, "runout_angle_deg")?,
         pitch_errors_mm: cutter.numbers("pitch_errors_um")?.iter().map(|um| um / UM_PER_MM).collect(),

@@ -212,6 +212,8 @@ pub struct ShaperCutter {
     pub thinning_mm: f64,
     /// Shape of the tip corners.
     pub tip: Tip,
+    /// Top rake of its conical rake face, rad; for forces alone.
+    pub rake_angle_rad: f64,
     /// Distance of the cutter's profile axis from its spindle axis.
     pub runout_mm: f64,
     /// Direction of the runout in the cutter frame, from cutter tooth 0.

@@ -5,14 +5,93 @@
 //!
 //! Columns are the dexels nearest to places `spacing_mm` apart, the first and the last one always among them: every vertex lies on the cut surface, nothing is averaged. Rows come from the
 //! same spacing, but where the surface runs straight along the tooth to [`STRAIGHT_MM`] the rows between are left out: strokes whose axes rest leave two rows per flank, whatever its width.
+//! Helical flanks keep all rows: they wind about the axis.
 
 use super::mesh::{Mesh, Part, Scalar, ScalarValues};
-use crate::dexel::{Field, Layer, NO_PASS};
+use crate::dexel::{Field, Layer, NO_PASS, SpatialField};
 use crate::units::UM_PER_MM;
 use glam::{DVec2, DVec3};
 
 /// Rows are left out where straight lines between the others miss no height by more than this, mm: a tenth of a micrometre, below any machine's accuracy.
 pub const STRAIGHT_MM: f64 = 1e-4;
+
+/// Rays of a flank, root or tip, column by column along the profile and row by row along the tooth: every row stands in one transverse section.
+pub trait RayGrid {
+    /// Arc length of each column along the target profile, mm.
+    fn arcs_mm(&self) -> Vec<f64>;
+
+    /// Place of each row along the tooth from the middle of the face, mm, increasing.
+    fn leads_mm(&self) -> &[f64];
+
+    /// Point of the row's transverse section where the surface stands `height_mm` over the target, gear frame, mm.
+    fn point_mm(&self, column: usize, row: usize, height_mm: f64) -> DVec2;
+
+    /// Unit normal of the target out of the gear, in the row's transverse section.
+    fn normal(&self, column: usize, row: usize) -> DVec2;
+
+    /// Whether the target runs straight along the gear's axis.
+    fn is_straight(&self) -> bool;
+}
+
+impl RayGrid for Field {
+    fn arcs_mm(&self) -> Vec<f64> {
+        self.arcs_mm()
+    }
+
+    fn leads_mm(&self) -> &[f64] {
+        &self.leads_mm
+    }
+
+    fn point_mm(&self, column: usize, _: usize, height_mm: f64) -> DVec2 {
+        let column = &self.columns[column];
+        column.origin_mm + height_mm * column.normal
+    }
+
+    fn normal(&self, column: usize, _: usize) -> DVec2 {
+        self.columns[column].normal
+    }
+
+    fn is_straight(&self) -> bool {
+        true
+    }
+}
+
+/// Rays in space with the places of their columns and rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlacedRays {
+    /// Rays; the origins of a row stand in its transverse section.
+    pub field: SpatialField,
+    /// Places of the columns along the profile, mm.
+    pub arcs_mm: Vec<f64>,
+    /// Places of the rows along the tooth, mm.
+    pub leads_mm: Vec<f64>,
+}
+
+impl RayGrid for PlacedRays {
+    fn arcs_mm(&self) -> Vec<f64> {
+        self.arcs_mm.clone()
+    }
+
+    fn leads_mm(&self) -> &[f64] {
+        &self.leads_mm
+    }
+
+    /// A normal that leans along the axis by nz leaves the section; a surface `height_mm` along it cuts the section height / cos(lean) from the origin, to the first order in heights over
+    /// radii of curvature.
+    fn point_mm(&self, column: usize, row: usize, height_mm: f64) -> DVec2 {
+        let ray = self.field.ray(column, row);
+        let across = ray.normal.truncate();
+        ray.origin_mm.truncate() + height_mm / across.length_squared() * across
+    }
+
+    fn normal(&self, column: usize, row: usize) -> DVec2 {
+        self.field.ray(column, row).normal.truncate().normalize()
+    }
+
+    fn is_straight(&self) -> bool {
+        false
+    }
+}
 
 /// Points of the finished surface over one flank or root, column by column (rows contiguous).
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +100,10 @@ pub struct SurfaceGrid {
     pub arcs_mm: Vec<f64>,
     /// Place of each row along the tooth from the middle of the face, mm, increasing.
     pub leads_mm: Vec<f64>,
-    /// Unit normal of the target, out of the gear, of each column.
+    /// Unit normal of the target in the transverse section, out of the gear, of each column in the first row.
     pub normals: Vec<DVec2>,
+    /// Points of the target under the first row, gear frame, mm.
+    pub target_mm: Vec<DVec2>,
     /// Points on the surface, gear frame.
     pub points_mm: Vec<DVec2>,
     /// Height over the target, µm.
@@ -38,43 +119,42 @@ impl SurfaceGrid {
     ///
     /// # Panics
     /// No layer or no dexel.
-    pub fn new(field: &Field, layers: &[Layer], spacing_mm: f64) -> Self {
+    pub fn new(field: &impl RayGrid, layers: &[Layer], spacing_mm: f64) -> Self {
         let last = layers.last().expect("a job has at least one operation");
         let before = layers.len().checked_sub(2).map(|i| &layers[i]);
-        let arcs_mm: Vec<f64> = field.columns.iter().map(|c| c.arc_mm).collect();
+        let (arcs_mm, leads_mm) = (field.arcs_mm(), field.leads_mm());
         let columns = spaced(&arcs_mm, spacing_mm);
-        let candidates = spaced(&field.leads_mm, spacing_mm);
-        let all = field.rows();
-        let rows = straight_rows(&field.leads_mm, &candidates, |from, to, visit| {
-            for &column in &columns {
-                for layer in [Some(last), before].into_iter().flatten() {
-                    let heights_mm = layer.column(column, all);
-                    if !visit(f64::from(heights_mm[to]) - f64::from(heights_mm[from])) {
-                        return;
+        let mut rows = spaced(leads_mm, spacing_mm);
+        let all = leads_mm.len();
+        if field.is_straight() {
+            rows = straight_rows(leads_mm, &rows, |from, to, visit| {
+                for &column in &columns {
+                    for layer in [Some(last), before].into_iter().flatten() {
+                        let heights_mm = layer.column(column, all);
+                        if !visit(f64::from(heights_mm[to]) - f64::from(heights_mm[from])) {
+                            return;
+                        }
                     }
                 }
-            }
-        });
-        let dexels = || columns.iter().flat_map(|&column| rows.iter().map(move |&row| (column, column * all + row)));
+            });
+        }
+        let places = || columns.iter().flat_map(|&column| rows.iter().map(move |&row| (column, row)));
+        let dexels = || places().map(|(column, row)| column * all + row);
         let stock_mm = before.map(|before| {
             // Where no pass came, the blank stands: what the last operation found there ends with the ray, not with a surface.
             let cut = |i: usize| before.passes[i] != NO_PASS && last.passes[i] != NO_PASS;
             let stock = |i: usize| if cut(i) { before.heights_mm[i] - last.heights_mm[i] } else { f32::NAN };
-            dexels().map(|(_, i)| stock(i)).collect::<Vec<f32>>()
+            dexels().map(stock).collect::<Vec<f32>>()
         });
         Self {
             arcs_mm: columns.iter().map(|&c| arcs_mm[c]).collect(),
-            leads_mm: rows.iter().map(|&r| field.leads_mm[r]).collect(),
-            normals: columns.iter().map(|&c| field.columns[c].normal).collect(),
-            points_mm: dexels()
-                .map(|(column, i)| {
-                    let column = &field.columns[column];
-                    column.origin_mm + f64::from(last.heights_mm[i]) * column.normal
-                })
-                .collect(),
-            height_um: dexels().map(|(_, i)| last.heights_mm[i] * UM_PER_MM as f32).collect(),
+            leads_mm: rows.iter().map(|&r| leads_mm[r]).collect(),
+            normals: columns.iter().map(|&c| field.normal(c, rows[0])).collect(),
+            target_mm: columns.iter().map(|&c| field.point_mm(c, rows[0], 0.0)).collect(),
+            points_mm: places().map(|(c, r)| field.point_mm(c, r, f64::from(last.heights_mm[c * all + r]))).collect(),
+            height_um: dexels().map(|i| last.heights_mm[i] * UM_PER_MM as f32).collect(),
             stock_mm,
-            passes: dexels().map(|(_, i)| last.passes[i]).collect(),
+            passes: dexels().map(|i| last.passes[i]).collect(),
         }
     }
 
@@ -91,16 +171,6 @@ impl SurfaceGrid {
     /// Point of a column and row in space, mm.
     pub fn position_mm(&self, column: usize, row: usize) -> DVec3 {
         self.points_mm[column * self.rows() + row].extend(self.leads_mm[row])
-    }
-
-    /// Points of the target under the first row, gear frame, mm.
-    pub fn target_mm(&self) -> Vec<DVec2> {
-        (0..self.columns())
-            .map(|c| {
-                let i = c * self.rows();
-                self.points_mm[i] - f64::from(self.height_um[i]) / UM_PER_MM * self.normals[c]
-            })
-            .collect()
     }
 
     /// Whether no pass came to a point, so that it lies on the blank's own surface or nowhere.

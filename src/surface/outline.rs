@@ -171,8 +171,8 @@ impl Outline {
             if let Some(part) = gap.part.take()
                 && let Some(last) = self.columns.last()
             {
-                let ends = [last.points_mm[0], column.points_mm[0]];
-                self.fill(ends, part, blank);
+                let from_mm = last.points_mm.clone();
+                self.fill([&from_mm, &column.points_mm], part, blank);
             }
             self.push(column);
         }
@@ -204,19 +204,27 @@ impl Outline {
         sampled
     }
 
-    /// The blank's outline between two points of it, ends left out.
-    fn fill(&mut self, [from_mm, to_mm]: [DVec2; 2], part: usize, blank: &Blank) {
-        let from = outline_angle(blank, from_mm);
-        let mut angle = (outline_angle(blank, to_mm) - from).rem_euclid(TAU);
-        if self.columns.is_empty() {
-            angle = TAU;
-        } else if angle > 0.999 * TAU {
+    /// The blank's outline between two points of every row, ends left out.
+    fn fill(&mut self, ends_mm: [&[DVec2]; 2], part: usize, blank: &Blank) {
+        // Angle at which each row begins, and how far it goes: nearly the same in all rows, each turned by its own helix angle.
+        let whole = self.columns.is_empty();
+        let rows: Vec<[f64; 2]> = ends_mm[0]
+            .iter()
+            .zip(ends_mm[1])
+            .map(|(&from_mm, &to_mm)| {
+                let from = outline_angle(blank, from_mm);
+                [from, if whole { TAU } else { (outline_angle(blank, to_mm) - from).rem_euclid(TAU) }]
+            })
+            .collect();
+        let angle = rows[0][1];
+        if !whole && angle > 0.999 * TAU {
             return; // the two ends have met
         }
         let count = (angle / OUTLINE_STEP).ceil() as u32;
-        let first = u32::from(!self.columns.is_empty());
-        for i in first..count {
-            let mut column = self.bare(blank.outline_mm(from + angle * f64::from(i) / f64::from(count)));
+        for i in u32::from(!whole)..count {
+            let share = f64::from(i) / f64::from(count);
+            let mut column = self.bare(DVec2::ZERO);
+            column.points_mm = rows.iter().map(|[from, angle]| blank.outline_mm(from + share * angle)).collect();
             column.part = part;
             self.push(column);
         }
@@ -228,9 +236,10 @@ impl Outline {
             a.points_mm.iter().zip(&b.points_mm).any(|(a, b)| a.distance(*b) < NEAREST_MM)
         };
         if let Some(part) = gap.part {
-            let at = |column: Option<&OutlineColumn>| column.map_or(DVec2::X, |c| c.points_mm[0]);
-            let ends = [at(self.columns.last()), at(self.columns.first())];
-            self.fill(ends, part, blank);
+            let rows = self.rows();
+            let at = |column: Option<&OutlineColumn>| column.map_or(vec![DVec2::X; rows], |c| c.points_mm.clone());
+            let [from_mm, to_mm] = [at(self.columns.last()), at(self.columns.first())];
+            self.fill([&from_mm, &to_mm], part, blank);
         }
         while self.columns.len() > 3 && near(&self.columns[self.columns.len() - 1], &self.columns[0]) {
             self.columns.pop();
@@ -251,8 +260,8 @@ struct Crossing {
 impl Crossing {
     /// Crossing of a flank with the root that begins (or, `reversed`, ends) beside it; none on an ordinary flank, where they meet at the form point.
     fn of(flank: &SurfaceGrid, root: &SurfaceGrid, reversed: bool) -> Self {
-        let up = flank.target_mm();
-        let mut along = root.target_mm();
+        let up = &flank.target_mm;
+        let mut along = root.target_mm.clone();
         if reversed {
             along.reverse();
         }

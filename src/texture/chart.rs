@@ -33,7 +33,7 @@ pub fn abbott(title: String, curve: &MaterialRatio, core: &Core) -> LineChart {
         vec![(0.0, upper + core.spk), (core.smr1, upper), (0.0, upper), (0.0, upper + core.spk)],
     ));
     all.push(series(
-        format!("Svk {:.4} µm on 100 - Smr2, Smr2 {:.2} %", core.svk, core.smr2),
+        format!("Svk {:.4} µm on 100 − Smr2, Smr2 {:.2} %", core.svk, core.smr2),
         vec![(100.0, lower - core.svk), (core.smr2, lower), (100.0, lower), (100.0, lower - core.svk)],
     ));
     LineChart {

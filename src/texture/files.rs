@@ -2,7 +2,7 @@
 
 use super::{WindowTexture, chart};
 use crate::error::Result;
-use crate::job::Job;
+use crate::job::GearJob;
 use crate::measure::topography::Surface;
 use crate::output::colormap::ColourScale;
 use crate::output::folder::OutputFolder;
@@ -16,8 +16,8 @@ use rayon::prelude::*;
 const FRAME: &str = "x = along the tooth; y = arc length along the target profile, towards the tip; z = height over the target flank along its outward normal, positive = material left";
 
 /// Folder of a window's files inside the output, and the stem of their names.
-pub fn stem(job: &Job, texture: &WindowTexture, index: usize) -> String {
-    let operation = &job.operations[texture.operation].spec.name;
+pub fn stem(job: &dyn GearJob, texture: &WindowTexture, index: usize) -> String {
+    let operation = job.operations()[texture.operation].0;
     let (tooth, side) = (texture.window.tooth, texture.window.side.name());
     // Windows of a scene may lie on the same flank: their number tells them apart.
     let number = if index == 0 { String::new() } else { format!("_{}", index + 1) };
@@ -25,7 +25,7 @@ pub fn stem(job: &Job, texture: &WindowTexture, index: usize) -> String {
 }
 
 /// Stems of all textures, in their order.
-pub fn stems(job: &Job, textures: &[WindowTexture]) -> Vec<String> {
+pub fn stems(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<String> {
     textures
         .iter()
         .enumerate()
@@ -43,20 +43,25 @@ pub fn stems(job: &Job, textures: &[WindowTexture]) -> Vec<String> {
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(job: &Job, textures: &[WindowTexture], folder: &OutputFolder, notes: &[(String, String)]) -> Result<()> {
+pub fn write(
+    job: &dyn GearJob,
+    textures: &[WindowTexture],
+    folder: &OutputFolder,
+    notes: &[(String, String)],
+) -> Result<()> {
     let stems = stems(job, textures);
     textures.par_iter().zip(&stems).try_for_each(|(texture, stem)| write_one(job, texture, stem, folder, notes))
 }
 
 fn write_one(
-    job: &Job,
+    job: &dyn GearJob,
     texture: &WindowTexture,
     stem: &str,
     folder: &OutputFolder,
     notes: &[(String, String)],
 ) -> Result<()> {
     let window = &texture.window;
-    let operation = &job.operations[texture.operation].spec.name;
+    let operation = job.operations()[texture.operation].0;
     let what = format!("{operation}: tooth {}, {} flank", window.tooth, window.side.name());
     let Some(heights) = &texture.heights else { return Ok(()) };
     let [x, y] = window.start_mm;

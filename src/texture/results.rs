@@ -2,7 +2,7 @@
 
 use super::files::stems;
 use super::{WindowTexture, chart};
-use crate::job::Job;
+use crate::job::GearJob;
 use crate::measure::topography::Parameter;
 use crate::output::quantity::Quantity;
 use crate::output::results::{AbbottCurve, Parameters, TextureResults};
@@ -21,11 +21,11 @@ pub fn quantities(parameters: &[Parameter]) -> Parameters {
 }
 
 /// All textures for `results.json`.
-pub fn results(job: &Job, textures: &[WindowTexture]) -> Vec<TextureResults> {
+pub fn results(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<TextureResults> {
     textures.iter().zip(stems(job, textures)).map(|(texture, stem)| one(job, texture, stem)).collect()
 }
 
-fn one(job: &Job, texture: &WindowTexture, files: String) -> TextureResults {
+fn one(job: &dyn GearJob, texture: &WindowTexture, files: String) -> TextureResults {
     let window = &texture.window;
     let (center, length, spacing) = (window.center_mm(), window.length_mm(), window.spacing_mm());
     let mm = |value: f64, definition: &'static str| Quantity::number(value, "mm", definition);
@@ -52,7 +52,7 @@ fn one(job: &Job, texture: &WindowTexture, files: String) -> TextureResults {
     TextureResults {
         tooth: window.tooth,
         flank: window.side.name().to_owned(),
-        operation: job.operations[texture.operation].spec.name.clone(),
+        operation: job.operations()[texture.operation].0.to_owned(),
         center_profile: mm(center[1], "middle of the window as arc along the profile from the start of the involute"),
         center_lead: mm(center[0], "middle of the window along the tooth from the middle of the face"),
         length_profile: mm(length[1], "length of the window along the profile"),
@@ -61,11 +61,11 @@ fn one(job: &Job, texture: &WindowTexture, files: String) -> TextureResults {
         spacing_lead: um(spacing[0], "distance of points along the tooth"),
         marks_along_profile: marks(
             texture.marks[1],
-            "facets that follow each other along the profile in the middle of the window; 0: a single pass left all",
+            "facets that follow each other along the profile in the middle of the window",
         ),
         marks_along_tooth: marks(
             texture.marks[0],
-            "facets that follow each other along the tooth in the middle of the window; 0: a single pass left all, the marks run along the tooth",
+            "facets that follow each other along the tooth in the middle of the window; 0: the axes rest during strokes, marks run along the tooth without end",
         ),
         chain,
         warnings,

@@ -5,8 +5,7 @@
 
 use crate::error::{Refusal, Result};
 use crate::gear::generation::Side;
-use crate::job::Job;
-use crate::measure::flank_report::evaluated_profile_mm;
+use crate::job::GearJob;
 use crate::measure::topography::Form;
 use crate::scene::model::{TextureWindow, WindowSides};
 
@@ -67,8 +66,8 @@ impl Window {
 ///
 /// # Errors
 /// A tooth that the gear does not have, a window that does not lie on its flank, or one with too few or too many points.
-pub fn windows(job: &Job) -> Result<Vec<Window>> {
-    let asked = if job.scene.textures.is_empty() { default_windows(job) } else { job.scene.textures.clone() };
+pub fn windows(job: &dyn GearJob) -> Result<Vec<Window>> {
+    let asked = if job.scene().textures.is_empty() { default_windows(job) } else { job.scene().textures.clone() };
     let mut windows = Vec::new();
     for (index, spec) in asked.iter().enumerate() {
         let sides = match spec.sides {
@@ -83,13 +82,13 @@ pub fn windows(job: &Job) -> Result<Vec<Window>> {
     Ok(windows)
 }
 
-fn default_windows(job: &Job) -> Vec<TextureWindow> {
-    let teeth = job.scene.gear.teeth;
-    let pitch_mm = job.curve.perimeter_mm() / f64::from(teeth);
+fn default_windows(job: &dyn GearJob) -> Vec<TextureWindow> {
+    let teeth = job.scene().gear.teeth;
+    let pitch_mm = job.curve().perimeter_mm() / f64::from(teeth);
     // Differences below a nanometre are rounding: a circular gear then takes its first tooth.
     let radius_nm = |tooth: u32| {
-        let phi = job.curve.phi_at_arc((f64::from(tooth) - 0.5) * pitch_mm);
-        (job.curve.frame(phi).point_mm.length() * 1e6).round() as i64
+        let phi = job.curve().phi_at_arc((f64::from(tooth) - 0.5) * pitch_mm);
+        (job.curve().frame(phi).point_mm.length() * 1e6).round() as i64
     };
     let largest = (1..=teeth).max_by_key(|&tooth| (radius_nm(tooth), std::cmp::Reverse(tooth))).unwrap_or(1);
     let smallest = (1..=teeth).min_by_key(|&tooth| (radius_nm(tooth), tooth)).unwrap_or(1);
@@ -110,19 +109,18 @@ fn default_windows(job: &Job) -> Vec<TextureWindow> {
     chosen.into_iter().map(window).collect()
 }
 
-fn resolve(job: &Job, index: usize, spec: &TextureWindow, side: Side) -> Result<Window> {
-    let teeth = job.scene.gear.teeth;
+fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) -> Result<Window> {
+    let teeth = job.scene().gear.teeth;
     let refuse = |name: &str, problem: String, way_out: &str| {
         Err(Refusal::new(&format!("texture[{index}].{name}"), problem, way_out).into())
     };
     if spec.tooth > teeth {
         return refuse("tooth", format!("the gear has {teeth} teeth"), "name a tooth that the gear has");
     }
-    let generation = job.target_generation();
-    let flank = job.target_flank(&generation, spec.tooth, side)?;
-    let (flank_mm, [form_mm, tip_mm]) = (flank.length_mm(), evaluated_profile_mm(job, &flank));
-    let face_mm = job.scene.gear.face_width_mm;
-    let fields = job.scene.fields;
+    let flank_mm = job.profile_length_mm(spec.tooth, side)?;
+    let [form_mm, tip_mm] = job.evaluated_profile_mm(spec.tooth, side)?;
+    let face_mm = job.scene().gear.face_width_mm;
+    let fields = job.scene().fields;
 
     let span = |center: f64, length: Option<f64>, low: f64, high: f64| {
         length.map_or([low, high], |length| [center - 0.5 * length, center + 0.5 * length])

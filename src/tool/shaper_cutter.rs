@@ -269,6 +269,7 @@ mod tests {
             profile_shift_coefficient: 0.0,
             thinning_mm: 0.0,
             tip,
+            rake_angle_rad: 0.0,
             runout_mm: 0.0,
             runout_angle_rad: 0.0,
             pitch_errors_mm: Vec::new(),

@@ -1,7 +1,9 @@
 //! Scenes of the papers, built without a file.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+use gearcut::job::Job;
 use gearcut::scene::model::*;
+use glam::DVec2;
 
 /// The paper's gear and cutter with given operations.
 pub fn paper_scene(operations: Vec<Operation>) -> Scene {
@@ -28,6 +30,7 @@ pub fn paper_scene(operations: Vec<Operation>) -> Scene {
                 profile_shift_coefficient: 0.0,
                 thinning_mm: 0.0,
                 tip: Tip::Sharp,
+                rake_angle_rad: 0.0,
                 runout_mm: 0.0,
                 runout_angle_rad: 0.0,
                 pitch_errors_mm: Vec::new(),
@@ -84,3 +87,38 @@ pub fn operation(name: &str, linkage: Linkage, offset_mm: f64, strokes: u32) -> 
 pub const NORMAL: Linkage = Linkage::ShapingNormal { reading: NormalReading::Corrected };
 /// The traditional linkage.
 pub const TRADITIONAL: Linkage = Linkage::ShapingTraditional { direction: TraditionalDirection::CenterLine };
+
+/// Height at which a ray meets one pass of an involute flank, and the cosine between ray and flank normal there, written from the closed form alone: the signed distance of a point to the flank,
+/// `r_b (sigma theta + u - atan u - psi_b)`, has the flank's normal as its gradient.
+pub fn involute_height_mm(job: &Job, stroke: usize, blade: u32, side: f64, o: DVec2, n: DVec2) -> Option<[f64; 2]> {
+    let state = job.finishing().schedule.state(stroke as f64);
+    let r_b = 30.0 * 20_f64.to_radians().cos();
+    let alpha = 20_f64.to_radians();
+    let psi_b = std::f64::consts::PI / 40.0 + alpha.tan() - alpha;
+    let turn = -(state.pose.angle_rad + std::f64::consts::TAU * f64::from(blade) / 20.0);
+    let local = |p: DVec2| DVec2::from_angle(turn).rotate(p - state.pose.center_mm);
+    let (o, n) = (local(o), DVec2::from_angle(turn).rotate(n));
+    // From outside the tooth, so that the iteration does not fall below the base circle on its way.
+    let mut h = -0.05;
+    for _ in 0..60 {
+        let p = o + h * n;
+        if p.x <= 0.0 {
+            return None;
+        }
+        let u = ((p.length() / r_b).powi(2) - 1.0).max(0.0).sqrt();
+        let distance = r_b * (side * p.to_angle() + u - u.atan() - psi_b);
+        let lean = DVec2::from_angle(p.to_angle() + side * (std::f64::consts::FRAC_PI_2 - u.atan()));
+        let rate = lean.dot(n);
+        if rate > -0.05 {
+            return None;
+        }
+        let step = distance / rate;
+        h -= step;
+        if step.abs() < 1e-14 {
+            let p = o + h * n;
+            let tip = 30.0 + 1.25 * 3.0;
+            return (p.length() <= tip && p.length() > r_b + 1e-4).then_some([h, -rate]);
+        }
+    }
+    None
+}

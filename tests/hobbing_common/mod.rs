@@ -6,6 +6,7 @@
 
 use gearcut::dexel::{Ray, SpatialField};
 use gearcut::gear::PitchCurve;
+use gearcut::gear::rack_generation::{Rack, RackGeneration};
 use gearcut::linkage::HobbingLinkage;
 use gearcut::linkage::hobbing::{FeedPath, HobbingGeometry, HobbingLaw};
 use gearcut::passes::{HobTeeth, MotionTable};
@@ -137,6 +138,21 @@ impl Case {
             origin_mm: DVec3::new(point.x, point.y, -z),
             normal: DVec3::new(direction.x, direction.y, -normal.z).normalize(),
         }
+    }
+
+    /// The target by the project's own rack: sharp tips.
+    pub fn rack_generation(&self) -> RackGeneration {
+        let transverse_module_mm = self.normal_module_mm / self.helix_angle_rad.cos();
+        let rack = Rack {
+            transverse_module_mm,
+            pressure_angle_rad: (self.pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan(),
+            half_thickness_mm: 0.25 * std::f64::consts::PI * transverse_module_mm,
+            tip_height_mm: self.hob.tip_radius_mm - self.hob.pitch_radius_mm,
+            tip_radius_mm: 0.0,
+            helix_angle_rad: self.helix_angle_rad,
+            hand: self.gear_hand,
+        };
+        RackGeneration { curve: self.curve.clone(), rack }
     }
 
     /// Rays of a patch: columns are sigmas, rows are z.

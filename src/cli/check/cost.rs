@@ -1,17 +1,23 @@
-//! What the cut will cost: dexels, records, evaluations, memory, time.
+//! What the cut will cost: dexels, records, evaluations, rays through the blank, chips, memory, time.
 //!
 //! Dexels follow from the lengths of all profiles and the spacing. Records and evaluations are planned for a few flanks spread
 //! over the gear, exactly as the cut would plan them, and scaled to all flanks by their columns. Time is the sum of
-//! planning, cutting and measuring at rates measured on one processor, named with the result.
+//! planning, cutting and measuring at rates measured on one processor, named with the result. For the blank and the chips, the cutter teeth that reach the blank are counted for strokes
+//! spread over all operations, and the rays that they cross.
 
 use gearcut::Refusal;
+use gearcut::cut::cpu::blank::TILE_RAYS;
 use gearcut::dexel::Field;
+use gearcut::gear::blank_outline::BlankOutline;
 use gearcut::gear::generation::Side;
 use gearcut::job::Job;
 use gearcut::output::progress::duration_text;
 use gearcut::output::text::{Sheet, plain, significant};
+use gearcut::passes::blank_candidates::passes_at;
 use gearcut::passes::candidates::TILE_COLUMNS;
 use gearcut::passes::{CutPlan, PassRecord};
+use gearcut::planar_rays::{FAMILIES, RayCrossings};
+use gearcut::tool::closed_tooth::PlacedScratch;
 
 use super::facts::ToothFacts;
 
@@ -29,6 +35,14 @@ const ROWS_AT_ONCE: usize = 16;
 const PLANNED_TILES: usize = 32;
 /// Bytes per dexel and surface: height and pass id.
 const BYTES_PER_DEXEL: usize = 8;
+
+/// Strokes of each operation that are placed in the blank.
+const PLACED_STROKES: usize = 40;
+/// What one thread takes for a ray that a cutter tooth crosses, its return stroke checked, s.
+const BLANK_S_PER_RAY_PASS: f64 = 2.7e-7;
+/// What it takes to follow the chips of a cutter tooth in one stroke, s, at the spacing [`CHIP_SPACING_MM`]; it grows with the inverse of the spacing.
+const CHIPS_S_PER_PASS: f64 = 1.6e-4;
+const CHIP_SPACING_MM: f64 = 0.05;
 
 /// Adds the estimate to the report.
 ///
@@ -66,9 +80,11 @@ pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) -> Result<(), R
     let rows_cut = if job.rows_are_alike() { 1 } else { rows };
     let idle_rows = rows_cut.next_multiple_of(ROWS_AT_ONCE) as f64 / rows_cut as f64;
     let cores = rayon::current_num_threads();
-    let seconds = (scale * (tiles * PLAN_S_PER_TILE + evaluations * idle_rows * CUT_S_PER_EVALUATION)
+    let whole = WholeBlank::of_job(job)?;
+    let flank_seconds = (scale * (tiles * PLAN_S_PER_TILE + evaluations * idle_rows * CUT_S_PER_EVALUATION)
         + dexels * surfaces as f64 * MEASURE_S_PER_DEXEL)
         / cores as f64;
+    let seconds = flank_seconds + whole.seconds / cores as f64;
     let bytes = cores as f64
         * (largest * (BYTES_PER_DEXEL * surfaces) as f64
             + records / planned_columns * longest * size_of::<PassRecord>() as f64);
@@ -95,12 +111,76 @@ pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) -> Result<(), R
             if rows_cut < rows { "; rows are alike: one is cut for all" } else { "" }
         ),
     );
+    sheet.line(
+        "whole blank",
+        format!(
+            "{} rays {} mm apart in {} sections; {} million cross a cutter tooth; {:.0} MB",
+            whole.rays,
+            plain(job.scene.fields.blank_spacing_mm),
+            whole.sections,
+            significant(1e-6 * whole.ray_passes, 2),
+            1e-6 * whole.bytes
+        ),
+    );
+    sheet.line("chips", format!("{} thousand cutter teeth reach the blank", significant(1e-3 * whole.passes, 3)));
     sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {cores} threads", 1e-6 * bytes));
     sheet.line(
         "time",
-        format!("{} on {cores} threads of a 2.5 GHz processor with AVX-512; files come on top", duration_text(seconds)),
+        format!(
+            "{} on {cores} threads of a 2.5 GHz processor with AVX-512, {} of it for blank and chips; files come on top",
+            duration_text(seconds),
+            duration_text(seconds - flank_seconds)
+        ),
     );
     Ok(())
+}
+
+/// Rays through the blank and the cutter teeth that cross them.
+struct WholeBlank {
+    rays: usize,
+    sections: usize,
+    bytes: f64,
+    /// Cutter teeth that reach the blank, all strokes.
+    passes: f64,
+    /// Rays that they cross, in all sections.
+    ray_passes: f64,
+    seconds: f64,
+}
+
+impl WholeBlank {
+    fn of_job(job: &Job) -> Result<Self, Refusal> {
+        let grid = job.blank_grid()?;
+        let reach_mm = BlankOutline::new(&job.blank).reach_mm();
+        let (mut passes, mut ray_passes) = (0.0, 0.0);
+        let (mut placed, mut crossings) = (PlacedScratch::default(), RayCrossings::default());
+        for operation in &job.operations {
+            let set = &operation.strokes;
+            let tooth = job.closed_tooth(set, reach_mm);
+            let every = set.count().div_ceil(PLACED_STROKES).max(1);
+            let all = passes_at(set, set.law.tau(0.0), &job.cutter, &tooth, reach_mm);
+            passes += all.len() as f64;
+            let (mut strokes, mut crossed) = (0, 0);
+            for pass in all.iter().filter(|pass| (pass.stroke as usize).is_multiple_of(every)) {
+                let outline = tooth.placed(&pass.work_from_blade, &mut placed);
+                strokes += 1;
+                for (family, row) in FAMILIES.into_iter().zip(&grid.rows) {
+                    // Tiles that the circle round the edge does not reach are left out.
+                    let across = family.across(pass.center_mm);
+                    let rays = [-tooth.reach_mm, tooth.reach_mm].map(|r| row.first_at_or_above(across + r));
+                    let tiles = rays[0] / TILE_RAYS * TILE_RAYS..rays[1].next_multiple_of(TILE_RAYS).min(row.count);
+                    crossings.lay(&outline, family, row, tiles);
+                    crossed += crossings.touched().filter(|&ray| crossings.crosses(ray)).count();
+                }
+            }
+            ray_passes += all.len() as f64 * f64::from(crossed as u32) / f64::from(strokes.max(1));
+        }
+        let sections = grid.leads_mm.len();
+        ray_passes *= sections as f64;
+        let seconds = ray_passes * BLANK_S_PER_RAY_PASS
+            + passes * CHIPS_S_PER_PASS * CHIP_SPACING_MM / job.scene.fields.chip_spacing_mm;
+        let rays = grid.rows.iter().map(|row| row.count).sum::<usize>() * sections;
+        Ok(Self { rays, sections, bytes: grid.estimated_bytes(&job.blank), passes, ray_passes, seconds })
+    }
 }
 
 /// Whole tiles spread evenly over a field, so that planning them takes the same time whatever the spacing.

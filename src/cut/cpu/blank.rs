@@ -19,7 +19,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 /// Rays of a tile: a cutter tooth of module 3 at 0.1 mm covers one or two tiles.
-const TILE_RAYS: usize = 64;
+pub const TILE_RAYS: usize = 64;
 
 /// Rays that meet an edge at least this steeply (cosine to its normal) tell how deep it lies: every edge is met so by one of the two families.
 const STEEP: f64 = 0.7;
@@ -134,6 +134,21 @@ pub fn cut(
         }
     }
     Some(result)
+}
+
+/// Where the return strokes rub on one tile of a slice, its strokes taken from a copy: for backends that know that something rubs there and not where.
+pub(in crate::cut) fn rubs_of_tile(
+    field: &BlankField,
+    [slice, family, first]: [usize; 3],
+    count: usize,
+    operation: &BlankOperation,
+    [passes, returns]: [&[PlacedPass]; 2],
+) -> Vec<Rub> {
+    let grid = &field.grid;
+    let mut rays = field.slices[slice].rays[family][first..first + count].to_vec();
+    let (row, family) = (&grid.rows[family], FAMILIES[family]);
+    let tile = Tile { family, row, first, rays: &mut rays, slice: slice as u32 };
+    tile.cut(operation, passes, returns, grid.spacing_mm() * grid.slice_widths_mm()[slice]).rubs
 }
 
 impl std::ops::AddAssign for BlankStats {
@@ -265,26 +280,28 @@ impl Tile<'_> {
         let family = self.family;
         let rubs = &mut done.rubs;
         self.visit(tooth, scratch, &mut uncounted, |ray, at_mm, crossings| {
-            let spans = &self.rays[ray];
             for [from, to] in crossings.as_chunks::<2>().0 {
-                let length_mm = intervals::overlap_mm(spans, from.at_mm, to.at_mm);
-                if length_mm <= intervals::LEAST_SPAN_MM {
-                    continue;
+                // Each piece of material by itself: a tooth between two of them enters both, and neither by the sum.
+                for span in &self.rays[ray] {
+                    let (low_mm, high_mm) = (span.low.at_mm.max(from.at_mm), span.high.at_mm.min(to.at_mm));
+                    let length_mm = high_mm - low_mm;
+                    if length_mm <= intervals::LEAST_SPAN_MM {
+                        continue;
+                    }
+                    // Along the edge's normal the material is at most as thick as this; rays that graze say little and leave the depth to the other family.
+                    let ends = [(from, span.low.at_mm < from.at_mm), (to, span.high.at_mm > to.at_mm)];
+                    let steep = |c: &Crossing| family.along(c.outward()).abs();
+                    let inside = ends.iter().filter(|(c, inside)| *inside && steep(c) >= STEEP);
+                    let depth = inside.map(|(c, _)| length_mm * steep(c)).reduce(f64::min);
+                    rubs.push(Rub {
+                        pass,
+                        slice: self.slice,
+                        place_mm: family.point(0.5 * (low_mm + high_mm), at_mm),
+                        depth_mm: depth.unwrap_or(0.0),
+                        volume_mm3: length_mm * volume_per_length,
+                        family,
+                    });
                 }
-                // Along its normal the material is at most as thick as this; rays that graze say little and leave the depth to the other family.
-                let ends = [from, to].map(|c| (c.outward(), intervals::contains(spans, c.at_mm)));
-                let steep = |n: &DVec2| family.along(*n).abs() >= STEEP;
-                let inside = ends.iter().filter(|(n, inside)| *inside && steep(n));
-                let depth = inside.map(|(n, _)| length_mm * family.along(*n).abs()).reduce(f64::min);
-                let middle = if ends[0].1 { from.at_mm + 0.5 * length_mm } else { to.at_mm - 0.5 * length_mm };
-                rubs.push(Rub {
-                    pass,
-                    slice: self.slice,
-                    place_mm: family.point(middle, at_mm),
-                    depth_mm: depth.unwrap_or(0.0),
-                    volume_mm3: length_mm * volume_per_length,
-                    family,
-                });
             }
         });
     }

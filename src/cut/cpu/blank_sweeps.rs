@@ -159,10 +159,8 @@ impl ChipSurfaces {
     /// Largest distance of the new surface from the tangents at the nearest points of the old one, across the swept surface.
     fn thickness_mm(&self, section: &SweptSection) -> f64 {
         let thickness = self.new.iter().filter_map(|[at, normal]| {
-            let nearest = self
-                .old
-                .iter()
-                .min_by(|a, b| a[0].distance_squared(*at).total_cmp(&b[0].distance_squared(*at)))?;
+            let nearest =
+                self.old.iter().min_by(|a, b| a[0].distance_squared(*at).total_cmp(&b[0].distance_squared(*at)))?;
             Some((nearest[0] - *at).dot(nearest[1]).abs() * section.upright(*normal))
         });
         thickness.fold(0.0, f64::max)

@@ -11,10 +11,11 @@ mod spatial;
 pub use spatial::Taken;
 
 use super::{Backend, CutStats};
-use crate::dexel::{Field, Layer, SpatialField};
+use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
 use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
+use blank::{BlankCut, BlankOperation};
 use pulp::Arch;
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
@@ -132,6 +133,15 @@ impl Backend for Cpu {
             });
         }
         Ok(stats)
+    }
+
+    fn cut_blank(
+        &self,
+        field: &mut BlankField,
+        operation: &BlankOperation,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<BlankCut>, Error> {
+        Ok(blank::cut(field, operation, advance))
     }
 
     fn cut_spatial(

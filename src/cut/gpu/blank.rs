@@ -4,16 +4,19 @@
 //! outline where it turns back across the rays, and hands over each part as a pair of cubics; the shader finds roots and keeps the lists. Along the rays coordinates reach the blank's radius, where an f32
 //! resolves 8 nm at 70 mm; across them they start at the tile.
 //!
-//! No list has a fixed capacity: a ray without room stops, and the tiles in work are begun again with room for what it needed. Return strokes are checked by the native backend alone.
+//! No list has a fixed capacity: a ray without room stops, and the tiles in work are begun again with room for what it needed.
+//!
+//! Return strokes go through the shader in their turn: they take nothing and add up the material that they meet. Where and how deep a stroke rubs is worked out natively, on the few tiles that met any.
 
 use super::device::Device;
 use super::pipeline::BLANK_RAYS;
 use super::problem::GpuProblem;
 use super::records::{BlankLaunch, BlankPart, BlankPass, BlankSpan, BlankTile};
 use super::{Gpu, WORKGROUP_THREADS};
-use crate::cut::cpu::blank::{BlankCut, BlankOperation};
+use crate::cut::cpu::blank::{BlankCut, BlankOperation, rubs_of_tile};
 use crate::dexel::blank_field::{BlankField, Ray};
 use crate::dexel::intervals::{End, Span};
+use crate::passes::StrokeSet;
 use crate::passes::blank_candidates::{PlacedPass, passes_at, reaching_strip};
 use crate::planar_rays::{FAMILIES, Family, RayCrossings, RayRow};
 use crate::tool::closed_tooth::PlacedScratch;
@@ -27,14 +30,22 @@ const GROUP_TILES: usize = 16;
 const LAUNCH_BYTES: usize = 64 << 20;
 /// Spans that a ray has room for at first, beside those it has.
 const FIRST_ROOM: usize = 8;
+/// Material that the return strokes of a tile may meet unnoticed, mm along its rays: half the depth at which reports speak of rubbing, a dozen times what f32 may be off.
+const UNNOTICED_MM: f64 = 5e-4;
 /// Longest wait for a launch.
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// One tile's work, composed.
 struct TileWork {
     rays: std::ops::Range<usize>,
-    /// Pass id and its parts.
-    passes: Vec<(u32, Vec<BlankPart>)>,
+    passes: Vec<PassWork>,
+}
+
+/// One pass of a tile.
+struct PassWork {
+    id: u32,
+    returns: bool,
+    parts: Vec<BlankPart>,
 }
 
 /// What a group of tiles came back with.
@@ -42,6 +53,8 @@ struct Returned {
     rays: Vec<Ray>,
     /// Pass id and length removed, mm, in the order of tiles and time.
     removed_mm: Vec<(u32, f64)>,
+    /// Whether the return strokes of each tile met material.
+    rubs: Vec<bool>,
 }
 
 /// Why a group has to be done again.
@@ -51,16 +64,18 @@ enum Outcome {
 }
 
 impl Gpu {
-    /// Runs an operation over the blank field; `first_room` spans are reserved beside those that a ray has, and more when they are needed.
+    /// Runs an operation over the blank field; `first_room` spans are reserved beside those that a ray has, and more when they are needed. `advance` is called after every tile
+    /// and says whether to go on; `None`: stopped.
     ///
     /// # Errors
     /// The device fails, or a ray crosses one tooth more than eight times; the field is then as it was.
-    pub fn cut_blank(
+    pub fn cut_blank_on_device(
         &self,
         field: &mut BlankField,
         operation: &BlankOperation,
         first_room: Option<usize>,
-    ) -> Result<BlankCut, GpuProblem> {
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<BlankCut>, GpuProblem> {
         self.device.alive()?;
         let set = operation.strokes;
         let grid = field.grid.clone();
@@ -69,15 +84,19 @@ impl Gpu {
         let mut after = field.clone();
         let widths_mm = grid.slice_widths_mm();
         for (slice, lead_mm) in grid.leads_mm.iter().enumerate() {
-            let passes =
-                passes_at(set, set.law.tau(*lead_mm), operation.tool, operation.tooth, operation.blank_reach_mm);
+            let place = |strokes: &StrokeSet| {
+                passes_at(strokes, set.law.tau(*lead_mm), operation.tool, operation.tooth, operation.blank_reach_mm)
+            };
+            let (passes, returns) = (place(set), operation.returns.map(place).unwrap_or_default());
             let volume_per_length = grid.spacing_mm() * widths_mm[slice];
             for (f, family) in FAMILIES.into_iter().enumerate() {
                 let row = grid.rows[f];
                 let tiles: Vec<usize> = (0..row.count).step_by(WORKGROUP_THREADS as usize).collect();
                 for group in tiles.chunks(GROUP_TILES) {
-                    let work: Vec<TileWork> =
-                        group.par_iter().map(|&first| compose(operation, &passes, family, &row, first)).collect();
+                    let work: Vec<TileWork> = group
+                        .par_iter()
+                        .map(|&first| compose(operation, [&passes, &returns], family, &row, first))
+                        .collect();
                     let from = group[0];
                     let until = work.last().map_or(from, |tile| tile.rays.end);
                     let rays = &mut after.slices[slice].rays[f][from..until];
@@ -88,11 +107,21 @@ impl Gpu {
                     for (pass, length_mm) in returned.removed_mm {
                         result.removed_mm3[(pass - set.first_pass) as usize][f] += length_mm * volume_per_length;
                     }
+                    let rubbing: Vec<&TileWork> =
+                        work.iter().zip(&returned.rubs).filter(|(_, rubs)| **rubs).map(|(tile, _)| tile).collect();
+                    let rubs = rubbing.par_iter().map(|tile| {
+                        let place = [slice, f, tile.rays.start];
+                        rubs_of_tile(field, place, tile.rays.len(), operation, [&passes, &returns])
+                    });
+                    result.rubs.extend(rubs.collect::<Vec<_>>().concat());
+                    if !group.iter().all(|_| advance()) {
+                        return Ok(None);
+                    }
                 }
             }
         }
         *field = after;
-        Ok(result)
+        Ok(Some(result))
     }
 
     /// Runs some tiles, with more room for their lists until they fit.
@@ -157,23 +186,23 @@ impl Gpu {
         let limit = LAUNCH_BYTES.min(device.facts.binding_bytes as usize) / size_of::<BlankPart>() / work.len().max(1);
         let first_ray = work[0].rays.start;
         let mut removed_mm = Vec::new();
+        let mut met_mm = vec![0.0; work.len()];
         let mut next = vec![0; work.len()];
         while next.iter().zip(work).any(|(&at, tile)| at < tile.passes.len()) {
             let (mut tiles, mut passes, mut parts) = (Vec::new(), Vec::new(), Vec::new());
             for (tile, at) in work.iter().zip(&mut next) {
                 let (first_pass, first_part) = (passes.len(), parts.len());
-                while let Some((pass_id, own)) = tile.passes.get(*at) {
-                    if parts.len() > first_part && parts.len() - first_part + own.len() > limit {
+                while let Some(pass) = tile.passes.get(*at) {
+                    if parts.len() > first_part && parts.len() - first_part + pass.parts.len() > limit {
                         break;
                     }
-                    let part_count = own.len() as u32;
                     passes.push(BlankPass {
                         first_part: parts.len() as u32,
-                        part_count,
-                        pass_id: *pass_id,
-                        padding: 0,
+                        part_count: pass.parts.len() as u32,
+                        pass_id: pass.id,
+                        returns: u32::from(pass.returns),
                     });
-                    parts.extend_from_slice(own);
+                    parts.extend_from_slice(&pass.parts);
                     *at += 1;
                 }
                 tiles.push(BlankTile {
@@ -209,13 +238,23 @@ impl Gpu {
             }
             let removed: Vec<u32> = self.bring_back(&removed_buffer, 4 * passes.len())?;
             let length = |units: u32| f64::from(units) / f64::from(units_per_mm);
-            removed_mm.extend(passes.iter().zip(removed).filter(|(_, u)| *u > 0).map(|(p, u)| (p.pass_id, length(u))));
+            for (tile, met_mm) in tiles.iter().zip(&mut met_mm) {
+                let own = tile.first_pass as usize..(tile.first_pass + tile.pass_count) as usize;
+                for (pass, units) in passes[own.clone()].iter().zip(&removed[own]).filter(|(_, units)| **units > 0) {
+                    if pass.returns == 0 {
+                        removed_mm.push((pass.pass_id, length(*units)));
+                    } else {
+                        *met_mm += length(*units);
+                    }
+                }
+            }
         }
         let counts: Vec<u32> = self.bring_back(&counts_buffer, 4 * counts.len())?;
         let spans: Vec<BlankSpan> = self.bring_back(&spans_buffer, size_of_val(spans.as_slice()))?;
         let rays = counts.iter().zip(spans.chunks(capacity));
         let rays = rays.map(|(&count, room)| room[..count as usize].iter().map(|s| from_record(s, family)).collect());
-        Ok(Outcome::Done(Returned { rays: rays.collect(), removed_mm }))
+        let rubs = met_mm.iter().map(|&met_mm| met_mm > UNNOTICED_MM).collect();
+        Ok(Outcome::Done(Returned { rays: rays.collect(), removed_mm, rubs }))
     }
 
     fn launch_blank(&self, bindings: &[&wgpu::Buffer], tiles: usize) -> Result<(), GpuProblem> {
@@ -241,7 +280,9 @@ impl Gpu {
             pass.dispatch_workgroups(tiles as u32, 1, 1);
             drop(pass);
             device.queue.submit([encoder.finish()]);
-        })
+        })?;
+        self.log().count(BLANK_RAYS.name, None);
+        Ok(())
     }
 
     /// The first bytes of a buffer, once all that was sent is done.
@@ -285,14 +326,27 @@ fn filled(device: &Device, label: &str, bytes: &[u8], usage: Use) -> Result<wgpu
     })
 }
 
-/// Passes of a tile as parts, in f64 until the last subtraction.
-fn compose(operation: &BlankOperation, passes: &[PlacedPass], family: Family, row: &RayRow, first: usize) -> TileWork {
+/// Strokes and return strokes of a tile as parts, in order of time; in f64 until the last subtraction.
+fn compose(
+    operation: &BlankOperation,
+    [passes, returns]: [&[PlacedPass]; 2],
+    family: Family,
+    row: &RayRow,
+    first: usize,
+) -> TileWork {
     let rays = first..(first + WORKGROUP_THREADS as usize).min(row.count);
     let origin_mm = row.at_mm(first);
     let strip = [origin_mm, row.at_mm(rays.end - 1)];
     let (mut placed, mut crossings) = (PlacedScratch::default(), RayCrossings::default());
-    let passes = reaching_strip(passes, operation.tooth, family, strip)
-        .filter_map(|pass| {
+    let reaching = |passes, returning| {
+        reaching_strip(passes, operation.tooth, family, strip).map(move |pass| (pass.stroke, returning, pass))
+    };
+    let mut order: Vec<(u32, bool, &PlacedPass)> = reaching(passes, false).chain(reaching(returns, true)).collect();
+    // Stable: cutter teeth stay in their order; a stroke goes back before the next one comes.
+    order.sort_by_key(|&(stroke, returning, _)| (stroke, returning));
+    let passes = order
+        .into_iter()
+        .filter_map(|(stroke, returns, pass)| {
             let tooth = operation.tooth.placed(&pass.work_from_blade, &mut placed);
             crossings.lay(&tooth, family, row, rays.clone());
             let single = |c: [f64; 4]| c.map(|c| c as f32);
@@ -309,8 +363,8 @@ fn compose(operation: &BlankOperation, passes: &[PlacedPass], family: Family, ro
                     }
                 })
                 .collect();
-            let id = operation.strokes.pass_id(pass.stroke as usize, pass.blade);
-            (!parts.is_empty()).then_some((id, parts))
+            let id = operation.strokes.pass_id(stroke as usize, pass.blade);
+            (!parts.is_empty()).then_some(PassWork { id, returns, parts })
         })
         .collect();
     TileWork { rays, passes }

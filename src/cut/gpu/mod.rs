@@ -11,6 +11,8 @@ pub mod batches;
 mod blank;
 pub mod compose;
 mod device;
+pub mod edge_cells;
+pub mod near_edge;
 pub mod pipeline;
 mod problem;
 mod readback;
@@ -19,14 +21,14 @@ mod spatial;
 pub mod sweep_records;
 
 use super::cpu::Cpu;
+use super::cpu::blank::{BlankCut, BlankOperation};
 use super::{Backend, CutStats, StageTime};
-use crate::dexel::{Field, Layer, SpatialField};
+use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
 use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
 use adapter::{AdapterFacts, AdapterWish, FoundAdapter};
 use batches::{Allowance, Batch, Round};
-use compose::EdgeCells;
 use device::Device;
 use readback::{InFlight, Input, Launch, Returned, Shipment};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -35,8 +37,6 @@ pub use problem::GpuProblem;
 
 /// Threads of a workgroup: at least one wave on every GPU, and small enough for any.
 pub const WORKGROUP_THREADS: u32 = 64;
-/// Rows that one thread cuts, as the lanes of its vectors.
-pub const ROWS_PER_THREAD: u32 = 4;
 /// Batches on the device at once: one in work, one on its way.
 const IN_FLIGHT: usize = 2;
 
@@ -165,31 +165,49 @@ impl Gpu {
         layer: &Layer,
     ) -> Result<(Layer, u64), GpuProblem> {
         self.device.alive()?;
-        let work = Work { gpu: self, field, edge, plan, layer, cells: EdgeCells::new(edge) };
-        let row_phases: Vec<f32> = plan.row_phases.iter().map(|&tau| tau as f32).collect();
-        let allowance = self.allowance();
+        let work = Work { gpu: self, field, edge, plan, layer, row_phases: padded_phases(&plan.row_phases) };
+        let (rows, padded) = (field.rows(), batches::padded(field.rows()));
         let mut result = layer.clone();
         let mut unconverged = 0;
         let mut waiting: Vec<(Batch, InFlight)> = Vec::new();
         let mut collect = |(batch, in_flight): (Batch, InFlight)| -> Result<(), GpuProblem> {
             let Returned { heights_mm, passes, unconverged: short, device_ns } = in_flight.collect(&self.device)?;
-            let dexels = batch.columns.start * field.rows()..batch.columns.end * field.rows();
-            result.heights_mm[dexels.clone()].copy_from_slice(&heights_mm);
-            result.passes[dexels].copy_from_slice(&passes);
+            for (index, column) in batch.columns.enumerate() {
+                let (dexels, there) = (column * rows..(column + 1) * rows, index * padded..index * padded + rows);
+                result.heights_mm[dexels.clone()].copy_from_slice(&heights_mm[there.clone()]);
+                result.passes[dexels].copy_from_slice(&passes[there]);
+            }
             unconverged += u64::from(short);
             self.log().count(pipeline::PLANAR_FLANK.name, device_ns);
             Ok(())
         };
-        for batch in batches::batches(plan, allowance)? {
+        for batch in batches::batches(plan, self.allowance())? {
             if waiting.len() == IN_FLIGHT {
                 collect(waiting.remove(0))?;
             }
-            let in_flight = work.send(&batch, &row_phases)?;
+            let in_flight = work.send(&batch)?;
             waiting.push((batch, in_flight));
         }
         waiting.into_iter().try_for_each(collect)?;
         Ok((result, unconverged))
     }
+}
+
+/// Phases of a column's rows as the shader reads them, in quads, the last one filled up with the last phase.
+fn padded_phases(row_phases: &[f64]) -> Vec<f32> {
+    let mut phases: Vec<f32> = row_phases.iter().map(|&tau| tau as f32).collect();
+    phases.resize(batches::padded(row_phases.len()), phases.last().copied().unwrap_or_default());
+    phases
+}
+
+/// Columns one after the other, each filled up to whole quads with its last value.
+fn padded_columns<T: Copy>(values: &[T], rows: usize) -> Vec<T> {
+    let mut columns = Vec::with_capacity(values.len() / rows * batches::padded(rows));
+    for column in values.chunks_exact(rows) {
+        columns.extend_from_slice(column);
+        columns.extend(std::iter::repeat_n(column[rows - 1], batches::padded(rows) - rows));
+    }
+    columns
 }
 
 /// One cut's inputs.
@@ -199,32 +217,35 @@ struct Work<'a> {
     edge: &'a Edge,
     plan: &'a CutPlan,
     layer: &'a Layer,
-    cells: EdgeCells,
+    row_phases: Vec<f32>,
 }
 
 impl Work<'_> {
-    fn send(&self, batch: &Batch, row_phases: &[f32]) -> Result<InFlight, GpuProblem> {
-        let Self { gpu, field, edge, plan, layer, cells } = self;
+    fn send(&self, batch: &Batch) -> Result<InFlight, GpuProblem> {
+        let Self { gpu, field, edge, plan, layer, row_phases } = self;
         let rows = field.rows();
-        let rounds = batch.rounds.iter().map(|pieces| Round::new(pieces, batch, plan, field, edge, cells));
-        // The first round has a piece for every column.
-        let columns = batch.rounds[0].iter().flat_map(|piece| {
+        let columns = batch.pieces.iter().flat_map(|piece| {
             let tile = &plan.tiles[piece.tile];
             let middle = compose::middle(&field.columns[tile.columns.clone()]);
             field.columns[piece.columns.clone()].iter().map(move |ray| compose::column(ray, tile.origin_mm, &middle))
         });
         let dexels = batch.columns.start * rows..batch.columns.end * rows;
         let columns: Vec<records::Column> = columns.collect();
-        let rounds: Vec<Round> = rounds.filter(|round| !round.records.is_empty()).collect();
-        let launch =
-            records::Launch { rows: rows as u32, threads_per_column: pipeline::threads_per_column(rows) as u32 };
+        let rounds = Round::compose(batch, plan, field, edge);
+        let launch = records::Launch {
+            rows: rows as u32,
+            quads: (row_phases.len() / pipeline::QUAD_ROWS) as u32,
+            threads_per_column: pipeline::threads_per_column(rows) as u32,
+        };
+        let records: Vec<Vec<records::PassRecord>> = rounds.iter().map(Round::padded_records).collect();
         let shared = |label, bytes| Input::Shared { label, bytes, usage: wgpu::BufferUsages::STORAGE };
         let launches: Vec<Launch> = rounds
             .iter()
-            .map(|round| Launch {
-                pipeline: &gpu.planar_flank[usize::from(round.is_frozen())],
+            .zip(&records)
+            .map(|(round, records)| Launch {
+                pipeline: &gpu.planar_flank[round.variant()],
                 tiles: bytemuck::cast_slice(&round.tiles),
-                records: bytemuck::cast_slice(&round.records),
+                records: bytemuck::cast_slice(records),
                 workgroups: [
                     (round.widest as u32 * launch.threads_per_column).div_ceil(WORKGROUP_THREADS),
                     round.tiles.len() as u32,
@@ -244,12 +265,12 @@ impl Work<'_> {
                     Input::Tiles,
                     shared("columns", bytemuck::cast_slice(&columns)),
                     Input::Records,
-                    shared("cells", bytemuck::cast_slice(&cells.cells)),
                     shared("row phases", bytemuck::cast_slice(row_phases)),
                 ],
+                record_usage: wgpu::BufferUsages::UNIFORM,
                 launches: &launches,
-                heights_mm: &layer.heights_mm[dexels.clone()],
-                passes: &layer.passes[dexels],
+                heights_mm: &padded_columns(&layer.heights_mm[dexels.clone()], rows),
+                passes: &padded_columns(&layer.passes[dexels], rows),
                 poison: gpu.options.poison_outputs,
             },
         )
@@ -269,6 +290,22 @@ impl Backend for Gpu {
             |layer| self.cut_on_device(field, edge, plan, layer),
             |layer| self.native.cut(field, edge, plan, layer),
         )
+    }
+
+    fn cut_blank(
+        &self,
+        field: &mut BlankField,
+        operation: &BlankOperation,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<BlankCut>, Error> {
+        match self.cut_blank_on_device(field, operation, None, advance) {
+            Ok(cut) => Ok(cut),
+            Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
+            Err(problem) => {
+                self.log().incidents.push(format!("{problem}; the blank is cut again on {}", self.native.name()));
+                self.native.cut_blank(field, operation, advance)
+            }
+        }
     }
 
     fn cut_spatial(

@@ -3,9 +3,9 @@
 //! A stage's text is its file after the shared ones, joined as they are: no preprocessor stands between the files and
 //! what the driver sees. Variants are `override` constants. Bindings come from the shader itself.
 
+use super::WORKGROUP_THREADS;
 use super::device::Device;
 use super::problem::GpuProblem;
-use super::{ROWS_PER_THREAD, WORKGROUP_THREADS};
 
 /// A stage: one shader file, one entry point of the same name.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +20,7 @@ pub struct Stage {
     pub variants: &'static [&'static [(&'static str, f64)]],
 }
 
-/// The planar kernel: moving strokes, and frozen ones.
+/// The planar kernel: strokes that move or rest, edges with or without arcs; [`planar_variant`] finds the one that serves.
 pub const PLANAR_FLANK: Stage = Stage {
     name: "planar_flank",
     text: concat!(
@@ -28,12 +28,19 @@ pub const PLANAR_FLANK: Stage = Stage {
         include_str!("../../../shaders/shared/entry.wgsl"),
         include_str!("../../../shaders/planar_flank.wgsl"),
     ),
-    bindings: &["launch", "tiles", "columns", "records", "cells", "row_phases", "heights_mm", "passes", "unconverged"],
+    bindings: &["launch", "tiles", "columns", "records", "row_phases", "heights_mm", "passes", "unconverged"],
     variants: &[
-        &[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64), ("FROZEN", 0.0)],
-        &[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64), ("FROZEN", 1.0)],
+        &[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64), ("FROZEN", 0.0), ("ARCS", 0.0)],
+        &[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64), ("FROZEN", 0.0), ("ARCS", 1.0)],
+        &[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64), ("FROZEN", 1.0), ("ARCS", 0.0)],
+        &[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64), ("FROZEN", 1.0), ("ARCS", 1.0)],
     ],
 };
+
+/// Place in the variants of [`PLANAR_FLANK`].
+pub fn planar_variant(frozen: bool, arcs: bool) -> usize {
+    2 * usize::from(frozen) + usize::from(arcs)
+}
 
 /// Rays through the blank.
 pub const BLANK_RAYS: Stage = Stage {
@@ -87,7 +94,16 @@ pub fn pipelines(device: &Device, stage: &Stage) -> Result<Vec<wgpu::ComputePipe
     })
 }
 
-/// Threads that share the rows of one column.
+/// Rows of a quad, the lanes of the planar kernel's vectors.
+pub const QUAD_ROWS: usize = 4;
+/// Quads that one thread of the planar kernel cuts.
+pub const QUADS_PER_THREAD: u32 = 2;
+/// Records of a launch of the planar kernel at most.
+pub const ROUND_RECORDS: u32 = 512;
+/// Rows that one thread of the spatial kernel cuts, as the lanes of its vectors.
+pub const SPATIAL_ROWS_PER_THREAD: u32 = 4;
+
+/// Threads of the planar kernel that share the rows of one column.
 pub fn threads_per_column(rows: usize) -> usize {
-    rows.div_ceil(ROWS_PER_THREAD as usize)
+    rows.div_ceil(QUAD_ROWS).div_ceil(QUADS_PER_THREAD as usize)
 }

@@ -51,6 +51,8 @@ pub struct Shipment<'a> {
     pub stage: &'static str,
     /// Bindings in order; heights, passes and the count of iterations that stopped short follow them.
     pub inputs: &'a [Input<'a>],
+    /// `UNIFORM` or `STORAGE`, whichever the stage reads records from.
+    pub record_usage: Use,
     /// Launches in order.
     pub launches: &'a [Launch<'a>],
     /// Heights before.
@@ -118,7 +120,7 @@ pub fn send(device: &Device, shipment: &Shipment) -> Result<InFlight, GpuProblem
         let mut encoder = device.handle.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         for (index, launch) in shipment.launches.iter().enumerate() {
             let tiles = buffer("tiles", launch.tiles, Use::STORAGE);
-            let records = buffer("records", launch.records, Use::STORAGE);
+            let records = buffer("records", launch.records, shipment.record_usage);
             let inputs = shipment.inputs.iter().zip(&shared).map(|(input, shared)| match (input, shared) {
                 (Input::Records, _) => &records,
                 (_, Some(shared)) => shared,

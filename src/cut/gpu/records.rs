@@ -11,6 +11,8 @@ use bytemuck::{Pod, Zeroable};
 pub struct Launch {
     /// Rows of the field, along the tooth.
     pub rows: u32,
+    /// Quads of rows in a column, the last one filled up.
+    pub quads: u32,
     /// Threads that share the rows of one column.
     pub threads_per_column: u32,
 }
@@ -63,24 +65,19 @@ pub struct PassRecord {
     pub y_from_mm: f32,
     /// Last y that belongs to it.
     pub y_to_mm: f32,
-    /// Table: x of the base cell. Arc: x of the base point against the centre, mm.
-    pub base_x_mm: f32,
-    /// Arc: y of the base point against the centre, mm.
-    pub base_y_mm: f32,
-    /// Arc: square of the base point's distance from the centre less that of the radius, mm^2.
-    pub arc_excess_mm2: f32,
-    /// Table: cells in a millimetre; 0 for an arc.
-    pub cells_per_mm: f32,
-    /// Table: width of a cell, mm.
-    pub cell_width_mm: f32,
-    /// Table: first cell against the base cell.
-    pub first_cell: f32,
-    /// Table: last cell against the base cell.
-    pub last_cell: f32,
-    /// Table: base cell among the cells of all segments.
-    pub base_cell: u32,
     /// Id of the pass.
     pub pass_id: u32,
+    /// Table: coefficients of t to t^4, t = y against the base point. Arc: base point against the centre, mm; square of its distance
+    /// from the centre less that of the radius, mm^2; nothing.
+    pub curve: [f32; 4],
+    /// Table: coefficient of t^5.
+    pub curve_5: f32,
+    /// 1 for an arc, 0 for a table.
+    pub is_arc: u32,
+    /// Nothing.
+    pub padding_1: u32,
+    /// Nothing.
+    pub padding_2: u32,
 }
 
 /// What holds for a whole launch over the blank field.
@@ -121,8 +118,8 @@ pub struct BlankPass {
     pub part_count: u32,
     /// Id of the pass.
     pub pass_id: u32,
-    /// Nothing.
-    pub padding: u32,
+    /// 1: a return stroke, which takes nothing.
+    pub returns: u32,
 }
 
 /// Part of a tooth's outline that runs one way across the rays: cubics in a parameter from 0 to 1.

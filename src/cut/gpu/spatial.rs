@@ -5,10 +5,11 @@
 //! side, from a base point of the segment near it on the other.
 
 use super::batches::Allowance;
-use super::compose::EdgeCells;
+use super::edge_cells::EdgeCells;
+use super::pipeline::{self, SPATIAL_ROWS_PER_THREAD};
 use super::readback::{self, InFlight, Input, Launch, Returned, Shipment};
 use super::sweep_records::{SweepRecord, SweepTile};
-use super::{Gpu, GpuProblem, IN_FLIGHT, ROWS_PER_THREAD, WORKGROUP_THREADS, pipeline};
+use super::{Gpu, GpuProblem, IN_FLIGHT, WORKGROUP_THREADS};
 use crate::dexel::{Layer, SpatialField};
 use crate::passes::sweep_plan::SweepTile as PlanTile;
 use crate::passes::{SweepPlan, sweep};
@@ -17,7 +18,7 @@ use glam::{DVec2, DVec3};
 use std::ops::Range;
 
 /// Rows of a group.
-const ROWS: usize = ROWS_PER_THREAD as usize;
+const ROWS: usize = SPATIAL_ROWS_PER_THREAD as usize;
 /// Bytes of a group: six vectors of rays; heights and passes on the device and on their way back.
 const GROUP_BYTES: usize = (6 + 2 + 2) * ROWS * 4;
 /// (Dexel, pass) pairs of a launch at most: as for planar fields; a pair costs a few times as much.
@@ -173,6 +174,7 @@ fn send(
                 shared("cells", bytemuck::cast_slice(&cells.cells)),
                 shared("rays", bytemuck::cast_slice(&rays)),
             ],
+            record_usage: wgpu::BufferUsages::STORAGE,
             launches: if records.is_empty() { &[] } else { std::slice::from_ref(&launch) },
             heights_mm: &heights_mm,
             passes: &passes,

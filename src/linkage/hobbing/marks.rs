@@ -88,17 +88,42 @@ impl Marks<'_> {
         (rake - place, mark)
     }
 
-    /// Mark nearest to the pitch line of the flank of `space` at the height `z_mm`, and its gash.
-    pub fn nearest(&self, space: i64, z_mm: f64) -> (i64, Mark) {
-        // The slide passes z once; the space comes by once per cycle. Fixed point: the time at which both hold, then gash by gash.
-        let arc_mm = self.target.crossing_arc_mm(space, self.side, z_mm);
-        let per_gash = TURN_RAD / f64::from(self.hob.gashes);
-        let turns = arc_mm / self.linkage.geometry().arc_per_hob_rad_mm();
-        let guess = (turns / per_gash).round() as i64;
-        (guess - 4..=guess + 4)
+    /// Mark nearest to the pitch line of the flank of `space` (0 to one less than the gear's `teeth`) in the cycle in which the slide comes nearest to the height `z_mm`: its gash, the space counted without
+    /// wrapping, the mark.
+    pub fn nearest(&self, space: i64, teeth: u32, z_mm: f64) -> (i64, i64, Mark) {
+        let cycles = (self.linkage.end_s() / self.linkage.cycle_s()).ceil() as i64;
+        let slide_apart = |space: i64| {
+            let time_s = self.time_at_arc(self.target.crossing_arc_mm(space, self.side, z_mm));
+            (self.linkage.axes::<1>(time_s).slide_mm.value() + z_mm).abs()
+        };
+        let space = (-1..=cycles)
+            .map(|cycle| space + cycle * i64::from(teeth))
+            .min_by(|&a, &b| slide_apart(a).total_cmp(&slide_apart(b)))
+            .unwrap_or(space);
+        let time_s = self.time_at_arc(self.target.crossing_arc_mm(space, self.side, z_mm));
+        let hob_rad = self.linkage.axes::<1>(time_s).hob_rad.value();
+        let guess = (hob_rad / TURN_RAD * f64::from(self.hob.gashes)).round() as i64;
+        let (gash, mark) = (guess - 4..=guess + 4)
             .map(|gash| (gash, self.mark(gash, space)))
             .min_by(|a, b| a.1.roll_mm.abs().total_cmp(&b.1.roll_mm.abs()))
-            .expect("nine gashes")
+            .expect("nine gashes");
+        (gash, space, mark)
+    }
+
+    /// Time at which the pitch curve has rolled to `arc_mm`.
+    fn time_at_arc(&self, arc_mm: f64) -> f64 {
+        let perimeter_mm = self.linkage.curve().perimeter_mm();
+        let mut time_s = arc_mm / perimeter_mm * self.linkage.cycle_s();
+        for _ in 0..50 {
+            let arc = self.linkage.axes::<2>(time_s).arc_mm;
+            // The rate jumps where feeds begin, by little: the rolling is much faster than they are.
+            let step = (arc_mm - arc.value()) / arc.derivative(1);
+            time_s += step;
+            if step.abs() < 1e-12 * (1.0 + time_s.abs()) {
+                break;
+            }
+        }
+        time_s
     }
 
     /// Step from a mark to the one of the next gash.
@@ -113,9 +138,8 @@ impl Marks<'_> {
         step(self.mark(gash, space), self.mark(gash + turns, space + teeth))
     }
 
-    /// A step (roll, z) as a vector on the flank where the profile takes `length_per_roll` (see
-    /// [`crate::gear::rack_generation::RackContact::length_per_roll`]): along the tooth trace and across it, mm.
-    pub fn on_flank(&self, step: DVec2, length_per_roll: f64) -> DVec2 {
+    /// A step (roll, z) measured on the flank where the profile takes `length_per_roll` (see [`crate::gear::rack_generation::RackContact::length_per_roll`]).
+    pub fn on_flank(&self, step: DVec2, length_per_roll: f64) -> MarkStep {
         let (sin_t, cos_t) = self.target.rack.pressure_angle_rad.sin_cos();
         let g = self.linkage.geometry();
         let (sin_b, cos_b) = g.helix_angle_rad.sin_cos();
@@ -124,31 +148,56 @@ impl Marks<'_> {
         let trace = DVec3::new(g.gear_hand * sin_b, 0.0, cos_b);
         let vector = length_per_roll * step.x * profile + step.y / cos_b * trace;
         let along = vector.dot(trace);
-        DVec2::new(along, (vector - along * trace).length().copysign(step.x))
+        let across = (vector - along * trace).length().copysign(step.x);
+        let axial = vector.z.abs();
+        MarkStep {
+            step_mm: step,
+            on_flank_mm: DVec2::new(along, across),
+            to_axis_rad: vector.truncate().length().atan2(axial),
+        }
+    }
+
+    /// The two shortest steps that span the same lattice as `v1` and `v2` (Lagrange's reduction), the shortest first, on a flank where the profile takes `length_per_roll`.
+    pub fn reduced(&self, [v1, v2]: [DVec2; 2], length_per_roll: f64) -> [MarkStep; 2] {
+        let vector = |step: DVec2| self.on_flank(step, length_per_roll).on_flank_mm;
+        let (mut a, mut b) = (v1, v2);
+        for _ in 0..100 {
+            if vector(a).length_squared() > vector(b).length_squared() {
+                (a, b) = (b, a);
+            }
+            let times = (vector(a).dot(vector(b)) / vector(a).length_squared()).round();
+            if times == 0.0 {
+                break;
+            }
+            b -= times * a;
+        }
+        [a, b].map(|step| self.on_flank(step, length_per_roll))
+    }
+}
+
+/// A vector from one mark to another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MarkStep {
+    /// Step in roll and place along the gear's axis, mm.
+    pub step_mm: DVec2,
+    /// The same on the flank: along the tooth trace and across it, mm.
+    pub on_flank_mm: DVec2,
+    /// Angle to the gear's axis, 0 to pi/2.
+    pub to_axis_rad: f64,
+}
+
+impl MarkStep {
+    /// Length on the flank, mm.
+    pub fn length_mm(&self) -> f64 {
+        self.on_flank_mm.length()
+    }
+
+    /// Angle to the tooth trace, -pi/2 to pi/2.
+    pub fn to_trace_rad(&self) -> f64 {
+        (self.on_flank_mm.y / self.on_flank_mm.x).atan()
     }
 }
 
 fn step(from: Mark, to: Mark) -> DVec2 {
     DVec2::new(to.roll_mm - from.roll_mm, to.z_mm - from.z_mm)
-}
-
-/// Angle of a vector on the flank against the tooth trace, -pi/2 to pi/2.
-pub fn angle_to_trace_rad(vector: DVec2) -> f64 {
-    (vector.y / vector.x).atan()
-}
-
-/// The two shortest steps that span the same lattice as `v1` and `v2` (Lagrange's reduction), the shortest first; `vector` gives the length of a step.
-pub fn reduced(v1: DVec2, v2: DVec2, vector: impl Fn(DVec2) -> DVec2) -> [DVec2; 2] {
-    let (mut a, mut b) = (v1, v2);
-    for _ in 0..100 {
-        if vector(a).length_squared() > vector(b).length_squared() {
-            (a, b) = (b, a);
-        }
-        let times = (vector(a).dot(vector(b)) / vector(a).length_squared()).round();
-        if times == 0.0 {
-            break;
-        }
-        b -= times * a;
-    }
-    [a, b]
 }

@@ -36,7 +36,8 @@ impl EdgeSide {
         }
     }
 
-    fn of(name: SegmentName) -> Self {
+    /// The part that a segment belongs to.
+    pub fn of(name: SegmentName) -> Self {
         match name {
             SegmentName::RootRight | SegmentName::BaseRight | SegmentName::FlankRight => Self::Right,
             SegmentName::CornerRight | SegmentName::Tip | SegmentName::CornerLeft => Self::Tip,
@@ -203,6 +204,7 @@ mod tests {
             profile_shift_coefficient: 0.0,
             thinning_mm: 0.0,
             tip,
+            rake_angle_rad: 0.0,
             runout_mm: 0.0,
             runout_angle_rad: 0.0,
             pitch_errors_mm: Vec::new(),

@@ -1,10 +1,12 @@
 //! The ledger of a whole job: spaces in parallel, strokes in order of time within each of them.
 
 use super::edge_polygon::{EdgePolygon, Station};
+use super::oblique::{ElementForce, RakeFace};
 use super::section::Section;
 use super::stroke::{LEAST_CHIP_MM, Stand, StrokeChips, ToothChip};
 use crate::frame::Rigid2;
 use crate::job::Job;
+use crate::scene::model::Infeed;
 use crate::tool::{CuttingTool, PlanarTool};
 use crate::units::TURN_RAD;
 use glam::DVec2;
@@ -37,6 +39,8 @@ pub struct ThicknessMap {
 /// Chips of one operation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OperationChips {
+    /// The first stroke comes at full depth, without an infeed: it takes a plug of whole tooth spaces at once, as no machine would, and is left out where strokes are compared.
+    pub enters_at_depth: bool,
     /// One entry per stroke.
     pub strokes: Vec<StrokeChips>,
     /// Largest thickness over strokes and edge, over all cutter teeth.
@@ -79,11 +83,17 @@ impl ChipLedger {
     pub fn new(job: &Job, advance: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let spacing_mm = job.scene.fields.chip_spacing_mm;
         let polygon = EdgePolygon::new(job.cutter.edge(), spacing_mm);
+        let rake_rad = job.cutter_spec.rake_angle_rad;
+        let force = |station: &Station| {
+            let face = RakeFace::on_cone(rake_rad, station.point_mm, station.normal);
+            ElementForce::new(&job.scene.material, rake_rad, face)
+        };
+        let forces: Vec<ElementForce> = polygon.stations.iter().map(force).collect();
         let outline_mm = outline(job);
         let spaces: Vec<Option<SpaceChips>> = (1..=job.scene.gear.teeth)
             .into_par_iter()
             .map(|space| {
-                let chips = Space::new(job, &polygon, &outline_mm, space).cut(spacing_mm);
+                let chips = Space::new(job, &polygon, &outline_mm, space).cut(&forces, spacing_mm);
                 advance().then_some(chips)
             })
             .collect();
@@ -95,6 +105,7 @@ impl ChipLedger {
             .map(|operation| {
                 let count = operation.schedule.count();
                 OperationChips {
+                    enters_at_depth: operation.spec.infeed == Infeed::None,
                     strokes: vec![StrokeChips::default(); count],
                     by_stroke: map(count.min(MOST_ROWS), count.max(1) as f64 / count.clamp(1, MOST_ROWS) as f64),
                     by_space: map(job.scene.gear.teeth as usize, 1.0),
@@ -130,10 +141,16 @@ impl ChipLedger {
 }
 
 impl OperationChips {
-    /// The stroke with the largest value; `None` if all are idle.
+    /// The stroke with the largest value, an entry at depth left out; `None` if all others are idle.
     pub fn largest(&self, value: impl Fn(&StrokeChips) -> f64) -> Option<(usize, &StrokeChips)> {
-        let busy = self.strokes.iter().enumerate().filter(|(_, stroke)| !stroke.is_idle());
+        let compared = self.strokes.iter().enumerate().skip(usize::from(self.enters_at_depth));
+        let busy = compared.filter(|(_, stroke)| !stroke.is_idle());
         busy.reduce(|best, next| if value(next.1) > value(best.1) { next } else { best })
+    }
+
+    /// The first stroke, where it enters at depth and cuts.
+    pub fn entry(&self) -> Option<&StrokeChips> {
+        self.strokes.first().filter(|stroke| self.enters_at_depth && !stroke.is_idle())
     }
 
     /// Strokes that cut nothing.
@@ -276,7 +293,7 @@ impl<'a> Space<'a> {
         self.passes = passes;
     }
 
-    fn cut(&self, spacing_mm: f64) -> SpaceChips {
+    fn cut(&self, forces: &[ElementForce], spacing_mm: f64) -> SpaceChips {
         let operations = &self.job.operations;
         let mut chips = Vec::new();
         let mut rows: Vec<Vec<(usize, Vec<f32>)>> = vec![Vec::new(); operations.len()];
@@ -310,7 +327,7 @@ impl<'a> Space<'a> {
                 cutter_axis_mm: middle_pose(self.job, operation, pass.stroke as usize).translation_mm,
                 work_axis_mm: -self.job.eccentricity_mm(),
             };
-            chip.measure(&self.polygon.stations, &thickness_mm, &stand, &self.job.scene.material);
+            chip.measure(&self.polygon.stations, forces, &thickness_mm, &stand);
             chips.push(chip);
             let row = pass.stroke as usize * operations[operation].schedule.count().min(MOST_ROWS)
                 / operations[operation].schedule.count();

@@ -7,12 +7,15 @@
 //! the axes rest during the stroke all sections are equal and the ledger is exact for the whole face; where the feed goes on, the middle section stands for the
 //! face, the others being the same a fraction of a stroke earlier or later.
 //!
-//! Road not taken: chip thickness from the flank dexels. Their rays stand on the finished surface, and most chips of a roughing stroke lie nowhere near it.
+//! Rays on a flank see only the chips that shape it, and those exactly: [`flank::last_chips`] says with how thick a chip each place of a flank was cut last.
 
 pub mod edge_polygon;
+pub mod flank;
 pub mod ledger;
+pub mod oblique;
 pub mod section;
 pub mod stroke;
 
+pub use flank::{LastChips, last_chips};
 pub use ledger::{ChipLedger, OperationChips, ThicknessMap};
 pub use stroke::StrokeChips;

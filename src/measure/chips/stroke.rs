@@ -1,8 +1,8 @@
 //! What one stroke takes away: the sum over the cutter teeth that cut in it.
 
 use super::edge_polygon::{EdgeSide, Station};
+use super::oblique::ElementForce;
 use crate::frame::Rigid2;
-use crate::material::EdgeForce;
 use glam::DVec2;
 
 /// Thinner than this the edge rubs and makes no chip: it counts neither as contact nor for forces. A tenth of a micrometre is far below the radius of any cutting edge.
@@ -83,8 +83,8 @@ pub struct Stand {
 
 impl ToothChip {
     /// Adds up the edge elements of a pass.
-    pub fn measure(&mut self, stations: &[Station], thickness_mm: &[f64], stand: &Stand, force: &EdgeForce) {
-        for (station, &thickness_mm) in stations.iter().zip(thickness_mm) {
+    pub fn measure(&mut self, stations: &[Station], forces: &[ElementForce], thickness_mm: &[f64], stand: &Stand) {
+        for ((station, force), &thickness_mm) in stations.iter().zip(forces).zip(thickness_mm) {
             if thickness_mm < LEAST_CHIP_MM {
                 continue;
             }
@@ -94,9 +94,10 @@ impl ToothChip {
             if station.side == EdgeSide::Tip || thickness_mm.max(station.length_mm) < station.to_corner_mm {
                 self.thickest_mm[side] = self.thickest_mm[side].max(thickness_mm);
             }
-            let [cutting_n, normal_n] = force.on_element(thickness_mm, station.length_mm);
-            // The work pushes the tool back along the edge's outward normal.
-            let on_tool = -normal_n * stand.work_from_blade.direction(station.normal);
+            let [cutting_n, normal_n, along_n] = force.on_element(thickness_mm, station.length_mm);
+            // The work pushes the tool back along the edge's outward normal, and along an inclined edge.
+            let normal = stand.work_from_blade.direction(station.normal);
+            let on_tool = along_n * normal.perp() - normal_n * normal;
             let point = stand.work_from_blade.point(station.point_mm);
             self.cutting_n += cutting_n;
             self.side_force_n += on_tool;

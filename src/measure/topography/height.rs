@@ -3,6 +3,7 @@
 //! Population moments (divided by N) about the mean; Sku is 3 for Gaussian heights, nothing is subtracted from it. Holes are left out.
 
 use super::surface::Surface;
+use rayon::prelude::*;
 
 /// Height parameters; heights in um.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,8 +38,9 @@ impl Heights {
             sums
         });
         let sq = (s2 / n).sqrt();
-        let sp = centred.heights_um().iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let sv = -centred.heights_um().iter().copied().fold(f64::INFINITY, f64::min);
+        // Largest and smallest pass over holes: NaN is neither.
+        let sp = centred.heights_um().par_iter().copied().reduce(|| f64::NEG_INFINITY, f64::max);
+        let sv = -centred.heights_um().par_iter().copied().reduce(|| f64::INFINITY, f64::min);
         let flat = sp + sv == 0.0;
         let over = |moment: f64, power: i32| if flat { f64::NAN } else { moment / n / sq.powi(power) };
         Self { sa: s1 / n, sq, ssk: over(s3, 3), sku: over(s4, 4), sp, sv }

@@ -5,6 +5,9 @@
 
 use super::surface::Surface;
 
+/// Values taken at a time, so that the compiler can use vectors; their sums are folded in a fixed order.
+const LANES: usize = 8;
+
 /// Hybrid parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hybrid {
@@ -17,41 +20,63 @@ pub struct Hybrid {
 impl Hybrid {
     /// Of a surface.
     pub fn of(surface: &Surface) -> Self {
-        let (nx, ny) = (surface.nx(), surface.ny());
-        let (dx, dy) = (surface.dx_um(), surface.dy_um());
-        let squares = |sum: &mut [f64; 6], first: usize, slope: f64| {
-            if !slope.is_nan() {
-                sum[first] += slope * slope;
-                sum[first + 1] += 1.0;
-            }
-        };
-        let [x2, x_pairs, y2, y_pairs, area, cells] = surface.sum_rows(|y, row| {
-            let mut sums = [0.0; 6];
-            for x in 1..nx {
-                squares(&mut sums, 0, (row[x] - row[x - 1]) / dx);
-            }
-            if y + 1 == ny {
-                return sums;
-            }
-            let next = surface.row(y + 1);
-            for x in 0..nx {
-                squares(&mut sums, 2, (next[x] - row[x]) / dy);
-            }
-            for x in 1..nx {
-                let [a, b, c, d] = [row[x - 1], row[x], next[x - 1], next[x]];
-                // Slopes along the cell's four sides; a triangle lies between one along x and one along y.
-                let (ab, cd, ac, bd) = ((b - a) / dx, (d - c) / dx, (c - a) / dy, (d - b) / dy);
-                let triangle = |sx: f64, sy: f64| (1.0 + sx * sx + sy * sy).sqrt();
-                let mean = 0.25 * (triangle(ab, ac) + triangle(cd, bd) + triangle(ab, bd) + triangle(cd, ac));
-                if !mean.is_nan() {
-                    sums[4] += mean - 1.0;
-                    sums[5] += 1.0;
-                }
-            }
-            sums
-        });
-        Self { sdq: (x2 / x_pairs + y2 / y_pairs).sqrt(), sdr: 100.0 * area / cells }
+        Self { sdq: sdq(surface), sdr: sdr(surface) }
     }
+}
+
+/// Root mean square gradient Sdq, dimensionless; NaN without two measured neighbours in both directions.
+pub fn sdq(surface: &Surface) -> f64 {
+    let (nx, ny) = (surface.nx(), surface.ny());
+    let square = |[low, high]: [f64; 2]| (high - low) * (high - low);
+    let [x2, x_pairs, y2, y_pairs] = surface.sum_rows(|y, row| {
+        let [x2, x_pairs] = sum_measured([&row[..nx - 1], &row[1..]], square);
+        let [y2, y_pairs] = if y + 1 < ny { sum_measured([row, surface.row(y + 1)], square) } else { [0.0; 2] };
+        [x2, x_pairs, y2, y_pairs]
+    });
+    (x2 / x_pairs / surface.dx_um().powi(2) + y2 / y_pairs / surface.dy_um().powi(2)).sqrt()
+}
+
+/// Developed interfacial area ratio Sdr, per cent; NaN without a whole cell.
+pub fn sdr(surface: &Surface) -> f64 {
+    let (nx, ny) = (surface.nx(), surface.ny());
+    let (per_dx, per_dy) = (1.0 / surface.dx_um(), 1.0 / surface.dy_um());
+    let excess = |[a, b, c, d]: [f64; 4]| {
+        // Slopes along the cell's four sides, squared; a triangle lies between one along x and one along y.
+        let square = |low: f64, high: f64, per_step: f64| ((high - low) * per_step).powi(2);
+        let (ab, cd) = (square(a, b, per_dx), square(c, d, per_dx));
+        let (ac, bd) = (square(a, c, per_dy), square(b, d, per_dy));
+        let triangle = |x: f64, y: f64| (1.0 + x + y).sqrt();
+        0.25 * (triangle(ab, ac) + triangle(cd, bd) + triangle(ab, bd) + triangle(cd, ac)) - 1.0
+    };
+    let [area, cells] = surface.sum_rows(|y, row| {
+        if y + 1 == ny {
+            return [0.0; 2];
+        }
+        let next = surface.row(y + 1);
+        sum_measured([&row[..nx - 1], &row[1..], &next[..nx - 1], &next[1..]], excess)
+    });
+    100.0 * area / cells
+}
+
+/// Sum and number of the values that are not NaN, of lines of equal length.
+#[inline]
+fn sum_measured<const N: usize>(lines: [&[f64]; N], value: impl Fn([f64; N]) -> f64) -> [f64; 2] {
+    let (mut sums, mut counts) = ([0.0; LANES], [0.0; LANES]);
+    let mut add = |lane: usize, value: f64| {
+        sums[lane] += if value.is_nan() { 0.0 } else { value };
+        counts[lane] += if value.is_nan() { 0.0 } else { 1.0 };
+    };
+    let blocks = lines.map(<[f64]>::as_chunks::<LANES>);
+    for index in 0..blocks[0].0.len() {
+        let block = blocks.map(|(whole, _)| whole[index]);
+        for lane in 0..LANES {
+            add(lane, value(block.map(|values| values[lane])));
+        }
+    }
+    for lane in 0..blocks[0].1.len() {
+        add(lane, value(blocks.map(|(_, rest)| rest[lane])));
+    }
+    [sums.iter().sum(), counts.iter().sum()]
 }
 
 #[cfg(test)]

@@ -73,7 +73,7 @@ impl Profile {
             rsm: spacing(&z, spacing_um, rz),
             rsk: over(moment(3), 3),
             rku: over(moment(4), 4),
-            core: Core::of(&MaterialRatio::of_heights(z.iter().copied())),
+            core: Core::of(&MaterialRatio::of_heights(&z)),
         })
     }
 }

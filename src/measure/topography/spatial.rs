@@ -6,13 +6,16 @@
 //! Std is the direction of the **wave vector** with the largest angular amplitude, counted counter-clockwise from +x towards +y; the lay runs across it. Ssw is the wavelength of the largest Fourier
 //! component of the window, as fine as whole waves in the window can tell.
 
-use super::spectrum::{PowerSpectrum, Products, products};
+use super::spectrum::{PowerSpectrum, Products, power, products};
 use super::surface::Surface;
+use rayon::prelude::*;
 
 /// Share of the value at lag 0 to which the autocorrelation decays.
 const DECAY: f64 = 0.2;
 /// Width of the classes of direction, deg.
 const CLASS_DEG: f64 = 0.5;
+/// Columns of the spectrum that are sorted into classes at a time; fixed, so that the number of threads never changes a digit.
+const COLUMNS: usize = 32;
 
 /// Spatial parameters, each with the reason where it is undefined.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,33 +37,55 @@ impl Spatial {
             let none = || Err("the surface is flat".to_owned());
             return Self { sal: none(), str: none(), std: none(), ssw: none() };
         }
-        let holes = centred.holes();
-        let (mut found, spectrum) = products(centred, holes == 0);
-        if holes == 0 {
-            divide_by_overlap(&mut found);
-        } else {
-            let measured = centred.heights_um().iter().map(|z| f64::from(u8::from(!z.is_nan()))).collect();
-            let (overlap, _) = products(&centred.with_heights(measured), false);
-            for (sum, count) in found.sums.iter_mut().zip(&overlap.sums) {
-                // Half a pair is rounding: at such a lag no two measured points lie over each other.
-                *sum = if *count > 0.5 { *sum / count } else { f64::NAN };
-            }
-        }
-        let (sal, str) = decay(&found, [centred.dx_um(), centred.dy_um()]);
-        let (std, ssw) = match spectrum {
-            Some(spectrum) => directions(&spectrum, centred),
-            None => {
-                let why =
-                    format!("the map has {holes} holes, and a Fourier spectrum needs every point; crop them away");
-                (Err(why.clone()), Err(why))
-            }
+        let (sal, str) = correlation_lengths(centred);
+        let [std, ssw] = match spectrum(centred) {
+            Ok(power) => [direction_deg(&power, centred), wavelength_um(&power, centred)],
+            Err(why) => [Err(why.clone()), Err(why)],
         };
         Self { sal, str, std, ssw }
     }
 }
 
+/// Sal, um, and Str of a surface about its mean that is not flat.
+pub fn correlation_lengths(centred: &Surface) -> (Result<f64, String>, Result<f64, String>) {
+    let mut found = products(centred);
+    if centred.holes() == 0 {
+        divide_by_overlap(&mut found);
+    } else {
+        let measured = centred.heights_um().iter().map(|z| f64::from(u8::from(!z.is_nan()))).collect();
+        let overlap = products(&centred.with_heights(measured));
+        for (sum, count) in found.sums.iter_mut().zip(&overlap.sums) {
+            // Half a pair is rounding: at such a lag no two measured points lie over each other.
+            *sum = if *count > 0.5 { *sum / count } else { f64::NAN };
+        }
+    }
+    decay(&found, [centred.dx_um(), centred.dy_um()])
+}
+
+/// Std alone, deg, of a surface about its mean that is not flat.
+///
+/// # Errors
+/// Holes.
+pub fn std_deg(centred: &Surface) -> Result<f64, String> {
+    direction_deg(&spectrum(centred)?, centred)
+}
+
+/// Ssw alone, um, of a surface about its mean that is not flat.
+///
+/// # Errors
+/// Holes.
+pub fn ssw_um(centred: &Surface) -> Result<f64, String> {
+    wavelength_um(&spectrum(centred)?, centred)
+}
+
+fn spectrum(centred: &Surface) -> Result<PowerSpectrum, String> {
+    match centred.holes() {
+        0 => Ok(power(centred)),
+        holes => Err(format!("the map has {holes} holes, and a Fourier spectrum needs every point; crop them away")),
+    }
+}
+
 fn divide_by_overlap(products: &mut Products) {
-    use rayon::prelude::*;
     let (nx, ny) = (products.nx, products.ny);
     products.sums.par_chunks_mut(2 * nx - 1).enumerate().for_each(|(ty, row)| {
         for (i, sum) in row.iter_mut().enumerate() {
@@ -172,40 +197,63 @@ fn distance_to_segment(p: [f64; 2], q: [f64; 2]) -> f64 {
     (p[0] + along * dx).hypot(p[1] + along * dy)
 }
 
-/// Std and Ssw.
-fn directions(spectrum: &PowerSpectrum, surface: &Surface) -> (Result<f64, String>, Result<f64, String>) {
-    let size_um = [surface.nx() as f64 * surface.dx_um(), surface.ny() as f64 * surface.dy_um()];
+/// Reason where no wave is left.
+const NO_WAVES: &str = "the spectrum is empty";
+
+/// Frequencies of a value of the spectrum along x and y, 1/um.
+fn frequency(spectrum: &PowerSpectrum, surface: &Surface, index: usize) -> [f64; 2] {
+    let ny = spectrum.ny;
+    let (fx, fy) = (index / ny, index % ny);
+    let signed = if fy <= ny / 2 { fy as f64 } else { fy as f64 - ny as f64 };
+    [fx as f64 / (surface.nx() as f64 * surface.dx_um()), signed / (ny as f64 * surface.dy_um())]
+}
+
+/// Ssw. The mean has no power: it was taken off.
+fn wavelength_um(spectrum: &PowerSpectrum, surface: &Surface) -> Result<f64, String> {
+    let waves = spectrum.power.par_iter().enumerate().skip(1);
+    // Opposite frequencies on fx = 0 are equal but for rounding; the first of equals wins on any number of threads.
+    let largest = waves.reduce(|| (0, &0.0), |a, b| if b.1 > a.1 || (b.1 == a.1 && b.0 < a.0) { b } else { a });
+    if *largest.1 == 0.0 {
+        return Err(NO_WAVES.to_owned());
+    }
+    let [x, y] = frequency(spectrum, surface, largest.0);
+    Ok(1.0 / x.hypot(y))
+}
+
+/// Std.
+fn direction_deg(spectrum: &PowerSpectrum, surface: &Surface) -> Result<f64, String> {
     // Corners of the frequency plane beyond the circle would favour diagonals.
     let reach = 0.5 / surface.dx_um().max(surface.dy_um());
     let classes = (180.0 / CLASS_DEG) as usize;
-    let mut amplitude = vec![[0.0; 2]; classes];
-    let mut largest = (0.0, 0.0);
-    let ny = spectrum.ny;
-    for fx in 0..spectrum.columns {
-        for fy in 0..ny {
-            let signed = if fy <= ny / 2 { fy as f64 } else { fy as f64 - ny as f64 };
-            // On fx = 0, opposite frequencies are both in the half-plane: one is enough.
-            if fx == 0 && signed <= 0.0 {
-                continue;
-            }
-            let (x, y) = (fx as f64 / size_um[0], signed / size_um[1]);
-            let frequency = x.hypot(y);
-            let power = spectrum.power[fx * ny + fy];
-            if power > largest.0 {
-                largest = (power, 1.0 / frequency);
-            }
-            if frequency <= reach {
+    // Amplitude, and amplitude times direction, of every class.
+    let parts: Vec<Vec<[f64; 2]>> = spectrum
+        .power
+        .par_chunks(COLUMNS * spectrum.ny)
+        .enumerate()
+        .map(|(part, columns)| {
+            let mut sums = vec![[0.0; 2]; classes];
+            for (index, &power) in columns.iter().enumerate() {
+                let [x, y] = frequency(spectrum, surface, part * COLUMNS * spectrum.ny + index);
+                // On fx = 0, opposite frequencies are both in the half-plane: one is enough.
+                if (x == 0.0 && y <= 0.0) || x * x + y * y > reach * reach {
+                    continue;
+                }
                 let degrees = y.atan2(x).to_degrees().rem_euclid(180.0);
-                let class = &mut amplitude[((degrees / CLASS_DEG) as usize).min(classes - 1)];
-                let weight = power.sqrt();
-                class[0] += weight;
-                class[1] += weight * degrees;
+                let class = &mut sums[((degrees / CLASS_DEG) as usize).min(classes - 1)];
+                let amplitude = power.sqrt();
+                class[0] += amplitude;
+                class[1] += amplitude * degrees;
             }
+            sums
+        })
+        .collect();
+    let mut sums = vec![[0.0; 2]; classes];
+    for part in parts {
+        for (sum, part) in sums.iter_mut().zip(part) {
+            sum[0] += part[0];
+            sum[1] += part[1];
         }
     }
-    let best = amplitude.iter().fold([0.0; 2], |best, class| if class[0] > best[0] { *class } else { best });
-    let none = "the spectrum is empty";
-    let std = if best[0] > 0.0 { Ok(best[1] / best[0]) } else { Err(none.to_owned()) };
-    let ssw = if largest.0 > 0.0 { Ok(largest.1) } else { Err(none.to_owned()) };
-    (std, ssw)
+    let best = sums.iter().fold([0.0; 2], |best, class| if class[0] > best[0] { *class } else { best });
+    if best[0] > 0.0 { Ok(best[1] / best[0]) } else { Err(NO_WAVES.to_owned()) }
 }

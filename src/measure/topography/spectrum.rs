@@ -1,9 +1,9 @@
-//! Fourier transform of a surface, padded with zeros to twice its size, and the autocorrelation that follows from it.
+//! Fourier transforms of a surface: the autocorrelation, and the power of its waves.
 //!
-//! One forward transform serves two ends. Its square transformed back is the sum of products at every lag **without** wrap-around; divided by the number of points that overlap it is the
-//! unbiased linear autocorrelation. And its every second value along both axes is exactly the transform of the surface without padding, from which directions and wavelengths are read.
+//! **Autocorrelation.** Padded with zeros to twice its size, transformed, squared and transformed back, a surface gives the sum of products at every lag **without** wrap-around; divided by the number of
+//! points that overlap it is the unbiased linear autocorrelation. Road not taken: the circular one. It correlates the upper edge with the lower one, which moves Sal by several per cent.
 //!
-//! Road not taken: the circular autocorrelation. It correlates the upper edge with the lower one, which moves Sal by several per cent.
+//! **Power.** The transform without padding, from which directions and wavelengths are read.
 
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
@@ -24,25 +24,17 @@ pub(super) struct Products {
 
 /// Squared moduli of the surface's transform without padding: half-plane fx >= 0.
 pub(super) struct PowerSpectrum {
-    /// Frequencies 0 to nx / 2 along x.
-    pub columns: usize,
     /// Frequencies along y; those beyond the middle are negative.
     pub ny: usize,
-    /// Column by column of fx: `power[fx * ny + fy]`.
+    /// Column by column of fx, from 0 to nx / 2: `power[fx * ny + fy]`.
     pub power: Vec<f64>,
 }
 
-/// Transforms a surface whose holes count as 0; the spectrum only `with_spectrum`.
-pub(super) fn products(surface: &Surface, with_spectrum: bool) -> (Products, Option<PowerSpectrum>) {
-    let (nx, ny) = (surface.nx(), surface.ny());
-    let (mx, my) = (2 * nx, 2 * ny);
-    let half = nx + 1;
-    let mut real = RealFftPlanner::<f64>::new();
-    let (to_x, from_x) = (real.plan_fft_forward(mx), real.plan_fft_inverse(mx));
-    let mut complex = FftPlanner::<f64>::new();
-    let (to_y, from_y) = (complex.plan_fft_forward(my), complex.plan_fft_inverse(my));
-
-    let mut rows = vec![Complex::default(); half * ny];
+/// Lines along y of the transform along x, padded with zeros to `mx` values; holes count as 0. One line of `ny` values for each frequency from 0 to `mx` / 2.
+fn transformed_along_x(surface: &Surface, mx: usize) -> Vec<Complex<f64>> {
+    let to_x = RealFftPlanner::<f64>::new().plan_fft_forward(mx);
+    let half = mx / 2 + 1;
+    let mut rows = vec![Complex::default(); half * surface.ny()];
     rows.par_chunks_mut(half).enumerate().for_each_init(
         || (vec![0.0; mx], to_x.make_scratch_vec()),
         |(line, scratch), (y, out)| {
@@ -53,32 +45,44 @@ pub(super) fn products(surface: &Surface, with_spectrum: bool) -> (Products, Opt
             to_x.process_with_scratch(line, out, scratch).expect("lengths are the plan's");
         },
     );
-    let mut columns = transposed(&rows, half, ny);
-    drop(rows);
-    let mut spectrum = vec![0.0; if with_spectrum { (nx / 2 + 1) * ny } else { 0 }];
-    let spectrum_lines: Vec<Option<&mut [f64]>> = if with_spectrum {
-        let mut lines: Vec<Option<&mut [f64]>> = (0..half).map(|_| None).collect();
-        for (fx, line) in spectrum.chunks_mut(ny).enumerate() {
-            lines[2 * fx] = Some(line);
-        }
-        lines
-    } else {
-        (0..half).map(|_| None).collect()
-    };
-    columns.par_chunks_mut(ny).zip(spectrum_lines).for_each_init(
+    transposed(&rows, half, surface.ny())
+}
+
+/// Power of a surface without holes.
+pub(super) fn power(surface: &Surface) -> PowerSpectrum {
+    let ny = surface.ny();
+    let mut columns = transformed_along_x(surface, surface.nx());
+    let to_y = FftPlanner::<f64>::new().plan_fft_forward(ny);
+    let mut power = vec![0.0; columns.len()];
+    power.par_chunks_mut(ny).zip(columns.par_chunks_mut(ny)).for_each_init(
+        || vec![Complex::default(); to_y.get_inplace_scratch_len()],
+        |scratch, (power, line)| {
+            to_y.process_with_scratch(line, scratch);
+            for (value, z) in power.iter_mut().zip(line.iter()) {
+                *value = z.norm_sqr();
+            }
+        },
+    );
+    PowerSpectrum { ny, power }
+}
+
+/// Sums of products of a surface whose holes count as 0.
+pub(super) fn products(surface: &Surface) -> Products {
+    let (nx, ny) = (surface.nx(), surface.ny());
+    let (mx, my) = (2 * nx, 2 * ny);
+    let half = nx + 1;
+    let mut columns = transformed_along_x(surface, mx);
+    let mut planner = FftPlanner::<f64>::new();
+    let (to_y, from_y) = (planner.plan_fft_forward(my), planner.plan_fft_inverse(my));
+    columns.par_chunks_mut(ny).for_each_init(
         || {
             let scratch = to_y.get_inplace_scratch_len().max(from_y.get_inplace_scratch_len());
             (vec![Complex::default(); my], vec![Complex::default(); scratch])
         },
-        |(line, scratch), (column, power)| {
+        |(line, scratch), column| {
             line[..ny].copy_from_slice(column);
             line[ny..].fill(Complex::default());
             to_y.process_with_scratch(line, scratch);
-            if let Some(power) = power {
-                for (value, z) in power.iter_mut().zip(line.iter().step_by(2)) {
-                    *value = z.norm_sqr();
-                }
-            }
             for z in line.iter_mut() {
                 *z = Complex::new(z.norm_sqr(), 0.0);
             }
@@ -88,6 +92,7 @@ pub(super) fn products(surface: &Surface, with_spectrum: bool) -> (Products, Opt
     );
     let mut rows = transposed(&columns, ny, half);
     drop(columns);
+    let from_x = RealFftPlanner::<f64>::new().plan_fft_inverse(mx);
     let lags = 2 * nx - 1;
     let scale = 1.0 / (mx as f64 * my as f64);
     let mut sums = vec![0.0; lags * ny];
@@ -103,8 +108,7 @@ pub(super) fn products(surface: &Surface, with_spectrum: bool) -> (Products, Opt
             }
         },
     );
-    let spectrum = with_spectrum.then_some(PowerSpectrum { columns: nx / 2 + 1, ny, power: spectrum });
-    (Products { nx, ny, sums }, spectrum)
+    Products { nx, ny, sums }
 }
 
 #[cfg(test)]
@@ -118,7 +122,7 @@ mod tests {
         let at = |x: usize, y: usize| ((3 * x * x + 7 * y + x * y) % 11) as f64 - 5.0;
         let heights = (0..nx * ny).map(|i| at(i % nx, i / nx)).collect();
         let surface = Surface::new(nx, ny, 1.0, 1.0, heights).expect("a grid");
-        let (products, spectrum) = products(&surface, true);
+        let products = products(&surface);
         for ty in 0..ny {
             for tx in -(nx as i64 - 1)..nx as i64 {
                 let mut sum = 0.0;
@@ -133,7 +137,7 @@ mod tests {
                 assert!((found - sum).abs() < 1e-9, "lag {tx} {ty}: {found} is not {sum}");
             }
         }
-        let spectrum = spectrum.expect("asked for");
+        let spectrum = power(&surface);
         for (fx, fy) in [(0, 0), (1, 0), (2, 3), (3, 4)] {
             let mut z = Complex::new(0.0, 0.0);
             for i in 0..nx * ny {

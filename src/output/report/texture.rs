@@ -14,8 +14,8 @@ pub struct TextureWindow {
     pub title: String,
     /// The chain that was applied: form removal, filters.
     pub chain: String,
-    /// Name, value with its unit, definition of each parameter.
-    pub parameters: Vec<[String; 3]>,
+    /// All parameters.
+    pub parameters: Vec<Parameter>,
     /// What limits trust in the numbers.
     pub warnings: Vec<String>,
     /// A picture of the surface as PNG, if there is one.
@@ -25,6 +25,23 @@ pub struct TextureWindow {
     /// The construction of Sk on that curve.
     pub sk: Option<SkConstruction>,
 }
+
+/// A parameter as it is shown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Symbol of the standard.
+    pub symbol: String,
+    /// Value with its unit, or why there is none.
+    pub value: Result<String, String>,
+    /// What it is.
+    pub definition: String,
+}
+
+/// Parameters that are shown at once; the rest is folded away.
+const FIRST: [&str; 18] = [
+    "Sa", "Sq", "Sz", "Sp", "Sv", "Ssk", "Sku", "Sk", "Spk", "Svk", "Smr1", "Smr2", "Sal", "Str", "Std", "Ssw", "Sdq",
+    "Sdr",
+];
 
 /// Core of the material ratio curve (ISO 25178-2; the least-squares line through the 40 % window of smallest slope).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,26 +67,66 @@ pub fn window(window: &TextureWindow) -> Markup {
             h3 { (window.title) }
             p class="note" { (window.chain) }
             @for warning in &window.warnings { p class="warning" { (warning) } }
-            div class="texture-body" {
-                @if let Some(png) = &window.png {
-                    figure class="chart" {
-                        figcaption { "Surface" }
+            @if let Some(png) = &window.png {
+                figure class="chart" {
+                    figcaption { "Surface" }
+                    // A picture keeps its own white ground and, on a narrow screen, its size: its words stay readable.
+                    div class="picture" tabindex="0" role="group" aria-label=(format!("Surface of {}", window.title)) {
                         img alt=(format!("Surface of {}", window.title)) src=(super::data_url("image/png", png));
                     }
                 }
+            }
+            div class="texture-body" {
                 @if window.material_ratio.len() > 1 { (material_ratio(window)) }
-                div class="table" {
-                    table {
-                        thead { tr { th { "Parameter" } th class="number" { "Value" } } }
-                        tbody {
-                            @for [name, value, definition] in &window.parameters {
-                                tr title=(definition) { th scope="row" { (name) } td class="number" { (value) } }
-                            }
-                        }
+                (first_parameters(window))
+            }
+            @if !window.parameters.is_empty() {
+                details { summary { "All parameters of this window" } (all_parameters(window).markup()) }
+            }
+        }
+    }
+}
+
+/// The best-known parameters, and why some of them do not exist.
+fn first_parameters(window: &TextureWindow) -> Markup {
+    let first: Vec<&Parameter> =
+        FIRST.iter().filter_map(|name| window.parameters.iter().find(|p| p.symbol == *name)).collect();
+    // One reason often holds for several parameters.
+    let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
+    for parameter in &first {
+        let Err(why) = &parameter.value else { continue };
+        match reasons.iter_mut().find(|(reason, _)| reason == why) {
+            Some((_, symbols)) => symbols.push(&parameter.symbol),
+            None => reasons.push((why, vec![&parameter.symbol])),
+        }
+    }
+    html! {
+        div class="first-parameters" {
+            dl {
+                @for parameter in &first {
+                    div title=(parameter.definition) {
+                        dt { (parameter.symbol) }
+                        dd { (parameter.value.as_deref().unwrap_or("–")) }
                     }
                 }
             }
+            @for (reason, symbols) in &reasons { p class="note" { "No " (symbols.join(", ")) ": " (reason) "." } }
         }
+    }
+}
+
+/// Every parameter with its definition, or with the reason why it does not exist.
+fn all_parameters(window: &TextureWindow) -> super::Table {
+    let row = |parameter: &Parameter| match &parameter.value {
+        Ok(value) => vec![parameter.symbol.clone(), value.clone(), parameter.definition.clone()],
+        Err(why) => {
+            vec![parameter.symbol.clone(), "–".to_owned(), format!("{}; none here: {why}", parameter.definition)]
+        }
+    };
+    super::Table {
+        caption: "Parameters after the chain".to_owned(),
+        columns: ["Symbol", "Value", "Definition"].map(str::to_owned).to_vec(),
+        rows: window.parameters.iter().map(row).collect(),
     }
 }
 
@@ -79,7 +136,9 @@ fn material_ratio(window: &TextureWindow) -> Markup {
     const LEFT: f64 = 52.0;
     const RIGHT: f64 = 44.0;
     const BOTTOM: f64 = 268.0;
-    let heights = window.material_ratio.iter().map(|point| point.1).chain(window.sk.iter().flat_map(|sk| sk.line_um));
+    let triangles = |sk: &SkConstruction| [sk.line_um[0] + sk.spk_um, sk.line_um[1] - sk.svk_um];
+    let ends = window.sk.iter().flat_map(|sk| sk.line_um.into_iter().chain(triangles(sk)));
+    let heights = window.material_ratio.iter().map(|point| point.1).chain(ends);
     let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
     let (low, high) = round_range(low, high);
     let x = |percent: f64| LEFT + percent / 100.0 * (WIDTH - LEFT - RIGHT);
@@ -110,7 +169,7 @@ fn material_ratio(window: &TextureWindow) -> Markup {
             line class="dimension" x1=(px(x(100.0) + 12.0)) x2=(px(x(100.0) + 12.0)) y1=(px(y(top))) y2=(px(y(base))) {}
             text class="label" x=(px(x(100.0) + 18.0)) y=(px(0.5 * (y(top) + y(base)) + 4.0)) { "Sk" }
             @if sk.spk_um > 0.0 { text class="label" x=(px(x(0.0) + 6.0)) y=(px(y(top + 0.2 * sk.spk_um))) { "Spk" } }
-            @if sk.svk_um > 0.0 { text class="label end" x=(px(x(100.0) - 6.0)) y=(px(y(base - 0.2 * sk.svk_um))) { "Svk" } }
+            @if sk.svk_um > 0.0 { text class="label" x=(px(x(100.0) + 6.0)) y=(px(y(base) + 15.0)) { "Svk" } }
         }
         path class="curve s0" d=(path(&curve)) {}
         rect class="frame" x=(LEFT) y="10" width=(WIDTH - LEFT - RIGHT) height=(BOTTOM - 10.0) {}
@@ -154,8 +213,11 @@ mod tests {
                 ("Spk", "0.576 µm"),
                 ("Svk", "0 µm"),
             ]
-            .map(|(name, value)| [name.into(), value.into(), "of parabolic marks".into()])
-            .into(),
+            .map(|(symbol, value)| (symbol, Ok(value.to_owned())))
+            .into_iter()
+            .chain([("Str", Err("as along <feed> marks".to_owned()))])
+            .map(|(symbol, value)| Parameter { symbol: symbol.into(), value, definition: "of parabolic marks".into() })
+            .collect(),
             warnings: vec!["fewer than five marks".into()],
             png: None,
             material_ratio: (0..=200).map(|k| f64::from(k) / 200.0).map(|p| (100.0 * p, height(p))).collect(),
@@ -175,6 +237,7 @@ mod tests {
     fn the_construction_is_drawn_where_the_numbers_say() {
         let text = window(&scallops()).into_string();
         assert!(text.contains("tooth 3, &lt;left&gt; flank") && text.contains("fewer than five marks"));
+        assert!(text.contains("No Str: as along &lt;feed&gt; marks."), "the reason stands beside the numbers");
         assert!(text.contains(">Sk<") && text.contains(">Spk<") && !text.contains(">Svk</text>"), "no valley, no name");
         // The equivalent line runs over the whole width, from 0 % at the left to 100 % at the right of the frame.
         assert!(text.contains(r#"class="curve s1" d="M52 "#), "{text}");

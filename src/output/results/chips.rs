@@ -30,6 +30,10 @@ pub struct ChipResults {
     pub largest_thickness: ChipPeak,
     /// Largest cutting force along the stroke.
     pub largest_force: ChipPeak,
+    /// Section of a first stroke at full depth, which the largest values leave out.
+    pub entry_section: Quantity,
+    /// Its cutting force.
+    pub entry_force: Quantity,
     /// Largest torque on the work spindle.
     pub largest_work_torque: ChipPeak,
     /// Largest torque on the cutter spindle.

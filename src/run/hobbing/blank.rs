@@ -1,6 +1,6 @@
 //! The blank field's part of a hobbing run: cut, report, results, table of damage, mesh.
 
-use super::value;
+use super::results::value;
 use crate::error::Result;
 use crate::job::{HobCutter, HobbedBlank};
 use crate::measure::blank_report::{Damage, LEAST_DEPTH_MM, OperationVolume};
@@ -49,8 +49,19 @@ pub fn cut(cutter: &HobCutter, progress: &Progress, interrupt: &Interrupt) -> Re
 /// Files that cannot be written.
 pub fn write(cutter: &HobCutter, whole: &WholeBlank, folder: &OutputFolder) -> Result<()> {
     let columns = [
-        "kind", "operation", "tooth", "side", "zone", "height_mm", "lead_mm", "x_mm", "y_mm", "depth_mm", "volume_mm3",
-        "hob_turn", "hob_tooth",
+        "kind",
+        "operation",
+        "tooth",
+        "side",
+        "zone",
+        "height_mm",
+        "lead_mm",
+        "x_mm",
+        "y_mm",
+        "depth_mm",
+        "volume_mm3",
+        "hob_turn",
+        "hob_tooth",
     ];
     let row = |kind: &'static str, d: &Damage| -> Vec<Cell> {
         vec![
@@ -70,8 +81,7 @@ pub fn write(cutter: &HobCutter, whole: &WholeBlank, folder: &OutputFolder) -> R
         ]
     };
     let gouges = whole.report.gouges.iter().map(|d| row("gouge", d));
-    let rows: Vec<Vec<Cell>> =
-        gouges.chain(whole.report.interference.iter().map(|d| row("interference", d))).collect();
+    let rows: Vec<Vec<Cell>> = gouges.chain(whole.report.interference.iter().map(|d| row("interference", d))).collect();
     write_table(&folder.path("tables/damage.csv")?, &columns, rows)?;
     let passes = cutter.operations.last().map_or(0, crate::passes::HobTeeth::end_pass);
     let mesh = BlankMesh::new(&whole.blank.cut.field, None).mesh;
@@ -101,7 +111,8 @@ pub fn results(cutter: &HobCutter, whole: &WholeBlank) -> Result<Value> {
         .iter()
         .zip(&report.operations)
         .map(|(operation, removed)| {
-            let volume = number(mean(removed.by_passes_mm3), "mm3", "volume that its passes removed, summed pass by pass")?;
+            let volume =
+                number(mean(removed.by_passes_mm3), "mm3", "volume that its passes removed, summed pass by pass")?;
             Ok(json!({ "name": operation.spec.name, "removed_volume": volume }))
         })
         .collect::<Result<Vec<Value>>>()?;

@@ -1,6 +1,6 @@
 //! The hob's load in a run: `tables/hob_load.csv`, bar charts by tooth, and its part of `results.json`.
 
-use super::value;
+use super::results::value;
 use crate::error::Result;
 use crate::job::{HobCutter, HobbedBlank, HobbingJob};
 use crate::measure::hob_load::{OperationLoad, ToothLoad, hoffmeister_of};
@@ -59,8 +59,16 @@ fn labels(job: &HobbingJob) -> Vec<String> {
 }
 
 fn write_load_table(job: &HobbingJob, loads: &[OperationLoad], folder: &OutputFolder) -> Result<()> {
-    let columns =
-        ["operation", "hob_tooth", "axial_mm", "volume_mm3", "volume_share", "largest_thickness_mm", "way_mm", "passes"];
+    let columns = [
+        "operation",
+        "hob_tooth",
+        "axial_mm",
+        "volume_mm3",
+        "volume_share",
+        "largest_thickness_mm",
+        "way_mm",
+        "passes",
+    ];
     let labels = labels(job);
     let rows = job.operations.iter().zip(loads).flat_map(|(operation, of_operation)| {
         let whole_mm3 = of_operation.volume_mm3();

@@ -1,36 +1,83 @@
 //! Deviations of the finished gear as a gear inspector knows them: profile and lead traces, pitch, runout, tooth thickness.
 
 use crate::gear::generation::Side;
-use crate::job::Job;
-use crate::measure::FlankReport;
-use crate::measure::deviation::{Trace, TraceDeviation};
+use crate::measure::GearReport;
+use crate::measure::deviation::{PitchDeviations, Runout, Trace, TraceDeviation};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::quantity::Place;
 use crate::output::report::traces::{TraceColumn, TraceSheet};
 use crate::output::report::{Block, KeyNumber, Section};
 use crate::output::text::significant;
-use crate::run::CutGear;
 use crate::units::UM_PER_MM;
 
 /// Teeth that are traced evenly around the gear, as on a measuring machine.
 const TRACED_TEETH: u32 = 4;
 const SIDES: [(Side, &str); 2] = [(Side::Left, "left flanks"), (Side::Right, "right flanks")];
 
+/// A flank with its traces.
+pub struct Inspected<'a> {
+    /// Tooth, from 1.
+    pub tooth: u32,
+    /// Flank.
+    pub side: Side,
+    /// Profile in the middle of the face, and its deviations.
+    pub profile: (&'a Trace, Option<TraceDeviation>),
+    /// Line along the tooth, and its deviations.
+    pub lead: (&'a Trace, Option<TraceDeviation>),
+}
+
+/// What a gear inspector has found on a gear.
+pub struct Inspection<'a> {
+    /// Flanks in order of teeth.
+    pub flanks: Vec<Inspected<'a>>,
+    /// Pitch deviations of left and right flanks.
+    pub pitch: &'a [Option<PitchDeviations>; 2],
+    /// Places of a probe in the spaces.
+    pub runout: Option<&'a Runout>,
+    /// Thickness of each tooth less half a pitch, arcs of the pitch curve, mm.
+    pub thickness_mm: Vec<Option<f64>>,
+    /// Where the lines along the tooth run.
+    pub lead_place: &'static str,
+    /// What the finished gear is held against.
+    pub target: &'static str,
+}
+
+impl<'a> Inspection<'a> {
+    /// Of a shaped gear of module `module_mm`.
+    pub fn of_shaping(report: &'a GearReport, module_mm: f64) -> Self {
+        let standard_mm = 0.5 * std::f64::consts::PI * module_mm;
+        let flanks = report.flanks.iter().map(|flank| Inspected {
+            tooth: flank.tooth,
+            side: flank.side,
+            profile: (&flank.profile_trace, flank.profile),
+            lead: (&flank.lead_trace, flank.lead),
+        });
+        Self {
+            flanks: flanks.collect(),
+            pitch: &report.pitch,
+            runout: report.runout.as_ref(),
+            thickness_mm: report.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect(),
+            lead_place: "at the pitch curve",
+            target: "the surface that the last operation would leave with infinitely many strokes and no error",
+        }
+    }
+}
+
 /// Traces and charts.
-pub fn section(job: &Job, cut: &CutGear) -> Section {
+pub fn section(inspection: &Inspection) -> Section {
     let mut blocks = vec![
         Block::Heading("Profile, in the middle of the face".to_owned()),
-        Block::Traces(SIDES.map(|(side, name)| profile_sheet(cut, side, name)).into()),
-        Block::Heading("Lead, at the pitch curve".to_owned()),
-        Block::Traces(SIDES.map(|(side, name)| lead_sheet(cut, side, name)).into()),
+        Block::Traces(SIDES.map(|(side, name)| profile_sheet(inspection, side, name)).into()),
+        Block::Heading(format!("Lead, {}", inspection.lead_place)),
+        Block::Traces(SIDES.map(|(side, name)| lead_sheet(inspection, side, name)).into()),
         Block::Note(
             "Four teeth evenly around the gear and those with the largest total deviation of either flank. Heights over the target along its normal; dashed lines bound the evaluated part, the straight line is its mean line. F total, ff form, fH slope deviation, µm."
                 .to_owned(),
         ),
         Block::Heading("Pitch, runout, tooth thickness".to_owned()),
     ];
-    blocks.extend(pitch_charts(job, cut));
+    blocks.extend(pitch_charts(inspection));
     blocks.push(Block::Note(
         "Pitch and thickness are arcs of the pitch curve in the middle of the face. Runout is the place, along the curve's normal, of a probe that touches both flanks of a space there; a round gear's Fr. No tolerance class is given: the standard's classes are for round gears."
             .to_owned(),
@@ -38,13 +85,13 @@ pub fn section(job: &Job, cut: &CutGear) -> Section {
     Section {
         id: "deviations",
         title: "Deviations".to_owned(),
-        lead: "The finished gear against the target: the surface that the last operation would leave with infinitely many strokes and no error.".to_owned(),
+        lead: format!("The finished gear against the target: {}.", inspection.target),
         blocks,
     }
 }
 
 /// The inspector's three figures.
-pub fn key_numbers(cut: &CutGear) -> Vec<KeyNumber> {
+pub fn key_numbers(inspection: &Inspection) -> Vec<KeyNumber> {
     let number = |name: &str, value_mm: Option<f64>, definition: &str, place: Option<Place>| KeyNumber {
         name: name.to_owned(),
         value: value_mm.map_or_else(|| "–".to_owned(), |value| significant(shown_um(value), 3)),
@@ -57,15 +104,12 @@ pub fn key_numbers(cut: &CutGear) -> Vec<KeyNumber> {
         },
         place,
     };
-    let worst = cut
-        .report
+    let worst = inspection
         .flanks
         .iter()
-        .filter_map(|flank| Some((flank, flank.profile?)))
+        .filter_map(|flank| Some((flank, flank.profile.1?)))
         .reduce(|best, next| if next.1.total_mm > best.1.total_mm { next } else { best });
-    let pitch = |pick: fn(&crate::measure::deviation::PitchDeviations) -> f64| {
-        cut.report.pitch.iter().flatten().map(pick).reduce(f64::max)
-    };
+    let pitch = |pick: fn(&PitchDeviations) -> f64| inspection.pitch.iter().flatten().map(pick).reduce(f64::max);
     vec![
         number(
             "Profile deviation Fα, largest",
@@ -80,19 +124,19 @@ pub fn key_numbers(cut: &CutGear) -> Vec<KeyNumber> {
         ),
         number(
             "Single pitch deviation fp, largest",
-            pitch(crate::measure::deviation::PitchDeviations::largest_single_mm),
+            pitch(PitchDeviations::largest_single_mm),
             "largest single pitch deviation of either flank, arc on the pitch curve",
             None,
         ),
         number(
             "Total pitch deviation Fp",
-            pitch(crate::measure::deviation::PitchDeviations::total_mm),
+            pitch(PitchDeviations::total_mm),
             "range of the cumulative pitch deviations, larger of both flanks",
             None,
         ),
         number(
             "Runout Fr",
-            cut.report.runout.as_ref().map(crate::measure::deviation::Runout::total_mm),
+            inspection.runout.map(Runout::total_mm),
             "range of a probe's place along the pitch curve's normal over all spaces",
             None,
         ),
@@ -105,21 +149,25 @@ fn shown_um(value_mm: f64) -> f64 {
 }
 
 /// Flanks of one side to be traced: evenly around, and the teeth with the largest `total`.
-fn traced(cut: &CutGear, side: Side, total: impl Fn(&FlankReport) -> Option<f64>) -> Vec<&FlankReport> {
-    let teeth = cut.report.thickness.len() as u32;
+fn traced<'a>(
+    inspection: &'a Inspection,
+    side: Side,
+    total: impl Fn(&Inspected) -> Option<f64>,
+) -> Vec<&'a Inspected<'a>> {
+    let teeth = inspection.thickness_mm.len() as u32;
     let mut numbers: Vec<u32> = (0..TRACED_TEETH.min(teeth)).map(|k| 1 + k * teeth / TRACED_TEETH.min(teeth)).collect();
     for of in [Side::Left, Side::Right] {
         let totals =
-            cut.report.flanks.iter().filter(|flank| flank.side == of).filter_map(|f| Some((f.tooth, total(f)?)));
+            inspection.flanks.iter().filter(|flank| flank.side == of).filter_map(|f| Some((f.tooth, total(f)?)));
         numbers.extend(totals.reduce(|best, next| if next.1 > best.1 { next } else { best }).map(|found| found.0));
     }
     numbers.sort_unstable();
     numbers.dedup();
-    let flank = |tooth: &u32| cut.report.flanks.iter().find(|f| f.tooth == *tooth && f.side == side);
+    let flank = |tooth: &u32| inspection.flanks.iter().find(|f| f.tooth == *tooth && f.side == side);
     numbers.iter().filter_map(flank).collect()
 }
 
-fn column(flank: &FlankReport, trace: &Trace, deviation: Option<TraceDeviation>, line: &str) -> TraceColumn {
+fn column(flank: &Inspected, (trace, deviation): (&Trace, Option<TraceDeviation>), line: &str) -> TraceColumn {
     let um = |value: f64| value * UM_PER_MM;
     let figure = |name: &str, value: Option<f64>| (format!("{name}{line}"), value.map(shown_um));
     TraceColumn {
@@ -134,33 +182,32 @@ fn column(flank: &FlankReport, trace: &Trace, deviation: Option<TraceDeviation>,
     }
 }
 
-fn profile_sheet(cut: &CutGear, side: Side, name: &str) -> TraceSheet {
-    let flanks = traced(cut, side, |flank| flank.profile.map(|p| p.total_mm));
+fn profile_sheet(inspection: &Inspection, side: Side, name: &str) -> TraceSheet {
+    let flanks = traced(inspection, side, |flank| flank.profile.1.map(|p| p.total_mm));
     TraceSheet {
         title: format!("Profile, {name}"),
         place_name: "u from the form point (below) to the tip".to_owned(),
         place_unit: "mm".to_owned(),
         unit: "µm".to_owned(),
         mirrored: side == Side::Left,
-        traces: flanks.into_iter().map(|f| column(f, &f.profile_trace, f.profile, "α")).collect(),
+        traces: flanks.into_iter().map(|f| column(f, f.profile, "α")).collect(),
     }
 }
 
-fn lead_sheet(cut: &CutGear, side: Side, name: &str) -> TraceSheet {
-    let flanks = traced(cut, side, |flank| flank.lead.map(|l| l.total_mm));
+fn lead_sheet(inspection: &Inspection, side: Side, name: &str) -> TraceSheet {
+    let flanks = traced(inspection, side, |flank| flank.lead.1.map(|l| l.total_mm));
     TraceSheet {
         title: format!("Lead, {name}"),
         place_name: "v along the tooth".to_owned(),
         place_unit: "mm".to_owned(),
         unit: "µm".to_owned(),
         mirrored: side == Side::Left,
-        traces: flanks.into_iter().map(|f| column(f, &f.lead_trace, f.lead, "β")).collect(),
+        traces: flanks.into_iter().map(|f| column(f, f.lead, "β")).collect(),
     }
 }
 
-fn pitch_charts(job: &Job, cut: &CutGear) -> Vec<Block> {
-    let report = &cut.report;
-    let teeth = report.thickness.len();
+fn pitch_charts(inspection: &Inspection) -> Vec<Block> {
+    let teeth = inspection.thickness_mm.len();
     let categories: Vec<String> = (1..=teeth).map(|tooth| tooth.to_string()).collect();
     let bars = |title: &str, value_name: &str, series: Vec<BarSeries>| {
         Block::Bars(BarChart {
@@ -174,7 +221,7 @@ fn pitch_charts(job: &Job, cut: &CutGear) -> Vec<Block> {
     };
     let missing = || vec![None; teeth];
     let single = |index: usize| {
-        let values = report.pitch[index]
+        let values = inspection.pitch[index]
             .as_ref()
             .map_or_else(missing, |p| p.single_mm.iter().map(|&f| Some(shown_um(f))).collect());
         BarSeries { name: SIDES[index].1.to_owned(), values }
@@ -198,7 +245,7 @@ fn pitch_charts(job: &Job, cut: &CutGear) -> Vec<Block> {
             })
         })
     };
-    let cumulative: Vec<LineSeries> = report
+    let cumulative: Vec<LineSeries> = inspection
         .pitch
         .iter()
         .zip(SIDES)
@@ -210,7 +257,7 @@ fn pitch_charts(job: &Job, cut: &CutGear) -> Vec<Block> {
             ))
         })
         .collect();
-    let runout: Vec<LineSeries> = report
+    let runout: Vec<LineSeries> = inspection
         .runout
         .iter()
         .map(|r| {
@@ -220,10 +267,9 @@ fn pitch_charts(job: &Job, cut: &CutGear) -> Vec<Block> {
             )
         })
         .collect();
-    let standard_mm = 0.5 * std::f64::consts::PI * job.scene.gear.module_mm;
     let thickness = BarSeries {
         name: "teeth".to_owned(),
-        values: report.thickness.iter().map(|t| t.map(|t| shown_um(t.arc_mm - standard_mm))).collect(),
+        values: inspection.thickness_mm.iter().map(|t| t.map(shown_um)).collect(),
     };
     let mut blocks =
         vec![bars("Single pitch deviation fp", "arc from the tooth before, less π m", vec![single(0), single(1)])];

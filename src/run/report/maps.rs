@@ -1,11 +1,11 @@
 //! The gear and its maps for the page's viewer.
 
 use crate::error::Result;
-use crate::job::Job;
+use crate::job::GearJob;
 use crate::output::colormap::ColourScale;
 use crate::output::flank_maps::FlankMaps;
 use crate::output::report::viewer::{Thinning, Viewer, ViewerFlank, ViewerQuantity};
-use crate::run::{CutGear, files, map_operations};
+use crate::run::{files, map_operations};
 use crate::surface::view_mesh::ViewMesh;
 use crate::units::UM_PER_MM;
 
@@ -13,28 +13,33 @@ use crate::units::UM_PER_MM;
 ///
 /// # Errors
 /// No flank is generated on some tooth.
-pub fn viewer(job: &Job, cut: &CutGear) -> Result<Viewer> {
+pub fn viewer(job: &dyn GearJob, maps: &[FlankMaps]) -> Result<Viewer> {
     let mesh = ViewMesh::new(job)?;
     let flanks = mesh.flanks.into_iter().map(|flank| {
-        let map = cut.maps.iter().find(|map| map.tooth == flank.tooth && map.side == flank.side);
-        let leads = flank.leads_mm;
+        let map = maps.iter().find(|map| map.tooth == flank.tooth && map.side == flank.side);
+        let leads = &flank.leads_mm;
         ViewerFlank {
             tooth: flank.tooth,
             side: flank.side.name().to_owned(),
             grid: map.map(|map| map.grid.clone()),
-            places_mm: flank.arcs_mm.iter().flat_map(|&arc| leads.map(|lead| [arc as f32, lead as f32])).collect(),
+            places_mm: flank
+                .arcs_mm
+                .iter()
+                .flat_map(|&arc| leads.iter().map(move |&lead| [arc as f32, lead as f32]))
+                .collect(),
             triangles: flank.triangles,
         }
     });
-    Ok(Viewer { flanks: flanks.collect(), quantities: quantities(job, cut), body: mesh.body })
+    Ok(Viewer { flanks: flanks.collect(), quantities: quantities(job, maps), body: mesh.body })
 }
 
-fn quantities(job: &Job, cut: &CutGear) -> Vec<ViewerQuantity> {
-    let last = job.operations.len() - 1;
-    let finishing = &job.finishing().spec.name;
-    let over = |values: &dyn Fn(&FlankMaps) -> Vec<f32>| cut.maps.iter().map(values).collect::<Vec<_>>();
+fn quantities(job: &dyn GearJob, maps: &[FlankMaps]) -> Vec<ViewerQuantity> {
+    let operations = map_operations(job);
+    let last = operations.len() - 1;
+    let finishing = &operations[last].name;
+    let over = |values: &dyn Fn(&FlankMaps) -> Vec<f32>| maps.iter().map(values).collect::<Vec<_>>();
     let um = |values: &[f32]| values.iter().map(|value| value * UM_PER_MM as f32).collect::<Vec<_>>();
-    let mut quantities: Vec<ViewerQuantity> = map_operations(job)[..last]
+    let mut quantities: Vec<ViewerQuantity> = operations[..last]
         .iter()
         .enumerate()
         .map(|(index, operation)| ViewerQuantity {
@@ -52,7 +57,7 @@ fn quantities(job: &Job, cut: &CutGear) -> Vec<ViewerQuantity> {
         name: format!("Deviation after {finishing}"),
         definition: "Mean height of each cell over the target: what remains when the feed marks are averaged. Red: material left; blue: cut too deep.".to_owned(),
         unit: "µm".to_owned(),
-        scale: files::deviation_scale(cut),
+        scale: files::deviation_scale(maps),
         thinning: Thinning::Mean,
         values: over(&|map| um(&map.deviation_mm)),
     });

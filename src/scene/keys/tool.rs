@@ -56,6 +56,14 @@ pub(super) static SECTIONS: &[Section] = &[
                 teach: "Thickness taken off every cutter tooth on the pitch circle, as on a roughing cutter.",
             },
             Key {
+                name: "rake_angle_deg",
+                kind: Kind::Number(Range::closed(-20.0, 30.0)),
+                unit: "deg",
+                default: Default::Number(0.0),
+                example: "5.0",
+                teach: "Top rake of the dished rake face: inclines the flanks' edges and changes cutting forces, not shapes (the profile is the edge's projection). 0: a flat face square to the stroke.",
+            },
+            Key {
                 name: "runout_um",
                 kind: Kind::Number(Range::closed(0.0, 1000.0)),
                 unit: "um",

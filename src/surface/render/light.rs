@@ -26,6 +26,21 @@ const LAMP_RADIUS: f64 = 0.02;
 /// Rays start this share of the stage's size off the surface, so that they do not meet it again.
 const OFF_SURFACE: f64 = 2e-6;
 
+/// Light of the open sky on a white surface that faces up, before its share: with the studio's lamp beside it, clay in the open comes out at the middle of the grey scale.
+const SKY_GAIN: f64 = 1.7;
+/// Share by which faces that look down get less of the sky than faces that look up, as in a room: faces turned away from the lamp keep their shape.
+const SKY_FROM_ABOVE: f64 = 0.25;
+/// How narrow highlights are (the exponent of Blinn, 1977), and how bright at full gloss.
+const HIGHLIGHT_POWER: i32 = 40;
+const HIGHLIGHT: f64 = 0.5;
+/// Light up to here comes out as it is; more is bent towards white and never reaches it, so that the brightest marks keep their shape.
+const KNEE: f64 = 0.6;
+/// The studio's lamp: so much towards the viewer, up, and to the left; its share of the light; how far bodies take the sky from each other, as a share of their size; and its brightness.
+const STUDIO_LAMP: [f64; 3] = [0.9, 0.65, 0.75];
+const STUDIO_LAMP_SHARE: f64 = 0.48;
+const STUDIO_SKY_REACH: f64 = 0.25;
+const STUDIO_GAIN: f64 = 1.55;
+
 /// How a stage is lit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lights {
@@ -42,8 +57,9 @@ pub struct Lights {
 impl Lights {
     /// A lamp over the viewer's left shoulder and a wide sky: for whole bodies.
     pub fn studio(camera: &Camera) -> Self {
-        let lamp = (0.9 * camera.towards + 0.65 * camera.up - 0.75 * camera.right).normalize();
-        Self { lamp, lamp_share: 0.48, sky_reach: 0.25, gain: 1.55 }
+        let [towards, up, left] = STUDIO_LAMP;
+        let lamp = (towards * camera.towards + up * camera.up - left * camera.right).normalize();
+        Self { lamp, lamp_share: STUDIO_LAMP_SHARE, sky_reach: STUDIO_SKY_REACH, gain: STUDIO_GAIN }
     }
 }
 
@@ -102,8 +118,9 @@ pub fn render(stage: &Stage, camera: &Camera, lights: &Lights, interrupt: &Inter
         .zip(&open)
         .map(|((here, _), open)| {
             let empty = f64::from(SIDE * SIDE - here.met);
-            let light = (here.lamp + here.sky * f64::from(*open) + DVec3::splat(empty)) / f64::from(SIDE * SIDE);
-            light.to_array().map(srgb)
+            let met = f64::from(here.met.max(1));
+            let light = ((here.lamp + here.sky * f64::from(*open)) / met).map(shouldered);
+            ((light * f64::from(here.met) + DVec3::splat(empty)) / f64::from(SIDE * SIDE)).to_array().map(srgb)
         })
         .collect();
     let found = || pixels.iter().map(|(_, found)| found.as_ref());
@@ -174,12 +191,11 @@ fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y
         let cosine = found.normal.dot(lamp);
         if cosine > 0.0 && found.flat.dot(lamp) > 0.0 && !stage.is_blocked(place_mm, lamp, far_mm) {
             let half = (lamp + camera.towards).normalize();
-            let highlight = found.gloss * found.normal.dot(half).max(0.0).powi(40);
-            gathered.lamp += lights.lamp_share * (lights.gain * cosine * colour + DVec3::splat(0.5 * highlight));
+            let highlight = found.gloss * found.normal.dot(half).max(0.0).powi(HIGHLIGHT_POWER);
+            gathered.lamp += lights.lamp_share * (lights.gain * cosine * colour + DVec3::splat(HIGHLIGHT * highlight));
         }
-        // The sky is a little brighter above than below, as in a room: faces turned away from the lamp keep their shape.
-        let sky = 0.75 + 0.25 * found.normal.dot(camera.up);
-        gathered.sky += (1.0 - lights.lamp_share) * 1.7 * sky * colour;
+        let sky = 1.0 - SKY_FROM_ABOVE + SKY_FROM_ABOVE * found.normal.dot(camera.up);
+        gathered.sky += (1.0 - lights.lamp_share) * SKY_GAIN * sky * colour;
         let tangent = found.normal.any_orthonormal_vector();
         let bitangent = found.normal.cross(tangent);
         for _ in 0..SKY_RAYS {
@@ -210,6 +226,12 @@ fn hash(x: u32, y: u32) -> u32 {
     h = (h ^ (h >> 16)).wrapping_mul(0x85EB_CA6B);
     h = (h ^ (h >> 13)).wrapping_mul(0xC2B2_AE35);
     (h ^ (h >> 16)) >> 12
+}
+
+/// Light with its bright end bent towards white.
+fn shouldered(light: f64) -> f64 {
+    let (over, room) = (light - KNEE, 1.0 - KNEE);
+    if over > 0.0 { KNEE + room * (1.0 - (-over / room).exp()) } else { light }
 }
 
 /// Linear light to an sRGB component (IEC 61966-2-1).

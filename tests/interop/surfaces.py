@@ -1,6 +1,6 @@
-"""Heights and spacing of one surface through files, from gearcut to other programs and back.
+"""Heights and spacing of one surface through files, from gearcut to other programs and back; and its parameters in all of them.
 
-The surface is asymmetric in x and y, rows and columns differ in number and spacing, and one copy has a hole: nothing can be
+The surface that travels is asymmetric in x and y, rows and columns differ in number and spacing, and one copy has a hole: nothing can be
 flipped, transposed or scaled unseen.
 """
 
@@ -15,6 +15,7 @@ import warnings
 import numpy as np
 
 warnings.simplefilter("ignore")
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 DX_UM, DY_UM = 2.0, 3.0
 ROWS, COLUMNS = 7, 11
 
@@ -121,8 +122,80 @@ def write_with_x3pio(z, folder):
     yield path
 
 
+# surfalize's name and arguments where ours is a function's value.
+CALLS = {"Smr(0)": ("Smr", 0.0), "Sdc(10,80)": ("Sdc", 10, 80)}
+CALLS |= {f"{name}({p})": (name, p) for name in ("Smc", "Vm", "Vv") for p in (10, 50, 80)}
+# Same sums over the same points: rounding alone.
+EXACT = "Sa Sq Ssk Sku Sp Sv Sz Ssw Sdq Sdr Spc S10z S5p S5v".split()
+# surfalize's material ratio curve has 10,000 quantiles, gearcut's all heights.
+CURVE = "Sk Spk Svk Smr1 Smr2 Spkx Svkx Sxp Vmp Vmc Vvc Vvv".split() + list(CALLS)
+# Where the autocorrelation falls to 0.2: straight lines between lags here, cubic splines along rays there.
+BORDER = ["Sal", "Str"]
+
+
+def compare_parameters(program, path, defined):
+    """One surface evaluated by gearcut, surfalize and SurfaceTopography; every parameter that exists must agree."""
+    import surfalize
+    from SurfaceTopography import open_topography
+
+    ours = json.loads(gearcut(program, path, "--form", "none", "--json"))["parameters"]
+    value = lambda symbol: ours[symbol]["value"]  # noqa: E731
+    surface = surfalize.Surface.load(path).center()
+    name = os.path.basename(path)
+    worst = {}
+
+    def agree(group, symbol, theirs, expected, tolerance, floor=0.0):
+        if expected is None or np.isnan(theirs):
+            if not (expected is None and np.isnan(theirs)):
+                raise SystemExit(f"{name}: {symbol} is {expected} here and {theirs} there")
+            return
+        off = abs(theirs - expected) / max(abs(expected), floor, 1e-300)
+        if off > tolerance:
+            raise SystemExit(f"{name}: {symbol} is {expected} here and {theirs} there")
+        worst[group] = max(worst.get(group, (0.0, 0))[0], off), worst.get(group, (0.0, 0))[1] + 1
+
+    def theirs(symbol):
+        method, *arguments = CALLS.get(symbol, (symbol,))
+        return float(getattr(surface, method)(*arguments))
+
+    for symbol in EXACT:
+        agree("sums over points", symbol, theirs(symbol), value(symbol), 1e-9)
+    for symbol in CURVE:
+        # Heights next to the mean plane have no relative accuracy: a twentieth of Sq counts as one.
+        floor = 0.05 * value("Sq") if ours[symbol]["unit"] == "um" else 0.0
+        agree("material ratio curve", symbol, theirs(symbol), value(symbol), 5e-3, floor)
+    for symbol in BORDER:
+        agree("autocorrelation", symbol, theirs(symbol), value(symbol), 5e-3)
+    # Where the programs differ by definition, the difference is the one that is known.
+    nx, ny = surface.size
+    agree("known differences", "Spd", theirs("Spd"), value("Spd") * nx * ny / ((nx - 1) * (ny - 1)), 1e-9)
+    for symbol in ("Sak1", "Sak2"):  # areas over a ratio in per cent there, volumes per area here
+        agree("known differences", symbol, theirs(symbol), 100 * value(symbol), 5e-3)
+    turned = (180 - theirs("Std") - value("Std") + 90) % 180 - 90  # its y points up the map; classes of half a degree
+    if abs(turned) > 0.5:
+        raise SystemExit(f"{name}: Std is {value('Std')} here and {theirs('Std')} there")
+    topography = open_topography(path).topography().detrend("center").to_unit("µm")
+    agree("SurfaceTopography", "Sq", topography.rms_height_from_area(), value("Sq"), 1e-9)
+    # Its gradient averages both directions over the same points.
+    agree("SurfaceTopography", "Sdq", topography.rms_gradient(), value("Sdq"), 1e-3)
+    for group, (off, count) in worst.items():
+        print(f"ok   {name + ', ' + group:58s} {off:.1e}, {count} compared")
+    missing = [symbol for symbol in defined if value(symbol) is None]
+    if missing:
+        raise SystemExit(f"{name}: no {', '.join(missing)}, so that nothing was compared")
+
+
 def main(program, keep):
     folder = tempfile.mkdtemp(prefix="gearcut_interop_")
+    # A flank as gearcut cuts it, and heights of many lengths with hills that lie inside.
+    scene = os.path.join(ROOT, "tests", "browser", "scene.toml")
+    out = os.path.join(folder, "gear")
+    subprocess.run([program, "cut", scene, "--backend", "cpu", "--quiet", "--out", out], check=True)
+    compare_parameters(program, os.path.join(out, "texture", "finish", "tooth_03_left.x3p"), ["Sal", "Sk", "Vmp"])
+    rough = os.path.join(folder, "gaussian.x3p")
+    source = os.path.join(ROOT, "tests", "data", "topography", "p6_gauss_isotropic.npy")
+    gearcut(program, source, "--spacing-um", "1", "--save", rough)
+    compare_parameters(program, rough, ["Str", "Spc", "S10z"])
     for hole in (False, True):
         z = heights(hole)
         csv = os.path.join(folder, "given.csv")

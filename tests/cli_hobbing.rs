@@ -1,0 +1,155 @@
+//! Hobbing from the command line: bad input explained, and everything that a run gives back.
+
+#[path = "common/command.rs"]
+mod command;
+
+use command::gearcut;
+use serde_json::Value;
+
+const PLAIN: &str = "scenes/hobbing/third_order_plain.toml";
+const DIAGONAL: &str = "scenes/hobbing/third_order_diagonal.toml";
+
+#[test]
+fn ridges_above_their_tolerance_are_warned_about_with_their_height() {
+    // f^2 sin(alpha) / (8 R_c) with f = 12 / cos(lambda), sin(lambda) = 3 / 80, R_c = 40 - 3 mm: 166.6 um; 10 um are allowed, a feed of 12 sqrt(10 / 166.6) mm leaves them.
+    let coarse = [
+        "--set",
+        "operation.finish.axial_feed_mm_per_revolution=12",
+        "--set",
+        "operation.finish.ridge_tolerance_um=10",
+    ];
+    let outcome = gearcut(&[&["check", "scenes/hobbing/circular_spur.toml"][..], &coarse].concat()).done();
+    assert!(
+        outcome.err.contains("marks up to 167 um high, 10.0 um are allowed (ridge_tolerance_um): feed at most 2.94 mm"),
+        "{}",
+        outcome.err
+    );
+}
+
+#[test]
+fn what_cannot_be_hobbed_is_refused_with_the_reason_and_a_way_out() {
+    for (scene, setting, words) in [
+        (
+            PLAIN,
+            "gear.pitch_curve.ellipse.eccentricity=0.2",
+            &["gear.pitch_curve", "hollow", "straight line", "convex"][..],
+        ),
+        (
+            DIAGONAL,
+            "operation.finish.linkage.hobbing_diagonal.stroke_mm=90",
+            &["stroke_mm", "full contact", "longer hob"],
+        ),
+        (DIAGONAL, "operation.finish.linkage.hobbing_diagonal.strategy=one_way", &["mm of shift", "reciprocating"]),
+        (PLAIN, "tool.hob.starts=7", &["lead_angle_deg", "fewer starts"]),
+        (PLAIN, "tool.hob.length_mm=40", &["whole contact", "longer hob"]),
+    ] {
+        gearcut(&["check", scene, "--set", setting, "--set", "operation.finish.axial_feed_mm_per_revolution=1.5"])
+            .failed(1, words);
+    }
+}
+
+/// A small gear, coarse enough for seconds.
+const SMALL: [&str; 11] = [
+    "gear.module_mm=2",
+    "gear.helix_angle_deg=15",
+    "gear.face_width_mm=6",
+    "tool.hob.length_mm=60",
+    "tool.hob.tip_radius_mm=0.3",
+    "operation.finish.axial_feed_mm_per_revolution=1.5",
+    "fields.flank.profile_spacing_um=50",
+    "fields.flank.lead_spacing_um=250",
+    "fields.blank.spacing_mm=0.3",
+    "output.mesh_spacing_mm=0.25",
+    "output.gcode_contour_error_um=10",
+];
+
+fn cut(folder: &std::path::Path, scene: &str, more: &[&str]) -> Value {
+    let settings: Vec<&str> = SMALL.iter().chain(more).flat_map(|setting| ["--set", setting]).collect();
+    let out = folder.display().to_string();
+    let arguments = [&["cut", scene, "--backend", "cpu", "--json", "--out", &out][..], &settings].concat();
+    serde_json::from_str(&gearcut(&arguments).done().out).expect("results")
+}
+
+fn number(value: &Value) -> f64 {
+    value["value"].as_f64().unwrap_or_else(|| panic!("{value}"))
+}
+
+#[test]
+fn a_hobbed_gear_comes_with_meshes_charts_marks_points_and_programs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("gear");
+    let results =
+        cut(&out, "scenes/hobbing/circular_spur.toml", &["gear.teeth=16", "tool.hob.reference_diameter_mm=50"]);
+    for file in [
+        "mesh/gear.stl",
+        "mesh/gear.ply",
+        "mesh/gear.glb",
+        "mesh/flanks/tooth_16_right.ply",
+        "pictures/gear.png",
+        "pictures/offset_curves.png",
+        "pictures/passes_finish.png",
+        "deviation/tooth_01_left.png",
+        "tables/flanks.csv",
+        "tables/marks.csv",
+        "tables/offset_curves.csv",
+        "axes/finish.csv",
+        "axes/finish_velocities.svg",
+        "axes/finish.ngc",
+        "axes/finish_gearbox.ngc",
+        "report.html",
+    ] {
+        assert!(out.join(file).metadata().is_ok_and(|data| data.len() > 100), "{file}");
+    }
+    let table = |name: &str| std::fs::read_to_string(out.join("tables").join(name)).expect("a table");
+    // Five curves cross both flanks of 16 teeth.
+    assert_eq!(table("offset_curves.csv").lines().count(), 1 + 5 * 32);
+    let curves = &results["offset_curves"];
+    assert_eq!(curves["points"]["value"], 160);
+    // A round gear: errors in x and y spread alike, and their frequencies are those of all points.
+    let [x, y] = ["error_x", "error_y"].map(|key| number(&curves[key]["sigma"]));
+    assert!(x > 0.1 && (x / y - 1.0).abs() < 0.2, "{x} {y}");
+    let frequencies = curves["error_x"]["frequencies"].as_array().expect("seven");
+    assert_eq!(frequencies.iter().map(|f| f.as_u64().expect("a count")).sum::<u64>(), 160);
+    // Marks of one feed and one gash on every flank alike; both ways agree.
+    let marks = results["marks"].as_array().expect("flanks");
+    assert!(marks.len() >= 2);
+    for step in marks.iter().flat_map(|flank| flank["steps"].as_array().expect("two")) {
+        let [known, seen] = ["kinematic", "surface"].map(|key| number(&step[key]["length"]));
+        assert!((seen / known - 1.0).abs() < 0.05, "{step}");
+    }
+    // Every pitch deviation is less than the marks are high.
+    let highest = number(&results["headline"]["highest_mark"]);
+    assert!(number(&results["headline"]["single_pitch_deviation"]) < 2.0 * highest);
+    let texture = results["texture"].as_array().expect("windows");
+    assert!(
+        !texture.is_empty() && number(&texture[0]["parameters"]["Sz"]) <= 1.1 * highest,
+        "{}",
+        texture[0]["parameters"]["Sz"]
+    );
+    let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
+    for words in
+        ["Cutting marks", "Points on five curves", "Axis motion", "15.0000° right-hand", "hob tooth along the thread"]
+    {
+        assert!(page.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn the_printed_linkage_gives_no_program_and_no_closed_body() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("gear");
+    let results = cut(
+        &out,
+        PLAIN,
+        &[
+            "gear.teeth=24",
+            "gear.pitch_curve.ellipse.eccentricity=0.03",
+            "operation.finish.linkage.hobbing.form=as_printed",
+        ],
+    );
+    assert!(number(&results["headline"]["deepest_cut"]) > 10.0, "the printed form cuts into the target");
+    for file in ["axes/finish.ngc", "axes/finish_gearbox.ngc", "mesh/gear.stl"] {
+        assert!(!out.join(file).exists(), "{file}");
+    }
+    assert!(out.join("report.html").exists() && out.join("axes/finish.csv").exists());
+}
