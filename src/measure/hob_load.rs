@@ -3,7 +3,7 @@
 //! In: what every pass took of the blank field (all spaces, the whole face, approach and overrun). Out: for every tooth the volume taken, the largest uncut chip thickness and the way cut.
 //!
 //! **Volume**: lengths taken from the rays of both families, their mean. **Thickness**: in a slice, the distance of the points of the new surface from the tangents at the nearest points of the old one, times the cosine
-//! between slice and swept surface; the largest. Points stand where rays end. **Way cut**: for each pass the slices in which it takes anything,
+//! between slice and swept surface; the largest that two rays of a chip see. Points stand where rays end, so chips much thinner than the rays are apart are told within a third or so. **Way cut**: for each pass the slices in which it takes anything,
 //! each worth the tip's way through the slice's share of the face.
 //!
 //! **Ledger.** The same volumes by another road, space by space: [`SpaceLedger`] stands rays on the pitch curve along its normals, from under the root to the blank's outline. A hob tooth widens from tip to

@@ -89,7 +89,9 @@ impl HobSections {
         if passes.first().is_some_and(Sweeping::is_turned_over) {
             nodes_mm.reverse();
             rates_mm.reverse();
-            rates_mm.iter_mut().for_each(|[from, to]| (*from, *to) = (-*to, -*from));
+            for rates in &mut rates_mm {
+                *rates = [-rates[1], -rates[0]];
+            }
         }
         let widest_mm = nodes_mm.iter().map(|node| node.y.abs()).fold(0.0, f64::max);
         let twist_rad_per_mm = set.rake_twist_rad_per_mm;

@@ -156,13 +156,14 @@ impl ChipSurfaces {
         }
     }
 
-    /// Largest distance of the new surface from the tangents at the nearest points of the old one, across the swept surface.
+    /// Second largest distance of points of the new surface from the tangents at the nearest points of the old one, across the swept surface: what one ray alone sees is a corner.
     fn thickness_mm(&self, section: &SweptSection) -> f64 {
         let thickness = self.new.iter().filter_map(|[at, normal]| {
-            let nearest =
-                self.old.iter().min_by(|a, b| a[0].distance_squared(*at).total_cmp(&b[0].distance_squared(*at)))?;
+            let distance = |old: &[DVec2; 2]| old[0].distance_squared(*at);
+            let nearest = self.old.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
             Some((nearest[0] - *at).dot(nearest[1]).abs() * section.upright(*normal))
         });
-        thickness.fold(0.0, f64::max)
+        let largest = thickness.fold([0.0_f64; 2], |[first, second], mm| [first.max(mm), second.max(mm.min(first))]);
+        largest[1]
     }
 }
