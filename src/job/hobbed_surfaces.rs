@@ -47,6 +47,10 @@ impl GearJob for HobCutter<'_> {
         self.operations.last().map_or(0, crate::passes::HobTeeth::end_pass)
     }
 
+    fn marks_follow_along_tooth(&self, _operation: usize) -> bool {
+        true // every hob tooth cuts a facet that ends along the tooth, too
+    }
+
     fn profile_length_mm(&self, tooth: u32, side: Side) -> Result<f64> {
         Ok(self.target(tooth, side)?.length_mm())
     }
