@@ -6,6 +6,7 @@
 mod blank;
 pub mod gear_job;
 pub mod hobbed;
+mod hobbed_blank;
 mod hobbed_surfaces;
 pub mod hobbing;
 mod shaped_surfaces;
@@ -18,6 +19,7 @@ use crate::scene::model::Process;
 pub use blank::CutBlank;
 pub use gear_job::GearJob;
 pub use hobbed::{HobCutter, HobbedFlank};
+pub use hobbed_blank::HobbedBlank;
 pub use hobbing::HobbingJob;
 pub use shaping::{CutFlank, Job, PreparedOperation};
 

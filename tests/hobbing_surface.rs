@@ -8,7 +8,7 @@ use gearcut::dexel::SpatialField;
 use gearcut::gear::generation::Side;
 use gearcut::gear::rack_generation::RackGeneration;
 use gearcut::linkage::hobbing::marks::Marks;
-use gearcut::measure::hob_load::{LedgerGrid, ToothLoad, of_space};
+use gearcut::measure::hob_load::{LedgerGrid, SpaceLedger, ToothLoad};
 use gearcut::measure::marks::{autocorrelation_steps, between_rad};
 use gearcut::passes::SweepPlan;
 use gearcut::scene::model::GashForm;
@@ -184,18 +184,19 @@ fn teeth_take_their_shares() {
         // The tip reaches 51 mm ahead of the hob's middle: 21 feeds; nothing is cut on the far side.
         let passes = case.passes([-24.0 * cycle, 6.0 * cycle]);
         let module = case.normal_module_mm / case.helix_angle_rad.cos();
-        let grid = LedgerGrid { slices_mm: vec![0.0], spacing_mm: 0.5, heights_mm: [-10.5, 8.0] };
+        // One slice that stands for a millimetre: volumes in mm3 are areas in mm2.
+        let grid = LedgerGrid { slices_mm: vec![0.0], slice_width_mm: 1.0, spacing_mm: 0.5, heights_mm: [-10.5, 8.0] };
         let mut loads = vec![ToothLoad::default(); case.hob.teeth.len()];
         for &space in &spaces {
             let arc = |z: f64| f64::from(space) * PI * module + case.gear_hand * case.helix_angle_rad.tan() * z;
-            let (of, stats) = of_space(&case.curve, &passes, case.hob.edge(), &grid, PI * module, arc);
+            let (of, stats) = SpaceLedger::new(&case.curve, &grid, PI * module, arc).cut(&passes, &case.hob);
             assert_eq!(stats.unconverged, 0);
             for (sum, load) in loads.iter_mut().zip(&of) {
-                sum.area_mm2 += load.area_mm2;
+                sum.volume_mm3 += load.volume_mm3;
                 sum.thickness_mm = sum.thickness_mm.max(load.thickness_mm);
             }
         }
-        let total: f64 = loads.iter().map(|load| load.area_mm2).sum();
+        let total: f64 = loads.iter().map(|load| load.volume_mm3).sum();
         let per_space = total / spaces.len() as f64;
         let wanted = &file[name];
         println!("{name}: {per_space:.2} mm2 per space against {}", wanted["area_per_space"]);
@@ -206,7 +207,7 @@ fn teeth_take_their_shares() {
             // Count from the tooth at the pitch point: gash passages, growing towards the leaving end.
             let got: f64 = (0..loads.len())
                 .filter(|&i| case.hob.teeth[i].passage as f64 == *j)
-                .map(|i| loads[i].area_mm2 / total)
+                .map(|i| loads[i].volume_mm3 / total)
                 .sum();
             worst = worst.max((got - share).abs());
             println!("  j {j}: {got:.4} against {share:.4}");

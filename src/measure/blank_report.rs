@@ -13,12 +13,13 @@ use super::gear_place::{GearPlace, Zone};
 use super::stroke_faults::{LEAST_CELLS, StrokeFault, stroke_faults};
 use crate::cut::cpu::blank::BlankStats;
 use crate::dexel::intervals;
-use crate::dexel::{BlankGrid, NO_PASS};
+use crate::dexel::{BlankField, BlankGrid, NO_PASS};
 use crate::gear::generation::Side;
 use crate::gear::target_outline::TargetOutline;
 use crate::job::{CutBlank, Job};
 use crate::passes::StrokeSet;
 use crate::planar_rays::FAMILIES;
+use crate::scene::model::Gear;
 use crate::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 use std::collections::BTreeMap;
@@ -151,7 +152,7 @@ pub fn measure(job: &Job, cut: &CutBlank, target: Option<&TargetOutline>) -> Bla
     }
 }
 
-fn volumes(cut: &CutBlank) -> Vec<OperationVolume> {
+pub(super) fn volumes(cut: &CutBlank) -> Vec<OperationVolume> {
     let before = std::iter::once(&cut.blank_mm3).chain(&cut.left_mm3);
     let pairs = before.zip(&cut.left_mm3).zip(&cut.cuts);
     pairs
@@ -178,22 +179,32 @@ fn end_face(job: &Job, cut: &CutBlank, left_mm3: [f64; 2], target: &TargetOutlin
 type Where = (usize, u32, Side, Zone, bool);
 
 /// One ray's share of some damage.
-struct Finding {
-    operation: usize,
-    stays: bool,
-    point_mm: DVec2,
-    lead_mm: f64,
-    depth_mm: f64,
-    volume_mm3: f64,
-    pass: u32,
+pub(super) struct Finding {
+    pub operation: usize,
+    pub stays: bool,
+    pub point_mm: DVec2,
+    pub lead_mm: f64,
+    pub depth_mm: f64,
+    pub volume_mm3: f64,
+    pub pass: u32,
 }
 
 /// Findings side by side of the teeth, deepest place and volume each; only those at least [`LEAST_DEPTH_MM`] deep.
 fn collect(job: &Job, findings: impl Iterator<Item = Finding>) -> Vec<(Damage, bool)> {
+    let place = |finding: &Finding| GearPlace::of(job, finding.point_mm);
+    collect_by(findings, place, |operation, pass| job.operations[operation].strokes.stroke_and_blade(pass))
+}
+
+/// The same for any process: `place` names places, `maker` gives stroke and blade behind a pass of an operation.
+pub(super) fn collect_by(
+    findings: impl Iterator<Item = Finding>,
+    place: impl Fn(&Finding) -> GearPlace,
+    maker: impl Fn(usize, u32) -> (usize, u32),
+) -> Vec<(Damage, bool)> {
     let mut sides: BTreeMap<Where, Damage> = BTreeMap::new();
     for finding in findings {
-        let place = GearPlace::of(job, finding.point_mm);
-        let (stroke, blade) = job.operations[finding.operation].strokes.stroke_and_blade(finding.pass);
+        let place = place(&finding);
+        let (stroke, blade) = maker(finding.operation, finding.pass);
         let key = (finding.operation, place.tooth, place.side, place.zone, finding.stays);
         let damage = sides.entry(key).or_insert(Damage {
             operation: finding.operation,
@@ -217,40 +228,51 @@ fn collect(job: &Job, findings: impl Iterator<Item = Finding>) -> Vec<(Damage, b
 }
 
 fn damage(job: &Job, cut: &CutBlank, target: &TargetOutline) -> Vec<Damage> {
-    let grid = &cut.field.grid;
-    let bore_radius_mm = 0.5 * job.scene.gear.bore_diameter_mm;
-    let widths_mm = grid.slice_widths_mm();
+    let slices = 0..cut.field.slices.len();
+    let findings = slices
+        .flat_map(|slice| missing_in_slice(&cut.field, slice, target, &job.scene.gear, |pass| operation_of(job, pass)));
+    collect(job, findings).into_iter().map(|(damage, _)| damage).collect()
+}
+
+/// Material of the target that one slice of a field lacks, ray by ray; `operation_of` knows whose pass it was.
+pub(super) fn missing_in_slice(
+    field: &BlankField,
+    slice: usize,
+    target: &TargetOutline,
+    gear: &Gear,
+    operation_of: impl Fn(u32) -> Option<usize>,
+) -> Vec<Finding> {
+    let grid = &field.grid;
+    let (width_mm, lead_mm) = (grid.slice_widths_mm()[slice], grid.leads_mm[slice]);
     let mut findings = Vec::new();
     for (f, family) in FAMILIES.into_iter().enumerate() {
         let row = &grid.rows[f];
-        let wanted = target.spans(family, row, bore_radius_mm);
-        for ((slice, width_mm), &lead_mm) in cut.field.slices.iter().zip(&widths_mm).zip(&grid.leads_mm) {
-            for (ray, spans) in slice.rays[f].iter().enumerate() {
-                let gaps = intervals::missing(&wanted[ray], spans);
-                for [low, high] in gaps.into_iter().filter(|[low, high]| high - low > LEAST_DEPTH_MM) {
-                    let at = |along: f64| family.point(along, row.at_mm(ray));
-                    let depth = |p: DVec2| -target.distance_mm(p, 0.5 * job.scene.gear.module_mm).unwrap_or(0.0);
-                    let deepest = [at(low), at(0.5 * (low + high)), at(high)]
-                        .map(|p| (depth(p), p))
-                        .into_iter()
-                        .reduce(|a, b| if b.0 > a.0 { b } else { a })
-                        .expect("three points");
-                    let Some(pass) = pass_beside(spans, low, high) else { continue };
-                    let Some(operation) = operation_of(job, pass) else { continue };
-                    findings.push(Finding {
-                        operation,
-                        stays: true,
-                        point_mm: deepest.1,
-                        lead_mm,
-                        depth_mm: deepest.0,
-                        volume_mm3: 0.5 * (high - low) * row.spacing_mm * width_mm,
-                        pass,
-                    });
-                }
+        let wanted = target.spans(family, row, 0.5 * gear.bore_diameter_mm);
+        for (ray, spans) in field.slices[slice].rays[f].iter().enumerate() {
+            let gaps = intervals::missing(&wanted[ray], spans);
+            for [low, high] in gaps.into_iter().filter(|[low, high]| high - low > LEAST_DEPTH_MM) {
+                let at = |along: f64| family.point(along, row.at_mm(ray));
+                let depth = |p: DVec2| -target.distance_mm(p, 0.5 * gear.module_mm).unwrap_or(0.0);
+                let deepest = [at(low), at(0.5 * (low + high)), at(high)]
+                    .map(|p| (depth(p), p))
+                    .into_iter()
+                    .reduce(|a, b| if b.0 > a.0 { b } else { a })
+                    .expect("three points");
+                let Some(pass) = pass_beside(spans, low, high) else { continue };
+                let Some(operation) = operation_of(pass) else { continue };
+                findings.push(Finding {
+                    operation,
+                    stays: true,
+                    point_mm: deepest.1,
+                    lead_mm,
+                    depth_mm: deepest.0,
+                    volume_mm3: 0.5 * (high - low) * row.spacing_mm * width_mm,
+                    pass,
+                });
             }
         }
     }
-    collect(job, findings.into_iter()).into_iter().map(|(damage, _)| damage).collect()
+    findings
 }
 
 /// Pass that left the surface at an end of a gap. Where the target is gone from end to end the ray knows no pass; the rays across it, which end in what is left, do.

@@ -1,7 +1,9 @@
 //! Names for places on the gear: tooth, side, zone, height over the pitch curve.
 
+use crate::gear::blank::Blank;
 use crate::gear::generation::Side;
 use crate::job::Job;
+use crate::scene::model::Gear;
 use glam::DVec2;
 
 /// Part of a tooth's height.
@@ -42,14 +44,19 @@ impl Zone {
 impl GearPlace {
     /// Place of a point of the gear frame. Tooth j fills the arcs of the pitch curve from (j - 1) to j pitches, its left side the upper half.
     pub fn of(job: &Job, point_mm: DVec2) -> Self {
-        let (height_mm, phi_rad) = job.blank.height(point_mm, point_mm.to_angle());
-        let teeth = job.scene.gear.teeth;
-        let pitches = job.curve.arc_mm(phi_rad) / job.curve.perimeter_mm() * f64::from(teeth);
+        Self::in_section(&job.blank, &job.scene.gear, point_mm, 0.0)
+    }
+
+    /// The same in a section in which the teeth stand `turned_mm` further along the pitch curve.
+    pub fn in_section(blank: &Blank, gear: &Gear, point_mm: DVec2, turned_mm: f64) -> Self {
+        let (height_mm, phi_rad) = blank.height(point_mm, point_mm.to_angle());
+        let teeth = gear.teeth;
+        let curve = blank.curve();
+        let pitches = (curve.arc_mm(phi_rad) - turned_mm) / curve.perimeter_mm() * f64::from(teeth);
         let tooth = pitches.floor();
-        let module_mm = job.scene.gear.module_mm;
         let zone = match height_mm {
-            h if h < -module_mm => Zone::Root,
-            h if h < 0.999 * job.blank.addendum_mm => Zone::Flank,
+            h if h < -gear.module_mm => Zone::Root,
+            h if h < 0.999 * blank.addendum_mm => Zone::Flank,
             _ => Zone::Tip,
         };
         Self {

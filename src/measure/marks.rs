@@ -120,7 +120,7 @@ pub fn between_rad(a_rad: f64, b_rad: f64) -> f64 {
 
 /// Steps from mark to mark as the surface shows them: peaks of its autocorrelation, nearest first by `length`, none the negative of another.
 ///
-/// `heights` stand on a regular grid, `count[0]` columns of `count[1]` rows, `spacing_mm` apart. Lags reach a third of the grid, and steps shorter than [`LOBE`] points are not told from the marks themselves. A
+/// `heights` stand on a regular grid, `count[0]` columns of `count[1]` rows, `spacing_mm` apart. Lags reach a third of the grid, and steps shorter than eight points are not told from the marks themselves. A
 /// paraboloid through a peak's neighbours places it between grid points.
 pub fn autocorrelation_steps(
     heights: &[f64],

@@ -11,6 +11,7 @@ pub mod flank_report;
 pub mod gear_place;
 pub mod gear_report;
 pub mod hob_load;
+pub mod hobbed_blank;
 pub mod hobbed_report;
 pub mod marks;
 pub mod offset_curves;

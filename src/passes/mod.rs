@@ -3,6 +3,7 @@
 pub mod blank_candidates;
 pub mod bounds;
 pub mod candidates;
+pub mod hob_sections;
 pub mod hob_teeth;
 pub mod motion;
 pub mod near;

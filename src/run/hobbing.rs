@@ -1,6 +1,8 @@
 //! Hobbing scenes: cut and measured flank by flank, and what is written about the gear as a whole.
 
+pub mod blank;
 mod files;
+pub mod load;
 mod marks;
 pub(super) mod points;
 mod results;
@@ -146,12 +148,22 @@ fn measure_teeth(cutter: &HobCutter, gear: &mut HobbedGear) {
 pub(super) fn run(job: &HobbingJob, tools: &Tools, out: &Path) -> Result<(Value, String, Work)> {
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, notes } = *tools;
     let cutter = HobCutter::new(job)?;
-    // A window that lies on no flank is refused before the first cut.
+    // A window that lies on no flank, or too large a blank field, is refused before the first cut.
+    job.blank_grid()?;
     texture::windows(&cutter)?;
     let mut gear = cut_gear(&cutter, backend, progress, interrupt, Some((folder, notes)))?;
     let textures = texture::measure(&cutter, backend, progress, interrupt)?;
     let lattices = marks::measure(&cutter, tools)?;
-    let results = results::results(&cutter, &gear, &textures, &lattices)?;
+    let whole = if gear.work.interrupted { None } else { blank::cut(&cutter, progress, interrupt)? };
+    gear.work.interrupted |= whole.is_none();
+    let mut results = results::results(&cutter, &gear, &textures, &lattices)?;
+    if let Some(whole) = &whole {
+        let loads = load::measure(&cutter, &whole.blank);
+        results["hob_load"] = load::results(job, &loads)?;
+        results["blank"] = blank::results(&cutter, whole)?;
+        load::write(job, &loads, folder)?;
+        blank::write(&cutter, whole, folder)?;
+    }
     files::write(&cutter, &gear, &results, folder, notes)?;
     marks::write(&lattices, folder)?;
     points::write(&job.scene.name, &gear, folder)?;

@@ -9,10 +9,10 @@
 //! After each stroke the cutter goes back, drawn off by the relief motion; if return poses are given, material that their teeth would enter is reported, and left where it is.
 
 use crate::dexel::blank_field::{BlankField, Ray};
-use crate::dexel::intervals::{self, End};
+use crate::dexel::intervals::{self, End, Span};
 use crate::passes::StrokeSet;
 use crate::passes::blank_candidates::{PlacedPass, passes_at, reaching_strip};
-use crate::planar_rays::{Crossing, FAMILIES, Family, RayCrossings, RayRow};
+use crate::planar_rays::{ClosedCurve, Crossing, FAMILIES, Family, RayCrossings, RayRow};
 use crate::tool::PlanarTool;
 use crate::tool::closed_tooth::{ClosedTooth, PlacedScratch};
 use glam::DVec2;
@@ -160,18 +160,17 @@ impl std::ops::AddAssign for BlankStats {
 }
 
 /// Neighbouring rays of one family in one slice.
-struct Tile<'a> {
-    family: Family,
-    row: &'a RayRow,
-    first: usize,
-    rays: &'a mut [Ray],
-    slice: u32,
+pub(super) struct Tile<'a> {
+    pub family: Family,
+    pub row: &'a RayRow,
+    pub first: usize,
+    pub rays: &'a mut [Ray],
+    pub slice: u32,
 }
 
 /// Scratch memory of a tile.
 #[derive(Default)]
-struct Scratch {
-    placed: PlacedScratch,
+pub(super) struct Scratch {
     crossings: RayCrossings,
     found: Vec<Crossing>,
     cuts: Vec<(usize, End, End)>,
@@ -190,32 +189,39 @@ impl Tile<'_> {
         } else {
             [f64::NEG_INFINITY, f64::INFINITY]
         };
-        let mut scratch = Scratch::default();
+        let (mut scratch, mut placed) = (Scratch::default(), PlacedScratch::default());
         let mut done = TileCut::default();
         let mut returns = reaching_strip(returns, operation.tooth, self.family, strip).peekable();
         for pass in reaching_strip(passes, operation.tooth, self.family, strip) {
             while let Some(back) = returns.next_if(|back| back.stroke < pass.stroke) {
-                self.check_return(operation, back, volume_per_length, &mut scratch, &mut done);
+                let tooth = operation.tooth.placed(&back.work_from_blade, &mut placed);
+                let id = operation.strokes.pass_id(back.stroke as usize, back.blade);
+                self.check_return(&tooth, id, volume_per_length, &mut scratch, &mut done);
             }
-            self.take(operation, pass, &mut scratch, &mut done);
+            let tooth = operation.tooth.placed(&pass.work_from_blade, &mut placed);
+            let id = operation.strokes.pass_id(pass.stroke as usize, pass.blade);
+            let removed_mm = self.take(&tooth, id, &mut scratch, &mut done.stats, |_, _, _| {});
+            if removed_mm > 0.0 {
+                done.removed_mm.push((id, removed_mm));
+            }
         }
         for back in returns {
-            self.check_return(operation, back, volume_per_length, &mut scratch, &mut done);
+            let tooth = operation.tooth.placed(&back.work_from_blade, &mut placed);
+            let id = operation.strokes.pass_id(back.stroke as usize, back.blade);
+            self.check_return(&tooth, id, volume_per_length, &mut scratch, &mut done);
         }
         done
     }
 
-    /// Calls `act` with every ray that the tooth crosses near material, the crossings solved.
+    /// Calls `act` with every ray that the curve crosses near material, the crossings solved.
     fn visit(
         &self,
-        operation: &BlankOperation,
-        pass: &PlacedPass,
+        curve: &impl ClosedCurve,
         scratch: &mut Scratch,
         stats: &mut BlankStats,
         mut act: impl FnMut(usize, f64, &[Crossing]),
     ) {
-        let tooth = operation.tooth.placed(&pass.work_from_blade, &mut scratch.placed);
-        scratch.crossings.lay(&tooth, self.family, self.row, self.first..self.first + self.rays.len());
+        scratch.crossings.lay(curve, self.family, self.row, self.first..self.first + self.rays.len());
         for ray in scratch.crossings.touched() {
             if !scratch.crossings.crosses(ray) {
                 continue;
@@ -227,50 +233,53 @@ impl Tile<'_> {
                 continue;
             }
             stats.solved += 1;
-            scratch.crossings.solve(&tooth, self.family, ray, at_mm, &mut scratch.found);
+            scratch.crossings.solve(curve, self.family, ray, at_mm, &mut scratch.found);
             act(ray - self.first, at_mm, &scratch.found);
         }
     }
 
-    fn take(&mut self, operation: &BlankOperation, pass: &PlacedPass, scratch: &mut Scratch, done: &mut TileCut) {
-        let id = operation.strokes.pass_id(pass.stroke as usize, pass.blade);
-        let mut stats = done.stats;
+    /// Takes what lies inside a curve; gives the length removed, mm. `chip` is shown each ray before: its place across, its spans, the ends of the cut.
+    pub fn take(
+        &mut self,
+        curve: &impl ClosedCurve,
+        pass: u32,
+        scratch: &mut Scratch,
+        stats: &mut BlankStats,
+        mut chip: impl FnMut(f64, &[Span], [End; 2]),
+    ) -> f64 {
         let mut removed_mm = 0.0;
         let mut cuts = std::mem::take(&mut scratch.cuts);
-        self.visit(operation, pass, scratch, &mut stats, |ray, _, crossings| {
+        self.visit(curve, scratch, stats, |ray, _, crossings| {
             for [from, to] in crossings.as_chunks::<2>().0 {
                 let [from, to] =
-                    [from, to].map(|c| End { at_mm: c.at_mm, pass: id, normal: (-c.outward()).as_vec2().to_array() });
+                    [from, to].map(|c| End { at_mm: c.at_mm, pass, normal: (-c.outward()).as_vec2().to_array() });
                 cuts.push((ray, from, to));
             }
         });
         for (ray, from, to) in cuts.drain(..) {
+            chip(self.row.at_mm(self.first + ray), &self.rays[ray], [from, to]);
             let length_mm = intervals::subtract(&mut self.rays[ray], from, to);
             if length_mm > 0.0 {
                 removed_mm += length_mm;
                 stats.removing += 1;
             }
         }
-        if removed_mm > 0.0 {
-            done.removed_mm.push((id, removed_mm));
-        }
         scratch.cuts = cuts;
-        done.stats = stats;
+        removed_mm
     }
 
     fn check_return(
         &self,
-        operation: &BlankOperation,
-        pass: &PlacedPass,
+        tooth: &impl ClosedCurve,
+        pass: u32,
         volume_per_length: f64,
         scratch: &mut Scratch,
         done: &mut TileCut,
     ) {
-        let id = operation.strokes.pass_id(pass.stroke as usize, pass.blade);
         let mut uncounted = BlankStats::default();
         let family = self.family;
         let rubs = &mut done.rubs;
-        self.visit(operation, pass, scratch, &mut uncounted, |ray, at_mm, crossings| {
+        self.visit(tooth, scratch, &mut uncounted, |ray, at_mm, crossings| {
             for [from, to] in crossings.as_chunks::<2>().0 {
                 // Each piece of material by itself: a tooth between two of them enters both, and neither by the sum.
                 for span in &self.rays[ray] {
@@ -285,7 +294,7 @@ impl Tile<'_> {
                     let inside = ends.iter().filter(|(c, inside)| *inside && steep(c) >= STEEP);
                     let depth = inside.map(|(c, _)| length_mm * steep(c)).reduce(f64::min);
                     rubs.push(Rub {
-                        pass: id,
+                        pass,
                         slice: self.slice,
                         place_mm: family.point(0.5 * (low_mm + high_mm), at_mm),
                         depth_mm: depth.unwrap_or(0.0),

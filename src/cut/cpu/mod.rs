@@ -4,6 +4,7 @@
 //! chunk has the same rows on all of them: AVX2, AVX-512 and plain x86-64 or ARM give the **same bytes**.
 
 pub mod blank;
+pub mod blank_sweeps;
 mod planar;
 mod spatial;
 

@@ -124,6 +124,12 @@ pub(in crate::run) fn headline(job: &HobbingJob, gear: &HobbedGear) -> Vec<(&'st
     ]
 }
 
+/// A quantity as it stands in `results.json`.
+pub(super) fn value(quantity: &Quantity) -> Result<Value> {
+    serde_json::to_value(quantity)
+        .map_err(|reason| Error::Output { path: RESULTS_FILE.into(), reason: reason.to_string() })
+}
+
 /// Everything that was found.
 ///
 /// # Errors
@@ -135,10 +141,6 @@ pub fn results(
     lattices: &[MarkLattice],
 ) -> Result<Value> {
     let job = cutter.job;
-    let value = |quantity: &Quantity| {
-        serde_json::to_value(quantity)
-            .map_err(|reason| Error::Output { path: RESULTS_FILE.into(), reason: reason.to_string() })
-    };
     let mut head = serde_json::Map::new();
     for (key, quantity) in headline(job, gear) {
         head.insert(key.to_owned(), value(&quantity)?);

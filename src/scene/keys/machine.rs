@@ -156,7 +156,7 @@ pub(super) static AFTER_OPERATIONS: &[Section] = &[
                 unit: "mm",
                 default: Default::Number(2.5),
                 example: "2.5",
-                teach: "Largest distance of transverse slices where the feed goes on during a stroke; with the axes at rest all sections are equal and one slice stands for the face.",
+                teach: "Largest distance of transverse slices of hobbed gears, and of shaped ones where the feed goes on during a stroke; with the axes at rest all sections are equal and one slice stands for the face.",
             },
         ],
         groups: &[],

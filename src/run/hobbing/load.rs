@@ -1,0 +1,129 @@
+//! The hob's load in a run: `tables/hob_load.csv`, bar charts by tooth, and its part of `results.json`.
+
+use super::results::value;
+use crate::error::Result;
+use crate::job::{HobCutter, HobbedBlank, HobbingJob};
+use crate::measure::hob_load::{OperationLoad, ToothLoad, hoffmeister_of};
+use crate::output::bar_chart::{BarChart, BarSeries};
+use crate::output::folder::OutputFolder;
+use crate::output::quantity::Quantity;
+use crate::output::table::{Cell, write_table};
+use serde_json::{Value, json};
+
+/// What the load rests on.
+const ASSUMPTION: &str = "volume that a tooth takes, as a measure of the work that it does with the specific cutting force the same everywhere; wear follows heat and chip thickness besides, so this is no life";
+
+/// One chart: its file, its title, what it shows, its unit and a tooth's value.
+type Chart = (&'static str, &'static str, &'static str, fn(&ToothLoad) -> f64);
+
+const CHARTS: [Chart; 3] = [
+    ("volume", "volume taken", "mm3", |load| load.volume_mm3),
+    ("thickness", "largest uncut chip thickness", "mm", |load| load.thickness_mm),
+    ("way", "way cut", "m", |load| load.way_mm * 1e-3),
+];
+
+/// Loads of all operations.
+pub fn measure(cutter: &HobCutter, blank: &HobbedBlank) -> Vec<OperationLoad> {
+    cutter.operations.iter().zip(&blank.chips).map(|(passes, chips)| OperationLoad::of_blank(passes, chips)).collect()
+}
+
+/// Writes table and charts.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write(job: &HobbingJob, loads: &[OperationLoad], folder: &OutputFolder) -> Result<()> {
+    write_load_table(job, loads, folder)?;
+    for (operation, of_operation) in job.operations.iter().zip(loads) {
+        let name = &operation.spec.name;
+        for (stem, what, unit, value) in CHARTS {
+            let chart = BarChart {
+                title: format!("{}, {name}: {what} by hob tooth", job.scene.name),
+                category_name: "hob tooth, from the entering end".into(),
+                categories: labels(job),
+                value_name: what.into(),
+                unit: unit.into(),
+                series: vec![BarSeries {
+                    name: name.clone(),
+                    values: of_operation.teeth.iter().map(|load| Some(value(load))).collect(),
+                }],
+            };
+            chart.write_png(&folder.path(format!("load/{name}_{stem}.png"))?)?;
+            chart.write_svg(&folder.path(format!("load/{name}_{stem}.svg"))?)?;
+        }
+    }
+    Ok(())
+}
+
+fn labels(job: &HobbingJob) -> Vec<String> {
+    job.hob.teeth.iter().map(|tooth| tooth.label(job.hob.starts)).collect()
+}
+
+fn write_load_table(job: &HobbingJob, loads: &[OperationLoad], folder: &OutputFolder) -> Result<()> {
+    let columns = [
+        "operation",
+        "hob_tooth",
+        "axial_mm",
+        "volume_mm3",
+        "volume_share",
+        "largest_thickness_mm",
+        "way_mm",
+        "passes",
+    ];
+    let labels = labels(job);
+    let rows = job.operations.iter().zip(loads).flat_map(|(operation, of_operation)| {
+        let whole_mm3 = of_operation.volume_mm3();
+        let labels = &labels;
+        of_operation.teeth.iter().enumerate().map(move |(index, tooth)| {
+            vec![
+                Cell::from(operation.spec.name.as_str()),
+                labels[index].as_str().into(),
+                job.hob.teeth[index].axial_mm.into(),
+                tooth.volume_mm3.into(),
+                (tooth.volume_mm3 / whole_mm3).into(),
+                tooth.thickness_mm.into(),
+                tooth.way_mm.into(),
+                (tooth.passes as u32).into(),
+            ]
+        })
+    });
+    write_table(&folder.path("tables/hob_load.csv")?, &columns, rows)
+}
+
+/// Its part of `results.json`.
+///
+/// # Errors
+/// Quantities that cannot be written.
+pub fn results(job: &HobbingJob, loads: &[OperationLoad]) -> Result<Value> {
+    let operations = (0..loads.len()).map(|index| of_operation(job, loads, index)).collect::<Result<Vec<Value>>>()?;
+    Ok(json!({ "assumption": ASSUMPTION, "operations": operations }))
+}
+
+fn of_operation(job: &HobbingJob, loads: &[OperationLoad], index: usize) -> Result<Value> {
+    let of: &OperationLoad = &loads[index];
+    let labels = labels(job);
+    let nothing = "the operation takes nothing";
+    let tooth = |found: Option<usize>, definition: &'static str| {
+        found.map_or_else(
+            || Quantity::undefined("", definition, nothing),
+            |tooth| Quantity::text(labels[tooth].clone(), definition),
+        )
+    };
+    let number = |found: Option<f64>, unit: &'static str, definition: &'static str| {
+        value(&Quantity::number_or(found, unit, definition, nothing))
+    };
+    let hardest = of.peak(|load| load.volume_mm3);
+    let thickest = of.peak(|load| load.thickness_mm);
+    let way_mm: f64 = of.teeth.iter().map(|load| load.way_mm).sum();
+    Ok(json!({
+        "name": job.operations[index].spec.name,
+        "volume": number(Some(of.volume_mm3()), "mm3", "volume that all hob teeth take together")?,
+        "largest_volume": number(hardest.map(|t| of.teeth[t].volume_mm3), "mm3", "volume of the hob tooth that takes the most")?,
+        "hardest_working_tooth": value(&tooth(hardest, "its number"))?,
+        "teeth_in_use": value(&Quantity::count(of.in_use() as u64, "teeth", "hob teeth that take at least a hundredth of what the hardest working one takes"))?,
+        "peak_to_mean": number(of.peak_to_mean(), "1", "largest volume over the mean of all teeth of the hob; 1 where all work alike")?,
+        "largest_thickness": number(thickest.map(|t| of.teeth[t].thickness_mm), "mm", "largest uncut chip thickness, across the swept surface of the edge")?,
+        "thickest_chip_of_tooth": value(&tooth(thickest, "hob tooth that takes it"))?,
+        "thickness_after_hoffmeister": number(Some(hoffmeister_of(job, index)), "mm", "largest tip chip thickness of a round gear of this module and number of teeth by Hoffmeister's formula (1970), constants as handed down: a check of the size")?,
+        "way_cut": number(Some(way_mm), "mm", "way of the tips through the work while any part of their edge takes material, all teeth together")?,
+    }))
+}
