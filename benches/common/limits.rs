@@ -1,5 +1,10 @@
 //! What the machine can do at most, measured in the same run as what the kernels do: arithmetic in the widest vectors, and bytes to and from memory.
 
+#![expect(
+    clippy::inline_always,
+    reason = "the instruction set of the dispatching function holds only for what is inlined into it"
+)]
+
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use std::hint::black_box;

@@ -197,8 +197,8 @@ fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_m
 #[inline(always)]
 fn all_below(lanes: &Lanes, limit: f64) -> bool {
     let mut below = true;
-    for l in 0..LANES {
-        below &= lanes[l].abs() < limit;
+    for lane in lanes {
+        below &= lane.abs() < limit;
     }
     below
 }

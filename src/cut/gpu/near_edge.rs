@@ -1,7 +1,7 @@
 //! The piece of an edge that a tile can meet, as one polynomial for each record.
 //!
 //! In: a record of the plan, the tile's rays. Out: the range of y (segment frame) over which any of them can meet the segment, and polynomials of degree five that follow the edge's table
-//! there. A tile is a tenth of a millimetre wide, so one polynomial nearly always serves; where rays graze, the range is cut in halves until each is followed within [`TOLERANCE_MM`].
+//! there. A tile is a tenth of a millimetre wide, so one polynomial nearly always serves; where rays graze, the range is cut in halves until each is followed within 0.1 nm.
 //!
 //! A shader then reads the edge with the record and looks nothing up: a table indexed by every lane for itself costs a software adapter more than all arithmetic.
 //!
