@@ -60,7 +60,7 @@ pub struct Rub {
     pub slice: u32,
     /// Middle of the entered material, gear frame.
     pub place_mm: DVec2,
-    /// How deep the edge goes in, along its normal, mm; 0 on rays that graze it, whose place the other family's rays judge.
+    /// How deep the edge goes in, along its normal, mm: at most as far as it has moved along it since its stroke; 0 on rays that graze it, whose place the other family's rays judge.
     pub depth_mm: f64,
     /// Volume of the ray's share, mm3, for one family of rays.
     pub volume_mm3: f64,
@@ -193,14 +193,19 @@ impl Tile<'_> {
         let mut scratch = Scratch::default();
         let mut done = TileCut::default();
         let mut returns = reaching_strip(returns, operation.tooth, self.family, strip).peekable();
+        // The stroke that a return stroke follows, with the same cutter tooth.
+        let stroke_of = |back: &PlacedPass| {
+            let found = passes.binary_search_by_key(&(back.stroke, back.blade), |pass| (pass.stroke, pass.blade));
+            found.ok().map(|index| &passes[index])
+        };
         for pass in reaching_strip(passes, operation.tooth, self.family, strip) {
             while let Some(back) = returns.next_if(|back| back.stroke < pass.stroke) {
-                self.check_return(operation, back, volume_per_length, &mut scratch, &mut done);
+                self.check_return(operation, (back, stroke_of(back)), volume_per_length, &mut scratch, &mut done);
             }
             self.take(operation, pass, &mut scratch, &mut done);
         }
         for back in returns {
-            self.check_return(operation, back, volume_per_length, &mut scratch, &mut done);
+            self.check_return(operation, (back, stroke_of(back)), volume_per_length, &mut scratch, &mut done);
         }
         done
     }
@@ -261,7 +266,7 @@ impl Tile<'_> {
     fn check_return(
         &self,
         operation: &BlankOperation,
-        pass: &PlacedPass,
+        (pass, stroke): (&PlacedPass, Option<&PlacedPass>),
         volume_per_length: f64,
         scratch: &mut Scratch,
         done: &mut TileCut,
@@ -269,6 +274,7 @@ impl Tile<'_> {
         let id = operation.strokes.pass_id(pass.stroke as usize, pass.blade);
         let mut uncounted = BlankStats::default();
         let family = self.family;
+        let edge_from_work = pass.work_from_blade.inverse();
         let rubs = &mut done.rubs;
         self.visit(operation, pass, scratch, &mut uncounted, |ray, at_mm, crossings| {
             for [from, to] in crossings.as_chunks::<2>().0 {
@@ -279,11 +285,19 @@ impl Tile<'_> {
                     if length_mm <= intervals::LEAST_SPAN_MM {
                         continue;
                     }
-                    // Along the edge's normal the material is at most as thick as this; rays that graze say little and leave the depth to the other family.
+                    // Along the edge's normal the material is at most as thick as this; rays that graze say little and leave the depth to the other family. Nor can the edge enter deeper
+                    // than it has moved along its normal since it cut there: a ray may run along a thin sliver.
                     let ends = [(from, span.low.at_mm < from.at_mm), (to, span.high.at_mm > to.at_mm)];
                     let steep = |c: &Crossing| family.along(c.outward()).abs();
+                    let moved_mm = |c: &Crossing| {
+                        // A tooth that met nothing on its way down has no stroke here.
+                        let Some(stroke) = stroke else { return f64::INFINITY };
+                        let place_mm = family.point(c.at_mm, at_mm);
+                        let before_mm = stroke.work_from_blade.point(edge_from_work.point(place_mm));
+                        (place_mm - before_mm).dot(c.outward()).max(0.0)
+                    };
                     let inside = ends.iter().filter(|(c, inside)| *inside && steep(c) >= STEEP);
-                    let depth = inside.map(|(c, _)| length_mm * steep(c)).reduce(f64::min);
+                    let depth = inside.map(|(c, _)| moved_mm(c).min(length_mm * steep(c))).reduce(f64::min);
                     rubs.push(Rub {
                         pass: id,
                         slice: self.slice,
