@@ -313,7 +313,7 @@ const STEEP: f32 = 0.7;
 
 #[test]
 fn the_gpu_leaves_the_same_spans_and_volumes() {
-    let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 240), operation("finish", NORMAL, 0.0, 240)]);
+    let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 1200), operation("finish", NORMAL, 0.0, 240)]);
     scene.shaping_mut().expect("shaping").operations[1].feed_during_stroke = true;
     scene.fields.blank_spacing_mm = 0.5;
     scene.fields.blank_slice_spacing_mm = 30.0;

@@ -95,6 +95,21 @@ fn return_strokes_enter_the_stock_as_deep_as_the_back_off_presses_the_edge_into_
 }
 
 #[test]
+fn no_edge_enters_deeper_than_it_has_moved_along_its_normal() {
+    // On the elliptical gear cutter teeth enter at all angles, and rays run along slivers: length alone would say a millimetre at half a millimetre of back-off.
+    let job = Job::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 1440)])).expect("the paper's gear");
+    let found = deepest(&job);
+    let exact = found.iter().filter(|d| (d.rub.depth_mm - d.own_mm).abs() < 1e-6).count();
+    let largest = found.iter().map(|d| d.rub.depth_mm).fold(0.0, f64::max);
+    println!(
+        "{} passes rub, {exact} as deep as their edge has moved to a nanometre, at most {largest:.3} mm",
+        found.len()
+    );
+    // The nearest place of the sampled edge stands up to 0.01 mm beside the ray's: its normal is off by as much as the edge bends there.
+    assert!(found.len() > 1000 && 4 * exact > found.len() && largest < 0.25);
+}
+
+#[test]
 fn what_rubs_on_a_round_gear_is_stock() {
     let job = round_job(0.5);
     let cut = job.cut_blank(&Cpu::default(), job.blank_field().expect("fits"), &|| true).expect("native");

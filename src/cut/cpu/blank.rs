@@ -10,6 +10,7 @@
 
 use crate::dexel::blank_field::{BlankField, Ray};
 use crate::dexel::intervals::{self, End, Span};
+use crate::frame::Rigid2;
 use crate::passes::StrokeSet;
 use crate::passes::blank_candidates::{PlacedPass, passes_at, reaching_strip};
 use crate::planar_rays::{ClosedCurve, Crossing, FAMILIES, Family, RayCrossings, RayRow};
@@ -60,7 +61,7 @@ pub struct Rub {
     pub slice: u32,
     /// Middle of the entered material, gear frame.
     pub place_mm: DVec2,
-    /// How deep the edge goes in, along its normal, mm; 0 on rays that graze it, whose place the other family's rays judge.
+    /// How deep the edge goes in, along its normal, mm: at most as far as it has moved along it since its stroke; 0 on rays that graze it, whose place the other family's rays judge.
     pub depth_mm: f64,
     /// Volume of the ray's share, mm3, for one family of rays.
     pub volume_mm3: f64,
@@ -192,11 +193,17 @@ impl Tile<'_> {
         let (mut scratch, mut placed) = (Scratch::default(), PlacedScratch::default());
         let mut done = TileCut::default();
         let mut returns = reaching_strip(returns, operation.tooth, self.family, strip).peekable();
+        // The stroke that a return stroke follows, with the same cutter tooth.
+        let stroke_of = |back: &PlacedPass| {
+            let found = passes.binary_search_by_key(&(back.stroke, back.blade), |pass| (pass.stroke, pass.blade));
+            found.ok().map(|index| &passes[index])
+        };
         for pass in reaching_strip(passes, operation.tooth, self.family, strip) {
             while let Some(back) = returns.next_if(|back| back.stroke < pass.stroke) {
                 let tooth = operation.tooth.placed(&back.work_from_blade, &mut placed);
                 let id = operation.strokes.pass_id(back.stroke as usize, back.blade);
-                self.check_return(&tooth, id, volume_per_length, &mut scratch, &mut done);
+                let motion = (&back.work_from_blade, stroke_of(back).map(|stroke| &stroke.work_from_blade));
+                self.check_return(&tooth, id, motion, volume_per_length, &mut scratch, &mut done);
             }
             let tooth = operation.tooth.placed(&pass.work_from_blade, &mut placed);
             let id = operation.strokes.pass_id(pass.stroke as usize, pass.blade);
@@ -208,7 +215,8 @@ impl Tile<'_> {
         for back in returns {
             let tooth = operation.tooth.placed(&back.work_from_blade, &mut placed);
             let id = operation.strokes.pass_id(back.stroke as usize, back.blade);
-            self.check_return(&tooth, id, volume_per_length, &mut scratch, &mut done);
+            let motion = (&back.work_from_blade, stroke_of(back).map(|stroke| &stroke.work_from_blade));
+            self.check_return(&tooth, id, motion, volume_per_length, &mut scratch, &mut done);
         }
         done
     }
@@ -272,12 +280,14 @@ impl Tile<'_> {
         &self,
         tooth: &impl ClosedCurve,
         pass: u32,
+        (work_from_edge, at_stroke): (&Rigid2, Option<&Rigid2>),
         volume_per_length: f64,
         scratch: &mut Scratch,
         done: &mut TileCut,
     ) {
         let mut uncounted = BlankStats::default();
         let family = self.family;
+        let edge_from_work = work_from_edge.inverse();
         let rubs = &mut done.rubs;
         self.visit(tooth, scratch, &mut uncounted, |ray, at_mm, crossings| {
             for [from, to] in crossings.as_chunks::<2>().0 {
@@ -288,11 +298,19 @@ impl Tile<'_> {
                     if length_mm <= intervals::LEAST_SPAN_MM {
                         continue;
                     }
-                    // Along the edge's normal the material is at most as thick as this; rays that graze say little and leave the depth to the other family.
+                    // Along the edge's normal the material is at most as thick as this; rays that graze say little and leave the depth to the other family. Nor can the edge enter deeper
+                    // than it has moved along its normal since it cut there: a ray may run along a thin sliver.
                     let ends = [(from, span.low.at_mm < from.at_mm), (to, span.high.at_mm > to.at_mm)];
                     let steep = |c: &Crossing| family.along(c.outward()).abs();
+                    let moved_mm = |c: &Crossing| {
+                        // A tooth that met nothing on its way down has no stroke here.
+                        let Some(at_stroke) = at_stroke else { return f64::INFINITY };
+                        let place_mm = family.point(c.at_mm, at_mm);
+                        let before_mm = at_stroke.point(edge_from_work.point(place_mm));
+                        (place_mm - before_mm).dot(c.outward()).max(0.0)
+                    };
                     let inside = ends.iter().filter(|(c, inside)| *inside && steep(c) >= STEEP);
-                    let depth = inside.map(|(c, _)| length_mm * steep(c)).reduce(f64::min);
+                    let depth = inside.map(|(c, _)| moved_mm(c).min(length_mm * steep(c))).reduce(f64::min);
                     rubs.push(Rub {
                         pass,
                         slice: self.slice,

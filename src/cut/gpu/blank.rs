@@ -32,6 +32,11 @@ const LAUNCH_BYTES: usize = 64 << 20;
 const FIRST_ROOM: usize = 8;
 /// Material that the return strokes of a tile may meet unnoticed, mm along its rays: half the depth at which reports speak of rubbing, a dozen times what f32 may be off.
 const UNNOTICED_MM: f64 = 5e-4;
+/// Iterations of all its loops that a thread may take in one launch: llvmpipe ends every loop after 65,535 of them in all, without a word.
+const MOST_ITERATIONS: usize = 50_000;
+/// What a pass may take of these beside one for each of its parts: Newton's steps and places in the list for each of eight crossings; so many times the room of a ray's list for its spans.
+const ITERATIONS_PER_PASS: usize = 8 * (12 + 8);
+const LIST_WALKS_PER_PASS: usize = 3 * 4;
 /// Longest wait for a launch.
 const PATIENCE: Duration = Duration::from_secs(600);
 
@@ -192,8 +197,11 @@ impl Gpu {
             let (mut tiles, mut passes, mut parts) = (Vec::new(), Vec::new(), Vec::new());
             for (tile, at) in work.iter().zip(&mut next) {
                 let (first_pass, first_part) = (passes.len(), parts.len());
+                let mut iterations = 0;
                 while let Some(pass) = tile.passes.get(*at) {
-                    if parts.len() > first_part && parts.len() - first_part + pass.parts.len() > limit {
+                    iterations += pass.parts.len() + ITERATIONS_PER_PASS + LIST_WALKS_PER_PASS * capacity;
+                    let full = parts.len() - first_part + pass.parts.len() > limit || iterations > MOST_ITERATIONS;
+                    if parts.len() > first_part && full {
                         break;
                     }
                     passes.push(BlankPass {
