@@ -23,6 +23,8 @@ use glam::DVec2;
 /// Distance of the sections that show a helical gear's shape, mm: chords a micrometre off a helix of 20 deg on a radius of 60 mm.
 const VIEW_SECTION_MM: f64 = 5.0;
 
+/// Share of a root's length at either end over which its rays turn from the flank's normal to the middle of the space.
+const BLEND_SHARE: f64 = 0.2;
 /// Rays of a root end before the point in the middle of the space, where they meet.
 const FOCUS_SHARE: f64 = 0.95;
 
@@ -124,9 +126,15 @@ impl GearJob for HobCutter<'_> {
             })
             .collect();
         let field = self.field(roots[0].len(), &leads_mm, |column, row| {
-            let point_mm = roots[row][column].point_mm;
-            let to_focus = focus[row] - point_mm;
-            (point_mm, to_focus.normalize_or(roots[row][column].normal), FOCUS_SHARE * to_focus.length())
+            let root = &roots[row];
+            let (point, last) = (root[column], root[root.len() - 1]);
+            let to_focus = focus[row] - point.point_mm;
+            // At both ends rays begin as the flanks' own, so that root and flank join in one point.
+            let [before, after] = [point.arc_mm, last.arc_mm - point.arc_mm];
+            let end_normal = if before < after { root[0].normal } else { last.normal };
+            let share = (before.min(after) / (BLEND_SHARE * last.arc_mm)).min(1.0);
+            let direction = end_normal.lerp(to_focus.normalize_or(point.normal), share);
+            (point.point_mm, direction.normalize_or(point.normal), FOCUS_SHARE * to_focus.length())
         });
         let arcs_mm = roots[roots.len() / 2].iter().map(|point| point.arc_mm).collect();
         self.surface(backend, &PlacedRays { field, arcs_mm, leads_mm }, self.job.scene.output.mesh_spacing_mm)
