@@ -121,22 +121,22 @@ pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> 
             let heights_um: Vec<f64> = (0..columns * rows).map(height).collect();
             let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);
             let heights = Surface::new(rows, columns, dx, dy, heights_um);
-            let marks = [
-                facets(&layer.passes[columns / 2 * rows..(columns / 2 + 1) * rows]),
-                facets(&layer.passes.iter().skip(rows / 2).step_by(rows).copied().collect::<Vec<_>>()),
-            ];
+            let along_tooth = if job.marks_follow_along_tooth(operation) {
+                facets(&layer.passes[columns / 2 * rows..(columns / 2 + 1) * rows])
+            } else {
+                0
+            };
+            let along_profile = facets(&layer.passes.iter().skip(rows / 2).step_by(rows).copied().collect::<Vec<_>>());
+            let marks = [along_tooth, along_profile];
             let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, window));
             WindowTexture { window: window.clone(), operation, heights: heights.ok(), marks, evaluated }
         })
         .collect())
 }
 
-/// Facets along a line: one more than the changes of the pass that left it; none where a single pass left all, as along the tooth where strokes rest.
+/// Facets along a line: one more than the changes of the pass that left it.
 fn facets(passes: &[u32]) -> usize {
-    match passes.windows(2).filter(|pair| pair[0] != pair[1]).count() {
-        0 => 0,
-        changes => changes + 1,
-    }
+    passes.windows(2).filter(|pair| pair[0] != pair[1]).count() + 1
 }
 
 fn evaluate(heights: &Surface, window: &Window) -> Result<Evaluated, String> {

@@ -40,7 +40,11 @@ fn what_cannot_be_hobbed_is_refused_with_the_reason_and_a_way_out() {
             &["stroke_mm", "full contact", "longer hob"],
         ),
         (DIAGONAL, "operation.finish.linkage.hobbing_diagonal.strategy=one_way", &["mm of shift", "reciprocating"]),
-        (PLAIN, "tool.hob.starts=7", &["lead_angle_deg", "fewer starts"]),
+        (
+            "scenes/hobbing/circular_spur.toml",
+            "tool.hob.reference_diameter_mm=8.4",
+            &["tool.hob.reference_diameter_mm", "lead angle 20.92 deg", "fewer starts"],
+        ),
         (PLAIN, "tool.hob.length_mm=40", &["whole contact", "longer hob"]),
     ] {
         gearcut(&["check", scene, "--set", setting, "--set", "operation.finish.axial_feed_mm_per_revolution=1.5"])
@@ -49,15 +53,16 @@ fn what_cannot_be_hobbed_is_refused_with_the_reason_and_a_way_out() {
 }
 
 /// A small gear, coarse enough for seconds.
-const SMALL: [&str; 11] = [
+const SMALL: [&str; 12] = [
+    "picture=[{name = \"flank\", view = \"flank\", width_px = 320, height_px = 240}]",
     "gear.module_mm=2",
     "gear.helix_angle_deg=15",
-    "gear.face_width_mm=6",
-    "tool.hob.length_mm=60",
+    "gear.face_width_mm=8",
+    "tool.hob.length_mm=40",
     "tool.hob.tip_radius_mm=0.3",
     "operation.finish.axial_feed_mm_per_revolution=1.5",
-    "fields.flank.profile_spacing_um=50",
-    "fields.flank.lead_spacing_um=250",
+    "fields.flank.profile_spacing_um=100",
+    "fields.flank.lead_spacing_um=500",
     "fields.blank.spacing_mm=0.3",
     "output.mesh_spacing_mm=0.25",
     "output.gcode_contour_error_um=10",
@@ -85,7 +90,7 @@ fn a_hobbed_gear_comes_with_meshes_charts_marks_points_and_programs() {
         "mesh/gear.ply",
         "mesh/gear.glb",
         "mesh/flanks/tooth_16_right.ply",
-        "pictures/gear.png",
+        "pictures/flank.png",
         "pictures/offset_curves.png",
         "pictures/passes_finish.png",
         "deviation/tooth_01_left.png",

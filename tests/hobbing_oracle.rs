@@ -4,34 +4,26 @@
 //! 2013, S2 the third-order gear of Liu et al. 2015. The data stand in the papers' work frame (x_c, y_c, z_c), which is the gear frame turned over: x_c = y,
 //! y_c = x, z_c = -z.
 
+mod hobbing_common;
+
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use gearcut::gear::PitchCurve;
 use gearcut::gear::blank::Blank;
 use gearcut::gear::generation::Side;
-use gearcut::gear::rack_generation::{ProfilePart, Rack, RackGeneration};
+use gearcut::gear::rack_generation::{ProfilePart, RackGeneration};
 use gearcut::linkage::hobbing::marks::Marks;
 use gearcut::linkage::hobbing::{FeedPath, HobbingAxes, HobbingGeometry, HobbingLaw, HobbingLinkage};
 use gearcut::measure::engagement::Engagement;
-use gearcut::scene::model::{
-    EvenMotion, ExtraRotation, GashForm, Hand, Hob as HobSpec, HobSize, LinkageForm, PitchCurveShape, Worm,
-};
-use gearcut::tool::{Hob, SpatialTool};
+use gearcut::scene::model::{EvenMotion, ExtraRotation, LinkageForm, PitchCurveShape};
+use gearcut::tool::SpatialTool;
 use glam::{DVec2, DVec3};
+use hobbing_common::{data, numbers, papers_ellipse, papers_hob, papers_rack};
 use serde_json::Value;
-
-fn data(name: &str) -> Value {
-    let path = format!("{}/tests/data/hobbing/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().unwrap().iter().map(number).collect()
 }
 
 #[track_caller]
@@ -42,35 +34,6 @@ fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
 /// Largest value less smallest.
 fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
     values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
-}
-
-fn ellipse(order: u32, eccentricity: f64, a: Option<f64>, helix: f64, teeth: u32) -> Arc<PitchCurve> {
-    let shape = PitchCurveShape::Ellipse { order, eccentricity, semi_major_axis_mm: a };
-    Arc::new(PitchCurve::new(&shape, 8.0 / helix.cos(), teeth).unwrap())
-}
-
-/// The hob of both papers: module 8, one start, 10 gashes, lead angle 3 deg 19', left-hand.
-fn hob() -> Hob {
-    hob_of_length(132.0)
-}
-
-fn hob_of_length(length_mm: f64) -> Hob {
-    let spec = HobSpec {
-        starts: 1,
-        hand: Hand::Left,
-        gashes: 10,
-        gash_form: GashForm::Axial,
-        size: HobSize::LeadAngle((3.0 + 19.0 / 60.0_f64).to_radians()),
-        length_mm,
-        addendum_coefficient: 1.25,
-        dedendum_coefficient: 1.25,
-        worm: Worm::Involute,
-        tip_radius_mm: 0.0,
-        protuberance: None,
-        thinning_mm: 0.0,
-        regrind_mm: 0.0,
-    };
-    Hob::new(&spec, 8.0, 20_f64.to_radians()).unwrap()
 }
 
 const fn law(even: EvenMotion, extra: ExtraRotation, form: LinkageForm) -> HobbingLaw {
@@ -130,7 +93,7 @@ fn pitch_curves_and_rolling() {
             expect("arc", curve.arc_mm(theta));
         }
         // Spur, hob turning evenly: the axes over the arc.
-        let geometry = HobbingGeometry::new(&hob(), 0.0, 1.0);
+        let geometry = HobbingGeometry::new(&papers_hob(132.0), 0.0, 1.0);
         let even = law(EvenMotion::ArcLength, ExtraRotation::Work, LinkageForm::Exact);
         let linkage =
             HobbingLinkage::new(Arc::new(curve), geometry, even, 1.0, &FeedPath::steady(1.0, 0.0, 0.0)).unwrap();
@@ -154,9 +117,9 @@ fn five_axes_of_the_six_schemes() {
     let file = data("p02_linkage5_s4");
     let (rel, rel_range) = (number(&file["tol_rel"]), number(&file["tol_range_rel"]));
     let beta = number(&file["beta"]);
-    let curve = ellipse(1, 0.6, Some(150.0), beta, 33);
+    let curve = papers_ellipse(1, 0.6, Some(150.0), beta, 33);
     // sigma = +1 is a gear of the hob's hand.
-    let geometry = HobbingGeometry::new(&hob(), beta, -1.0);
+    let geometry = HobbingGeometry::new(&papers_hob(132.0), beta, -1.0);
     let hob_speed = speed(&curve, &geometry, number(&file["T"]));
     let thetas = numbers(&file["theta"]);
     let steady = |slide: f64| FeedPath::steady(1.5, slide, 0.0);
@@ -227,9 +190,9 @@ fn six_axes_of_the_four_conditions() {
     for block in ["vd_half", "vd_five"] {
         let block = &file[block];
         let beta = number(&block["beta"]);
-        let curve = ellipse(3, 0.1, Some(140.0), beta, 35);
+        let curve = papers_ellipse(3, 0.1, Some(140.0), beta, 35);
         for (condition, expected) in block["conditions"].as_object().unwrap() {
-            let geometry = HobbingGeometry::new(&hob(), beta, number(&expected["gear_hand"]));
+            let geometry = HobbingGeometry::new(&papers_hob(132.0), beta, number(&expected["gear_hand"]));
             close("gamma", geometry.head_angle_rad, number(&expected["gamma"]), rel);
             let kappa_vd = number(&expected["kappa"]) * number(&block["vd"]);
             let slide = number(&block["vz_resultant"]) + kappa_vd * geometry.head_angle_rad.sin();
@@ -264,11 +227,11 @@ fn six_axes_of_the_four_conditions() {
 fn edges_stand_in_the_work_where_they_should() {
     let file = data("p08_events_s2");
     let tolerance = number(&file["tol_mm"]);
-    let hob = hob();
+    let hob = papers_hob(132.0);
     for case in ["axial", "diagonal_VL"] {
         let case = &file[case];
         let setup = &case["setup"];
-        let curve = ellipse(3, 0.1, None, number(&setup["beta"]), 35);
+        let curve = papers_ellipse(3, 0.1, None, number(&setup["beta"]), 35);
         close("A", curve.size_mm(), number(&setup["A_scaled"]), 1e-9);
         close("R_p", hob.pitch_radius_mm, number(&setup["Rp"]), 1e-12);
         close("R_a", hob.tip_radius_mm, number(&setup["Ra"]), 1e-12);
@@ -277,7 +240,7 @@ fn edges_stand_in_the_work_where_they_should() {
         let path = FeedPath::steady(1.0, number(&setup["vz"]), number(&setup["udot"]));
         let exact = law(EvenMotion::ArcLength, ExtraRotation::Work, LinkageForm::Exact);
         let linkage = HobbingLinkage::new(curve, geometry, exact, number(&setup["wb"]), &path).unwrap();
-        let target = RackGeneration { curve: linkage.curve().clone(), rack: rack(number(&setup["beta"]), -1.0) };
+        let target = RackGeneration { curve: linkage.curve().clone(), rack: papers_rack(number(&setup["beta"]), -1.0) };
         let side = if number(&case["flank"]) > 0.0 { Side::Left } else { Side::Right };
         let marks = Marks { linkage: &linkage, target: &target, hob: &hob, side };
         for event in case["events"].as_array().unwrap() {
@@ -324,12 +287,12 @@ fn as_printed_parts_work_and_carriage() {
     for case in file["cases"].as_array().unwrap() {
         let (curve, beta) = if case["case"] == "S2" {
             let beta = (10.0 + 34.0 / 60.0_f64).to_radians();
-            (ellipse(3, 0.1, Some(140.0), beta, 35), beta)
+            (papers_ellipse(3, 0.1, Some(140.0), beta, 35), beta)
         } else {
             let beta = 12.899_f64.to_radians();
-            (ellipse(1, 0.6, Some(150.0), beta, 33), beta)
+            (papers_ellipse(1, 0.6, Some(150.0), beta, 33), beta)
         };
-        let geometry = HobbingGeometry::new(&hob(), beta, -1.0);
+        let geometry = HobbingGeometry::new(&papers_hob(132.0), beta, -1.0);
         let (model, even, extra) = SCHEMES.into_iter().find(|s| s.0 == case["model"]).unwrap();
         let (cycle_s, cycles) = (1.5, number(&case["cycles"]));
         let path = FeedPath::steady(cycle_s * cycles, -number(&case["feed"]) / cycle_s, 0.0);
@@ -357,29 +320,15 @@ fn as_printed_parts_work_and_carriage() {
     }
 }
 
-/// The rack of the papers' hob: sharp tips 1.25 m high.
-fn rack(beta: f64, hand: f64) -> Rack {
-    let transverse_module_mm = 8.0 / beta.cos();
-    Rack {
-        transverse_module_mm,
-        pressure_angle_rad: (20_f64.to_radians().tan() / beta.cos()).atan(),
-        half_thickness_mm: 0.25 * PI * transverse_module_mm,
-        tip_height_mm: 10.0,
-        tip_radius_mm: 0.0,
-        helix_angle_rad: beta,
-        hand,
-    }
-}
-
 #[test]
 fn target_profiles_at_350_points() {
     let file = data("p07_points350_s2");
     let tolerance = number(&file["tol_mm"]);
     let beta = (10.0 + 34.0 / 60.0_f64).to_radians();
-    let curve = ellipse(3, 0.1, None, beta, 35);
+    let curve = papers_ellipse(3, 0.1, None, beta, 35);
     close("A", curve.size_mm(), number(&file["A_scaled"]), 1e-9);
     let blank = Blank::new(curve.clone(), 8.0).unwrap();
-    let target = RackGeneration { curve, rack: rack(beta, -1.0) };
+    let target = RackGeneration { curve, rack: papers_rack(beta, -1.0) };
     let (mut worst, mut fillets) = (0.0_f64, 0);
     for row in file["rows"].as_array().unwrap() {
         let [space, flank, height, foot, x_c, y_c, kind] = numbers(row)[..] else { panic!("seven columns") };
@@ -397,7 +346,7 @@ fn target_profiles_at_350_points() {
 #[test]
 fn nominal_points_of_the_patches() {
     let beta = (10.0 + 34.0 / 60.0_f64).to_radians();
-    let target = RackGeneration { curve: ellipse(3, 0.1, None, beta, 35), rack: rack(beta, -1.0) };
+    let target = RackGeneration { curve: papers_ellipse(3, 0.1, None, beta, 35), rack: papers_rack(beta, -1.0) };
     // The first corner and the middle of the flank of space 3 that both patches of S2 stand on; z_c = -z.
     for (roll, z_c, point, normal) in [
         (
@@ -426,7 +375,7 @@ fn lattices_of_marks() {
     let file = data("p06_marks_s2");
     let rel = number(&file["tol_rel"]);
     let beta = (10.0 + 34.0 / 60.0_f64).to_radians();
-    let hob = hob();
+    let hob = papers_hob(132.0);
     for case in file["cases"].as_array().unwrap() {
         let condition = case["condition"].as_str().unwrap();
         let hand = if condition.ends_with('R') { 1.0 } else { -1.0 };
@@ -435,10 +384,10 @@ fn lattices_of_marks() {
         let shift = -kappa * number(&case["vd"]);
         let slide = -50.0 / 300.0 - shift * geometry.head_angle_rad.sin();
         let exact = law(EvenMotion::ArcLength, ExtraRotation::Work, LinkageForm::Exact);
-        let curve = ellipse(3, 0.1, None, beta, 35);
+        let curve = papers_ellipse(3, 0.1, None, beta, 35);
         let linkage =
             HobbingLinkage::new(curve.clone(), geometry, exact, 14.661, &FeedPath::steady(60.0, slide, shift)).unwrap();
-        let target = RackGeneration { curve, rack: rack(beta, hand) };
+        let target = RackGeneration { curve, rack: papers_rack(beta, hand) };
         let marks = Marks { linkage: &linkage, target: &target, hob: &hob, side: Side::Left };
         let (gash, space, mark) = marks.nearest(0, 35, 0.0);
         assert_eq!(space, 0);
@@ -478,11 +427,11 @@ fn generating_marks_are_spaced_alike_by_every_law() {
     let rel = number(&file["tol_rel"]);
     let s4 = &file["s4"];
     let beta = number(&s4["beta"]);
-    let curve = ellipse(1, 0.6, Some(150.0), beta, 33);
-    let geometry = HobbingGeometry::new(&hob(), beta, -1.0);
+    let curve = papers_ellipse(1, 0.6, Some(150.0), beta, 33);
+    let geometry = HobbingGeometry::new(&papers_hob(132.0), beta, -1.0);
     let per_gash = TAU / number(&s4["Zb"]);
     close("arc per gash", geometry.arc_per_hob_rad_mm() * per_gash, number(&s4["gash_arc"]), rel);
-    let target = RackGeneration { curve: curve.clone(), rack: rack(beta, -1.0) };
+    let target = RackGeneration { curve: curve.clone(), rack: papers_rack(beta, -1.0) };
     for (i, theta) in numbers(&s4["theta"]).into_iter().enumerate() {
         let rho = 1.0 / curve.frame(theta).curvature_per_mm;
         close("rho", rho, numbers(&s4["rho"])[i], rel * rho);
@@ -513,18 +462,18 @@ fn generating_marks_are_spaced_alike_by_every_law() {
 fn teeth_share_the_work() {
     let file = data("p14_engagement");
     let beta = (10.0 + 34.0 / 60.0_f64).to_radians();
-    // The file's grid for one space; coarser for the third-order gear, where every fifth space stands for all 35.
+    // The file's grid for one space; coarser for all 35 of the third-order gear.
     for (name, order, eccentricity, spaces, spacing) in
-        [("circle_r142", 1, 0.0, vec![0], 0.2), ("s2_three_lobe", 3, 0.1, vec![0, 5, 10, 15, 20, 25, 30], 0.4)]
+        [("circle_r142", 1, 0.0, vec![0], 0.2), ("s2_three_lobe", 3, 0.1, (0..35).collect(), 0.6)]
     {
         let expected = &file[name];
-        let curve = ellipse(order, eccentricity, None, beta, 35);
-        let long_hob = hob_of_length(240.0);
+        let curve = papers_ellipse(order, eccentricity, None, beta, 35);
+        let long_hob = papers_hob(240.0);
         let geometry = HobbingGeometry::new(&long_hob, beta, -1.0);
         let exact = law(EvenMotion::ArcLength, ExtraRotation::Work, LinkageForm::Exact);
         let feed = FeedPath { start_slide_mm: 75.0, ..FeedPath::steady(900.0, -2.5 / 15.0, 0.0) };
         let linkage = HobbingLinkage::new(curve.clone(), geometry, exact, 14.661, &feed).unwrap();
-        let target = RackGeneration { curve, rack: rack(beta, -1.0) };
+        let target = RackGeneration { curve, rack: papers_rack(beta, -1.0) };
         let mut all = Engagement::default();
         for space in &spaces {
             all.add(&Engagement::of_space(&linkage, &target, &long_hob, *space, 0.0, [10.0, 8.0, spacing]));

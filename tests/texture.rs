@@ -9,7 +9,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::gear::generation::Side;
 use gearcut::job::Job;
 use gearcut::measure::scallop::cusps;
-use gearcut::measure::topography::{Arguments, Chain, Evaluation, Form};
+use gearcut::measure::topography::{Arguments, Chain, Evaluation, Form, Surface};
 use gearcut::output::surface_files::read_surface;
 use gearcut::scene::model::{Feed, PitchCurveShape, Scene, StrokeSpacing, TextureWindow, WindowSides};
 use gearcut::texture::{WindowTexture, cut_window, windows};
@@ -100,6 +100,42 @@ fn all_graded_values_are_met_within_their_tolerances() {
     }
     assert!(misses.lines.is_empty(), "{}", misses.lines.join("\n"));
     assert_eq!(misses.checked, 217, "values that were graded");
+}
+
+/// Scattered holes and a large one: what is measured counts, nothing turns into NaN, and what needs every point says so.
+#[test]
+fn holes_are_left_out_or_named() {
+    let whole = read_surface(&data("p6_gauss_isotropic.npy"), Some([1.0, 1.0])).expect("a reference surface").surface;
+    let (nx, ny) = (whole.nx(), whole.ny());
+    let missing = |i: usize| (i * 7919) % 9973 == 0 || ((100..130).contains(&(i % nx)) && (60..80).contains(&(i / nx)));
+    let heights = whole.heights_um().iter().enumerate().map(|(i, z)| if missing(i) { f64::NAN } else { *z }).collect();
+    let holed = Surface::new(nx, ny, 1.0, 1.0, heights).expect("a surface");
+    let [whole, evaluation] = [&whole, &holed].map(|surface| Evaluation::of(surface, &Arguments::default()));
+    for parameter in &evaluation.parameters {
+        match parameter.symbol.as_str() {
+            "Std" | "Ssw" => {
+                assert!(parameter.value.as_ref().is_err_and(|why| why.contains("holes")), "{parameter:?}");
+            }
+            symbol => {
+                let value = *parameter.value.as_ref().expect("defined");
+                let before = whole.value(symbol).expect("defined");
+                // Hills that touch a hole are open: fewer count. All else is a sample of 99 % of the same points.
+                let allowed = if symbol == "Spd" { 0.4 } else { 0.05 };
+                let off = (value - before).abs() / before.abs().max(0.2);
+                assert!(off < allowed, "{symbol}: {value} with holes, {before} without");
+            }
+        }
+    }
+    let measured: Vec<f64> = holed.heights_um().iter().copied().filter(|z| !z.is_nan()).collect();
+    let mean = measured.iter().sum::<f64>() / measured.len() as f64;
+    let sa = measured.iter().map(|z| (z - mean).abs()).sum::<f64>() / measured.len() as f64;
+    assert!((evaluation.value("Sa").expect("defined") / sa - 1.0).abs() < 1e-12);
+    // The filters keep holes, and fill none.
+    for robust in [false, true] {
+        let (s_filter_um, l_filter_um) = (Some(4.0), Some(50.0));
+        let chain = Chain { form: Form::Poly2, s_filter_um, l_filter_um, robust, crop_um: 0.0 };
+        assert_eq!(chain.apply(&holed).expect("applies").0.holes(), holed.holes());
+    }
 }
 
 /// One finishing cut with a circular feed, mm per stroke, at equal arcs.

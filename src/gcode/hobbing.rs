@@ -19,7 +19,8 @@
 //! Road not taken: cycles of single controls. Their names and parameters differ from maker to maker; the coupling's three numbers stand in the head of the program instead.
 
 use crate::gcode::program::{Digits, longest_lines};
-use crate::gcode::read::{Word, words};
+use crate::gcode::read::{Word, blocks};
+use crate::gcode::write::ProgramText;
 use crate::job::HobbingJob;
 use crate::job::hobbing::PreparedHobbing;
 use crate::linkage::HobbingLinkage;
@@ -220,7 +221,7 @@ impl HobbingProgram {
     /// ramps hold.
     pub fn exceeded(&self, limits: &HobbingAxisLimits, corners_s: &[f64]) -> Vec<String> {
         let mut exceeded = Vec::new();
-        for axis in 0..LETTERS.len() {
+        for (axis, name) in NAMES.iter().enumerate() {
             let speeds: Vec<(f64, f64, f64)> = self
                 .knots
                 .windows(2)
@@ -240,8 +241,7 @@ impl HobbingProgram {
             {
                 if let Some(limit) = limit.filter(|&limit| value > limit) {
                     exceeded.push(format!(
-                        "the {} needs {:.4} {unit}{per}, the machine allows {:.4}",
-                        NAMES[axis],
+                        "the {name} needs {:.4} {unit}{per}, the machine allows {:.4}",
                         shown(value),
                         shown(limit)
                     ));
@@ -363,7 +363,7 @@ fn text(
     });
     if let Some(gearbox) = gearbox {
         head.push(format!(
-            "SET UP gearbox C = {:.15} B + {:.15} Z + {:.15} W, deg per deg and deg per mm; switch it on before the first block, at the positions of the first block",
+            "SET UP gearbox C = {:.15} B {:+.15} Z {:+.15} W, deg per deg and deg per mm; switch it on before the first block, at the positions of the first block",
             gearbox.per_hob,
             gearbox.per_slide.to_degrees(),
             gearbox.per_shift.to_degrees()
@@ -400,25 +400,15 @@ fn text(
         let _ = write!(words, " B{hob:.*} C{work:.*}", digits.angle, work_digits);
         words
     };
-    let mut text = "%\n".to_owned();
-    for line in head {
-        // Round brackets end a comment.
-        let _ = writeln!(text, "({})", line.replace(['(', ')'], " "));
-    }
-    let mut number = 0;
-    let mut block = |words: String| {
-        number += 10;
-        let _ = writeln!(text, "N{number} {words}");
-    };
-    block("G21 G90 G94".to_owned());
-    block(format!("G0 {}", position(&program.knots[0])));
+    let mut text = ProgramText::new(&head);
+    text.block("G21 G90 G94");
+    text.block(&format!("G0 {}", position(&program.knots[0])));
     for pair in program.knots.windows(2) {
         let per_minute = 60.0 / (pair[1].time_s - pair[0].time_s);
-        block(format!("G93 G1 {} F{per_minute:.9}", position(&pair[1])));
+        text.block(&format!("G93 G1 {} F{per_minute:.9}", position(&pair[1])));
     }
-    block("M30".to_owned());
-    text.push_str("%\n");
-    text
+    text.block("M30");
+    text.finish()
 }
 
 /// Axis positions of a program in this dialect: `G0` to the start, `G1` in `G93` with `F` in every block, `G21`, `G90`, `G94`, `M30`, words `N X Y Z W B C`, comments. Without W the shift is `shift_mm`.
@@ -428,18 +418,11 @@ fn text(
 pub fn read(text: &str, shift_mm: f64) -> Result<HobbingProgram, String> {
     let mut state = Reader { position: [None; 6], motion: None, inverse_time: false, knots: Vec::new(), ended: false };
     state.position[5] = Some(shift_mm);
-    let mut lines = 0;
-    for (index, line) in text.lines().enumerate() {
-        lines = index + 1;
-        let words = words(line).map_err(|why| format!("line {lines}: {why}"))?;
-        if state.ended && !words.is_empty() {
-            return Err(format!("line {lines}: a block after the end of the program"));
-        }
-        state.block(&words).map_err(|why| format!("line {lines}: {why}"))?;
-    }
-    if !state.ended {
-        return Err(format!("line {lines}: the program ends without M30: it may have been cut off"));
-    }
+    let (lines, ended) = blocks(text, |words| {
+        state.block(words)?;
+        Ok(state.ended)
+    })?;
+    ended?;
     if state.knots.is_empty() {
         return Err(format!("line {lines}: no axis has moved"));
     }

@@ -49,21 +49,14 @@ const AXES: [char; 3] = ['X', 'C', 'B'];
 /// Line and word of what is malformed, unknown or missing.
 pub fn program(text: &str) -> Result<AxisProgram, String> {
     let mut state = State::default();
-    let mut lines = 0;
-    for (index, line) in text.lines().enumerate() {
-        lines = index + 1;
-        let words = words(line).map_err(|why| format!("line {lines}: {why}"))?;
-        if state.ended && !words.is_empty() {
-            return Err(format!("line {lines}: a block after the end of the program"));
-        }
-        state.block(&words).map_err(|why| format!("line {lines}: {why}"))?;
-    }
+    let (lines, ended) = blocks(text, |words| {
+        state.block(words)?;
+        Ok(state.ended)
+    })?;
     if state.knots.is_empty() {
         return Err(format!("line {lines}: the program ends and the ram never ran (M3) over a known position"));
     }
-    if !state.ended {
-        return Err(format!("line {lines}: the program ends without M30: it may have been cut off"));
-    }
+    ended?;
     let double_strokes_per_minute = state.strokes_per_minute.unwrap_or_default();
     Ok(AxisProgram { double_strokes_per_minute, knots: state.knots })
 }
@@ -78,8 +71,26 @@ pub(super) struct Word<'a> {
     pub text: &'a str,
 }
 
+/// Takes block after block; `block` tells whether the program has ended. Gives the number of lines, and whether an end was there; errors name the line.
+pub(super) fn blocks(
+    text: &str,
+    mut block: impl FnMut(&[Word]) -> Result<bool, String>,
+) -> Result<(usize, Result<(), String>), String> {
+    let (mut lines, mut ended) = (0, false);
+    for (index, line) in text.lines().enumerate() {
+        lines = index + 1;
+        let words = words(line).map_err(|why| format!("line {lines}: {why}"))?;
+        if ended && !words.is_empty() {
+            return Err(format!("line {lines}: a block after the end of the program"));
+        }
+        ended = block(&words).map_err(|why| format!("line {lines}: {why}"))?;
+    }
+    let cut_off = || format!("line {lines}: the program ends without M30: it may have been cut off");
+    Ok((lines, if ended { Ok(()) } else { Err(cut_off()) }))
+}
+
 /// Splits a line into words, comments left out.
-pub(super) fn words(line: &str) -> Result<Vec<Word<'_>>, String> {
+fn words(line: &str) -> Result<Vec<Word<'_>>, String> {
     let mut found = Vec::new();
     let mut rest = line.trim();
     while let Some(first) = rest.chars().next() {

@@ -19,7 +19,7 @@ pub fn text(job: &Job, operation: &PreparedOperation, program: &AxisProgram) -> 
     } else {
         "INTERMITTENT: the axes rest while the cutter is in the work and move in the return stroke"
     };
-    let mut head = vec![
+    let head = [
         format!("gearcut {}: operation {} of {}", env!("CARGO_PKG_VERSION"), operation.spec.name, job.scene.name),
         "UNITS mm and deg; G90 absolute; G93 inverse time, F = 1 / minutes of the block".to_owned(),
         "AXES X centre distance, C work spindle, B cutter spindle; C and B counter-clockwise from above".to_owned(),
@@ -46,14 +46,6 @@ pub fn text(job: &Job, operation: &PreparedOperation, program: &AxisProgram) -> 
         "The ram is at the top of stroke 0 when the first G93 block begins".to_owned(),
         "Relief on the return stroke is the machine's own; approach and clamping are the operator's".to_owned(),
     ];
-    // Round brackets end a comment.
-    for line in &mut head {
-        *line = line.replace(['(', ')'], " ");
-    }
-    let mut text = "%\n".to_owned();
-    for line in head {
-        let _ = writeln!(text, "({line})");
-    }
     let position = |knot: &Knot| {
         // Negated zeros read as nonsense.
         let clean = |value: f64| if value == 0.0 { 0.0 } else { value };
@@ -67,22 +59,46 @@ pub fn text(job: &Job, operation: &PreparedOperation, program: &AxisProgram) -> 
             clean(knot.psi_b_rad.to_degrees()),
         )
     };
-    let mut number = 0;
-    let mut block = |words: String| {
-        number += 10;
-        let _ = writeln!(text, "N{number} {words}");
-    };
-    block("G21 G90 G94".to_owned());
-    block(format!("G0 {}", position(&program.knots[0])));
-    block(format!("S{} M3", plain(program.double_strokes_per_minute)));
+    let mut text = ProgramText::new(&head);
+    text.block("G21 G90 G94");
+    text.block(&format!("G0 {}", position(&program.knots[0])));
+    text.block(&format!("S{} M3", plain(program.double_strokes_per_minute)));
     for pair in program.knots.windows(2) {
         let per_minute = program.double_strokes_per_minute / (pair[1].stroke - pair[0].stroke);
-        block(format!("G93 G1 {} F{per_minute:.9}", position(&pair[1])));
+        text.block(&format!("G93 G1 {} F{per_minute:.9}", position(&pair[1])));
     }
     // The last stroke is made where the last block ends.
-    block(format!("G4 P{:.9}", 60.0 / program.double_strokes_per_minute));
-    block("M5".to_owned());
-    block("M30".to_owned());
-    text.push_str("%\n");
-    text
+    text.block(&format!("G4 P{:.9}", 60.0 / program.double_strokes_per_minute));
+    text.block("M5");
+    text.block("M30");
+    text.finish()
+}
+
+/// A program as it grows: comments at its head, then numbered blocks between tape ends.
+pub(super) struct ProgramText {
+    text: String,
+    number: u32,
+}
+
+impl ProgramText {
+    /// Head only.
+    pub fn new(head: &[String]) -> Self {
+        let mut text = "%\n".to_owned();
+        for line in head {
+            // Round brackets end a comment.
+            let _ = writeln!(text, "({})", line.replace(['(', ')'], " "));
+        }
+        Self { text, number: 0 }
+    }
+
+    /// One more block.
+    pub fn block(&mut self, words: &str) {
+        self.number += 10;
+        let _ = writeln!(self.text, "N{} {words}", self.number);
+    }
+
+    /// The whole text.
+    pub fn finish(self) -> String {
+        self.text + "%\n"
+    }
 }

@@ -47,7 +47,7 @@ impl RackGeneration {
         });
         let [right_flank, right_corner] = right.pieces.map(backwards);
         let [left_flank, left_corner] = left.pieces;
-        evenly([left_flank, left_corner, bottom, right_corner, right_flank], count)
+        evenly(&[left_flank, left_corner, bottom, right_corner, right_flank], count)
     }
 
     /// Flank and corner on one side of a space, from the flank's field down to the tip line.
@@ -84,7 +84,7 @@ fn backwards(piece: Piece<'_>) -> Piece<'_> {
 }
 
 /// Points evenly along pieces that follow each other.
-fn evenly(pieces: [Piece<'_>; 5], count: usize) -> Vec<RackRootPoint> {
+fn evenly(pieces: &[Piece<'_>; 5], count: usize) -> Vec<RackRootPoint> {
     // Length at every chord's end: piece, parameter, length so far.
     let mut ends: Vec<(usize, f64, f64)> = Vec::new();
     let mut length_mm = 0.0;

@@ -33,6 +33,9 @@ pub trait GearJob: Sync {
     /// Passes of all operations.
     fn passes(&self) -> u32;
 
+    /// Whether marks of an operation follow each other along the tooth. Where the axes rest during strokes a single mark runs along it without end.
+    fn marks_follow_along_tooth(&self, operation: usize) -> bool;
+
     /// Length of a target flank's profile in the middle of the face, mm.
     ///
     /// # Errors

@@ -1,12 +1,12 @@
 //! Surfaces of a hobbed gear, as meshes, pictures and texture ask for them.
 //!
-//! Everything stands section by section along the tooth, each section's rays turned with the helix. Roots are taken along the normals of the target's fillet and root curve, tips along the normals of the
-//! pitch curve; they are cut only by a hob that tops the gear, and otherwise the blank's own surface stands there. The linkage as printed destroys flanks and tips alike: [`crate::run`] makes no closed body of it.
+//! Everything stands section by section along the tooth, each section's rays turned with the helix. Roots are taken along rays from the target's root to a point in the middle of the space: gashes are few, and what
+//! they leave in a tight fillet stands higher than its normals can go before they cross. Tips are taken along the normals of the pitch curve; they are cut only by a hob that tops the gear, and otherwise the blank's own surface stands there. The linkage as printed destroys flanks and tips alike: [`crate::run`] makes no closed body of it.
 
 use super::gear_job::{GearJob, Profile, band_mm, leads_mm};
 use super::hobbed::HobCutter;
 use super::shaped_surfaces::TIP_SPACING_MM;
-use super::shaping::{FILLET_SHARE, RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, ROOT_SPACING_MM};
+use super::shaping::{RAY_DEPTH_MODULES, ROOT_SPACING_MM};
 use crate::cut::Backend;
 use crate::dexel::{Layer, Ray, SpatialField};
 use crate::error::Result;
@@ -22,6 +22,9 @@ use glam::DVec2;
 
 /// Distance of the sections that show a helical gear's shape, mm: chords a micrometre off a helix of 20 deg on a radius of 60 mm.
 const VIEW_SECTION_MM: f64 = 5.0;
+
+/// Rays of a root end before the point in the middle of the space, where they meet.
+const FOCUS_SHARE: f64 = 0.95;
 
 impl GearJob for HobCutter<'_> {
     fn scene(&self) -> &Scene {
@@ -42,6 +45,10 @@ impl GearJob for HobCutter<'_> {
 
     fn passes(&self) -> u32 {
         self.operations.last().map_or(0, crate::passes::HobTeeth::end_pass)
+    }
+
+    fn marks_follow_along_tooth(&self, _operation: usize) -> bool {
+        true // every hob tooth cuts a facet that ends along the tooth, too
     }
 
     fn profile_length_mm(&self, tooth: u32, side: Side) -> Result<f64> {
@@ -106,18 +113,20 @@ impl GearJob for HobCutter<'_> {
         let fields = self.job.scene.fields;
         let leads_mm = leads_mm(self.job.scene.gear.face_width_mm, fields.lead_spacing_mm.max(ROOT_SPACING_MM[1]));
         let roots = self.roots(space, fields.profile_spacing_mm.max(ROOT_SPACING_MM[0]), &leads_mm)?;
-        let module_mm = self.job.scene.gear.module_mm;
+        let target = &self.job.target;
+        // In every section a point in the middle of the space, half way down.
+        let focus: Vec<DVec2> = leads_mm
+            .iter()
+            .map(|&lead| {
+                let arc_mm = target.space_arc_mm(i64::from(space), lead);
+                let frame = self.job.curve.frame(self.job.curve.phi_at_arc(arc_mm));
+                frame.point_mm - 0.5 * target.rack.tip_height_mm * frame.normal
+            })
+            .collect();
         let field = self.field(roots[0].len(), &leads_mm, |column, row| {
-            let root = &roots[row];
-            let point = root[column];
-            let (a, b) = (root[column.saturating_sub(1)], root[(column + 1).min(root.len() - 1)]);
-            // Where normals converge (the fillet), rays end before they meet.
-            let closing = -(b.normal - a.normal).dot((b.point_mm - a.point_mm).normalize_or_zero());
-            let radius_mm = if closing > 0.0 { (b.arc_mm - a.arc_mm) / closing } else { f64::INFINITY };
-            let limit_mm = (RAY_HEIGHT_MODULES * module_mm).min(FILLET_SHARE * radius_mm);
-            let place = point.point_mm;
-            let blank_mm = self.job.blank.exit_mm(place, point.normal, place.to_angle(), limit_mm, limit_mm);
-            (point.point_mm, point.normal, blank_mm)
+            let point_mm = roots[row][column].point_mm;
+            let to_focus = focus[row] - point_mm;
+            (point_mm, to_focus.normalize_or(roots[row][column].normal), FOCUS_SHARE * to_focus.length())
         });
         let arcs_mm = roots[roots.len() / 2].iter().map(|point| point.arc_mm).collect();
         self.surface(backend, &PlacedRays { field, arcs_mm, leads_mm }, self.job.scene.output.mesh_spacing_mm)

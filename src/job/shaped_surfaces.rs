@@ -40,6 +40,10 @@ impl GearJob for Job {
         self.operations.last().map_or(0, |operation| operation.strokes.end_pass())
     }
 
+    fn marks_follow_along_tooth(&self, operation: usize) -> bool {
+        self.operations[operation].spec.feed_during_stroke
+    }
+
     fn profile_length_mm(&self, tooth: u32, side: Side) -> Result<f64> {
         let generation = self.target_generation();
         Ok(self.target_flank(&generation, tooth, side)?.length_mm())

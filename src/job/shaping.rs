@@ -30,7 +30,7 @@ pub(super) const RAY_HEIGHT_MODULES: f64 = 0.5 * std::f64::consts::PI;
 /// Root fields are coarser than flanks, at least so far apart along profile and tooth: roots carry no feed marks that matter.
 pub(super) const ROOT_SPACING_MM: [f64; 2] = [0.02, 1.0];
 /// Rays of a fillet stay within this share of its radius: further out they would cross each other.
-pub(super) const FILLET_SHARE: f64 = 0.8;
+const FILLET_SHARE: f64 = 0.8;
 
 /// One operation with its strokes.
 #[derive(Debug)]

@@ -13,7 +13,7 @@ use crate::dexel::{NO_PASS, Ray, SpatialField};
 use crate::error::Result;
 use crate::gear::generation::Side;
 use crate::job::HobCutter;
-use crate::linkage::hobbing::marks::{MarkStep, Marks};
+use crate::linkage::hobbing::marks::{MarkStep, Marks, shortest};
 use crate::units::TURN_RAD;
 use glam::DVec2;
 
@@ -56,8 +56,9 @@ pub fn measure(cutter: &HobCutter, backend: &dyn Backend, tooth: u32, side: Side
     let length_per_roll = job.target.rack.pressure_angle_rad.sin();
     let kinematic = marks.reduced(spanning, length_per_roll);
     let lattice = |surface| MarkLattice { tooth, side, kinematic, surface };
-    // A patch that holds the steps, and lies on the flank.
-    let widest = |pick: fn(DVec2) -> f64| kinematic.iter().map(|step| pick(step.step_mm).abs()).fold(0.0, f64::max);
+    // A patch that holds the steps which are shortest in its own coordinates, and lies on the flank.
+    let own = shortest(spanning, |step| step);
+    let widest = |pick: fn(DVec2) -> f64| own.iter().map(|&step| pick(step).abs()).fold(0.0, f64::max);
     let half_mm = [widest(|step| step.x), widest(|step| step.y)].map(|step| 0.5 * STEPS * step);
     let target = cutter.target(tooth, side)?;
     let tip_roll_mm =
@@ -119,7 +120,7 @@ pub fn between_rad(a_rad: f64, b_rad: f64) -> f64 {
 
 /// Steps from mark to mark as the surface shows them: peaks of its autocorrelation, nearest first by `length`, none the negative of another.
 ///
-/// `heights` stand on a regular grid, `count[0]` columns of `count[1]` rows, `spacing_mm` apart. Lags reach a third of the grid, and steps shorter than [`LOBE`] points are not told from the marks themselves. A
+/// `heights` stand on a regular grid, `count[0]` columns of `count[1]` rows, `spacing_mm` apart. Lags reach a third of the grid, and steps shorter than eight points are not told from the marks themselves. A
 /// paraboloid through a peak's neighbours places it between grid points.
 pub fn autocorrelation_steps(
     heights: &[f64],

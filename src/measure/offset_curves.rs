@@ -24,14 +24,14 @@ use std::f64::consts::PI;
 pub const OFFSETS_MODULES: [f64; 5] = [-0.75, -0.375, 0.0, 0.375, 0.75];
 /// The one that is the pitch curve itself.
 const PITCH_CURVE: usize = 2;
-/// A ray along the tangent leaves the curve by d^2 / (2 rho): 0.03 nm at 0.1 um. Where the surface was found further away, it is cut again there.
-const NEAR_MM: f64 = 1e-4;
+/// A ray along the tangent leaves its curve by d^2 / (2 rho). Where the surface was found so far away that this is more, mm, it is cut again there.
+const BEND_MM: f64 = 1e-6;
 /// Rounds at most: each leaves the square of the distance before it.
 const ROUNDS: usize = 4;
 /// How far below the target a ray records cuts, modules.
 const DEPTH_MODULES: f64 = 0.5;
-/// Intervals of a histogram, as many as the paper's.
-const INTERVALS: usize = 7;
+/// Intervals of a histogram to either side of the middle one, at most: the last ones hold all that lies beyond.
+const MOST_INTERVALS: usize = 20;
 
 /// Where one curve crosses one flank.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,7 +111,8 @@ pub fn measure(cutter: &HobCutter, backend: &dyn Backend, tooth: u32, side: Side
             // Along the curve an arc of the pitch curve is 1 + offset / rho as long.
             let stretch = 1.0 + point.offset_mm * frame.curvature_per_mm;
             point.along_mm = Some(side.sign() * (arcs_mm[i] - point.target.foot_arc_mm) * stretch);
-            if height_mm.abs() > NEAR_MM {
+            let bend_per_mm = frame.curvature_per_mm / stretch;
+            if 0.5 * height_mm * height_mm * bend_per_mm.abs() > BEND_MM {
                 open.push(i);
             }
         }
@@ -141,11 +142,11 @@ pub struct ErrorSpread {
     /// Width of an interval, um; the middle one is centred on zero.
     pub interval_um: f64,
     /// Errors in each interval.
-    pub frequencies: [usize; INTERVALS],
+    pub frequencies: Vec<usize>,
 }
 
 impl ErrorSpread {
-    /// Of errors in um; `None` with fewer than two. Intervals are 1, 2 or 4 times a power of ten wide, as small as they can be and hold all.
+    /// Of errors in um; `None` with fewer than two. As in the paper, intervals are about one standard deviation wide: 1, 2 or 4 times a power of ten, not less than it.
     pub fn of(errors_um: &[f64]) -> Option<Self> {
         let count = errors_um.len();
         if count < 2 {
@@ -153,22 +154,25 @@ impl ErrorSpread {
         }
         let mean_um = errors_um.iter().sum::<f64>() / count as f64;
         let squares: f64 = errors_um.iter().map(|e| (e - mean_um).powi(2)).sum();
-        let largest_um = errors_um.iter().fold(0.0_f64, |most, e| most.max(e.abs())).max(1e-9);
-        let needed_um = 2.0 * largest_um / INTERVALS as f64;
-        let power = 10_f64.powf(needed_um.log10().floor());
-        let interval_um = [1.0, 2.0, 4.0, 10.0].map(|w| w * power).into_iter().find(|w| *w >= needed_um);
-        let interval_um = interval_um.unwrap_or(10.0 * power);
-        let mut frequencies = [0; INTERVALS];
+        let sigma_um = (squares / (count - 1) as f64).sqrt();
+        // Errors that do not spread at all still get a scale: a nanometre.
+        let power = 10_f64.powf(sigma_um.max(1e-3).log10().floor());
+        let widths = [1.0, 2.0, 4.0].map(|width| width * power);
+        let interval_um = widths.into_iter().find(|width| *width >= sigma_um).unwrap_or(10.0 * power);
+        let largest_um = errors_um.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
+        let beside = ((largest_um / interval_um - 0.5).ceil().max(1.0) as usize).min(MOST_INTERVALS);
+        let mut frequencies = vec![0; 2 * beside + 1];
         for error in errors_um {
-            let interval = (error / interval_um + 0.5 * INTERVALS as f64).floor();
-            frequencies[(interval.max(0.0) as usize).min(INTERVALS - 1)] += 1;
+            let interval = (error / interval_um).round() + beside as f64;
+            frequencies[(interval.max(0.0) as usize).min(2 * beside)] += 1;
         }
-        Some(Self { count, mean_um, sigma_um: (squares / (count - 1) as f64).sqrt(), interval_um, frequencies })
+        Some(Self { count, mean_um, sigma_um, interval_um, frequencies })
     }
 
     /// Middles of the intervals, um.
-    pub fn medians_um(&self) -> [f64; INTERVALS] {
-        std::array::from_fn(|i| (i as f64 - 0.5 * (INTERVALS - 1) as f64) * self.interval_um)
+    pub fn medians_um(&self) -> Vec<f64> {
+        let beside = (self.frequencies.len() / 2) as f64;
+        (0..self.frequencies.len()).map(|i| (i as f64 - beside) * self.interval_um).collect()
     }
 
     /// Errors that the fitted distribution has at `error_um` in an interval's width.
@@ -190,8 +194,8 @@ mod tests {
         let spread = ErrorSpread::of(&errors).expect("350 errors");
         assert_eq!(spread.count, 350);
         assert_eq!(spread.interval_um, 40.0);
-        assert_eq!(spread.frequencies.to_vec(), table.map(|(_, count)| count).to_vec());
-        assert_eq!(spread.medians_um().to_vec(), table.map(|(median, _)| median).to_vec());
+        assert_eq!(spread.frequencies, table.map(|(_, count)| count).to_vec());
+        assert_eq!(spread.medians_um(), table.map(|(median, _)| median).to_vec());
         assert!((spread.sigma_um - 39.66).abs() < 0.06, "{}", spread.sigma_um);
         // The fitted distribution holds all errors.
         let all: f64 = (-400..=400).map(|e| spread.expected(f64::from(e)) / spread.interval_um).sum();

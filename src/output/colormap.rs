@@ -66,12 +66,15 @@ impl ColourScale {
         if low < -0.01 * limit { Self::Diverging { limit } } else { Self::Sequential { low, high } }
     }
 
-    /// Sequential scale over most of the finite values: one in a hundred lies below its low end, one in fifty above its high end.
-    pub fn usual_over<'a>(maps: impl IntoIterator<Item = &'a [f32]>) -> Self {
+    /// Sequential scale over the finite values between two quantiles, such as 0.01 and 0.98.
+    pub fn between_quantiles<'a>(maps: impl IntoIterator<Item = &'a [f32]>, [low, high]: [f64; 2]) -> Self {
         let mut sorted: Vec<f32> = maps.into_iter().flatten().copied().filter(|v| v.is_finite()).collect();
         sorted.sort_unstable_by(f32::total_cmp);
-        let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied().unwrap_or(0.0);
-        Self::Sequential { low: at(0.01), high: at(0.98) }
+        let at = |share: f64| {
+            let index = (share * sorted.len() as f64) as usize;
+            sorted.get(index.min(sorted.len().saturating_sub(1))).copied().unwrap_or(0.0)
+        };
+        Self::Sequential { low: at(low), high: at(high) }
     }
 
     /// Values at the two ends.

@@ -28,6 +28,9 @@ use crate::units::UM_PER_MM;
 /// What map readers need to know about u and v.
 const FRAME: &str = "flank frame: u = arc length along the target profile from the form point to the tip, v = place along the tooth from the middle of the face; heights along the target's outward normal, positive = material left";
 
+/// Quantiles between which chips are told apart: the places that a first stroke cut whole tooth spaces from would hide all others.
+pub const CHIPS_SHOWN: [f64; 2] = [0.0, 0.95];
+
 /// What maps need to know of an operation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OperationMaps {
@@ -180,7 +183,7 @@ impl FlankMaps {
                     title: &format!("{name}: {flank}, the chip that left each place"),
                     quantity: "uncut chip thickness",
                     values: &thickness_um,
-                    scale: ColourScale::usual_over([thickness_um.as_slice()]),
+                    scale: ColourScale::between_quantiles([thickness_um.as_slice()], CHIPS_SHOWN),
                     ..picture
                 };
                 write_map_png(&folder.path(format!("maps/{name}/{stem}_chip.png"))?, &picture)?;

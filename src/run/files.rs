@@ -12,7 +12,7 @@ use crate::measure::unevenness::ToothAllowance;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::colormap::ColourScale;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
-use crate::output::flank_maps::{FlankMaps, OperationMaps};
+use crate::output::flank_maps::{CHIPS_SHOWN, FlankMaps, OperationMaps};
 use crate::output::folder::OutputFolder;
 use crate::output::results::{RESULTS_FILE, Results};
 use crate::output::table::{Cell, write_table};
@@ -239,7 +239,7 @@ pub fn write_contact_sheets(job: &dyn GearJob, maps: &[FlankMaps], folder: &Outp
         &folder.path(format!("pictures/chip_thickness_{name}.png"))?,
         &format!("{scene}: chips that left the finished surface, all flanks"),
         ["uncut chip thickness", "µm"],
-        ColourScale::usual_over(chips.iter().map(Vec::as_slice)),
+        ColourScale::between_quantiles(chips.iter().map(Vec::as_slice), CHIPS_SHOWN),
         maps,
         &chips,
     )

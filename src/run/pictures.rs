@@ -24,6 +24,8 @@ use crate::units::UM_PER_MM;
 use glam::DVec3;
 use std::f64::consts::PI;
 
+/// Colours run between these quantiles of the values; what lies beyond is marked at the colour bar.
+const SHOWN: [f64; 2] = [0.01, 0.98];
 /// Exaggerated feed marks lean about this much: steep enough for raking light to tell their sides apart, flat enough to hide nothing.
 const MARK_SLOPE: f64 = 0.12;
 /// The lamp over a rolled-out flank stands this high, rad: marks that lean by [`MARK_SLOPE`] stay in its light.
@@ -107,7 +109,7 @@ fn look(job: &dyn GearJob, colour: PictureColour, mesh: &Mesh) -> (Look, Option<
     };
     let scale = match (colour, mesh.scalar(name).map(|scalar| &scalar.values)) {
         (PictureColour::Stock, _) => stock_scale(job),
-        (_, Some(ScalarValues::F32(values))) => ColourScale::usual_over([values.as_slice()]),
+        (_, Some(ScalarValues::F32(values))) => ColourScale::between_quantiles([values.as_slice()], SHOWN),
         (_, Some(ScalarValues::U32(values))) => {
             let cut: Vec<f32> = values.iter().filter(|&&v| v != NO_PASS).map(|&v| v as f32).collect();
             ColourScale::sequential_over([cut.as_slice()])

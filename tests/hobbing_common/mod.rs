@@ -55,6 +55,54 @@ pub fn number(value: &Value, key: &str) -> f64 {
     value[key].as_f64().unwrap_or_else(|| panic!("{key}"))
 }
 
+/// The hob of both papers: one start, 10 gashes, lead angle 3 deg 19', left-hand, sharp corners.
+fn papers_hob_spec(length_mm: f64) -> HobSpec {
+    HobSpec {
+        starts: 1,
+        hand: Hand::Left,
+        gashes: 10,
+        gash_form: GashForm::Axial,
+        size: HobSize::LeadAngle((3.0 + 19.0 / 60.0_f64).to_radians()),
+        length_mm,
+        addendum_coefficient: 1.25,
+        dedendum_coefficient: 1.25,
+        worm: Worm::Involute,
+        tip_radius_mm: 0.0,
+        protuberance: None,
+        thinning_mm: 0.0,
+        regrind_mm: 0.0,
+    }
+}
+
+/// That hob of module 8.
+pub fn papers_hob(length_mm: f64) -> Hob {
+    Hob::new(&papers_hob_spec(length_mm), 8.0, 20_f64.to_radians()).expect("a hob")
+}
+
+/// An ellipse of normal module 8; `a` is its semi-major axis, solved if there is none.
+pub fn papers_ellipse(order: u32, eccentricity: f64, a: Option<f64>, helix: f64, teeth: u32) -> Arc<PitchCurve> {
+    let shape = PitchCurveShape::Ellipse { order, eccentricity, semi_major_axis_mm: a };
+    Arc::new(PitchCurve::new(&shape, 8.0 / helix.cos(), teeth).expect("a curve"))
+}
+
+/// The rack of the papers' hob: sharp tips 1.25 m high.
+pub fn papers_rack(helix_angle_rad: f64, hand: f64) -> Rack {
+    sharp_rack(8.0, 20_f64.to_radians(), 10.0, helix_angle_rad, hand)
+}
+
+fn sharp_rack(module_mm: f64, pressure_angle_rad: f64, tip_height_mm: f64, helix_angle_rad: f64, hand: f64) -> Rack {
+    let transverse_module_mm = module_mm / helix_angle_rad.cos();
+    Rack {
+        transverse_module_mm,
+        pressure_angle_rad: (pressure_angle_rad.tan() / helix_angle_rad.cos()).atan(),
+        half_thickness_mm: 0.25 * std::f64::consts::PI * transverse_module_mm,
+        tip_height_mm,
+        tip_radius_mm: 0.0,
+        helix_angle_rad,
+        hand,
+    }
+}
+
 impl Case {
     /// Case of a file's setup, its gashes made more or fewer and its feed changed by factors.
     pub fn with(setup: &Value, gash_factor: f64, feed_factor: f64) -> Self {
@@ -82,14 +130,8 @@ impl Case {
             gashes: (get("Zb") * gash_factor).round() as u32,
             gash_form,
             size: HobSize::LeadAngle(get("lam")),
-            length_mm: 400.0,
             addendum_coefficient: get("ha0"),
-            dedendum_coefficient: 1.25,
-            worm: Worm::Involute,
-            tip_radius_mm: 0.0,
-            protuberance: None,
-            thinning_mm: 0.0,
-            regrind_mm: 0.0,
+            ..papers_hob_spec(400.0)
         };
         let hob = Hob::new(&spec, normal_module_mm, pressure_angle_rad).expect("a hob");
         let geometry = HobbingGeometry::new(&hob, helix_angle_rad, get("h"));
@@ -142,16 +184,14 @@ impl Case {
 
     /// The target by the project's own rack: sharp tips.
     pub fn rack_generation(&self) -> RackGeneration {
-        let transverse_module_mm = self.normal_module_mm / self.helix_angle_rad.cos();
-        let rack = Rack {
-            transverse_module_mm,
-            pressure_angle_rad: (self.pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan(),
-            half_thickness_mm: 0.25 * std::f64::consts::PI * transverse_module_mm,
-            tip_height_mm: self.hob.tip_radius_mm - self.hob.pitch_radius_mm,
-            tip_radius_mm: 0.0,
-            helix_angle_rad: self.helix_angle_rad,
-            hand: self.gear_hand,
-        };
+        let tip_height_mm = self.hob.tip_radius_mm - self.hob.pitch_radius_mm;
+        let rack = sharp_rack(
+            self.normal_module_mm,
+            self.pressure_angle_rad,
+            tip_height_mm,
+            self.helix_angle_rad,
+            self.gear_hand,
+        );
         RackGeneration { curve: self.curve.clone(), rack }
     }
 

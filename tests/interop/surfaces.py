@@ -178,6 +178,17 @@ def compare_parameters(program, path, defined):
     agree("SurfaceTopography", "Sq", topography.rms_height_from_area(), value("Sq"), 1e-9)
     # Its gradient averages both directions over the same points.
     agree("SurfaceTopography", "Sdq", topography.rms_gradient(), value("Sdq"), 1e-3)
+    # A column as a profile, across the marks; cropped to a number of points that five sections share evenly.
+    margin = len(surface.data) * 3 % 5
+    crop_um = margin * surface.step_y
+    cropped = json.loads(gearcut(program, path, "--form", "none", "--crop-um", repr(crop_um), "--line", "x=0", "--json"))
+    line = cropped["profiles"][0]["parameters"]
+    heights = surface.data[margin : len(surface.data) - margin, int(np.ceil(crop_um / surface.step_x - 1e-9))]
+    profile = surfalize.Profile(heights - heights.mean(), surface.step_y)
+    for symbol in ("Ra", "Rq", "Rz", "Rt", "Rsk", "Rku"):
+        agree("profile, sums over points", symbol, float(getattr(profile, symbol)()), line[symbol]["value"], 1e-9)
+    # A line has few points: half of one at the ends of the curve counts.
+    agree("profile, material ratio curve", "Rk", float(profile.Rk()), line["Rk"]["value"], 1e-2)
     for group, (off, count) in worst.items():
         print(f"ok   {name + ', ' + group:58s} {off:.1e}, {count} compared")
     missing = [symbol for symbol in defined if value(symbol) is None]

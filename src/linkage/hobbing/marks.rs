@@ -157,22 +157,26 @@ impl Marks<'_> {
         }
     }
 
-    /// The two shortest steps that span the same lattice as `v1` and `v2` (Lagrange's reduction), the shortest first, on a flank where the profile takes `length_per_roll`.
-    pub fn reduced(&self, [v1, v2]: [DVec2; 2], length_per_roll: f64) -> [MarkStep; 2] {
-        let vector = |step: DVec2| self.on_flank(step, length_per_roll).on_flank_mm;
-        let (mut a, mut b) = (v1, v2);
-        for _ in 0..100 {
-            if vector(a).length_squared() > vector(b).length_squared() {
-                (a, b) = (b, a);
-            }
-            let times = (vector(a).dot(vector(b)) / vector(a).length_squared()).round();
-            if times == 0.0 {
-                break;
-            }
-            b -= times * a;
-        }
-        [a, b].map(|step| self.on_flank(step, length_per_roll))
+    /// The two shortest steps that span the same lattice as `steps` on a flank where the profile takes `length_per_roll`, the shortest first.
+    pub fn reduced(&self, steps: [DVec2; 2], length_per_roll: f64) -> [MarkStep; 2] {
+        let on_flank = |step: DVec2| self.on_flank(step, length_per_roll);
+        shortest(steps, |step| on_flank(step).on_flank_mm).map(on_flank)
     }
+}
+
+/// The two shortest steps that span the same lattice as two others (Lagrange's reduction), the shortest first; `vector` gives the length of a step.
+pub fn shortest([mut a, mut b]: [DVec2; 2], vector: impl Fn(DVec2) -> DVec2) -> [DVec2; 2] {
+    for _ in 0..100 {
+        if vector(a).length_squared() > vector(b).length_squared() {
+            (a, b) = (b, a);
+        }
+        let times = (vector(a).dot(vector(b)) / vector(a).length_squared()).round();
+        if times == 0.0 {
+            break;
+        }
+        b -= times * a;
+    }
+    [a, b]
 }
 
 /// A vector from one mark to another.

@@ -1,6 +1,8 @@
 //! The same surface through every format; files of other programs; damaged files.
 
 use super::*;
+use crate::output::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
+use crate::output::grid::{MapAxis, MapGrid};
 use std::path::PathBuf;
 
 const FORMATS: [(Format, &str); 6] = [
@@ -54,6 +56,45 @@ fn every_format_gives_back_what_it_was_given_and_the_same_bytes_again() {
             assert_eq!(back.notes, given.notes, "{format:?}");
         }
     }
+}
+
+/// Maps have v (x here) along their rows and u (y) from row to row; ids are no heights.
+#[test]
+fn our_maps_are_surfaces() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let path = folder.path().join("map.exr");
+    let axis = |name: &str, step_mm: f64, count: usize| MapAxis {
+        name: name.into(),
+        meaning: name.into(),
+        start_mm: 0.5,
+        step_mm,
+        count,
+    };
+    let heights: Vec<f32> =
+        (0..35_u16).map(|i| if i == 12 { f32::NAN } else { f32::from(i * i % 17) * 1e-3 }).collect();
+    let channel = |name: &str, unit: &str, samples| MapChannel {
+        name: name.into(),
+        unit: unit.into(),
+        definition: name.into(),
+        samples,
+    };
+    let map = ExrMap {
+        frame: "a flank".into(),
+        grid: MapGrid { u: axis("u", 0.003, 5), v: axis("v", 0.002, 7) },
+        channels: vec![
+            channel("pass_id", "1", Samples::U32((0..35).collect())),
+            channel("stock", "mm", Samples::F32(vec![1.0; 35])),
+            channel("height_mm", "mm", Samples::F32(heights.clone())),
+        ],
+        notes: vec![("scene".into(), "[gear]".into())],
+    };
+    write_exr_map(&path, &map).expect("written");
+    let file = read_surface(&path, None).expect("a surface");
+    let expected = heights.iter().map(|z| f64::from(*z) * 1e3).collect();
+    assert!(close(&file.surface, &Surface::new(7, 5, 2.0, 3.0, expected).expect("a grid"), 1e-12));
+    assert!(
+        file.notes.contains(&("scene".into(), "[gear]".into())) && file.notes[0] == ("frame".into(), "a flank".into())
+    );
 }
 
 #[test]

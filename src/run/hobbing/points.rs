@@ -170,7 +170,7 @@ pub fn results(gear: &HobbedGear) -> Value {
                 "mean": number(|s| s.mean_um, format!("mean error: {}", errors.definition)),
                 "sigma": number(|s| s.sigma_um, format!("standard deviation of the errors about their mean: {}", errors.definition)),
                 "interval": number(|s| s.interval_um, "width of an interval; the middle one is centred on zero".to_owned()),
-                "frequencies": spread.map(|s| s.frequencies),
+                "frequencies": spread.map(|s| s.frequencies.clone()),
             }),
         );
     }

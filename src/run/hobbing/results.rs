@@ -45,8 +45,7 @@ pub(in crate::run) fn headline(job: &HobbingJob, gear: &HobbedGear) -> Vec<(&'st
         let largest = gear.pitch.iter().flatten().map(pick).reduce(f64::max);
         Quantity::number_or(largest.map(|mm| mm * UM_PER_MM), "um", definition, NOT_CROSSED)
     };
-    let curvatures = job.curve.facts().curvature_extrema.iter().map(|e| e.curvature_per_mm);
-    let sharpest = curvatures.fold(0.0, f64::max);
+    let sharpest = job.curve.facts().largest_curvature.curvature_per_mm;
     vec![
         (
             "highest_mark",

@@ -38,7 +38,7 @@ pub fn page(
     sections.push(motion(cutter, &axes));
     sections.push(facts::hobbing_section(job));
     sections.push(record(gear.flanks.len(), &gear.work.stats, gear.work.dexels, run));
-    let mut numbers: Vec<_> = headline(job, gear)
+    let numbers: Vec<_> = headline(job, gear)
         .iter()
         .map(|(key, quantity)| {
             let name = key.replace('_', " ");
@@ -47,7 +47,6 @@ pub fn page(
             key_number(&(first + letters.as_str()), quantity)
         })
         .collect();
-    numbers.extend(deviations::key_numbers(&inspection).into_iter().skip(1));
     Ok(Page {
         title: job.scene.name.clone(),
         subtitle: facts::gear_words(&job.scene.gear),
