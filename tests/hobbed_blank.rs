@@ -82,7 +82,7 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
 #[test]
 fn candidates_leave_what_all_passes_leave() {
     for scene in ["circular_spur", "circular_helical"] {
-        let job = job(scene, &SMALL);
+        let job = job(scene, &[SMALL[0], SMALL[1], "fields.blank.slice_spacing_mm=3.0"]);
         let cutter = HobCutter::new(&job).expect("passes");
         let cut = |cull: bool| {
             let mut field = job.blank_field().expect("fits");
