@@ -4,12 +4,17 @@ mod hobbing_common;
 
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
-use gearcut::dexel::SpatialField;
+use gearcut::dexel::{Layer, SpatialField};
+use gearcut::gear::generation::Side;
+use gearcut::job::{HobCutter, HobbingJob};
 use gearcut::passes::{HobTeeth, SweepPlan};
+use gearcut::scene::load;
 use gearcut::tool::CuttingTool;
+use gearcut::tool::edge::Edge;
 use hobbing_common::*;
 use serde_json::Value;
 use std::f64::consts::TAU;
+use std::path::Path;
 
 /// Largest difference from the oracle's heights: numerical resolution of the native backend.
 const BOUND_NM: f64 = 0.1;
@@ -79,15 +84,17 @@ fn target_rays_are_those_of_the_independent_implementation() {
 }
 
 /// Two plans of one field leave the same bytes.
-fn same_as_brute_force(name: &str, case: &Case, passes: &HobTeeth, field: &SpatialField) {
-    let run = |plan: &SweepPlan| {
-        let mut layer = field.blank_layer();
-        let stats = Cpu::default().cut_spatial(field, case.hob.edge(), plan, &mut layer).expect("cuts");
-        assert_eq!(stats.unconverged, 0, "{name}");
+fn same_as_brute_force(name: &str, edge: &Edge, passes: &HobTeeth, field: &SpatialField, start: &Layer) -> Layer {
+    let run = |plan: &SweepPlan, every_root: bool| {
+        let mut layer = start.clone();
+        let stats = Cpu::default().cut_spatial(field, edge, plan, &mut layer).expect("cuts");
+        // Of a hundred million pairs a few are rays that graze a round tip far above what is left in the end.
+        assert!(stats.unconverged == 0 || (!every_root && stats.unconverged < 10), "{name}: {}", stats.unconverged);
+        assert_eq!(stats.dexel_passes, plan.dexel_passes(), "{name}");
         layer
     };
-    let [plan, all] = [SweepPlan::new, SweepPlan::brute_force].map(|make| make(field, passes, case.hob.edge()));
-    let (few, brute) = (run(&plan), run(&all));
+    let [plan, all] = [SweepPlan::new, SweepPlan::brute_force].map(|make| make(field, passes, edge));
+    let (few, brute) = (run(&plan, true), run(&all, false));
     let differ =
         (0..field.len()).filter(|&i| few.heights_mm[i] != brute.heights_mm[i] || few.passes[i] != brute.passes[i]);
     let differ: Vec<usize> = differ.collect();
@@ -99,6 +106,7 @@ fn same_as_brute_force(name: &str, case: &Case, passes: &HobTeeth, field: &Spati
         differ.len()
     );
     assert!(differ.is_empty(), "{name}: dexel {} of {}", differ[0], field.len());
+    brute
 }
 
 #[test]
@@ -117,11 +125,57 @@ fn candidates_leave_what_all_passes_leave() {
         let (space, flank) = (file["space"].as_i64().expect("space"), number(&file, "flank"));
         for &[sigma, z] in places {
             let field = case.patch(space, flank, &even(sigma, sigma + 0.8, 16), &even(z, z + 1.55, 32));
-            same_as_brute_force(&format!("{name} at {sigma}, {z}"), &case, &passes, &field);
+            same_as_brute_force(
+                &format!("{name} at {sigma}, {z}"),
+                case.hob.edge(),
+                &passes,
+                &field,
+                &field.blank_layer(),
+            );
         }
         // A whole flank, coarse: regions as large as the first halvings.
         let field = case.patch(space, flank, &even(-26.0, 24.0, 20), &even(-12.0, 12.0, 34));
-        same_as_brute_force(&format!("{name}, whole"), &case, &passes, &field);
+        same_as_brute_force(&format!("{name}, whole"), case.hob.edge(), &passes, &field, &field.blank_layer());
+    }
+}
+
+/// Whole jobs, from the approach to the overrun: candidates start from all passes of an operation, of which most work on other teeth. Two cuts with a radial approach, helical gashes and round tips; and a hob
+/// that shifts.
+#[test]
+fn candidates_of_whole_jobs_leave_what_all_passes_leave() {
+    let cases = [
+        ("circular_helical", "gear.face_width_mm=14", 3, Side::Right),
+        ("third_order_diagonal", "gear.face_width_mm=50", 5, Side::Left),
+    ];
+    for (scene, width, tooth, side) in cases {
+        let path = format!("scenes/hobbing/{scene}.toml");
+        let set = ["fields.flank.profile_spacing_um=20", "fields.flank.lead_spacing_um=50", width].map(str::to_owned);
+        let scene = load(Path::new(&path), &set).expect("the scene").scene;
+        let job = HobbingJob::new(&scene).expect("the gear");
+        let cutter = HobCutter::new(&job).expect("passes");
+        let whole = cutter.rays(tooth, side).expect("a flank").1.field;
+        // Every so many rays of the flank, so many of them, from a column and a row on.
+        let part = |step: [usize; 2], count: [usize; 2], from: [usize; 2]| {
+            SpatialField::new(count[0], count[1], whole.low_mm, |column, row| {
+                let (column, row) = (from[0] + column * step[0], from[1] + row * step[1]);
+                (whole.ray(column, row), f64::from(whole.blank_mm[whole.index(column, row)]))
+            })
+        };
+        let (columns, rows) = (whole.columns(), whole.rows());
+        // A coarse flank from face to face, and two by two tiles as in use where the tip meets one face and the root the other.
+        let fields = [
+            part([columns / 20, rows / 33], [20, 33], [0, 0]),
+            part([1, 1], [17, 40], [columns - 17, 0]),
+            part([1, 1], [17, 40], [0, rows - 40]),
+        ];
+        for (number, field) in fields.iter().enumerate() {
+            let mut layer = field.blank_layer();
+            for passes in &cutter.operations {
+                let name = format!("{path}, field {number}");
+                layer = same_as_brute_force(&name, job.hob.edge(), passes, field, &layer);
+            }
+            assert!(layer.passes.iter().any(|&pass| pass != u32::MAX));
+        }
     }
 }
 

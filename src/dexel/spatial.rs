@@ -42,8 +42,8 @@ impl SpatialField {
         let mut field = Self {
             columns,
             rows,
-            origins_mm: Default::default(),
-            normals: Default::default(),
+            origins_mm: [(); 3].map(|()| Vec::with_capacity(columns * rows)),
+            normals: [(); 3].map(|()| Vec::with_capacity(columns * rows)),
             low_mm,
             blank_mm: Vec::with_capacity(columns * rows),
         };

@@ -14,6 +14,8 @@ pub mod strokes;
 pub mod sweep;
 mod sweep_bounds;
 pub mod sweep_plan;
+pub mod sweep_roots;
+mod sweep_samples;
 
 pub use candidates::{CutPlan, Tile};
 pub use hob_teeth::HobTeeth;

@@ -57,7 +57,15 @@ impl MotionTable {
 
     /// Pose of the work in the head; beyond its ends the table goes on with its last polynomials.
     pub fn head_from_work(&self, tool_angle_rad: f64) -> Rigid3 {
-        let index = self.ends_rad.partition_point(|&end| end <= tool_angle_rad).clamp(1, self.panels.len()) - 1;
+        // Panels are nearly even: from where the one looked for would stand if they were.
+        let ([from, to], last) = (self.range_rad(), self.panels.len() - 1);
+        let mut index = (((tool_angle_rad - from) / (to - from) * self.panels.len() as f64) as usize).min(last);
+        while index > 0 && tool_angle_rad < self.ends_rad[index] {
+            index -= 1;
+        }
+        while index < last && tool_angle_rad >= self.ends_rad[index + 1] {
+            index += 1;
+        }
         let (start, end) = (self.ends_rad[index], self.ends_rad[index + 1]);
         let u = (2.0 * tool_angle_rad - start - end) / (end - start);
         let panel = &self.panels[index];

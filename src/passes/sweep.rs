@@ -16,12 +16,12 @@
 
 use super::hob_teeth::{BladePass, HobTeeth, SWEEP_RAD};
 use super::strokes::{NODES, cubic_through};
-use crate::dexel::Ray;
-use crate::tool::edge::{Segment, SegmentShape};
+use super::sweep_roots::LARGEST_T;
+use crate::tool::edge::Segment;
 use glam::{DMat3, DVec3};
 
-/// Largest |t|: a sweep's whole range from one of its ends.
-const LARGEST_T: f64 = 1.0;
+/// Steps at most towards the moment at which a rake face holds a point.
+const MAX_STEPS: usize = 24;
 
 /// u and du/dt: nearly half the angle, by a polynomial that every backend computes alike.
 #[inline(always)]
@@ -30,9 +30,6 @@ pub fn half_angle(t: f64) -> [f64; 2] {
     let z = t * t;
     [t * (1.0 - z * (1.0 / 3.0 - z * 0.2)), 1.0 - z + z * z]
 }
-
-/// Newton steps at most.
-const MAX_STEPS: usize = 24;
 
 /// A sweep near a tile, for all segments of the blade.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,8 +51,10 @@ pub struct SweepRecord {
     pub pass: u32,
     /// Index of the segment in the blade's edge.
     pub segment: u32,
-    /// Height at which Newton's method starts, mm.
-    pub start_mm: f64,
+    /// Cells of the tile in which it can leave the lowest surface, as bits (see [`super::sweep_plan::SweepTile::cell`]).
+    pub cells: u16,
+    /// Where Newton's method starts.
+    pub start: SweepStart,
     /// Distance of the segment's origin from the tool's axis, mm; r counts from there, y from the segment's origin.
     pub radius_mm: f64,
     /// Turn of the rake face per mm of y, rad/mm.
@@ -66,28 +65,13 @@ pub struct SweepRecord {
     pub place_mm: [[f64; 3]; 4],
 }
 
-/// Where a ray enters a segment's sweep or the continuation of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SweepHit {
-    /// Ray parameter, mm.
-    pub height_mm: f64,
-    /// Moment.
-    pub t: f64,
-    /// Place along the segment, mm.
-    pub y_mm: f64,
-    /// How fast the ray runs into the segment, against the edge's unit normal.
-    pub cosine: f64,
-}
-
-/// What became of a search.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Meeting {
-    /// An entry.
-    Enters(SweepHit),
-    /// The ray runs out of the tool wherever it meets the segment.
-    Leaves,
-    /// Nothing was found.
-    Missed,
+/// Heights and moments from which Newton's method starts on a tile: polynomials in columns x and rows y from the tile's middle ray, coefficients of 1, x, y, x^2, x y, y^2.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SweepStart {
+    /// Heights, mm.
+    pub height_mm: [f64; 6],
+    /// Moments.
+    pub t: [f64; 6],
 }
 
 impl Sweep {
@@ -97,15 +81,16 @@ impl Sweep {
         let place = set.place(pass);
         let twist = set.rake_twist_rad_per_mm;
         let blade_y = |z: f64| place.y_sign * (z - place.axial_mm);
-        // The rake face follows the point: a fixed point with the ratio of the speeds, some hundredths.
-        let mut swept = 0.0;
-        let mut at = DVec3::ZERO;
+        // The rake face follows the point, which moves some hundredths as fast: the secant of what is missing.
+        let (mut swept, mut at) = (0.0, DVec3::ZERO);
+        let mut before: Option<[f64; 2]> = None;
         for _ in 0..20 {
             at = set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).point(origin_mm);
-            let next = at.y.atan2(at.x) - twist * blade_y(at.z);
-            let step = next - swept;
-            swept = next;
-            if swept.abs() > SWEEP_RAD || step.abs() < 1e-14 {
+            let missing = at.y.atan2(at.x) - twist * blade_y(at.z) - swept;
+            let rate = before.map_or(-1.0, |[angle, less]| (missing - less) / (swept - angle));
+            before = Some([swept, missing]);
+            swept -= missing / rate;
+            if swept.abs() > SWEEP_RAD || missing.abs() < 1e-14 {
                 break;
             }
         }
@@ -146,7 +131,7 @@ impl Sweep {
         })
     }
 
-    /// The sweep of one segment; `start_mm` is the caller's.
+    /// The sweep of one segment; cells and starts are the caller's.
     pub fn record(&self, pass: u32, segment_index: usize, segment: &Segment) -> SweepRecord {
         let base = segment.blade_from_segment.translation_mm;
         // Axes of the rake face at the segment's own y.
@@ -157,7 +142,8 @@ impl Sweep {
         SweepRecord {
             pass,
             segment: segment_index as u32,
-            start_mm: 0.0,
+            cells: u16::MAX,
+            start: SweepStart::default(),
             radius_mm: base.x,
             twist_rad_per_mm: self.twist_rad_per_mm,
             turn: self.turn.map(|turn| (turned * turn).transpose().to_cols_array_2d()),
@@ -199,114 +185,4 @@ fn t_at(u: f64) -> f64 {
         t -= (value - u) / rate;
     }
     t
-}
-
-/// Residuals of both equations with their derivatives.
-struct Residuals {
-    /// The moment: value, rate over h, rate over t.
-    moment: [f64; 3],
-    /// The edge: value, rate over h, rate over t.
-    edge: [f64; 3],
-    y_mm: f64,
-    /// Length of the edge's normal as the residual has it.
-    normal: f64,
-}
-
-impl SweepRecord {
-    fn residuals(&self, segment: &Segment, ray: &LocalRay, h: f64, t: f64) -> Residuals {
-        let [u, u_t] = half_angle(t);
-        let place = ray.place[0] + u * (ray.place[1] + u * (ray.place[2] + u * ray.place[3]));
-        let place_u = ray.place[1] + u * (2.0 * ray.place[2] + u * (3.0 * ray.place[3]));
-        let along = ray.along[0] + u * (ray.along[1] + u * ray.along[2]);
-        let along_u = ray.along[1] + u * (2.0 * ray.along[2]);
-        let mut p = place + h * along;
-        let mut p_t = u_t * (place_u + h * along_u);
-        let mut p_h = along;
-        if self.twist_rad_per_mm != 0.0 {
-            let (sin, cos) = (self.twist_rad_per_mm * p.z).sin_cos();
-            let big = p.x + self.radius_mm;
-            let turned = |v: DVec3, about: f64| {
-                DVec3::new(
-                    cos * v.x + sin * v.y + about * (cos * p.y - sin * big),
-                    cos * v.y - sin * v.x - about * (sin * p.y + cos * big),
-                    v.z,
-                )
-            };
-            (p_t, p_h) = (turned(p_t, self.twist_rad_per_mm * p_t.z), turned(p_h, self.twist_rad_per_mm * p_h.z));
-            p = DVec3::new(cos * big + sin * p.y - self.radius_mm, cos * p.y - sin * big, p.z);
-        }
-        let big = p.x + self.radius_mm;
-        let half = 1.0 - t * t;
-        let moment = [
-            p.y * half - 2.0 * t * big,
-            p_h.y * half - 2.0 * t * p_h.x,
-            p_t.y * half - 2.0 * t * (p.y + p_t.x) - 2.0 * big,
-        ];
-        let frame = segment.blade_from_segment.rotation;
-        let rho = [p.x + p.y * t, p_h.x + p_h.y * t, p_t.x + p_t.y * t + p.y];
-        let [x, x_h, x_t] = [0, 1, 2].map(|i| frame.x * rho[i] + frame.y * [p.z, p_h.z, p_t.z][i]);
-        let [y, y_h, y_t] = [0, 1, 2].map(|i| frame.x * [p.z, p_h.z, p_t.z][i] - frame.y * rho[i]);
-        let [value, g_x, g_y] = match &segment.shape {
-            SegmentShape::Table(table) => {
-                let [u, slope] = table.x_and_slope(y);
-                [x - u, 1.0, -slope]
-            }
-            SegmentShape::Arc { radius_mm } => {
-                let k = 0.5 / radius_mm;
-                [x + k * (x * x + y * y), 1.0 + 2.0 * k * x, 2.0 * k * y]
-            }
-        };
-        Residuals {
-            moment,
-            edge: [value, g_x * x_h + g_y * y_h, g_x * x_t + g_y * y_t],
-            y_mm: y,
-            normal: g_x.hypot(g_y),
-        }
-    }
-
-    /// Where a ray (tile frame) enters the segment's sweep or its continuation, nearest to the start.
-    pub fn enter(&self, segment: &Segment, ray: &Ray, start_mm: f64) -> Meeting {
-        let local = self.local(ray);
-        let (mut h, mut t) = (start_mm, 0.0);
-        // The moment at the start height first.
-        for _ in 0..3 {
-            let r = self.residuals(segment, &local, h, t);
-            t -= r.moment[0] / r.moment[2];
-        }
-        for _ in 0..MAX_STEPS {
-            if t.is_nan() || t.abs() > LARGEST_T || h.abs() > 1e3 {
-                return Meeting::Missed;
-            }
-            let Residuals { moment, edge, y_mm, normal } = self.residuals(segment, &local, h, t);
-            let determinant = moment[1] * edge[2] - moment[2] * edge[1];
-            // Rate of the edge's residual along the ray, the moment following.
-            let rate = -determinant / moment[2];
-            if rate > -1e-6 * normal {
-                return if rate > 0.05 * normal { Meeting::Leaves } else { Meeting::Missed };
-            }
-            let step_h = (moment[0] * edge[2] - moment[2] * edge[0]) / determinant;
-            let step_t = (moment[1] * edge[0] - edge[1] * moment[0]) / determinant;
-            h -= step_h;
-            t -= step_t;
-            if step_h.abs() < 1e-11 && step_t.abs() < 1e-12 {
-                return Meeting::Enters(SweepHit { height_mm: h, t, y_mm, cosine: -rate / normal });
-            }
-        }
-        Meeting::Missed
-    }
-
-    fn local(&self, ray: &Ray) -> LocalRay {
-        let turn = self.turn.map(|rows| DMat3::from_cols_array_2d(&rows).transpose());
-        let mut place = self.place_mm.map(DVec3::from_array);
-        for (place, turn) in place.iter_mut().zip(&turn) {
-            *place += *turn * ray.origin_mm;
-        }
-        LocalRay { place, along: turn.map(|turn| turn * ray.normal) }
-    }
-}
-
-/// A ray in the record's axes: polynomials in u.
-struct LocalRay {
-    place: [DVec3; 4],
-    along: [DVec3; 3],
 }

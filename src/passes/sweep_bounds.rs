@@ -1,214 +1,134 @@
 //! Which sweeps can leave the lowest surface on a region of a spatial field.
 //!
-//! Nine rays (three columns by three rows) are sampled: the height at which each sweep's segment, or the continuation of it, enters them. In each of the four cells between them
+//! Every candidate's heights on nine rays are known (`sweep_samples`): where its segment, or the continuation of it, enters them. In each of the four cells between them
 //! the difference of two sweeps' heights lies above its lowest corner less an eighth of its second differences along both sides; all sweeps of one tool bend nearly
-//! alike, so these are small where the heights' own are not. A sweep goes when in every cell some other one, certain to enter through the segment itself, is lower by this
-//! measure with half as much again for what second differences cannot show.
+//! alike, so these are small where the heights' own are not. In a cell a sweep goes when another one, certain to enter through the segment itself there, is lower by this
+//! measure with half as much again for what second differences cannot show; or when its own entries lie beyond the segment's ends by the same measure.
 //!
-//! What the samples cannot judge (no root on one of the rays) is kept unless the blade stays clear of the rays below the lowest certain surface.
+//! This is no proof: second differences of nine values bound what is smooth between them, and sweeps are; a function that turned within a cell would be missed by more than the safety holds. What stands for it is the
+//! comparison with all passes, bit for bit, on regions of all sizes (`tests/hobbing_spatial.rs`).
+//!
+//! What the samples cannot judge (no root on one of the rays) is kept unless the segment stays clear of all that the rays pass below the lowest certain surface.
 
-use super::hob_teeth::HobTeeth;
-use super::sweep::{Meeting, Sweep, SweepHit};
+#![expect(
+    clippy::inline_always,
+    reason = "the instruction set of the dispatching function holds only for what is inlined into it"
+)]
+
 use super::sweep_plan::Candidate;
-use crate::dexel::{Ray, SpatialField};
-use crate::tool::edge::{Edge, Segment};
-use glam::DVec3;
-use std::ops::Range;
+use super::sweep_roots::{LANES, LARGEST_T, Rays};
+use super::sweep_samples::{ALL, Frame, RAYS, Region, SIDE, Sampled};
+use crate::dexel::SpatialField;
+use crate::tool::edge::Segment;
+use pulp::Arch;
 
 /// Safety on second differences, for what varies inside a cell.
 const BEND_SAFETY: f64 = 1.5;
 /// Added to every bound: what sampling and the backends' roots may err, mm.
 const ROUNDING_MM: f64 = 2e-7;
-/// Rays steeper than this against an edge's normal (cosine) prove nothing.
-const GRAZING_COSINE: f64 = 0.1;
-/// Rays sampled along each side.
-const SIDE: usize = 3;
-/// Rays sampled.
-const RAYS: usize = SIDE * SIDE;
-/// Cells of the sampling: index of the first corner; the others follow at 1, 3 and 4.
+/// Added to places along a segment, mm.
+const END_MARGIN_MM: f64 = 1e-6;
+/// Steps towards the moment at which a rake face holds a point: each gains more than a digit.
+const MOMENT_STEPS: usize = 5;
+/// Cells between the rays: index of the first corner; the others follow at 1, 3 and 4.
 const CELLS: [usize; 4] = [0, 1, 3, 4];
-
-/// Dexels that are judged together.
-pub struct Region {
-    /// Origin of the region's frame: the middle ray's, gear frame, mm.
-    pub origin_mm: DVec3,
-    /// Nothing between lowest and blank height of any ray is further from it, mm.
-    pub reach_mm: f64,
-    /// Nine rays, column by column, in the region's frame.
-    rays: [Ray; RAYS],
-    /// Height of the blank along each.
-    blank_mm: [f64; RAYS],
-    low_mm: f64,
-}
-
-impl Region {
-    /// Region of some columns and rows of a field.
-    pub fn new(field: &SpatialField, columns: Range<usize>, rows: Range<usize>) -> Self {
-        let [column_at, row_at] =
-            [columns, rows].map(|range| [range.start, (range.start + range.end - 1) / 2, range.end - 1]);
-        let origin_mm = field.ray(column_at[1], row_at[1]).origin_mm;
-        let place = |i: usize| (column_at[i / SIDE], row_at[i % SIDE]);
-        let rays: [Ray; RAYS] = std::array::from_fn(|i| {
-            let (column, row) = place(i);
-            let ray = field.ray(column, row);
-            Ray { origin_mm: ray.origin_mm - origin_mm, ..ray }
-        });
-        let blank_mm: [f64; RAYS] = std::array::from_fn(|i| {
-            let (column, row) = place(i);
-            f64::from(field.blank_mm[field.index(column, row)])
-        });
-        let ends = (0..RAYS).flat_map(|i| [field.low_mm, blank_mm[i]].map(|h| rays[i].at(h).length()));
-        let reach_mm = 1.05 * ends.fold(0.0, f64::max);
-        Self { origin_mm, reach_mm, rays, blank_mm, low_mm: field.low_mm }
-    }
-
-    /// The middle ray.
-    pub fn middle(&self) -> &Ray {
-        &self.rays[RAYS / 2]
-    }
-
-    /// Size along the profile and along the tooth, mm.
-    pub fn extent_mm(&self) -> [f64; 2] {
-        let distance = |a: usize, b: usize| self.rays[a].origin_mm.distance(self.rays[b].origin_mm);
-        [distance(1, RAYS - SIDE + 1), distance(SIDE, 2 * SIDE - 1)]
-    }
-}
-
-/// Heights of one sweep on the nine rays.
-struct Samples {
-    candidate: Candidate,
-    hits: [SweepHit; RAYS],
-    /// Cells in which the ray enters through the segment itself, wherever it is.
-    certain: [bool; CELLS.len()],
-}
+/// All cells, as bits.
+const ALL_CELLS: u8 = (1 << CELLS.len()) - 1;
 
 /// Judges candidates on one region.
 pub struct Judge<'a> {
-    /// The passes.
-    pub set: &'a HobTeeth,
-    /// The blades' edge.
-    pub edge: &'a Edge,
+    /// The field.
+    pub field: &'a SpatialField,
+    /// Segments of the blades' edge.
+    pub segments: &'a [Segment],
     /// The region.
-    pub region: &'a Region,
+    pub region: &'a Region<'a>,
+    /// Where the candidates are seen from.
+    pub frame: &'a Frame,
+}
+
+/// A candidate whose entries into all nine rays are known.
+struct Judged<'a> {
+    sampled: &'a Sampled,
+    /// Cells in which the ray enters through the segment itself, wherever it is, as bits.
+    certain: u8,
+    /// Cells in which it may.
+    possible: u8,
 }
 
 impl Judge<'_> {
-    /// Candidates that may leave the lowest surface somewhere in the region, in their order, and a height that this surface is certainly below; `ceiling_mm` is such a height of a
-    /// region around this one.
-    pub fn keep(&self, candidates: &[Candidate], ceiling_mm: f64) -> (Vec<Candidate>, f64) {
+    /// Candidates that may leave the lowest surface in some cells of the region, in their order, with these cells as bits; and a height that the surface left is certainly below: `ceiling_mm` is such a
+    /// height of a region around this one.
+    pub fn keep(&self, candidates: &[Sampled], ceiling_mm: f64) -> (Vec<(Sampled, u8)>, f64) {
         let (mut judged, mut unjudged) = (Vec::new(), Vec::new());
-        for of_pass in candidates.chunk_by(|a, b| a.pass.pass == b.pass.pass) {
-            let pass = &of_pass[0].pass;
-            let Some(sweep) = Sweep::new(self.set, pass, self.region.origin_mm, self.region.reach_mm) else {
-                continue;
-            };
-            // Boxes first: they cost a tenth of samples, and the ceiling makes them low.
-            let Some(bounds) = self.rake_face_box(&sweep, ceiling_mm) else { continue };
-            for candidate in of_pass {
-                if !bounds.meets(&self.edge.segments[candidate.segment]) {
-                    continue;
-                }
-                match self.sample(&sweep, candidate) {
-                    Some(Ok(samples)) => judged.push(samples),
-                    Some(Err(())) => unjudged.push((sweep, *candidate)),
-                    None => {}
-                }
+        for sampled in candidates {
+            match self.judge(sampled) {
+                Some(Ok(known)) => judged.push(known),
+                Some(Err(())) => unjudged.push(sampled),
+                None => {}
             }
         }
         let ceiling_mm = self.ceiling_mm(&judged).min(ceiling_mm);
-        let mut kept: Vec<Candidate> = self.undominated(&judged);
-        kept.extend(
-            unjudged
-                .into_iter()
-                .filter(|(sweep, candidate)| {
-                    let bounds = self.rake_face_box(sweep, ceiling_mm);
-                    bounds.is_some_and(|b| b.meets(&self.edge.segments[candidate.segment]))
-                })
-                .map(|(_, candidate)| candidate),
-        );
-        kept.sort_unstable_by_key(|candidate| (candidate.pass.pass, candidate.segment));
+        let mut kept = self.undominated(&judged, ceiling_mm);
+        if !unjudged.is_empty() {
+            let mut meeting =
+                self.meeting(unjudged.iter().map(|sampled| sampled.index).collect(), ceiling_mm).into_iter().peekable();
+            unjudged.retain(|sampled| meeting.next_if_eq(&sampled.index).is_some());
+            kept.extend(unjudged.into_iter().map(|sampled| (*sampled, ALL_CELLS)));
+            kept.sort_unstable_by_key(|(sampled, _)| sampled.index);
+        }
         (kept, ceiling_mm)
     }
 
-    /// Samples of one candidate; an error if they do not judge it, nothing if it is clear of the region.
-    fn sample(&self, sweep: &Sweep, candidate: &Candidate) -> Option<Result<Samples, ()>> {
-        let segment = &self.edge.segments[candidate.segment];
-        let record = sweep.record(candidate.pass.pass, candidate.segment, segment);
-        let mut hits = [SweepHit { height_mm: 0.0, t: 0.0, y_mm: 0.0, cosine: 0.0 }; RAYS];
-        let (mut found, mut leaves) = (0, 0);
-        // From the middle outwards, each from its neighbour's height.
-        for at in [4, 3, 5, 1, 7, 0, 2, 6, 8] {
-            let start_mm = match at {
-                4 => 0.0,
-                1 | 3 | 5 | 7 => hits[4].height_mm,
-                _ => hits[if at % SIDE == 0 { 3 } else { 5 }].height_mm,
-            };
-            match record.enter(segment, &self.region.rays[at], start_mm) {
-                Meeting::Enters(hit) => {
-                    hits[at] = hit;
-                    found += 1;
-                }
-                Meeting::Leaves => leaves += 1,
-                Meeting::Missed => {}
-            }
-        }
-        if leaves == RAYS {
+    /// What the samples say of a candidate; an error if they do not judge it, nothing if it is clear of the region.
+    fn judge<'s>(&self, sampled: &'s Sampled) -> Option<Result<Judged<'s>, ()>> {
+        if sampled.left == ALL {
             return None;
         }
-        let floor_mm = 2.0 * self.region.low_mm;
-        if found < RAYS || hits.iter().any(|hit| hit.cosine < GRAZING_COSINE) {
+        if sampled.entered != ALL {
             return Some(Err(()));
         }
-        let range = |value: fn(&SweepHit) -> f64| {
-            hits.iter().map(value).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)])
-        };
-        let [lowest, highest] = range(|hit| hit.height_mm);
+        let floor_mm = 2.0 * self.field.low_mm;
+        let [lowest, highest] = range(sampled.height_mm);
         if lowest <= floor_mm {
             return if highest < floor_mm - 0.2 * (highest - lowest) - 1e-3 { None } else { Some(Err(())) };
         }
-        let [y_low, y_high] = range(|hit| hit.y_mm);
-        let [y_start, y_end] = segment.y_range_mm;
-        let slack = |from: f64, to: f64| 0.5 * (to - from) + 1e-6;
-        if y_low - slack(y_low, y_high) > y_end || y_high + slack(y_low, y_high) < y_start {
-            return None;
+        let [y_start, y_end] = self.segment(sampled).y_range_mm;
+        let slack_mm = BEND_SAFETY * self.region.bend(&sampled.y_mm) + END_MARGIN_MM;
+        let (mut certain, mut possible) = (0, 0);
+        for (bit, cell) in CELLS.into_iter().enumerate() {
+            let [low, high] = range(corners(cell).map(|corner| sampled.y_mm[corner]));
+            certain |= u8::from(low - slack_mm > y_start && high + slack_mm < y_end) << bit;
+            possible |= u8::from(low - slack_mm <= y_end && high + slack_mm >= y_start) << bit;
         }
-        let certain = CELLS.map(|cell| {
-            let y = corners(cell).map(|corner| hits[corner].y_mm);
-            let (low, high) =
-                (y.into_iter().fold(f64::INFINITY, f64::min), y.into_iter().fold(-f64::INFINITY, f64::max));
-            low - slack(low, high) > y_start && high + slack(low, high) < y_end
-        });
-        Some(Ok(Samples { candidate: *candidate, hits, certain }))
+        (possible != 0).then_some(Ok(Judged { sampled, certain, possible }))
     }
 
     /// A height that the surface left is certainly below everywhere.
-    fn ceiling_mm(&self, judged: &[Samples]) -> f64 {
-        let blank_mm = self.region.blank_mm.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        (0..CELLS.len())
-            .map(|cell| {
-                judged
-                    .iter()
-                    .filter(|samples| samples.certain[cell])
-                    .map(|samples| {
-                        let heights = samples.hits.map(|hit| hit.height_mm);
-                        let top =
-                            corners(CELLS[cell]).map(|c| heights[c]).into_iter().fold(f64::NEG_INFINITY, f64::max);
-                        top + bend_mm(&heights)
-                    })
-                    .fold(blank_mm, f64::min)
-            })
-            .fold(f64::NEG_INFINITY, f64::max)
+    fn ceiling_mm(&self, judged: &[Judged]) -> f64 {
+        let mut ceilings = [range(self.region.blank_mm)[1]; CELLS.len()];
+        for known in judged.iter().filter(|known| known.certain != 0) {
+            let heights = &known.sampled.height_mm;
+            let bend_mm = BEND_SAFETY * self.region.bend(heights);
+            for (bit, cell) in CELLS.into_iter().enumerate() {
+                if known.certain >> bit & 1 == 1 {
+                    let top = range(corners(cell).map(|c| heights[c]))[1];
+                    ceilings[bit] = ceilings[bit].min(top + bend_mm);
+                }
+            }
+        }
+        range(ceilings)[1]
     }
 
-    fn undominated(&self, judged: &[Samples]) -> Vec<Candidate> {
+    fn undominated(&self, judged: &[Judged], ceiling_mm: f64) -> Vec<(Sampled, u8)> {
         // In each cell the certain sweeps that are lowest at one of its corners: no other can rule.
-        let rulers: [Vec<usize>; CELLS.len()] = std::array::from_fn(|cell| {
-            let mut lowest: Vec<usize> = corners(CELLS[cell])
+        let rulers: [Vec<usize>; CELLS.len()] = std::array::from_fn(|bit| {
+            let mut lowest: Vec<usize> = corners(CELLS[bit])
                 .into_iter()
                 .filter_map(|corner| {
-                    let height = |k: usize| judged[k].hits[corner].height_mm;
+                    let height = |k: usize| judged[k].sampled.height_mm[corner];
                     (0..judged.len())
-                        .filter(|&k| judged[k].certain[cell])
+                        .filter(|&k| judged[k].certain >> bit & 1 == 1)
                         .min_by(|&a, &b| height(a).total_cmp(&height(b)))
                 })
                 .collect();
@@ -216,54 +136,112 @@ impl Judge<'_> {
             lowest.dedup();
             lowest
         });
-        let above = |k: &Samples, ruler: &dyn Fn(usize) -> f64, cell: usize| {
-            let difference: [f64; RAYS] = std::array::from_fn(|i| k.hits[i].height_mm - ruler(i));
-            let margin_mm = bend_mm(&difference) + ROUNDING_MM;
-            corners(CELLS[cell]).into_iter().all(|corner| difference[corner] > margin_mm)
+        // Whether a candidate stays above other heights in a cell.
+        let above = |heights: &[f64; RAYS], others: &[f64; RAYS], cell: usize| {
+            let difference: [f64; RAYS] = std::array::from_fn(|i| heights[i] - others[i]);
+            if corners(cell).into_iter().any(|corner| difference[corner] <= ROUNDING_MM) {
+                return false;
+            }
+            let margin_mm = BEND_SAFETY * self.region.bend(&difference) + ROUNDING_MM;
+            corners(cell).into_iter().all(|corner| difference[corner] > margin_mm)
         };
+        let ceiling = [ceiling_mm; RAYS];
         judged
             .iter()
             .enumerate()
-            .filter(|(index, k)| {
-                !(0..CELLS.len()).all(|cell| {
-                    above(k, &|i| self.region.blank_mm[i], cell)
-                        || rulers[cell].iter().any(|&r| r != *index && above(k, &|i| judged[r].hits[i].height_mm, cell))
-                })
+            .filter_map(|(index, known)| {
+                let heights = &known.sampled.height_mm;
+                let mut alive = 0;
+                for (bit, &cell) in CELLS.iter().enumerate() {
+                    let dead = known.possible >> bit & 1 == 0
+                        || above(heights, &ceiling, cell)
+                        || above(heights, &self.region.blank_mm, cell)
+                        || rulers[bit]
+                            .iter()
+                            .any(|&r| r != index && above(heights, &judged[r].sampled.height_mm, cell));
+                    alive |= u8::from(!dead) << bit;
+                }
+                (alive != 0).then_some((*known.sampled, alive))
             })
-            .map(|(_, samples)| samples.candidate)
             .collect()
     }
 
-    /// Box in the rake face of all that the rays pass between their lowest height and a ceiling while the blade sweeps; nothing if they pass no rake face.
-    fn rake_face_box(&self, sweep: &Sweep, ceiling_mm: f64) -> Option<RakeFaceBox> {
-        let floor_mm = 2.0 * self.region.low_mm;
-        let heights_mm = [floor_mm, 0.5 * (floor_mm + ceiling_mm), ceiling_mm];
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        let (mut outside, mut inside) = (0, 0);
-        for ray in &self.region.rays {
+    fn segment(&self, sampled: &Sampled) -> &Segment {
+        &self.segments[self.frame.records[sampled.index as usize].segment as usize]
+    }
+
+    /// Candidates of the frame that can come near the region below a ceiling at all.
+    pub fn near(&self, ceiling_mm: f64) -> Vec<Candidate> {
+        let candidates = &self.frame.candidates;
+        let indices: Vec<u32> = (0..candidates.len() as u32).collect();
+        self.meeting(indices, ceiling_mm).into_iter().map(|index| candidates[index as usize]).collect()
+    }
+
+    /// Those of some candidates (by their place in the frame, in order) whose segments meet what the rays pass between their lowest height and a ceiling while the blade sweeps.
+    fn meeting(&self, mut indices: Vec<u32>, ceiling_mm: f64) -> Vec<u32> {
+        let candidates = &self.frame.candidates;
+        let pass = |index: &u32| candidates[*index as usize].pass.pass;
+        let firsts: Vec<u32> = indices.chunk_by(|a, b| pass(a) == pass(b)).map(|of_pass| of_pass[0]).collect();
+        let mut boxes = Vec::with_capacity(firsts.len());
+        Arch::new().dispatch(RakeFaceBoxes { judge: self, firsts: &firsts, ceiling_mm, boxes: &mut boxes });
+        let mut of_pass = firsts.iter().map(pass).zip(&boxes).peekable();
+        indices.retain(|index| {
+            while of_pass.peek().is_some_and(|(of, _)| *of != pass(index)) {
+                of_pass.next();
+            }
+            let bounds = of_pass.peek().expect("every pass has its box").1;
+            bounds.meets(&self.segments[candidates[*index as usize].segment])
+        });
+        indices
+    }
+}
+
+/// Finds boxes in the rake face of all that a region's rays pass between their lowest height and a ceiling while the blade sweeps.
+struct RakeFaceBoxes<'a, 'b> {
+    judge: &'a Judge<'b>,
+    /// One record of each sweep.
+    firsts: &'a [u32],
+    ceiling_mm: f64,
+    boxes: &'a mut Vec<RakeFaceBox>,
+}
+
+impl pulp::NullaryFnOnce for RakeFaceBoxes<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Judge { field, segments, region, frame } = self.judge;
+        let dexels = region.dexels();
+        // The rays around; the middle one is held by the margin.
+        let rays =
+            Rays::new(field, frame.origin_mm, std::array::from_fn(|l| dexels[if l < RAYS / 2 { l } else { l + 1 }]));
+        let floor_mm = 2.0 * field.low_mm;
+        let heights_mm = [floor_mm, 0.5 * (floor_mm + self.ceiling_mm), self.ceiling_mm];
+        let [width_mm, length_mm] = region.extent_mm();
+        let cell_mm = (0.5 * width_mm).hypot(0.5 * length_mm).max(0.5 * (self.ceiling_mm - floor_mm));
+        for &first in self.firsts {
+            let record = &frame.records[first as usize];
+            let base_mm = segments[record.segment as usize].blade_from_segment.translation_mm;
+            let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+            let mut known = true;
             for height_mm in heights_mm {
-                let Some(place) = sweep.in_rake_face(ray.at(height_mm)) else {
-                    outside += 1;
-                    continue;
-                };
-                inside += 1;
-                for axis in 0..2 {
-                    low[axis] = low[axis].min(place[axis]);
-                    high[axis] = high[axis].max(place[axis]);
+                let [t, rho, along] = record.places(&rays, &[height_mm; LANES], MOMENT_STEPS);
+                for l in 0..LANES {
+                    known &= t[l].abs() < LARGEST_T;
+                    for (axis, place) in [rho[l] + base_mm.x, along[l] + base_mm.y].into_iter().enumerate() {
+                        low[axis] = low[axis].min(place);
+                        high[axis] = high[axis].max(place);
+                    }
                 }
             }
+            // Between the samples the way through the rake face bends by no more than the tool's radius makes it.
+            let margin_mm = cell_mm * cell_mm / (8.0 * 0.5 * low[0].max(1.0)) + 1e-3;
+            self.boxes.push(if known {
+                RakeFaceBox { low: low.map(|v| v - margin_mm), high: high.map(|v| v + margin_mm) }
+            } else {
+                RakeFaceBox { low: [f64::NEG_INFINITY; 2], high: [f64::INFINITY; 2] }
+            });
         }
-        if inside == 0 {
-            return None;
-        }
-        if outside > 0 {
-            return Some(RakeFaceBox { low: [f64::NEG_INFINITY; 2], high: [f64::INFINITY; 2] });
-        }
-        // Between the samples the way through the rake face bends by no more than the tool's radius makes it.
-        let [width_mm, length_mm] = self.region.extent_mm();
-        let cell_mm = (0.5 * width_mm).hypot(0.5 * length_mm).max(0.5 * (ceiling_mm - floor_mm));
-        let margin_mm = cell_mm * cell_mm / (8.0 * 0.5 * low[0].max(1.0)) + 1e-3;
-        Some(RakeFaceBox { low: low.map(|v| v - margin_mm), high: high.map(|v| v + margin_mm) })
     }
 }
 
@@ -290,11 +268,7 @@ fn corners(first: usize) -> [usize; 4] {
     [first, first + 1, first + SIDE, first + SIDE + 1]
 }
 
-/// How far a smooth function of which nine values are known can leave its bilinear interpolation.
-fn bend_mm(values: &[f64; RAYS]) -> f64 {
-    let second = |a: usize, b: usize, c: usize| (values[a] - 2.0 * values[b] + values[c]).abs();
-    let along = |step: usize, lines: [usize; SIDE]| {
-        lines.map(|first| second(first, first + step, first + 2 * step)).into_iter().fold(0.0, f64::max)
-    };
-    BEND_SAFETY / 8.0 * (along(SIDE, [0, 1, 2]) + along(1, [0, SIDE, 2 * SIDE]))
+/// Smallest and largest.
+fn range<const N: usize>(values: [f64; N]) -> [f64; 2] {
+    values.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)])
 }

@@ -1,14 +1,15 @@
 //! Tiles of a spatial field and the sweeps that can leave the lowest surface on them.
 //!
-//! A field is halved again and again, down to tiles of 16 by 32 dexels; at every level the passes that the level above has kept are sampled on nine rays, and those go that another
-//! one surely undercuts (see `sweep_bounds`). A flank hobbed in twenty cycles is reached by some two thousand sweeps; half of them fall in the first halvings,
-//! where a sample stands for a thousand dexels, so that the tiles themselves see a dozen.
+//! A field is halved in both directions again and again, down to tiles of 16 by 32 dexels and then to their cells of 4 by 8; at every level the sweeps that the level above has kept for the region are sampled on
+//! nine rays, and those go that another one surely undercuts (see `sweep_samples`, `sweep_bounds`). The search begins with the passes whose blades pass the field in its place along the tool's axis. On S2's gear these
+//! are some thousands of 84,800; a sixteenth of the flank keeps some hundreds, a tile half a dozen, a cell between one and two.
 //!
 //! Equality with brute force over all passes is tested bit for bit.
 
 use super::hob_teeth::{BladePass, HobTeeth};
-use super::sweep::{Meeting, Sweep, SweepRecord};
-use super::sweep_bounds::{Judge, Region};
+use super::sweep::SweepRecord;
+use super::sweep_bounds::Judge;
+use super::sweep_samples::{Frame, RAYS, Region, SIDE, Sampled, find_starts};
 use crate::dexel::{Ray, SpatialField};
 use crate::tool::edge::Edge;
 use glam::DVec3;
@@ -18,6 +19,14 @@ use std::ops::Range;
 pub const TILE_COLUMNS: usize = 16;
 /// Rows of a tile at most: whole chunks of every backend.
 pub const TILE_ROWS: usize = 32;
+/// Cells of a tile along each side: a record is told in which it can be lowest.
+pub const CELLS: usize = 4;
+/// All cells of a tile.
+const ALL_CELLS: u16 = u16::MAX;
+/// What profiles and ways bend between the places that are looked at, along the tool's axis, mm.
+const AXIAL_MARGIN_MM: f64 = 1.0;
+/// A region whose surroundings are smaller than this share of its frame's gets a frame of its own.
+const NEW_FRAME: f64 = 0.7;
 
 /// A blade's sweep by one of its segments.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,6 +50,19 @@ pub struct SweepTile {
     pub records: Range<usize>,
 }
 
+impl SweepTile {
+    /// Cell of a dexel: bit of [`SweepRecord::cells`].
+    pub fn cell(&self, column: usize, row: usize) -> usize {
+        let (columns, rows) = (TILE_COLUMNS / CELLS, TILE_ROWS / CELLS);
+        CELLS * ((column - self.columns.start) / columns) + (row - self.rows.start) / rows
+    }
+
+    /// Column and row of the middle ray.
+    pub fn middle(&self) -> [usize; 2] {
+        [&self.columns, &self.rows].map(|lines| usize::midpoint(lines.start, lines.end - 1))
+    }
+}
+
 /// Everything a backend needs to run one operation over one field.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SweepPlan {
@@ -61,9 +83,24 @@ impl SweepPlan {
         Planner { field, set, edge, prune: false }.plan()
     }
 
-    /// (Dexel, pass) pairs that the plan visits.
-    pub fn dexel_passes(&self) -> u64 {
+    /// (Dexel, pass) pairs of whole tiles: what a backend visits that does not look at cells.
+    pub fn tile_passes(&self) -> u64 {
         self.tiles.iter().map(|t| (t.columns.len() * t.rows.len() * t.records.len()) as u64).sum()
+    }
+
+    /// (Dexel, pass) pairs that the plan asks for: records on the dexels of their cells.
+    pub fn dexel_passes(&self) -> u64 {
+        let of_tile = |tile: &SweepTile| -> u64 {
+            let mut dexels = [0_u64; CELLS * CELLS];
+            for column in tile.columns.clone() {
+                tile.rows.clone().for_each(|row| dexels[tile.cell(column, row)] += 1);
+            }
+            let visits = |record: &SweepRecord| -> u64 {
+                dexels.iter().enumerate().map(|(cell, dexels)| u64::from(record.cells >> cell & 1) * dexels).sum()
+            };
+            self.records[tile.records.clone()].iter().map(visits).sum()
+        };
+        self.tiles.iter().map(of_tile).sum()
     }
 }
 
@@ -80,72 +117,137 @@ impl Planner<'_> {
         if self.field.is_empty() {
             return plan;
         }
-        let (columns, rows) = (0..self.field.columns(), 0..self.field.rows());
-        let region = Region::new(self.field, columns.clone(), rows.clone());
-        let near: Vec<Candidate> = near_passes(self.set, self.edge, region.origin_mm, region.reach_mm)
+        let whole = Region::whole(self.field);
+        let (origin_mm, reach_mm) = self.surroundings(&whole.dexels());
+        let mut near = near_passes(self.set, self.edge, origin_mm, reach_mm);
+        if self.prune {
+            let points_mm = self.ends_mm(&whole.dexels(), origin_mm);
+            near.retain(|pass| passes_beside(self.set, self.edge, pass, &points_mm, reach_mm));
+        }
+        let near: Vec<Candidate> = near
             .into_iter()
             .flat_map(|pass| (0..self.edge.segments.len()).map(move |segment| Candidate { pass, segment }))
             .collect();
-        self.halve(columns, rows, near, f64::from(self.field.blank_mm.iter().copied().fold(0.0, f32::max)), &mut plan);
+        if self.prune {
+            let highest_mm = f64::from(self.field.blank_mm.iter().copied().fold(0.0, f32::max));
+            let frame = self.frame(origin_mm, reach_mm, &near).0;
+            let near = self.judge(&whole, &frame).near(highest_mm);
+            let frame = self.frame(origin_mm, reach_mm, &near).0;
+            let sampled = whole.sample(&frame, self.edge);
+            self.halve(&whole, &frame, &sampled, highest_mm, &mut plan);
+        } else {
+            for columns in whole.columns.tiles() {
+                for rows in whole.rows.tiles() {
+                    self.tile(columns.clone(), rows, &near, &vec![ALL_CELLS; near.len()], &mut plan);
+                }
+            }
+        }
         plan
     }
 
-    fn halve(
-        &self,
-        columns: Range<usize>,
-        rows: Range<usize>,
-        candidates: Vec<Candidate>,
-        ceiling_mm: f64,
-        plan: &mut SweepPlan,
-    ) {
-        let region = Region::new(self.field, columns.clone(), rows.clone());
-        let (kept, ceiling_mm) = if self.prune {
-            Judge { set: self.set, edge: self.edge, region: &region }.keep(&candidates, ceiling_mm)
-        } else {
-            (candidates, ceiling_mm)
-        };
-        let (tiles_wide, tiles_long) = (columns.len().div_ceil(TILE_COLUMNS), rows.len().div_ceil(TILE_ROWS));
-        if tiles_wide == 1 && tiles_long == 1 {
-            self.tile(columns, rows, &region, &kept, plan);
+    fn halve(&self, region: &Region, frame: &Frame, sampled: &[Sampled], ceiling_mm: f64, plan: &mut SweepPlan) {
+        let (alive, ceiling_mm) = self.judge(region, frame).keep(sampled, ceiling_mm);
+        let parts = region.parts(frame, self.edge, &alive);
+        if region.is_tile() {
+            self.judged_tile(region, frame, &parts, ceiling_mm, plan);
             return;
         }
-        // Across where it is longer: facets are some two and a half times as long as wide.
-        let [width_mm, length_mm] = region.extent_mm();
-        if tiles_long == 1 || (tiles_wide > 1 && 2.5 * width_mm > length_mm) {
-            let middle = columns.start + tiles_wide / 2 * TILE_COLUMNS;
-            self.halve(columns.start..middle, rows.clone(), kept.clone(), ceiling_mm, plan);
-            self.halve(middle..columns.end, rows, kept, ceiling_mm, plan);
-        } else {
-            let middle = rows.start + tiles_long / 2 * TILE_ROWS;
-            self.halve(columns.clone(), rows.start..middle, kept.clone(), ceiling_mm, plan);
-            self.halve(columns, middle..rows.end, kept, ceiling_mm, plan);
+        for (part, mut sampled) in parts {
+            let (origin_mm, reach_mm) = self.surroundings(&part.dexels());
+            if reach_mm > NEW_FRAME * frame.reach_mm {
+                self.halve(&part, frame, &sampled, ceiling_mm, plan);
+                continue;
+            }
+            let candidates: Vec<Candidate> = sampled.iter().map(|s| frame.candidates[s.index as usize]).collect();
+            let (frame, index_of) = self.frame(origin_mm, reach_mm, &candidates);
+            let mut places = index_of.into_iter();
+            sampled.retain_mut(|s| {
+                places.next().flatten().is_some_and(|index| {
+                    s.index = index;
+                    true
+                })
+            });
+            self.halve(&part, &frame, &sampled, ceiling_mm, plan);
         }
     }
 
-    fn tile(
+    /// Middle of nine rays, and a distance from there that nothing between lowest and blank height of any of them exceeds.
+    fn surroundings(&self, dexels: &[usize; RAYS]) -> (DVec3, f64) {
+        let ray = |dexel: usize| self.field.ray(dexel / self.field.rows(), dexel % self.field.rows());
+        let origin_mm = ray(dexels[RAYS / 2]).origin_mm;
+        let ends = dexels.iter().flat_map(|&dexel| {
+            let Ray { origin_mm: from_mm, normal } = ray(dexel);
+            let local = Ray { origin_mm: from_mm - origin_mm, normal };
+            [self.field.low_mm, f64::from(self.field.blank_mm[dexel])].map(|h| local.at(h).length())
+        });
+        (origin_mm, 1.05 * ends.fold(0.0, f64::max))
+    }
+
+    /// A point and the ends of nine rays: at the lowest height that counts, and at the blank's.
+    fn ends_mm(&self, dexels: &[usize; RAYS], middle_mm: DVec3) -> Vec<DVec3> {
+        let ends = dexels.iter().flat_map(|&dexel| {
+            let ray = self.field.ray(dexel / self.field.rows(), dexel % self.field.rows());
+            [2.0 * self.field.low_mm, f64::from(self.field.blank_mm[dexel])].map(|h| ray.at(h))
+        });
+        [middle_mm].into_iter().chain(ends).collect()
+    }
+
+    fn judge<'a>(&'a self, region: &'a Region, frame: &'a Frame) -> Judge<'a> {
+        Judge { field: self.field, segments: &self.edge.segments, region, frame }
+    }
+
+    fn frame(&self, origin_mm: DVec3, reach_mm: f64, candidates: &[Candidate]) -> (Frame, Vec<Option<u32>>) {
+        Frame::new(self.set, self.edge, origin_mm, reach_mm, candidates)
+    }
+
+    /// Judges the parts of a tile: a record costs more in the kernel than here, and it is told in which cells it can be lowest.
+    fn judged_tile(
         &self,
-        columns: Range<usize>,
-        rows: Range<usize>,
         region: &Region,
-        kept: &[Candidate],
+        frame: &Frame,
+        parts: &[(Region, Vec<Sampled>)],
+        ceiling_mm: f64,
         plan: &mut SweepPlan,
     ) {
-        let first = plan.records.len();
-        let middle = Ray { origin_mm: DVec3::ZERO, normal: region.middle().normal };
-        for of_pass in kept.chunk_by(|a, b| a.pass.pass == b.pass.pass) {
-            let pass = &of_pass[0].pass;
-            let Some(sweep) = Sweep::new(self.set, pass, region.origin_mm, region.reach_mm) else { continue };
-            plan.records.extend(of_pass.iter().map(|candidate| {
-                let segment = &self.edge.segments[candidate.segment];
-                let mut record = sweep.record(pass.pass, candidate.segment, segment);
-                record.start_mm = match record.enter(segment, &middle, 0.0) {
-                    Meeting::Enters(hit) => hit.height_mm,
-                    Meeting::Leaves | Meeting::Missed => 2.0 * self.field.low_mm,
-                };
-                record
-            }));
+        let mut cells = vec![0_u16; frame.candidates.len()];
+        let mut kept = Vec::new();
+        for (at, (part, sampled)) in parts.iter().enumerate() {
+            for (sampled, alive) in self.judge(part, frame).keep(sampled, ceiling_mm).0 {
+                let cells = &mut cells[sampled.index as usize];
+                if *cells == 0 {
+                    kept.push(sampled.index);
+                }
+                for bit in (0..4).filter(|bit| alive >> bit & 1 == 1) {
+                    let [column, row] = [2 * (at / 2) + bit / 2, 2 * (at % 2) + bit % 2];
+                    *cells |= 1 << (CELLS * column + row);
+                }
+            }
         }
-        plan.tiles.push(SweepTile { columns, rows, origin_mm: region.origin_mm, records: first..plan.records.len() });
+        kept.sort_unstable();
+        let candidates: Vec<Candidate> = kept.iter().map(|&index| frame.candidates[index as usize]).collect();
+        let cells: Vec<u16> = kept.iter().map(|&index| cells[index as usize]).collect();
+        self.tile(region.columns.dexels(), region.rows.dexels(), &candidates, &cells, plan);
+    }
+
+    fn tile(&self, columns: Range<usize>, rows: Range<usize>, kept: &[Candidate], cells: &[u16], plan: &mut SweepPlan) {
+        let dexels = {
+            let lines =
+                |range: &Range<usize>| [range.start, usize::midpoint(range.start, range.end - 1), range.end - 1];
+            let (columns, rows) = (lines(&columns), lines(&rows));
+            std::array::from_fn(|i| self.field.index(columns[i / SIDE], rows[i % SIDE]))
+        };
+        let (origin_mm, reach_mm) = self.surroundings(&dexels);
+        let (frame, index_of) = self.frame(origin_mm, reach_mm, kept);
+        let first = plan.records.len();
+        plan.records.extend(frame.records);
+        for (index, cells) in index_of.iter().zip(cells) {
+            if let Some(index) = index {
+                plan.records[first + *index as usize].cells = *cells;
+            }
+        }
+        let tile = SweepTile { columns, rows, origin_mm, records: first..plan.records.len() };
+        find_starts(self.field, &tile, self.edge, &mut plan.records[first..]);
+        plan.tiles.push(tile);
     }
 }
 
@@ -177,4 +279,27 @@ fn near_passes(set: &HobTeeth, edge: &Edge, center_mm: DVec3, reach_mm: f64) -> 
                 && swept.abs() <= super::hob_teeth::SWEEP_RAD + spread
         })
         .collect()
+}
+
+/// Whether a pass's blade passes some points of the work (the first one in their middle, none further than `reach_mm` from it) in their own place along the tool's axis.
+///
+/// While the rake face goes through the neighbourhood the points move a little along the axis, nearly evenly: their places are taken at the moment when the rake face holds the middle, and when it holds
+/// what is furthest before and behind.
+fn passes_beside(set: &HobTeeth, edge: &Edge, pass: &BladePass, points_mm: &[DVec3], reach_mm: f64) -> bool {
+    let place = set.place(pass);
+    let pose = |swept: f64| set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept);
+    let first = pose(0.0).point(points_mm[0]);
+    let swept = first.y.atan2(first.x);
+    let middle = pose(swept);
+    let distance_mm = middle.point(points_mm[0]).truncate().length();
+    let spread = reach_mm / (distance_mm - reach_mm).max(0.25 * (edge.center_mm.x + edge.reach_mm));
+    let (mut low_mm, mut high_mm) = (f64::INFINITY, f64::NEG_INFINITY);
+    for pose in [pose(swept - spread.min(1.0)), middle, pose(swept + spread.min(1.0))] {
+        for &point_mm in points_mm {
+            let y_mm = place.y_sign * (pose.point(point_mm).z - place.axial_mm) - edge.center_mm.y;
+            (low_mm, high_mm) = (low_mm.min(y_mm), high_mm.max(y_mm));
+        }
+    }
+    let y_reach_mm = edge.reach_mm + AXIAL_MARGIN_MM;
+    low_mm <= y_reach_mm && high_mm >= -y_reach_mm
 }

@@ -209,14 +209,18 @@ pub fn cut_both_in_space(
         let stats =
             backend.cut_spatial(field, edge, plan, &mut layer).unwrap_or_else(|error| panic!("{place}: {error}"));
         assert_eq!(stats.unconverged, 0, "{place}: iterations of {} stopped short", backend.name());
-        assert_eq!(stats.dexel_passes, plan.dexel_passes(), "{place}");
+        (layer, stats.dexel_passes)
+    };
+    let native = |field: &SpatialField| {
+        let (layer, visits) = run(&Cpu::default(), field);
+        assert_eq!(visits, plan.dexel_passes(), "{place}");
         layer
     };
-    let native = Cpu::default();
-    let center = run(&native, field);
+    let center = native(field);
     let shifts = [[SHIFT_MM, 0.0], [-SHIFT_MM, 0.0], [0.0, SHIFT_MM], [0.0, -SHIFT_MM]];
-    let shifted: Vec<Layer> = shifts.map(|by| run(&native, &shifted_in_space(field, by))).into();
-    let got = run(gpu, field);
+    let shifted: Vec<Layer> = shifts.map(|by| native(&shifted_in_space(field, by))).into();
+    let (got, visits) = run(gpu, field);
+    assert_eq!(visits, plan.tile_passes(), "{place}: shaders visit whole tiles");
     let mut parity = Parity::default();
     parity.add(place, field.rows(), &center, &shifted, &got);
     (parity, center, shifted, got)

@@ -317,7 +317,7 @@ impl Backend for Gpu {
     ) -> Result<CutStats, Error> {
         self.cut_or_redo(
             layer,
-            [field.len() as u64, plan.dexel_passes()],
+            [field.len() as u64, plan.tile_passes()],
             |layer| spatial::cut_on_device(self, field, edge, plan, layer),
             |layer| self.native.cut_spatial(field, edge, plan, layer),
         )

@@ -185,7 +185,7 @@ fn send(
 
 /// A record for the shader; `middle` is the direction of the tile's middle ray as the shader has it.
 fn compose(cells: &EdgeCells, record: &sweep::SweepRecord, segment: &Segment, middle: DVec3) -> SweepRecord {
-    let start_mm = f64::from(record.start_mm as f32);
+    let start_mm = f64::from(record.start.height_mm[0] as f32);
     let (mut place, axes) = (record.place_mm, segment.blade_from_segment.rotation);
     for (place, turn) in place.iter_mut().zip(&record.turn) {
         for (value, row) in place.iter_mut().zip(turn) {
