@@ -152,6 +152,11 @@ impl<'a> Segments<'a> {
         Self { edge, parts }
     }
 
+    /// The segments of a set, each with the motion into its frame.
+    fn of(&self, set: SegmentSet) -> impl Iterator<Item = &(&Segment, Rigid2)> {
+        self.parts.iter().enumerate().filter(move |(index, _)| set & (1 << index) != 0).map(|(_, part)| part)
+    }
+
     /// Segments whose places across a column's rays lie in their range somewhere on the way of a pass.
     fn meeting(&self, pass: &Near, ray: &Column) -> SegmentSet {
         let mut set = 0;
@@ -175,7 +180,7 @@ impl<'a> Segments<'a> {
     /// A pass over a column: which segments can meet its rays, and how high it leaves them.
     ///
     /// The tool lies inside each of its flanks and lands with the tangents at their ends, for its edge is convex: it enters no lower than the highest of their entries, nor lower than all those of the segments that the rays
-    /// can meet, and just there if that one lies on its segment. Between the phases at which this is looked at heights follow a parabola nearly, which passes its samples by an eighth of their second difference; half
+    /// can meet (others are not looked at), and just there if that one lies on its segment. Between the phases at which this is looked at heights follow a parabola nearly, which passes its samples by an eighth of their second difference; half
     /// of it is allowed for.
     fn reaching(&self, near: usize, pass: &Near, ray: &Column) -> Option<Reaching> {
         let segments = self.meeting(pass, ray);
@@ -202,7 +207,7 @@ impl<'a> Segments<'a> {
     fn entry_mm(&self, blade_from_work: &Rigid2, ray: &Column, set: SegmentSet) -> [f64; 2] {
         let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
         let (mut inside_mm, mut lowest_mm, mut sure_mm) = (f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY);
-        for (index, (segment, segment_from_blade)) in self.parts.iter().enumerate() {
+        for (segment, segment_from_blade) in self.of(set) {
             let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
             let Some(hit) = segment.enter(o, n) else { continue };
             let [from, to] = segment.y_range_mm;
@@ -211,9 +216,7 @@ impl<'a> Segments<'a> {
             if on_segment || matches!(segment.shape, SegmentShape::Table(_)) {
                 inside_mm = inside_mm.max(hit.height_mm);
             }
-            if set & (1 << index) != 0 {
-                lowest_mm = lowest_mm.min(hit.height_mm);
-            }
+            lowest_mm = lowest_mm.min(hit.height_mm);
             if on_segment && hit.height_mm > 2.0 * ray.low_mm {
                 sure_mm = sure_mm.min(hit.height_mm);
             }
@@ -227,9 +230,7 @@ impl<'a> Segments<'a> {
         // Kernels follow rays down to twice their lowest height and record the lowest one there.
         let below_mm = 2.0 * ray.low_mm;
         let mut lowest: Option<(f64, f64, EdgeSide)> = None;
-        for (segment, segment_from_blade) in
-            self.parts.iter().enumerate().filter(|(index, _)| set & (1 << index) != 0).map(|(_, part)| part)
-        {
+        for (segment, segment_from_blade) in self.of(set) {
             let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
             if is_above(segment, o, n, surface.height_mm) {
                 continue;
