@@ -163,37 +163,10 @@ fn damage(places: &[Damage], what: &'static str) -> DamageResults {
 /// # Errors
 /// A table that cannot be written.
 pub(super) fn write_table_of_damage(job: &Job, report: &BlankReport, folder: &OutputFolder) -> Result<()> {
-    let columns = [
-        "kind",
-        "operation",
-        "tooth",
-        "side",
-        "zone",
-        "height_mm",
-        "lead_mm",
-        "x_mm",
-        "y_mm",
-        "depth_mm",
-        "volume_mm3",
-        "stroke",
-        "cutter_tooth",
-    ];
     let row = |kind: &'static str, d: &Damage| -> Vec<Cell> {
-        vec![
-            kind.into(),
-            job.operations[d.operation].spec.name.as_str().into(),
-            d.place.tooth.into(),
-            d.place.side.name().into(),
-            d.place.zone.name().into(),
-            d.place.height_mm.into(),
-            d.lead_mm.into(),
-            d.point_mm.x.into(),
-            d.point_mm.y.into(),
-            d.depth_mm.into(),
-            d.volume_mm3.into(),
-            (d.stroke as u32).into(),
-            d.blade.into(),
-        ]
+        let mut cells = damage_cells(kind, &job.operations[d.operation].spec.name, d);
+        cells.extend([(d.stroke as u32).into(), d.blade.into()]);
+        cells
     };
     let gouges = report.gouges.iter().map(|d| row("gouge", d));
     let interference = report.interference.iter().map(|d| row("interference", d));
@@ -214,5 +187,40 @@ pub(super) fn write_table_of_damage(job: &Job, report: &BlankReport, folder: &Ou
         cells
     });
     let rows: Vec<Vec<Cell>> = gouges.chain(interference).chain(rubbing).chain(strokes).collect();
-    write_table(&folder.path("tables/damage.csv")?, &columns, rows)
+    write_table(&folder.path("tables/damage.csv")?, &damage_columns(["stroke", "cutter_tooth"]), rows)
+}
+
+/// Columns of a table of damage; `pass` names what did it, which differs between processes.
+pub(super) fn damage_columns(pass: [&'static str; 2]) -> Vec<&'static str> {
+    let common = [
+        "kind",
+        "operation",
+        "tooth",
+        "side",
+        "zone",
+        "height_mm",
+        "lead_mm",
+        "x_mm",
+        "y_mm",
+        "depth_mm",
+        "volume_mm3",
+    ];
+    common.into_iter().chain(pass).collect()
+}
+
+/// Its cells but for the pass.
+pub(super) fn damage_cells(kind: &'static str, operation: &str, damage: &Damage) -> Vec<Cell> {
+    vec![
+        kind.into(),
+        operation.into(),
+        damage.place.tooth.into(),
+        damage.place.side.name().into(),
+        damage.place.zone.name().into(),
+        damage.place.height_mm.into(),
+        damage.lead_mm.into(),
+        damage.point_mm.x.into(),
+        damage.point_mm.y.into(),
+        damage.depth_mm.into(),
+        damage.volume_mm3.into(),
+    ]
 }

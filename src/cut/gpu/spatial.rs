@@ -25,6 +25,8 @@ const GROUP_BYTES: usize = (6 + 2 + 2) * ROWS * 4;
 const LAUNCH_PAIRS: u64 = 1 << 27;
 /// Workgroups in one dimension: what every WebGPU device has.
 const WORKGROUPS: usize = 65535;
+/// Records of a tile at most: each takes a dozen iterations of a thread's loops, of which llvmpipe ends all after 65,535 without a word. Candidates are a few dozen.
+const TILE_RECORDS: usize = 4096;
 
 /// Heights and passes of the whole field, the layer untouched.
 pub fn cut_on_device(
@@ -82,14 +84,15 @@ fn batches(plan: &SweepPlan, allowance: Allowance) -> Result<Vec<Range<usize>>, 
     let Allowance { buffer_bytes, batch_bytes } = allowance;
     let groups_at_most = (buffer_bytes as usize / (6 * ROWS * 4)).min(batch_bytes as usize / 2 / GROUP_BYTES);
     let records_at_most = (buffer_bytes.min(batch_bytes / 2) as usize) / size_of::<SweepRecord>();
+    let tile_records_at_most = records_at_most.min(TILE_RECORDS);
     let mut batches: Vec<Range<usize>> = Vec::new();
     let (mut in_groups, mut in_records, mut in_pairs) = (0, 0, 0);
     for (index, tile) in plan.tiles.iter().enumerate() {
         let (groups, records) = (groups(tile), tile.records.len());
-        if groups > groups_at_most || records > records_at_most {
+        if groups > groups_at_most || records > tile_records_at_most {
             return Err(GpuProblem::OutOfMemory {
                 reason: format!(
-                    "a tile of {groups} groups and {records} records; {groups_at_most} and {records_at_most} are allowed"
+                    "a tile of {groups} groups and {records} records; {groups_at_most} and {tile_records_at_most} are allowed"
                 ),
             });
         }

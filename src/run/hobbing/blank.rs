@@ -13,6 +13,7 @@ use crate::output::mesh_ply::write_ply;
 use crate::output::progress::Progress;
 use crate::output::quantity::Quantity;
 use crate::output::table::{Cell, write_table};
+use crate::run::blank::{damage_cells, damage_columns};
 use crate::surface::BlankMesh;
 use serde_json::{Value, json};
 
@@ -48,41 +49,14 @@ pub fn cut(cutter: &HobCutter, progress: &Progress, interrupt: &Interrupt) -> Re
 /// # Errors
 /// Files that cannot be written.
 pub fn write(cutter: &HobCutter, whole: &WholeBlank, folder: &OutputFolder) -> Result<()> {
-    let columns = [
-        "kind",
-        "operation",
-        "tooth",
-        "side",
-        "zone",
-        "height_mm",
-        "lead_mm",
-        "x_mm",
-        "y_mm",
-        "depth_mm",
-        "volume_mm3",
-        "hob_turn",
-        "hob_tooth",
-    ];
     let row = |kind: &'static str, d: &Damage| -> Vec<Cell> {
-        vec![
-            kind.into(),
-            cutter.job.operations[d.operation].spec.name.as_str().into(),
-            d.place.tooth.into(),
-            d.place.side.name().into(),
-            d.place.zone.name().into(),
-            d.place.height_mm.into(),
-            d.lead_mm.into(),
-            d.point_mm.x.into(),
-            d.point_mm.y.into(),
-            d.depth_mm.into(),
-            d.volume_mm3.into(),
-            (d.stroke as u32).into(),
-            hob_tooth(cutter, d).as_str().into(),
-        ]
+        let mut cells = damage_cells(kind, &cutter.job.operations[d.operation].spec.name, d);
+        cells.extend([(d.stroke as u32).into(), hob_tooth(cutter, d).as_str().into()]);
+        cells
     };
     let gouges = whole.report.gouges.iter().map(|d| row("gouge", d));
     let rows: Vec<Vec<Cell>> = gouges.chain(whole.report.interference.iter().map(|d| row("interference", d))).collect();
-    write_table(&folder.path("tables/damage.csv")?, &columns, rows)?;
+    write_table(&folder.path("tables/damage.csv")?, &damage_columns(["hob_turn", "hob_tooth"]), rows)?;
     let passes = cutter.operations.last().map_or(0, crate::passes::HobTeeth::end_pass);
     let mesh = BlankMesh::new(&whole.blank.cut.field, None).mesh;
     let title = format!("gear of {}, from rays through the blank", cutter.job.scene.name);
