@@ -18,8 +18,8 @@
 override WORKGROUP_THREADS: u32 = 64u;
 // Rake faces turn along the tool's axis (helical gashes).
 override TWISTED: bool = false;
-// Newton steps at most: four suffice from the tile's middle, grazing rays take more.
-const MAX_STEPS: u32 = 10u;
+// Newton steps at most: four suffice from the tile's middle; a ray that grazes a round halves what is missing with every step.
+const MAX_STEPS: u32 = 24u;
 // Steps below these (10 nm, and a moment that moves the blade by as little) are the last.
 const LAST_STEP_MM: f32 = 1e-5;
 const LAST_STEP_T: f32 = 2e-7;

@@ -4,12 +4,17 @@ mod gpu_common;
 mod hobbing_common;
 
 use gearcut::cut::Backend;
+use gearcut::cut::gpu::GpuOptions;
 use gearcut::dexel::SpatialField;
+use gearcut::gear::generation::Side;
+use gearcut::job::{HobCutter, HobbingJob};
 use gearcut::passes::{HobTeeth, SweepPlan};
+use gearcut::scene::load;
 use gearcut::tool::CuttingTool;
 use gpu_common::*;
 use hobbing_common::*;
 use std::f64::consts::TAU;
+use std::path::Path;
 
 /// FNV-1a over the bits of heights and passes of the first patch: llvmpipe rounds alike in all its versions.
 const GOLDEN: u64 = 0x4829_c375_1cb1_4edd;
@@ -73,7 +78,7 @@ fn small_batches_give_the_same_bytes() {
     let (case, passes, field) = case("p11_patch_circle");
     let plan = SweepPlan::new(&field, &passes, case.hob.edge());
     let cut = |memory_limit_bytes: Option<u64>| {
-        let gpu = software_gpu(gearcut::cut::gpu::GpuOptions { memory_limit_bytes, ..strict() });
+        let gpu = software_gpu(GpuOptions { memory_limit_bytes, ..strict() });
         let mut layer = field.blank_layer();
         gpu.cut_spatial(&field, case.hob.edge(), &plan, &mut layer).expect("fits");
         (layer, gpu.stage_times())
@@ -84,7 +89,78 @@ fn small_batches_give_the_same_bytes() {
     assert!(many[0].batches > 5 * one[0].batches);
     assert!(whole == parts, "batches change the result");
     // A tile that does not fit is a problem with a reason, not a wrong result.
-    let gpu = software_gpu(gearcut::cut::gpu::GpuOptions { memory_limit_bytes: Some(20_000), ..strict() });
+    let gpu = software_gpu(GpuOptions { memory_limit_bytes: Some(20_000), ..strict() });
     let refused = gpu.cut_spatial(&field, case.hob.edge(), &plan, &mut field.blank_layer());
     assert!(refused.is_err_and(|error| error.to_string().contains("groups")));
+}
+
+#[test]
+fn long_lists_go_through_in_rounds() {
+    // All passes that can reach the flank at all, on a few of its dexels.
+    let (case, passes, field) = case("p12_patch_spur");
+    let few = SpatialField::new(20, 9, field.low_mm, |column, row| {
+        let [column, row] = [6 * column, 14 * row];
+        (field.ray(column, row), f64::from(field.blank_mm[field.index(column, row)]))
+    });
+    let plan = SweepPlan::brute_force(&few, &passes, case.hob.edge());
+    let longest = plan.tiles.iter().map(|tile| tile.records.len()).max().expect("tiles");
+    println!("{longest} records in a tile");
+    assert!(longest > 10 * 1024, "these lists fit one launch or two");
+    let gpu = software_gpu(strict());
+    let (parity, _, _, whole) = cut_both_in_space(&gpu, "all passes", &few, case.hob.edge(), &plan);
+    println!("{parity}");
+    assert_eq!(parity.verdict(), Ok(()));
+    // Rounds of other lengths leave the same bytes.
+    let cut = |memory_limit_bytes: Option<u64>, plan: &SweepPlan| {
+        let gpu = software_gpu(GpuOptions { memory_limit_bytes, ..strict() });
+        let mut layer = few.blank_layer();
+        gpu.cut_spatial(&few, case.hob.edge(), plan, &mut layer).expect("no list is too long");
+        layer
+    };
+    assert!(cut(Some(300_000), &plan) == whole, "rounds change the result");
+    // Alive: the first round alone leaves something else.
+    let mut short = plan.clone();
+    short.tiles.iter_mut().for_each(|tile| tile.records.end = tile.records.start + 1024.min(tile.records.len()));
+    assert!(cut(None, &short) != whole);
+}
+
+#[test]
+fn flanks_of_helical_gashes_are_cut_alike() {
+    let gpu = software_gpu(strict());
+    let sets = ["fields.flank.profile_spacing_um=80", "fields.flank.lead_spacing_um=400"].map(str::to_owned);
+    let loaded = load(Path::new("scenes/hobbing/circular_helical.toml"), &sets).unwrap_or_else(|e| panic!("{e}"));
+    let job = HobbingJob::new(&loaded.scene).expect("a scene that cuts");
+    let cutter = HobCutter::new(&job).expect("passes");
+    let edge = job.hob.edge();
+    let mut all = Parity::default();
+    for (tooth, side) in [(1, Side::Left), (1, Side::Right), (23, Side::Left)] {
+        let (_, rays) = cutter.rays(tooth, side).expect("a flank");
+        for (operation, passes) in job.operations.iter().zip(&cutter.operations) {
+            let plan = SweepPlan::new(&rays.field, passes, edge);
+            // The rake face turns by this much over the height of a tooth.
+            let twist_rad_per_mm =
+                plan.records.iter().map(|record| record.twist_rad_per_mm.abs()).fold(f64::INFINITY, f64::min);
+            assert!(twist_rad_per_mm > 1e-4, "the rake faces are planes");
+            let place = format!("tooth {tooth} {}, {}", side.name(), operation.spec.name);
+            let (parity, native, shifted, got) = cut_both_in_space(&gpu, &place, &rays.field, edge, &plan);
+            let heights = native.heights_mm.iter().map(|&h| 1e3 * f64::from(h));
+            let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], h| [a.min(h), b.max(h)]);
+            println!(
+                "{place}: twist {:.4} deg/mm, heights {low:.3} to {high:.3} um; {parity}",
+                twist_rad_per_mm.to_degrees()
+            );
+            assert_eq!(parity.verdict(), Ok(()), "{place}");
+            all.merge(parity);
+            // A rake face that is taken for a plane is seen.
+            let mut plane = plan.clone();
+            plane.records.iter_mut().for_each(|record| record.twist_rad_per_mm = 0.0);
+            let mut layer = rays.field.blank_layer();
+            gpu.cut_spatial(&rays.field, edge, &plane, &mut layer).expect("cuts");
+            assert!(layer != got);
+            let mut parity = Parity::default();
+            parity.add("plane", rays.field.rows(), &native, &shifted, &layer);
+            assert!(parity.verdict().is_err());
+        }
+    }
+    println!("all: {all}");
 }

@@ -3,6 +3,8 @@
 //! In: field, edge, plan of sweeps, layer. Out: the layer lowered. Four rows of a column make a **group**, the lanes of one thread; the groups of a tile follow each other, so that a
 //! batch is a run of tiles. As in [`super::compose`], everything large is subtracted here in f64: a record counts from the tile's middle ray at its start height on one
 //! side, from a base point of the segment near it on the other.
+//!
+//! A tile's dexels stay on the device while its records come in **rounds**, in their order: what is left does not depend on how they are split.
 
 use super::batches::Allowance;
 use super::edge_cells::EdgeCells;
@@ -25,8 +27,8 @@ const GROUP_BYTES: usize = (6 + 2 + 2) * ROWS * 4;
 const LAUNCH_PAIRS: u64 = 1 << 27;
 /// Workgroups in one dimension: what every WebGPU device has.
 const WORKGROUPS: usize = 65535;
-/// Records of a tile at most: each takes a dozen iterations of a thread's loops, of which llvmpipe ends all after 65,535 without a word. Candidates are a few dozen.
-const TILE_RECORDS: usize = 4096;
+/// Records of a tile in one launch at most: each takes up to 34 iterations of a thread's loops, of which llvmpipe ends all after 65,535 without a word. Candidates are a few dozen; a tile with more goes through in rounds.
+const ROUND_RECORDS: usize = 1024;
 
 /// Heights and passes of the whole field, the layer untouched.
 pub fn cut_on_device(
@@ -79,22 +81,23 @@ fn lanes<'a>(field: &'a SpatialField, tiles: &'a [PlanTile]) -> impl Iterator<It
     })
 }
 
-/// Runs of tiles that fit the device together.
+/// Records that fit the device together.
+fn records_at_most(Allowance { buffer_bytes, batch_bytes }: Allowance) -> usize {
+    buffer_bytes.min(batch_bytes / 2) as usize / size_of::<SweepRecord>()
+}
+
+/// Runs of tiles that fit the device together. Their records keep to half of its memory, unless a single tile has more.
 fn batches(plan: &SweepPlan, allowance: Allowance) -> Result<Vec<Range<usize>>, GpuProblem> {
     let Allowance { buffer_bytes, batch_bytes } = allowance;
     let groups_at_most = (buffer_bytes as usize / (6 * ROWS * 4)).min(batch_bytes as usize / 2 / GROUP_BYTES);
-    let records_at_most = (buffer_bytes.min(batch_bytes / 2) as usize) / size_of::<SweepRecord>();
-    let tile_records_at_most = records_at_most.min(TILE_RECORDS);
+    let records_at_most = records_at_most(allowance);
     let mut batches: Vec<Range<usize>> = Vec::new();
     let (mut in_groups, mut in_records, mut in_pairs) = (0, 0, 0);
     for (index, tile) in plan.tiles.iter().enumerate() {
         let (groups, records) = (groups(tile), tile.records.len());
-        if groups > groups_at_most || records > tile_records_at_most {
-            return Err(GpuProblem::OutOfMemory {
-                reason: format!(
-                    "a tile of {groups} groups and {records} records; {groups_at_most} and {tile_records_at_most} are allowed"
-                ),
-            });
+        if groups > groups_at_most || records_at_most == 0 {
+            let reason = format!("a tile of {groups} groups of rays; there is room for {groups_at_most}");
+            return Err(GpuProblem::OutOfMemory { reason });
         }
         let pairs = (groups * ROWS * records) as u64;
         let fits = in_groups + groups <= groups_at_most
@@ -114,6 +117,26 @@ fn batches(plan: &SweepPlan, allowance: Allowance) -> Result<Vec<Range<usize>>, 
     Ok(batches)
 }
 
+/// One launch: the next records of the tiles that have any left.
+#[derive(Default)]
+struct Round {
+    tiles: Vec<SweepTile>,
+    records: Vec<SweepRecord>,
+}
+
+impl Round {
+    fn launch<'a>(&'a self, gpu: &'a Gpu) -> Launch<'a> {
+        let twisted = self.records.iter().any(|record| record.twist_rad_per_mm != 0.0);
+        let widest = self.tiles.iter().map(|tile| tile.group_count).max().unwrap_or(0);
+        Launch {
+            pipeline: &gpu.spatial_flank[usize::from(twisted)],
+            tiles: bytemuck::cast_slice(&self.tiles),
+            records: bytemuck::cast_slice(&self.records),
+            workgroups: [widest.div_ceil(WORKGROUP_THREADS), self.tiles.len() as u32],
+        }
+    }
+}
+
 fn send(
     gpu: &Gpu,
     field: &SpatialField,
@@ -124,25 +147,27 @@ fn send(
     batch: Range<usize>,
 ) -> Result<InFlight, GpuProblem> {
     let plan_tiles = &plan.tiles[batch];
-    let (mut tiles, mut records, mut rays) = (Vec::new(), Vec::new(), Vec::<[f32; ROWS]>::new());
+    let round_records = records_at_most(gpu.allowance()).min(ROUND_RECORDS);
+    let (mut rounds, mut rays) = (Vec::<Round>::new(), Vec::<[f32; ROWS]>::new());
     let mut first_group = 0;
     for tile in plan_tiles {
         let middle =
             field.ray((tile.columns.start + tile.columns.end - 1) / 2, (tile.rows.start + tile.rows.end - 1) / 2);
         let middle = middle.normal.as_vec3();
-        tiles.push(SweepTile {
-            middle: middle.extend(field.low_mm as f32).to_array(),
-            first_group,
-            group_count: groups(tile) as u32,
-            first_record: records.len() as u32,
-            record_count: tile.records.len() as u32,
-        });
+        for (round, records) in plan.records[tile.records.clone()].chunks(round_records).enumerate() {
+            rounds.resize_with(rounds.len().max(round + 1), Round::default);
+            let Round { tiles, records: composed } = &mut rounds[round];
+            tiles.push(SweepTile {
+                middle: middle.extend(field.low_mm as f32).to_array(),
+                first_group,
+                group_count: groups(tile) as u32,
+                first_record: composed.len() as u32,
+                record_count: records.len() as u32,
+            });
+            let segment = |record: &sweep::SweepRecord| &edge.segments[record.segment as usize];
+            composed.extend(records.iter().map(|r| compose(cells, r, segment(r), middle.as_dvec3())));
+        }
         first_group += groups(tile) as u32;
-        records.extend(
-            plan.records[tile.records.clone()]
-                .iter()
-                .map(|record| compose(cells, record, &edge.segments[record.segment as usize], middle.as_dvec3())),
-        );
         let one = std::slice::from_ref(tile);
         let dexels: Vec<usize> = lanes(field, one).collect();
         for group in dexels.chunks_exact(ROWS) {
@@ -158,14 +183,7 @@ fn send(
     let dexels: Vec<usize> = lanes(field, plan_tiles).collect();
     let heights_mm: Vec<f32> = dexels.iter().map(|&at| layer.heights_mm[at]).collect();
     let passes: Vec<u32> = dexels.iter().map(|&at| layer.passes[at]).collect();
-    let twisted = records.iter().any(|record| record.twist_rad_per_mm != 0.0);
-    let widest = plan_tiles.iter().map(groups).max().unwrap_or(0) as u32;
-    let launch = Launch {
-        pipeline: &gpu.spatial_flank[usize::from(twisted)],
-        tiles: bytemuck::cast_slice(&tiles),
-        records: bytemuck::cast_slice(&records),
-        workgroups: [widest.div_ceil(WORKGROUP_THREADS), tiles.len() as u32],
-    };
+    let launches: Vec<Launch> = rounds.iter().map(|round| round.launch(gpu)).collect();
     let shared = |label, bytes| Input::Shared { label, bytes, usage: wgpu::BufferUsages::STORAGE };
     readback::send(
         &gpu.device,
@@ -178,7 +196,7 @@ fn send(
                 shared("rays", bytemuck::cast_slice(&rays)),
             ],
             record_usage: wgpu::BufferUsages::STORAGE,
-            launches: if records.is_empty() { &[] } else { std::slice::from_ref(&launch) },
+            launches: &launches,
             heights_mm: &heights_mm,
             passes: &passes,
             poison: gpu.options.poison_outputs,
