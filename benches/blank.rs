@@ -1,6 +1,6 @@
 //! The whole blank: rays through the elliptical gear's stock at 0.1 mm, 4,200 strokes, both operations.
 //!
-//! Prints a table of its own: time, memory and pairs of ray and pass stand beside each other. `cargo bench --bench blank`
+//! Prints a table of its own: time, memory and pairs of ray and pass stand beside each other. `cargo bench --bench blank`; `-- hobbed [SCENE]` for a hobbed blank alone.
 
 mod common;
 #[allow(
@@ -15,16 +15,46 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::cut::cpu::blank::BlankStats;
 use gearcut::cut::gpu::adapter::AdapterWish;
 use gearcut::cut::gpu::{Gpu, GpuOptions};
-use gearcut::job::Job;
+use gearcut::job::{HobCutter, HobbingJob, Job};
 use gearcut::measure::blank_report;
+use gearcut::scene::load;
 use gearcut::surface::BlankMesh;
+use std::path::Path;
 use std::time::Instant;
 
 /// Rounds; the fastest counts.
 const ROUNDS: usize = 3;
 
+/// A hobbing scene's blank on the processor and on whatever GPU or stand-in is there.
+fn hobbed(scene: &str) {
+    let loaded = load(Path::new(&format!("scenes/hobbing/{scene}.toml")), &[]).expect("a shipped scene");
+    let job = HobbingJob::new(&loaded.scene).expect("a scene that cuts");
+    let cutter = HobCutter::new(&job).expect("passes");
+    let cut = |backend: &dyn Backend| {
+        let started = Instant::now();
+        let field = job.blank_field().expect("fits in memory");
+        let slices = field.slices.len();
+        let blank = cutter.cut_blank(backend, field, &|| true).expect("the backend works").expect("not stopped");
+        let [chips, spans] = [blank.chips.iter().map(Vec::len).sum(), blank.cut.field.spans()];
+        let seconds = started.elapsed().as_secs_f64();
+        println!("{scene}, {}: {seconds:.2} s, {slices} slices, {spans} spans, {chips} chips", backend.name());
+    };
+    cut(&Cpu::default());
+    for wish in [AdapterWish::Real, AdapterWish::Software] {
+        let Ok(gpu) = Gpu::new(wish, GpuOptions::default()) else { continue };
+        cut(&gpu);
+        for stage in gpu.stage_times() {
+            println!("{}: {} launches", stage.stage, stage.batches);
+        }
+    }
+}
+
 fn main() {
     println!("{}", common::machine());
+    let mut arguments = std::env::args().skip_while(|argument| argument != "hobbed").skip(1);
+    if std::env::args().any(|argument| argument == "hobbed") {
+        return hobbed(arguments.find(|argument| !argument.starts_with('-')).as_deref().unwrap_or("circular_helical"));
+    }
     for (name, feed_during_stroke) in [("axes at rest", false), ("feed during the stroke, 13 slices", true)] {
         let mut scene = scenes::paper_scene(vec![
             scenes::operation("rough", scenes::NORMAL, 2.0, 4200),
@@ -78,4 +108,5 @@ fn main() {
             );
         }
     }
+    hobbed("circular_helical");
 }

@@ -2,6 +2,7 @@
 //!
 //! `cargo run --release --example hob_load -- [FOLDER]` writes `hob_load.csv`, `.png` and `.svg` into FOLDER (default `out/hob_load`) and prints the table and the time that each blank took.
 
+use gearcut::cut::cpu::Cpu;
 use gearcut::job::{HobCutter, HobbingJob};
 use gearcut::measure::hob_load::{OperationLoad, hoffmeister_of};
 use gearcut::output::bar_chart::{BarChart, BarSeries};
@@ -29,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let job = HobbingJob::new(&scene)?;
         let started = Instant::now();
         let cutter = HobCutter::new(&job)?;
-        let blank = cutter.cut_blank(job.blank_field()?, &|| true).ok_or("stopped")?;
+        let blank = cutter.cut_blank(&Cpu::default(), job.blank_field()?, &|| true)?.ok_or("stopped")?;
         let load = OperationLoad::of_blank(&cutter.operations[0], &blank.chips[0]);
         let stats = blank.cut.cuts[0].stats;
         labels = job.hob.teeth.iter().map(|tooth| tooth.label(job.hob.starts)).collect();

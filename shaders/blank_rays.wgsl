@@ -1,8 +1,9 @@
 // Takes the passes of a tile from its rays through the blank, in order of time.
 //
 // One thread per ray, one workgroup per tile. Reads launch, tiles, passes, parts; rewrites spans and their counts; adds what every pass removed, in fixed point, so that the sum
-// does not depend on the order of threads. A list that has no room says how much it needs, and the host comes back with more.
-// Twin: src/cut/cpu/blank.rs (derivation there). Adds at most 30 nm to an end that its ray meets at 45 degrees or steeper.
+// does not depend on the order of threads; lists the pieces that were taken, in any order, if the host asks for them. A list that has no room says how much it needs, and the host comes back with more.
+// A pass is a closed curve and nothing else: a cutter tooth's outline in shaping, the section of a hob tooth's sweep in hobbing.
+// Twins: src/cut/cpu/blank.rs (derivation there), src/cut/cpu/blank_sweeps.rs. Adds at most 30 nm to an end that its ray meets at 45 degrees or steeper.
 
 @group(0) @binding(0) var<uniform> launch: BlankLaunch;
 @group(0) @binding(1) var<storage, read> tiles: array<BlankTile>;
@@ -12,11 +13,12 @@
 @group(0) @binding(5) var<storage, read_write> counts: array<u32>;
 // Per pass of a tile, in launch.units_per_mm: taken by a stroke, met by a return stroke.
 @group(0) @binding(6) var<storage, read_write> removed: array<atomic<u32>>;
-// Largest list that had no room; crossings of one tooth that had none.
-@group(0) @binding(7) var<storage, read_write> needs: array<atomic<u32>, 2>;
+// Largest list that had no room; whether crossings of one curve had none; pieces that were taken.
+@group(0) @binding(7) var<storage, read_write> needs: array<atomic<u32>, 3>;
+@group(0) @binding(8) var<storage, read_write> pieces: array<BlankPiece>;
 
 override WORKGROUP_THREADS: u32 = 64u;
-// Crossings of one tooth with one ray: two as a rule, four at a slanting one; more are reported, never left out.
+// Crossings of one curve with one ray: two as a rule, four at a slanting tooth; more are reported, never left out.
 const MOST_CROSSINGS: u32 = 8u;
 // Newton steps within a part, each inside its bracket.
 const STEPS: u32 = 12u;
@@ -55,7 +57,27 @@ fn cross_part(part: BlankPart, at_mm: f32) -> Crossing {
     }
     let tangent = vec2(rate(part.along, t), rate(part.across, t));
     let length = max(sqrt(dot(tangent, tangent)), 1e-30);
-    return Crossing(value(part.along, t), launch.turn * vec2(-tangent.y, tangent.x) / length);
+    return Crossing(value(part.along, t), vec2(-tangent.y, tangent.x) / length);
+}
+
+// Lists what a pass takes of a span.
+fn take_piece(ray: u32, pass_id: u32, span: BlankSpan, entry: Crossing, exit: Crossing) {
+    let place = atomicAdd(&needs[2], 1u);
+    if place >= launch.piece_room {
+        return;
+    }
+    var piece = span;
+    if piece.low_mm <= entry.along_mm {
+        piece.low_mm = entry.along_mm;
+        piece.low_pass = pass_id;
+        piece.low_normal = entry.normal;
+    }
+    if piece.high_mm >= exit.along_mm {
+        piece.high_mm = exit.along_mm;
+        piece.high_pass = pass_id;
+        piece.high_normal = exit.normal;
+    }
+    pieces[place] = BlankPiece(piece, ray, pass_id);
 }
 
 @compute @workgroup_size(WORKGROUP_THREADS)
@@ -102,19 +124,24 @@ fn blank_rays(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
             var last = first;
             var length_mm = 0.0;
             while last < count && spans[base + last].low_mm < exit.along_mm {
-                length_mm += spans[base + last].high_mm - spans[base + last].low_mm;
+                // Near numbers: a difference of whole spans would lose the chip among them.
+                let span = spans[base + last];
+                length_mm += min(span.high_mm, exit.along_mm) - max(span.low_mm, entry.along_mm);
                 last++;
             }
             if first == last {
                 continue;
             }
             if tooth.returns != 0u {
-                length_mm -= max(entry.along_mm - spans[base + first].low_mm, 0.0);
-                length_mm -= max(spans[base + last - 1u].high_mm - exit.along_mm, 0.0);
                 if length_mm > LEAST_SPAN_MM {
                     atomicAdd(&removed[tile.first_pass + p], u32(length_mm * launch.units_per_mm));
                 }
                 continue;
+            }
+            if launch.piece_room > 0u {
+                for (var k = first; k < last; k++) {
+                    take_piece(ray, tooth.pass_id, spans[base + k], entry, exit);
+                }
             }
             var before = spans[base + first];
             before.high_mm = entry.along_mm;
@@ -126,8 +153,9 @@ fn blank_rays(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
             after.low_normal = exit.normal;
             let keep_before = before.high_mm - before.low_mm > LEAST_SPAN_MM;
             let keep_after = after.high_mm - after.low_mm > LEAST_SPAN_MM;
-            length_mm -= select(0.0, before.high_mm - before.low_mm, keep_before);
-            length_mm -= select(0.0, after.high_mm - after.low_mm, keep_after);
+            // What is too short to keep is taken as well.
+            length_mm += select(max(before.high_mm - before.low_mm, 0.0), 0.0, keep_before);
+            length_mm += select(max(after.high_mm - after.low_mm, 0.0), 0.0, keep_after);
             let kept = select(0u, 1u, keep_before) + select(0u, 1u, keep_after);
             let now = count + kept - (last - first);
             if now > launch.capacity {
@@ -151,7 +179,7 @@ fn blank_rays(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
                 spans[base + first + kept - 1u] = after;
             }
             count = now;
-            atomicAdd(&removed[tile.first_pass + p], u32(max(length_mm, 0.0) * launch.units_per_mm + 0.5));
+            atomicAdd(&removed[tile.first_pass + p], u32(round(length_mm * launch.units_per_mm)));
         }
     }
     counts[ray] = count;

@@ -161,6 +161,8 @@ pub struct RayCrossings {
     parts: Vec<Part>,
     /// Per ray of the window: parts that it crosses.
     met: Vec<Vec<u32>>,
+    /// Parts are kept that come this near to a ray.
+    margin_mm: f64,
     rays: Range<usize>,
     touched: Range<usize>,
 }
@@ -205,6 +207,19 @@ impl RayCrossings {
 
     /// Finds which rays of `window` cross which parts of the curve.
     pub fn lay(&mut self, curve: &impl ClosedCurve, family: Family, row: &RayRow, window: Range<usize>) {
+        self.lay_within(curve, family, row, window, 0.0);
+    }
+
+    /// The same; [`Self::cubics`] then gives the parts as well that come within `margin_mm` of a ray: a kernel that rounds places has rays cross some of them, and counts in pairs only if it has all.
+    pub fn lay_within(
+        &mut self,
+        curve: &impl ClosedCurve,
+        family: Family,
+        row: &RayRow,
+        window: Range<usize>,
+        margin_mm: f64,
+    ) {
+        self.margin_mm = margin_mm;
         for met in &mut self.met {
             met.clear();
         }
@@ -215,7 +230,7 @@ impl RayCrossings {
         if window.is_empty() {
             return;
         }
-        let (low_mm, high_mm) = (row.at_mm(window.start), row.at_mm(window.end - 1));
+        let (low_mm, high_mm) = (row.at_mm(window.start) - margin_mm, row.at_mm(window.end - 1) + margin_mm);
         let pieces = curve.pieces();
         let first = curve.node_mm(0);
         let mut start = first;
@@ -247,8 +262,12 @@ impl RayCrossings {
     fn part(&mut self, family: Family, row: &RayRow, piece: &Piece, range: [f64; 2], ends: [DVec2; 2]) {
         let across = ends.map(|p| family.across(p));
         let (low, high) = (across[0].min(across[1]), across[0].max(across[1]));
-        let rays = row.first_at_or_above(low).max(self.rays.start)..row.first_at_or_above(high).min(self.rays.end);
-        if rays.is_empty() {
+        let between = |from: f64, to: f64| {
+            row.first_at_or_above(from).max(self.rays.start)..row.first_at_or_above(to).min(self.rays.end)
+        };
+        let rays = between(low, high);
+        if rays.is_empty() && (self.margin_mm == 0.0 || between(low - self.margin_mm, high + self.margin_mm).is_empty())
+        {
             return;
         }
         let along = ends.map(|p| family.along(p));
@@ -256,6 +275,9 @@ impl RayCrossings {
         let slack_mm = piece.sagitta_mm * chord_mm / (high - low);
         let id = self.parts.len() as u32;
         self.parts.push(Part { law: piece.law, range, along, across, slack_mm });
+        if rays.is_empty() {
+            return;
+        }
         self.touched.start = self.touched.start.min(rays.start);
         self.touched.end = self.touched.end.max(rays.end);
         for ray in rays {

@@ -105,11 +105,12 @@ fn records_have_the_same_members_on_both_sides() {
                 padding_2,
             }
         ),
-        layout!(1, records::BlankLaunch { spacing_mm, units_per_mm, capacity, turn }),
+        layout!(1, records::BlankLaunch { spacing_mm, units_per_mm, capacity, piece_room }),
         layout!(1, records::BlankTile { first_pass, pass_count, first_ray, ray_count }),
         layout!(1, records::BlankPass { first_part, part_count, pass_id, returns }),
         layout!(1, records::BlankPart { along, across, across_end_mm, padding_1, padding_2, padding_3 }),
         layout!(1, records::BlankSpan { low_mm, high_mm, low_pass, high_pass, low_normal, high_normal }),
+        layout!(1, records::BlankPiece { span, ray, pass_id }),
         layout!(2, sweep_records::SweepTile { middle, first_group, group_count, first_record, record_count }),
         layout!(
             2,

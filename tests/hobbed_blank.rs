@@ -4,7 +4,7 @@ use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
 use gearcut::cut::cpu::blank_sweeps;
 use gearcut::dexel::{NO_PASS, Ray, SpatialField};
-use gearcut::job::{HobCutter, HobbingJob};
+use gearcut::job::{HobCutter, HobbedBlank, HobbingJob};
 use gearcut::measure::hob_load::{LedgerGrid, OperationLoad, SpaceLedger};
 use gearcut::measure::hobbed_blank;
 use gearcut::passes::SweepPlan;
@@ -23,6 +23,11 @@ fn job(scene: &str, sets: &[&str]) -> HobbingJob {
     let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
     let loaded = load(Path::new(&format!("scenes/hobbing/{scene}.toml")), &sets).unwrap_or_else(|e| panic!("{e}"));
     HobbingJob::new(&loaded.scene).expect("a scene that cuts")
+}
+
+fn cut_blank(cutter: &HobCutter) -> HobbedBlank {
+    let field = cutter.job.blank_field().expect("fits");
+    cutter.cut_blank(&Cpu::default(), field, &|| true).expect("the native backend").expect("not stopped")
 }
 
 const SMALL: [&str; 3] = ["gear.face_width_mm=6", "fields.blank.spacing_mm=0.5", "fields.blank.slice_spacing_mm=1.0"];
@@ -118,7 +123,7 @@ fn what_is_left_is_the_target_and_its_marks() {
         all.extend(sets);
         let job = job(scene, &all);
         let cutter = HobCutter::new(&job).expect("passes");
-        let blank = cutter.cut_blank(job.blank_field().expect("fits"), &|| true).expect("not stopped");
+        let blank = cut_blank(&cutter);
         let report = hobbed_blank::measure(&cutter, &blank.cut);
         // Both balances: pass by pass against the rays, and the two families against each other.
         for removed in &report.operations {
@@ -173,7 +178,7 @@ fn ends_of_spans_are_the_flank_kernels_heights() {
         };
         let job = job(scene, small);
         let cutter = HobCutter::new(&job).expect("passes");
-        let blank = cutter.cut_blank(job.blank_field().expect("fits"), &|| true).expect("not stopped");
+        let blank = cut_blank(&cutter);
         let grid = &blank.cut.field.grid;
         let slice = grid.leads_mm.len() / 2;
         let near = job.blank.outline_mm(0.7);
@@ -211,7 +216,7 @@ fn the_mesh_is_closed_and_loads_are_those_of_the_ledger() {
         &["gear.face_width_mm=10", "fields.blank.spacing_mm=0.3", "fields.blank.slice_spacing_mm=1.0"],
     );
     let cutter = HobCutter::new(&job).expect("passes");
-    let blank = cutter.cut_blank(job.blank_field().expect("fits"), &|| true).expect("not stopped");
+    let blank = cut_blank(&cutter);
     let mesh = BlankMesh::new(&blank.cut.field, None).mesh;
     let left_mm3 = blank.cut.left_mm3[0];
     println!("{} triangles, {} mm3 against {left_mm3:?}", mesh.triangles.len(), mesh.volume_mm3());

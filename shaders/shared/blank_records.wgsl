@@ -8,8 +8,8 @@ struct BlankLaunch {
     units_per_mm: f32,
     // Spans that a ray has room for.
     capacity: u32,
-    // 1 for rays along x, -1 for rays along y: which side of a curve is outside.
-    turn: f32,
+    // Pieces that there is room for; 0 if nobody asks for them.
+    piece_room: u32,
 }
 
 // Neighbouring rays and their passes in order of time.
@@ -20,7 +20,7 @@ struct BlankTile {
     ray_count: u32,
 }
 
-// One tooth in one stroke over one tile.
+// One pass over one tile: a cutter tooth in its stroke, or the section of a hob tooth's sweep.
 struct BlankPass {
     first_part: u32,
     part_count: u32,
@@ -29,7 +29,7 @@ struct BlankPass {
     returns: u32,
 }
 
-// Part of a tooth's outline that runs one way across the rays: cubics in a parameter from 0 to 1.
+// Part of its curve that runs one way across the rays: cubics in a parameter from 0 to 1.
 struct BlankPart {
     // Along the rays, mm.
     along: vec4<f32>,
@@ -42,7 +42,8 @@ struct BlankPart {
     padding_3: f32,
 }
 
-// Material on a ray; normals out of it, as components along and across the rays.
+// Material on a ray; normals as components along and across the rays, out of the material for rays along x; for rays along y
+// the host turns them round, which the exchanged axes make up for.
 struct BlankSpan {
     low_mm: f32,
     high_mm: f32,
@@ -50,4 +51,12 @@ struct BlankSpan {
     high_pass: u32,
     low_normal: vec2<f32>,
     high_normal: vec2<f32>,
+}
+
+// Material that a pass took from a ray; ends that it left bear its id.
+struct BlankPiece {
+    span: BlankSpan,
+    // Ray of the launch.
+    ray: u32,
+    pass_id: u32,
 }

@@ -11,9 +11,12 @@ pub mod gpu;
 
 use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
+use crate::passes::hob_sections::HobSections;
 use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
 use cpu::blank::{BlankCut, BlankOperation};
+use cpu::blank_sweeps::SweepsCut;
+use std::ops::Range;
 
 /// What a backend met besides heights.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -68,6 +71,19 @@ pub trait Backend: Sync {
         operation: &BlankOperation,
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<BlankCut>, Error>;
+
+    /// Takes all sweeps of a hobbing operation, whose passes have the ids `passes`, from the blank; `advance` is called as often as the field has slices and says whether to go on. `None`: stopped, the
+    /// field is then as it was or partly cut.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    fn cut_blank_sweeps(
+        &self,
+        field: &mut BlankField,
+        sections: &HobSections,
+        passes: Range<u32>,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<SweepsCut>, Error>;
 
     /// Runs all records of a plan of sweeps over a field of rays in space, lowering `layer`.
     ///

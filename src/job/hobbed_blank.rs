@@ -1,9 +1,10 @@
 //! The blank field of a hobbing job: rays through the whole stock, cut by the sweeps of all operations; the target's section at any height.
 
 use super::{CutBlank, HobCutter, HobbingJob};
-use crate::cut::cpu::blank_sweeps::{self, PassChip};
+use crate::cut::Backend;
+use crate::cut::cpu::blank_sweeps::PassChip;
 use crate::dexel::{BlankField, BlankGrid};
-use crate::error::Refusal;
+use crate::error::{Refusal, Result};
 use crate::gear::blank_outline::BlankOutline;
 use crate::gear::generation::Side;
 use crate::gear::target_outline::TargetOutline;
@@ -113,18 +114,28 @@ impl HobCutter<'_> {
         HobSections::new(passes, self.job.hob.edge(), reach_mm, self.job.scene.gear.face_width_mm, cull)
     }
 
-    /// Runs all operations over the uncut blank; `advance` is called after every slice and says whether to go on. `None`: stopped.
-    pub fn cut_blank(&self, field: BlankField, advance: &(dyn Fn() -> bool + Sync)) -> Option<HobbedBlank> {
+    /// Runs all operations over the uncut blank; `advance` is called as often as there are slices, in every operation, and says whether to go on. `None`: stopped.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_blank(
+        &self,
+        backend: &dyn Backend,
+        field: BlankField,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<HobbedBlank>> {
         let mut cut = CutBlank { blank_mm3: field.volumes_mm3(), field, left_mm3: Vec::new(), cuts: Vec::new() };
         let mut chips = Vec::new();
         for (index, passes) in self.operations.iter().enumerate() {
             let sections = self.sections(index, true);
             let ids = passes.first_pass..passes.end_pass();
-            let done = blank_sweeps::cut(&mut cut.field, &sections, ids, advance)?;
+            let Some(done) = backend.cut_blank_sweeps(&mut cut.field, &sections, ids, advance)? else {
+                return Ok(None);
+            };
             cut.cuts.push(done.cut);
             chips.push(done.chips);
             cut.left_mm3.push(cut.field.volumes_mm3());
         }
-        Some(HobbedBlank { cut, chips })
+        Ok(Some(HobbedBlank { cut, chips }))
     }
 }

@@ -72,9 +72,16 @@ pub struct SweptSection {
     nodes_mm: Vec<DVec2>,
     /// Derivatives over the piece's parameter, 0 to 1, at its ends.
     rates_mm: Vec<[DVec2; 2]>,
-    /// Way of the tip per mm along the gear's axis, where it crosses the slice.
+    /// How the blade goes through the slice.
+    pub heading: SweepHeading,
+}
+
+/// How a blade goes through a slice where its tip crosses it.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct SweepHeading {
+    /// Way of the tip per mm along the gear's axis.
     pub way_per_mm: f64,
-    /// Directions of the tool's axis and of the tip out of it there, gear frame.
+    /// Directions of the tool's axis and of the tip out of it, gear frame.
     axis_and_out: [DVec3; 2],
 }
 
@@ -161,8 +168,7 @@ impl HobSections {
         }
         let tip = (behind_mm / self.tip_mm).asin();
         into.pass = pass.pass;
-        into.way_per_mm = pass.way_per_mm() / tip.cos();
-        into.axis_and_out = pass.axis_and_out(tip);
+        into.heading = SweepHeading { way_per_mm: pass.way_per_mm() / tip.cos(), axis_and_out: pass.axis_and_out(tip) };
         into.pieces.clear();
         into.nodes_mm.clear();
         into.rates_mm.clear();
@@ -210,7 +216,7 @@ impl SweptSection {
     }
 }
 
-impl SweptSection {
+impl SweepHeading {
     /// Cosine between the slice and the normal of the swept surface where its trace has the normal `trace`: the blade moves along the circumference, so that normal is a mean of the tool's axis and of
     /// the direction out of it. The work's own motion, some hundredths of the blade's, is left out.
     pub fn upright(&self, trace: DVec2) -> f64 {

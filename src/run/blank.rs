@@ -117,7 +117,7 @@ pub(super) fn results(job: &Job, cut: &CutBlank, report: &BlankReport) -> BlankR
 }
 
 /// Work that the native backend counts.
-fn pairs(count: u64, definition: &'static str) -> Quantity {
+pub(super) fn pairs(count: u64, definition: &'static str) -> Quantity {
     if count > 0 {
         Quantity::count(count, "pairs", definition)
     } else {

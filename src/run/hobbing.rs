@@ -154,7 +154,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools, out: &Path) -> Result<(Value,
     let mut gear = cut_gear(&cutter, backend, progress, interrupt, Some((folder, notes)))?;
     let textures = texture::measure(&cutter, backend, progress, interrupt)?;
     let lattices = marks::measure(&cutter, tools)?;
-    let whole = if gear.work.interrupted { None } else { blank::cut(&cutter, progress, interrupt)? };
+    let whole = if gear.work.interrupted { None } else { blank::cut(&cutter, backend, progress, interrupt)? };
     gear.work.interrupted |= whole.is_none();
     let mut results = results::results(&cutter, &gear, &textures, &lattices)?;
     if let Some(whole) = &whole {

@@ -6,6 +6,8 @@
 //! of that shift.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+pub mod blank;
+
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
 use gearcut::cut::gpu::adapter::{AdapterWish, adapters};

@@ -8,7 +8,7 @@
 use super::blank::{BlankCut, BlankStats, Scratch, Tile};
 use crate::dexel::blank_field::{BlankField, BlankGrid, Slice};
 use crate::dexel::intervals::{self, End, Span};
-use crate::passes::hob_sections::{HobSections, SweptSection};
+use crate::passes::hob_sections::{HobSections, SweepHeading, SweptSection};
 use crate::planar_rays::{FAMILIES, Family, RayCrossings};
 use glam::DVec2;
 use rayon::prelude::*;
@@ -55,22 +55,61 @@ pub fn cut(
             advance().then_some(cut)
         })
         .collect();
-    let nothing = |pass| PassChip { pass, removed_mm3: [0.0; 2], thickness_mm: 0.0, way_mm: 0.0 };
-    let mut chips: Vec<PassChip> = passes.clone().map(nothing).collect();
+    let mut books = ChipBooks::new(passes);
     let mut stats = BlankStats::default();
     for cut in cuts {
         let (of_slice, met) = cut?;
-        for chip in of_slice {
-            let sum = &mut chips[(chip.pass - passes.start) as usize];
-            sum.removed_mm3 = [0, 1].map(|f| sum.removed_mm3[f] + chip.removed_mm3[f]);
-            sum.thickness_mm = sum.thickness_mm.max(chip.thickness_mm);
-            sum.way_mm += chip.way_mm;
+        for chip in &of_slice {
+            books.enter(chip);
         }
         stats += met;
     }
-    let removed_mm3 = chips.iter().map(|chip| chip.removed_mm3).collect();
-    chips.retain(|chip| chip.removed_mm3 != [0.0; 2]);
-    Some(SweepsCut { cut: BlankCut { removed_mm3, stats, ..BlankCut::default() }, chips })
+    Some(books.close(stats))
+}
+
+/// Chips of an operation while they come in, slice by slice.
+pub(in crate::cut) struct ChipBooks {
+    first_pass: u32,
+    chips: Vec<PassChip>,
+}
+
+impl ChipBooks {
+    /// For passes with the ids `passes`.
+    pub fn new(passes: Range<u32>) -> Self {
+        let nothing = |pass| PassChip { pass, removed_mm3: [0.0; 2], thickness_mm: 0.0, way_mm: 0.0 };
+        Self { first_pass: passes.start, chips: passes.map(nothing).collect() }
+    }
+
+    /// Adds a chip of one slice.
+    pub fn enter(&mut self, chip: &PassChip) {
+        let sum = &mut self.chips[(chip.pass - self.first_pass) as usize];
+        sum.removed_mm3 = [0, 1].map(|f| sum.removed_mm3[f] + chip.removed_mm3[f]);
+        sum.thickness_mm = sum.thickness_mm.max(chip.thickness_mm);
+        sum.way_mm += chip.way_mm;
+    }
+
+    /// What the operation did.
+    pub fn close(mut self, stats: BlankStats) -> SweepsCut {
+        let removed_mm3 = self.chips.iter().map(|chip| chip.removed_mm3).collect();
+        self.chips.retain(|chip| chip.removed_mm3 != [0.0; 2]);
+        SweepsCut { cut: BlankCut { removed_mm3, stats, ..BlankCut::default() }, chips: self.chips }
+    }
+}
+
+impl PassChip {
+    /// What a pass took of a slice of the face.
+    pub(in crate::cut) fn of_slice(
+        pass: u32,
+        heading: &SweepHeading,
+        removed_mm3: [f64; 2],
+        width_mm: f64,
+        surfaces: &ChipSurfaces,
+    ) -> Self {
+        // Around a place that far from the old surface the chip holds a quarter of a disc at least: where it is thinner than the rays are apart, single rays run along it and tell nothing.
+        let area_mm2 = removed_mm3[0].min(removed_mm3[1]) / width_mm;
+        let thickness_mm = surfaces.thickness_mm(heading).min((4.0 * area_mm2 / PI).sqrt());
+        Self { pass, removed_mm3, thickness_mm, way_mm: heading.way_per_mm * width_mm }
+    }
 }
 
 /// Chips of one slice in order of time.
@@ -118,11 +157,7 @@ fn cut_slice(
             removed_mm3[f] = removed_mm * grid.spacing_mm() * width_mm;
         }
         if removed_mm3 != [0.0; 2] {
-            // Around a place that far from the old surface the chip holds a quarter of a disc at least: where it is thinner than the rays are apart, single rays run along it and tell nothing.
-            let area_mm2 = removed_mm3[0].min(removed_mm3[1]) / width_mm;
-            let thickness_mm = surfaces.thickness_mm(&section).min((4.0 * area_mm2 / PI).sqrt());
-            let way_mm = section.way_per_mm * width_mm;
-            chips.push(PassChip { pass: section.pass, removed_mm3, thickness_mm, way_mm });
+            chips.push(PassChip::of_slice(section.pass, &section.heading, removed_mm3, width_mm, &surfaces));
         }
     }
     (chips, stats)
@@ -130,7 +165,7 @@ fn cut_slice(
 
 /// Points of the surfaces of one chip in one slice, with their normals.
 #[derive(Default)]
-struct ChipSurfaces {
+pub(in crate::cut) struct ChipSurfaces {
     /// Left by earlier passes, or the blank's own.
     old: Vec<[DVec2; 2]>,
     /// Left by this one.
@@ -138,30 +173,36 @@ struct ChipSurfaces {
 }
 
 impl ChipSurfaces {
-    fn clear(&mut self) {
+    /// No chip.
+    pub fn clear(&mut self) {
         self.old.clear();
         self.new.clear();
     }
 
     /// What a cut takes from one ray.
     fn add(&mut self, family: Family, across_mm: f64, spans: &[Span], [from, to]: [End; 2]) {
-        let place = |end: &End| [family.point(end.at_mm, across_mm), DVec2::from_array(end.normal.map(f64::from))];
         let first = spans.partition_point(|span| span.high.at_mm <= from.at_mm);
         for span in spans[first..].iter().take_while(|span| span.low.at_mm < to.at_mm) {
-            for (own, cut, inside) in
-                [(&span.low, &from, span.low.at_mm > from.at_mm), (&span.high, &to, span.high.at_mm < to.at_mm)]
-            {
-                if inside { self.old.push(place(own)) } else { self.new.push(place(cut)) }
-            }
+            let low = if span.low.at_mm > from.at_mm { span.low } else { from };
+            let high = if span.high.at_mm < to.at_mm { span.high } else { to };
+            self.add_piece(family, across_mm, &Span { low, high }, from.pass);
+        }
+    }
+
+    /// Material that a pass takes from one ray; ends that it leaves bear its id.
+    pub fn add_piece(&mut self, family: Family, across_mm: f64, piece: &Span, pass: u32) {
+        for end in [&piece.low, &piece.high] {
+            let place = [family.point(end.at_mm, across_mm), DVec2::from_array(end.normal.map(f64::from))];
+            if end.pass == pass { self.new.push(place) } else { self.old.push(place) }
         }
     }
 
     /// Second largest distance of points of the new surface from the tangents at the nearest points of the old one, across the swept surface: what one ray alone sees is a corner.
-    fn thickness_mm(&self, section: &SweptSection) -> f64 {
+    fn thickness_mm(&self, heading: &SweepHeading) -> f64 {
         let thickness = self.new.iter().filter_map(|[at, normal]| {
             let distance = |old: &[DVec2; 2]| old[0].distance_squared(*at);
             let nearest = self.old.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-            Some((nearest[0] - *at).dot(nearest[1]).abs() * section.upright(*normal))
+            Some((nearest[0] - *at).dot(nearest[1]).abs() * heading.upright(*normal))
         });
         let largest = thickness.fold([0.0_f64; 2], |[first, second], mm| [first.max(mm), second.max(mm.min(first))]);
         largest[1]

@@ -13,12 +13,15 @@ pub use spatial::Taken;
 use super::{Backend, CutStats};
 use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
+use crate::passes::hob_sections::HobSections;
 use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
 use blank::{BlankCut, BlankOperation};
+use blank_sweeps::SweepsCut;
 use pulp::Arch;
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
+use std::ops::Range;
 
 /// Vector instructions to use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -142,6 +145,16 @@ impl Backend for Cpu {
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<BlankCut>, Error> {
         Ok(blank::cut(field, operation, advance))
+    }
+
+    fn cut_blank_sweeps(
+        &self,
+        field: &mut BlankField,
+        sections: &HobSections,
+        passes: Range<u32>,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<SweepsCut>, Error> {
+        Ok(blank_sweeps::cut(field, sections, passes, advance))
     }
 
     fn cut_spatial(

@@ -9,6 +9,8 @@
 pub mod adapter;
 pub mod batches;
 mod blank;
+mod blank_rays;
+mod blank_sweeps;
 pub mod compose;
 mod device;
 pub mod edge_cells;
@@ -22,15 +24,18 @@ pub mod sweep_records;
 
 use super::cpu::Cpu;
 use super::cpu::blank::{BlankCut, BlankOperation};
+use super::cpu::blank_sweeps::SweepsCut;
 use super::{Backend, CutStats, StageTime};
 use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
+use crate::passes::hob_sections::HobSections;
 use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
 use adapter::{AdapterFacts, AdapterWish, FoundAdapter};
 use batches::{Allowance, Batch, Round};
 use device::Device;
 use readback::{InFlight, Input, Launch, Returned, Shipment};
+use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 pub use problem::GpuProblem;
@@ -148,6 +153,22 @@ impl Gpu {
             Err(problem) => {
                 self.log().incidents.push(format!("{problem}; cut again on {}", self.native.name()));
                 natively(layer)
+            }
+        }
+    }
+
+    /// What the device made of the blank, or what is made of it natively if that is what a failure asks for.
+    fn blank_or_redo<T>(
+        &self,
+        on_device: Result<T, GpuProblem>,
+        natively: impl FnOnce(&Cpu) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        match on_device {
+            Ok(cut) => Ok(cut),
+            Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
+            Err(problem) => {
+                self.log().incidents.push(format!("{problem}; the blank is cut again on {}", self.native.name()));
+                natively(&self.native)
             }
         }
     }
@@ -298,14 +319,19 @@ impl Backend for Gpu {
         operation: &BlankOperation,
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<BlankCut>, Error> {
-        match self.cut_blank_on_device(field, operation, None, advance) {
-            Ok(cut) => Ok(cut),
-            Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
-            Err(problem) => {
-                self.log().incidents.push(format!("{problem}; the blank is cut again on {}", self.native.name()));
-                self.native.cut_blank(field, operation, advance)
-            }
-        }
+        let cut = self.cut_blank_on_device(field, operation, None, advance);
+        self.blank_or_redo(cut, |native| native.cut_blank(field, operation, advance))
+    }
+
+    fn cut_blank_sweeps(
+        &self,
+        field: &mut BlankField,
+        sections: &HobSections,
+        passes: Range<u32>,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<SweepsCut>, Error> {
+        let cut = self.cut_blank_sweeps_on_device(field, sections, passes.clone(), None, advance);
+        self.blank_or_redo(cut, |native| native.cut_blank_sweeps(field, sections, passes, advance))
     }
 
     fn cut_spatial(

@@ -49,7 +49,7 @@ pub const BLANK_RAYS: Stage = Stage {
         include_str!("../../../shaders/shared/blank_records.wgsl"),
         include_str!("../../../shaders/blank_rays.wgsl"),
     ),
-    bindings: &["launch", "tiles", "passes", "parts", "spans", "counts", "removed", "needs"],
+    bindings: &["launch", "tiles", "passes", "parts", "spans", "counts", "removed", "needs", "pieces"],
     variants: &[&[("WORKGROUP_THREADS", WORKGROUP_THREADS as f64)]],
 };
 

@@ -160,7 +160,8 @@ pub fn send(device: &Device, shipment: &Shipment) -> Result<InFlight, GpuProblem
     })
 }
 
-fn empty(device: &Device, label: &str, size: u64, usage: Use) -> wgpu::Buffer {
+/// A buffer that holds nothing yet.
+pub fn empty(device: &Device, label: &str, size: u64, usage: Use) -> wgpu::Buffer {
     device.handle.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
 }
 

@@ -90,8 +90,8 @@ pub struct BlankLaunch {
     pub units_per_mm: f32,
     /// Spans that a ray has room for.
     pub capacity: u32,
-    /// 1 for rays along x, -1 for rays along y.
-    pub turn: f32,
+    /// Pieces that there is room for; 0 if nobody asks for them.
+    pub piece_room: u32,
 }
 
 /// Neighbouring rays of the blank and their passes in order of time.
@@ -108,7 +108,7 @@ pub struct BlankTile {
     pub ray_count: u32,
 }
 
-/// One tooth in one stroke over one tile.
+/// One pass over one tile.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct BlankPass {
@@ -122,7 +122,7 @@ pub struct BlankPass {
     pub returns: u32,
 }
 
-/// Part of a tooth's outline that runs one way across the rays: cubics in a parameter from 0 to 1.
+/// Part of its curve that runs one way across the rays: cubics in a parameter from 0 to 1.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct BlankPart {
@@ -140,7 +140,7 @@ pub struct BlankPart {
     pub padding_3: f32,
 }
 
-/// Material on a ray; normals out of it, as components along and across the rays.
+/// Material on a ray; normals as components along and across the rays, on the side that the host has turned them to.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct BlankSpan {
@@ -156,4 +156,16 @@ pub struct BlankSpan {
     pub low_normal: [f32; 2],
     /// Normal at the upper end.
     pub high_normal: [f32; 2],
+}
+
+/// Material that a pass took from a ray.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct BlankPiece {
+    /// The material; ends that the pass left bear its id.
+    pub span: BlankSpan,
+    /// Ray of the launch.
+    pub ray: u32,
+    /// Id of the pass.
+    pub pass_id: u32,
 }

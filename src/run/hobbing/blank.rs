@@ -1,6 +1,7 @@
 //! The blank field's part of a hobbing run: cut, report, results, table of damage, mesh.
 
 use super::results::value;
+use crate::cut::Backend;
 use crate::error::Result;
 use crate::job::{HobCutter, HobbedBlank};
 use crate::measure::blank_report::{Damage, LEAST_DEPTH_MM, OperationVolume};
@@ -13,7 +14,7 @@ use crate::output::mesh_ply::write_ply;
 use crate::output::progress::Progress;
 use crate::output::quantity::Quantity;
 use crate::output::table::{Cell, write_table};
-use crate::run::blank::{damage_cells, damage_columns};
+use crate::run::blank::{damage_cells, damage_columns, pairs};
 use crate::surface::BlankMesh;
 use serde_json::{Value, json};
 
@@ -29,8 +30,13 @@ pub struct WholeBlank {
 /// Cuts the blank; nothing after Ctrl-C.
 ///
 /// # Errors
-/// A field that does not fit in memory.
-pub fn cut(cutter: &HobCutter, progress: &Progress, interrupt: &Interrupt) -> Result<Option<WholeBlank>> {
+/// A field that does not fit in memory; the backend's.
+pub fn cut(
+    cutter: &HobCutter,
+    backend: &dyn Backend,
+    progress: &Progress,
+    interrupt: &Interrupt,
+) -> Result<Option<WholeBlank>> {
     let field = cutter.job.blank_field()?;
     let steps = (field.slices.len() * cutter.operations.len()) as u64;
     let step = progress.step("cut the whole blank", steps, "slices");
@@ -38,7 +44,7 @@ pub fn cut(cutter: &HobCutter, progress: &Progress, interrupt: &Interrupt) -> Re
         step.advance(1);
         !interrupt.is_raised()
     };
-    let Some(blank) = cutter.cut_blank(field, &advance) else { return Ok(None) };
+    let Some(blank) = cutter.cut_blank(backend, field, &advance)? else { return Ok(None) };
     step.finish();
     let report = hobbed_blank::measure(cutter, &blank.cut);
     Ok(Some(WholeBlank { blank, report }))
@@ -103,8 +109,8 @@ pub fn results(cutter: &HobCutter, whole: &WholeBlank) -> Result<Value> {
         "section_area_bound": number(section.bound_mm2[0].max(section.bound_mm2[1]), "mm2", "how far the section may be off because of the rays' distance: half of it times the way of the outline along the rays")?,
         "gouges": damage(cutter, &report.gouges, "target material that the last operation took")?,
         "interference": damage(cutter, &report.interference, "target material that an earlier operation took")?,
-        "ray_passes_visited": value(&Quantity::count(report.stats.visited, "pairs", "pairs of ray and pass in which the ray crosses the sweep of the hob tooth"))?,
-        "ray_passes_removing": value(&Quantity::count(report.stats.removing, "pairs", "those of them that removed material"))?,
+        "ray_passes_visited": value(&pairs(report.stats.visited, "pairs of ray and pass in which the ray crosses the sweep of the hob tooth"))?,
+        "ray_passes_removing": value(&pairs(report.stats.removing, "those of them that removed material"))?,
     }))
 }
 
