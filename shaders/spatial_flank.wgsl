@@ -194,7 +194,8 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
             & (y_last <= vec4(record.y_to_mm))
             & in_front
             & falls
-            & (abs(t) < vec4(LARGEST_T));
+            & (t > vec4(record.t_from))
+            & (t < vec4(record.t_to));
         let converged = abs(step_h) < vec4(CONVERGED_MM);
         let height = start + h;
         let recorded = max(height, low);

@@ -4,6 +4,12 @@
 mod command;
 
 use command::gearcut;
+use gearcut::gear::generation::Side;
+use gearcut::job::{HobCutter, HobbingJob};
+use gearcut::passes::SweepPlan;
+use gearcut::scene::load;
+use gearcut::tool::CuttingTool;
+use std::path::Path;
 
 const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
 
@@ -20,8 +26,7 @@ fn the_papers_gear_is_described() {
         "26 % of a circular gear's",
         "undercut                      none",
         "million dexels",
-        "rays 0.1 mm apart in 1 sections; 8.7 million cross a cutter tooth",
-        "thousand cutter teeth reach the blank",
+        "rays 0.1 mm apart in 1 sections; 49.1 thousand cutter teeth reach it and cross 8.7 million of them",
         "of it for blank and chips",
         "MB",
     ]);
@@ -30,16 +35,18 @@ fn the_papers_gear_is_described() {
 
 #[test]
 fn every_committed_scene_passes() {
-    let scenes = std::fs::read_dir("scenes/shaping").expect("the scenes are committed");
-    let mut count = 0;
-    for scene in
-        scenes.map(|entry| entry.expect("a file").path()).filter(|p| p.extension().is_some_and(|e| e == "toml"))
-    {
-        let outcome = gearcut(&["check", &scene.display().to_string()]).done();
-        assert!(!outcome.out.contains("NaN") && !outcome.out.contains("inf"), "{}", outcome.out);
-        count += 1;
+    for (process, least) in [("shaping", 8), ("hobbing", 5)] {
+        let scenes = std::fs::read_dir(format!("scenes/{process}")).expect("the scenes are committed");
+        let mut count = 0;
+        for scene in
+            scenes.map(|entry| entry.expect("a file").path()).filter(|p| p.extension().is_some_and(|e| e == "toml"))
+        {
+            let outcome = gearcut(&["check", &scene.display().to_string()]).done().says(&["Cost of the cut"]);
+            assert!(!outcome.out.contains("NaN") && !outcome.out.contains("inf"), "{}", outcome.out);
+            count += 1;
+        }
+        assert!(count >= least, "{count} scenes");
     }
-    assert!(count >= 8, "{count} scenes");
 }
 
 #[test]
@@ -59,4 +66,38 @@ fn limits_undercut_and_narrow_tips_are_warned_about() {
     let few = ["--set", "gear.teeth=9", "--set", "gear.pitch_curve.circle={}", "--set", "tool.shaper_cutter.teeth=40"];
     let undercut = gearcut(&[&["check", PAPER][..], &few].concat()).done();
     assert!(undercut.err.contains("warning: the cutter undercuts tooth 1 left"), "{}", undercut.err);
+}
+
+/// The number before the words `after` on standard output.
+fn number_before(out: &str, after: &str) -> f64 {
+    let words = out.split(after).next().expect("words").split_whitespace().next_back().expect("a number");
+    words.parse().unwrap_or_else(|_| panic!("{words} is no number"))
+}
+
+/// What `check` expects of a hobbed gear, against all that its cut would do.
+#[test]
+fn the_cost_of_hobbing_is_that_of_its_plans() {
+    const SCENE: &str = "scenes/hobbing/third_order_diagonal.toml";
+    let settings = ["fields.flank.profile_spacing_um=60", "fields.flank.lead_spacing_um=60", "gear.face_width_mm=20"];
+    let arguments = [&["check", SCENE][..], &settings.map(|setting| ["--set", setting]).concat()].concat();
+    let out = gearcut(&arguments).done().out;
+    let scene = load(Path::new(SCENE), &settings.map(str::to_owned)).expect("the scene").scene;
+    let job = HobbingJob::new(&scene).expect("the gear");
+    let cutter = HobCutter::new(&job).expect("passes");
+    let (mut dexels, mut records, mut evaluations) = (0, 0, 0);
+    for (tooth, side) in (1..=35).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]) {
+        let field = cutter.rays(tooth, side).expect("a flank").1.field;
+        let plan = SweepPlan::new(&field, &cutter.operations[0], job.hob.edge());
+        dexels += field.len();
+        records += plan.records.len();
+        evaluations += plan.dexel_passes();
+    }
+    for (what, found, expected, tolerance) in [
+        ("dexels", 1e6 * number_before(&out, " million in all"), dexels as f64, 0.02),
+        ("evaluations", 1e6 * number_before(&out, " million dexels against"), evaluations as f64, 0.1),
+        ("records", 1e3 * number_before(&out, " thousand records"), records as f64, 0.15),
+    ] {
+        println!("{what}: {found} estimated, {expected} planned");
+        assert!((found / expected - 1.0).abs() < tolerance, "{what}: {found} estimated, {expected} planned");
+    }
 }

@@ -45,6 +45,13 @@ fn what_cannot_be_hobbed_is_refused_with_the_reason_and_a_way_out() {
             "tool.hob.reference_diameter_mm=8.4",
             &["tool.hob.reference_diameter_mm", "lead angle 20.92 deg", "fewer starts"],
         ),
+        (
+            "scenes/hobbing/circular_spur.toml",
+            "tool.hob.reference_diameter_mm=2",
+            &["tool.hob.reference_diameter_mm", "lead angle 90.00 deg", "fewer starts"],
+        ),
+        // 43.75 mm x 2 pi / 12 x tan 15 deg.
+        ("scenes/hobbing/circular_spur.toml", "tool.hob.regrind_mm=6.2", &["tool.hob.regrind_mm", "6.138 mm", "gash"]),
         (PLAIN, "tool.hob.length_mm=40", &["whole contact", "longer hob"]),
     ] {
         gearcut(&["check", scene, "--set", setting, "--set", "operation.finish.axial_feed_mm_per_revolution=1.5"])

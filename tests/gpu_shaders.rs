@@ -133,6 +133,9 @@ fn records_have_the_same_members_on_both_sides() {
                 last_cell,
                 base_cell,
                 pass_id,
+                t_from,
+                t_to,
+                unused,
             }
         ),
     ];

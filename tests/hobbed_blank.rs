@@ -67,8 +67,8 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
                         if place.truncate().length() > job.blank.outline_mm(0.0).length() + 20.0 {
                             continue;
                         }
-                        let sweep = Sweep::new(set, &pass, place, 1.0).expect("in the sweep");
-                        let [radius, y] = sweep.in_rake_face(DVec3::ZERO).expect("in the rake face");
+                        let held = |stretch| Sweep::new(set, &pass, stretch, place, 1.0)?.in_rake_face(DVec3::ZERO);
+                        let [radius, y] = set.stretches(&pass).find_map(held).expect("in the rake face");
                         worst_nm = worst_nm.max(1e6 * off_edge_mm(job.hob.edge(), DVec2::new(radius, y)));
                         points += 1;
                     }

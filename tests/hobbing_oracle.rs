@@ -14,12 +14,12 @@ use gearcut::gear::blank::Blank;
 use gearcut::gear::generation::Side;
 use gearcut::gear::rack_generation::{ProfilePart, RackGeneration};
 use gearcut::linkage::hobbing::marks::Marks;
-use gearcut::linkage::hobbing::{FeedPath, HobbingAxes, HobbingGeometry, HobbingLaw, HobbingLinkage};
+use gearcut::linkage::hobbing::{FeedPath, HobbingAxes, HobbingGeometry, HobbingLinkage};
 use gearcut::measure::engagement::Engagement;
 use gearcut::scene::model::{EvenMotion, ExtraRotation, LinkageForm, PitchCurveShape};
 use gearcut::tool::SpatialTool;
 use glam::{DVec2, DVec3};
-use hobbing_common::{data, numbers, papers_ellipse, papers_hob, papers_rack};
+use hobbing_common::{SCHEMES, cycle_speed, data, law, numbers, papers_ellipse, papers_hob, papers_rack};
 use serde_json::Value;
 
 fn number(value: &Value) -> f64 {
@@ -34,25 +34,6 @@ fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
 /// Largest value less smallest.
 fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
     values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
-}
-
-const fn law(even: EvenMotion, extra: ExtraRotation, form: LinkageForm) -> HobbingLaw {
-    HobbingLaw { even, extra, form }
-}
-
-/// The six schemes of Liu et al. 2013.
-const SCHEMES: [(&str, EvenMotion, ExtraRotation); 6] = [
-    ("I", EvenMotion::ArcLength, ExtraRotation::Work),
-    ("II", EvenMotion::ArcLength, ExtraRotation::Hob),
-    ("III", EvenMotion::RotationAngle, ExtraRotation::Work),
-    ("IV", EvenMotion::RotationAngle, ExtraRotation::Hob),
-    ("V", EvenMotion::PolarAngle, ExtraRotation::Work),
-    ("VI", EvenMotion::PolarAngle, ExtraRotation::Hob),
-];
-
-/// Hob speed at which a cycle lasts `cycle_s`.
-fn speed(curve: &PitchCurve, geometry: &HobbingGeometry, cycle_s: f64) -> f64 {
-    curve.perimeter_mm() / (geometry.arc_per_hob_rad_mm() * cycle_s)
 }
 
 /// Axes where the pitch point has the polar angle `theta`.
@@ -120,7 +101,7 @@ fn five_axes_of_the_six_schemes() {
     let curve = papers_ellipse(1, 0.6, Some(150.0), beta, 33);
     // sigma = +1 is a gear of the hob's hand.
     let geometry = HobbingGeometry::new(&papers_hob(132.0), beta, -1.0);
-    let hob_speed = speed(&curve, &geometry, number(&file["T"]));
+    let hob_speed = cycle_speed(&curve, &geometry, number(&file["T"]));
     let thetas = numbers(&file["theta"]);
     let steady = |slide: f64| FeedPath::steady(1.5, slide, 0.0);
     for (model, even, extra) in SCHEMES {
@@ -297,7 +278,7 @@ fn as_printed_parts_work_and_carriage() {
         let (cycle_s, cycles) = (1.5, number(&case["cycles"]));
         let path = FeedPath::steady(cycle_s * cycles, -number(&case["feed"]) / cycle_s, 0.0);
         let printed = law(even, extra, LinkageForm::AsPrinted);
-        let hob_speed = speed(&curve, &geometry, cycle_s);
+        let hob_speed = cycle_speed(&curve, &geometry, cycle_s);
         let linkage = HobbingLinkage::new(curve.clone(), geometry, printed, hob_speed, &path).unwrap();
         // What the work has turned beyond the rolling, and how far P then lies from where the exact rolling has it, in the directions of the machine.
         let error = |t: f64| {
@@ -444,7 +425,7 @@ fn generating_marks_are_spaced_alike_by_every_law() {
         for model in ["I", "III", "V"] {
             let (_, even, extra) = SCHEMES.into_iter().find(|s| s.0 == model).unwrap();
             let law = law(even, extra, LinkageForm::Exact);
-            let hob_speed = speed(&curve, &geometry, number(&s4["T"]));
+            let hob_speed = cycle_speed(&curve, &geometry, number(&s4["T"]));
             let path = FeedPath::steady(1.5, 0.0, 0.0);
             let linkage = HobbingLinkage::new(curve.clone(), geometry, law, hob_speed, &path).unwrap();
             let axes = at_polar(&linkage, theta).1;

@@ -139,17 +139,24 @@ fn candidates_leave_what_all_passes_leave() {
     }
 }
 
-/// Whole jobs, from the approach to the overrun: candidates start from all passes of an operation, of which most work on other teeth. Two cuts with a radial approach, helical gashes and round tips; and a hob
-/// that shifts.
+/// Whole jobs, from the approach to the overrun: candidates start from all passes of an operation, of which most work on other teeth. Two cuts with a radial approach, helical gashes and round tips; a hob
+/// that shifts; and one that turns round all the time, so that sweeps end where others go on.
 #[test]
 fn candidates_of_whole_jobs_leave_what_all_passes_leave() {
     let cases = [
         ("circular_helical", "gear.face_width_mm=14", 3, Side::Right),
         ("third_order_diagonal", "gear.face_width_mm=50", 5, Side::Left),
+        // The shift turns round six times a revolution.
+        (
+            "third_order_diagonal",
+            "operation.finish.linkage.hobbing_diagonal.shift_mm_per_revolution=500",
+            21,
+            Side::Right,
+        ),
     ];
-    for (scene, width, tooth, side) in cases {
+    for (scene, setting, tooth, side) in cases {
         let path = format!("scenes/hobbing/{scene}.toml");
-        let set = ["fields.flank.profile_spacing_um=20", "fields.flank.lead_spacing_um=50", width].map(str::to_owned);
+        let set = ["fields.flank.profile_spacing_um=20", "fields.flank.lead_spacing_um=50", setting].map(str::to_owned);
         let scene = load(Path::new(&path), &set).expect("the scene").scene;
         let job = HobbingJob::new(&scene).expect("the gear");
         let cutter = HobCutter::new(&job).expect("passes");

@@ -4,19 +4,17 @@
 //! (f64 and multi-precision); the tolerances stand in the files. Case S0 is the third-order ellipse of Gao et al. 2017,
 //! Table 1; the circle is its closed-form limit.
 
+mod common;
+
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use common::{NORMAL, TRADITIONAL, operation, paper_scene};
 use gearcut::gear::PitchCurve;
 use gearcut::linkage::{ShapingLinkage, StrokeSchedule};
-use gearcut::scene::model::{
-    AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, PitchCurveShape, StrokeSpacing,
-    TraditionalDirection,
-};
+use gearcut::scene::model::{Linkage, NormalReading, PitchCurveShape};
 use serde_json::Value;
 
-const TRADITIONAL: Linkage = Linkage::ShapingTraditional { direction: TraditionalDirection::CenterLine };
-const NORMAL: Linkage = Linkage::ShapingNormal { reading: NormalReading::Corrected };
 const AS_PRINTED: Linkage = Linkage::ShapingNormal { reading: NormalReading::AsPrinted };
 
 fn data(name: &str) -> Value {
@@ -174,36 +172,10 @@ fn velocities_and_instantaneous_centers_agree() {
     }
 }
 
-fn machine() -> Machine {
-    Machine {
-        double_strokes_per_minute: 600.0,
-        approach_mm: 5.0,
-        overrun_mm: 5.0,
-        back_off_mm: 0.5,
-        work_eccentricity_mm: 0.0,
-        work_eccentricity_angle_rad: 0.0,
-        limits: AxisLimits::default(),
-    }
-}
-
-fn operation(linkage: Linkage, offset_mm: f64, strokes: u32) -> Operation {
-    Operation {
-        name: "rough".to_owned(),
-        offset_mm,
-        linkage,
-        feed: Feed::StrokesPerRevolution(strokes),
-        spacing: StrokeSpacing::WorkAngle,
-        window_rad: None,
-        revolutions: 1,
-        overlap_rad: 0.0,
-        infeed: Infeed::None,
-        feed_during_stroke: false,
-        program: None,
-    }
-}
-
 #[test]
 fn strokes_agree() {
+    let paper = paper_scene(Vec::new());
+    let machine = &paper.shaping().expect("a shaping scene").machine;
     for (curve, _, axes, expected) in cases() {
         let (r_c, delta_d) = (number(&axes["r_c"]), number(&axes["delta_d"]));
         let n = expected["N"].as_u64().unwrap();
@@ -211,7 +183,7 @@ fn strokes_agree() {
         for (block, kind) in [("traditional", TRADITIONAL), ("normal", NORMAL)] {
             let linkage = ShapingLinkage::new(kind, Arc::clone(&curve), r_c, delta_d).unwrap();
             let schedule =
-                StrokeSchedule::new(&operation(kind, delta_d, u32::try_from(n).unwrap()), &linkage, &machine())
+                StrokeSchedule::new(&operation("rough", kind, delta_d, u32::try_from(n).unwrap()), &linkage, machine)
                     .unwrap();
             assert_eq!(schedule.count() as u64, n);
             let (dpsi_b, dl): (Vec<f64>, Vec<f64>) = (0..schedule.count())

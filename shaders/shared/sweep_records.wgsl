@@ -46,4 +46,8 @@ struct SweepRecord {
     base_cell: u32,
     // Id of the pass.
     pass_id: u32,
+    // Moments at which the sweep is good.
+    t_from: f32,
+    t_to: f32,
+    unused: vec2<u32>,
 }

@@ -9,6 +9,7 @@
 use super::motion::MotionTable;
 use crate::tool::SpatialTool;
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 /// A blade sweeps through the work only within this angle to either side of the head's x axis: at 60 degrees a hob's tip stands
 /// at half its radius, far behind the work.
@@ -103,6 +104,11 @@ impl HobTeeth {
         let (turn, rank) = (index / self.places.len() as u32, index % self.places.len() as u32);
         let tool_angle_rad = TAU * (self.first_turn + i64::from(turn)) as f64 + self.places[rank as usize].lag_rad;
         BladePass { pass: self.first_pass + index, rank, tool_angle_rad }
+    }
+
+    /// Stretches of the motion that a pass's sweep has a part in: more than one where rates jump meanwhile.
+    pub fn stretches(&self, pass: &BladePass) -> Range<u32> {
+        self.motion.stretches([pass.tool_angle_rad - SWEEP_RAD, pass.tool_angle_rad + SWEEP_RAD])
     }
 
     /// Place of a pass's blade.

@@ -4,12 +4,16 @@
 //! eighth of a turn, so that planning, which asks some ten million times, asks a table. While a hob turns by an eighth the work turns by some hundredths of a radian: the
 //! remainder of degree seven is far below 1e-10 mm on any gear; [`MotionTable::error_mm`] measures it.
 //!
+//! **Stretches** end at the corners, where rates jump (the slide starts, a shift turns round). A sweep that lasts over a corner follows one law before it and another one after it, and each is needed as a smooth motion
+//! that goes on a little beyond its end.
+//!
 //! The head is the frame that carries the tool without turning with it: its z axis is the tool's axis, its x axis is where a blade points at tool angle 0 and blade angle 0.
 
 use crate::frame::Rigid3;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 /// Coefficients of each polynomial.
 const TERMS: usize = 8;
@@ -26,6 +30,8 @@ pub struct MotionTable {
     /// Ends of the panels, one more than there are panels.
     ends_rad: Vec<f64>,
     panels: Vec<Panel>,
+    /// First panel of every stretch, and the number of panels.
+    stretches: Vec<usize>,
 }
 
 impl MotionTable {
@@ -35,10 +41,11 @@ impl MotionTable {
         let mut corners: Vec<f64> = corners_rad.iter().copied().filter(inside).chain(range_rad).collect();
         corners.sort_by(f64::total_cmp);
         corners.dedup();
-        let mut ends_rad = vec![corners[0]];
+        let (mut ends_rad, mut stretches) = (vec![corners[0]], vec![0]);
         for pair in corners.windows(2) {
             let count = ((pair[1] - pair[0]) / TAU * PANELS_PER_TURN).ceil().max(1.0) as usize;
             ends_rad.extend((1..=count).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / count as f64));
+            stretches.push(ends_rad.len() - 1);
         }
         let panels = ends_rad
             .par_windows(2)
@@ -47,7 +54,7 @@ impl MotionTable {
                 panel(|u| entries(&head_from_work(middle + half * u)))
             })
             .collect();
-        Self { ends_rad, panels }
+        Self { ends_rad, panels, stretches }
     }
 
     /// First and last tool angle of the table.
@@ -55,12 +62,38 @@ impl MotionTable {
         [self.ends_rad[0], self.ends_rad[self.panels.len()]]
     }
 
+    /// Stretches that a range of tool angles has a part in.
+    pub fn stretches(&self, [from_rad, to_rad]: [f64; 2]) -> Range<u32> {
+        let last = self.stretches.len() - 2;
+        // The first and the last one go on beyond the table's ends.
+        let starts = &self.stretches[1..=last];
+        let before = |angle: f64| starts.partition_point(|&panel| self.ends_rad[panel] <= angle) as u32;
+        before(from_rad)..before(to_rad) + 1
+    }
+
+    /// Tool angles at which a stretch begins and ends; without end where the table does.
+    pub fn stretch_rad(&self, stretch: u32) -> [f64; 2] {
+        let (first, end) = (self.stretches[stretch as usize], self.stretches[stretch as usize + 1]);
+        let from = if first == 0 { f64::NEG_INFINITY } else { self.ends_rad[first] };
+        [from, if end == self.panels.len() { f64::INFINITY } else { self.ends_rad[end] }]
+    }
+
     /// Pose of the work in the head; beyond its ends the table goes on with its last polynomials.
     pub fn head_from_work(&self, tool_angle_rad: f64) -> Rigid3 {
+        self.pose(tool_angle_rad, 0..self.panels.len())
+    }
+
+    /// The same by the law of one stretch, which goes on beyond its ends.
+    pub fn head_from_work_on(&self, stretch: u32, tool_angle_rad: f64) -> Rigid3 {
+        self.pose(tool_angle_rad, self.stretches[stretch as usize]..self.stretches[stretch as usize + 1])
+    }
+
+    fn pose(&self, tool_angle_rad: f64, panels: Range<usize>) -> Rigid3 {
         // Panels are nearly even: from where the one looked for would stand if they were.
-        let ([from, to], last) = (self.range_rad(), self.panels.len() - 1);
-        let mut index = (((tool_angle_rad - from) / (to - from) * self.panels.len() as f64) as usize).min(last);
-        while index > 0 && tool_angle_rad < self.ends_rad[index] {
+        let ([from, to], last) = (self.range_rad(), panels.end - 1);
+        let guess = ((tool_angle_rad - from) / (to - from) * self.panels.len() as f64) as usize;
+        let mut index = guess.clamp(panels.start, last);
+        while index > panels.start && tool_angle_rad < self.ends_rad[index] {
             index -= 1;
         }
         while index < last && tool_angle_rad >= self.ends_rad[index + 1] {
@@ -150,7 +183,26 @@ mod tests {
         assert_eq!(table.range_rad(), [-3.0, 40.0]);
         let error = table.error_mm(150.0, pose);
         assert!(error < 1e-10, "{error:e} mm");
+        assert_eq!(table.stretches([-9.0, 0.9]), 0..1);
+        assert_eq!(table.stretches([0.9, 17.2]), 0..2);
+        assert_eq!(table.stretches([17.3, 90.0]), 2..3);
+        assert_eq!([0, 1].map(|stretch| table.stretch_rad(stretch)), [[f64::NEG_INFINITY, 1.0], [1.0, 17.3]]);
         // The measure is alive: another motion is seen.
         assert!(table.error_mm(150.0, |angle| pose(angle + 1e-9)) > 1e-9);
+    }
+
+    /// A work whose turning changes its speed at a corner: every stretch goes on smoothly beyond it.
+    #[test]
+    fn stretches_go_on_beyond_their_corners() {
+        let table =
+            MotionTable::new([-3.0, 40.0], &[17.3], |angle| pose(angle.min(17.3) + 0.5 * (angle - 17.3).max(0.0)));
+        let apart = |a: Rigid3, b: Rigid3| (a.point(DVec3::X) - b.point(DVec3::X)).length();
+        for beyond in [0.01, 0.1, 0.4] {
+            let before = table.head_from_work_on(0, 17.3 + beyond);
+            assert!(apart(before, pose(17.3 + beyond)) < 1e-8);
+            let after = table.head_from_work_on(1, 17.3 - beyond);
+            assert!(apart(after, pose(17.3 - 0.5 * beyond)) < 1e-8);
+            assert!(apart(before, table.head_from_work(17.3 + beyond)) > 1e-6);
+        }
     }
 }

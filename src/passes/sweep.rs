@@ -12,6 +12,8 @@
 //! The work moves meanwhile. Its pose in those axes is a polynomial in u = t - t^3 / 3 + t^5 / 5, which is delta / 2 but for t^7 / 7, over the little that a tile needs: cubic for
 //! the tile's origin (140 mm away from the axis it turns about), quadratic for directions. On a ray o + h n this gives two equations, the moment and the edge, in the unknowns h and t; Newton's method solves both at once.
 //!
+//! Where the rates of slide or shift jump during a sweep, each of the two motions makes a sweep of its own, smooth, and good up to that moment or from it on.
+//!
 //! Road not taken: eliminating t beforehand by a polynomial in the tile's three coordinates. It needs order four in one of them, and long rays leave its range.
 
 use super::hob_teeth::{BladePass, HobTeeth, SWEEP_RAD};
@@ -19,9 +21,13 @@ use super::strokes::{NODES, cubic_through};
 use super::sweep_roots::LARGEST_T;
 use crate::tool::edge::Segment;
 use glam::{DMat3, DVec3};
+use std::f64::consts::PI;
 
 /// Steps at most towards the moment at which a rake face holds a point.
 const MAX_STEPS: usize = 24;
+
+/// Sweeps that end at a corner of the motion go on by this much in t, so that no ray slips through between two of them: ten nanometres of the blade's way.
+const CORNER_OVERLAP: f64 = 1e-7;
 
 /// u and du/dt: nearly half the angle, by a polynomial that every backend computes alike.
 #[inline(always)]
@@ -40,6 +46,8 @@ pub struct Sweep {
     place_mm: [DVec3; 4],
     /// Turn of the rake face against t = 0 per mm of y, rad/mm, in the direction of q.
     twist_rad_per_mm: f64,
+    /// Moments at which it is good.
+    t_range: [f64; 2],
     /// Angle of the rake face from the head's x axis where it holds the tile's origin, in the direction of rotation.
     pub sweep_angle_rad: f64,
 }
@@ -59,6 +67,8 @@ pub struct SweepRecord {
     pub radius_mm: f64,
     /// Turn of the rake face per mm of y, rad/mm.
     pub twist_rad_per_mm: f64,
+    /// Moments at which it is good: all that a tile can ask for, unless the motion has a corner among them.
+    pub t_range: [f64; 2],
     /// Rows r, q, y of the rotation; coefficients of u^0 to u^2.
     pub turn: [[[f64; 3]; 3]; 3],
     /// Tile's origin in (r, q, y): coefficients of u^0 to u^3, mm.
@@ -74,18 +84,26 @@ pub struct SweepStart {
     pub t: [f64; 6],
 }
 
+impl SweepRecord {
+    /// Whether the motion has a corner among the moments that a tile can ask for, so that rays may miss the sweep where its continuation goes on.
+    pub fn ends_in_tile(&self) -> bool {
+        self.t_range != [-LARGEST_T, LARGEST_T]
+    }
+}
+
 impl Sweep {
-    /// Sweep of a pass as seen from a tile with its origin at `origin_mm` (gear frame) and nothing further than `reach_mm` from it. `None`: the
-    /// blade holds the origin at no moment of its sweep.
-    pub fn new(set: &HobTeeth, pass: &BladePass, origin_mm: DVec3, reach_mm: f64) -> Option<Self> {
+    /// Sweep of a pass in a stretch of the motion as seen from a tile with its origin at `origin_mm` (gear frame) and nothing further than `reach_mm` from it. `None`: the
+    /// blade holds the origin at no moment of its sweep, or the whole tile at no moment of the stretch.
+    pub fn new(set: &HobTeeth, pass: &BladePass, stretch: u32, origin_mm: DVec3, reach_mm: f64) -> Option<Self> {
         let place = set.place(pass);
         let twist = set.rake_twist_rad_per_mm;
+        let head_from_work = |swept: f64| set.motion.head_from_work_on(stretch, pass.tool_angle_rad + set.turn * swept);
         let blade_y = |z: f64| place.y_sign * (z - place.axial_mm);
         // The rake face follows the point, which moves some hundredths as fast: the secant of what is missing.
         let (mut swept, mut at) = (0.0, DVec3::ZERO);
         let mut before: Option<[f64; 2]> = None;
         for _ in 0..20 {
-            at = set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).point(origin_mm);
+            at = head_from_work(swept).point(origin_mm);
             let missing = at.y.atan2(at.x) - twist * blade_y(at.z) - swept;
             let rate = before.map_or(-1.0, |[angle, less]| (missing - less) / (swept - angle));
             before = Some([swept, missing]);
@@ -103,11 +121,18 @@ impl Sweep {
         let from_head = axes.transpose();
         let radius_mm = at.x.hypot(at.y);
         let range = (0.6 * reach_mm / (radius_mm - reach_mm).max(0.3 * radius_mm)).min(LARGEST_T);
+        let [from, to] = set.motion.stretch_rad(stretch).map(|angle| set.turn * (angle - pass.tool_angle_rad));
+        let t_at_swept = |angle: f64| (0.5 * (angle - swept)).clamp(-0.25 * PI, 0.25 * PI).tan();
+        let [from, to] = [t_at_swept(from.min(to)) - CORNER_OVERLAP, t_at_swept(from.max(to)) + CORNER_OVERLAP];
+        if from > range || to < -range {
+            return None;
+        }
+        let t_range = if from < -range && to > range { [-LARGEST_T, LARGEST_T] } else { [from, to] };
         let (mut turns, mut places) = ([[0.0; 4]; 9], [[0.0; 4]; 3]);
         let largest_u = half_angle(range)[0];
         for (node, &share) in NODES.iter().enumerate() {
             let delta = 2.0 * t_at(largest_u * share).atan();
-            let head_from_work = set.motion.head_from_work(pass.tool_angle_rad + set.turn * (swept + delta));
+            let head_from_work = head_from_work(swept + delta);
             let turn = (from_head * head_from_work.rotation).to_cols_array();
             let origin = head_from_work.point(origin_mm) - DVec3::new(0.0, 0.0, place.axial_mm);
             let origin = (from_head * origin).to_array();
@@ -127,6 +152,7 @@ impl Sweep {
             turn: [0, 1, 2].map(|k| DMat3::from_cols_array(&turns.map(|entry| entry[k]))),
             place_mm: [0, 1, 2, 3].map(|k| DVec3::from_array(places.map(|entry| entry[k]))),
             twist_rad_per_mm: twist,
+            t_range,
             sweep_angle_rad: swept,
         })
     }
@@ -146,13 +172,14 @@ impl Sweep {
             start: SweepStart::default(),
             radius_mm: base.x,
             twist_rad_per_mm: self.twist_rad_per_mm,
+            t_range: self.t_range,
             turn: self.turn.map(|turn| (turned * turn).transpose().to_cols_array_2d()),
             place_mm,
         }
     }
 
     /// Distance from the tool's axis and place along the blade's y of a point (tile frame) at the moment when the rake face holds it. `None`: at no moment of
-    /// the sweep.
+    /// the sweep and the stretch.
     pub fn in_rake_face(&self, p_mm: DVec3) -> Option<[f64; 2]> {
         let mut t = 0.0_f64;
         for _ in 0..MAX_STEPS {
@@ -166,7 +193,8 @@ impl Sweep {
             let step = next - t;
             t = next;
             if step.abs() < 1e-12 {
-                let inside = (self.sweep_angle_rad + 2.0 * t.atan()).abs() <= SWEEP_RAD;
+                let inside = (self.sweep_angle_rad + 2.0 * t.atan()).abs() <= SWEEP_RAD
+                    && (self.t_range[0]..=self.t_range[1]).contains(&t);
                 return inside.then_some([point.x.hypot(point.y), point.z]);
             }
             if t.is_nan() || t.abs() > LARGEST_T {

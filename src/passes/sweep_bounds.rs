@@ -8,7 +8,7 @@
 //! This is no proof: second differences of nine values bound what is smooth between them, and sweeps are; a function that turned within a cell would be missed by more than the safety holds. What stands for it is the
 //! comparison with all passes, bit for bit, on regions of all sizes (`tests/hobbing_spatial.rs`).
 //!
-//! What the samples cannot judge (no root on one of the rays) is kept unless the segment stays clear of all that the rays pass below the lowest certain surface.
+//! What the samples cannot judge (no root on one of the rays, a sweep that ends at a corner of the motion) is kept unless the segment stays clear of all that the rays pass below the lowest certain surface.
 
 #![expect(
     clippy::inline_always,
@@ -85,7 +85,7 @@ impl Judge<'_> {
         if sampled.left == ALL {
             return None;
         }
-        if sampled.entered != ALL {
+        if sampled.entered != ALL || self.frame.records[sampled.index as usize].ends_in_tile() {
             return Some(Err(()));
         }
         let floor_mm = 2.0 * self.field.low_mm;
@@ -180,16 +180,16 @@ impl Judge<'_> {
     /// Those of some candidates (by their place in the frame, in order) whose segments meet what the rays pass between their lowest height and a ceiling while the blade sweeps.
     fn meeting(&self, mut indices: Vec<u32>, ceiling_mm: f64) -> Vec<u32> {
         let candidates = &self.frame.candidates;
-        let pass = |index: &u32| candidates[*index as usize].pass.pass;
-        let firsts: Vec<u32> = indices.chunk_by(|a, b| pass(a) == pass(b)).map(|of_pass| of_pass[0]).collect();
+        let sweep = |index: &u32| candidates[*index as usize].sweep();
+        let firsts: Vec<u32> = indices.chunk_by(|a, b| sweep(a) == sweep(b)).map(|of_sweep| of_sweep[0]).collect();
         let mut boxes = Vec::with_capacity(firsts.len());
         Arch::new().dispatch(RakeFaceBoxes { judge: self, firsts: &firsts, ceiling_mm, boxes: &mut boxes });
-        let mut of_pass = firsts.iter().map(pass).zip(&boxes).peekable();
+        let mut of_sweep = firsts.iter().map(sweep).zip(&boxes).peekable();
         indices.retain(|index| {
-            while of_pass.peek().is_some_and(|(of, _)| *of != pass(index)) {
-                of_pass.next();
+            while of_sweep.peek().is_some_and(|(of, _)| *of != sweep(index)) {
+                of_sweep.next();
             }
-            let bounds = of_pass.peek().expect("every pass has its box").1;
+            let bounds = of_sweep.peek().expect("every sweep has its box").1;
             bounds.meets(&self.segments[candidates[*index as usize].segment])
         });
         indices

@@ -28,11 +28,13 @@ const AXIAL_MARGIN_MM: f64 = 1.0;
 /// A region whose surroundings are smaller than this share of its frame's gets a frame of its own.
 const NEW_FRAME: f64 = 0.7;
 
-/// A blade's sweep by one of its segments.
+/// A blade's sweep by one of its segments, as far as one stretch of the motion goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Candidate {
     /// The pass.
     pub pass: BladePass,
+    /// Stretch of the motion.
+    pub stretch: u32,
     /// Index of the segment in the blade's edge.
     pub segment: usize,
 }
@@ -48,6 +50,13 @@ pub struct SweepTile {
     pub origin_mm: DVec3,
     /// Records in [`SweepPlan::records`], in order of pass id.
     pub records: Range<usize>,
+}
+
+impl Candidate {
+    /// Pass and stretch: one smooth sweep.
+    pub fn sweep(&self) -> (u32, u32) {
+        (self.pass.pass, self.stretch)
+    }
 }
 
 impl SweepTile {
@@ -126,7 +135,10 @@ impl Planner<'_> {
         }
         let near: Vec<Candidate> = near
             .into_iter()
-            .flat_map(|pass| (0..self.edge.segments.len()).map(move |segment| Candidate { pass, segment }))
+            .flat_map(|pass| self.set.stretches(&pass).map(move |stretch| (pass, stretch)))
+            .flat_map(|(pass, stretch)| {
+                (0..self.edge.segments.len()).map(move |segment| Candidate { pass, stretch, segment })
+            })
             .collect();
         if self.prune {
             let highest_mm = f64::from(self.field.blank_mm.iter().copied().fold(0.0, f32::max));

@@ -180,9 +180,9 @@ impl Frame {
     ) -> (Self, Vec<Option<u32>>) {
         let mut frame = Self { origin_mm, reach_mm, candidates: Vec::new(), records: Vec::new() };
         let mut index_of = Vec::with_capacity(candidates.len());
-        for of_pass in candidates.chunk_by(|a, b| a.pass.pass == b.pass.pass) {
-            let sweep = Sweep::new(set, &of_pass[0].pass, origin_mm, reach_mm);
-            for candidate in of_pass {
+        for of_sweep in candidates.chunk_by(|a, b| a.sweep() == b.sweep()) {
+            let sweep = Sweep::new(set, &of_sweep[0].pass, of_sweep[0].stretch, origin_mm, reach_mm);
+            for candidate in of_sweep {
                 index_of.push(sweep.is_some().then_some(frame.records.len() as u32));
                 if let Some(sweep) = &sweep {
                     let segment = &edge.segments[candidate.segment];

@@ -35,6 +35,8 @@ use std::f64::consts::{PI, TAU};
 
 /// Largest lead angle taken: beyond it a hob is a worm gear's pinion, and tables and formulas of hobs do not hold.
 const LARGEST_LEAD_ANGLE_RAD: f64 = 0.35;
+/// Relief angles of hob tips are some 10 deg; this is steeper than any.
+const STEEPEST_RELIEF_RAD: f64 = 15.0 * PI / 180.0;
 /// Smallest tip land, modules: less is a pointed tooth.
 const SMALLEST_TIP_LAND_MODULES: f64 = 0.01;
 
@@ -149,12 +151,12 @@ impl Hob {
         let starts = f64::from(spec.starts);
         let (new_pitch_radius_mm, lead_angle_rad, size_key) = match spec.size {
             HobSize::LeadAngle(angle) => (starts * m / (2.0 * angle.sin()), angle, "tool.hob.lead_angle_deg"),
+            // A thread as steep as the axis is as far as it goes.
             HobSize::ReferenceDiameter(d) => {
-                let sine = starts * m / d;
-                (0.5 * d, if sine < 1.0 { sine.asin() } else { f64::NAN }, "tool.hob.reference_diameter_mm")
+                (0.5 * d, (starts * m / d).min(1.0).asin(), "tool.hob.reference_diameter_mm")
             }
         };
-        if !(lead_angle_rad > 0.0 && lead_angle_rad <= LARGEST_LEAD_ANGLE_RAD) {
+        if lead_angle_rad <= 0.0 || lead_angle_rad > LARGEST_LEAD_ANGLE_RAD {
             return Err(Refusal::new(
                 size_key,
                 format!(
@@ -180,6 +182,18 @@ impl Hob {
                     "the hob's root radius {root_radius_mm:.3} mm does not clear the base cylinder of its thread, {base_radius_mm:.3} mm"
                 ),
                 "use fewer starts, a larger reference diameter or a smaller dedendum_coefficient",
+            ));
+        }
+        let most_mm = new_tip_radius_mm * TAU / f64::from(spec.gashes) * STEEPEST_RELIEF_RAD.tan();
+        if spec.regrind_mm > most_mm {
+            return Err(Refusal::new(
+                "tool.hob.regrind_mm",
+                format!(
+                    "a tooth reground by {} mm is gone: it is no longer than the way from gash to gash, and even with a relief angle of {:.0} deg its radius falls by no more than {most_mm:.3} mm on that way",
+                    spec.regrind_mm,
+                    STEEPEST_RELIEF_RAD.to_degrees()
+                ),
+                "use a smaller regrind_mm, or fewer gashes",
             ));
         }
         // Gashes across the thread wind against it; axial lengths in such a rake face shrink by cos^2(lambda).

@@ -245,10 +245,11 @@ impl PlanarTool for ShaperCutter {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::tool::edge::{RayHit, SegmentShape};
 
+    /// The paper's cutter: 20 teeth of module 3.
     pub(crate) fn paper_cutter(tip: model::Tip) -> ShaperCutter {
         let gear = model::Gear {
             module_mm: 3.0,

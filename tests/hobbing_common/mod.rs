@@ -55,6 +55,25 @@ pub fn number(value: &Value, key: &str) -> f64 {
     value[key].as_f64().unwrap_or_else(|| panic!("{key}"))
 }
 
+pub const fn law(even: EvenMotion, extra: ExtraRotation, form: LinkageForm) -> HobbingLaw {
+    HobbingLaw { even, extra, form }
+}
+
+/// The six schemes of Liu et al. 2013.
+pub const SCHEMES: [(&str, EvenMotion, ExtraRotation); 6] = [
+    ("I", EvenMotion::ArcLength, ExtraRotation::Work),
+    ("II", EvenMotion::ArcLength, ExtraRotation::Hob),
+    ("III", EvenMotion::RotationAngle, ExtraRotation::Work),
+    ("IV", EvenMotion::RotationAngle, ExtraRotation::Hob),
+    ("V", EvenMotion::PolarAngle, ExtraRotation::Work),
+    ("VI", EvenMotion::PolarAngle, ExtraRotation::Hob),
+];
+
+/// Hob speed at which a cycle lasts `cycle_s`.
+pub fn cycle_speed(curve: &PitchCurve, geometry: &HobbingGeometry, cycle_s: f64) -> f64 {
+    curve.perimeter_mm() / (geometry.arc_per_hob_rad_mm() * cycle_s)
+}
+
 /// The hob of both papers: one start, 10 gashes, lead angle 3 deg 19', left-hand, sharp corners.
 fn papers_hob_spec(length_mm: f64) -> HobSpec {
     HobSpec {

@@ -4,9 +4,10 @@ use gearcut::axes_report::HobbingAxesReport;
 use gearcut::gear::generation::Side;
 use gearcut::job::HobbingJob;
 use gearcut::output::text::{Sheet, plain, significant};
+use gearcut::scene::LoadedScene;
 use gearcut::scene::model::HobbingKind;
 
-use super::{curve, gear_words};
+use super::{cost, curve, gear_words};
 use crate::cli::failure::Failure;
 use crate::cli::print;
 
@@ -14,7 +15,7 @@ use crate::cli::print;
 const MOST_NAMED: usize = 6;
 
 /// Prints everything.
-pub fn run(job: &HobbingJob) -> Result<(), Failure> {
+pub fn run(scene: &LoadedScene, job: &HobbingJob) -> Result<(), Failure> {
     let operations = HobbingAxesReport::of_job(job);
     let teeth = Teeth::of_job(job);
     let mut sheet = Sheet::default();
@@ -25,6 +26,7 @@ pub fn run(job: &HobbingJob) -> Result<(), Failure> {
     for operation in &operations {
         operation.print(&mut sheet);
     }
+    cost::hobbing::print(&mut sheet, job).map_err(|error| Failure::of_scene(scene, error))?;
     let mut warnings = curve::warnings(&job.curve, &job.scene.gear);
     warnings.extend(hob_warnings(job));
     warnings.extend(teeth.warnings());

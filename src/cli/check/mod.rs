@@ -25,7 +25,7 @@ pub fn run(arguments: &SceneArguments) -> Result<(), Failure> {
     let scene = scene::load(&arguments.scene, &arguments.settings)?;
     match Prepared::new(&scene.scene).map_err(|error| Failure::of_scene(&scene, error))? {
         Prepared::Shaping(job) => shaping(&scene, &job),
-        Prepared::Hobbing(job) => hobbing::run(&job),
+        Prepared::Hobbing(job) => hobbing::run(&scene, &job),
     }
 }
 
@@ -40,7 +40,7 @@ fn shaping(scene: &LoadedScene, job: &Job) -> Result<(), Failure> {
     for operation in &operations {
         operation.print(&mut sheet);
     }
-    cost::print(&mut sheet, job, &facts).map_err(|refusal| Failure::of_scene(scene, refusal.into()))?;
+    cost::shaping::print(&mut sheet, job, &facts).map_err(|refusal| Failure::of_scene(scene, refusal.into()))?;
     let mut warnings = curve::warnings(&job.curve, &job.scene.gear);
     warnings.extend(teeth::warnings(job, &facts));
     warnings.extend(operations.iter().flat_map(OperationAxes::warnings));

@@ -14,7 +14,7 @@ use crate::cut::CutStats;
 use crate::dexel::SpatialField;
 use crate::passes::sweep::SweepRecord;
 use crate::passes::sweep_plan::SweepTile;
-use crate::passes::sweep_roots::{LANES, LARGEST_T, Lanes, Rays};
+use crate::passes::sweep_roots::{LANES, Lanes, Rays};
 use crate::tool::edge::{Segment, SegmentShape};
 
 /// Hits this far beyond a segment's end still count: neighbouring segments then leave no slit for a ray to slip through.
@@ -195,6 +195,7 @@ impl Chunk {
             SegmentShape::Table(_) => f64::NEG_INFINITY,
             SegmentShape::Arc { radius_mm } => -radius_mm,
         };
+        let [t_from, t_to] = record.t_range;
         let mut unknown = [0; LANES];
         for (l, unknown) in unknown.iter_mut().enumerate() {
             let (h, y) = (roots.height_mm[l], roots.y_mm[l]);
@@ -202,7 +203,8 @@ impl Chunk {
                 & (y <= y_to + END_OVERLAP_MM)
                 & (roots.x_mm[l] > behind)
                 & roots.falls[l]
-                & (roots.t[l].abs() < LARGEST_T);
+                & (roots.t[l] > t_from)
+                & (roots.t[l] < t_to);
             let converged = roots.step_mm[l].abs() < CONVERGED_MM;
             *unknown = u64::from(on_segment & !converged & (roots.rises[l] < 2.0) & (h < self.best[l]));
             let height = h.max(low_mm);

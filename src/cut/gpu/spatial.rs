@@ -261,5 +261,8 @@ fn compose(cells: &EdgeCells, record: &sweep::SweepRecord, segment: &Segment, mi
         last_cell: base.last_cell,
         base_cell: base.cell,
         pass_id: record.pass,
+        t_from: record.t_range[0] as f32,
+        t_to: record.t_range[1] as f32,
+        unused: [0; 2],
     }
 }

@@ -62,4 +62,10 @@ pub struct SweepRecord {
     pub base_cell: u32,
     /// Id of the pass.
     pub pass_id: u32,
+    /// First moment at which the sweep is good.
+    pub t_from: f32,
+    /// Last moment.
+    pub t_to: f32,
+    /// Structures end at multiples of sixteen bytes.
+    pub unused: [u32; 2],
 }

@@ -181,35 +181,12 @@ fn tip_zone(stations: &[Station]) -> [DVec2; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::model::{Gear, Hand, PitchCurveShape, ShaperCutter as Spec, Tip};
-    use crate::tool::{CuttingTool, ShaperCutter};
+    use crate::scene::model::Tip;
+    use crate::tool::CuttingTool;
+    use crate::tool::shaper_cutter::tests::paper_cutter;
 
     fn polygon(tip: Tip) -> EdgePolygon {
-        let gear = Gear {
-            module_mm: 3.0,
-            teeth: 42,
-            pressure_angle_rad: 20_f64.to_radians(),
-            face_width_mm: 30.0,
-            addendum_coefficient: 1.0,
-            bore_diameter_mm: 20.0,
-            tooth_thickness_allowance_mm: 0.0,
-            helix_angle_rad: 0.0,
-            hand: Hand::Right,
-            pitch_curve: PitchCurveShape::Circle,
-        };
-        let spec = Spec {
-            teeth: 20,
-            addendum_coefficient: 1.25,
-            dedendum_coefficient: 1.25,
-            profile_shift_coefficient: 0.0,
-            thinning_mm: 0.0,
-            tip,
-            rake_angle_rad: 0.0,
-            runout_mm: 0.0,
-            runout_angle_rad: 0.0,
-            pitch_errors_mm: Vec::new(),
-        };
-        EdgePolygon::new(ShaperCutter::new(&spec, &gear).expect("an ordinary cutter").edge(), 0.05)
+        EdgePolygon::new(paper_cutter(tip).edge(), 0.05)
     }
 
     #[test]
