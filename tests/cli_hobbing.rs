@@ -131,6 +131,21 @@ fn a_hobbed_gear_comes_with_meshes_charts_marks_points_and_programs() {
         "{}",
         texture[0]["parameters"]["Sz"]
     );
+    // The load tooth by tooth is the whole volume, and a comparison reads it back.
+    let load = &results["hob_load"]["operations"][0];
+    let teeth = load["teeth"].as_array().expect("hob teeth");
+    let sum: f64 = teeth.iter().map(|tooth| number(&tooth["volume"])).sum();
+    assert!((sum / number(&load["volume"]) - 1.0).abs() < 1e-12);
+    let compared = folder.path().join("compared");
+    let gear = out.display().to_string();
+    gearcut(&["compare", &gear, &gear, "--out", &compared.display().to_string()]).done().says(&[
+        "gear (a) and gear (b)",
+        "finish.hob load.peak load ratio",
+        "marks.tooth",
+        "texture.finish",
+        "Sa",
+    ]);
+    assert!(compared.join("load_finish_volume.png").is_file());
     let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
     for words in
         ["Cutting marks", "Points on five curves", "Axis motion", "15.0000° right-hand", "hob tooth along the thread"]
