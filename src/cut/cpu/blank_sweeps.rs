@@ -12,7 +12,7 @@ use crate::passes::hob_sections::{HobSections, SweptSection};
 use crate::planar_rays::{FAMILIES, Family, RayCrossings};
 use glam::DVec2;
 use rayon::prelude::*;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::ops::Range;
 
 /// What a pass took.
@@ -22,7 +22,7 @@ pub struct PassChip {
     pub pass: u32,
     /// Volume by rays of both families, mm3.
     pub removed_mm3: [f64; 2],
-    /// Largest uncut thickness across the swept surface, mm.
+    /// Uncut chip thickness: the largest distance of a place of the swept surface from the surface before, mm.
     pub thickness_mm: f64,
     /// Way of the tip while anything was taken, mm.
     pub way_mm: f64,
@@ -118,9 +118,9 @@ fn cut_slice(
             removed_mm3[f] = removed_mm * grid.spacing_mm() * width_mm;
         }
         if removed_mm3 != [0.0; 2] {
-            // Around a place that far from the old surface the chip holds a quarter of a disc at least: where it is thinner than the rays are apart, single rays run along it and tell nothing.
+            // Half a disc about the thickest place is all chip, or a quarter at a corner: a bound where rays are too far apart to meet the old surface beside them.
             let area_mm2 = removed_mm3[0].min(removed_mm3[1]) / width_mm;
-            let thickness_mm = surfaces.thickness_mm(&section).min((4.0 * area_mm2 / PI).sqrt());
+            let thickness_mm = surfaces.thickness_mm(&section, grid.spacing_mm()).min((4.0 * area_mm2 / PI).sqrt());
             let way_mm = section.way_per_mm * width_mm;
             chips.push(PassChip { pass: section.pass, removed_mm3, thickness_mm, way_mm });
         }
@@ -128,13 +128,28 @@ fn cut_slice(
     (chips, stats)
 }
 
-/// Points of the surfaces of one chip in one slice, with their normals.
+/// The surfaces of one chip in one slice, as rays meet them.
 #[derive(Default)]
 struct ChipSurfaces {
-    /// Left by earlier passes, or the blank's own.
+    /// Places of the old surface, left by earlier passes or the blank's own, with their normals.
     old: Vec<[DVec2; 2]>,
-    /// Left by this one.
-    new: Vec<[DVec2; 2]>,
+    /// Places of the new one.
+    new: Vec<NewPlace>,
+}
+
+/// A place of the new surface.
+struct NewPlace {
+    at: DVec2,
+    normal: DVec2,
+    /// How far the old surface at the other end of the chip on the same ray lies from it; where this pass left that end as well, how wide the tool is there, mm.
+    across_mm: f64,
+}
+
+/// Distance of the old surface from a place of the new one, from the normals (new, old) where a ray `length_mm` long crosses both: to the old tangent, exact for a straight trace, or between two circles about
+/// one point, exact for these; the smaller one.
+fn between_mm(family: Family, length_mm: f64, normals: [DVec2; 2]) -> f64 {
+    let [new, old] = normals.map(|normal| normal * family.along(normal).signum());
+    length_mm * family.along(old).min(family.along(new + old) / (1.0 + new.dot(old)))
 }
 
 impl ChipSurfaces {
@@ -145,25 +160,43 @@ impl ChipSurfaces {
 
     /// What a cut takes from one ray.
     fn add(&mut self, family: Family, across_mm: f64, spans: &[Span], [from, to]: [End; 2]) {
-        let place = |end: &End| [family.point(end.at_mm, across_mm), DVec2::from_array(end.normal.map(f64::from))];
+        let place = |end: &End| family.point(end.at_mm, across_mm);
+        let normal = |end: &End| DVec2::from_array(end.normal.map(f64::from));
         let first = spans.partition_point(|span| span.high.at_mm <= from.at_mm);
         for span in spans[first..].iter().take_while(|span| span.low.at_mm < to.at_mm) {
-            for (own, cut, inside) in
-                [(&span.low, &from, span.low.at_mm > from.at_mm), (&span.high, &to, span.high.at_mm < to.at_mm)]
-            {
-                if inside { self.old.push(place(own)) } else { self.new.push(place(cut)) }
+            let is_old = [span.low.at_mm > from.at_mm, span.high.at_mm < to.at_mm];
+            let ends = [if is_old[0] { &span.low } else { &from }, if is_old[1] { &span.high } else { &to }];
+            let length_mm = ends[1].at_mm - ends[0].at_mm;
+            for side in 0..2 {
+                let (end, other) = (ends[side], ends[1 - side]);
+                if is_old[side] {
+                    self.old.push([place(end), normal(end)]);
+                } else if family.along(normal(end)).abs() >= FRAC_1_SQRT_2 {
+                    let across_mm = if is_old[1 - side] {
+                        between_mm(family, length_mm, [normal(end), normal(other)])
+                    } else {
+                        length_mm
+                    };
+                    self.new.push(NewPlace { at: place(end), normal: normal(end), across_mm });
+                }
             }
         }
     }
 
-    /// Second largest distance of points of the new surface from the tangents at the nearest points of the old one, across the swept surface: what one ray alone sees is a corner.
-    fn thickness_mm(&self, section: &SweptSection) -> f64 {
-        let thickness = self.new.iter().filter_map(|[at, normal]| {
-            let distance = |old: &[DVec2; 2]| old[0].distance_squared(*at);
-            let nearest = self.old.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-            Some((nearest[0] - *at).dot(nearest[1]).abs() * section.upright(*normal))
-        });
-        let largest = thickness.fold([0.0_f64; 2], |[first, second], mm| [first.max(mm), second.max(mm.min(first))]);
-        largest[1]
+    /// Largest distance of a place of the new surface from the old one, across the swept surface; the old one between its places, `spacing_mm` apart, goes on along its tangents.
+    fn thickness_mm(&self, section: &SweptSection, spacing_mm: f64) -> f64 {
+        self.new.iter().fold(0.0, |largest_mm, place| {
+            let upright = section.upright(place.normal);
+            let bound_mm = place.across_mm * upright;
+            if bound_mm <= largest_mm {
+                return largest_mm;
+            }
+            let squared = self.old.iter().map(|&[old, normal]| {
+                let way = place.at - old;
+                let beside_mm = (normal.perp_dot(way).abs() - 0.5 * spacing_mm).max(0.0);
+                normal.dot(way).powi(2) + beside_mm * beside_mm
+            });
+            bound_mm.min(squared.fold(f64::INFINITY, f64::min).sqrt() * upright).max(largest_mm)
+        })
     }
 }
