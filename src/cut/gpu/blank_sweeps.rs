@@ -16,7 +16,7 @@ use super::blank_rays::{PassWork, TakenPiece, Terms, TileDone, TileWork, parts};
 use super::problem::GpuProblem;
 use super::{Gpu, WORKGROUP_THREADS};
 use crate::cut::cpu::blank::BlankStats;
-use crate::cut::cpu::blank_sweeps::{ChipBooks, ChipSurfaces, PassChip, SweepsCut};
+use crate::cut::sweep_chips::{ChipBooks, ChipSurfaces, PassChip, SweepsCut};
 use crate::dexel::blank_field::{BlankField, BlankGrid, Slice};
 use crate::dexel::intervals;
 use crate::passes::hob_sections::{HobSections, SweepHeading, SweptSection};
@@ -200,7 +200,7 @@ fn chips_of_slice(
             }
         }
         if removed_mm3 != [0.0; 2] {
-            chips.push(PassChip::of_slice(*pass, heading, removed_mm3, width_mm, &surfaces));
+            chips.push(PassChip::of_slice(*pass, heading, removed_mm3, width_mm, &surfaces, grid.spacing_mm()));
         }
     }
     chips

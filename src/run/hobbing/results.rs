@@ -11,6 +11,7 @@ use crate::output::quantity::{Place, Quantity};
 use crate::output::results::{RESULTS_FILE, SCHEMA_VERSION};
 use crate::texture::{self, WindowTexture};
 use crate::units::UM_PER_MM;
+use serde::Serialize;
 use serde_json::{Value, json};
 
 /// Why a pitch is not known.
@@ -124,10 +125,9 @@ pub(in crate::run) fn headline(job: &HobbingJob, gear: &HobbedGear) -> Vec<(&'st
     ]
 }
 
-/// A quantity as it stands in `results.json`.
-pub(super) fn value(quantity: &Quantity) -> Result<Value> {
-    serde_json::to_value(quantity)
-        .map_err(|reason| Error::Output { path: RESULTS_FILE.into(), reason: reason.to_string() })
+/// A quantity, or a struct of them, as it stands in `results.json`.
+pub(super) fn value(part: &impl Serialize) -> Result<Value> {
+    serde_json::to_value(part).map_err(|reason| Error::Output { path: RESULTS_FILE.into(), reason: reason.to_string() })
 }
 
 /// Everything that was found.
