@@ -257,5 +257,5 @@ fn the_mesh_is_closed_and_loads_are_those_of_the_ledger() {
         1e-3 * load.teeth.iter().map(|t| t.way_mm).sum::<f64>()
     );
     assert!(worst < 0.004);
-    assert!((thickest[0] / thickest[1] - 1.0).abs() < 0.25);
+    assert!((thickest[0] / thickest[1] - 1.0).abs() < 0.1);
 }

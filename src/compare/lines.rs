@@ -29,7 +29,8 @@ type Named = Vec<(String, Quantity)>;
 
 /// Headline numbers, then the spreads of unevenness of each operation that has any.
 pub(super) fn of_shaped(results: &[Compared<Results>]) -> Vec<Line> {
-    lines(results.iter().map(|one| quantities(&one.results.headline)).collect(), |one| {
+    let headlines: Vec<Named> = results.iter().map(|one| quantities(&one.results.headline)).collect();
+    lines(&headlines, |one| {
         let operations = results[one].results.operations.iter();
         operations.flat_map(|of| prefixed(&format!("{}.unevenness", of.name), quantities(&of.unevenness))).collect()
     })
@@ -37,7 +38,8 @@ pub(super) fn of_shaped(results: &[Compared<Results>]) -> Vec<Line> {
 
 /// Headline numbers; of each operation its feeds, times and the hob's load; then damage, points, marks and texture.
 pub(super) fn of_hobbed(results: &[Compared<HobbedResults>]) -> Vec<Line> {
-    lines(results.iter().map(|one| quantities(&one.results.headline)).collect(), |one| {
+    let headlines: Vec<Named> = results.iter().map(|one| quantities(&one.results.headline)).collect();
+    lines(&headlines, |one| {
         let of = &results[one].results;
         let mut named = Named::new();
         for operation in &of.operations {
@@ -67,10 +69,10 @@ pub(super) fn of_hobbed(results: &[Compared<HobbedResults>]) -> Vec<Line> {
 }
 
 /// Lines of the headlines, and of everything else that `more` finds in a result.
-fn lines(headlines: Vec<Named>, more: impl Fn(usize) -> Named) -> Vec<Line> {
+fn lines(headlines: &[Named], more: impl Fn(usize) -> Named) -> Vec<Line> {
     let rest: Vec<Named> = (0..headlines.len()).map(more).collect();
     let known = |line: &Line| line.quantities.iter().flatten().any(|q| q.value().is_some() || q.words().is_some());
-    joined(&headlines).into_iter().chain(joined(&rest).into_iter().filter(known)).collect()
+    joined(headlines).into_iter().chain(joined(&rest).into_iter().filter(known)).collect()
 }
 
 /// One line per name, in the order in which the results first have it.

@@ -35,7 +35,7 @@ impl Comparison {
         titles.push("unit".into());
         let rows = self.lines.iter().map(|line| {
             let mut row = vec![line.name.replace('_', " ")];
-            row.extend(line.quantities.iter().map(printed));
+            row.extend(line.quantities.iter().map(|quantity| printed(quantity.as_ref())));
             if two {
                 let number = |value: Option<f64>| value.map_or_else(String::new, |value| significant(value, 4));
                 row.extend(line.differences().map(number));
@@ -62,7 +62,7 @@ fn cells(line: &Line) -> Vec<Cell> {
     cells
 }
 
-fn printed(quantity: &Option<Quantity>) -> String {
+fn printed(quantity: Option<&Quantity>) -> String {
     let Some(quantity) = quantity else { return "none".to_owned() };
     match (quantity.value(), quantity.words()) {
         (Some(value), _) => significant(value, 4),
