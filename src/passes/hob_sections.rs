@@ -22,6 +22,7 @@ use crate::tool::edge::{Edge, Segment};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 
 /// Longest piece of the edge, as a share of the distance of its tip from the axis: a cubic over it misses some nanometres where the sweep leaves the work.
 const PIECE_SHARE: f64 = 0.03;
@@ -36,26 +37,34 @@ const MOST_STEPS: usize = 20;
 const LAST_STEP_RAD: f64 = 1e-6;
 /// A section is looked for up to this angle: a little beyond the sweep, where the outline is closed.
 const LARGEST_ANGLE_RAD: f64 = 1.25;
+/// Height of slices that one section tells about, as a share of the distance of the edge's tip from the axis.
+const BAND_SHARE: f64 = 0.03;
 /// Distance of the places along the face at which passes are judged beforehand, mm.
 const JUDGED_EVERY_MM: f64 = 5.0;
 
 /// The passes of an operation, ready to be cut at any height.
 pub struct HobSections {
     /// Ends of the pieces in the rake face: distance from the axis and y.
-    nodes_mm: Vec<DVec2>,
+    pub(super) nodes_mm: Vec<DVec2>,
     /// Directions at both ends of every piece, per piece.
-    rates_mm: Vec<[DVec2; 2]>,
+    pub(super) rates_mm: Vec<[DVec2; 2]>,
     /// Passes that may reach the blank, in order of time.
-    passes: Vec<Sweeping>,
+    pub(super) passes: Vec<Sweeping>,
     /// Radius of the tip, mm.
-    tip_mm: f64,
+    pub(super) tip_mm: f64,
     /// Largest distance of an edge point from the middle of its blade, mm.
     widest_mm: f64,
     twist_rad_per_mm: f64,
+    /// Longest piece of the edge, mm.
+    pub(super) longest_mm: f64,
+    /// Whether passes are held against what is left before they are followed to a slice; otherwise every pass visits every ray: what refusals are proved against.
+    refuses: bool,
+    /// Share of the slack that outlines get when they are held against what is left: 1. Less refuses passes that matter; tests plant it.
+    pub slack_share: f64,
 }
 
 /// A pass with its pose as polynomials of the swept angle.
-struct Sweeping {
+pub(super) struct Sweeping {
     pass: u32,
     axial_mm: f64,
     y_sign: f64,
@@ -82,7 +91,8 @@ impl HobSections {
     /// Passes of an operation for a blank within `reach_mm` of the gear axis, over the face; all of them, wherever they are, if not `cull`.
     pub fn new(set: &HobTeeth, edge: &Edge, reach_mm: f64, face_width_mm: f64, cull: bool) -> Self {
         let tip_mm = edge.segments.iter().flat_map(|s| s.y_range_mm.map(|y| place(s, y)[0].x)).fold(0.0, f64::max);
-        let (mut nodes_mm, mut rates_mm) = edge_pieces(edge, PIECE_SHARE * tip_mm);
+        let longest_mm = PIECE_SHARE * tip_mm;
+        let (mut nodes_mm, mut rates_mm) = edge_pieces(edge, longest_mm);
         let passes: Vec<Sweeping> =
             (0..set.count()).into_par_iter().map(|i| Sweeping::new(set, &set.pass(i))).collect();
         // Seen along the gear axis the rake face may show its other side: inside is on the left there too.
@@ -95,7 +105,17 @@ impl HobSections {
         }
         let widest_mm = nodes_mm.iter().map(|node| node.y.abs()).fold(0.0, f64::max);
         let twist_rad_per_mm = set.rake_twist_rad_per_mm;
-        let mut sections = Self { nodes_mm, rates_mm, passes, tip_mm, widest_mm, twist_rad_per_mm };
+        let mut sections = Self {
+            nodes_mm,
+            rates_mm,
+            passes,
+            tip_mm,
+            widest_mm,
+            twist_rad_per_mm,
+            longest_mm,
+            refuses: cull,
+            slack_share: 1.0,
+        };
         if cull {
             let tooth_mm = 2.0 * edge.reach_mm;
             let places = (face_width_mm / JUDGED_EVERY_MM).ceil().max(1.0);
@@ -125,6 +145,16 @@ impl HobSections {
         self.passes.is_empty()
     }
 
+    /// Whether passes are held against what is left before they are followed to a slice.
+    pub fn refuses(&self) -> bool {
+        self.refuses
+    }
+
+    /// Height of slices that one section tells enough about, mm: outlines get some hundredths of a millimetre of slack at most, a few micrometres in the middle of a sweep.
+    pub fn band_mm(&self) -> f64 {
+        BAND_SHARE * self.tip_mm
+    }
+
     /// Half the way along the hob's circumference direction that the tip goes through before it is behind the blank, mm.
     fn half_way_mm(&self) -> f64 {
         self.tip_mm * SWEEP_RAD.sin()
@@ -145,20 +175,7 @@ impl HobSections {
     pub fn section(&self, index: usize, z_mm: f64, into: &mut SweptSection) -> bool {
         let pass = &self.passes[index];
         let behind_mm = pass.behind_mm(z_mm);
-        if behind_mm.abs() >= self.half_way_mm() {
-            return false;
-        }
-        // Nearer to the axis than this the edge is behind the blank, or never in this slice.
-        let least_mm = (behind_mm.abs() + pass.lean() * self.widest_mm).hypot(SWEEP_RAD.cos() * self.tip_mm);
-        let reaches = |node: &DVec2| node.x >= least_mm;
-        let (Some(first), Some(last)) =
-            (self.nodes_mm.iter().position(reaches), self.nodes_mm.iter().rposition(reaches))
-        else {
-            return false;
-        };
-        if first == last {
-            return false;
-        }
+        let Some(reached) = self.reached(pass, behind_mm) else { return false };
         let tip = (behind_mm / self.tip_mm).asin();
         into.pass = pass.pass;
         into.way_per_mm = pass.way_per_mm() / tip.cos();
@@ -166,13 +183,9 @@ impl HobSections {
         into.pieces.clear();
         into.nodes_mm.clear();
         into.rates_mm.clear();
+        let (first, last) = (*reached.nodes.start(), *reached.nodes.end());
         let mut inner_mm = [DVec2::ZERO; 2];
-        let mut swept = (behind_mm / self.nodes_mm[first].x).clamp(-1.0, 1.0).asin();
-        for index in first..=last {
-            let node = self.nodes_mm[index];
-            let Some(at) = pass.moment(swept, node, self.twist_rad_per_mm, z_mm) else { return false };
-            swept = at;
-            let crossing = pass.crossing(swept, node, self.twist_rad_per_mm);
+        let found = self.walk(pass, z_mm, behind_mm, reached.nodes.clone(), |index, node, crossing| {
             if index > first {
                 let end = crossing.rate(self.rates_mm[index - 1][1]);
                 if let Some(rates) = into.rates_mm.last_mut() {
@@ -183,15 +196,15 @@ impl HobSections {
                 into.rates_mm.push([crossing.rate(self.rates_mm[index][0]), DVec2::ZERO]);
             }
             if index == first || index == last {
-                inner_mm[usize::from(index == last)] = crossing.place_mm - (node.x - least_mm) * crossing.over_radius;
+                inner_mm[usize::from(index == last)] = crossing.inner_mm(node, reached.least_mm);
             }
             into.nodes_mm.push(crossing.place_mm);
+        });
+        if !found {
+            return false;
         }
         for (index, rates) in into.rates_mm.iter().enumerate() {
-            let chord = into.nodes_mm[index + 1] - into.nodes_mm[index];
-            let across = chord.normalize_or_zero();
-            // A cubic stays within the polygon of its control points.
-            let sagitta_mm = across.perp_dot(rates[0]).abs().max(across.perp_dot(rates[1]).abs()) / 3.0 + 1e-9;
+            let sagitta_mm = sagitta_mm([into.nodes_mm[index], into.nodes_mm[index + 1]], rates);
             into.pieces.push(Piece { law: index as u32, range: [0.0, 1.0], sagitta_mm });
         }
         // Through the hob's body, behind the blank.
@@ -199,6 +212,52 @@ impl HobSections {
         into.pieces.extend([Piece { law: Piece::STRAIGHT, range: [0.0, 1.0], sagitta_mm: 0.0 }; 3]);
         true
     }
+
+    /// Which part of the edge may meet the blank in a slice that lies so far behind the middle of a sweep. `None`: no part.
+    pub(super) fn reached(&self, pass: &Sweeping, behind_mm: f64) -> Option<ReachedEdge> {
+        if behind_mm.abs() >= self.half_way_mm() {
+            return None;
+        }
+        // Nearer to the axis than this the edge is behind the blank, or never in this slice.
+        let least_mm = (behind_mm.abs() + pass.lean() * self.widest_mm).hypot(SWEEP_RAD.cos() * self.tip_mm);
+        let reaches = |node: &DVec2| node.x >= least_mm;
+        let first = self.nodes_mm.iter().position(reaches)?;
+        let last = self.nodes_mm.iter().rposition(reaches)?;
+        (first < last).then_some(ReachedEdge { nodes: first..=last, least_mm })
+    }
+
+    /// Follows ends of pieces to the moments at which they go through a slice: `visit` gets the index, the point of the edge and its crossing. `false`: one of them has no such moment.
+    pub(super) fn walk(
+        &self,
+        pass: &Sweeping,
+        z_mm: f64,
+        behind_mm: f64,
+        nodes: RangeInclusive<usize>,
+        mut visit: impl FnMut(usize, DVec2, &SliceCrossing),
+    ) -> bool {
+        let mut swept = (behind_mm / self.nodes_mm[*nodes.start()].x).clamp(-1.0, 1.0).asin();
+        for index in nodes {
+            let node = self.nodes_mm[index];
+            let Some(at) = pass.moment(swept, node, self.twist_rad_per_mm, z_mm) else { return false };
+            swept = at;
+            visit(index, node, &pass.crossing(swept, node, self.twist_rad_per_mm));
+        }
+        true
+    }
+}
+
+/// Part of the edge that may meet the blank in a slice.
+pub(super) struct ReachedEdge {
+    /// Ends of pieces.
+    pub nodes: RangeInclusive<usize>,
+    /// The curve is closed at this distance from the tool's axis, mm.
+    pub least_mm: f64,
+}
+
+/// Largest distance of a piece from its chord, from the rates over its parameter at both ends: a cubic stays within the polygon of its control points.
+pub(super) fn sagitta_mm(nodes_mm: [DVec2; 2], rates_mm: &[DVec2; 2]) -> f64 {
+    let across = (nodes_mm[1] - nodes_mm[0]).normalize_or_zero();
+    across.perp_dot(rates_mm[0]).abs().max(across.perp_dot(rates_mm[1]).abs()) / 3.0 + 1e-9
 }
 
 impl SweptSection {
@@ -244,16 +303,26 @@ impl ClosedCurve for SweptSection {
 }
 
 /// Where an edge point crosses a slice, with how the place follows the edge point.
-struct SliceCrossing {
-    place_mm: DVec2,
+pub(super) struct SliceCrossing {
+    pub place_mm: DVec2,
     /// Per mm of distance from the axis, and per mm of y.
-    over_radius: DVec2,
+    pub over_radius: DVec2,
     over_y: DVec2,
+    /// Per mm of the slice's own place.
+    pub over_z: DVec2,
+    /// Cosine of the angle between the blade, here and now, and the head's x axis.
+    pub out: f64,
 }
 
 impl SliceCrossing {
-    fn rate(&self, edge_rate: DVec2) -> DVec2 {
+    /// How the place follows an edge point that moves.
+    pub fn rate(&self, edge_rate: DVec2) -> DVec2 {
         edge_rate.x * self.over_radius + edge_rate.y * self.over_y
+    }
+
+    /// Where the section is closed: on, along the radius of the tool, to a smaller one.
+    pub fn inner_mm(&self, node: DVec2, radius_mm: f64) -> DVec2 {
+        self.place_mm - (node.x - radius_mm) * self.over_radius
     }
 }
 
@@ -295,13 +364,13 @@ impl Sweeping {
     }
 
     /// How far the slice lies from the blade's axis in the direction in which the blade moves in the middle of its sweep, mm.
-    fn behind_mm(&self, z_mm: f64) -> f64 {
+    pub fn behind_mm(&self, z_mm: f64) -> f64 {
         let [[along, _], [axis, _], [middle, _]] = self.entries(0.0, [5, 8, 11]);
         (z_mm - middle - axis * self.axial_mm) / along
     }
 
     /// Way of the blade per mm of the gear's axis in the middle of its sweep.
-    fn way_per_mm(&self) -> f64 {
+    pub fn way_per_mm(&self) -> f64 {
         let [[along, _]] = self.entries(0.0, [5]);
         along.abs().recip()
     }
@@ -374,7 +443,13 @@ impl Sweeping {
         let over_y = turned(twist_rad_per_mm * turning + DVec3::new(0.0, 0.0, self.y_sign), 0);
         // The moment moves so that the point stays in the slice.
         let held = |v: DVec3| (v - over_swept * (v.z / over_swept.z)).truncate();
-        SliceCrossing { place_mm: place_mm.truncate(), over_radius: held(over_radius), over_y: held(over_y) }
+        SliceCrossing {
+            place_mm: place_mm.truncate(),
+            over_radius: held(over_radius),
+            over_y: held(over_y),
+            over_z: over_swept.truncate() / over_swept.z,
+            out: out.x,
+        }
     }
 }
 

@@ -9,6 +9,7 @@ pub mod motion;
 pub mod near;
 pub mod record;
 pub mod rulers;
+pub mod section_band;
 pub mod spells;
 pub mod strokes;
 pub mod sweep;
