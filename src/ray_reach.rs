@@ -50,14 +50,15 @@ impl RayReach {
     /// Takes the place of what was known before.
     pub fn set(&mut self, outline: &LooseOutline, family: Family, row: &RayRow) {
         let per_mm = row.spacing_mm.recip();
+        // Whole numbers of 32 bits: processors turn places into no others in one step.
         let from_ray = |across_mm: f64| {
-            let place = (across_mm - row.first_mm) * per_mm - ROUNDING_RAYS;
-            let below = place as usize;
-            (below + usize::from(place > below as f64)).min(row.count)
+            let place = ((across_mm - row.first_mm) * per_mm - ROUNDING_RAYS).max(0.0);
+            let below = place as i32;
+            (below as usize + usize::from(place > f64::from(below))).min(row.count)
         };
         let to_ray = |across_mm: f64| {
-            let place = (across_mm - row.first_mm) * per_mm + ROUNDING_RAYS;
-            if place < 0.0 { 0 } else { (place as usize + 1).min(row.count) }
+            let place = (across_mm - row.first_mm) * per_mm + ROUNDING_RAYS + 1.0;
+            (place.max(0.0) as i32 as usize).min(row.count)
         };
         let LooseOutline { corners_mm, slacks_mm } = outline;
         let mut ends_mm = [f64::INFINITY, f64::NEG_INFINITY];
@@ -83,16 +84,83 @@ impl RayReach {
             }
             let low_mm = a[1].min(b[1]) - side_slack_mm - ROUNDING_MM;
             let high_mm = a[1].max(b[1]) + side_slack_mm + ROUNDING_MM;
-            let slope = (b[1] - a[1]) / (b[0] - a[0]);
-            // Along the rays a side's ends alone are taken: rounding would be stretched beyond bounds. (The largest and the least of a number and of what is no number are the number.)
-            let slope = if slope.abs() < LARGEST_SLOPE { slope } else { f64::NAN };
-            let along_slack_mm = side_slack_mm * (1.0 + slope * slope).sqrt() + ROUNDING_MM;
+            let run = [b[0] - a[0], b[1] - a[1]];
+            let slope = run[1] / run[0];
+            // Along the rays a side's ends alone are taken: rounding would be stretched beyond bounds.
+            let (slope, along_slack_mm) = if run[1].abs() < LARGEST_SLOPE * run[0].abs() {
+                (slope, side_slack_mm * (1.0 + slope * slope).sqrt() + ROUNDING_MM)
+            } else {
+                (0.0, f64::INFINITY)
+            };
             let (first_mm, step_mm) = (a[1] + slope * (row.at_mm(from) - a[0]), slope * row.spacing_mm);
             for (i, places_mm) in self.places_mm[from - self.rays.start..to - self.rays.start].iter_mut().enumerate() {
                 let near_mm = first_mm + step_mm * i as f64;
-                places_mm[0] = places_mm[0].min((near_mm - along_slack_mm).max(low_mm));
-                places_mm[1] = places_mm[1].max((near_mm + along_slack_mm).min(high_mm));
+                places_mm[0] = least(places_mm[0], largest(near_mm - along_slack_mm, low_mm));
+                places_mm[1] = largest(places_mm[1], least(near_mm + along_slack_mm, high_mm));
             }
         }
+    }
+}
+
+/// Of two numbers; `f64::min` and `f64::max` also look whether they are any, and take three times as long.
+fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+fn largest(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planar_rays::FAMILIES;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// A polygon whose corners are moved by the slack at most crosses no ray elsewhere.
+        #[test]
+        fn crossings_lie_within_reach(
+            corners in proptest::collection::vec(([-3.0_f64..13.0, -3.0..13.0], [-1.0_f64..1.0, -1.0..1.0]), 3..12),
+            slack_mm in 1e-6_f64..0.5,
+            upright in 0_usize..4,
+        ) {
+            let mut at: Vec<DVec2> = corners.iter().map(|(p, _)| DVec2::from_array(*p)).collect();
+            // A side along the rays, but for a rounding.
+            at[1].x = at[0].x + [0.0, 1e-13, 1e-5, 1.0][upright];
+            let moved: Vec<DVec2> =
+                at.iter().zip(&corners).map(|(p, (_, m))| *p + DVec2::from_array(*m) * slack_mm / 2.0_f64.sqrt()).collect();
+            let outline = LooseOutline { slacks_mm: vec![slack_mm; at.len()], corners_mm: at };
+            let row = RayRow { first_mm: 0.05, spacing_mm: 0.1, count: 100 };
+            for family in FAMILIES {
+                let mut reach = RayReach::default();
+                reach.set(&outline, family, &row);
+                prop_assert_eq!(reach.rays.len(), reach.places_mm.len());
+                for ray in 0..row.count {
+                    let across = row.at_mm(ray);
+                    for (index, a) in moved.iter().enumerate() {
+                        let b = moved[(index + 1) % moved.len()];
+                        let [from, to] = [*a, b].map(|p| family.across(p));
+                        if (from < across) == (to < across) {
+                            continue;
+                        }
+                        let along = family.along(*a) + (across - from) / (to - from) * (family.along(b) - family.along(*a));
+                        prop_assert!(reach.rays.contains(&ray));
+                        let [low, high] = reach.places_mm[ray - reach.rays.start];
+                        prop_assert!(low <= along && along <= high, "ray {} at {}: {} to {}", ray, along, low, high);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_reach_of_an_upright_square_is_its_own() {
+        let corners_mm = [[1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 2.0]].map(DVec2::from_array).to_vec();
+        let outline = LooseOutline { corners_mm, slacks_mm: vec![0.0; 4] };
+        let mut reach = RayReach::default();
+        reach.set(&outline, Family::X, &RayRow { first_mm: 0.05, spacing_mm: 0.1, count: 100 });
+        assert_eq!(reach.rays, 10..20);
+        assert!(reach.places_mm.iter().all(|[low, high]| (low - 1.0).abs() < 1e-8 && (high - 2.0).abs() < 1e-8));
     }
 }

@@ -16,27 +16,18 @@
 //!
 //! The road not taken: rays against segments with two unknowns each, as flanks are cut. Rays of a slice lie side by side, and one walk along the outline finds the crossings of all of them.
 
-use super::hob_teeth::{BladePass, HobTeeth, SWEEP_RAD};
+use super::hob_teeth::{HobTeeth, SWEEP_RAD};
+use super::swept_pose::{SliceCrossing, Sweeping};
 use crate::planar_rays::{ClosedCurve, Family, Piece};
 use crate::tool::edge::{Edge, Segment};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
 /// Longest piece of the edge, as a share of the distance of its tip from the axis: a cubic over it misses some nanometres where the sweep leaves the work.
 const PIECE_SHARE: f64 = 0.03;
 /// Largest turn of the edge within a piece, rad.
 const PIECE_TURN_RAD: f64 = 0.1;
-/// Powers of a pass's pose over its sweep.
-const TERMS: usize = 6;
-/// Rotation, column by column, and translation.
-const ENTRIES: usize = 12;
-/// Steps to the moment at most, and the last one, rad: the error after it is of its square.
-const MOST_STEPS: usize = 20;
-const LAST_STEP_RAD: f64 = 1e-6;
-/// A section is looked for up to this angle: a little beyond the sweep, where the outline is closed.
-const LARGEST_ANGLE_RAD: f64 = 1.25;
 /// Height of slices that one section tells about, as a share of the distance of the edge's tip from the axis.
 const BAND_SHARE: f64 = 0.03;
 /// Distance of the places along the face at which passes are judged beforehand, mm.
@@ -61,15 +52,6 @@ pub struct HobSections {
     refuses: bool,
     /// Share of the slack that outlines get when they are held against what is left: 1. Less refuses passes that matter; tests plant it.
     pub slack_share: f64,
-}
-
-/// A pass with its pose as polynomials of the swept angle.
-pub(super) struct Sweeping {
-    pass: u32,
-    axial_mm: f64,
-    y_sign: f64,
-    /// `work_from_head` in powers of delta / [`SWEEP_RAD`].
-    pose: [[f64; ENTRIES]; TERMS],
 }
 
 /// What the edge leaves of one sweep in one slice.
@@ -167,8 +149,7 @@ impl HobSections {
             return None;
         }
         let swept = (behind / self.tip_mm).clamp(-0.86, 0.86).asin();
-        let [place, _] = pass.at(swept, DVec2::new(self.tip_mm, 0.0), self.twist_rad_per_mm);
-        Some(place.truncate())
+        Some(pass.place_mm(swept, DVec2::new(self.tip_mm, 0.0), self.twist_rad_per_mm).truncate())
     }
 
     /// Section of pass `index` at a place along the face, into memory that is reused. `false`: the pass does not cross the slice where the blank may be.
@@ -301,167 +282,6 @@ impl ClosedCurve for SweptSection {
         self.rates_mm[index]
     }
 }
-
-/// Where an edge point crosses a slice, with how the place follows the edge point.
-pub(super) struct SliceCrossing {
-    pub place_mm: DVec2,
-    /// Per mm of distance from the axis, and per mm of y.
-    pub over_radius: DVec2,
-    over_y: DVec2,
-    /// Per mm of the slice's own place.
-    pub over_z: DVec2,
-    /// Cosine of the angle between the blade, here and now, and the head's x axis.
-    pub out: f64,
-}
-
-impl SliceCrossing {
-    /// How the place follows an edge point that moves.
-    pub fn rate(&self, edge_rate: DVec2) -> DVec2 {
-        edge_rate.x * self.over_radius + edge_rate.y * self.over_y
-    }
-
-    /// Where the section is closed: on, along the radius of the tool, to a smaller one.
-    pub fn inner_mm(&self, node: DVec2, radius_mm: f64) -> DVec2 {
-        self.place_mm - (node.x - radius_mm) * self.over_radius
-    }
-}
-
-impl Sweeping {
-    fn new(set: &HobTeeth, pass: &BladePass) -> Self {
-        let place = set.place(pass);
-        let mut pose = [[0.0; ENTRIES]; TERMS];
-        // Chebyshev nodes and polynomials over the sweep, then powers.
-        for node in 0..TERMS {
-            let angle = PI * (node as f64 + 0.5) / TERMS as f64;
-            let swept = SWEEP_RAD * angle.cos();
-            let work_from_head = set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).inverse();
-            let mut entries = [0.0; ENTRIES];
-            entries[..9].copy_from_slice(&work_from_head.rotation.to_cols_array());
-            entries[9..].copy_from_slice(&work_from_head.translation_mm.to_array());
-            for (k, powers) in CHEBYSHEV.iter().enumerate() {
-                let weight = (k as f64 * angle).cos() * if k == 0 { 1.0 } else { 2.0 } / TERMS as f64;
-                for (term, power) in pose.iter_mut().zip(powers) {
-                    for (coefficient, value) in term.iter_mut().zip(&entries) {
-                        *coefficient += weight * power * value;
-                    }
-                }
-            }
-        }
-        Self { pass: pass.pass, axial_mm: place.axial_mm, y_sign: place.y_sign, pose }
-    }
-
-    /// Values and rates over the swept angle of some entries of the pose.
-    fn entries<const N: usize>(&self, swept: f64, which: [usize; N]) -> [[f64; 2]; N] {
-        let u = swept / SWEEP_RAD;
-        which.map(|entry| {
-            let (mut value, mut rate) = (self.pose[TERMS - 1][entry], 0.0);
-            for term in self.pose[..TERMS - 1].iter().rev() {
-                rate = rate * u + value;
-                value = value * u + term[entry];
-            }
-            [value, rate / SWEEP_RAD]
-        })
-    }
-
-    /// How far the slice lies from the blade's axis in the direction in which the blade moves in the middle of its sweep, mm.
-    pub fn behind_mm(&self, z_mm: f64) -> f64 {
-        let [[along, _], [axis, _], [middle, _]] = self.entries(0.0, [5, 8, 11]);
-        (z_mm - middle - axis * self.axial_mm) / along
-    }
-
-    /// Way of the blade per mm of the gear's axis in the middle of its sweep.
-    pub fn way_per_mm(&self) -> f64 {
-        let [[along, _]] = self.entries(0.0, [5]);
-        along.abs().recip()
-    }
-
-    /// Directions of the tool's axis and of the blade out of it at a moment, gear frame.
-    fn axis_and_out(&self, swept: f64) -> [DVec3; 2] {
-        let [a, b, c, d, e, f, g, h, i] = self.entries(swept, [0, 1, 2, 3, 4, 5, 6, 7, 8]).map(|[value, _]| value);
-        let (sin, cos) = swept.sin_cos();
-        [DVec3::new(g, h, i), cos * DVec3::new(a, b, c) + sin * DVec3::new(d, e, f)]
-    }
-
-    /// How far the slice moves along the blade's way per mm of its y.
-    fn lean(&self) -> f64 {
-        let [[along, _], [axis, _]] = self.entries(0.0, [5, 8]);
-        (axis / along).abs()
-    }
-
-    /// Whether the rake face is seen from behind along the gear axis.
-    fn is_turned_over(&self) -> bool {
-        let turn = self.entries(0.0, [0, 1, 6, 7]).map(|[value, _]| value);
-        DVec2::new(turn[0], turn[1]).perp_dot(self.y_sign * DVec2::new(turn[2], turn[3])) < 0.0
-    }
-
-    fn in_head(&self, swept: f64, node: DVec2, twist_rad_per_mm: f64) -> [DVec3; 2] {
-        let (sin, cos) = (swept + twist_rad_per_mm * node.y).sin_cos();
-        let place = DVec3::new(node.x * cos, node.x * sin, self.axial_mm + self.y_sign * node.y);
-        [place, DVec3::new(-node.x * sin, node.x * cos, 0.0)]
-    }
-
-    /// Moment at which an edge point goes through a slice, from a guess.
-    fn moment(&self, guess: f64, node: DVec2, twist_rad_per_mm: f64, z_mm: f64) -> Option<f64> {
-        let mut swept = guess;
-        for _ in 0..MOST_STEPS {
-            let [x, y, z, shift] = self.entries(swept, [2, 5, 8, 11]);
-            let [place, turning] = self.in_head(swept, node, twist_rad_per_mm);
-            let value = x[0] * place.x + y[0] * place.y + z[0] * place.z + shift[0] - z_mm;
-            let rate =
-                x[0] * turning.x + y[0] * turning.y + (x[1] * place.x + y[1] * place.y + z[1] * place.z) + shift[1];
-            let step = value / rate;
-            swept -= step;
-            if step.abs() < LAST_STEP_RAD {
-                return Some(swept);
-            }
-            if step.is_nan() || swept.abs() > LARGEST_ANGLE_RAD {
-                return None;
-            }
-        }
-        None
-    }
-
-    /// Place in the work and its rate over the swept angle.
-    fn at(&self, swept: f64, node: DVec2, twist_rad_per_mm: f64) -> [DVec3; 2] {
-        let e = self.entries(swept, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
-        let [place, turning] = self.in_head(swept, node, twist_rad_per_mm);
-        let column = |k: usize, part: usize| DVec3::new(e[k][part], e[k + 1][part], e[k + 2][part]);
-        let turned = |v: DVec3, part: usize| column(0, part) * v.x + column(3, part) * v.y + column(6, part) * v.z;
-        [turned(place, 0) + column(9, 0), turned(place, 1) + column(9, 1) + turned(turning, 0)]
-    }
-
-    /// The point at its moment, and how its place in the slice follows the edge point.
-    fn crossing(&self, swept: f64, node: DVec2, twist_rad_per_mm: f64) -> SliceCrossing {
-        let e = self.entries(swept, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
-        let [place, turning] = self.in_head(swept, node, twist_rad_per_mm);
-        let column = |k: usize, part: usize| DVec3::new(e[k][part], e[k + 1][part], e[k + 2][part]);
-        let turned = |v: DVec3, part: usize| column(0, part) * v.x + column(3, part) * v.y + column(6, part) * v.z;
-        let place_mm = turned(place, 0) + column(9, 0);
-        let over_swept = turned(place, 1) + column(9, 1) + turned(turning, 0);
-        let out = DVec3::new(place.x, place.y, 0.0) / node.x;
-        let over_radius = turned(out, 0);
-        let over_y = turned(twist_rad_per_mm * turning + DVec3::new(0.0, 0.0, self.y_sign), 0);
-        // The moment moves so that the point stays in the slice.
-        let held = |v: DVec3| (v - over_swept * (v.z / over_swept.z)).truncate();
-        SliceCrossing {
-            place_mm: place_mm.truncate(),
-            over_radius: held(over_radius),
-            over_y: held(over_y),
-            over_z: over_swept.truncate() / over_swept.z,
-            out: out.x,
-        }
-    }
-}
-
-/// Chebyshev polynomials in powers.
-const CHEBYSHEV: [[f64; TERMS]; TERMS] = [
-    [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
-    [-1.0, 0.0, 2.0, 0.0, 0.0, 0.0],
-    [0.0, -3.0, 0.0, 4.0, 0.0, 0.0],
-    [1.0, 0.0, -8.0, 0.0, 8.0, 0.0],
-    [0.0, 5.0, 0.0, -20.0, 0.0, 16.0],
-];
 
 /// Ends of the pieces of an edge in the blade frame, and the directions at both ends of each over a parameter from 0 to 1.
 fn edge_pieces(edge: &Edge, longest_mm: f64) -> (Vec<DVec2>, Vec<[DVec2; 2]>) {

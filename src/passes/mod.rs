@@ -17,6 +17,7 @@ mod sweep_bounds;
 pub mod sweep_plan;
 pub mod sweep_roots;
 mod sweep_samples;
+mod swept_pose;
 
 pub use candidates::{CutPlan, Tile};
 pub use hob_teeth::HobTeeth;

@@ -2,8 +2,10 @@
 //!
 //! In: a [`BlankField`], the passes as sections in its slices ([`HobSections`]). Out: the field after the operation and what every pass took.
 //!
-//! Slices go to the cores, each with all its passes in order of time: a sweep is followed into a slice once and laid over the rays of both families. Chips are summed in
-//! the order of the slices: same scene, same bytes.
+//! Some neighbouring slices go to a core together, with all passes in order of time. Most passes go where nothing is left: one section in the middle of the slices tells where a pass may be in each of them
+//! ([`SectionBand`]), and that is held against what is left there ([`RayReach`], [`SpanTable`]). Only a pass that may find something is followed into the slice and laid over those rays, of both
+//! families, near which it may. What a slice is left with does not depend on the others, and chips are summed in the order of the slices: same scene, same bytes. `tests/hobbed_blank.rs` compares
+//! spans, marks and chips with those of all passes on all rays, bit for bit, and plants a refusal that is wrong.
 
 use super::blank::{BlankCut, BlankStats, Scratch, Tile};
 use crate::dexel::blank_field::{BlankField, BlankGrid, Slice};
@@ -186,13 +188,15 @@ impl SliceCut<'_> {
             let (Some(&first), Some(&last)) = (near[f].first(), near[f].last()) else { continue };
             let rays = &mut self.slice.rays[f][first..=last];
             let mut tile = Tile { family, row: &grid.rows[f], first, rays, slice: self.index };
-            // Rays are counted above.
             let mut met = BlankStats::default();
             let removed_mm = tile.take(section, section.pass, scratch, &mut met, |across_mm, spans, cut| {
                 surfaces.add(family, across_mm, spans, cut);
             });
-            self.stats.solved += met.solved;
-            self.stats.removing += met.removing;
+            if sections.refuses() {
+                // Counted above, when they were held against what is left.
+                met.visited = 0;
+            }
+            self.stats += met;
             removed_mm3[f] = removed_mm * grid.spacing_mm() * self.width_mm;
             for &ray in &near[f] {
                 self.left[f].renew(ray, &self.slice.rays[f][ray]);
