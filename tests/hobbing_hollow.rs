@@ -1,5 +1,6 @@
 //! A hob on a pitch curve with hollows: the scene is refused with a depth; cut all the same, the gear loses that much of its roots, and only there.
 
+use gearcut::cut::cpu::Cpu;
 use gearcut::job::hobbing::cut_under_hollows_mm;
 use gearcut::job::{HobCutter, HobbingJob};
 use gearcut::measure::hobbed_blank;
@@ -36,7 +37,10 @@ fn a_hob_cuts_under_the_roots_of_hollows_and_nowhere_on_a_convex_curve() {
         let expected_mm = cut_under_hollows_mm(&job.curve, &job.hob);
         assert_eq!(expected_mm.is_none(), convex);
         let cutter = HobCutter::new(&job).expect("passes");
-        let blank = cutter.cut_blank(job.blank_field().expect("fits"), &|| true).expect("not stopped");
+        let blank = cutter
+            .cut_blank(&Cpu::default(), job.blank_field().expect("fits"), &|| true)
+            .expect("cuts")
+            .expect("not stopped");
         let report = hobbed_blank::measure(&cutter, &blank.cut);
         let deepest = report.gouges.iter().max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm));
         println!("{eccentricity}: {expected_mm:?} mm, {} places, deepest {deepest:?}", report.gouges.len());

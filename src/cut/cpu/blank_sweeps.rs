@@ -2,17 +2,24 @@
 //!
 //! In: a [`BlankField`], the passes as sections in its slices ([`HobSections`]). Out: the field after the operation and what every pass took.
 //!
-//! Slices go to the cores, each with all its passes in order of time: a sweep is followed into a slice once and laid over the rays of both families. Chips are summed in
-//! the order of the slices: same scene, same bytes.
+//! Some neighbouring slices go to a core together, with all passes in order of time. Most passes go where nothing is left: one section in the middle of the slices tells where a pass may be in each of them
+//! ([`SectionBand`]), and that is held against what is left there ([`RayReach`], [`SpanTable`]). Only a pass that may find something is followed into the slice and laid over those rays, of both
+//! families, near which it may. What a slice is left with does not depend on the others, and chips are summed in the order of the slices: same scene, same bytes. `tests/hobbed_blank.rs` compares
+//! spans, marks and chips with those of all passes on all rays, bit for bit, and plants a refusal that is wrong.
 
 use super::blank::{BlankStats, Scratch, Tile};
 use crate::cut::sweep_chips::{ChipBooks, ChipSurfaces, PassChip, SweepsCut};
 use crate::dexel::blank_field::{BlankField, BlankGrid, Slice};
-use crate::dexel::intervals;
+use crate::dexel::span_table::SpanTable;
 use crate::passes::hob_sections::{HobSections, SweptSection};
-use crate::planar_rays::{FAMILIES, RayCrossings};
+use crate::passes::section_band::{InSlice, SectionBand};
+use crate::planar_rays::FAMILIES;
+use crate::ray_reach::{LooseOutline, RayReach};
 use rayon::prelude::*;
 use std::ops::Range;
+
+/// Most slices that are cut together.
+const BLOCK_SLICES: usize = 8;
 
 /// Runs an operation whose passes have the ids `passes`; `advance` is called after every slice and says whether to go on. `None`: stopped.
 pub fn cut(
@@ -22,20 +29,28 @@ pub fn cut(
     advance: &(dyn Fn() -> bool + Sync),
 ) -> Option<SweepsCut> {
     let grid = &field.grid;
-    let cuts: Vec<Option<(Vec<PassChip>, BlankStats)>> = field
+    let block = block_slices(grid, sections);
+    let widths_mm = grid.slice_widths_mm();
+    let blocks: Vec<Option<Vec<(Vec<PassChip>, BlankStats)>>> = field
         .slices
-        .par_iter_mut()
-        .zip(grid.slice_widths_mm())
+        .par_chunks_mut(block)
         .enumerate()
-        .map(|(index, (slice, width_mm))| {
-            let cut = cut_slice(grid, slice, index, width_mm, sections);
-            advance().then_some(cut)
+        .map(|(place, slices)| {
+            let cuts = slices.iter_mut().enumerate().map(|(i, slice)| SliceCut {
+                index: (place * block + i) as u32,
+                z_mm: grid.leads_mm[place * block + i],
+                width_mm: widths_mm[place * block + i],
+                left: [0, 1].map(|f: usize| SpanTable::new(&slice.rays[f])),
+                slice,
+                chips: Vec::new(),
+                stats: BlankStats::default(),
+            });
+            cut_block(grid, cuts.collect(), sections, advance)
         })
         .collect();
     let mut books = ChipBooks::new(passes);
     let mut stats = BlankStats::default();
-    for cut in cuts {
-        let (of_slice, met) = cut?;
+    for (of_slice, met) in blocks.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten() {
         for chip in &of_slice {
             books.enter(chip);
         }
@@ -44,60 +59,124 @@ pub fn cut(
     Some(books.close(stats))
 }
 
-/// Chips of one slice in order of time.
-fn cut_slice(
-    grid: &BlankGrid,
-    slice: &mut Slice,
-    index: usize,
+/// Slices that are cut together: as many as a section in their middle tells about.
+fn block_slices(grid: &BlankGrid, sections: &HobSections) -> usize {
+    let spacing_mm = grid.slice_spacing_mm();
+    ((sections.band_mm() / spacing_mm) as usize + 1).min(BLOCK_SLICES)
+}
+
+/// A slice while it is cut.
+struct SliceCut<'a> {
+    slice: &'a mut Slice,
+    index: u32,
+    z_mm: f64,
     width_mm: f64,
+    /// What is left on the rays of both families, at a glance.
+    left: [SpanTable; 2],
+    chips: Vec<PassChip>,
+    stats: BlankStats,
+}
+
+/// Memory that is used over and over.
+#[derive(Default)]
+struct Memory {
+    band: SectionBand,
+    section: SweptSection,
+    outline: LooseOutline,
+    reach: RayReach,
+    /// Rays of both families on which a pass may find something.
+    near: [Vec<usize>; 2],
+    tile: Scratch,
+    surfaces: ChipSurfaces,
+}
+
+/// Neighbouring slices with all passes in order of time. `advance` is called as often as there are slices, whenever another such share of the passes is done.
+fn cut_block(
+    grid: &BlankGrid,
+    mut slices: Vec<SliceCut>,
     sections: &HobSections,
-) -> (Vec<PassChip>, BlankStats) {
-    let (mut chips, mut stats) = (Vec::new(), BlankStats::default());
-    let (mut scratch, mut section) = (Scratch::default(), SweptSection::default());
-    let (mut surfaces, mut reach_mm) = (ChipSurfaces::default(), Vec::new());
+    advance: &(dyn Fn() -> bool + Sync),
+) -> Option<Vec<(Vec<PassChip>, BlankStats)>> {
+    let mut memory = Memory::default();
+    let z_range_mm = [slices[0].z_mm, slices[slices.len() - 1].z_mm];
+    let mut shares = 0;
     for pass in 0..sections.len() {
-        if !sections.section(pass, grid.leads_mm[index], &mut section) {
-            continue;
+        if !sections.refuses() || memory.band.set(sections, pass, z_range_mm) {
+            for slice in &mut slices {
+                slice.cut(grid, sections, pass, &mut memory);
+            }
+        }
+        while shares * sections.len() < (pass + 1) * slices.len() {
+            shares += 1;
+            if !advance() {
+                return None;
+            }
+        }
+    }
+    Some(slices.into_iter().map(|slice| (slice.chips, slice.stats)).collect())
+}
+
+impl SliceCut<'_> {
+    fn cut(&mut self, grid: &BlankGrid, sections: &HobSections, pass: usize, memory: &mut Memory) {
+        let Memory { band, section, outline, reach, near, tile: scratch, surfaces } = memory;
+        let mut followed = false;
+        if sections.refuses() {
+            match band.outline(sections, self.z_mm, outline) {
+                InSlice::Nowhere => return,
+                InSlice::Within => {}
+                InSlice::Unknown => {
+                    followed = true;
+                    if !sections.section(pass, self.z_mm, section) {
+                        return;
+                    }
+                    outline.set_chords(section);
+                }
+            }
+            for (f, family) in FAMILIES.into_iter().enumerate() {
+                reach.set(outline, family, &grid.rows[f]);
+                self.stats.visited += reach.rays.len() as u64;
+                let left = &self.left[f];
+                near[f].clear();
+                let may_hold = |(ray, places_mm): &(usize, &[f64; 2])| left.may_hold(*ray, **places_mm);
+                near[f].extend(reach.rays.clone().zip(&reach.places_mm).filter(may_hold).map(|(ray, _)| ray));
+            }
+            if near.iter().all(Vec::is_empty) {
+                return;
+            }
+        } else {
+            for (near, row) in near.iter_mut().zip(&grid.rows) {
+                near.clear();
+                near.extend(0..row.count);
+            }
+        }
+        if !followed && !sections.section(pass, self.z_mm, section) {
+            return;
         }
         let mut removed_mm3 = [0.0; 2];
         surfaces.clear();
         for (f, family) in FAMILIES.into_iter().enumerate() {
-            let row = &grid.rows[f];
-            let [low, high] = section.across_mm(family).map(|across| row.first_at_or_above(across));
-            if low >= high {
-                continue;
-            }
-            // Most passes go where nothing is left: bounds of all rays come first, and only the rays between the first and the last one near material are laid on the curve.
-            RayCrossings::reach_mm(&section, family, row, low..high, &mut reach_mm);
-            let rays = &slice.rays[f];
-            let near = |ray: &usize| {
-                let [from, to] = reach_mm[ray - low];
-                from <= to && intervals::overlaps(&rays[*ray], from, to)
-            };
-            stats.visited += (high - low) as u64;
-            let Some(first) = (low..high).find(near) else { continue };
-            let last = (first..high).rev().find(near).unwrap_or(first);
-            let rays = &mut slice.rays[f][first..=last];
-            let mut tile = Tile { family, row, first, rays, slice: index as u32 };
-            // Rays are counted above.
+            let (Some(&first), Some(&last)) = (near[f].first(), near[f].last()) else { continue };
+            let rays = &mut self.slice.rays[f][first..=last];
+            let mut tile = Tile { family, row: &grid.rows[f], first, rays, slice: self.index };
             let mut met = BlankStats::default();
-            let removed_mm = tile.take(&section, section.pass, &mut scratch, &mut met, |across_mm, spans, cut| {
+            let removed_mm = tile.take(section, section.pass, scratch, &mut met, |across_mm, spans, cut| {
                 surfaces.add(family, across_mm, spans, cut);
             });
-            stats.solved += met.solved;
-            stats.removing += met.removing;
-            removed_mm3[f] = removed_mm * grid.spacing_mm() * width_mm;
+            if sections.refuses() {
+                // Counted above, when they were held against what is left.
+                met.visited = 0;
+            }
+            self.stats += met;
+            removed_mm3[f] = removed_mm * grid.spacing_mm() * self.width_mm;
+            for &ray in &near[f] {
+                self.left[f].renew(ray, &self.slice.rays[f][ray]);
+            }
         }
         if removed_mm3 != [0.0; 2] {
-            chips.push(PassChip::of_slice(
-                section.pass,
-                &section.heading,
-                removed_mm3,
-                width_mm,
-                &surfaces,
-                grid.spacing_mm(),
-            ));
+            let spacing_mm = grid.spacing_mm();
+            let chip =
+                PassChip::of_slice(section.pass, &section.heading, removed_mm3, self.width_mm, surfaces, spacing_mm);
+            self.chips.push(chip);
         }
     }
-    (chips, stats)
 }

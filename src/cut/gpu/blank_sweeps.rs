@@ -21,6 +21,7 @@ use crate::dexel::blank_field::{BlankField, BlankGrid, Slice};
 use crate::dexel::intervals;
 use crate::passes::hob_sections::{HobSections, SweepHeading, SweptSection};
 use crate::planar_rays::{FAMILIES, Family, RayCrossings};
+use crate::ray_reach::{LooseOutline, RayReach};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -130,21 +131,23 @@ impl SliceVisits {
     fn compose(grid: &BlankGrid, slice: &Slice, lead_mm: f64, sections: &HobSections, passes: Range<usize>) -> Self {
         let tiles = [0, 1].map(|f: usize| (0..grid.rows[f].count.div_ceil(TILE_RAYS)).map(|_| Vec::new()).collect());
         let mut visits = Self { headings: Vec::new(), tiles };
-        let (mut section, mut crossings, mut reach_mm) = (SweptSection::default(), RayCrossings::default(), Vec::new());
+        let (mut section, mut crossings) = (SweptSection::default(), RayCrossings::default());
+        let (mut outline, mut reach) = (LooseOutline::default(), RayReach::default());
         for pass in passes {
             if !sections.section(pass, lead_mm, &mut section) {
                 continue;
             }
+            outline.set_chords(&section);
             let mut visiting = false;
             for (f, family) in FAMILIES.into_iter().enumerate() {
                 let row = &grid.rows[f];
-                let [low, high] = section.across_mm(family).map(|across| row.first_at_or_above(across));
+                reach.set(&outline, family, row);
+                let Range { start: low, end: high } = reach.rays;
                 if low >= high {
                     continue;
                 }
-                RayCrossings::reach_mm(&section, family, row, low..high, &mut reach_mm);
                 let near = |ray: usize| {
-                    let [from, to] = reach_mm[ray - low];
+                    let [from, to] = reach.places_mm[ray - low];
                     from <= to && intervals::overlaps(&slice.rays[f][ray], from, to)
                 };
                 for tile in low / TILE_RAYS..high.div_ceil(TILE_RAYS) {
