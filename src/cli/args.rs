@@ -50,13 +50,14 @@ pub enum Command {
         gearcut compare out/elliptical_traditional out/elliptical_normal\n  \
         gearcut compare out/third_order_plain out/third_order_diagonal --out out/load_of_the_hob\n\n\
         Takes 2 to 7 results of one process; the first is what the others are held against. Writes a folder\n\
-        (compare_<A>_<B>... beside the last one unless --out is given): comparison.csv with the headline numbers of all of them,\n\
-        differences to the first, units and definitions; and bar charts as PNG and SVG.\n\
-        Shaped gears: unevenness of the allowance by tooth (%), in one chart (first period of the pitch curve, and all\n\
-        teeth) and each on its own scale.\n\
-        Hobbed gears: what each tooth of the hob does over the whole process: volume (mm3), largest uncut chip thickness\n\
-        (mm), way cut (mm). The table adds the peak-load ratio (largest volume of a hob tooth in the first result over that\n\
-        in each: 2 means that the hardest working tooth does half), teeth in use, idle time, marks and heights Sa, Sq, Sz.\n\
+        (compare_<A>_<B>... beside the last one unless --out is given): comparison.csv with the headline\n\
+        numbers of all, differences to the first, units and definitions; and bar charts as PNG and SVG.\n\
+        Shaped gears: unevenness of the allowance by tooth (%), in one chart (first period of the pitch\n\
+        curve, and all teeth) and each on its own scale.\n\
+        Hobbed gears: what each tooth of the hob does over the whole process: volume (mm3), largest\n\
+        uncut chip thickness (mm), way cut (mm). The table adds the peak-load ratio (largest volume of\n\
+        a hob tooth in the first result over that in each: 2 means that the hardest working tooth does\n\
+        half), teeth in use, idle time, marks and heights Sa, Sq, Sz.\n\
         Load is no life: wear follows heat and chip thickness besides. Prints the table.")]
     Compare(CompareArguments),
     /// Evaluate the texture of a surface, measured or cut: ISO 25178-2 and ISO 21920-2 parameters.

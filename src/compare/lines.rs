@@ -51,12 +51,19 @@ pub(super) fn of_hobbed(results: &[Compared<HobbedResults>]) -> Vec<Line> {
             of_load.extend(hob_load::peak_load_ratio(results, load));
             named.extend(prefixed(&format!("{}.hob_load", load.name), of_load));
         }
-        named.extend(prefixed("blank", quantities(&of.blank)));
+        // Of the blank what is left and what is hurt; how the rays stand is no result.
+        for key in ["left_volume", "gouges", "interference"] {
+            let mut of_blank = Vec::new();
+            collect(key, &of.blank[key], &mut of_blank);
+            named.extend(prefixed("blank", of_blank));
+        }
         named.extend(prefixed("offset_curves", quantities(&of.offset_curves)));
         for marks in &of.marks {
             for (number, step) in (1..).zip(&marks.steps) {
                 let place = format!("marks.tooth_{}_{}.step_{number}", marks.tooth, marks.flank);
-                named.extend(prefixed(&place, quantities(step)));
+                for source in ["kinematic", "surface"] {
+                    named.extend(prefixed(&format!("{place}.{source}"), quantities(&step[source])));
+                }
             }
         }
         for window in &of.texture {
@@ -104,12 +111,12 @@ fn quantities(of: &impl Serialize) -> Named {
 }
 
 fn collect(prefix: &str, value: &Value, found: &mut Named) {
-    let Value::Object(entries) = value else { return };
-    for (key, entry) in entries {
-        let name = if prefix.is_empty() { key.clone() } else { format!("{prefix}.{key}") };
-        match quantity(entry) {
-            Some(quantity) => found.push((name, quantity)),
-            None => collect(&name, entry, found),
+    if let Some(quantity) = quantity(value) {
+        found.push((prefix.to_owned(), quantity));
+    } else if let Value::Object(entries) = value {
+        for (key, entry) in entries {
+            let name = if prefix.is_empty() { key.clone() } else { format!("{prefix}.{key}") };
+            collect(&name, entry, found);
         }
     }
 }

@@ -9,6 +9,9 @@ use crate::output::quantity::Quantity;
 use crate::output::table::{Cell, write_table};
 use crate::output::text::significant;
 
+/// Longest words that stand in a column of the terminal, characters.
+const LONGEST_WORDS: usize = 20;
+
 impl Comparison {
     pub(super) fn write_csv(&self, path: &Path) -> Result<()> {
         let values: Vec<String> = letters().take(self.names.len()).map(String::from).collect();
@@ -66,6 +69,8 @@ fn printed(quantity: Option<&Quantity>) -> String {
     let Some(quantity) = quantity else { return "none".to_owned() };
     match (quantity.value(), quantity.words()) {
         (Some(value), _) => significant(value, 4),
+        // Places are told at length in the file.
+        (None, Some(words)) if words.chars().count() > LONGEST_WORDS => "told in the file".to_owned(),
         (None, Some(words)) => words.to_owned(),
         (None, None) => "none".to_owned(),
     }
