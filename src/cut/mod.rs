@@ -15,6 +15,9 @@ use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
 use cpu::blank::{BlankCut, BlankOperation};
 
+/// Heights below this are the kernels' own error and shown as zero, µm.
+pub const KERNEL_UM: f64 = 1e-4;
+
 /// What a backend met besides heights.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct CutStats {
