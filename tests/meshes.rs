@@ -6,7 +6,7 @@ mod contour;
 use contour::crossings;
 use gearcut::cut::cpu::Cpu;
 use gearcut::gear::generation::Side;
-use gearcut::job::{GearJob, Job};
+use gearcut::job::Job;
 use gearcut::scene;
 use gearcut::surface::gear_solid::gear_solid;
 use gearcut::surface::gear_surfaces::complete;

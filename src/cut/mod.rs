@@ -19,6 +19,9 @@ use cpu::blank::{BlankCut, BlankOperation};
 use std::ops::Range;
 use sweep_chips::SweepsCut;
 
+/// Heights below this are the kernels' own error and shown as zero, µm.
+pub const KERNEL_UM: f64 = 1e-4;
+
 /// What a backend met besides heights.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct CutStats {

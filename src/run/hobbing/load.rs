@@ -16,7 +16,7 @@ const ASSUMPTION: &str = "volume that a tooth takes, as a measure of the work th
 type Chart = (&'static str, &'static str, &'static str, fn(&ToothLoad) -> f64);
 
 const CHARTS: [Chart; 3] = [
-    ("volume", "volume taken", "mm3", |load| load.volume_mm3),
+    ("volume", "volume taken", "mm³", |load| load.volume_mm3),
     ("thickness", "largest uncut chip thickness", "mm", |load| load.thickness_mm),
     ("way", "way cut", "m", |load| load.way_mm * 1e-3),
 ];
