@@ -8,7 +8,9 @@
 //!
 //! The peer's case is one space of a spur gear, cut by the 363 sweeps that `benches/peers/manifold_hobbing.py` subtracts: both flanks, every 9 to 25 um by 50 um.
 //!
-//! `cargo bench --bench hobbed_gear` for all; `-- flank` for the parts alone, `-- peer` for the peer's case alone.
+//! The whole blank of the same gear, rays 0.3 mm apart, slices 1 mm and 0.3 mm apart: pairs of ray and sweep stand beside the time.
+//!
+//! `cargo bench --bench hobbed_gear` for all; `-- flank` for the parts alone, `-- peer` for the peer's case alone, `-- blank` for the whole blank alone.
 
 mod common;
 #[allow(
@@ -134,6 +136,37 @@ fn whole_gear(cutter: &HobCutter) {
     );
 }
 
+/// The whole blank, at some distances of rays and slices.
+fn whole_blank() {
+    for slice_spacing_mm in [1.0, 0.3] {
+        let sets = [format!("fields.blank.slice_spacing_mm={slice_spacing_mm}")];
+        let scene = load(Path::new("scenes/hobbing/third_order_plain.toml"), &sets).expect("the scene").scene;
+        let job = HobbingJob::new(&scene).expect("the gear");
+        let cutter = HobCutter::new(&job).expect("passes");
+        let field = job.blank_field().expect("fits in memory");
+        let expected_mb = 1e-6 * field.grid.estimated_bytes(&job.blank);
+        let (before, started) = (processor_seconds(), Instant::now());
+        let cut = cutter.cut_blank(field, &|| true).expect("not stopped").cut;
+        let (wall, processor) = (started.elapsed().as_secs_f64(), processor_seconds() - before);
+        let (field, stats) = (&cut.field, cut.cuts[0].stats);
+        println!(
+            "whole blank, rays {} mm, {} slices: {wall:.1} s ({processor:.1} s of processor time) on {} threads; {:.0} MB, {expected_mb:.0} MB expected",
+            field.grid.spacing_mm(),
+            field.slices.len(),
+            rayon::current_num_threads(),
+            1e-6 * field.bytes() as f64,
+        );
+        println!(
+            "  pairs of ray and sweep: {:.1} million visited, {:.1} million solved, {:.1} million removed something; {:.0} ns of processor time per visited, {:.0} ns per solved pair",
+            1e-6 * stats.visited as f64,
+            1e-6 * stats.solved as f64,
+            1e-6 * stats.removing as f64,
+            1e9 * processor / stats.visited as f64,
+            1e9 * processor / stats.solved as f64,
+        );
+    }
+}
+
 /// One space of the spur gear of the peer: 11 revolutions of the work.
 fn peer() {
     let file = data("p12_patch_spur");
@@ -183,12 +216,15 @@ fn main() {
     println!("{}", common::machine());
     // `cargo test --benches` only wants to see that it runs.
     let only = |name: &str| std::env::args().any(|argument| argument == name);
-    let [flank_only, peer_only] = ["flank", "peer"].map(only);
-    if !flank_only {
+    let [flank_only, peer_only, blank_only] = ["flank", "peer", "blank"].map(only);
+    if !flank_only && !blank_only {
         peer();
     }
     if peer_only {
         return;
+    }
+    if blank_only {
+        return whole_blank();
     }
     let scene = load(Path::new("scenes/hobbing/third_order_plain.toml"), &[]).expect("the scene").scene;
     let job = HobbingJob::new(&scene).expect("the gear");
@@ -199,5 +235,6 @@ fn main() {
     }
     if !flank_only && !only("--test") {
         whole_gear(&cutter);
+        whole_blank();
     }
 }

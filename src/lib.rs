@@ -18,6 +18,7 @@ pub mod measure;
 pub mod output;
 pub mod passes;
 pub mod planar_rays;
+pub mod ray_reach;
 pub mod run;
 pub mod scene;
 pub mod surface;

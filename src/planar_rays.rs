@@ -168,43 +168,6 @@ pub struct RayCrossings {
 }
 
 impl RayCrossings {
-    /// Between which places every ray of `window` can cross the curve at all, from the chords alone; the lower one is larger where it cannot.
-    pub fn reach_mm(
-        curve: &impl ClosedCurve,
-        family: Family,
-        row: &RayRow,
-        window: Range<usize>,
-        reach_mm: &mut Vec<[f64; 2]>,
-    ) {
-        reach_mm.clear();
-        reach_mm.resize(window.len(), [f64::INFINITY, f64::NEG_INFINITY]);
-        let pieces = curve.pieces();
-        let mut start = curve.node_mm(0);
-        for (index, piece) in pieces.iter().enumerate() {
-            let end = curve.node_mm((index + 1) % pieces.len());
-            let slack_mm = piece.sagitta_mm;
-            let [a, b] = [start, end].map(|p| [family.across(p), family.along(p)]);
-            start = end;
-            let (low, high) = (a[1].min(b[1]) - slack_mm, a[1].max(b[1]) + slack_mm);
-            let run = b[0] - a[0];
-            // Slack and slope along the rays; where the piece runs along them its whole length stands for it.
-            let slope = (b[1] - a[1]) / run;
-            let along_slack_mm = slack_mm * (1.0 + slope * slope).sqrt() + 1e-9;
-            let from = row.first_at_or_above(a[0].min(b[0]) - slack_mm).max(window.start);
-            let to = row.first_at_or_above(a[0].max(b[0]) + slack_mm).min(window.end);
-            if from >= to {
-                continue;
-            }
-            // Not a number where the run is zero: then the piece's own ends are taken.
-            let (first, step) = (a[1] + slope * (row.at_mm(from) - a[0]), slope * row.spacing_mm);
-            for (i, reach) in reach_mm[from - window.start..to - window.start].iter_mut().enumerate() {
-                let near = first + step * i as f64;
-                reach[0] = reach[0].min((near - along_slack_mm).max(low));
-                reach[1] = reach[1].max((near + along_slack_mm).min(high));
-            }
-        }
-    }
-
     /// Finds which rays of `window` cross which parts of the curve.
     pub fn lay(&mut self, curve: &impl ClosedCurve, family: Family, row: &RayRow, window: Range<usize>) {
         self.lay_within(curve, family, row, window, 0.0);

@@ -102,6 +102,11 @@ impl BlankGrid {
         self.rows[0].spacing_mm
     }
 
+    /// Distance of neighbouring slices, mm; the face's width where a single one stands for it.
+    pub fn slice_spacing_mm(&self) -> f64 {
+        self.leads_mm.get(1).map_or(self.face_width_mm, |second| second - self.leads_mm[0])
+    }
+
     /// What all its slices are estimated to need once teeth are cut, bytes.
     pub fn estimated_bytes(&self, blank: &Blank) -> f64 {
         let [x, y] = [1, 0].map(|f: usize| self.rows[f].spacing_mm * self.rows[f].count as f64);

@@ -7,6 +7,7 @@
 pub mod blank_field;
 pub mod field;
 pub mod intervals;
+pub mod span_table;
 pub mod spatial;
 
 pub use blank_field::{BlankField, BlankGrid};

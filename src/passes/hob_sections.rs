@@ -16,51 +16,42 @@
 //!
 //! The road not taken: rays against segments with two unknowns each, as flanks are cut. Rays of a slice lie side by side, and one walk along the outline finds the crossings of all of them.
 
-use super::hob_teeth::{BladePass, HobTeeth, SWEEP_RAD};
+use super::hob_teeth::{HobTeeth, SWEEP_RAD};
+use super::swept_pose::{SliceCrossing, Sweeping};
 use crate::planar_rays::{ClosedCurve, Family, Piece};
 use crate::tool::edge::{Edge, Segment};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 
 /// Longest piece of the edge, as a share of the distance of its tip from the axis: a cubic over it misses some nanometres where the sweep leaves the work.
 const PIECE_SHARE: f64 = 0.03;
 /// Largest turn of the edge within a piece, rad.
 const PIECE_TURN_RAD: f64 = 0.1;
-/// Powers of a pass's pose over its sweep.
-const TERMS: usize = 6;
-/// Rotation, column by column, and translation.
-const ENTRIES: usize = 12;
-/// Steps to the moment at most, and the last one, rad: the error after it is of its square.
-const MOST_STEPS: usize = 20;
-const LAST_STEP_RAD: f64 = 1e-6;
-/// A section is looked for up to this angle: a little beyond the sweep, where the outline is closed.
-const LARGEST_ANGLE_RAD: f64 = 1.25;
+/// Height of slices that one section tells about, as a share of the distance of the edge's tip from the axis.
+const BAND_SHARE: f64 = 0.03;
 /// Distance of the places along the face at which passes are judged beforehand, mm.
 const JUDGED_EVERY_MM: f64 = 5.0;
 
 /// The passes of an operation, ready to be cut at any height.
 pub struct HobSections {
     /// Ends of the pieces in the rake face: distance from the axis and y.
-    nodes_mm: Vec<DVec2>,
+    pub(super) nodes_mm: Vec<DVec2>,
     /// Directions at both ends of every piece, per piece.
-    rates_mm: Vec<[DVec2; 2]>,
+    pub(super) rates_mm: Vec<[DVec2; 2]>,
     /// Passes that may reach the blank, in order of time.
-    passes: Vec<Sweeping>,
+    pub(super) passes: Vec<Sweeping>,
     /// Radius of the tip, mm.
-    tip_mm: f64,
+    pub(super) tip_mm: f64,
     /// Largest distance of an edge point from the middle of its blade, mm.
     widest_mm: f64,
     twist_rad_per_mm: f64,
-}
-
-/// A pass with its pose as polynomials of the swept angle.
-struct Sweeping {
-    pass: u32,
-    axial_mm: f64,
-    y_sign: f64,
-    /// `work_from_head` in powers of delta / [`SWEEP_RAD`].
-    pose: [[f64; ENTRIES]; TERMS],
+    /// Longest piece of the edge, mm.
+    pub(super) longest_mm: f64,
+    /// Whether passes are held against what is left before they are followed to a slice; otherwise every pass visits every ray: what refusals are proved against.
+    refuses: bool,
+    /// Share of the slack that outlines get when they are held against what is left: 1. Less refuses passes that matter; tests plant it.
+    pub slack_share: f64,
 }
 
 /// What the edge leaves of one sweep in one slice.
@@ -89,7 +80,8 @@ impl HobSections {
     /// Passes of an operation for a blank within `reach_mm` of the gear axis, over the face; all of them, wherever they are, if not `cull`.
     pub fn new(set: &HobTeeth, edge: &Edge, reach_mm: f64, face_width_mm: f64, cull: bool) -> Self {
         let tip_mm = edge.segments.iter().flat_map(|s| s.y_range_mm.map(|y| place(s, y)[0].x)).fold(0.0, f64::max);
-        let (mut nodes_mm, mut rates_mm) = edge_pieces(edge, PIECE_SHARE * tip_mm);
+        let longest_mm = PIECE_SHARE * tip_mm;
+        let (mut nodes_mm, mut rates_mm) = edge_pieces(edge, longest_mm);
         let passes: Vec<Sweeping> =
             (0..set.count()).into_par_iter().map(|i| Sweeping::new(set, &set.pass(i))).collect();
         // Seen along the gear axis the rake face may show its other side: inside is on the left there too.
@@ -102,7 +94,17 @@ impl HobSections {
         }
         let widest_mm = nodes_mm.iter().map(|node| node.y.abs()).fold(0.0, f64::max);
         let twist_rad_per_mm = set.rake_twist_rad_per_mm;
-        let mut sections = Self { nodes_mm, rates_mm, passes, tip_mm, widest_mm, twist_rad_per_mm };
+        let mut sections = Self {
+            nodes_mm,
+            rates_mm,
+            passes,
+            tip_mm,
+            widest_mm,
+            twist_rad_per_mm,
+            longest_mm,
+            refuses: cull,
+            slack_share: 1.0,
+        };
         if cull {
             let tooth_mm = 2.0 * edge.reach_mm;
             let places = (face_width_mm / JUDGED_EVERY_MM).ceil().max(1.0);
@@ -132,6 +134,16 @@ impl HobSections {
         self.passes.is_empty()
     }
 
+    /// Whether passes are held against what is left before they are followed to a slice.
+    pub fn refuses(&self) -> bool {
+        self.refuses
+    }
+
+    /// Height of slices that one section tells enough about, mm: outlines get some hundredths of a millimetre of slack at most, a few micrometres in the middle of a sweep.
+    pub fn band_mm(&self) -> f64 {
+        BAND_SHARE * self.tip_mm
+    }
+
     /// Half the way along the hob's circumference direction that the tip goes through before it is behind the blank, mm.
     fn half_way_mm(&self) -> f64 {
         self.tip_mm * SWEEP_RAD.sin()
@@ -144,41 +156,23 @@ impl HobSections {
             return None;
         }
         let swept = (behind / self.tip_mm).clamp(-0.86, 0.86).asin();
-        let [place, _] = pass.at(swept, DVec2::new(self.tip_mm, 0.0), self.twist_rad_per_mm);
-        Some(place.truncate())
+        Some(pass.place_mm(swept, DVec2::new(self.tip_mm, 0.0), self.twist_rad_per_mm).truncate())
     }
 
     /// Section of pass `index` at a place along the face, into memory that is reused. `false`: the pass does not cross the slice where the blank may be.
     pub fn section(&self, index: usize, z_mm: f64, into: &mut SweptSection) -> bool {
         let pass = &self.passes[index];
         let behind_mm = pass.behind_mm(z_mm);
-        if behind_mm.abs() >= self.half_way_mm() {
-            return false;
-        }
-        // Nearer to the axis than this the edge is behind the blank, or never in this slice.
-        let least_mm = (behind_mm.abs() + pass.lean() * self.widest_mm).hypot(SWEEP_RAD.cos() * self.tip_mm);
-        let reaches = |node: &DVec2| node.x >= least_mm;
-        let (Some(first), Some(last)) =
-            (self.nodes_mm.iter().position(reaches), self.nodes_mm.iter().rposition(reaches))
-        else {
-            return false;
-        };
-        if first == last {
-            return false;
-        }
+        let Some(reached) = self.reached(pass, behind_mm) else { return false };
         let tip = (behind_mm / self.tip_mm).asin();
         into.pass = pass.pass;
         into.heading = SweepHeading { way_per_mm: pass.way_per_mm() / tip.cos(), axis_and_out: pass.axis_and_out(tip) };
         into.pieces.clear();
         into.nodes_mm.clear();
         into.rates_mm.clear();
+        let (first, last) = (*reached.nodes.start(), *reached.nodes.end());
         let mut inner_mm = [DVec2::ZERO; 2];
-        let mut swept = (behind_mm / self.nodes_mm[first].x).clamp(-1.0, 1.0).asin();
-        for index in first..=last {
-            let node = self.nodes_mm[index];
-            let Some(at) = pass.moment(swept, node, self.twist_rad_per_mm, z_mm) else { return false };
-            swept = at;
-            let crossing = pass.crossing(swept, node, self.twist_rad_per_mm);
+        let found = self.walk(pass, z_mm, behind_mm, reached.nodes.clone(), |index, node, crossing| {
             if index > first {
                 let end = crossing.rate(self.rates_mm[index - 1][1]);
                 if let Some(rates) = into.rates_mm.last_mut() {
@@ -189,15 +183,15 @@ impl HobSections {
                 into.rates_mm.push([crossing.rate(self.rates_mm[index][0]), DVec2::ZERO]);
             }
             if index == first || index == last {
-                inner_mm[usize::from(index == last)] = crossing.place_mm - (node.x - least_mm) * crossing.over_radius;
+                inner_mm[usize::from(index == last)] = crossing.inner_mm(node, reached.least_mm);
             }
             into.nodes_mm.push(crossing.place_mm);
+        });
+        if !found {
+            return false;
         }
         for (index, rates) in into.rates_mm.iter().enumerate() {
-            let chord = into.nodes_mm[index + 1] - into.nodes_mm[index];
-            let across = chord.normalize_or_zero();
-            // A cubic stays within the polygon of its control points.
-            let sagitta_mm = across.perp_dot(rates[0]).abs().max(across.perp_dot(rates[1]).abs()) / 3.0 + 1e-9;
+            let sagitta_mm = sagitta_mm([into.nodes_mm[index], into.nodes_mm[index + 1]], rates);
             into.pieces.push(Piece { law: index as u32, range: [0.0, 1.0], sagitta_mm });
         }
         // Through the hob's body, behind the blank.
@@ -205,6 +199,52 @@ impl HobSections {
         into.pieces.extend([Piece { law: Piece::STRAIGHT, range: [0.0, 1.0], sagitta_mm: 0.0 }; 3]);
         true
     }
+
+    /// Which part of the edge may meet the blank in a slice that lies so far behind the middle of a sweep. `None`: no part.
+    pub(super) fn reached(&self, pass: &Sweeping, behind_mm: f64) -> Option<ReachedEdge> {
+        if behind_mm.abs() >= self.half_way_mm() {
+            return None;
+        }
+        // Nearer to the axis than this the edge is behind the blank, or never in this slice.
+        let least_mm = (behind_mm.abs() + pass.lean() * self.widest_mm).hypot(SWEEP_RAD.cos() * self.tip_mm);
+        let reaches = |node: &DVec2| node.x >= least_mm;
+        let first = self.nodes_mm.iter().position(reaches)?;
+        let last = self.nodes_mm.iter().rposition(reaches)?;
+        (first < last).then_some(ReachedEdge { nodes: first..=last, least_mm })
+    }
+
+    /// Follows ends of pieces to the moments at which they go through a slice: `visit` gets the index, the point of the edge and its crossing. `false`: one of them has no such moment.
+    pub(super) fn walk(
+        &self,
+        pass: &Sweeping,
+        z_mm: f64,
+        behind_mm: f64,
+        nodes: RangeInclusive<usize>,
+        mut visit: impl FnMut(usize, DVec2, &SliceCrossing),
+    ) -> bool {
+        let mut swept = (behind_mm / self.nodes_mm[*nodes.start()].x).clamp(-1.0, 1.0).asin();
+        for index in nodes {
+            let node = self.nodes_mm[index];
+            let Some(at) = pass.moment(swept, node, self.twist_rad_per_mm, z_mm) else { return false };
+            swept = at;
+            visit(index, node, &pass.crossing(swept, node, self.twist_rad_per_mm));
+        }
+        true
+    }
+}
+
+/// Part of the edge that may meet the blank in a slice.
+pub(super) struct ReachedEdge {
+    /// Ends of pieces.
+    pub nodes: RangeInclusive<usize>,
+    /// The curve is closed at this distance from the tool's axis, mm.
+    pub least_mm: f64,
+}
+
+/// Largest distance of a piece from its chord, from the rates over its parameter at both ends: a cubic stays within the polygon of its control points.
+pub(super) fn sagitta_mm(nodes_mm: [DVec2; 2], rates_mm: &[DVec2; 2]) -> f64 {
+    let across = (nodes_mm[1] - nodes_mm[0]).normalize_or_zero();
+    across.perp_dot(rates_mm[0]).abs().max(across.perp_dot(rates_mm[1]).abs()) / 3.0 + 1e-9
 }
 
 impl SweptSection {
@@ -248,151 +288,6 @@ impl ClosedCurve for SweptSection {
         self.rates_mm[index]
     }
 }
-
-/// Where an edge point crosses a slice, with how the place follows the edge point.
-struct SliceCrossing {
-    place_mm: DVec2,
-    /// Per mm of distance from the axis, and per mm of y.
-    over_radius: DVec2,
-    over_y: DVec2,
-}
-
-impl SliceCrossing {
-    fn rate(&self, edge_rate: DVec2) -> DVec2 {
-        edge_rate.x * self.over_radius + edge_rate.y * self.over_y
-    }
-}
-
-impl Sweeping {
-    fn new(set: &HobTeeth, pass: &BladePass) -> Self {
-        let place = set.place(pass);
-        let mut pose = [[0.0; ENTRIES]; TERMS];
-        // Chebyshev nodes and polynomials over the sweep, then powers.
-        for node in 0..TERMS {
-            let angle = PI * (node as f64 + 0.5) / TERMS as f64;
-            let swept = SWEEP_RAD * angle.cos();
-            let work_from_head = set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).inverse();
-            let mut entries = [0.0; ENTRIES];
-            entries[..9].copy_from_slice(&work_from_head.rotation.to_cols_array());
-            entries[9..].copy_from_slice(&work_from_head.translation_mm.to_array());
-            for (k, powers) in CHEBYSHEV.iter().enumerate() {
-                let weight = (k as f64 * angle).cos() * if k == 0 { 1.0 } else { 2.0 } / TERMS as f64;
-                for (term, power) in pose.iter_mut().zip(powers) {
-                    for (coefficient, value) in term.iter_mut().zip(&entries) {
-                        *coefficient += weight * power * value;
-                    }
-                }
-            }
-        }
-        Self { pass: pass.pass, axial_mm: place.axial_mm, y_sign: place.y_sign, pose }
-    }
-
-    /// Values and rates over the swept angle of some entries of the pose.
-    fn entries<const N: usize>(&self, swept: f64, which: [usize; N]) -> [[f64; 2]; N] {
-        let u = swept / SWEEP_RAD;
-        which.map(|entry| {
-            let (mut value, mut rate) = (self.pose[TERMS - 1][entry], 0.0);
-            for term in self.pose[..TERMS - 1].iter().rev() {
-                rate = rate * u + value;
-                value = value * u + term[entry];
-            }
-            [value, rate / SWEEP_RAD]
-        })
-    }
-
-    /// How far the slice lies from the blade's axis in the direction in which the blade moves in the middle of its sweep, mm.
-    fn behind_mm(&self, z_mm: f64) -> f64 {
-        let [[along, _], [axis, _], [middle, _]] = self.entries(0.0, [5, 8, 11]);
-        (z_mm - middle - axis * self.axial_mm) / along
-    }
-
-    /// Way of the blade per mm of the gear's axis in the middle of its sweep.
-    fn way_per_mm(&self) -> f64 {
-        let [[along, _]] = self.entries(0.0, [5]);
-        along.abs().recip()
-    }
-
-    /// Directions of the tool's axis and of the blade out of it at a moment, gear frame.
-    fn axis_and_out(&self, swept: f64) -> [DVec3; 2] {
-        let [a, b, c, d, e, f, g, h, i] = self.entries(swept, [0, 1, 2, 3, 4, 5, 6, 7, 8]).map(|[value, _]| value);
-        let (sin, cos) = swept.sin_cos();
-        [DVec3::new(g, h, i), cos * DVec3::new(a, b, c) + sin * DVec3::new(d, e, f)]
-    }
-
-    /// How far the slice moves along the blade's way per mm of its y.
-    fn lean(&self) -> f64 {
-        let [[along, _], [axis, _]] = self.entries(0.0, [5, 8]);
-        (axis / along).abs()
-    }
-
-    /// Whether the rake face is seen from behind along the gear axis.
-    fn is_turned_over(&self) -> bool {
-        let turn = self.entries(0.0, [0, 1, 6, 7]).map(|[value, _]| value);
-        DVec2::new(turn[0], turn[1]).perp_dot(self.y_sign * DVec2::new(turn[2], turn[3])) < 0.0
-    }
-
-    fn in_head(&self, swept: f64, node: DVec2, twist_rad_per_mm: f64) -> [DVec3; 2] {
-        let (sin, cos) = (swept + twist_rad_per_mm * node.y).sin_cos();
-        let place = DVec3::new(node.x * cos, node.x * sin, self.axial_mm + self.y_sign * node.y);
-        [place, DVec3::new(-node.x * sin, node.x * cos, 0.0)]
-    }
-
-    /// Moment at which an edge point goes through a slice, from a guess.
-    fn moment(&self, guess: f64, node: DVec2, twist_rad_per_mm: f64, z_mm: f64) -> Option<f64> {
-        let mut swept = guess;
-        for _ in 0..MOST_STEPS {
-            let [x, y, z, shift] = self.entries(swept, [2, 5, 8, 11]);
-            let [place, turning] = self.in_head(swept, node, twist_rad_per_mm);
-            let value = x[0] * place.x + y[0] * place.y + z[0] * place.z + shift[0] - z_mm;
-            let rate =
-                x[0] * turning.x + y[0] * turning.y + (x[1] * place.x + y[1] * place.y + z[1] * place.z) + shift[1];
-            let step = value / rate;
-            swept -= step;
-            if step.abs() < LAST_STEP_RAD {
-                return Some(swept);
-            }
-            if step.is_nan() || swept.abs() > LARGEST_ANGLE_RAD {
-                return None;
-            }
-        }
-        None
-    }
-
-    /// Place in the work and its rate over the swept angle.
-    fn at(&self, swept: f64, node: DVec2, twist_rad_per_mm: f64) -> [DVec3; 2] {
-        let e = self.entries(swept, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
-        let [place, turning] = self.in_head(swept, node, twist_rad_per_mm);
-        let column = |k: usize, part: usize| DVec3::new(e[k][part], e[k + 1][part], e[k + 2][part]);
-        let turned = |v: DVec3, part: usize| column(0, part) * v.x + column(3, part) * v.y + column(6, part) * v.z;
-        [turned(place, 0) + column(9, 0), turned(place, 1) + column(9, 1) + turned(turning, 0)]
-    }
-
-    /// The point at its moment, and how its place in the slice follows the edge point.
-    fn crossing(&self, swept: f64, node: DVec2, twist_rad_per_mm: f64) -> SliceCrossing {
-        let e = self.entries(swept, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
-        let [place, turning] = self.in_head(swept, node, twist_rad_per_mm);
-        let column = |k: usize, part: usize| DVec3::new(e[k][part], e[k + 1][part], e[k + 2][part]);
-        let turned = |v: DVec3, part: usize| column(0, part) * v.x + column(3, part) * v.y + column(6, part) * v.z;
-        let place_mm = turned(place, 0) + column(9, 0);
-        let over_swept = turned(place, 1) + column(9, 1) + turned(turning, 0);
-        let out = DVec3::new(place.x, place.y, 0.0) / node.x;
-        let over_radius = turned(out, 0);
-        let over_y = turned(twist_rad_per_mm * turning + DVec3::new(0.0, 0.0, self.y_sign), 0);
-        // The moment moves so that the point stays in the slice.
-        let held = |v: DVec3| (v - over_swept * (v.z / over_swept.z)).truncate();
-        SliceCrossing { place_mm: place_mm.truncate(), over_radius: held(over_radius), over_y: held(over_y) }
-    }
-}
-
-/// Chebyshev polynomials in powers.
-const CHEBYSHEV: [[f64; TERMS]; TERMS] = [
-    [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
-    [-1.0, 0.0, 2.0, 0.0, 0.0, 0.0],
-    [0.0, -3.0, 0.0, 4.0, 0.0, 0.0],
-    [1.0, 0.0, -8.0, 0.0, 8.0, 0.0],
-    [0.0, 5.0, 0.0, -20.0, 0.0, 16.0],
-];
 
 /// Ends of the pieces of an edge in the blade frame, and the directions at both ends of each over a parameter from 0 to 1.
 fn edge_pieces(edge: &Edge, longest_mm: f64) -> (Vec<DVec2>, Vec<[DVec2; 2]>) {

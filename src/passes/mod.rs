@@ -9,6 +9,7 @@ pub mod motion;
 pub mod near;
 pub mod record;
 pub mod rulers;
+pub mod section_band;
 pub mod spells;
 pub mod strokes;
 pub mod sweep;
@@ -16,6 +17,7 @@ mod sweep_bounds;
 pub mod sweep_plan;
 pub mod sweep_roots;
 mod sweep_samples;
+mod swept_pose;
 
 pub use candidates::{CutPlan, Tile};
 pub use hob_teeth::HobTeeth;

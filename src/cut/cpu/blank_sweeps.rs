@@ -2,18 +2,26 @@
 //!
 //! In: a [`BlankField`], the passes as sections in its slices ([`HobSections`]). Out: the field after the operation and what every pass took.
 //!
-//! Slices go to the cores, each with all its passes in order of time: a sweep is followed into a slice once and laid over the rays of both families. Chips are summed in
-//! the order of the slices: same scene, same bytes.
+//! Some neighbouring slices go to a core together, with all passes in order of time. Most passes go where nothing is left: one section in the middle of the slices tells where a pass may be in each of them
+//! ([`SectionBand`]), and that is held against what is left there ([`RayReach`], [`SpanTable`]). Only a pass that may find something is followed into the slice and laid over those rays, of both
+//! families, near which it may. What a slice is left with does not depend on the others, and chips are summed in the order of the slices: same scene, same bytes. `tests/hobbed_blank.rs` compares
+//! spans, marks and chips with those of all passes on all rays, bit for bit, and plants a refusal that is wrong.
 
 use super::blank::{BlankCut, BlankStats, Scratch, Tile};
 use crate::dexel::blank_field::{BlankField, BlankGrid, Slice};
-use crate::dexel::intervals::{self, End, Span};
+use crate::dexel::intervals::{End, Span};
+use crate::dexel::span_table::SpanTable;
 use crate::passes::hob_sections::{HobSections, SweepHeading, SweptSection};
-use crate::planar_rays::{FAMILIES, Family, RayCrossings};
+use crate::passes::section_band::{InSlice, SectionBand};
+use crate::planar_rays::{FAMILIES, Family};
+use crate::ray_reach::{LooseOutline, RayReach};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::ops::Range;
+
+/// Most slices that are cut together.
+const BLOCK_SLICES: usize = 8;
 
 /// What a pass took.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,20 +53,28 @@ pub fn cut(
     advance: &(dyn Fn() -> bool + Sync),
 ) -> Option<SweepsCut> {
     let grid = &field.grid;
-    let cuts: Vec<Option<(Vec<PassChip>, BlankStats)>> = field
+    let block = block_slices(grid, sections);
+    let widths_mm = grid.slice_widths_mm();
+    let blocks: Vec<Option<Vec<(Vec<PassChip>, BlankStats)>>> = field
         .slices
-        .par_iter_mut()
-        .zip(grid.slice_widths_mm())
+        .par_chunks_mut(block)
         .enumerate()
-        .map(|(index, (slice, width_mm))| {
-            let cut = cut_slice(grid, slice, index, width_mm, sections);
-            advance().then_some(cut)
+        .map(|(place, slices)| {
+            let cuts = slices.iter_mut().enumerate().map(|(i, slice)| SliceCut {
+                index: (place * block + i) as u32,
+                z_mm: grid.leads_mm[place * block + i],
+                width_mm: widths_mm[place * block + i],
+                left: [0, 1].map(|f: usize| SpanTable::new(&slice.rays[f])),
+                slice,
+                chips: Vec::new(),
+                stats: BlankStats::default(),
+            });
+            cut_block(grid, cuts.collect(), sections, advance)
         })
         .collect();
     let mut books = ChipBooks::new(passes);
     let mut stats = BlankStats::default();
-    for cut in cuts {
-        let (of_slice, met) = cut?;
+    for (of_slice, met) in blocks.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten() {
         for chip in &of_slice {
             books.enter(chip);
         }
@@ -112,55 +128,123 @@ impl PassChip {
     }
 }
 
-/// Chips of one slice in order of time.
-fn cut_slice(
-    grid: &BlankGrid,
-    slice: &mut Slice,
-    index: usize,
+/// Slices that are cut together: as many as a section in their middle tells about.
+pub(in crate::cut) fn block_slices(grid: &BlankGrid, sections: &HobSections) -> usize {
+    let spacing_mm = grid.slice_spacing_mm();
+    ((sections.band_mm() / spacing_mm) as usize + 1).min(BLOCK_SLICES)
+}
+
+/// A slice while it is cut.
+struct SliceCut<'a> {
+    slice: &'a mut Slice,
+    index: u32,
+    z_mm: f64,
     width_mm: f64,
+    /// What is left on the rays of both families, at a glance.
+    left: [SpanTable; 2],
+    chips: Vec<PassChip>,
+    stats: BlankStats,
+}
+
+/// Memory that is used over and over.
+#[derive(Default)]
+struct Memory {
+    band: SectionBand,
+    section: SweptSection,
+    outline: LooseOutline,
+    reach: RayReach,
+    /// Rays of both families on which a pass may find something.
+    near: [Vec<usize>; 2],
+    tile: Scratch,
+    surfaces: ChipSurfaces,
+}
+
+/// Neighbouring slices with all passes in order of time. `advance` is called as often as there are slices, whenever another such share of the passes is done.
+fn cut_block(
+    grid: &BlankGrid,
+    mut slices: Vec<SliceCut>,
     sections: &HobSections,
-) -> (Vec<PassChip>, BlankStats) {
-    let (mut chips, mut stats) = (Vec::new(), BlankStats::default());
-    let (mut scratch, mut section) = (Scratch::default(), SweptSection::default());
-    let (mut surfaces, mut reach_mm) = (ChipSurfaces::default(), Vec::new());
+    advance: &(dyn Fn() -> bool + Sync),
+) -> Option<Vec<(Vec<PassChip>, BlankStats)>> {
+    let mut memory = Memory::default();
+    let z_range_mm = [slices[0].z_mm, slices[slices.len() - 1].z_mm];
+    let mut shares = 0;
     for pass in 0..sections.len() {
-        if !sections.section(pass, grid.leads_mm[index], &mut section) {
-            continue;
+        if !sections.refuses() || memory.band.set(sections, pass, z_range_mm) {
+            for slice in &mut slices {
+                slice.cut(grid, sections, pass, &mut memory);
+            }
+        }
+        while shares * sections.len() < (pass + 1) * slices.len() {
+            shares += 1;
+            if !advance() {
+                return None;
+            }
+        }
+    }
+    Some(slices.into_iter().map(|slice| (slice.chips, slice.stats)).collect())
+}
+
+impl SliceCut<'_> {
+    fn cut(&mut self, grid: &BlankGrid, sections: &HobSections, pass: usize, memory: &mut Memory) {
+        let Memory { band, section, outline, reach, near, tile: scratch, surfaces } = memory;
+        let mut followed = false;
+        if sections.refuses() {
+            match band.outline(sections, self.z_mm, outline) {
+                InSlice::Nowhere => return,
+                InSlice::Within => {}
+                InSlice::Unknown => {
+                    followed = true;
+                    if !sections.section(pass, self.z_mm, section) {
+                        return;
+                    }
+                    outline.set_chords(section);
+                }
+            }
+            for (f, family) in FAMILIES.into_iter().enumerate() {
+                reach.set(outline, family, &grid.rows[f]);
+                self.stats.visited += reach.rays.len() as u64;
+                let left = &self.left[f];
+                near[f].clear();
+                let may_hold = |(ray, places_mm): &(usize, &[f64; 2])| left.may_hold(*ray, **places_mm);
+                near[f].extend(reach.rays.clone().zip(&reach.places_mm).filter(may_hold).map(|(ray, _)| ray));
+            }
+            if near.iter().all(Vec::is_empty) {
+                return;
+            }
+        } else {
+            for (near, row) in near.iter_mut().zip(&grid.rows) {
+                near.clear();
+                near.extend(0..row.count);
+            }
+        }
+        if !followed && !sections.section(pass, self.z_mm, section) {
+            return;
         }
         let mut removed_mm3 = [0.0; 2];
         surfaces.clear();
         for (f, family) in FAMILIES.into_iter().enumerate() {
-            let row = &grid.rows[f];
-            let [low, high] = section.across_mm(family).map(|across| row.first_at_or_above(across));
-            if low >= high {
-                continue;
-            }
-            // Most passes go where nothing is left: bounds of all rays come first, and only the rays between the first and the last one near material are laid on the curve.
-            RayCrossings::reach_mm(&section, family, row, low..high, &mut reach_mm);
-            let rays = &slice.rays[f];
-            let near = |ray: &usize| {
-                let [from, to] = reach_mm[ray - low];
-                from <= to && intervals::overlaps(&rays[*ray], from, to)
-            };
-            stats.visited += (high - low) as u64;
-            let Some(first) = (low..high).find(near) else { continue };
-            let last = (first..high).rev().find(near).unwrap_or(first);
-            let rays = &mut slice.rays[f][first..=last];
-            let mut tile = Tile { family, row, first, rays, slice: index as u32 };
-            // Rays are counted above.
+            let (Some(&first), Some(&last)) = (near[f].first(), near[f].last()) else { continue };
+            let rays = &mut self.slice.rays[f][first..=last];
+            let mut tile = Tile { family, row: &grid.rows[f], first, rays, slice: self.index };
             let mut met = BlankStats::default();
-            let removed_mm = tile.take(&section, section.pass, &mut scratch, &mut met, |across_mm, spans, cut| {
+            let removed_mm = tile.take(section, section.pass, scratch, &mut met, |across_mm, spans, cut| {
                 surfaces.add(family, across_mm, spans, cut);
             });
-            stats.solved += met.solved;
-            stats.removing += met.removing;
-            removed_mm3[f] = removed_mm * grid.spacing_mm() * width_mm;
+            if sections.refuses() {
+                // Counted above, when they were held against what is left.
+                met.visited = 0;
+            }
+            self.stats += met;
+            removed_mm3[f] = removed_mm * grid.spacing_mm() * self.width_mm;
+            for &ray in &near[f] {
+                self.left[f].renew(ray, &self.slice.rays[f][ray]);
+            }
         }
         if removed_mm3 != [0.0; 2] {
-            chips.push(PassChip::of_slice(section.pass, &section.heading, removed_mm3, width_mm, &surfaces));
+            self.chips.push(PassChip::of_slice(section.pass, &section.heading, removed_mm3, self.width_mm, surfaces));
         }
     }
-    (chips, stats)
 }
 
 /// Points of the surfaces of one chip in one slice, with their normals.
@@ -168,8 +252,8 @@ fn cut_slice(
 pub(in crate::cut) struct ChipSurfaces {
     /// Left by earlier passes, or the blank's own.
     old: Vec<[DVec2; 2]>,
-    /// Left by this one.
-    new: Vec<[DVec2; 2]>,
+    /// Left by this one, and how many points of the old surface were known before: the nearest is hardly ever far from there.
+    new: Vec<([DVec2; 2], usize)>,
 }
 
 impl ChipSurfaces {
@@ -193,18 +277,36 @@ impl ChipSurfaces {
     pub fn add_piece(&mut self, family: Family, across_mm: f64, piece: &Span, pass: u32) {
         for end in [&piece.low, &piece.high] {
             let place = [family.point(end.at_mm, across_mm), DVec2::from_array(end.normal.map(f64::from))];
-            if end.pass == pass { self.new.push(place) } else { self.old.push(place) }
+            if end.pass == pass {
+                self.new.push((place, self.old.len()));
+            } else {
+                self.old.push(place);
+            }
         }
     }
 
     /// Second largest distance of points of the new surface from the tangents at the nearest points of the old one, across the swept surface: what one ray alone sees is a corner.
     fn thickness_mm(&self, heading: &SweepHeading) -> f64 {
-        let thickness = self.new.iter().filter_map(|[at, normal]| {
+        let mut largest = [0.0_f64; 2];
+        for ([at, normal], known) in &self.new {
             let distance = |old: &[DVec2; 2]| old[0].distance_squared(*at);
-            let nearest = self.old.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-            Some((nearest[0] - *at).dot(nearest[1]).abs() * heading.upright(*normal))
-        });
-        let largest = thickness.fold([0.0_f64; 2], |[first, second], mm| [first.max(mm), second.max(mm.min(first))]);
+            // No tangent is further away than the point that it touches: one near enough, and this place is not among the two. (Normals are unit vectors but for the last bits of f32.)
+            let enough = (largest[1] * (1.0 - 1e-6)).powi(2);
+            let (before, after) = self.old.split_at(*known);
+            if before.iter().rev().chain(after).any(|old| distance(old) <= enough) {
+                continue;
+            }
+            let mut nearest = (f64::INFINITY, None);
+            for old in &self.old {
+                let squared = distance(old);
+                if squared < nearest.0 {
+                    nearest = (squared, Some(old));
+                }
+            }
+            let Some(nearest) = nearest.1 else { continue };
+            let mm = (nearest[0] - *at).dot(nearest[1]).abs() * heading.upright(*normal);
+            largest = [largest[0].max(mm), largest[1].max(mm.min(largest[0]))];
+        }
         largest[1]
     }
 }
