@@ -60,7 +60,7 @@ pub fn cut(
 }
 
 /// Slices that are cut together: as many as a section in their middle tells about.
-fn block_slices(grid: &BlankGrid, sections: &HobSections) -> usize {
+pub(in crate::cut) fn block_slices(grid: &BlankGrid, sections: &HobSections) -> usize {
     let spacing_mm = grid.slice_spacing_mm();
     ((sections.band_mm() / spacing_mm) as usize + 1).min(BLOCK_SLICES)
 }

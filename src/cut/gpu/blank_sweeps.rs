@@ -16,10 +16,12 @@ use super::blank_rays::{PassWork, TakenPiece, Terms, TileDone, TileWork, parts};
 use super::problem::GpuProblem;
 use super::{Gpu, WORKGROUP_THREADS};
 use crate::cut::cpu::blank::BlankStats;
+use crate::cut::cpu::blank_sweeps::block_slices;
 use crate::cut::sweep_chips::{ChipBooks, ChipSurfaces, PassChip, SweepsCut};
 use crate::dexel::blank_field::{BlankField, BlankGrid, Slice};
-use crate::dexel::intervals;
+use crate::dexel::span_table::SpanTable;
 use crate::passes::hob_sections::{HobSections, SweepHeading, SweptSection};
+use crate::passes::section_band::{InSlice, SectionBand};
 use crate::planar_rays::{FAMILIES, Family, RayCrossings};
 use crate::ray_reach::{LooseOutline, RayReach};
 use rayon::prelude::*;
@@ -55,19 +57,20 @@ impl Gpu {
         let widest_mm = grid.rows.iter().map(|row| row.count as f64 * row.spacing_mm).fold(0.0, f64::max);
         let mut terms = Terms::new(grid.spacing_mm(), widest_mm, first_room);
         terms.piece_room = (PIECES_PER_SPAN * terms.first_room).max(1);
+        let block = block_slices(&grid, sections);
         let mut books = ChipBooks::new(passes);
         let mut advanced = 0;
         for first in (0..sections.len()).step_by(CHUNK_PASSES) {
             let chunk = first..(first + CHUNK_PASSES).min(sections.len());
-            let visits: Vec<SliceVisits> = slices
-                .par_iter()
-                .zip(&grid.leads_mm)
-                .map(|(slice, &lead_mm)| SliceVisits::compose(&grid, slice, lead_mm, sections, chunk.clone()))
+            let visits: Vec<Vec<SliceVisits>> = slices
+                .par_chunks(block)
+                .enumerate()
+                .map(|(place, slices)| SliceVisits::of_block(&grid, slices, place * block, sections, chunk.clone()))
                 .collect();
             let mut work = Vec::new();
             let mut places = Vec::new();
             let mut headings = Vec::new();
-            for (index, (visits, slice)) in visits.into_iter().zip(&slices).enumerate() {
+            for (index, (visits, slice)) in visits.into_iter().flatten().zip(&slices).enumerate() {
                 headings.push(visits.headings);
                 for (f, tiles) in visits.tiles.into_iter().enumerate() {
                     for (tile, passes) in tiles.into_iter().enumerate().filter(|(_, passes)| !passes.is_empty()) {
@@ -127,47 +130,102 @@ struct SliceVisits {
     tiles: [Vec<Vec<PassWork>>; 2],
 }
 
+/// Memory that is used over and over.
+#[derive(Default)]
+struct Memory {
+    band: SectionBand,
+    section: SweptSection,
+    outline: LooseOutline,
+    reach: RayReach,
+    crossings: RayCrossings,
+    /// Tiles of both families in which a pass may find something.
+    near: [Vec<usize>; 2],
+}
+
 impl SliceVisits {
-    fn compose(grid: &BlankGrid, slice: &Slice, lead_mm: f64, sections: &HobSections, passes: Range<usize>) -> Self {
-        let tiles = [0, 1].map(|f: usize| (0..grid.rows[f].count.div_ceil(TILE_RAYS)).map(|_| Vec::new()).collect());
-        let mut visits = Self { headings: Vec::new(), tiles };
-        let (mut section, mut crossings) = (SweptSection::default(), RayCrossings::default());
-        let (mut outline, mut reach) = (LooseOutline::default(), RayReach::default());
+    /// Visits of neighbouring slices, the first of them slice `first` of the grid.
+    fn of_block(
+        grid: &BlankGrid,
+        slices: &[Slice],
+        first: usize,
+        sections: &HobSections,
+        passes: Range<usize>,
+    ) -> Vec<Self> {
+        let leads_mm = &grid.leads_mm[first..first + slices.len()];
+        let left: Vec<[SpanTable; 2]> =
+            slices.iter().map(|slice| [0, 1].map(|f: usize| SpanTable::new(&slice.rays[f]))).collect();
+        let no_tiles = |f: usize| (0..grid.rows[f].count.div_ceil(TILE_RAYS)).map(|_| Vec::new()).collect();
+        let mut visits: Vec<Self> =
+            slices.iter().map(|_| Self { headings: Vec::new(), tiles: [0, 1].map(no_tiles) }).collect();
+        let mut memory = Memory::default();
         for pass in passes {
-            if !sections.section(pass, lead_mm, &mut section) {
+            if sections.refuses() && !memory.band.set(sections, pass, [leads_mm[0], leads_mm[leads_mm.len() - 1]]) {
                 continue;
             }
-            outline.set_chords(&section);
-            let mut visiting = false;
-            for (f, family) in FAMILIES.into_iter().enumerate() {
-                let row = &grid.rows[f];
-                reach.set(&outline, family, row);
-                let Range { start: low, end: high } = reach.rays;
-                if low >= high {
-                    continue;
-                }
-                let near = |ray: usize| {
-                    let [from, to] = reach.places_mm[ray - low];
-                    from <= to && intervals::overlaps(&slice.rays[f][ray], from, to)
-                };
-                for tile in low / TILE_RAYS..high.div_ceil(TILE_RAYS) {
-                    let rays = tile_rays(tile, row.count);
-                    if !(rays.start.max(low)..rays.end.min(high)).any(near) {
-                        continue;
-                    }
-                    // All rays of the tile: one that is not near must cross the curve in pairs as well.
-                    let parts = parts(&mut crossings, &section, family, row, rays);
-                    if !parts.is_empty() {
-                        visits.tiles[f][tile].push(PassWork { id: section.pass, returns: false, parts });
-                        visiting = true;
-                    }
-                }
-            }
-            if visiting {
-                visits.headings.push((section.pass, section.heading));
+            for ((visits, &lead_mm), left) in visits.iter_mut().zip(leads_mm).zip(&left) {
+                visits.add(grid, sections, pass, lead_mm, left, &mut memory);
             }
         }
         visits
+    }
+
+    /// Adds a pass where it may meet what is left, refused as natively.
+    fn add(
+        &mut self,
+        grid: &BlankGrid,
+        sections: &HobSections,
+        pass: usize,
+        lead_mm: f64,
+        left: &[SpanTable; 2],
+        memory: &mut Memory,
+    ) {
+        let Memory { band, section, outline, reach, crossings, near } = memory;
+        let mut followed = false;
+        if sections.refuses() {
+            match band.outline(sections, lead_mm, outline) {
+                InSlice::Nowhere => return,
+                InSlice::Within => {}
+                InSlice::Unknown => {
+                    followed = true;
+                    if !sections.section(pass, lead_mm, section) {
+                        return;
+                    }
+                    outline.set_chords(section);
+                }
+            }
+        }
+        for (f, family) in FAMILIES.into_iter().enumerate() {
+            near[f].clear();
+            if !sections.refuses() {
+                near[f].extend(0..self.tiles[f].len());
+                continue;
+            }
+            reach.set(outline, family, &grid.rows[f]);
+            for (ray, places_mm) in reach.rays.clone().zip(&reach.places_mm) {
+                let tile = ray / TILE_RAYS;
+                if near[f].last() != Some(&tile) && left[f].may_hold(ray, *places_mm) {
+                    near[f].push(tile);
+                }
+            }
+        }
+        if near.iter().all(Vec::is_empty) || (!followed && !sections.section(pass, lead_mm, section)) {
+            return;
+        }
+        let mut visiting = false;
+        for (f, family) in FAMILIES.into_iter().enumerate() {
+            let row = &grid.rows[f];
+            for &tile in &near[f] {
+                // All rays of the tile: one that is not near must cross the curve in pairs as well.
+                let parts = parts(crossings, section, family, row, tile_rays(tile, row.count));
+                if !parts.is_empty() {
+                    self.tiles[f][tile].push(PassWork { id: section.pass, returns: false, parts });
+                    visiting = true;
+                }
+            }
+        }
+        if visiting {
+            self.headings.push((section.pass, section.heading));
+        }
     }
 }
 
