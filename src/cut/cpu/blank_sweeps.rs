@@ -45,7 +45,7 @@ pub struct SweepsCut {
     pub chips: Vec<PassChip>,
 }
 
-/// Runs an operation whose passes have the ids `passes`; `advance` is called after every slice and says whether to go on. `None`: stopped.
+/// Runs an operation whose passes have the ids `passes`; `advance` is called as often as there are slices and says whether to go on. `None`: stopped.
 pub fn cut(
     field: &mut BlankField,
     sections: &HobSections,
@@ -55,7 +55,7 @@ pub fn cut(
     let grid = &field.grid;
     let block = block_slices(grid, sections);
     let widths_mm = grid.slice_widths_mm();
-    let blocks: Vec<Option<Vec<(Vec<PassChip>, BlankStats)>>> = field
+    let blocks: Vec<Vec<(Vec<PassChip>, BlankStats)>> = field
         .slices
         .par_chunks_mut(block)
         .enumerate()
@@ -71,11 +71,11 @@ pub fn cut(
             });
             cut_block(grid, cuts.collect(), sections, advance)
         })
-        .collect();
+        .collect::<Option<_>>()?;
     let nothing = |pass| PassChip { pass, removed_mm3: [0.0; 2], thickness_mm: 0.0, way_mm: 0.0 };
     let mut chips: Vec<PassChip> = passes.clone().map(nothing).collect();
     let mut stats = BlankStats::default();
-    for (of_slice, met) in blocks.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten() {
+    for (of_slice, met) in blocks.into_iter().flatten() {
         for chip in of_slice {
             let sum = &mut chips[(chip.pass - passes.start) as usize];
             sum.removed_mm3 = [0, 1].map(|f| sum.removed_mm3[f] + chip.removed_mm3[f]);
@@ -129,18 +129,17 @@ fn cut_block(
 ) -> Option<Vec<(Vec<PassChip>, BlankStats)>> {
     let mut memory = Memory::default();
     let z_range_mm = [slices[0].z_mm, slices[slices.len() - 1].z_mm];
-    let mut shares = 0;
-    for pass in 0..sections.len() {
-        if !sections.refuses() || memory.band.set(sections, pass, z_range_mm) {
-            for slice in &mut slices {
-                slice.cut(grid, sections, pass, &mut memory);
+    let shares = slices.len();
+    for share in 0..shares {
+        for pass in sections.len() * share / shares..sections.len() * (share + 1) / shares {
+            if !sections.refuses() || memory.band.set(sections, pass, z_range_mm) {
+                for slice in &mut slices {
+                    slice.cut(grid, sections, pass, &mut memory);
+                }
             }
         }
-        while shares * sections.len() < (pass + 1) * slices.len() {
-            shares += 1;
-            if !advance() {
-                return None;
-            }
+        if !advance() {
+            return None;
         }
     }
     Some(slices.into_iter().map(|slice| (slice.chips, slice.stats)).collect())
@@ -189,7 +188,12 @@ impl SliceCut<'_> {
             let rays = &mut self.slice.rays[f][first..=last];
             let mut tile = Tile { family, row: &grid.rows[f], first, rays, slice: self.index };
             let mut met = BlankStats::default();
-            let removed_mm = tile.take(section, section.pass, scratch, &mut met, |across_mm, spans, cut| {
+            let mut next = near[f].iter().copied().peekable();
+            let wanted = |ray: usize| {
+                while next.next_if(|near| *near < ray).is_some() {}
+                next.peek() == Some(&ray)
+            };
+            let removed_mm = tile.take(section, section.pass, scratch, &mut met, wanted, |across_mm, spans, cut| {
                 surfaces.add(family, across_mm, spans, cut);
             });
             if sections.refuses() {
