@@ -89,21 +89,31 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
 
 #[test]
 fn neighbouring_slices_are_known_from_the_one_in_their_middle() {
-    for scene in ["circular_spur", "circular_helical", "third_order_plain", "third_order_diagonal"] {
-        let job = job(scene, &[]);
+    let steep: &[&str] = &["gear.helix_angle_deg=38", "tool.hob.starts=2", "tool.hob.length_mm=200"];
+    for (scene, sets, operation) in [
+        ("circular_spur", &[][..], 0),
+        ("circular_helical", &[], 0),
+        ("circular_helical", &[], 1),
+        ("circular_helical", steep, 1),
+        ("ellipse_six_schemes", &[], 0),
+        ("third_order_plain", &[], 0),
+        ("third_order_diagonal", &[], 0),
+    ] {
+        let job = job(scene, sets);
         let cutter = HobCutter::new(&job).expect("passes");
-        let sections = cutter.sections(job.operations.len() - 1, true);
+        let sections = cutter.sections(operation, true);
         let half_mm = 0.5 * sections.band_mm();
         let (mut band, mut outline, mut section) =
             (SectionBand::default(), LooseOutline::default(), SweptSection::default());
-        // Largest distance of the true section from the outline, as a share of what it is given: on the edge, and where it is closed.
-        let (mut worst, mut pieces) = ([0.0_f64; 2], 0);
+        // Largest distance of the true section from the outline, as a share of its slack: on the edge, where it is closed, and of ends of pieces alone, as a share of what is not arrow height.
+        let (mut worst, mut pieces) = ([0.0_f64; 3], 0);
         for index in (0..sections.len()).step_by(sections.len() / 150) {
             for at_mm in [-0.4, -0.1, 0.0, 0.3].map(|share: f64| share * job.scene.gear.face_width_mm) {
                 if !band.set(&sections, index, [at_mm - half_mm, at_mm + half_mm]) {
                     continue;
                 }
-                for z_mm in [-1.0, -0.9, -0.4, 0.0, 0.7, 1.0].map(|share: f64| at_mm + share * half_mm) {
+                for way in [-1.0, -0.9, -0.4, 0.0, 0.7, 1.0] {
+                    let z_mm = at_mm + way * half_mm;
                     let known = band.outline(&sections, z_mm, &mut outline);
                     let there = sections.section(index, z_mm, &mut section);
                     assert!(there == (known == InSlice::Within) || known == InSlice::Unknown, "{scene}: {known:?}");
@@ -114,11 +124,15 @@ fn neighbouring_slices_are_known_from_the_one_in_their_middle() {
                     assert_eq!(count, outline.corners_mm.len());
                     for (i, piece) in section.pieces().iter().enumerate() {
                         let [a, b] = [i, (i + 1) % count].map(|i| outline.corners_mm[i]);
+                        if piece.law != Piece::STRAIGHT && way != 0.0 {
+                            let moved_mm = a.distance(section.node_mm(i));
+                            worst[2] = worst[2].max(moved_mm / (outline.slacks_mm[i] - 1.1 * piece.sagitta_mm));
+                        }
                         for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
                             let [from, to] = [i, (i + 1) % count].map(|i| section.node_mm(i));
                             let closing = piece.law == Piece::STRAIGHT;
                             let place = if closing { from.lerp(to, share) } else { section.place(piece.law, share)[0] };
-                            let along = ((place - a).dot(b - a) / a.distance_squared(b)).max(0.0).min(1.0);
+                            let along = ((place - a).dot(b - a) / a.distance_squared(b).max(1e-18)).clamp(0.0, 1.0);
                             let off = place.distance(a.lerp(b, along)) / outline.slacks_mm[i];
                             let worst = &mut worst[usize::from(closing)];
                             *worst = worst.max(off);
@@ -128,9 +142,10 @@ fn neighbouring_slices_are_known_from_the_one_in_their_middle() {
                 }
             }
         }
-        println!("{scene}: {pieces} pieces, {worst:?} of their slack");
+        println!("{scene} {sets:?}, operation {operation}: {pieces} pieces, {worst:?} of their slack");
         assert!(pieces > 10_000);
-        assert!(worst[0] > 0.3 && worst.iter().all(|worst| *worst < 0.95));
+        // Half of it is what the hob's circle bends.
+        assert!(worst.iter().all(|worst| *worst < 0.9) && worst[2] > 0.3);
     }
 }
 

@@ -7,7 +7,7 @@
 //! some hundredths of that. With w, the way per mm of z, the error is w^2 z^2 / (2 rho cos^3(delta)); twice as much slack is given. Arrow heights of pieces, and the direction in which the section
 //! is closed, change as the third derivative does: by a tenth of that for pieces as long as they are here, which is given on top.
 //!
-//! The factor 2 is what answers for the hundredths left out: it is no bound proved for every machine, but one that true sections are held against (`tests/hobbed_blank.rs`: they use up to seven tenths of their
+//! The factor 2 is what answers for the hundredths left out: it is no bound proved for every machine, but one that true sections are held against (`tests/hobbed_blank.rs`: their points use less than half of their
 //! slack), as what is left is held against all passes on all rays.
 //!
 //! The roads not taken: sections in two slices and straight lines between their points are as good and cost another section. The second derivative itself would spare the slack, some micrometres; few passes

@@ -207,7 +207,7 @@ impl Tile<'_> {
             }
             let tooth = operation.tooth.placed(&pass.work_from_blade, &mut placed);
             let id = operation.strokes.pass_id(pass.stroke as usize, pass.blade);
-            let removed_mm = self.take(&tooth, id, &mut scratch, &mut done.stats, |_, _, _| {});
+            let removed_mm = self.take(&tooth, id, &mut scratch, &mut done.stats, |_| true, |_, _, _| {});
             if removed_mm > 0.0 {
                 done.removed_mm.push((id, removed_mm));
             }
@@ -221,17 +221,18 @@ impl Tile<'_> {
         done
     }
 
-    /// Calls `act` with every ray that the curve crosses near material, the crossings solved.
+    /// Calls `act` with every ray that the curve crosses near material, the crossings solved; `wanted` is asked first, ray by ray in their order.
     fn visit(
         &self,
         curve: &impl ClosedCurve,
         scratch: &mut Scratch,
         stats: &mut BlankStats,
+        mut wanted: impl FnMut(usize) -> bool,
         mut act: impl FnMut(usize, f64, &[Crossing]),
     ) {
         scratch.crossings.lay(curve, self.family, self.row, self.first..self.first + self.rays.len());
         for ray in scratch.crossings.touched() {
-            if !scratch.crossings.crosses(ray) {
+            if !wanted(ray) || !scratch.crossings.crosses(ray) {
                 continue;
             }
             stats.visited += 1;
@@ -246,18 +247,19 @@ impl Tile<'_> {
         }
     }
 
-    /// Takes what lies inside a curve; gives the length removed, mm. `chip` is shown each ray before: its place across, its spans, the ends of the cut.
+    /// Takes what lies inside a curve from the rays that are wanted, as they are asked about in their order; gives the length removed, mm. `chip` is shown each ray before: its place across, its spans, the ends of the cut.
     pub fn take(
         &mut self,
         curve: &impl ClosedCurve,
         pass: u32,
         scratch: &mut Scratch,
         stats: &mut BlankStats,
+        wanted: impl FnMut(usize) -> bool,
         mut chip: impl FnMut(f64, &[Span], [End; 2]),
     ) -> f64 {
         let mut removed_mm = 0.0;
         let mut cuts = std::mem::take(&mut scratch.cuts);
-        self.visit(curve, scratch, stats, |ray, _, crossings| {
+        self.visit(curve, scratch, stats, wanted, |ray, _, crossings| {
             for [from, to] in crossings.as_chunks::<2>().0 {
                 let [from, to] =
                     [from, to].map(|c| End { at_mm: c.at_mm, pass, normal: (-c.outward()).as_vec2().to_array() });
@@ -289,38 +291,44 @@ impl Tile<'_> {
         let family = self.family;
         let edge_from_work = work_from_edge.inverse();
         let rubs = &mut done.rubs;
-        self.visit(tooth, scratch, &mut uncounted, |ray, at_mm, crossings| {
-            for [from, to] in crossings.as_chunks::<2>().0 {
-                // Each piece of material by itself: a tooth between two of them enters both, and neither by the sum.
-                for span in &self.rays[ray] {
-                    let (low_mm, high_mm) = (span.low.at_mm.max(from.at_mm), span.high.at_mm.min(to.at_mm));
-                    let length_mm = high_mm - low_mm;
-                    if length_mm <= intervals::LEAST_SPAN_MM {
-                        continue;
+        self.visit(
+            tooth,
+            scratch,
+            &mut uncounted,
+            |_| true,
+            |ray, at_mm, crossings| {
+                for [from, to] in crossings.as_chunks::<2>().0 {
+                    // Each piece of material by itself: a tooth between two of them enters both, and neither by the sum.
+                    for span in &self.rays[ray] {
+                        let (low_mm, high_mm) = (span.low.at_mm.max(from.at_mm), span.high.at_mm.min(to.at_mm));
+                        let length_mm = high_mm - low_mm;
+                        if length_mm <= intervals::LEAST_SPAN_MM {
+                            continue;
+                        }
+                        // Along the edge's normal the material is at most as thick as this; rays that graze say little and leave the depth to the other family. Nor can the edge enter deeper
+                        // than it has moved along its normal since it cut there: a ray may run along a thin sliver.
+                        let ends = [(from, span.low.at_mm < from.at_mm), (to, span.high.at_mm > to.at_mm)];
+                        let steep = |c: &Crossing| family.along(c.outward()).abs();
+                        let moved_mm = |c: &Crossing| {
+                            // A tooth that met nothing on its way down has no stroke here.
+                            let Some(at_stroke) = at_stroke else { return f64::INFINITY };
+                            let place_mm = family.point(c.at_mm, at_mm);
+                            let before_mm = at_stroke.point(edge_from_work.point(place_mm));
+                            (place_mm - before_mm).dot(c.outward()).max(0.0)
+                        };
+                        let inside = ends.iter().filter(|(c, inside)| *inside && steep(c) >= STEEP);
+                        let depth = inside.map(|(c, _)| moved_mm(c).min(length_mm * steep(c))).reduce(f64::min);
+                        rubs.push(Rub {
+                            pass,
+                            slice: self.slice,
+                            place_mm: family.point(0.5 * (low_mm + high_mm), at_mm),
+                            depth_mm: depth.unwrap_or(0.0),
+                            volume_mm3: length_mm * volume_per_length,
+                            family,
+                        });
                     }
-                    // Along the edge's normal the material is at most as thick as this; rays that graze say little and leave the depth to the other family. Nor can the edge enter deeper
-                    // than it has moved along its normal since it cut there: a ray may run along a thin sliver.
-                    let ends = [(from, span.low.at_mm < from.at_mm), (to, span.high.at_mm > to.at_mm)];
-                    let steep = |c: &Crossing| family.along(c.outward()).abs();
-                    let moved_mm = |c: &Crossing| {
-                        // A tooth that met nothing on its way down has no stroke here.
-                        let Some(at_stroke) = at_stroke else { return f64::INFINITY };
-                        let place_mm = family.point(c.at_mm, at_mm);
-                        let before_mm = at_stroke.point(edge_from_work.point(place_mm));
-                        (place_mm - before_mm).dot(c.outward()).max(0.0)
-                    };
-                    let inside = ends.iter().filter(|(c, inside)| *inside && steep(c) >= STEEP);
-                    let depth = inside.map(|(c, _)| moved_mm(c).min(length_mm * steep(c))).reduce(f64::min);
-                    rubs.push(Rub {
-                        pass,
-                        slice: self.slice,
-                        place_mm: family.point(0.5 * (low_mm + high_mm), at_mm),
-                        depth_mm: depth.unwrap_or(0.0),
-                        volume_mm3: length_mm * volume_per_length,
-                        family,
-                    });
                 }
-            }
-        });
+            },
+        );
     }
 }

@@ -21,7 +21,7 @@ use std::ops::Range;
 /// Most slices that are cut together.
 const BLOCK_SLICES: usize = 8;
 
-/// Runs an operation whose passes have the ids `passes`; `advance` is called after every slice and says whether to go on. `None`: stopped.
+/// Runs an operation whose passes have the ids `passes`; `advance` is called as often as there are slices and says whether to go on. `None`: stopped.
 pub fn cut(
     field: &mut BlankField,
     sections: &HobSections,
@@ -31,7 +31,7 @@ pub fn cut(
     let grid = &field.grid;
     let block = block_slices(grid, sections);
     let widths_mm = grid.slice_widths_mm();
-    let blocks: Vec<Option<Vec<(Vec<PassChip>, BlankStats)>>> = field
+    let blocks: Vec<Vec<(Vec<PassChip>, BlankStats)>> = field
         .slices
         .par_chunks_mut(block)
         .enumerate()
@@ -47,10 +47,10 @@ pub fn cut(
             });
             cut_block(grid, cuts.collect(), sections, advance)
         })
-        .collect();
+        .collect::<Option<_>>()?;
     let mut books = ChipBooks::new(passes);
     let mut stats = BlankStats::default();
-    for (of_slice, met) in blocks.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten() {
+    for (of_slice, met) in blocks.into_iter().flatten() {
         for chip in &of_slice {
             books.enter(chip);
         }
@@ -99,18 +99,17 @@ fn cut_block(
 ) -> Option<Vec<(Vec<PassChip>, BlankStats)>> {
     let mut memory = Memory::default();
     let z_range_mm = [slices[0].z_mm, slices[slices.len() - 1].z_mm];
-    let mut shares = 0;
-    for pass in 0..sections.len() {
-        if !sections.refuses() || memory.band.set(sections, pass, z_range_mm) {
-            for slice in &mut slices {
-                slice.cut(grid, sections, pass, &mut memory);
+    let shares = slices.len();
+    for share in 0..shares {
+        for pass in sections.len() * share / shares..sections.len() * (share + 1) / shares {
+            if !sections.refuses() || memory.band.set(sections, pass, z_range_mm) {
+                for slice in &mut slices {
+                    slice.cut(grid, sections, pass, &mut memory);
+                }
             }
         }
-        while shares * sections.len() < (pass + 1) * slices.len() {
-            shares += 1;
-            if !advance() {
-                return None;
-            }
+        if !advance() {
+            return None;
         }
     }
     Some(slices.into_iter().map(|slice| (slice.chips, slice.stats)).collect())
@@ -159,7 +158,12 @@ impl SliceCut<'_> {
             let rays = &mut self.slice.rays[f][first..=last];
             let mut tile = Tile { family, row: &grid.rows[f], first, rays, slice: self.index };
             let mut met = BlankStats::default();
-            let removed_mm = tile.take(section, section.pass, scratch, &mut met, |across_mm, spans, cut| {
+            let mut next = near[f].iter().copied().peekable();
+            let wanted = |ray: usize| {
+                while next.next_if(|near| *near < ray).is_some() {}
+                next.peek() == Some(&ray)
+            };
+            let removed_mm = tile.take(section, section.pass, scratch, &mut met, wanted, |across_mm, spans, cut| {
                 surfaces.add(family, across_mm, spans, cut);
             });
             if sections.refuses() {
