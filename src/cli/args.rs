@@ -46,7 +46,7 @@ pub enum Command {
         the work angle as PNG and SVG. Prints the peaks against the machine's limits.")]
     Axes(AxesArguments),
     /// Put results side by side.
-    #[command(after_help = "Examples:\n  \
+    #[command(after_help = "Example:\n  \
         gearcut compare out/elliptical_traditional out/elliptical_normal\n  \
         gearcut compare out/third_order_plain out/third_order_diagonal --out out/load_of_the_hob\n\n\
         Takes 2 to 7 results of one process; the first is what the others are held against. Writes a folder\n\
