@@ -94,7 +94,11 @@ fn check(name: &str, settings: &[&str]) {
     let solid = gear_solid(&outline, job.scene.gear.bore_diameter_mm).expect("a body");
     assert!(solid.is_closed(), "{name}: {:?}", solid.edge_faults());
 
-    let cut = cutter.cut_blank(job.blank_field().expect("fits"), &|| true).expect("not stopped").cut;
+    let cut = cutter
+        .cut_blank(&Cpu::default(), job.blank_field().expect("fits"), &|| true)
+        .expect("cuts")
+        .expect("not stopped")
+        .cut;
     let grid = &cut.field.grid;
     let bore_radius_mm = 0.5 * job.scene.gear.bore_diameter_mm;
     // Over the target: sections of the blank, sections of the body, and the body's triangles between them.

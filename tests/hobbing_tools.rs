@@ -205,7 +205,10 @@ fn every_start_cuts_every_tooth_unless_they_share_a_divisor() {
             &[teeth, "gear.face_width_mm=4", "fields.blank.spacing_mm=0.4", "fields.blank.slice_spacing_mm=1"],
         );
         let cutter = HobCutter::new(&job).expect("passes");
-        let blank = cutter.cut_blank(job.blank_field().expect("fits"), &|| true).expect("not stopped");
+        let blank = cutter
+            .cut_blank(&Cpu::default(), job.blank_field().expect("fits"), &|| true)
+            .expect("cuts")
+            .expect("not stopped");
         let grid = &blank.cut.field.grid;
         let finish = cutter.operations.last().expect("two");
         // Starts whose passes left the flanks of each space near the pitch curve.
