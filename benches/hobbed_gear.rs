@@ -146,7 +146,7 @@ fn whole_blank() {
         let field = job.blank_field().expect("fits in memory");
         let expected_mb = 1e-6 * field.grid.estimated_bytes(&job.blank);
         let (before, started) = (processor_seconds(), Instant::now());
-        let cut = cutter.cut_blank(field, &|| true).expect("not stopped").cut;
+        let cut = cutter.cut_blank(&Cpu::default(), field, &|| true).expect("cuts").expect("not stopped").cut;
         let (wall, processor) = (started.elapsed().as_secs_f64(), processor_seconds() - before);
         let (field, stats) = (&cut.field, cut.cuts[0].stats);
         println!(
