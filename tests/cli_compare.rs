@@ -8,7 +8,7 @@ mod command;
 use std::path::Path;
 
 use command::gearcut_in;
-use gearcut::output::results::Results;
+use gearcut::output::results::AnyResults;
 use serde_json::{Value, json};
 
 /// Teeth of the hand-made gear and of its period.
@@ -203,11 +203,95 @@ fn what_is_no_result_is_refused_with_a_reason() {
 #[test]
 fn results_read_back_as_they_were_written() {
     let folder = two_runs();
-    let results = Results::read(&folder.path().join("out/normal")).expect("a hand-made result");
+    let results = AnyResults::read(&folder.path().join("out/normal")).expect("a hand-made result");
     let copy = folder.path().join("copy.json");
-    results.write(&copy).expect("there is room");
-    assert_eq!(Results::read(&copy).expect("just written"), results);
+    let AnyResults::Shaped(shaped) = &results else { panic!("a shaped gear") };
+    shaped.write(&copy).expect("there is room");
+    assert_eq!(AnyResults::read(&copy).expect("just written"), results);
     let [written, hand_made] = [copy, folder.path().join("out/normal/results.json")]
         .map(|path| serde_json::from_str::<Value>(&std::fs::read_to_string(path).expect("there")).expect("JSON"));
     assert_eq!(written, hand_made);
+}
+
+/// Results of a hobbed gear whose three hob teeth take these volumes (mm3); `idle_s`: how long the operation stands idle.
+fn hobbed(volumes: [f64; 3], idle_s: f64) -> Value {
+    let largest = volumes.iter().copied().fold(0.0, f64::max);
+    let teeth: Vec<Value> = (1..)
+        .zip(volumes)
+        .map(|(label, volume): (u32, f64)| {
+            json!({
+                "tooth": label.to_string(), "volume": number(volume, "mm3"), "thickness": number(0.1 * volume, "mm"),
+                "way": number(10.0 * volume, "mm"),
+            })
+        })
+        .collect();
+    let hardest = volumes.iter().position(|&volume| volume == largest).expect("one") + 1;
+    let text = |words: String| json!({ "value": words, "unit": null, "definition": "made by hand" });
+    json!({
+        "schema_version": 1, "program": "gearcut", "program_version": "0.1.0", "process": "hobbing", "scene": "by hand",
+        "complete": true, "headline": { "highest_mark": number(5.0, "um"), "runout": none() },
+        "operations": [{
+            "name": "finish", "idle_time": number(idle_s, "s"), "axes": { "hob": { "speed": number(1.0, "deg/s") } },
+        }],
+        "hob_load": { "assumption": "made by hand", "operations": [{
+            "name": "finish", "volume": number(volumes.iter().sum(), "mm3"), "largest_volume": number(largest, "mm3"),
+            "hardest_working_tooth": text(hardest.to_string()), "teeth_in_use": number(3.0, "teeth"),
+            "peak_to_mean": number(1.0, "1"), "largest_thickness": number(0.1 * largest, "mm"),
+            "thickest_chip_of_tooth": text(hardest.to_string()), "thickness_after_hoffmeister": number(0.3, "mm"),
+            "way_cut": number(100.0, "mm"), "teeth": teeth,
+        }] },
+        "offset_curves": { "points": number(10.0, "points"), "error_x": { "sigma": number(1.0, "um"), "frequencies": [1] } },
+        "marks": [{ "tooth": 3, "flank": "left", "steps": [{ "kinematic": { "length": number(0.9, "mm") } }] }],
+        "teeth": [], "texture": [], "blank": { "gouges": { "places": number(0.0, "sides of teeth") } },
+    })
+}
+
+#[test]
+fn hobbed_gears_stand_side_by_side_with_the_load_of_every_hob_tooth() {
+    let folder = two_runs();
+    for (name, document) in [
+        ("plain", hobbed([1.0, 8.0, 3.0], 0.0)),
+        ("reciprocating", hobbed([4.0, 4.0, 4.0], 0.0)),
+        ("repeating", hobbed([3.0, 4.0, 5.0], 23.1)),
+    ] {
+        let run = folder.path().join("out").join(name);
+        std::fs::create_dir_all(&run).expect("a folder in the test's folder");
+        std::fs::write(run.join("results.json"), document.to_string()).expect("a file in the test's folder");
+    }
+    let three = ["compare", "out/plain", "out/reciprocating", "out/repeating"];
+    gearcut_in(folder.path(), &three).done().says(&[
+        "plain, reciprocating and repeating",
+        "finish.idle time",
+        "23.10",
+        "finish.hob load.peak load ratio",
+        "1.600",
+        "compare_plain_reciprocating_repeating",
+    ]);
+    let written = folder.path().join("out/compare_plain_reciprocating_repeating");
+    let csv = std::fs::read_to_string(written.join("comparison.csv")).expect("written");
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines[0], "quantity,unit,a,b,c,difference_b_minus_a,difference_c_minus_a,definition");
+    assert!(lines[1].starts_with("name,,plain,reciprocating,repeating,,,"));
+    for start in [
+        "highest_mark,um,5.0,5.0,5.0,0.0,0.0,",
+        "runout,%,,,,,,",
+        "finish.idle_time,s,0.0,0.0,23.1,0.0,23.1,",
+        // 8 / 8, 8 / 4, 8 / 5.
+        "finish.hob_load.peak_load_ratio,1,1.0,2.0,1.6,1.0,0.6",
+        "finish.hob_load.hardest_working_tooth,,2,1,3,,,",
+        "blank.gouges.places,sides of teeth,0.0",
+        "offset_curves.error_x.sigma,um,1.0",
+        "marks.tooth_3_left.step_1.kinematic.length,mm,0.9",
+    ] {
+        assert!(lines.iter().any(|line| line.starts_with(start)), "{start}\n{csv}");
+    }
+    for stem in ["volume", "thickness", "way"] {
+        let svg = std::fs::read_to_string(written.join(format!("load_finish_{stem}.svg"))).expect("written");
+        assert!(["plain", "reciprocating", "repeating"].iter().all(|name| svg.contains(name)), "all are in the legend");
+        assert!(written.join(format!("load_finish_{stem}.png")).is_file());
+    }
+    // Of one process only.
+    gearcut_in(folder.path(), &["compare", "out/plain", "out/normal"])
+        .failed(1, &["plain was made by hobbing and normal by shaping", "one process"]);
+    gearcut_in(folder.path(), &["compare", "out/plain"]).failed(2, &["2"]);
 }

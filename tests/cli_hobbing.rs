@@ -53,10 +53,60 @@ fn what_cannot_be_hobbed_is_refused_with_the_reason_and_a_way_out() {
         // 43.75 mm x 2 pi / 12 x tan 15 deg.
         ("scenes/hobbing/circular_spur.toml", "tool.hob.regrind_mm=6.2", &["tool.hob.regrind_mm", "6.138 mm", "gash"]),
         (PLAIN, "tool.hob.length_mm=40", &["whole contact", "longer hob"]),
+        (PLAIN, "tool.hob.gashes=0", &["tool.hob.gashes", "0 is out of range", "4 to 60", "gashes = 10"]),
+        (PLAIN, "tool.hob.lead_angle_deg=25", &["tool.hob.lead_angle_deg", "25 is out of range", "0 to 20 deg"]),
+        (PLAIN, "tool.hob.tip_radius_mm=9", &["tool.hob.tip_radius_mm", "does not fit", "smaller round"]),
+        (DIAGONAL, "operation.finish.shift_start_mm=60", &["shift_start_mm", "set it between", "longer hob"]),
     ] {
         gearcut(&["check", scene, "--set", setting, "--set", "operation.finish.axial_feed_mm_per_revolution=1.5"])
             .failed(1, words);
     }
+}
+
+#[test]
+fn refusals_point_at_the_file_line_and_character() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = std::fs::read_to_string(PLAIN).expect("a shipped scene");
+    for (from, to, place) in [
+        ("length_mm = 132.0", "length_mm = 40.0", "tool.hob.length_mm"),
+        ("eccentricity = 0.1 ", "eccentricity = 0.2 ", "gear.pitch_curve"),
+        ("lead_angle_deg = 3.316666666666667", "reference_diameter_mm = 20.0", "tool.hob.reference_diameter_mm"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let file = folder.path().join("mine.toml");
+        std::fs::write(&file, text.replace(from, to)).expect("there is room");
+        let line = 1 + text.lines().position(|line| line.contains(from)).expect("there");
+        // A table is pointed at where a refusal blames more than one of its keys.
+        let header = text.lines().position(|line| line == "[gear.pitch_curve.ellipse]").expect("there") + 1;
+        let line = if place == "gear.pitch_curve" { header } else { line };
+        let path = file.display().to_string();
+        gearcut(&["check", &path]).failed(1, &[&format!("mine.toml:{line}:"), &format!("`{place}`"), "way out: "]);
+    }
+}
+
+#[test]
+fn exceeded_limits_and_the_printed_linkage_are_told_and_give_no_program() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let axes = |name: &str, setting: &str| {
+        let out = folder.path().join(name);
+        let coarse = "operation.finish.axial_feed_mm_per_revolution=10";
+        let told = gearcut(&["axes", PLAIN, "--set", coarse, "--set", setting, "--out", &out.display().to_string()])
+            .done()
+            .err;
+        let programs = std::fs::read_dir(out.join("axes")).expect("axes").filter_map(Result::ok);
+        let written = programs.filter(|file| file.path().extension().is_some_and(|ending| ending == "ngc")).count();
+        (told, written)
+    };
+    let (told, written) = axes("limits", "machine.hobbing_limits.work_speed_deg_per_s=1");
+    for words in ["work spindle speed reaches", "the machine allows 1.000 deg/s", "lower hob_speed_per_minute"] {
+        assert!(told.contains(words), "{told}");
+    }
+    assert_eq!(written, 0);
+    let (told, written) = axes("printed", "operation.finish.linkage.hobbing.form=as_printed");
+    assert!(told.contains("no G-code written: the linkage as printed"), "{told}");
+    assert_eq!(written, 0);
+    let (_, written) = axes("allowed", "machine.hobbing_limits.work_speed_deg_per_s=100");
+    assert_eq!(written, 2);
 }
 
 /// A small gear, coarse enough for seconds.
@@ -138,6 +188,21 @@ fn a_hobbed_gear_comes_with_meshes_charts_marks_points_and_programs() {
         "{}",
         texture[0]["parameters"]["Sz"]
     );
+    // The load tooth by tooth is the whole volume, and a comparison reads it back.
+    let load = &results["hob_load"]["operations"][0];
+    let teeth = load["teeth"].as_array().expect("hob teeth");
+    let sum: f64 = teeth.iter().map(|tooth| number(&tooth["volume"])).sum();
+    assert!((sum / number(&load["volume"]) - 1.0).abs() < 1e-12);
+    let compared = folder.path().join("compared");
+    let gear = out.display().to_string();
+    gearcut(&["compare", &gear, &gear, "--out", &compared.display().to_string()]).done().says(&[
+        "gear (a) and gear (b)",
+        "finish.hob load.peak load ratio",
+        "marks.tooth",
+        "texture.finish",
+        "Sa",
+    ]);
+    assert!(compared.join("load_finish_volume.png").is_file());
     let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
     for words in
         ["Cutting marks", "Points on five curves", "Axis motion", "15.0000° right-hand", "hob tooth along the thread"]

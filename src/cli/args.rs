@@ -45,12 +45,20 @@ pub enum Command {
         mm, deg/s, mm/s, deg/s^2, mm/s^2), <operation>.ngc (G-code in straight lines, see docs/gcode.md), and charts of positions, velocities, accelerations and relief clearance over\n\
         the work angle as PNG and SVG. Prints the peaks against the machine's limits.")]
     Axes(AxesArguments),
-    /// Put two results side by side.
-    #[command(after_help = "Example:\n  \
-        gearcut compare out/elliptical_traditional out/elliptical_normal\n\n\
-        Writes a folder (compare_<A>_<B> beside B unless --out is given): comparison.csv with the headline numbers of\n\
-        both and their differences, and the unevenness of the allowance as bars by tooth (%), both results in one chart\n\
-        (first period of the pitch curve, and all teeth) and each on its own scale, as PNG and SVG. Prints the table.")]
+    /// Put results side by side.
+    #[command(after_help = "Examples:\n  \
+        gearcut compare out/elliptical_traditional out/elliptical_normal\n  \
+        gearcut compare out/third_order_plain out/third_order_diagonal --out out/load_of_the_hob\n\n\
+        Takes 2 to 7 results of one process; the first is what the others are held against. Writes a folder\n\
+        (compare_<A>_<B>... beside the last one unless --out is given): comparison.csv with the headline\n\
+        numbers of all, differences to the first, units and definitions; and bar charts as PNG and SVG.\n\
+        Shaped gears: unevenness of the allowance by tooth (%), in one chart (first period of the pitch\n\
+        curve, and all teeth) and each on its own scale.\n\
+        Hobbed gears: what each tooth of the hob does over the whole process: volume (mm3), largest\n\
+        uncut chip thickness (mm), way cut (mm). The table adds the peak-load ratio (largest volume of\n\
+        a hob tooth in the first result over that in each: 2 means that the hardest working tooth does\n\
+        half), teeth in use, idle time, marks and heights Sa, Sq, Sz.\n\
+        Load is no life: wear follows heat and chip thickness besides. Prints the table.")]
     Compare(CompareArguments),
     /// Evaluate the texture of a surface, measured or cut: ISO 25178-2 and ISO 21920-2 parameters.
     #[command(after_help = "Example:\n  \
@@ -146,11 +154,10 @@ pub struct AxesArguments {
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
 pub struct CompareArguments {
-    /// Output folder of the first run (or its results.json).
-    pub a: PathBuf,
-    /// Output folder of the second run (or its results.json).
-    pub b: PathBuf,
-    /// Folder to write [default: compare_<A>_<B> beside B].
+    /// Output folders of the runs (or their results.json), first the one to hold the others against.
+    #[arg(required = true, num_args = 2..=gearcut::compare::MOST_RESULTS, value_name = "RESULTS")]
+    pub results: Vec<PathBuf>,
+    /// Folder to write [default: compare_<A>_<B>... beside the last one].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }

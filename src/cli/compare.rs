@@ -1,9 +1,9 @@
-//! `gearcut compare`: two results side by side.
+//! `gearcut compare`: results side by side.
 
 use std::path::{Path, PathBuf};
 
 use gearcut::compare::{Compared, Comparison};
-use gearcut::output::results::Results;
+use gearcut::output::results::AnyResults;
 use gearcut::output::text::Sheet;
 use serde_json::json;
 
@@ -13,16 +13,19 @@ use super::{folder, print};
 
 /// Runs the command.
 pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
-    let read = |path: &Path| -> Result<Compared, Failure> {
-        Ok(Compared { name: folder::name_of(path), results: Results::read(path)? })
+    let paths = &arguments.results;
+    let read = |path: &PathBuf| -> Result<Compared<AnyResults>, Failure> {
+        Ok(Compared { name: folder::name_of(path), results: AnyResults::read(path)? })
     };
-    let (a, b) = (read(&arguments.a)?, read(&arguments.b)?);
-    let out = arguments.out.clone().unwrap_or_else(|| beside(&arguments.b, &format!("compare_{}_{}", a.name, b.name)));
-    let comparison = Comparison::new(a, b);
+    let results = paths.iter().map(read).collect::<Result<Vec<_>, Failure>>()?;
+    let names: Vec<&str> = results.iter().map(|one| one.name.as_str()).collect();
+    let last = &paths[paths.len() - 1];
+    let out = arguments.out.clone().unwrap_or_else(|| beside(last, &format!("compare_{}", names.join("_"))));
+    let comparison =
+        Comparison::new(results).map_err(|reason| gearcut::Error::Unreadable { path: last.clone(), reason })?;
     let output = folder::open(&out, "compare")?;
     comparison.write(&output)?;
-    let record = [("a", json!(arguments.a)), ("b", json!(arguments.b))];
-    let path = folder::finish(output, "compare", record)?;
+    let path = folder::finish(output, "compare", [("results", json!(paths))])?;
 
     let mut sheet = Sheet::default();
     comparison.print(&mut sheet);

@@ -8,6 +8,7 @@
 pub mod choice;
 pub mod cpu;
 pub mod gpu;
+pub mod sweep_chips;
 
 use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
@@ -15,8 +16,11 @@ use crate::passes::hob_sections::HobSections;
 use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
 use cpu::blank::{BlankCut, BlankOperation};
-use cpu::blank_sweeps::SweepsCut;
 use std::ops::Range;
+use sweep_chips::SweepsCut;
+
+/// Heights below this are the kernels' own error and shown as zero, µm.
+pub const KERNEL_UM: f64 = 1e-4;
 
 /// What a backend met besides heights.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

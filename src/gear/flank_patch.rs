@@ -48,6 +48,8 @@ pub struct FlankPatch {
     pub error_mm: f64,
     /// Length of the profile in the middle section up to the ends of equal shares of its roll, mm.
     lengths_mm: Vec<f64>,
+    /// Places of the contact on the line of action at both ends of the middle section's profile, mm from the pitch point towards the tip.
+    on_line_of_action_mm: [f64; 2],
 }
 
 /// One section of a patch: polynomials along the profile.
@@ -95,8 +97,8 @@ impl FlankPatch {
         let undercut = forms.iter().any(|form| form.undercut);
         let mut terms = TERMS[0];
         loop {
-            let parts = source.coefficients(terms).zip(source.lengths_mm());
-            let (coefficients, lengths_mm) = parts.ok_or_else(|| {
+            let parts = source.coefficients(terms).zip(source.lengths_mm()).zip(source.tip_roll_mm(0.0));
+            let ((coefficients, lengths_mm), tip_roll_mm) = parts.ok_or_else(|| {
                 Refusal::new(
                     "gear.addendum_coefficient",
                     format!("the {} flank of tooth {tooth} does not reach the blank's outline", side.name()),
@@ -105,8 +107,18 @@ impl FlankPatch {
             })?;
             let form_height_mm = latest.height_mm;
             let form_roll_mm = latest.roll_mm;
-            let mut patch =
-                Self { coefficients, face_width_mm, form_roll_mm, form_height_mm, undercut, error_mm: 0.0, lengths_mm };
+            let on_line_of_action_mm =
+                [form_roll_mm, tip_roll_mm].map(|roll| generation.flank_contact(space, side, roll, 0.0).distance_mm);
+            let mut patch = Self {
+                coefficients,
+                face_width_mm,
+                form_roll_mm,
+                form_height_mm,
+                undercut,
+                error_mm: 0.0,
+                lengths_mm,
+                on_line_of_action_mm,
+            };
             patch.error_mm = source.error_mm(&patch);
             if patch.error_mm <= TOLERANCE_MM {
                 return Ok(patch);
@@ -137,6 +149,13 @@ impl FlankPatch {
     /// Length of the profile in the middle of the face, mm.
     pub fn length_mm(&self) -> f64 {
         self.lengths_mm[PANELS]
+    }
+
+    /// Place on the line of action at which the profile of the middle section is touched where it has a length, both in mm; counted from the pitch point, positive towards the tip. Over it an involute of
+    /// another base circle runs straight. On a round gear it is the roll length of ISO 1328-1 less `r sin(alpha_t)`.
+    pub fn on_line_of_action_mm(&self, length_mm: f64) -> f64 {
+        let [form_mm, tip_mm] = self.on_line_of_action_mm;
+        form_mm + self.share_at(length_mm) * (tip_mm - form_mm)
     }
 
     /// Share of the roll at which the profile of the middle section has a length, mm. Between panels the length is a parabola through its own rates: a column stands

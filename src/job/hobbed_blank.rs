@@ -2,7 +2,7 @@
 
 use super::{CutBlank, HobCutter, HobbingJob};
 use crate::cut::Backend;
-use crate::cut::cpu::blank_sweeps::PassChip;
+use crate::cut::sweep_chips::PassChip;
 use crate::dexel::{BlankField, BlankGrid};
 use crate::error::{Refusal, Result};
 use crate::gear::blank_outline::BlankOutline;

@@ -59,6 +59,16 @@ impl HobbingJob {
     /// # Errors
     /// Geometry that cannot be cut: see the parts; and a hollow of the pitch curve that the hob would hit.
     pub fn new(scene: &Scene) -> Result<Self> {
+        let job = Self::past_hollows(scene)?;
+        refuse_hollows(&job.curve, &job.hob)?;
+        Ok(job)
+    }
+
+    /// The same where the hob hits the far sides of hollows as well: to see what it does there.
+    ///
+    /// # Errors
+    /// Geometry that cannot be cut.
+    pub fn past_hollows(scene: &Scene) -> Result<Self> {
         let gear = &scene.gear;
         let Some(Hobbing { tool, limits, operations: specs }) = scene.hobbing() else {
             return Err(Refusal::new("tool", "this tool does not hob gears", "write [tool.hob] for hobbing").into());
@@ -66,7 +76,6 @@ impl HobbingJob {
         let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
         let hob = Hob::new(tool, gear.module_mm, gear.pressure_angle_rad)?;
         let blank = Blank::new(curve.clone(), gear.addendum_coefficient * gear.module_mm)?;
-        refuse_hollows(&curve, &hob)?;
         // A hob pulled back by d leaves teeth 2 d tan(alpha_t) thicker on the pitch curve.
         let allowance_mm = gear.tooth_thickness_allowance_mm / (2.0 * gear.transverse_pressure_angle_rad().tan());
         let mut operations = Vec::new();
@@ -155,12 +164,13 @@ fn rack(gear: &Gear, hob: &Hob, tip_radius_mm: f64, thinning_mm: f64) -> Rack {
     }
 }
 
-/// A hob's tips lie on a straight line in the transverse plane, so a hollow of the pitch curve is hit by teeth to both sides of the one that cuts: refuses curves where they would go
-/// deeper than the gear's root, as far as the hob reaches.
-fn refuse_hollows(curve: &PitchCurve, hob: &Hob) -> Result<(), Refusal> {
-    let hollow = curve.facts().smallest_curvature;
-    if hollow.curvature_per_mm >= 0.0 {
-        return Ok(());
+/// How far a hob's tips go under the gear's root in hollows of the pitch curve, mm; none where it is convex.
+///
+/// The tips lie on a straight line in the transverse plane, h under the pitch line. While the rack touches the curve at s, the root under another place s' stands at -(P(s') - h n(s') - P(s)) . n(s) under that line's
+/// pitch line; where that is less than h the tooth that runs there cuts the difference out of it, as far as the hob reaches: both sides of s by half its length.
+pub fn cut_under_hollows_mm(curve: &PitchCurve, hob: &Hob) -> Option<f64> {
+    if curve.facts().smallest_curvature.curvature_per_mm >= 0.0 {
+        return None;
     }
     let [places, along] = HOLLOW_PLACES;
     let mut deepest_mm = 0.0_f64;
@@ -181,9 +191,16 @@ fn refuse_hollows(curve: &PitchCurve, hob: &Hob) -> Result<(), Refusal> {
             }
         }
     }
-    if deepest_mm <= GOUGE_TOLERANCE_MM {
+    Some(deepest_mm)
+}
+
+/// Refuses curves whose hollows the hob would cut under.
+fn refuse_hollows(curve: &PitchCurve, hob: &Hob) -> Result<(), Refusal> {
+    let Some(deepest_mm) = cut_under_hollows_mm(curve, hob).filter(|&deepest_mm| deepest_mm > GOUGE_TOLERANCE_MM)
+    else {
         return Ok(());
-    }
+    };
+    let hollow = curve.facts().smallest_curvature;
     Err(Refusal::new(
         "gear.pitch_curve",
         format!(

@@ -24,7 +24,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// How far below the target a ray records cuts, in modules: undercut and wrong linkages stay well inside.
-pub(super) const RAY_DEPTH_MODULES: f64 = 0.5;
+pub const RAY_DEPTH_MODULES: f64 = 0.5;
 /// How far above the target a ray can reach, in modules: half a pitch, where the neighbouring tooth begins.
 pub(super) const RAY_HEIGHT_MODULES: f64 = 0.5 * std::f64::consts::PI;
 /// Root fields are coarser than flanks, at least so far apart along profile and tooth: roots carry no feed marks that matter.

@@ -2,8 +2,10 @@
 //!
 //! In: what every pass took of the blank field (all spaces, the whole face, approach and overrun). Out: for every tooth the volume taken, the largest uncut chip thickness and the way cut.
 //!
-//! **Volume**: lengths taken from the rays of both families, their mean. **Thickness**: in a slice, the distance of the points of the new surface from the tangents at the nearest points of the old one, times the cosine
-//! between slice and swept surface; the largest that two rays of a chip see. Points stand where rays end, so chips much thinner than the rays are apart are told within a third or so. **Way cut**: for each pass the slices in which it takes anything,
+//! **Volume**: lengths taken from the rays of both families, their mean. **Thickness**: the largest distance of a place of the surface that a pass leaves from the surface that it finds, in a slice, times the cosine between slice
+//! and swept surface. Of every place only the ray counts that meets it within 45 degrees of its normal: it gives the distance of both surfaces at its ends, exact where they are straight or circles about one point. Where the
+//! other end is no old surface (a tooth that plunges) or lies on another facet, the nearest old place bounds it, the old surface going on along its tangent for half the rays' distance; and a disc about that place has to fit into the chip.
+//! Not taken: the way along the normal until the material ends. Thin chips have the same, but for a tooth that plunges it runs across the whole tooth. **Way cut**: for each pass the slices in which it takes anything,
 //! each worth the tip's way through the slice's share of the face.
 //!
 //! **Ledger.** The same volumes by another road, space by space: [`SpaceLedger`] stands rays on the pitch curve along its normals, from under the root to the blank's outline. A hob tooth widens from tip to
@@ -15,7 +17,7 @@
 
 use crate::cut::CutStats;
 use crate::cut::cpu::Cpu;
-use crate::cut::cpu::blank_sweeps::PassChip;
+use crate::cut::sweep_chips::PassChip;
 use crate::dexel::{Layer, Ray, SpatialField};
 use crate::gear::PitchCurve;
 use crate::job::HobbingJob;

@@ -3,7 +3,8 @@
 //! In: the cut flank. Out: [`HobbedReport`]: where the flank begins, heights over the target on the evaluated part, stock of earlier operations, profile and helix deviations.
 //!
 //! The evaluated part leaves out a twentieth at both ends of profile and face. Profile deviations are those of the middle row, helix deviations those of the middle
-//! column (ISO 1328-1:2013: F_alpha and F_beta total, f_H slope, f_f form), along the target's local normals: on a gear that is not round the target takes the place of the design helix.
+//! column (ISO 1328-1:2013: F_alpha and F_beta total, f_H slope, f_f form), along the target's local normals in space: on a gear that is not round the target takes the place of the design helix, and on a helical gear
+//! the standard's figures in the transverse section are these over cos(beta_b). Profiles stand over the roll, as the standard's do: over the place of the contact on the line of action.
 
 use super::deviation::{Trace, TraceDeviation};
 use crate::dexel::NO_PASS;
@@ -21,6 +22,8 @@ pub struct Heights {
     pub lowest_mm: f64,
     /// Highest.
     pub highest_mm: f64,
+    /// Where the lowest and the highest one stand: arc of the middle section from the form point, and place along the tooth, mm.
+    pub extremes_at_mm: [[f64; 2]; 2],
     /// Arithmetic mean.
     pub mean_mm: f64,
     /// Root mean square about the mean: Sq of the marks where the form is exact (ISO 25178-2).
@@ -44,7 +47,7 @@ pub struct HobbedReport {
     pub finished: Option<Heights>,
     /// What each earlier operation left over the finished surface.
     pub stock: Vec<Option<Heights>>,
-    /// Heights along the profile in the middle of the face.
+    /// Heights along the profile in the middle of the face, over the place on the line of action ([`crate::gear::flank_patch::FlankPatch::on_line_of_action_mm`]).
     pub profile_trace: Trace,
     /// Its deviations.
     pub profile: Option<TraceDeviation>,
@@ -58,7 +61,8 @@ pub struct HobbedReport {
 
 /// Measures a cut flank.
 pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
-    let [columns, rows] = [flank.rays.arcs_mm.len(), flank.rays.leads_mm.len()].map(inner);
+    let (arcs_mm, leads_mm) = (&flank.rays.arcs_mm, &flank.rays.leads_mm);
+    let [columns, rows] = [arcs_mm.len(), leads_mm.len()].map(inner);
     let finished = flank.layers.last().expect("at least one operation");
     let dexels = || {
         let rows = rows.clone();
@@ -66,7 +70,10 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
     };
     let over = |height: &dyn Fn(usize) -> Option<f64>| {
         let values: Option<Vec<f64>> = dexels().map(height).collect();
-        values.filter(|v| !v.is_empty()).map(|v| heights(&v))
+        values.filter(|v| !v.is_empty()).map(|v| {
+            let at = |k: usize| [arcs_mm[columns.start + k / rows.len()], leads_mm[rows.start + k % rows.len()]];
+            heights(&v, at)
+        })
     };
     let at = |layer: usize, i: usize| {
         let layer = &flank.layers[layer];
@@ -77,9 +84,9 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
         places_mm: places_mm.to_vec(),
         heights_mm: (0..places_mm.len()).map(|i| at(last, index(i)).unwrap_or(f64::NAN)).collect(),
     };
-    let (arcs_mm, leads_mm) = (&flank.rays.arcs_mm, &flank.rays.leads_mm);
     let (middle_column, middle_row) = (arcs_mm.len() / 2, leads_mm.len() / 2);
-    let profile_trace = trace(arcs_mm, &|column| flank.rays.field.index(column, middle_row));
+    let rolls_mm: Vec<f64> = arcs_mm.iter().map(|&arc| flank.target.on_line_of_action_mm(arc)).collect();
+    let profile_trace = trace(&rolls_mm, &|column| flank.rays.field.index(column, middle_row));
     let helix_trace = trace(leads_mm, &|row| flank.rays.field.index(middle_column, row));
     // The places of the inner dexels themselves, so that rounding takes none of them away.
     let between = |places_mm: &[f64], inner: Range<usize>| [places_mm[inner.start], places_mm[inner.end - 1]];
@@ -114,12 +121,17 @@ fn inner(count: usize) -> Range<usize> {
     margin..count.saturating_sub(margin).max(margin)
 }
 
-fn heights(values: &[f64]) -> Heights {
+/// Of values that are not none; `at` gives the place of each.
+fn heights(values: &[f64], at: impl Fn(usize) -> [f64; 2]) -> Heights {
     let count = values.len() as f64;
     let mean_mm = values.iter().sum::<f64>() / count;
+    let [low, high] = (1..values.len()).fold([0, 0], |[low, high], k| {
+        [if values[k] < values[low] { k } else { low }, if values[k] > values[high] { k } else { high }]
+    });
     Heights {
-        lowest_mm: values.iter().copied().fold(f64::INFINITY, f64::min),
-        highest_mm: values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        lowest_mm: values[low],
+        highest_mm: values[high],
+        extremes_at_mm: [at(low), at(high)],
         mean_mm,
         rms_mm: (values.iter().map(|v| (v - mean_mm).powi(2)).sum::<f64>() / count).sqrt(),
     }

@@ -105,6 +105,14 @@ impl Quantity {
         }
     }
 
+    /// The word or sentence, if it is one.
+    pub fn words(&self) -> Option<&str> {
+        match &self.value {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
     /// The unit; none for text.
     pub fn unit(&self) -> Option<&str> {
         self.unit.as_deref()

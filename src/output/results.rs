@@ -11,6 +11,8 @@
 
 mod blank;
 mod chips;
+mod hob_load;
+mod hobbed;
 mod machine;
 mod teeth;
 mod texture;
@@ -24,6 +26,8 @@ use super::quantity::Quantity;
 use crate::{Error, Result};
 pub use blank::{BlankOperationResults, BlankResults, DamageResults};
 pub use chips::{ChipPeak, ChipResults};
+pub use hob_load::{HobLoadResults, OperationLoadResults, ToothLoadResults};
+pub use hobbed::{HobbedOperationResults, HobbedResults, MarkResults};
 pub use machine::{AxesResults, AxisPeak, ReliefResults};
 pub use teeth::{FinishedFlank, FinishedTooth, OperationTooth, ProfileDeviations, StockRange};
 pub use texture::{AbbottCurve, Parameters, TextureResults};
@@ -161,17 +165,16 @@ pub struct Spread {
     pub mean: Quantity,
 }
 
-impl Results {
-    /// The text of the file.
-    ///
-    /// # Errors
-    /// Never for results of this layout; the writer's reason if it should.
-    pub fn write(&self, path: &Path) -> Result<()> {
-        let refused = |reason: serde_json::Error| Error::Output { path: path.to_owned(), reason: reason.to_string() };
-        let text = serde_json::to_string_pretty(self).map_err(refused)?;
-        write_bytes_atomically(path, format!("{text}\n").as_bytes())
-    }
+/// The results of a run, whichever process it was.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AnyResults {
+    /// A shaped gear.
+    Shaped(Box<Results>),
+    /// A hobbed gear.
+    Hobbed(Box<HobbedResults>),
+}
 
+impl AnyResults {
     /// Reads the results of a run from its output folder, or from the file itself.
     ///
     /// # Errors
@@ -191,7 +194,40 @@ impl Results {
             }
             None => return Err(refuse("it has no schema_version: it is not a gearcut result".to_owned())),
         }
-        serde_json::from_value(document).map_err(|reason| refuse(format!("it is not a complete result: {reason}")))
+        // Results of shaping name no process.
+        let read = match document.get("process").and_then(serde_json::Value::as_str) {
+            Some("hobbing") => serde_json::from_value(document).map(|hobbed| Self::Hobbed(Box::new(hobbed))),
+            _ => serde_json::from_value(document).map(|shaped| Self::Shaped(Box::new(shaped))),
+        };
+        read.map_err(|reason| refuse(format!("it is not a complete result: {reason}")))
+    }
+
+    /// The process in words.
+    pub fn process(&self) -> &'static str {
+        match self {
+            Self::Shaped(_) => "shaping",
+            Self::Hobbed(_) => "hobbing",
+        }
+    }
+
+    /// Whether all flanks were cut.
+    pub fn is_complete(&self) -> bool {
+        match self {
+            Self::Shaped(results) => results.complete,
+            Self::Hobbed(results) => results.complete,
+        }
+    }
+}
+
+impl Results {
+    /// The text of the file.
+    ///
+    /// # Errors
+    /// Never for results of this layout; the writer's reason if it should.
+    pub fn write(&self, path: &Path) -> Result<()> {
+        let refused = |reason: serde_json::Error| Error::Output { path: path.to_owned(), reason: reason.to_string() };
+        let text = serde_json::to_string_pretty(self).map_err(refused)?;
+        write_bytes_atomically(path, format!("{text}\n").as_bytes())
     }
 
     /// The last operation that leaves an allowance, whose unevenness the headline names.

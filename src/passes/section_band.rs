@@ -69,8 +69,8 @@ impl SectionBand {
         self.pass = index;
         self.nodes.clear();
         self.sagittas_mm.clear();
-        // A slice alone is not guessed from itself.
-        if z_range_mm[0] >= z_range_mm[1] {
+        // A slice alone is not guessed from itself, nor one from another across a corner of the motion.
+        if z_range_mm[0] >= z_range_mm[1] || !pass.is_smooth() {
             return true;
         }
         self.z_mm = 0.5 * (z_range_mm[0] + z_range_mm[1]);

@@ -3,7 +3,7 @@
 //! In: a pass of [`HobTeeth`]. Out: the moment at which an edge point goes through a transverse slice (Newton's method), its place there, and how that place follows the edge point and the slice.
 //!
 //! The pose is a polynomial of the swept angle, entry by entry, through Chebyshev nodes. The row of z comes first: the moment needs no other, and rows lie side by side so that four entries go through a
-//! processor's vector at once.
+//! processor's vector at once. Where the motion has a corner during the sweep, each stretch of it has polynomials of its own.
 
 use super::hob_teeth::{BladePass, HobTeeth, SWEEP_RAD};
 use glam::{DVec2, DVec3};
@@ -18,6 +18,8 @@ const ENTRIES: usize = 3 * ROW;
 /// Steps to the moment at most, and the last one, rad: the error after it is of its square.
 const MOST_STEPS: usize = 20;
 const LAST_STEP_RAD: f64 = 1e-6;
+/// Half the shortest piece of a sweep that is fitted, rad.
+const SHORTEST_RAD: f64 = 0.25;
 /// A section is looked for up to this angle: a little beyond the sweep, where the outline is closed.
 const LARGEST_ANGLE_RAD: f64 = 1.25;
 
@@ -26,9 +28,14 @@ pub(super) struct Sweeping {
     pub pass: u32,
     axial_mm: f64,
     y_sign: f64,
-    /// `work_from_head` in powers of delta / [`SWEEP_RAD`].
-    pose: [[f64; ENTRIES]; TERMS],
+    /// In the middle of the sweep; everywhere, if the motion has no corner during it.
+    pose: Pose,
+    /// Before and after corners: swept angles at which each begins and ends.
+    beside: Vec<([f64; 2], Pose)>,
 }
+
+/// `work_from_head` in powers of delta / [`SWEEP_RAD`].
+type Pose = [[f64; ENTRIES]; TERMS];
 
 /// Where an edge point crosses a slice, with how the place follows the edge point.
 pub(super) struct SliceCrossing {
@@ -56,35 +63,38 @@ impl SliceCrossing {
 
 impl Sweeping {
     pub fn new(set: &HobTeeth, pass: &BladePass) -> Self {
-        let place = set.place(pass);
-        let mut pose = [[0.0; ENTRIES]; TERMS];
-        // Chebyshev nodes and polynomials over the sweep, then powers.
-        for node in 0..TERMS {
-            let angle = PI * (node as f64 + 0.5) / TERMS as f64;
-            let swept = SWEEP_RAD * angle.cos();
-            let work_from_head = set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).inverse();
-            let (turn, shift) = (work_from_head.rotation, work_from_head.translation_mm);
-            let row = |r: usize| [turn.x_axis[r], turn.y_axis[r], turn.z_axis[r], shift[r]];
-            let entries = [row(2), row(0), row(1)];
-            for (k, powers) in CHEBYSHEV.iter().enumerate() {
-                let weight = (k as f64 * angle).cos() * if k == 0 { 1.0 } else { 2.0 } / TERMS as f64;
-                for (term, power) in pose.iter_mut().zip(powers) {
-                    for (coefficient, value) in term.iter_mut().zip(entries.as_flattened()) {
-                        *coefficient += weight * power * value;
-                    }
-                }
-            }
-        }
-        Self { pass: pass.pass, axial_mm: place.axial_mm, y_sign: place.y_sign, pose }
+        let (place, stretches) = (set.place(pass), set.stretches(pass));
+        let mut beside: Vec<([f64; 2], Pose)> = stretches
+            .map(|stretch| {
+                let [a, b] =
+                    set.motion.stretch_rad(stretch).map(|angle_rad| set.turn * (angle_rad - pass.tool_angle_rad));
+                let from_to = [a.min(b), a.max(b)];
+                (from_to, polynomials(set, pass, stretch, from_to.map(|swept| swept.clamp(-SWEEP_RAD, SWEEP_RAD))))
+            })
+            .collect();
+        let middle = beside.iter().position(|([from, to], _)| *from <= 0.0 && 0.0 <= *to).unwrap_or(0);
+        let pose = beside.swap_remove(middle).1;
+        Self { pass: pass.pass, axial_mm: place.axial_mm, y_sign: place.y_sign, pose, beside }
+    }
+
+    /// Whether one set of polynomials holds for the whole sweep.
+    pub fn is_smooth(&self) -> bool {
+        self.beside.is_empty()
+    }
+
+    fn pose_at(&self, swept: f64) -> &Pose {
+        let held = |([from, to], _): &&([f64; 2], Pose)| *from <= swept && swept <= *to;
+        self.beside.iter().find(held).map_or(&self.pose, |(_, pose)| pose)
     }
 
     /// Values of the first entries of the pose, and their rates over the swept angle.
     fn entries<const N: usize>(&self, swept: f64) -> [[f64; N]; 2] {
         let u = swept / SWEEP_RAD;
         let mut value = [0.0; N];
-        value.copy_from_slice(&self.pose[TERMS - 1][..N]);
+        let pose = self.pose_at(swept);
+        value.copy_from_slice(&pose[TERMS - 1][..N]);
         let mut rate = [0.0; N];
-        for term in self.pose[..TERMS - 1].iter().rev() {
+        for term in pose[..TERMS - 1].iter().rev() {
             for k in 0..N {
                 rate[k] = rate[k] * u + value[k];
                 value[k] = value[k] * u + term[k];
@@ -189,6 +199,46 @@ impl Sweeping {
             out: out.x,
         }
     }
+}
+
+/// Through the poses of a stretch at Chebyshev nodes of swept angles from `from` to `to`: in powers of the angle over the whole sweep.
+fn polynomials(set: &HobTeeth, pass: &BladePass, stretch: u32, [from, to]: [f64; 2]) -> Pose {
+    // A short piece would be known from too little: the stretch's law goes on beyond its ends.
+    let half = (0.5 * (to - from)).max(SHORTEST_RAD);
+    let middle = 0.5 * (from + to);
+    let mut of_piece = [[0.0; ENTRIES]; TERMS];
+    // Nodes and polynomials over the piece, then powers.
+    for node in 0..TERMS {
+        let angle = PI * (node as f64 + 0.5) / TERMS as f64;
+        let swept = middle + half * angle.cos();
+        let work_from_head = set.motion.head_from_work_on(stretch, pass.tool_angle_rad + set.turn * swept).inverse();
+        let (turn, shift) = (work_from_head.rotation, work_from_head.translation_mm);
+        let row = |r: usize| [turn.x_axis[r], turn.y_axis[r], turn.z_axis[r], shift[r]];
+        let entries = [row(2), row(0), row(1)];
+        for (k, powers) in CHEBYSHEV.iter().enumerate() {
+            let weight = (k as f64 * angle).cos() * if k == 0 { 1.0 } else { 2.0 } / TERMS as f64;
+            for (term, power) in of_piece.iter_mut().zip(powers) {
+                for (coefficient, value) in term.iter_mut().zip(entries.as_flattened()) {
+                    *coefficient += weight * power * value;
+                }
+            }
+        }
+    }
+    if middle == 0.0 && half == SWEEP_RAD {
+        return of_piece;
+    }
+    // The piece's own angle is a linear function of that of the whole sweep.
+    let (scale, offset) = (SWEEP_RAD / half, -middle / half);
+    let mut pose = [[0.0; ENTRIES]; TERMS];
+    for term in of_piece.iter().rev() {
+        for k in (0..TERMS).rev() {
+            for entry in 0..ENTRIES {
+                let raised = if k > 0 { scale * pose[k - 1][entry] } else { term[entry] };
+                pose[k][entry] = offset * pose[k][entry] + raised;
+            }
+        }
+    }
+    pose
 }
 
 /// Chebyshev polynomials in powers.

@@ -159,7 +159,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools, out: &Path) -> Result<(Value,
     let mut results = results::results(&cutter, &gear, &textures, &lattices)?;
     if let Some(whole) = &whole {
         let loads = load::measure(&cutter, &whole.blank);
-        results["hob_load"] = load::results(job, &loads)?;
+        results["hob_load"] = results::value(&load::results(job, &loads))?;
         results["blank"] = blank::results(&cutter, whole)?;
         load::write(job, &loads, folder)?;
         blank::write(&cutter, whole, folder)?;

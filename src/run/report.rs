@@ -12,7 +12,7 @@ mod texture;
 use self::deviations::Inspection;
 use super::CutGear;
 use crate::axes_report::{self, OperationAxes};
-use crate::cut::CutStats;
+use crate::cut::{CutStats, KERNEL_UM};
 use crate::error::Result;
 use crate::job::Job;
 use crate::output::folder::OutputFolder;
@@ -83,7 +83,7 @@ fn value_and_unit(quantity: &Quantity) -> (String, String) {
     let text = |value: f64, digits| significant(value, digits).replace('-', "−");
     match quantity.unit().unwrap_or("") {
         "1" => (format!("{:.1}", 100.0 * value).replace('-', "−"), "%".to_owned()),
-        "um" => (text(value, 3), "µm".to_owned()),
+        "um" => (text(if value.abs() < KERNEL_UM { 0.0 } else { value }, 3), "µm".to_owned()),
         "s" => (duration_text(value), String::new()),
         "%" => (text(if value < 1e-9 { 0.0 } else { value }, 3), "%".to_owned()),
         unit @ ("flanks" | "teeth" | "strokes") => (plain(value), unit.to_owned()),

@@ -3,8 +3,9 @@
 //! In: the grids of all flanks, roots and tips. Out: [`Outline`]: columns in the order of growing polar angle, each with one point per row, so that neighbouring rows can be sewn together.
 //!
 //! The order follows from the gear alone: right flank of a tooth from form point to tip, its tip land, its left flank down again, the root of the space behind it, and so on. What no pass
-//! reached (tip lands, teeth outside a window) is the blank's own outline. Where the fillet has cut into a flank (undercut), the target's flank and root cross each other; what lies behind the
-//! crossing is air and is left out.
+//! reached (tip lands, teeth outside a window) is the blank's own outline. Where the fillet has cut into a flank (undercut), the straight targets of shaping let flank and root run on past their crossing; what lies
+//! behind it is air and is left out. The roots of a gear whose sections differ end where its flanks begin, in every section at another place: nothing is sought there, for a crossing of one section is none of
+//! the others, and the common end itself would pass for one or not by the last bit.
 
 use super::flanks::SurfaceGrid;
 use crate::dexel::NO_PASS;
@@ -189,13 +190,13 @@ impl Outline {
             let (a, b) = (column * rows + after - 1, column * rows + after);
             let nearest = if share < 0.5 { a } else { b };
             sampled.passes[row] = grid.passes[nearest];
-            if grid.passes[nearest] == NO_PASS {
-                sampled.points_mm[row] = blank.outline_mm(outline_angle(blank, grid.points_mm[nearest]));
-                continue;
-            }
             // Exactly the one value where both are equal.
             let between = |values: &[f32]| values[a] + share as f32 * (values[b] - values[a]);
             sampled.points_mm[row] = grid.points_mm[a] + share * (grid.points_mm[b] - grid.points_mm[a]);
+            if grid.passes[nearest] == NO_PASS {
+                sampled.points_mm[row] = blank.outline_mm(outline_angle(blank, sampled.points_mm[row]));
+                continue;
+            }
             sampled.height_um[row] = between(&grid.height_um);
             if let Some(stock_mm) = &grid.stock_mm {
                 sampled.stock_mm[row] = between(stock_mm);
@@ -260,8 +261,10 @@ struct Crossing {
 impl Crossing {
     /// Crossing of a flank with the root that begins (or, `reversed`, ends) beside it; none on an ordinary flank, where they meet at the form point.
     fn of(flank: &SurfaceGrid, root: &SurfaceGrid, reversed: bool) -> Self {
-        let up = &flank.target_mm;
-        let mut along = root.target_mm.clone();
+        let none = Self { flank_columns: 0, root_columns: 0, point_mm: None };
+        let (Some(up), Some(mut along)) = (&flank.straight_target_mm, root.straight_target_mm.clone()) else {
+            return none;
+        };
         if reversed {
             along.reverse();
         }
@@ -273,7 +276,7 @@ impl Crossing {
                 }
             }
         }
-        Self { flank_columns: 0, root_columns: 0, point_mm: None }
+        none
     }
 }
 

@@ -86,7 +86,7 @@ fn hob_warnings(job: &HobbingJob) -> Vec<String> {
         let right = geometry.gear_hand * geometry.helix_angle_rad - geometry.hob_hand * geometry.lead_angle_rad;
         if (geometry.head_angle_rad - right).abs() > 1e-9 {
             warnings.push(format!(
-                "operation {}: the head stands at {:.4} deg, hob and gear ask for {:.4} deg: the profile will be off",
+                "operation {}: the head stands at {:.4} deg, hob and gear ask for {:.4} deg: the flanks will be off",
                 operation.spec.name,
                 geometry.head_angle_rad.to_degrees(),
                 right.to_degrees()

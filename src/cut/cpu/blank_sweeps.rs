@@ -7,43 +7,19 @@
 //! families, near which it may. What a slice is left with does not depend on the others, and chips are summed in the order of the slices: same scene, same bytes. `tests/hobbed_blank.rs` compares
 //! spans, marks and chips with those of all passes on all rays, bit for bit, and plants a refusal that is wrong.
 
-use super::blank::{BlankCut, BlankStats, Scratch, Tile};
+use super::blank::{BlankStats, Scratch, Tile};
+use crate::cut::sweep_chips::{ChipBooks, ChipSurfaces, PassChip, SweepsCut};
 use crate::dexel::blank_field::{BlankField, BlankGrid, Slice};
-use crate::dexel::intervals::{End, Span};
 use crate::dexel::span_table::SpanTable;
-use crate::passes::hob_sections::{HobSections, SweepHeading, SweptSection};
+use crate::passes::hob_sections::{HobSections, SweptSection};
 use crate::passes::section_band::{InSlice, SectionBand};
-use crate::planar_rays::{FAMILIES, Family};
+use crate::planar_rays::FAMILIES;
 use crate::ray_reach::{LooseOutline, RayReach};
-use glam::DVec2;
 use rayon::prelude::*;
-use std::f64::consts::PI;
 use std::ops::Range;
 
 /// Most slices that are cut together.
 const BLOCK_SLICES: usize = 8;
-
-/// What a pass took.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PassChip {
-    /// Pass id.
-    pub pass: u32,
-    /// Volume by rays of both families, mm3.
-    pub removed_mm3: [f64; 2],
-    /// Largest uncut thickness across the swept surface, mm.
-    pub thickness_mm: f64,
-    /// Way of the tip while anything was taken, mm.
-    pub way_mm: f64,
-}
-
-/// What an operation did.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SweepsCut {
-    /// As for every process.
-    pub cut: BlankCut,
-    /// Passes that took anything, in order.
-    pub chips: Vec<PassChip>,
-}
 
 /// Runs an operation whose passes have the ids `passes`; `advance` is called after every slice and says whether to go on. `None`: stopped.
 pub fn cut(
@@ -81,51 +57,6 @@ pub fn cut(
         stats += met;
     }
     Some(books.close(stats))
-}
-
-/// Chips of an operation while they come in, slice by slice.
-pub(in crate::cut) struct ChipBooks {
-    first_pass: u32,
-    chips: Vec<PassChip>,
-}
-
-impl ChipBooks {
-    /// For passes with the ids `passes`.
-    pub fn new(passes: Range<u32>) -> Self {
-        let nothing = |pass| PassChip { pass, removed_mm3: [0.0; 2], thickness_mm: 0.0, way_mm: 0.0 };
-        Self { first_pass: passes.start, chips: passes.map(nothing).collect() }
-    }
-
-    /// Adds a chip of one slice.
-    pub fn enter(&mut self, chip: &PassChip) {
-        let sum = &mut self.chips[(chip.pass - self.first_pass) as usize];
-        sum.removed_mm3 = [0, 1].map(|f| sum.removed_mm3[f] + chip.removed_mm3[f]);
-        sum.thickness_mm = sum.thickness_mm.max(chip.thickness_mm);
-        sum.way_mm += chip.way_mm;
-    }
-
-    /// What the operation did.
-    pub fn close(mut self, stats: BlankStats) -> SweepsCut {
-        let removed_mm3 = self.chips.iter().map(|chip| chip.removed_mm3).collect();
-        self.chips.retain(|chip| chip.removed_mm3 != [0.0; 2]);
-        SweepsCut { cut: BlankCut { removed_mm3, stats, ..BlankCut::default() }, chips: self.chips }
-    }
-}
-
-impl PassChip {
-    /// What a pass took of a slice of the face.
-    pub(in crate::cut) fn of_slice(
-        pass: u32,
-        heading: &SweepHeading,
-        removed_mm3: [f64; 2],
-        width_mm: f64,
-        surfaces: &ChipSurfaces,
-    ) -> Self {
-        // Around a place that far from the old surface the chip holds a quarter of a disc at least: where it is thinner than the rays are apart, single rays run along it and tell nothing.
-        let area_mm2 = removed_mm3[0].min(removed_mm3[1]) / width_mm;
-        let thickness_mm = surfaces.thickness_mm(heading).min((4.0 * area_mm2 / PI).sqrt());
-        Self { pass, removed_mm3, thickness_mm, way_mm: heading.way_per_mm * width_mm }
-    }
 }
 
 /// Slices that are cut together: as many as a section in their middle tells about.
@@ -242,71 +173,10 @@ impl SliceCut<'_> {
             }
         }
         if removed_mm3 != [0.0; 2] {
-            self.chips.push(PassChip::of_slice(section.pass, &section.heading, removed_mm3, self.width_mm, surfaces));
+            let spacing_mm = grid.spacing_mm();
+            let chip =
+                PassChip::of_slice(section.pass, &section.heading, removed_mm3, self.width_mm, surfaces, spacing_mm);
+            self.chips.push(chip);
         }
-    }
-}
-
-/// Points of the surfaces of one chip in one slice, with their normals.
-#[derive(Default)]
-pub(in crate::cut) struct ChipSurfaces {
-    /// Left by earlier passes, or the blank's own.
-    old: Vec<[DVec2; 2]>,
-    /// Left by this one, and how many points of the old surface were known before: the nearest is hardly ever far from there.
-    new: Vec<([DVec2; 2], usize)>,
-}
-
-impl ChipSurfaces {
-    /// No chip.
-    pub fn clear(&mut self) {
-        self.old.clear();
-        self.new.clear();
-    }
-
-    /// What a cut takes from one ray.
-    fn add(&mut self, family: Family, across_mm: f64, spans: &[Span], [from, to]: [End; 2]) {
-        let first = spans.partition_point(|span| span.high.at_mm <= from.at_mm);
-        for span in spans[first..].iter().take_while(|span| span.low.at_mm < to.at_mm) {
-            let low = if span.low.at_mm > from.at_mm { span.low } else { from };
-            let high = if span.high.at_mm < to.at_mm { span.high } else { to };
-            self.add_piece(family, across_mm, &Span { low, high }, from.pass);
-        }
-    }
-
-    /// Material that a pass takes from one ray; ends that it leaves bear its id.
-    pub fn add_piece(&mut self, family: Family, across_mm: f64, piece: &Span, pass: u32) {
-        for end in [&piece.low, &piece.high] {
-            let place = [family.point(end.at_mm, across_mm), DVec2::from_array(end.normal.map(f64::from))];
-            if end.pass == pass {
-                self.new.push((place, self.old.len()));
-            } else {
-                self.old.push(place);
-            }
-        }
-    }
-
-    /// Second largest distance of points of the new surface from the tangents at the nearest points of the old one, across the swept surface: what one ray alone sees is a corner.
-    fn thickness_mm(&self, heading: &SweepHeading) -> f64 {
-        let mut largest = [0.0_f64; 2];
-        for ([at, normal], known) in &self.new {
-            let distance = |old: &[DVec2; 2]| old[0].distance_squared(*at);
-            // No tangent is further away than the point that it touches: one near enough, and this place is not among the two. (Normals are unit vectors but for the last bits of f32.)
-            let enough = (largest[1] * (1.0 - 1e-6)).powi(2);
-            let (before, after) = self.old.split_at(*known);
-            if before.iter().rev().chain(after).any(|old| distance(old) <= enough) {
-                continue;
-            }
-            let mut nearest = (f64::INFINITY, None);
-            for old in &self.old {
-                let squared = distance(old);
-                if squared < nearest.0 {
-                    nearest = (squared, Some(old));
-                }
-            }
-            let Some(nearest) = nearest.1 else { continue };
-            let mm = (nearest[0] - *at).dot(nearest[1]).abs() * heading.upright(*normal);
-            largest = [largest[0].max(mm), largest[1].max(mm.min(largest[0]))];
-        }
-        largest[1]
     }
 }

@@ -10,6 +10,7 @@ mod spatial;
 
 pub use spatial::Taken;
 
+use super::sweep_chips::SweepsCut;
 use super::{Backend, CutStats};
 use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
@@ -17,7 +18,6 @@ use crate::passes::hob_sections::HobSections;
 use crate::passes::{CutPlan, SweepPlan};
 use crate::tool::edge::Edge;
 use blank::{BlankCut, BlankOperation};
-use blank_sweeps::SweepsCut;
 use pulp::Arch;
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};

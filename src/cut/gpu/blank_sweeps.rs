@@ -16,7 +16,8 @@ use super::blank_rays::{PassWork, TakenPiece, Terms, TileDone, TileWork, parts};
 use super::problem::GpuProblem;
 use super::{Gpu, WORKGROUP_THREADS};
 use crate::cut::cpu::blank::BlankStats;
-use crate::cut::cpu::blank_sweeps::{ChipBooks, ChipSurfaces, PassChip, SweepsCut, block_slices};
+use crate::cut::cpu::blank_sweeps::block_slices;
+use crate::cut::sweep_chips::{ChipBooks, ChipSurfaces, PassChip, SweepsCut};
 use crate::dexel::blank_field::{BlankField, BlankGrid, Slice};
 use crate::dexel::span_table::SpanTable;
 use crate::passes::hob_sections::{HobSections, SweepHeading, SweptSection};
@@ -260,7 +261,7 @@ fn chips_of_slice(
             }
         }
         if removed_mm3 != [0.0; 2] {
-            chips.push(PassChip::of_slice(*pass, heading, removed_mm3, width_mm, &surfaces));
+            chips.push(PassChip::of_slice(*pass, heading, removed_mm3, width_mm, &surfaces, grid.spacing_mm()));
         }
     }
     chips

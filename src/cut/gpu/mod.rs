@@ -24,7 +24,7 @@ pub mod sweep_records;
 
 use super::cpu::Cpu;
 use super::cpu::blank::{BlankCut, BlankOperation};
-use super::cpu::blank_sweeps::SweepsCut;
+use super::sweep_chips::SweepsCut;
 use super::{Backend, CutStats, StageTime};
 use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;

@@ -137,6 +137,6 @@ fn damage(cutter: &HobCutter, places: &[Damage], what: &'static str) -> Result<V
         "places": value(&Quantity::count(places.len() as u64, "sides of teeth", format!("{what}, deeper than {LEAST_DEPTH_MM} mm")))?,
         "deepest": value(&Quantity::number_or(deepest.map(|d| d.depth_mm), "mm", "largest depth along the normal", none.clone()))?,
         "place": value(&place)?,
-        "volume": value(&Quantity::number(places.iter().map(|d| d.volume_mm3).sum(), "mm3", "volume, all places together"))?,
+        "volume": value(&Quantity::number(places.iter().map(|d| d.volume_mm3).fold(0.0, |sum, mm3| sum + mm3), "mm3", "volume, all places together"))?,
     }))
 }

@@ -1,14 +1,13 @@
 //! The hob's load in a run: `tables/hob_load.csv`, bar charts by tooth, and its part of `results.json`.
 
-use super::results::value;
 use crate::error::Result;
 use crate::job::{HobCutter, HobbedBlank, HobbingJob};
 use crate::measure::hob_load::{OperationLoad, ToothLoad, hoffmeister_of};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::quantity::Quantity;
+use crate::output::results::{HobLoadResults, OperationLoadResults, ToothLoadResults};
 use crate::output::table::{Cell, write_table};
-use serde_json::{Value, json};
 
 /// What the load rests on.
 const ASSUMPTION: &str = "volume that a tooth takes, as a measure of the work that it does with the specific cutting force the same everywhere; wear follows heat and chip thickness besides, so this is no life";
@@ -17,7 +16,7 @@ const ASSUMPTION: &str = "volume that a tooth takes, as a measure of the work th
 type Chart = (&'static str, &'static str, &'static str, fn(&ToothLoad) -> f64);
 
 const CHARTS: [Chart; 3] = [
-    ("volume", "volume taken", "mm3", |load| load.volume_mm3),
+    ("volume", "volume taken", "mm³", |load| load.volume_mm3),
     ("thickness", "largest uncut chip thickness", "mm", |load| load.thickness_mm),
     ("way", "way cut", "m", |load| load.way_mm * 1e-3),
 ];
@@ -90,16 +89,12 @@ fn write_load_table(job: &HobbingJob, loads: &[OperationLoad], folder: &OutputFo
 }
 
 /// Its part of `results.json`.
-///
-/// # Errors
-/// Quantities that cannot be written.
-pub fn results(job: &HobbingJob, loads: &[OperationLoad]) -> Result<Value> {
-    let operations = (0..loads.len()).map(|index| of_operation(job, loads, index)).collect::<Result<Vec<Value>>>()?;
-    Ok(json!({ "assumption": ASSUMPTION, "operations": operations }))
+pub fn results(job: &HobbingJob, loads: &[OperationLoad]) -> HobLoadResults {
+    let operations = (0..loads.len()).map(|index| of_operation(job, &loads[index], index)).collect();
+    HobLoadResults { assumption: ASSUMPTION.to_owned(), operations }
 }
 
-fn of_operation(job: &HobbingJob, loads: &[OperationLoad], index: usize) -> Result<Value> {
-    let of: &OperationLoad = &loads[index];
+fn of_operation(job: &HobbingJob, of: &OperationLoad, index: usize) -> OperationLoadResults {
     let labels = labels(job);
     let nothing = "the operation takes nothing";
     let tooth = |found: Option<usize>, definition: &'static str| {
@@ -109,21 +104,51 @@ fn of_operation(job: &HobbingJob, loads: &[OperationLoad], index: usize) -> Resu
         )
     };
     let number = |found: Option<f64>, unit: &'static str, definition: &'static str| {
-        value(&Quantity::number_or(found, unit, definition, nothing))
+        Quantity::number_or(found, unit, definition, nothing)
     };
     let hardest = of.peak(|load| load.volume_mm3);
     let thickest = of.peak(|load| load.thickness_mm);
     let way_mm: f64 = of.teeth.iter().map(|load| load.way_mm).sum();
-    Ok(json!({
-        "name": job.operations[index].spec.name,
-        "volume": number(Some(of.volume_mm3()), "mm3", "volume that all hob teeth take together")?,
-        "largest_volume": number(hardest.map(|t| of.teeth[t].volume_mm3), "mm3", "volume of the hob tooth that takes the most")?,
-        "hardest_working_tooth": value(&tooth(hardest, "its number"))?,
-        "teeth_in_use": value(&Quantity::count(of.in_use() as u64, "teeth", "hob teeth that take at least a hundredth of what the hardest working one takes"))?,
-        "peak_to_mean": number(of.peak_to_mean(), "1", "largest volume over the mean of all teeth of the hob; 1 where all work alike")?,
-        "largest_thickness": number(thickest.map(|t| of.teeth[t].thickness_mm), "mm", "largest uncut chip thickness, across the swept surface of the edge")?,
-        "thickest_chip_of_tooth": value(&tooth(thickest, "hob tooth that takes it"))?,
-        "thickness_after_hoffmeister": number(Some(hoffmeister_of(job, index)), "mm", "largest tip chip thickness of a round gear of this module and number of teeth by Hoffmeister's formula (1970), constants as handed down: a check of the size")?,
-        "way_cut": number(Some(way_mm), "mm", "way of the tips through the work while any part of their edge takes material, all teeth together")?,
-    }))
+    let mm = |value: f64, definition: &'static str| Quantity::number(value, "mm", definition);
+    let teeth = of.teeth.iter().zip(&labels).map(|(load, label)| ToothLoadResults {
+        tooth: label.clone(),
+        volume: Quantity::number(load.volume_mm3, "mm3", "volume that it takes"),
+        thickness: mm(load.thickness_mm, "its largest uncut chip thickness"),
+        way: mm(load.way_mm, "way of its tip through the work while any part of its edge takes material"),
+    });
+    OperationLoadResults {
+        name: job.operations[index].spec.name.clone(),
+        volume: number(Some(of.volume_mm3()), "mm3", "volume that all hob teeth take together"),
+        largest_volume: number(
+            hardest.map(|t| of.teeth[t].volume_mm3),
+            "mm3",
+            "volume of the hob tooth that takes the most",
+        ),
+        hardest_working_tooth: tooth(hardest, "number of the hob tooth that takes the most"),
+        teeth_in_use: Quantity::count(
+            of.in_use() as u64,
+            "teeth",
+            "hob teeth that take at least a hundredth of what the hardest working one takes",
+        ),
+        peak_to_mean: number(
+            of.peak_to_mean(),
+            "1",
+            "largest volume over the mean of all teeth of the hob; 1 where all work alike",
+        ),
+        largest_thickness: number(
+            thickest.map(|t| of.teeth[t].thickness_mm),
+            "mm",
+            "largest uncut chip thickness, across the swept surface of the edge",
+        ),
+        thickest_chip_of_tooth: tooth(thickest, "hob tooth that takes the thickest chip"),
+        thickness_after_hoffmeister: mm(
+            hoffmeister_of(job, index),
+            "largest tip chip thickness of a round gear of this module and number of teeth by Hoffmeister's formula (1970), constants as handed down: a check of the size",
+        ),
+        way_cut: mm(
+            way_mm,
+            "way of the tips through the work while any part of their edge takes material, all teeth together",
+        ),
+        teeth: teeth.collect(),
+    }
 }

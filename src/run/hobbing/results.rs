@@ -11,6 +11,7 @@ use crate::output::quantity::{Place, Quantity};
 use crate::output::results::{RESULTS_FILE, SCHEMA_VERSION};
 use crate::texture::{self, WindowTexture};
 use crate::units::UM_PER_MM;
+use serde::Serialize;
 use serde_json::{Value, json};
 
 /// Why a pitch is not known.
@@ -23,7 +24,8 @@ fn largest(gear: &HobbedGear, value: impl Fn(&HobbedReport) -> Option<f64>) -> O
 
 /// Headline quantities by key.
 pub(in crate::run) fn headline(job: &HobbingJob, gear: &HobbedGear) -> Vec<(&'static str, Quantity)> {
-    let extreme = |value: &dyn Fn(&HobbedReport) -> Option<f64>, definition: &'static str| {
+    type At<'a> = &'a dyn Fn(&HobbedReport) -> Option<[f64; 2]>;
+    let extreme_at = |value: &dyn Fn(&HobbedReport) -> Option<f64>, at: At, definition: &'static str| {
         let found = largest(gear, value);
         let quantity = Quantity::number_or(
             found.map(|(v, _)| v * UM_PER_MM),
@@ -33,13 +35,15 @@ pub(in crate::run) fn headline(job: &HobbingJob, gear: &HobbedGear) -> Vec<(&'st
         );
         match found {
             None => quantity,
-            Some((_, flank)) => quantity.at(Place {
-                tooth: flank.tooth,
-                flank: flank.side.name().into(),
-                u_mm: 0.5 * flank.length_mm,
-                v_mm: 0.0,
-            }),
+            Some((_, flank)) => {
+                let [u_mm, v_mm] = at(flank).unwrap_or([0.5 * flank.length_mm, 0.0]);
+                quantity.at(Place { tooth: flank.tooth, flank: flank.side.name().into(), u_mm, v_mm })
+            }
         }
+    };
+    // Traces stand in the middle of the flank.
+    let extreme = |value: &dyn Fn(&HobbedReport) -> Option<f64>, definition: &'static str| {
+        extreme_at(value, &|_| None, definition)
     };
     let of_pitch = |pick: fn(&PitchDeviations) -> f64, definition: &'static str| {
         let largest = gear.pitch.iter().flatten().map(pick).reduce(f64::max);
@@ -49,15 +53,17 @@ pub(in crate::run) fn headline(job: &HobbingJob, gear: &HobbedGear) -> Vec<(&'st
     vec![
         (
             "highest_mark",
-            extreme(
+            extreme_at(
                 &|f| f.finished.map(|h| h.highest_mm),
+                &|f| f.finished.map(|h| h.extremes_at_mm[1]),
                 "highest place of the finished surface over the target on the evaluated part of any flank: feed and generating marks together",
             ),
         ),
         (
             "deepest_cut",
-            extreme(
+            extreme_at(
                 &|f| f.finished.map(|h| -h.lowest_mm),
+                &|f| f.finished.map(|h| h.extremes_at_mm[0]),
                 "deepest place of the finished surface below the target, positive inwards; an exact linkage leaves none",
             ),
         ),
@@ -124,10 +130,9 @@ pub(in crate::run) fn headline(job: &HobbingJob, gear: &HobbedGear) -> Vec<(&'st
     ]
 }
 
-/// A quantity as it stands in `results.json`.
-pub(super) fn value(quantity: &Quantity) -> Result<Value> {
-    serde_json::to_value(quantity)
-        .map_err(|reason| Error::Output { path: RESULTS_FILE.into(), reason: reason.to_string() })
+/// A quantity, or a struct of them, as it stands in `results.json`.
+pub(super) fn value(part: &impl Serialize) -> Result<Value> {
+    serde_json::to_value(part).map_err(|reason| Error::Output { path: RESULTS_FILE.into(), reason: reason.to_string() })
 }
 
 /// Everything that was found.

@@ -3,7 +3,9 @@
 use super::results::headline;
 use super::{HobbedGear, marks, points};
 use crate::axes_report::HobbingAxesReport;
+use crate::cut::KERNEL_UM;
 use crate::job::HobbingJob;
+use crate::job::shaping::RAY_DEPTH_MODULES;
 use crate::measure::marks::MarkLattice;
 use crate::output::text::{Sheet, significant};
 use std::path::Path;
@@ -27,7 +29,9 @@ pub fn summary(job: &HobbingJob, gear: &HobbedGear, lattices: &[MarkLattice], ou
         let value = match (quantity.value(), quantity.place()) {
             (Some(value), place) => {
                 let at = place.map_or_else(String::new, |p| format!(" (tooth {} {})", p.tooth, p.flank));
-                format!("{} {}{at}", significant(value, 4), quantity.unit().unwrap_or(""))
+                let unit = quantity.unit().unwrap_or("");
+                let value = if unit == "um" && value.abs() < KERNEL_UM { 0.0 } else { value };
+                format!("{} {unit}{at}", significant(value, 4))
             }
             (None, _) => format!("none ({})", quantity.why().unwrap_or("not defined")),
         };
@@ -55,16 +59,24 @@ pub fn summary(job: &HobbingJob, gear: &HobbedGear, lattices: &[MarkLattice], ou
         ),
     );
     let of_axes = HobbingAxesReport::of_job(job);
-    for warning in warnings(gear).into_iter().chain(of_axes.iter().flat_map(HobbingAxesReport::warnings)) {
+    for warning in
+        warnings(gear, spec.module_mm).into_iter().chain(of_axes.iter().flat_map(HobbingAxesReport::warnings))
+    {
         sheet.line("warning", warning);
     }
     sheet.line("files", out.display().to_string());
     sheet.into_text()
 }
 
-/// What a reader must know before trusting the numbers.
-pub(in crate::run) fn warnings(gear: &HobbedGear) -> Vec<String> {
+/// What a reader must know before trusting the numbers; of a gear of module `module_mm`.
+pub(in crate::run) fn warnings(gear: &HobbedGear, module_mm: f64) -> Vec<String> {
     let mut warnings = Vec::new();
+    let reach_mm = RAY_DEPTH_MODULES * module_mm;
+    let lowest_mm = gear.flanks.iter().filter_map(|f| f.finished).map(|h| h.lowest_mm).fold(0.0, f64::min);
+    if lowest_mm < -0.999 * reach_mm {
+        warnings
+            .push(format!("cuts go deeper than rays record: {reach_mm} mm under the target stands for that and more"));
+    }
     let untouched: u64 = gear.flanks.iter().map(|f| f.untouched).sum();
     if untouched > 0 {
         warnings.push(format!("{untouched} dexels were reached by no pass: the hob does not cover the whole face"));

@@ -23,6 +23,8 @@ pub struct Inspected<'a> {
     pub side: Side,
     /// Profile in the middle of the face, and its deviations.
     pub profile: (&'a Trace, Option<TraceDeviation>),
+    /// Arc from the form point to the middle of the evaluated profile, mm.
+    pub profile_middle_mm: f64,
     /// Line along the tooth, and its deviations.
     pub lead: (&'a Trace, Option<TraceDeviation>),
 }
@@ -37,6 +39,8 @@ pub struct Inspection<'a> {
     pub runout: Option<&'a Runout>,
     /// Thickness of each tooth less half a pitch, arcs of the pitch curve, mm.
     pub thickness_mm: Vec<Option<f64>>,
+    /// What profiles stand over.
+    pub profile_place: &'static str,
     /// Where the lines along the tooth run.
     pub lead_place: &'static str,
     /// What the finished gear is held against.
@@ -51,6 +55,7 @@ impl<'a> Inspection<'a> {
             tooth: flank.tooth,
             side: flank.side,
             profile: (&flank.profile_trace, flank.profile),
+            profile_middle_mm: flank.profile.map_or(0.0, |p| 0.5 * (p.between_mm[0] + p.between_mm[1])),
             lead: (&flank.lead_trace, flank.lead),
         });
         Self {
@@ -58,6 +63,7 @@ impl<'a> Inspection<'a> {
             pitch: &report.pitch,
             runout: report.runout.as_ref(),
             thickness_mm: report.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect(),
+            profile_place: "u from the form point (below) to the tip",
             lead_place: "at the pitch curve",
             target: "the surface that the last operation would leave with infinitely many strokes and no error",
         }
@@ -115,10 +121,10 @@ pub fn key_numbers(inspection: &Inspection) -> Vec<KeyNumber> {
             "Profile deviation Fα, largest",
             worst.map(|(_, profile)| profile.total_mm),
             "largest range of heights over the target along an evaluated profile, middle of the face",
-            worst.map(|(flank, profile)| Place {
+            worst.map(|(flank, _)| Place {
                 tooth: flank.tooth,
                 flank: flank.side.name().into(),
-                u_mm: 0.5 * (profile.between_mm[0] + profile.between_mm[1]),
+                u_mm: flank.profile_middle_mm,
                 v_mm: 0.0,
             }),
         ),
@@ -186,7 +192,7 @@ fn profile_sheet(inspection: &Inspection, side: Side, name: &str) -> TraceSheet 
     let flanks = traced(inspection, side, |flank| flank.profile.1.map(|p| p.total_mm));
     TraceSheet {
         title: format!("Profile, {name}"),
-        place_name: "u from the form point (below) to the tip".to_owned(),
+        place_name: inspection.profile_place.to_owned(),
         place_unit: "mm".to_owned(),
         unit: "µm".to_owned(),
         mirrored: side == Side::Left,

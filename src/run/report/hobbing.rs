@@ -28,7 +28,7 @@ pub fn page(
 ) -> Result<Page> {
     let job = cutter.job;
     let axes = HobbingAxesReport::of_job(job);
-    let mut all_warnings = warnings(gear);
+    let mut all_warnings = warnings(gear, cutter.job.scene.gear.module_mm);
     all_warnings.extend(axes.iter().flat_map(HobbingAxesReport::warnings));
     let inspection = inspection(cutter, gear);
     let mut sections = vec![deviations::section(&inspection)];
@@ -79,6 +79,7 @@ fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
         tooth: flank.tooth,
         side: flank.side,
         profile: (&flank.profile_trace, flank.profile),
+        profile_middle_mm: 0.5 * flank.length_mm,
         lead: (&flank.helix_trace, flank.helix),
     });
     Inspection {
@@ -86,6 +87,7 @@ fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
         pitch: &gear.pitch,
         runout: gear.runout.as_ref(),
         thickness_mm: gear.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect(),
+        profile_place: "roll along the line of action, from the pitch point towards the tip (up)",
         lead_place: "in the middle of the profile",
         target: "the surface that the last operation would leave with infinitely many gashes and an infinitely fine feed",
     }
@@ -155,7 +157,8 @@ fn motion(cutter: &HobCutter, axes: &[HobbingAxesReport]) -> Section {
     let mut blocks = Vec::new();
     for report in axes {
         blocks.push(Block::Heading(format!("{}: {}", report.name(), report.words())));
-        let mut rows = report.peak_rows().into_iter();
+        let signs = |text: String| text.replace("deg/s^2", "°/s²").replace("deg/s", "°/s").replace("mm/s^2", "mm/s²");
+        let mut rows = report.peak_rows().into_iter().map(|row| row.into_iter().map(signs).collect());
         let columns = rows.next().unwrap_or_default();
         blocks.push(Block::Table(Table { caption: "Peaks of the axes".to_owned(), columns, rows: rows.collect() }));
         let mut charts = report.charts(cutter.job).into_iter().map(|(_, chart)| Block::Lines(chart));

@@ -63,7 +63,7 @@ pub struct Stage<'a> {
 pub struct Found {
     /// Distance along the ray, mm.
     pub distance_mm: f64,
-    /// Smooth unit normal, towards the ray's origin.
+    /// Smooth unit normal, on the side from which the ray meets the triangle; at the rim of a round body it may lean away from the ray.
     pub normal: DVec3,
     /// Unit normal of the triangle, towards the ray's origin.
     pub flat: DVec3,
@@ -111,10 +111,11 @@ impl<'a> Stage<'a> {
         let [b, c] = hit.weights;
         let weights = [1.0 - b - c, b, c];
         let [n0, n1, n2] = self.normals[global];
-        let facing = |n: DVec3| if n.dot(direction) > 0.0 { -n } else { n };
-        let flat = facing(mesh.scaled_normal(triangle).normalize_or_zero());
+        let outward = mesh.scaled_normal(triangle).normalize_or_zero();
+        let sense = if outward.dot(direction) > 0.0 { -1.0 } else { 1.0 };
+        let flat = sense * outward;
         let normal = weights[0] * n0 + weights[1] * n1 + weights[2] * n2;
-        let normal = facing(normal.try_normalize().unwrap_or(flat));
+        let normal = normal.try_normalize().map_or(flat, |normal| sense * normal);
         let vertices = mesh.triangles[triangle].map(|v| v as usize);
         let nearest = vertices[(0..3).max_by(|&i, &j| weights[i].total_cmp(&weights[j])).unwrap_or(0)];
         let part = mesh.parts.partition_point(|part| part.triangles.end <= triangle);

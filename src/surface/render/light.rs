@@ -21,6 +21,8 @@ const SIDE: u32 = 2;
 const SKY_RAYS: u32 = 1;
 /// Rounds over which the sky's share is averaged: squares of 7 by 7 pixels that lie this many pixels apart (the à-trous scheme of Dammertz et al., 2010).
 const SMOOTH_STEPS_PX: [i64; 2] = [1, 4];
+/// A pixel whose surface shows in fewer sky rays than this, as at the rim of a flank seen edge on, takes the sky's share of all that is round it: its own few rays would make it black or white.
+const LEAST_SKY_RAYS: f32 = 16.0;
 /// Radius of the lamp at unit distance: shadows grow soft by a fiftieth of their length.
 const LAMP_RADIUS: f64 = 0.02;
 /// Rays start this share of the stage's size off the surface, so that they do not meet it again.
@@ -165,7 +167,19 @@ fn smoothed(pixels: &[(Pixel, Option<Found>)], camera: &Camera) -> Vec<f32> {
             })
             .collect();
     }
-    sums.iter().map(|[free, asked]| if *asked > 0.0 { free / asked } else { 0.0 }).collect()
+    let round = |i: usize| {
+        let (x, y) = (i as i64 % width, i as i64 / width);
+        let near = |(dx, dy): (i64, i64)| (0..width).contains(&(x + dx)) && (0..height).contains(&(y + dy));
+        let places = (-3..=3).flat_map(|dy| (-3..=3).map(move |dx| (dx, dy))).filter(|d| near(*d));
+        places
+            .map(|(dx, dy)| &pixels[((y + dy) * width + x + dx) as usize].0)
+            .fold([0.0; 2], |[free, asked], p| [free + p.free as f32, asked + p.asked as f32])
+    };
+    let share = |(i, &[free, asked]): (usize, &[f32; 2])| {
+        let [free, asked] = if asked < LEAST_SKY_RAYS { round(i) } else { [free, asked] };
+        if asked > 0.0 { free / asked } else { 0.0 }
+    };
+    sums.iter().enumerate().map(share).collect()
 }
 
 fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y: u32) -> (Pixel, Option<Found>) {

@@ -1,32 +1,31 @@
-//! Unevenness of the allowance, tooth by tooth: both results in one picture, and each on a scale of its own, since one may
+//! Unevenness of the allowance, tooth by tooth: all results in one picture, and each on a scale of its own, since one may
 //! be a fiftieth of the other.
 
-use super::{Compared, Comparison};
+use super::{Compared, letters};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::quantity::Quantity;
-use crate::output::results::{OperationResults, OperationTooth};
+use crate::output::results::{OperationResults, OperationTooth, Results};
 
-impl Comparison {
-    /// The charts with their file names; none where neither result has an allowance.
-    pub(super) fn charts(&self) -> Vec<(&'static str, BarChart)> {
-        let period = self.a.first_period().max(self.b.first_period());
-        let all = self.a.teeth().len().max(self.b.teeth().len());
-        if all == 0 {
-            return Vec::new();
-        }
-        let (a, b) = (&self.a, &self.b);
-        let first = format!("teeth 1 to {period}, the first period");
-        vec![
-            ("unevenness_first_period", chart(&first, period, &[a, b])),
-            ("unevenness_all_teeth", chart("all teeth", all, &[a, b])),
-            ("unevenness_a", chart(&first, period, &[a])),
-            ("unevenness_b", chart(&first, period, &[b])),
-        ]
+/// The charts with their file names; none where no result has an allowance.
+pub(super) fn charts(results: &[Compared<Results>]) -> Vec<(String, BarChart)> {
+    let period = results.iter().map(Compared::first_period).max().unwrap_or(0);
+    let all = results.iter().map(|one| one.teeth().len()).max().unwrap_or(0);
+    if all == 0 {
+        return Vec::new();
     }
+    let first = format!("teeth 1 to {period}, the first period");
+    let mut charts = vec![
+        ("unevenness_first_period".to_owned(), chart(&first, period, results)),
+        ("unevenness_all_teeth".to_owned(), chart("all teeth", all, results)),
+    ];
+    for (one, letter) in results.iter().zip(letters()) {
+        charts.push((format!("unevenness_{letter}"), chart(&first, period, std::slice::from_ref(one))));
+    }
+    charts
 }
 
 /// Bars of the first `teeth` teeth of some results.
-fn chart(what: &str, teeth: usize, results: &[&Compared]) -> BarChart {
+fn chart(what: &str, teeth: usize, results: &[Compared<Results>]) -> BarChart {
     BarChart {
         title: format!("Unevenness of the allowance, {what}"),
         category_name: "tooth".to_owned(),
@@ -37,7 +36,7 @@ fn chart(what: &str, teeth: usize, results: &[&Compared]) -> BarChart {
     }
 }
 
-impl Compared {
+impl Compared<Results> {
     fn operation(&self) -> Option<&OperationResults> {
         self.results.last_with_allowance()
     }
