@@ -3,6 +3,7 @@
 //! The surface of the material is a cloud of points. A pass takes those inside its section away: they are the old surface of its chip. Points of the section's border that stand in material join the cloud: the new one. The chip's
 //! thickness is the largest distance of a new point from the nearest old one.
 
+use gearcut::cut::cpu::Cpu;
 use gearcut::job::{HobCutter, HobbingJob};
 use gearcut::passes::hob_sections::SweptSection;
 use gearcut::planar_rays::{ClosedCurve, Piece};
@@ -99,7 +100,7 @@ fn by_points(cutter: &HobCutter, space: i64, z_mm: f64, reach_mm: f64) -> BTreeM
             front.push(place);
             let nearest = old.iter().map(|old| old.distance_squared(place)).fold(f64::INFINITY, f64::min).sqrt();
             if nearest.is_finite() && place.distance(middle) < reach_mm {
-                thickest_mm = thickest_mm.max(nearest * section.upright(-inward));
+                thickest_mm = thickest_mm.max(nearest * section.heading.upright(-inward));
             }
         }
         if thickest_mm > 0.0 {
@@ -126,7 +127,7 @@ fn thickness_is_that_of_points() {
         let cutter = HobCutter::new(&job).expect("passes");
         let field = job.blank_field().expect("fits");
         let slices = field.grid.leads_mm.clone();
-        let blank = cutter.cut_blank(field, &|| true).expect("not stopped");
+        let blank = cutter.cut_blank(&Cpu::default(), field, &|| true).expect("cuts").expect("not stopped");
         let wanted = wanted.get_or_insert_with(|| {
             let places: Vec<(f64, i64)> = slices.iter().flat_map(|&z_mm| [0, 13].map(|space| (z_mm, space))).collect();
             let found: Vec<_> = places.par_iter().map(|&(z_mm, space)| by_points(&cutter, space, z_mm, 4.5)).collect();
