@@ -15,8 +15,10 @@ pub mod strokes;
 pub mod sweep;
 mod sweep_bounds;
 pub mod sweep_plan;
+mod sweep_regions;
 pub mod sweep_roots;
 mod sweep_samples;
+mod sweep_starts;
 mod swept_pose;
 
 pub use candidates::{CutPlan, Tile};

@@ -16,8 +16,9 @@
 )]
 
 use super::sweep_plan::Candidate;
+use super::sweep_regions::{ALL, RAYS, Region, SIDE};
 use super::sweep_roots::{LANES, LARGEST_T, Rays};
-use super::sweep_samples::{ALL, Frame, RAYS, Region, SIDE, Sampled};
+use super::sweep_samples::{Frame, Sampled};
 use crate::dexel::SpatialField;
 use crate::tool::edge::Segment;
 use pulp::Arch;

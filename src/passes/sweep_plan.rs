@@ -9,7 +9,9 @@
 use super::hob_teeth::{BladePass, HobTeeth};
 use super::sweep::SweepRecord;
 use super::sweep_bounds::Judge;
-use super::sweep_samples::{Frame, RAYS, Region, SIDE, Sampled, find_starts};
+use super::sweep_regions::{RAYS, Region, SIDE};
+use super::sweep_samples::{Frame, Sampled};
+use super::sweep_starts::find_starts;
 use crate::dexel::{Ray, SpatialField};
 use crate::tool::edge::Edge;
 use glam::DVec3;

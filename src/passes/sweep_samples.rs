@@ -1,4 +1,4 @@
-//! Regions of a spatial field and the heights of sweeps on nine rays of each.
+//! The heights of sweeps on nine rays of each region of a spatial field.
 //!
 //! In: a field, candidates. Out: for every candidate the heights at which its segment, or the continuation of it, enters nine rays: first, middle and last column by first, middle and last row. Neighbouring
 //! regions share their edges, and the parts of a region share its nine rays: where both directions are halved, sixteen new rays serve four parts. They are searched eight at a time, from the mean of
@@ -10,21 +10,15 @@
 )]
 
 use super::hob_teeth::HobTeeth;
-use super::sweep::{Sweep, SweepRecord, SweepStart};
-use super::sweep_plan::{Candidate, SweepTile, TILE_COLUMNS, TILE_ROWS};
+use super::sweep::{Sweep, SweepRecord};
+use super::sweep_plan::Candidate;
+use super::sweep_regions::{RAYS, Region, SIDE};
 use super::sweep_roots::{LANES, LARGEST_T, Lanes, Rays, Roots};
 use crate::dexel::SpatialField;
 use crate::tool::edge::Edge;
 use glam::DVec3;
 use pulp::Arch;
-use std::ops::Range;
 
-/// Rays sampled along each side.
-pub const SIDE: usize = 3;
-/// Rays sampled.
-pub const RAYS: usize = SIDE * SIDE;
-/// All rays of a region, as bits.
-pub const ALL: u32 = (1 << RAYS) - 1;
 /// Rays along each side of a region with its parts.
 const FINE: usize = 2 * SIDE - 1;
 /// Rays steeper than this against an edge's normal (cosine) prove nothing.
@@ -32,130 +26,9 @@ const GRAZING_COSINE: f64 = 0.1;
 /// Rays that run out of a segment at more than this cosine do not enter it.
 const LEAVING_COSINE: f64 = 0.05;
 /// Newton steps below this, in mm and in t, are the last: the error after them, of the order of their squares, is some picometres.
-const LAST_STEP: f64 = 1e-5;
+pub(super) const LAST_STEP: f64 = 1e-5;
 /// No root further away is one, mm.
 const FARTHEST_MM: f64 = 1e3;
-
-/// Lines of dexels in one direction.
-#[derive(Debug, Clone, Copy)]
-pub struct Span {
-    /// First, middle and last line; all dexels lie between first and last.
-    pub at: [usize; SIDE],
-    /// Number of tiles.
-    pub count: usize,
-    tile: usize,
-    last: usize,
-}
-
-impl Span {
-    fn new(from: usize, count: usize, tile: usize, last: usize) -> Self {
-        let to = (from + count * tile).min(last);
-        let middle = from + if count > 1 { count / 2 * tile } else { tile / 2 };
-        Self { at: [from, middle.min(to), to], count, tile, last }
-    }
-
-    /// Its dexels, tile by tile.
-    pub fn tiles(&self) -> impl Iterator<Item = Range<usize>> + use<> {
-        let Self { at: [from, ..], count, tile, last } = *self;
-        (0..count).map(move |i| from + i * tile..(from + (i + 1) * tile).min(last + 1))
-    }
-
-    /// Its dexels: the line that it shares with the next tile belongs to that one.
-    pub fn dexels(&self) -> Range<usize> {
-        self.at[0]..(self.at[0] + self.count * self.tile).min(self.last + 1)
-    }
-
-    /// Parts to both sides of the middle line.
-    fn halves(&self) -> [Self; 2] {
-        let [from, middle, _] = self.at;
-        let (counts, tile) = if self.count > 1 {
-            ([self.count / 2, self.count - self.count / 2], self.tile)
-        } else {
-            ([1, 1], self.tile / 2)
-        };
-        [Self::new(from, counts[0], tile, self.last), Self::new(middle, counts[1], tile, self.last)]
-    }
-
-    /// Weights of three values whose sum is as far as the smooth function behind them leaves straight lines between them, by its second differences. Nothing if it cannot be told.
-    fn bend(&self) -> Option<[f64; SIDE]> {
-        let [from, middle, to] = self.at;
-        let [a, b] = [middle - from, to - middle].map(|lines| lines as f64);
-        if to - from <= 1 {
-            return Some([0.0; SIDE]);
-        }
-        (a > 0.0 && b > 0.0).then(|| {
-            let scale = 0.25 * a.max(b).powi(2) / (a + b);
-            [scale / a, -scale * (1.0 / a + 1.0 / b), scale / b]
-        })
-    }
-}
-
-/// Dexels that are judged together.
-pub struct Region<'a> {
-    field: &'a SpatialField,
-    /// Columns.
-    pub columns: Span,
-    /// Rows.
-    pub rows: Span,
-    bends: Option<[[f64; SIDE]; 2]>,
-    /// Height of the blank along each of the nine rays, column by column.
-    pub blank_mm: [f64; RAYS],
-}
-
-impl<'a> Region<'a> {
-    /// All of a field.
-    pub fn whole(field: &'a SpatialField) -> Self {
-        let span = |lines: usize, tile: usize| Span::new(0, lines.div_ceil(tile), tile, lines - 1);
-        Self::new(field, span(field.columns(), TILE_COLUMNS), span(field.rows(), TILE_ROWS))
-    }
-
-    fn new(field: &'a SpatialField, columns: Span, rows: Span) -> Self {
-        let bends = columns.bend().zip(rows.bend()).map(|(c, r)| [c, r]);
-        let blank_mm =
-            std::array::from_fn(|i| f64::from(field.blank_mm[field.index(columns.at[i / SIDE], rows.at[i % SIDE])]));
-        Self { field, columns, rows, bends, blank_mm }
-    }
-
-    /// Whether it is one tile.
-    pub fn is_tile(&self) -> bool {
-        self.columns.count == 1 && self.rows.count == 1
-    }
-
-    /// The nine rays as dexels.
-    pub fn dexels(&self) -> [usize; RAYS] {
-        std::array::from_fn(|i| self.field.index(self.columns.at[i / SIDE], self.rows.at[i % SIDE]))
-    }
-
-    /// Size along the profile and along the tooth, mm.
-    pub fn extent_mm(&self) -> [f64; 2] {
-        let at = |i: usize, j: usize| self.field.ray(self.columns.at[i], self.rows.at[j]).origin_mm;
-        [at(0, 1).distance(at(2, 1)), at(1, 0).distance(at(1, 2))]
-    }
-
-    /// How far a smooth function with these values on the nine rays can leave its bilinear interpolation in any of the four cells between them.
-    #[inline(always)]
-    pub fn bend(&self, values: &[f64; RAYS]) -> f64 {
-        let Some([across, along]) = &self.bends else { return f64::INFINITY };
-        let (mut most_across, mut most_along) = (0.0_f64, 0.0_f64);
-        for line in 0..SIDE {
-            let [a, b, c] = [0, 1, 2].map(|i| values[SIDE * i + line]);
-            most_across = most_across.max((across[0] * a + across[1] * b + across[2] * c).abs());
-            let [a, b, c] = [0, 1, 2].map(|i| values[SIDE * line + i]);
-            most_along = most_along.max((along[0] * a + along[1] * b + along[2] * c).abs());
-        }
-        most_across + most_along
-    }
-
-    /// Which directions are halved: both, or the longer one; facets are some two and a half times as long as wide. A tile is halved in both.
-    fn split(&self) -> [bool; 2] {
-        let [width_mm, length_mm] = self.extent_mm();
-        let (wide, long) = (self.columns.count > 1, self.rows.count > 1);
-        if self.is_tile() {
-            return [true; 2];
-        }
-        [wide && (!long || 5.0 * width_mm > length_mm), long && (!wide || length_mm > 1.25 * width_mm)]
-    }
-}
 
 /// Sweeps as seen from one origin.
 pub struct Frame {
@@ -382,80 +255,9 @@ impl Region<'_> {
     }
 }
 
-/// Gives the records of a tile the polynomials that Newton's method starts from: through the middle ray, the ends of the middle column and row, and two corners. Where one of them does not meet the segment or
-/// its continuation, only the middle ray counts; where that one does not, the lowest height.
-pub fn find_starts(field: &SpatialField, tile: &SweepTile, edge: &Edge, records: &mut [SweepRecord]) {
-    Arch::new().dispatch(Starting { field, tile, edge, records });
-}
-
-struct Starting<'a> {
-    field: &'a SpatialField,
-    tile: &'a SweepTile,
-    edge: &'a Edge,
-    records: &'a mut [SweepRecord],
-}
-
-impl pulp::NullaryFnOnce for Starting<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let [column, row] = self.tile.middle();
-        let [columns, rows] = [&self.tile.columns, &self.tile.rows].map(|lines| [lines.start, lines.end - 1]);
-        let places = [
-            [column, row],
-            [columns[0], row],
-            [columns[1], row],
-            [column, rows[0]],
-            [column, rows[1]],
-            [columns[0], rows[0]],
-            [columns[1], rows[1]],
-            [column, row],
-        ];
-        let from_middle = places.map(|[c, r]| [c as f64 - column as f64, r as f64 - row as f64]);
-        let rays = Rays::new(self.field, self.tile.origin_mm, places.map(|[c, r]| self.field.index(c, r)));
-        let lowest_mm = 2.0 * self.field.low_mm;
-        for record in self.records {
-            let segment = &self.edge.segments[record.segment as usize];
-            let start_t = record.places(&rays, &[0.0; LANES], 1)[0];
-            let roots = record.roots(segment, &rays, [&[0.0; LANES], &start_t], lowest_mm, LAST_STEP);
-            record.start = if (0..LANES).all(|l| entered(&roots, l)) {
-                SweepStart {
-                    height_mm: quadratic(&from_middle, &roots.height_mm),
-                    t: quadratic(&from_middle, &roots.t),
-                }
-            } else {
-                let middle_mm = if entered(&roots, 0) { roots.height_mm[0] } else { lowest_mm };
-                SweepStart { height_mm: [middle_mm, 0.0, 0.0, 0.0, 0.0, 0.0], t: [0.0; 6] }
-            };
-        }
-    }
-}
-
-/// Coefficients of 1, x, y, x^2, x y, y^2 through values in the middle, to both sides along x and along y, and in two corners (their mean).
+/// Whether the ray of a lane enters the segment or its continuation.
 #[inline(always)]
-fn quadratic(places: &[[f64; 2]; LANES], values: &Lanes) -> [f64; 6] {
-    let along = |axis: usize, before: usize, after: usize| {
-        let ([a, b], [f, g]) =
-            ([places[before][axis], places[after][axis]], [before, after].map(|i| values[i] - values[0]));
-        if a == 0.0 || b == 0.0 {
-            // A line, or nothing, where there are too few rays.
-            return [if b == 0.0 { 0.0 } else { g / b }, 0.0];
-        }
-        let bend = (g / b - f / a) / (b - a);
-        [g / b - bend * b, bend]
-    };
-    let ([x, xx], [y, yy]) = (along(0, 1, 2), along(1, 3, 4));
-    let twist = |corner: usize| {
-        let [u, v] = places[corner];
-        let rest = values[corner] - values[0] - u * (x + u * xx) - v * (y + v * yy);
-        if u * v == 0.0 { 0.0 } else { rest / (u * v) }
-    };
-    [values[0], x, y, xx, 0.5 * (twist(5) + twist(6)), yy]
-}
-
-#[inline(always)]
-fn entered(roots: &Roots, l: usize) -> bool {
+pub(super) fn entered(roots: &Roots, l: usize) -> bool {
     roots.falls[l]
         && roots.step_mm[l].abs() < LAST_STEP
         && roots.t[l].abs() < LARGEST_T
