@@ -147,8 +147,8 @@ fn check(name: &str, settings: &[&str]) {
 
 #[test]
 fn the_third_order_gear_undercut_at_its_lobes() {
-    // Flanks have a row at either face only: the root's row in the middle lies between theirs.
-    check("third_order_plain", &["fields.flank.lead_spacing_um=2000"]);
+    // Flanks have four rows, roots three: the middle one lies between the flanks' own.
+    check("third_order_plain", &["fields.flank.lead_spacing_um=667"]);
 }
 
 #[test]

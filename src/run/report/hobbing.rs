@@ -87,7 +87,7 @@ fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
         pitch: &gear.pitch,
         runout: gear.runout.as_ref(),
         thickness_mm: gear.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect(),
-        profile_place: "roll along the line of action, from the pitch point towards the tip (up)",
+        profile_place: "roll from the pitch point, up to the tip",
         lead_place: "in the middle of the profile",
         target: "the surface that the last operation would leave with infinitely many gashes and an infinitely fine feed",
     }
