@@ -50,8 +50,12 @@ fn what_cannot_be_hobbed_is_refused_with_the_reason_and_a_way_out() {
             "tool.hob.reference_diameter_mm=2",
             &["tool.hob.reference_diameter_mm", "lead angle 90.00 deg", "fewer starts"],
         ),
-        // 43.75 mm x 2 pi / 12 x tan 15 deg.
-        ("scenes/hobbing/circular_spur.toml", "tool.hob.regrind_mm=6.2", &["tool.hob.regrind_mm", "6.138 mm", "gash"]),
+        // Root radius: 40 - 1.25 x 3 mm.
+        (
+            "scenes/hobbing/circular_spur.toml",
+            "tool.hob.regrind_mm=9.2",
+            &["tool.hob.regrind_mm", "9.062 mm", "root radius"],
+        ),
         (PLAIN, "tool.hob.length_mm=40", &["whole contact", "longer hob"]),
         (PLAIN, "tool.hob.gashes=0", &["tool.hob.gashes", "0 is out of range", "4 to 60", "gashes = 10"]),
         (PLAIN, "tool.hob.lead_angle_deg=25", &["tool.hob.lead_angle_deg", "25 is out of range", "0 to 20 deg"]),

@@ -50,13 +50,22 @@ fn off_edge_mm(edge: &Edge, point: DVec2) -> f64 {
 
 #[test]
 fn sections_hold_the_edge_at_the_moment_of_their_slice() {
-    for scene in ["circular_spur", "circular_helical", "third_order_diagonal"] {
-        let job = job(scene, &[]);
+    // The last two turn their shift round six times a revolution, and lift the hob from its work at 20 mm/s: a cubic over such a moment has its corner rounded off.
+    let turning = "operation.finish.linkage.hobbing_diagonal.shift_mm_per_revolution=500";
+    let lifting = "operation.finish.linkage.hobbing_diagonal.strategy=repeating";
+    for (scene, sets, bound_nm) in [
+        ("circular_spur", &[][..], 20.0),
+        ("circular_helical", &[], 20.0),
+        ("third_order_diagonal", &[], 20.0),
+        ("third_order_diagonal", &[turning], 3000.0),
+        ("third_order_diagonal", &[lifting], 3000.0),
+    ] {
+        let job = job(scene, sets);
         let cutter = HobCutter::new(&job).expect("passes");
         let last = job.operations.len() - 1;
         let (set, sections) = (&cutter.operations[last], cutter.sections(last, true));
         let half_mm = 0.5 * job.scene.gear.face_width_mm;
-        let (mut worst_nm, mut points, mut section) = (0.0_f64, 0, SweptSection::default());
+        let (mut worst_nm, mut points, mut rounded, mut section) = (0.0_f64, 0, 0, SweptSection::default());
         for index in (0..sections.len()).step_by(sections.len() / 150) {
             for z_mm in [-half_mm, -0.31 * half_mm, 0.0, half_mm] {
                 if !sections.section(index, z_mm, &mut section) {
@@ -71,7 +80,11 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
                             continue;
                         }
                         let held = |stretch| Sweep::new(set, &pass, stretch, place, 1.0)?.in_rake_face(DVec3::ZERO);
-                        let [radius, y] = set.stretches(&pass).find_map(held).expect("in the rake face");
+                        // A rounded corner lies between both motions.
+                        let Some([radius, y]) = set.stretches(&pass).find_map(held) else {
+                            rounded += 1;
+                            continue;
+                        };
                         worst_nm = worst_nm.max(1e6 * off_edge_mm(job.hob.edge(), DVec2::new(radius, y)));
                         points += 1;
                     }
@@ -79,11 +92,11 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
             }
         }
         println!(
-            "{scene}: {} of {} passes, {points} points, {worst_nm:.2} nm off the edge",
+            "{scene} {sets:?}: {} of {} passes, {points} points, {rounded} at corners, {worst_nm:.2} nm off the edge",
             sections.len(),
             set.count()
         );
-        assert!(points > 3000 && worst_nm < 20.0);
+        assert!(points > 3000 && worst_nm < bound_nm && (rounded == 0 || bound_nm > 20.0));
     }
 }
 

@@ -60,17 +60,10 @@ fn outline(cutter: &HobCutter) -> Outline {
     Outline::new(&surfaces, &job.blank)
 }
 
-/// Whether a point lies in the polygon's material; loops of undercut hold none.
-fn holds(polygon: &TargetOutline, p: DVec2) -> bool {
-    let row = RayRow { first_mm: p.y, spacing_mm: 1.0, count: 1 };
-    polygon.spans(Family::X, &row, 0.0)[0].iter().any(|span| (span[0]..span[1]).contains(&p.x))
-}
-
-/// Lowest and highest of some points over the target, mm. Distances carry the sign of the nearest segment, which beside an undercut may be one of a loop: whether a point lies in the material decides.
+/// Lowest and highest of some points over the target, mm.
 fn over_target_mm(target: &TargetOutline, points_mm: impl Iterator<Item = DVec2>) -> [f64; 2] {
     points_mm.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
-        let distance = target.distance_mm(p, 10.0).expect("within 10 mm of the target");
-        let height = if distance < -UNDER_TARGET_MM && !holds(target, p) { -distance } else { distance };
+        let height = target.distance_mm(p, 10.0).expect("within 10 mm of the target");
         [low.min(height), high.max(height)]
     })
 }

@@ -7,12 +7,12 @@ use proptest::prelude::*;
 
 const SCENE: &str = include_str!("../scenes/shaping/elliptical_finishing_stock.toml");
 
-/// Reads `text`; a scene that is taken must resolve to one that is taken and equal, a refused one must say why.
+/// Reads `text`; a scene that is taken must resolve to one that is taken and equal in the same folder, a refused one must say why.
 fn feed(text: &str, settings: &[String]) {
     match parse(text, "hostile.toml", Path::new("tests/broken"), settings) {
         Ok(loaded) => {
             let resolved = loaded.resolved_toml();
-            let again = parse(&resolved, "hostile.toml", Path::new(""), &[])
+            let again = parse(&resolved, "hostile.toml", Path::new("tests/broken"), &[])
                 .unwrap_or_else(|errors| panic!("{errors}\n{resolved}"));
             assert_eq!(loaded.scene, again.scene);
         }

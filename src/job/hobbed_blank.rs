@@ -7,6 +7,7 @@ use crate::dexel::{BlankField, BlankGrid};
 use crate::error::{Refusal, Result};
 use crate::gear::blank_outline::BlankOutline;
 use crate::gear::generation::Side;
+use crate::gear::rack_generation::FormPoint;
 use crate::gear::target_outline::TargetOutline;
 use crate::passes::hob_sections::HobSections;
 use crate::tool::CuttingTool;
@@ -53,7 +54,7 @@ impl HobbingJob {
         TargetOutline::new(teeth.concat())
     }
 
-    /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise. Where a flank is undercut, flank and fillet run on past their crossing: the outline counts such loops for nothing.
+    /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise. Flanks begin where the fillet meets them, undercut or not.
     fn tooth_outline(&self, tooth: i64, z_mm: f64, spacing_mm: f64) -> Vec<DVec2> {
         let target = &self.target;
         let steps = |length_mm: f64| (length_mm.abs() / spacing_mm).ceil().max(1.0) as usize;
@@ -61,13 +62,14 @@ impl HobbingJob {
             |from: f64, to: f64, count: usize| (0..=count).map(move |i| from + (to - from) * i as f64 / count as f64);
         let limit_mm = 4.0 * target.rack.transverse_module_mm;
         // From the tip corner to the blank's outline, as rolls.
-        let flank = |space: i64, side: Side| -> Vec<DVec2> {
+        let form_point = |space: i64, side: Side| target.form_point(&self.blank, space, side, z_mm);
+        let flank = |space: i64, side: Side, form: &FormPoint| -> Vec<DVec2> {
             let at = |roll_mm: f64| target.flank_contact(space, side, roll_mm, z_mm);
             let stands_out = |roll_mm: f64| {
                 let contact = at(roll_mm);
                 self.blank.height(contact.point_mm.truncate(), contact.phi_rad).0 - self.blank.addendum_mm
             };
-            let root_mm = target.tip_corner_roll_mm(side);
+            let root_mm = form.roll_mm;
             let (mut inside, mut outside) = (0.0, -side.sign() * limit_mm);
             for _ in 0..60 {
                 let middle = 0.5 * (inside + outside);
@@ -75,15 +77,17 @@ impl HobbingJob {
             }
             between(root_mm, outside, steps(outside - root_mm)).map(|roll| at(roll).point_mm.truncate()).collect()
         };
-        let corner = |space: i64, side: Side| -> Vec<DVec2> {
+        let corner = |space: i64, side: Side, form: &FormPoint| -> Vec<DVec2> {
             let bottom_mm = target.corner_bottom_arc_mm(space, side, z_mm);
-            let end_mm = target.crossing_arc_mm(space, side, z_mm) + target.tip_corner_roll_mm(side);
+            let top = target.corner_arc_at_height_mm(&self.blank, space, side, form.height_mm, z_mm);
+            let end_mm = top.unwrap_or(bottom_mm);
             // A sharp corner's path bends most where it leaves the bottom.
             let count = 2 * steps(end_mm - bottom_mm);
             between(bottom_mm, end_mm, count).map(|arc| target.corner_point_mm(space, side, arc, z_mm)).collect()
         };
-        let mut points = flank(tooth - 1, Side::Right);
-        let left = flank(tooth, Side::Left);
+        let left_form = form_point(tooth, Side::Left);
+        let mut points = flank(tooth - 1, Side::Right, &form_point(tooth - 1, Side::Right));
+        let left = flank(tooth, Side::Left, &left_form);
         let foot = |p: DVec2| self.blank.height(p, p.to_angle()).1;
         let from = foot(points[points.len() - 1]);
         let to = from + (foot(left[left.len() - 1]) - from).rem_euclid(TURN_RAD);
@@ -91,7 +95,7 @@ impl HobbingJob {
         let count = steps(land_mm);
         points.extend(between(from, to, count).skip(1).take(count - 1).map(|phi| self.blank.outline_mm(phi)));
         points.extend(left.into_iter().rev());
-        let low = corner(tooth, Side::Left);
+        let low = corner(tooth, Side::Left, &left_form);
         points.extend(low.into_iter().rev().skip(1));
         // The bottom: the rack's tip line rolls along under the pitch curve.
         let ends = [Side::Left, Side::Right].map(|side| target.corner_bottom_arc_mm(tooth, side, z_mm));
@@ -100,7 +104,7 @@ impl HobbingJob {
             let frame = self.curve.frame(self.curve.phi_at_arc(arc));
             frame.point_mm - target.rack.tip_height_mm * frame.normal
         }));
-        let high = corner(tooth, Side::Right);
+        let high = corner(tooth, Side::Right, &form_point(tooth, Side::Right));
         points.extend(&high[..high.len() - 1]);
         points
     }

@@ -35,8 +35,8 @@ use std::f64::consts::{PI, TAU};
 
 /// Largest lead angle taken: beyond it a hob is a worm gear's pinion, and tables and formulas of hobs do not hold.
 const LARGEST_LEAD_ANGLE_RAD: f64 = 0.35;
-/// Relief angles of hob tips are some 10 deg; this is steeper than any.
-const STEEPEST_RELIEF_RAD: f64 = 15.0 * PI / 180.0;
+/// Share of the root radius by which relief lowers a tooth at most: with relief angles of some 10 deg and gashes 30 deg apart it is a tenth.
+const DEEPEST_RELIEF: f64 = 0.25;
 /// Smallest tip land, modules: less is a pointed tooth.
 const SMALLEST_TIP_LAND_MODULES: f64 = 0.01;
 
@@ -184,16 +184,15 @@ impl Hob {
                 "use fewer starts, a larger reference diameter or a smaller dedendum_coefficient",
             ));
         }
-        let most_mm = new_tip_radius_mm * TAU / f64::from(spec.gashes) * STEEPEST_RELIEF_RAD.tan();
+        let most_mm = DEEPEST_RELIEF * root_radius_mm;
         if spec.regrind_mm > most_mm {
             return Err(Refusal::new(
                 "tool.hob.regrind_mm",
                 format!(
-                    "a tooth reground by {} mm is gone: it is no longer than the way from gash to gash, and even with a relief angle of {:.0} deg its radius falls by no more than {most_mm:.3} mm on that way",
-                    spec.regrind_mm,
-                    STEEPEST_RELIEF_RAD.to_degrees()
+                    "no hob tooth falls by {} mm from its rake face to its back: at most {most_mm:.3} mm are taken, a quarter of the root radius",
+                    spec.regrind_mm
                 ),
-                "use a smaller regrind_mm, or fewer gashes",
+                "use a smaller regrind_mm",
             ));
         }
         // Gashes across the thread wind against it; axial lengths in such a rake face shrink by cos^2(lambda).
