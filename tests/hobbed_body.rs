@@ -12,7 +12,7 @@ use gearcut::dexel::intervals::Span;
 use gearcut::gear::generation::Side;
 use gearcut::gear::target_outline::TargetOutline;
 use gearcut::job::{CutBlank, HobCutter, HobbingJob};
-use gearcut::planar_rays::{FAMILIES, Family, RayRow};
+use gearcut::planar_rays::FAMILIES;
 use gearcut::scene;
 use gearcut::surface::SurfaceGrid;
 use gearcut::surface::gear_solid::gear_solid;

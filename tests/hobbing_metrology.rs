@@ -99,3 +99,31 @@ fn a_surface_shows_the_marks_that_the_motion_makes() {
         }
     }
 }
+
+/// Approach and overrun are long enough: at both faces the marks of every flank are no higher than in the middle, whichever tooth the hob meets last.
+#[test]
+fn faces_are_finished_as_the_middle_is() {
+    let settings = ["fields.flank.profile_spacing_um=200", "fields.flank.lead_spacing_um=100", "gear.face_width_mm=20"];
+    for scene in ["third_order_plain", "circular_helical"] {
+        let path = format!("scenes/hobbing/{scene}.toml");
+        let scene = scene::load(Path::new(&path), &settings.map(str::to_owned)).expect("the scene").scene;
+        let job = HobbingJob::new(&scene).expect("the gear");
+        let cutter = HobCutter::new(&job).expect("passes");
+        let mut worst = (0.0_f64, String::new());
+        for (tooth, side) in (1..=job.scene.gear.teeth).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]) {
+            let flank = cutter.cut(&Cpu::default(), tooth, side).expect("a flank");
+            let (field, heights) = (&flank.rays.field, &flank.layers[flank.layers.len() - 1].heights_mm);
+            let highest = |near_face: bool| {
+                let rows = (0..field.rows()).filter(|&row| (flank.rays.leads_mm[row].abs() > 6.0) == near_face);
+                rows.flat_map(|row| (0..field.columns()).map(move |column| heights[field.index(column, row)]))
+                    .fold(0.0, f32::max)
+            };
+            let ratio = f64::from(highest(true) / highest(false));
+            if ratio > worst.0 {
+                worst = (ratio, format!("tooth {tooth} {side:?}"));
+            }
+        }
+        println!("{path}: marks at the faces up to {:.3} of those in the middle, {}", worst.0, worst.1);
+        assert!(worst.0 < 1.1, "{path}: {worst:?}");
+    }
+}

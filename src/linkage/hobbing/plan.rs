@@ -94,8 +94,7 @@ impl FeedPlan {
                 "use a longer hob",
             ));
         }
-        let (approach_mm, overrun_mm) =
-            Self::ways(operation, hob, curve, [depth_mm, gear_addendum_mm], tilt, contact_x_mm);
+        let (approach_mm, overrun_mm) = Self::ways(operation, hob, curve, gear, [depth_mm, gear_addendum_mm], tilt);
         // A left-hand hob's teeth go up through the work (+z of the machine), so that climb feeds down.
         let climb = geometry.hob_hand;
         let direction = match operation.feed_direction {
@@ -166,9 +165,9 @@ impl FeedPlan {
         operation: &HobbingOperation,
         hob: &Hob,
         curve: &PitchCurve,
+        gear: &Gear,
         [depth_mm, gear_addendum_mm]: [f64; 2],
         tilt: f64,
-        contact_x_mm: f64,
     ) -> (f64, f64) {
         // Half the chord that the tip line cuts from the blank, no longer than the hob or the blank; a flat curve has no chord of its own.
         let facts = curve.facts();
@@ -179,7 +178,11 @@ impl FeedPlan {
         let reach_mm = if chord_mm.is_finite() { chord_mm.min(longest_mm) } else { longest_mm };
         let sink_mm = (hob.tip_radius_mm.powi(2) - (hob.tip_radius_mm - depth_mm).powi(2)).max(0.0).sqrt();
         let approach = sink_mm / tilt.cos() + reach_mm * tilt.tan().abs() + CLEARANCE_MM;
-        let overrun = contact_x_mm * tilt.tan().abs() + CLEARANCE_MM;
+        // Hob and flank touch on the normal through the pitch point, which leans along the gear's axis: h sin(beta) / tan(alpha_n) at the height h. Each tooth's last pass comes up to one feed before the end, and cuts
+        // half a feed to either side.
+        let highest_mm = gear_addendum_mm.max(hob.tip_radius_mm - hob.pitch_radius_mm);
+        let lean_mm = highest_mm * gear.helix_angle_rad.sin() / gear.pressure_angle_rad.tan();
+        let overrun = lean_mm + 0.5 * operation.axial_feed_mm_per_revolution + CLEARANCE_MM;
         (operation.approach_mm.unwrap_or(approach), operation.overrun_mm.unwrap_or(overrun))
     }
 

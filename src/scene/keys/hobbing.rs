@@ -254,7 +254,7 @@ pub(super) const OVERRUN_WAY: Key = optional(
     "overrun_mm",
     "mm",
     Range::closed(0.0, 1000.0),
-    "until the last contact has left the work",
+    "until every tooth's last contact has left the work",
     "8.0",
     "Way of the slide beyond the other face.",
 );
