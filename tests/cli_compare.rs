@@ -233,7 +233,7 @@ fn hobbed(volumes: [f64; 3], idle_s: f64) -> Value {
         "operations": [{
             "name": "finish", "idle_time": number(idle_s, "s"), "axes": { "hob": { "speed": number(1.0, "deg/s") } },
         }],
-        "hob_load": { "assumption": "made by hand", "operations": [{
+        "hob_load": { "assumption": "made by hand", "length_of_teeth": number(1780.2, "mm"), "operations": [{
             "name": "finish", "volume": number(volumes.iter().sum(), "mm3"), "largest_volume": number(largest, "mm3"),
             "hardest_working_tooth": text(hardest.to_string()), "teeth_in_use": number(3.0, "teeth"),
             "peak_to_mean": number(1.0, "1"), "largest_thickness": number(0.1 * largest, "mm"),

@@ -192,6 +192,8 @@ fn a_hobbed_gear_comes_with_meshes_charts_marks_points_and_programs() {
         "{}",
         texture[0]["parameters"]["Sz"]
     );
+    let length_mm = 16.0 * 8.0 / 15_f64.to_radians().cos();
+    assert!((number(&results["hob_load"]["length_of_teeth"]) / length_mm - 1.0).abs() < 1e-12);
     // The load tooth by tooth is the whole volume, and a comparison reads it back.
     let load = &results["hob_load"]["operations"][0];
     let teeth = load["teeth"].as_array().expect("hob teeth");
@@ -208,9 +210,15 @@ fn a_hobbed_gear_comes_with_meshes_charts_marks_points_and_programs() {
     ]);
     assert!(compared.join("load_finish_volume.png").is_file());
     let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
-    for words in
-        ["Cutting marks", "Points on five curves", "Axis motion", "15.0000° right-hand", "hob tooth along the thread"]
-    {
+    for words in [
+        "Cutting marks",
+        "Points on five curves",
+        "Work of the hob's teeth",
+        "Helix, left flanks",
+        "Axis motion",
+        "15.0000° right-hand",
+        "hob tooth along the thread",
+    ] {
         assert!(page.contains(words), "{words}");
     }
 }

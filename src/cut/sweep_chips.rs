@@ -1,6 +1,6 @@
 //! What sweeps of hob teeth take from the whole blank: volume, thickness and way, pass by pass, whatever backend cut it.
 //!
-//! In: the material that a pass takes from each ray of a slice, with the ends that it found and those that it left ([`ChipSurfaces`]). Out: its share in that slice ([`PassChip::of_slice`]), summed over slices ([`ChipBooks`]).
+//! In: the material that a pass takes from each ray of a slice, with the ends that it found and those that it left (`ChipSurfaces`). Out: its share in that slice, summed over slices ([`PassChip`]).
 
 use super::cpu::blank::{BlankCut, BlankStats};
 use crate::dexel::intervals::{End, Span};

@@ -1,7 +1,7 @@
 //! G-code for a five- or six-axis CNC hobbing machine: written from a linkage, and read back into axis positions.
 //!
 //! In: a prepared operation and the **contour error**, the largest displacement of the hob in the work that straight lines may cause where both meet. Out: two texts, and from any such text the axes at every
-//! moment ([`read`]).
+//! moment ([`read()`]).
 //!
 //! | word | axis | unit |
 //! | --- | --- | --- |

@@ -157,8 +157,8 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools, out: &Path) -> Result<(Value,
     let whole = if gear.work.interrupted { None } else { blank::cut(&cutter, backend, progress, interrupt)? };
     gear.work.interrupted |= whole.is_none();
     let mut results = results::results(&cutter, &gear, &textures, &lattices)?;
+    let loads = whole.as_ref().map_or_else(Vec::new, |whole| load::measure(&cutter, &whole.blank));
     if let Some(whole) = &whole {
-        let loads = load::measure(&cutter, &whole.blank);
         results["hob_load"] = results::value(&load::results(job, &loads))?;
         results["blank"] = blank::results(&cutter, whole)?;
         load::write(job, &loads, folder)?;
@@ -181,7 +181,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools, out: &Path) -> Result<(Value,
         progress.note(&note);
     }
     let words = RunWords { resolved_scene: resolved, backend: &backend.name(), backend_why };
-    report::hobbing::page(&cutter, &gear, &texture::results(&cutter, &textures), &lattices, &words, folder)?
+    report::hobbing::page(&cutter, &gear, &texture::results(&cutter, &textures), &lattices, &loads, &words, folder)?
         .write(&folder.path(REPORT_FILE)?)?;
     let summary = summary::summary(job, &gear, &lattices, out, &backend.name());
     Ok((results, summary, gear.work))

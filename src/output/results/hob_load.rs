@@ -9,6 +9,8 @@ use crate::output::quantity::Quantity;
 pub struct HobLoadResults {
     /// What the load rests on.
     pub assumption: String,
+    /// Length of all teeth of the gear.
+    pub length_of_teeth: Quantity,
     /// Operations in order.
     pub operations: Vec<OperationLoadResults>,
 }

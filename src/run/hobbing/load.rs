@@ -10,7 +10,7 @@ use crate::output::results::{HobLoadResults, OperationLoadResults, ToothLoadResu
 use crate::output::table::{Cell, write_table};
 
 /// What the load rests on.
-const ASSUMPTION: &str = "volume that a tooth takes, as a measure of the work that it does with the specific cutting force the same everywhere; wear follows heat and chip thickness besides, so this is no life";
+pub const ASSUMPTION: &str = "volume that a tooth takes, as a measure of the work that it does with the specific cutting force the same everywhere; wear follows heat and chip thickness besides, so this is no life";
 
 /// One chart: its file, its title, what it shows, its unit and a tooth's value.
 type Chart = (&'static str, &'static str, &'static str, fn(&ToothLoad) -> f64);
@@ -32,9 +32,19 @@ pub fn measure(cutter: &HobCutter, blank: &HobbedBlank) -> Vec<OperationLoad> {
 /// Files that cannot be written.
 pub fn write(job: &HobbingJob, loads: &[OperationLoad], folder: &OutputFolder) -> Result<()> {
     write_load_table(job, loads, folder)?;
-    for (operation, of_operation) in job.operations.iter().zip(loads) {
-        let name = &operation.spec.name;
-        for (stem, what, unit, value) in CHARTS {
+    for (stem, chart) in charts(job, loads) {
+        chart.write_png(&folder.path(format!("load/{stem}.png"))?)?;
+        chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
+    }
+    Ok(())
+}
+
+/// Bars by hob tooth with the names of their files, operation by operation.
+pub fn charts(job: &HobbingJob, loads: &[OperationLoad]) -> Vec<(String, BarChart)> {
+    let operations = job.operations.iter().zip(loads);
+    let charts = operations.flat_map(|(operation, load)| CHARTS.map(|chart| (&operation.spec.name, load, chart)));
+    charts
+        .map(|(name, load, (stem, what, unit, value))| {
             let chart = BarChart {
                 title: format!("{}, {name}: {what} by hob tooth", job.scene.name),
                 category_name: "hob tooth, from the entering end".into(),
@@ -43,14 +53,12 @@ pub fn write(job: &HobbingJob, loads: &[OperationLoad], folder: &OutputFolder) -
                 unit: unit.into(),
                 series: vec![BarSeries {
                     name: name.clone(),
-                    values: of_operation.teeth.iter().map(|load| Some(value(load))).collect(),
+                    values: load.teeth.iter().map(|load| Some(value(load))).collect(),
                 }],
             };
-            chart.write_png(&folder.path(format!("load/{name}_{stem}.png"))?)?;
-            chart.write_svg(&folder.path(format!("load/{name}_{stem}.svg"))?)?;
-        }
-    }
-    Ok(())
+            (format!("{name}_{stem}"), chart)
+        })
+        .collect()
 }
 
 fn labels(job: &HobbingJob) -> Vec<String> {
@@ -91,7 +99,14 @@ fn write_load_table(job: &HobbingJob, loads: &[OperationLoad], folder: &OutputFo
 /// Its part of `results.json`.
 pub fn results(job: &HobbingJob, loads: &[OperationLoad]) -> HobLoadResults {
     let operations = (0..loads.len()).map(|index| of_operation(job, &loads[index], index)).collect();
-    HobLoadResults { assumption: ASSUMPTION.to_owned(), operations }
+    let gear = &job.scene.gear;
+    let length_mm = f64::from(gear.teeth) * gear.face_width_mm / gear.helix_angle_rad.cos();
+    let length_of_teeth = Quantity::number(
+        length_mm,
+        "mm",
+        "length of all teeth of the gear, z b / cos(beta): by it workshops count how long a hob lasts (Liu et al. 2015, Eq. 22, for one gear)",
+    );
+    HobLoadResults { assumption: ASSUMPTION.to_owned(), length_of_teeth, operations }
 }
 
 fn of_operation(job: &HobbingJob, of: &OperationLoad, index: usize) -> OperationLoadResults {

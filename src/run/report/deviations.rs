@@ -43,6 +43,8 @@ pub struct Inspection<'a> {
     pub profile_place: &'static str,
     /// Where the lines along the tooth run.
     pub lead_place: &'static str,
+    /// What deviations along the tooth are called.
+    pub lead_name: &'static str,
     /// What the finished gear is held against.
     pub target: &'static str,
 }
@@ -65,6 +67,7 @@ impl<'a> Inspection<'a> {
             thickness_mm: report.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect(),
             profile_place: "u from the form point (below) to the tip",
             lead_place: "at the pitch curve",
+            lead_name: "Lead",
             target: "the surface that the last operation would leave with infinitely many strokes and no error",
         }
     }
@@ -75,7 +78,7 @@ pub fn section(inspection: &Inspection) -> Section {
     let mut blocks = vec![
         Block::Heading("Profile, in the middle of the face".to_owned()),
         Block::Traces(SIDES.map(|(side, name)| profile_sheet(inspection, side, name)).into()),
-        Block::Heading(format!("Lead, {}", inspection.lead_place)),
+        Block::Heading(format!("{}, {}", inspection.lead_name, inspection.lead_place)),
         Block::Traces(SIDES.map(|(side, name)| lead_sheet(inspection, side, name)).into()),
         Block::Note(
             "Four teeth evenly around the gear and those with the largest total deviation of either flank. Heights over the target along its normal; dashed lines bound the evaluated part, the straight line is its mean line. F total, ff form, fH slope deviation, µm."
@@ -203,7 +206,7 @@ fn profile_sheet(inspection: &Inspection, side: Side, name: &str) -> TraceSheet 
 fn lead_sheet(inspection: &Inspection, side: Side, name: &str) -> TraceSheet {
     let flanks = traced(inspection, side, |flank| flank.lead.1.map(|l| l.total_mm));
     TraceSheet {
-        title: format!("Lead, {name}"),
+        title: format!("{}, {name}", inspection.lead_name),
         place_name: "v along the tooth".to_owned(),
         place_unit: "mm".to_owned(),
         unit: "µm".to_owned(),

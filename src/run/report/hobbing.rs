@@ -4,14 +4,15 @@ use super::deviations::{self, Inspected, Inspection};
 use super::{RunWords, facts, key_number, known_first, maps, record, texture, with_signs};
 use crate::axes_report::HobbingAxesReport;
 use crate::error::Result;
-use crate::job::HobCutter;
+use crate::job::{HobCutter, HobbingJob};
 use crate::linkage::hobbing::marks::MarkStep;
+use crate::measure::hob_load::OperationLoad;
 use crate::measure::marks::{MarkLattice, between_rad};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, Section, Table};
 use crate::output::results::TextureResults;
 use crate::output::text::{plain, significant};
-use crate::run::hobbing::{HobbedGear, headline, points, warnings};
+use crate::run::hobbing::{HobbedGear, headline, load, points, warnings};
 use std::f64::consts::PI;
 
 /// The page of a run.
@@ -23,6 +24,7 @@ pub fn page(
     gear: &HobbedGear,
     textures: &[TextureResults],
     lattices: &[MarkLattice],
+    loads: &[OperationLoad],
     run: &RunWords,
     folder: &OutputFolder,
 ) -> Result<Page> {
@@ -35,6 +37,7 @@ pub fn page(
     sections.extend(five_curves(&job.scene.name, gear));
     sections.push(marks_section(lattices));
     sections.extend(texture::section(textures, folder)?);
+    sections.extend(load_section(job, loads));
     sections.push(motion(cutter, &axes));
     sections.push(facts::hobbing_section(job));
     sections.push(record(gear.flanks.len(), &gear.work.stats, gear.work.dexels, run));
@@ -89,6 +92,7 @@ fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
         thickness_mm: gear.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect(),
         profile_place: "roll from the pitch point, up to the tip",
         lead_place: "in the middle of the profile",
+        lead_name: "Helix",
         target: "the surface that the last operation would leave with infinitely many gashes and an infinitely fine feed",
     }
 }
@@ -151,6 +155,20 @@ fn marks_section(lattices: &[MarkLattice]) -> Section {
             rows: rows.collect(),
         })],
     }
+}
+
+/// Nothing where the run was stopped before the whole blank was cut.
+fn load_section(job: &HobbingJob, loads: &[OperationLoad]) -> Option<Section> {
+    let charts = load::charts(job, loads);
+    (!charts.is_empty()).then(|| Section {
+        id: "load",
+        title: "Work of the hob's teeth".to_owned(),
+        lead: format!(
+            "What each tooth of the hob does in the whole process, approach and overrun included. The load is the {}.",
+            load::ASSUMPTION
+        ),
+        blocks: charts.into_iter().map(|(_, chart)| Block::Bars(chart)).collect(),
+    })
 }
 
 fn motion(cutter: &HobCutter, axes: &[HobbingAxesReport]) -> Section {
