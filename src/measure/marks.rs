@@ -28,6 +28,8 @@ const POINTS: usize = 121;
 const STEPS: f64 = 4.4;
 /// Steps that enclose a smaller area than this share of a rectangle's run along one line.
 const ALONG_ONE_LINE: f64 = 0.2;
+/// Steps within this share of each other count as equally long.
+const EQUALLY_LONG: f64 = 1.02;
 
 /// The lattice on one flank.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,21 +97,29 @@ pub fn measure(cutter: &HobCutter, backend: &dyn Backend, tooth: u32, side: Side
         return Ok(lattice(Err("the heights repeat themselves in fewer than two directions".to_owned())));
     };
     let found = marks.reduced([first, second], length_per_roll);
-    Ok(lattice(Ok(like(found, kinematic))))
+    // Where the lattice is nearly rectangular, the longer step and its sum or difference with the shorter one are equally long, and either may be taken.
+    let [shorter, longer] = found;
+    let pairs = [0.0, 1.0, -1.0]
+        .map(|turns| [shorter, marks.on_flank(longer.step_mm + turns * shorter.step_mm, length_per_roll)])
+        .into_iter()
+        .filter(|[_, other]| other.length_mm() <= EQUALLY_LONG * longer.length_mm());
+    Ok(lattice(Ok(like(pairs, kinematic))))
 }
 
-/// Steps of a lattice in the order and direction of those of another: each of `others` takes the nearest, forwards or backwards.
-fn like(found: [MarkStep; 2], others: [MarkStep; 2]) -> [MarkStep; 2] {
+/// Steps of a lattice in the order and direction of those of another, from the pair that lies nearest: each of `others` takes the nearer one, forwards or backwards.
+fn like(pairs: impl Iterator<Item = [MarkStep; 2]>, others: [MarkStep; 2]) -> [MarkStep; 2] {
     let turned = |step: MarkStep, other: MarkStep| {
         let back = step.on_flank_mm.dot(other.on_flank_mm) < 0.0;
         if back { MarkStep { step_mm: -step.step_mm, on_flank_mm: -step.on_flank_mm, ..step } } else { step }
     };
-    let pair = |order: [usize; 2]| [0, 1].map(|i| turned(found[order[i]], others[i]));
     let apart = |pair: &[MarkStep; 2]| -> f64 {
         pair.iter().zip(&others).map(|(a, b)| a.on_flank_mm.distance(b.on_flank_mm)).sum()
     };
-    let [straight, crossed] = [pair([0, 1]), pair([1, 0])];
-    if apart(&straight) <= apart(&crossed) { straight } else { crossed }
+    pairs
+        .flat_map(|[a, b]| [[a, b], [b, a]])
+        .map(|[a, b]| [turned(a, others[0]), turned(b, others[1])])
+        .min_by(|a, b| apart(a).total_cmp(&apart(b)))
+        .expect("the pair that was found is among them")
 }
 
 /// Angle between two directions without arrows, rad, 0 to pi/2.
