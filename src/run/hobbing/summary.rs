@@ -59,19 +59,22 @@ pub fn summary(job: &HobbingJob, gear: &HobbedGear, lattices: &[MarkLattice], ou
         ),
     );
     let of_axes = HobbingAxesReport::of_job(job);
-    for warning in
-        warnings(gear, spec.module_mm).into_iter().chain(of_axes.iter().flat_map(HobbingAxesReport::warnings))
-    {
+    for warning in warnings(job, gear).into_iter().chain(of_axes.iter().flat_map(HobbingAxesReport::warnings)) {
         sheet.line("warning", warning);
     }
     sheet.line("files", out.display().to_string());
     sheet.into_text()
 }
 
-/// What a reader must know before trusting the numbers; of a gear of module `module_mm`.
-pub(in crate::run) fn warnings(gear: &HobbedGear, module_mm: f64) -> Vec<String> {
+/// What a reader must know before trusting the numbers.
+pub(in crate::run) fn warnings(job: &HobbingJob, gear: &HobbedGear) -> Vec<String> {
     let mut warnings = Vec::new();
-    let reach_mm = RAY_DEPTH_MODULES * module_mm;
+    if job.scene.hobbing().is_some_and(|hobbing| hobbing.tool.protuberance.is_some()) {
+        warnings.push(
+            "the target knows no protuberance: the relief that it leaves at the roots stands as a cut below the target and as gouges".to_owned(),
+        );
+    }
+    let reach_mm = RAY_DEPTH_MODULES * job.scene.gear.module_mm;
     let lowest_mm = gear.flanks.iter().filter_map(|f| f.finished).map(|h| h.lowest_mm).fold(0.0, f64::min);
     if lowest_mm < -0.999 * reach_mm {
         warnings

@@ -30,7 +30,7 @@ pub fn page(
 ) -> Result<Page> {
     let job = cutter.job;
     let axes = HobbingAxesReport::of_job(job);
-    let mut all_warnings = warnings(gear, cutter.job.scene.gear.module_mm);
+    let mut all_warnings = warnings(job, gear);
     all_warnings.extend(axes.iter().flat_map(HobbingAxesReport::warnings));
     let inspection = inspection(cutter, gear);
     let mut sections = vec![deviations::section(&inspection)];
