@@ -108,11 +108,9 @@ fn five_curves(scene: &str, gear: &HobbedGear) -> Option<Section> {
 
 fn marks_section(lattices: &[MarkLattice]) -> Section {
     let step = |step: &MarkStep| {
-        [
-            format!("{:.3}", step.length_mm()),
-            format!("{:.2}", step.to_trace_rad().to_degrees()).replace('-', "−"),
-            format!("{:.2}", step.to_axis_rad.to_degrees()),
-        ]
+        // Rounded first, so that no zero bears a sign.
+        let degrees = |rad: f64| format!("{:.2}", (rad.to_degrees() * 100.0).round() / 100.0 + 0.0).replace('-', "−");
+        [format!("{:.3}", step.length_mm()), degrees(step.to_trace_rad()), degrees(step.to_axis_rad)]
     };
     let rows = lattices.iter().flat_map(|lattice| {
         (0..2).map(move |i| {

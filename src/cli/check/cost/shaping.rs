@@ -21,9 +21,11 @@ use crate::cli::check::facts::ToothFacts;
 /// What one thread of the native backend takes for the plan of a tile, s.
 const PLAN_S_PER_TILE: f64 = 1.5e-4;
 /// The same for one evaluation (dexel against pass), in groups of [`ROWS_AT_ONCE`].
-const CUT_S_PER_EVALUATION: f64 = 1.1e-8;
+const CUT_S_PER_EVALUATION: f64 = 5.2e-9;
 /// The same for measuring a dexel of one surface.
 const MEASURE_S_PER_DEXEL: f64 = 2.0e-8;
+/// The same for the chip that left a cell of a map.
+const CHIP_S_PER_MAP_CELL: f64 = 5.5e-6;
 /// Rows that the kernel takes at once, whether there are as many or not.
 const ROWS_AT_ONCE: usize = 16;
 /// Tiles that are planned on each of them.
@@ -32,7 +34,7 @@ const PLANNED_TILES: usize = 32;
 /// Strokes of each operation that are placed in the blank.
 const PLACED_STROKES: usize = 40;
 /// What one thread takes for a ray that a cutter tooth crosses, its return stroke checked, s.
-const BLANK_S_PER_RAY_PASS: f64 = 2.7e-7;
+const BLANK_S_PER_RAY_PASS: f64 = 2.0e-7;
 /// What it takes to follow the chips of a cutter tooth in one stroke, s, at the spacing [`CHIP_SPACING_MM`]; it grows with the inverse of the spacing.
 const CHIPS_S_PER_PASS: f64 = 1.6e-4;
 const CHIP_SPACING_MM: f64 = 0.05;
@@ -71,6 +73,10 @@ pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) -> Result<(), R
     let (dexels, largest) = (all_columns * rows as f64, longest * rows as f64);
     let scale = all_columns / planned_columns;
     let rows_cut = if job.rows_are_alike() { 1 } else { rows };
+    let map_spacing_mm = job.scene.output.map_spacing_mm;
+    let map_rows =
+        if job.rows_are_alike() { 1.0 } else { (job.scene.gear.face_width_mm / map_spacing_mm).floor() + 1.0 };
+    let map_cells = all_columns * spacing_mm / map_spacing_mm * map_rows;
     let idle_rows = rows_cut.next_multiple_of(ROWS_AT_ONCE) as f64 / rows_cut as f64;
     let flanks = FlankCost {
         flanks: per_flank.len(),
@@ -84,7 +90,8 @@ pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) -> Result<(), R
             * (largest * (BYTES_PER_DEXEL * surfaces) as f64
                 + records / planned_columns * longest * size_of::<PassRecord>() as f64),
         seconds: scale * (tiles * PLAN_S_PER_TILE + evaluations * idle_rows * CUT_S_PER_EVALUATION)
-            + dexels * surfaces as f64 * MEASURE_S_PER_DEXEL,
+            + dexels * surfaces as f64 * MEASURE_S_PER_DEXEL
+            + map_cells * surfaces as f64 * CHIP_S_PER_MAP_CELL,
     };
     super::print(sheet, &job.scene.fields, &flanks, &blank_cost(job)?);
     Ok(())
