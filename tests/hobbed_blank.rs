@@ -96,7 +96,7 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
             sections.len(),
             set.count()
         );
-        assert!(points > 3000 && worst_nm < bound_nm && (rounded == 0 || bound_nm > 20.0));
+        assert!(points > 3000 && worst_nm < bound_nm && 1000 * rounded < points);
     }
 }
 
