@@ -38,7 +38,9 @@ fn case(name: &str) -> (Case, HobTeeth, SpatialField) {
 fn hobbed_flanks_are_cut_alike() {
     let gpu = software_gpu(strict());
     let mut all = Parity::default();
-    for name in ["p09_patch_s2_axial", "p10_patch_s2_diag_VL", "p12_patch_spur", "p13_patch_s4_ellipse"] {
+    for name in
+        ["p09_patch_s2_axial", "p10_patch_s2_diag_VL", "p11_patch_circle", "p12_patch_spur", "p13_patch_s4_ellipse"]
+    {
         let (case, passes, field) = case(name);
         let plan = SweepPlan::new(&field, &passes, case.hob.edge());
         let (parity, native, shifted, got) = cut_both_in_space(&gpu, name, &field, case.hob.edge(), &plan);
