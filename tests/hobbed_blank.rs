@@ -129,7 +129,7 @@ fn neighbouring_slices_are_known_from_the_one_in_their_middle() {
                     let z_mm = at_mm + way * half_mm;
                     let known = band.outline(&sections, z_mm, &mut outline);
                     let there = sections.section(index, z_mm, &mut section);
-                    assert!(there == (known == InSlice::Within) || known == InSlice::Unknown, "{scene}: {known:?}");
+                    assert!(there == (known == InSlice::Within) || known == InSlice::Followed, "{scene}: {known:?}");
                     if known != InSlice::Within {
                         continue;
                     }

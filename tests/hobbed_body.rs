@@ -150,8 +150,8 @@ fn a_small_helical_gear_undercut_on_every_tooth() {
     check("circular_spur", &small);
 }
 
+/// The longest test of all: a minute and a half of four cores.
 #[test]
-#[ignore = "a minute and a half of four cores"]
 fn every_other_scene() {
     let ellipse = "operation.finish.linkage.hobbing";
     check("circular_spur", &[]);

@@ -13,7 +13,7 @@
 //! The roads not taken: sections in two slices and straight lines between their points are as good and cost another section. The second derivative itself would spare the slack, some micrometres; few passes
 //! miss what is left by so little.
 
-use super::hob_sections::{HobSections, sagitta_mm};
+use super::hob_sections::{HobSections, SweptSection, sagitta_mm};
 use crate::ray_reach::LooseOutline;
 use glam::DVec2;
 
@@ -55,8 +55,8 @@ pub enum InSlice {
     Nowhere,
     /// It lies within the outline.
     Within,
-    /// It must be followed there.
-    Unknown,
+    /// Neighbours do not tell: it has to be followed there.
+    Followed,
 }
 
 impl SectionBand {
@@ -98,13 +98,32 @@ impl SectionBand {
         true
     }
 
-    /// Outline in a slice, into memory that is reused.
+    /// Bounds of the pass in a slice: the outline from its neighbours, or else its section there with that section's chords; into memory that is reused.
+    pub fn bounds(
+        &self,
+        sections: &HobSections,
+        z_mm: f64,
+        outline: &mut LooseOutline,
+        section: &mut SweptSection,
+    ) -> InSlice {
+        let found = self.outline(sections, z_mm, outline);
+        if found != InSlice::Followed {
+            return found;
+        }
+        if !sections.section(self.pass, z_mm, section) {
+            return InSlice::Nowhere;
+        }
+        outline.set_chords(section);
+        found
+    }
+
+    /// Outline in a slice as the neighbours tell it; none where the pass must be followed, into memory that is reused.
     pub fn outline(&self, sections: &HobSections, z_mm: f64, into: &mut LooseOutline) -> InSlice {
         let pass = &sections.passes[self.pass];
         let behind_mm = pass.behind_mm(z_mm);
         let Some(reached) = sections.reached(pass, behind_mm) else { return InSlice::Nowhere };
         if self.nodes.is_empty() {
-            return InSlice::Unknown;
+            return InSlice::Followed;
         }
         let z_mm = z_mm - self.z_mm;
         let way_mm = (self.way_per_mm * z_mm).abs();

@@ -120,16 +120,10 @@ impl SliceCut<'_> {
         let Memory { band, section, outline, reach, near, tile: scratch, surfaces } = memory;
         let mut followed = false;
         if sections.refuses() {
-            match band.outline(sections, self.z_mm, outline) {
+            match band.bounds(sections, self.z_mm, outline, section) {
                 InSlice::Nowhere => return,
                 InSlice::Within => {}
-                InSlice::Unknown => {
-                    followed = true;
-                    if !sections.section(pass, self.z_mm, section) {
-                        return;
-                    }
-                    outline.set_chords(section);
-                }
+                InSlice::Followed => followed = true,
             }
             for (f, family) in FAMILIES.into_iter().enumerate() {
                 reach.set(outline, family, &grid.rows[f]);

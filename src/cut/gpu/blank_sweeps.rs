@@ -182,16 +182,10 @@ impl SliceVisits {
         let Memory { band, section, outline, reach, crossings, near } = memory;
         let mut followed = false;
         if sections.refuses() {
-            match band.outline(sections, lead_mm, outline) {
+            match band.bounds(sections, lead_mm, outline, section) {
                 InSlice::Nowhere => return,
                 InSlice::Within => {}
-                InSlice::Unknown => {
-                    followed = true;
-                    if !sections.section(pass, lead_mm, section) {
-                        return;
-                    }
-                    outline.set_chords(section);
-                }
+                InSlice::Followed => followed = true,
             }
         }
         for (f, family) in FAMILIES.into_iter().enumerate() {
