@@ -4,19 +4,21 @@
 
 mod common;
 #[allow(
+    dead_code,
     clippy::wildcard_imports,
-    reason = "a model of the whole scene is written out there; clippy lets test crates do so, not benches"
+    reason = "shared with the tests: a bench takes its part, and clippy lets test crates alone import a whole module"
 )]
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/suite/fixtures/paper.rs"]
 mod scenes;
 
 use gearcut::cut::Backend;
+use gearcut::cut::BlankStats;
 use gearcut::cut::cpu::Cpu;
-use gearcut::cut::cpu::blank::BlankStats;
-use gearcut::cut::gpu::adapter::AdapterWish;
-use gearcut::cut::gpu::{Gpu, GpuOptions};
-use gearcut::job::{HobCutter, HobbingJob, Job};
-use gearcut::measure::blank_report;
+use gearcut::gpu::adapter::AdapterWish;
+use gearcut::gpu::{Gpu, GpuOptions};
+use gearcut::process::hobbing::{HobCutter, HobbingJob};
+use gearcut::process::shaping::Job;
+use gearcut::process::shaping::measure::blank_report;
 use gearcut::scene::load;
 use gearcut::surface::BlankMesh;
 use std::path::Path;

@@ -8,18 +8,19 @@
 
 mod common;
 #[allow(
+    dead_code,
     clippy::wildcard_imports,
-    reason = "a model of the whole scene is written out there; clippy lets test crates do so, not benches"
+    reason = "shared with the tests: a bench takes its part, and clippy lets test crates alone import a whole module"
 )]
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/suite/fixtures/paper.rs"]
 mod scenes;
 
 use gearcut::cut::Backend;
-use gearcut::cut::gpu::adapter::adapters;
-use gearcut::cut::gpu::{Gpu, GpuOptions};
-use gearcut::gear::generation::Side;
-use gearcut::job::Job;
+use gearcut::gpu::adapter::adapters;
+use gearcut::gpu::{Gpu, GpuOptions};
 use gearcut::passes::CutPlan;
+use gearcut::process::shaping::Job;
+use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use std::time::Instant;
 

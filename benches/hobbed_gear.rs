@@ -1,7 +1,7 @@
 //! How fast the native backend hobs: single flanks in their parts, the whole gear, and the case of a peer program.
 //!
 //! Job: the third-order gear of Liu et al. 2015 as `scenes/hobbing/third_order_plain.toml` has it: 35 teeth, 50 mm wide, 20 feeds, dexels every 20 um along the profile and 50 um along the tooth. Flanks are
-//! timed in their parts, in one thread; the whole gear runs through `run::hobbing::cut_gear`, as `gearcut cut` does, without files, on all threads.
+//! timed in their parts, in one thread; the whole gear runs through `hobbing::run::cut_gear`, as `gearcut cut` does, without files, on all threads.
 //!
 //! Of every flank it is said how many records a dexel visits and how far that is from the ideal. Somebody must visit the pass that left a dexel: one record per dexel at least. As long as all dexels of a cell visit
 //! the same records, they are at least the passes that left any dexel of the cell.
@@ -14,25 +14,26 @@
 
 mod common;
 #[allow(
+    dead_code,
     clippy::wildcard_imports,
-    reason = "cases of the independent implementation; clippy lets test crates do so, not benches"
+    reason = "shared with the tests: a bench takes its part, and clippy lets test crates alone import a whole module"
 )]
-#[path = "../tests/hobbing_common/mod.rs"]
-mod hobbing_common;
+#[path = "../tests/suite/fixtures/oracle_cases.rs"]
+mod oracle_cases;
 
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::{Layer, NO_PASS, SpatialField};
-use gearcut::gear::generation::Side;
-use gearcut::job::{HobCutter, HobbedFlank, HobbingJob};
-use gearcut::measure::hobbed_report;
-use gearcut::output::interrupt::Interrupt;
+use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::passes::SweepPlan;
-use gearcut::run;
+use gearcut::process::hobbing;
+use gearcut::process::hobbing::measure::flank_report;
+use gearcut::process::hobbing::{HobCutter, HobbedFlank, HobbingJob};
 use gearcut::scene::load;
+use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
-use hobbing_common::{Case, data, heights, number, numbers};
+use oracle_cases::{Case, data, heights, number, numbers};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -103,7 +104,7 @@ fn one_flank(job: &HobbingJob, cutter: &HobCutter, tooth: u32, side: Side) {
         per_dexel(plan.tile_passes() as f64)
     );
     let flank = HobbedFlank { target, rays, layers: vec![layer], stats };
-    let (measure_time, _) = timed(|| hobbed_report::measure(tooth, side, &flank));
+    let (measure_time, _) = timed(|| flank_report::measure(tooth, side, &flank));
     println!("  rays {rays_time}, plan {plan_time}, cut {cut_time}, measure {measure_time}");
 }
 
@@ -122,7 +123,7 @@ fn whole_gear(cutter: &HobCutter) {
     let cpu = Cpu::default();
     let quiet = Progress::new(ProgressMode::Quiet);
     let before = processor_seconds();
-    let gear = run::hobbing::cut_gear(cutter, &cpu, &quiet, &Interrupt::default(), None).expect("native");
+    let gear = hobbing::run::cut_gear(cutter, &cpu, &quiet, &Interrupt::default(), None).expect("native");
     assert_eq!(gear.work.stats.unconverged, 0, "every root was found");
     println!(
         "whole gear, {}: {} flanks in {:.2} s ({:.2} s of processor time); {:.1} million dexels, {:.1} million dexel-passes, {:.2} per dexel",

@@ -12,13 +12,13 @@ mod machine;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
-use gearcut::cut::gpu::adapter::adapters;
-use gearcut::cut::gpu::{Gpu, GpuOptions};
 use gearcut::dexel::Field;
-use gearcut::gear::generation::Side;
-use gearcut::job::Job;
+use gearcut::gpu::adapter::adapters;
+use gearcut::gpu::{Gpu, GpuOptions};
 use gearcut::passes::{CutPlan, Tile};
+use gearcut::process::shaping::Job;
 use gearcut::scene::load;
+use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use std::path::Path;
 

@@ -13,21 +13,24 @@
 
 mod common;
 #[allow(
+    dead_code,
     clippy::wildcard_imports,
-    reason = "a model of the whole scene is written out there; clippy lets test crates do so, not benches"
+    reason = "shared with the tests: a bench takes its part, and clippy lets test crates alone import a whole module"
 )]
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/suite/fixtures/paper.rs"]
 mod scenes;
 
 use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::Field;
 use gearcut::frame::Rigid2;
-use gearcut::gear::generation::Side;
-use gearcut::job::Job;
+use gearcut::gear::PitchCurveShape;
+use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShaperCutter;
 use gearcut::scene::Scene;
-use gearcut::scene::model::{Fields, PitchCurveShape};
+use gearcut::scene::model::Fields;
+use gearcut::terms::Side;
 use gearcut::tool::involute::Involute;
-use gearcut::tool::{CuttingTool, PlanarTool, ShaperCutter};
+use gearcut::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;

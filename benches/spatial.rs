@@ -5,12 +5,12 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
-use gearcut::cut::gpu::adapter::adapters;
-use gearcut::cut::gpu::{Gpu, GpuOptions};
-use gearcut::gear::generation::Side;
-use gearcut::job::{HobCutter, HobbingJob};
+use gearcut::gpu::adapter::adapters;
+use gearcut::gpu::{Gpu, GpuOptions};
 use gearcut::passes::SweepPlan;
+use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::scene::load;
+use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use std::path::Path;
 

@@ -2,28 +2,29 @@
 //!
 //! Job: the third-order elliptical gear (m 3, z 42, face 30 mm), dexels every 5 um along the profile and 50 um along the tooth, roughing 2 mm off and finishing, each with 4,200 strokes.
 //! The flank (tooth 7, left) is timed in its parts, in one thread: the plan (which passes can matter to which tile), the cut, the measures. The whole gear runs once per instruction set through
-//! `run::cut_gear`, as `gearcut cut` does, without files, on all threads. A dexel-pass is one ray tried against one segment of one pass.
+//! `shaping::cut_gear`, as `gearcut cut` does, without files, on all threads. A dexel-pass is one ray tried against one segment of one pass.
 //!
 //! `cargo bench --bench whole_gear` for both; `-- flank` for the parts alone.
 
 mod common;
 #[allow(
+    dead_code,
     clippy::wildcard_imports,
-    reason = "a model of the whole scene is written out there; clippy lets test crates do so, not benches"
+    reason = "shared with the tests: a bench takes its part, and clippy lets test crates alone import a whole module"
 )]
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/suite/fixtures/paper.rs"]
 mod scenes;
 
 use criterion::{BatchSize, Criterion, Throughput};
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
-use gearcut::gear::generation::Side;
-use gearcut::job::Job;
-use gearcut::measure::flank_report;
-use gearcut::output::interrupt::Interrupt;
+use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::passes::CutPlan;
-use gearcut::run;
+use gearcut::process::shaping;
+use gearcut::process::shaping::Job;
+use gearcut::process::shaping::measure::flank_report;
+use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use std::hint::black_box;
 use std::time::Duration;
@@ -71,7 +72,7 @@ fn one_flank(criterion: &mut Criterion, job: &Job) {
 fn whole_gear(job: &Job, strokes: &str) {
     for cpu in common::backends() {
         let quiet = Progress::new(ProgressMode::Quiet);
-        let gear = run::cut_gear(job, &cpu, &quiet, &Interrupt::default(), None).expect("native");
+        let gear = shaping::cut_gear(job, &cpu, &quiet, &Interrupt::default(), None).expect("native");
         let seconds = gear.elapsed.as_secs_f64();
         let visits = gear.stats.dexel_passes as f64;
         println!(

@@ -5,13 +5,13 @@
 //! the pitch curve, and the whole flank, on which the cusps' height itself changes.
 
 use gearcut::cut::cpu::Cpu;
-use gearcut::gear::generation::Side;
-use gearcut::job::Job;
 use gearcut::measure::topography::Form;
 use gearcut::output::line_chart::{LineChart, LineSeries, Panel};
 use gearcut::output::table::{Cell, write_table};
+use gearcut::process::shaping::Job;
 use gearcut::scene::load;
 use gearcut::scene::model::{Feed, TextureWindow, WindowSides};
+use gearcut::terms::Side;
 use gearcut::texture::{cut_window, windows};
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -83,6 +83,7 @@ fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn 
 fn panel(rows: &[Row], surfaces: &[&str], index: usize) -> Panel {
     let series = surfaces.iter().flat_map(|surface| [(surface, Side::Left), (surface, Side::Right)]);
     Panel {
+        least_division: 0.0,
         value_name: SYMBOLS[index].to_owned(),
         unit: "µm".to_owned(),
         series: series

@@ -1,28 +1,25 @@
 //! Results of one process side by side: numbers with their differences, and bars tooth by tooth.
 //!
-//! In: two to seven [`AnyResults`] of one process with the names to show them by; the first is what the others are held against. Out: [`Comparison`], which prints itself and writes into a folder:
+//! In: two to seven [`Findings`] of one process with the names to show them by; the others are compared with the first.
+//! Out: [`Comparison`], which prints itself and writes into a folder:
 //!
 //! | file | what |
 //! | --- | --- |
-//! | `comparison.csv` | one line per number: unit, the values a, b, ..., their differences to a, definition |
-//! | shaped gears: `unevenness_first_period.png`, `.svg` | unevenness of the allowance by tooth of the gear over the first period of the pitch curve, with mean lines (Gao et al. 2017, Fig. 10) |
-//! | `unevenness_all_teeth.png`, `.svg` | the same over all teeth |
-//! | `unevenness_a.png`, `unevenness_b.png`, ..., `.svg` | one result each, on its own scale, first period |
-//! | hobbed gears: `load_<operation>_volume.png`, `.svg` | volume that each tooth of the hob takes over the whole process |
-//! | `load_<operation>_thickness.png`, `.svg` | its largest uncut chip thickness |
-//! | `load_<operation>_way.png`, `.svg` | way of its tip through the work |
+//! | `comparison.csv` | one line per quantity: unit, the values a, b, ..., their differences to a, a over them, definition |
+//! | `<path>_<column>.png`, `.svg` | bars of a column that asks for them, all rows: the unevenness of the allowance by tooth of the gear, volume, thickness and way by tooth of the hob |
+//! | `<path>_<column>_first_period.png`, `.svg` | the rows of the pitch curve's first period (Gao et al. 2017, Fig. 10) |
+//! | `<path>_<column>_a.png`, `_b.png`, ..., `.svg` | one result each, on its own scale |
 //!
-//! Results of different gears may be compared: what one of them lacks stays empty.
+//! Everything is read from the trees by path, whatever the process: what joins the tree joins the comparison. Results
+//! of different gears may be compared: what one of them lacks stays empty. Places are not compared.
 
-mod hob_load;
+mod charts;
 mod lines;
 mod table;
-mod unevenness;
 
 use crate::Result;
-use crate::output::bar_chart::BarChart;
+use crate::findings::Findings;
 use crate::output::folder::OutputFolder;
-use crate::output::results::{AnyResults, HobbedResults, Results};
 use crate::output::text::Sheet;
 use lines::Line;
 
@@ -31,27 +28,17 @@ pub const MOST_RESULTS: usize = 7;
 
 /// One of the results.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Compared<R> {
+pub struct Compared {
     /// Name in tables and legends.
     pub name: String,
     /// What was found.
-    pub results: R,
-}
-
-/// The results by process.
-#[derive(Debug, Clone, PartialEq)]
-enum Group {
-    Shaped(Vec<Compared<Results>>),
-    Hobbed(Vec<Compared<HobbedResults>>),
+    pub findings: Findings,
 }
 
 /// Results and the lines in which they are compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
-    names: Vec<String>,
-    /// Names of those that were stopped before all flanks were cut.
-    stopped: Vec<String>,
-    group: Group,
+    results: Vec<Compared>,
     lines: Vec<Line>,
 }
 
@@ -60,47 +47,25 @@ impl Comparison {
     ///
     /// # Errors
     /// In words: results of different processes, or too few or too many of them.
-    pub fn new(results: Vec<Compared<AnyResults>>) -> Result<Self, String> {
+    pub fn new(mut results: Vec<Compared>) -> Result<Self, String> {
         if !(2..=MOST_RESULTS).contains(&results.len()) {
-            return Err(format!("2 to {MOST_RESULTS} results stand side by side, not {}", results.len()));
+            return Err(format!("2 to {MOST_RESULTS} results can be compared, not {}", results.len()));
         }
-        let first = (&results[0].name, results[0].results.process());
-        if let Some(other) = results.iter().find(|other| other.results.process() != first.1) {
+        let first = &results[0];
+        if let Some(other) = results.iter().find(|other| other.findings.process != first.findings.process) {
             return Err(format!(
                 "{} was made by {} and {} by {}: compare results of one process",
-                first.0,
-                first.1,
-                other.name,
-                other.results.process()
+                first.name, first.findings.process, other.name, other.findings.process
             ));
         }
         let given: Vec<String> = results.iter().map(|one| one.name.clone()).collect();
-        let named = results.into_iter().zip(letters()).map(|(mut one, letter)| {
+        for (one, letter) in results.iter_mut().zip(letters()) {
             if given.iter().filter(|name| **name == one.name).count() > 1 {
                 one.name = format!("{} ({letter})", one.name);
             }
-            one
-        });
-        let (mut names, mut stopped) = (Vec::new(), Vec::new());
-        let (mut shaped, mut hobbed) = (Vec::new(), Vec::new());
-        for Compared { name, results } in named {
-            names.push(name.clone());
-            if !results.is_complete() {
-                stopped.push(name.clone());
-            }
-            match results {
-                AnyResults::Shaped(results) => shaped.push(Compared { name, results: *results }),
-                AnyResults::Hobbed(results) => hobbed.push(Compared { name, results: *results }),
-            }
         }
-        let (group, lines) = if hobbed.is_empty() {
-            let lines = lines::of_shaped(&shaped);
-            (Group::Shaped(shaped), lines)
-        } else {
-            let lines = lines::of_hobbed(&hobbed);
-            (Group::Hobbed(hobbed), lines)
-        };
-        Ok(Self { names, stopped, group, lines })
+        let lines = lines::lines(&results);
+        Ok(Self { results, lines })
     }
 
     /// Writes table and charts.
@@ -109,28 +74,21 @@ impl Comparison {
     /// Files that cannot be written.
     pub fn write(&self, folder: &OutputFolder) -> Result<()> {
         self.write_csv(&folder.path("comparison.csv")?)?;
-        for (name, chart) in self.charts() {
+        for (name, chart) in charts::charts(&self.results) {
             chart.write_png(&folder.path(format!("{name}.png"))?)?;
             chart.write_svg(&folder.path(format!("{name}.svg"))?)?;
         }
         Ok(())
     }
 
-    /// The charts with their file names.
-    fn charts(&self) -> Vec<(String, BarChart)> {
-        match &self.group {
-            Group::Shaped(results) => unevenness::charts(results),
-            Group::Hobbed(results) => hob_load::charts(results),
-        }
-    }
-
     /// The table for the terminal.
     pub fn print(&self, sheet: &mut Sheet) {
-        let (last, others) = self.names.split_last().expect("two or more");
+        let names: Vec<&str> = self.results.iter().map(|one| one.name.as_str()).collect();
+        let (last, others) = names.split_last().expect("two or more");
         sheet.heading(&format!("{} and {last}", others.join(", ")));
         sheet.table(&self.printed_rows());
-        for name in &self.stopped {
-            sheet.line("", format!("{name} was stopped before all flanks were cut"));
+        for one in self.results.iter().filter(|one| !one.findings.complete) {
+            sheet.line("", format!("{} was stopped before all flanks were cut", one.name));
         }
     }
 }

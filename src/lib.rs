@@ -1,29 +1,48 @@
-//! gearcut moves a machine's axes by its linkage model, sweeps every real cutting edge stroke by stroke
-//! through dexels of the blank, and measures what is left.
+//! gearcut moves a machine's axes by its linkage model, sweeps every real cutting edge stroke by stroke through dexels of
+//! the blank, and measures what is left.
 //!
-//! The modules follow the data's path, from the scene to the files; `run` alone knows the whole order.
+//! The modules, from the ground up; each uses only those above it in this list:
+//!
+//! - [`gearcut_core`]: gears, tools, dexels, passes and the native backend; its modules are re-exported here
+//! - `gearcut_gpu` as `gpu`: the backend on wgpu, left out without the feature `gpu`
+//! - [`backend`]: which machine cuts
+//! - [`interrupt`]: Ctrl-C as a flag
+//! - [`colormap`]: numbers as colours
+//! - [`machine`]: peaks of axes against their limits
+//! - [`material`]: cutting forces from chip thickness
+//! - [`scene`]: the scene file as checked values
+//! - [`measure`]: what is left, in numbers
+//! - [`surface`]: what is left, as triangles and pictures
+//! - [`gcode`]: how programs are spelled and read
+//! - [`findings`]: what a run found, as one tree of quantities and tables
+//! - [`output`]: files, charts, tables, reports
+//! - [`job`]: what the shared steps ask of a job, whatever its process
+//! - [`texture`]: texture windows on flanks
+//! - [`steps`]: steps of a run that all processes share
+//! - [`process`]: a folder for each process: tool, linkage, target, passes, and what only it measures
+//! - [`pair`]: two gears rolling on each other
+//! - [`run`]: the order of a whole run
+//! - [`compare`]: results side by side
 
-pub mod axes_report;
+pub mod backend;
+pub mod colormap;
 pub mod compare;
-pub mod cut;
-pub mod dexel;
-pub mod error;
-pub mod frame;
+pub mod findings;
 pub mod gcode;
-pub mod gear;
+pub mod interrupt;
 pub mod job;
-pub mod linkage;
+pub mod machine;
 pub mod material;
 pub mod measure;
 pub mod output;
-pub mod passes;
-pub mod planar_rays;
-pub mod ray_reach;
+pub mod pair;
+pub mod process;
 pub mod run;
 pub mod scene;
+pub mod steps;
 pub mod surface;
 pub mod texture;
-pub mod tool;
-pub mod units;
 
-pub use error::{Error, Refusal, Result};
+pub use gearcut_core::{Error, Refusal, Result, cut, dexel, error, frame, gear, math, passes, terms, tool, units};
+#[cfg(feature = "gpu")]
+pub use gearcut_gpu as gpu;

@@ -4,7 +4,7 @@
 //!
 //! `F_c = (K_c h + K_ce) b` against its motion, and `F_n = (K_n h + K_ne) b` along its normal, away from the work.
 //!
-//! The coefficients belong to an element square to the cutting motion, with the rake of the cutter's tip; what becomes of them on inclined flanks is in [`crate::measure::chips::oblique`].
+//! The coefficients belong to an element square to the cutting motion, with the rake of the cutter's tip; what becomes of them on inclined flanks belongs to the chip ledger.
 //!
 //! **Built-in materials** come from Kienzle's law F_c = k_c1.1 b h^(1 - m_c) (Kienzle and Victor 1957; constants after König and Essel 1973, as shop tables print them), turned
 //! into a line by least squares of the relative error over [`FITTED_MM`], the thicknesses that shaping meets; it stays within 15 % of the law there and lies 30 % above it at 0.3 mm. Kienzle's constants were measured at 0.05 mm and more; below that the line is an extrapolation. They

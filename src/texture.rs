@@ -13,25 +13,29 @@
 
 mod chart;
 mod files;
-mod results;
+mod findings;
 mod window;
 
 pub use files::write;
-pub use results::{quantities, results};
+pub use findings::{findings, quantities};
 pub use window::{Window, windows};
 
 use crate::cut::Backend;
 use crate::dexel::NO_PASS;
 use crate::error::Result;
+use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
-use crate::output::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use crate::units::UM_PER_MM;
 use rayon::prelude::*;
 
 /// Marks that a window should hold in a direction in which marks follow each other.
 pub const ENOUGH_MARKS: usize = 5;
+
+/// Points that each of those marks should have. The one step across a cusp averages both slopes: with N steps per
+/// parabolic mark it takes 1/N off Sdq, 5 % here.
+pub const ENOUGH_POINTS: f64 = 20.0;
 
 /// What one operation left in one window.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,6 +72,18 @@ impl WindowTexture {
                 let marks = if *marks == 1 { "1 mark".to_owned() } else { format!("{marks} marks") };
                 warnings.push(format!(
                     "the window holds only {marks} {direction}; {ENOUGH_MARKS} at least make its numbers representative"
+                ));
+            }
+        }
+        let spacings = [("along the tooth", "lead_spacing_um"), ("along the profile", "profile_spacing_um")];
+        for ((marks, count), (direction, key)) in self.marks.iter().zip(self.window.count).zip(spacings) {
+            // Parts of marks at both ends make the points of few marks look fewer than they are.
+            let points = count as f64 / *marks as f64;
+            if *marks >= ENOUGH_MARKS && points < ENOUGH_POINTS {
+                warnings.push(format!(
+                    "a mark {direction} has only {points:.1} points; \
+                     with less than {ENOUGH_POINTS} slopes are averaged over cusps, \
+                     and Sdq and Sdr come out low: make {key} smaller"
                 ));
             }
         }

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use gearcut::steps::parts::Parts;
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// The whole command line.
@@ -27,7 +29,9 @@ pub struct Arguments {
 pub enum Command {
     /// Cut a scene and measure what is left.
     #[command(after_help = "Example:\n  \
-        gearcut cut scenes/shaping/elliptical_normal.toml --set operation.rough.offset_mm=1.5\n\n\
+        gearcut cut scenes/shaping/elliptical_normal.toml --set operation.rough.offset_mm=1.5\n  \
+        gearcut cut scenes/shaping/elliptical_normal.toml --draft\n  \
+        gearcut cut scenes/shaping/elliptical_normal.toml --only numbers,report\n\n\
         Writes a folder (out/<scene> unless --out or the scene says otherwise): results.json with every number, its unit\n\
         and its definition; run.json to repeat the run; tables as CSV (mm, um, deg in the column names); maps of every\n\
         flank as EXR and PNG (um); the gear as a closed mesh in STL, PLY and glTF (mm); pictures; axis tables and charts. An existing folder is replaced only if gearcut wrote it, and\n\
@@ -49,16 +53,15 @@ pub enum Command {
     #[command(after_help = "Example:\n  \
         gearcut compare out/elliptical_traditional out/elliptical_normal\n  \
         gearcut compare out/third_order_plain out/third_order_diagonal --out out/load_of_the_hob\n\n\
-        Takes 2 to 7 results of one process; the first is what the others are held against. Writes a folder\n\
-        (compare_<A>_<B>... beside the last one unless --out is given): comparison.csv with the headline\n\
-        numbers of all, differences to the first, units and definitions; and bar charts as PNG and SVG.\n\
+        Takes 2 to 7 results of one process; the others are compared with the first. Writes a folder\n\
+        (compare_<A>_<B>... beside the last one unless --out is given): comparison.csv with every number\n\
+        of all results under its path in results.json, with unit and definition, its difference to the\n\
+        first and the first over it (2 means that this result has half); and bar charts as PNG and SVG.\n\
         Shaped gears: unevenness of the allowance by tooth (%), in one chart (first period of the pitch\n\
         curve, and all teeth) and each on its own scale.\n\
         Hobbed gears: what each tooth of the hob does over the whole process: volume (mm3), largest\n\
-        uncut chip thickness (mm), way cut (mm). The table adds the peak-load ratio (largest volume of\n\
-        a hob tooth in the first result over that in each: 2 means that the hardest working tooth does\n\
-        half), teeth in use, idle time, marks and heights Sa, Sq, Sz.\n\
-        Load is no life: wear follows heat and chip thickness besides. Prints the table.")]
+        uncut chip thickness (mm), way cut (mm).\n\
+        Load is no life: wear follows heat and chip thickness besides. Prints headline and summary.")]
     Compare(CompareArguments),
     /// Evaluate the texture of a surface, measured or cut: ISO 25178-2 and ISO 21920-2 parameters.
     #[command(after_help = "Example:\n  \
@@ -66,7 +69,9 @@ pub enum Command {
         gearcut texture measured.sdf --form poly2 --s-filter-um 8 --l-filter-um 800 --crop-um 400\n  \
         gearcut texture heights.npy --spacing-um 2 5 --line y=500 --json\n  \
         gearcut texture measured.sur --save measured.x3p\n\n\
-        Reads X3P, SDF (binary and ASCII), SUR, NPY, CSV and gearcut's EXR maps; heights in files without units are um.\n\
+        Reads X3P, SDF (binary and ASCII), SUR, NPY, CSV and gearcut's EXR maps; heights become um whatever the file\n\
+        counts in (m in X3P and SDF, the unit of the axis in SUR, mm or um in the channels of EXR maps); NPY and CSV\n\
+        name no unit, their heights are um.\n\
         The chain is applied in this order and printed beside the numbers: form, S-filter, L-filter, crop. Holes are left\n\
         out where a parameter allows it. A value that does not exist is printed as none with the reason (null in JSON).\n\
         Angles count counter-clockwise from +x (along a row) towards +y (from row to row). Writes no files but those\n\
@@ -100,7 +105,7 @@ pub struct CutArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Folder to write [default: out/<scene>].
+    /// Folder to write [default: out/<scene>, or out/<scene>_draft and out/<scene>_part with --draft and --only].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// What computes: auto takes a GPU if there is a real one.
@@ -109,6 +114,12 @@ pub struct CutArguments {
     /// What happens to a flank whose GPU is lost or runs out of memory.
     #[arg(long, value_enum, default_value_t = GpuFailureChoice::Redo)]
     pub on_gpu_failure: GpuFailureChoice,
+    /// Write these parts and the numbers, nothing else: numbers, maps, pictures, meshes, texture, chips, axes, report.
+    #[arg(long, value_name = "PARTS", value_delimiter = ',', value_parser = part_names())]
+    pub only: Vec<String>,
+    /// Cut on dexels and rays eight and four times as far apart, and write numbers and report alone (see --only).
+    #[arg(long)]
+    pub draft: bool,
     /// Draw N pictures of the cut as it happens (frames/*.png, and all of them in frames/cut.apng).
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=5000))]
     pub frames: Option<u32>,
@@ -118,6 +129,11 @@ pub struct CutArguments {
     /// Report progress on standard error as one JSON object per line, and print results.json instead of the summary.
     #[arg(long)]
     pub json: bool,
+}
+
+/// Words that `--only` takes.
+fn part_names() -> clap::builder::PossibleValuesParser {
+    clap::builder::PossibleValuesParser::new(Parts::all().names())
 }
 
 /// What computes.
@@ -220,7 +236,7 @@ pub enum FormChoice {
 #[derive(Debug, Args)]
 pub struct NewArguments {
     /// What the scene is for.
-    #[arg(value_parser = clap::builder::PossibleValuesParser::new(gearcut::scene::PROCESSES))]
+    #[arg(value_parser = clap::builder::PossibleValuesParser::new(gearcut::scene::PROCESSES.map(|process| process.name)))]
     pub process: String,
     /// File to write [default: standard output].
     #[arg(long, value_name = "FILE")]

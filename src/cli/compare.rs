@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use gearcut::compare::{Compared, Comparison};
-use gearcut::output::results::AnyResults;
+use gearcut::findings::Findings;
 use gearcut::output::text::Sheet;
 use serde_json::json;
 
@@ -14,8 +14,8 @@ use super::{folder, print};
 /// Runs the command.
 pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
     let paths = &arguments.results;
-    let read = |path: &PathBuf| -> Result<Compared<AnyResults>, Failure> {
-        Ok(Compared { name: folder::name_of(path), results: AnyResults::read(path)? })
+    let read = |path: &PathBuf| -> Result<Compared, Failure> {
+        Ok(Compared { name: folder::name_of(path), findings: Findings::read(path)? })
     };
     let results = paths.iter().map(read).collect::<Result<Vec<_>, Failure>>()?;
     let names: Vec<&str> = results.iter().map(|one| one.name.as_str()).collect();
@@ -23,9 +23,10 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| beside(last, &format!("compare_{}", names.join("_"))));
     let comparison =
         Comparison::new(results).map_err(|reason| gearcut::Error::Unreadable { path: last.clone(), reason })?;
-    let output = folder::open(&out, "compare")?;
-    comparison.write(&output)?;
-    let path = folder::finish(output, "compare", [("results", json!(paths))])?;
+    let (path, ()) = folder::fill(&out, "compare", |output, _| {
+        comparison.write(output)?;
+        Ok(([("results", json!(paths))], ()))
+    })?;
 
     let mut sheet = Sheet::default();
     comparison.print(&mut sheet);

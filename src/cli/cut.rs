@@ -2,39 +2,59 @@
 
 use std::path::PathBuf;
 
-use gearcut::cut::choice::{BackendWish, choose};
-use gearcut::cut::gpu::{GpuOptions, OnGpuFailure};
-use gearcut::output::interrupt::Interrupt;
+use gearcut::backend::{BackendWish, OnFailure, choose};
+use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
+use gearcut::run::Outputs;
+use gearcut::scene::Scene;
+use gearcut::steps::parts::{Part, Parts};
+use gearcut::units::UM_PER_MM;
 use gearcut::{Error, run, scene};
 
-use super::args::{BackendChoice, CutArguments, GpuFailureChoice};
+use super::args::{BackendChoice, CutArguments, GpuFailureChoice, SceneArguments};
 use super::failure::Failure;
-use super::print;
+use super::folder::listening;
+use super::{drivers, print};
 
-/// Runs the command; true if all flanks were cut, false if Ctrl-C ended it early.
-pub fn run(arguments: &CutArguments) -> Result<bool, Failure> {
-    let scene = scene::load(&arguments.scene.scene, &arguments.scene.settings)?;
-    let default = || PathBuf::from("out").join(&scene.scene.name);
-    let out = arguments.out.clone().or_else(|| scene.scene.output.folder.clone()).unwrap_or_else(default);
+/// Runs the command; what Ctrl-C ended early is a failure that tells where its results are.
+pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
+    if arguments.backend != BackendChoice::Cpu {
+        drivers::without_window_system();
+    }
+    let SceneArguments { scene: path, settings } = &arguments.scene;
+    let mut scene = scene::load(path, settings)?;
+    if arguments.draft {
+        // What the user sets comes last and wins.
+        scene = scene::load(path, &[draft_settings(&scene.scene).as_slice(), settings].concat())?;
+    }
+    let parts = match (arguments.only.as_slice(), arguments.draft) {
+        ([], false) => Parts::all(),
+        ([], true) => Parts::of([Part::Report]),
+        (names, _) => Parts::named(names.iter().map(String::as_str)),
+    };
+    let out = arguments.out.clone().unwrap_or_else(|| {
+        let whole = scene.scene.output.folder.clone();
+        let whole = whole.unwrap_or_else(|| PathBuf::from("out").join(&scene.scene.name));
+        beside(whole, arguments.draft, parts)
+    });
     let progress = Progress::new(ProgressMode::choose(arguments.quiet, arguments.json));
-    let interrupt = Interrupt::listen().map_err(|source| Error::Io {
-        action: "cannot listen for Ctrl-C",
-        path: out.clone(),
-        source,
-    })?;
+    let interrupt = Interrupt::listen().map_err(listening(&out))?;
     let wish = match arguments.backend {
         BackendChoice::Auto => BackendWish::Auto,
         BackendChoice::Gpu => BackendWish::Gpu,
         BackendChoice::Cpu => BackendWish::Cpu,
     };
     let on_failure = match arguments.on_gpu_failure {
-        GpuFailureChoice::Redo => OnGpuFailure::RedoNatively,
-        GpuFailureChoice::Stop => OnGpuFailure::Stop,
+        GpuFailureChoice::Redo => OnFailure::RedoNatively,
+        GpuFailureChoice::Stop => OnFailure::Stop,
     };
-    let choice = choose(wish, GpuOptions { on_failure, ..GpuOptions::default() }).map_err(Error::from)?;
+    let choice = choose(wish, on_failure)?;
     progress.note(&format!("backend: {} ({})", choice.backend.name(), choice.why));
-    let done = run::cut(&scene, &out, choice.backend.as_ref(), &choice.why, &progress, &interrupt, arguments.frames)
+    if arguments.draft {
+        progress.note("draft: dexels 8 and rays 4 times as far apart; deviations, chips and texture are rough");
+    }
+    let outputs = Outputs { parts, frames: arguments.frames };
+    let done = run::cut(&scene, &out, choice.backend.as_ref(), &choice.why, &progress, &interrupt, outputs)
         .map_err(|error| Failure::of_scene(&scene, error))?;
     if arguments.json {
         let text = serde_json::to_string_pretty(&done.results)
@@ -43,5 +63,37 @@ pub fn run(arguments: &CutArguments) -> Result<bool, Failure> {
     } else if !arguments.quiet {
         print::to_stdout(&done.summary)?;
     }
-    Ok(!done.interrupted)
+    if done.interrupted { Err(Failure::ended_early(&done.folder, &out)) } else { Ok(()) }
+}
+
+/// How much further apart a draft's dexels stand along profiles and teeth, where several cross a feed mark.
+const DRAFT_DEXELS: f64 = 8.0;
+/// And its rays through the blank and the chips, whose times grow with the square and the cube of that.
+const DRAFT_RAYS: f64 = 4.0;
+
+/// Settings that make the scene a draft, within the ranges of the keys.
+fn draft_settings(scene: &Scene) -> Vec<String> {
+    let fields = &scene.fields;
+    let dexels_um = |spacing_mm: f64, most: f64| (DRAFT_DEXELS * UM_PER_MM * spacing_mm).min(most);
+    let rays_mm = |spacing_mm: f64, most: f64| (DRAFT_RAYS * spacing_mm).min(most);
+    let mut settings = vec![
+        ("flank.profile_spacing_um", dexels_um(fields.profile_spacing_mm, 1000.0)),
+        ("flank.lead_spacing_um", dexels_um(fields.lead_spacing_mm, 10_000.0)),
+        ("blank.spacing_mm", rays_mm(fields.blank_spacing_mm, 10.0)),
+        ("blank.slice_spacing_mm", rays_mm(fields.blank_slice_spacing_mm, 1000.0)),
+    ];
+    settings.extend(scene.shaping().map(|shaping| ("chips.spacing_mm", rays_mm(shaping.chip_spacing_mm, 2.0))));
+    settings.into_iter().map(|(key, value)| format!("fields.{key}={value:?}")).collect()
+}
+
+/// The folder for what is less than a whole result: beside it, so that it does not take its place.
+fn beside(whole: PathBuf, draft: bool, parts: Parts) -> PathBuf {
+    let word = match (draft, parts == Parts::all()) {
+        (true, _) => "_draft",
+        (false, false) => "_part",
+        (false, true) => return whole,
+    };
+    let mut name = whole.into_os_string();
+    name.push(word);
+    name.into()
 }

@@ -1,11 +1,12 @@
 //! `gearcut devices`: what can compute here, and what `--backend auto` would take.
 
-use gearcut::cut::choice;
+use gearcut::backend;
 
 use super::failure::Failure;
-use super::print;
+use super::{drivers, print};
 
 /// Runs the command.
 pub fn run() -> Result<(), Failure> {
-    Ok(print::to_stdout(&format!("{}\n", choice::devices()))?)
+    drivers::without_window_system();
+    Ok(print::to_stdout(&format!("{}\n", backend::devices()))?)
 }

@@ -1,9 +1,11 @@
 //! What is printed when a command fails, and with which code it ends.
 
+use gearcut::output::atomic::file_error;
 use std::io::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
-use gearcut::output::interrupt::INTERRUPTED_EXIT_CODE;
+use gearcut::interrupt::INTERRUPTED_EXIT_CODE;
 use gearcut::scene::{LoadedScene, SceneErrors};
 use gearcut::{Error, Refusal};
 
@@ -23,17 +25,23 @@ impl Failure {
         }
     }
 
+    /// A run that Ctrl-C ended early: its results are in `partial`, beside what is at `out`.
+    pub fn ended_early(partial: &Path, out: &Path) -> Self {
+        let finished = format!("stopped by Ctrl-C: what is finished is in {}", partial.display());
+        let text = if out.exists() {
+            format!("{finished}; the earlier results in {} are untouched", out.display())
+        } else {
+            finished
+        };
+        Self { text, interrupted: true }
+    }
+
     /// Prints the reason on standard error.
     pub fn report(&self) -> ExitCode {
         // Nobody is left to be told when standard error is closed.
         let _closed = writeln!(std::io::stderr(), "{}", self.text.trim_end());
-        if self.interrupted { interrupted() } else { ExitCode::FAILURE }
+        if self.interrupted { u8::try_from(INTERRUPTED_EXIT_CODE).unwrap_or(1).into() } else { ExitCode::FAILURE }
     }
-}
-
-/// Exit code of a run that Ctrl-C ended early.
-pub fn interrupted() -> ExitCode {
-    u8::try_from(INTERRUPTED_EXIT_CODE).unwrap_or(1).into()
 }
 
 impl From<Error> for Failure {
@@ -47,9 +55,15 @@ impl From<Error> for Failure {
     }
 }
 
+impl From<gearcut_texture::Error> for Failure {
+    fn from(error: gearcut_texture::Error) -> Self {
+        file_error(error).into()
+    }
+}
+
 impl From<SceneErrors> for Failure {
     fn from(errors: SceneErrors) -> Self {
-        Error::Scene(errors).into()
+        Error::Scene(Box::new(errors)).into()
     }
 }
 

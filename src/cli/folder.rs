@@ -2,18 +2,54 @@
 //!
 //! The rule: what `gearcut cut` wrote is replaced by `gearcut cut` alone. Axis tables and comparisons would otherwise wipe out
 //! a long run whose folder was named by mistake.
+//!
+//! They listen for Ctrl-C only so that their hidden folders vanish: they take seconds, and what they have so far is no
+//! result.
 
 use std::path::{Component, Path, PathBuf};
 
+use gearcut::interrupt::Interrupt;
 use gearcut::output::folder::{OutputFolder, RUN_RECORD};
 use gearcut::{Error, Result};
 use serde_json::{Map, Value, json};
 
-/// Opens `path` for the files of `command`.
+/// What a run record says beyond the program and the command.
+pub type Record = [(&'static str, Value); 1];
+
+/// Fills the folder `path` with the files of `command`: `write` writes them and tells what the run record says beyond
+/// the program and the command. The folder's name is given back with what `write` returned.
 ///
 /// # Errors
-/// Something stands there that this command did not write.
-pub fn open(path: &Path, command: &str) -> Result<OutputFolder> {
+/// Something stands there that this command did not write; a file cannot be written; Ctrl-C.
+pub fn fill<T>(
+    path: &Path,
+    command: &str,
+    write: impl FnOnce(&OutputFolder, &Interrupt) -> Result<(Record, T)>,
+) -> Result<(PathBuf, T)> {
+    let interrupt = Interrupt::listen().map_err(listening(path))?;
+    let folder = open(path, command)?;
+    let written = || {
+        let (more, value) = write(&folder, &interrupt)?;
+        interrupt.check()?;
+        let mut record = Map::new();
+        record.insert("program".to_owned(), json!("gearcut"));
+        record.insert("program_version".to_owned(), json!(env!("CARGO_PKG_VERSION")));
+        record.insert("command".to_owned(), json!(command));
+        record.extend(more.into_iter().map(|(key, value)| (key.to_owned(), value)));
+        folder.write_json(RUN_RECORD, &Value::Object(record))?;
+        Ok(value)
+    };
+    let value = written().map_err(|error| folder.explain(error))?;
+    Ok((folder.finish()?, value))
+}
+
+/// What could not be listened for.
+pub fn listening(path: &Path) -> impl FnOnce(std::io::Error) -> Error {
+    let path = path.to_owned();
+    move |source| Error::Io { action: "cannot listen for Ctrl-C before writing", path, source }
+}
+
+fn open(path: &Path, command: &str) -> Result<OutputFolder> {
     let written_by = std::fs::read(path.join(RUN_RECORD))
         .ok()
         .and_then(|text| serde_json::from_slice::<Value>(&text).ok())
@@ -25,24 +61,6 @@ pub fn open(path: &Path, command: &str) -> Result<OutputFolder> {
         }),
         _ => OutputFolder::create(path),
     }
-}
-
-/// Writes the record of the run into the folder and gives the folder its name.
-///
-/// # Errors
-/// The folder cannot be completed.
-pub fn finish(
-    folder: OutputFolder,
-    command: &str,
-    more: impl IntoIterator<Item = (&'static str, Value)>,
-) -> Result<PathBuf> {
-    let mut record = Map::new();
-    record.insert("program".to_owned(), json!("gearcut"));
-    record.insert("program_version".to_owned(), json!(env!("CARGO_PKG_VERSION")));
-    record.insert("command".to_owned(), json!(command));
-    record.extend(more.into_iter().map(|(key, value)| (key.to_owned(), value)));
-    folder.write_json(RUN_RECORD, &Value::Object(record))?;
-    folder.finish()
 }
 
 /// Name of a folder that may be given as `.`, `out/a/` or by the results file in it.

@@ -8,6 +8,7 @@ mod check;
 mod compare;
 mod cut;
 mod devices;
+mod drivers;
 mod failure;
 mod folder;
 mod new;
@@ -22,11 +23,7 @@ use failure::Failure;
 /// Runs the command and reports what went wrong.
 pub fn run(arguments: Arguments) -> ExitCode {
     let done = match arguments.command {
-        Command::Cut(arguments) => match cut::run(&arguments) {
-            Ok(true) => Ok(()),
-            Ok(false) => return failure::interrupted(),
-            Err(failure) => Err(failure),
-        },
+        Command::Cut(arguments) => cut::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Axes(arguments) => axes::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),

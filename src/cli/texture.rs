@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use gearcut::Refusal;
+use gearcut::interrupt::Interrupt;
 use gearcut::measure::topography::parameters::of_profile;
 use gearcut::measure::topography::{Arguments, Chain, Evaluation, Form, Parameter, Profile, Surface};
 use gearcut::output::surface_files::{Format, SurfaceFile, read_surface, write_surface};
@@ -12,6 +13,7 @@ use serde_json::{Value, json};
 
 use super::args::{FormChoice, TextureArguments};
 use super::failure::Failure;
+use super::folder::listening;
 use super::print;
 
 /// Profile parameters along one line.
@@ -30,8 +32,14 @@ pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
     };
     let formats = arguments.save.iter().map(|path| format_of(path)).collect::<Result<Vec<_>, _>>()?;
     let file = read_surface(&arguments.file, spacing_um)?;
+    // Only files have temporary names that Ctrl-C must not leave; without them it ends the program at once.
+    let interrupt = match arguments.save.first() {
+        Some(first) => Interrupt::listen().map_err(listening(first))?,
+        None => Interrupt::default(),
+    };
     for (path, format) in arguments.save.iter().zip(formats) {
         write_surface(path, format, &file)?;
+        interrupt.check()?;
     }
     let chain = Chain {
         form: match arguments.form {
@@ -53,10 +61,12 @@ pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
         )
     };
     let (surface, words) = chain.apply(&file.surface).map_err(unsuited)?;
+    interrupt.check()?;
     let more =
         Arguments { heights_um: arguments.at_height_um.clone(), ratios_percent: arguments.at_ratio_percent.clone() };
     let evaluation = Evaluation::of(&surface, &more);
     let lines = arguments.line.iter().map(|wish| line(wish, &surface)).collect::<Result<Vec<_>, _>>()?;
+    interrupt.check()?;
     let text = if arguments.json {
         let document = document(&arguments.file, &file, &surface, &words, &evaluation, &lines);
         format!("{document:#}\n")
@@ -132,6 +142,11 @@ fn line(wish: &str, surface: &Surface) -> Result<Line, Refusal> {
     Ok(Line { name, parameters: profile.map(|profile| of_profile(&profile)) })
 }
 
+/// Parameters as an object.
+fn by_symbol(parameters: &[Parameter]) -> serde_json::Map<String, Value> {
+    quantities(parameters).into_iter().map(|(symbol, quantity)| (symbol, json!(quantity))).collect()
+}
+
 fn document(
     path: &Path,
     file: &SurfaceFile,
@@ -143,7 +158,7 @@ fn document(
     let lines: Vec<Value> = lines
         .iter()
         .map(|line| match &line.parameters {
-            Ok(parameters) => json!({"line": line.name, "parameters": quantities(parameters)}),
+            Ok(parameters) => json!({"line": line.name, "parameters": by_symbol(parameters)}),
             Err(why) => json!({"line": line.name, "parameters": null, "why": why}),
         })
         .collect();
@@ -158,7 +173,7 @@ fn document(
         "evaluated": {"nx": surface.nx(), "ny": surface.ny(), "holes": surface.holes()},
         "angles": "counter-clockwise from +x (along a row) towards +y (from row to row)",
         "chain": chain,
-        "parameters": quantities(&evaluation.parameters),
+        "parameters": by_symbol(&evaluation.parameters),
         "profiles": lines,
     })
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::lines::Line;
 use super::{Comparison, letters};
 use crate::Result;
-use crate::output::quantity::Quantity;
+use crate::findings::{Level, Quantity};
 use crate::output::table::{Cell, write_table};
 use crate::output::text::significant;
 
@@ -14,34 +14,36 @@ const LONGEST_WORDS: usize = 20;
 
 impl Comparison {
     pub(super) fn write_csv(&self, path: &Path) -> Result<()> {
-        let values: Vec<String> = letters().take(self.names.len()).map(String::from).collect();
-        let differences: Vec<String> =
-            values.iter().skip(1).map(|letter| format!("difference_{letter}_minus_a")).collect();
+        let values: Vec<String> = letters().take(self.results.len()).map(String::from).collect();
+        let others = &values[1..];
+        let differences: Vec<String> = others.iter().map(|letter| format!("difference_{letter}_minus_a")).collect();
+        let ratios: Vec<String> = others.iter().map(|letter| format!("ratio_a_to_{letter}")).collect();
         let mut columns = vec!["quantity", "unit"];
-        columns.extend(values.iter().chain(&differences).map(String::as_str));
+        columns.extend(values.iter().chain(&differences).chain(&ratios).map(String::as_str));
         columns.push("definition");
         let mut names = vec![Cell::from("name"), Cell::Empty];
-        names.extend(self.names.iter().map(|name| Cell::from(name.as_str())));
-        names.extend(differences.iter().map(|_| Cell::Empty));
+        names.extend(self.results.iter().map(|one| Cell::from(one.name.as_str())));
+        names.extend(differences.iter().chain(&ratios).map(|_| Cell::Empty));
         names.push("name under which the result is shown".into());
         write_table(path, &columns, [names].into_iter().chain(self.lines.iter().map(cells)))
     }
 
-    /// Titles, then one row per line: its values, the difference where there are just two, the unit.
+    /// Titles, then one row per line of headline and summary: its values, difference and ratio where there are just
+    /// two, the unit.
     pub(super) fn printed_rows(&self) -> Vec<Vec<String>> {
         let mut titles = vec![String::new()];
-        titles.extend(self.names.iter().cloned());
-        let two = self.names.len() == 2;
+        titles.extend(self.results.iter().map(|one| one.name.clone()));
+        let two = self.results.len() == 2;
         if two {
-            titles.push("difference".into());
+            titles.extend(["difference", "ratio"].map(str::to_owned));
         }
         titles.push("unit".into());
-        let rows = self.lines.iter().map(|line| {
+        let rows = self.lines.iter().filter(|line| line.level <= Level::Summary).map(|line| {
             let mut row = vec![line.name.replace('_', " ")];
             row.extend(line.quantities.iter().map(|quantity| printed(quantity.as_ref())));
             if two {
                 let number = |value: Option<f64>| value.map_or_else(String::new, |value| significant(value, 4));
-                row.extend(line.differences().map(number));
+                row.extend(line.differences().chain(line.ratios()).map(number));
             }
             row.push(match line.either().and_then(Quantity::unit) {
                 None | Some("1") => String::new(),
@@ -60,7 +62,7 @@ fn cells(line: &Line) -> Vec<Cell> {
         Some(quantity) => quantity.words().map_or_else(|| quantity.value().into(), Cell::from),
         None => Cell::Empty,
     }));
-    cells.extend(line.differences().map(Cell::from));
+    cells.extend(line.differences().chain(line.ratios()).map(Cell::from));
     cells.push(of.map_or(Cell::Empty, |quantity| quantity.definition().into()));
     cells
 }

@@ -1,9 +1,8 @@
 //! Names for places on the gear: tooth, side, zone, height over the pitch curve.
 
 use crate::gear::blank::Blank;
-use crate::gear::generation::Side;
-use crate::job::Job;
 use crate::scene::model::Gear;
+use crate::terms::Side;
 use glam::DVec2;
 
 /// Part of a tooth's height.
@@ -42,12 +41,8 @@ impl Zone {
 }
 
 impl GearPlace {
-    /// Place of a point of the gear frame. Tooth j fills the arcs of the pitch curve from (j - 1) to j pitches, its left side the upper half.
-    pub fn of(job: &Job, point_mm: DVec2) -> Self {
-        Self::in_section(&job.blank, &job.scene.gear, point_mm, 0.0)
-    }
-
-    /// The same in a section in which the teeth stand `turned_mm` further along the pitch curve.
+    /// Place of a point of a section in which the teeth stand `turned_mm` further along the pitch curve. Tooth j fills the
+    /// arcs of the pitch curve from (j - 1) to j pitches, its left side the upper half.
     pub fn in_section(blank: &Blank, gear: &Gear, point_mm: DVec2, turned_mm: f64) -> Self {
         let (height_mm, phi_rad) = blank.height(point_mm, point_mm.to_angle());
         let teeth = gear.teeth;

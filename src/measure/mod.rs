@@ -2,25 +2,16 @@
 //!
 //! In: cut fields and the job. Out: plain values in mm and percent; `run` gives them names, units and definitions in the results.
 
-pub mod blank_report;
-pub mod chips;
 pub mod crossing;
+pub mod damage;
 pub mod deviation;
-pub mod engagement;
-pub mod flank_report;
 pub mod gear_place;
-pub mod gear_report;
-pub mod hob_load;
-pub mod hobbed_blank;
-pub mod hobbed_report;
-pub mod marks;
-pub mod offset_curves;
+pub mod last_chips;
 pub mod scallop;
 pub mod stock;
-pub mod stroke_faults;
-pub mod topography;
-pub mod unevenness;
+pub mod target_outline;
+pub mod thickness;
 
-pub use blank_report::BlankReport;
-pub use flank_report::FlankReport;
-pub use gear_report::GearReport;
+/// Surface texture, from the crate of its own.
+pub use gearcut_texture as topography;
+pub use last_chips::LastChips;

@@ -5,6 +5,7 @@
 //! For closed forms see Gao et al.'s errata in the docs: `h = (ds^2 / 8) (1/rho_g + 1/rho_t)`.
 
 use crate::dexel::{Field, Layer};
+use crate::math::newton::{LastStep, newton};
 
 /// A cusp.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,19 +48,54 @@ fn quadratic([(x0, y0), (x1, y1), (x2, y2)]: [(f64, f64); 3]) -> [f64; 3] {
     [y0 - x0 * (s01 - a * x1), s01 - a * (x0 + x1), a]
 }
 
-/// Root of a x^2 + b x + c between 0 and `gap`, a little slack allowed.
+/// Root of a x^2 + b x + c between 0 and `gap`, or a tenth of it beyond either end.
 fn crossing(a: f64, b: f64, c: f64, gap: f64) -> Option<f64> {
-    let mut x = 0.5 * gap;
-    for _ in 0..20 {
-        let rate = b + 2.0 * a * x;
-        if rate == 0.0 {
-            return None;
-        }
-        let step = (c + x * (b + x * a)) / rate;
-        x -= step;
-        if step.abs() < 1e-12 {
-            break;
-        }
-    }
+    let middle = 0.5 * gap;
+    let found = newton("a cusp between two facets", middle, LastStep::absolute(1e-12), 20, |x| {
+        let value = c + x * (b + x * a);
+        [value, -(value / (b + 2.0 * a * x))]
+    });
+    // From a middle where the parabola turns, or beside a double root, in closed form.
+    let x = found.ok().or_else(|| nearest_root([c, b, a], middle))?;
     (x > -0.1 * gap && x < 1.1 * gap).then_some(x)
+}
+
+/// Root of c + b x + a x^2 nearest to a place, without the loss of digits of the school formula; `None` if none is
+/// real.
+fn nearest_root([c, b, a]: [f64; 3], place: f64) -> Option<f64> {
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant < 0.0 {
+        return None;
+    }
+    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+    [q / a, c / q]
+        .into_iter()
+        .filter(|root| root.is_finite())
+        .min_by(|x, y| (x - place).abs().total_cmp(&(y - place).abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{crossing, nearest_root};
+
+    #[test]
+    fn parabolas_cross_where_their_factors_say() {
+        for roots in [[0.3, 5.0], [0.3, -2.0], [0.99, 1e6], [0.5, 0.5]] {
+            let [p, q] = roots;
+            let found = crossing(1.0, -(p + q), p * q, 1.0).expect("within the gap");
+            assert!((found - p).abs() < 1e-9, "{found} for {roots:?}");
+            assert!((nearest_root([p * q, -(p + q), 1.0], 0.5).expect("real") - p).abs() < 1e-9);
+        }
+        assert_eq!(nearest_root([-2.0, 4.0, 0.0], 0.0), Some(0.5));
+    }
+
+    #[test]
+    fn no_root_or_none_near_is_none() {
+        assert_eq!(crossing(1.0, 0.0, 1.0, 1.0), None);
+        assert_eq!(crossing(1.0, -8.0, 15.0, 1.0), None);
+        // The parabola turns in the middle of the gap, where Newton's method has no step.
+        assert_eq!(crossing(1.0, -1.0, 1.0, 1.0), None);
+        let found = crossing(1.0, -1.0, 0.16, 1.0).expect("roots at 0.2 and 0.8");
+        assert!((found - 0.2).abs() < 1e-12 || (found - 0.8).abs() < 1e-12);
+    }
 }

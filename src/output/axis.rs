@@ -54,6 +54,19 @@ pub(super) fn round_range(low: f64, high: f64) -> (f64, f64) {
     ((low / step + 1e-9).floor() * step, (high / step - 1e-9).ceil() * step)
 }
 
+/// A range made so wide that ticks on it are `division` apart at least: about its middle, from tick to tick. No division, no
+/// change.
+pub(super) fn widened((low, high): (f64, f64), division: f64) -> (f64, f64) {
+    /// Divisions that an axis shows at least.
+    const FEWEST: f64 = 6.0;
+    let lacking = FEWEST * division - (high - low);
+    if lacking <= 0.0 {
+        return (low, high);
+    }
+    let (low, high) = (low - 0.5 * lacking, high + 0.5 * lacking);
+    ((low / division + 1e-9).floor() * division, (high / division - 1e-9).ceil() * division)
+}
+
 fn wide(value: f64) -> f64 {
     if value == 0.0 { 1.0 } else { value.abs() }
 }
@@ -114,6 +127,18 @@ mod tests {
         for value in [0.0, 3.0, -1e-9] {
             let (low, high) = round_range(value, value);
             assert!(low < value && value < high, "{low} to {high} around {value}");
+        }
+    }
+
+    #[test]
+    fn an_axis_keeps_its_least_division() {
+        assert_eq!(widened((-0.02, 0.03), 1.0), (-3.0, 4.0));
+        assert_eq!(widened((-9.0, 3.0), 1.0), (-9.0, 3.0));
+        assert_eq!(widened((0.0, 1e-6), 0.0), (0.0, 1e-6));
+        for most in 4..=9 {
+            let (low, high) = widened((-0.02, 0.03), 1.0);
+            let ticks = Ticks::over(low, high, most).values;
+            assert!(ticks.windows(2).all(|pair| pair[1] - pair[0] > 0.99), "{most}: {ticks:?}");
         }
     }
 

@@ -10,10 +10,10 @@ use std::path::Path;
 use plotters::prelude::DrawingBackend;
 
 use crate::Result;
-use crate::output::axis::{round_range, value_text};
+use crate::colormap::SERIES;
+use crate::output::axis::{round_range, value_text, widened};
 use crate::output::canvas::{Canvas, Drawn, INK, PAPER, Side, text_width_px};
 use crate::output::charts::{self, Draw, EM_PX, Frame, Legend, Sample};
-use crate::output::colormap::SERIES;
 use crate::output::heat::fitting_em_px;
 
 /// A bar chart.
@@ -29,6 +29,8 @@ pub struct BarChart {
     pub value_name: String,
     /// Their unit; "–" or "1" for ratios.
     pub unit: String,
+    /// Smallest distance of two ticks of the value axis, where less would make noise look like a fault; 0 for none.
+    pub least_division: f64,
     /// Up to seven series.
     pub series: Vec<BarSeries>,
 }
@@ -68,6 +70,13 @@ impl BarChart {
     /// As [`write_png`](Self::write_png).
     pub fn write_svg(&self, path: &Path) -> Result<()> {
         charts::write_svg(path, self)
+    }
+
+    /// Values at the bottom and the top.
+    pub(super) fn range(&self) -> (f64, f64) {
+        let values = || self.series.iter().flat_map(BarSeries::finite);
+        let range = round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max));
+        widened(range, self.least_division)
     }
 
     fn legend(&self) -> std::result::Result<Legend, String> {
@@ -111,15 +120,9 @@ impl Draw for BarChart {
         let legend = self.legend()?;
         canvas.text(&self.title, (LEFT_PX, 28.0), fitting_em_px(&self.title, 20.0, WIDTH_PX - 130.0)?, Side::Start)?;
         legend.draw(canvas, (LEFT_PX, LEGEND_TOP_PX))?;
-        let values = || self.series.iter().flat_map(BarSeries::finite);
         let top = LEGEND_TOP_PX + legend.height_px() + 8.0;
-        let frame = Frame {
-            left: LEFT_PX,
-            right: WIDTH_PX - RIGHT_PX,
-            top,
-            bottom: top + PLOT_HEIGHT_PX,
-            range: round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max)),
-        };
+        let frame =
+            Frame { left: LEFT_PX, right: WIDTH_PX - RIGHT_PX, top, bottom: top + PLOT_HEIGHT_PX, range: self.range() };
         frame.draw_value_axis(canvas, &self.value_name, &self.unit, 24.0)?;
         self.draw_bars(canvas, &frame)?;
         self.draw_means(canvas, &frame)?;

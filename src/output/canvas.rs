@@ -8,14 +8,13 @@
 //!
 //! Road not taken: plotters' chart builder. Its label areas are fixed numbers of pixels, so long labels are clipped.
 
-use std::convert::Infallible;
 use std::fmt::Display;
 
 use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle};
 
-use crate::output::font;
+use crate::output::{font, letters};
 
 /// Text, axes and frames.
 pub(super) const INK: RGBColor = RGBColor(34, 34, 34);
@@ -205,21 +204,16 @@ impl<DB: DrawingBackend> Canvas<DB> {
         let (left, top) = (fine_left.div_euclid(finer) - 1, fine_top.div_euclid(finer) - (0.5 * line_px) as i32 - 1);
         let (columns, rows) = ((width_px * self.scale) as usize + 4, (2.0 * line_px) as usize + 4);
         let mut coverage = vec![0.0; columns * rows];
-        let letters = font_desc(em_px * self.size_per_em * fine_per_px);
-        let gathered: Result<(), Infallible> = letters
-            .draw(words, (0, 0), |x, y, part| {
-                let column = usize::try_from((x + fine_left).div_euclid(finer) - left);
-                let row = usize::try_from((y + fine_top).div_euclid(finer) - top);
-                if let (Ok(column), Ok(row)) = (column, row)
-                    && column < columns
-                    && row < rows
-                {
-                    coverage[row * columns + column] += f64::from(part) / f64::from(finer * finer);
-                }
-                Ok(())
-            })
-            .map_err(text)?;
-        let Ok(()) = gathered;
+        letters::draw(words, em_px * self.size_per_em * fine_per_px, |x, y, part| {
+            let column = usize::try_from((x + fine_left).div_euclid(finer) - left);
+            let row = usize::try_from((y + fine_top).div_euclid(finer) - top);
+            if let (Ok(column), Ok(row)) = (column, row)
+                && column < columns
+                && row < rows
+            {
+                coverage[row * columns + column] += f64::from(part) / f64::from(finer * finer);
+            }
+        })?;
         let (width, height) = self.backend.get_size();
         let inside = |at: i32, size: u32| u32::try_from(at).is_ok_and(|at| at < size);
         let origin = self.place(at);
@@ -255,13 +249,9 @@ fn goes_straight_on(a: (i32, i32), b: (i32, i32), c: (i32, i32)) -> bool {
 
 /// Width of a text, pixels.
 pub(super) fn text_width_px(words: &str, em_px: f64) -> Result<f64, String> {
-    /// Measured at this many times the size, because plotters rounds widths to whole pixels.
+    /// Measured at this many times the size, because widths are whole pixels.
     const FINER: f64 = 16.0;
-    font::register()?;
-    font_desc(em_px * font::LINE_HEIGHT_EM * FINER)
-        .box_size(words)
-        .map(|(width, _)| f64::from(width) / FINER)
-        .map_err(text)
+    Ok(f64::from(letters::width(words, em_px * font::LINE_HEIGHT_EM * FINER)?) / FINER)
 }
 
 fn font_desc(size: f64) -> FontDesc<'static> {

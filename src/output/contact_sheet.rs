@@ -9,9 +9,9 @@ use std::path::Path;
 
 use plotters::style::RGBColor;
 
+use crate::colormap::{ColourScale, NO_VALUE};
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::canvas::{Canvas, INK, Side};
-use crate::output::colormap::{ColourScale, NO_VALUE};
 use crate::output::grid::MapGrid;
 use crate::output::heat::{ColourBar, PixelBox, fitting_em_px, paint_cells, scale_problem, shown_range};
 use crate::output::raster::Raster;
@@ -39,6 +39,8 @@ pub struct ContactSheet<'a> {
     pub unit: &'a str,
     /// The colours of all maps.
     pub scale: ColourScale,
+    /// Why a value is missing, such as "no pass came here".
+    pub missing: &'a str,
     /// The maps, in reading order.
     pub maps: &'a [Thumbnail<'a>],
 }
@@ -137,7 +139,7 @@ fn draw(sheet: &ContactSheet) -> std::result::Result<Vec<u8>, String> {
     if sheet.maps.iter().flat_map(|map| map.values).any(|value| value.is_nan()) {
         let x = u_x + 120.0;
         canvas.fill((x, y - 7.0), (x + 14.0, y + 7.0), RGBColor(NO_VALUE[0], NO_VALUE[1], NO_VALUE[2]))?;
-        canvas.text("no value", (x + 22.0, y), EM_PX, Side::Start)?;
+        canvas.text(sheet.missing, (x + 22.0, y), EM_PX, Side::Start)?;
     }
     canvas.finish()?;
     raster.png()

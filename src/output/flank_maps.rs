@@ -10,23 +10,29 @@
 //! | stock of each earlier operation over the finished surface | `allowance/tooth_07_left.{png,exr}` |
 //! | deviation of the finished flank | `deviation/tooth_07_left.{png,exr}` |
 //!
-//! Maps have a spacing of their own (the scene's `output.map_spacing_mm`), wider than facets: stock, height and pass id are those of the dexel nearest to the map's place. Two more values
-//! stand for whole cells: height pictures show the **highest** dexel, so that no feed mark is lost (single dexels would make moire of them); deviations are the **mean** of the finished
-//! dexels, because an error of form or position is what remains when the feed marks are averaged.
+//! Maps have a spacing of their own (the scene's `output.map_spacing_mm`), wider than facets. In EXR files stock, height,
+//! pass id and chip are those of the dexel nearest to the map's place. Pictures show values of whole cells, because single
+//! dexels would make moire of the feed marks: the **highest** dexel, so that no mark is lost; the **mean** stock and
+//! deviation, because an error of form or position is what remains when the marks are averaged; and the **latest** pass.
+//! Chips alone are the nearest dexel's on pictures too, and say so: they are followed for that dexel only.
 
-use super::colormap::ColourScale;
 use super::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
 use super::folder::OutputFolder;
 use super::grid::{MapAxis, MapGrid};
 use super::map_png::{MapPicture, write_map_png};
+use crate::colormap::ColourScale;
 use crate::dexel::{Layer, NO_PASS};
 use crate::error::Result;
-use crate::gear::generation::Side;
-use crate::measure::chips::LastChips;
+use crate::measure::LastChips;
+use crate::output::atomic::file_error;
+use crate::terms::Side;
 use crate::units::UM_PER_MM;
 
 /// What map readers need to know about u and v.
 const FRAME: &str = "flank frame: u = arc length along the target profile from the form point to the tip, v = place along the tooth from the middle of the face; heights along the target's outward normal, positive = material left";
+
+/// Why a cell of a flank has no value.
+pub const NO_PASS_CAME: &str = "no pass came here";
 
 /// Quantiles between which chips are told apart: the places that a first stroke cut whole tooth spaces from would hide all others.
 pub const CHIPS_SHOWN: [f64; 2] = [0.0, 0.95];
@@ -62,8 +68,12 @@ pub struct FlankMaps {
     pub heights_mm: Vec<Vec<f32>>,
     /// Height of the highest dexel of each cell, mm; NaN where no pass came.
     pub highest_mm: Vec<Vec<f32>>,
+    /// Mean height of each cell after each operation, mm; NaN where no pass came.
+    pub mean_mm: Vec<Vec<f32>>,
     /// Pass that left it, after each operation.
     pub passes: Vec<Vec<u32>>,
+    /// Latest pass of each cell after the last operation; NaN where none came. As f32, ids are exact up to 16 million.
+    pub latest_pass: Vec<f32>,
     /// Mean height of each cell after the last operation, mm; NaN where no pass came.
     pub deviation_mm: Vec<f32>,
     /// Column and row of the dexel that stands for each place along u and v.
@@ -105,24 +115,27 @@ impl FlankMaps {
         let dexels: Vec<usize> =
             columns.iter().flat_map(|(column, _)| leads.iter().map(move |(row, _)| column * rows + row)).collect();
         // One value for all dexels of a cell that a pass has touched.
-        let over_cells = |layer: &Layer, value: fn(&mut dyn Iterator<Item = f32>) -> f32| -> Vec<f32> {
+        let over_cells = |layer: &Layer, value: fn(&Layer, &mut dyn Iterator<Item = usize>) -> f32| -> Vec<f32> {
             columns
                 .iter()
                 .flat_map(|(_, columns)| {
                     leads.iter().map(move |(_, leads)| {
                         let cell = columns.clone().flat_map(|column| leads.clone().map(move |row| column * rows + row));
-                        value(&mut cell.filter(|&i| layer.passes[i] != NO_PASS).map(|i| layer.heights_mm[i]))
+                        value(layer, &mut cell.filter(|&i| layer.passes[i] != NO_PASS))
                     })
                 })
                 .collect()
         };
+        let mean_mm: Vec<Vec<f32>> = layers.iter().map(|layer| over_cells(layer, mean)).collect();
         let height = |layer: &Layer, i: usize| if layer.passes[i] == NO_PASS { f32::NAN } else { layer.heights_mm[i] };
         Self {
             tooth,
             side,
             heights_mm: layers.iter().map(|layer| dexels.iter().map(|&i| height(layer, i)).collect()).collect(),
-            highest_mm: layers.iter().map(|layer| over_cells(layer, |cell| cell.fold(f32::NAN, f32::max))).collect(),
-            deviation_mm: layers.last().map_or_else(Vec::new, |layer| over_cells(layer, mean)),
+            highest_mm: layers.iter().map(|layer| over_cells(layer, highest)).collect(),
+            deviation_mm: mean_mm.last().cloned().unwrap_or_default(),
+            mean_mm,
+            latest_pass: layers.last().map_or_else(Vec::new, |layer| over_cells(layer, latest)),
             passes: layers.iter().map(|layer| dexels.iter().map(|&i| layer.passes[i]).collect()).collect(),
             dexels: [&columns, &leads].map(|cells| cells.iter().map(|(nearest, _)| *nearest).collect()),
             chips: Vec::new(),
@@ -134,6 +147,11 @@ impl FlankMaps {
     pub fn stock_mm(&self, operation: usize) -> Vec<f32> {
         let last = self.heights_mm.len() - 1;
         self.heights_mm[operation].iter().zip(&self.heights_mm[last]).map(|(a, b)| a - b).collect()
+    }
+
+    /// Mean stock of each cell of an operation over the last one, mm.
+    pub fn mean_stock_mm(&self, operation: usize) -> Vec<f32> {
+        self.mean_mm[operation].iter().zip(&self.deviation_mm).map(|(a, b)| a - b).collect()
     }
 
     /// `tooth_07_left`.
@@ -151,6 +169,7 @@ impl FlankMaps {
         for (index, OperationMaps { name, .. }) in operations.iter().enumerate() {
             let heights_um: Vec<f32> = self.highest_mm[index].iter().map(|h| h * UM_PER_MM as f32).collect();
             let picture = MapPicture {
+                missing: NO_PASS_CAME,
                 title: &format!("{name}: {flank}"),
                 quantity: "height over the target, highest of cell",
                 unit: "µm",
@@ -162,17 +181,12 @@ impl FlankMaps {
             let last = index + 1 == operations.len();
             // One picture of passes is enough to see the order of cutting: that of the finished surface. The EXR has all.
             if last {
-                let ids: Vec<f32> = self.passes[index]
-                    .iter()
-                    // As f32, ids are exact up to 16 million.
-                    .map(|&pass| if pass == NO_PASS { f32::NAN } else { pass as f32 })
-                    .collect();
                 let picture = MapPicture {
                     title: &format!("{name}: {flank}, the pass that left each place"),
-                    quantity: "pass id, in the order of time",
+                    quantity: "latest pass of cell, in the order of time",
                     unit: "1",
-                    values: &ids,
-                    scale: ColourScale::sequential_over([ids.as_slice()]),
+                    values: &self.latest_pass,
+                    scale: ColourScale::sequential_over([self.latest_pass.as_slice()]),
                     ..picture
                 };
                 write_map_png(&folder.path(format!("maps/{name}/{stem}_pass.png"))?, &picture)?;
@@ -181,7 +195,7 @@ impl FlankMaps {
                 let thickness_um: Vec<f32> = chips.thickness_mm.iter().map(|h| h * UM_PER_MM as f32).collect();
                 let picture = MapPicture {
                     title: &format!("{name}: {flank}, the chip that left each place"),
-                    quantity: "uncut chip thickness",
+                    quantity: "uncut chip thickness at the nearest dexel",
                     values: &thickness_um,
                     scale: ColourScale::between_quantiles([thickness_um.as_slice()], CHIPS_SHOWN),
                     ..picture
@@ -227,10 +241,11 @@ impl FlankMaps {
         }
         let earlier = &operations[..operations.len() - 1];
         if let Some((index, OperationMaps { name, stock_scale })) = earlier.iter().enumerate().next_back() {
-            let stock_mm = self.stock_mm(index);
+            let stock_mm = self.mean_stock_mm(index);
             let picture = MapPicture {
+                missing: NO_PASS_CAME,
                 title: &format!("Stock of {name} over {}: {flank}", operations[operations.len() - 1].name),
-                quantity: "normal stock",
+                quantity: "normal stock, mean of cell",
                 unit: "mm",
                 grid: &self.grid,
                 values: &stock_mm,
@@ -265,6 +280,7 @@ impl FlankMaps {
         let stem = self.file_stem();
         let values_um: Vec<f32> = self.deviation_mm.iter().map(|h| h * UM_PER_MM as f32).collect();
         let picture = MapPicture {
+            missing: NO_PASS_CAME,
             title: &format!("Deviation after {last}: tooth {}, {} flank", self.tooth, self.side.name()),
             quantity: "mean height of cell over the target",
             unit: "µm",
@@ -280,13 +296,22 @@ impl FlankMaps {
 
     fn write_exr(&self, path: &std::path::Path, channels: Vec<MapChannel>, notes: &[(String, String)]) -> Result<()> {
         let map = ExrMap { grid: self.grid.clone(), frame: FRAME.to_owned(), channels, notes: notes.to_vec() };
-        write_exr_map(path, &map)
+        write_exr_map(path, &map).map_err(file_error)
     }
 }
 
-fn mean(values: &mut dyn Iterator<Item = f32>) -> f32 {
-    let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), value| (sum + f64::from(value), count + 1));
+fn mean(layer: &Layer, cell: &mut dyn Iterator<Item = usize>) -> f32 {
+    let add = |(sum, count): (f64, u32), i: usize| (sum + f64::from(layer.heights_mm[i]), count + 1);
+    let (sum, count) = cell.fold((0.0, 0), add);
     (sum / f64::from(count)) as f32
+}
+
+fn highest(layer: &Layer, cell: &mut dyn Iterator<Item = usize>) -> f32 {
+    cell.map(|i| layer.heights_mm[i]).fold(f32::NAN, f32::max)
+}
+
+fn latest(layer: &Layer, cell: &mut dyn Iterator<Item = usize>) -> f32 {
+    cell.map(|i| layer.passes[i] as f32).fold(f32::NAN, f32::max)
 }
 
 fn channel(name: &str, unit: &str, definition: &str, samples: Samples) -> MapChannel {
@@ -315,6 +340,7 @@ mod tests {
             (layer.heights_mm[index], layer.passes[index]) = (index as f32, 7);
         }
         layer.passes[5] = NO_PASS;
+        layer.passes[9] = 8;
         let maps = FlankMaps::sample(1, Side::Left, [&field.arcs_mm(), &field.leads_mm], &[layer], 0.1);
         assert_eq!((maps.grid.u.count, maps.grid.v.count), (2, 2));
         // The cell at u 0.1, v -0.05 holds the columns at 0.05 (half way, upper cell) and 0.1, and the first row: dexels 4 and 8.
@@ -322,6 +348,8 @@ mod tests {
         assert_eq!(maps.deviation_mm[2], 6.0);
         // The cell at u 0.1, v 0.05 holds rows 1 and 2 of both columns: 5 (untouched), 6, 9, 10.
         assert_eq!(maps.highest_mm[0][3], 10.0);
+        assert_eq!((maps.latest_pass[2], maps.latest_pass[3]), (7.0, 8.0));
+        assert_eq!((maps.mean_mm[0][2], maps.mean_stock_mm(0)[2]), (6.0, 0.0));
         assert!((maps.deviation_mm[3] - 25.0 / 3.0).abs() < 1e-6);
     }
 }

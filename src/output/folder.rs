@@ -1,25 +1,43 @@
 //! The folder of one run: whole under its final name, or not there at all.
 //!
-//! In: the final path. Out: paths to write to, inside a hidden sibling folder that takes the final name when
-//! [`OutputFolder::finish`] is called.
+//! In: the final path. Out: paths to write to, inside a hidden folder beside it, whose files take the final name when
+//! [`OutputFolder::finish`] is called, or the name with `.partial` behind it when
+//! [`OutputFolder::finish_partial`] is.
 //!
-//! The rule: an existing folder is replaced only if gearcut wrote it, which its `run.json` proves, and only after the
-//! new one is complete. Whatever else stands at the final name is refused before any work is done. A run that fails,
-//! is stopped or is killed leaves the final name as it was.
+//! The rules:
+//! - A complete result is replaced by a complete one only, in one step, and not before that is whole. What Ctrl-C
+//!   leaves of a run goes to `NAME.partial`; the next complete run removes it.
+//! - What gearcut did not write is never replaced: `run.json` proves what it wrote. Whatever else has the name is
+//!   refused before any work is done.
+//! - One run at a time writes to a name; a second one is refused.
+//! - A run that fails or is killed leaves the names as they were. What a killed run leaves under its hidden name is
+//!   removed by the next run to the same name.
+//! - Results that are whole and cannot have their name are kept under another one, which the error tells.
 //!
 //! Road not taken: writing into the final folder and cleaning up after a failure. A killed run cleans up nothing, and
 //! half of a new run among the files of an old one looks like a result.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+mod steps;
+mod workplace;
 
-use tempfile::TempDir;
+#[cfg(test)]
+mod deaths;
+
+use std::ffi::OsString;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use crate::output::atomic::write_bytes_atomically;
 use crate::{Error, Result};
+use steps::{Disk, Steps};
+use workplace::{Workplace, with_ending};
 
 /// File by which gearcut knows its own folders again.
 pub const RUN_RECORD: &str = "run.json";
+
+/// What stands behind the name of a run that Ctrl-C ended early.
+const PARTIAL: &str = ".partial";
 
 /// A folder that is being filled under a hidden name.
 ///
@@ -27,28 +45,35 @@ pub const RUN_RECORD: &str = "run.json";
 #[derive(Debug)]
 pub struct OutputFolder {
     final_path: PathBuf,
-    temporary: TempDir,
+    name: OsString,
+    workplace: Workplace,
 }
 
 impl OutputFolder {
     /// Opens a hidden folder beside `final_path`, whose missing parents are made.
     ///
     /// # Errors
-    /// Something stands at `final_path` that gearcut did not write, or the place cannot be written to.
+    /// Something stands at `final_path` or its partial name that gearcut must not replace, another run writes there, or
+    /// the place cannot be written to.
     pub fn create(final_path: &Path) -> Result<Self> {
+        Self::create_by(final_path, Box::new(Disk))
+    }
+
+    /// [`create`](Self::create) on any file system.
+    fn create_by(final_path: &Path, steps: Box<dyn Steps>) -> Result<Self> {
         let name = final_path.file_name().ok_or_else(|| Error::Output {
             path: final_path.to_owned(),
             reason: "a folder for the results needs a name of its own; choose another one with --out".to_owned(),
         })?;
         check_replaceable(final_path)?;
+        check_partial(&partial_path(final_path))?;
         let parent = match final_path.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
         fs::create_dir_all(parent).map_err(Error::writing(parent))?;
-        let prefix = format!(".{}.new-", name.to_string_lossy());
-        let temporary = hidden_folder(parent, &prefix).map_err(Error::writing(final_path))?;
-        Ok(Self { final_path: final_path.to_owned(), temporary })
+        let workplace = Workplace::take(parent, name, steps)?;
+        Ok(Self { final_path: final_path.to_owned(), name: name.to_owned(), workplace })
     }
 
     /// Place of a file inside the folder, given relative to it; the subfolders on the way are made.
@@ -56,7 +81,7 @@ impl OutputFolder {
     /// # Errors
     /// A subfolder cannot be made.
     pub fn path(&self, relative: impl AsRef<Path>) -> Result<PathBuf> {
-        let path = self.temporary.path().join(relative);
+        let path = self.workplace.new_files().join(relative);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(Error::writing(parent))?;
         }
@@ -71,69 +96,132 @@ impl OutputFolder {
         write_bytes_atomically(&self.path(relative)?, format!("{document:#}\n").as_bytes())
     }
 
-    /// The name that the folder gets at the end.
-    pub fn final_path(&self) -> &Path {
-        &self.final_path
+    /// The name that the folder gets at the end of a complete run, or of one that Ctrl-C ended early.
+    pub fn results_path(&self, complete: bool) -> PathBuf {
+        if complete { self.final_path.clone() } else { partial_path(&self.final_path) }
     }
 
-    /// Gives the folder its final name; an earlier run's folder there is removed afterwards.
+    /// An error of work in this folder as the user should read it: files by the names that they would have had, and
+    /// what has become of the earlier results.
+    pub fn explain(&self, error: Error) -> Error {
+        let hidden = self.workplace.new_files();
+        let named = |path: &Path| path.strip_prefix(&hidden).ok().map(|relative| self.final_path.join(relative));
+        let untouched = if self.final_path.symlink_metadata().is_ok() {
+            format!("the earlier results in {} are untouched", self.final_path.display())
+        } else {
+            "nothing was left behind".to_owned()
+        };
+        match error {
+            Error::Io { action, path, source } if named(&path).is_some() => Error::Io {
+                action,
+                path: named(&path).unwrap_or(path),
+                source: io::Error::new(source.kind(), format!("{source}; {untouched}")),
+            },
+            Error::Output { path, reason } if named(&path).is_some() => {
+                Error::Output { path: named(&path).unwrap_or(path), reason: format!("{reason}; {untouched}") }
+            }
+            other => other,
+        }
+    }
+
+    /// Gives the complete folder its final name; an earlier result there and a partial one beside it are removed
+    /// afterwards.
     ///
-    /// The folder must hold its own `run.json`, or the next run could not replace it. If the new name cannot be
-    /// given, the earlier folder is put back.
+    /// The folder must hold its own `run.json`, or the next run could not replace it.
     ///
     /// # Errors
-    /// There is no `run.json`, somebody else's folder has appeared at the final name, or the system refuses to rename.
+    /// There is no `run.json`, somebody else's folder has appeared at the final name, or the system refuses to rename:
+    /// then the new results are kept under the name that the error tells.
     pub fn finish(self) -> Result<PathBuf> {
-        if !is_ours(self.temporary.path()) {
-            return Err(Error::Output {
-                path: self.final_path,
-                reason: format!("the run wrote no {RUN_RECORD} that names gearcut as its program"),
-            });
+        self.check_record()?;
+        let name = self.final_path.clone();
+        let published = check_replaceable(&name).and_then(|()| self.publish(&name));
+        if let Err(error) = published {
+            return Err(self.keep(error));
         }
-        check_replaceable(&self.final_path)?;
-        let name_given = if self.final_path.symlink_metadata().is_ok() {
-            self.replace_earlier()
-        } else {
-            fs::rename(self.temporary.path(), &self.final_path).map_err(Error::writing(&self.final_path))
-        };
-        name_given?;
-        let Self { final_path, temporary } = self;
-        let _moved_away = temporary.keep();
-        Ok(final_path)
+        let partial = self.results_path(false);
+        if is_partial(&partial) {
+            self.workplace.discard(&partial).map_err(|source| Error::Io {
+                action: "the new results are in place, but the partial ones of an earlier run cannot be removed:",
+                path: partial,
+                source,
+            })?;
+        }
+        self.clear(&self.final_path)?;
+        Ok(self.final_path)
     }
 
-    /// Old folder aside, new folder in, old folder removed.
-    fn replace_earlier(&self) -> Result<()> {
-        let parent = self.temporary.path().parent().unwrap_or(Path::new("."));
-        let name = self.final_path.file_name().unwrap_or_default().to_string_lossy();
-        // The earlier folder moves into a folder of its own, so that its hidden name is surely free.
-        let aside = hidden_folder(parent, &format!(".{name}.old-")).map_err(Error::writing(parent))?;
-        let earlier = aside.path().join("earlier");
-        fs::rename(&self.final_path, &earlier).map_err(Error::writing(&self.final_path))?;
-        if let Err(source) = fs::rename(self.temporary.path(), &self.final_path) {
-            if fs::rename(&earlier, &self.final_path).is_err() {
-                let kept = aside.keep();
-                return Err(Error::Output {
-                    path: self.final_path.clone(),
-                    reason: format!("{source}; the earlier results are in {}", kept.join("earlier").display()),
-                });
-            }
-            return Err(Error::Io { action: "cannot write", path: self.final_path.clone(), source });
+    /// Gives the folder of a run that was ended early the partial name, in place of an earlier one of that kind. What
+    /// has the final name stays there.
+    ///
+    /// Its `run.json` must say `"complete": false`, or the next run could not replace it.
+    ///
+    /// # Errors
+    /// As for [`finish`](Self::finish).
+    pub fn finish_partial(self) -> Result<PathBuf> {
+        self.check_record()?;
+        let partial = self.results_path(false);
+        let published = check_partial(&partial).and_then(|()| self.publish(&partial));
+        if let Err(error) = published {
+            return Err(self.keep(error));
         }
-        let aside_path = aside.path().to_owned();
-        aside.close().map_err(|source| Error::Io {
-            action: "the new results are in place, but the earlier ones cannot be removed from",
-            path: aside_path,
+        self.clear(&partial)?;
+        Ok(partial)
+    }
+
+    fn check_record(&self) -> Result<()> {
+        if is_ours(&self.workplace.new_files()) {
+            return Ok(());
+        }
+        Err(Error::Output {
+            path: self.final_path.clone(),
+            reason: format!("the run wrote no {RUN_RECORD} that names gearcut as its program"),
+        })
+    }
+
+    fn publish(&self, name: &Path) -> Result<()> {
+        self.workplace.publish(name).map_err(Error::writing(name))
+    }
+
+    /// Removes what had the name before.
+    fn clear(&self, name: &Path) -> Result<()> {
+        self.workplace.clear().map_err(|source| Error::Io {
+            action: "the new results are in place, but the earlier ones cannot be removed from beside",
+            path: name.to_owned(),
             source,
         })
     }
+
+    /// Keeps results that cannot have their name under another one, and says so with the reason.
+    fn keep(mut self, error: Error) -> Error {
+        let where_kept = match self.workplace.keep(&self.name) {
+            Ok(kept) => format!("the results of this run are in {}", kept.display()),
+            Err(_) => {
+                let hidden = self.workplace.new_files();
+                self.workplace.leave();
+                format!("the results of this run are in {} until the next run to this name", hidden.display())
+            }
+        };
+        match error {
+            Error::Io { action, path, source } => {
+                Error::Io { action, path, source: io::Error::new(source.kind(), format!("{source}; {where_kept}")) }
+            }
+            Error::Output { path, reason } => Error::Output { path, reason: format!("{reason}; {where_kept}") },
+            other => other,
+        }
+    }
+}
+
+/// Name of what Ctrl-C leaves of a run to `final_path`.
+fn partial_path(final_path: &Path) -> PathBuf {
+    final_path.with_file_name(with_ending(final_path.file_name().unwrap_or_default(), PARTIAL))
 }
 
 /// Refuses a final path that must not be replaced.
 fn check_replaceable(final_path: &Path) -> Result<()> {
     let refuse = |reason: String| Err(Error::Output { path: final_path.to_owned(), reason });
     match final_path.symlink_metadata() {
-        Err(missing) if missing.kind() == std::io::ErrorKind::NotFound => Ok(()),
+        Err(missing) if missing.kind() == io::ErrorKind::NotFound => Ok(()),
         Err(source) => Err(Error::Io { action: "cannot read", path: final_path.to_owned(), source }),
         Ok(found) if !found.is_dir() => {
             refuse("a file or a link of this name is in the way; remove it or choose another folder with --out".into())
@@ -147,24 +235,39 @@ fn check_replaceable(final_path: &Path) -> Result<()> {
     }
 }
 
-/// Whether the folder's `run.json` names gearcut as the program that wrote it.
+/// Refuses a partial name that must not be replaced: under it, too, somebody may keep what is complete.
+fn check_partial(partial: &Path) -> Result<()> {
+    check_replaceable(partial)?;
+    if is_ours(partial) && !is_partial(partial) {
+        return Err(Error::Output {
+            path: partial.to_owned(),
+            reason:
+                "the folder holds complete results under the name for partial ones; move it away or choose another \
+                     folder with --out"
+                    .to_owned(),
+        });
+    }
+    Ok(())
+}
+
+/// Whether gearcut wrote the folder.
 fn is_ours(folder: &Path) -> bool {
-    fs::read(folder.join(RUN_RECORD))
-        .ok()
-        .and_then(|text| serde_json::from_slice::<serde_json::Value>(&text).ok())
-        .is_some_and(|record| record.get("program").and_then(serde_json::Value::as_str) == Some("gearcut"))
+    record_of(folder).is_some()
+}
+
+/// Whether gearcut wrote the folder and Ctrl-C ended it early.
+fn is_partial(folder: &Path) -> bool {
+    record_of(folder).is_some_and(|record| record.get("complete") == Some(&serde_json::Value::Bool(false)))
+}
+
+/// The folder's `run.json`, if it names gearcut as the program that wrote it.
+fn record_of(folder: &Path) -> Option<serde_json::Value> {
+    let text = fs::read(folder.join(RUN_RECORD)).ok()?;
+    let record: serde_json::Value = serde_json::from_slice(&text).ok()?;
+    (record.get("program")? == "gearcut").then_some(record)
 }
 
 /// Whether there is nothing to lose in the folder.
 fn is_empty(folder: &Path) -> bool {
     fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none())
-}
-
-/// New hidden folder that others may read as the user's umask says.
-fn hidden_folder(parent: &Path, prefix: &str) -> std::io::Result<TempDir> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(prefix);
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
-    builder.tempdir_in(parent)
 }

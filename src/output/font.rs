@@ -19,7 +19,8 @@ pub(super) const LINE_HEIGHT_EM: f64 = 1.362;
 /// Height of capital letters and digits in em, from the font's header.
 pub(super) const CAPITAL_HEIGHT_EM: f64 = 0.714;
 
-const NOTO_SANS: &[u8] = include_bytes!("../../assets/NotoSans-Regular.ttf");
+/// The font itself.
+pub(super) const NOTO_SANS: &[u8] = include_bytes!("../../assets/NotoSans-Regular.ttf");
 
 /// Registers the font on the first call.
 pub(super) fn register() -> Result<(), String> {

@@ -7,9 +7,9 @@
 
 use plotters::prelude::DrawingBackend;
 
+use crate::colormap::ColourScale;
 use crate::output::axis::{Ticks, value_text};
 use crate::output::canvas::{Canvas, Drawn, INK, Side, text_width_px};
-use crate::output::colormap::ColourScale;
 use crate::output::grid::MapGrid;
 use crate::output::raster::Raster;
 
@@ -73,7 +73,14 @@ fn row_colours(
 ) -> Vec<[u8; 3]> {
     let row = |u: usize| &values[u * grid.v.count..(u + 1) * grid.v.count];
     let pixel = |&(v_first, v_end): &(usize, usize)| mean((u_first..u_end).flat_map(|u| &row(u)[v_first..v_end]));
-    columns.iter().map(|cells| scale.colour(pixel(cells))).collect()
+    // Pixels within one cell are equal too.
+    let mut painted: Option<(&(usize, usize), [u8; 3])> = None;
+    let colour = |cells| {
+        let colour = painted.filter(|(same, _)| *same == cells).map_or_else(|| scale.colour(pixel(cells)), |p| p.1);
+        painted = Some((cells, colour));
+        colour
+    };
+    columns.iter().map(colour).collect()
 }
 
 /// Cells under each pixel of a side: one where cells are larger than pixels, several where they are smaller.

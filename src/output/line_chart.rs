@@ -12,10 +12,10 @@ use std::path::Path;
 use plotters::prelude::DrawingBackend;
 
 use crate::Result;
-use crate::output::axis::{Ticks, round_range, value_text};
+use crate::colormap::SERIES;
+use crate::output::axis::{Ticks, round_range, value_text, widened};
 use crate::output::canvas::{Canvas, Drawn, FAINT, INK, Point, Side};
 use crate::output::charts::{self, Draw, EM_PX, Frame, Legend, Sample};
-use crate::output::colormap::SERIES;
 use crate::output::heat::fitting_em_px;
 
 /// A chart of one or more panels, one below the other.
@@ -42,6 +42,8 @@ pub struct Panel {
     pub series: Vec<LineSeries>,
     /// Values not to be passed.
     pub limits: Vec<Limit>,
+    /// Smallest distance of two ticks of the value axis, where less would make noise look like a fault; 0 for none.
+    pub least_division: f64,
 }
 
 /// One curve.
@@ -107,7 +109,7 @@ impl Panel {
         let near =
             self.limits.iter().map(|limit| limit.value).filter(|value| (low - reach..=high + reach).contains(value));
         let (low, high) = near.fold((low, high), |(low, high), value| (low.min(value), high.max(value)));
-        round_range(low, high)
+        widened(round_range(low, high), self.least_division)
     }
 
     fn legend(&self) -> std::result::Result<Legend, String> {

@@ -13,10 +13,10 @@ use std::path::Path;
 
 use plotters::prelude::DrawingBackend;
 
+use crate::colormap::{ColourScale, NO_VALUE};
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::axis::{Ticks, number_text, value_text};
 use crate::output::canvas::{Canvas, Drawn, INK, PAPER, Point, Side};
-use crate::output::colormap::{ColourScale, NO_VALUE};
 use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::heat::{ColourBar, PixelBox, fitting_em_px, paint_cells, scale_problem, shade_cells, shown_range};
 use crate::output::raster::Raster;
@@ -38,6 +38,8 @@ pub struct MapPicture<'a> {
     pub values: &'a [f32],
     /// Their colours.
     pub scale: ColourScale,
+    /// Why a value is missing, such as "no pass came here".
+    pub missing: &'a str,
 }
 
 const LEFT_PX: u32 = 84;
@@ -173,8 +175,9 @@ fn draw_notes<DB: DrawingBackend>(
         let [red, green, blue] = NO_VALUE;
         let grey = plotters::style::RGBColor(red, green, blue);
         canvas.fill((column_x, y - 7.0), (column_x + 14.0, y + 7.0), grey)?;
-        let words = format!("no value: {missing} of {} cells", picture.values.len());
-        canvas.text(&words, (column_x + 20.0, y), EM_PX, Side::Start)?;
+        let words = format!("{}: {missing} of {} cells", picture.missing, picture.values.len());
+        let em_px = fitting_em_px(&words, EM_PX, column_px - 30.0)?;
+        canvas.text(&words, (column_x + 20.0, y), em_px, Side::Start)?;
     }
     let scale_note = if (u_stretch - 1.0).abs() < 0.01 {
         "u and v to the same scale".to_owned()

@@ -1,6 +1,6 @@
 //! What every mesh file says about itself: what it is, in which unit and frame, and what its colours mean.
 
-use crate::output::colormap::ColourScale;
+use crate::colormap::ColourScale;
 use crate::surface::Mesh;
 use crate::surface::mesh::{Scalar, ScalarValues};
 

@@ -1,22 +1,24 @@
 //! Meshes as binary glTF 2.0: one node per flank, root and tip, so that viewers can pick and hide them by name.
 //!
-//! glTF asks for metres with y up; places stay in mm of the gear frame in the buffers, and the root node turns and scales them. Every part has vertices of its own with smooth normals, because
-//! edges between parts are sharp. Colours are vertex colours in linear light, 16 bits (8 would show steps in the dark). Quantities are the attributes `_HEIGHT_UM`, `_STOCK_MM` and `_PASS_ID`; glTF
-//! allows no NaN and no 32-bit integers on vertices, so that parts with missing values go without the attribute, and pass ids are floats (exact up to 2^24).
+//! glTF asks for metres with y up; places stay in mm of the gear frame in the buffers, and the root node turns and
+//! scales them. Every part has vertices of its own with smooth normals, because edges between parts are sharp. Colours
+//! are vertex colours in linear light, 16 bits (8 would show steps in the dark). Quantities are the attributes
+//! `_HEIGHT_UM`, `_STOCK_MM` and `_PASS_ID`; glTF allows no NaN and no 32-bit integers on vertices, so that parts with
+//! missing values go without the attribute, and pass ids are floats (exact up to 2^24).
 
+mod document;
+
+use crate::colormap::NO_VALUE;
 use crate::output::atomic::write_bytes_atomically;
-use crate::output::colormap::NO_VALUE;
 use crate::output::mesh_file::{FRAME, MeshFile};
 use crate::surface::mesh::{Scalar, ScalarValues};
 use crate::{Error, Result};
+use document::{
+    ARRAY_BUFFER, Accessor, Asset, Buffer, Document, ELEMENT_ARRAY_BUFFER, FLOAT, Material, Mesh, MetallicRoughness,
+    Node, Primitive, Scene, UNSIGNED_INT, UNSIGNED_SHORT, View,
+};
 use glam::DVec3;
-use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
-use gltf_json::buffer::{Stride, Target, View};
-use gltf_json::mesh::{Mode, Primitive, Semantic};
-use gltf_json::validation::{Checked::Valid, USize64};
-use gltf_json::{Accessor, Buffer, Index, Material, Node, Root, Scene};
-use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use serde_json::{Map, Value, json};
 use std::path::Path;
 
 /// Largest whole number up to which f32 holds all whole numbers.
@@ -28,8 +30,8 @@ const EXACT_F32: u32 = 1 << 24;
 /// A mesh whose buffer exceeds what glTF can address (4 GiB), and files that cannot be written.
 pub fn write_glb(path: &Path, file: &MeshFile) -> Result<()> {
     let refused = |reason: String| Error::Output { path: path.to_owned(), reason };
-    let (root, buffer) = build(file);
-    let text = gltf_json::serialize::to_vec(&root).map_err(|error| refused(error.to_string()))?;
+    let (document, buffer) = build(file);
+    let text = serde_json::to_vec(&document).map_err(|error| refused(error.to_string()))?;
     let bytes = container(text, buffer).ok_or_else(|| refused("the mesh is larger than 4 GiB".to_owned()))?;
     write_bytes_atomically(path, &bytes)
 }
@@ -54,8 +56,8 @@ fn container(mut text: Vec<u8>, mut buffer: Vec<u8>) -> Option<Vec<u8>> {
 /// One stream of the buffer: all values of one attribute, part after part.
 struct Stream {
     bytes: Vec<u8>,
-    stride: usize,
-    target: Target,
+    /// Bytes of a vertex; none for vertex numbers.
+    stride: Option<usize>,
 }
 
 /// The streams, in the order in which they stand in the buffer.
@@ -65,28 +67,19 @@ const COLOUR: usize = 2;
 const QUANTITY: usize = 3;
 const INDEX: usize = 4;
 
-fn build(file: &MeshFile) -> (Root, Vec<u8>) {
+/// Streams and the accessors into them.
+struct Values {
+    streams: [Stream; 5],
+    accessors: Vec<Accessor>,
+}
+
+fn build(file: &MeshFile) -> (Document, Vec<u8>) {
     let mesh = file.mesh;
     let colours = file.vertex_colours();
-    let stream = |stride, target| Stream { bytes: Vec::new(), stride, target };
-    let mut streams = [
-        stream(12, Target::ArrayBuffer),
-        stream(12, Target::ArrayBuffer),
-        stream(8, Target::ArrayBuffer),
-        stream(4, Target::ArrayBuffer),
-        stream(4, Target::ElementArrayBuffer),
-    ];
-    let mut root = Root::default();
-    let material = root.push(Material {
-        name: Some("cut steel".to_owned()),
-        pbr_metallic_roughness: gltf_json::material::PbrMetallicRoughness {
-            metallic_factor: gltf_json::material::StrengthFactor(0.1),
-            roughness_factor: gltf_json::material::StrengthFactor(0.6),
-            ..Default::default()
-        },
-        ..Material::default()
-    });
-    let mut nodes = Vec::new();
+    let stream = |stride| Stream { bytes: Vec::new(), stride };
+    let streams = [stream(Some(12)), stream(Some(12)), stream(Some(8)), stream(Some(4)), stream(None)];
+    let mut values = Values { streams, accessors: Vec::new() };
+    let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
     let mut local = vec![u32::MAX; mesh.positions_mm.len()];
     for part in &mesh.parts {
         // Vertices of the part in the order of their first use.
@@ -109,143 +102,117 @@ fn build(file: &MeshFile) -> (Root, Vec<u8>) {
         for &vertex in &vertices {
             local[vertex as usize] = u32::MAX;
         }
-        let vectors = |values: &mut dyn Iterator<Item = DVec3>| -> Vec<[f32; 3]> {
-            values.map(|v| v.as_vec3().to_array()).collect()
-        };
-        let positions = vectors(&mut vertices.iter().map(|&v| mesh.positions_mm[v as usize]));
-        let normals = vectors(&mut normals.iter().map(|n| n.try_normalize().unwrap_or(DVec3::Z)));
+        let positions: Vec<[f32; 3]> =
+            vertices.iter().map(|&v| mesh.positions_mm[v as usize].as_vec3().to_array()).collect();
         let count = vertices.len();
         let bounds = |pick: fn(f32, f32) -> f32| {
-            positions.iter().copied().reduce(|a, b| std::array::from_fn(|k| pick(a[k], b[k])))
+            let bound = positions.iter().copied().reduce(|a, b| std::array::from_fn(|k| pick(a[k], b[k])));
+            bound.map(|bound| bound.map(f64::from))
         };
-        let mut attributes = BTreeMap::new();
-        let place = push(
-            &mut root,
-            &mut streams,
+        let position = values.push(
             POSITION,
             positions.iter().flatten().flat_map(|x| x.to_le_bytes()),
-            Layout {
-                bounds: [bounds(f32::min), bounds(f32::max)].map(|b| b.map(|b| json!(b))),
-                ..layout(count, Type::Vec3)
-            },
+            Accessor { min: bounds(f32::min), max: bounds(f32::max), ..floats(count, "VEC3") },
         );
-        attributes.insert(Valid(Semantic::Positions), place);
-        let normals = normals.iter().flatten().flat_map(|x| x.to_le_bytes());
-        attributes.insert(
-            Valid(Semantic::Normals),
-            push(&mut root, &mut streams, NORMAL, normals, layout(count, Type::Vec3)),
-        );
+        let unit = |n: &DVec3| n.try_normalize().unwrap_or(DVec3::Z).as_vec3().to_array();
+        let normal =
+            values.push(NORMAL, normals.iter().flat_map(unit).flat_map(f32::to_le_bytes), floats(count, "VEC3"));
         let colour = vertices.iter().flat_map(|&v| {
             let [r, g, b] = if part.measured { colours[v as usize] } else { NO_VALUE }.map(linear_u16);
             [r, g, b, u16::MAX]
         });
-        let colour_layout = Layout { component: ComponentType::U16, normalized: true, ..layout(count, Type::Vec4) };
-        let colour = push(&mut root, &mut streams, COLOUR, colour.flat_map(u16::to_le_bytes), colour_layout);
-        attributes.insert(Valid(Semantic::Colors(0)), colour);
+        let layout = Accessor { component_type: UNSIGNED_SHORT, normalized: true, ..floats(count, "VEC4") };
+        let colour = values.push(COLOUR, colour.flat_map(u16::to_le_bytes), layout);
+        let mut quantities = Vec::new();
         for scalar in mesh.scalars.iter().filter(|_| part.measured) {
-            if let Some(values) = finite_values(scalar, &vertices) {
-                let bytes = values.into_iter().flat_map(f32::to_le_bytes);
-                let place = push(&mut root, &mut streams, QUANTITY, bytes, layout(count, Type::Scalar));
-                attributes.insert(Valid(Semantic::Extras(scalar.name.to_uppercase())), place);
+            if let Some(finite) = finite_values(scalar, &vertices) {
+                let bytes = finite.into_iter().flat_map(f32::to_le_bytes);
+                quantities.push((attribute(scalar), values.push(QUANTITY, bytes, floats(count, "SCALAR"))));
             }
         }
-        let index_layout = Layout { component: ComponentType::U32, ..layout(indices.len(), Type::Scalar) };
-        let indices =
-            push(&mut root, &mut streams, INDEX, indices.into_iter().flat_map(u32::to_le_bytes), index_layout);
-        let primitive = Primitive {
-            attributes,
-            extensions: None,
-            extras: None,
-            indices: Some(indices),
-            material: Some(material),
-            mode: Valid(Mode::Triangles),
-            targets: None,
-        };
-        let mesh = root.push(gltf_json::Mesh {
-            extensions: None,
-            extras: None,
-            name: Some(part.name.clone()),
-            primitives: vec![primitive],
-            weights: None,
-        });
-        nodes.push(root.push(Node { mesh: Some(mesh), name: Some(part.name.clone()), ..Node::default() }));
+        quantities.sort();
+        let layout = Accessor { component_type: UNSIGNED_INT, ..floats(indices.len(), "SCALAR") };
+        let indices = values.push(INDEX, indices.into_iter().flat_map(u32::to_le_bytes), layout);
+        let standard = [("POSITION", position), ("NORMAL", normal), ("COLOR_0", colour)];
+        let attributes = quantities.into_iter().chain(standard.map(|(name, place)| (name.to_owned(), place)));
+        let attributes = attributes.map(|(name, place)| (name, json!(place))).collect();
+        nodes.push(Node { mesh: Some(meshes.len()), name: part.name.clone(), ..Node::default() });
+        meshes.push(Mesh { name: part.name.clone(), primitives: [Primitive { attributes, indices, material: 0 }] });
     }
     let half = std::f32::consts::FRAC_1_SQRT_2;
-    let gear = root.push(Node {
-        children: Some(nodes),
-        name: Some(file.title.to_owned()),
-        rotation: Some(gltf_json::scene::UnitQuaternion([-half, 0.0, 0.0, half])),
+    let gear = nodes.len();
+    nodes.push(Node {
+        children: (0..gear).collect(),
+        name: file.title.to_owned(),
+        rotation: Some([-half, 0.0, 0.0, half]),
         scale: Some([1e-3; 3]),
         ..Node::default()
     });
-    let scene =
-        root.push(Scene { extensions: None, extras: None, name: Some(file.title.to_owned()), nodes: vec![gear] });
-    root.scene = Some(scene);
-    root.asset.generator = Some(format!("gearcut {}", env!("CARGO_PKG_VERSION")));
-    root.asset.extras = extras(file);
-    let buffer = join(&mut root, streams);
-    (root, buffer)
+    let Values { streams, accessors } = values;
+    let (buffer_views, buffer) = join(streams);
+    let document = Document {
+        accessors,
+        asset: Asset {
+            extras: extras(file),
+            generator: format!("gearcut {}", env!("CARGO_PKG_VERSION")),
+            version: "2.0",
+        },
+        buffers: [Buffer { byte_length: buffer.len() }],
+        buffer_views,
+        scene: 0,
+        materials: [Material {
+            alpha_mode: "OPAQUE",
+            double_sided: false,
+            name: "cut steel",
+            pbr_metallic_roughness: MetallicRoughness {
+                base_color_factor: [1.0; 4],
+                metallic_factor: 0.1,
+                roughness_factor: 0.6,
+            },
+            emissive_factor: [0.0; 3],
+        }],
+        meshes,
+        nodes,
+        scenes: [Scene { name: file.title.to_owned(), nodes: [gear] }],
+    };
+    (document, buffer)
 }
 
-/// How the values of an accessor lie.
-struct Layout {
-    count: usize,
-    kind: Type,
-    component: ComponentType,
-    normalized: bool,
-    bounds: [Option<Value>; 2],
+/// Layout of floats; [`Values::push`] sets their place.
+fn floats(count: usize, kind: &'static str) -> Accessor {
+    let (buffer_view, byte_offset) = (0, 0);
+    Accessor { buffer_view, byte_offset, count, component_type: FLOAT, kind, min: None, max: None, normalized: false }
 }
 
-fn layout(count: usize, kind: Type) -> Layout {
-    Layout { count, kind, component: ComponentType::F32, normalized: false, bounds: [None, None] }
+impl Values {
+    /// Appends values to a stream; gives the number of their accessor.
+    fn push(&mut self, stream: usize, bytes: impl Iterator<Item = u8>, layout: Accessor) -> usize {
+        let to = &mut self.streams[stream].bytes;
+        self.accessors.push(Accessor { buffer_view: stream, byte_offset: to.len(), ..layout });
+        to.extend(bytes);
+        self.accessors.len() - 1
+    }
 }
 
-/// Appends values to a stream and describes them.
-fn push(
-    root: &mut Root,
-    streams: &mut [Stream],
-    stream: usize,
-    bytes: impl Iterator<Item = u8>,
-    Layout { count, kind, component, normalized, bounds: [min, max] }: Layout,
-) -> Index<Accessor> {
-    let offset = streams[stream].bytes.len();
-    streams[stream].bytes.extend(bytes);
-    root.push(Accessor {
-        buffer_view: Some(Index::new(stream as u32)),
-        byte_offset: Some(USize64::from(offset)),
-        count: USize64::from(count),
-        component_type: Valid(GenericComponentType(component)),
-        extensions: None,
-        extras: None,
-        type_: Valid(kind),
-        min,
-        max,
-        name: None,
-        normalized,
-        sparse: None,
-    })
-}
-
-/// One buffer of all streams, with a view of each.
-fn join(root: &mut Root, streams: [Stream; 5]) -> Vec<u8> {
-    let total: usize = streams.iter().map(|s| s.bytes.len()).sum();
-    let buffer =
-        root.push(Buffer { byte_length: USize64::from(total), extensions: None, extras: None, name: None, uri: None });
-    let mut bytes = Vec::with_capacity(total);
+/// A view of each stream, and one buffer of all of them.
+fn join(streams: [Stream; 5]) -> (Vec<View>, Vec<u8>) {
+    let (mut views, mut bytes) = (Vec::new(), Vec::new());
     for stream in streams {
-        root.push(View {
-            buffer,
-            byte_length: USize64::from(stream.bytes.len()),
-            byte_offset: Some(USize64::from(bytes.len())),
-            byte_stride: matches!(stream.target, Target::ArrayBuffer).then_some(Stride(stream.stride)),
-            extensions: None,
-            extras: None,
-            name: None,
-            target: Some(Valid(stream.target)),
+        views.push(View {
+            buffer: 0,
+            byte_length: stream.bytes.len(),
+            byte_offset: bytes.len(),
+            byte_stride: stream.stride,
+            target: if stream.stride.is_some() { ARRAY_BUFFER } else { ELEMENT_ARRAY_BUFFER },
         });
         bytes.extend(stream.bytes);
     }
-    bytes
+    (views, bytes)
+}
+
+/// Name of a quantity's attribute; the standard asks for the underscore.
+fn attribute(scalar: &Scalar) -> String {
+    format!("_{}", scalar.name.to_uppercase())
 }
 
 /// Values of a quantity on some vertices as f32; `None` if one is missing or cannot be told exactly.
@@ -267,21 +234,15 @@ fn linear_u16(component: u8) -> u16 {
     (linear * f64::from(u16::MAX)).round() as u16
 }
 
-fn extras(file: &MeshFile) -> gltf_json::Extras {
-    let quantities: Vec<Value> = file
-        .mesh
-        .scalars
-        .iter()
-        .map(
-            |s| json!({"attribute": format!("_{}", s.name.to_uppercase()), "unit": s.unit, "definition": s.definition}),
-        )
-        .collect();
-    let mut extras = serde_json::Map::new();
+fn extras(file: &MeshFile) -> Map<String, Value> {
+    let quantity = |s: &Scalar| json!({"attribute": attribute(s), "unit": s.unit, "definition": s.definition});
+    let quantities: Vec<Value> = file.mesh.scalars.iter().map(quantity).collect();
+    let mut extras = Map::new();
     extras.insert("program".to_owned(), json!("gearcut"));
     extras.insert("buffer_unit".to_owned(), json!("mm"));
     extras.insert("frame".to_owned(), json!(FRAME));
     extras.insert("colours".to_owned(), json!(file.colour_words()));
     extras.insert("quantities".to_owned(), json!(quantities));
     extras.extend(file.notes.iter().map(|(name, text)| (name.clone(), json!(text))));
-    serde_json::value::to_raw_value(&Value::Object(extras)).ok()
+    extras
 }

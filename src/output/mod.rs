@@ -6,16 +6,16 @@
 //! | what | where |
 //! | --- | --- |
 //! | complete or absent: one file, one folder | [`atomic`], [`folder`] |
-//! | values with unit and definition, tables | [`quantity`], [`table`] |
-//! | the layout of `results.json` | [`results`] |
+//! | tables | [`table`] |
+//! | findings for the terminal | [`summary`] |
 //! | text for the terminal | [`text`] |
 //! | maps: the grid they lie on, all digits | [`grid`], [`exr_map`] |
-//! | pictures of maps: one, all flanks, their colours | [`map_png`], [`contact_sheet`], [`colormap`] |
+//! | pictures of maps: one, all flanks, their colours | [`map_png`], [`contact_sheet`], [`crate::colormap`] |
 //! | meshes for other programs | [`mesh_file`], [`mesh_stl`], [`mesh_ply`], [`mesh_glb`] |
 //! | drawn bodies, one or many | [`render_png`], [`apng`] |
 //! | charts: grouped bars, panels of curves | [`bar_chart`], [`line_chart`] |
 //! | the report: everything on one page that opens offline | [`report`] |
-//! | progress and Ctrl-C | [`progress`], [`interrupt`] |
+//! | progress and Ctrl-C | [`progress`], [`crate::interrupt`] |
 
 pub mod apng;
 pub mod atomic;
@@ -23,16 +23,12 @@ mod axis;
 pub mod bar_chart;
 mod canvas;
 mod charts;
-pub mod colormap;
 pub mod contact_sheet;
-mod exr_header;
-pub mod exr_map;
 pub mod flank_maps;
 pub mod folder;
 mod font;
-pub mod grid;
 mod heat;
-pub mod interrupt;
+mod letters;
 pub mod line_chart;
 pub mod map_png;
 pub mod mesh_file;
@@ -40,12 +36,13 @@ pub mod mesh_glb;
 pub mod mesh_ply;
 pub mod mesh_stl;
 pub mod progress;
-pub mod quantity;
 mod raster;
 mod relief;
 pub mod render_png;
 pub mod report;
-pub mod results;
-pub mod surface_files;
+pub mod summary;
 pub mod table;
 pub mod text;
+
+/// Surfaces in files, and the maps that are surfaces too, from the crate of their own.
+pub use gearcut_texture::files::{self as surface_files, exr_map, grid};

@@ -6,12 +6,16 @@
 //! The rule: results go to files and standard output, talk goes to standard error; and a time left is named only after
 //! two seconds, because before that it is a guess.
 //!
-//! Road not taken: percentages over the whole run. Steps differ in kind, and a weight between them would be invented;
-//! counted units of a named step are true.
+//! A command that knows its steps beforehand gives a plan: their names with expected seconds, right in proportion. The time
+//! left of the whole command is then what is expected of the rest, at the pace of what is done. Without a plan, a step
+//! speaks for itself alone.
+//!
+//! Road not taken: percentages over the whole run. They would count expected seconds as if they were measured; a time left
+//! is known to be an estimate.
 
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -56,6 +60,38 @@ impl ProgressMode {
 pub struct Progress {
     mode: ProgressMode,
     out: Mutex<Box<dyn Write + Send>>,
+    whole: Arc<Mutex<Whole>>,
+}
+
+/// The steps of a command: what was expected of them, and what those that are done took.
+struct Whole {
+    started: Instant,
+    /// Steps to come and the one under way, with expected seconds.
+    ahead: Vec<(String, f64)>,
+    /// Expected seconds of the steps that are done.
+    done_s: f64,
+    /// Steps that are done, with the seconds they took, in order.
+    taken: Vec<(String, f64)>,
+}
+
+impl Whole {
+    /// Time left of the whole command, s, when `share` of `step` is done; none without a plan, in the first two seconds,
+    /// or before a twentieth of what is expected is done.
+    fn left_s(&self, step: &str, share: f64) -> Option<f64> {
+        let under_way_s: f64 = self.ahead.iter().filter(|(name, _)| name == step).map(|(_, s)| s * share).sum();
+        let done_s = self.done_s + under_way_s;
+        let ahead_s = self.ahead.iter().map(|(_, s)| s).sum::<f64>() - under_way_s;
+        let elapsed = self.started.elapsed();
+        (elapsed >= TIME_LEFT_AFTER && done_s > 0.05 * (done_s + ahead_s))
+            .then(|| elapsed.as_secs_f64() * ahead_s / done_s)
+    }
+
+    fn finish(&mut self, step: &str, took_s: f64) {
+        self.taken.push((step.to_owned(), took_s));
+        if let Some(place) = self.ahead.iter().position(|(name, _)| name == step) {
+            self.done_s += self.ahead.remove(place).1;
+        }
+    }
 }
 
 impl Progress {
@@ -66,12 +102,28 @@ impl Progress {
 
     /// Reports to `out`; bars still draw on standard error, since they need a terminal.
     pub fn to_writer(mode: ProgressMode, out: Box<dyn Write + Send>) -> Self {
-        Self { mode, out: Mutex::new(out) }
+        let whole = Whole { started: Instant::now(), ahead: Vec::new(), done_s: 0.0, taken: Vec::new() };
+        Self { mode, out: Mutex::new(out), whole: Arc::new(Mutex::new(whole)) }
+    }
+
+    /// The steps that follow, with expected seconds: their proportions are what counts. A step that comes without being
+    /// among them takes its time from nobody.
+    pub fn plan(&self, steps: Vec<(&'static str, f64)>) {
+        locked(&self.whole).ahead = steps.into_iter().map(|(name, expected_s)| (name.to_owned(), expected_s)).collect();
+    }
+
+    /// Steps that are finished, with the seconds they took, in order.
+    pub fn stages(&self) -> Vec<(String, f64)> {
+        locked(&self.whole).taken.clone()
     }
 
     /// Begins a step of `total` units, such as "cut" with 84 "flanks".
     pub fn step(&self, name: &str, total: u64, unit: &str) -> Step<'_> {
-        let bar = if self.mode == ProgressMode::Bar { visible_bar(name, total, unit) } else { ProgressBar::hidden() };
+        let bar = if self.mode == ProgressMode::Bar {
+            visible_bar(name, total, unit, Arc::clone(&self.whole))
+        } else {
+            ProgressBar::hidden()
+        };
         let started = Instant::now();
         let step = Step {
             progress: self,
@@ -140,6 +192,7 @@ impl Step<'_> {
     /// Ends the step and tells how long it took; `units` that were never counted stay uncounted.
     pub fn finish(self) {
         let (done, elapsed_s) = (self.done.load(Ordering::Relaxed), self.started.elapsed().as_secs_f64());
+        locked(&self.progress.whole).finish(&self.name, elapsed_s);
         let (name, unit) = (&self.name, &self.unit);
         match self.progress.mode {
             ProgressMode::Quiet => {}
@@ -159,13 +212,13 @@ impl Step<'_> {
         let (name, unit, total) = (&self.name, &self.unit, self.total);
         let elapsed = self.started.elapsed();
         let left_s = time_left_s(elapsed, done, total);
+        let whole_left_s = locked(&self.progress.whole).left_s(name, share(done, total));
         let text = if self.progress.mode == ProgressMode::Json {
             json!({"event": "progress", "step": name, "done": done, "total": total, "unit": unit,
-                   "elapsed_s": elapsed.as_secs_f64(), "remaining_s": left_s})
+                   "elapsed_s": elapsed.as_secs_f64(), "remaining_s": left_s, "whole_remaining_s": whole_left_s})
             .to_string()
         } else {
-            let left = left_s.map_or_else(String::new, |left_s| format!(", {} left", duration_text(left_s)));
-            format!("{name}: {done} of {total} {unit}{left}")
+            format!("{name}: {done} of {total} {unit}{}", left_words(left_s, whole_left_s))
         };
         self.progress.line(&text);
     }
@@ -184,6 +237,22 @@ fn time_left_s(elapsed: Duration, done: u64, total: u64) -> Option<f64> {
         .then(|| elapsed.as_secs_f64() * total.saturating_sub(done) as f64 / done as f64)
 }
 
+/// Share of a step that is done.
+fn share(done: u64, total: u64) -> f64 {
+    (done as f64 / total.max(1) as f64).min(1.0)
+}
+
+/// ", 12 s left, 40 s in all"; the whole command alone where the step has no estimate of its own.
+fn left_words(step_s: Option<f64>, whole_s: Option<f64>) -> String {
+    let step = step_s.map(|s| format!(", {} left", duration_text(s)));
+    let whole = whole_s.map(|s| format!(", {} left in all", duration_text(s)));
+    format!("{}{}", step.unwrap_or_default(), whole.unwrap_or_default())
+}
+
+fn locked<T>(of: &Mutex<T>) -> MutexGuard<'_, T> {
+    of.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// A duration as people say it: "0.4 s", "12 s", "3 min 20 s", "2 h 5 min".
 pub fn duration_text(seconds: f64) -> String {
     let whole_s = seconds.round() as u64;
@@ -195,11 +264,18 @@ pub fn duration_text(seconds: f64) -> String {
     }
 }
 
-fn visible_bar(name: &str, total: u64, unit: &str) -> ProgressBar {
-    let time_left = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-        if let Some(left_s) = time_left_s(state.elapsed(), state.pos(), state.len().unwrap_or(0)) {
-            let _bar_only = write!(out, "{} left", duration_text(left_s));
-        }
+fn visible_bar(name: &str, total: u64, unit: &str, whole: Arc<Mutex<Whole>>) -> ProgressBar {
+    let step = name.to_owned();
+    let time_left = move |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+        let (done, total) = (state.pos(), state.len().unwrap_or(0));
+        // A terminal line has room for one time: that of the whole command where it is known.
+        let whole_left_s = locked(&whole).left_s(&step, share(done, total));
+        let words = match whole_left_s {
+            Some(left_s) => format!("{} left in all", duration_text(left_s)),
+            None => time_left_s(state.elapsed(), done, total)
+                .map_or_else(String::new, |left_s| format!("{} left", duration_text(left_s))),
+        };
+        let _bar_only = out.write_str(&words);
     };
     // The template is ours; should the crate ever refuse it, its plain bar still shows the count.
     let style = ProgressStyle::with_template("{prefix} [{bar:30}] {pos} of {len} {msg}  {time_left}")
@@ -223,6 +299,29 @@ mod tests {
         assert_eq!(time_left_s(Duration::from_secs(10), 0, 20), None);
         assert_eq!(time_left_s(Duration::from_secs(10), 5, 20), Some(30.0));
         assert_eq!(time_left_s(Duration::from_secs(10), 21, 20), Some(0.0));
+    }
+
+    #[test]
+    fn the_time_left_of_a_command_is_what_is_expected_of_the_rest_at_the_pace_so_far() {
+        let whole = |seconds: u64| Whole {
+            started: Instant::now().checked_sub(Duration::from_secs(seconds)).expect("the machine is up that long"),
+            ahead: vec![("cut".to_owned(), 6.0), ("draw".to_owned(), 3.0)],
+            done_s: 1.0,
+            taken: Vec::new(),
+        };
+        // Half of the cut: 4 of 10 expected seconds are done, in 8 s. The rest takes 6 at that pace, 12 s.
+        let left_s = whole(8).left_s("cut", 0.5).expect("an estimate");
+        assert!((left_s - 12.0).abs() < 0.1, "{left_s}");
+        assert_eq!(whole(1).left_s("cut", 0.5), None, "no guess in the first two seconds");
+        let mut without_plan = Whole { ahead: Vec::new(), done_s: 0.0, ..whole(8) };
+        assert_eq!(without_plan.left_s("cut", 0.5), None);
+        let mut nearly = whole(9);
+        nearly.finish("cut", 7.5);
+        assert!(nearly.left_s("draw", 1.0).expect("an estimate") < 1e-9);
+        nearly.finish("draw", 1.5);
+        without_plan.finish("note", 0.1);
+        assert_eq!(nearly.taken, [("cut".to_owned(), 7.5), ("draw".to_owned(), 1.5)]);
+        assert_eq!(left_words(Some(3.0), Some(9.6)), ", 3.0 s left, 10 s left in all");
     }
 
     #[test]

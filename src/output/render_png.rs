@@ -2,10 +2,10 @@
 //!
 //! Colours of the bar are those of the scale; on bodies light makes them brighter or darker.
 
+use crate::colormap::ColourScale;
 use crate::output::apng::Frame;
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::canvas::{Canvas, INK, Side};
-use crate::output::colormap::ColourScale;
 use crate::output::contact_sheet::scale_bar_mm;
 use crate::output::heat::{ColourBar, PixelBox, fitting_em_px, scale_problem};
 use crate::output::raster::Raster;
@@ -54,7 +54,7 @@ const LEAST_WIDTH_PX: u32 = 360;
 /// An empty colour scale, and files that cannot be written.
 pub fn write_render_png(path: &Path, picture: &RenderPicture) -> Result<()> {
     let bytes = draw(picture)
-        .and_then(|raster| raster.shaded_png())
+        .and_then(|raster| raster.png())
         .map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
     write_bytes_atomically(path, &bytes)
 }
@@ -72,7 +72,7 @@ pub fn draw_frame(picture: &RenderPicture) -> Result<Frame> {
 /// # Errors
 /// Files that cannot be written.
 pub fn write_frame(path: &Path, Frame(raster): &Frame) -> Result<()> {
-    let bytes = raster.shaded_png().map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
+    let bytes = raster.png().map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
     write_bytes_atomically(path, &bytes)
 }
 

@@ -23,15 +23,15 @@ use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, html};
 use sha2::{Digest, Sha256};
 
-use self::plot::RangeChart;
-use self::texture::TextureWindow;
-use self::traces::TraceSheet;
-use self::viewer::Viewer;
 use crate::Result;
+use crate::findings::Place;
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
-use crate::output::quantity::Place;
+use crate::output::report::plot::RangeChart;
+use crate::output::report::texture::TextureWindow;
+use crate::output::report::traces::TraceSheet;
+use crate::output::report::viewer::Viewer;
 
 /// Name of the file in an output folder.
 pub const REPORT_FILE: &str = "report.html";
@@ -238,7 +238,7 @@ impl KeyNumber {
                 dt { (self.name) }
                 dd {
                     span class="value" { (self.value) } " " span class="unit" { (self.unit) }
-                    @if let Some(place) = &self.place {
+                    @if let Some(place) = self.place.as_ref().and_then(Place::flank) {
                         button type="button" class="place" data-tooth=(place.tooth) data-side=(place.flank) data-u=(place.u_mm) data-v=(place.v_mm) {
                             "tooth " (place.tooth) " " (place.flank) ", u " (fixed(place.u_mm, 2)) ", v " (fixed(place.v_mm, 1)) " mm"
                         }
@@ -271,7 +271,7 @@ impl Block {
             Self::Lines(chart) => plot::lines(chart),
             Self::Bars(chart) => plot::bars(chart),
             Self::Ranges(chart) => plot::ranges(chart),
-            Self::Traces(sheets) => html! { div class="sheets" { @for sheet in sheets { (sheet.markup()) } } },
+            Self::Traces(sheets) => traces::sheets(sheets),
             Self::Table(table) => table.markup(),
             Self::Texture(window) => texture::window(window),
             Self::Folded(summary, blocks) => html! {
@@ -414,6 +414,7 @@ mod tests {
             x_name: title.into(),
             x_unit: title.into(),
             panels: vec![crate::output::line_chart::Panel {
+                least_division: 0.0,
                 value_name: title.into(),
                 unit: title.into(),
                 series: vec![crate::output::line_chart::LineSeries {
@@ -442,7 +443,7 @@ mod tests {
                 unit: HOSTILE.into(),
                 definition: HOSTILE.into(),
                 note: HOSTILE.into(),
-                place: Some(Place { tooth: 1, flank: HOSTILE.into(), u_mm: 1.0, v_mm: -2.0 }),
+                place: Some(Place::on_flank(1, HOSTILE, 1.0, -2.0)),
             }],
             warnings: vec![HOSTILE.into()],
             viewer: Some(Viewer {
@@ -450,18 +451,18 @@ mod tests {
                     tooth: 1,
                     side: HOSTILE.into(),
                     grid: Some(crate::output::grid::MapGrid { u: axis(), v: axis() }),
-                    triangles: crate::surface::view_mesh::Triangles::default(),
+                    triangles: crate::surface::triangles::Triangles::default(),
                     places_mm: vec![],
                 }],
                 quantities: vec![viewer::ViewerQuantity {
                     name: HOSTILE.into(),
                     definition: HOSTILE.into(),
                     unit: HOSTILE.into(),
-                    scale: crate::output::colormap::ColourScale::Diverging { limit: 1.0 },
+                    scale: crate::colormap::ColourScale::Diverging { limit: 1.0 },
                     thinning: viewer::Thinning::Mean,
                     values: vec![vec![0.0, 1.0, f32::NAN, -1.0]],
                 }],
-                body: crate::surface::view_mesh::Triangles::default(),
+                body: crate::surface::triangles::Triangles::default(),
             }),
             sections: vec![Section {
                 id: "all",

@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 
 /// Where values begin on labelled lines, in characters.
-const VALUE_COLUMN: usize = 32;
+pub const VALUE_COLUMN: usize = 32;
 
 /// Text that grows line by line.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -3,40 +3,35 @@
 //! Every value is there once the scene is without problems; a missing one ends the building, and a test over all
 //! variants keeps the table of keys and this file together.
 
-mod hobbing;
+pub(super) mod hobbing;
 
 use std::path::{Path, PathBuf};
 
 use super::model::{
     AxisLimits, Feed, Fields, GcodeDialect, Gear, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Output,
-    Picture, PictureColour, PictureView, PitchCurveShape, Process, Scene, ShaperCutter, Shaping, StrokeSpacing,
-    TextureWindow, Tip, TraditionalDirection, WindowSides,
+    Picture, PictureColour, PictureView, Process, Scene, ShaperCutter, Shaping, StrokeSpacing, TextureWindow, Tip,
+    TraditionalDirection, WindowSides,
 };
-use super::process::ProcessName;
+use super::process::SceneProcess;
 use super::values::{Values, View};
-use crate::gear::generation::Side;
+use crate::gear::PitchCurveShape;
 use crate::material::EdgeForce;
-use crate::measure::topography::Form;
+use crate::terms::Side;
 use crate::units::UM_PER_MM;
+use gearcut_texture::Form;
 
 /// The scene called `name`; `base_dir` holds the files it refers to.
 pub(super) fn build(name: &str, base_dir: &Path, values: &Values) -> Option<Scene> {
-    let pressure_angle_rad = rad(values.view("gear"), "pressure_angle_deg")?;
     let pictures: Option<Vec<Picture>> = (0..values.count("picture"))
         .map(|index| picture(values.view(&format!("picture.{index}")), values.count("operation")))
         .collect();
     let flank = values.view("fields.flank");
     let blank = values.view("fields.blank");
-    let measure = values.view("measure");
     let output = values.view("output");
     Some(Scene {
         name: name.to_owned(),
         gear: gear(values)?,
-        material: material(values)?,
-        process: match ProcessName::of(values)? {
-            ProcessName::Shaping => Process::Shaping(shaping(values, base_dir, pressure_angle_rad)?),
-            ProcessName::Hobbing => Process::Hobbing(hobbing::hobbing(values, pressure_angle_rad)?),
-        },
+        process: (SceneProcess::of(values)?.build)(values, base_dir)?,
         textures: (0..values.count("texture"))
             .map(|index| texture(values.view(&format!("texture.{index}"))))
             .collect::<Option<_>>()?,
@@ -45,11 +40,6 @@ pub(super) fn build(name: &str, base_dir: &Path, values: &Values) -> Option<Scen
             lead_spacing_mm: mm_from_um(flank, "lead_spacing_um")?,
             blank_spacing_mm: blank.number("spacing_mm")?,
             blank_slice_spacing_mm: blank.number("slice_spacing_mm")?,
-            chip_spacing_mm: values.view("fields.chips").number("spacing_mm")?,
-        },
-        measure: Measure {
-            profile_start_height_mm: measure.number("profile_start_height_mm"),
-            profile_end_height_mm: measure.number("profile_end_height_mm"),
         },
         output: Output {
             map_spacing_mm: output.number("map_spacing_mm")?,
@@ -75,11 +65,24 @@ fn mm_from_um(view: View<'_>, name: &str) -> Option<f64> {
     view.number(name).map(|um| um / UM_PER_MM)
 }
 
-fn shaping(values: &Values, base_dir: &Path, pressure_angle_rad: f64) -> Option<Shaping> {
+/// Shaping: cutter, machine and operations.
+pub(super) fn shaping(values: &Values, base_dir: &Path) -> Option<Process> {
+    let pressure_angle_rad = rad(values.view("gear"), "pressure_angle_deg")?;
     let operations: Option<Vec<Operation>> = (0..values.count("operation"))
         .map(|index| operation(values, &format!("operation.{index}"), base_dir, pressure_angle_rad))
         .collect();
-    Some(Shaping { tool: shaper_cutter(values)?, machine: machine(values)?, operations: operations? })
+    let measure = values.view("measure");
+    Some(Process::Shaping(Shaping {
+        tool: shaper_cutter(values)?,
+        machine: machine(values)?,
+        operations: operations?,
+        material: material(values)?,
+        chip_spacing_mm: values.view("fields.chips").number("spacing_mm")?,
+        measure: Measure {
+            profile_start_height_mm: measure.number("profile_start_height_mm"),
+            profile_end_height_mm: measure.number("profile_end_height_mm"),
+        },
+    }))
 }
 
 /// How far the tool stays back: given, or from the stock on each flank.

@@ -164,3 +164,9 @@ pub(super) fn shorten(text: &str, most: usize) -> String {
     short.push_str("...");
     short
 }
+
+impl From<SceneErrors> for crate::Error {
+    fn from(errors: SceneErrors) -> Self {
+        Self::Scene(Box::new(errors))
+    }
+}

@@ -197,6 +197,11 @@ impl Section {
         sections().filter(move |section| !section.path.is_empty() && section.parent_path() == path)
     }
 
+    /// Variant of a choice that holds when none is written.
+    pub fn default(&self) -> Option<&'static str> {
+        if let Role::Choice { default, .. } = self.role { default } else { None }
+    }
+
     /// Last name of the path, without `[]`: `ellipse`, `operation`.
     pub fn name(&self) -> &'static str {
         self.path.rsplit('.').next().unwrap_or_default().trim_end_matches("[]")

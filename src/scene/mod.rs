@@ -30,5 +30,5 @@ mod write;
 pub use errors::{Place, Problem, SceneErrors};
 pub use loaded::{LoadedScene, Located, load, parse};
 pub use model::Scene;
-pub use process::ProcessName;
-pub use template::{PROCESSES, template};
+pub use process::{PROCESSES, SceneProcess};
+pub use template::template;

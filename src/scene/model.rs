@@ -6,12 +6,13 @@
 mod hobbing;
 
 pub use hobbing::{
-    Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, Hand, Hob, HobSize, Hobbing,
-    HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
+    Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, Hob, HobSize, Hobbing, HobbingAxisLimits,
+    HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
 };
 
-use crate::gear::generation::Side;
-use crate::measure::topography::Form;
+use crate::gear::PitchCurveShape;
+use crate::terms::{Hand, Side};
+use gearcut_texture::Form;
 use std::path::PathBuf;
 
 use crate::material::EdgeForce;
@@ -23,16 +24,12 @@ pub struct Scene {
     pub name: String,
     /// The gear to cut.
     pub gear: Gear,
-    /// Force coefficients of the work's material.
-    pub material: EdgeForce,
     /// How it is cut: tool, machine and operations of one process.
     pub process: Process,
     /// Texture windows; empty: those that [`crate::texture`] takes by itself.
     pub textures: Vec<TextureWindow>,
     /// Dexel spacing.
     pub fields: Fields,
-    /// Where profiles are evaluated.
-    pub measure: Measure,
     /// What is written.
     pub output: Output,
     /// Pictures to draw.
@@ -57,6 +54,12 @@ pub struct Shaping {
     pub machine: Machine,
     /// Operations in the order they are cut; at least one. The last one defines the target flank.
     pub operations: Vec<Operation>,
+    /// Force coefficients of the work's material.
+    pub material: EdgeForce,
+    /// Distance of the rays on which chips are followed, mm.
+    pub chip_spacing_mm: f64,
+    /// Where profiles are evaluated.
+    pub measure: Measure,
 }
 
 impl Gear {
@@ -85,6 +88,14 @@ impl Scene {
     /// The hobbing part, if the scene hobs.
     pub fn hobbing(&self) -> Option<&Hobbing> {
         if let Process::Hobbing(hobbing) = &self.process { Some(hobbing) } else { None }
+    }
+
+    /// Name of the process that it is for.
+    pub fn process_name(&self) -> &'static str {
+        match &self.process {
+            Process::Shaping(_) => "shaping",
+            Process::Hobbing(_) => "hobbing",
+        }
     }
 
     /// Names of the operations in order.
@@ -119,82 +130,6 @@ pub struct Gear {
     pub tooth_thickness_allowance_mm: f64,
     /// Shape of the pitch curve.
     pub pitch_curve: PitchCurveShape,
-}
-
-/// Shape of the closed pitch curve r(phi). A size left out (`None`) is solved so that the curve closes: perimeter = pi m z.
-#[derive(Debug, Clone, PartialEq)]
-pub enum PitchCurveShape {
-    /// r = m z / 2.
-    Circle,
-    /// r = a (1 - k^2) / (1 - k cos(n phi)); Gao et al. 2017, Eq. 13.
-    Ellipse {
-        /// n >= 1.
-        order: u32,
-        /// k, 0 <= k < 1.
-        eccentricity: f64,
-        /// a.
-        semi_major_axis_mm: Option<f64>,
-    },
-    /// Driver of a pair whose ratio is i(phi) = c + b sin(n phi): r = C / (1 + i).
-    SinusoidalRatio {
-        /// n >= 1.
-        order: u32,
-        /// c.
-        mean_ratio: f64,
-        /// b, smaller than c.
-        ratio_amplitude: f64,
-        /// C.
-        center_distance_mm: Option<f64>,
-    },
-    /// Pascal's limacon, r = R (1 + k cos(n phi)).
-    Pascal {
-        /// n >= 1.
-        order: u32,
-        /// k, 0 <= k < 1.
-        eccentricity: f64,
-        /// R.
-        mean_radius_mm: Option<f64>,
-    },
-    /// r = R (1 + sum of c_j cos(j phi) + s_j sin(j phi)), j = 1, 2, ...
-    Fourier {
-        /// c_1, c_2, ... relative to R.
-        cosine: Vec<f64>,
-        /// s_1, s_2, ... relative to R.
-        sine: Vec<f64>,
-        /// R.
-        mean_radius_mm: Option<f64>,
-    },
-    /// Periodic spline through given points.
-    Table {
-        /// Polar angles (rad, increasing, within one turn) and radii (mm).
-        points_rad_mm: Vec<[f64; 2]>,
-        /// Scale the radii so that the curve closes.
-        scale_to_close: bool,
-    },
-}
-
-impl PitchCurveShape {
-    /// The shape in words, such as "ellipse of order 3, eccentricity 0.1348".
-    pub fn words(&self) -> String {
-        match self {
-            Self::Circle => "circle".to_owned(),
-            Self::Ellipse { order, eccentricity, .. } => {
-                format!("ellipse of order {order}, eccentricity {eccentricity}")
-            }
-            Self::SinusoidalRatio { order, mean_ratio, ratio_amplitude, .. } => {
-                format!("driver of the ratio {mean_ratio} + {ratio_amplitude} sin({order} phi)")
-            }
-            Self::Pascal { order, eccentricity, .. } => {
-                format!("Pascal's limacon of order {order}, eccentricity {eccentricity}")
-            }
-            Self::Fourier { cosine, sine, .. } => {
-                format!("Fourier series with {} harmonics", cosine.len().max(sine.len()))
-            }
-            Self::Table { points_rad_mm, .. } => {
-                format!("periodic spline through {} points", points_rad_mm.len())
-            }
-        }
-    }
 }
 
 /// Shaper cutter by its projected transverse profile.
@@ -434,8 +369,6 @@ pub struct Fields {
     pub blank_spacing_mm: f64,
     /// Of the blank's slices, where sections differ along the tooth.
     pub blank_slice_spacing_mm: f64,
-    /// Of the rays through a tooth space on which chips are followed, and of the places along the edge.
-    pub chip_spacing_mm: f64,
 }
 
 /// Where profiles are evaluated, as heights over the pitch curve along its normal; `None`: from the form point to the tip, 5 % left out at each end.

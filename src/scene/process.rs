@@ -3,121 +3,76 @@
 //! The tool chooses the process. Keys of another one are refused when they are written and left out of the resolved scene when they are not: a
 //! key that does nothing would be read as one that does.
 
+mod hobbing;
+mod shaping;
+
 use super::keys::{self, Section, join};
+use super::model::Process;
 use super::sources::At;
 use super::tree::{Entry, Node, Value};
 use super::values::Values;
 use super::walk::Problems;
+use std::path::Path;
 
-/// A process that scenes can be written for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ProcessName {
-    /// Shaping with a pinion cutter.
-    Shaping,
-    /// Hobbing.
-    Hobbing,
+/// What the reader of scenes must know of a process.
+#[derive(Debug)]
+pub struct SceneProcess {
+    /// As the command line has it.
+    pub name: &'static str,
+    /// Variant of `[tool]` that chooses it.
+    pub tool: &'static str,
+    /// The tool in words, with its article.
+    pub tool_words: &'static str,
+    /// Keys without a default, in words.
+    pub needed: &'static str,
+    /// Linkage of operations that write none.
+    pub default_linkage: &'static str,
+    /// Sections (with all inside them) and keys that only this process reads, `[]` after the name of a list.
+    pub own: &'static [&'static str],
+    /// From checked values to the model; `None` where a value is missing.
+    pub(super) build: fn(&Values, &Path) -> Option<Process>,
 }
 
-/// Sections (with all inside them) and keys that only one process knows, `[]` after the name of a list.
-const OWN: &[(ProcessName, &[&str])] = &[
-    (
-        ProcessName::Shaping,
-        &[
-            "tool.shaper_cutter",
-            "machine.double_strokes_per_minute",
-            "machine.approach_mm",
-            "machine.overrun_mm",
-            "machine.back_off_mm",
-            "machine.work_eccentricity_um",
-            "machine.work_eccentricity_angle_deg",
-            "machine.limits",
-            "operation[].strokes_per_revolution",
-            "operation[].circular_feed_mm_per_stroke",
-            "operation[].stroke_spacing",
-            "operation[].window_deg",
-            "operation[].revolutions",
-            "operation[].overlap_deg",
-            "operation[].feed_during_stroke",
-            "operation[].infeed",
-            "operation[].linkage.shaping_traditional",
-            "operation[].linkage.shaping_normal",
-        ],
-    ),
-    (
-        ProcessName::Hobbing,
-        &[
-            "tool.hob",
-            "machine.hobbing_limits",
-            "operation[].hob_speed_per_minute",
-            "operation[].axial_feed_mm_per_revolution",
-            "operation[].feed_direction",
-            "operation[].approach",
-            "operation[].radial_feed_mm_per_revolution",
-            "operation[].approach_mm",
-            "operation[].overrun_mm",
-            "operation[].head_angle_deg",
-            "operation[].shift_start_mm",
-            "operation[].ridge_tolerance_um",
-            "operation[].linkage.hobbing",
-            "operation[].linkage.hobbing_diagonal",
-        ],
-    ),
-];
+/// All processes that scenes can be written for; a new one adds its line here.
+pub static PROCESSES: [&SceneProcess; 2] = [&shaping::SHAPING, &hobbing::HOBBING];
 
-impl ProcessName {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Shaping, Self::Hobbing];
-
-    /// As the command line has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Shaping => "shaping",
-            Self::Hobbing => "hobbing",
-        }
+impl SceneProcess {
+    /// The process of this name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        PROCESSES.into_iter().find(|process| process.name == name)
     }
 
     /// Header of the tool that chooses it.
-    fn tool_header(self) -> &'static str {
-        match self {
-            Self::Shaping => "[tool.shaper_cutter]",
-            Self::Hobbing => "[tool.hob]",
-        }
-    }
-
-    /// Linkage of operations that write none.
-    pub(super) fn default_linkage(self) -> &'static str {
-        match self {
-            Self::Shaping => "shaping_normal",
-            Self::Hobbing => "hobbing",
-        }
+    fn tool_header(&self) -> String {
+        format!("[tool.{}]", self.tool)
     }
 
     /// The process that this tool is for.
-    fn of_tool(tool: &str) -> Option<Self> {
-        match tool {
-            "shaper_cutter" => Some(Self::Shaping),
-            "hob" => Some(Self::Hobbing),
-            _ => None,
-        }
+    fn of_tool(tool: &str) -> Option<&'static Self> {
+        PROCESSES.into_iter().find(|process| process.tool == tool)
     }
 
     /// The process of checked values.
-    pub(super) fn of(values: &Values) -> Option<Self> {
+    pub(super) fn of(values: &Values) -> Option<&'static Self> {
         values.variants.get("tool").and_then(|tool| Self::of_tool(tool))
     }
 
     /// Whether a section or key (`[]` after the name of a list) means something to this process.
-    pub fn knows(self, path: &str) -> bool {
+    pub fn knows(&self, path: &str) -> bool {
         let inside = |own: &str| path.strip_prefix(own).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
-        OWN.iter().all(|(process, paths)| *process == self || !paths.iter().any(|own| inside(own)))
+        let others = PROCESSES.into_iter().filter(|process| process.name != self.name);
+        self.own.iter().any(|own| inside(own)) || !others.flat_map(|process| process.own).any(|own| inside(own))
     }
 }
 
 /// Gives operations without a linkage the default one of the scene's tool, where that is not the table's own default.
 pub(super) fn imply_linkages(root: &mut Node) {
     let tool =
-        root.entry("tool").and_then(|tool| tool.node.entries().iter().find_map(|e| ProcessName::of_tool(&e.name)));
-    let Some(process) = tool.filter(|process| *process != ProcessName::Shaping) else { return };
+        root.entry("tool").and_then(|tool| tool.node.entries().iter().find_map(|e| SceneProcess::of_tool(&e.name)));
+    let Some(process) = tool else { return };
+    if keys::section("operation[].linkage").is_some_and(|linkage| linkage.default() == Some(process.default_linkage)) {
+        return;
+    }
     let implied = |name: &str, entries: Vec<Entry>| Entry {
         name: name.to_owned(),
         name_at: At::Implied,
@@ -130,7 +85,7 @@ pub(super) fn imply_linkages(root: &mut Node) {
             if item.entry("linkage").is_none()
                 && let Some(keys) = item.entries_mut()
             {
-                keys.push(implied("linkage", vec![implied(process.default_linkage(), Vec::new())]));
+                keys.push(implied("linkage", vec![implied(process.default_linkage, Vec::new())]));
             }
         }
     }
@@ -138,7 +93,7 @@ pub(super) fn imply_linkages(root: &mut Node) {
 
 /// Reports written keys of other processes and drops what was filled in for them.
 pub(super) fn keep_own(values: &mut Values, problems: &mut Problems<'_>) {
-    let Some(process) = ProcessName::of(values) else { return };
+    let Some(process) = SceneProcess::of(values) else { return };
     let foreign = |path: &str| !process.knows(&general(path));
     let mut sections: Vec<&String> = values.sections.keys().filter(|path| foreign(path)).collect();
     // A foreign section is reported once, not with everything inside it.
@@ -148,15 +103,15 @@ pub(super) fn keep_own(values: &mut Values, problems: &mut Problems<'_>) {
     let keys = keys.filter(|path| !sections.iter().any(|outer| path.starts_with(&format!("{outer}."))));
     let blamed: Vec<String> = sections.iter().copied().chain(keys).cloned().collect();
     for path in blamed {
-        let owner = ProcessName::ALL.into_iter().find(|other| other.knows(&general(&path)) && *other != process);
+        let owner = PROCESSES.into_iter().find(|other| other.knows(&general(&path)) && other.name != process.name);
         let owner = owner.unwrap_or(process);
         problems.add(
             &values.place_of(&path),
             format!(
                 "`{}` belongs to {}; this scene is for {}",
                 general(&path).replace("[]", ""),
-                owner.name(),
-                process.name()
+                owner.name,
+                process.name
             ),
             format!("remove it, or write {} instead of {}", owner.tool_header(), process.tool_header()),
         );
@@ -175,6 +130,6 @@ fn general(path: &str) -> String {
 }
 
 /// Sections of the table that mean something to a process.
-pub(super) fn sections_of(process: ProcessName) -> impl Iterator<Item = &'static Section> {
+pub(super) fn sections_of(process: &SceneProcess) -> impl Iterator<Item = &'static Section> {
     keys::sections().filter(move |section| process.knows(section.path))
 }

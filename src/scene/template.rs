@@ -6,21 +6,15 @@
 use std::fmt::Write as _;
 
 use super::keys::{self, Default, Key, Role, Section, join};
-use super::process::{ProcessName, sections_of};
-
-/// Processes that a template can be written for.
-pub const PROCESSES: &[&str] = &["shaping", "hobbing"];
+use super::process::{SceneProcess, sections_of};
 
 /// Width of a comment line.
 const COMMENT_CHARS: usize = 100;
 
-/// The scene for `process`, or `None` if it is not one of [`PROCESSES`].
+/// The scene for the process of this name, or `None` if there is none.
 pub fn template(process: &str) -> Option<String> {
-    let process = ProcessName::ALL.into_iter().find(|name| name.name() == process)?;
-    let (tool, needed) = match process {
-        ProcessName::Shaping => ("a shaper cutter", "the module and the numbers of teeth"),
-        ProcessName::Hobbing => ("a hob", "the module, the number of teeth and the hob's size"),
-    };
+    let process = SceneProcess::named(process)?;
+    let (tool, needed) = (process.tool_words, process.needed);
     let mut out = format!(
         "# Scene for cutting a gear with {tool}.\n\
          #\n\
@@ -34,7 +28,7 @@ pub fn template(process: &str) -> Option<String> {
     Some(out)
 }
 
-fn write_section(out: &mut String, process: ProcessName, section: &'static Section) {
+fn write_section(out: &mut String, process: &SceneProcess, section: &'static Section) {
     let known: Vec<&Key> = section.keys.iter().filter(|key| process.knows(&join(section.path, key.name))).collect();
     if section.role == Role::Plain && known.is_empty() {
         return;
@@ -63,7 +57,7 @@ fn write_section(out: &mut String, process: ProcessName, section: &'static Secti
 }
 
 /// Whether a section stands ready: it holds by default, or there is nothing else to choose.
-fn is_active(process: ProcessName, section: &Section) -> bool {
+fn is_active(process: &SceneProcess, section: &Section) -> bool {
     let choice = keys::section(section.parent_path()).map(|parent| parent.role);
     match (section.role, choice) {
         (Role::List { fewest }, _) => fewest > 0,
@@ -75,8 +69,8 @@ fn is_active(process: ProcessName, section: &Section) -> bool {
 }
 
 /// The variant that holds by default: the linkage depends on the process.
-fn default_of(process: ProcessName, section: &Section, name: &'static str) -> &'static str {
-    if section.path.starts_with("operation[].linkage") { process.default_linkage() } else { name }
+fn default_of(process: &SceneProcess, section: &Section, name: &'static str) -> &'static str {
+    if section.path.starts_with("operation[].linkage") { process.default_linkage } else { name }
 }
 
 /// Whether a key stands ready, with the value that holds without it, or with its example if it must be written.

@@ -5,14 +5,14 @@
 use std::fmt::Write as _;
 
 use super::keys::{Default, Role, Section, join};
-use super::process::{ProcessName, sections_of};
+use super::process::{SceneProcess, sections_of};
 use super::values::{Checked, Values};
 
 /// The whole scene called `name`.
 pub(super) fn resolved(name: &str, values: &Values) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let mut out = format!("# Scene {name} with every default filled in, written by gearcut {version}.\n");
-    let Some(process) = ProcessName::of(values) else { return out };
+    let Some(process) = SceneProcess::of(values) else { return out };
     // Empty lists are keys of the file itself, which come before its first table.
     for section in sections_of(process).filter(|section| matches!(section.role, Role::List { .. })) {
         if values.count(section.name()) == 0 {
@@ -41,7 +41,7 @@ pub(super) fn resolved(name: &str, values: &Values) -> String {
 }
 
 /// One section, unless another variant of its choice holds.
-fn write_section(out: &mut String, process: ProcessName, section: &Section, path: &str, values: &Values) {
+fn write_section(out: &mut String, process: &SceneProcess, section: &Section, path: &str, values: &Values) {
     let is_header = match section.role {
         Role::Choice { .. } => false,
         Role::List { .. } => true,

@@ -15,13 +15,13 @@
 use super::dual_cells::{NOT_CROSSED, edge_x, edge_y, edge_z, labels};
 use super::flanks::{height_scalar, pass_scalar};
 use super::mesh::{Mesh, Part};
+use super::plane_area::triangles_inside;
 use crate::dexel::blank_field::{BlankField, Ray};
 use crate::dexel::{NO_PASS, intervals};
-use crate::gear::target_outline::TargetOutline;
+use crate::measure::target_outline::TargetOutline;
 use crate::units::UM_PER_MM;
 use glam::{DVec2, DVec3};
-use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// Vertices stay this share of a cell away from its sides: no two of them coincide, and 10 nm at 0.1 mm are no loss.
 const MARGIN: f64 = 1e-4;
@@ -320,36 +320,10 @@ impl<'a> Builder<'a> {
         let ids: Vec<u32> = rim.iter().map(|side| side[0]).collect();
         let index: HashMap<u32, usize> = ids.iter().enumerate().map(|(k, &id)| (id, k)).collect();
         let sides: Vec<[usize; 2]> = rim.iter().map(|side| side.map(|id| index[&id])).collect();
-        let points = ids.iter().map(|&id| {
-            let p = self.positions_mm[id as usize];
-            Point2::new(p.x, p.y)
-        });
-        let plane = ConstrainedDelaunayTriangulation::<Point2<f64>>::bulk_load_cdt(points.collect(), sides.clone())
-            .expect("vertices are finite, and rims do not cross");
-        let directed: HashSet<[usize; 2]> = sides.iter().copied().collect();
-        let rim_edge = |a: usize, b: usize| directed.contains(&[a, b]) || directed.contains(&[b, a]);
-        // From the triangles on the left of the rim to all that are joined to them without crossing it.
-        let mut reached = vec![false; plane.num_all_faces()];
-        let mut open = Vec::new();
-        for face in plane.inner_faces() {
-            let [a, b, c] = face.vertices().map(|v| v.fix().index());
-            if [[a, b], [b, c], [c, a]].iter().any(|side| directed.contains(side)) {
-                reached[face.fix().index()] = true;
-                open.push(face.fix());
-            }
-        }
-        while let Some(face) = open.pop() {
-            for edge in plane.face(face).adjacent_edges() {
-                let [a, b] = edge.vertices().map(|v| v.fix().index());
-                let Some(next) = edge.rev().face().as_inner() else { continue };
-                if !rim_edge(a, b) && !reached[next.fix().index()] {
-                    reached[next.fix().index()] = true;
-                    open.push(next.fix());
-                }
-            }
-        }
-        for face in plane.inner_faces().filter(|face| reached[face.fix().index()]) {
-            let [a, b, c] = face.vertices().map(|v| ids[v.fix().index()]);
+        let points_mm: Vec<DVec2> = ids.iter().map(|&id| self.positions_mm[id as usize].truncate()).collect();
+        let triangles = triangles_inside(&points_mm, &sides).expect("vertices lie apart, and rims do not cross");
+        for triangle in triangles {
+            let [a, b, c] = triangle.map(|place| ids[place]);
             self.triangles.push(if low { [a, c, b] } else { [a, b, c] });
         }
     }
@@ -404,7 +378,7 @@ mod tests {
     use crate::dexel::BlankGrid;
     use crate::dexel::blank_field::Slice;
     use crate::dexel::intervals::{End, Span};
-    use crate::planar_rays::RayRow;
+    use crate::math::planar_rays::RayRow;
     use proptest::prelude::*;
 
     /// Both families of a field whose inside nodes are given; surfaces a third of a cell beside the nodes.

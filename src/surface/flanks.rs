@@ -8,90 +8,12 @@
 //! Helical flanks keep all rows: they wind about the axis.
 
 use super::mesh::{Mesh, Part, Scalar, ScalarValues};
-use crate::dexel::{Field, Layer, NO_PASS, SpatialField};
+use crate::dexel::{Layer, NO_PASS, RayGrid};
 use crate::units::UM_PER_MM;
 use glam::{DVec2, DVec3};
 
 /// Rows are left out where straight lines between the others miss no height by more than this, mm: a tenth of a micrometre, below any machine's accuracy.
 pub const STRAIGHT_MM: f64 = 1e-4;
-
-/// Rays of a flank, root or tip, column by column along the profile and row by row along the tooth: every row stands in one transverse section.
-pub trait RayGrid {
-    /// Arc length of each column along the target profile, mm.
-    fn arcs_mm(&self) -> Vec<f64>;
-
-    /// Place of each row along the tooth from the middle of the face, mm, increasing.
-    fn leads_mm(&self) -> &[f64];
-
-    /// Point of the row's transverse section where the surface stands `height_mm` over the target, gear frame, mm.
-    fn point_mm(&self, column: usize, row: usize, height_mm: f64) -> DVec2;
-
-    /// Unit normal of the target out of the gear, in the row's transverse section.
-    fn normal(&self, column: usize, row: usize) -> DVec2;
-
-    /// Whether the target runs straight along the gear's axis.
-    fn is_straight(&self) -> bool;
-}
-
-impl RayGrid for Field {
-    fn arcs_mm(&self) -> Vec<f64> {
-        self.arcs_mm()
-    }
-
-    fn leads_mm(&self) -> &[f64] {
-        &self.leads_mm
-    }
-
-    fn point_mm(&self, column: usize, _: usize, height_mm: f64) -> DVec2 {
-        let column = &self.columns[column];
-        column.origin_mm + height_mm * column.normal
-    }
-
-    fn normal(&self, column: usize, _: usize) -> DVec2 {
-        self.columns[column].normal
-    }
-
-    fn is_straight(&self) -> bool {
-        true
-    }
-}
-
-/// Rays in space with the places of their columns and rows.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlacedRays {
-    /// Rays; the origins of a row stand in its transverse section.
-    pub field: SpatialField,
-    /// Places of the columns along the profile, mm.
-    pub arcs_mm: Vec<f64>,
-    /// Places of the rows along the tooth, mm.
-    pub leads_mm: Vec<f64>,
-}
-
-impl RayGrid for PlacedRays {
-    fn arcs_mm(&self) -> Vec<f64> {
-        self.arcs_mm.clone()
-    }
-
-    fn leads_mm(&self) -> &[f64] {
-        &self.leads_mm
-    }
-
-    /// A normal that leans along the axis by nz leaves the section; a surface `height_mm` along it cuts the section height / cos(lean) from the origin, to the first order in heights over
-    /// radii of curvature.
-    fn point_mm(&self, column: usize, row: usize, height_mm: f64) -> DVec2 {
-        let ray = self.field.ray(column, row);
-        let across = ray.normal.truncate();
-        ray.origin_mm.truncate() + height_mm / across.length_squared() * across
-    }
-
-    fn normal(&self, column: usize, row: usize) -> DVec2 {
-        self.field.ray(column, row).normal.truncate().normalize()
-    }
-
-    fn is_straight(&self) -> bool {
-        false
-    }
-}
 
 /// Points of the finished surface over one flank or root, column by column (rows contiguous).
 #[derive(Debug, Clone, PartialEq)]
@@ -300,7 +222,7 @@ fn straight_rows(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dexel::Column;
+    use crate::dexel::{Column, Field};
 
     /// Part of a cylinder of radius 50 mm on the left of a tooth: `columns` dexels 5 µm apart, rows 50 µm apart over 10 mm.
     fn field(columns: usize) -> Field {

@@ -1,16 +1,18 @@
 //! The cut gear as one closed body: the outline of every row sewn to the next one, two end faces, and the bore.
 //!
-//! In: the outline and the bore. Out: a closed [`Mesh`] with a part per flank, tip and root, and `bore`, `face_top`, `face_bottom`; heights, stock and pass ids on the vertices of the outline.
+//! In: the outline and the bore. Out: a closed [`Mesh`] with a part per flank, tip and root, and `bore`, `face_top`,
+//! `face_bottom`; heights, stock and pass ids on the vertices of the outline.
 //!
-//! Every column of the outline has the same neighbours in every row, so that edges have two triangles by construction; the end faces use the outline's own vertices and add none. Their triangles
-//! come from ear clipping (earcut), which leaves out points that lie straight between others; whether the body is closed is therefore checked before it is given away.
+//! Every column of the outline has the same neighbours in every row, so that edges have two triangles by construction;
+//! the end faces use the outline's own vertices and add none (`plane_area`). An outline that crosses itself has no end
+//! faces; whether the body is closed is checked before it is given away.
 
 use super::flanks::{height_scalar, pass_scalar, stock_scalar};
 use super::mesh::{Mesh, Part};
 use super::outline::Outline;
+use super::plane_area::{sides_of_contours, triangles_inside};
 use crate::dexel::NO_PASS;
 use crate::error::Refusal;
-use earcut::Earcut;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
@@ -79,14 +81,14 @@ pub fn gear_solid(outline: &Outline, bore_diameter_mm: f64) -> Result<Mesh, Refu
         [[p, s, q], [p, t, s]]
     });
     add("bore", wall.collect(), false);
+    let contours = sides_of_contours(&[columns, bore_columns]);
     for (end, row, name) in [(0, 0, "face_bottom"), (1, rows - 1, "face_top")] {
-        let outer = outline.row_mm(row);
-        let vertex = |i: usize| if i < columns { at(i, row) } else { bore_at(i - columns, end) };
-        let triangles = face(&outer, &bore)
-            .into_iter()
-            .map(|[a, b, c]| if end == 1 { [a, b, c] } else { [a, c, b] }.map(vertex))
-            .collect();
-        add(name, triangles, false);
+        let points_mm: Vec<DVec2> = outline.row_mm(row).into_iter().chain(bore.iter().rev().copied()).collect();
+        // The bore is a hole: it runs clockwise.
+        let vertex = |i: usize| if i < columns { at(i, row) } else { bore_at(columns + bore_columns - 1 - i, end) };
+        let inside = triangles_inside(&points_mm, &contours).unwrap_or_default();
+        let triangles = inside.into_iter().map(|[a, b, c]| if end == 1 { [a, b, c] } else { [a, c, b] }.map(vertex));
+        add(name, triangles.collect(), false);
     }
     let bore_vertices = 2 * bore_columns;
     let values = |pick: fn(&super::outline::OutlineColumn) -> &Vec<f32>| -> Vec<f32> {
@@ -114,20 +116,4 @@ pub fn gear_solid(outline: &Outline, bore_diameter_mm: f64) -> Result<Mesh, Refu
         ));
     }
     Ok(mesh)
-}
-
-/// Triangles of the plane between an outer contour (counter-clockwise) and a hole; counter-clockwise, points numbered through.
-fn face(outer: &[DVec2], hole: &[DVec2]) -> Vec<[usize; 3]> {
-    let points = outer.iter().chain(hole).map(|p| [p.x, p.y]);
-    let holes: &[usize] = if hole.is_empty() { &[] } else { &[outer.len()] };
-    let mut indices: Vec<usize> = Vec::new();
-    Earcut::new().earcut(points, holes, &mut indices);
-    let place = |i: usize| if i < outer.len() { outer[i] } else { hole[i - outer.len()] };
-    indices
-        .chunks_exact(3)
-        .map(|t| {
-            let [a, b, c] = [t[0], t[1], t[2]];
-            if (place(b) - place(a)).perp_dot(place(c) - place(a)) < 0.0 { [a, c, b] } else { [a, b, c] }
-        })
-        .collect()
 }

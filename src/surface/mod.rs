@@ -7,23 +7,20 @@
 //! | the whole gear as one closed mesh, from the blank field | [`blank_mesh`] |
 //! | triangles with named values and parts; is it closed, volume, area | [`mesh`] |
 //! | one flank or root as a grid, thinned out to the spacing of meshes | [`flanks`] |
-//! | the fields of roots and tip lands | [`gear_surfaces`] |
 //! | all of them in one closed chain of columns | [`outline`] |
 //! | the gear as one closed body | [`gear_solid`] |
-//! | the target gear, thinned out for the report's 3D view | [`view_mesh`] |
-//! | the section of the half-cut work | [`section`] |
+//! | end faces of both bodies | [`plane_area`] |
 //! | pictures of meshes | [`render`] |
 
 pub mod blank_mesh;
 mod dual_cells;
 pub mod flanks;
 pub mod gear_solid;
-pub mod gear_surfaces;
 pub mod mesh;
 pub mod outline;
+pub mod plane_area;
 pub mod render;
-pub mod section;
-pub mod view_mesh;
+pub mod triangles;
 
 pub use blank_mesh::BlankMesh;
 pub use flanks::SurfaceGrid;

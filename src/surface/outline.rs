@@ -10,7 +10,7 @@
 use super::flanks::SurfaceGrid;
 use crate::dexel::NO_PASS;
 use crate::gear::blank::Blank;
-use crate::gear::generation::Side;
+use crate::terms::Side;
 use glam::DVec2;
 use std::f64::consts::TAU;
 

@@ -41,7 +41,11 @@ pub fn abbott(title: String, curve: &MaterialRatio, core: &Core) -> LineChart {
         x_name: "areal material ratio".to_owned(),
         x_unit: "%".to_owned(),
         panels: vec![Panel {
-            value_name: "height".to_owned(), unit: "µm".to_owned(), series: all, limits: Vec::new()
+            least_division: 0.0,
+            value_name: "height".to_owned(),
+            unit: "µm".to_owned(),
+            series: all,
+            limits: Vec::new(),
         }],
     }
 }

@@ -1,10 +1,11 @@
 //! Files and pictures of the windows.
 
 use super::{WindowTexture, chart};
+use crate::colormap::ColourScale;
 use crate::error::Result;
 use crate::job::GearJob;
 use crate::measure::topography::Surface;
-use crate::output::colormap::ColourScale;
+use crate::output::atomic::file_error;
 use crate::output::folder::OutputFolder;
 use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::map_png::{MapPicture, Relief, write_relief_png};
@@ -79,12 +80,13 @@ fn write_one(
     for (format, ending) in
         [(Format::X3p, "x3p"), (Format::SdfBinary, "sdf"), (Format::Npy, "npy"), (Format::Csv, "csv")]
     {
-        write_surface(&folder.path(format!("{stem}.{ending}"))?, format, &file)?;
+        write_surface(&folder.path(format!("{stem}.{ending}"))?, format, &file).map_err(file_error)?;
     }
     let Ok(evaluated) = &texture.evaluated else { return Ok(()) };
     let title = format!("{what}, {}", evaluated.chain.join(", "));
     let (grid, values) = picture_of(texture, &evaluated.surface);
     let picture = MapPicture {
+        missing: "no surface here",
         title: &title,
         quantity: "height after the chain",
         unit: "µm",

@@ -4,10 +4,10 @@
 //! tooth 3, which Gao et al. (2017, Fig. 13) measured.
 
 use crate::error::{Refusal, Result};
-use crate::gear::generation::Side;
 use crate::job::GearJob;
 use crate::measure::topography::Form;
 use crate::scene::model::{TextureWindow, WindowSides};
+use crate::terms::Side;
 
 /// Tooth that the paper measured.
 const PAPER_TOOTH: u32 = 3;

@@ -35,7 +35,7 @@ ROUNDS = 3
 def main():
     with tempfile.TemporaryDirectory(prefix="gearcut_texture_") as folder:
         path = os.path.join(folder, "map.npy")
-        command = ["cargo", "bench", "--quiet", "--bench", "texture", "--", "--json", "--map", path]
+        command = ["cargo", "bench", "--quiet", "-p", "gearcut-texture", "--bench", "texture", "--", "--json", "--map", path]
         ours = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout)
         z = np.load(path)
     print(f"full set in gearcut: {ours['all']:.0f} ms; surfalize {surfalize.__version__}; load {os.getloadavg()[0]:.1f}")

@@ -204,7 +204,7 @@ def main(program, keep):
     subprocess.run([program, "cut", scene, "--backend", "cpu", "--quiet", "--out", out], check=True)
     compare_parameters(program, os.path.join(out, "texture", "finish", "tooth_03_left.x3p"), ["Sal", "Sk", "Vmp"])
     rough = os.path.join(folder, "gaussian.x3p")
-    source = os.path.join(ROOT, "tests", "data", "topography", "p6_gauss_isotropic.npy")
+    source = os.path.join(ROOT, "crates", "texture", "tests", "data", "p6_gauss_isotropic.npy")
     gearcut(program, source, "--spacing-um", "1", "--save", rough)
     compare_parameters(program, rough, ["Str", "Spc", "S10z"])
     for hole in (False, True):

@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use maud::{Markup, PreEscaped, html};
 
 use crate::output::axis::{Ticks, round_range, value_text};
-use crate::output::bar_chart::{BarChart, BarSeries};
+use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::{LineChart, Panel, thinned};
 
 const WIDTH: f64 = 960.0;
@@ -192,8 +192,7 @@ fn category_labels(categories: &[String], bottom: f64) -> Markup {
 
 /// Grouped bars with the mean of each series as a dashed line.
 pub fn bars(chart: &BarChart) -> Markup {
-    let values = || chart.series.iter().flat_map(BarSeries::finite);
-    let frame = Frame::new(236.0, round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max)));
+    let frame = Frame::new(236.0, chart.range());
     let entries: Vec<(String, String)> = chart
         .series
         .iter()
@@ -316,10 +315,12 @@ pub(super) fn own(text: impl Into<String>) -> PreEscaped<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::bar_chart::BarSeries;
 
     #[test]
     fn bars_stand_on_zero_and_tell_their_value() {
         let chart = BarChart {
+            least_division: 0.0,
             title: "<b>pitch</b>".into(),
             category_name: "tooth".into(),
             categories: vec!["1".into(), "2".into(), "3".into()],

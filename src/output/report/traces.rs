@@ -1,7 +1,8 @@
 //! The gear inspector's sheet: one upright trace per tooth, deviation across, as on the printout of a gear measuring machine.
 //!
-//! In: traces (place, deviation) with their evaluated range, mean line and figures. Out: markup. All traces of a sheet share one magnification, a round number of micrometres per division, chosen so that the
-//! evaluated parts fit; what lies outside (a tip break, an undercut) is cut off at the edge of its column.
+//! In: traces (place, deviation) with their evaluated range, mean line and figures. Out: markup. All traces of the sheets side by side, left and right flanks, share one magnification: a round number of
+//! micrometres per division, chosen so that the evaluated parts fit, and not below one, where a trace would show noise of
+//! the sampling as if it were a fault. What lies outside (a tip break, an undercut) is cut off at the edge of its column.
 
 use maud::{Markup, html};
 
@@ -43,24 +44,30 @@ const LEFT: f64 = 42.0;
 const TOP: f64 = 26.0;
 const HEIGHT: f64 = 240.0;
 const ROW: f64 = 16.0;
+/// Smallest deviation of one division, µm: what inspection machines resolve.
+const LEAST_DIVISION: f64 = 1.0;
 /// Divisions from the zero line to the edge of a column.
 const DIVISIONS: f64 = 4.0;
 
-impl TraceSheet {
-    /// Deviation of one division.
-    fn division(&self) -> f64 {
-        let evaluated = self.traces.iter().flat_map(|trace| {
-            let inside = |place: f64| trace.mean_line.is_none_or(|[from, to]| place >= from.0 && place <= to.0);
-            trace.points.iter().filter(move |point| inside(point.0)).map(|point| point.1.abs())
-        });
-        let largest = evaluated.filter(|value| value.is_finite()).fold(0.0, f64::max);
-        // A flank without any deviation still gets a scale: a nanometre.
-        round_step((largest / DIVISIONS).max(1e-3))
-    }
+/// Sheets side by side, on one scale.
+pub fn sheets(sheets: &[TraceSheet]) -> Markup {
+    let division = division(sheets);
+    html! { div class="sheets" { @for sheet in sheets { (sheet.markup(division)) } } }
+}
 
+/// Deviation of one division.
+fn division(sheets: &[TraceSheet]) -> f64 {
+    let evaluated = sheets.iter().flat_map(|sheet| &sheet.traces).flat_map(|trace| {
+        let inside = |place: f64| trace.mean_line.is_none_or(|[from, to]| place >= from.0 && place <= to.0);
+        trace.points.iter().filter(move |point| inside(point.0)).map(|point| point.1.abs())
+    });
+    let largest = evaluated.filter(|value| value.is_finite()).fold(0.0, f64::max);
+    round_step((largest / DIVISIONS).max(LEAST_DIVISION))
+}
+
+impl TraceSheet {
     /// The sheet as markup.
-    pub fn markup(&self) -> Markup {
-        let division = self.division();
+    fn markup(&self, division: f64) -> Markup {
         let places = || self.traces.iter().flat_map(|trace| trace.points.iter().map(|point| point.0));
         let (low, high) = (places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max));
         let (low, high) = if low < high { (low, high) } else { (0.0, 1.0) };
@@ -164,11 +171,12 @@ mod tests {
 
     #[test]
     fn the_division_is_round_and_fits_the_evaluated_part() {
-        assert_eq!(sheet(3.1).division(), 1.0);
-        assert_eq!(sheet(0.06).division(), 0.2);
-        let text = sheet(3.1).markup().into_string();
-        assert!(text.contains("1 division = 1.00 µm, material →"), "{text}");
-        assert!(text.contains("3.10") && text.contains("–"), "{text}");
+        assert_eq!(division(&[sheet(17.0)]), 5.0);
+        assert_eq!(division(&[sheet(0.06)]), 1.0, "never below a micrometre");
+        // Left and right flanks are drawn to the scale of the worse.
+        let text = sheets(&[sheet(0.4), sheet(17.0)]).into_string();
+        assert_eq!(text.matches("1 division = 5.00 µm, material →").count(), 2, "{text}");
+        assert!(text.contains("17.0") && text.contains("–"), "{text}");
     }
 
     #[test]

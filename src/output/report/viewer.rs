@@ -13,9 +13,9 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use serde_json::{Value, json};
 
-use crate::output::colormap::{ColourScale, tables};
+use crate::colormap::{ColourScale, tables};
 use crate::output::grid::{MapAxis, MapGrid};
-use crate::surface::view_mesh::Triangles;
+use crate::surface::triangles::Triangles;
 
 /// Cells of one quantity over all flanks; three quantities that zlib cannot shrink stay below 3 MB in base64.
 pub const CELLS_PER_QUANTITY: usize = 350_000;

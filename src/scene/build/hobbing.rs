@@ -2,17 +2,22 @@
 
 use super::{mm_from_um, rad, stock_or_offset};
 use crate::scene::model::{
-    Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, Hand, Hob, HobSize, Hobbing,
-    HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
+    Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, Hob, HobSize, Hobbing, HobbingAxisLimits,
+    HobbingKind, HobbingOperation, LinkageForm, Process, Protuberance, ShiftDirection, ShiftStrategy, Worm,
 };
 use crate::scene::values::{Values, View};
+use crate::terms::Hand;
 use crate::units::TURN_RAD;
+use std::path::Path;
 
-pub(super) fn hobbing(values: &Values, pressure_angle_rad: f64) -> Option<Hobbing> {
+/// Hobbing: hob, limits and operations.
+pub(in crate::scene) fn hobbing(values: &Values, _base_dir: &Path) -> Option<Process> {
+    let pressure_angle_rad = rad(values.view("gear"), "pressure_angle_deg")?;
     let operations: Option<Vec<HobbingOperation>> = (0..values.count("operation"))
         .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
         .collect();
-    Some(Hobbing { tool: hob(values.view("tool.hob"))?, limits: limits(values), operations: operations? })
+    let tool = hob(values.view("tool.hob"))?;
+    Some(Process::Hobbing(Hobbing { tool, limits: limits(values), operations: operations? }))
 }
 
 pub(super) fn hand(word: &str) -> Option<Hand> {

@@ -1,31 +1,6 @@
 //! Checked values of hobbing scenes: the hob.
 
-/// Hand of a helix: of the gear's teeth or of the hob's thread.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Hand {
-    /// Rises to the right when seen with the axis upright.
-    Right,
-    /// Rises to the left.
-    Left,
-}
-
-impl Hand {
-    /// +1 for right, -1 for left.
-    pub fn sign(self) -> f64 {
-        match self {
-            Self::Right => 1.0,
-            Self::Left => -1.0,
-        }
-    }
-
-    /// `right` or `left`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Right => "right",
-            Self::Left => "left",
-        }
-    }
-}
+use crate::terms::Hand;
 
 /// A hob; module and pressure angle are the gear's, both normal.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,14 +1,16 @@
 //! What is drawn: bodies with a look, made ready for rays.
 //!
-//! In: meshes, each with its look. Out: [`Stage`]: one tree over all triangles, normals at their corners, and what a ray finds where it meets one.
+//! In: meshes. Out: [`Shape`], one tree over all triangles with normals at their corners; and with a look for each body
+//! [`Stage`], what a ray finds where it meets one. Pictures that colour the same bodies differently share their shape.
 //!
 //! Normals at a corner are the mean, weighted by angles, of the triangles round it that lean less than `CREASE_RAD` against this one: flanks look smooth, edges stay sharp, whatever the mesh.
 
 use super::bvh::{Bvh, Hit};
-use crate::output::colormap::ColourScale;
+use crate::colormap::ColourScale;
 use crate::surface::Mesh;
 use crate::surface::mesh::ScalarValues;
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Triangles that lean more than this against each other meet at an edge: 30 degrees, between the turn of a fillet per 0.1 mm and the corner at a tip.
 const CREASE_RAD: f64 = std::f64::consts::FRAC_PI_6;
@@ -37,25 +39,40 @@ pub const CLAY: Look = Look::Plain { colour: [0.50, 0.475, 0.44], gloss: 0.05 };
 /// Steel of a tool.
 pub const STEEL: Look = Look::Plain { colour: [0.30, 0.36, 0.44], gloss: 0.6 };
 
-/// A mesh with its look.
-#[derive(Debug, Clone, Copy)]
-pub struct Body<'a> {
-    /// The triangles.
-    pub mesh: &'a Mesh,
-    /// How they look.
-    pub look: Look,
-}
-
-/// Bodies ready to be drawn.
-pub struct Stage<'a> {
-    bodies: Vec<Body<'a>>,
+/// Bodies ready for rays, without colours.
+pub struct Shape<'a> {
+    meshes: Vec<&'a Mesh>,
     /// First triangle of each body in the tree.
     starts: Vec<usize>,
     tree: Bvh,
     /// Normals at the corners of every triangle.
     normals: Vec<[DVec3; 3]>,
     /// Diagonal of the box round everything, mm.
-    pub size_mm: f64,
+    size_mm: f64,
+}
+
+impl<'a> Shape<'a> {
+    /// Makes bodies ready.
+    pub fn new(meshes: Vec<&'a Mesh>) -> Self {
+        let mut starts = Vec::with_capacity(meshes.len());
+        let (mut corners, mut normals) = (Vec::new(), Vec::new());
+        for mesh in &meshes {
+            starts.push(corners.len());
+            corners.extend((0..mesh.triangles.len()).map(|t| mesh.corners_mm(t)));
+            normals.extend(corner_normals(mesh));
+        }
+        let bounds = meshes.iter().filter_map(|mesh| mesh.bounds_mm());
+        let size_mm =
+            bounds.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).map_or(1.0, |[low, high]| low.distance(high));
+        Self { meshes, starts, tree: Bvh::new(&corners), normals, size_mm }
+    }
+}
+
+/// Bodies ready to be drawn.
+pub struct Stage<'a> {
+    shape: &'a Shape<'a>,
+    /// How each body looks.
+    looks: Vec<Look>,
 }
 
 /// What a ray finds.
@@ -78,39 +95,35 @@ pub struct Found {
 }
 
 impl<'a> Stage<'a> {
-    /// Makes bodies ready.
-    pub fn new(bodies: Vec<Body<'a>>) -> Self {
-        let mut starts = Vec::with_capacity(bodies.len());
-        let (mut corners, mut normals) = (Vec::new(), Vec::new());
-        for body in &bodies {
-            starts.push(corners.len());
-            corners.extend((0..body.mesh.triangles.len()).map(|t| body.mesh.corners_mm(t)));
-            normals.extend(corner_normals(body.mesh));
-        }
-        let bounds = bodies.iter().filter_map(|body| body.mesh.bounds_mm());
-        let size_mm =
-            bounds.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).map_or(1.0, |[low, high]| low.distance(high));
-        Self { bodies, starts, tree: Bvh::new(&corners), normals, size_mm }
+    /// Bodies with a look for each.
+    pub fn new(shape: &'a Shape<'a>, looks: Vec<Look>) -> Self {
+        Self { shape, looks }
+    }
+
+    /// Diagonal of the box round everything, mm.
+    pub fn size_mm(&self) -> f64 {
+        self.shape.size_mm
     }
 
     /// What a ray meets first.
     pub fn first(&self, origin_mm: DVec3, direction: DVec3) -> Option<Found> {
-        self.tree.first(origin_mm, direction, f64::INFINITY).map(|hit| self.found(&hit, direction))
+        self.shape.tree.first(origin_mm, direction, f64::INFINITY).map(|hit| self.found(&hit, direction))
     }
 
     /// Whether anything stands within `limit_mm` of a place.
     pub fn is_blocked(&self, origin_mm: DVec3, direction: DVec3, limit_mm: f64) -> bool {
-        self.tree.is_blocked(origin_mm, direction, limit_mm)
+        self.shape.tree.is_blocked(origin_mm, direction, limit_mm)
     }
 
     fn found(&self, hit: &Hit, direction: DVec3) -> Found {
         let global = hit.triangle as usize;
-        let index = self.starts.partition_point(|&start| start <= global) - 1;
-        let Body { mesh, look } = self.bodies[index];
-        let triangle = global - self.starts[index];
+        let shape = self.shape;
+        let index = shape.starts.partition_point(|&start| start <= global) - 1;
+        let (mesh, look) = (shape.meshes[index], self.looks[index]);
+        let triangle = global - shape.starts[index];
         let [b, c] = hit.weights;
         let weights = [1.0 - b - c, b, c];
-        let [n0, n1, n2] = self.normals[global];
+        let [n0, n1, n2] = shape.normals[global];
         let outward = mesh.scaled_normal(triangle).normalize_or_zero();
         let sense = if outward.dot(direction) > 0.0 { -1.0 } else { 1.0 };
         let flat = sense * outward;
@@ -164,14 +177,17 @@ fn corner_normals(mesh: &Mesh) -> Vec<[DVec3; 3]> {
     for i in 1..starts.len() {
         starts[i] += starts[i - 1];
     }
+    let angles = |t: usize| -> [f64; 3] {
+        let corners = mesh.corners_mm(t);
+        [0, 1, 2].map(|k| (corners[(k + 1) % 3] - corners[k]).angle_between(corners[(k + 2) % 3] - corners[k]))
+    };
+    let angles: Vec<[f64; 3]> = (0..mesh.triangles.len()).into_par_iter().map(angles).collect();
     let mut next = starts.clone();
     let mut round = vec![(0_u32, 0.0_f64); mesh.triangles.len() * 3];
     for (t, triangle) in mesh.triangles.iter().enumerate() {
-        let corners = mesh.corners_mm(t);
-        for k in 0..3 {
-            let (u, v) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
-            let place = &mut next[triangle[k] as usize];
-            round[*place as usize] = (t as u32, u.angle_between(v));
+        for (vertex, angle) in triangle.iter().zip(angles[t]) {
+            let place = &mut next[*vertex as usize];
+            round[*place as usize] = (t as u32, angle);
             *place += 1;
         }
     }
@@ -184,7 +200,7 @@ fn corner_normals(mesh: &Mesh) -> Vec<[DVec3; 3]> {
             .sum();
         sum.try_normalize().unwrap_or(flat[t])
     };
-    mesh.triangles.iter().enumerate().map(|(t, triangle)| triangle.map(|vertex| normal_at(t, vertex))).collect()
+    mesh.triangles.par_iter().enumerate().map(|(t, triangle)| triangle.map(|vertex| normal_at(t, vertex))).collect()
 }
 
 #[cfg(test)]
@@ -238,7 +254,8 @@ mod tests {
         mesh.scalars.push(crate::surface::flanks::height_scalar(heights));
         mesh.scalars.push(crate::surface::flanks::pass_scalar((0..128).collect()));
         let scale = ColourScale::Sequential { low: 0.0, high: 10.0 };
-        let stage = Stage::new(vec![Body { mesh: &mesh, look: Look::Scalar { name: "height_um", scale } }]);
+        let shape = Shape::new(vec![&mesh]);
+        let stage = Stage::new(&shape, vec![Look::Scalar { name: "height_um", scale }]);
         let found = stage.first(DVec3::new(30.0, 0.0, 2.0), DVec3::NEG_X).expect("meets the wall");
         assert!((found.distance_mm - 20.0).abs() < 1e-9);
         assert!((found.value - 2.0).abs() < 1e-5);

@@ -6,9 +6,12 @@
 //! Road not taken: a crate. Those that fit are fast through single precision and SIMD, which this renderer does not need, or bring a second linear algebra along.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 const BINS: usize = 12;
 const LEAF: usize = 4;
+/// Nodes over more triangles than this build their halves side by side.
+const SIDE_BY_SIDE: usize = 4096;
 
 /// Tree over the triangles of a scene.
 #[derive(Debug, Default)]
@@ -54,6 +57,10 @@ impl Bounds {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
+    fn center(self) -> DVec3 {
+        0.5 * (self.low + self.high)
+    }
+
     fn half_area(self) -> f64 {
         let d = (self.high - self.low).max(DVec3::ZERO);
         d.x * d.y + d.y * d.z + d.z * d.x
@@ -64,14 +71,14 @@ impl Bvh {
     /// Tree over triangles given by their corners.
     pub fn new(corners_mm: &[[DVec3; 3]]) -> Self {
         let bounds: Vec<Bounds> =
-            corners_mm.iter().map(|[a, b, c]| Bounds { low: a.min(*b).min(*c), high: a.max(*b).max(*c) }).collect();
+            corners_mm.par_iter().map(|[a, b, c]| Bounds { low: a.min(*b).min(*c), high: a.max(*b).max(*c) }).collect();
         let mut order: Vec<u32> = (0..corners_mm.len() as u32).collect();
         let mut nodes = Vec::with_capacity(corners_mm.len());
         if !order.is_empty() {
             build(&bounds, &mut order, 0, &mut nodes);
         }
         let triangles = order
-            .iter()
+            .par_iter()
             .map(|&i| {
                 let [a, b, c] = corners_mm[i as usize];
                 [a, b - a, c - a]
@@ -95,7 +102,8 @@ impl Bvh {
         let inverse = direction.map(|d| if d.abs() < 1e-300 { 1e300 } else { 1.0 / d });
         let mut best: Option<Hit> = None;
         let mut limit_mm = limit_mm;
-        let mut stack = [0_u32; 64];
+        // Nodes put aside, with the distance at which the ray enters them.
+        let mut stack = [(0_u32, 0.0_f64); 64];
         let mut depth = 0;
         let mut index = 0;
         if self.nodes.is_empty() || entry(&self.nodes[0], origin_mm, inverse, limit_mm).is_none() {
@@ -117,19 +125,20 @@ impl Bvh {
                     }
                 }
             } else {
-                let children = [index + 1, node.link];
-                let entries = children.map(|c| entry(&self.nodes[c as usize], origin_mm, inverse, limit_mm));
-                let (near, far) = match entries {
-                    [Some(a), Some(b)] if a <= b => (Some(children[0]), Some(children[1])),
-                    [Some(_), Some(_)] => (Some(children[1]), Some(children[0])),
-                    [Some(_), None] => (Some(children[0]), None),
-                    [None, Some(_)] => (Some(children[1]), None),
-                    [None, None] => (None, None),
+                let (left, right) = (index + 1, node.link);
+                let of_left = entry(&self.nodes[left as usize], origin_mm, inverse, limit_mm);
+                let of_right = entry(&self.nodes[right as usize], origin_mm, inverse, limit_mm);
+                let near = match (of_left, of_right) {
+                    (Some(a), Some(b)) => {
+                        let (near, far) = if a <= b { (left, (right, b)) } else { (right, (left, a)) };
+                        stack[depth] = far;
+                        depth += 1;
+                        Some(near)
+                    }
+                    (Some(_), None) => Some(left),
+                    (None, Some(_)) => Some(right),
+                    (None, None) => None,
                 };
-                if let Some(far) = far {
-                    stack[depth] = far;
-                    depth += 1;
-                }
                 if let Some(near) = near {
                     index = near;
                     continue;
@@ -140,9 +149,10 @@ impl Bvh {
                     return best;
                 }
                 depth -= 1;
-                index = stack[depth];
+                let (next, enters_mm) = stack[depth];
                 // The limit may have come closer since the node was put aside.
-                if entry(&self.nodes[index as usize], origin_mm, inverse, limit_mm).is_some() {
+                if enters_mm < limit_mm {
+                    index = next;
                     break;
                 }
             }
@@ -150,17 +160,20 @@ impl Bvh {
     }
 }
 
-/// Builds the node over `order[..]`, whose first place in the whole is `first`; returns its index.
-fn build(bounds: &[Bounds], order: &mut [u32], first: u32, nodes: &mut Vec<Node>) -> u32 {
-    let whole = order.iter().fold(Bounds::EMPTY, |all, &i| all.with(bounds[i as usize]));
+/// Adds the nodes over `order[..]`, whose first place in the whole is `first`, in the order of a walk from the left.
+/// Large halves are built side by side and joined, which gives the same nodes.
+fn build(bounds: &[Bounds], order: &mut [u32], first: u32, nodes: &mut Vec<Node>) {
+    let (whole, centers) = order.iter().fold((Bounds::EMPTY, Bounds::EMPTY), |(whole, centers), &i| {
+        let (all, center) = (bounds[i as usize], bounds[i as usize].center());
+        (whole.with(all), centers.with(Bounds { low: center, high: center }))
+    });
     let index = nodes.len();
     nodes.push(Node { low: whole.low, high: whole.high, link: first, count: order.len() as u32 });
     // Depth stays below the walker's stack: splits by the median are taken where the heuristic finds none.
     if order.len() <= LEAF {
-        return index as u32;
+        return;
     }
-    let center = |i: u32| 0.5 * (bounds[i as usize].low + bounds[i as usize].high);
-    let centers = order.iter().fold(Bounds::EMPTY, |all, &i| all.with(Bounds { low: center(i), high: center(i) }));
+    let center = |i: u32| bounds[i as usize].center();
     let split = best_split(bounds, order, centers).map(|(axis, plane)| {
         let mut middle = 0;
         for k in 0..order.len() {
@@ -181,37 +194,58 @@ fn build(bounds: &[Bounds], order: &mut [u32], first: u32, nodes: &mut Vec<Node>
             order.len() / 2
         }
     };
+    let side_by_side = order.len() > SIDE_BY_SIDE;
     let (left, right) = order.split_at_mut(middle);
-    build(bounds, left, first, nodes);
-    let link = build(bounds, right, first + middle as u32, nodes);
-    nodes[index].link = link;
-    nodes[index].count = 0;
-    index as u32
+    let half = |order: &mut [u32], first: u32| {
+        let mut nodes = Vec::with_capacity(order.len());
+        build(bounds, order, first, &mut nodes);
+        nodes
+    };
+    let link = if side_by_side {
+        let (left, right) = rayon::join(|| half(left, first), || half(right, first + middle as u32));
+        append(nodes, left);
+        let link = nodes.len();
+        append(nodes, right);
+        link
+    } else {
+        build(bounds, left, first, nodes);
+        let link = nodes.len();
+        build(bounds, right, first + middle as u32, nodes);
+        link
+    };
+    (nodes[index].link, nodes[index].count) = (link as u32, 0);
+}
+
+/// Puts a tree of its own behind other nodes; its inner nodes count from there.
+fn append(nodes: &mut Vec<Node>, tree: Vec<Node>) {
+    let start = nodes.len() as u32;
+    nodes.extend(
+        tree.into_iter().map(|node| Node { link: if node.count == 0 { node.link + start } else { node.link }, ..node }),
+    );
 }
 
 /// Axis and plane of the cheapest split of the bins.
 fn best_split(bounds: &[Bounds], order: &[u32], centers: Bounds) -> Option<(usize, f64)> {
-    let mut best: Option<(f64, usize, f64)> = None;
-    for axis in 0..3 {
-        let (low, width) = (centers.low[axis], centers.high[axis] - centers.low[axis]);
-        if width <= 0.0 {
-            continue;
-        }
-        let mut bins = [(Bounds::EMPTY, 0_u32); BINS];
-        for &i in order {
-            let b = bounds[i as usize];
-            let share = (0.5 * (b.low[axis] + b.high[axis]) - low) / width;
-            let bin = &mut bins[((share * BINS as f64) as usize).min(BINS - 1)];
+    let extent = centers.high - centers.low;
+    let mut bins = [[(Bounds::EMPTY, 0_u32); BINS]; 3];
+    for &i in order {
+        let b = bounds[i as usize];
+        let share = (b.center() - centers.low) / extent;
+        for axis in (0..3).filter(|&axis| extent[axis] > 0.0) {
+            let bin = &mut bins[axis][((share[axis] * BINS as f64) as usize).min(BINS - 1)];
             *bin = (bin.0.with(b), bin.1 + 1);
         }
-        let cost = |bins: &[(Bounds, u32)]| {
-            let (all, count) = bins.iter().fold((Bounds::EMPTY, 0), |(all, n), (b, k)| (all.with(*b), n + k));
-            if count == 0 { 0.0 } else { all.half_area() * f64::from(count) }
-        };
+    }
+    let cost = |bins: &[(Bounds, u32)]| {
+        let (all, count) = bins.iter().fold((Bounds::EMPTY, 0), |(all, n), (b, k)| (all.with(*b), n + k));
+        if count == 0 { 0.0 } else { all.half_area() * f64::from(count) }
+    };
+    let mut best: Option<(f64, usize, f64)> = None;
+    for axis in (0..3).filter(|&axis| extent[axis] > 0.0) {
         for plane in 1..BINS {
-            let cost = cost(&bins[..plane]) + cost(&bins[plane..]);
+            let cost = cost(&bins[axis][..plane]) + cost(&bins[axis][plane..]);
             if best.is_none_or(|(least, ..)| cost < least) {
-                best = Some((cost, axis, low + width * plane as f64 / BINS as f64));
+                best = Some((cost, axis, centers.low[axis] + extent[axis] * plane as f64 / BINS as f64));
             }
         }
     }
@@ -219,6 +253,7 @@ fn best_split(bounds: &[Bounds], order: &[u32], centers: Bounds) -> Option<(usiz
 }
 
 /// Distance at which a ray enters a box; `None` if it misses it or enters behind the limit.
+#[inline]
 fn entry(node: &Node, origin_mm: DVec3, inverse: DVec3, limit_mm: f64) -> Option<f64> {
     let (a, b) = ((node.low - origin_mm) * inverse, (node.high - origin_mm) * inverse);
     let near = a.min(b).max_element().max(0.0);
@@ -227,6 +262,7 @@ fn entry(node: &Node, origin_mm: DVec3, inverse: DVec3, limit_mm: f64) -> Option
     (near <= far && near < limit_mm).then_some(near)
 }
 
+#[inline]
 fn meet(&[corner, u, v]: &[DVec3; 3], origin_mm: DVec3, direction: DVec3) -> Option<(f64, [f64; 2])> {
     let p = direction.cross(v);
     let determinant = u.dot(p);
@@ -287,6 +323,33 @@ mod tests {
         }
         assert!(met > 200, "{met} rays met a triangle");
         assert_eq!(Bvh::new(&[]).first(DVec3::ZERO, DVec3::X, 1.0), None);
+    }
+
+    #[test]
+    fn halves_built_side_by_side_give_the_same_tree() {
+        let mut next = numbers(3);
+        let mut point = |scale: f64| DVec3::new(next() - 0.5, next() - 0.5, next() - 0.5) * scale;
+        let triangles: Vec<[DVec3; 3]> = (0..5 * SIDE_BY_SIDE)
+            .map(|_| {
+                let corner = point(100.0);
+                [corner, corner + point(1.0), corner + point(1.0)]
+            })
+            .collect();
+        let tree = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            pool.install(|| Bvh::new(&triangles))
+        };
+        let [one, four] = [1, 4].map(tree);
+        assert_eq!(one.numbers, four.numbers);
+        let plain = |tree: &Bvh| -> Vec<(DVec3, DVec3, u32, u32)> {
+            tree.nodes.iter().map(|n| (n.low, n.high, n.link, n.count)).collect()
+        };
+        assert_eq!(plain(&one), plain(&four));
+        // Leaves lie behind each other and hold every triangle once, and every right child lies behind its parent.
+        let leaves = || four.nodes.iter().filter(|node| node.count > 0);
+        assert!(leaves().scan(0, |end, n| (*end, *end += n.count).0.eq(&n.link).into()).all(|follows| follows));
+        assert_eq!(leaves().map(|n| n.count as usize).sum::<usize>(), triangles.len());
+        assert!((0..).zip(&four.nodes).all(|(i, n)| n.count > 0 || n.link > i + 1));
     }
 
     #[test]

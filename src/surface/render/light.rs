@@ -10,7 +10,7 @@
 
 use super::bodies::{Found, Stage};
 use super::camera::Camera;
-use crate::output::interrupt::Interrupt;
+use crate::interrupt::Interrupt;
 use crate::{Error, Result};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -105,7 +105,7 @@ struct Pixel {
 /// Ctrl-C.
 pub fn render(stage: &Stage, camera: &Camera, lights: &Lights, interrupt: &Interrupt) -> Result<Rendered> {
     let (width, height) = camera.size_px;
-    let far_mm = 2.0 * stage.size_mm + camera.extent_mm;
+    let far_mm = 2.0 * stage.size_mm() + camera.extent_mm;
     let rows: Vec<Vec<(Pixel, Option<Found>)>> = (0..height)
         .into_par_iter()
         .map(|y| {
@@ -139,6 +139,8 @@ pub fn render(stage: &Stage, camera: &Camera, lights: &Lights, interrupt: &Inter
 /// Share of the sky that every pixel sees, averaged over neighbours on the same smooth surface.
 fn smoothed(pixels: &[(Pixel, Option<Found>)], camera: &Camera) -> Vec<f32> {
     let (width, height) = (i64::from(camera.size_px.0), i64::from(camera.size_px.1));
+    // Close together in memory: every pixel asks 98 neighbours.
+    let places: Vec<(DVec3, f64)> = pixels.iter().map(|(p, _)| (p.normal, p.depth_mm)).collect();
     let mut sums: Vec<[f32; 2]> = pixels.iter().map(|(p, _)| [p.free as f32, p.asked as f32]).collect();
     for step in SMOOTH_STEPS_PX {
         // Neighbours further away in depth than twice as far as in the picture lie on another surface.
@@ -147,7 +149,7 @@ fn smoothed(pixels: &[(Pixel, Option<Found>)], camera: &Camera) -> Vec<f32> {
             .into_par_iter()
             .map(|i| {
                 let (x, y) = (i % width, i / width);
-                let here = &pixels[i as usize].0;
+                let (normal, depth_mm) = places[i as usize];
                 let (mut free, mut asked) = (0.0, 0.0);
                 for dy in -3..=3 {
                     for dx in -3..=3 {
@@ -156,8 +158,8 @@ fn smoothed(pixels: &[(Pixel, Option<Found>)], camera: &Camera) -> Vec<f32> {
                             continue;
                         }
                         let index = (y * width + x) as usize;
-                        let other = &pixels[index].0;
-                        if other.normal.dot(here.normal) > 0.9 && (other.depth_mm - here.depth_mm).abs() < reach_mm {
+                        let other = places[index];
+                        if other.0.dot(normal) > 0.9 && (other.1 - depth_mm).abs() < reach_mm {
                             free += sums[index][0];
                             asked += sums[index][1];
                         }
@@ -190,7 +192,7 @@ fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y
         let place = |k: u32, of: u32| f64::from(of) + (f64::from(k) + 0.5) / f64::from(SIDE);
         let origin_mm = camera.origin_mm(place(i, x), place(j, y), far_mm);
         let Some(found) = stage.first(origin_mm, -camera.towards) else { continue };
-        let off_mm = OFF_SURFACE * stage.size_mm;
+        let off_mm = OFF_SURFACE * stage.size_mm();
         let place_mm = origin_mm - camera.towards * found.distance_mm + found.flat * off_mm;
         if gathered.met == 0 {
             (gathered.normal, gathered.depth_mm) = (found.normal, found.distance_mm);
@@ -219,7 +221,7 @@ fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y
             let direction = disc.x * tangent + disc.y * bitangent + (1.0 - b).sqrt() * found.normal;
             gathered.asked += 1;
             let open = found.flat.dot(direction) > 0.0
-                && !stage.is_blocked(place_mm, direction, lights.sky_reach * stage.size_mm);
+                && !stage.is_blocked(place_mm, direction, lights.sky_reach * stage.size_mm());
             gathered.free += u32::from(open);
         }
     }

@@ -14,6 +14,6 @@ pub mod bvh;
 pub mod camera;
 pub mod light;
 
-pub use bodies::{Body, CLAY, Look, STEEL, Stage};
+pub use bodies::{CLAY, Look, STEEL, Shape, Stage};
 pub use camera::Camera;
 pub use light::{Lights, Rendered, render};

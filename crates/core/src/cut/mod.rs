@@ -1,0 +1,118 @@
+//! Backends: subtract the passes of a plan from a field of dexels.
+//!
+//! One law, several machines: [`cpu::Cpu`] (f64, vectorised at run time) always works, the GPU backend (f32 in local
+//! frames, within nanometres) runs on any Vulkan, Metal or DirectX 12 adapter; the program takes one of them. A backend
+//! reads the plan's records and the tool's edge tables and lowers the heights of a [`Layer`]; among
+//! passes that leave the same height the lowest id wins, so the result does not depend on any order of work.
+
+pub mod blank;
+pub mod cpu;
+pub mod sweep_chips;
+
+use crate::dexel::{BlankField, Field, Layer, SpatialField};
+use crate::error::Error;
+use crate::passes::sections::swept_sections::SweptSections;
+use crate::passes::{CutPlan, SweepPlan};
+use crate::tool::edge::Edge;
+use std::ops::Range;
+use sweep_chips::SweepsCut;
+
+pub use blank::{BlankCut, BlankOperation, BlankStats, CutBlank, Rub};
+
+/// Heights below this are the kernels' own error and shown as zero, µm.
+pub const KERNEL_UM: f64 = 1e-4;
+
+/// What a backend met besides heights.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct CutStats {
+    /// Dexels that were cut; fewer than there are where rows are alike and one of them was cut for all.
+    pub dexels: u64,
+    /// (Dexel, pass) pairs evaluated.
+    pub dexel_passes: u64,
+    /// Pairs whose ray meets the segment but whose root was not reached to a picometre; any at all makes the result
+    /// untrustworthy.
+    pub unconverged: u64,
+}
+
+impl std::ops::AddAssign for CutStats {
+    fn add_assign(&mut self, other: Self) {
+        self.dexels += other.dexels;
+        self.dexel_passes += other.dexel_passes;
+        self.unconverged += other.unconverged;
+    }
+}
+
+/// Time that a device spent on one stage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StageTime {
+    /// Name of the stage: the shader's.
+    pub stage: &'static str,
+    /// Batches sent.
+    pub batches: u64,
+    /// Time between the first and the last of its threads, summed over launches, s.
+    pub device_s: f64,
+}
+
+/// A machine that cuts.
+pub trait Backend: Sync {
+    /// Name for the run record, with the instruction set or adapter.
+    fn name(&self) -> String;
+
+    /// Name for the heads of files: the same wherever the bytes are the same.
+    fn name_in_files(&self) -> String {
+        self.name()
+    }
+
+    /// Runs all records of `plan` over `field`, lowering `layer`.
+    ///
+    /// # Errors
+    /// Whatever keeps the backend from finishing; the layer is then unusable.
+    fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error>;
+
+    /// Takes all strokes of an operation from the blank and checks its return strokes; `advance` is called after every tile and says whether to go on. `None`: stopped, the field
+    /// is then as it was or partly cut.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    fn cut_blank(
+        &self,
+        field: &mut BlankField,
+        operation: &BlankOperation,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<BlankCut>, Error>;
+
+    /// Takes all sweeps of a hobbing operation, whose passes have the ids `passes`, from the blank; `advance` is called as often as the field has slices and says whether to go on. `None`: stopped, the
+    /// field is then as it was or partly cut.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    fn cut_blank_sweeps(
+        &self,
+        field: &mut BlankField,
+        sections: &SweptSections,
+        passes: Range<u32>,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<SweepsCut>, Error>;
+
+    /// Runs all records of a plan of sweeps over a field of rays in space, lowering `layer`.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    fn cut_spatial(
+        &self,
+        field: &SpatialField,
+        edge: &Edge,
+        plan: &SweepPlan,
+        layer: &mut Layer,
+    ) -> Result<CutStats, Error>;
+
+    /// What went wrong so far and was made good: one line each, for the run record.
+    fn incidents(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The device's own time, stage by stage, where it can tell.
+    fn stage_times(&self) -> Vec<StageTime> {
+        Vec::new()
+    }
+}

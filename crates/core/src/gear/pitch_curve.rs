@@ -1,0 +1,200 @@
+//! The pitch curve: the closed curve on which the teeth are rolled.
+//!
+//! In: the scene's shape, module and number of teeth. Out: radius, frame, curvature and arc length at any polar angle, the
+//! inverse of the arc length, and facts about the shape. Frame: the gear frame, phi counter-clockwise, t in the direction
+//! of increasing phi, outward normal n = -i t.
+//!
+//! Law: ds/dphi = sqrt(r^2 + r'^2); z teeth of module m fit without a remainder when the perimeter is pi m z. The perimeter
+//! is proportional to the size of the curve, so a size that is left out follows from one quadrature.
+//!
+//! A curve r(phi) > 0 with one radius per angle cannot cross itself; positive radii are therefore all that is checked
+//! against crossing. Road not taken: curves given as points x, y. They can loop, and the polar angle is what every linkage
+//! formula in the literature is written in.
+
+#[cfg(test)]
+pub(crate) mod examples;
+mod facts;
+pub mod mate;
+mod radius_law;
+pub mod shape;
+#[cfg(test)]
+mod tests;
+
+use std::f64::consts::PI;
+
+use glam::DVec2;
+
+use crate::error::Refusal;
+use crate::gear::PitchCurveShape;
+use crate::math::jet::Jet;
+use crate::math::periodic_integral::PeriodicIntegral;
+pub use facts::{CurvatureExtremum, CurveFacts};
+use radius_law::{RadiusLaw, SizedLaw};
+
+/// Accuracy of the arc length unless asked otherwise, mm.
+pub const DEFAULT_ACCURACY_MM: f64 = 1e-10;
+/// Largest difference between perimeter and pi m z that is accepted, in modules.
+pub const LARGEST_CLOSURE_ERROR_MODULES: f64 = 0.01;
+
+/// A closed pitch curve, ready for queries.
+#[derive(Debug, Clone)]
+pub struct PitchCurve {
+    law: RadiusLaw,
+    size_mm: f64,
+    arc: PeriodicIntegral,
+    closure_error_mm: f64,
+    facts: CurveFacts,
+}
+
+/// Everything local about the pitch curve at one polar angle; gear frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PitchFrame {
+    /// P(phi), mm.
+    pub point_mm: DVec2,
+    /// Unit tangent in the direction of increasing phi.
+    pub tangent: DVec2,
+    /// Unit normal out of the gear, -i t.
+    pub normal: DVec2,
+    /// Angle from the polar radius to the tangent, atan2(r, r'), in (0, pi). The plain arctan(r / r') of the papers fails where r' < 0.
+    pub mu_rad: f64,
+    /// ds/dphi, mm per rad.
+    pub arc_rate_mm_per_rad: f64,
+    /// Signed curvature, positive convex.
+    pub curvature_per_mm: f64,
+    /// r(phi), mm.
+    pub radius_mm: f64,
+}
+
+impl PitchCurve {
+    /// Pitch curve with arc lengths good to [`DEFAULT_ACCURACY_MM`].
+    ///
+    /// # Errors
+    /// Parameters outside their range, a radius that is not positive everywhere, a table out of order, or a given size whose
+    /// perimeter misses pi m z by more than [`LARGEST_CLOSURE_ERROR_MODULES`]; the refusal says which size closes.
+    pub fn new(shape: &PitchCurveShape, module_mm: f64, teeth: u32) -> Result<Self, Refusal> {
+        Self::with_accuracy(shape, module_mm, teeth, DEFAULT_ACCURACY_MM)
+    }
+
+    /// Pitch curve with arc lengths good to `accuracy_mm` (1e-12 is the practical floor of f64 at gear size).
+    ///
+    /// # Errors
+    /// As [`Self::new`]; and an arc length that cannot be integrated to the accuracy.
+    pub fn with_accuracy(
+        shape: &PitchCurveShape,
+        module_mm: f64,
+        teeth: u32,
+        accuracy_mm: f64,
+    ) -> Result<Self, Refusal> {
+        let wanted_mm = PI * module_mm * f64::from(teeth);
+        if !(wanted_mm.is_finite() && wanted_mm > 0.0) {
+            let problem = format!("module {module_mm} mm with {teeth} teeth gives no pitch curve");
+            return Err(Refusal::new("gear.module_mm", problem, "give a positive module and at least one tooth"));
+        }
+        let SizedLaw { law, size_mm, key, size_key } = SizedLaw::new(shape, module_mm, teeth, accuracy_mm)?;
+        let samples = law.samples_per_turn();
+        let facts = CurveFacts::new(|phi| law.unit(phi), samples);
+        let (smallest, largest) = (facts.smallest_radius_mm, facts.largest_radius_mm);
+        if !(smallest > 0.0 && largest.is_finite()) {
+            let problem = format!("the radius falls to {smallest} of its mean: it must stay positive and finite");
+            return Err(Refusal::new(key, problem, "make the variation of the radius smaller"));
+        }
+        let arc_rate = |scale: f64| {
+            let law = &law;
+            move |phi: f64| {
+                let r = law.unit(phi);
+                scale * r.value().hypot(r.derivative(1))
+            }
+        };
+        let integrate = |size_mm: f64| {
+            PeriodicIntegral::new(arc_rate(size_mm), &law.breaks_rad(), 16, accuracy_mm.max(1e-13)).ok_or_else(|| {
+                let problem = format!("the arc length cannot be integrated to {accuracy_mm} mm");
+                Refusal::new(key, problem, "make the variation of the radius smaller, or give fewer points")
+            })
+        };
+        let assumed_mm = size_mm.unwrap_or(wanted_mm / (2.0 * PI));
+        let first = integrate(assumed_mm)?;
+        let closing_mm = assumed_mm * wanted_mm / first.closed();
+        let (size_mm, arc) = match size_mm {
+            Some(given_mm) => (given_mm, first),
+            None => (closing_mm, integrate(closing_mm)?),
+        };
+        let closure_error_mm = arc.closed() - wanted_mm;
+        if closure_error_mm.abs() > LARGEST_CLOSURE_ERROR_MODULES * module_mm {
+            return Err(Refusal::new(
+                size_key,
+                format!(
+                    "the perimeter {:.6} mm misses pi m z = {wanted_mm:.6} mm by {closure_error_mm:.6} mm; {} mm is allowed",
+                    arc.closed(),
+                    LARGEST_CLOSURE_ERROR_MODULES * module_mm
+                ),
+                format!("the size that closes is {closing_mm:.9} mm; leave the key out and it is solved"),
+            ));
+        }
+        let facts = CurveFacts::new(|phi| law.unit(phi) * size_mm, samples);
+        Ok(Self { law, size_mm, arc, closure_error_mm, facts })
+    }
+
+    /// r in mm at `phi_rad` (any real) with three derivatives with respect to phi.
+    pub fn radius(&self, phi_rad: f64) -> Jet<4> {
+        self.law.unit(phi_rad) * self.size_mm
+    }
+
+    /// Point, tangent, normal and curvature at `phi_rad` (any real).
+    pub fn frame(&self, phi_rad: f64) -> PitchFrame {
+        let radius = self.radius(phi_rad);
+        let (r, dr) = (radius.value(), radius.derivative(1));
+        let arc_rate_mm_per_rad = r.hypot(dr);
+        let out = DVec2::from_angle(phi_rad);
+        let tangent = (out * dr + out.perp() * r) / arc_rate_mm_per_rad;
+        PitchFrame {
+            point_mm: out * r,
+            tangent,
+            normal: -tangent.perp(),
+            mu_rad: r.atan2(dr),
+            arc_rate_mm_per_rad,
+            curvature_per_mm: facts::curvature(&radius).value(),
+            radius_mm: r,
+        }
+    }
+
+    /// Arc length S in mm from phi = 0 to `phi_rad`: unwrapped, so that a whole turn adds the perimeter exactly; negative before 0.
+    pub fn arc_mm(&self, phi_rad: f64) -> f64 {
+        self.arc.at(phi_rad)
+    }
+
+    /// Polar angle (unwrapped) at which the arc length is `arc_mm` (any real).
+    pub fn phi_at_arc(&self, arc_mm: f64) -> f64 {
+        self.arc.angle_at(arc_mm)
+    }
+
+    /// Length of the closed curve, mm.
+    pub fn perimeter_mm(&self) -> f64 {
+        self.arc.closed()
+    }
+
+    /// Perimeter minus pi m z, mm: what the last pitch is too long. Rounding when the size was solved.
+    pub fn closure_error_mm(&self) -> f64 {
+        self.closure_error_mm
+    }
+
+    /// The size parameter in use, given or solved, mm: radius of the circle, semi-major axis, centre distance (also of a mate), mean radius (for
+    /// a table: mean of the radii of its points).
+    pub fn size_mm(&self) -> f64 {
+        self.size_mm
+    }
+
+    /// Shape of the curve.
+    pub fn facts(&self) -> &CurveFacts {
+        &self.facts
+    }
+
+    /// Angles in [0, 2 pi) where the third derivative of r jumps (the points of a table).
+    pub fn breaks_rad(&self) -> Vec<f64> {
+        self.law.breaks_rad()
+    }
+
+    /// Number of samples per turn that resolve every variation of the curve.
+    pub fn samples_per_turn(&self) -> usize {
+        self.law.samples_per_turn()
+    }
+}

@@ -1,0 +1,87 @@
+//! Which kind of curve a pitch curve is, and its sizes.
+
+use crate::gear::{Driver, GearKind};
+
+/// Shape of the closed pitch curve r(phi). A size left out (`None`) is solved so that the curve closes: perimeter = pi m z.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PitchCurveShape {
+    /// r = m z / 2.
+    Circle,
+    /// r = a (1 - k^2) / (1 - k cos(n phi)); Gao et al. 2017, Eq. 13.
+    Ellipse {
+        /// n >= 1.
+        order: u32,
+        /// k, 0 <= k < 1.
+        eccentricity: f64,
+        /// a.
+        semi_major_axis_mm: Option<f64>,
+    },
+    /// Driver of a pair whose ratio is i(phi) = c + b sin(n phi): r = C / (1 + i).
+    SinusoidalRatio {
+        /// n >= 1.
+        order: u32,
+        /// c.
+        mean_ratio: f64,
+        /// b, smaller than c.
+        ratio_amplitude: f64,
+        /// C.
+        center_distance_mm: Option<f64>,
+    },
+    /// Pascal's limacon, r = R (1 + k cos(n phi)).
+    Pascal {
+        /// n >= 1.
+        order: u32,
+        /// k, 0 <= k < 1.
+        eccentricity: f64,
+        /// R.
+        mean_radius_mm: Option<f64>,
+    },
+    /// r = R (1 + sum of c_j cos(j phi) + s_j sin(j phi)), j = 1, 2, ...
+    Fourier {
+        /// c_1, c_2, ... relative to R.
+        cosine: Vec<f64>,
+        /// s_1, s_2, ... relative to R.
+        sine: Vec<f64>,
+        /// R.
+        mean_radius_mm: Option<f64>,
+    },
+    /// Periodic spline through given points.
+    Table {
+        /// Polar angles (rad, increasing, within one turn) and radii (mm).
+        points_rad_mm: Vec<[f64; 2]>,
+        /// Scale the radii so that the curve closes.
+        scale_to_close: bool,
+    },
+    /// The gear that runs with a driver; see [`super::mate`].
+    Mate {
+        /// The gear it runs with.
+        driver: Box<Driver>,
+        /// External: r2 = a - r1. Internal: r2 = a + r1.
+        kind: GearKind,
+    },
+}
+
+impl PitchCurveShape {
+    /// The shape in words, such as "ellipse of order 3, eccentricity 0.1348".
+    pub fn words(&self) -> String {
+        match self {
+            Self::Circle => "circle".to_owned(),
+            Self::Ellipse { order, eccentricity, .. } => {
+                format!("ellipse of order {order}, eccentricity {eccentricity}")
+            }
+            Self::SinusoidalRatio { order, mean_ratio, ratio_amplitude, .. } => {
+                format!("driver of the ratio {mean_ratio} + {ratio_amplitude} sin({order} phi)")
+            }
+            Self::Pascal { order, eccentricity, .. } => {
+                format!("Pascal's limacon of order {order}, eccentricity {eccentricity}")
+            }
+            Self::Fourier { cosine, sine, .. } => {
+                format!("Fourier series with {} harmonics", cosine.len().max(sine.len()))
+            }
+            Self::Table { points_rad_mm, .. } => {
+                format!("periodic spline through {} points", points_rad_mm.len())
+            }
+            Self::Mate { driver, .. } => format!("mate of {} teeth: {}", driver.teeth, driver.curve.words()),
+        }
+    }
+}

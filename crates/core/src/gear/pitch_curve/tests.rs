@@ -1,0 +1,135 @@
+//! Checks of every kind of pitch curve against finite differences, closed forms and its own inverse.
+
+use std::f64::consts::{PI, TAU};
+
+use proptest::prelude::*;
+
+use super::examples::{any_curve, examples};
+use super::*;
+
+#[test]
+fn derivatives_match_differences() {
+    let h = 1e-4;
+    for curve in examples() {
+        for i in 0..200 {
+            let phi = f64::from(i) * 0.0437 - 1.0;
+            let (before, here, after) = (curve.radius(phi - h), curve.radius(phi), curve.radius(phi + h));
+            for k in 0..2 {
+                let difference = (after.derivative(k) - before.derivative(k)) / (2.0 * h);
+                let error = difference - here.derivative(k + 1);
+                assert!(error.abs() < 1e-4, "derivative {} of {:?} at {phi}: {error}", k + 1, curve.law);
+            }
+        }
+    }
+}
+
+#[test]
+fn third_derivative_and_curvature_slope_match_differences() {
+    let h = 1e-4;
+    for curve in examples().iter().filter(|curve| curve.breaks_rad().is_empty()) {
+        for i in 0..200 {
+            let phi = f64::from(i) * 0.0437 - 1.0;
+            let third = (curve.radius(phi + h).derivative(2) - curve.radius(phi - h).derivative(2)) / (2.0 * h);
+            assert!((third - curve.radius(phi).derivative(3)).abs() < 1e-3 * (1.0 + third.abs()));
+            let kappa = |phi: f64| facts::curvature(&curve.radius(phi));
+            let slope = (kappa(phi + h).value() - kappa(phi - h).value()) / (2.0 * h);
+            assert!((slope - kappa(phi).derivative(1)).abs() < 1e-6 * (1.0 + slope.abs()));
+        }
+    }
+}
+
+#[test]
+fn frames_are_consistent() {
+    let h = 1e-5;
+    for curve in examples() {
+        for i in 0..100 {
+            let phi = f64::from(i) * 0.0731 - 2.0;
+            let frame = curve.frame(phi);
+            let step = (curve.frame(phi + h).point_mm - curve.frame(phi - h).point_mm) / (2.0 * h);
+            assert!((step - frame.tangent * frame.arc_rate_mm_per_rad).length() < 1e-6);
+            assert!(frame.tangent.dot(frame.normal).abs() < 1e-15);
+            assert!(frame.normal.dot(frame.point_mm) > 0.0);
+            assert!((frame.tangent.angle_to(-frame.point_mm).abs() - (PI - frame.mu_rad)).abs() < 1e-12);
+            // dt/ds = -kappa n
+            let turn = (curve.frame(phi + h).tangent - curve.frame(phi - h).tangent) / (2.0 * h);
+            let kappa = -turn.dot(frame.normal) / frame.arc_rate_mm_per_rad;
+            assert!((kappa - frame.curvature_per_mm).abs() < 1e-7);
+        }
+    }
+}
+
+#[test]
+fn sizes_close_and_arcs_agree_with_midpoint_sums() {
+    for curve in examples() {
+        assert!(curve.closure_error_mm().abs() < 1e-11, "{:?}: {}", curve.law, curve.closure_error_mm());
+        // The midpoint rule converges exponentially over a period, and only as 1/n^2 for the table.
+        let n = 40_000;
+        let rate = |i: usize| curve.frame((i as f64 + 0.5) * TAU / n as f64).arc_rate_mm_per_rad;
+        let sum = (0..n).map(rate).sum::<f64>() * TAU / n as f64;
+        let bound = if curve.breaks_rad().is_empty() { 1e-10 } else { 1e-6 };
+        assert!((sum - curve.perimeter_mm()).abs() < bound, "{:?}: {}", curve.law, sum - curve.perimeter_mm());
+    }
+}
+
+#[test]
+fn known_facts() {
+    let circle = &examples()[0];
+    assert!((circle.size_mm() - 63.0).abs() < 1e-13);
+    assert!(circle.facts().convex && circle.facts().curvature_extrema.is_empty());
+    assert!((circle.facts().smallest_curvature_radius_mm - 63.0).abs() < 1e-12);
+    // A true ellipse (order 1): perimeter 4 a E(k), sharpest at the ends of the major axis with radius a (1 - k^2).
+    let ellipse = &examples()[2];
+    let facts = ellipse.facts();
+    assert!((facts.smallest_curvature_radius_mm - ellipse.size_mm() * 0.64).abs() < 1e-9);
+    assert!((facts.smallest_curvature.curvature_per_mm - 0.8 / ellipse.size_mm()).abs() < 1e-12);
+    assert!((facts.largest_radius_mm - ellipse.size_mm() * 1.6).abs() < 1e-9);
+    assert!((facts.smallest_radius_mm - ellipse.size_mm() * 0.4).abs() < 1e-9);
+    assert_eq!(facts.curvature_extrema.len(), 4);
+    assert!((ellipse.perimeter_mm() / ellipse.size_mm() - 5.672333577794).abs() < 1e-11);
+}
+
+#[test]
+fn refusals_name_their_key() {
+    let refuse = |shape: PitchCurveShape| PitchCurve::new(&shape, 3.0, 42).unwrap_err();
+    let ellipse =
+        |eccentricity, semi_major_axis_mm| PitchCurveShape::Ellipse { order: 3, eccentricity, semi_major_axis_mm };
+    let open = refuse(ellipse(0.1348, Some(61.3)));
+    assert_eq!(open.key, "gear.pitch_curve.ellipse.semi_major_axis_mm");
+    assert!(open.way_out.contains("61.110009074"), "{}", open.way_out);
+    assert_eq!(refuse(ellipse(1.0, None)).key, "gear.pitch_curve.ellipse.eccentricity");
+    assert_eq!(refuse(ellipse(f64::NAN, None)).key, "gear.pitch_curve.ellipse.eccentricity");
+    assert_eq!(refuse(ellipse(0.1, Some(-1.0))).key, "gear.pitch_curve.ellipse.semi_major_axis_mm");
+    let fourier = PitchCurveShape::Fourier { cosine: vec![1.2], sine: vec![], mean_radius_mm: None };
+    assert!(refuse(fourier).problem.contains("positive"));
+    let infinite = PitchCurveShape::Fourier { cosine: vec![f64::INFINITY], sine: vec![], mean_radius_mm: None };
+    assert_eq!(refuse(infinite).key, "gear.pitch_curve.fourier");
+    let stopping =
+        PitchCurveShape::SinusoidalRatio { order: 2, mean_ratio: 1.0, ratio_amplitude: 1.0, center_distance_mm: None };
+    assert_eq!(refuse(stopping).key, "gear.pitch_curve.sinusoidal_ratio.ratio_amplitude");
+    let lobeless = PitchCurveShape::Pascal { order: 0, eccentricity: 0.1, mean_radius_mm: None };
+    assert_eq!(refuse(lobeless).key, "gear.pitch_curve.pascal.order");
+    assert_eq!(PitchCurve::new(&PitchCurveShape::Circle, 3.0, 0).unwrap_err().key, "gear.module_mm");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn arc_and_its_inverse_return(curve in any_curve(), phi in -20.0..20.0f64) {
+        let back = curve.phi_at_arc(curve.arc_mm(phi));
+        prop_assert!((back - phi).abs() < 1e-12, "{} away", back - phi);
+        prop_assert!((curve.arc_mm(phi + TAU) - curve.arc_mm(phi) - curve.perimeter_mm()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn facts_bound_the_curve(curve in any_curve(), phi in 0.0..TAU) {
+        let (facts, frame) = (curve.facts(), curve.frame(phi));
+        let slack = 1e-9 * facts.largest_curvature.curvature_per_mm.abs();
+        prop_assert!(frame.curvature_per_mm <= facts.largest_curvature.curvature_per_mm + slack);
+        prop_assert!(frame.curvature_per_mm >= facts.smallest_curvature.curvature_per_mm - slack);
+        prop_assert!(frame.radius_mm <= facts.largest_radius_mm * (1.0 + 1e-12));
+        prop_assert!(frame.radius_mm >= facts.smallest_radius_mm * (1.0 - 1e-12));
+        let inside = facts.concave_zones_rad.iter().any(|z| (phi - z[0]).rem_euclid(TAU) < z[1] - z[0]);
+        prop_assert!(inside == (frame.curvature_per_mm < 0.0) || frame.curvature_per_mm.abs() < slack);
+    }
+}

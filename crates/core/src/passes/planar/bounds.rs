@@ -1,0 +1,323 @@
+//! Bounds on one segment's pass over one tile: clear of it, bounded by samples, or undecided.
+//!
+//! Samples are entries of the segment at a few rays across the tile (places) and at one or three phases of the stroke. Between them the height is bilinear within an error
+//! C L^2 / 8, where C bounds the second derivative along the profile. With the target's curvature k_t, the edge's curvature k_e, the angle theta between ray and
+//! edge normal and the height a over the target, differentiating the entry along the profile twice gives
+//!
+//! `a'' = (1 + a k_t) / cos^2 theta [ k_e (1 + a k_t) / cos theta - k_t ] + k_t (1 + a k_t) tan^2 theta + a k_t' tan theta`
+//!
+//! C takes absolute values and half as much again for what varies inside the tile.
+//!
+//! Most passes need no samples: a segment is convex, so it lies behind its tangent at any place, and a tile whose lowest certain surface stays in front of that tangent by more than the
+//! edge can bulge between two samples is not touched. The same look culls a whole time interval of strokes at once
+//! ([`super::time_intervals`]): there the tangent must stay away by as much as any
+//! of the strokes moves the blade.
+
+use super::near::NearPass;
+use super::upper_bound::BoundHeights;
+use crate::dexel::field::Column;
+use crate::frame::Rigid2;
+use crate::tool::edge::{Segment, SegmentShape};
+use arrayvec::ArrayVec;
+use glam::DVec2;
+
+/// Phases at which a pass is sampled: three, or one when frozen.
+pub const MAX_PHASES: usize = 3;
+/// Places across a tile at which a pass is sampled at most.
+pub const MAX_PLACES: usize = 5;
+/// Safety on every bound of a second derivative, for what varies between samples.
+const CURVATURE_SAFETY: f64 = 1.5;
+/// Rays steeper than this against an edge's normal (cosine) are bounded by boxes instead of interpolation.
+const GRAZING_COSINE: f64 = 0.25;
+
+/// Entries between samples may lie beyond theirs along the segment by this share of their range and this length, mm;
+/// below
+/// the floor is what lies deeper by this length, mm; a ray leaves a segment if it runs out of it at more than this
+/// rate. Found
+/// by trial; proved by comparison with all passes in `tests/suite/shaping/flank_heights.rs`.
+const END_SHARE: f64 = 0.25;
+const END_MM: f64 = 1e-6;
+const FLOOR_MM: f64 = 1e-3;
+const LEAVING_SLOPE: f64 = 0.05;
+
+/// Rays of a tile at which passes are sampled.
+pub struct Sampling<'a> {
+    /// Rays, evenly across the tile, its ends included.
+    pub places: &'a [Column],
+    /// Distance between them along the profile, mm.
+    pub cell_mm: f64,
+    /// Turn of the normals along the profile, 1/mm.
+    pub turn_per_mm: f64,
+    /// Entries at or below this height belong to the other side of the tooth; the kernel passes over them.
+    pub floor_mm: f64,
+}
+
+/// Heights of one segment's pass at the sample rays of a tile.
+#[derive(Debug, Clone)]
+pub struct Samples {
+    /// Index of the near pass.
+    pub pass: usize,
+    /// Segment of the blade.
+    pub segment: usize,
+    /// Place by place across the tile, phase by phase, mm.
+    pub heights_mm: ArrayVec<f64, { MAX_PLACES * MAX_PHASES }>,
+    /// Error of interpolation between neighbouring samples.
+    pub error_mm: f64,
+    /// All samples and all that lies between them enter the segment itself, not its continuation.
+    pub certain: bool,
+}
+
+/// What the bounds make of a segment's pass over a tile.
+#[derive(Debug)]
+pub enum Verdict {
+    /// It cannot lower any dexel of the tile.
+    Clear,
+    /// Bounded by samples.
+    Bounded(Samples),
+    /// It may do anything that its box allows.
+    Undecided,
+}
+
+/// A ray of the work in a blade's frame, at one phase.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BladeRay {
+    /// Origin, mm.
+    pub origin_mm: DVec2,
+    /// Unit direction.
+    pub direction: DVec2,
+}
+
+impl BladeRay {
+    /// A ray of the work seen from one pose of a blade.
+    pub fn of_pose(blade_from_work: &Rigid2, ray: &Column) -> Self {
+        Self { origin_mm: blade_from_work.point(ray.origin_mm), direction: blade_from_work.direction(ray.normal) }
+    }
+
+    /// All places of a tile in a pass's blade frame, place by place, phase by phase.
+    pub fn of_pass<'a>(pass: &'a NearPass, places: &'a [Column]) -> impl Iterator<Item = Self> + 'a {
+        places
+            .iter()
+            .flat_map(|ray| pass.blade_from_work.iter().map(|blade_from_work| Self::of_pose(blade_from_work, ray)))
+    }
+}
+
+/// How far the poses that one look stands for may differ from the one looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MotionBound {
+    /// Largest distance of any point of the field in the blade's frame, mm.
+    pub distance_mm: f64,
+    /// Largest turn, rad.
+    pub turn_rad: f64,
+}
+
+/// Segments with what the bounds need of them.
+pub struct SegmentBounds<'a> {
+    /// The segments of the blade.
+    pub segments: &'a [Segment],
+    /// Largest curvature of each, 1/mm.
+    curvatures_per_mm: Vec<f64>,
+    /// x range of each in its own frame, mm.
+    x_ranges_mm: Vec<[f64; 2]>,
+}
+
+impl<'a> SegmentBounds<'a> {
+    /// Bounds for a blade's segments.
+    pub fn new(segments: &'a [Segment]) -> Self {
+        let curvature = |s: &Segment| match &s.shape {
+            SegmentShape::Arc { radius_mm } => 1.0 / radius_mm,
+            SegmentShape::Table(table) => (0..table.cells.len())
+                .map(|i| table.curvature(table.y_start_mm + (i as f64 + 0.5) / table.cells_per_mm).abs())
+                .fold(0.0, f64::max),
+        };
+        let x_range = |s: &Segment| match &s.shape {
+            SegmentShape::Arc { radius_mm } => {
+                let half = s.y_range_mm[1];
+                [(radius_mm * radius_mm - half * half).max(0.0).sqrt() - radius_mm, 0.0]
+            }
+            SegmentShape::Table(table) => table
+                .cells
+                .iter()
+                .map(|cell| cell[0])
+                .chain([table.x_and_slope(table.y_end_mm())[0]])
+                .fold([0.0, 0.0], |[low, high]: [f64; 2], x| [low.min(x), high.max(x)]),
+        };
+        Self {
+            segments,
+            curvatures_per_mm: segments.iter().map(curvature).collect(),
+            x_ranges_mm: segments.iter().map(x_range).collect(),
+        }
+    }
+
+    /// Whether the segment's box comes within `margin_mm` of a ray between two heights, in any sampled phase; `rays` are one place's.
+    pub fn box_meets(&self, rays: &[BladeRay], segment: usize, heights_mm: [f64; 2], margin_mm: f64) -> bool {
+        let Segment { blade_from_segment, y_range_mm, .. } = &self.segments[segment];
+        let [x_low, x_high] = self.x_ranges_mm[segment];
+        let turn = DVec2::new(blade_from_segment.rotation.x, -blade_from_segment.rotation.y);
+        rays.iter().any(|ray| {
+            let o = turn.rotate(ray.origin_mm - blade_from_segment.translation_mm);
+            let n = turn.rotate(ray.direction);
+            let [mut from, mut to] = heights_mm;
+            let sides = [(o.x, n.x, x_low, x_high), (o.y, n.y, y_range_mm[0], y_range_mm[1])];
+            for (o, n, low, high) in sides {
+                if n.abs() < 1e-12 {
+                    if o < low - margin_mm || o > high + margin_mm {
+                        return false;
+                    }
+                    continue;
+                }
+                let (a, b) = ((low - margin_mm - o) / n, (high + margin_mm - o) / n);
+                from = from.max(a.min(b));
+                to = to.min(a.max(b));
+            }
+            from <= to
+        })
+    }
+
+    /// Whether the segment surely meets all rays of the tile above the upper bounds, one for each of `rays`: one
+    /// residual each instead of a root.
+    ///
+    /// A convex segment lies behind its tangent at the aimed point's y; a ray that still runs towards it there enters it further up. Between neighbouring samples the segment
+    /// can bulge by `k_e L^2 / 8` and the surface of the upper bounds by `k_t L^2 / 8`; `motion_bound` is what the
+    /// poses themselves may differ.
+    pub fn stays_above(
+        &self,
+        rays: &[BladeRay],
+        segment_index: usize,
+        sampling: &Sampling,
+        upper: &BoundHeights,
+        travel_mm: f64,
+        motion_bound: MotionBound,
+    ) -> bool {
+        let segment = &self.segments[segment_index];
+        let frame = &segment.blade_from_segment;
+        let turn = DVec2::new(frame.rotation.x, -frame.rotation.y);
+        let curvature = self.curvatures_per_mm[segment_index];
+        let reach_mm2 = sampling.cell_mm * sampling.cell_mm + travel_mm * travel_mm;
+        let grazing = GRAZING_COSINE + 2.0 * curvature * motion_bound.distance_mm + motion_bound.turn_rad;
+        let slope = upper.climb_mm / sampling.cell_mm.max(1e-9);
+        rays.iter().zip(&upper.heights_mm).all(|(ray, height_mm)| {
+            let aim = ray.origin_mm + height_mm * ray.direction;
+            let p = turn.rotate(aim - frame.translation_mm);
+            let n = turn.rotate(ray.direction);
+            let (residual_mm, normal) = match &segment.shape {
+                SegmentShape::Table(table) => {
+                    let [x, slope] = table.x_and_slope(p.y);
+                    (p.x - x, DVec2::new(1.0, -slope))
+                }
+                SegmentShape::Arc { radius_mm } => {
+                    let from_center = p + DVec2::new(*radius_mm, 0.0);
+                    let distance_mm = from_center.length();
+                    (distance_mm - radius_mm, from_center / distance_mm.max(1e-12))
+                }
+            };
+            let stretch = normal.length_squared();
+            let length = stretch.sqrt();
+            let surface = sampling.turn_per_mm * (1.0 + 2.0 * slope + height_mm.abs() * sampling.turn_per_mm);
+            let bulge_mm = CURVATURE_SAFETY * (curvature * stretch + surface) * reach_mm2 / 8.0;
+            residual_mm > length * (bulge_mm + motion_bound.distance_mm + 1e-9) && -n.dot(normal) > grazing * length
+        })
+    }
+
+    /// Samples one segment's pass.
+    pub fn bound(&self, near: &NearPass, pass: usize, segment_index: usize, sampling: &Sampling) -> Verdict {
+        let segment = &self.segments[segment_index];
+        let segment_from_blade = segment.blade_from_segment.inverse();
+        let phases = &near.blade_from_work;
+        let samples = sampling.places.len() * phases.len();
+        let (mut heights_mm, mut curvature) = (ArrayVec::new(), 0.0_f64);
+        let (mut y_low, mut y_high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let (mut missed, mut away) = (false, 0);
+        for ray in sampling.places {
+            for blade_from_work in phases {
+                let origin = segment_from_blade.point(blade_from_work.point(ray.origin_mm));
+                let direction = segment_from_blade.direction(blade_from_work.direction(ray.normal));
+                let leaves = |slope: f64| direction.x - slope * direction.y > LEAVING_SLOPE;
+                if segment.slope_range.iter().all(|&slope| leaves(slope)) {
+                    away += 1;
+                    continue;
+                }
+                let hit = segment.enter(origin, direction).filter(|hit| -hit.normal.dot(direction) >= GRAZING_COSINE);
+                let Some(hit) = hit else {
+                    missed = true;
+                    continue;
+                };
+                let cos = -hit.normal.dot(direction);
+                let tan2 = 1.0 / (cos * cos) - 1.0;
+                let turn = sampling.turn_per_mm;
+                let stretch = 1.0 + (hit.height_mm * turn).abs();
+                let margin_mm = 2.0 * sampling.cell_mm * stretch / cos;
+                let edge = match &segment.shape {
+                    SegmentShape::Table(table) => [-margin_mm, 0.0, margin_mm]
+                        .map(|dy| table.curvature(hit.y_mm + dy).abs())
+                        .into_iter()
+                        .fold(0.0, f64::max),
+                    SegmentShape::Arc { radius_mm } => 1.0 / radius_mm,
+                };
+                let bound = stretch / (cos * cos) * (edge * stretch / cos + turn) + turn * stretch * tan2;
+                curvature = curvature.max(bound);
+                y_low = y_low.min(hit.y_mm);
+                y_high = y_high.max(hit.y_mm);
+                heights_mm.push(hit.height_mm);
+            }
+        }
+        if away == samples {
+            return Verdict::Clear;
+        }
+        if missed || away > 0 {
+            return Verdict::Undecided;
+        }
+        let lowest = heights_mm.iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = heights_mm.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        if lowest <= sampling.floor_mm {
+            return if highest < sampling.floor_mm - FLOOR_MM { Verdict::Clear } else { Verdict::Undecided };
+        }
+        let tolerance_mm = END_SHARE * (y_high - y_low) + END_MM;
+        let [y_start, y_end] = segment.y_range_mm;
+        if y_low - tolerance_mm > y_end || y_high + tolerance_mm < y_start {
+            return Verdict::Clear;
+        }
+        let along_profile_mm = CURVATURE_SAFETY * curvature * sampling.cell_mm * sampling.cell_mm / 8.0;
+        // Along the stroke the middle phase shows the bend: an eighth of the second difference over the half range is the error of a chord.
+        let along_stroke_mm = heights_mm
+            .chunks_exact(phases.len())
+            .filter(|h| h.len() == 3)
+            .map(|h| CURVATURE_SAFETY * (h[0] - 2.0 * h[1] + h[2]).abs() / 8.0)
+            .fold(0.0, f64::max);
+        let certain = y_low - tolerance_mm > y_start && y_high + tolerance_mm < y_end;
+        let error_mm = along_profile_mm + along_stroke_mm + 1e-9;
+        Verdict::Bounded(Samples { pass, segment: segment_index, heights_mm, error_mm, certain })
+    }
+}
+
+/// Leaves out every pass that another, certain one undercuts at all corners of all cells (cell by cell).
+///
+/// A difference of two bilinear functions is extreme at corners, so comparing there, with both errors added, decides for the whole cell.
+pub fn undominated(samples: Vec<Samples>, cells: usize) -> Vec<Samples> {
+    let Some(any) = samples.first() else { return samples };
+    let per_place = any.heights_mm.len() / (cells + 1);
+    let corners = |cell: usize| cell * per_place..(cell + 2) * per_place;
+    // In each cell the certain passes that are lowest at one of its corners: at most a handful, and no other can
+    // dominate.
+    let dominating: Vec<Vec<usize>> = (0..cells)
+        .map(|cell| {
+            let mut lowest: Vec<usize> = corners(cell)
+                .filter_map(|corner| {
+                    (0..samples.len())
+                        .filter(|&k| samples[k].certain)
+                        .min_by(|&a, &b| samples[a].heights_mm[corner].total_cmp(&samples[b].heights_mm[corner]))
+                })
+                .collect();
+            lowest.sort_unstable();
+            lowest.dedup();
+            lowest
+        })
+        .collect();
+    let dominates = |other: &Samples, k: &Samples, cell: usize| {
+        corners(cell).all(|c| k.heights_mm[c] - other.heights_mm[c] > k.error_mm + other.error_mm)
+    };
+    let keep: Vec<bool> = samples
+        .iter()
+        .map(|k| !(0..cells).all(|cell| dominating[cell].iter().any(|&other| dominates(&samples[other], k, cell))))
+        .collect();
+    samples.into_iter().zip(keep).filter_map(|(sample, keep)| keep.then_some(sample)).collect()
+}

@@ -1,0 +1,316 @@
+//! Tiles and the passes that can leave the lowest surface on them.
+//!
+//! Every (dexel, pass) pair costs, so a tile (up to 16 columns by all rows) visits only passes that can matter. Pass k is left out when some other pass is **lower at every dexel of the
+//! tile, for certain**: see [`super::bounds`]. First a coarse look down the trees of [`super::time_intervals`] finds
+//! the handful of passes near the lowest surface, then a finer one in quarters
+//! of the tile decides. What the bounds cannot decide (a ray grazing a corner round, a segment met partly beyond its
+//! end) is kept unless its box stays clear of the rays
+//! below the surface that is already certain. Equality with brute force over all passes is tested bit for bit.
+//!
+//! Road not taken: the contact moment from the meshing condition. It knows only the finishing envelope; roughing, plunges, partial turns and undercut need no
+//! special case here.
+
+use super::bounds::{
+    BladeRay, MAX_PHASES, MAX_PLACES, MotionBound, Samples, Sampling, SegmentBounds, Verdict, undominated,
+};
+use super::near::{NearPass, near_passes};
+use super::record::PassRecord;
+use super::strokes::StrokeSet;
+use super::time_intervals::{Content, IntervalTree, TimeInterval};
+use super::upper_bound::UpperBound;
+use crate::dexel::field::{Column, Field};
+use crate::frame::Rigid2;
+use crate::tool::PlanarTool;
+use crate::tool::edge::Edge;
+use arrayvec::ArrayVec;
+use glam::DVec2;
+use std::ops::Range;
+
+/// Most columns of a tile; narrower tiles carry fewer passes per dexel but more records.
+pub const TILE_COLUMNS: usize = 16;
+/// Tiles are no wider than this where the columns are coarse: twice the width of a facet at 4,200 strokes. Wider ones collect passes of many facets.
+const TILE_WIDTH_MM: f64 = 0.08;
+/// Tiles of fewer dexels than this are widened all the same: planning one costs about as much as some thousand dexel-passes.
+const MIN_TILE_DEXELS: usize = 4096;
+/// Cells across a tile in which dominance is decided.
+const CELLS: usize = 4;
+/// Cells of the first, coarse look.
+const COARSE_CELLS: usize = 2;
+
+/// Some columns and the passes that they visit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tile {
+    /// Columns of the field.
+    pub columns: Range<usize>,
+    /// Origin of the tile's frame, gear frame, mm; axes are parallel to the gear's.
+    pub origin_mm: DVec2,
+    /// Records in [`CutPlan::records`], in order of pass id.
+    pub records: Range<usize>,
+}
+
+/// Everything a backend needs to run one operation over one field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutPlan {
+    /// Tiles, covering all columns.
+    pub tiles: Vec<Tile>,
+    /// Records of all tiles.
+    pub records: Vec<PassRecord>,
+    /// Phase tau of every row.
+    pub row_phases: Vec<f64>,
+}
+
+impl CutPlan {
+    /// Plan with candidate passes only.
+    #[expect(
+        clippy::redundant_closure_for_method_calls,
+        reason = "the method's path is not general enough in its lifetimes"
+    )]
+    pub fn new(field: &Field, set: &StrokeSet, tool: &dyn PlanarTool) -> Self {
+        Self::build(field, set, tool, |planner, columns, seeds| planner.candidates(columns, seeds))
+    }
+
+    /// Plan with every segment of every pass that can reach the field: what candidates are proved against.
+    pub fn brute_force(field: &Field, set: &StrokeSet, tool: &dyn PlanarTool) -> Self {
+        let segments = tool.edge().segments.len();
+        Self::build(field, set, tool, |planner, _, _| {
+            (0..planner.near.len()).flat_map(|pass| (0..segments).map(move |segment| (pass, segment))).collect()
+        })
+    }
+
+    fn build(
+        field: &Field,
+        set: &StrokeSet,
+        tool: &dyn PlanarTool,
+        choose: impl Fn(&PassPlanner, &[Column], &mut Vec<usize>) -> Vec<(usize, usize)>,
+    ) -> Self {
+        let planner = PassPlanner::new(field, set, tool);
+        let blades: Vec<Rigid2> = (0..tool.blade_count()).map(|b| tool.tool_from_blade(b).inverse()).collect();
+        let (mut tiles, mut records) = (Vec::new(), Vec::new());
+        let mut seeds = Vec::new();
+        let length_mm = field.columns.last().map_or(0.0, |last| last.arc_mm - field.columns[0].arc_mm);
+        let spacing_mm = length_mm / field.columns.len().saturating_sub(1).max(1) as f64;
+        let by_width = (TILE_WIDTH_MM / spacing_mm.max(1e-9)).round() as usize;
+        let width = by_width.max(MIN_TILE_DEXELS / field.rows().max(1)).clamp(1, TILE_COLUMNS);
+        for start in (0..field.columns.len()).step_by(width) {
+            let columns = start..(start + width).min(field.columns.len());
+            let rays = &field.columns[columns.clone()];
+            let middle = rays[rays.len() / 2];
+            let first = records.len();
+            for (pass, segment_index) in choose(&planner, rays, &mut seeds) {
+                let NearPass { stroke, blade, .. } = planner.near[pass];
+                let segment = &planner.bounds.segments[segment_index];
+                let mut record = PassRecord::new(
+                    set,
+                    stroke,
+                    blade,
+                    &blades[blade as usize],
+                    segment_index,
+                    segment,
+                    middle.origin_mm,
+                );
+                let (o, n) = record.ray_in_segment(DVec2::ZERO, middle.normal, 0.0);
+                record.start_mm = segment.enter(o, n).map_or(2.0 * middle.low_mm, |hit| hit.height_mm);
+                records.push(record);
+            }
+            tiles.push(Tile { columns, origin_mm: middle.origin_mm, records: first..records.len() });
+        }
+        let row_phases = field.leads_mm.iter().map(|&lead| set.law.tau(lead)).collect();
+        Self { tiles, records, row_phases }
+    }
+
+    /// (Dexel, pass) pairs that the plan visits.
+    pub fn dexel_passes(&self) -> u64 {
+        let rows = self.row_phases.len() as u64;
+        self.tiles.iter().map(|t| t.columns.len() as u64 * t.records.len() as u64 * rows).sum()
+    }
+}
+
+/// Chooses candidates for tiles of one field.
+struct PassPlanner<'a> {
+    edge: &'a Edge,
+    bounds: SegmentBounds<'a>,
+    near: Vec<NearPass>,
+    intervals: IntervalTree,
+}
+
+/// A set of the blade's segments, one bit each.
+type Segments = u64;
+
+impl<'a> PassPlanner<'a> {
+    fn new(field: &Field, set: &StrokeSet, tool: &'a dyn PlanarTool) -> Self {
+        let edge = tool.edge();
+        assert!(edge.segments.len() <= Segments::BITS as usize, "a blade's segments fit into a set of bits");
+        let (center_mm, reach_mm) = Field::circle(&field.columns);
+        let near = near_passes(set, tool, center_mm, reach_mm);
+        // Rays are followed down to twice their lowest height.
+        let below_mm = field.columns.iter().map(|column| -column.low_mm).fold(0.0, f64::max);
+        let intervals = IntervalTree::new(&near, center_mm, reach_mm + below_mm);
+        Self { edge, bounds: SegmentBounds::new(&edge.segments), near, intervals }
+    }
+
+    /// (Index of near pass, segment) pairs that may leave the lowest surface somewhere on the tile, in time order.
+    ///
+    /// `seeds` carries the lowest passes of the neighbouring tile: good first guesses make early culling cheap.
+    fn candidates(&self, rays: &[Column], seeds: &mut Vec<usize>) -> Vec<(usize, usize)> {
+        let Some(phases) = self.near.first().map(|pass| pass.blade_from_work.len()) else { return Vec::new() };
+        let all_segments = Segments::MAX >> (Segments::BITS as usize - self.bounds.segments.len());
+        let highest_mm = rays.iter().map(|ray| ray.blank_mm).fold(0.0, f64::max);
+        let coarse_places = places(rays, COARSE_CELLS);
+        let mut look = Look {
+            planner: self,
+            middle: rays[rays.len() / 2],
+            ends_mm: rays[0].origin_mm.distance(rays[rays.len() - 1].origin_mm),
+            coarse: sampling(&coarse_places),
+            upper: UpperBound::new(COARSE_CELLS, phases, highest_mm),
+            bounded: Vec::new(),
+            undecided: Vec::new(),
+        };
+        for &pass in seeds.iter() {
+            look.at_pass(pass, all_segments, false);
+        }
+        let mut intervals: Vec<(usize, Segments)> =
+            self.intervals.roots.iter().map(|&root| (root, all_segments)).collect();
+        while let Some((index, segments)) = intervals.pop() {
+            let interval = &self.intervals.intervals[index];
+            let segments = look.at_interval(interval, segments);
+            match interval.content {
+                _ if segments == 0 => {}
+                Content::Halves([earlier, later]) => intervals.extend([(later, segments), (earlier, segments)]),
+                Content::Pass(pass) => look.at_pass(pass, segments, true),
+            }
+        }
+        let Look { middle, ends_mm, upper, bounded, mut undecided, .. } = look;
+        let fine_places = places(rays, CELLS);
+        let fine = sampling(&fine_places);
+        let mut finely_bounded = Vec::new();
+        for coarse in undominated(bounded, COARSE_CELLS) {
+            match self.bounds.bound(&self.near[coarse.pass], coarse.pass, coarse.segment, &fine) {
+                Verdict::Clear => {}
+                Verdict::Undecided => undecided.push((coarse.pass, coarse.segment)),
+                Verdict::Bounded(samples) => finely_bounded.push(samples),
+            }
+        }
+        let mut chosen: Vec<(usize, usize)> =
+            undominated(finely_bounded, CELLS).iter().map(|s| (s.pass, s.segment)).collect();
+        *seeds = chosen.iter().map(|&(pass, _)| pass).collect();
+        seeds.sort_unstable();
+        seeds.dedup();
+        chosen.extend(undecided.into_iter().filter(|&(pass, segment)| {
+            let pass = &self.near[pass];
+            let rays: ArrayVec<BladeRay, MAX_PHASES> = BladeRay::of_pass(pass, &[middle]).collect();
+            let margin_mm = ends_mm + travel_mm(pass, &middle);
+            self.bounds.box_meets(&rays, segment, [fine.floor_mm, upper.highest_mm], margin_mm)
+        }));
+        chosen.sort_unstable();
+        chosen.dedup();
+        chosen
+    }
+}
+
+/// The coarse look at one tile: what is certain so far, and who is left.
+struct Look<'a> {
+    planner: &'a PassPlanner<'a>,
+    middle: Column,
+    ends_mm: f64,
+    coarse: Sampling<'a>,
+    upper: UpperBound,
+    bounded: Vec<Samples>,
+    undecided: Vec<(usize, usize)>,
+}
+
+impl Look<'_> {
+    /// The segments of a time interval that some pass of it may lower the tile with.
+    fn at_interval(&self, interval: &TimeInterval, mut segments: Segments) -> Segments {
+        let PassPlanner { edge, bounds, .. } = self.planner;
+        let rays: ArrayVec<BladeRay, MAX_PLACES> =
+            self.coarse.places.iter().map(|ray| BladeRay::of_pose(&interval.blade_from_work, ray)).collect();
+        let middle = BladeRay::of_pose(&interval.blade_from_work, &self.middle);
+        let margin_mm = self.ends_mm + interval.motion_bound.distance_mm;
+        if passes_by(edge, &middle, margin_mm) {
+            return 0;
+        }
+        for segment in members(segments) {
+            let heights_mm = [self.coarse.floor_mm, self.upper.highest_mm];
+            if !bounds.box_meets(&[middle], segment, heights_mm, margin_mm)
+                || bounds.stays_above(&rays, segment, &self.coarse, &self.upper.all_phases, 0.0, interval.motion_bound)
+            {
+                segments &= !(1 << segment);
+            }
+        }
+        segments
+    }
+
+    /// Samples the segments of a pass that are not culled at once; with `keep` unset it only lowers what is certain.
+    fn at_pass(&mut self, index: usize, segments: Segments, keep: bool) {
+        let PassPlanner { edge, bounds, near, .. } = self.planner;
+        let pass = &near[index];
+        let travel_mm = travel_mm(pass, &self.middle);
+        let margin_mm = self.ends_mm + travel_mm;
+        let middle: ArrayVec<BladeRay, MAX_PHASES> = BladeRay::of_pass(pass, &[self.middle]).collect();
+        // The middle ray against the whole blade's circle before any segment is looked at.
+        if middle.iter().all(|ray| passes_by(edge, ray, margin_mm)) {
+            return;
+        }
+        let rays: ArrayVec<BladeRay, { MAX_PLACES * MAX_PHASES }> =
+            BladeRay::of_pass(pass, self.coarse.places).collect();
+        let reach_mm = self.ends_mm - self.coarse.floor_mm + self.upper.highest_mm;
+        let motion_bound = MotionBound { distance_mm: pass.bend_mm(self.middle.origin_mm, reach_mm), turn_rad: 0.0 };
+        for segment in members(segments) {
+            let heights_mm = [self.coarse.floor_mm, self.upper.highest_mm];
+            if !bounds.box_meets(&middle, segment, heights_mm, margin_mm)
+                || bounds.stays_above(&rays, segment, &self.coarse, &self.upper.by_phase, travel_mm, motion_bound)
+            {
+                continue;
+            }
+            match bounds.bound(pass, index, segment, &self.coarse) {
+                Verdict::Undecided if keep => self.undecided.push((index, segment)),
+                Verdict::Clear | Verdict::Undecided => {}
+                Verdict::Bounded(samples) => {
+                    if samples.certain {
+                        self.upper.lower(&samples);
+                    }
+                    if keep {
+                        self.bounded.push(samples);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Numbers of the segments in a set.
+fn members(mut segments: Segments) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let first = (segments != 0).then(|| segments.trailing_zeros() as usize)?;
+        segments &= segments - 1;
+        Some(first)
+    })
+}
+
+/// Whether a ray stays away from the blade's circle by more than a margin.
+fn passes_by(edge: &Edge, ray: &BladeRay, margin_mm: f64) -> bool {
+    ray.direction.perp_dot(edge.center_mm - ray.origin_mm).abs() > edge.reach_mm + margin_mm
+}
+
+/// `cells` + 1 rays evenly across a tile.
+fn places(rays: &[Column], cells: usize) -> ArrayVec<Column, MAX_PLACES> {
+    (0..=cells).map(|i| rays[i * (rays.len() - 1) / cells]).collect()
+}
+
+fn sampling(places: &[Column]) -> Sampling<'_> {
+    let (first, last) = (places[0], places[places.len() - 1]);
+    let length_mm = (last.arc_mm - first.arc_mm).max(1e-9);
+    Sampling {
+        places,
+        cell_mm: places.windows(2).map(|p| p[1].arc_mm - p[0].arc_mm).fold(0.0, f64::max),
+        turn_per_mm: (last.normal - first.normal).length() / length_mm,
+        floor_mm: 2.0 * first.low_mm,
+    }
+}
+
+/// How far the blade moves against the ray's origin during its stroke, mm.
+fn travel_mm(pass: &NearPass, ray: &Column) -> f64 {
+    let mut places = pass.blade_from_work.iter().map(|blade_from_work| blade_from_work.point(ray.origin_mm));
+    let Some(first) = places.next() else { return 0.0 };
+    places.map(|p| p.distance(first)).fold(0.0, f64::max)
+}

@@ -1,0 +1,110 @@
+//! The passes that can reach a region of the work at all: blade circle against region circle, for every stroke and blade.
+//!
+//! No assumption about which tooth cuts which space: runout, pitch errors, several turns and plunges need no special case.
+
+use super::bounds::MAX_PHASES;
+use super::strokes::StrokeSet;
+use crate::frame::Rigid2;
+use crate::tool::PlanarTool;
+use crate::tool::edge::Edge;
+use arrayvec::ArrayVec;
+use glam::DVec2;
+
+/// Phases at which bounds look at a pass: the whole range and its middle, or the one pose of a frozen stroke.
+const BOUND_PHASES: [f64; 3] = [-1.0, 0.0, 1.0];
+
+/// Safety on the bend of a path that three poses show.
+const BEND_SAFETY: f64 = 1.5;
+
+/// A pass near a region, with its poses at the phases where bounds are taken.
+#[derive(Debug, Clone)]
+pub struct NearPass {
+    /// Stroke number.
+    pub stroke: usize,
+    /// Blade of the tool.
+    pub blade: u32,
+    /// Poses of the work in the blade frame: one when frozen, else at tau = -1, 0, 1.
+    pub blade_from_work: ArrayVec<Rigid2, MAX_PHASES>,
+}
+
+impl NearPass {
+    /// Pose at the middle of the stroke.
+    pub fn middle(&self) -> &Rigid2 {
+        &self.blade_from_work[self.blade_from_work.len() / 2]
+    }
+
+    /// How far the path of any point within `reach_mm` of `center_mm` departs from the chords between the poses, mm.
+    pub fn bend_mm(&self, center_mm: DVec2, reach_mm: f64) -> f64 {
+        let [before, middle, after] = &self.blade_from_work[..] else { return 0.0 };
+        let bend = |pick: &dyn Fn(&Rigid2) -> DVec2| (pick(before) - 2.0 * pick(middle) + pick(after)).length();
+        BEND_SAFETY / 8.0 * (bend(&|pose| pose.point(center_mm)) + bend(&|pose| pose.rotation) * reach_mm)
+    }
+}
+
+/// All passes whose blade comes within `reach_mm` of `center_mm` (gear frame), in time order.
+pub fn near_passes(set: &StrokeSet, tool: &dyn PlanarTool, center_mm: DVec2, reach_mm: f64) -> Vec<NearPass> {
+    let blades: Vec<Rigid2> = (0..tool.blade_count()).map(|blade| tool.tool_from_blade(blade)).collect();
+    let edge = tool.edge();
+    let limit_mm = reach_mm + edge.reach_mm;
+    // No blade reaches further from the tool's axis than this.
+    let tool_reach_mm = blades.iter().map(|b| b.point(edge.center_mm).length()).fold(0.0, f64::max);
+    let mut near = Vec::new();
+    for stroke in 0..set.count() {
+        let poses = set.poses(stroke);
+        let middle = poses[poses.len() / 2];
+        // How far any point of the tool moves in the work during the stroke, doubled for what lies between the nodes.
+        let travel_mm = poses
+            .iter()
+            .map(|pose| {
+                pose.translation_mm.distance(middle.translation_mm)
+                    + (pose.rotation - middle.rotation).length() * (tool_reach_mm + edge.reach_mm)
+            })
+            .fold(0.0, f64::max);
+        let limit_mm = limit_mm + 2.0 * travel_mm;
+        if middle.translation_mm.distance(center_mm) > tool_reach_mm + limit_mm {
+            continue;
+        }
+        let bounds = bound_poses(poses);
+        for (blade, tool_from_blade) in blades.iter().enumerate() {
+            if middle.point(tool_from_blade.point(edge.center_mm)).distance(center_mm) > limit_mm {
+                continue;
+            }
+            let blade_from_work = bounds.iter().map(|pose| pose.after(tool_from_blade).inverse()).collect();
+            near.push(NearPass { stroke, blade: blade as u32, blade_from_work });
+        }
+    }
+    near
+}
+
+/// Poses at [`BOUND_PHASES`] from those at the nodes.
+fn bound_poses(poses: &[Rigid2]) -> ArrayVec<Rigid2, MAX_PHASES> {
+    if let [pose] = poses {
+        return std::iter::once(*pose).collect();
+    }
+    super::strokes::poses_at(poses, &BOUND_PHASES).into_iter().collect()
+}
+
+/// Height at which the lowest of some passes meets a ray of the gear frame at the middle of the stroke, above `low_mm`; exact, without tables' neighbours or tiles.
+pub fn lowest_entry(near: &[NearPass], edge: &Edge, origin_mm: DVec2, direction: DVec2, low_mm: f64) -> Option<f64> {
+    let mut lowest: Option<f64> = None;
+    for pass in near {
+        let blade_from_work = pass.middle();
+        let (o, n) = (blade_from_work.point(origin_mm), blade_from_work.direction(direction));
+        // The blade's circle against the ray's line.
+        if n.perp_dot(edge.center_mm - o).abs() > edge.reach_mm {
+            continue;
+        }
+        for segment in &edge.segments {
+            let segment_from_blade = segment.blade_from_segment.inverse();
+            let Some(hit) = segment.enter(segment_from_blade.point(o), segment_from_blade.direction(n)) else {
+                continue;
+            };
+            let [y_from, y_to] = segment.y_range_mm;
+            let on_segment = hit.y_mm >= y_from - 1e-9 && hit.y_mm <= y_to + 1e-9;
+            if on_segment && hit.height_mm > low_mm && lowest.is_none_or(|h| hit.height_mm < h) {
+                lowest = Some(hit.height_mm);
+            }
+        }
+    }
+    lowest
+}

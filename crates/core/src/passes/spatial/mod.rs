@@ -1,0 +1,11 @@
+//! Passes whose rake face turns with the tool: sweeps, and which of them can matter to rays in space.
+
+pub mod motion;
+pub mod sweep;
+mod sweep_bounds;
+pub mod sweep_plan;
+mod sweep_regions;
+pub mod sweep_roots;
+mod sweep_samples;
+mod sweep_starts;
+pub mod turning_passes;

@@ -1,0 +1,287 @@
+//! Which sweeps can leave the lowest surface on a region of a spatial field.
+//!
+//! Every candidate's heights on nine rays are known (`sweep_samples`): where its segment, or the continuation of it, enters them. In each of the four cells between them
+//! the difference of two sweeps' heights lies above its lowest corner less an eighth of its second differences along both sides; all sweeps of one tool bend nearly
+//! alike, so these are small where the heights' own are not. In a cell a sweep goes when another one, certain to enter through the segment itself there, is lower by this
+//! measure with half as much again for what second differences cannot show; or when its own entries lie beyond the segment's ends by the same measure.
+//!
+//! This is no proof: second differences of nine values bound what is smooth between them, and sweeps are; a function that turned within a cell would be missed by more than the safety holds. What stands for it is the
+//! comparison with all passes, bit for bit, on regions of all sizes (`tests/suite/hobbing/spatial.rs`).
+//!
+//! What the samples cannot decide (no root on one of the rays, a sweep that ends at a corner of the motion) is kept
+//! unless the segment stays clear of all that the rays pass below the lowest certain surface.
+
+#![expect(
+    clippy::inline_always,
+    reason = "the instruction set of the dispatching function holds only for what is inlined into it"
+)]
+
+use super::sweep_plan::Candidate;
+use super::sweep_regions::{ALL, RAYS, Region, SIDE};
+use super::sweep_roots::{LANES, LARGEST_T, Rays};
+use super::sweep_samples::{Frame, Sampled};
+use crate::dexel::SpatialField;
+use crate::tool::edge::Segment;
+use pulp::Arch;
+
+/// Safety on second differences, for what varies inside a cell.
+const BEND_SAFETY: f64 = 1.5;
+/// Added to every bound: what sampling and the backends' roots may err, mm.
+const ROUNDING_MM: f64 = 2e-7;
+/// Added to places along a segment, mm.
+const END_MARGIN_MM: f64 = 1e-6;
+/// Below the floor is what lies deeper than it by this share of the range of nine heights and this length, mm: between
+/// the rays
+/// heights may pass the highest of them. Found by trial; proved by comparison with all passes in
+/// `tests/suite/hobbing/spatial.rs`.
+const FLOOR_SHARE: f64 = 0.2;
+const FLOOR_MM: f64 = 1e-3;
+/// Steps towards the moment at which a rake face holds a point: each gains more than a digit.
+const MOMENT_STEPS: usize = 5;
+/// Cells between the rays: index of the first corner; the others follow at 1, 3 and 4.
+const CELLS: [usize; 4] = [0, 1, 3, 4];
+/// All cells, as bits.
+const ALL_CELLS: u8 = (1 << CELLS.len()) - 1;
+
+/// Bounds of candidates on one region.
+pub struct RegionBounds<'a> {
+    /// The field.
+    pub field: &'a SpatialField,
+    /// Segments of the blades' edge.
+    pub segments: &'a [Segment],
+    /// The region.
+    pub region: &'a Region<'a>,
+    /// Where the candidates are seen from.
+    pub frame: &'a Frame,
+}
+
+/// A candidate whose entries into all nine rays are known.
+struct Bounded<'a> {
+    sampled: &'a Sampled,
+    /// Cells in which the ray enters through the segment itself, wherever it is, as bits.
+    certain: u8,
+    /// Cells in which it may.
+    possible: u8,
+}
+
+impl RegionBounds<'_> {
+    /// Candidates that may leave the lowest surface in some cells of the region, in their order, with these cells as
+    /// bits; and a height that the surface left is certainly below: `upper_bound_mm` is such a
+    /// height of a region around this one.
+    pub fn keep(&self, candidates: &[Sampled], upper_bound_mm: f64) -> (Vec<(Sampled, u8)>, f64) {
+        let (mut bounded, mut undecided) = (Vec::new(), Vec::new());
+        for sampled in candidates {
+            match self.bound(sampled) {
+                Some(Ok(known)) => bounded.push(known),
+                Some(Err(())) => undecided.push(sampled),
+                None => {}
+            }
+        }
+        let upper_bound_mm = self.upper_bound_mm(&bounded).min(upper_bound_mm);
+        let mut kept = self.undominated(&bounded, upper_bound_mm);
+        if !undecided.is_empty() {
+            let mut meeting = self
+                .meeting(undecided.iter().map(|sampled| sampled.index).collect(), upper_bound_mm)
+                .into_iter()
+                .peekable();
+            undecided.retain(|sampled| meeting.next_if_eq(&sampled.index).is_some());
+            kept.extend(undecided.into_iter().map(|sampled| (*sampled, ALL_CELLS)));
+            kept.sort_unstable_by_key(|(sampled, _)| sampled.index);
+        }
+        (kept, upper_bound_mm)
+    }
+
+    /// What the samples say of a candidate; an error if they do not decide it, nothing if it is clear of the region.
+    fn bound<'s>(&self, sampled: &'s Sampled) -> Option<Result<Bounded<'s>, ()>> {
+        if sampled.left == ALL {
+            return None;
+        }
+        if sampled.entered != ALL || self.frame.records[sampled.index as usize].ends_in_tile() {
+            return Some(Err(()));
+        }
+        let floor_mm = 2.0 * self.field.low_mm;
+        let [lowest, highest] = range(sampled.height_mm);
+        if lowest <= floor_mm {
+            return if highest < floor_mm - FLOOR_SHARE * (highest - lowest) - FLOOR_MM { None } else { Some(Err(())) };
+        }
+        let [y_start, y_end] = self.segment(sampled).y_range_mm;
+        let tolerance_mm = BEND_SAFETY * self.region.bend(&sampled.y_mm) + END_MARGIN_MM;
+        let (mut certain, mut possible) = (0, 0);
+        for (bit, cell) in CELLS.into_iter().enumerate() {
+            let [low, high] = range(corners(cell).map(|corner| sampled.y_mm[corner]));
+            certain |= u8::from(low - tolerance_mm > y_start && high + tolerance_mm < y_end) << bit;
+            possible |= u8::from(low - tolerance_mm <= y_end && high + tolerance_mm >= y_start) << bit;
+        }
+        (possible != 0).then_some(Ok(Bounded { sampled, certain, possible }))
+    }
+
+    /// A height that the surface left is certainly below everywhere.
+    fn upper_bound_mm(&self, bounded: &[Bounded]) -> f64 {
+        let mut uppers = [range(self.region.blank_mm)[1]; CELLS.len()];
+        for known in bounded.iter().filter(|known| known.certain != 0) {
+            let heights = &known.sampled.height_mm;
+            let bend_mm = BEND_SAFETY * self.region.bend(heights);
+            for (bit, cell) in CELLS.into_iter().enumerate() {
+                if known.certain >> bit & 1 == 1 {
+                    let top = range(corners(cell).map(|c| heights[c]))[1];
+                    uppers[bit] = uppers[bit].min(top + bend_mm);
+                }
+            }
+        }
+        range(uppers)[1]
+    }
+
+    fn undominated(&self, bounded: &[Bounded], upper_bound_mm: f64) -> Vec<(Sampled, u8)> {
+        // In each cell the certain sweeps that are lowest at one of its corners: no other can dominate.
+        let dominating: [Vec<usize>; CELLS.len()] = std::array::from_fn(|bit| {
+            let mut lowest: Vec<usize> = corners(CELLS[bit])
+                .into_iter()
+                .filter_map(|corner| {
+                    let height = |k: usize| bounded[k].sampled.height_mm[corner];
+                    (0..bounded.len())
+                        .filter(|&k| bounded[k].certain >> bit & 1 == 1)
+                        .min_by(|&a, &b| height(a).total_cmp(&height(b)))
+                })
+                .collect();
+            lowest.sort_unstable();
+            lowest.dedup();
+            lowest
+        });
+        // Whether a candidate stays above other heights in a cell.
+        let above = |heights: &[f64; RAYS], others: &[f64; RAYS], cell: usize| {
+            let difference: [f64; RAYS] = std::array::from_fn(|i| heights[i] - others[i]);
+            if corners(cell).into_iter().any(|corner| difference[corner] <= ROUNDING_MM) {
+                return false;
+            }
+            let margin_mm = BEND_SAFETY * self.region.bend(&difference) + ROUNDING_MM;
+            corners(cell).into_iter().all(|corner| difference[corner] > margin_mm)
+        };
+        let upper = [upper_bound_mm; RAYS];
+        bounded
+            .iter()
+            .enumerate()
+            .filter_map(|(index, known)| {
+                let heights = &known.sampled.height_mm;
+                let mut alive = 0;
+                for (bit, &cell) in CELLS.iter().enumerate() {
+                    let dead = known.possible >> bit & 1 == 0
+                        || above(heights, &upper, cell)
+                        || above(heights, &self.region.blank_mm, cell)
+                        || dominating[bit]
+                            .iter()
+                            .any(|&r| r != index && above(heights, &bounded[r].sampled.height_mm, cell));
+                    alive |= u8::from(!dead) << bit;
+                }
+                (alive != 0).then_some((*known.sampled, alive))
+            })
+            .collect()
+    }
+
+    fn segment(&self, sampled: &Sampled) -> &Segment {
+        &self.segments[self.frame.records[sampled.index as usize].segment as usize]
+    }
+
+    /// Candidates of the frame that can come near the region below an upper bound at all.
+    pub fn near(&self, upper_bound_mm: f64) -> Vec<Candidate> {
+        let candidates = &self.frame.candidates;
+        let indices: Vec<u32> = (0..candidates.len() as u32).collect();
+        self.meeting(indices, upper_bound_mm).into_iter().map(|index| candidates[index as usize]).collect()
+    }
+
+    /// Those of some candidates (by their place in the frame, in order) whose segments meet what the rays pass between
+    /// their lowest height and an upper bound while the blade sweeps.
+    fn meeting(&self, mut indices: Vec<u32>, upper_bound_mm: f64) -> Vec<u32> {
+        let candidates = &self.frame.candidates;
+        let sweep = |index: &u32| candidates[*index as usize].sweep();
+        let firsts: Vec<u32> = indices.chunk_by(|a, b| sweep(a) == sweep(b)).map(|of_sweep| of_sweep[0]).collect();
+        let mut boxes = Vec::with_capacity(firsts.len());
+        Arch::new().dispatch(RakeFaceBoxes { bounds: self, firsts: &firsts, upper_bound_mm, boxes: &mut boxes });
+        let mut of_sweep = firsts.iter().map(sweep).zip(&boxes).peekable();
+        indices.retain(|index| {
+            while of_sweep.peek().is_some_and(|(of, _)| *of != sweep(index)) {
+                of_sweep.next();
+            }
+            let bounds = of_sweep.peek().expect("every sweep has its box").1;
+            bounds.meets(&self.segments[candidates[*index as usize].segment])
+        });
+        indices
+    }
+}
+
+/// Finds boxes in the rake face of all that a region's rays pass between their lowest height and an upper bound while
+/// the blade sweeps.
+struct RakeFaceBoxes<'a, 'b> {
+    bounds: &'a RegionBounds<'b>,
+    /// One record of each sweep.
+    firsts: &'a [u32],
+    upper_bound_mm: f64,
+    boxes: &'a mut Vec<RakeFaceBox>,
+}
+
+impl pulp::NullaryFnOnce for RakeFaceBoxes<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let RegionBounds { field, segments, region, frame } = self.bounds;
+        let dexels = region.dexels();
+        // The rays around; the middle one is held by the margin.
+        let rays =
+            Rays::new(field, frame.origin_mm, std::array::from_fn(|l| dexels[if l < RAYS / 2 { l } else { l + 1 }]));
+        let floor_mm = 2.0 * field.low_mm;
+        let heights_mm = [floor_mm, 0.5 * (floor_mm + self.upper_bound_mm), self.upper_bound_mm];
+        let [width_mm, length_mm] = region.extent_mm();
+        let cell_mm = (0.5 * width_mm).hypot(0.5 * length_mm).max(0.5 * (self.upper_bound_mm - floor_mm));
+        for &first in self.firsts {
+            let record = &frame.records[first as usize];
+            let base_mm = segments[record.segment as usize].blade_from_segment.translation_mm;
+            let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+            let mut known = true;
+            for height_mm in heights_mm {
+                let [t, rho, along] = record.places(&rays, &[height_mm; LANES], MOMENT_STEPS);
+                for l in 0..LANES {
+                    known &= t[l].abs() < LARGEST_T;
+                    for (axis, place) in [rho[l] + base_mm.x, along[l] + base_mm.y].into_iter().enumerate() {
+                        low[axis] = low[axis].min(place);
+                        high[axis] = high[axis].max(place);
+                    }
+                }
+            }
+            // Between the samples the path through the rake face bends by no more than the tool's radius makes it.
+            let margin_mm = cell_mm * cell_mm / (8.0 * 0.5 * low[0].max(1.0)) + 1e-3;
+            self.boxes.push(if known {
+                RakeFaceBox { low: low.map(|v| v - margin_mm), high: high.map(|v| v + margin_mm) }
+            } else {
+                RakeFaceBox { low: [f64::NEG_INFINITY; 2], high: [f64::INFINITY; 2] }
+            });
+        }
+    }
+}
+
+/// Ranges of the distance from the tool's axis and of the blade's y, mm.
+struct RakeFaceBox {
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl RakeFaceBox {
+    fn meets(&self, segment: &Segment) -> bool {
+        // The chord's box, widened by what the segment's circle has beyond half the chord.
+        let center = segment.blade_from_segment.translation_mm.to_array();
+        let [x, y] = segment.blade_from_segment.rotation.to_array();
+        let half = 0.5 * (segment.y_range_mm[1] - segment.y_range_mm[0]);
+        let bulge = (segment.reach_mm * segment.reach_mm - half * half).max(0.0).sqrt();
+        let reach = [(half * y).abs() + bulge, (half * x).abs() + bulge];
+        (0..2).all(|axis| self.low[axis] <= center[axis] + reach[axis] && self.high[axis] >= center[axis] - reach[axis])
+    }
+}
+
+/// Corners of a cell.
+fn corners(first: usize) -> [usize; 4] {
+    [first, first + 1, first + SIDE, first + SIDE + 1]
+}
+
+/// Smallest and largest.
+fn range<const N: usize>(values: [f64; N]) -> [f64; 2] {
+    values.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)])
+}

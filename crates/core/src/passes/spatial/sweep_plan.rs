@@ -1,0 +1,342 @@
+//! Tiles of a spatial field and the sweeps that can leave the lowest surface on them.
+//!
+//! A field is halved in both directions again and again, down to tiles of 16 by 32 dexels and then to their cells of 4 by 8; at every level the sweeps that the level above has kept for the region are sampled on
+//! nine rays, and those go that another one surely undercuts (see `sweep_samples`, `sweep_bounds`). The search begins with the passes whose blades pass the field in its place along the tool's axis. On S2's gear these
+//! are some thousands of 84,800; a sixteenth of the flank keeps some hundreds, a tile half a dozen, a cell between one and two.
+//!
+//! Equality with brute force over all passes is tested bit for bit.
+
+use super::sweep::SweepRecord;
+use super::sweep_bounds::RegionBounds;
+use super::sweep_regions::{RAYS, Region, SIDE};
+use super::sweep_samples::{Frame, Sampled};
+use super::sweep_starts::find_starts;
+use crate::dexel::{Ray, SpatialField};
+use crate::passes::spatial::turning_passes::{BladePass, TurningPasses};
+use crate::tool::edge::Edge;
+use glam::DVec3;
+use std::ops::Range;
+
+/// Columns of a tile at most.
+pub const TILE_COLUMNS: usize = 16;
+/// Rows of a tile at most: whole chunks of every backend.
+pub const TILE_ROWS: usize = 32;
+/// Cells of a tile along each side: a record is told in which it can be lowest.
+pub const CELLS: usize = 4;
+/// All cells of a tile.
+const ALL_CELLS: u16 = u16::MAX;
+/// What profiles and paths bend between the places that are looked at, along the tool's axis, mm.
+const AXIAL_MARGIN_MM: f64 = 1.0;
+/// While a blade sweeps through the work, a point of it moves in the head by at most this, mm: rolling moves the pitch
+/// curve
+/// by half of module x starts per radian of the tool, so that over 60 degrees this holds up to module x starts = 38 mm.
+/// Planning with all passes begins with the same ones: the bound rests on this derivation alone.
+const ROLLED_MM: f64 = 20.0;
+/// What is within reach turns in the head meanwhile: it comes nearer to the tool by at most this share of the reach. A
+/// gear
+/// with z teeth per start turns by 1.05 / z rad in 60 degrees of the tool: the share holds from six teeth per start on.
+const TURNED_SHARE: f64 = 0.2;
+/// Share of the reach, and length in mm, that a pass may be further away than the reach when it is looked at in one
+/// pose.
+/// Found by trial; the bound is kept wide, as planning with all passes begins with the same ones.
+const NEAR_SHARE: f64 = 1.1;
+const NEAR_MM: f64 = 1.0;
+/// A region that holds the tool's axis is seen from this share of the tip's radius: it limits the angle at which a
+/// blade meets
+/// it to four times what is within reach of the tip. Found by trial.
+const LEAST_DISTANCE: f64 = 0.25;
+/// Surroundings reach this much further than the ends of nine rays, for what bulges between them. Found by trial;
+/// proved by
+/// comparison with all passes in `tests/suite/hobbing/spatial.rs`.
+const BULGE: f64 = 1.05;
+/// A region whose surroundings are smaller than this share of its frame's gets a frame of its own.
+const NEW_FRAME: f64 = 0.7;
+
+/// A blade's sweep by one of its segments, as far as one stretch of the motion goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// The pass.
+    pub pass: BladePass,
+    /// Stretch of the motion.
+    pub stretch: u32,
+    /// Index of the segment in the blade's edge.
+    pub segment: usize,
+}
+
+/// Some dexels and the sweeps that they visit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepTile {
+    /// Columns of the field.
+    pub columns: Range<usize>,
+    /// Rows of the field.
+    pub rows: Range<usize>,
+    /// Origin of the tile's frame, gear frame, mm; axes are parallel to the gear's.
+    pub origin_mm: DVec3,
+    /// Records in [`SweepPlan::records`], in order of pass id.
+    pub records: Range<usize>,
+}
+
+impl Candidate {
+    /// Pass and stretch: one smooth sweep.
+    pub fn sweep(&self) -> (u32, u32) {
+        (self.pass.pass, self.stretch)
+    }
+}
+
+impl SweepTile {
+    /// Cell of a dexel: bit of [`SweepRecord::cells`].
+    pub fn cell(&self, column: usize, row: usize) -> usize {
+        let (columns, rows) = (TILE_COLUMNS / CELLS, TILE_ROWS / CELLS);
+        CELLS * ((column - self.columns.start) / columns) + (row - self.rows.start) / rows
+    }
+
+    /// Column and row of the middle ray.
+    pub fn middle(&self) -> [usize; 2] {
+        [&self.columns, &self.rows].map(|lines| usize::midpoint(lines.start, lines.end - 1))
+    }
+}
+
+/// Everything a backend needs to run one operation over one field.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SweepPlan {
+    /// Tiles, covering all dexels.
+    pub tiles: Vec<SweepTile>,
+    /// Records of all tiles.
+    pub records: Vec<SweepRecord>,
+}
+
+impl SweepPlan {
+    /// Plan with candidate passes only.
+    pub fn new(field: &SpatialField, set: &TurningPasses, edge: &Edge) -> Self {
+        SweepPlanner { field, set, edge, prune: true }.plan()
+    }
+
+    /// Plan with every segment of every pass that can reach the field at all: what candidates are proved against.
+    pub fn brute_force(field: &SpatialField, set: &TurningPasses, edge: &Edge) -> Self {
+        SweepPlanner { field, set, edge, prune: false }.plan()
+    }
+
+    /// (Dexel, pass) pairs of whole tiles: what a backend visits that does not look at cells.
+    pub fn tile_passes(&self) -> u64 {
+        self.tiles.iter().map(|t| (t.columns.len() * t.rows.len() * t.records.len()) as u64).sum()
+    }
+
+    /// (Dexel, pass) pairs that the plan asks for: records on the dexels of their cells.
+    pub fn dexel_passes(&self) -> u64 {
+        let of_tile = |tile: &SweepTile| -> u64 {
+            let mut dexels = [0_u64; CELLS * CELLS];
+            for column in tile.columns.clone() {
+                tile.rows.clone().for_each(|row| dexels[tile.cell(column, row)] += 1);
+            }
+            let visits = |record: &SweepRecord| -> u64 {
+                dexels.iter().enumerate().map(|(cell, dexels)| u64::from(record.cells >> cell & 1) * dexels).sum()
+            };
+            self.records[tile.records.clone()].iter().map(visits).sum()
+        };
+        self.tiles.iter().map(of_tile).sum()
+    }
+}
+
+struct SweepPlanner<'a> {
+    field: &'a SpatialField,
+    set: &'a TurningPasses,
+    edge: &'a Edge,
+    prune: bool,
+}
+
+impl SweepPlanner<'_> {
+    fn plan(&self) -> SweepPlan {
+        let mut plan = SweepPlan::default();
+        if self.field.is_empty() {
+            return plan;
+        }
+        let whole = Region::whole(self.field);
+        let (origin_mm, reach_mm) = self.surroundings(&whole.dexels());
+        let mut near = near_passes(self.set, self.edge, origin_mm, reach_mm);
+        if self.prune {
+            let points_mm = self.ends_mm(&whole.dexels(), origin_mm);
+            near.retain(|pass| passes_beside(self.set, self.edge, pass, &points_mm, reach_mm));
+        }
+        let near: Vec<Candidate> = near
+            .into_iter()
+            .flat_map(|pass| self.set.stretches(&pass).map(move |stretch| (pass, stretch)))
+            .flat_map(|(pass, stretch)| {
+                (0..self.edge.segments.len()).map(move |segment| Candidate { pass, stretch, segment })
+            })
+            .collect();
+        if self.prune {
+            let highest_mm = f64::from(self.field.blank_mm.iter().copied().fold(0.0, f32::max));
+            let frame = self.frame(origin_mm, reach_mm, &near).0;
+            let near = self.bounds(&whole, &frame).near(highest_mm);
+            let frame = self.frame(origin_mm, reach_mm, &near).0;
+            let sampled = whole.sample(&frame, self.edge);
+            self.halve(&whole, &frame, &sampled, highest_mm, &mut plan);
+        } else {
+            for columns in whole.columns.tiles() {
+                for rows in whole.rows.tiles() {
+                    self.tile(columns.clone(), rows, &near, &vec![ALL_CELLS; near.len()], &mut plan);
+                }
+            }
+        }
+        plan
+    }
+
+    fn halve(&self, region: &Region, frame: &Frame, sampled: &[Sampled], upper_bound_mm: f64, plan: &mut SweepPlan) {
+        let (alive, upper_bound_mm) = self.bounds(region, frame).keep(sampled, upper_bound_mm);
+        let parts = region.parts(frame, self.edge, &alive);
+        if region.is_tile() {
+            self.bounded_tile(region, frame, &parts, upper_bound_mm, plan);
+            return;
+        }
+        for (part, mut sampled) in parts {
+            let (origin_mm, reach_mm) = self.surroundings(&part.dexels());
+            if reach_mm > NEW_FRAME * frame.reach_mm {
+                self.halve(&part, frame, &sampled, upper_bound_mm, plan);
+                continue;
+            }
+            let candidates: Vec<Candidate> = sampled.iter().map(|s| frame.candidates[s.index as usize]).collect();
+            let (frame, index_of) = self.frame(origin_mm, reach_mm, &candidates);
+            let mut places = index_of.into_iter();
+            sampled.retain_mut(|s| {
+                places.next().flatten().is_some_and(|index| {
+                    s.index = index;
+                    true
+                })
+            });
+            self.halve(&part, &frame, &sampled, upper_bound_mm, plan);
+        }
+    }
+
+    /// Middle of nine rays, and a distance from there that nothing between lowest and blank height of any of them exceeds.
+    fn surroundings(&self, dexels: &[usize; RAYS]) -> (DVec3, f64) {
+        let ray = |dexel: usize| self.field.ray(dexel / self.field.rows(), dexel % self.field.rows());
+        let origin_mm = ray(dexels[RAYS / 2]).origin_mm;
+        let ends = dexels.iter().flat_map(|&dexel| {
+            let Ray { origin_mm: from_mm, normal } = ray(dexel);
+            let local = Ray { origin_mm: from_mm - origin_mm, normal };
+            [self.field.low_mm, f64::from(self.field.blank_mm[dexel])].map(|h| local.at(h).length())
+        });
+        (origin_mm, BULGE * ends.fold(0.0, f64::max))
+    }
+
+    /// A point and the ends of nine rays: at the lowest height that counts, and at the blank's.
+    fn ends_mm(&self, dexels: &[usize; RAYS], middle_mm: DVec3) -> Vec<DVec3> {
+        let ends = dexels.iter().flat_map(|&dexel| {
+            let ray = self.field.ray(dexel / self.field.rows(), dexel % self.field.rows());
+            [2.0 * self.field.low_mm, f64::from(self.field.blank_mm[dexel])].map(|h| ray.at(h))
+        });
+        [middle_mm].into_iter().chain(ends).collect()
+    }
+
+    fn bounds<'a>(&'a self, region: &'a Region, frame: &'a Frame) -> RegionBounds<'a> {
+        RegionBounds { field: self.field, segments: &self.edge.segments, region, frame }
+    }
+
+    fn frame(&self, origin_mm: DVec3, reach_mm: f64, candidates: &[Candidate]) -> (Frame, Vec<Option<u32>>) {
+        Frame::new(self.set, self.edge, origin_mm, reach_mm, candidates)
+    }
+
+    /// Bounds the parts of a tile: a record costs more in the kernel than here, and it is told in which cells it can be
+    /// lowest.
+    fn bounded_tile(
+        &self,
+        region: &Region,
+        frame: &Frame,
+        parts: &[(Region, Vec<Sampled>)],
+        upper_bound_mm: f64,
+        plan: &mut SweepPlan,
+    ) {
+        let mut cells = vec![0_u16; frame.candidates.len()];
+        let mut kept = Vec::new();
+        for (at, (part, sampled)) in parts.iter().enumerate() {
+            for (sampled, alive) in self.bounds(part, frame).keep(sampled, upper_bound_mm).0 {
+                let cells = &mut cells[sampled.index as usize];
+                if *cells == 0 {
+                    kept.push(sampled.index);
+                }
+                for bit in (0..4).filter(|bit| alive >> bit & 1 == 1) {
+                    let [column, row] = [2 * (at / 2) + bit / 2, 2 * (at % 2) + bit % 2];
+                    *cells |= 1 << (CELLS * column + row);
+                }
+            }
+        }
+        kept.sort_unstable();
+        let candidates: Vec<Candidate> = kept.iter().map(|&index| frame.candidates[index as usize]).collect();
+        let cells: Vec<u16> = kept.iter().map(|&index| cells[index as usize]).collect();
+        self.tile(region.columns.dexels(), region.rows.dexels(), &candidates, &cells, plan);
+    }
+
+    fn tile(&self, columns: Range<usize>, rows: Range<usize>, kept: &[Candidate], cells: &[u16], plan: &mut SweepPlan) {
+        let dexels = {
+            let lines =
+                |range: &Range<usize>| [range.start, usize::midpoint(range.start, range.end - 1), range.end - 1];
+            let (columns, rows) = (lines(&columns), lines(&rows));
+            std::array::from_fn(|i| self.field.index(columns[i / SIDE], rows[i % SIDE]))
+        };
+        let (origin_mm, reach_mm) = self.surroundings(&dexels);
+        let (frame, index_of) = self.frame(origin_mm, reach_mm, kept);
+        let first = plan.records.len();
+        plan.records.extend(frame.records);
+        for (index, cells) in index_of.iter().zip(cells) {
+            if let Some(index) = index {
+                plan.records[first + *index as usize].cells = *cells;
+            }
+        }
+        let tile = SweepTile { columns, rows, origin_mm, records: first..plan.records.len() };
+        find_starts(self.field, &tile, self.edge, &mut plan.records[first..]);
+        plan.tiles.push(tile);
+    }
+}
+
+/// Passes whose blade comes within `reach_mm` of a place of the work, in time order.
+///
+/// While the rake face goes through the neighbourhood the place itself moves in the head, and with it everything within reach turns a little: some per cent of
+/// the sweep. The bound takes a tenth of the reach for that, and a millimetre more.
+fn near_passes(set: &TurningPasses, edge: &Edge, center_mm: DVec3, reach_mm: f64) -> Vec<BladePass> {
+    let margin_mm = NEAR_SHARE * reach_mm + NEAR_MM;
+    let y_reach_mm = edge.center_mm.y.abs() + edge.reach_mm;
+    let tip_mm = edge.center_mm.x + edge.reach_mm;
+    (0..set.count())
+        .map(|index| set.pass(index))
+        .filter(|pass| {
+            let place = set.place(pass);
+            // Where the place stands when the blade points to it, to the first order of the motion in between.
+            let at = |swept: f64| set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).point(center_mm);
+            let first = at(0.0);
+            if first.x.hypot(first.y) - margin_mm > tip_mm + ROLLED_MM + TURNED_SHARE * reach_mm {
+                return false;
+            }
+            let swept = first.y.atan2(first.x);
+            let second = at(swept);
+            let spread = reach_mm / (second.x.hypot(second.y) - reach_mm).max(LEAST_DISTANCE * tip_mm);
+            let moved_mm = (at(swept + spread.min(1.0)) - at(swept - spread.min(1.0))).length();
+            let margin_mm = margin_mm + moved_mm;
+            second.x.hypot(second.y) <= tip_mm + margin_mm
+                && (second.z - place.axial_mm).abs() <= y_reach_mm + margin_mm
+                && swept.abs() <= set.half_sweep_rad + spread
+        })
+        .collect()
+}
+
+/// Whether a pass's blade passes some points of the work (the first one in their middle, none further than `reach_mm` from it) in their own place along the tool's axis.
+///
+/// While the rake face goes through the neighbourhood the points move a little along the axis, nearly evenly: their places are taken at the moment when the rake face holds the middle, and when it holds
+/// what is furthest before and behind.
+fn passes_beside(set: &TurningPasses, edge: &Edge, pass: &BladePass, points_mm: &[DVec3], reach_mm: f64) -> bool {
+    let place = set.place(pass);
+    let pose = |swept: f64| set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept);
+    let first = pose(0.0).point(points_mm[0]);
+    let swept = first.y.atan2(first.x);
+    let middle = pose(swept);
+    let distance_mm = middle.point(points_mm[0]).truncate().length();
+    let spread = reach_mm / (distance_mm - reach_mm).max(LEAST_DISTANCE * (edge.center_mm.x + edge.reach_mm));
+    let (mut low_mm, mut high_mm) = (f64::INFINITY, f64::NEG_INFINITY);
+    for pose in [pose(swept - spread.min(1.0)), middle, pose(swept + spread.min(1.0))] {
+        for &point_mm in points_mm {
+            let y_mm = place.y_sign * (pose.point(point_mm).z - place.axial_mm) - edge.center_mm.y;
+            (low_mm, high_mm) = (low_mm.min(y_mm), high_mm.max(y_mm));
+        }
+    }
+    let y_reach_mm = edge.reach_mm + AXIAL_MARGIN_MM;
+    low_mm <= y_reach_mm && high_mm >= -y_reach_mm
+}

@@ -1,0 +1,143 @@
+//! Regions of a spatial field: dexels that are bounded together by nine rays of theirs, and the parts that they are
+//! halved into.
+//!
+//! In: a field. Out: regions with the dexels of their nine rays, first, middle and last column by first, middle and last row, and how far a smooth function with known values there can leave straight lines
+//! between them. Neighbouring regions share their edges.
+
+#![expect(
+    clippy::inline_always,
+    reason = "the instruction set of the dispatching function holds only for what is inlined into it"
+)]
+
+use super::sweep_plan::{TILE_COLUMNS, TILE_ROWS};
+use crate::dexel::SpatialField;
+use std::ops::Range;
+
+/// Rays sampled along each side.
+pub const SIDE: usize = 3;
+/// Rays sampled.
+pub const RAYS: usize = SIDE * SIDE;
+/// All rays of a region, as bits.
+pub const ALL: u32 = (1 << RAYS) - 1;
+
+/// Lines of dexels in one direction.
+#[derive(Debug, Clone, Copy)]
+pub struct Span {
+    /// First, middle and last line; all dexels lie between first and last.
+    pub at: [usize; SIDE],
+    /// Number of tiles.
+    pub count: usize,
+    tile: usize,
+    last: usize,
+}
+
+impl Span {
+    fn new(from: usize, count: usize, tile: usize, last: usize) -> Self {
+        let to = (from + count * tile).min(last);
+        let middle = from + if count > 1 { count / 2 * tile } else { tile / 2 };
+        Self { at: [from, middle.min(to), to], count, tile, last }
+    }
+
+    /// Its dexels, tile by tile.
+    pub fn tiles(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let Self { at: [from, ..], count, tile, last } = *self;
+        (0..count).map(move |i| from + i * tile..(from + (i + 1) * tile).min(last + 1))
+    }
+
+    /// Its dexels: the line that it shares with the next tile belongs to that one.
+    pub fn dexels(&self) -> Range<usize> {
+        self.at[0]..(self.at[0] + self.count * self.tile).min(self.last + 1)
+    }
+
+    /// Parts to both sides of the middle line.
+    pub fn halves(&self) -> [Self; 2] {
+        let [from, middle, _] = self.at;
+        let (counts, tile) = if self.count > 1 {
+            ([self.count / 2, self.count - self.count / 2], self.tile)
+        } else {
+            ([1, 1], self.tile / 2)
+        };
+        [Self::new(from, counts[0], tile, self.last), Self::new(middle, counts[1], tile, self.last)]
+    }
+
+    /// Weights of three values whose sum is as far as the smooth function behind them leaves straight lines between them, by its second differences. Nothing if it cannot be told.
+    fn bend(&self) -> Option<[f64; SIDE]> {
+        let [from, middle, to] = self.at;
+        let [a, b] = [middle - from, to - middle].map(|lines| lines as f64);
+        if to - from <= 1 {
+            return Some([0.0; SIDE]);
+        }
+        (a > 0.0 && b > 0.0).then(|| {
+            let scale = 0.25 * a.max(b).powi(2) / (a + b);
+            [scale / a, -scale * (1.0 / a + 1.0 / b), scale / b]
+        })
+    }
+}
+
+/// Dexels that are bounded together.
+pub struct Region<'a> {
+    /// The field.
+    pub field: &'a SpatialField,
+    /// Columns.
+    pub columns: Span,
+    /// Rows.
+    pub rows: Span,
+    bends: Option<[[f64; SIDE]; 2]>,
+    /// Height of the blank along each of the nine rays, column by column.
+    pub blank_mm: [f64; RAYS],
+}
+
+impl<'a> Region<'a> {
+    /// All of a field.
+    pub fn whole(field: &'a SpatialField) -> Self {
+        let span = |lines: usize, tile: usize| Span::new(0, lines.div_ceil(tile), tile, lines - 1);
+        Self::new(field, span(field.columns(), TILE_COLUMNS), span(field.rows(), TILE_ROWS))
+    }
+
+    pub fn new(field: &'a SpatialField, columns: Span, rows: Span) -> Self {
+        let bends = columns.bend().zip(rows.bend()).map(|(c, r)| [c, r]);
+        let blank_mm =
+            std::array::from_fn(|i| f64::from(field.blank_mm[field.index(columns.at[i / SIDE], rows.at[i % SIDE])]));
+        Self { field, columns, rows, bends, blank_mm }
+    }
+
+    /// Whether it is one tile.
+    pub fn is_tile(&self) -> bool {
+        self.columns.count == 1 && self.rows.count == 1
+    }
+
+    /// The nine rays as dexels.
+    pub fn dexels(&self) -> [usize; RAYS] {
+        std::array::from_fn(|i| self.field.index(self.columns.at[i / SIDE], self.rows.at[i % SIDE]))
+    }
+
+    /// Size along the profile and along the tooth, mm.
+    pub fn extent_mm(&self) -> [f64; 2] {
+        let at = |i: usize, j: usize| self.field.ray(self.columns.at[i], self.rows.at[j]).origin_mm;
+        [at(0, 1).distance(at(2, 1)), at(1, 0).distance(at(1, 2))]
+    }
+
+    /// How far a smooth function with these values on the nine rays can leave its bilinear interpolation in any of the four cells between them.
+    #[inline(always)]
+    pub fn bend(&self, values: &[f64; RAYS]) -> f64 {
+        let Some([across, along]) = &self.bends else { return f64::INFINITY };
+        let (mut most_across, mut most_along) = (0.0_f64, 0.0_f64);
+        for line in 0..SIDE {
+            let [a, b, c] = [0, 1, 2].map(|i| values[SIDE * i + line]);
+            most_across = most_across.max((across[0] * a + across[1] * b + across[2] * c).abs());
+            let [a, b, c] = [0, 1, 2].map(|i| values[SIDE * line + i]);
+            most_along = most_along.max((along[0] * a + along[1] * b + along[2] * c).abs());
+        }
+        most_across + most_along
+    }
+
+    /// Which directions are halved: both, or the longer one; facets are some two and a half times as long as wide. A tile is halved in both.
+    pub fn split(&self) -> [bool; 2] {
+        let [width_mm, length_mm] = self.extent_mm();
+        let (wide, long) = (self.columns.count > 1, self.rows.count > 1);
+        if self.is_tile() {
+            return [true; 2];
+        }
+        [wide && (!long || 5.0 * width_mm > length_mm), long && (!wide || length_mm > 1.25 * width_mm)]
+    }
+}

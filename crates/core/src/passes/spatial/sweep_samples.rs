@@ -1,0 +1,265 @@
+//! The heights of sweeps on nine rays of each region of a spatial field.
+//!
+//! In: a field, candidates. Out: for every candidate the heights at which its segment, or the continuation of it, enters nine rays: first, middle and last column by first, middle and last row. Neighbouring
+//! regions share their edges, and the parts of a region share its nine rays: where both directions are halved, sixteen new rays serve four parts. They are searched eight at a time, from the mean of
+//! their neighbours.
+
+#![expect(
+    clippy::inline_always,
+    reason = "the instruction set of the dispatching function holds only for what is inlined into it"
+)]
+
+use super::sweep::{Sweep, SweepRecord};
+use super::sweep_plan::Candidate;
+use super::sweep_regions::{RAYS, Region, SIDE};
+use super::sweep_roots::{LANES, LARGEST_T, Lanes, Rays, Roots};
+use crate::dexel::SpatialField;
+use crate::passes::spatial::turning_passes::TurningPasses;
+use crate::tool::edge::Edge;
+use glam::DVec3;
+use pulp::Arch;
+
+/// Rays along each side of a region with its parts.
+const FINE: usize = 2 * SIDE - 1;
+/// Rays steeper than this against an edge's normal (cosine) prove nothing.
+const GRAZING_COSINE: f64 = 0.1;
+/// Rays that run out of a segment at more than this cosine do not enter it.
+const LEAVING_COSINE: f64 = 0.05;
+/// Newton steps below this, in mm and in t, are the last: the error after them, of the order of their squares, is some picometres.
+pub(super) const LAST_STEP: f64 = 1e-5;
+/// No root further away is one, mm.
+const FARTHEST_MM: f64 = 1e3;
+
+/// Sweeps as seen from one origin.
+pub struct Frame {
+    /// Gear frame, mm.
+    pub origin_mm: DVec3,
+    /// Nothing that is looked at is further from it, mm.
+    pub reach_mm: f64,
+    /// What the records are.
+    pub candidates: Vec<Candidate>,
+    /// Records.
+    pub records: Vec<SweepRecord>,
+}
+
+impl Frame {
+    /// Sweeps of candidates, in their order; those whose blades hold the origin at no moment are left out. `index_of` gives the place of every candidate.
+    pub fn new(
+        set: &TurningPasses,
+        edge: &Edge,
+        origin_mm: DVec3,
+        reach_mm: f64,
+        candidates: &[Candidate],
+    ) -> (Self, Vec<Option<u32>>) {
+        let mut frame = Self { origin_mm, reach_mm, candidates: Vec::new(), records: Vec::new() };
+        let mut index_of = Vec::with_capacity(candidates.len());
+        for of_sweep in candidates.chunk_by(|a, b| a.sweep() == b.sweep()) {
+            let sweep = Sweep::new(set, &of_sweep[0].pass, of_sweep[0].stretch, origin_mm, reach_mm);
+            for candidate in of_sweep {
+                index_of.push(sweep.is_some().then_some(frame.records.len() as u32));
+                if let Some(sweep) = &sweep {
+                    let segment = &edge.segments[candidate.segment];
+                    frame.records.push(sweep.record(candidate.pass.pass, candidate.segment, segment));
+                    frame.candidates.push(*candidate);
+                }
+            }
+        }
+        (frame, index_of)
+    }
+}
+
+/// A candidate on the nine rays of a region.
+#[derive(Debug, Clone, Copy)]
+pub struct Sampled {
+    /// Its place in the frame.
+    pub index: u32,
+    /// Rays that enter its segment or the continuation of it, as bits.
+    pub entered: u32,
+    /// Rays that run out of it wherever they meet it, as bits.
+    pub left: u32,
+    /// Heights of the entries, mm.
+    pub height_mm: [f64; RAYS],
+    /// Places of the entries along the segment, mm.
+    pub y_mm: [f64; RAYS],
+}
+
+/// A candidate on the rays of a region and of its parts.
+struct Fine {
+    entered: u32,
+    left: u32,
+    height_mm: [f64; FINE * FINE],
+    y_mm: [f64; FINE * FINE],
+}
+
+impl Fine {
+    fn of(sampled: &Sampled) -> Self {
+        let mut fine = Self { entered: 0, left: 0, height_mm: [0.0; FINE * FINE], y_mm: [0.0; FINE * FINE] };
+        for ray in 0..RAYS {
+            let at = 2 * (ray / SIDE) * FINE + 2 * (ray % SIDE);
+            fine.height_mm[at] = sampled.height_mm[ray];
+            fine.y_mm[at] = sampled.y_mm[ray];
+            fine.entered |= (sampled.entered >> ray & 1) << at;
+            fine.left |= (sampled.left >> ray & 1) << at;
+        }
+        fine
+    }
+
+    /// What a part sees: the rays at these places of the fine grid.
+    fn part(&self, index: u32, [columns, rows]: [[usize; SIDE]; 2]) -> Sampled {
+        let mut part = Sampled { index, entered: 0, left: 0, height_mm: [0.0; RAYS], y_mm: [0.0; RAYS] };
+        for ray in 0..RAYS {
+            let at = columns[ray / SIDE] * FINE + rows[ray % SIDE];
+            part.height_mm[ray] = self.height_mm[at];
+            part.y_mm[ray] = self.y_mm[at];
+            part.entered |= (self.entered >> at & 1) << ray;
+            part.left |= (self.left >> at & 1) << ray;
+        }
+        part
+    }
+}
+
+/// A ray to be searched.
+#[derive(Clone, Copy)]
+struct Place {
+    /// On the fine grid.
+    fine: usize,
+    /// In the field.
+    dexel: usize,
+    /// Where on the fine grid heights to start from may be known.
+    neighbours: [usize; 4],
+}
+
+/// Samples candidates on new rays of a region.
+struct SampledRays<'a> {
+    frame: &'a Frame,
+    edge: &'a Edge,
+    lowest_mm: f64,
+    field: &'a SpatialField,
+    places: &'a [Place],
+    indices: &'a [u32],
+    fine: &'a mut [Fine],
+}
+
+impl pulp::NullaryFnOnce for SampledRays<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for places in self.places.chunks(LANES) {
+            // Lanes beyond the last place repeat it.
+            let lane: [Place; LANES] = std::array::from_fn(|l| places[l.min(places.len() - 1)]);
+            let rays = Rays::new(self.field, self.frame.origin_mm, lane.map(|place| place.dexel));
+            for (&index, fine) in self.indices.iter().zip(self.fine.iter_mut()) {
+                let record = &self.frame.records[index as usize];
+                let segment = &self.edge.segments[record.segment as usize];
+                let start_mm: Lanes = std::array::from_fn(|l| fine.start_mm(&lane[l].neighbours));
+                let start_t = record.places(&rays, &start_mm, 1)[0];
+                let roots = record.roots(segment, &rays, [&start_mm, &start_t], self.lowest_mm, LAST_STEP);
+                for (l, place) in places.iter().enumerate() {
+                    let (height_mm, cosine) = (roots.height_mm[l], roots.cosine[l]);
+                    let sure = entered(&roots, l) && cosine >= GRAZING_COSINE;
+                    fine.entered |= u32::from(sure) << place.fine;
+                    fine.left |= u32::from(!roots.falls[l] && cosine < -LEAVING_COSINE) << place.fine;
+                    fine.height_mm[place.fine] = height_mm;
+                    fine.y_mm[place.fine] = roots.y_mm[l];
+                }
+            }
+        }
+    }
+}
+
+impl Fine {
+    #[inline(always)]
+    fn start_mm(&self, neighbours: &[usize; 4]) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for &at in neighbours {
+            let known = f64::from(self.entered >> at & 1);
+            sum += known * self.height_mm[at];
+            count += known;
+        }
+        if count > 0.0 { sum / count } else { 0.0 }
+    }
+}
+
+impl Region<'_> {
+    /// Candidates of a frame on the nine rays, searched from the target.
+    pub fn sample(&self, frame: &Frame, edge: &Edge) -> Vec<Sampled> {
+        let even = [0, 2, 4];
+        let dexels = self.dexels();
+        let places: Vec<Place> = (0..RAYS)
+            .map(|ray| {
+                let fine = even[ray / SIDE] * FINE + even[ray % SIDE];
+                Place { fine, dexel: dexels[ray], neighbours: [fine; 4] }
+            })
+            .collect();
+        let indices: Vec<u32> = (0..frame.records.len() as u32).collect();
+        let nothing = Sampled { index: 0, entered: 0, left: 0, height_mm: [0.0; RAYS], y_mm: [0.0; RAYS] };
+        let mut fine: Vec<Fine> = indices.iter().map(|_| Fine::of(&nothing)).collect();
+        self.search(frame, edge, &places, &indices, &mut fine);
+        indices.iter().zip(&fine).map(|(&index, fine)| fine.part(index, [even, even])).collect()
+    }
+
+    /// Parts of the region with what is sampled on each; a candidate goes to the parts whose cells are set in its mask (cells in the order of columns, then rows).
+    pub fn parts(&self, frame: &Frame, edge: &Edge, alive: &[(Sampled, u8)]) -> Vec<(Self, Vec<Sampled>)> {
+        let split = self.split();
+        let halves = [self.columns.halves(), self.rows.halves()];
+        // Dexel lines of the fine grid; a direction that stays whole has its even ones alone.
+        let lines: [[Option<usize>; FINE]; 2] = std::array::from_fn(|direction| {
+            let [a, b] = halves[direction];
+            let whole = [self.columns, self.rows][direction].at;
+            if split[direction] {
+                [a.at[0], a.at[1], b.at[0], b.at[1], b.at[2]].map(Some)
+            } else {
+                [Some(whole[0]), None, Some(whole[1]), None, Some(whole[2])]
+            }
+        });
+        let mut places = Vec::with_capacity(FINE * FINE);
+        for (i, column) in lines[0].iter().enumerate() {
+            for (j, row) in lines[1].iter().enumerate() {
+                let (Some(column), Some(row)) = (column, row) else { continue };
+                if i % 2 == 1 || j % 2 == 1 {
+                    let ([left, right], [below, above]) = ([i - i % 2, i + i % 2], [j - j % 2, j + j % 2]);
+                    let neighbours = [(left, below), (left, above), (right, below), (right, above)];
+                    let neighbours = neighbours.map(|(i, j)| i * FINE + j);
+                    places.push(Place { fine: i * FINE + j, dexel: self.field.index(*column, *row), neighbours });
+                }
+            }
+        }
+        let indices: Vec<u32> = alive.iter().map(|(sampled, _)| sampled.index).collect();
+        let mut fine: Vec<Fine> = alive.iter().map(|(sampled, _)| Fine::of(sampled)).collect();
+        self.search(frame, edge, &places, &indices, &mut fine);
+        let mut parts = Vec::with_capacity(4);
+        for i in 0..=usize::from(split[0]) {
+            for j in 0..=usize::from(split[1]) {
+                let span = |direction: usize, part: usize| {
+                    if split[direction] { halves[direction][part] } else { [self.columns, self.rows][direction] }
+                };
+                let grid = |direction: usize, part: usize| {
+                    if split[direction] { [2 * part, 2 * part + 1, 2 * part + 2] } else { [0, 2, 4] }
+                };
+                let cells = |split: bool, part: usize| if split { part..part + 1 } else { 0..2 };
+                let mask = cells(split[0], i)
+                    .flat_map(|a| cells(split[1], j).map(move |b| 1_u8 << (2 * a + b)))
+                    .fold(0, |mask, bit| mask | bit);
+                let sampled = alive.iter().zip(&fine).filter(|((_, cells), _)| cells & mask != 0);
+                let sampled = sampled.map(|((s, _), fine)| fine.part(s.index, [grid(0, i), grid(1, j)])).collect();
+                parts.push((Self::new(self.field, span(0, i), span(1, j)), sampled));
+            }
+        }
+        parts
+    }
+
+    fn search(&self, frame: &Frame, edge: &Edge, places: &[Place], indices: &[u32], fine: &mut [Fine]) {
+        let lowest_mm = 2.0 * self.field.low_mm;
+        Arch::new().dispatch(SampledRays { frame, edge, lowest_mm, field: self.field, places, indices, fine });
+    }
+}
+
+/// Whether the ray of a lane enters the segment or its continuation.
+#[inline(always)]
+pub(super) fn entered(roots: &Roots, l: usize) -> bool {
+    roots.falls[l]
+        && roots.step_mm[l].abs() < LAST_STEP
+        && roots.t[l].abs() < LARGEST_T
+        && roots.height_mm[l].abs() < FARTHEST_MM
+}

@@ -1,0 +1,376 @@
+//! A blade's cutting edge: a chain of named segments, analytic in f64, with the table each backend reads.
+//!
+//! Segments follow each other counter-clockwise round the blade (up the right flank, over the tip, down the left flank), the tool's body on
+//! their left. Every segment has a frame of its own: origin at its middle, **x out of the tool**, y along its chord in the chain's direction. A ray
+//! (origin and direction in that frame, p(h) = o + h n) enters the tool where `f(h) = x(h) - U(y(h))` falls through zero, U being the edge's x over y:
+//! an [`EdgeTable`] or, for arcs, the circle itself.
+
+use super::edge_table::{EdgeTable, TableError};
+use crate::error::NotConverged;
+use crate::frame::Rigid2;
+use crate::math::convergence::{Step, iterate};
+use crate::math::newton::{LastStep, newton};
+use crate::tool::involute::Involute;
+use glam::DVec2;
+use std::ops::ControlFlow;
+
+/// What a segment is on the tooth; results tell tip, left and right flank apart by it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum SegmentName {
+    /// Root circle beside the right flank.
+    RootRight,
+    /// Straight part between root circle and involute.
+    BaseRight,
+    /// Right (clockwise) flank.
+    FlankRight,
+    /// Round, chamfer or protuberance between right flank and tip.
+    CornerRight,
+    /// Tip circle.
+    Tip,
+    /// Round, chamfer or protuberance between tip and left flank.
+    CornerLeft,
+    /// Left (counter-clockwise) flank.
+    FlankLeft,
+    /// Straight part between involute and root circle.
+    BaseLeft,
+    /// Root circle beside the left flank.
+    RootLeft,
+}
+
+/// Newton steps to a place of a profile at most. They go on until rounding alone moves the place, which is then known
+/// to
+/// [`SETTLED`], as a share of one plus the parameter.
+const PROFILE_STEPS: u32 = 50;
+const SETTLED: f64 = 1e-12;
+/// Last step along a ray to an edge, mm.
+const ENTRY_MM: f64 = 1e-12;
+/// Newton steps along a ray to an edge at most: where it grazes the edge each halves what is missing, so that these
+/// bring
+/// ten millimetres down to a last bit.
+const ENTRY_STEPS: u32 = 60;
+/// Fall of the residual along a ray below which the ray runs beside the edge and does not enter it.
+const LEAST_FALL: f64 = 1e-9;
+
+/// x over y of a segment in its own frame.
+pub trait Profile {
+    /// x in mm and dx/dy at `y_mm`.
+    ///
+    /// # Errors
+    /// The place with this y is not found.
+    fn x_and_slope(&self, y_mm: f64) -> Result<[f64; 2], NotConverged>;
+}
+
+/// How a backend evaluates a segment.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SegmentShape {
+    /// Cubic table x = U(y).
+    Table(EdgeTable),
+    /// Circle through the frame's origin with its centre at (-radius, 0): convex, exact.
+    Arc {
+        /// Radius in mm.
+        radius_mm: f64,
+    },
+}
+
+/// One segment of an edge.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Segment {
+    /// What it is.
+    pub name: SegmentName,
+    /// Its frame in the blade.
+    pub blade_from_segment: Rigid2,
+    /// Its law.
+    pub shape: SegmentShape,
+    /// First and last y that belong to the segment.
+    pub y_range_mm: [f64; 2],
+    /// Radius of a circle round the frame's origin that holds the segment.
+    pub reach_mm: f64,
+    /// Smallest and largest dx/dy on the segment.
+    pub slope_range: [f64; 2],
+}
+
+/// The chain of segments of one blade.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Edge {
+    /// Segments, counter-clockwise.
+    pub segments: Vec<Segment>,
+    /// Circle in the blade frame that holds all of them: centre.
+    pub center_mm: DVec2,
+    /// Circle in the blade frame that holds all of them: radius.
+    pub reach_mm: f64,
+}
+
+/// Where a ray enters a segment or the continuation of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RayHit {
+    /// Ray parameter, mm.
+    pub height_mm: f64,
+    /// y of the hit in the segment's frame; may lie outside its range.
+    pub y_mm: f64,
+    /// Edge normal at the hit in the segment's frame, out of the tool.
+    pub normal: DVec2,
+    /// Curvature of the edge at the hit, 1/mm, positive where the tool is convex; 0 on the continuation.
+    pub curvature_per_mm: f64,
+}
+
+/// Part of an involute as a profile over its chord.
+struct InvoluteProfile {
+    involute: Involute,
+    segment_from_blade: Rigid2,
+    roll_range: [f64; 2],
+}
+
+impl Profile for InvoluteProfile {
+    fn x_and_slope(&self, y_mm: f64) -> Result<[f64; 2], NotConverged> {
+        // dp/du = r_b u e(u), e the direction to the base circle's contact point: Newton on y(u) from the chord's share of u^2.
+        let [u0, u1] = self.roll_range;
+        let y_at = |u: f64| self.segment_from_blade.point(self.involute.point(u)).y;
+        let (y0, y1) = (y_at(u0), y_at(u1));
+        let start = (u0 * u0 + (u1 * u1 - u0 * u0) * (y_mm - y0) / (y1 - y0)).max(0.25 * u0 * u0).sqrt();
+        let mut tangent = DVec2::Y;
+        let last = LastStep { absolute: 1e-16, relative: 1e-15 };
+        let u = newton("the roll of an involute's point", start, last, PROFILE_STEPS, |u| {
+            let along = -self.involute.side * self.segment_from_blade.direction(self.involute.normal(u)).perp();
+            tangent = along;
+            let missing_mm = y_mm - y_at(u);
+            let step = missing_mm / (self.involute.base_radius_mm * u * along.y);
+            // The involute begins at roll 0.
+            [missing_mm, if step < -0.5 * u { -0.5 * u } else { step }]
+        })
+        .or_else(|error| error.settled(SETTLED * (1.0 + error.last.abs())))?;
+        Ok([self.segment_from_blade.point(self.involute.point(u)).x, tangent.x / tangent.y])
+    }
+}
+
+/// A smooth curve in the blade frame over a parameter, nearly proportional to the place along its chord.
+pub trait BladeCurve {
+    /// Point (mm) and derivative with respect to the parameter.
+    fn point_and_rate(&self, parameter: f64) -> [DVec2; 2];
+}
+
+/// Part of a [`BladeCurve`] as a profile over its chord.
+struct CurveProfile<'a, C> {
+    curve: &'a C,
+    segment_from_blade: Rigid2,
+    range: [f64; 2],
+}
+
+impl<C: BladeCurve> Profile for CurveProfile<'_, C> {
+    fn x_and_slope(&self, y_mm: f64) -> Result<[f64; 2], NotConverged> {
+        let at = |w: f64| {
+            let [point, rate] = self.curve.point_and_rate(w);
+            [self.segment_from_blade.point(point), self.segment_from_blade.direction(rate)]
+        };
+        let ([w0, w1], [y0, y1]) = (self.range, self.range.map(|w| at(w)[0].y));
+        let start = w0 + (w1 - w0) * (y_mm - y0) / (y1 - y0);
+        let w = newton("the parameter of a profile's point", start, LastStep::relative(1e-15), PROFILE_STEPS, |w| {
+            let [point, rate] = at(w);
+            [y_mm - point.y, (y_mm - point.y) / rate.y]
+        })
+        .or_else(|error| error.settled(SETTLED * (1.0 + error.last.abs())))?;
+        let [point, rate] = at(w);
+        Ok([point.x, rate.x / rate.y])
+    }
+}
+
+/// The chord itself.
+struct StraightProfile;
+
+impl Profile for StraightProfile {
+    fn x_and_slope(&self, _y_mm: f64) -> Result<[f64; 2], NotConverged> {
+        Ok([0.0, 0.0])
+    }
+}
+
+/// Frame on the chord from `start` to `end` (chain direction): origin at its middle, y along it, x out of the tool.
+fn chord_frame(start: DVec2, end: DVec2) -> Rigid2 {
+    let y_axis = (end - start).normalize_or(DVec2::Y);
+    Rigid2 { rotation: -y_axis.perp(), translation_mm: 0.5 * (start + end) }
+}
+
+impl Segment {
+    /// Part of an involute between two rolls, in the chain's direction.
+    ///
+    /// # Errors
+    /// The finest table misses the edge, or a place of it is not found.
+    pub fn involute(name: SegmentName, involute: Involute, rolls: [f64; 2]) -> Result<Self, TableError> {
+        // The right flank climbs from root to tip, the left one descends.
+        let [from, to] = if involute.side > 0.0 { [rolls[1], rolls[0]] } else { rolls };
+        let (start, end) = (involute.point(from), involute.point(to));
+        let blade_from_segment = chord_frame(start, end);
+        let segment_from_blade = blade_from_segment.inverse();
+        let half_mm = 0.5 * start.distance(end);
+        let profile = InvoluteProfile { involute, segment_from_blade, roll_range: rolls };
+        let table = EdgeTable::fit(&profile, [-half_mm, half_mm])?;
+        Ok(Self::from_table(name, blade_from_segment, table, [-half_mm, half_mm]))
+    }
+
+    /// Part of a curve between two parameters, in the chain's direction.
+    ///
+    /// # Errors
+    /// The finest table misses the edge, or a place of it is not found.
+    pub fn curve(name: SegmentName, curve: &impl BladeCurve, range: [f64; 2]) -> Result<Self, TableError> {
+        let [start, end] = range.map(|w| curve.point_and_rate(w)[0]);
+        let blade_from_segment = chord_frame(start, end);
+        let half_mm = 0.5 * start.distance(end);
+        let profile = CurveProfile { curve, segment_from_blade: blade_from_segment.inverse(), range };
+        let table = EdgeTable::fit(&profile, [-half_mm, half_mm])?;
+        Ok(Self::from_table(name, blade_from_segment, table, [-half_mm, half_mm]))
+    }
+
+    /// Straight edge from `start_mm` to `end_mm` in the chain's direction.
+    pub fn straight(name: SegmentName, start_mm: DVec2, end_mm: DVec2) -> Self {
+        let half_mm = 0.5 * start_mm.distance(end_mm);
+        let table = EdgeTable::fit(&StraightProfile, [-half_mm, half_mm]).expect("a straight line needs one cell");
+        Self::from_table(name, chord_frame(start_mm, end_mm), table, [-half_mm, half_mm])
+    }
+
+    fn from_table(name: SegmentName, blade_from_segment: Rigid2, table: EdgeTable, y_range_mm: [f64; 2]) -> Self {
+        let places = (0..=table.cells.len()).map(|i| {
+            let y = table.y_start_mm + i as f64 / table.cells_per_mm;
+            (y, table.x_and_slope(y))
+        });
+        let (mut reach, mut low, mut high) = (0.0_f64, f64::INFINITY, f64::NEG_INFINITY);
+        for (y, [x, slope]) in places {
+            reach = reach.max(x.hypot(y));
+            (low, high) = (low.min(slope), high.max(slope));
+        }
+        // Between the nodes the edge stays within the table's tolerance of a chord: a thousandth is ample.
+        let reach_mm = reach * 1.001;
+        Self {
+            name,
+            blade_from_segment,
+            shape: SegmentShape::Table(table),
+            y_range_mm,
+            reach_mm,
+            slope_range: [low, high],
+        }
+    }
+
+    /// Convex arc round `center_mm` from polar angle `from_rad` to `to_rad` (counter-clockwise, less than half a turn).
+    pub fn arc(name: SegmentName, center_mm: DVec2, radius_mm: f64, [from_rad, to_rad]: [f64; 2]) -> Self {
+        let middle = DVec2::from_angle(0.5 * (from_rad + to_rad));
+        let half_rad = 0.5 * (to_rad - from_rad);
+        let half_mm = radius_mm * half_rad.sin();
+        Self {
+            name,
+            blade_from_segment: Rigid2 { rotation: middle, translation_mm: center_mm + radius_mm * middle },
+            shape: SegmentShape::Arc { radius_mm },
+            y_range_mm: [-half_mm, half_mm],
+            reach_mm: 2.0 * radius_mm * (0.5 * half_rad).sin() * 1.001,
+            slope_range: [-half_rad.tan(), half_rad.tan()],
+        }
+    }
+
+    /// x in mm and dx/dy of the edge at `y_mm`, in the segment's frame.
+    pub fn x_and_slope(&self, y_mm: f64) -> [f64; 2] {
+        match &self.shape {
+            SegmentShape::Table(table) => table.x_and_slope(y_mm),
+            SegmentShape::Arc { radius_mm } => {
+                let rise = (radius_mm * radius_mm - y_mm * y_mm).max(0.0).sqrt();
+                [-y_mm * y_mm / (radius_mm + rise), -y_mm / rise.max(f64::MIN_POSITIVE)]
+            }
+        }
+    }
+
+    /// The same segment on the other side of the blade's centre line.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let name = match self.name {
+            SegmentName::CornerLeft => SegmentName::CornerRight,
+            SegmentName::FlankLeft => SegmentName::FlankRight,
+            SegmentName::BaseLeft => SegmentName::BaseRight,
+            SegmentName::RootLeft => SegmentName::RootRight,
+            other => other,
+        };
+        let flip = |v: DVec2| DVec2::new(v.x, -v.y);
+        let frame = self.blade_from_segment;
+        let shape = match &self.shape {
+            SegmentShape::Arc { radius_mm } => SegmentShape::Arc { radius_mm: *radius_mm },
+            SegmentShape::Table(table) => SegmentShape::Table(table.mirrored()),
+        };
+        Self {
+            name,
+            blade_from_segment: Rigid2 { rotation: flip(frame.rotation), translation_mm: flip(frame.translation_mm) },
+            shape,
+            y_range_mm: [-self.y_range_mm[1], -self.y_range_mm[0]],
+            reach_mm: self.reach_mm,
+            slope_range: [-self.slope_range[1], -self.slope_range[0]],
+        }
+    }
+
+    /// Where the ray `origin + h direction` (segment frame, unit direction) enters the tool through this segment or its continuation
+    /// (end tangents of a table, the full circle of an arc). `None`: it never does.
+    ///
+    /// The residual of a convex segment is convex in h, so Newton's method from a place where it falls runs monotonically
+    /// to the entry, however far away it starts.
+    pub fn enter(&self, origin_mm: DVec2, direction: DVec2) -> Option<RayHit> {
+        match &self.shape {
+            SegmentShape::Arc { radius_mm } => {
+                let b = direction.x * (origin_mm.x + radius_mm) + direction.y * origin_mm.y;
+                let c = origin_mm.length_squared() + 2.0 * radius_mm * origin_mm.x;
+                let discriminant = b * b - c;
+                if discriminant <= 0.0 {
+                    return None;
+                }
+                let root = discriminant.sqrt();
+                let height_mm = if b < 0.0 { c / (root - b) } else { -b - root };
+                let hit = origin_mm + height_mm * direction;
+                let normal = (hit + DVec2::new(*radius_mm, 0.0)) / *radius_mm;
+                Some(RayHit { height_mm, y_mm: hit.y, normal, curvature_per_mm: 1.0 / radius_mm })
+            }
+            SegmentShape::Table(table) => self.enter_table(table, origin_mm, direction),
+        }
+    }
+
+    fn enter_table(&self, table: &EdgeTable, o: DVec2, n: DVec2) -> Option<RayHit> {
+        let falls = |slope: f64| n.x - slope * n.y < 0.0;
+        if !self.slope_range.iter().any(|&slope| falls(slope)) {
+            return None;
+        }
+        let mut h = if n.x < -0.1 { -o.x / n.x } else { -o.y * n.y };
+        if !falls(table.x_and_slope(o.y + h * n.y)[1]) {
+            // Start beyond the end where the ray still runs into the tool: the residual is straight out there.
+            let end = usize::from(falls(self.slope_range[1]) && !falls(self.slope_range[0]));
+            let places = [table.y_start_mm, table.y_end_mm()];
+            let y = places.into_iter().find(|&y| falls(table.x_and_slope(y)[1])).unwrap_or(places[end]);
+            h = (y - o.y) / n.y;
+        }
+        // The residual is convex: only a ray that is not a number does not converge.
+        let h = iterate("a ray's entry into an edge", h, ENTRY_STEPS, |h| {
+            let y = o.y + h * n.y;
+            let [x, slope] = table.x_and_slope(y);
+            let rate = n.x - slope * n.y;
+            if rate >= -LEAST_FALL {
+                return ControlFlow::Break(None);
+            }
+            let residual = o.x + h * n.x - x;
+            let step = residual / rate;
+            let to = h - step;
+            if step.abs() < ENTRY_MM {
+                ControlFlow::Break(Some(to))
+            } else {
+                ControlFlow::Continue(Step { to, residual })
+            }
+        });
+        let height_mm = h.ok()??;
+        let y_mm = o.y + height_mm * n.y;
+        let normal = DVec2::new(1.0, -table.x_and_slope(y_mm)[1]).normalize();
+        Some(RayHit { height_mm, y_mm, normal, curvature_per_mm: table.curvature(y_mm) })
+    }
+}
+
+impl Edge {
+    /// Edge of a chain of segments.
+    pub fn new(segments: Vec<Segment>) -> Self {
+        let corners: Vec<DVec2> = segments.iter().map(|s| s.blade_from_segment.translation_mm).collect();
+        let low = corners.iter().copied().reduce(DVec2::min).unwrap_or_default();
+        let high = corners.iter().copied().reduce(DVec2::max).unwrap_or_default();
+        let center_mm = 0.5 * (low + high);
+        let reach_mm = segments
+            .iter()
+            .map(|s| s.blade_from_segment.translation_mm.distance(center_mm) + s.reach_mm)
+            .fold(0.0, f64::max);
+        Self { segments, center_mm, reach_mm }
+    }
+}

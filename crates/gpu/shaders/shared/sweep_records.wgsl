@@ -1,0 +1,53 @@
+// What the host hands over for rays in space, member by member the same as crates/gpu/src/sweep_records.rs; a test compares
+// both.
+
+// Dexels that visit the same passes, in groups of four rows.
+struct SweepTile {
+    // Direction of the tile's middle ray, and the lowest height that rays record.
+    middle: vec4<f32>,
+    first_group: u32,
+    group_count: u32,
+    first_record: u32,
+    record_count: u32,
+}
+
+// One sweep of one segment over one tile. Axes: r from the tool's axis, q in the direction of rotation, y along the
+// blade's; r and y count from the segment's base point.
+struct SweepRecord {
+    // Rows r, q, y of the rotation, three for each of u^0, u^1, u^2; in w the same coefficient of the place of the tile's
+    // middle ray at the start height.
+    turn: array<vec4<f32>, 9>,
+    // Coefficients of u^3 of the place, and the height where the iteration starts.
+    place_3: vec4<f32>,
+    // Distance of the base point from the tool's axis.
+    radius_mm: f32,
+    // Turn of the rake face per mm of y.
+    twist_rad_per_mm: f32,
+    // Direction of the segment's x in (r, y).
+    cos: f32,
+    sin: f32,
+    // y that belongs to the segment, in the segment's frame against the base point, ends overlapping.
+    y_from_mm: f32,
+    y_to_mm: f32,
+    // Table: x of the base cell. Arc: base point against the centre.
+    base_x_mm: f32,
+    base_y_mm: f32,
+    // Arc: square of the base point's distance from the centre less that of the radius.
+    arc_excess_mm2: f32,
+    // Arc: half of 1 / radius.
+    arc_half_curvature: f32,
+    // Table: cells in a millimetre, 0 for an arc.
+    cells_per_mm: f32,
+    cell_width_mm: f32,
+    // First and last cell against the base cell.
+    first_cell: f32,
+    last_cell: f32,
+    // Base cell in the table of all segments.
+    base_cell: u32,
+    // Id of the pass.
+    pass_id: u32,
+    // Moments at which the sweep is good.
+    t_from: f32,
+    t_to: f32,
+    unused: vec2<u32>,
+}

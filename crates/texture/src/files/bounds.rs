@@ -1,0 +1,91 @@
+//! Bounds of what is read: regular files of a size that their format can have, and surfaces that fit into memory.
+//!
+//! A surface of the most points needs 0.8 GB, and some ten times that while it is evaluated.
+//!
+//! Road not taken: reading pipes. A pipe may wait for ever in silence, and formats with a directory at their end need
+//! all of it anyway; a file costs one more word on the command line.
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::Path;
+
+use crate::text::{self, quoted};
+use crate::{Error, Result};
+
+/// Points that a surface in a file may have.
+pub(super) const MOST_POINTS: usize = 100_000_000;
+/// Bytes of a height in formats of raw numbers.
+const BYTES_PER_NUMBER: u64 = 8;
+/// Bytes of a height in formats of text, its separator included: all digits of an f64 are 24.
+const BYTES_PER_WORD: u64 = 32;
+/// Bytes for headers, notes and trailers.
+const ROOM_FOR_NOTES: u64 = 64 << 20;
+/// Bytes at the start of a file by which formats are told apart.
+const HEAD: u64 = 64;
+
+/// Most bytes of a file of raw numbers.
+pub(super) const MOST_BYTES_OF_NUMBERS: u64 = MOST_POINTS as u64 * BYTES_PER_NUMBER + ROOM_FOR_NOTES;
+/// Most bytes of a file of text.
+pub(super) const MOST_BYTES_OF_TEXT: u64 = MOST_POINTS as u64 * BYTES_PER_WORD + ROOM_FOR_NOTES;
+
+/// Number of points of a grid that a header declares.
+pub(super) fn points(nx: usize, ny: usize) -> std::result::Result<usize, String> {
+    nx.checked_mul(ny).filter(|&count| count <= MOST_POINTS).ok_or_else(|| {
+        format!(
+            "the header declares {nx} x {ny} points, more than {MOST_POINTS}: crop or thin the \
+             surface where it was measured"
+        )
+    })
+}
+
+/// Reads a regular file; `what` finds out from its first bytes what it is and how large it may be.
+pub(super) fn read<T>(
+    path: &Path,
+    what: impl FnOnce(&[u8]) -> std::result::Result<(T, u64), String>,
+) -> Result<(T, Vec<u8>)> {
+    let refused = |reason: String| Error::Unreadable { path: path.to_owned(), reason };
+    // Before it is opened: opening a pipe waits for its other end.
+    let facts = fs::metadata(path).map_err(Error::reading(path))?;
+    if !facts.is_file() {
+        let is = if facts.is_dir() { "a folder" } else { "a device, pipe or socket" };
+        return Err(refused(format!("it is {is}; surfaces are read from regular files: save it as one first")));
+    }
+    let mut file = File::open(path).map_err(Error::reading(path))?;
+    let mut bytes = Vec::new();
+    (&mut file).take(HEAD).read_to_end(&mut bytes).map_err(Error::reading(path))?;
+    let (found, most) = what(&bytes).map_err(refused)?;
+    let too_large = || refused(format!("it is larger than the {most} bytes that a surface in this format can have"));
+    if facts.len() > most {
+        return Err(too_large());
+    }
+    let no_room = |_| refused(format!("its {} bytes do not fit into memory", facts.len()));
+    bytes.try_reserve_exact(facts.len() as usize).map_err(no_room)?;
+    // A file may grow while it is read, or not know its length.
+    file.take(most - bytes.len() as u64 + 1).read_to_end(&mut bytes).map_err(Error::reading(path))?;
+    if bytes.len() as u64 > most { Err(too_large()) } else { Ok((found, bytes)) }
+}
+
+/// Why a file cannot be used, fit to print.
+pub(super) fn unreadable(path: &Path) -> impl FnOnce(String) -> Error {
+    let path = path.to_owned();
+    move |reason| Error::Unreadable { path, reason: text::reason(&reason) }
+}
+
+/// `value` made of the number `raw` of a file: a number too large for f64 stays a number, which is refused as a
+/// height, where infinity would pass as a hole.
+pub(super) fn kept_number(raw: f64, value: f64) -> f64 {
+    if raw.is_finite() { value.clamp(f64::MIN, f64::MAX) } else { value }
+}
+
+/// A height written as text; `nan` and `inf` are holes, digits always a number.
+pub(super) fn height(word: &str) -> std::result::Result<f64, String> {
+    let value: f64 = word.parse().map_err(|_| format!("`{}` is not a height", quoted(word)))?;
+    let raw = if word.contains(|c: char| c.is_ascii_digit()) { 0.0 } else { value };
+    Ok(kept_number(raw, value))
+}
+
+/// A factor from a header.
+pub(super) fn factor(name: &str, value: f64) -> std::result::Result<f64, String> {
+    let usable = value.is_finite() && value != 0.0;
+    usable.then_some(value).ok_or_else(|| format!("{name} is {value}; it must be a number other than 0"))
+}

@@ -1,0 +1,89 @@
+//! SDF ASCII (ISO 25178-71): header lines `Name = value`, a star, heights, a star, trailer, a star.
+//!
+//! Heights are written in um (`Zscale` 1e-6) with the fewest digits that read back the same, one line per row; holes
+//! as `NaN`, which every reader that was tried takes, where `BAD` fails in one. Read: both.
+
+use std::fmt::Write as _;
+
+use super::bounds::{factor, height, kept_number, points};
+use super::sdf::raw_type;
+use super::{SurfaceFile, notes_json, notes_of};
+use crate::surface::Surface;
+use crate::text::quoted;
+
+/// Who wrote the file.
+pub(super) const MAKER: &str = "gearcut";
+/// The format demands dates; zeros are its custom for "not recorded". A clock's would make every file differ.
+pub(super) const UNKNOWN_DATE: &str = "000000000000";
+/// Trailer line that carries the notes.
+const NOTES: &str = "Notes";
+
+pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
+    let surface = &file.surface;
+    let (nx, ny) = (surface.nx(), surface.ny());
+    if nx.max(ny) > usize::from(u16::MAX) {
+        return Err(format!("an SDF file holds at most 65535 points a side, not {}", nx.max(ny)));
+    }
+    let mut text = format!(
+        "aISO-1.0\nManufacID = {MAKER}\nCreateDate = {UNKNOWN_DATE}\nModDate = {UNKNOWN_DATE}\nNumPoints = {nx}\nNumProfiles = {ny}\n\
+         Xscale = {:e}\nYscale = {:e}\nZscale = 1e-6\nZresolution = -1\nCompression = 0\nDataType = 7\nCheckType = 0\n*\n",
+        surface.dx_um() * 1e-6,
+        surface.dy_um() * 1e-6
+    );
+    for y in 0..ny {
+        for (x, z) in surface.row(y).iter().enumerate() {
+            let separator = if x > 0 { " " } else { "" };
+            let _ = if z.is_nan() { write!(text, "{separator}NaN") } else { write!(text, "{separator}{z:?}") };
+        }
+        text.push('\n');
+    }
+    text.push_str("*\n");
+    text.push_str(&trailer_text(&file.notes));
+    Ok(text.into_bytes())
+}
+
+pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
+    let text = std::str::from_utf8(bytes).map_err(|_| "the file is no text".to_owned())?.trim_start();
+    let mut parts = text.splitn(3, '*');
+    let (header, data) = (parts.next().unwrap_or_default(), parts.next().ok_or("the header does not end with a star")?);
+    let field = |name: &str| {
+        let line = header.lines().filter_map(|line| line.split_once('=')).find(|(key, _)| key.trim() == name);
+        line.map(|(_, value)| value.trim()).ok_or_else(|| format!("the header has no `{name}`"))
+    };
+    let number = |name: &str| {
+        let value = field(name)?;
+        value.parse::<f64>().map_err(|_| format!("`{name} = {}` is not a number", quoted(value)))
+    };
+    let (nx, ny) = (number("NumPoints")? as usize, number("NumProfiles")? as usize);
+    let count = points(nx, ny)?;
+    let (dx, dy, scale) = (number("Xscale")?, number("Yscale")?, factor("Zscale", number("Zscale")?)?);
+    let invalid = raw_type(number("DataType")? as u8).ok().map(super::Raw::smallest);
+    let heights = data
+        .split_whitespace()
+        // One more than there should be is enough to see that they do not fit.
+        .take(count + 1)
+        .map(|word| {
+            if word.eq_ignore_ascii_case("bad") || word.eq_ignore_ascii_case("nan") {
+                return Ok(f64::NAN);
+            }
+            let value = height(word)?;
+            Ok(if Some(value) == invalid { f64::NAN } else { kept_number(value, value * (scale * 1e6)) })
+        })
+        .collect::<Result<Vec<f64>, String>>()?;
+    let surface = Surface::new(nx, ny, dx * 1e6, dy * 1e6, heights)?;
+    Ok(SurfaceFile { surface, notes: trailer_notes(parts.next().unwrap_or_default()) })
+}
+
+/// Trailer with the notes; empty without any.
+pub(super) fn trailer_text(notes: &[(String, String)]) -> String {
+    if notes.is_empty() {
+        return String::new();
+    }
+    format!("{NOTES} = {}\n*\n", notes_json(notes))
+}
+
+/// Notes of a trailer: our own line, else the whole text as a comment.
+pub(super) fn trailer_notes(trailer: &str) -> Vec<(String, String)> {
+    let own = trailer.lines().filter_map(|line| line.split_once('=')).find(|(key, _)| key.trim() == NOTES);
+    notes_of(own.map_or_else(|| trailer.trim_matches(['*', '\n', '\r', ' ', '\0']), |(_, json)| json))
+}

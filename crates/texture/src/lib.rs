@@ -1,0 +1,90 @@
+//! Surface texture: areal parameters of ISO 25178-2, profile parameters of ISO 21920-2, and the files that
+//! instruments write surfaces to.
+//!
+//! A surface does not say what was cut or measured: a flank of a gear, a ground shaft or a lens mould. Heights and
+//! spacing are in um, angles in degrees.
+//!
+//! In: a [`Surface`], measured or cut, and a [`Chain`] of form removal, filters and crop. Out: [`Evaluation`], the
+//! full set with units, definitions and, where a value does not exist, the reason.
+//!
+//! | what | where |
+//! | --- | --- |
+//! | heights on a grid with holes | [`surface`] |
+//! | F-operator, S- and L-filter, crop | [`chain`]: [`form`], [`gaussian`] |
+//! | Sa Sq Ssk Sku Sp Sv Sz | [`height`] |
+//! | Sdq Sdr | [`hybrid`] |
+//! | Sal Str Std Ssw | [`spatial`], from the `spectrum` |
+//! | Smr Smc Sdc Sxp Vm Vv Vmp Vmc Vvc Vvv | [`ratio`] |
+//! | Sk Spk Svk Smr1 Smr2 Spkx Svkx Sak1 Sak2 | [`core`] |
+//! | Spd Spc S10z S5p S5v | [`features`], from the `watershed` |
+//! | Ra Rq Rz Rt RSm Rsk Rku Rk Rpk Rvk Mr1 Mr2 | [`profile`] |
+//! | X3P, SDF, SUR, NPY, CSV and EXR maps, read and written | [`files`] |
+//! | files that are complete or absent | [`atomic`] |
+//!
+//! # Example
+//!
+//! Waves of amplitude 0.5 um, 85 um long and oblique, on a tilted plane. The plane goes, waves shorter than 10 um and
+//! longer than 800 um go, half of an L-filter is left out at every side, and what is left has the numbers of a sine:
+//! Sa = 2 A / pi, Sk = 1.775 A. The S-filter lets the waves pass with 2^-(10/85)^2 = 0.990.
+//!
+//! ```
+//! use gearcut_texture::{Arguments, Chain, Evaluation, Form, Surface};
+//! use std::f64::consts::{PI, TAU};
+//!
+//! let (nx, ny, dx_um, dy_um) = (1001, 201, 2.0, 5.0);
+//! let place_um = |i: usize| ((i % nx) as f64 * dx_um, (i / nx) as f64 * dy_um);
+//! let wave_um = |x: f64, y: f64| 0.5 * (TAU * (x / 100.0 + y / 163.0)).sin();
+//! let heights_um = (0..nx * ny).map(place_um).map(|(x, y)| wave_um(x, y) + 0.01 * x - 0.02 * y);
+//! let measured = Surface::new(nx, ny, dx_um, dy_um, heights_um.collect())?;
+//!
+//! let (s_filter_um, l_filter_um) = (Some(10.0), Some(800.0));
+//! let chain = Chain { s_filter_um, l_filter_um, crop_um: 400.0, ..Chain::of_form(Form::Plane) };
+//! let (surface, steps) = chain.apply(&measured)?;
+//! let evaluation = Evaluation::of(&surface, &Arguments::default());
+//! let (sa, sk) = (evaluation.value("Sa").unwrap(), evaluation.value("Sk").unwrap());
+//! println!("{}\nSa {sa:.4} um, Sk {sk:.4} um", steps.join("\n"));
+//!
+//! let amplitude_um = 0.5 * 2_f64.powf(-10.0 * 10.0 * (100.0_f64.powi(-2) + 163.0_f64.powi(-2)));
+//! assert!((sa / (2.0 / PI * amplitude_um) - 1.0).abs() < 0.01);
+//! assert!((sk / (1.775 * amplitude_um) - 1.0).abs() < 0.01);
+//! # Ok::<(), String>(())
+//! ```
+//!
+//! A file instead of heights: [`files::read_surface`]; `examples/read_x3p.rs` evaluates one.
+//!
+//! # Errors
+//!
+//! Files that cannot be used are an [`Error`] that names them. What a surface or a step does not allow is a sentence
+//! (`Result<_, String>`), and so is the reason of a parameter that does not exist. Heights beyond
+//! [`surface::LARGEST_HEIGHT_UM`] are refused, so that no sum overflows.
+//!
+//! # Holes
+//!
+//! Holes are left out of sums and curves, count as the edge of the map for hills, and keep Std and Ssw from being
+//! defined; the autocorrelation divides by the pairs that were measured.
+
+pub mod atomic;
+pub mod chain;
+pub mod core;
+mod error;
+pub mod features;
+pub mod files;
+pub mod form;
+pub mod gaussian;
+pub mod height;
+pub mod hybrid;
+pub mod parameters;
+pub mod profile;
+pub mod ratio;
+pub mod spatial;
+mod spectrum;
+pub mod surface;
+mod text;
+mod watershed;
+
+pub use chain::Chain;
+pub use error::{Error, Result};
+pub use form::Form;
+pub use parameters::{Arguments, Evaluation, Parameter};
+pub use profile::Profile;
+pub use surface::Surface;

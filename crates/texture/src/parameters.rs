@@ -1,0 +1,267 @@
+//! The full sets of parameters with symbol, unit, definition, and a reason where one is undefined.
+//!
+//! One list serves `results.json`, the `texture` command and the report, so that none of them can lack a definition.
+
+use rayon::join;
+
+use super::core::Core;
+use super::features::Features;
+use super::height::Heights;
+use super::hybrid::Hybrid;
+use super::profile::Profile;
+use super::ratio::MaterialRatio;
+use super::spatial::Spatial;
+use super::surface::Surface;
+
+/// Ratios p at which Smc, Vm and Vv are always given, per cent.
+pub const RATIOS_PERCENT: [f64; 3] = [10.0, 50.0, 80.0];
+
+/// One parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Symbol of the standard, such as `Sq` or `Smc(10)`.
+    pub symbol: String,
+    /// The value, or why there is none.
+    pub value: Result<f64, String>,
+    /// Its unit.
+    pub unit: &'static str,
+    /// What it is.
+    pub definition: String,
+    /// Family, for grouping.
+    pub family: &'static str,
+}
+
+/// Everything about one surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evaluation {
+    /// All parameters in the order of the standard.
+    pub parameters: Vec<Parameter>,
+    /// The material ratio curve, about the mean.
+    pub curve: MaterialRatio,
+    /// The construction of Sk on it.
+    pub core: Core,
+}
+
+/// Arguments of parameters that are functions, beyond those always given.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Arguments {
+    /// Heights c over the mean for Smr(c), um.
+    pub heights_um: Vec<f64>,
+    /// Ratios p for Smc(p), Vm(p), Vv(p), per cent.
+    pub ratios_percent: Vec<f64>,
+}
+
+impl Evaluation {
+    /// The full areal set of a surface after its chain.
+    pub fn of(surface: &Surface, arguments: &Arguments) -> Self {
+        let centred = surface.centred();
+        let heights = Heights::of(&centred);
+        let sz = heights.sp + heights.sv;
+        let ((hybrid, curve), (spatial, features)) = join(
+            || (Hybrid::of(&centred), MaterialRatio::of(&centred)),
+            || join(|| Spatial::of(&centred, sz == 0.0), || Features::of(&centred, sz)),
+        );
+        let core = Core::of(&curve);
+        let mut list = List::default();
+        list.heights(&heights);
+        list.spatial(&spatial);
+        list.hybrid(hybrid);
+        list.core(&core, sz == 0.0);
+        list.functions(&curve, arguments);
+        list.volumes(&curve);
+        list.features(&features);
+        Self { parameters: list.0, curve, core }
+    }
+
+    /// Value of a parameter, if it is defined.
+    pub fn value(&self, symbol: &str) -> Option<f64> {
+        self.parameters.iter().find(|p| p.symbol == symbol).and_then(|p| p.value.clone().ok())
+    }
+}
+
+/// The profile set of one line as parameters.
+pub fn of_profile(profile: &Profile) -> Vec<Parameter> {
+    let mut list = List::default();
+    let family = "profile";
+    list.um(family, "Ra", profile.ra, "arithmetical mean height of the profile");
+    list.um(family, "Rq", profile.rq, "root mean square height of the profile");
+    list.um(family, "Rz", profile.rz, "mean of the heights of five sections of the profile");
+    list.um(family, "Rt", profile.rt, "height of the whole profile");
+    list.add(
+        family,
+        "RSm",
+        profile.rsm.clone(),
+        "um",
+        "mean spacing of profile elements, crossing-the-line segmentation",
+    );
+    list.moment(family, "Rsk", profile.rsk, "skewness of the profile");
+    list.moment(family, "Rku", profile.rku, "kurtosis of the profile; 3 for Gaussian heights");
+    let core = &profile.core;
+    list.um(
+        family,
+        "Rk",
+        core.sk,
+        "core height of the profile's material ratio curve, least-squares line in the 40 % window",
+    );
+    list.um(family, "Rpk", core.spk, "reduced peak height of the profile");
+    list.um(family, "Rvk", core.svk, "reduced pit depth of the profile");
+    list.add(family, "Mr1", Ok(core.smr1), "%", "material ratio of the profile's peaks above the core");
+    list.add(family, "Mr2", Ok(core.smr2), "%", "material ratio of the profile above its pits");
+    list.0
+}
+
+#[derive(Default)]
+struct List(Vec<Parameter>);
+
+impl List {
+    fn add(
+        &mut self,
+        family: &'static str,
+        symbol: impl Into<String>,
+        value: Result<f64, String>,
+        unit: &'static str,
+        definition: impl Into<String>,
+    ) {
+        let value = value.and_then(|value| {
+            if value.is_finite() { Ok(value) } else { Err("too few neighbouring points were measured".to_owned()) }
+        });
+        self.0.push(Parameter { symbol: symbol.into(), value, unit, definition: definition.into(), family });
+    }
+
+    fn um(&mut self, family: &'static str, symbol: impl Into<String>, value: f64, definition: impl Into<String>) {
+        self.add(family, symbol, Ok(value), "um", definition);
+    }
+
+    fn moment(&mut self, family: &'static str, symbol: &str, value: f64, definition: &str) {
+        let value = if value.is_nan() { Err("the surface is flat".to_owned()) } else { Ok(value) };
+        self.add(family, symbol, value, "1", definition);
+    }
+
+    fn heights(&mut self, h: &Heights) {
+        let family = "height";
+        self.um(family, "Sa", h.sa, "arithmetical mean height");
+        self.um(family, "Sq", h.sq, "root mean square height");
+        self.moment(family, "Ssk", h.ssk, "skewness of the heights");
+        self.moment(family, "Sku", h.sku, "kurtosis of the heights; 3 for Gaussian ones, nothing subtracted");
+        self.um(family, "Sp", h.sp, "largest peak height over the mean plane");
+        self.um(family, "Sv", h.sv, "largest pit depth under the mean plane");
+        self.um(family, "Sz", h.sp + h.sv, "maximum height, Sp + Sv");
+    }
+
+    fn spatial(&mut self, s: &Spatial) {
+        let family = "spatial";
+        let correlation = "of the unbiased linear autocorrelation";
+        self.add(
+            family,
+            "Sal",
+            s.sal.clone(),
+            "um",
+            format!("autocorrelation length: shortest decay to 0.2 {correlation}"),
+        );
+        self.add(
+            family,
+            "Str",
+            s.str.clone(),
+            "1",
+            format!("texture aspect ratio: shortest over longest decay to 0.2 {correlation}"),
+        );
+        self.add(
+            family,
+            "Std",
+            s.std.clone(),
+            "deg",
+            "direction of the wave vector with the largest angular amplitude, \
+             counter-clockwise from +x towards +y, 0 to 180; the lay runs across it",
+        );
+        self.add(family, "Ssw", s.ssw.clone(), "um", "wavelength of the largest Fourier component of the window");
+    }
+
+    fn hybrid(&mut self, h: Hybrid) {
+        self.add("hybrid", "Sdq", Ok(h.sdq), "1", "root mean square gradient, forward differences");
+        self.add(
+            "hybrid",
+            "Sdr",
+            Ok(h.sdr),
+            "%",
+            "developed interfacial area ratio, mean of both diagonal splits of each cell",
+        );
+    }
+
+    fn core(&mut self, c: &Core, flat: bool) {
+        let family = "core";
+        let guarded = |value: f64| if flat { Err("the surface is flat".to_owned()) } else { Ok(value) };
+        self.um(
+            family,
+            "Sk",
+            c.sk,
+            "core height: least-squares line in the 40 % window of the flattest secant, from 0 to 100 %",
+        );
+        self.um(
+            family,
+            "Spk",
+            c.spk,
+            "reduced peak height: triangle on Smr1 with the area of the hills above the core",
+        );
+        self.um(
+            family,
+            "Svk",
+            c.svk,
+            "reduced dale height: triangle on 100 - Smr2 with the area of the dales below the core",
+        );
+        self.add(family, "Smr1", guarded(c.smr1), "%", "material ratio at the upper end of the core");
+        self.add(family, "Smr2", guarded(c.smr2), "%", "material ratio at the lower end of the core");
+        self.um(family, "Spkx", c.spkx, "height of the highest point over the core");
+        self.um(family, "Svkx", c.svkx, "depth of the lowest point under the core");
+        self.add(family, "Sak1", Ok(c.sak1), "um^3/um^2", "hills above the core, volume per unit area: Spk Smr1 / 200");
+        self.add(
+            family,
+            "Sak2",
+            Ok(c.sak2),
+            "um^3/um^2",
+            "dales below the core, volume per unit area: Svk (100 - Smr2) / 200",
+        );
+    }
+
+    fn functions(&mut self, curve: &MaterialRatio, arguments: &Arguments) {
+        let family = "function";
+        for c in [0.0].iter().chain(&arguments.heights_um) {
+            let definition = format!("material ratio at {c} um over the mean plane");
+            self.add(family, format!("Smr({c})"), Ok(curve.smr_percent(*c)), "%", definition);
+        }
+        let ratios = || RATIOS_PERCENT.iter().chain(&arguments.ratios_percent);
+        for p in ratios() {
+            let definition = format!("height over the mean plane at a material ratio of {p} %");
+            self.um(family, format!("Smc({p})"), curve.smc_um(*p), definition);
+        }
+        let between = |p: f64, q: f64| curve.smc_um(p) - curve.smc_um(q);
+        self.um(family, "Sdc(10,80)", between(10.0, 80.0), "difference of heights Smc(10) - Smc(80)");
+        self.um(family, "Sxp", between(2.5, 50.0), "extreme peak height Smc(2.5) - Smc(50)");
+        for p in ratios() {
+            let (above, below) =
+                (format!("material above Smc({p}) per unit area"), format!("void below Smc({p}) per unit area"));
+            self.add(family, format!("Vm({p})"), Ok(curve.material_um(*p)), "um^3/um^2", above);
+            self.add(family, format!("Vv({p})"), Ok(curve.void_um(*p)), "um^3/um^2", below);
+        }
+    }
+
+    fn volumes(&mut self, curve: &MaterialRatio) {
+        let family = "volume";
+        let (m10, m80) = (curve.material_um(10.0), curve.material_um(80.0));
+        let (v10, v80) = (curve.void_um(10.0), curve.void_um(80.0));
+        let unit = "um^3/um^2";
+        self.add(family, "Vmp", Ok(m10), unit, "peak material volume Vm(10)");
+        self.add(family, "Vmc", Ok(m80 - m10), unit, "core material volume Vm(80) - Vm(10)");
+        self.add(family, "Vvc", Ok(v10 - v80), unit, "core void volume Vv(10) - Vv(80)");
+        self.add(family, "Vvv", Ok(v80), unit, "dale void volume Vv(80)");
+    }
+
+    fn features(&mut self, f: &Features) {
+        let family = "feature";
+        let hills = "hills that rise 5 % of Sz (Wolf pruning) and lie wholly inside the window";
+        self.add(family, "Spd", f.spd.clone(), "1/um^2", format!("density of peaks: {hills}"));
+        self.add(family, "Spc", f.spc.clone(), "1/um", format!("mean curvature of the peaks of {hills}"));
+        self.add(family, "S10z", f.s10z.clone(), "um", "ten point height S5p + S5v");
+        self.add(family, "S5p", f.s5p.clone(), "um", format!("mean height of the five highest peaks of {hills}"));
+        self.add(family, "S5v", f.s5v.clone(), "um", "mean depth of the five deepest pits of dales of the same kind");
+    }
+}

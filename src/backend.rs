@@ -1,0 +1,66 @@
+//! Which machine cuts: a real GPU if there is one, else the processor; anything else only when asked for.
+//!
+//! The native backend is faster than a software adapter on the same cores, so llvmpipe and its like are for checking
+//! the shaders. A build without the feature `gpu` has the native backend alone, and says so wherever a GPU could be
+//! asked for.
+
+#[cfg(feature = "gpu")]
+mod with_gpu;
+#[cfg(not(feature = "gpu"))]
+mod without_gpu;
+
+use crate::cut::Backend;
+use crate::cut::cpu::Cpu;
+use crate::error::Result;
+#[cfg(feature = "gpu")]
+use with_gpu as build;
+#[cfg(not(feature = "gpu"))]
+use without_gpu as build;
+
+pub use build::{Devices, devices};
+
+/// What `--backend` says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum BackendWish {
+    /// A real GPU, else the processor.
+    #[default]
+    Auto,
+    /// A real GPU, else a software adapter, else an error.
+    Gpu,
+    /// The processor.
+    Cpu,
+}
+
+/// What to do when a GPU fails.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OnFailure {
+    /// Cut the flank again on the processor, and say so.
+    #[default]
+    RedoNatively,
+    /// Stop the run with the problem.
+    Stop,
+}
+
+/// A backend and the reason for it, for the run record.
+pub struct Choice {
+    /// The backend.
+    pub backend: Box<dyn Backend + Send>,
+    /// One line.
+    pub why: String,
+}
+
+/// The backend for a wish.
+///
+/// # Errors
+/// A GPU was asked for, and there is none, it does not work, or this build has no GPU backend.
+pub fn choose(wish: BackendWish, on_failure: OnFailure) -> Result<Choice> {
+    match wish {
+        BackendWish::Cpu => Ok(native("asked for".into())),
+        BackendWish::Gpu => build::gpu(on_failure),
+        BackendWish::Auto => Ok(build::any(on_failure)),
+    }
+}
+
+fn native(why: String) -> Choice {
+    Choice { backend: Box::new(Cpu::default()), why }
+}

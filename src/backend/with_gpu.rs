@@ -1,0 +1,135 @@
+//! Choices of a build with the backend on wgpu.
+
+use super::{Choice, OnFailure, native};
+use crate::cut::Backend;
+use crate::cut::cpu::Cpu;
+use crate::error::Result;
+use crate::gpu::adapter::{self, AdapterFacts, AdapterWish, FoundAdapter};
+use crate::gpu::{Gpu, GpuOptions, GpuProblem, OnGpuFailure};
+use serde::Serialize;
+use std::fmt;
+
+fn options(on_failure: OnFailure) -> GpuOptions {
+    let on_failure = match on_failure {
+        OnFailure::RedoNatively => OnGpuFailure::RedoNatively,
+        OnFailure::Stop => OnGpuFailure::Stop,
+    };
+    GpuOptions { on_failure, ..GpuOptions::default() }
+}
+
+/// A GPU, or what stands in for one.
+///
+/// # Errors
+/// There is none, or it does not work.
+pub(super) fn gpu(on_failure: OnFailure) -> Result<Choice> {
+    let found = adapter::choose(AdapterWish::RealFirst)?;
+    let why = if found.facts.kind.is_real() {
+        "asked for".into()
+    } else {
+        format!("asked for; no real GPU is there, {} stands in", found.facts.name)
+    };
+    Ok(Choice { backend: Box::new(Gpu::on(&found, options(on_failure))?), why })
+}
+
+/// A real GPU, else the processor.
+pub(super) fn any(on_failure: OnFailure) -> Choice {
+    let found = adapter::adapters();
+    let facts: Vec<AdapterFacts> = found.iter().map(|a| a.facts.clone()).collect();
+    match auto(&facts) {
+        (Some(index), why) => on_real_gpu(&found[index], options(on_failure), why),
+        (None, why) => native(why),
+    }
+}
+
+/// A real GPU that does not open, because of its driver, is no reason to fail when anything will do.
+fn on_real_gpu(found: &FoundAdapter, options: GpuOptions, why: String) -> Choice {
+    match Gpu::on(found, options) {
+        Ok(gpu) => Choice { backend: Box::new(gpu), why },
+        Err(problem) => native(format!("auto: {problem}")),
+    }
+}
+
+/// What auto takes of these adapters, and why; `None`: the processor.
+fn auto(adapters: &[AdapterFacts]) -> (Option<usize>, String) {
+    let taken = adapter::pick(adapters, AdapterWish::Real);
+    let why = match (taken, adapters.first()) {
+        (Some(index), _) => format!("auto: {} ({})", adapters[index].name, adapters[index].kind),
+        (None, Some(first)) => format!("auto: no real GPU, only {} ({})", first.name, first.kind),
+        (None, None) => "auto: no Vulkan, Metal or DirectX 12 adapter".into(),
+    };
+    (taken, why)
+}
+
+/// What `gearcut devices` shows.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Devices {
+    /// Adapters, best first.
+    pub adapters: Vec<AdapterFacts>,
+    /// The processor's backend.
+    pub native: String,
+    /// Index of the adapter that auto takes; nothing: the processor.
+    pub auto_takes: Option<usize>,
+    /// Why.
+    pub auto_why: String,
+}
+
+/// Looks for adapters.
+pub fn devices() -> Devices {
+    let adapters: Vec<AdapterFacts> = adapter::adapters().into_iter().map(|a| a.facts).collect();
+    let (auto_takes, auto_why) = auto(&adapters);
+    Devices { adapters, native: Cpu::default().name(), auto_takes, auto_why }
+}
+
+impl fmt::Display for Devices {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for adapter in &self.adapters {
+            writeln!(f, "gpu   {adapter}")?;
+        }
+        if self.adapters.is_empty() {
+            writeln!(f, "gpu   {}", GpuProblem::NoAdapter { seen: Vec::new() })?;
+        }
+        writeln!(f, "cpu   {}", self.native)?;
+        let taken = self.auto_takes.map_or(&self.native, |index| &self.adapters[index].name);
+        write!(f, "--backend auto takes {taken}: {}", self.auto_why.trim_start_matches("auto: "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::adapter::AdapterKind;
+
+    fn adapter(name: &str, kind: AdapterKind) -> AdapterFacts {
+        AdapterFacts {
+            name: name.into(),
+            kind,
+            interface: "Vulkan".into(),
+            driver: String::new(),
+            binding_bytes: 1 << 27,
+            buffer_bytes: 1 << 31,
+            workgroup_threads: 1024,
+            timestamps: true,
+            lacks: None,
+        }
+    }
+
+    #[test]
+    fn auto_takes_real_gpus_and_never_software() {
+        let software = adapter("llvmpipe", AdapterKind::Software);
+        let mut old = adapter("old card", AdapterKind::Discrete);
+        old.lacks = Some("8 storage buffers in a stage".into());
+        let card = adapter("card", AdapterKind::Integrated);
+        assert_eq!(auto(&[]).0, None);
+        assert_eq!(auto(std::slice::from_ref(&software)), (None, "auto: no real GPU, only llvmpipe (software)".into()));
+        assert_eq!(auto(&[old.clone(), software.clone()]).0, None);
+        assert_eq!(auto(&[old, card, software]), (Some(1), "auto: card (integrated GPU)".into()));
+    }
+
+    #[test]
+    fn the_list_says_what_auto_does_and_how_to_get_an_adapter() {
+        let empty =
+            Devices { adapters: Vec::new(), native: "cpu".into(), auto_takes: None, auto_why: "auto: nothing".into() };
+        let text = empty.to_string();
+        assert!(text.contains("mesa-vulkan-drivers") && text.ends_with("--backend auto takes cpu: nothing"), "{text}");
+    }
+}

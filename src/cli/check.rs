@@ -1,0 +1,21 @@
+//! `gearcut check`: what a scene means, before anything is cut.
+//!
+//! One part per question: is this the pitch curve I meant, what does the tool do to the teeth, can the machine follow, what
+//! will the cut cost.
+
+use super::args::SceneArguments;
+use super::failure::Failure;
+use super::print;
+use gearcut::output::text::Sheet;
+use gearcut::{process, scene};
+
+/// Runs the command.
+pub fn run(arguments: &SceneArguments) -> Result<(), Failure> {
+    let scene = scene::load(&arguments.scene, &arguments.settings)?;
+    let mut sheet = Sheet::default();
+    let checked = process::prepare(&scene.scene).and_then(|job| job.check(&mut sheet));
+    let warnings = checked.map_err(|error| Failure::of_scene(&scene, error))?;
+    print::to_stdout(&sheet.into_text())?;
+    print::warnings(&warnings);
+    Ok(())
+}

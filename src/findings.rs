@@ -1,0 +1,29 @@
+//! What a run found: one tree of sections with quantities and tables, made once and rendered many times.
+//!
+//! In: quantities that a process fills in, each with unit and definition. Out: [`Findings`]. `results.json`, the
+//! summary on the terminal, the report's numbers and comparisons read this tree and compute nothing of their own, so
+//! that what joins the tree joins all of them.
+//!
+//! A path names a part of the tree: keys joined by dots, such as `operations.rough.relief.largest_beta`. It is the
+//! path in `results.json` under `sections`, and the name of the line in a comparison.
+//!
+//! Two measures are told apart everywhere. A **height** is measured from the target, the envelope of the last
+//! operation. A **stock** is what an operation leaves over the finished surface. Both run along the target's normal,
+//! positive where material is.
+//!
+//! Roads not taken: a struct for each process, which every renderer had to know; headline numbers marked by a level
+//! inside their sections, which a file with the headline first would have to move or to repeat.
+
+pub mod damage;
+mod json;
+pub mod place;
+pub mod quantity;
+mod read;
+pub mod table;
+pub mod tree;
+
+pub use json::{RESULTS_FILE, SCHEMA, SCHEMA_VERSION};
+pub use place::{Coordinate, Place};
+pub use quantity::Quantity;
+pub use table::{Column, Datum, Table};
+pub use tree::{Entry, Findings, Level, Section};

@@ -1,0 +1,129 @@
+//! `results.json`, schema version 2: the tree in a fixed order of keys, and its document of rules.
+//!
+//! A section is an object: `$title`, its quantities, tables and parts under their keys, and `$warnings` where it has
+//! any. Keys of the tree never begin with `$`. A quantity's title is written where it differs from its key, its level
+//! where it is not a detail.
+
+use std::path::Path;
+
+use serde_json::{Map, Value, json};
+
+use super::quantity::Quantity;
+use super::table::{Column, Datum, Table};
+use super::tree::{Entry, Findings, Level, Section, title_of};
+use crate::{Error, Result};
+
+/// Version of the layout. A change of keys or meanings raises it; new keys that old readers may overlook do not.
+pub const SCHEMA_VERSION: u32 = 2;
+/// Name of the file in an output folder.
+pub const RESULTS_FILE: &str = "results.json";
+/// The layout as a JSON Schema (draft 2020-12).
+pub const SCHEMA: &str = include_str!("../../assets/results.schema.json");
+
+/// Names of the levels in files.
+pub(super) const LEVELS: [(Level, &str); 3] =
+    [(Level::Headline, "headline"), (Level::Summary, "summary"), (Level::Detail, "detail")];
+
+impl Findings {
+    /// The document.
+    pub fn to_json(&self) -> Value {
+        let headline = self.headline.iter().map(|entry| (entry.key.clone(), of_entry(entry)));
+        let sections = self.sections.iter().map(|section| (section.key.clone(), of_section(section)));
+        json!({
+            "schema_version": SCHEMA_VERSION,
+            "program": "gearcut",
+            "program_version": self.program_version,
+            "process": self.process,
+            "scene": self.scene,
+            "complete": self.complete,
+            "headline": headline.collect::<Map<_, _>>(),
+            "warnings": self.warnings,
+            "sections": sections.collect::<Map<_, _>>(),
+        })
+    }
+
+    /// Reads the findings of a run from its output folder, or from the file itself.
+    ///
+    /// # Errors
+    /// No such file, another schema version, or a file that is not of this layout.
+    pub fn read(path: &Path) -> Result<Self> {
+        let file = if path.is_dir() { path.join(RESULTS_FILE) } else { path.to_owned() };
+        let bytes = std::fs::read(&file).map_err(Error::reading(&file))?;
+        let refuse = |reason: String| Error::Unreadable { path: file.clone(), reason };
+        let document: Value =
+            serde_json::from_slice(&bytes).map_err(|reason| refuse(format!("it is not JSON: {reason}")))?;
+        match document.get("schema_version").and_then(Value::as_u64) {
+            Some(version) if version == u64::from(SCHEMA_VERSION) => {}
+            Some(version) => {
+                return Err(refuse(format!(
+                    "it has schema version {version}, this gearcut reads {SCHEMA_VERSION}; cut the scene again"
+                )));
+            }
+            None => return Err(refuse("it has no schema_version: it is not a gearcut result".to_owned())),
+        }
+        Self::from_json(&document).map_err(|reason| refuse(format!("it is not a complete result: {reason}")))
+    }
+}
+
+fn of_entry(entry: &Entry) -> Value {
+    let mut value = of_quantity(&entry.quantity);
+    if entry.title != title_of(&entry.key) {
+        value["title"] = json!(entry.title);
+    }
+    if let Some((level, name)) = LEVELS.iter().find(|(level, _)| *level == entry.level)
+        && *level != Level::Detail
+    {
+        value["level"] = json!(name);
+    }
+    value
+}
+
+/// A quantity always has a form in JSON: its numbers are finite.
+fn of_quantity(quantity: &Quantity) -> Value {
+    serde_json::to_value(quantity).unwrap_or_default()
+}
+
+fn of_section(section: &Section) -> Value {
+    let mut all = Map::new();
+    all.insert("$title".to_owned(), json!(section.title));
+    all.extend(section.entries.iter().map(|entry| (entry.key.clone(), of_entry(entry))));
+    all.extend(section.tables.iter().map(|table| (table.key.clone(), of_table(table))));
+    all.extend(section.sections.iter().map(|part| (part.key.clone(), of_section(part))));
+    if !section.warnings.is_empty() {
+        all.insert("$warnings".to_owned(), json!(section.warnings));
+    }
+    Value::Object(all)
+}
+
+fn of_table(table: &Table) -> Value {
+    let rows = table.rows.iter().map(|row| row.iter().map(of_cell).collect::<Vec<_>>());
+    let mut value = json!({
+        "title": table.title,
+        "columns": table.columns.iter().map(of_column).collect::<Vec<_>>(),
+        "rows": rows.collect::<Vec<_>>(),
+    });
+    if let Some(rows) = table.period_rows {
+        value["period_rows"] = json!(rows);
+    }
+    value
+}
+
+fn of_column(column: &Column) -> Value {
+    let mut value = json!({"key": column.key, "unit": column.unit, "definition": column.definition});
+    if let Some(why) = &column.why {
+        value["why"] = json!(why);
+    }
+    if column.bars {
+        value["chart"] = json!("bars");
+    }
+    value
+}
+
+fn of_cell(cell: &Datum) -> Value {
+    match cell {
+        Datum::Number(value) => json!(value),
+        Datum::Count(count) => json!(count),
+        Datum::Word(word) => json!(word),
+        Datum::Undefined => Value::Null,
+    }
+}

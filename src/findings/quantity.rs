@@ -1,0 +1,242 @@
+//! Values that explain themselves: what findings are made of.
+//!
+//! In: a number, count or text with its unit and definition. Out: `{"value", "unit", "definition"}`, for an undefined
+//! value `{"value": null, "unit", "definition", "why"}`, and a `"place"` where a value belongs to one.
+//!
+//! The rule: no bare number leaves gearcut, and NaN or infinity never reaches a file: JSON has no word for them, and
+//! readers differ in what they make of it.
+//!
+//! Road not taken: leaving undefined values out. A missing key reads like an older program; `null` with a reason does
+//! not.
+
+use std::borrow::Cow;
+
+use serde::de::Error as _;
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::place::Place;
+
+/// One value of the results with its unit and definition.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    value: Value,
+    unit: Option<Cow<'static, str>>,
+    definition: Cow<'static, str>,
+    place: Option<Place>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Value {
+    Number(f64),
+    Count(u64),
+    Text(String),
+    Undefined { why: String },
+}
+
+impl Quantity {
+    /// A measured or computed number; NaN and infinity become undefined.
+    pub fn number(value: f64, unit: impl Into<Cow<'static, str>>, definition: impl Into<Cow<'static, str>>) -> Self {
+        let value = if value.is_finite() {
+            Value::Number(value)
+        } else {
+            Value::Undefined { why: format!("the computation gave {value}, which is not a finite number") }
+        };
+        Self { value, unit: Some(unit.into()), definition: definition.into(), place: None }
+    }
+
+    /// A number if there is one, else undefined for the reason given.
+    pub fn number_or(
+        value: Option<f64>,
+        unit: impl Into<Cow<'static, str>>,
+        definition: impl Into<Cow<'static, str>>,
+        why: impl Into<String>,
+    ) -> Self {
+        match value {
+            Some(value) => Self::number(value, unit, definition),
+            None => Self::undefined(unit, definition, why),
+        }
+    }
+
+    /// A count of things; the unit says of what, as in "strokes".
+    pub fn count(value: u64, unit: impl Into<Cow<'static, str>>, definition: impl Into<Cow<'static, str>>) -> Self {
+        Self { value: Value::Count(value), unit: Some(unit.into()), definition: definition.into(), place: None }
+    }
+
+    /// A word or sentence, such as the name of a backend; its unit is null.
+    pub fn text(value: impl Into<String>, definition: impl Into<Cow<'static, str>>) -> Self {
+        Self { value: Value::Text(value.into()), unit: None, definition: definition.into(), place: None }
+    }
+
+    /// A value that does not exist here, with the reason.
+    pub fn undefined(
+        unit: impl Into<Cow<'static, str>>,
+        definition: impl Into<Cow<'static, str>>,
+        why: impl Into<String>,
+    ) -> Self {
+        let value = Value::Undefined { why: why.into() };
+        Self { value, unit: Some(unit.into()), definition: definition.into(), place: None }
+    }
+
+    /// The same value, found at `place`.
+    #[must_use]
+    pub fn at(mut self, place: Place) -> Self {
+        self.place = Some(place);
+        self
+    }
+
+    /// The number or count as f64, in the quantity's unit; none for text and for what is undefined.
+    pub fn value(&self) -> Option<f64> {
+        match self.value {
+            Value::Number(value) => Some(value),
+            Value::Count(value) => Some(value as f64),
+            Value::Text(_) | Value::Undefined { .. } => None,
+        }
+    }
+
+    /// Whether it counts whole things.
+    pub fn is_count(&self) -> bool {
+        matches!(self.value, Value::Count(_))
+    }
+
+    /// The word or sentence, if it is one.
+    pub fn words(&self) -> Option<&str> {
+        match &self.value {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The unit; none for text.
+    pub fn unit(&self) -> Option<&str> {
+        self.unit.as_deref()
+    }
+
+    /// What the value is.
+    pub fn definition(&self) -> &str {
+        &self.definition
+    }
+
+    /// Why there is no value, if there is none.
+    pub fn why(&self) -> Option<&str> {
+        match &self.value {
+            Value::Undefined { why } => Some(why),
+            _ => None,
+        }
+    }
+
+    /// Where the value was found, if it belongs to a place.
+    pub fn place(&self) -> Option<&Place> {
+        self.place.as_ref()
+    }
+}
+
+/// A quantity as it stands in a file.
+#[derive(Deserialize)]
+struct Written {
+    value: serde_json::Value,
+    unit: Option<String>,
+    definition: String,
+    why: Option<String>,
+    place: Option<Place>,
+}
+
+impl<'de> Deserialize<'de> for Quantity {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let Written { value, unit, definition, why, place } = Written::deserialize(deserializer)?;
+        let value = match (value, why) {
+            (serde_json::Value::Null, Some(why)) => Value::Undefined { why },
+            (serde_json::Value::Null, None) => return Err(D::Error::custom("a value is null without a \"why\"")),
+            (serde_json::Value::String(text), _) => Value::Text(text),
+            (serde_json::Value::Number(number), _) => match (number.as_u64(), number.as_f64()) {
+                (Some(count), _) => Value::Count(count),
+                (None, Some(value)) => Value::Number(value),
+                (None, None) => return Err(D::Error::custom(format!("{number} is out of range"))),
+            },
+            (other, _) => return Err(D::Error::custom(format!("a value is a number, a text or null, not {other}"))),
+        };
+        Ok(Self { value, unit: unit.map(Cow::Owned), definition: definition.into(), place })
+    }
+}
+
+impl Serialize for Quantity {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        match &self.value {
+            Value::Number(value) => map.serialize_entry("value", value)?,
+            Value::Count(value) => map.serialize_entry("value", value)?,
+            Value::Text(value) => map.serialize_entry("value", value)?,
+            Value::Undefined { .. } => map.serialize_entry("value", &())?,
+        }
+        map.serialize_entry("unit", &self.unit)?;
+        map.serialize_entry("definition", &self.definition)?;
+        if let Value::Undefined { why } = &self.value {
+            map.serialize_entry("why", why)?;
+        }
+        if let Some(place) = &self.place {
+            map.serialize_entry("place", place)?;
+        }
+        map.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn json(quantity: &Quantity) -> String {
+        serde_json::to_string(quantity).expect("a quantity is always JSON")
+    }
+
+    #[test]
+    fn a_number_carries_unit_definition_and_place() {
+        let place = Place::on_flank(7, "left", 1.5, 12.0);
+        let stock = Quantity::number(0.1, "mm", "smallest normal stock").at(place);
+        assert_eq!(
+            json(&stock),
+            r#"{"value":0.1,"unit":"mm","definition":"smallest normal stock","place":{"tooth":7,"flank":"left","u_mm":1.5,"v_mm":12.0}}"#
+        );
+        assert_eq!(stock.value(), Some(0.1));
+    }
+
+    #[test]
+    fn what_is_not_finite_is_null_with_a_reason() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let text = json(&Quantity::number(value, "mm", "tip land"));
+            assert!(text.starts_with(r#"{"value":null,"unit":"mm","definition":"tip land","why":"#), "{text}");
+        }
+        let text = json(&Quantity::number_or(None, "mm", "tip land", "the tooth is pointed"));
+        assert!(text.ends_with(r#""why":"the tooth is pointed"}"#), "{text}");
+    }
+
+    #[test]
+    fn counts_stay_whole_and_texts_have_no_unit() {
+        assert_eq!(json(&Quantity::count(4200, "strokes", "strokes per revolution")).find("4200,"), Some(9));
+        assert_eq!(json(&Quantity::text("cpu", "backend")), r#"{"value":"cpu","unit":null,"definition":"backend"}"#);
+    }
+
+    #[test]
+    fn quantities_read_back_as_they_were() {
+        let place = Place::on_flank(7, "left", 1.5, 12.0);
+        for quantity in [
+            Quantity::number(0.1 + 0.2, "mm", "stock").at(place),
+            Quantity::count(84, "flanks", "flanks cut"),
+            Quantity::text("cpu", "backend"),
+            Quantity::undefined("mm", "tip land", "the tooth is pointed"),
+        ] {
+            let back: Quantity = serde_json::from_str(&json(&quantity)).expect("its own JSON");
+            assert_eq!(back, quantity);
+        }
+        let unexplained = r#"{"value": null, "unit": "mm", "definition": "tip land"}"#;
+        assert!(serde_json::from_str::<Quantity>(unexplained).is_err());
+    }
+
+    #[test]
+    fn numbers_read_back_bit_for_bit() {
+        for value in [0.1 + 0.2, 1e-300, -6.02214076e23, f64::MIN_POSITIVE, f64::MAX] {
+            let back: serde_json::Value =
+                serde_json::from_str(&json(&Quantity::number(value, "mm", "test"))).expect("valid JSON");
+            assert_eq!(back["value"].as_f64().map(f64::to_bits), Some(value.to_bits()));
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! From `results.json` back to the tree.
+//!
+//! In: a document of the current schema version. Out: [`Findings`] equal to those that were written, or the path of
+//! what does not fit and the reason.
+
+use serde_json::{Map, Value};
+
+use super::json::LEVELS;
+use super::quantity::Quantity;
+use super::table::{Column, Datum, Table};
+use super::tree::{Entry, Findings, Level, Section, title_of};
+
+/// What reads a part, or why it cannot.
+type Read<T> = Result<T, String>;
+
+impl Findings {
+    /// The findings of a document.
+    ///
+    /// # Errors
+    /// In words: what is missing or does not belong there.
+    pub fn from_json(document: &Value) -> Read<Self> {
+        let all = object(document, "the document")?;
+        let text = |key: &str| Ok::<_, String>(field(all, key)?.as_str().ok_or(format!("{key} is a text"))?.to_owned());
+        let headline = object(field(all, "headline")?, "headline")?;
+        let sections = object(field(all, "sections")?, "sections")?;
+        Ok(Self {
+            program_version: text("program_version")?,
+            process: text("process")?,
+            scene: text("scene")?,
+            complete: field(all, "complete")?.as_bool().ok_or("complete is true or false")?,
+            headline: headline.iter().map(|(key, value)| entry(key, value)).collect::<Read<_>>()?,
+            warnings: texts(all.get("warnings"), "warnings")?,
+            sections: sections.iter().map(|(key, value)| section(key, value, key)).collect::<Read<_>>()?,
+        })
+    }
+}
+
+fn object<'a>(value: &'a Value, what: &str) -> Read<&'a Map<String, Value>> {
+    value.as_object().ok_or_else(|| format!("{what} is an object"))
+}
+
+fn field<'a>(of: &'a Map<String, Value>, key: &str) -> Read<&'a Value> {
+    of.get(key).ok_or_else(|| format!("missing field {key}"))
+}
+
+fn texts(value: Option<&Value>, what: &str) -> Read<Vec<String>> {
+    let list = value.and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
+    list.iter().map(|text| Ok(text.as_str().ok_or(format!("{what} are texts"))?.to_owned())).collect()
+}
+
+fn entry(key: &str, value: &Value) -> Read<Entry> {
+    let text = |key: &str| value.get(key).and_then(Value::as_str);
+    let level = match text("level") {
+        None => Level::Detail,
+        Some(name) => LEVELS.iter().find(|level| level.1 == name).ok_or(format!("{key}: there is no level {name}"))?.0,
+    };
+    let quantity: Quantity = serde_json::from_value(value.clone()).map_err(|reason| format!("{key}: {reason}"))?;
+    Ok(Entry {
+        key: key.to_owned(),
+        title: text("title").map_or_else(|| title_of(key), str::to_owned),
+        level,
+        quantity,
+    })
+}
+
+/// The section of this key; `path` names it in messages.
+fn section(key: &str, value: &Value, path: &str) -> Read<Section> {
+    let all = object(value, path)?;
+    let title = field(all, "$title").map_err(|reason| format!("{path}: {reason}"))?;
+    let mut section = Section::new(key, title.as_str().ok_or(format!("{path}.$title is a text"))?);
+    section.warnings = texts(all.get("$warnings"), path)?;
+    for (key, value) in all.iter().filter(|(key, _)| !key.starts_with('$')) {
+        let path = format!("{path}.{key}");
+        if value.get("definition").is_some_and(Value::is_string) {
+            section.entries.push(entry(key, value).map_err(|reason| format!("{path}: {reason}"))?);
+        } else if value.get("columns").is_some_and(Value::is_array) {
+            section.tables.push(table(key, value).map_err(|reason| format!("{path}: {reason}"))?);
+        } else {
+            section.sections.push(self::section(key, value, &path)?);
+        }
+    }
+    Ok(section)
+}
+
+fn table(key: &str, value: &Value) -> Read<Table> {
+    let all = object(value, key)?;
+    let list = |key: &str| field(all, key)?.as_array().ok_or_else(|| format!("{key} is a list"));
+    let title = field(all, "title")?.as_str().ok_or("title is a text")?;
+    let columns: Vec<Column> = list("columns")?.iter().map(column).collect::<Read<_>>()?;
+    let rows = list("rows")?.iter().map(|row| {
+        let cells = row.as_array().filter(|row| row.len() == columns.len()).ok_or("a row has a cell per column")?;
+        cells.iter().map(cell).collect::<Read<Vec<_>>>()
+    });
+    let rows = rows.collect::<Read<Vec<_>>>()?;
+    let mut table = Table::new(key, title, columns).with_rows(rows);
+    table.period_rows = all.get("period_rows").and_then(Value::as_u64).and_then(|rows| rows.try_into().ok());
+    Ok(table)
+}
+
+fn column(value: &Value) -> Read<Column> {
+    let all = object(value, "a column")?;
+    let text = |key: &str| all.get(key).and_then(Value::as_str).map(str::to_owned);
+    Ok(Column {
+        key: text("key").ok_or("a column has a key")?.into(),
+        unit: text("unit").map(Into::into),
+        definition: text("definition").ok_or("a column has a definition")?.into(),
+        why: text("why").map(Into::into),
+        bars: all.get("chart").and_then(Value::as_str) == Some("bars"),
+    })
+}
+
+fn cell(value: &Value) -> Read<Datum> {
+    match value {
+        Value::Null => Ok(Datum::Undefined),
+        Value::String(word) => Ok(Datum::Word(word.clone())),
+        Value::Number(number) => match (number.as_u64(), number.as_f64()) {
+            (Some(count), _) => Ok(Datum::Count(count)),
+            (None, Some(value)) => Ok(Datum::Number(value)),
+            (None, None) => Err(format!("{number} is out of range")),
+        },
+        other => Err(format!("a cell is a number, a text or null, not {other}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::findings::Place;
+
+    fn findings() -> Findings {
+        let stock = Quantity::number(0.1 + 0.2, "mm", "smallest stock").at(Place::on_flank(7, "left", 1.5, 12.0));
+        let columns = vec![
+            Column::words("tooth", "hob tooth"),
+            Column::new("volume", "mm3", "volume that it takes").or("it takes nothing").as_bars(),
+        ];
+        let mut table = Table::new("teeth", "Hob teeth", columns)
+            .with_rows([vec!["B7".into(), 0.25.into()], vec!["8".into(), f64::NAN.into()]]);
+        table.period_rows = Some(1);
+        let rough = Section::new("rough", "Rough")
+            .with("strokes", Quantity::count(4200, "strokes", "strokes made"))
+            .shown("idle_time", "time without a cut", Quantity::number(2.5, "s", "time"))
+            .table(table)
+            .part(Section::new("relief", "Relief").with("ratio", Quantity::undefined("1", "share", "no stroke")))
+            .warning(["few strokes".to_owned()]);
+        Findings {
+            program_version: "0.1.0".to_owned(),
+            process: "shaping".to_owned(),
+            scene: "made_by_hand".to_owned(),
+            complete: true,
+            headline: vec![
+                Entry::headline("smallest_normal_stock", "smallest normal stock", stock),
+                Entry::headline("backend", "computed by", Quantity::text("cpu", "backend")),
+            ],
+            warnings: vec!["made by hand".to_owned()],
+            sections: vec![Section::new("operations", "Operations").part(rough)],
+        }
+    }
+
+    #[test]
+    fn findings_come_back_as_they_were() {
+        let findings = findings();
+        let text = serde_json::to_string(&findings.to_json()).expect("JSON");
+        assert!(text.starts_with(r#"{"schema_version":2,"program":"gearcut","program_version":"0.1.0","process":"#));
+        let back = Findings::from_json(&serde_json::from_str(&text).expect("JSON")).expect("its own document");
+        assert_eq!(back, findings);
+        assert_eq!(back.all_warnings(), ["made by hand", "Rough: few strokes"]);
+    }
+
+    #[test]
+    fn paths_lead_to_sections_and_quantities() {
+        let findings = findings();
+        let operations = findings.find("operations").expect("a section");
+        assert_eq!(operations.number("rough.strokes"), Some(4200.0));
+        assert_eq!(operations.number("rough.relief.ratio"), None);
+        assert!(findings.find("operations.rough.relief").is_some() && findings.find("operations.finish").is_none());
+        let teeth = findings.find("operations.rough").and_then(|rough| rough.table_of("teeth")).expect("a table");
+        assert_eq!(teeth.numbers("volume").collect::<Vec<_>>(), [Some(0.25), None]);
+        let document = findings.to_json();
+        assert_eq!(document["sections"]["operations"]["rough"]["strokes"]["value"], 4200);
+        assert_eq!(document["headline"]["smallest_normal_stock"]["place"]["tooth"], 7);
+    }
+
+    #[test]
+    fn what_does_not_fit_is_named() {
+        let mut document = findings().to_json();
+        document["sections"]["operations"]["rough"]["idle_time"]["value"] = Value::Null;
+        let reason = Findings::from_json(&document).expect_err("null without a reason");
+        assert!(reason.contains("operations.rough.idle_time") && reason.contains("why"), "{reason}");
+        let reason = Findings::from_json(&serde_json::json!({"headline": {}})).expect_err("not a result");
+        assert!(reason.contains("missing field"), "{reason}");
+    }
+}

@@ -1,0 +1,232 @@
+//! The tree: what a run found, from the headline down to the last detail.
+
+use super::quantity::Quantity;
+use super::table::Table;
+
+/// Everything that a run found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Findings {
+    /// Version of the program.
+    pub program_version: String,
+    /// Process: `shaping`, `hobbing`.
+    pub process: String,
+    /// Name of the scene.
+    pub scene: String,
+    /// Whether all flanks were cut; false after Ctrl-C, when the numbers cover the finished flanks only.
+    pub complete: bool,
+    /// What to look at first: numbers of the whole gear.
+    pub headline: Vec<Entry>,
+    /// What a reader must know before trusting the numbers.
+    pub warnings: Vec<String>,
+    /// Everything else.
+    pub sections: Vec<Section>,
+}
+
+/// A part of the tree.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Section {
+    /// Key among its neighbours: letters, digits, `_` and `-`.
+    pub key: String,
+    /// What it is about.
+    pub title: String,
+    /// Quantities.
+    pub entries: Vec<Entry>,
+    /// Tables.
+    pub tables: Vec<Table>,
+    /// Parts.
+    pub sections: Vec<Section>,
+    /// What a reader must know before trusting its numbers.
+    pub warnings: Vec<String>,
+}
+
+/// A quantity under its key.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// Key among its neighbours.
+    pub key: String,
+    /// What it is called where people read it.
+    pub title: String,
+    /// How far up it is shown.
+    pub level: Level,
+    /// The value.
+    pub quantity: Quantity,
+}
+
+/// How far up a quantity is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// First of all: summary, report, every comparison.
+    Headline,
+    /// On the terminal, after the headline.
+    Summary,
+    /// In files.
+    Detail,
+}
+
+/// What a key reads as when it is given no title of its own.
+pub(super) fn title_of(key: &str) -> String {
+    key.replace('_', " ")
+}
+
+impl Entry {
+    /// A detail, called as its key.
+    pub fn new(key: &str, quantity: Quantity) -> Self {
+        Self { key: key.to_owned(), title: title_of(key), level: Level::Detail, quantity }
+    }
+
+    /// A number of the headline.
+    pub fn headline(key: &str, title: &str, quantity: Quantity) -> Self {
+        Self { key: key.to_owned(), title: title.to_owned(), level: Level::Headline, quantity }
+    }
+
+    /// The name for a heading: the title with a capital.
+    pub fn heading(&self) -> String {
+        let mut letters = self.title.chars();
+        letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+    }
+}
+
+impl Section {
+    /// An empty section.
+    pub fn new(key: impl Into<String>, title: impl Into<String>) -> Self {
+        Self { key: key.into(), title: title.into(), ..Self::default() }
+    }
+
+    fn add(mut self, entry: Entry) -> Self {
+        debug_assert!(self.is_free(&entry.key), "{}.{} is there twice", self.key, entry.key);
+        self.entries.push(entry);
+        self
+    }
+
+    /// With a detail.
+    #[must_use]
+    pub fn with(self, key: &str, quantity: Quantity) -> Self {
+        self.add(Entry::new(key, quantity))
+    }
+
+    /// With a quantity that the terminal shows under this title.
+    #[must_use]
+    pub fn shown(self, key: &str, title: &str, quantity: Quantity) -> Self {
+        self.add(Entry { title: title.to_owned(), level: Level::Summary, ..Entry::new(key, quantity) })
+    }
+
+    /// With a table.
+    #[must_use]
+    pub fn table(mut self, table: Table) -> Self {
+        debug_assert!(self.is_free(&table.key), "{}.{} is there twice", self.key, table.key);
+        self.tables.push(table);
+        self
+    }
+
+    /// With a part.
+    #[must_use]
+    pub fn part(mut self, section: Section) -> Self {
+        debug_assert!(self.is_free(&section.key), "{}.{} is there twice", self.key, section.key);
+        self.sections.push(section);
+        self
+    }
+
+    /// With parts.
+    #[must_use]
+    pub fn parts(self, sections: impl IntoIterator<Item = Section>) -> Self {
+        sections.into_iter().fold(self, Self::part)
+    }
+
+    /// With warnings.
+    #[must_use]
+    pub fn warning(mut self, warnings: impl IntoIterator<Item = String>) -> Self {
+        self.warnings.extend(warnings);
+        self
+    }
+
+    /// Whether nothing of this key is in it.
+    pub fn is_free(&self, key: &str) -> bool {
+        self.entries.iter().all(|entry| entry.key != key)
+            && self.tables.iter().all(|table| table.key != key)
+            && self.sections.iter().all(|section| section.key != key)
+    }
+
+    /// The part at a path of keys joined by dots.
+    pub fn find(&self, path: &str) -> Option<&Section> {
+        find(&self.sections, path)
+    }
+
+    /// The entry at a path.
+    pub fn entry(&self, path: &str) -> Option<&Entry> {
+        let (section, key) = match path.rsplit_once('.') {
+            Some((parts, key)) => (self.find(parts)?, key),
+            None => (self, path),
+        };
+        section.entries.iter().find(|entry| entry.key == key)
+    }
+
+    /// The quantity at a path.
+    pub fn quantity(&self, path: &str) -> Option<&Quantity> {
+        self.entry(path).map(|entry| &entry.quantity)
+    }
+
+    /// The number at a path; none where there is no such quantity or it is undefined.
+    pub fn number(&self, path: &str) -> Option<f64> {
+        self.quantity(path)?.value()
+    }
+
+    /// The words at a path; empty where there are none.
+    pub fn words(&self, path: &str) -> &str {
+        self.quantity(path).and_then(Quantity::words).unwrap_or_default()
+    }
+
+    /// The table of this key.
+    pub fn table_of(&self, key: &str) -> Option<&Table> {
+        self.tables.iter().find(|table| table.key == key)
+    }
+
+    /// The section and all its parts with their paths, in order.
+    pub fn walk<'a>(&'a self, path: &str, visit: &mut impl FnMut(&str, &'a Section)) {
+        visit(path, self);
+        for part in &self.sections {
+            part.walk(&format!("{path}.{}", part.key), visit);
+        }
+    }
+}
+
+fn find<'a>(sections: &'a [Section], path: &str) -> Option<&'a Section> {
+    let (first, rest) = path.split_once('.').map_or((path, None), |(first, rest)| (first, Some(rest)));
+    let section = sections.iter().find(|section| section.key == first)?;
+    match rest {
+        Some(rest) => find(&section.sections, rest),
+        None => Some(section),
+    }
+}
+
+impl Findings {
+    /// The section at a path of keys joined by dots.
+    pub fn find(&self, path: &str) -> Option<&Section> {
+        find(&self.sections, path)
+    }
+
+    /// The parts of a section; none where it is missing.
+    pub fn parts(&self, path: &str) -> &[Section] {
+        self.find(path).map_or(&[], |section| &section.sections)
+    }
+
+    /// A number of the headline.
+    pub fn headline(&self, key: &str) -> Option<&Quantity> {
+        self.headline.iter().find(|entry| entry.key == key).map(|entry| &entry.quantity)
+    }
+
+    /// All sections with their paths, in order.
+    pub fn walk<'a>(&'a self, visit: &mut impl FnMut(&str, &'a Section)) {
+        for section in &self.sections {
+            section.walk(&section.key, visit);
+        }
+    }
+
+    /// All warnings, those of a section with its title in front.
+    pub fn all_warnings(&self) -> Vec<String> {
+        let mut all = self.warnings.clone();
+        self.walk(&mut |_, section| {
+            all.extend(section.warnings.iter().map(|warning| format!("{}: {warning}", section.title)));
+        });
+        all
+    }
+}

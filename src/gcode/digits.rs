@@ -1,0 +1,28 @@
+//! How many digits a program needs.
+
+/// Share of the contour error that rounding of the written digits may take, for each axis.
+const ROUNDING_SHARE: f64 = 0.05;
+
+/// Digits after the point that keep rounding far below the contour error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Digits {
+    /// Of angles in degrees.
+    pub angle: usize,
+    /// Of the centre distance in mm.
+    pub length: usize,
+}
+
+impl Digits {
+    /// Digits for a contour error where points up to `reach_mm` from an axis matter.
+    pub fn new(contour_error_mm: f64, reach_mm: f64) -> Self {
+        let step_mm = 2.0 * ROUNDING_SHARE * contour_error_mm;
+        let digits = |step: f64| (-step.log10()).ceil().clamp(3.0, 12.0) as usize;
+        Self { angle: digits((step_mm / reach_mm).to_degrees()), length: digits(step_mm) }
+    }
+
+    /// A value as it is written.
+    pub fn round(value: f64, digits: usize) -> f64 {
+        let scale = 10_f64.powf(digits as f64);
+        (value * scale).round() / scale
+    }
+}

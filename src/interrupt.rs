@@ -1,0 +1,61 @@
+//! Ctrl-C that keeps what is finished.
+//!
+//! In: the signals that ask a program to stop (SIGINT, SIGTERM, SIGHUP; Ctrl-C and Ctrl-Break on Windows). Out: a flag that the
+//! work looks at between its units, so that it ends by the usual way and removes its temporary files.
+//!
+//! The first signal raises the flag; a second one ends the process at once with code 130, for the user who will not wait.
+//! It leaves what a killed process leaves: a hidden folder beside the results, which the next run removes.
+//!
+//! Road not taken: a global flag that everybody may ask. Passing [`Interrupt`] along shows in the signatures which work
+//! can be stopped, and tests can raise it without a signal.
+
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::{Error, Result};
+
+/// Exit code of a program ended by Ctrl-C: 128 + SIGINT.
+pub const INTERRUPTED_EXIT_CODE: i32 = 130;
+
+/// Flag that is raised when the user wants to stop; clones share it.
+#[derive(Debug, Clone, Default)]
+pub struct Interrupt {
+    raised: Arc<AtomicBool>,
+}
+
+impl Interrupt {
+    /// Flag that listens to the process's signals.
+    ///
+    /// # Errors
+    /// Another listener is there already.
+    pub fn listen() -> io::Result<Self> {
+        let interrupt = Self::default();
+        let on_signal = interrupt.clone();
+        ctrlc::set_handler(move || {
+            if on_signal.raised.swap(true, Ordering::SeqCst) {
+                std::process::exit(INTERRUPTED_EXIT_CODE);
+            }
+        })
+        .map_err(io::Error::other)?;
+        Ok(interrupt)
+    }
+
+    /// Raises the flag as a signal would.
+    pub fn raise(&self) {
+        self.raised.store(true, Ordering::SeqCst);
+    }
+
+    /// Whether the user wants to stop.
+    pub fn is_raised(&self) -> bool {
+        self.raised.load(Ordering::SeqCst)
+    }
+
+    /// For use with `?` between units of work.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`] once the flag is raised.
+    pub fn check(&self) -> Result<()> {
+        if self.is_raised() { Err(Error::Interrupted) } else { Ok(()) }
+    }
+}

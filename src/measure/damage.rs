@@ -1,0 +1,186 @@
+//! What the blank field says about any gear: volumes by two ways, and damage to the target.
+//!
+//! In: the cut blank, the target's section in a slice. Out: [`Damage`] by tooth, side and zone, deepest place and volume.
+//!
+//! Material of the target that is not there was taken by the pass that left the surface beside the gap. Whatever lies
+//! less than [`LEAST_DEPTH_MM`] under the target is left out: rays and outline are no better than that.
+
+use super::gear_place::{GearPlace, Zone};
+use super::target_outline::TargetOutline;
+use crate::cut::CutBlank;
+use crate::dexel::{BlankField, NO_PASS, intervals};
+use crate::math::planar_rays::FAMILIES;
+use crate::scene::model::Gear;
+use crate::terms::Side;
+use glam::DVec2;
+use std::collections::BTreeMap;
+
+/// Damage and rubbing less deep than this are not reported: above the errors of the outline (chords of the target, 0.1 um in a fillet), below what any machine holds.
+pub const LEAST_DEPTH_MM: f64 = 1e-3;
+
+/// Damage or rubbing on one side of a tooth by one operation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Damage {
+    /// Index of the operation.
+    pub operation: usize,
+    /// Where it is deepest.
+    pub place: GearPlace,
+    /// That place in the gear frame, mm.
+    pub point_mm: DVec2,
+    /// And along the tooth from the middle of the face, mm.
+    pub lead_mm: f64,
+    /// Largest depth along the normal, mm.
+    pub depth_mm: f64,
+    /// Volume, mm3: mean of both families. For rubbing the sum over strokes.
+    pub volume_mm3: f64,
+    /// Stroke that made the deepest place.
+    pub stroke: usize,
+    /// Cutter tooth that made it.
+    pub blade: u32,
+}
+
+/// Volume that an operation removed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OperationVolume {
+    /// Pass by pass, mm3, by both families.
+    pub by_passes_mm3: [f64; 2],
+    /// As missing from the rays, mm3, by both families.
+    pub by_rays_mm3: [f64; 2],
+}
+
+impl OperationVolume {
+    /// Largest difference of the two ways, relative to the volume.
+    pub fn imbalance(&self) -> f64 {
+        let off = |f: usize| {
+            let scale = self.by_rays_mm3[f].abs().max(f64::MIN_POSITIVE);
+            (self.by_passes_mm3[f] - self.by_rays_mm3[f]).abs() / scale
+        };
+        off(0).max(off(1))
+    }
+}
+
+/// Section that is left against the target's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EndFace {
+    /// Mean section by rays of both families, mm2.
+    pub cut_mm2: [f64; 2],
+    /// Area of the target's outline less the bore, mm2.
+    pub target_mm2: f64,
+    /// How far rays at this spacing may be off, mm2, by both families.
+    pub bound_mm2: [f64; 2],
+}
+
+/// Volume of every operation, by its passes and by the rays.
+pub fn volumes(cut: &CutBlank) -> Vec<OperationVolume> {
+    let before = std::iter::once(&cut.blank_mm3).chain(&cut.left_mm3);
+    let pairs = before.zip(&cut.left_mm3).zip(&cut.cuts);
+    pairs
+        .map(|((before, after), done)| OperationVolume {
+            by_passes_mm3: [0, 1].map(|f| done.removed_mm3.iter().map(|pass| pass[f]).sum()),
+            by_rays_mm3: [0, 1].map(|f| before[f] - after[f]),
+        })
+        .collect()
+}
+
+/// Damage of one side of a tooth: what [`collect`] sorts by.
+type Where = (usize, u32, Side, Zone, bool);
+
+/// One ray's share of some damage.
+pub struct Finding {
+    /// Index of the operation.
+    pub operation: usize,
+    /// On a surface that stays; otherwise on stock that is still to be removed.
+    pub stays: bool,
+    /// Deepest place on the ray, gear frame, mm.
+    pub point_mm: DVec2,
+    /// Its place along the tooth from the middle of the face, mm.
+    pub lead_mm: f64,
+    /// Depth along the normal, mm.
+    pub depth_mm: f64,
+    /// The ray's share of the volume, half of it for each family, mm3.
+    pub volume_mm3: f64,
+    /// Pass that did it.
+    pub pass: u32,
+}
+
+/// Findings side by side of the teeth, deepest place and volume each; only those at least [`LEAST_DEPTH_MM`] deep.
+///
+/// `place` names places, `maker` gives stroke and blade behind a pass of an operation.
+pub fn collect(
+    findings: impl Iterator<Item = Finding>,
+    place: impl Fn(&Finding) -> GearPlace,
+    maker: impl Fn(usize, u32) -> (usize, u32),
+) -> Vec<(Damage, bool)> {
+    let mut sides: BTreeMap<Where, Damage> = BTreeMap::new();
+    for finding in findings {
+        let place = place(&finding);
+        let (stroke, blade) = maker(finding.operation, finding.pass);
+        let key = (finding.operation, place.tooth, place.side, place.zone, finding.stays);
+        let damage = sides.entry(key).or_insert(Damage {
+            operation: finding.operation,
+            place,
+            point_mm: finding.point_mm,
+            lead_mm: finding.lead_mm,
+            depth_mm: finding.depth_mm,
+            volume_mm3: 0.0,
+            stroke,
+            blade,
+        });
+        let volume_mm3 = damage.volume_mm3 + finding.volume_mm3;
+        if finding.depth_mm > damage.depth_mm {
+            let (point_mm, lead_mm, depth_mm) = (finding.point_mm, finding.lead_mm, finding.depth_mm);
+            *damage = Damage { place, point_mm, lead_mm, depth_mm, stroke, blade, ..*damage };
+        }
+        damage.volume_mm3 = volume_mm3;
+    }
+    let deep = sides.into_iter().filter(|(_, damage)| damage.depth_mm >= LEAST_DEPTH_MM);
+    deep.map(|((.., stays), damage)| (damage, stays)).collect()
+}
+
+/// Material of the target that one slice of a field lacks, ray by ray; `operation_of` knows whose pass it was.
+pub fn missing_in_slice(
+    field: &BlankField,
+    slice: usize,
+    target: &TargetOutline,
+    gear: &Gear,
+    operation_of: impl Fn(u32) -> Option<usize>,
+) -> Vec<Finding> {
+    let grid = &field.grid;
+    let (width_mm, lead_mm) = (grid.slice_widths_mm()[slice], grid.leads_mm[slice]);
+    let mut findings = Vec::new();
+    for (f, family) in FAMILIES.into_iter().enumerate() {
+        let row = &grid.rows[f];
+        let wanted = target.spans(family, row, 0.5 * gear.bore_diameter_mm);
+        for (ray, spans) in field.slices[slice].rays[f].iter().enumerate() {
+            let gaps = intervals::missing(&wanted[ray], spans);
+            for [low, high] in gaps.into_iter().filter(|[low, high]| high - low > LEAST_DEPTH_MM) {
+                let at = |along: f64| family.point(along, row.at_mm(ray));
+                let depth = |p: DVec2| -target.distance_mm(p, 0.5 * gear.module_mm).unwrap_or(0.0);
+                let deepest = [at(low), at(0.5 * (low + high)), at(high)]
+                    .map(|p| (depth(p), p))
+                    .into_iter()
+                    .reduce(|a, b| if b.0 > a.0 { b } else { a })
+                    .expect("three points");
+                let Some(pass) = pass_beside(spans, low, high) else { continue };
+                let Some(operation) = operation_of(pass) else { continue };
+                findings.push(Finding {
+                    operation,
+                    stays: true,
+                    point_mm: deepest.1,
+                    lead_mm,
+                    depth_mm: deepest.0,
+                    volume_mm3: 0.5 * (high - low) * row.spacing_mm * width_mm,
+                    pass,
+                });
+            }
+        }
+    }
+    findings
+}
+
+/// Pass that left the surface at an end of a gap. Where the target is gone from end to end the ray knows no pass; the rays across it, which end in what is left, do.
+fn pass_beside(spans: &[intervals::Span], low_mm: f64, high_mm: f64) -> Option<u32> {
+    let above = spans.iter().find(|s| s.low.at_mm == high_mm).map(|s| s.low.pass);
+    let below = spans.iter().find(|s| s.high.at_mm == low_mm).map(|s| s.high.pass);
+    above.into_iter().chain(below).find(|&pass| pass != NO_PASS)
+}

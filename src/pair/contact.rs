@@ -1,0 +1,192 @@
+//! Where a flank of the driver touches one of the driven gear.
+//!
+//! In: both flanks and how the gears stand. Out: the rotation of the driven gear at which they touch, and where.
+//!
+//! Law: a point of the driver's flank at the distance rho from the driven axis meets the point of the driven flank at
+//! the same radius, after a rotation that is the difference of their polar angles. The right flanks push, so the gears
+//! touch at the largest of these rotations; at the left flanks it is the smallest. Ends of the chains belong to the
+//! search, so tip corners that touch beside the path of contact are found like everything else.
+//!
+//! The largest value is looked for at every point of both chains. Between straight pieces that is all there is (to the
+//! sag of a chord); on smooth flanks a golden-section search goes on from the best point to rounding. No iteration can
+//! miss: it starts from a value that is attained and never leaves it for a smaller one.
+//!
+//! Road not taken: solving for equal normals. It needs curvature, fails at corners and on scallops, and finds any
+//! stationary point.
+
+use std::f64::consts::TAU;
+
+use glam::DVec2;
+
+use super::flank_chain::{FlankChain, PolarFlank};
+use crate::terms::Side;
+
+/// Steps of the golden-section search: 0.618^48 of two intervals.
+const GOLDEN_STEPS: usize = 48;
+/// A place this near to the end of a chain counts as the end, intervals.
+const END_INTERVALS: f64 = 1e-5;
+
+/// How the two gears stand to each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stand {
+    /// The driver is turned by minus this.
+    pub phi_1_rad: f64,
+    /// The driven gear's axis in the machine, mm; the driver's is the origin.
+    pub axis_2_mm: DVec2,
+    /// Nominal rotation of the driven gear, counted in its own direction of turning.
+    pub phi_2_rad: f64,
+    /// +1 where that direction is counter-clockwise (external), -1 else.
+    pub sign: f64,
+}
+
+/// What touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum TouchKind {
+    /// Flank on flank.
+    Inner,
+    /// The driver's tip corner on the driven flank.
+    DriverTip,
+    /// The driven gear's tip corner on the driver's flank.
+    DrivenTip,
+    /// The lower end of the driver's flank.
+    DriverRoot,
+    /// The lower end of the driven flank.
+    DrivenRoot,
+}
+
+impl TouchKind {
+    /// As in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Inner => "flank",
+            Self::DriverTip => "tip of A",
+            Self::DrivenTip => "tip of B",
+            Self::DriverRoot => "form point of A",
+            Self::DrivenRoot => "form point of B",
+        }
+    }
+}
+
+/// A touch of two flanks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// Rotation of the driven gear beyond the nominal one, rad.
+    pub error_rad: f64,
+    /// What touches.
+    pub kind: TouchKind,
+    /// Where, machine frame, mm.
+    pub point_mm: DVec2,
+}
+
+/// Difference of two angles within half a turn.
+fn wrapped(angle_rad: f64) -> f64 {
+    angle_rad - TAU * (angle_rad / TAU).round()
+}
+
+/// The rotation at which a flank of the driver touches one of the driven gear; none where their distances from the
+/// driven axis have nothing in common.
+pub fn touch(driver: &FlankChain, driven: &PolarFlank, stand: &Stand, side: Side) -> Option<Touch> {
+    // The driven axis as the driver sees it: its points need not be turned one by one.
+    let axis_mm = DVec2::from_angle(stand.phi_1_rad).rotate(stand.axis_2_mm);
+    let [low, high] = driven.range_mm();
+    let [nearest, farthest] = driver.distances_mm(axis_mm);
+    if farthest < low || nearest > high {
+        return None;
+    }
+    let pushing = -side.sign();
+    // Larger is where the gears touch first.
+    let push = |point_mm: DVec2| {
+        let d = point_mm - axis_mm;
+        let angle = driven.angle_rad(d.length())?;
+        let error = stand.sign * (d.to_angle() - stand.phi_1_rad - angle) - stand.phi_2_rad;
+        Some(pushing * wrapped(error))
+    };
+    let radii: Vec<f64> = driver.points_mm.iter().map(|p| p.distance(axis_mm)).collect();
+    let mut best: Option<(f64, f64)> = None;
+    let mut offer = |place: f64| {
+        if let Some(value) = push(driver.at(place))
+            && best.is_none_or(|(b, _)| value > b)
+        {
+            best = Some((value, place));
+        }
+    };
+    for (i, &radius) in radii.iter().enumerate() {
+        if radius >= low && radius <= high {
+            offer(i as f64);
+        }
+        let Some(&next) = radii.get(i + 1) else { break };
+        let (inner, outer) = (radius.min(next), radius.max(next));
+        if outer < low || inner > high {
+            continue;
+        }
+        let first = driven.radii_mm.partition_point(|r| *r <= inner);
+        for &r in driven.radii_mm[first..].iter().take_while(|r| **r < outer) {
+            offer(i as f64 + (r - radius) / (next - radius));
+        }
+    }
+    let (mut value, mut place) = best?;
+    if driver.is_smooth() {
+        (value, place) = climbed(&|place| push(driver.at(place)), value, place, driver.last());
+    }
+    let point_mm = driver.at(place);
+    let radius = point_mm.distance(axis_mm);
+    let tolerance_mm = END_INTERVALS * (high - low) / driven.radii_mm.len() as f64;
+    let driven_end =
+        |at_high: bool| if at_high == driven.tip_is_last { TouchKind::DrivenTip } else { TouchKind::DrivenRoot };
+    let kind = if place >= driver.last() - END_INTERVALS {
+        TouchKind::DriverTip
+    } else if place <= END_INTERVALS {
+        TouchKind::DriverRoot
+    } else if radius >= high - tolerance_mm {
+        driven_end(true)
+    } else if radius <= low + tolerance_mm {
+        driven_end(false)
+    } else {
+        TouchKind::Inner
+    };
+    let point_mm = DVec2::from_angle(-stand.phi_1_rad).rotate(point_mm);
+    Some(Touch { error_rad: pushing * value, kind, point_mm })
+}
+
+/// Goes on from an attained value to the largest one within an interval of the chain on either side.
+fn climbed(push: &dyn Fn(f64) -> Option<f64>, value: f64, place: f64, last: f64) -> (f64, f64) {
+    // Where the driven flank ends within the interval, its end is the end of the search, and a candidate.
+    let end = |mut outside: f64| {
+        if push(outside).is_some() {
+            return outside;
+        }
+        let mut inside = place;
+        for _ in 0..50 {
+            let middle = 0.5 * (inside + outside);
+            if push(middle).is_some() { inside = middle } else { outside = middle }
+        }
+        inside
+    };
+    let (mut a, mut b) = (end((place - 1.0).max(0.0)), end((place + 1.0).min(last)));
+    let at = |place: f64| push(place).unwrap_or(f64::NEG_INFINITY);
+    let mut best = (value, place);
+    let mut keep = |candidate: (f64, f64)| {
+        if candidate.0 > best.0 {
+            best = candidate;
+        }
+    };
+    keep((at(a), a));
+    keep((at(b), b));
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let (mut c, mut d) = (b - golden * (b - a), a + golden * (b - a));
+    let (mut at_c, mut at_d) = (at(c), at(d));
+    for _ in 0..GOLDEN_STEPS {
+        if at_c > at_d {
+            (b, d, at_d) = (d, c, at_c);
+            c = b - golden * (b - a);
+            at_c = at(c);
+        } else {
+            (a, c, at_c) = (c, d, at_d);
+            d = a + golden * (b - a);
+            at_d = at(d);
+        }
+    }
+    keep((at_c, c));
+    keep((at_d, d));
+    best
+}

@@ -1,0 +1,38 @@
+//! Form points against what the mate's tips ask for.
+
+use super::*;
+use crate::pair::contact_ratio::path_of_contact;
+use crate::pair::interference::{SharpCutter, needed_reach};
+
+#[test]
+fn tips_that_ask_for_contact_below_the_form_point() {
+    let file = data("p10_interference");
+    let mut largest = Largest::default();
+    for case in file["cases"].as_array().expect("cases") {
+        let design = &case["design"];
+        let pair = pair_of(design);
+        let teeth = pair.teeth();
+        for (member, gear) in [(Member::Driver, 1), (Member::Driven, 2)] {
+            let cutter = SharpCutter {
+                teeth: number(design, &format!("cutter{gear}_z0")) as u32,
+                addendum_coefficient: number(design, "cutter_ha0"),
+            };
+            let form_mm = cutter.form_reach_mm(teeth.module_mm, teeth.pressure_angle_rad);
+            for (side, name) in SIDES {
+                let expected = &case[format!("gear{gear}_{name}")];
+                let what = format!("{} gear {gear} {name}", case["name"]);
+                largest.within(form_mm, number(expected, "lambda_form"), 1e-7, &what);
+                let needed = needed_reach(&pair, member, side, addendum_mm(design)).expect("tips");
+                // The file looks every degree; the maximum lies between, a little higher.
+                let at = pair.at(number(expected, "phi1_at_max"));
+                let path = path_of_contact(&pair, &at, side, addendum_mm(design)).expect("tips");
+                let there = if member == Member::Driver { path.driven_tip_mm } else { path.driver_tip_mm };
+                let wanted = number(expected, "lambda_needed_max");
+                largest.within(there.abs(), wanted, 1e-7, &what);
+                assert!((wanted - 1e-9..wanted + 1e-3).contains(&needed.reach_mm), "{what}: {needed:?}");
+                largest.within(form_mm - there.abs(), number(expected, "margin_min"), 1e-6, &what);
+            }
+        }
+    }
+    println!("p10 form points: {:.1e} mm", largest.0);
+}

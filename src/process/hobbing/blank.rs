@@ -1,0 +1,143 @@
+//! The blank field of a hobbing job: rays through the whole stock, cut by the sweeps of all operations; the target's section at any height.
+
+use super::{HobCutter, HobbingJob};
+use crate::cut::Backend;
+use crate::cut::CutBlank;
+use crate::cut::sweep_chips::PassChip;
+use crate::dexel::{BlankField, BlankGrid};
+use crate::error::{Refusal, Result};
+use crate::gear::blank_outline::BlankOutline;
+use crate::math::roots::halve;
+use crate::measure::target_outline::TargetOutline;
+use crate::passes::sections::swept_sections::SweptSections;
+use crate::process::hobbing::rack_generation::FormPoint;
+use crate::terms::Side;
+use crate::tool::CuttingTool;
+use crate::units::TURN_RAD;
+use glam::DVec2;
+use rayon::prelude::*;
+
+/// The whole gear after all operations, and every chip.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HobbedBlank {
+    /// What is left.
+    pub cut: CutBlank,
+    /// What the passes of each operation took.
+    pub chips: Vec<Vec<PassChip>>,
+}
+
+impl HobbingJob {
+    /// Where the rays stand.
+    ///
+    /// # Errors
+    /// A field that does not fit in memory.
+    pub fn blank_grid(&self) -> Result<BlankGrid, Refusal> {
+        let fields = &self.scene.fields;
+        let outline = BlankOutline::new(&self.blank);
+        let width_mm = self.scene.gear.face_width_mm;
+        BlankGrid::new(&self.blank, &outline, width_mm, fields.blank_spacing_mm, Some(fields.blank_slice_spacing_mm))
+    }
+
+    /// The uncut blank at the scene's spacing.
+    ///
+    /// # Errors
+    /// A field that does not fit in memory.
+    pub fn blank_field(&self) -> Result<BlankField, Refusal> {
+        let outline = BlankOutline::new(&self.blank);
+        Ok(BlankField::new(self.blank_grid()?, &outline, 0.5 * self.scene.gear.bore_diameter_mm))
+    }
+
+    /// The target's section at `z_mm` as a polygon with points `spacing_mm` apart; its error is the arrow height of so long a chord.
+    pub fn target_outline(&self, z_mm: f64, spacing_mm: f64) -> TargetOutline {
+        let teeth: Vec<Vec<DVec2>> = (1..=i64::from(self.scene.gear.teeth))
+            .into_par_iter()
+            .map(|tooth| self.tooth_outline(tooth, z_mm, spacing_mm))
+            .collect();
+        TargetOutline::new(teeth.concat())
+    }
+
+    /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise. Flanks begin where the fillet meets them, undercut or not.
+    fn tooth_outline(&self, tooth: i64, z_mm: f64, spacing_mm: f64) -> Vec<DVec2> {
+        let target = &self.target;
+        let steps = |length_mm: f64| (length_mm.abs() / spacing_mm).ceil().max(1.0) as usize;
+        let between =
+            |from: f64, to: f64, count: usize| (0..=count).map(move |i| from + (to - from) * i as f64 / count as f64);
+        let limit_mm = 4.0 * target.rack.transverse_module_mm;
+        // From the tip corner to the blank's outline, as rolls.
+        let form_point = |space: i64, side: Side| target.form_point(&self.blank, space, side, z_mm);
+        let flank = |space: i64, side: Side, form: &FormPoint| -> Vec<DVec2> {
+            let at = |roll_mm: f64| target.flank_contact(space, side, roll_mm, z_mm);
+            let stands_out = |roll_mm: f64| {
+                let contact = at(roll_mm);
+                self.blank.height(contact.point_mm.truncate(), contact.phi_rad).0 - self.blank.addendum_mm
+            };
+            let root_mm = form.roll_mm;
+            let [_, outside] = halve(|roll| stands_out(roll) < 0.0, 0.0, -side.sign() * limit_mm, 60);
+            between(root_mm, outside, steps(outside - root_mm)).map(|roll| at(roll).point_mm.truncate()).collect()
+        };
+        let corner = |space: i64, side: Side, form: &FormPoint| -> Vec<DVec2> {
+            let bottom_mm = target.corner_bottom_arc_mm(space, side, z_mm);
+            let top = target.corner_arc_at_height_mm(&self.blank, space, side, form.height_mm, z_mm);
+            let end_mm = top.unwrap_or(bottom_mm);
+            // A sharp corner's path bends most where it leaves the bottom.
+            let count = 2 * steps(end_mm - bottom_mm);
+            between(bottom_mm, end_mm, count).map(|arc| target.corner_point_mm(space, side, arc, z_mm)).collect()
+        };
+        let left_form = form_point(tooth, Side::Left);
+        let mut points = flank(tooth - 1, Side::Right, &form_point(tooth - 1, Side::Right));
+        let left = flank(tooth, Side::Left, &left_form);
+        let foot = |p: DVec2| self.blank.height(p, p.to_angle()).1;
+        let from = foot(points[points.len() - 1]);
+        let to = from + (foot(left[left.len() - 1]) - from).rem_euclid(TURN_RAD);
+        let land_mm = points[points.len() - 1].distance(left[left.len() - 1]);
+        let count = steps(land_mm);
+        points.extend(between(from, to, count).skip(1).take(count - 1).map(|phi| self.blank.outline_mm(phi)));
+        points.extend(left.into_iter().rev());
+        let low = corner(tooth, Side::Left, &left_form);
+        points.extend(low.into_iter().rev().skip(1));
+        // The bottom: the rack's tip line rolls along under the pitch curve.
+        let ends = [Side::Left, Side::Right].map(|side| target.corner_bottom_arc_mm(tooth, side, z_mm));
+        let count = steps(ends[1] - ends[0]);
+        points.extend(between(ends[0], ends[1], count).skip(1).take(count - 1).map(|arc| {
+            let frame = self.curve.frame(self.curve.phi_at_arc(arc));
+            frame.point_mm - target.rack.tip_height_mm * frame.normal
+        }));
+        let high = corner(tooth, Side::Right, &form_point(tooth, Side::Right));
+        points.extend(&high[..high.len() - 1]);
+        points
+    }
+}
+
+impl HobCutter<'_> {
+    /// Passes of an operation as sections; all of them if not `cull`.
+    pub fn sections(&self, operation: usize, cull: bool) -> SweptSections {
+        let reach_mm = BlankOutline::new(&self.job.blank).reach_mm();
+        let passes = &self.operations[operation];
+        SweptSections::new(passes, self.job.hob.edge(), reach_mm, self.job.scene.gear.face_width_mm, cull)
+    }
+
+    /// Runs all operations over the uncut blank; `advance` is called as often as there are slices, in every operation, and says whether to go on. `None`: stopped.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_blank(
+        &self,
+        backend: &dyn Backend,
+        field: BlankField,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<HobbedBlank>> {
+        let mut cut = CutBlank { blank_mm3: field.volumes_mm3(), field, left_mm3: Vec::new(), cuts: Vec::new() };
+        let mut chips = Vec::new();
+        for (index, passes) in self.operations.iter().enumerate() {
+            let sections = self.sections(index, true);
+            let ids = passes.first_pass..passes.end_pass();
+            let Some(done) = backend.cut_blank_sweeps(&mut cut.field, &sections, ids, advance)? else {
+                return Ok(None);
+            };
+            cut.cuts.push(done.cut);
+            chips.push(done.chips);
+            cut.left_mm3.push(cut.field.volumes_mm3());
+        }
+        Ok(Some(HobbedBlank { cut, chips }))
+    }
+}

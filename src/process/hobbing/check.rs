@@ -1,0 +1,177 @@
+//! What a hobbing scene means: hob, teeth, operations.
+
+mod cost;
+
+use crate::error::Result;
+use crate::output::text::{Sheet, plain, significant};
+use crate::process::hobbing::HobbingJob;
+use crate::process::hobbing::axes_report::HobbingAxesReport;
+use crate::scene::model::HobbingKind;
+use crate::steps::check_curve::{self, gear_words};
+use crate::terms::Side;
+
+/// Share of the largest tooth count of a warning's list.
+const MOST_NAMED: usize = 6;
+
+/// Prints everything; what must be known before cutting.
+///
+/// # Errors
+/// Geometry that cannot be cut.
+pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<String>> {
+    let operations = HobbingAxesReport::of_job(job);
+    let teeth = Teeth::of_job(job);
+    sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
+    check_curve::print(sheet, &job.curve, &job.scene.gear, None);
+    print_hob(sheet, job);
+    teeth.print(sheet);
+    for operation in &operations {
+        operation.print(sheet);
+    }
+    cost::print(sheet, job)?;
+    let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
+    warnings.extend(hob_warnings(job));
+    warnings.extend(teeth.warnings());
+    warnings.extend(operations.iter().flat_map(HobbingAxesReport::warnings));
+    Ok(warnings)
+}
+
+fn print_hob(sheet: &mut Sheet, job: &HobbingJob) {
+    let hob = &job.hob;
+    let hand = if hob.hand > 0.0 { "right" } else { "left" };
+    sheet.heading("Hob");
+    let starts = if hob.starts == 1 { "1 start".to_owned() } else { format!("{} starts", hob.starts) };
+    sheet.line("thread", format!("{starts}, {hand}-hand, lead angle {:.4} deg", hob.lead_angle_rad.to_degrees()));
+    sheet
+        .line("diameters", format!("pitch {:.3} mm, tip {:.3} mm", 2.0 * hob.pitch_radius_mm, 2.0 * hob.tip_radius_mm));
+    let (first, last) = (&hob.teeth[0], &hob.teeth[hob.teeth.len() - 1]);
+    sheet.line(
+        "teeth",
+        format!(
+            "{} in {} gashes, {} to {} along the thread from the entering end, one every {:.4} mm",
+            hob.teeth.len(),
+            hob.gashes,
+            first.label(hob.starts),
+            last.label(hob.starts),
+            hob.tooth_spacing_mm()
+        ),
+    );
+    let length = job.finishing().plan.contact_half_length_mm;
+    sheet.line("full contact takes", format!("{:.3} of {} mm", 2.0 * length, plain(hob.length_mm)));
+    let common = greatest_common_divisor(hob.starts, job.scene.gear.teeth);
+    sheet.line(
+        "hunting",
+        match (hob.starts, common) {
+            (1, _) => "one start cuts every tooth".to_owned(),
+            (_, 1) => "every start cuts every tooth".to_owned(),
+            (starts, common) => {
+                format!("{starts} starts and {} teeth share the divisor {common}", job.scene.gear.teeth)
+            }
+        },
+    );
+}
+
+fn hob_warnings(job: &HobbingJob) -> Vec<String> {
+    let (hob, gear) = (&job.hob, &job.scene.gear);
+    let mut warnings = Vec::new();
+    let common = greatest_common_divisor(hob.starts, gear.teeth);
+    if common > 1 {
+        warnings.push(format!(
+            "{} starts and {} teeth share the divisor {common}: each start always cuts the same tooth spaces, and the hob's pitch errors stay on the gear",
+            hob.starts, gear.teeth
+        ));
+    }
+    for operation in &job.operations {
+        let geometry = operation.linkage.geometry();
+        let right = geometry.gear_hand * geometry.helix_angle_rad - geometry.hob_hand * geometry.lead_angle_rad;
+        if (geometry.head_angle_rad - right).abs() > 1e-9 {
+            warnings.push(format!(
+                "operation {}: the head stands at {:.4} deg, hob and gear ask for {:.4} deg: the flanks will be off",
+                operation.spec.name,
+                geometry.head_angle_rad.to_degrees(),
+                right.to_degrees()
+            ));
+        }
+        let closure_mm = job.curve.closure_error_mm().abs() * operation.linkage.end_s() / operation.linkage.cycle_s();
+        if closure_mm > 1e-3 * gear.module_mm {
+            warnings.push(format!(
+                "operation {}: the pitch curve's closure error adds up to {} mm over its cycles: leave the size out and it is solved",
+                operation.spec.name,
+                significant(closure_mm, 3)
+            ));
+        }
+        if let HobbingKind::Diagonal { .. } = operation.spec.kind
+            && (operation.plan.slide_feeds_mm[0] - operation.plan.slide_feeds_mm[1]).abs() > 1e-9
+        {
+            let [first, second] = operation.plan.slide_feeds_mm;
+            warnings.push(format!(
+                "operation {}: with feed_of = \"resultant\" the slide feeds {} mm per revolution one way and {} mm the other: feed marks differ by a factor of {}",
+                operation.spec.name,
+                significant(first, 4),
+                significant(second, 4),
+                significant((first.max(second) / first.min(second)).powi(2), 3)
+            ));
+        }
+    }
+    warnings
+}
+
+/// Form points of all flanks in the middle of the face.
+struct Teeth {
+    /// Tooth, side, height over the pitch curve, undercut.
+    flanks: Vec<(u32, Side, f64, bool)>,
+}
+
+impl Teeth {
+    fn of_job(job: &HobbingJob) -> Self {
+        let flanks = (1..=job.scene.gear.teeth)
+            .flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)])
+            .map(|(tooth, side)| {
+                let space = i64::from(tooth) - i64::from(side == Side::Right);
+                let form = job.target.form_point(&job.blank, space, side, 0.0);
+                (tooth, side, form.height_mm, form.undercut)
+            })
+            .collect();
+        Self { flanks }
+    }
+
+    fn print(&self, sheet: &mut Sheet) {
+        let lowest = self.flanks.iter().min_by(|a, b| a.2.total_cmp(&b.2));
+        let highest = self.flanks.iter().max_by(|a, b| a.2.total_cmp(&b.2));
+        sheet.heading("Teeth");
+        if let (Some(low), Some(high)) = (lowest, highest) {
+            sheet.line(
+                "flanks begin",
+                format!(
+                    "{:.3} mm (tooth {} {}) to {:.3} mm (tooth {} {}) over the pitch curve, in the middle of the face",
+                    low.2,
+                    low.0,
+                    low.1.name(),
+                    high.2,
+                    high.0,
+                    high.1.name()
+                ),
+            );
+        }
+        let undercut = self.flanks.iter().filter(|flank| flank.3).count();
+        sheet.line("undercut flanks", format!("{undercut} of {}", self.flanks.len()));
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let mut teeth: Vec<u32> = self.flanks.iter().filter(|flank| flank.3).map(|flank| flank.0).collect();
+        teeth.dedup();
+        if teeth.is_empty() {
+            return Vec::new();
+        }
+        let named: Vec<String> = teeth.iter().take(MOST_NAMED).map(u32::to_string).collect();
+        let more = if teeth.len() > MOST_NAMED { ", ..." } else { "" };
+        vec![format!(
+            "the hob's tip corner undercuts {} teeth ({}{more}), where the pitch curve is sharp: use more teeth, a smaller addendum_coefficient of the hob, or a flatter curve",
+            teeth.len(),
+            named.join(", ")
+        )]
+    }
+}
+
+fn greatest_common_divisor(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
+}

@@ -1,0 +1,155 @@
+//! The cost of a hobbing scene.
+//!
+//! Flanks are planned in a band about the middle of the face. For the blank, the sweeps that reach a slice are found for some passes and slices, and the rays that they cross are counted.
+
+use crate::Result;
+use crate::math::planar_rays::FAMILIES;
+use crate::output::text::{Sheet, significant};
+use crate::passes::SweepPlan;
+use crate::passes::sections::swept_sections::SweptSection;
+use crate::passes::spatial::sweep::SweepRecord;
+use crate::process::hobbing::{HobCutter, HobbingJob};
+use crate::terms::Side;
+use crate::tool::CuttingTool;
+use rayon::prelude::*;
+
+use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FLANKS};
+
+/// Rows of a flank that are planned, about the middle of the face.
+const PLANNED_ROWS: usize = 96;
+/// What one thread of the native backend takes for a dexel's ray, s.
+const RAY_S_PER_DEXEL: f64 = 5.5e-8;
+/// The same for the plan of a tile.
+const PLAN_S_PER_TILE: f64 = 1.1e-4;
+/// The same for one evaluation (dexel against record).
+const CUT_S_PER_EVALUATION: f64 = 5e-8;
+/// The same for measuring a dexel of one surface.
+const MEASURE_S_PER_DEXEL: f64 = 1e-8;
+/// Bytes of a dexel's ray: two vectors and the blank's height.
+const BYTES_PER_RAY: usize = 52;
+
+/// Slices and passes of an operation that are looked at, at most.
+const SLICES: usize = 5;
+const PASSES: usize = 400;
+/// What it takes to hold a sweep against a slice, s.
+const BLANK_S_PER_SECTION: f64 = 1.2e-6;
+/// What a ray that a sweep reaches takes, s.
+const BLANK_S_PER_RAY_PASS: f64 = 4.2e-8;
+
+/// Adds the estimate to the report.
+///
+/// # Errors
+/// A flank that the hob does not generate; a blank field that does not fit in memory.
+pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<()> {
+    let cutter = HobCutter::new(job)?;
+    crate::steps::check_cost::print(sheet, &job.scene.fields, &flank_cost(&cutter)?, &blank_cost(&cutter)?);
+    Ok(())
+}
+
+/// What planning a band of a flank found.
+struct Planned {
+    dexels: f64,
+    tiles: f64,
+    records: f64,
+    evaluations: f64,
+}
+
+fn plan(cutter: &HobCutter, tooth: u32, side: Side) -> Result<Planned> {
+    let target = cutter.target(tooth, side)?;
+    let fields = &cutter.job.scene.fields;
+    let columns = (target.length_mm() / fields.profile_spacing_mm).round().max(1.0) as usize;
+    let arcs_mm = (0..=columns).map(|i| target.length_mm() * i as f64 / columns as f64).collect();
+    let rows = ((cutter.job.scene.gear.face_width_mm / fields.lead_spacing_mm).round() as usize + 1).min(PLANNED_ROWS);
+    let leads_mm = (0..rows).map(|i| fields.lead_spacing_mm * (i as f64 - 0.5 * (rows - 1) as f64)).collect();
+    let field = cutter.rays_over(&target, arcs_mm, leads_mm).field;
+    let mut sum = Planned { dexels: field.len() as f64, tiles: 0.0, records: 0.0, evaluations: 0.0 };
+    for passes in &cutter.operations {
+        let plan = SweepPlan::new(&field, passes, cutter.job.hob.edge());
+        sum.tiles += plan.tiles.len() as f64;
+        sum.records += plan.records.len() as f64;
+        sum.evaluations += plan.dexel_passes() as f64;
+    }
+    Ok(sum)
+}
+
+fn flank_cost(cutter: &HobCutter) -> Result<FlankCost> {
+    let job = cutter.job;
+    let (gear, fields) = (&job.scene.gear, &job.scene.fields);
+    let surfaces = job.operations.len() as f64;
+    let every = (gear.teeth as usize).div_ceil(PLANNED_FLANKS);
+    let teeth: Vec<(u32, Side)> =
+        (1..=gear.teeth).step_by(every).zip([Side::Left, Side::Right].into_iter().cycle()).collect();
+    let planned: Vec<Planned> =
+        teeth.into_par_iter().map(|(tooth, side)| plan(cutter, tooth, side)).collect::<Result<_>>()?;
+    let sum = |of: fn(&Planned) -> f64| planned.iter().map(of).sum::<f64>();
+    let rows = (gear.face_width_mm / fields.lead_spacing_mm).round() + 1.0;
+    let per_flank: Vec<f64> = (1..=gear.teeth)
+        .into_par_iter()
+        .flat_map_iter(|tooth| [Side::Left, Side::Right].map(|side| (tooth, side)))
+        .map(|(tooth, side)| {
+            let length_mm = cutter.target(tooth, side)?.length_mm();
+            Ok(((length_mm / fields.profile_spacing_mm).round() + 1.0) * rows)
+        })
+        .collect::<Result<_>>()?;
+    let (dexels, largest) = (per_flank.iter().sum::<f64>(), per_flank.iter().copied().fold(0.0, f64::max));
+    let scale = dexels / sum(|p| p.dexels);
+    let records = scale * sum(|p| p.records);
+    let evaluations = scale * sum(|p| p.evaluations);
+    let bytes_of_rays = largest * (BYTES_PER_RAY as f64 + BYTES_PER_DEXEL as f64 * surfaces);
+    let bytes_of_records = records / dexels * largest * size_of::<SweepRecord>() as f64;
+    Ok(FlankCost {
+        flanks: per_flank.len(),
+        largest,
+        dexels,
+        evaluations,
+        per_dexel: evaluations / (dexels * surfaces),
+        records,
+        note: "",
+        bytes: rayon::current_num_threads() as f64 * (bytes_of_rays + bytes_of_records),
+        seconds: dexels * (RAY_S_PER_DEXEL + surfaces * MEASURE_S_PER_DEXEL)
+            + scale * sum(|p| p.tiles) * PLAN_S_PER_TILE
+            + evaluations * CUT_S_PER_EVALUATION,
+    })
+}
+
+/// Rays through the blank and the sweeps that cross them.
+fn blank_cost(cutter: &HobCutter) -> Result<BlankCost> {
+    let grid = cutter.job.blank_grid()?;
+    let slices = grid.leads_mm.len();
+    let every_slice = slices.div_ceil(SLICES);
+    let (mut sections, mut ray_passes) = (0.0, 0.0);
+    for operation in 0..cutter.operations.len() {
+        let passes = cutter.sections(operation, true);
+        let every = passes.len().div_ceil(PASSES).max(1);
+        let found: Vec<[f64; 2]> = grid
+            .leads_mm
+            .par_iter()
+            .skip(every_slice / 2)
+            .step_by(every_slice)
+            .map_init(SweptSection::default, |section, &lead_mm| {
+                let mut found = [0.0; 2];
+                for pass in (0..passes.len()).step_by(every) {
+                    if !passes.section(pass, lead_mm, section) {
+                        continue;
+                    }
+                    found[0] += 1.0;
+                    for (family, row) in FAMILIES.into_iter().zip(&grid.rows) {
+                        let [low, high] = section.across_mm(family).map(|across| row.first_at_or_above(across));
+                        found[1] += high.saturating_sub(low) as f64;
+                    }
+                }
+                found
+            })
+            .collect();
+        let scale = every as f64 * slices as f64 / found.len() as f64;
+        sections += scale * found.iter().map(|[sections, _]| sections).sum::<f64>();
+        ray_passes += scale * found.iter().map(|[_, rays]| rays).sum::<f64>();
+    }
+    let crossings = format!(
+        "hob teeth go through sections {} million times and reach {} million of them",
+        significant(1e-6 * sections, 3),
+        significant(1e-6 * ray_passes, 3)
+    );
+    let seconds = sections * BLANK_S_PER_SECTION + ray_passes * BLANK_S_PER_RAY_PASS;
+    Ok(BlankCost { crossings, bytes: grid.estimated_bytes(&cutter.job.blank), grid, seconds })
+}

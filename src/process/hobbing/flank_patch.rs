@@ -1,0 +1,329 @@
+//! The target flank of a hobbed tooth as a patch of polynomials, ready for a million dexels.
+//!
+//! In: the rack's generation, the blank, tooth and side. Out: points and normals at any share of the profile and any place along the tooth. A contact takes the
+//! inverse of an arc length; on a flank both coordinates are smooth, so Chebyshev polynomials of a dozen terms hold them to a picometre, and a dexel costs some
+//! products. The number of terms is doubled until an error measured between the nodes is small enough.
+//!
+//! Along the profile the patch runs from where the flank is whole over the whole face (the latest start of the involute in any section: near the ends of an undercut tooth a little
+//! flank below is left out) to the blank's outline, by shares of the roll between them: the profile's length is no smooth coordinate where the envelope nearly stands still.
+
+use super::rack_generation::RackGeneration;
+use crate::dexel::Ray;
+use crate::error::Refusal;
+use crate::gear::blank::Blank;
+use crate::math::roots::halve;
+use crate::terms::Side;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Largest distance of the patch from the flank, mm: a hundredth of what the dexels resolve.
+const TOLERANCE_MM: f64 = 1e-9;
+/// Terms of the first try, and the most.
+const TERMS: [usize; 2] = [10, 80];
+/// Gauss-Legendre rule on [-1, 1], eight points: half of the nodes with their weights.
+const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_5),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
+];
+
+/// Components: point and normal.
+const PARTS: usize = 6;
+/// Panels of the profile's length.
+const PANELS: usize = 64;
+
+/// A target flank.
+#[derive(Debug, Clone)]
+pub struct FlankPatch {
+    /// Coefficients along the tooth of coefficients along the profile.
+    coefficients: Vec<Vec<[f64; PARTS]>>,
+    face_width_mm: f64,
+    /// Roll past the pitch line at which the patch begins in every section, mm.
+    pub form_roll_mm: f64,
+    /// Height over the pitch curve where the patch begins, in the section where the flank begins last, mm.
+    pub form_height_mm: f64,
+    /// Whether the tip corner has undercut the flank in any section.
+    pub undercut: bool,
+    /// Largest distance from the flank found between the nodes, mm.
+    pub error_mm: f64,
+    /// Length of the profile in the middle section up to the ends of equal shares of its roll, mm.
+    lengths_mm: Vec<f64>,
+    /// Places of the contact on the line of action at both ends of the middle section's profile, mm from the pitch point towards the tip.
+    on_line_of_action_mm: [f64; 2],
+}
+
+/// One section of a patch: polynomials along the profile.
+#[derive(Debug, Clone)]
+pub struct Section {
+    coefficients: Vec<[f64; PARTS]>,
+}
+
+/// What a patch is made from.
+struct Source<'a> {
+    generation: &'a RackGeneration,
+    blank: &'a Blank,
+    space: i64,
+    side: Side,
+    face_width_mm: f64,
+    form_roll_mm: f64,
+}
+
+impl FlankPatch {
+    /// Patch of the flank of `tooth` (from 1) over the face.
+    ///
+    /// # Errors
+    /// A flank that does not reach the tip anywhere, or is not smooth enough.
+    pub fn new(
+        generation: &RackGeneration,
+        blank: &Blank,
+        tooth: u32,
+        side: Side,
+        face_width_mm: f64,
+    ) -> Result<Self, Refusal> {
+        // The left flank of a tooth bounds the space after it.
+        let space = i64::from(tooth) - i64::from(side == Side::Right);
+        let sections = 9;
+        let forms = (0..sections).map(|i| {
+            let z_mm = face_width_mm * (f64::from(i) / f64::from(sections - 1) - 0.5);
+            generation.form_point(blank, space, side, z_mm)
+        });
+        let forms: Vec<_> = forms.collect();
+        // Rolls towards the root have the side's sign.
+        let latest = forms
+            .iter()
+            .min_by(|a, b| (side.sign() * a.roll_mm).total_cmp(&(side.sign() * b.roll_mm)))
+            .expect("nine sections");
+        let source = Source { generation, blank, space, side, face_width_mm, form_roll_mm: latest.roll_mm };
+        let undercut = forms.iter().any(|form| form.undercut);
+        let mut terms = TERMS[0];
+        loop {
+            let parts = source.coefficients(terms).zip(source.lengths_mm()).zip(source.tip_roll_mm(0.0));
+            let ((coefficients, lengths_mm), tip_roll_mm) = parts.ok_or_else(|| {
+                Refusal::new(
+                    "gear.addendum_coefficient",
+                    format!("the {} flank of tooth {tooth} does not reach the blank's outline", side.name()),
+                    "use a smaller addendum_coefficient",
+                )
+            })?;
+            let form_height_mm = latest.height_mm;
+            let form_roll_mm = latest.roll_mm;
+            let on_line_of_action_mm =
+                [form_roll_mm, tip_roll_mm].map(|roll| generation.flank_contact(space, side, roll, 0.0).distance_mm);
+            let mut patch = Self {
+                coefficients,
+                face_width_mm,
+                form_roll_mm,
+                form_height_mm,
+                undercut,
+                error_mm: 0.0,
+                lengths_mm,
+                on_line_of_action_mm,
+            };
+            patch.error_mm = source.error_mm(&patch);
+            if patch.error_mm <= TOLERANCE_MM {
+                return Ok(patch);
+            }
+            terms = terms * 3 / 2;
+            if terms > TERMS[1] {
+                return Err(Refusal::new(
+                    "gear.pitch_curve",
+                    format!(
+                        "the {} flank of tooth {tooth} is not smooth: polynomials keep an error of {:.3} nm",
+                        side.name(),
+                        patch.error_mm * 1e6
+                    ),
+                    "use a pitch curve without corners",
+                ));
+            }
+        }
+    }
+
+    /// Section at `z_mm` (from the middle of the face).
+    pub fn section(&self, z_mm: f64) -> Section {
+        let y = 2.0 * z_mm / self.face_width_mm;
+        Section { coefficients: self.coefficients.iter().map(|along| clenshaw(along, y)).collect() }
+    }
+}
+
+impl FlankPatch {
+    /// Length of the profile in the middle of the face, mm.
+    pub fn length_mm(&self) -> f64 {
+        self.lengths_mm[PANELS]
+    }
+
+    /// Place on the line of action at which the profile of the middle section is touched where it has a length, both in mm; counted from the pitch point, positive towards the tip. Over it an involute of
+    /// another base circle runs straight. On a round gear it is the roll length of ISO 1328-1 less `r sin(alpha_t)`.
+    pub fn on_line_of_action_mm(&self, length_mm: f64) -> f64 {
+        let [form_mm, tip_mm] = self.on_line_of_action_mm;
+        form_mm + self.share_at(length_mm) * (tip_mm - form_mm)
+    }
+
+    /// Share of the roll at which the profile of the middle section has a length, mm. Between panels the length is a parabola through its own rates: a column stands
+    /// within some nanometres of its place, and on the flank exactly.
+    pub fn share_at(&self, length_mm: f64) -> f64 {
+        let length_mm = length_mm.clamp(0.0, self.length_mm());
+        let panel = self.lengths_mm.partition_point(|&l| l <= length_mm).clamp(1, PANELS) - 1;
+        let at = |i: usize| self.lengths_mm[i];
+        let first = panel.clamp(1, PANELS - 1) - 1;
+        // Parabola through three ends of panels, in panels from the first.
+        let (a, b, c) = (at(first), at(first + 1), at(first + 2));
+        let (slope, bend) = (0.5 * (4.0 * b - 3.0 * a - c), 0.5 * (a - 2.0 * b + c));
+        let missing = length_mm - a;
+        let x = 2.0 * missing / (slope + (slope * slope + 4.0 * bend * missing).max(0.0).sqrt());
+        ((first as f64 + x) / PANELS as f64).clamp(0.0, 1.0)
+    }
+}
+
+impl Section {
+    /// Ray at a share of the roll, 0 at the beginning and 1 at the tip.
+    pub fn ray(&self, share: f64) -> Ray {
+        let [x, y, z, nx, ny, nz] = clenshaw(&self.coefficients, 2.0 * share - 1.0);
+        Ray { origin_mm: DVec3::new(x, y, z), normal: DVec3::new(nx, ny, nz) }
+    }
+}
+
+impl Source<'_> {
+    /// Lengths of the middle section's profile up to the panels' ends.
+    fn lengths_mm(&self) -> Option<Vec<f64>> {
+        let tip = self.tip_roll_mm(0.0)?;
+        let half = 0.5 * (tip - self.form_roll_mm) / PANELS as f64;
+        let speed = |roll: f64| self.generation.flank_contact(self.space, self.side, roll, 0.0).length_per_roll;
+        let mut lengths_mm = vec![0.0];
+        for panel in 0..PANELS {
+            let middle = self.form_roll_mm + half * (2 * panel + 1) as f64;
+            let sum: f64 = GAUSS
+                .iter()
+                .map(|&(node, weight)| weight * (speed(middle - half * node) + speed(middle + half * node)))
+                .sum();
+            lengths_mm.push(lengths_mm[panel] + (half * sum).abs());
+        }
+        Some(lengths_mm)
+    }
+
+    fn tip_roll_mm(&self, z_mm: f64) -> Option<f64> {
+        let height = |roll: f64| {
+            let contact = self.generation.flank_contact(self.space, self.side, roll, z_mm);
+            self.blank.height(contact.point_mm.truncate(), contact.phi_rad).0 - self.blank.addendum_mm
+        };
+        // Towards the tip the roll has the other sign; heights climb steadily.
+        let module_mm = self.generation.rack.transverse_module_mm;
+        let farthest = -self.side.sign() * 8.0 * module_mm;
+        if height(farthest) < 0.0 {
+            return None;
+        }
+        let [low, high] = halve(|roll| height(roll) < 0.0, 0.0, farthest, 60);
+        Some(0.5 * (low + high))
+    }
+
+    /// Point and normal at a share of the roll in a section.
+    fn at(&self, share: f64, z_mm: f64, tip_roll_mm: f64) -> [f64; PARTS] {
+        let roll = self.form_roll_mm + share * (tip_roll_mm - self.form_roll_mm);
+        let contact = self.generation.flank_contact(self.space, self.side, roll, z_mm);
+        let (p, n) = (contact.point_mm, contact.normal);
+        [p.x, p.y, p.z, n.x, n.y, n.z]
+    }
+
+    fn coefficients(&self, terms: usize) -> Option<Vec<Vec<[f64; PARTS]>>> {
+        let node = |i: usize| (PI * (i as f64 + 0.5) / terms as f64).cos();
+        let mut rows = Vec::new();
+        for j in 0..terms {
+            let z_mm = 0.5 * self.face_width_mm * node(j);
+            let tip = self.tip_roll_mm(z_mm)?;
+            let values: Vec<[f64; PARTS]> = (0..terms).map(|i| self.at(0.5 + 0.5 * node(i), z_mm, tip)).collect();
+            rows.push(chebyshev(&values));
+        }
+        // Coefficients along the profile, each expanded along the tooth.
+        Some((0..terms).map(|k| chebyshev(&rows.iter().map(|row| row[k]).collect::<Vec<_>>())).collect())
+    }
+
+    /// Largest distance of the patch from the flank at places between the nodes.
+    fn error_mm(&self, patch: &FlankPatch) -> f64 {
+        let mut worst = 0.0_f64;
+        for z in [-1.0, -0.93, -0.41, 0.17, 0.77, 1.0] {
+            let z_mm = 0.5 * self.face_width_mm * z;
+            let Some(tip) = self.tip_roll_mm(z_mm) else { return f64::INFINITY };
+            let section = patch.section(z_mm);
+            for share in [0.0, 0.02, 0.31, 0.66, 0.98, 1.0] {
+                let exact = self.at(share, z_mm, tip);
+                let ray = section.ray(share);
+                let point = DVec3::new(exact[0], exact[1], exact[2]);
+                let normal = DVec3::new(exact[3], exact[4], exact[5]);
+                // A turn of the normal moves what stands a millimetre above the flank.
+                worst = worst.max(ray.origin_mm.distance(point)).max(ray.normal.distance(normal));
+            }
+        }
+        worst
+    }
+}
+
+/// Coefficients of the Chebyshev polynomials through values at their nodes.
+fn chebyshev(values: &[[f64; PARTS]]) -> Vec<[f64; PARTS]> {
+    let terms = values.len();
+    (0..terms)
+        .map(|k| {
+            let mut sum = [0.0; PARTS];
+            for (i, value) in values.iter().enumerate() {
+                let weight = (PI * k as f64 * (i as f64 + 0.5) / terms as f64).cos();
+                sum.iter_mut().zip(value).for_each(|(s, v)| *s += weight * v);
+            }
+            sum.map(|s| s * if k == 0 { 1.0 } else { 2.0 } / terms as f64)
+        })
+        .collect()
+}
+
+fn clenshaw(coefficients: &[[f64; PARTS]], x: f64) -> [f64; PARTS] {
+    let (mut b1, mut b2) = ([0.0; PARTS], [0.0; PARTS]);
+    for c in coefficients[1..].iter().rev() {
+        for part in 0..PARTS {
+            let b = c[part] + 2.0 * x * b1[part] - b2[part];
+            b2[part] = b1[part];
+            b1[part] = b;
+        }
+    }
+    std::array::from_fn(|part| coefficients[0][part] + x * b1[part] - b2[part])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::PitchCurve;
+    use crate::gear::PitchCurveShape;
+    use crate::process::hobbing::rack_generation::Rack;
+    use std::sync::Arc;
+
+    #[test]
+    fn a_patch_is_its_flank() {
+        let shape = PitchCurveShape::Ellipse { order: 3, eccentricity: 0.1, semi_major_axis_mm: None };
+        let (beta, module_mm) = (0.184_423_f64, 8.0 / 0.184_423_f64.cos());
+        let curve = Arc::new(PitchCurve::new(&shape, module_mm, 35).expect("a curve"));
+        let blank = Blank::new(curve.clone(), 8.0).expect("a blank");
+        let rack = Rack {
+            transverse_module_mm: module_mm,
+            pressure_angle_rad: (20_f64.to_radians().tan() / beta.cos()).atan(),
+            half_thickness_mm: 0.25 * PI * module_mm,
+            tip_height_mm: 10.0,
+            tip_radius_mm: 0.0,
+            helix_angle_rad: beta,
+            hand: -1.0,
+        };
+        let generation = RackGeneration { curve, rack };
+        for (tooth, side) in [(1, Side::Left), (6, Side::Right), (12, Side::Left)] {
+            let patch = FlankPatch::new(&generation, &blank, tooth, side, 50.0).expect("a flank");
+            assert!(patch.error_mm < TOLERANCE_MM);
+            let section = patch.section(13.0);
+            let (a, b) = (section.ray(0.25), section.ray(0.75));
+            assert!((a.origin_mm.z - 13.0).abs() < 1e-12 && (a.normal.length() - 1.0).abs() < 1e-10);
+            // Columns stand evenly along the profile of the middle section.
+            let middle = patch.section(0.0);
+            let steps = [0.1, 0.5, 0.9].map(|part| {
+                let at = |mm: f64| middle.ray(patch.share_at(part * patch.length_mm() + mm)).origin_mm;
+                at(0.05).distance(at(-0.05))
+            });
+            assert!(steps.iter().all(|step| (step / 0.1 - 1.0).abs() < 1e-3), "{steps:?}");
+            assert!(a.origin_mm.distance(b.origin_mm) > 1.0);
+            let tip = section.ray(1.0).origin_mm.truncate();
+            assert!((blank.height(tip, tip.to_angle()).0 - 8.0).abs() < 1e-8);
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! G-code for a five- or six-axis CNC hobbing machine: written from a linkage, and read back into axis positions.
+//!
+//! In: a prepared operation and the **contour error**, the largest displacement of the hob in the work that straight lines may cause where both meet. Out: two texts, and from any such text the axes at every
+//! moment ([`read()`]).
+//!
+//! | word | axis | unit |
+//! | --- | --- | --- |
+//! | X | tangential: pitch point against the work's axis, along the rack | mm |
+//! | Y | radial: pitch plane of the hob against the work's axis, infeed included | mm |
+//! | Z | slide along the work's axis, 0 in the middle of the face | mm |
+//! | W | shift along the hob's axis, 0 with its middle at the pitch point; diagonal hobbing only | mm |
+//! | B | hob spindle in the cutting direction | deg |
+//! | C | work spindle, counter-clockwise seen against Z | deg |
+//!
+//! **Fully interpolated**: every block is a straight line in all axes, in inverse time (`G93`). **With an electronic gearbox**: the control itself couples the work to hob, slide and shift as it does for a round gear,
+//! `C = k_B B + k_Z Z + k_W W`, the rolling of a circle as long as the pitch curve; the word C then commands what is added to it, the variation of a gear that is not round. Its digits stay few and the
+//! synchronism of hob and work no longer hangs on the interpolation.
+//!
+//! Road not taken: cycles of single controls. Their names and parameters differ from maker to maker; the coupling's three numbers stand in the head of the program instead.
+
+mod program;
+mod read;
+mod text;
+
+pub use program::{Gearbox, HobbingKnot, HobbingProgram, Positions};
+pub use read::read;
+
+use crate::output::atomic::write_bytes_atomically;
+use crate::output::folder::OutputFolder;
+use crate::output::text::{plain, significant};
+use crate::process::hobbing::HobbingJob;
+use crate::process::hobbing::job::PreparedHobbing;
+use crate::scene::model::GcodeDialect;
+use crate::units::UM_PER_MM;
+
+/// Axis letters in the order hob, work, tangential, radial, slide, shift.
+const LETTERS: [char; 6] = ['B', 'C', 'X', 'Y', 'Z', 'W'];
+
+/// Writes both programs of all operations as `axes/<operation>.ngc` and `axes/<operation>_gearbox.ngc`; gives a sentence for each operation that has none.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_all(job: &HobbingJob, folder: &OutputFolder) -> crate::Result<Vec<String>> {
+    let mut left_out = Vec::new();
+    for operation in &job.operations {
+        let name = &operation.spec.name;
+        match texts(job, operation) {
+            Some(Ok([full, geared])) => {
+                write_bytes_atomically(&folder.path(format!("axes/{name}.ngc"))?, full.as_bytes())?;
+                write_bytes_atomically(&folder.path(format!("axes/{name}_gearbox.ngc"))?, geared.as_bytes())?;
+            }
+            Some(Err(why)) => left_out.push(format!("operation {name}: no G-code written: {why}")),
+            None => {}
+        }
+    }
+    Ok(left_out)
+}
+
+/// Both programs of an operation, fully interpolated and with a gearbox; an error is the reason why there are none, `None`: none are wanted.
+pub fn texts(job: &HobbingJob, operation: &PreparedHobbing) -> Option<Result<[String; 2], String>> {
+    match job.scene.output.gcode {
+        GcodeDialect::None => None,
+        GcodeDialect::PaperG84 => {
+            Some(Err("the one-block form of the literature is for shaping; use gcode = \"linear\"".to_owned()))
+        }
+        GcodeDialect::Linear => Some(linear(job, operation)),
+    }
+}
+
+fn linear(job: &HobbingJob, operation: &PreparedHobbing) -> Result<[String; 2], String> {
+    let linkage = &operation.linkage;
+    if linkage.law().is_as_printed() {
+        return Err(
+            "the linkage as printed parts work and carriage on a curve that is no circle; it is for comparison only"
+                .to_owned(),
+        );
+    }
+    let asked_mm = job.scene.output.gcode_contour_error_mm;
+    let program = HobbingProgram::fit(job, operation, asked_mm);
+    let (reached_mm, time_s) = program.contour_error_mm(job, operation);
+    if reached_mm > asked_mm {
+        return Err(format!(
+            "blocks of {} ms leave a contour error of {} um at {time_s:.3} s, {} um are asked; ask for no less, or lower hob_speed_per_minute",
+            significant(1e3 * program::shortest_block_s(linkage), 3),
+            significant(reached_mm * UM_PER_MM, 3),
+            plain(asked_mm * UM_PER_MM),
+        ));
+    }
+    if let Some(first) = program.exceeded(&job.limits, &linkage.corners_s()).first() {
+        return Err(format!("{first}; lower hob_speed_per_minute, or take another even_motion"));
+    }
+    let gearbox = Gearbox::new(linkage);
+    let geared = program.geared(&gearbox, -1.0);
+    Ok([(&program, None), (&geared, Some(&gearbox))]
+        .map(|(program, gearbox)| text::text(job, operation, program, gearbox, (reached_mm, time_s))))
+}

@@ -1,0 +1,410 @@
+//! The hob: a worm cut into teeth by gashes; its rake faces hold the cutting edges.
+//!
+//! In: the scene's hob, normal module m_n and pressure angle alpha_n of the gear. Out: the edge of one tooth in the rake face, and the place of
+//! every tooth, numbered along the thread.
+//!
+//! **Tool frame.** z along the hob's axis in the direction d0 of the rack's pitch line (the one in which the thread does *not* run when the hob cuts), origin in the
+//! middle of the hob, x from the axis towards the gear when the hob's angle is 0. The hob turns by +angle about +z if it is right-handed, by -angle if left-handed, so
+//! that its thread, seen as a rack, runs to -z.
+//!
+//! **Sizes.** sin(lambda) = K m_n / (2 R_p); axial pitch p_x = pi m_n / cos(lambda); lead = K p_x; p = lead / 2 pi. On the pitch cylinder a tooth is
+//! pi m_n / 2 thick in the normal section.
+//!
+//! **Edge.** In the axial section the flank of an involute worm (ZI) lies at the half thickness
+//! w(rho) = w_p - p (inv(rho) - inv(R_p)), inv(rho) = u - atan u, u^2 = (rho / r_b)^2 - 1, with cos(lambda_b) = cos(lambda) cos(alpha_n) and
+//! r_b = p / tan(lambda_b); the straight-sided one at w_p - (rho - R_p) tan(alpha_n) / cos(lambda) (Litvin and Fuentes, Gear Geometry and Applied Theory, 2004, chapter
+//! 19). Axial gashes with zero rake hold just this section. Gashes at right angles to the thread wind about the axis with the lead 2 pi R_p / tan(lambda), hand opposite to
+//! the thread; in the coordinates (distance from the axis, place along it) of such a rake face all axial lengths are cos^2(lambda) of those above.
+//!
+//! **Blade frame.** Origin on the hob's axis, x radially through the tooth's middle, y along -z of the tool: the left flank has y > 0 and cuts left flanks of the gear.
+//!
+//! **Numbers.** Teeth follow each other along the thread; tooth 1 is the first at the entering end (+z, where uncut work arrives), tooth n + 1 stands lead / gashes
+//! further on. A hob with several starts counts each thread by itself: A1, A2, ..., B1, ... The blade index runs through all of A, then B.
+//!
+//! **Regrinding** moves the rake faces back along the relief. With radial relief the whole edge sinks by one amount while lead and axial lengths stay: the pitch
+//! cylinder on which the thread is right shrinks with it, and a ZI hob is then no longer quite ZI. The head angle stays that of the new hob.
+
+use crate::error::Refusal;
+use crate::frame::Rigid3;
+use crate::math::convergence::{Step, iterate};
+use crate::scene::model;
+use crate::scene::model::{GashForm, HobSize, Worm};
+use crate::tool::edge::{BladeCurve, Edge, Segment, SegmentName};
+use crate::tool::edge_table::TableError;
+use crate::tool::{CuttingTool, SpatialTool};
+use glam::{DMat3, DVec2, DVec3};
+use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
+
+/// Largest lead angle taken: beyond it a hob is a worm gear's pinion, and tables and formulas of hobs do not hold.
+const LARGEST_LEAD_ANGLE_RAD: f64 = 0.35;
+/// A tooth is in the work only within this angle to either side of the direction towards it: at 60 degrees its tip
+/// stands
+/// at half its radius, far behind the work.
+const HALF_SWEEP_RAD: f64 = PI / 3.0;
+/// Share of the root radius by which relief lowers a tooth at most: with relief angles of some 10 deg and gashes 30 deg apart it is a tenth.
+const DEEPEST_RELIEF: f64 = 0.25;
+/// Steps to the place where the tip round touches the flank at most, and how far rounding may still move it then, mm.
+const TOUCH_STEPS: u32 = 100;
+const TOUCH_SETTLED_MM: f64 = 1e-9;
+/// Smallest tip land, modules: less is a pointed tooth.
+const SMALLEST_TIP_LAND_MODULES: f64 = 0.01;
+
+/// A hob ready to cut.
+#[derive(Debug, Clone)]
+pub struct Hob {
+    /// Number of starts K.
+    pub starts: u32,
+    /// Number of gashes.
+    pub gashes: u32,
+    /// +1 for a right-hand thread, -1 for a left-hand one.
+    pub hand: f64,
+    /// Normal module m_n, mm.
+    pub module_mm: f64,
+    /// Lead angle lambda on the pitch cylinder of the new hob.
+    pub lead_angle_rad: f64,
+    /// Radius of the pitch cylinder: the distance of the hob's axis from the rack's pitch plane (smaller after regrinding), mm.
+    pub pitch_radius_mm: f64,
+    /// Radius of the tip, mm.
+    pub tip_radius_mm: f64,
+    /// Axial pitch p_x, mm.
+    pub axial_pitch_mm: f64,
+    /// Lead of one thread, mm per turn.
+    pub lead_mm: f64,
+    /// Length with full teeth, mm.
+    pub length_mm: f64,
+    /// Radius at which the flank ends and the tip's corner or the protuberance begins, mm.
+    pub flank_end_radius_mm: f64,
+    /// Teeth in blade order.
+    pub teeth: Vec<HobTooth>,
+    edge: Edge,
+    flank: Flank,
+    rake_twist_rad_per_mm: f64,
+}
+
+/// Place of one tooth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HobTooth {
+    /// Thread it stands on, from 0.
+    pub start: u32,
+    /// Number along the thread, from 1 at the entering end.
+    pub number: u32,
+    /// Count of gash passages, any integer: with axial gashes its rake face looks at the gear at the hob angle 2 pi `passage` / gashes.
+    pub passage: i64,
+    /// z of its middle in the tool frame, mm.
+    pub axial_mm: f64,
+    /// Angle of its middle about z in the tool frame, from x.
+    pub angle_rad: f64,
+}
+
+impl HobTooth {
+    /// `7`, or `B7` on a hob with several starts.
+    pub fn label(&self, starts: u32) -> String {
+        if starts == 1 {
+            return self.number.to_string();
+        }
+        let letter = char::from(b'A' + (self.start % 26) as u8);
+        format!("{letter}{}", self.number)
+    }
+}
+
+/// Left flank in the rake face over its distance from the axis.
+#[derive(Debug, Clone)]
+struct Flank {
+    worm: Worm,
+    /// Distance from the axis before regrinding at which the half thickness is `half_mm`.
+    reference_radius_mm: f64,
+    half_mm: f64,
+    /// Axial lengths in the rake face over those in the axial section.
+    scale: f64,
+    parameter_mm_per_rad: f64,
+    base_radius_mm: f64,
+    axial_tan: f64,
+    regrind_mm: f64,
+}
+
+impl Flank {
+    /// Half thickness (rake face) and its derivative at a radius of the new hob.
+    fn half_and_slope(&self, radius_mm: f64) -> [f64; 2] {
+        let [drop, slope] = match self.worm {
+            Worm::Involute => {
+                let u = |r: f64| ((r / self.base_radius_mm).powi(2) - 1.0).sqrt();
+                let (at, reference) = (u(radius_mm), u(self.reference_radius_mm));
+                let involute = (at - at.atan()) - (reference - reference.atan());
+                [self.parameter_mm_per_rad * involute, self.parameter_mm_per_rad * at / radius_mm]
+            }
+            Worm::StraightSided => [(radius_mm - self.reference_radius_mm) * self.axial_tan, self.axial_tan],
+        };
+        [self.scale * (self.half_mm - drop), -self.scale * slope]
+    }
+
+    /// Unit normal out of the tooth.
+    fn normal(&self, radius_mm: f64) -> DVec2 {
+        DVec2::new(-self.half_and_slope(radius_mm)[1], 1.0).normalize()
+    }
+}
+
+impl BladeCurve for Flank {
+    fn point_and_rate(&self, radius_mm: f64) -> [DVec2; 2] {
+        let [half, slope] = self.half_and_slope(radius_mm);
+        [DVec2::new(radius_mm - self.regrind_mm, half), DVec2::new(1.0, slope)]
+    }
+}
+
+impl Hob {
+    /// Hob of a scene for a gear with this normal module and pressure angle.
+    ///
+    /// # Errors
+    /// An impossible lead, pointed teeth, a tip round or protuberance that does not fit, a hob too short for one tooth.
+    pub fn new(spec: &model::Hob, module_mm: f64, pressure_angle_rad: f64) -> Result<Self, Refusal> {
+        let (m, alpha) = (module_mm, pressure_angle_rad);
+        let starts = f64::from(spec.starts);
+        let (new_pitch_radius_mm, lead_angle_rad, size_key) = match spec.size {
+            HobSize::LeadAngle(angle) => (starts * m / (2.0 * angle.sin()), angle, "tool.hob.lead_angle_deg"),
+            // A thread as steep as the axis is as far as it goes.
+            HobSize::ReferenceDiameter(d) => {
+                (0.5 * d, (starts * m / d).min(1.0).asin(), "tool.hob.reference_diameter_mm")
+            }
+        };
+        if lead_angle_rad <= 0.0 || lead_angle_rad > LARGEST_LEAD_ANGLE_RAD {
+            return Err(Refusal::new(
+                size_key,
+                format!(
+                    "{starts} starts of module {m} mm on a pitch cylinder of {:.3} mm diameter need the lead angle {:.2} deg; up to {:.0} deg is a hob",
+                    2.0 * new_pitch_radius_mm,
+                    lead_angle_rad.to_degrees(),
+                    LARGEST_LEAD_ANGLE_RAD.to_degrees()
+                ),
+                "use fewer starts or a larger reference diameter (about 10 to 20 modules)",
+            ));
+        }
+        let (tan_lead, cos_lead) = (lead_angle_rad.tan(), lead_angle_rad.cos());
+        let axial_pitch_mm = PI * m / cos_lead;
+        let lead_mm = starts * axial_pitch_mm;
+        let parameter = lead_mm / TAU;
+        let base_radius_mm = parameter / (cos_lead * alpha.cos()).acos().tan();
+        let new_tip_radius_mm = new_pitch_radius_mm + spec.addendum_coefficient * m;
+        let root_radius_mm = new_pitch_radius_mm - spec.dedendum_coefficient * m;
+        if root_radius_mm <= 1.05 * base_radius_mm {
+            return Err(Refusal::new(
+                size_key,
+                format!(
+                    "the hob's root radius {root_radius_mm:.3} mm does not clear the base cylinder of its thread, {base_radius_mm:.3} mm"
+                ),
+                "use fewer starts, a larger reference diameter or a smaller dedendum_coefficient",
+            ));
+        }
+        let most_mm = DEEPEST_RELIEF * root_radius_mm;
+        if spec.regrind_mm > most_mm {
+            return Err(Refusal::new(
+                "tool.hob.regrind_mm",
+                format!(
+                    "no hob tooth falls by {} mm from its rake face to its back: at most {most_mm:.3} mm are taken, a quarter of the root radius",
+                    spec.regrind_mm
+                ),
+                "use a smaller regrind_mm",
+            ));
+        }
+        // Gashes across the thread wind against it; axial lengths in such a rake face shrink by cos^2(lambda).
+        let (scale, rake_twist_rad_per_mm) = match spec.gash_form {
+            GashForm::Axial => (1.0, 0.0),
+            GashForm::Helical => (cos_lead * cos_lead, spec.hand.sign() * tan_lead / new_pitch_radius_mm),
+        };
+        let flank = Flank {
+            worm: spec.worm,
+            reference_radius_mm: new_pitch_radius_mm,
+            half_mm: 0.5 * (0.5 * PI * m - spec.thinning_mm) / cos_lead,
+            scale,
+            parameter_mm_per_rad: parameter,
+            base_radius_mm,
+            axial_tan: alpha.tan() / cos_lead,
+            regrind_mm: spec.regrind_mm,
+        };
+        let tip_radius_mm = new_tip_radius_mm - spec.regrind_mm;
+        let (segments, flank_end_radius_mm) =
+            tooth_edge(spec, &flank, [root_radius_mm, new_tip_radius_mm], scale * axial_pitch_mm, m, cos_lead)?;
+
+        let step_mm = scale * lead_mm / f64::from(spec.gashes);
+        let hand = spec.hand.sign();
+        let mut teeth = Vec::new();
+        for start in 0..spec.starts {
+            let offset_mm = scale * axial_pitch_mm * f64::from(start);
+            let first = ((offset_mm - 0.5 * spec.length_mm) / step_mm).ceil() as i64;
+            let last = ((offset_mm + 0.5 * spec.length_mm) / step_mm).floor() as i64;
+            teeth.extend((first..=last).zip(1..).map(|(passage, number)| {
+                let axial_mm = offset_mm - step_mm * passage as f64;
+                let angle_rad =
+                    -hand * TAU * passage as f64 / f64::from(spec.gashes) - rake_twist_rad_per_mm * axial_mm;
+                HobTooth { start, number, passage, axial_mm, angle_rad }
+            }));
+        }
+        if teeth.is_empty() {
+            return Err(Refusal::new(
+                "tool.hob.length_mm",
+                format!("no tooth fits on a hob {} mm long", spec.length_mm),
+                format!("one axial pitch is {axial_pitch_mm:.3} mm; a usual hob is five or more pitches long"),
+            ));
+        }
+        Ok(Self {
+            starts: spec.starts,
+            gashes: spec.gashes,
+            hand,
+            module_mm: m,
+            lead_angle_rad,
+            pitch_radius_mm: new_pitch_radius_mm - spec.regrind_mm,
+            tip_radius_mm,
+            axial_pitch_mm,
+            lead_mm,
+            length_mm: spec.length_mm,
+            flank_end_radius_mm,
+            teeth,
+            edge: Edge::new(segments),
+            flank,
+            rake_twist_rad_per_mm,
+        })
+    }
+
+    /// Half the thickness of a tooth in its rake face at a distance from the axis: y of the left flank, analytic, mm.
+    pub fn half_thickness_mm(&self, radius_mm: f64) -> f64 {
+        self.flank.half_and_slope(radius_mm + self.flank.regrind_mm)[0]
+    }
+
+    /// Distance between teeth that follow each other along a thread, along the axis, mm.
+    pub fn tooth_spacing_mm(&self) -> f64 {
+        self.teeth
+            .windows(2)
+            .find(|w| w[0].start == w[1].start)
+            .map_or(self.lead_mm / f64::from(self.gashes), |w| w[0].axial_mm - w[1].axial_mm)
+    }
+}
+
+/// Segments of one tooth, right root to left root, and the radius where the flank proper ends.
+fn tooth_edge(
+    spec: &model::Hob,
+    flank: &Flank,
+    [root_mm, tip_mm]: [f64; 2],
+    pitch_mm: f64,
+    module_mm: f64,
+    cos_lead: f64,
+) -> Result<(Vec<Segment>, f64), Refusal> {
+    let drop = |p: DVec2| p - DVec2::new(flank.regrind_mm, 0.0);
+    let r = spec.tip_radius_mm;
+    // The last flank before the tip is the worm's own or the protuberance, a straight line in the rake face.
+    let protuberance = spec.protuberance.map(|p| {
+        let start_mm = tip_mm - p.height_mm;
+        let tan = flank.scale * p.angle_rad.tan() / cos_lead;
+        (start_mm, flank.half_and_slope(start_mm)[0], tan)
+    });
+    if let Some((start_mm, _, tan)) = protuberance
+        && (start_mm <= root_mm || tan >= -flank.half_and_slope(start_mm)[1])
+    {
+        return Err(Refusal::new(
+            "tool.hob.protuberance_height_mm",
+            format!(
+                "a protuberance beginning {:.3} mm below the tip does not stand out of the flank",
+                tip_mm - start_mm
+            ),
+            "use a height below the whole tooth depth and a protuberance_angle_deg smaller than the pressure angle",
+        ));
+    }
+    let half_at = |radius: f64| match protuberance {
+        Some((start_mm, half, tan)) if radius > start_mm => half - (radius - start_mm) * tan,
+        _ => flank.half_and_slope(radius)[0],
+    };
+    let normal_at = |radius: f64| match protuberance {
+        Some((start_mm, _, tan)) if radius > start_mm => DVec2::new(tan, 1.0).normalize(),
+        _ => flank.normal(radius),
+    };
+    // The round touches the flank where its centre, r inside, lies r below the tip.
+    let touch_mm = iterate("the place where the tip round touches the flank", tip_mm, TOUCH_STEPS, |touch_mm| {
+        let to = tip_mm - r + r * normal_at(touch_mm).x;
+        let residual = to - touch_mm;
+        if residual == 0.0 { ControlFlow::Break(to) } else { ControlFlow::Continue(Step { to, residual }) }
+    })
+    .or_else(|error| error.settled(TOUCH_SETTLED_MM))
+    .map_err(|error| {
+        Refusal::new("tool.hob.tip_radius_mm", error.to_string(), "use a smaller round or a thicker tooth")
+    })?;
+    let center = DVec2::new(touch_mm, half_at(touch_mm)) - r * normal_at(touch_mm);
+    let land_mm = 2.0 * center.y;
+    let blocked = protuberance.is_some_and(|(start_mm, ..)| touch_mm <= start_mm);
+    if land_mm < SMALLEST_TIP_LAND_MODULES * module_mm || blocked {
+        let sharp_land_mm = 2.0 * half_at(tip_mm);
+        let (key, problem) = if r > 0.0 && sharp_land_mm > 0.0 {
+            ("tool.hob.tip_radius_mm", format!("a tip round of {r} mm does not fit the hob's tip"))
+        } else {
+            ("tool.hob.addendum_coefficient", "the hob's teeth are pointed below their tip".to_owned())
+        };
+        return Err(Refusal::new(
+            key,
+            problem,
+            format!(
+                "the tip is {sharp_land_mm:.3} mm wide without a round; use a smaller round or addendum_coefficient"
+            ),
+        ));
+    }
+    let no_fit = |error: TableError| {
+        Refusal::new(
+            "tool.hob",
+            error.to_string(),
+            "the flank is too long or too sharply curved; use ordinary proportions",
+        )
+    };
+    let flank_end_mm = protuberance.map_or(touch_mm, |(start_mm, ..)| start_mm);
+    let touch = DVec2::new(touch_mm, half_at(touch_mm));
+    let mut left_half = Vec::new();
+    if r > 0.0 {
+        let angles = [0.0, normal_at(touch_mm).to_angle()];
+        left_half.push(Segment::arc(SegmentName::CornerLeft, drop(center), r, angles));
+    }
+    if let Some((start_mm, half, _)) = protuberance {
+        left_half.push(Segment::straight(SegmentName::CornerLeft, drop(touch), drop(DVec2::new(start_mm, half))));
+    }
+    let flank_range = [flank_end_mm, root_mm];
+    left_half.push(Segment::curve(SegmentName::FlankLeft, flank, flank_range).map_err(no_fit)?);
+    let root = DVec2::new(root_mm, flank.half_and_slope(root_mm)[0]);
+    if root.y < 0.5 * pitch_mm {
+        let middle = DVec2::new(root_mm, 0.5 * pitch_mm);
+        left_half.push(Segment::straight(SegmentName::RootLeft, drop(root), drop(middle)));
+    }
+    let tip_end = drop(DVec2::new(tip_mm, center.y));
+    let tip = Segment::straight(SegmentName::Tip, DVec2::new(tip_end.x, -tip_end.y), tip_end);
+    let mut segments: Vec<Segment> = left_half.iter().rev().map(Segment::mirrored).collect();
+    segments.push(tip);
+    segments.extend(left_half);
+    Ok((segments, flank_end_mm - flank.regrind_mm))
+}
+
+impl CuttingTool for Hob {
+    fn blade_count(&self) -> u32 {
+        self.teeth.len() as u32
+    }
+
+    fn edge(&self) -> &Edge {
+        &self.edge
+    }
+}
+
+impl SpatialTool for Hob {
+    fn tool_from_blade(&self, index: u32) -> Rigid3 {
+        let tooth = self.teeth[index as usize];
+        let (sin, cos) = tooth.angle_rad.sin_cos();
+        let out = DVec3::new(cos, sin, 0.0);
+        let along = DVec3::NEG_Z;
+        Rigid3 {
+            rotation: DMat3::from_cols(out, along, out.cross(along)),
+            translation_mm: DVec3::new(0.0, 0.0, tooth.axial_mm),
+        }
+    }
+
+    fn rake_twist_rad_per_mm(&self) -> f64 {
+        self.rake_twist_rad_per_mm
+    }
+
+    fn half_sweep_rad(&self) -> f64 {
+        HALF_SWEEP_RAD
+    }
+}
+
+#[cfg(test)]
+mod tests;

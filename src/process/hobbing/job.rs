@@ -1,0 +1,216 @@
+//! A hobbing scene made ready to cut: pitch curve, hob, blank, linkages with their feed plans, and the target that the rack leaves.
+//!
+//! In: the checked scene. Out: [`HobbingJob`]. The last operation is the finishing one: the rack in its place is the target's.
+
+use crate::error::{Refusal, Result};
+use crate::gear::PitchCurve;
+use crate::gear::blank::Blank;
+use crate::process::hobbing::Hob;
+use crate::process::hobbing::linkage::{FeedPlan, HobbingGeometry, HobbingLaw, HobbingLinkage};
+use crate::process::hobbing::rack_generation::{Rack, RackGeneration};
+use crate::scene::Scene;
+use crate::scene::model::{
+    EvenMotion, ExtraRotation, Gear, Hobbing, HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm,
+};
+use crate::units::TURN_RAD;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// How far the hob's tips may come under the gear's root curve in a hollow of the pitch curve, mm.
+const GOUGE_TOLERANCE_MM: f64 = 1e-3;
+/// Places on the pitch curve and along the hob at which a hollow is looked at.
+const HOLLOW_PLACES: [u32; 2] = [720, 41];
+
+/// One operation with its motion.
+#[derive(Debug)]
+pub struct PreparedHobbing {
+    /// What the scene says.
+    pub spec: HobbingOperation,
+    /// How far the hob stays back from full depth, the gear's thickness allowance included, mm.
+    pub offset_mm: f64,
+    /// How slide, shift and infeed run.
+    pub plan: FeedPlan,
+    /// The six axes.
+    pub linkage: HobbingLinkage,
+}
+
+/// Everything known before the first dexel is cut.
+#[derive(Debug)]
+pub struct HobbingJob {
+    /// The scene.
+    pub scene: Scene,
+    /// Limits of the axes.
+    pub limits: HobbingAxisLimits,
+    /// The pitch curve.
+    pub curve: Arc<PitchCurve>,
+    /// The hob.
+    pub hob: Hob,
+    /// The stock.
+    pub blank: Blank,
+    /// Operations in order; the last one finishes.
+    pub operations: Vec<PreparedHobbing>,
+    /// What the finishing operation leaves in the limit of many gashes and a fine feed.
+    pub target: RackGeneration,
+}
+
+impl HobbingJob {
+    /// Makes a scene ready.
+    ///
+    /// # Errors
+    /// Geometry that cannot be cut: see the parts; and a hollow of the pitch curve that the hob would hit.
+    pub fn new(scene: &Scene) -> Result<Self> {
+        let job = Self::past_hollows(scene)?;
+        refuse_hollows(&job.curve, &job.hob)?;
+        Ok(job)
+    }
+
+    /// The same where the hob hits the far sides of hollows as well: to see what it does there.
+    ///
+    /// # Errors
+    /// Geometry that cannot be cut.
+    pub fn past_hollows(scene: &Scene) -> Result<Self> {
+        let gear = &scene.gear;
+        let Some(Hobbing { tool, limits, operations: specs }) = scene.hobbing() else {
+            return Err(Refusal::new("tool", "this tool does not hob gears", "write [tool.hob] for hobbing").into());
+        };
+        let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
+        let hob = Hob::new(tool, gear.module_mm, gear.pressure_angle_rad)?;
+        let blank = Blank::new(curve.clone(), gear.addendum_coefficient * gear.module_mm)?;
+        // A hob pulled back by d leaves teeth 2 d tan(alpha_t) thicker on the pitch curve.
+        let allowance_mm = gear.tooth_thickness_allowance_mm / (2.0 * gear.transverse_pressure_angle_rad().tan());
+        let mut operations = Vec::new();
+        for spec in specs {
+            let offset_mm = spec.offset_mm + allowance_mm;
+            let mut geometry = HobbingGeometry::new(&hob, gear.helix_angle_rad, gear.hand.sign());
+            geometry.head_angle_rad = spec.head_angle_rad.unwrap_or(geometry.head_angle_rad);
+            let cycle_s = curve.perimeter_mm() / (geometry.arc_per_hob_rad_mm() * spec.hob_speed_rad_per_s);
+            let plan = FeedPlan::new(spec, offset_mm, &hob, &geometry, gear, &curve, cycle_s)?;
+            let linkage =
+                HobbingLinkage::new(curve.clone(), geometry, law(spec), spec.hob_speed_rad_per_s, &plan.path)?;
+            operations.push(PreparedHobbing { spec: spec.clone(), offset_mm, plan, linkage });
+        }
+        let finishing_mm = operations.last().map_or(0.0, |operation| operation.offset_mm);
+        let rack = rack(gear, &hob, tool.tip_radius_mm, tool.thinning_mm).pulled_back(finishing_mm);
+        let target = RackGeneration { curve: curve.clone(), rack };
+        Ok(Self { scene: scene.clone(), limits: *limits, curve, hob, blank, operations, target })
+    }
+
+    /// The finishing operation.
+    pub fn finishing(&self) -> &PreparedHobbing {
+        self.operations.last().expect("a checked scene has at least one operation")
+    }
+
+    /// Passes of an operation: every tooth in every turn of the hob.
+    pub fn passes(&self, operation: &PreparedHobbing) -> f64 {
+        let turns = operation.linkage.axes::<1>(operation.linkage.end_s()).hob_rad.value() / TURN_RAD;
+        turns * self.hob.teeth.len() as f64
+    }
+
+    /// Height of the generating marks at the pitch line where the curve bends by `curvature_per_mm`: consecutive gashes leave facets of the arc
+    /// ds = K pi m_n / (gashes cos beta), ridges ds^2 sin(alpha_t) cos(beta_b) / (8 rho) normal to the flank, mm.
+    pub fn generating_mark_mm(&self, curvature_per_mm: f64) -> f64 {
+        let gear = &self.scene.gear;
+        let arc_mm = self.gash_arc_mm();
+        let cos_base = (1.0 - (gear.helix_angle_rad.sin() * gear.pressure_angle_rad.cos()).powi(2)).sqrt();
+        arc_mm * arc_mm * gear.transverse_pressure_angle_rad().sin() * cos_base * curvature_per_mm / 8.0
+    }
+
+    /// Arc of the pitch curve from one gash to the next, mm; the same for every linkage, because hob and work are geared.
+    pub fn gash_arc_mm(&self) -> f64 {
+        f64::from(self.hob.starts) * PI * self.scene.gear.transverse_module_mm() / f64::from(self.hob.gashes)
+    }
+}
+
+/// The law that a linkage table asks for; diagonal hobbing keeps the arc even and lets the work carry the extra rotation.
+fn law(spec: &HobbingOperation) -> HobbingLaw {
+    match spec.kind {
+        HobbingKind::Plain { even, extra, form } => HobbingLaw { even, extra, form },
+        HobbingKind::Diagonal { form, .. } => {
+            HobbingLaw { even: EvenMotion::ArcLength, extra: ExtraRotation::Work, form }
+        }
+    }
+}
+
+impl HobbingLaw {
+    /// Number of the papers' scheme, I to VI.
+    pub fn scheme(&self) -> &'static str {
+        match (self.even, self.extra) {
+            (EvenMotion::ArcLength, ExtraRotation::Work) => "I",
+            (EvenMotion::ArcLength, ExtraRotation::Hob) => "II",
+            (EvenMotion::RotationAngle, ExtraRotation::Work) => "III",
+            (EvenMotion::RotationAngle, ExtraRotation::Hob) => "IV",
+            (EvenMotion::PolarAngle, ExtraRotation::Work) => "V",
+            (EvenMotion::PolarAngle, ExtraRotation::Hob) => "VI",
+        }
+    }
+
+    /// Whether this is the printed form where it differs from the exact one.
+    pub fn is_as_printed(&self) -> bool {
+        self.form == LinkageForm::AsPrinted && self.extra == ExtraRotation::Work
+    }
+}
+
+/// The rack that the hob stands for at full depth.
+fn rack(gear: &Gear, hob: &Hob, tip_radius_mm: f64, thinning_mm: f64) -> Rack {
+    let cos_helix = gear.helix_angle_rad.cos();
+    Rack {
+        transverse_module_mm: gear.transverse_module_mm(),
+        pressure_angle_rad: gear.transverse_pressure_angle_rad(),
+        half_thickness_mm: 0.5 * (0.5 * PI * gear.module_mm - thinning_mm) / cos_helix,
+        tip_height_mm: hob.tip_radius_mm - hob.pitch_radius_mm,
+        tip_radius_mm,
+        helix_angle_rad: gear.helix_angle_rad,
+        hand: gear.hand.sign(),
+    }
+}
+
+/// How far a hob's tips go under the gear's root in hollows of the pitch curve, mm; none where it is convex.
+///
+/// The tips lie on a straight line in the transverse plane, h under the pitch line. While the rack touches the curve at s, the root under another place s' stands at -(P(s') - h n(s') - P(s)) . n(s) under that line's
+/// pitch line; where that is less than h the tooth that runs there cuts the difference out of it, as far as the hob reaches: both sides of s by half its length.
+pub fn cut_under_hollows_mm(curve: &PitchCurve, hob: &Hob) -> Option<f64> {
+    if curve.facts().smallest_curvature.curvature_per_mm >= 0.0 {
+        return None;
+    }
+    let [places, along] = HOLLOW_PLACES;
+    let mut deepest_mm = 0.0_f64;
+    for i in 0..places {
+        let at = curve.frame(TURN_RAD * f64::from(i) / f64::from(places));
+        if at.curvature_per_mm >= 0.0 {
+            continue;
+        }
+        let arc_mm = curve.arc_mm(TURN_RAD * f64::from(i) / f64::from(places));
+        for j in 0..along {
+            let ahead = hob.length_mm * (f64::from(j) / f64::from(along - 1) - 0.5);
+            let there = curve.frame(curve.phi_at_arc(arc_mm + ahead));
+            // Both root curves lie one hob addendum under their pitch points; what stands over the tip line is hit.
+            let tip_mm = hob.tip_radius_mm - hob.pitch_radius_mm;
+            let root = there.point_mm - tip_mm * there.normal - at.point_mm;
+            if root.dot(at.tangent).abs() <= 0.5 * hob.length_mm {
+                deepest_mm = deepest_mm.max(root.dot(at.normal) + tip_mm);
+            }
+        }
+    }
+    Some(deepest_mm)
+}
+
+/// Refuses curves whose hollows the hob would cut under.
+fn refuse_hollows(curve: &PitchCurve, hob: &Hob) -> Result<(), Refusal> {
+    let Some(deepest_mm) = cut_under_hollows_mm(curve, hob).filter(|&deepest_mm| deepest_mm > GOUGE_TOLERANCE_MM)
+    else {
+        return Ok(());
+    };
+    let hollow = curve.facts().smallest_curvature;
+    Err(Refusal::new(
+        "gear.pitch_curve",
+        format!(
+            "the pitch curve is hollow at polar angle {:.2} deg (radius {:.1} mm): a hob {} mm long would cut {:.3} mm under the root on both sides of the tooth it cuts, because \
+             its tips lie on a straight line; hobbing needs a convex pitch curve",
+            hollow.phi_rad.to_degrees(),
+            -1.0 / hollow.curvature_per_mm,
+            hob.length_mm,
+            deepest_mm
+        ),
+        "make the variation of the radius smaller (an ellipse of order n is convex up to eccentricity 1 / (n^2 - 1)), or shape the gear with [tool.shaper_cutter]",
+    ))
+}

@@ -1,0 +1,138 @@
+//! Everything measured on one hobbed flank after all operations.
+//!
+//! In: the cut flank. Out: [`HobbedReport`]: where the flank begins, heights over the target on the evaluated part, stock of earlier operations, profile and helix deviations.
+//!
+//! The evaluated part leaves out a twentieth at both ends of profile and face. Profile deviations are those of the middle row, helix deviations those of the middle
+//! column (ISO 1328-1:2013: F_alpha and F_beta total, f_H slope, f_f form), along the target's local normals in space: on a gear that is not round the target takes the place of the design helix, and on a helical gear
+//! the standard's figures in the transverse section are these over cos(beta_b). Profiles stand over the roll, as the standard's do: over the place of the contact on the line of action.
+
+use crate::dexel::NO_PASS;
+use crate::measure::deviation::{Trace, TraceDeviation};
+use crate::process::hobbing::HobbedFlank;
+use crate::terms::Side;
+use std::ops::Range;
+
+/// Share of profile and face left out at either end.
+const MARGIN: f64 = 0.05;
+
+/// Heights over many dexels, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Heights {
+    /// Lowest.
+    pub lowest_mm: f64,
+    /// Highest.
+    pub highest_mm: f64,
+    /// Where the lowest and the highest one stand: arc of the middle section from the form point, and place along the tooth, mm.
+    pub extremes_at_mm: [[f64; 2]; 2],
+    /// Arithmetic mean.
+    pub mean_mm: f64,
+    /// Root mean square about the mean: Sq of the marks where the form is exact (ISO 25178-2).
+    pub rms_mm: f64,
+}
+
+/// One hobbed flank, measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HobbedReport {
+    /// Tooth, from 1.
+    pub tooth: u32,
+    /// Flank.
+    pub side: Side,
+    /// Where the field begins: height over the pitch curve of the highest start of the involute in any section, mm.
+    pub form_height_mm: f64,
+    /// Whether the hob's tip corner has undercut the flank in any section.
+    pub undercut: bool,
+    /// Length of the profile in the middle of the face, mm.
+    pub length_mm: f64,
+    /// Finished surface over the target; `None` where a dexel of the evaluated part was not reached.
+    pub finished: Option<Heights>,
+    /// What each earlier operation left over the finished surface.
+    pub stock: Vec<Option<Heights>>,
+    /// Heights along the profile in the middle of the face, over the place on the line of action ([`crate::process::hobbing::flank_patch::FlankPatch::on_line_of_action_mm`]).
+    pub profile_trace: Trace,
+    /// Its deviations.
+    pub profile: Option<TraceDeviation>,
+    /// Heights along the tooth in the middle of the profile.
+    pub helix_trace: Trace,
+    /// Its deviations.
+    pub helix: Option<TraceDeviation>,
+    /// Dexels of the evaluated part that no pass reached. (On the tip's own edge the blank ends where the target does.)
+    pub untouched: u64,
+}
+
+/// Measures a cut flank.
+pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
+    let (arcs_mm, leads_mm) = (&flank.rays.arcs_mm, &flank.rays.leads_mm);
+    let [columns, rows] = [arcs_mm.len(), leads_mm.len()].map(inner);
+    let finished = flank.layers.last().expect("at least one operation");
+    let dexels = || {
+        let rows = rows.clone();
+        columns.clone().flat_map(move |column| rows.clone().map(move |row| flank.rays.field.index(column, row)))
+    };
+    let over = |height: &dyn Fn(usize) -> Option<f64>| {
+        let values: Option<Vec<f64>> = dexels().map(height).collect();
+        values.filter(|v| !v.is_empty()).map(|v| {
+            let at = |k: usize| [arcs_mm[columns.start + k / rows.len()], leads_mm[rows.start + k % rows.len()]];
+            heights(&v, at)
+        })
+    };
+    let at = |layer: usize, i: usize| {
+        let layer = &flank.layers[layer];
+        (layer.passes[i] != NO_PASS).then(|| f64::from(layer.heights_mm[i]))
+    };
+    let last = flank.layers.len() - 1;
+    let trace = |places_mm: &[f64], index: &dyn Fn(usize) -> usize| Trace {
+        places_mm: places_mm.to_vec(),
+        heights_mm: (0..places_mm.len()).map(|i| at(last, index(i)).unwrap_or(f64::NAN)).collect(),
+    };
+    let (middle_column, middle_row) = (arcs_mm.len() / 2, leads_mm.len() / 2);
+    let rolls_mm: Vec<f64> = arcs_mm.iter().map(|&arc| flank.target.on_line_of_action_mm(arc)).collect();
+    let profile_trace = trace(&rolls_mm, &|column| flank.rays.field.index(column, middle_row));
+    let helix_trace = trace(leads_mm, &|row| flank.rays.field.index(middle_column, row));
+    // The places of the inner dexels themselves, so that rounding takes none of them away.
+    let between = |places_mm: &[f64], inner: Range<usize>| [places_mm[inner.start], places_mm[inner.end - 1]];
+    let deviation = |trace: &Trace, inner: Range<usize>| {
+        if inner.is_empty() { None } else { trace.deviation(between(&trace.places_mm, inner)) }
+    };
+    HobbedReport {
+        tooth,
+        side,
+        form_height_mm: flank.target.form_height_mm,
+        undercut: flank.target.undercut,
+        length_mm: flank.rays.arcs_mm.last().copied().unwrap_or(0.0),
+        finished: over(&|i| at(last, i)),
+        stock: (0..last).map(|layer| over(&|i| Some(at(layer, i)? - at(last, i)?))).collect(),
+        profile: deviation(&profile_trace, columns.clone()),
+        profile_trace,
+        helix: deviation(&helix_trace, rows.clone()),
+        helix_trace,
+        untouched: dexels().filter(|&i| finished.passes[i] == NO_PASS).count() as u64,
+    }
+}
+
+/// Ends of the evaluated part of a length, mm.
+pub fn evaluated_mm([from_mm, to_mm]: [f64; 2]) -> [f64; 2] {
+    let margin_mm = MARGIN * (to_mm - from_mm);
+    [from_mm + margin_mm, to_mm - margin_mm]
+}
+
+/// Indices without the margins.
+fn inner(count: usize) -> Range<usize> {
+    let margin = (MARGIN * count as f64).ceil() as usize;
+    margin..count.saturating_sub(margin).max(margin)
+}
+
+/// Of values that are not none; `at` gives the place of each.
+fn heights(values: &[f64], at: impl Fn(usize) -> [f64; 2]) -> Heights {
+    let count = values.len() as f64;
+    let mean_mm = values.iter().sum::<f64>() / count;
+    let [low, high] = (1..values.len()).fold([0, 0], |[low, high], k| {
+        [if values[k] < values[low] { k } else { low }, if values[k] > values[high] { k } else { high }]
+    });
+    Heights {
+        lowest_mm: values[low],
+        highest_mm: values[high],
+        extremes_at_mm: [at(low), at(high)],
+        mean_mm,
+        rms_mm: (values.iter().map(|v| (v - mean_mm).powi(2)).sum::<f64>() / count).sqrt(),
+    }
+}

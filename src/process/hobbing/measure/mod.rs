@@ -1,0 +1,8 @@
+//! What is measured on hobbed gears.
+
+pub mod blank_report;
+pub mod engagement;
+pub mod flank_report;
+pub mod hob_load;
+pub mod marks;
+pub mod offset_curves;

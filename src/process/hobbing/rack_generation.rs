@@ -1,0 +1,282 @@
+//! What a rack leaves when the pitch curve rolls on it: flanks and roots of hobbed gears, in closed form, section by section along the tooth.
+//!
+//! In: pitch curve, helix, the rack that the hob stands for. Out: points, normals and ends of any flank in any transverse section; where the fillet of the rack's tip
+//! corner takes over from the flank.
+//!
+//! **Law.** In the section at z (gear frame) the rack is the one at z = 0 moved by h z tan(beta) along its pitch line, so that flank e of space i crosses the pitch
+//! curve at the arc
+//!
+//! `s_f = i pi m_t - e w + h z tan(beta)`,  w half the rack's tooth on the pitch line,
+//!
+//! e = +1 for the flank at the low-arc side of the space (the left flank of tooth i), -1 for the other one. When the curve has rolled on by sigma from there, the flank touches at
+//! `q = P(s_f + sigma) + c (e cos(alpha_t) t + sin(alpha_t) n)`, c = -e sigma cos(alpha_t): contact normals pass through the pitch point (Litvin and Fuentes 2004, chapter
+//! 5). Along the profile `dl = (sin(alpha_t) + c / rho) dsigma`; where that turns negative the envelope turns back and the tip corner has **undercut** the flank: the profile goes on with the
+//! corner's own path. A tip round of radius r (in the normal section, taken as circular in the transverse one) touches along the line from P through its centre.
+//!
+//! The ideal is a hob with infinitely many gashes and infinitely fine feed.
+
+use crate::gear::PitchCurve;
+use crate::gear::blank::Blank;
+use crate::math::roots::{halve, regula_falsi};
+use crate::terms::Side;
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// The rack in the transverse section, as its tooth fills a gear space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rack {
+    /// m_t, mm.
+    pub transverse_module_mm: f64,
+    /// alpha_t.
+    pub pressure_angle_rad: f64,
+    /// Half thickness of the tooth on the pitch line, mm.
+    pub half_thickness_mm: f64,
+    /// Height of the tip under the pitch line, mm.
+    pub tip_height_mm: f64,
+    /// Radius of the tip round, mm.
+    pub tip_radius_mm: f64,
+    /// beta, not negative.
+    pub helix_angle_rad: f64,
+    /// h: +1 for a right-hand gear.
+    pub hand: f64,
+}
+
+impl Rack {
+    /// The same rack pulled back from the gear.
+    #[must_use]
+    pub fn pulled_back(&self, by_mm: f64) -> Self {
+        Self {
+            half_thickness_mm: self.half_thickness_mm - by_mm * self.pressure_angle_rad.tan(),
+            tip_height_mm: self.tip_height_mm - by_mm,
+            ..*self
+        }
+    }
+
+    /// Height under the pitch line at which the straight flank ends and the tip round begins.
+    pub fn flank_end_height_mm(&self) -> f64 {
+        self.tip_height_mm - self.tip_radius_mm * (1.0 - self.pressure_angle_rad.sin())
+    }
+
+    /// Centre of the tip round against the tooth's middle, on the low-arc side: (x, y).
+    fn corner_center_mm(&self) -> DVec2 {
+        let (sin, cos) = self.pressure_angle_rad.sin_cos();
+        let height = self.flank_end_height_mm();
+        let end = DVec2::new(-(self.half_thickness_mm - height * sin / cos), -height);
+        // The flank's normal out of the rack's low side is (-cos, -sin).
+        end + self.tip_radius_mm * DVec2::new(cos, sin)
+    }
+}
+
+/// Generation of all spaces of a gear by a rack.
+#[derive(Debug, Clone)]
+pub struct RackGeneration {
+    /// The pitch curve.
+    pub curve: Arc<PitchCurve>,
+    /// The rack.
+    pub rack: Rack,
+}
+
+/// Contact on a flank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RackContact {
+    /// Roll past the crossing with the pitch line, mm of arc.
+    pub roll_mm: f64,
+    /// Polar angle of the pitch point, rad.
+    pub phi_rad: f64,
+    /// Point in the gear frame, mm.
+    pub point_mm: DVec3,
+    /// Unit normal out of the gear.
+    pub normal: DVec3,
+    /// c: distance from the pitch point in the transverse section, positive towards the tip, mm.
+    pub distance_mm: f64,
+    /// dl / dsigma = sin(alpha_t) + c / rho: profile length per roll; not positive where the flank is undercut.
+    pub length_per_roll: f64,
+}
+
+/// What formed a point of the profile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ProfilePart {
+    /// The rack's flank.
+    Flank,
+    /// The rack's tip corner.
+    Fillet,
+}
+
+/// Where a profile crosses a curve beside the pitch curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProfileCrossing {
+    /// Point in the transverse section, gear frame, mm.
+    pub point_mm: DVec2,
+    /// Arc of its foot on the pitch curve, mm.
+    pub foot_arc_mm: f64,
+    /// What formed it.
+    pub part: ProfilePart,
+}
+
+/// e of a gear flank: +1 for left flanks, which lie at the low-arc side of their space.
+fn sign(side: Side) -> f64 {
+    side.sign()
+}
+
+impl RackGeneration {
+    /// Arc s_f at which a flank of `space` crosses the pitch curve in the section `z_mm`.
+    pub fn crossing_arc_mm(&self, space: i64, side: Side, z_mm: f64) -> f64 {
+        self.space_arc_mm(space, z_mm) - sign(side) * self.rack.half_thickness_mm
+    }
+
+    /// Arc of a space's middle in the section `z_mm`.
+    pub fn space_arc_mm(&self, space: i64, z_mm: f64) -> f64 {
+        let rack = &self.rack;
+        space as f64 * PI * rack.transverse_module_mm + rack.hand * rack.helix_angle_rad.tan() * z_mm
+    }
+
+    /// Contact of a flank at a roll (any; also where it is undercut).
+    pub fn flank_contact(&self, space: i64, side: Side, roll_mm: f64, z_mm: f64) -> RackContact {
+        let e = sign(side);
+        let (sin, cos) = self.rack.pressure_angle_rad.sin_cos();
+        let phi_rad = self.curve.phi_at_arc(self.crossing_arc_mm(space, side, z_mm) + roll_mm);
+        let frame = self.curve.frame(phi_rad);
+        let distance_mm = -e * roll_mm * cos;
+        let across = e * cos * frame.tangent + sin * frame.normal;
+        // The flank holds the tooth trace, so the normal leans along the axis: n_z = -e h tan(beta) cos(alpha_t) of its transverse part.
+        let lean = -e * self.rack.hand * self.rack.helix_angle_rad.tan() * cos;
+        RackContact {
+            roll_mm,
+            phi_rad,
+            point_mm: (frame.point_mm + distance_mm * across).extend(z_mm),
+            normal: across.extend(lean).normalize(),
+            distance_mm,
+            length_per_roll: sin + distance_mm * frame.curvature_per_mm,
+        }
+    }
+
+    /// Roll at which the rack's flank ends at its tip corner (the flank itself may be undercut before).
+    pub fn tip_corner_roll_mm(&self, side: Side) -> f64 {
+        let (sin, cos) = self.rack.pressure_angle_rad.sin_cos();
+        sign(side) * self.rack.flank_end_height_mm() / (sin * cos)
+    }
+
+    /// Point left by the tip corner of a space at the rolled arc `arc_mm`, in the section `z_mm`.
+    pub fn corner_point_mm(&self, space: i64, side: Side, arc_mm: f64, z_mm: f64) -> DVec2 {
+        let center = self.rack.corner_center_mm();
+        let frame = self.curve.frame(self.curve.phi_at_arc(arc_mm));
+        let to_center = DVec2::new(sign(side) * center.x + self.space_arc_mm(space, z_mm) - arc_mm, center.y);
+        let touch = to_center + self.rack.tip_radius_mm * to_center.normalize_or(DVec2::NEG_Y);
+        frame.point_mm + touch.x * frame.tangent + touch.y * frame.normal
+    }
+
+    /// Where the profile of a flank crosses the curve `height_mm` over the pitch curve (along its normals, negative inwards): on the flank, or on the fillet where the corner
+    /// has cut deeper into the tooth. `None` where neither reaches that height.
+    pub fn crossing(
+        &self,
+        blank: &Blank,
+        space: i64,
+        side: Side,
+        height_mm: f64,
+        z_mm: f64,
+    ) -> Option<ProfileCrossing> {
+        let e = sign(side);
+        let on = |point_mm: DVec2, phi_guess: f64, part| {
+            let (height, foot) = blank.height(point_mm, phi_guess);
+            (height, ProfileCrossing { point_mm, foot_arc_mm: self.curve.arc_mm(foot), part })
+        };
+        let flank_at = |roll: f64| {
+            let contact = self.flank_contact(space, side, roll, z_mm);
+            on(contact.point_mm.truncate(), contact.phi_rad, ProfilePart::Flank)
+        };
+        let corner_at = |arc: f64| {
+            let point = self.corner_point_mm(space, side, arc, z_mm);
+            on(point, self.curve.phi_at_arc(arc), ProfilePart::Fillet)
+        };
+        // Rolls towards the root have the sign of e; the flank ends at the corner or where it turns back.
+        let root_roll = self.sound_roll_mm(space, side, z_mm);
+        let tip_roll = -e * 4.0 * self.rack.transverse_module_mm;
+        let on_flank = regula_falsi(|roll| flank_at(roll).0 - height_mm, root_roll, tip_roll, ZERO_MM)
+            .map(|roll| flank_at(roll).1);
+        let on_corner = self.corner_arc_at_height_mm(blank, space, side, height_mm, z_mm).map(|arc| corner_at(arc).1);
+        match (on_flank, on_corner) {
+            // The tooth of a left flank lies at the low arc: what reaches further that way has removed more.
+            (Some(flank), Some(corner)) if e * (flank.foot_arc_mm - corner.foot_arc_mm) > CORNER_SLACK_MM => {
+                Some(corner)
+            }
+            (Some(flank), _) => Some(flank),
+            (None, corner) => corner,
+        }
+    }
+
+    /// Rolled arc at which the tip corner is deepest: its centre stands under the pitch point.
+    pub fn corner_bottom_arc_mm(&self, space: i64, side: Side, z_mm: f64) -> f64 {
+        self.space_arc_mm(space, z_mm) + sign(side) * self.rack.corner_center_mm().x
+    }
+
+    /// Rolled arc at which the path of the tip corner has climbed on the flank's side to `height_mm` over the pitch curve; `None` where it does not reach that height.
+    pub fn corner_arc_at_height_mm(
+        &self,
+        blank: &Blank,
+        space: i64,
+        side: Side,
+        height_mm: f64,
+        z_mm: f64,
+    ) -> Option<f64> {
+        let over = |arc: f64| {
+            let point = self.corner_point_mm(space, side, arc, z_mm);
+            blank.height(point, self.curve.phi_at_arc(arc)).0 - height_mm
+        };
+        let bottom = self.corner_bottom_arc_mm(space, side, z_mm);
+        let step = sign(side) * CORNER_STEP_MODULES * self.rack.transverse_module_mm;
+        let end = (1..=CORNER_STEPS).map(|i| bottom + step * f64::from(i)).find(|&arc| over(arc) >= 0.0)?;
+        regula_falsi(over, end - step, end, ZERO_MM)
+    }
+
+    /// Last roll towards the root at which the flank is sound: the corner's, or just before the envelope turns back.
+    fn sound_roll_mm(&self, space: i64, side: Side, z_mm: f64) -> f64 {
+        let corner = self.tip_corner_roll_mm(side);
+        let sound = |roll: f64| self.flank_contact(space, side, roll, z_mm).length_per_roll > 0.0;
+        let steps = 64;
+        let first_bad = (1..=steps).map(|i| corner * f64::from(i) / f64::from(steps)).find(|&roll| !sound(roll));
+        let Some(bad) = first_bad else { return corner };
+        halve(sound, bad - corner / f64::from(steps), bad, 60)[0]
+    }
+
+    /// Roll and height over the pitch curve at which the flank begins: at the tip corner's end or, undercut, where the fillet meets it. The flag tells which.
+    pub fn form_point(&self, blank: &Blank, space: i64, side: Side, z_mm: f64) -> FormPoint {
+        let e = sign(side);
+        let deepest = self.sound_roll_mm(space, side, z_mm);
+        let height = |roll: f64| {
+            let contact = self.flank_contact(space, side, roll, z_mm);
+            blank.height(contact.point_mm.truncate(), contact.phi_rad).0
+        };
+        let cut_away = |roll: f64| {
+            let found = self.crossing(blank, space, side, height(roll), z_mm);
+            found.is_none_or(|c| c.part == ProfilePart::Fillet)
+        };
+        let start = deepest * (1.0 - 1e-9);
+        if !cut_away(start) && deepest == self.tip_corner_roll_mm(side) {
+            return FormPoint { roll_mm: deepest, height_mm: height(deepest), undercut: false };
+        }
+        // Sound at the pitch line unless the corner has taken everything.
+        let sound = -e * 0.5 * self.rack.transverse_module_mm;
+        let [good, _] = halve(|roll| !cut_away(roll), sound, start, 50);
+        FormPoint { roll_mm: good, height_mm: height(good), undercut: true }
+    }
+}
+
+/// The corner's path is followed in such steps, as far as it can matter.
+const CORNER_STEP_MODULES: f64 = 0.5;
+const CORNER_STEPS: u32 = 20;
+/// A height nearer to 0 than this is 0, mm.
+const ZERO_MM: f64 = 1e-13;
+/// Corner and flank meet tangentially where nothing is undercut; closer than this they are one.
+const CORNER_SLACK_MM: f64 = 1e-9;
+
+/// Where a flank begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FormPoint {
+    /// Roll past the pitch line, mm.
+    pub roll_mm: f64,
+    /// Height over the pitch curve, mm; negative below it.
+    pub height_mm: f64,
+    /// Whether the tip corner has undercut the flank.
+    pub undercut: bool,
+}

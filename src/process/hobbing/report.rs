@@ -1,0 +1,169 @@
+//! The page of a hobbed gear: the same sections as a shaped one's, and what hobbing adds: marks, five curves, six axes, the work of the hob's teeth.
+
+mod facts;
+
+use crate::error::Result;
+use crate::findings::{self, Findings};
+use crate::output::folder::OutputFolder;
+use crate::output::report::{Block, Page, Section, Table};
+use crate::output::text::{plain, significant};
+use crate::process::hobbing::axes_report::HobbingAxesReport;
+use crate::process::hobbing::measure::hob_load::OperationLoad;
+use crate::process::hobbing::run::{HobbedGear, load, points};
+use crate::process::hobbing::{HobCutter, HobbingJob};
+use crate::steps::report::deviations;
+use crate::steps::report::deviations::{Inspected, Inspection};
+use crate::steps::report::{
+    RunWords, facts::gear_words, key_number, known_first, maps, peak_table, record, texture, warnings,
+};
+use std::f64::consts::PI;
+
+/// The page of a run.
+///
+/// # Errors
+/// No flank is generated on some tooth; a picture of the folder cannot be read back.
+pub fn page(
+    cutter: &HobCutter,
+    gear: &HobbedGear,
+    found: &Findings,
+    loads: &[OperationLoad],
+    axes: &[HobbingAxesReport],
+    run: &RunWords,
+    folder: &OutputFolder,
+) -> Result<Page> {
+    let job = cutter.job;
+    let inspection = inspection(cutter, gear);
+    let mut sections = vec![deviations::section(&inspection)];
+    sections.extend(five_curves(&job.scene.name, gear));
+    sections.push(marks_section(found));
+    sections.extend(texture::section(found, folder)?);
+    sections.extend(load_section(job, loads));
+    sections.push(motion(cutter, found, axes));
+    sections.push(facts::section(job));
+    sections.push(record(gear.flanks.len(), &gear.work.stats, gear.work.dexels, run));
+    let operation = |operation: &findings::Section| {
+        let mm = |key: &str| operation.number(key).map_or_else(|| "–".to_owned(), plain);
+        format!(
+            "{}: {}, hob held back by {} mm, {} mm axial feed per revolution",
+            operation.key,
+            operation.words("linkage"),
+            mm("offset"),
+            mm("axial_feed")
+        )
+    };
+    Ok(Page {
+        title: job.scene.name.clone(),
+        subtitle: gear_words(&job.scene.gear),
+        operations: found.parts("operations").iter().map(operation).collect(),
+        complete: found.complete,
+        program: format!("gearcut {}", found.program_version),
+        key_numbers: known_first(
+            found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect(),
+        ),
+        warnings: warnings(found),
+        viewer: Some(maps::viewer(cutter, &gear.maps)?),
+        sections,
+    })
+}
+
+fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
+    let standard_mm = 0.5 * PI * cutter.job.scene.gear.transverse_module_mm();
+    let flanks = gear.flanks.iter().map(|flank| Inspected {
+        tooth: flank.tooth,
+        side: flank.side,
+        profile: (&flank.profile_trace, flank.profile),
+        lead: (&flank.helix_trace, flank.helix),
+    });
+    Inspection {
+        flanks: flanks.collect(),
+        pitch: &gear.pitch,
+        runout: gear.runout.as_ref(),
+        thickness_mm: gear.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect(),
+        profile_place: "roll from the pitch point, up to the tip",
+        lead_place: "in the middle of the profile",
+        lead_name: "Helix",
+        target: "the surface that the last operation would leave with infinitely many gashes and an infinitely fine feed",
+    }
+}
+
+fn five_curves(scene: &str, gear: &HobbedGear) -> Option<Section> {
+    Some(Section {
+        id: "curves",
+        title: "Points on five curves".to_owned(),
+        lead: "Where five curves beside the pitch curve cross every flank in the middle of the face, as cut less as meant, as Liu et al. (2015) measured their gear. Every point stands in tables/offset_curves.csv.".to_owned(),
+        blocks: vec![Block::Lines(points::chart(scene, gear)?)],
+    })
+}
+
+fn marks_section(found: &Findings) -> Section {
+    let text = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(|| "–".to_owned(), text);
+    let mm = |length: f64| format!("{length:.3}");
+    // Rounded first, so that no zero bears a sign.
+    let degrees = |deg: f64| format!("{:.2}", (deg * 100.0).round() / 100.0 + 0.0).replace('-', "−");
+    let apart = |value: f64| significant(value.abs(), 2);
+    let rows = found.parts("marks").iter().flat_map(|flank| {
+        flank.sections.iter().map(move |step| {
+            let mut row = vec![format!("{}, {}", flank.title, step.title)];
+            for source in ["kinematic", "surface"] {
+                let number = |key: &str| step.number(&format!("{source}.{key}"));
+                row.push(text(number("length"), &mm));
+                row.extend(["angle_to_trace", "angle_to_axis"].map(|key| text(number(key), &degrees)));
+            }
+            row.extend(["difference.length", "difference.angle_to_trace"].map(|key| text(step.number(key), &apart)));
+            row
+        })
+    });
+    let columns = [
+        "Flank",
+        "Kinematics [mm]",
+        "to the trace [°]",
+        "to the axis [°]",
+        "Surface [mm]",
+        "to the trace [°]",
+        "to the axis [°]",
+        "Apart [mm]",
+        "Apart [°]",
+    ];
+    Section {
+        id: "marks",
+        title: "Cutting marks".to_owned(),
+        lead: "The shortest two steps from mark to mark on the flank at the pitch line: from the machine's motion, and independently from the autocorrelation of the heights as cut.".to_owned(),
+        blocks: vec![Block::Table(Table {
+            caption: "Lattice of cutting marks".to_owned(),
+            columns: columns.map(str::to_owned).into(),
+            rows: rows.collect(),
+        })],
+    }
+}
+
+/// Nothing where the run was stopped before the whole blank was cut.
+fn load_section(job: &HobbingJob, loads: &[OperationLoad]) -> Option<Section> {
+    let charts = load::charts(job, loads);
+    (!charts.is_empty()).then(|| Section {
+        id: "load",
+        title: "Work of the hob's teeth".to_owned(),
+        lead: format!(
+            "What each tooth of the hob does in the whole process, approach and overrun included. The load is the {}.",
+            load::ASSUMPTION
+        ),
+        blocks: charts.into_iter().map(|(_, chart)| Block::Bars(chart)).collect(),
+    })
+}
+
+fn motion(cutter: &HobCutter, found: &Findings, axes: &[HobbingAxesReport]) -> Section {
+    let mut blocks = Vec::new();
+    for (report, operation) in axes.iter().zip(found.parts("operations")) {
+        blocks.push(Block::Heading(format!("{}: {}", report.name(), report.words())));
+        blocks.push(Block::Table(peak_table(operation)));
+        let mut charts = report.charts(cutter.job).into_iter().map(|(_, chart)| Block::Lines(chart));
+        blocks.extend(charts.next());
+        blocks.push(Block::Folded("Accelerations, feed path".to_owned(), charts.collect()));
+    }
+    Section {
+        id: "motion",
+        title: "Axis motion".to_owned(),
+        lead: "How the linkage moves the machine over one cycle along the pitch curve, and what it asks of the axes."
+            .to_owned(),
+        blocks,
+    }
+}

@@ -1,0 +1,157 @@
+//! The lattice of cutting marks of the texture windows' flanks: table, findings.
+
+use crate::error::Result;
+use crate::findings::{Quantity, Section};
+use crate::output::folder::OutputFolder;
+use crate::output::table::{Cell, write_table};
+use crate::process::hobbing::HobCutter;
+use crate::process::hobbing::linkage::marks::MarkStep;
+use crate::process::hobbing::measure::marks;
+use crate::process::hobbing::measure::marks::{MarkLattice, between_rad};
+use crate::steps::Tools;
+use crate::texture;
+use rayon::prelude::*;
+
+/// Lattices of every flank that has a texture window, in the windows' order.
+///
+/// # Errors
+/// The backend's. After Ctrl-C those that are finished are returned.
+pub fn measure(cutter: &HobCutter, tools: &Tools) -> Result<Vec<MarkLattice>> {
+    let mut flanks: Vec<_> = texture::windows(cutter)?.iter().map(|window| (window.tooth, window.side)).collect();
+    flanks.dedup();
+    let step = tools.progress.step("marks", flanks.len() as u64, "flanks");
+    let lattices: Vec<Option<MarkLattice>> = flanks
+        .par_iter()
+        .map(|&(tooth, side)| {
+            let done = (!tools.interrupt.is_raised()).then(|| marks::measure(cutter, tools.backend, tooth, side));
+            step.advance(1);
+            done.transpose()
+        })
+        .collect::<Result<_>>()?;
+    step.finish();
+    Ok(lattices.into_iter().flatten().collect())
+}
+
+/// Columns of the table.
+const COLUMNS: [&str; 14] = [
+    "tooth",
+    "flank",
+    "step",
+    "kinematic_roll_mm",
+    "kinematic_axial_mm",
+    "kinematic_length_mm",
+    "kinematic_to_trace_deg",
+    "kinematic_to_axis_deg",
+    "surface_length_mm",
+    "surface_to_trace_deg",
+    "surface_to_axis_deg",
+    "length_difference_mm",
+    "trace_difference_deg",
+    "axis_difference_deg",
+];
+
+/// Writes `tables/marks.csv`.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write(lattices: &[MarkLattice], folder: &OutputFolder) -> Result<()> {
+    let rows = lattices.iter().flat_map(|lattice| {
+        (0..2).map(move |i| {
+            let known = lattice.kinematic[i];
+            let seen = lattice.surface.as_ref().ok().map(|steps| steps[i]);
+            let number = |value: fn(&MarkStep) -> f64| Cell::from(seen.as_ref().map(value));
+            let apart = seen.map(|seen| difference(&seen, &known));
+            vec![
+                lattice.tooth.into(),
+                lattice.side.name().into(),
+                (i as u32 + 1).into(),
+                known.step_mm.x.into(),
+                known.step_mm.y.into(),
+                known.length_mm().into(),
+                known.to_trace_rad().to_degrees().into(),
+                known.to_axis_rad.to_degrees().into(),
+                number(MarkStep::length_mm),
+                number(|step| step.to_trace_rad().to_degrees()),
+                number(|step| step.to_axis_rad.to_degrees()),
+                apart.map(|d| d[0]).into(),
+                apart.map(|d| d[1]).into(),
+                apart.map(|d| d[2]).into(),
+            ]
+        })
+    });
+    write_table(&folder.path("tables/marks.csv")?, &COLUMNS, rows)
+}
+
+/// Length (mm), angle to the tooth trace and to the gear's axis (deg) on the surface less those of the kinematics; the angle to the trace without its sign.
+fn difference(seen: &MarkStep, known: &MarkStep) -> [f64; 3] {
+    [
+        seen.length_mm() - known.length_mm(),
+        between_rad(seen.to_trace_rad(), known.to_trace_rad()).to_degrees(),
+        (seen.to_axis_rad - known.to_axis_rad).to_degrees(),
+    ]
+}
+
+/// The lattices, flank by flank.
+pub fn findings(lattices: &[MarkLattice]) -> Section {
+    let all = Section::new("marks", "Cutting marks: steps from mark to mark");
+    lattices.iter().map(lattice).fold(all, |all, flank| {
+        // Windows may return to a flank; its marks are the same.
+        if all.is_free(&flank.key) { all.part(flank) } else { all }
+    })
+}
+
+fn lattice(lattice: &MarkLattice) -> Section {
+    let (tooth, side) = (lattice.tooth, lattice.side.name());
+    let why = lattice.surface.as_ref().err().map_or("", String::as_str);
+    let steps = (0..2).map(|i| {
+        let known = lattice.kinematic[i];
+        let seen = lattice.surface.as_ref().ok().map(|steps| steps[i]);
+        let apart = seen.map(|seen| difference(&seen, &known));
+        let less = |k: usize, unit: &'static str, definition: &'static str| {
+            Quantity::number_or(apart.map(|d| d[k]), unit, definition, why)
+        };
+        let difference = Section::new("difference", "surface less kinematics")
+            .shown("length", "apart", less(0, "mm", "length on the surface less that of the kinematics"))
+            .shown(
+                "angle_to_trace",
+                "angle apart",
+                less(1, "deg", "angle between both steps' directions against the tooth trace"),
+            )
+            .with(
+                "angle_to_axis",
+                less(2, "deg", "angle to the gear's axis on the surface less that of the kinematics"),
+            );
+        Section::new(format!("step_{}", i + 1), format!("step {}", i + 1))
+            .part(step("kinematic", Some(&known), "from the machine's motion", ""))
+            .part(step("surface", seen.as_ref(), "from the autocorrelation of the heights as cut", why))
+            .part(difference)
+    });
+    Section::new(format!("tooth_{tooth:02}_{side}"), format!("tooth {tooth} {side}"))
+        .with("tooth", Quantity::count(tooth.into(), "1", "tooth, from 1"))
+        .with("flank", Quantity::text(side, "flank: left or right"))
+        .parts(steps)
+}
+
+fn step(key: &str, step: Option<&MarkStep>, source: &str, why: &str) -> Section {
+    let number = |value: fn(&MarkStep) -> f64, unit: &'static str, definition: String| {
+        Quantity::number_or(step.map(value), unit, definition, why)
+    };
+    Section::new(key, source)
+        .shown(
+            "length",
+            key,
+            number(
+                MarkStep::length_mm,
+                "mm",
+                format!("length on the flank at the pitch line of a shortest step from mark to mark, {source}"),
+            ),
+        )
+        .with(
+            "angle_to_trace",
+            number(|s| s.to_trace_rad().to_degrees(), "deg", format!("its angle to the tooth trace, {source}")),
+        )
+        .with(
+            "angle_to_axis",
+            number(|s| s.to_axis_rad.to_degrees(), "deg", format!("its angle to the gear's axis, {source}")),
+        )
+}

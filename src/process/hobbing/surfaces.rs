@@ -1,0 +1,220 @@
+//! Surfaces of a hobbed gear, as meshes, pictures and texture ask for them.
+//!
+//! Everything stands section by section along the tooth, each section's rays turned with the helix. Roots are taken along rays from the target's root to a point in the middle of the space: gashes are few, and what
+//! they leave in a tight fillet stands higher than its normals can go before they cross. Tips are taken along the normals of the pitch curve; they are cut only by a hob that tops the gear, and otherwise the blank's own surface stands there. The linkage as printed destroys flanks and tips alike: [`crate::run`] makes no closed body of it.
+
+use crate::cut::Backend;
+use crate::dexel::PlacedRays;
+use crate::dexel::{Layer, Ray, SpatialField};
+use crate::error::Result;
+use crate::gear::PitchCurve;
+use crate::gear::blank::Blank;
+use crate::job::{GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, band_mm, leads_mm};
+use crate::process::hobbing::cutter::HobCutter;
+use crate::process::hobbing::measure::flank_report;
+use crate::process::hobbing::rack_root::RackRootPoint;
+use crate::scene::Scene;
+use crate::surface::SurfaceGrid;
+use crate::surface::triangles::Profile;
+use crate::terms::Side;
+use glam::DVec2;
+
+/// Distance of the sections that show a helical gear's shape, mm: chords a micrometre off a helix of 20 deg on a radius of 60 mm.
+const VIEW_SECTION_MM: f64 = 5.0;
+
+/// Share of a root's length at either end over which its rays turn from the flank's normal to the middle of the space.
+const BLEND_SHARE: f64 = 0.2;
+/// Rays of a root end before the point in the middle of the space, where they meet.
+const FOCUS_SHARE: f64 = 0.95;
+
+impl GearJob for HobCutter<'_> {
+    fn scene(&self) -> &Scene {
+        &self.job.scene
+    }
+
+    fn curve(&self) -> &PitchCurve {
+        &self.job.curve
+    }
+
+    fn blank(&self) -> &Blank {
+        &self.job.blank
+    }
+
+    fn operations(&self) -> Vec<(&str, f64)> {
+        self.job.operations.iter().map(|o| (o.spec.name.as_str(), o.offset_mm)).collect()
+    }
+
+    fn passes(&self) -> u32 {
+        self.operations.last().map_or(0, crate::passes::TurningPasses::end_pass)
+    }
+
+    fn marks_follow_along_tooth(&self, _operation: usize) -> bool {
+        true // every hob tooth cuts a facet that ends along the tooth, too
+    }
+
+    fn profile_length_mm(&self, tooth: u32, side: Side) -> Result<f64> {
+        Ok(self.target(tooth, side)?.length_mm())
+    }
+
+    fn evaluated_profile_mm(&self, tooth: u32, side: Side) -> Result<[f64; 2]> {
+        Ok(flank_report::evaluated_mm([0.0, self.target(tooth, side)?.length_mm()]))
+    }
+
+    fn view_leads_mm(&self) -> Vec<f64> {
+        let gear = &self.job.scene.gear;
+        let spacing_mm = if gear.helix_angle_rad == 0.0 { f64::INFINITY } else { VIEW_SECTION_MM };
+        leads_mm(gear.face_width_mm, spacing_mm)
+    }
+
+    fn target_profiles(
+        &self,
+        tooth: u32,
+        side: Side,
+        spacing_mm: f64,
+        leads_mm: &[f64],
+    ) -> Result<(Vec<f64>, Vec<Profile>)> {
+        let target = self.target(tooth, side)?;
+        let intervals = (target.length_mm() / spacing_mm).ceil().max(1.0);
+        let arcs: Vec<f64> = (0..=intervals as usize).map(|i| target.length_mm() * i as f64 / intervals).collect();
+        let shares: Vec<f64> = arcs.iter().map(|&arc| target.share_at(arc)).collect();
+        let profile = |&lead: &f64| {
+            let section = target.section(lead);
+            shares.iter().map(|&share| section.ray(share)).map(|ray| (ray.origin_mm.truncate(), ray.normal)).collect()
+        };
+        Ok((arcs, leads_mm.iter().map(profile).collect()))
+    }
+
+    fn target_roots(&self, space: u32, spacing_mm: f64, leads_mm: &[f64]) -> Result<Vec<Profile>> {
+        let roots = self.roots(space, spacing_mm, leads_mm)?;
+        Ok(roots
+            .into_iter()
+            .map(|root| root.into_iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect())
+            .collect())
+    }
+
+    fn cut_flank(
+        &self,
+        backend: &dyn Backend,
+        tooth: u32,
+        side: Side,
+        arcs_mm: &[f64],
+        leads_mm: &[f64],
+    ) -> Result<Vec<Layer>> {
+        let rays = self.rays_over(&self.target(tooth, side)?, arcs_mm.to_vec(), leads_mm.to_vec());
+        Ok(self.cut_field(backend, &rays.field)?.0)
+    }
+
+    fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid> {
+        let (target, rays) = self.rays(tooth, side)?;
+        let rays = self.rays_over(&target, rays.arcs_mm, band_mm(rays.leads_mm, reach_mm));
+        self.surface(backend, &rays, self.job.scene.fields.profile_spacing_mm)
+    }
+
+    fn root_surface(&self, backend: &dyn Backend, space: u32) -> Result<SurfaceGrid> {
+        let fields = self.job.scene.fields;
+        let leads_mm = leads_mm(self.job.scene.gear.face_width_mm, fields.lead_spacing_mm.max(ROOT_SPACING_MM[1]));
+        let roots = self.roots(space, fields.profile_spacing_mm.max(ROOT_SPACING_MM[0]), &leads_mm)?;
+        let target = &self.job.target;
+        // In every section a point in the middle of the space, half way down.
+        let focus: Vec<DVec2> = leads_mm
+            .iter()
+            .map(|&lead| {
+                let arc_mm = target.space_arc_mm(i64::from(space), lead);
+                let frame = self.job.curve.frame(self.job.curve.phi_at_arc(arc_mm));
+                frame.point_mm - 0.5 * target.rack.tip_height_mm * frame.normal
+            })
+            .collect();
+        let field = self.field(roots[0].len(), &leads_mm, |column, row| {
+            let root = &roots[row];
+            let (point, last) = (root[column], root[root.len() - 1]);
+            let to_focus = focus[row] - point.point_mm;
+            // At both ends rays begin as the flanks' own, so that root and flank join in one point.
+            let [before, after] = [point.arc_mm, last.arc_mm - point.arc_mm];
+            let end_normal = if before < after { root[0].normal } else { last.normal };
+            let share = (before.min(after) / (BLEND_SHARE * last.arc_mm)).min(1.0);
+            let direction = end_normal.lerp(to_focus.normalize_or(point.normal), share);
+            (point.point_mm, direction.normalize_or(point.normal), FOCUS_SHARE * to_focus.length())
+        });
+        let arcs_mm = roots[roots.len() / 2].iter().map(|point| point.arc_mm).collect();
+        self.surface(backend, &PlacedRays { field, arcs_mm, leads_mm }, self.job.scene.output.mesh_spacing_mm)
+    }
+
+    fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {
+        let job = self.job;
+        let leads_mm = leads_mm(job.scene.gear.face_width_mm, TIP_SPACING_MM[1]);
+        let flanks = [self.target(tooth, Side::Right)?, self.target(tooth, Side::Left)?];
+        // Ends of the tip land in every section, as arcs of the pitch curve.
+        let ends: Vec<[f64; 2]> = leads_mm
+            .iter()
+            .map(|&lead| {
+                flanks.each_ref().map(|flank| {
+                    let tip_mm = flank.section(lead).ray(1.0).origin_mm.truncate();
+                    job.curve.arc_mm(job.blank.height(tip_mm, tip_mm.to_angle()).1)
+                })
+            })
+            .map(|[from, to]| [from, from + (to - from).rem_euclid(job.curve.perimeter_mm())])
+            .collect();
+        let widths = ends.iter().map(|[from, to]| to - from);
+        // Flanks that have crossed leave nearly a whole turn between them.
+        if widths.clone().fold(0.0, f64::max) > 0.5 * job.curve.perimeter_mm() {
+            return Ok(None);
+        }
+        let count = (widths.fold(f64::INFINITY, f64::min) / TIP_SPACING_MM[0]).floor();
+        if count < 2.0 {
+            return Ok(None);
+        }
+        let share = |column: usize| (column as f64 + 0.5) / count;
+        let field = self.field(count as usize, &leads_mm, |column, row| {
+            let [from, to] = ends[row];
+            let frame = job.curve.frame(job.curve.phi_at_arc(from + (to - from) * share(column)));
+            (frame.point_mm, frame.normal, job.blank.addendum_mm)
+        });
+        let [from, to] = ends[ends.len() / 2];
+        let arcs_mm = (0..count as usize).map(|column| (to - from) * share(column)).collect();
+        let rays = PlacedRays { field, arcs_mm, leads_mm };
+        let spacing_mm = job.scene.output.mesh_spacing_mm;
+        if self.tops_the_gear() {
+            return self.surface(backend, &rays, spacing_mm).map(Some);
+        }
+        Ok(Some(SurfaceGrid::new(&rays, &[rays.field.blank_layer()], spacing_mm)))
+    }
+}
+
+impl HobCutter<'_> {
+    /// Whether the hob's roots come down to the blank's outline at full depth. If they do not, no edge reaches a tip land: it is highest over the hob where it passes the pitch point.
+    fn tops_the_gear(&self) -> bool {
+        let dedendum = self.job.scene.hobbing().map_or(0.0, |hobbing| hobbing.tool.dedendum_coefficient);
+        let deepest_mm = self.job.operations.iter().map(|o| o.offset_mm).fold(f64::INFINITY, f64::min);
+        dedendum * self.job.scene.gear.module_mm + deepest_mm <= self.job.blank.addendum_mm
+    }
+
+    /// Root of the space after tooth `space` in every section.
+    fn roots(&self, space: u32, spacing_mm: f64, leads_mm: &[f64]) -> Result<Vec<Vec<RackRootPoint>>> {
+        let job = self.job;
+        let after = space % job.scene.gear.teeth + 1;
+        let starts = [self.target(space, Side::Left)?.form_roll_mm, self.target(after, Side::Right)?.form_roll_mm];
+        let root = |lead: f64, count| job.target.root(&job.blank, i64::from(space), starts, lead, count);
+        let length_mm = root(0.0, 2)[1].arc_mm;
+        let count = (length_mm / spacing_mm).ceil().max(8.0) as usize + 1;
+        Ok(leads_mm.iter().map(|&lead| root(lead, count)).collect())
+    }
+
+    /// Rays across the gear's axis: origin, direction and height of the blank of each.
+    fn field(
+        &self,
+        columns: usize,
+        leads_mm: &[f64],
+        ray: impl Fn(usize, usize) -> (DVec2, DVec2, f64),
+    ) -> SpatialField {
+        let low_mm = -RAY_DEPTH_MODULES * self.job.scene.gear.module_mm;
+        SpatialField::new(columns, leads_mm.len(), low_mm, |column, row| {
+            let (origin, normal, blank_mm) = ray(column, row);
+            (Ray { origin_mm: origin.extend(leads_mm[row]), normal: normal.extend(0.0) }, blank_mm)
+        })
+    }
+
+    fn surface(&self, backend: &dyn Backend, rays: &PlacedRays, spacing_mm: f64) -> Result<SurfaceGrid> {
+        let (layers, _) = self.cut_field(backend, &rays.field)?;
+        Ok(SurfaceGrid::new(rays, &layers, spacing_mm))
+    }
+}

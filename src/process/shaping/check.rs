@@ -1,0 +1,33 @@
+//! What a shaping scene means: teeth, axes, cost.
+
+mod cost;
+mod facts;
+mod teeth;
+
+use crate::error::Result;
+use crate::output::text::Sheet;
+use crate::process::shaping::Job;
+use crate::process::shaping::axes_report::OperationAxes;
+use crate::steps::check_curve::{self, gear_words};
+use facts::ToothFacts;
+
+/// Prints everything; what must be known before cutting.
+///
+/// # Errors
+/// Geometry that cannot be cut.
+pub fn print(sheet: &mut Sheet, job: &Job) -> Result<Vec<String>> {
+    let facts = ToothFacts::of_job(job)?;
+    let operations = OperationAxes::of_job(job);
+
+    sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
+    check_curve::print(sheet, &job.curve, &job.scene.gear, Some(job.cutter.pitch_radius_mm));
+    teeth::print(sheet, job, &facts);
+    for operation in &operations {
+        operation.print(sheet);
+    }
+    cost::print(sheet, job, &facts)?;
+    let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
+    warnings.extend(teeth::warnings(job, &facts));
+    warnings.extend(operations.iter().flat_map(OperationAxes::warnings));
+    Ok(warnings)
+}

@@ -1,0 +1,142 @@
+//! The cost of a shaping scene.
+//!
+//! For the blank and the chips, the cutter teeth that reach the blank are counted for strokes spread over all operations, and the rays that they cross.
+
+use crate::Refusal;
+use crate::cut::cpu::blank::TILE_RAYS;
+use crate::dexel::Field;
+use crate::gear::blank_outline::BlankOutline;
+use crate::math::planar_rays::{FAMILIES, RayCrossings};
+use crate::output::text::{Sheet, significant};
+use crate::passes::planar::blank_candidates::passes_at;
+use crate::passes::planar::candidates::TILE_COLUMNS;
+use crate::passes::{CutPlan, PassRecord};
+use crate::process::shaping::Job;
+use crate::terms::Side;
+use crate::tool::closed_tooth::PlacedScratch;
+
+use crate::process::shaping::check::facts::ToothFacts;
+use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FLANKS};
+
+/// What one thread of the native backend takes for the plan of a tile, s.
+const PLAN_S_PER_TILE: f64 = 1.5e-4;
+/// The same for one evaluation (dexel against pass), in groups of [`ROWS_AT_ONCE`].
+const CUT_S_PER_EVALUATION: f64 = 5.2e-9;
+/// The same for measuring a dexel of one surface.
+const MEASURE_S_PER_DEXEL: f64 = 2.0e-8;
+/// The same for the chip that left a cell of a map.
+const CHIP_S_PER_MAP_CELL: f64 = 5.5e-6;
+/// Rows that the kernel takes at once, whether there are as many or not.
+const ROWS_AT_ONCE: usize = 16;
+/// Tiles that are planned on each of them.
+const PLANNED_TILES: usize = 32;
+
+/// Strokes of each operation that are placed in the blank.
+const PLACED_STROKES: usize = 40;
+/// What one thread takes for a ray that a cutter tooth crosses, its return stroke checked, s.
+const BLANK_S_PER_RAY_PASS: f64 = 2.0e-7;
+/// What it takes to follow the chips of a cutter tooth in one stroke, s, at the spacing [`CHIP_SPACING_MM`]; it grows with the inverse of the spacing.
+const CHIPS_S_PER_PASS: f64 = 1.6e-4;
+const CHIP_SPACING_MM: f64 = 0.05;
+
+/// Adds the estimate to the report.
+///
+/// # Errors
+/// A flank that the cutter does not generate.
+pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) -> Result<(), Refusal> {
+    let surfaces = job.operations.len();
+    let generation = job.target_generation();
+    let (mut rows, mut planned_columns, mut records) = (0, 0.0, 0.0);
+    let (mut evaluations, mut tiles) = (0.0, 0.0);
+    for (tooth, side) in facts
+        .iter()
+        .step_by(facts.len().div_ceil(PLANNED_FLANKS).max(1))
+        .zip([Side::Left, Side::Right].into_iter().cycle())
+    {
+        let flank = job.target_flank(&generation, tooth.tooth, side)?;
+        let field = some_tiles(job.flank_field(&flank));
+        rows = field.rows();
+        planned_columns += field.columns.len() as f64;
+        let field = if job.rows_are_alike() { field.section() } else { field };
+        for operation in &job.operations {
+            let plan = CutPlan::new(&field, &operation.strokes, &job.cutter);
+            records += plan.records.len() as f64;
+            tiles += plan.tiles.len() as f64;
+            evaluations += plan.dexel_passes() as f64;
+        }
+    }
+    let spacing_mm = job.scene.fields.profile_spacing_mm;
+    let columns = |length_mm: f64| (length_mm / spacing_mm).floor() + 1.0;
+    let per_flank: Vec<f64> =
+        facts.iter().flat_map(ToothFacts::flanks).map(|(_, flank)| columns(flank.length_mm)).collect();
+    let (all_columns, longest) = (per_flank.iter().sum::<f64>(), per_flank.iter().copied().fold(0.0, f64::max));
+    let (dexels, largest) = (all_columns * rows as f64, longest * rows as f64);
+    let scale = all_columns / planned_columns;
+    let rows_cut = if job.rows_are_alike() { 1 } else { rows };
+    let map_spacing_mm = job.scene.output.map_spacing_mm;
+    let map_rows =
+        if job.rows_are_alike() { 1.0 } else { (job.scene.gear.face_width_mm / map_spacing_mm).floor() + 1.0 };
+    let map_cells = all_columns * spacing_mm / map_spacing_mm * map_rows;
+    let idle_rows = rows_cut.next_multiple_of(ROWS_AT_ONCE) as f64 / rows_cut as f64;
+    let flanks = FlankCost {
+        flanks: per_flank.len(),
+        largest,
+        dexels,
+        evaluations: evaluations * scale,
+        per_dexel: evaluations / (planned_columns * (rows_cut * surfaces) as f64),
+        records: records * scale,
+        note: if rows_cut < rows { "; rows are alike: one is cut for all" } else { "" },
+        bytes: rayon::current_num_threads() as f64
+            * (largest * (BYTES_PER_DEXEL * surfaces) as f64
+                + records / planned_columns * longest * size_of::<PassRecord>() as f64),
+        seconds: scale * (tiles * PLAN_S_PER_TILE + evaluations * idle_rows * CUT_S_PER_EVALUATION)
+            + dexels * surfaces as f64 * MEASURE_S_PER_DEXEL
+            + map_cells * surfaces as f64 * CHIP_S_PER_MAP_CELL,
+    };
+    crate::steps::check_cost::print(sheet, &job.scene.fields, &flanks, &blank_cost(job)?);
+    Ok(())
+}
+
+/// Rays through the blank and the cutter teeth that cross them.
+fn blank_cost(job: &Job) -> Result<BlankCost, Refusal> {
+    let grid = job.blank_grid()?;
+    let reach_mm = BlankOutline::new(&job.blank).reach_mm();
+    let (mut passes, mut ray_passes) = (0.0, 0.0);
+    let (mut placed, mut crossings) = (PlacedScratch::default(), RayCrossings::default());
+    for operation in &job.operations {
+        let set = &operation.strokes;
+        let tooth = job.closed_tooth(set, reach_mm);
+        let every = set.count().div_ceil(PLACED_STROKES).max(1);
+        let all = passes_at(set, set.law.tau(0.0), &job.cutter, &tooth, reach_mm);
+        passes += all.len() as f64;
+        let (mut strokes, mut crossed) = (0, 0);
+        for pass in all.iter().filter(|pass| (pass.stroke as usize).is_multiple_of(every)) {
+            let outline = tooth.placed(&pass.work_from_blade, &mut placed);
+            strokes += 1;
+            for (family, row) in FAMILIES.into_iter().zip(&grid.rows) {
+                // Tiles that the circle round the edge does not reach are left out.
+                let across = family.across(pass.center_mm);
+                let rays = [-tooth.reach_mm, tooth.reach_mm].map(|r| row.first_at_or_above(across + r));
+                let tiles = rays[0] / TILE_RAYS * TILE_RAYS..rays[1].next_multiple_of(TILE_RAYS).min(row.count);
+                crossings.lay(&outline, family, row, tiles);
+                crossed += crossings.touched().filter(|&ray| crossings.crosses(ray)).count();
+            }
+        }
+        ray_passes += all.len() as f64 * f64::from(crossed as u32) / f64::from(strokes.max(1));
+    }
+    ray_passes *= grid.leads_mm.len() as f64;
+    let seconds = ray_passes * BLANK_S_PER_RAY_PASS + passes * CHIPS_S_PER_PASS * CHIP_SPACING_MM / job.chip_spacing_mm;
+    let crossings = format!(
+        "{} thousand cutter teeth reach it and cross {} million of them",
+        significant(1e-3 * passes, 3),
+        significant(1e-6 * ray_passes, 2)
+    );
+    Ok(BlankCost { crossings, bytes: grid.estimated_bytes(&job.blank), grid, seconds })
+}
+
+/// Whole tiles spread evenly over a field, so that planning them takes the same time whatever the spacing.
+fn some_tiles(field: Field) -> Field {
+    let every = field.columns.len().div_ceil(TILE_COLUMNS * PLANNED_TILES).max(1);
+    let columns = field.columns.chunks(TILE_COLUMNS).step_by(every).flatten().copied().collect();
+    Field { columns, ..field }
+}

@@ -1,0 +1,269 @@
+//! Single teeth: the stock and the allowances that an operation left, and the tooth as it is finished.
+
+use super::place;
+use crate::findings::{Column, Datum, Place, Quantity, Section, Table};
+use crate::measure::stock::{Extreme, Stock};
+use crate::process::shaping::measure::gear_report::OperationAllowance;
+use crate::process::shaping::measure::{FlankReport, GearReport};
+use crate::process::shaping::target::FlankEnd;
+use crate::terms::Side;
+
+/// Smallest, largest and mean stock over some flanks (with their report, for the place) or roots.
+pub fn stock_range(
+    key: &str,
+    title: &str,
+    parts: &[(Option<&FlankReport>, Stock)],
+    where_: &str,
+    why: &str,
+) -> Section {
+    let found = |pick: fn(&Stock) -> Extreme, better: fn(f64, f64) -> bool, what: &str| {
+        let definition = format!("{what} stock {where_}, along the target's normal");
+        let best = parts
+            .iter()
+            .map(|(flank, stock)| (flank, pick(stock)))
+            .reduce(|best, next| if better(next.1.value_mm, best.1.value_mm) { next } else { best });
+        match best {
+            Some((flank, extreme)) => {
+                let quantity = Quantity::number(extreme.value_mm, "mm", definition);
+                match flank {
+                    Some(flank) => quantity.at(place(flank, &extreme)),
+                    None => quantity,
+                }
+            }
+            None => Quantity::undefined("mm", definition, why),
+        }
+    };
+    let dexels: u64 = parts.iter().map(|(_, stock)| stock.dexels).sum();
+    let sum: f64 = parts.iter().map(|(_, stock)| stock.mean_mm * stock.dexels as f64).sum();
+    let mean = Quantity::number_or(
+        (dexels > 0).then(|| sum / dexels as f64),
+        "mm",
+        format!("mean stock {where_}, over the dexels that the operation reached"),
+        why,
+    );
+    Section::new(key, title)
+        .with("smallest", found(|s| s.smallest, |a, b| a < b, "smallest"))
+        .with("largest", found(|s| s.largest, |a, b| a > b, "largest"))
+        .with("mean", mean)
+}
+
+fn flank_of(report: &GearReport, tooth: u32, side: Side) -> Option<&FlankReport> {
+    report.flanks.iter().find(|f| f.tooth == tooth && f.side == side)
+}
+
+/// Stock that an operation left on the flanks of a tooth.
+pub fn tooth_stock(report: &GearReport, operation: usize, tooth: u32) -> Section {
+    let range = |side: Side, title: &str| {
+        let stock = flank_of(report, tooth, side).and_then(|f| Some((Some(f), (*f.stock.get(operation)?)?)));
+        let why = "the flank was not cut or not reached";
+        stock_range(side.name(), title, &stock.into_iter().collect::<Vec<_>>(), "on the flank", why)
+    };
+    Section::new(format!("tooth_{tooth:02}"), format!("tooth {tooth}"))
+        .part(range(Side::Left, "left flank (larger arc)"))
+        .part(range(Side::Right, "right flank (smaller arc)"))
+}
+
+/// Allowances that an operation left, tooth by tooth; empty where it is the last one.
+pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>) -> Table {
+    let missing = "a surface does not cross the pitch curve with its involute";
+    let mm = |key, definition| Column::new(key, "mm", definition).or(missing);
+    let columns = vec![
+        Column::new("tooth", "1", "number of the tooth, from 1"),
+        mm("AB", "chord from A (this operation) to B (finished), left flank, on the pitch curve"),
+        mm("CD", "chord from C (finished) to D (this operation), right flank, on the pitch curve"),
+        Column::new("unevenness_mean_denominator", "%", "|AB - CD| over the mean of AB and CD").or(missing).as_bars(),
+        Column::new("unevenness_rack_denominator", "%", "|AB - CD| over delta_d tan(alpha)")
+            .or("a surface does not cross the pitch curve, or the operation has no offset over the last one"),
+        mm("envelope_AB", "AB in the limit of many strokes"),
+        mm("envelope_CD", "CD in the limit of many strokes"),
+    ];
+    let rows = allowance.into_iter().flat_map(|of| {
+        of.strokes.iter().zip(&of.envelope).map(|(cut, envelope)| {
+            vec![
+                Datum::from(cut.tooth),
+                cut.ab_mm().into(),
+                cut.cd_mm().into(),
+                cut.unevenness_mean_percent().into(),
+                cut.unevenness_rack_percent(of.rack_mm).into(),
+                envelope.ab_mm().into(),
+                envelope.cd_mm().into(),
+            ]
+        })
+    });
+    let mut table = Table::new("allowance", "Allowance on the pitch curve, tooth by tooth", columns).with_rows(rows);
+    table.period_rows = Some(report.period_teeth.max(1));
+    table
+}
+
+/// One finished tooth.
+pub fn finished_tooth(report: &GearReport, tooth: u32) -> Section {
+    let row = tooth as usize - 1;
+    let thickness = report.thickness.get(row).copied().flatten();
+    let mm = |value: Option<f64>, definition: &'static str, why| Quantity::number_or(value, "mm", definition, why);
+    let crossing = "a flank does not cross the pitch curve";
+    Section::new(format!("tooth_{tooth:02}"), format!("tooth {tooth}"))
+        .with(
+            "tip_land",
+            mm(report.tip_lands_mm.get(row).copied(), "width of the tip between the flanks", "not computed"),
+        )
+        .with(
+            "thickness_arc",
+            mm(thickness.map(|t| t.arc_mm), "tooth thickness along the pitch curve, from C to B", crossing),
+        )
+        .with(
+            "thickness_chord",
+            mm(thickness.map(|t| t.chord_mm), "tooth thickness straight from C to B on the pitch curve", crossing),
+        )
+        .part(finished_flank(report, tooth, Side::Left))
+        .part(finished_flank(report, tooth, Side::Right))
+}
+
+fn end_words(end: FlankEnd) -> &'static str {
+    match end {
+        FlankEnd::CutterCorner => "cutter corner",
+        FlankEnd::Undercut => "undercut",
+        FlankEnd::BlankOutline => "blank outline",
+        FlankEnd::CutterBase => "cutter base",
+        FlankEnd::PointedTip => "pointed tip",
+    }
+}
+
+fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
+    let flank = flank_of(report, tooth, side);
+    let not_cut = "the run was stopped before this flank was cut";
+    let why = |reason: &'static str| if flank.is_some() { reason } else { not_cut };
+    let number = |value: Option<f64>, unit: &'static str, definition: &'static str, reason: &'static str| {
+        Quantity::number_or(value, unit, definition, why(reason))
+    };
+    let word = |end: Option<FlankEnd>, definition: &'static str| match end {
+        Some(end) => Quantity::text(end_words(end), definition),
+        None => Quantity::undefined("1", definition, not_cut),
+    };
+    let at = |extreme: Option<Extreme>, definition: &'static str, reason: &'static str| match (flank, extreme) {
+        (Some(flank), Some(extreme)) => {
+            Quantity::number(extreme.value_mm * 1e3, "um", definition).at(place(flank, &extreme))
+        }
+        _ => Quantity::undefined("um", definition, why(reason)),
+    };
+    let cusp = |cusp: Option<crate::measure::scallop::Cusp>, definition: &'static str| match (flank, cusp) {
+        (Some(f), Some(cusp)) => Quantity::number(cusp.height_mm * 1e3, "um", definition).at(Place::on_flank(
+            f.tooth,
+            f.side.name(),
+            cusp.arc_mm,
+            0.0,
+        )),
+        _ => Quantity::undefined("um", definition, why("no cusp between facets of three dexels and more was met")),
+    };
+    let profile = flank.and_then(|f| f.profile);
+    let um = |value: Option<f64>, definition: &'static str| {
+        number(value.map(|v| v * 1e3), "um", definition, "the evaluated profile was not cut completely")
+    };
+    let side_index = usize::from(side == Side::Right);
+    let pitch = report.pitch[side_index].as_ref();
+    let row = tooth as usize - 1;
+    let pitch_um = |value: Option<f64>, definition: &'static str| {
+        Quantity::number_or(value.map(|v| v * 1e3), "um", definition, "a flank does not cross the pitch curve")
+    };
+    let finished = flank.and_then(|f| f.finished);
+    Section::new(side.name(), format!("{} flank", side.name()))
+        .with(
+            "start_of_involute",
+            number(flank.map(|f| f.form.height_mm), "mm", "start of the involute as height over the pitch curve", ""),
+        )
+        .with("start", word(flank.map(|f| f.form.end), "what begins the flank"))
+        .with(
+            "tip",
+            number(flank.map(|f| f.tip.height_mm), "mm", "end of the flank as height over the pitch curve", ""),
+        )
+        .with("end", word(flank.map(|f| f.tip.end), "what ends the flank"))
+        .with("length", number(flank.map(|f| f.length_mm), "mm", "length of the profile from start to tip", ""))
+        .with(
+            "evaluated_from",
+            number(
+                flank.map(|f| f.evaluated_mm[0]),
+                "mm",
+                "arc from the start of the involute at which the evaluated profile begins",
+                "",
+            ),
+        )
+        .with(
+            "evaluated_to",
+            number(
+                flank.map(|f| f.evaluated_mm[1]),
+                "mm",
+                "arc from the start of the involute at which the evaluated profile ends",
+                "",
+            ),
+        )
+        .with(
+            "smallest_height",
+            at(
+                finished.map(|h| h[0]),
+                "lowest finished surface over the target on the evaluated profile",
+                "no dexel of the evaluated profile was reached",
+            ),
+        )
+        .with(
+            "largest_height",
+            at(
+                finished.map(|h| h[1]),
+                "highest finished surface over the target on the evaluated profile",
+                "no dexel of the evaluated profile was reached",
+            ),
+        )
+        .with(
+            "deepest_cut",
+            at(
+                flank.and_then(|f| f.undercut),
+                "deepest cut below the target anywhere on the flank",
+                "nothing is cut more than a nanometre below the target",
+            ),
+        )
+        .part(
+            Section::new("profile", "profile deviations in the middle of the face, as ISO 1328-1 has them")
+                .with(
+                    "total",
+                    um(profile.map(|p| p.total_mm), "F_alpha: range of heights along the evaluated profile, mid-face"),
+                )
+                .with("form", um(profile.map(|p| p.form_mm), "f_f_alpha: range about the mean line"))
+                .with(
+                    "slope",
+                    um(profile.map(|p| p.slope_mm), "f_H_alpha: rise of the mean line, positive towards the tip"),
+                ),
+        )
+        .with(
+            "largest_scallop",
+            cusp(flank.and_then(|f| f.scallops).map(|s| s.largest), "highest cusp on the evaluated profile, mid-face"),
+        )
+        .with(
+            "scallop_at_pitch_curve",
+            cusp(
+                flank.and_then(|f| f.scallops).and_then(|s| s.at_pitch_curve),
+                "cusp nearest to the pitch curve, mid-face",
+            ),
+        )
+        .with(
+            "witness_mark",
+            at(
+                flank.and_then(|f| f.witness),
+                "how far what the first and last strokes left stands above the rest of the flank",
+                "the first and last strokes left nothing on the evaluated profile",
+            ),
+        )
+        .with(
+            "single_pitch",
+            pitch_um(pitch.map(|p| p.single_mm[row]), "f_p: arc of the pitch curve from the tooth before, less pi m"),
+        )
+        .with(
+            "cumulative_pitch",
+            pitch_um(pitch.map(|p| p.cumulative_mm[row]), "arc of the pitch curve from tooth 1, less its pitches"),
+        )
+        .with(
+            "below_range_dexels",
+            Quantity::count(flank.map_or(0, |f| f.below_range), "dexels", "dexels cut deeper than their rays record"),
+        )
+        .with(
+            "untouched_dexels",
+            Quantity::count(flank.map_or(0, |f| f.untouched), "dexels", "dexels that no pass touched"),
+        )
+}

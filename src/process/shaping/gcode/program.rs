@@ -1,0 +1,199 @@
+//! Axis positions as straight lines between knots, in the stroke coordinate.
+
+use crate::gcode::{Digits, longest_lines};
+use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
+use crate::scene::model::AxisLimits;
+use glam::DVec2;
+use std::f64::consts::PI;
+
+/// Half of the arc of the cutter round the line of centres that can be in the work; a cutter of twelve teeth meets it over less.
+const ENGAGED_RAD: f64 = 1.0;
+/// Samples between two strokes where the feed goes on during them.
+const SAMPLES_PER_STROKE: usize = 4;
+
+/// Axis positions at one moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Knot {
+    /// Stroke coordinate: stroke i (from 0) is made at i.
+    pub stroke: f64,
+    /// Work angle psi_c, rad.
+    pub psi_c_rad: f64,
+    /// Cutter angle psi_b, rad.
+    pub psi_b_rad: f64,
+    /// Centre distance, mm.
+    pub center_distance_mm: f64,
+}
+
+/// A program: knots in order of time, the first at stroke 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisProgram {
+    /// Speed of the ram.
+    pub double_strokes_per_minute: f64,
+    /// At least one.
+    pub knots: Vec<Knot>,
+}
+
+/// Places per stroke at which a program is held against the schedule.
+fn samples_per_stroke(continuous: bool) -> usize {
+    if continuous { SAMPLES_PER_STROKE } else { 1 }
+}
+
+impl Knot {
+    /// The knot as it will be written.
+    fn rounded(&self, digits: Digits) -> Self {
+        let angle = |rad: f64| Digits::round(rad.to_degrees(), digits.angle).to_radians();
+        Self {
+            psi_c_rad: angle(self.psi_c_rad),
+            psi_b_rad: angle(self.psi_b_rad),
+            center_distance_mm: Digits::round(self.center_distance_mm, digits.length),
+            ..*self
+        }
+    }
+
+    /// Where a schedule has the axes.
+    fn of(schedule: &StrokeSchedule, stroke: f64) -> Self {
+        let state = schedule.state(stroke);
+        Self {
+            stroke,
+            psi_c_rad: state.psi_c_rad,
+            psi_b_rad: state.psi_b_rad,
+            center_distance_mm: state.center_distance_mm,
+        }
+    }
+
+    /// Cutter in the gear frame.
+    pub fn pose(&self) -> CutterPose {
+        CutterPose {
+            center_mm: DVec2::from_angle(self.psi_c_rad) * self.center_distance_mm,
+            angle_rad: self.psi_c_rad + PI + self.psi_b_rad,
+        }
+    }
+
+    fn between(a: &Self, b: &Self, stroke: f64) -> Self {
+        let share = if b.stroke > a.stroke { (stroke - a.stroke) / (b.stroke - a.stroke) } else { 0.0 };
+        let mix = |a: f64, b: f64| a + share * (b - a);
+        Self {
+            stroke,
+            psi_c_rad: mix(a.psi_c_rad, b.psi_c_rad),
+            psi_b_rad: mix(a.psi_b_rad, b.psi_b_rad),
+            center_distance_mm: mix(a.center_distance_mm, b.center_distance_mm),
+        }
+    }
+
+    /// Largest displacement of the cutter's edge in the work against another position, over the arc that can be in the work, mm.
+    pub fn displacement_mm(&self, other: &Self, tip_radius_mm: f64) -> f64 {
+        let (a, b) = (self.pose(), other.pose());
+        let shift = b.center_mm - a.center_mm;
+        let turn = b.angle_rad - a.angle_rad;
+        let to_work = -a.center_mm.normalize_or_zero();
+        [-1.0, -0.5, 0.0, 0.5, 1.0]
+            .into_iter()
+            .map(|share| {
+                let arm = tip_radius_mm * DVec2::from_angle(share * ENGAGED_RAD).rotate(to_work);
+                // (R - I) arm with sin and 2 sin^2(half angle): differences of nanometres stay exact.
+                let half = (0.5 * turn).sin();
+                (shift + turn.sin() * arm.perp() - 2.0 * half * half * arm).length()
+            })
+            .fold(0.0, f64::max)
+    }
+}
+
+impl AxisProgram {
+    /// Longest straight lines, one after the other, that keep every stroke of a schedule within `contour_error_mm`; with `continuous` also what lies between the strokes, as far as
+    /// blocks of one stroke can. Knots stand on whole strokes and are rounded as they will be written.
+    pub fn fit(schedule: &StrokeSchedule, tip_radius_mm: f64, contour_error_mm: f64, continuous: bool) -> Self {
+        let per_stroke = samples_per_stroke(continuous);
+        let last = schedule.count() - 1;
+        let exact: Vec<Knot> =
+            (0..=last * per_stroke).map(|sample| Knot::of(schedule, sample as f64 / per_stroke as f64)).collect();
+        let reach_mm = exact.iter().map(|k| k.center_distance_mm).fold(0.0, f64::max) + tip_radius_mm;
+        let digits = Digits::new(contour_error_mm, reach_mm);
+        let fits = |from: usize, to: usize| {
+            let (a, b) = (exact[from * per_stroke].rounded(digits), exact[to * per_stroke].rounded(digits));
+            exact[from * per_stroke..=to * per_stroke]
+                .iter()
+                .all(|knot| Knot::between(&a, &b, knot.stroke).displacement_mm(knot, tip_radius_mm) <= contour_error_mm)
+        };
+        let mut knots = vec![exact[0].rounded(digits)];
+        knots.extend(longest_lines(last, fits).into_iter().map(|end| exact[end * per_stroke].rounded(digits)));
+        Self { double_strokes_per_minute: 60.0 / schedule.time_s(1.0), knots }
+    }
+
+    /// Strokes from the first to the last knot, both included.
+    pub fn count(&self) -> usize {
+        (self.last().stroke + 1e-6).floor() as usize + 1
+    }
+
+    fn last(&self) -> &Knot {
+        self.knots.last().expect("a program has a first position")
+    }
+
+    /// Axis positions at a stroke coordinate; before the first and after the last knot the motion is continued.
+    pub fn at(&self, stroke: f64) -> Knot {
+        let after = self.knots.partition_point(|k| k.stroke <= stroke).clamp(1, self.knots.len().max(2) - 1);
+        match self.knots.get(after) {
+            Some(b) => Knot::between(&self.knots[after - 1], b, stroke),
+            None => Knot { stroke, ..self.knots[0] },
+        }
+    }
+
+    /// Largest displacement from a schedule at its strokes, with `continuous` also between them, mm, and the stroke coordinate.
+    pub fn contour_error_mm(&self, schedule: &StrokeSchedule, tip_radius_mm: f64, continuous: bool) -> (f64, f64) {
+        let per_stroke = samples_per_stroke(continuous);
+        (0..=(schedule.count() - 1) * per_stroke)
+            .map(|sample| {
+                let stroke = sample as f64 / per_stroke as f64;
+                (Knot::of(schedule, stroke).displacement_mm(&self.at(stroke), tip_radius_mm), stroke)
+            })
+            .fold((0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst })
+    }
+
+    /// What the program asks beyond the machine's limits: speeds within blocks, and steps of speed between blocks taken within one double stroke.
+    pub fn exceeded(&self, limits: &AxisLimits) -> Vec<String> {
+        let stroke_s = 60.0 / self.double_strokes_per_minute;
+        let speeds = |pick: fn(&Knot) -> f64| -> Vec<f64> {
+            self.knots
+                .windows(2)
+                .filter(|pair| pair[1].stroke > pair[0].stroke)
+                .map(|pair| (pick(&pair[1]) - pick(&pair[0])) / ((pair[1].stroke - pair[0].stroke) * stroke_s))
+                .collect()
+        };
+        let mut exceeded = Vec::new();
+        let mut check = |axis: &str, unit: &str, speeds: &[f64], speed: Option<f64>, acceleration: Option<f64>| {
+            let largest = speeds.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+            let step = speeds.windows(2).fold(0.0_f64, |most, v| most.max((v[1] - v[0]).abs())) / stroke_s;
+            let shown = |value: f64| if unit == "deg" { value.to_degrees() } else { value };
+            for (value, limit, per) in [(largest, speed, "/s"), (step, acceleration, "/s^2")] {
+                if let Some(limit) = limit.filter(|&limit| value > limit) {
+                    exceeded.push(format!(
+                        "{axis} needs {:.4} {unit}{per}, the machine allows {:.4}",
+                        shown(value),
+                        shown(limit)
+                    ));
+                }
+            }
+        };
+        check(
+            "the work spindle",
+            "deg",
+            &speeds(|k| k.psi_c_rad),
+            limits.work_speed_rad_per_s,
+            limits.work_acceleration_rad_per_s2,
+        );
+        check(
+            "the cutter spindle",
+            "deg",
+            &speeds(|k| k.psi_b_rad),
+            limits.cutter_speed_rad_per_s,
+            limits.cutter_acceleration_rad_per_s2,
+        );
+        check(
+            "the centre distance",
+            "mm",
+            &speeds(|k| k.center_distance_mm),
+            limits.center_distance_speed_mm_per_s,
+            limits.center_distance_acceleration_mm_per_s2,
+        );
+        exceeded
+    }
+}

@@ -1,0 +1,75 @@
+//! The text of a program, with everything in its head that the man at the machine must know.
+
+use super::program::{AxisProgram, Knot};
+use crate::gcode::{Digits, ProgramText};
+use crate::output::text::plain;
+use crate::process::shaping::axes_report::linkage_words;
+use crate::process::shaping::{Job, PreparedOperation};
+
+/// A program in the linear dialect, for an operation of a job.
+pub fn text(job: &Job, operation: &PreparedOperation, program: &AxisProgram) -> String {
+    let output = &job.scene.output;
+    let tip_radius_mm = job.cutter.tip_radius_mm;
+    let (error_mm, worst) =
+        program.contour_error_mm(&operation.schedule, tip_radius_mm, operation.spec.feed_during_stroke);
+    let reach_mm = program.knots.iter().map(|k| k.center_distance_mm).fold(0.0, f64::max) + tip_radius_mm;
+    let digits = Digits::new(output.gcode_contour_error_mm, reach_mm);
+    let feed = if operation.spec.feed_during_stroke {
+        "CONTINUOUS: the feed runs on during the cutting stroke"
+    } else {
+        "INTERMITTENT: the axes rest while the cutter is in the work and move in the return stroke"
+    };
+    let head = [
+        format!("gearcut {}: operation {} of {}", env!("CARGO_PKG_VERSION"), operation.spec.name, job.scene.name),
+        "UNITS mm and deg; G90 absolute; G93 inverse time, F = 1 / minutes of the block".to_owned(),
+        "AXES X centre distance, C work spindle, B cutter spindle; C and B counter-clockwise from above".to_owned(),
+        "FRAME C0: polar angle 0 of the gear on the line of centres; B0: cutter tooth 0 points at the work".to_owned(),
+        format!(
+            "GEAR z {} m {} mm; CUTTER z0 {}, pitch radius {} mm",
+            job.scene.gear.teeth,
+            plain(job.scene.gear.module_mm),
+            job.cutter.teeth,
+            plain(job.cutter.pitch_radius_mm)
+        ),
+        format!("LINKAGE {}, offset {} mm", linkage_words(operation.spec.linkage), plain(operation.spec.offset_mm)),
+        format!(
+            "STROKES {} at {} per minute; S is double strokes per minute",
+            program.count(),
+            plain(program.double_strokes_per_minute)
+        ),
+        format!("FEED {feed}"),
+        format!(
+            "CONTOUR at most {} um on the flanks asked, {} um reached at stroke {worst}",
+            plain(output.gcode_contour_error_mm * 1e3),
+            plain(error_mm * 1e3)
+        ),
+        "The ram is at the top of stroke 0 when the first G93 block begins".to_owned(),
+        "Relief on the return stroke is the machine's own; approach and clamping are the operator's".to_owned(),
+    ];
+    let position = |knot: &Knot| {
+        // Negated zeros read as nonsense.
+        let clean = |value: f64| if value == 0.0 { 0.0 } else { value };
+        format!(
+            "X{:.*} C{:.*} B{:.*}",
+            digits.length,
+            knot.center_distance_mm,
+            digits.angle,
+            clean(-knot.psi_c_rad.to_degrees()),
+            digits.angle,
+            clean(knot.psi_b_rad.to_degrees()),
+        )
+    };
+    let mut text = ProgramText::new(&head);
+    text.block("G21 G90 G94");
+    text.block(&format!("G0 {}", position(&program.knots[0])));
+    text.block(&format!("S{} M3", plain(program.double_strokes_per_minute)));
+    for pair in program.knots.windows(2) {
+        let per_minute = program.double_strokes_per_minute / (pair[1].stroke - pair[0].stroke);
+        text.block(&format!("G93 G1 {} F{per_minute:.9}", position(&pair[1])));
+    }
+    // The last stroke is made where the last block ends.
+    text.block(&format!("G4 P{:.9}", 60.0 / program.double_strokes_per_minute));
+    text.block("M5");
+    text.block("M30");
+    text.finish()
+}

@@ -1,0 +1,77 @@
+//! Axis positions and cutter poses: what every shaping linkage answers with.
+//!
+//! In: the pitch curve at a parameter ([`crate::gear::Rolling`]). Out: [`Axes`] (work angle, cutter angle, centre distance) as series in
+//! that parameter, and the [`CutterPose`] that they give. The law is the frame convention in the head of [`super`].
+//!
+//! The parameter is the polar angle phi, or time or stroke when phi itself is a series in them: derivatives then follow by
+//! the chain rule without further formulas. The number of terms N is chosen by the caller: 1 for positions, 2 for
+//! rates, 3 for accelerations.
+
+use std::f64::consts::PI;
+
+use glam::DVec2;
+
+use crate::math::Jet;
+
+/// Positions of the three axes as series with N terms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axes<const N: usize> {
+    /// Work angle: polar angle of the cutter centre in the gear frame, rad, unwrapped.
+    pub psi_c_rad: Jet<N>,
+    /// Cutter angle against the line of centres, rad, unwrapped.
+    pub psi_b_rad: Jet<N>,
+    /// Centre distance l, mm.
+    pub center_distance_mm: Jet<N>,
+}
+
+/// Place and orientation of the cutter in the gear frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CutterPose {
+    /// Cutter axis O_b, mm.
+    pub center_mm: DVec2,
+    /// Direction of cutter tooth 0, rad, unwrapped: a point q of the cutter frame lies at center + rotation(angle) q.
+    pub angle_rad: f64,
+}
+
+/// Pose with its first derivative with respect to phi at constant offset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PoseMotion {
+    /// The pose.
+    pub pose: CutterPose,
+    /// dO_b/dphi, mm per rad.
+    pub center_rate_mm_per_rad: DVec2,
+    /// Derivative of the orientation, rad per rad.
+    pub angle_rate: f64,
+}
+
+impl PoseMotion {
+    /// Point of the gear frame (mm) that is at rest in cutter and work alike: O_b + i O_b' / theta'. In finishing it is the
+    /// pitch point; the contact normals of all flanks pass through it.
+    pub fn instantaneous_center_mm(&self) -> DVec2 {
+        self.pose.center_mm + self.center_rate_mm_per_rad.perp() / self.angle_rate
+    }
+}
+
+impl<const N: usize> Axes<N> {
+    /// The pose at the axis positions.
+    pub fn pose(&self) -> CutterPose {
+        let psi_c = self.psi_c_rad.value();
+        CutterPose {
+            center_mm: DVec2::from_angle(psi_c) * self.center_distance_mm.value(),
+            angle_rad: psi_c + PI + self.psi_b_rad.value(),
+        }
+    }
+}
+
+impl Axes<2> {
+    /// The pose and its derivative with respect to the parameter.
+    pub(super) fn pose_motion(&self) -> PoseMotion {
+        let out = DVec2::from_angle(self.psi_c_rad.value());
+        let (l, turn) = (self.center_distance_mm, self.psi_c_rad.derivative(1));
+        PoseMotion {
+            pose: self.pose(),
+            center_rate_mm_per_rad: out * l.derivative(1) + out.perp() * (l.value() * turn),
+            angle_rate: turn + self.psi_b_rad.derivative(1),
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Linkages of external shaping, ready for queries.
+//!
+//! In: the kind of linkage, the pitch curve, the cutter's pitch radius r_c = m z0 / 2. Out: axis positions, poses, and the
+//! polar angle that belongs to a work angle, each for any offset: infeed changes the offset from stroke to stroke.
+//! The laws stand in [`crate::process::shaping::linkage::normal`] and [`crate::process::shaping::linkage::traditional`].
+
+use std::sync::Arc;
+
+use super::axes::{Axes, CutterPose, PoseMotion};
+use super::inverse::{Starts, solve};
+use crate::error::Refusal;
+use crate::gear::PitchCurve;
+use crate::gear::Rolling;
+use crate::math::Jet;
+use crate::process::shaping::linkage::{normal, traditional};
+use crate::scene::model::Linkage;
+
+/// One linkage on one pitch curve with one cutter.
+#[derive(Debug, Clone)]
+pub struct ShapingLinkage {
+    kind: Linkage,
+    curve: Arc<PitchCurve>,
+    cutter_pitch_radius_mm: f64,
+    starts: Arc<Starts>,
+}
+
+impl ShapingLinkage {
+    /// Linkage for offsets from 0 to `offset_mm` (the largest that will be used; inverse queries are fastest there).
+    ///
+    /// # Errors
+    /// A pitch radius or offset that is not finite, r_c <= 0 or r_c + offset <= 0, or a concave zone so tight that the
+    /// work would have to turn back: the cutter's pitch circle (with the offset) does not fit into it.
+    pub fn new(
+        kind: Linkage,
+        curve: Arc<PitchCurve>,
+        cutter_pitch_radius_mm: f64,
+        offset_mm: f64,
+    ) -> Result<Self, Refusal> {
+        if !(cutter_pitch_radius_mm.is_finite() && cutter_pitch_radius_mm > 0.0) {
+            let problem = format!("the cutter's pitch radius would be {cutter_pitch_radius_mm} mm");
+            return Err(Refusal::new("tool.shaper_cutter.teeth", problem, "give a positive number of teeth"));
+        }
+        let mut linkage = Self { kind, curve, cutter_pitch_radius_mm, starts: Arc::new(Starts::none()) };
+        linkage.check(0.0)?;
+        linkage.check(offset_mm)?;
+        let lag = |phi: f64| {
+            let lag = linkage.lag(&Rolling::<2>::new(&linkage.curve, Jet::variable(phi)), Jet::constant(offset_mm));
+            [lag.value(), lag.derivative(1)]
+        };
+        let starts = Starts::new(lag, linkage.curve.samples_per_turn().clamp(1024, 1 << 16));
+        linkage.starts = Arc::new(starts);
+        Ok(linkage)
+    }
+
+    /// Refuses an offset at which the work angle does not increase with phi everywhere.
+    pub(super) fn check(&self, offset_mm: f64) -> Result<(), Refusal> {
+        let reach_mm = self.cutter_pitch_radius_mm + offset_mm;
+        if !(reach_mm.is_finite() && reach_mm > 0.0) {
+            let problem = format!("offset {offset_mm} mm brings the cutter axis to the pitch curve");
+            return Err(Refusal::new("operation.offset_mm", problem, "give a smaller offset in magnitude"));
+        }
+        let facts = self.curve.facts();
+        let samples = self.curve.samples_per_turn();
+        let even = (0..samples).map(|i| crate::math::roots::sample_angle_rad(i, samples));
+        let sharp = facts.curvature_extrema.iter().map(|e| e.phi_rad);
+        for phi in even.chain(sharp) {
+            let turn = self.axes(phi, offset_mm).psi_c_rad.derivative(1);
+            if turn.is_nan() || turn <= 0.0 {
+                let radius_mm = 1.0 / self.curve.frame(phi).curvature_per_mm;
+                return Err(Refusal::new(
+                    "tool.shaper_cutter.teeth",
+                    format!(
+                        "at polar angle {:.3} deg the pitch curve has the radius of curvature {radius_mm:.3} mm; the \
+                         cutter's pitch radius with the offset, {reach_mm:.3} mm, does not roll there",
+                        phi.to_degrees()
+                    ),
+                    "take a cutter with fewer teeth, a smaller offset, or a pitch curve with a wider hollow",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The pitch curve.
+    pub fn curve(&self) -> &Arc<PitchCurve> {
+        &self.curve
+    }
+
+    /// Which linkage this is.
+    pub fn kind(&self) -> Linkage {
+        self.kind
+    }
+
+    /// r_c, mm.
+    pub fn cutter_pitch_radius_mm(&self) -> f64 {
+        self.cutter_pitch_radius_mm
+    }
+
+    /// Axis positions at `phi_rad` (any real, unwrapped) with two derivatives with respect to phi, at constant offset.
+    pub fn axes(&self, phi_rad: f64, offset_mm: f64) -> Axes<3> {
+        self.axes_along(Jet::variable(phi_rad), Jet::constant(offset_mm))
+    }
+
+    /// Axis positions where phi and the offset are series in any parameter, for N <= 3 terms.
+    pub fn axes_along<const N: usize>(&self, phi_rad: Jet<N>, offset_mm: Jet<N>) -> Axes<N> {
+        let rolling = Rolling::new(&self.curve, phi_rad);
+        let arc = rolling.arc(&self.curve);
+        let r_c = self.cutter_pitch_radius_mm;
+        match self.kind {
+            Linkage::ShapingNormal { reading } => normal::axes(&rolling, arc, r_c, offset_mm, reading),
+            Linkage::ShapingTraditional { direction } => traditional::axes(&rolling, arc, r_c, offset_mm, direction),
+        }
+    }
+
+    /// Work angle alone, as a series.
+    pub(super) fn work_angle_along<const N: usize>(&self, phi_rad: Jet<N>, offset_mm: Jet<N>) -> Jet<N> {
+        phi_rad - self.lag(&Rolling::new(&self.curve, phi_rad), offset_mm)
+    }
+
+    /// phi - psi_c.
+    fn lag<const N: usize>(&self, rolling: &Rolling<N>, offset_mm: Jet<N>) -> Jet<N> {
+        let r_c = self.cutter_pitch_radius_mm;
+        match self.kind {
+            Linkage::ShapingNormal { .. } => normal::alpha(rolling, offset_mm + r_c),
+            Linkage::ShapingTraditional { direction } => traditional::work_lag(rolling, r_c, offset_mm, direction),
+        }
+    }
+
+    /// Pose of the cutter in the gear frame.
+    pub fn pose(&self, phi_rad: f64, offset_mm: f64) -> CutterPose {
+        self.axes_along::<1>(Jet::constant(phi_rad), Jet::constant(offset_mm)).pose()
+    }
+
+    /// Pose with its derivative with respect to phi at constant offset.
+    pub fn pose_motion(&self, phi_rad: f64, offset_mm: f64) -> PoseMotion {
+        self.axes_along::<2>(Jet::variable(phi_rad), Jet::constant(offset_mm)).pose_motion()
+    }
+
+    /// Polar angle (unwrapped) at which the work angle is `psi_c_rad` (any real), to rounding.
+    pub fn phi_at_work_angle(&self, psi_c_rad: f64, offset_mm: f64) -> f64 {
+        let offset = Jet::<1>::constant(offset_mm);
+        let lag = |phi: f64| self.lag(&Rolling::new(&self.curve, Jet::constant(phi)), offset).value();
+        solve(lag, psi_c_rad, self.starts.guess(psi_c_rad))
+    }
+}

@@ -1,0 +1,66 @@
+//! Where the envelope of an operation, and what its strokes leave, cross the pitch curve.
+
+use crate::error::NotConverged;
+use crate::math::convergence::{Step, iterate};
+use crate::measure::crossing::Crossing;
+use crate::passes::planar::near::{lowest_entry, near_passes};
+use crate::process::shaping::Job;
+use crate::process::shaping::generation::Generation;
+use crate::process::shaping::target::TargetFlank;
+use crate::terms::Side;
+use crate::tool::CuttingTool;
+use std::ops::ControlFlow;
+
+/// Rays along the pitch curve's tangent towards what the strokes leave, at most: each starts where the one before
+/// ended, and
+/// misses the curve by the square of its length. The last one moves the crossing by less than this, mm.
+const MOST_RAYS: u32 = 12;
+const LAST_MOVE_MM: f64 = 1e-10;
+
+/// Crossing of the envelope of one operation with the pitch curve on one flank; `None` where its involute does not reach the curve.
+pub fn envelope_crossing(job: &Job, generation: &Generation, tooth: u32, side: Side) -> Option<Crossing> {
+    let flank = TargetFlank::new(generation, &job.blank, tooth, side, None).ok()?;
+    let (_, contact) = flank.at_height(&job.blank, 0.0)?;
+    let phi_rad = job.blank.height(contact.point_mm, contact.phi_rad).1;
+    Some(Crossing { point_mm: contact.point_mm, phi_rad, arc_mm: job.curve.arc_mm(phi_rad) })
+}
+
+/// Crossing of what the strokes of operations 0 to `last_operation` leave in the middle of the face, on one flank; `start` is a crossing near it (the target's).
+///
+/// `None` where no pass comes within reach: half a pitch into the space, half a module into the tooth.
+///
+/// # Errors
+/// The rays go on moving along the pitch curve: the surface jumps where they meet it.
+pub fn stroke_crossing(
+    job: &Job,
+    last_operation: usize,
+    side: Side,
+    start: Crossing,
+) -> Result<Option<Crossing>, NotConverged> {
+    let module_mm = job.scene.gear.module_mm;
+    let reach_mm = 0.5 * std::f64::consts::PI * module_mm;
+    let passes: Vec<_> = job.operations[..=last_operation]
+        .iter()
+        .map(|operation| near_passes(&operation.strokes, &job.cutter, start.point_mm, reach_mm))
+        .collect();
+    let phi = iterate("the crossing of the strokes with the pitch curve", start.phi_rad, MOST_RAYS, |phi| {
+        let frame = job.curve.frame(phi);
+        // Out of the tooth: towards larger arcs on the left flank.
+        let direction = side.sign() * frame.tangent;
+        let height_mm = passes
+            .iter()
+            .filter_map(|near| lowest_entry(near, job.cutter.edge(), frame.point_mm, direction, -0.5 * module_mm))
+            .fold(reach_mm, f64::min);
+        if height_mm >= reach_mm {
+            return ControlFlow::Break(None);
+        }
+        let point = frame.point_mm + height_mm * direction;
+        let foot = job.blank.height(point, phi).1;
+        let moved_mm = (foot - phi).abs() * frame.arc_rate_mm_per_rad;
+        if moved_mm < LAST_MOVE_MM {
+            return ControlFlow::Break(Some(foot));
+        }
+        ControlFlow::Continue(Step { to: foot, residual: moved_mm })
+    })?;
+    Ok(phi.map(|phi| Crossing { point_mm: job.curve.frame(phi).point_mm, phi_rad: phi, arc_mm: job.curve.arc_mm(phi) }))
+}

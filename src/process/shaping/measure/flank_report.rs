@@ -1,0 +1,180 @@
+//! Everything measured on one flank after all operations.
+//!
+//! In: the job, the target flank, the cut field. Out: [`FlankReport`]: where the flank begins and ends, stock between each operation and the finished surface, heights, scallops,
+//! profile deviations, undercut, the witness mark. Heights come from the dexels; begin and end from the closed form.
+
+use crate::dexel::NO_PASS;
+use crate::measure::deviation::{Trace, TraceDeviation};
+use crate::measure::scallop::{Cusp, cusps};
+use crate::measure::stock::{Extreme, Stock, extremes, stock};
+use crate::process::shaping::target::{FlankEnd, TargetFlank};
+use crate::process::shaping::{CutFlank, Job};
+use crate::terms::Side;
+
+/// Share of the flank left out at either end when the scene does not say where profiles are evaluated, and of the face.
+const DEFAULT_MARGIN: f64 = 0.05;
+/// Strokes at either end of an operation that count as its seam.
+const SEAM_STROKES: usize = 2;
+
+/// Where a flank begins or ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlankLimit {
+    /// What limits it.
+    pub end: FlankEnd,
+    /// Height over the pitch curve along its normal, mm.
+    pub height_mm: f64,
+    /// Distance from the gear axis, mm.
+    pub radius_mm: f64,
+}
+
+/// Cusps of one flank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scallops {
+    /// Highest cusp on the evaluated profile.
+    pub largest: Cusp,
+    /// Cusp nearest to the pitch curve.
+    pub at_pitch_curve: Option<Cusp>,
+}
+
+/// One flank, measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlankReport {
+    /// Tooth, from 1.
+    pub tooth: u32,
+    /// Flank.
+    pub side: Side,
+    /// Start of the involute.
+    pub form: FlankLimit,
+    /// Tip.
+    pub tip: FlankLimit,
+    /// Length of the profile, mm.
+    pub length_mm: f64,
+    /// Arcs between which profiles are evaluated, mm.
+    pub evaluated_mm: [f64; 2],
+    /// Stock of every operation but the last over the finished surface; `None` where the operation reached nothing.
+    pub stock: Vec<Option<Stock>>,
+    /// Lowest and highest finished surface over the target on the evaluated profile.
+    pub finished: Option<[Extreme; 2]>,
+    /// Deepest cut below the target anywhere on the flank (undercut, gouge), if deeper than the dexels' resolution.
+    pub undercut: Option<Extreme>,
+    /// Profile deviations in the middle of the face.
+    pub profile: Option<TraceDeviation>,
+    /// Lead deviations at the pitch curve, over the face without 5 % at either end.
+    pub lead: Option<TraceDeviation>,
+    /// The profile in the middle of the face.
+    pub profile_trace: Trace,
+    /// The line along the tooth at the pitch curve, or in the middle of the evaluated profile where the flank does not reach the curve.
+    pub lead_trace: Trace,
+    /// Scallops in the middle of the face.
+    pub scallops: Option<Scallops>,
+    /// What the first and last finishing strokes stand above the rest of this flank (0 if nothing), where they touched it.
+    pub witness: Option<Extreme>,
+    /// Dexels that were cut deeper than their rays record.
+    pub below_range: u64,
+    /// Dexels that the finishing operation and all before it never reached.
+    pub untouched: u64,
+}
+
+/// Cuts shallower than this below the target are numerical: the edge tables, f32 heights and Newton's last step together.
+pub const RESOLUTION_MM: f64 = 1e-6;
+
+/// Arcs between which profiles and textures are evaluated, mm from the form point: as the scene says, else without 5 % of the flank at either end.
+pub fn evaluated_profile_mm(job: &Job, flank: &TargetFlank) -> [f64; 2] {
+    let arc_at = |height: Option<f64>| height.and_then(|h| flank.at_height(&job.blank, h)).map(|(arc, _)| arc);
+    let length_mm = flank.length_mm();
+    [
+        arc_at(job.measure.profile_start_height_mm).unwrap_or(DEFAULT_MARGIN * length_mm),
+        arc_at(job.measure.profile_end_height_mm).unwrap_or((1.0 - DEFAULT_MARGIN) * length_mm),
+    ]
+}
+
+/// Measures a flank.
+pub fn measure(job: &Job, flank: &TargetFlank, cut: &CutFlank) -> FlankReport {
+    let CutFlank { field, layers, .. } = cut;
+    let finished = layers.last().expect("at least one operation");
+    let limit = |arc_mm: f64, end| {
+        let contact = flank.at_arc(arc_mm);
+        let (height_mm, _) = job.blank.height(contact.point_mm, contact.phi_rad);
+        FlankLimit { end, height_mm, radius_mm: contact.point_mm.length() }
+    };
+    let length_mm = flank.length_mm();
+    let evaluated_mm = evaluated_profile_mm(job, flank);
+    let rows = field.rows();
+    let middle = rows / 2;
+    let inside = |arc: f64| arc >= evaluated_mm[0] && arc <= evaluated_mm[1];
+    let evaluated = extremes(
+        field,
+        |column| inside(field.columns[column].arc_mm),
+        |index| (finished.passes[index] != NO_PASS).then_some(finished.heights_mm[index]),
+    );
+    let deepest = extremes(field, |_| true, |index| Some(finished.heights_mm[index])).map(|[low, _]| low);
+
+    let cusps: Vec<Cusp> = cusps(field, finished, middle).into_iter().filter(|cusp| inside(cusp.arc_mm)).collect();
+    let pitch_arc_mm = flank.at_height(&job.blank, 0.0).map(|(arc, _)| arc);
+    let largest = cusps.iter().copied().max_by(|a, b| a.height_mm.total_cmp(&b.height_mm));
+    let scallops = largest.map(|largest| Scallops {
+        largest,
+        at_pitch_curve: pitch_arc_mm.and_then(|pitch| {
+            cusps.iter().copied().min_by(|a, b| (a.arc_mm - pitch).abs().total_cmp(&(b.arc_mm - pitch).abs()))
+        }),
+    });
+
+    // The seam: strokes at either end of the finishing operation, plunging strokes among them.
+    let operation = job.finishing();
+    let count = operation.strokes.count();
+    let first_ordinary = operation.schedule.plunge_count() + SEAM_STROKES;
+    let in_seam = |pass: u32| {
+        (pass >= operation.strokes.first_pass && pass != NO_PASS).then(|| {
+            let (stroke, _) = operation.strokes.stroke_and_blade(pass);
+            stroke < first_ordinary || stroke + SEAM_STROKES >= count
+        })
+    };
+    let highest = |seam: bool| {
+        extremes(
+            field,
+            |column| inside(field.columns[column].arc_mm),
+            |index| (in_seam(finished.passes[index]) == Some(seam)).then_some(finished.heights_mm[index]),
+        )
+        .map(|[_, high]| high)
+    };
+    let witness = highest(true).map(|seam| {
+        let rest_mm = highest(false).map_or(0.0, |rest| rest.value_mm);
+        Extreme { value_mm: (seam.value_mm - rest_mm).max(0.0), ..seam }
+    });
+    let profile_trace = Trace::along_profile(field, finished, middle);
+    let lead_arc_mm = pitch_arc_mm.unwrap_or(0.5 * (evaluated_mm[0] + evaluated_mm[1]));
+    let lead_column = (0..field.columns.len())
+        .min_by(|&a, &b| {
+            let distance = |column: usize| (field.columns[column].arc_mm - lead_arc_mm).abs();
+            distance(a).total_cmp(&distance(b))
+        })
+        .unwrap_or(0);
+    let lead_trace = Trace::along_tooth(field, finished, lead_column);
+    let (v_first, v_last) = (field.leads_mm[0], field.leads_mm[rows - 1]);
+    let v_margin = DEFAULT_MARGIN * (v_last - v_first);
+    let below_range = (0..field.columns.len())
+        .map(|column| {
+            let low = field.columns[column].low_mm as f32;
+            finished.column(column, rows).iter().filter(|&&h| h <= low).count() as u64
+        })
+        .sum();
+    FlankReport {
+        tooth: flank.tooth,
+        side: flank.side,
+        form: limit(0.0, flank.form_end),
+        tip: limit(length_mm, flank.tip_end),
+        length_mm,
+        evaluated_mm,
+        stock: layers[..layers.len() - 1].iter().map(|layer| stock(field, layer, finished)).collect(),
+        finished: evaluated,
+        undercut: deepest.filter(|low| low.value_mm < -RESOLUTION_MM),
+        profile: profile_trace.deviation(evaluated_mm),
+        lead: lead_trace.deviation([v_first + v_margin, v_last - v_margin]),
+        profile_trace,
+        lead_trace,
+        scallops,
+        witness,
+        below_range,
+        untouched: finished.passes.iter().filter(|&&pass| pass == NO_PASS).count() as u64,
+    }
+}

@@ -1,0 +1,161 @@
+//! The gear as a whole: allowances and unevenness of every operation, pitch and thickness, root stock, tip lands.
+//!
+//! In: the job, the flank reports. Out: [`GearReport`].
+
+use super::flank_report::FlankReport;
+use super::unevenness::{Surface, ToothAllowance, allowances, rack_allowance_mm};
+use crate::cut::Backend;
+use crate::error::Result;
+use crate::gear::PitchCurveShape;
+use crate::measure::crossing::Crossing;
+use crate::measure::deviation::{PitchDeviations, Runout, pitch, runout};
+use crate::measure::stock::{Stock, stock};
+use crate::measure::thickness::Thickness;
+use crate::process::shaping::Job;
+use crate::terms::Side;
+use rayon::prelude::*;
+
+/// Allowances of one operation over the finished gear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OperationAllowance {
+    /// Index of the operation.
+    pub operation: usize,
+    /// delta_d tan(alpha), mm.
+    pub rack_mm: f64,
+    /// In the limit of many strokes.
+    pub envelope: Vec<ToothAllowance>,
+    /// What the strokes leave.
+    pub strokes: Vec<ToothAllowance>,
+}
+
+/// Stock in one root.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RootReport {
+    /// Space, after the tooth of this number.
+    pub space: u32,
+    /// Stock of every operation but the last, on rays long enough.
+    pub stock: Vec<Option<Stock>>,
+}
+
+/// The gear, measured.
+#[derive(Debug)]
+pub struct GearReport {
+    /// Flanks, in order of teeth, left before right; those of an interrupted run only.
+    pub flanks: Vec<FlankReport>,
+    /// Roots, in order.
+    pub roots: Vec<RootReport>,
+    /// Tip land of each tooth, mm.
+    pub tip_lands_mm: Vec<f64>,
+    /// Allowances of every operation but the last.
+    pub allowances: Vec<OperationAllowance>,
+    /// Thickness of each tooth; `None` where a flank does not reach the pitch curve.
+    pub thickness: Vec<Option<Thickness>>,
+    /// Pitch deviations of left and right flanks.
+    pub pitch: [Option<PitchDeviations>; 2],
+    /// Radial places of a probe in the space after each tooth.
+    pub runout: Option<Runout>,
+    /// Teeth after which the pitch curve repeats.
+    pub period_teeth: u32,
+}
+
+/// Measures what belongs to the whole gear; `flanks` as far as they were cut.
+///
+/// # Errors
+/// The backend's, in the roots.
+pub fn measure(job: &Job, backend: &dyn Backend, flanks: Vec<FlankReport>) -> Result<GearReport> {
+    let teeth = job.scene.gear.teeth;
+    let last = job.operations.len() - 1;
+    let allowances: Vec<OperationAllowance> = (0..last)
+        .map(|operation| {
+            Ok(OperationAllowance {
+                operation,
+                rack_mm: rack_allowance_mm(job, operation),
+                envelope: allowances(job, operation, Surface::Envelope)?,
+                strokes: allowances(job, operation, Surface::Strokes)?,
+            })
+        })
+        .collect::<Result<_>>()?;
+    // B and C of any operation are the finished flanks; with one operation they are asked for alone.
+    let finished = match allowances.first() {
+        Some(first) => first.strokes.clone(),
+        None => super::unevenness::allowances(job, last, Surface::Strokes)?,
+    };
+    let thickness = finished.iter().map(|tooth| Some(Thickness::between(tooth.b?, tooth.c?))).collect();
+    let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
+    let deviations = |flank: fn(&ToothAllowance) -> Option<Crossing>| {
+        let crossings: Vec<_> = finished.iter().map(flank).collect();
+        pitch(&crossings, pitch_mm, job.curve.perimeter_mm())
+    };
+    let runout = {
+        let side = |flank: fn(&ToothAllowance) -> Option<Crossing>| finished.iter().map(flank).collect::<Vec<_>>();
+        runout(&job.curve, &side(|t| t.b), &side(|t| t.c), job.scene.gear.pressure_angle_rad)
+    };
+    let generation = job.target_generation();
+    let tip_lands_mm = (1..=teeth)
+        .into_par_iter()
+        .map(|tooth| {
+            let flank = |side| job.target_flank(&generation, tooth, side);
+            Ok(job.tip_land_mm(&flank(Side::Left)?, &flank(Side::Right)?))
+        })
+        .collect::<Result<_>>()?;
+    let roots = (1..=teeth)
+        .into_par_iter()
+        .map(|space| {
+            let cut = job.cut(backend, job.root_field(space))?;
+            let finished = &cut.layers[last];
+            let stock = cut.layers[..last].iter().map(|layer| stock(&cut.field, layer, finished)).collect();
+            Ok(RootReport { space, stock })
+        })
+        .collect::<Result<_>>()?;
+    Ok(GearReport {
+        flanks,
+        roots,
+        tip_lands_mm,
+        allowances,
+        thickness,
+        pitch: [deviations(|t| t.b), deviations(|t| t.c)],
+        runout,
+        period_teeth: period_teeth(&job.scene.gear.pitch_curve, teeth),
+    })
+}
+
+/// Teeth of one period: those of an n-th of the curve when n divides z, else all.
+fn period_teeth(shape: &PitchCurveShape, teeth: u32) -> u32 {
+    let order = match shape {
+        PitchCurveShape::Ellipse { order, .. }
+        | PitchCurveShape::SinusoidalRatio { order, .. }
+        | PitchCurveShape::Pascal { order, .. } => *order,
+        PitchCurveShape::Circle => teeth,
+        PitchCurveShape::Fourier { .. } | PitchCurveShape::Table { .. } => 1,
+        // Mate and driver repeat after the same arc.
+        PitchCurveShape::Mate { driver, .. } => return period_teeth(&driver.curve, driver.teeth),
+    };
+    if teeth.is_multiple_of(order.max(1)) { teeth / order.max(1) } else { teeth }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene;
+    use std::path::Path;
+
+    /// A round gear clamped off its axis by e and cut: a probe on the gear's own axis runs out by 2 e, and the left and right pitch errors swing with it.
+    #[test]
+    fn a_gear_cut_off_its_axis_runs_out_by_twice_the_eccentricity() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping/circular_m3_z24.toml");
+        let mut scene = scene::load(&path, &[]).expect("a shipped scene").scene;
+        let eccentricity_mm = 0.02;
+        scene.shaping_mut().expect("shaping").machine.work_eccentricity_mm = eccentricity_mm;
+        let job = Job::new(scene).expect("a gear");
+        let cut = allowances(&job, job.operations.len() - 1, Surface::Strokes).expect("all flanks");
+        let side = |flank: fn(&ToothAllowance) -> Option<Crossing>| cut.iter().map(flank).collect::<Vec<_>>();
+        let (left, right) = (side(|t| t.b), side(|t| t.c));
+        let alpha = job.scene.gear.pressure_angle_rad;
+        let runout = runout(&job.curve, &left, &right, alpha).expect("all cross");
+        // The space after the last tooth is centred on phi = 0, the side that the gear was shifted to, towards the cutter: it is cut deepest, and the probe lies deepest.
+        let innermost = runout.radial_mm.iter().copied().fold(f64::INFINITY, f64::min);
+        assert_eq!(runout.radial_mm.last(), Some(&innermost));
+        // Feed marks of 0.1 um and the second order in e / d are all that may be between.
+        assert!((runout.total_mm() - 2.0 * eccentricity_mm).abs() < 2e-4, "{} mm", runout.total_mm());
+    }
+}

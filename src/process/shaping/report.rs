@@ -1,0 +1,149 @@
+//! From a cut gear to the page that people open: which numbers, charts and maps stand on it, in which order.
+//!
+//! In: the job, what was cut, the findings. Out: a [`Page`]. Numbers come from the findings with their units and
+//! definitions; nothing is computed here that is not in a file beside the page.
+
+mod facts;
+mod stock;
+
+use crate::error::Result;
+use crate::findings::{self, Findings, Quantity};
+use crate::output::folder::OutputFolder;
+use crate::output::report::{Block, KeyNumber, Page, Section};
+use crate::output::text::{plain, significant};
+use crate::process::shaping::CutGear;
+use crate::process::shaping::Job;
+use crate::process::shaping::axes_report;
+use crate::process::shaping::measure::GearReport;
+use crate::steps::report::deviations::{Inspected, Inspection};
+use crate::steps::report::{
+    RunWords, deviations, key_number, known_first, maps, peak_table, record, texture, value_and_unit, warnings,
+};
+use std::f64::consts::PI;
+
+/// The page of a run.
+///
+/// # Errors
+/// No flank is generated on some tooth; a picture of the folder cannot be read back.
+pub fn page(job: &Job, cut: &CutGear, found: &Findings, run: &RunWords, folder: &OutputFolder) -> Result<Page> {
+    let mut sections = stock::section(job, found).into_iter().collect::<Vec<_>>();
+    let inspection = inspection(&cut.report, job.scene.gear.module_mm);
+    sections.push(deviations::section(&inspection));
+    sections.extend(texture::section(found, folder)?);
+    sections.push(motion(job, found));
+    sections.push(facts::section(job));
+    sections.push(record(cut.report.flanks.len(), &cut.stats, cut.dexels, run));
+    let operations = found.parts("operations");
+    Ok(Page {
+        title: job.scene.name.clone(),
+        subtitle: crate::steps::report::facts::gear_words(&job.scene.gear),
+        operations: operations.iter().map(|operation| operation_words(operation, operations.len())).collect(),
+        complete: found.complete,
+        program: format!("gearcut {}", found.program_version),
+        key_numbers: key_numbers(found),
+        warnings: warnings(found),
+        viewer: Some(maps::viewer(job, &cut.maps)?),
+        sections,
+    })
+}
+
+fn operation_words(operation: &findings::Section, count: usize) -> String {
+    let number = |key: &str| operation.number(key).unwrap_or(f64::NAN);
+    let offset = match number("offset") {
+        offset if offset.abs() < 1e-12 => "to the finished shape".to_owned(),
+        offset => format!("cutter held back by {} mm", plain(offset)),
+    };
+    format!(
+        "{}{}: {}, {offset}, {} strokes, {} mm circular feed per stroke",
+        operation.key,
+        if count == 1 { " (the only operation)" } else { "" },
+        operation.words("linkage"),
+        number("strokes"),
+        significant(number("circular_feed"), 3),
+    )
+}
+
+fn key_numbers(found: &Findings) -> Vec<KeyNumber> {
+    let missing = Quantity::undefined("1", "not among the findings of this run", "not among the findings of this run");
+    let of = |key: &str| found.headline(key).unwrap_or(&missing);
+    let card = |name: &str, key: &str| key_number(name, of(key));
+    let with_note = |number: KeyNumber, note: String| KeyNumber { note, ..number };
+    let mut numbers = vec![
+        card("Smallest normal stock", "smallest_normal_stock"),
+        card("Largest normal stock", "largest_normal_stock"),
+    ];
+    let mean = value_and_unit(of("unevenness_mean"));
+    let unevenness = card("Unevenness of the allowance, largest", "unevenness_max");
+    numbers.push(if of("unevenness_max").value().is_some() {
+        with_note(unevenness, format!("mean over the teeth {} %", mean.0))
+    } else {
+        unevenness
+    });
+    numbers.push(card("Highest scallop", "scallop_height"));
+    let deviations = [
+        ("Profile deviation Fα, largest", "profile_deviation"),
+        ("Single pitch deviation fp, largest", "single_pitch_deviation"),
+        ("Total pitch deviation Fp", "total_pitch_deviation"),
+        ("Runout Fr", "runout"),
+    ];
+    numbers.extend(deviations.map(|(name, key)| {
+        let found = found.find("deviations").and_then(|section| section.quantity(key));
+        key_number(name, found.unwrap_or(&missing))
+    }));
+    let thinnest = card("Thinnest tooth, arc", "smallest_tooth_thickness");
+    numbers.push(match (of("smallest_tooth_thickness").value(), of("largest_tooth_thickness").value()) {
+        (Some(low), Some(high)) => {
+            KeyNumber { value: format!("{low:.4}"), note: format!("thickest {high:.4} mm"), ..thinnest }
+        }
+        _ => thinnest,
+    });
+    numbers.extend([
+        card("Highest start of involute", "start_of_involute"),
+        card("Undercut flanks", "undercut_flanks"),
+        card("Narrowest tip land", "tip_land"),
+        card("Pointed teeth", "pointed_teeth"),
+        card("Witness mark", "witness_mark"),
+        with_note(card("Relief on the return stroke", "relief_ratio"), "of a circular gear's".to_owned()),
+        card("Reserve to the tightest axis limit", "axis_margin"),
+        card("Time of all strokes", "cycle_time"),
+    ]);
+    known_first(numbers)
+}
+
+fn motion(job: &Job, found: &Findings) -> Section {
+    let mut blocks = Vec::new();
+    for (index, operation) in found.parts("operations").iter().enumerate() {
+        blocks.push(Block::Heading(format!("{}: {}", operation.key, operation.words("linkage"))));
+        blocks.push(Block::Table(peak_table(operation)));
+        let mut charts = axes_report::charts(job, index).into_iter();
+        blocks.extend(charts.next().map(Block::Lines));
+        blocks.push(Block::Folded("Velocities, accelerations, relief".to_owned(), charts.map(Block::Lines).collect()));
+    }
+    Section {
+        id: "motion",
+        title: "Axis motion".to_owned(),
+        lead: "How the linkage moves the machine over one turn of the work, and what it asks of the axes.".to_owned(),
+        blocks,
+    }
+}
+
+/// What a gear inspector would find on a shaped gear of module `module_mm`.
+fn inspection(report: &GearReport, module_mm: f64) -> Inspection<'_> {
+    let standard_mm = 0.5 * PI * module_mm;
+    let flanks = report.flanks.iter().map(|flank| Inspected {
+        tooth: flank.tooth,
+        side: flank.side,
+        profile: (&flank.profile_trace, flank.profile),
+        lead: (&flank.lead_trace, flank.lead),
+    });
+    Inspection {
+        flanks: flanks.collect(),
+        pitch: &report.pitch,
+        runout: report.runout.as_ref(),
+        thickness_mm: report.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect(),
+        profile_place: "u from the form point (below) to the tip",
+        lead_place: "at the pitch curve",
+        lead_name: "Lead",
+        target: "the surface that the last operation would leave with infinitely many strokes and no error",
+    }
+}

@@ -1,0 +1,153 @@
+//! What earlier operations leave for the last one: normal stock, the allowances AB and CD, their unevenness.
+
+use crate::findings::{self, Findings};
+use crate::output::bar_chart::{BarChart, BarSeries};
+use crate::output::report::plot::{RangeChart, RangeSeries};
+use crate::output::report::{Block, Section, Table};
+use crate::output::text::significant;
+use crate::process::shaping::Job;
+
+/// The section; none if the scene has a single operation.
+pub fn section(job: &Job, found: &Findings) -> Option<Section> {
+    let finishing = &job.finishing().spec.name;
+    let earlier: Vec<&findings::Section> =
+        found.parts("operations").iter().filter(|operation| !stock_of_teeth(operation).is_empty()).collect();
+    let mut blocks = Vec::new();
+    for operation in &earlier {
+        if earlier.len() > 1 {
+            blocks.push(Block::Heading(format!("After {}", operation.key)));
+        }
+        blocks.extend(operation_blocks(operation, finishing));
+    }
+    (!blocks.is_empty()).then(|| Section {
+        id: "stock",
+        title: "Stock and allowance".to_owned(),
+        lead: format!(
+            "What is left for {finishing}. Stock is measured along the target's normal over whole flanks; AB (left flank) and CD (right flank) are chords on the pitch curve between the two operations."
+        ),
+        blocks,
+    })
+}
+
+fn stock_of_teeth(operation: &findings::Section) -> &[findings::Section] {
+    operation.find("teeth").map_or(&[], |teeth| &teeth.sections)
+}
+
+/// A column of the table of allowances.
+fn allowance(operation: &findings::Section, column: &str) -> Vec<Option<f64>> {
+    operation.table_of("allowance").map_or_else(Vec::new, |table| table.numbers(column).collect())
+}
+
+fn operation_blocks(operation: &findings::Section, finishing: &str) -> Vec<Block> {
+    let teeth = stock_of_teeth(operation);
+    let categories: Vec<String> = (1..=teeth.len()).map(|tooth| tooth.to_string()).collect();
+    let range = |name: &str, side: &str| RangeSeries {
+        name: name.to_owned(),
+        values: teeth
+            .iter()
+            .map(|tooth| {
+                let stock = tooth.find(side)?;
+                Some([stock.number("smallest")?, stock.number("mean")?, stock.number("largest")?])
+            })
+            .collect(),
+    };
+    let series = |name: &str, column: &str| BarSeries { name: name.to_owned(), values: allowance(operation, column) };
+    let bars = |title: String, value_name: &str, unit: &str, series: Vec<BarSeries>| {
+        Block::Bars(BarChart {
+            least_division: 0.0,
+            title,
+            category_name: "tooth".to_owned(),
+            categories: categories.clone(),
+            value_name: value_name.to_owned(),
+            unit: unit.to_owned(),
+            series,
+        })
+    };
+    let name = &operation.key;
+    let period = operation.table_of("allowance").and_then(|table| table.period_rows).unwrap_or(0);
+    vec![
+        Block::Ranges(RangeChart {
+            title: format!("Normal stock that {name} leaves for {finishing}, flank by flank"),
+            category_name: "tooth".to_owned(),
+            categories: categories.clone(),
+            unit: "mm".to_owned(),
+            series: vec![range("left flanks", "left"), range("right flanks", "right")],
+        }),
+        bars(
+            format!("Allowance on the pitch curve after {name}"),
+            "chord",
+            "mm",
+            vec![series("AB, left flank", "AB"), series("CD, right flank", "CD")],
+        ),
+        bars(
+            format!("Unevenness of the allowance after {name}"),
+            "|AB − CD| / mean of AB and CD",
+            "%",
+            vec![series("as cut", "unevenness_mean_denominator")],
+        ),
+        Block::Table(spread_table(operation)),
+        Block::Folded(
+            format!("Allowance tooth by tooth{}", period_words(period, teeth.len())),
+            vec![Block::Table(tooth_table(operation))],
+        ),
+    ]
+}
+
+fn period_words(period: u32, teeth: usize) -> String {
+    if period as usize == teeth { String::new() } else { format!(" (the pitch curve repeats every {period} teeth)") }
+}
+
+fn percent(value: Option<f64>) -> String {
+    // Below a billionth of a percent there is only rounding.
+    value.map_or_else(|| "–".to_owned(), |value| significant(if value < 1e-9 { 0.0 } else { value }, 4))
+}
+
+fn spread_table(operation: &findings::Section) -> Table {
+    let row = |name: &str, key: &str| {
+        let number = |of: &str| percent(operation.number(&format!("unevenness.{key}.{of}")));
+        vec![name.to_owned(), number("max"), number("mean")]
+    };
+    Table {
+        caption: "Unevenness by both definitions".to_owned(),
+        columns: ["Definition", "Largest [%]", "Mean [%]"].map(str::to_owned).into(),
+        rows: vec![
+            row("|AB − CD| / mean of AB and CD, as cut", "mean_denominator"),
+            row("|AB − CD| / mean of AB and CD, limit of many strokes", "envelope_mean_denominator"),
+            row("|AB − CD| / (δd tan α), as cut", "rack_denominator"),
+            row("|AB − CD| / (δd tan α), limit of many strokes", "envelope_rack_denominator"),
+        ],
+    }
+}
+
+fn tooth_table(operation: &findings::Section) -> Table {
+    let mm = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.4}"));
+    let [ab, cd, unevenness] = ["AB", "CD", "unevenness_mean_denominator"].map(|column| allowance(operation, column));
+    let rows = stock_of_teeth(operation).iter().enumerate().map(|(row, tooth)| {
+        let of = |values: &[Option<f64>]| values.get(row).copied().flatten();
+        vec![
+            (row + 1).to_string(),
+            mm(tooth.number("left.smallest")),
+            mm(tooth.number("left.largest")),
+            mm(tooth.number("right.smallest")),
+            mm(tooth.number("right.largest")),
+            mm(of(&ab)),
+            mm(of(&cd)),
+            percent(of(&unevenness)),
+        ]
+    });
+    let columns = [
+        "Tooth",
+        "Left, smallest [mm]",
+        "Left, largest [mm]",
+        "Right, smallest [mm]",
+        "Right, largest [mm]",
+        "AB [mm]",
+        "CD [mm]",
+        "Unevenness [%]",
+    ];
+    Table {
+        caption: "Stock and allowance of each tooth".to_owned(),
+        columns: columns.map(str::to_owned).into(),
+        rows: rows.collect(),
+    }
+}

@@ -1,0 +1,302 @@
+//! Chip tables, charts over the work angle, and maps of uncut chip thickness.
+//!
+//! Out, per operation: `tables/chips_<operation>.csv` (one row per stroke), `chips/<operation>_load.{png,svg}` and `_chips.{png,svg}` (line charts),
+//! `chips/<operation>_thickness_by_stroke.{png,exr}` and `_thickness_by_space.{png,exr}`.
+
+use crate::colormap::ColourScale;
+use crate::error::Result;
+use crate::output::atomic::file_error;
+use crate::output::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
+use crate::output::folder::OutputFolder;
+use crate::output::grid::{MapAxis, MapGrid};
+use crate::output::line_chart::{LineChart, LineSeries, Panel};
+use crate::output::map_png::{MapPicture, write_map_png};
+use crate::output::table::{Cell, write_table};
+use crate::output::text::significant;
+use crate::process::shaping::Job;
+use crate::process::shaping::chips::edge_polygon::EdgeSide;
+use crate::process::shaping::chips::{ChipLedger, StrokeChips, ThicknessMap};
+use crate::units::UM_PER_MM;
+
+/// Charts and colours end at this many times the 90th percentile: first strokes into the full blank would flatten everything else.
+const SHOWN_OVER_Q90: f64 = 2.0;
+
+/// A curve of a chart: its name and its value at a stroke.
+type Curve<'a> = (&'a str, &'a dyn Fn(&StrokeChips) -> f64);
+
+/// Writes the tables of all operations.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_tables(job: &Job, ledger: &ChipLedger, folder: &OutputFolder) -> Result<()> {
+    job.operations.iter().enumerate().try_for_each(|(index, operation)| {
+        let path = folder.path(format!("tables/chips_{}.csv", operation.spec.name))?;
+        write_chip_table(job, ledger, index, &path)
+    })
+}
+
+/// Writes charts and maps of all operations; `notes` go into the EXR headers.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_charts_and_maps(
+    job: &Job,
+    ledger: &ChipLedger,
+    folder: &OutputFolder,
+    notes: &[(String, String)],
+) -> Result<()> {
+    for (index, operation) in job.operations.iter().enumerate() {
+        let name = &operation.spec.name;
+        for (what, chart) in charts(job, ledger, index) {
+            chart.write_png(&folder.path(format!("chips/{name}_{what}.png"))?)?;
+            chart.write_svg(&folder.path(format!("chips/{name}_{what}.svg"))?)?;
+        }
+        let chips = &ledger.operations[index];
+        let feed_mm = operation.schedule.circular_feed_mm_per_stroke();
+        let by_stroke = MapAxis {
+            name: "feed".into(),
+            meaning: format!("mean arc of pitch curve; one stroke is {} mm", significant(feed_mm, 4)),
+            start_mm: 0.5 * (chips.by_stroke.per_row - 1.0) * feed_mm,
+            step_mm: chips.by_stroke.per_row * feed_mm,
+            count: chips.by_stroke.rows,
+        };
+        let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
+        let by_space = MapAxis {
+            name: "space".into(),
+            meaning: format!("mean arc of pitch curve; space j stands at j times {} mm", significant(pitch_mm, 4)),
+            start_mm: pitch_mm,
+            step_mm: pitch_mm,
+            count: chips.by_space.rows,
+        };
+        for (what, axis, map) in [("stroke", by_stroke, &chips.by_stroke), ("space", by_space, &chips.by_space)] {
+            let stem = format!("chips/{name}_thickness_by_{what}");
+            let title = format!("{name}: uncut chip thickness by tooth {what} and place of the edge");
+            let title = if what == "stroke" { title.replace("tooth stroke", "stroke") } else { title };
+            write_map(ledger, map, axis, &title, &stem, folder, notes)?;
+        }
+    }
+    Ok(())
+}
+
+fn write_chip_table(job: &Job, ledger: &ChipLedger, operation: usize, path: &std::path::Path) -> Result<()> {
+    let columns = [
+        "stroke",
+        "time_s",
+        "work_angle_deg",
+        "chips",
+        "two_flank_chips",
+        "three_flank_chips",
+        "space",
+        "cutter_tooth",
+        "section_mm2",
+        "volume_mm3",
+        "largest_chip_section_mm2",
+        "contact_right_mm",
+        "contact_tip_mm",
+        "contact_left_mm",
+        "mean_thickness_um",
+        "largest_thickness_right_um",
+        "largest_thickness_tip_um",
+        "largest_thickness_left_um",
+        "cutting_force_N",
+        "radial_force_N",
+        "tangential_force_N",
+        "work_torque_Nm",
+        "cutter_torque_Nm",
+        "removal_rate_cm3_per_min",
+    ];
+    let schedule = &job.operations[operation].schedule;
+    let width_mm = job.scene.gear.face_width_mm;
+    let per_minute = job.machine.double_strokes_per_minute;
+    let rows = ledger.operations[operation].strokes.iter().enumerate().map(|(index, s)| {
+        let whole = |value: u32| Cell::from(value);
+        let of_busy = |value: u32| if s.is_idle() { Cell::Empty } else { Cell::from(value) };
+        let contact_mm = s.contact_length_mm();
+        let mut row = vec![
+            Cell::Whole(i64::try_from(index).unwrap_or(i64::MAX)),
+            schedule.time_s(index as f64).into(),
+            schedule.state(index as f64).psi_c_rad.to_degrees().into(),
+            whole(s.chips),
+            whole(s.two_flank),
+            whole(s.three_flank),
+            of_busy(s.space),
+            of_busy(s.blade),
+            s.area_mm2.into(),
+            (s.area_mm2 * width_mm).into(),
+            s.largest_mm2.into(),
+        ];
+        row.extend(s.contact_mm.map(Cell::from));
+        row.push((contact_mm > 0.0).then(|| s.area_mm2 / contact_mm * UM_PER_MM).into());
+        row.extend(s.thickest_mm.map(|h| Cell::from(h * UM_PER_MM)));
+        row.extend(
+            [s.cutting_n, s.radial_n, s.tangential_n, s.work_torque_nmm / 1e3, s.cutter_torque_nmm / 1e3]
+                .map(Cell::from),
+        );
+        row.push((s.area_mm2 * width_mm * per_minute / 1e3).into());
+        row
+    });
+    write_table(path, &columns, rows)
+}
+
+fn charts(job: &Job, ledger: &ChipLedger, operation: usize) -> [(&'static str, LineChart); 2] {
+    let strokes = &ledger.operations[operation].strokes;
+    let schedule = &job.operations[operation].schedule;
+    let angles_deg: Vec<f64> =
+        (0..strokes.len()).map(|stroke| schedule.state(stroke as f64).psi_c_rad.to_degrees()).collect();
+    let panel = |what: &str, unit: &str, curves: &[Curve]| {
+        let values: Vec<Vec<f64>> = curves.iter().map(|(_, value)| strokes.iter().map(value).collect()).collect();
+        let end = shown_end(values.iter().flatten().map(|v| v.abs()));
+        let beyond = (0..strokes.len()).filter(|&i| values.iter().any(|v| v[i].abs() > end)).count();
+        let largest = values.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let note = match beyond {
+            0 => String::new(),
+            1 => format!(" (1 stroke of {} {unit} not shown)", significant(largest, 3)),
+            _ => format!(" ({beyond} strokes up to {} {unit} not shown)", significant(largest, 3)),
+        };
+        let series = curves.iter().zip(&values).enumerate().map(|(index, ((name, _), values))| {
+            let shown = |&value: &f64| if value.abs() > end { f64::NAN } else { value };
+            let points = angles_deg.iter().copied().zip(values.iter().map(shown)).collect();
+            LineSeries { name: format!("{name}{}", if index == 0 { note.as_str() } else { "" }), points }
+        });
+        Panel {
+            least_division: 0.0,
+            value_name: what.to_owned(),
+            unit: unit.to_owned(),
+            series: series.collect(),
+            limits: Vec::new(),
+        }
+    };
+    let chart = |what: &str, panels: Vec<Panel>| LineChart {
+        title: format!("{} of {}: {what}", job.operations[operation].spec.name, job.scene.name),
+        x_name: "work angle ψc".to_owned(),
+        x_unit: "°".to_owned(),
+        panels,
+    };
+    let side = |side: EdgeSide| move |s: &StrokeChips| s.thickest_mm[side as usize] * UM_PER_MM;
+    let contact = |side: EdgeSide| move |s: &StrokeChips| s.contact_mm[side as usize];
+    let [right, tip, left] = EdgeSide::ALL;
+    [
+        (
+            "load",
+            chart(
+                "chip section, forces and torques per stroke",
+                vec![
+                    panel(
+                        "chip section",
+                        "mm²",
+                        &[("all chips", &|s| s.area_mm2), ("largest chip", &|s| s.largest_mm2)],
+                    ),
+                    panel(
+                        "force",
+                        "N",
+                        &[
+                            ("cutting force", &|s| s.cutting_n),
+                            ("radial, on the tool", &|s| s.radial_n),
+                            ("tangential, on the tool", &|s| s.tangential_n),
+                        ],
+                    ),
+                    panel(
+                        "torque",
+                        "N m",
+                        &[
+                            ("work spindle", &|s| s.work_torque_nmm / 1e3),
+                            ("cutter spindle", &|s| s.cutter_torque_nmm / 1e3),
+                        ],
+                    ),
+                ],
+            ),
+        ),
+        (
+            "chips",
+            chart(
+                "chips along the edge per stroke",
+                vec![
+                    panel(
+                        "largest thickness",
+                        "µm",
+                        &[("tip", &side(tip)), ("left flank", &side(left)), ("right flank", &side(right))],
+                    ),
+                    panel(
+                        "contact length",
+                        "mm",
+                        &[("tip", &contact(tip)), ("left flank", &contact(left)), ("right flank", &contact(right))],
+                    ),
+                    panel("in the cut", "teeth", &[("cutter teeth that cut", &|s| f64::from(s.chips))]),
+                ],
+            ),
+        ),
+    ]
+}
+
+/// Where a scale ends: beyond it lie only outliers.
+fn shown_end(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.filter(|v| *v > 0.0).collect();
+    values.sort_unstable_by(f64::total_cmp);
+    match values.len() {
+        0 => f64::INFINITY,
+        n => {
+            let end = SHOWN_OVER_Q90 * values[(n - 1) * 9 / 10];
+            if values[n - 1] <= 1.5 * end { f64::INFINITY } else { end }
+        }
+    }
+}
+
+fn write_map(
+    ledger: &ChipLedger,
+    map: &ThicknessMap,
+    rows: MapAxis,
+    title: &str,
+    stem: &str,
+    folder: &OutputFolder,
+    notes: &[(String, String)],
+) -> Result<()> {
+    // Stations are nearly, not quite, evenly spaced: every place of the map takes the one nearest to it.
+    let stations = &ledger.stations;
+    let half_mm = stations.iter().map(|s| s.arc_mm).fold(0.0, f64::max);
+    let count = 2 * (half_mm / ledger.spacing_mm).floor() as usize + 1;
+    let edge = MapAxis {
+        name: "edge".into(),
+        meaning: "along the cutter tooth's edge from the middle of its tip, left flank positive".into(),
+        start_mm: -((count / 2) as f64) * ledger.spacing_mm,
+        step_mm: ledger.spacing_mm,
+        count,
+    };
+    let nearest: Vec<usize> = (0..count)
+        .map(|i| {
+            let at_mm = edge.place_mm(i);
+            let after = stations.partition_point(|s| s.arc_mm < at_mm).min(stations.len() - 1);
+            let before = after.saturating_sub(1);
+            if at_mm - stations[before].arc_mm < stations[after].arc_mm - at_mm { before } else { after }
+        })
+        .collect();
+    let thickness_mm: Vec<f32> = map
+        .thickness_mm
+        .chunks(stations.len())
+        .flat_map(|row| nearest.iter().map(|&station| if row[station] > 0.0 { row[station] } else { f32::NAN }))
+        .collect();
+    let grid = MapGrid { u: rows, v: edge };
+    let um: Vec<f32> = thickness_mm.iter().map(|h| h * UM_PER_MM as f32).collect();
+    let mut high = shown_end(um.iter().filter(|h| h.is_finite()).map(|&h| f64::from(h)));
+    if !high.is_finite() {
+        high = um.iter().copied().filter(|h| h.is_finite()).fold(1.0, f32::max).into();
+    }
+    let picture = MapPicture {
+        missing: "no chip here",
+        title,
+        quantity: "uncut chip thickness, largest of cell",
+        unit: "µm",
+        grid: &grid,
+        values: &um,
+        scale: ColourScale::Sequential { low: 0.0, high: high as f32 },
+    };
+    write_map_png(&folder.path(format!("{stem}.png"))?, &picture)?;
+    let channels = vec![MapChannel {
+        name: "thickness_mm".into(),
+        unit: "mm".into(),
+        definition: "largest uncut chip thickness of all cutter teeth; NaN where nothing is cut".into(),
+        samples: Samples::F32(thickness_mm),
+    }];
+    let frame = "edge frame of a cutter tooth: v = arc along the edge from the middle of the tip, left flank positive; u = feed".to_owned();
+    let map = ExrMap { grid, frame, channels, notes: notes.to_vec() };
+    write_exr_map(&folder.path(format!("{stem}.exr"))?, &map).map_err(file_error)
+}

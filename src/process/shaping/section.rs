@@ -1,0 +1,182 @@
+//! The transverse section of the work while it is being cut, and the cutter, as bodies for pictures.
+//!
+//! In: a job and a number of strokes. Out: the blank after exactly these strokes, none left out: a blank field of one
+//! slice, which is the whole face, cut in the pose of every stroke when the middle of the face is cut. It serves the
+//! pictures of the cut as it happens; what is measured comes from the fields of the whole job, in which the feed may go
+//! on during a stroke.
+//!
+//! Chords of the drawn cutter lie within `CHORD_MM` of its edge, far below a pixel.
+
+use crate::cut::BlankOperation;
+use crate::cut::cpu::blank;
+use crate::dexel::{BlankField, BlankGrid};
+use crate::error::Refusal;
+use crate::frame::Rigid2;
+use crate::gear::blank_outline::BlankOutline;
+use crate::passes::StrokeSet;
+use crate::passes::planar::strokes::{StrokeLaw, cubic_through};
+use crate::process::shaping::Job;
+use crate::surface::BlankMesh;
+use crate::surface::mesh::{Mesh, Part};
+use crate::surface::plane_area::{sides_of_contours, triangles_inside};
+use crate::tool::edge::SegmentShape;
+use crate::tool::{CuttingTool, PlanarTool};
+use glam::DVec2;
+use std::f64::consts::TAU;
+
+/// Largest distance between chords and the cutter's edge, mm.
+const CHORD_MM: f64 = 2e-3;
+/// Corners of the drawn cutter's bore.
+const BORE_CORNERS: usize = 96;
+
+/// Section that grows smaller stroke by stroke.
+#[derive(Debug)]
+pub struct Section<'a> {
+    job: &'a Job,
+    /// One slice over the whole face.
+    field: BlankField,
+    /// Strokes that have been cut, over all operations.
+    done: usize,
+}
+
+impl<'a> Section<'a> {
+    /// The uncut blank, with rays as far apart as in the scene's blank field.
+    ///
+    /// # Errors
+    /// A field that does not fit in memory.
+    pub fn new(job: &'a Job) -> Result<Self, Refusal> {
+        let outline = BlankOutline::new(&job.blank);
+        let gear = &job.scene.gear;
+        let spacing_mm = job.scene.fields.blank_spacing_mm;
+        let grid = BlankGrid::new(&job.blank, &outline, gear.face_width_mm, spacing_mm, None)?;
+        let field = BlankField::new(grid, &outline, 0.5 * gear.bore_diameter_mm);
+        Ok(Self { job, field, done: 0 })
+    }
+
+    /// Strokes of all operations together.
+    pub fn strokes(job: &Job) -> usize {
+        job.operations.iter().map(|operation| operation.strokes.count()).sum()
+    }
+
+    /// Operation and stroke of a stroke counted over all operations.
+    pub fn operation_and_stroke(job: &Job, stroke: usize) -> (usize, usize) {
+        let mut rest = stroke;
+        for (index, operation) in job.operations.iter().enumerate() {
+            if rest < operation.strokes.count() {
+                return (index, rest);
+            }
+            rest -= operation.strokes.count();
+        }
+        let last = job.operations.len() - 1;
+        (last, job.operations[last].strokes.count() - 1)
+    }
+
+    /// Where the cutter stands in the work at a stroke, at the moment when the middle of the face is cut.
+    pub fn work_from_tool(job: &Job, stroke: usize) -> Rigid2 {
+        let (operation, stroke) = Self::operation_and_stroke(job, stroke);
+        let poses = job.operations[operation].strokes.poses(stroke);
+        let middle = |pick: fn(&Rigid2) -> f64| cubic_through(&poses.iter().map(pick).collect::<Vec<_>>())[0];
+        Rigid2 {
+            rotation: DVec2::new(middle(|p| p.rotation.x), middle(|p| p.rotation.y)),
+            translation_mm: DVec2::new(middle(|p| p.translation_mm.x), middle(|p| p.translation_mm.y)),
+        }
+    }
+
+    /// Cuts all strokes before stroke `until`.
+    pub fn advance(&mut self, until: usize) {
+        let reach_mm = BlankOutline::new(&self.job.blank).reach_mm();
+        let (cutter, first) = (&self.job.cutter, self.done);
+        let count = until.saturating_sub(first);
+        let first_pass = first as u32 * cutter.blade_count();
+        let strokes = StrokeSet::new(first_pass, cutter, StrokeLaw::Frozen, count, |stroke| {
+            Self::work_from_tool(self.job, first + stroke as usize)
+        });
+        let tooth = self.job.closed_tooth(&strokes, reach_mm);
+        let operation = BlankOperation {
+            strokes: &strokes,
+            returns: None,
+            tool: cutter,
+            tooth: &tooth,
+            blank_reach_mm: reach_mm,
+            cull: true,
+        };
+        // The field is what is asked for; nothing stops this, and what each pass removed is not needed.
+        let _removed = blank::cut(&mut self.field, &operation, &|| true);
+        self.done = first + count;
+    }
+
+    /// Area of the section, mm^2: the mean of both families of rays.
+    pub fn area_mm2(&self) -> f64 {
+        let [x, y] = self.field.areas_mm2()[0];
+        0.5 * (x + y)
+    }
+
+    /// The section as a body over the whole face, turned by an angle about the gear's axis.
+    pub fn solid(&self, turn: DVec2) -> Mesh {
+        let mut mesh = BlankMesh::new(&self.field, None).mesh;
+        for position in &mut mesh.positions_mm {
+            *position = turn.rotate(position.truncate()).extend(position.z);
+        }
+        mesh
+    }
+}
+
+/// The whole cutter as a body between two heights, placed in the plane.
+pub fn cutter_solid(job: &Job, [low_mm, high_mm]: [f64; 2], place: &Rigid2) -> Mesh {
+    let tooth = tooth_edge(job);
+    // Teeth one after the other round the axis.
+    let mut points_mm: Vec<DVec2> = (0..job.cutter.blade_count())
+        .flat_map(|blade| {
+            let tool_from_blade = job.cutter.tool_from_blade(blade);
+            tooth.iter().map(move |&p| tool_from_blade.point(p))
+        })
+        .collect();
+    let lengths = [points_mm.len(), BORE_CORNERS];
+    let bore_mm = 0.35 * job.cutter.pitch_radius_mm;
+    let corner = |i: usize| bore_mm * DVec2::from_angle(TAU * i as f64 / BORE_CORNERS as f64);
+    points_mm.extend((0..BORE_CORNERS).rev().map(corner));
+    for point in &mut points_mm {
+        *point = place.point(*point);
+    }
+    prism(&points_mm, &sides_of_contours(&lengths), [low_mm, high_mm])
+}
+
+/// The edge of one tooth from its right root to its left one; blade frame.
+fn tooth_edge(job: &Job) -> Vec<DVec2> {
+    let mut contour = Vec::new();
+    for segment in &job.cutter.edge().segments {
+        let [from, to] = segment.y_range_mm;
+        let x = |y: f64| match &segment.shape {
+            SegmentShape::Table(table) => table.x_and_slope(y)[0],
+            SegmentShape::Arc { radius_mm } => (radius_mm * radius_mm - y * y).max(0.0).sqrt() - radius_mm,
+        };
+        // A chord of 1/n of the segment bulges by 1/n^2 of what the whole segment bulges over its own chord.
+        let bulge_mm = (1..8).map(|i| (x(from + (to - from) * f64::from(i) / 8.0) - x(from)).abs()).fold(0.0, f64::max);
+        let count = (bulge_mm / CHORD_MM).sqrt().ceil().max(1.0);
+        contour.extend((0..count as u32).map(|i| {
+            let y = from + (to - from) * f64::from(i) / count;
+            segment.blade_from_segment.point(DVec2::new(x(y), y))
+        }));
+    }
+    contour
+}
+
+/// Walls and two ends over the sides of contours (outer ones counter-clockwise, holes clockwise).
+fn prism(points_mm: &[DVec2], sides: &[[usize; 2]], ends_mm: [f64; 2]) -> Mesh {
+    let total = points_mm.len() as u32;
+    let positions_mm = ends_mm.iter().flat_map(|&z| points_mm.iter().map(move |p| p.extend(z))).collect();
+    let mut triangles: Vec<[u32; 3]> = Vec::new();
+    for side in sides {
+        let [a, b] = side.map(|i| i as u32);
+        triangles.extend([[a, b, b + total], [a, b + total, a + total]]);
+    }
+    let walls = triangles.len();
+    // Contours that cross have no ends; the chord between two teeth is far longer than pitch errors.
+    for triangle in triangles_inside(points_mm, sides).unwrap_or_default() {
+        let [a, b, c] = triangle.map(|i| i as u32);
+        triangles.extend([[a, c, b], [a + total, b + total, c + total]]);
+    }
+    let part = |name: &str, triangles| Part { name: name.to_owned(), triangles, measured: false };
+    let parts = vec![part("wall", 0..walls), part("ends", walls..triangles.len())];
+    Mesh { positions_mm, triangles, parts, ..Mesh::default() }
+}

@@ -1,0 +1,332 @@
+//! Target flanks and roots: the curves that dexels stand on.
+//!
+//! The target is the envelope of the finishing operation ([`Generation`]) as a curve in the transverse plane with arc length, normal and polar angle. A flank runs from its **form
+//! point** (where the cutter's involute ends at its tip corner, or where the envelope turns back: undercut) to its **tip** (the blank's outline, the end of the cutter's involute near its base, or the
+//! point where both flanks meet). A root runs from the left flank of its space over the tip corners' fillets to the right one.
+
+use super::generation::{FlankContact, Generation};
+use crate::error::Refusal;
+use crate::gear::blank::Blank;
+use crate::math::newton::{LastStep, newton_within};
+use crate::math::roots::{halve, regula_falsi};
+use crate::terms::Side;
+use glam::DVec2;
+use std::f64::consts::PI;
+
+/// A length of profile is met if no more than this is missing, mm; Newton steps to it before its panel is halved.
+const ARC_MM: f64 = 1e-13;
+const ARC_STEPS: u32 = 8;
+/// A height is met if no more than this is missing, mm.
+const HEIGHT_MM: f64 = 1e-12;
+/// Panels of the arc length of one flank; five Gauss points each leave the error far below a picometre.
+const PANELS: usize = 48;
+/// Nodes and weights of the five-point Gauss-Legendre rule on [-1, 1].
+const GAUSS: [(f64, f64); 5] = [
+    (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
+    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+    (0.0, 0.568_888_888_888_888_9),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_08),
+];
+
+/// Why a flank ends where it does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FlankEnd {
+    /// At the tip corner of the cutter: the ordinary start of the involute.
+    CutterCorner,
+    /// The envelope turns back: undercut.
+    Undercut,
+    /// At the blank's outline: the ordinary tip.
+    BlankOutline,
+    /// At the lower end of the cutter's involute: the rest of the tip is cut by the cutter's base.
+    CutterBase,
+    /// Where both flanks of the tooth meet: a pointed tooth.
+    PointedTip,
+}
+
+/// Flank of one gear tooth as finishing leaves it in the limit of many strokes.
+#[derive(Debug, Clone)]
+pub struct TargetFlank<'a> {
+    /// Gear tooth, counted from 1 at the first tooth of positive polar angle.
+    pub tooth: u32,
+    /// Which of its flanks.
+    pub side: Side,
+    /// Why it starts at its form point.
+    pub form_end: FlankEnd,
+    /// Why it ends at its tip.
+    pub tip_end: FlankEnd,
+    generation: &'a Generation<'a>,
+    space: i64,
+    /// Polar angle of the form point.
+    phi_form: f64,
+    /// Polar angle of the tip.
+    phi_tip: f64,
+    /// Arc length at the panel ends, from the form point.
+    arcs_mm: Vec<f64>,
+    /// Speed of the contact (mm per rad of phi) in every panel.
+    speeds: Vec<PanelSpeed>,
+}
+
+/// Speed in one panel as the quartic through its five Gauss points, in Legendre polynomials of x = -1 to 1: its integral is the Gauss rule's at x = 1 and as
+/// accurate in between, so places on the flank are found from arcs without going back to the meshing condition.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct PanelSpeed([f64; 5]);
+
+impl PanelSpeed {
+    /// From the speed at x.
+    fn new(speed: impl Fn(f64) -> f64) -> Self {
+        let mut coefficients = [0.0; 5];
+        for (node, weight) in GAUSS {
+            let value = weight * speed(node);
+            for (k, (c, p)) in coefficients.iter_mut().zip(legendre(node)).enumerate() {
+                *c += (k as f64 + 0.5) * value * p;
+            }
+        }
+        Self(coefficients)
+    }
+
+    /// Speed at x, and its integral from -1 to x.
+    fn at(&self, x: f64) -> [f64; 2] {
+        let p = legendre(x);
+        let value = self.0.iter().zip(p).map(|(c, p)| c * p).sum();
+        let higher = (1..5).map(|k| self.0[k] * (p[k + 1] - p[k - 1]) / (2 * k + 1) as f64);
+        [value, self.0[0] * (x + 1.0) + higher.sum::<f64>()]
+    }
+}
+
+/// Legendre polynomials of degree 0 to 5.
+fn legendre(x: f64) -> [f64; 6] {
+    let mut p = [1.0, x, 0.0, 0.0, 0.0, 0.0];
+    for k in 1..5 {
+        let n = k as f64;
+        p[k + 1] = ((2.0 * n + 1.0) * x * p[k] - n * p[k - 1]) / (n + 1.0);
+    }
+    p
+}
+
+/// Tooth space that a flank belongs to: tooth j lies between spaces j - 1 and j.
+fn space_of(tooth: u32, side: Side) -> i64 {
+    i64::from(tooth) - i64::from(side == Side::Right)
+}
+
+impl<'a> TargetFlank<'a> {
+    /// Target flank of a tooth; `tip_height_mm` may lower the tip (pointed teeth).
+    ///
+    /// # Errors
+    /// No involute is generated at all (the cutter undercuts the whole flank).
+    pub fn new(
+        generation: &'a Generation<'a>,
+        blank: &Blank,
+        tooth: u32,
+        side: Side,
+        tip_height_mm: Option<f64>,
+    ) -> Result<Self, Refusal> {
+        let space = space_of(tooth, side);
+        let contact = |phi: f64| generation.flank_contact(phi, space, side);
+        let [roll_start, roll_end] = generation.cutter.roll_range;
+        let curve = generation.linkage.curve();
+        let module_mm = curve.perimeter_mm() / (PI * f64::from(curve_teeth(generation)));
+        let pitch_arc_mm = PI * module_mm;
+        let phi_space = curve.phi_at_arc(space as f64 * pitch_arc_mm);
+        let nothing = |what: &str| {
+            Refusal::new(
+                "tool.shaper_cutter",
+                format!("no flank is generated on tooth {tooth} {}: {what}", side.name()),
+                "use a cutter with fewer teeth or a smaller addendum_coefficient, or a pitch curve with a larger smallest radius",
+            )
+        };
+        // A place on the generated flank to start from: the pitch crossing lies a quarter pitch beside the space's middle, contact is near it.
+        let step = pitch_arc_mm / curve.frame(phi_space).arc_rate_mm_per_rad / 64.0;
+        let roll_pitch = 0.5 * (roll_start + roll_end);
+        let start = (-128..=128)
+            .filter_map(|i| contact(phi_space + step * f64::from(i)))
+            .filter(|c| c.roll > roll_start && c.roll < roll_end)
+            .min_by(|a, b| (a.roll - roll_pitch).abs().total_cmp(&(b.roll - roll_pitch).abs()))
+            .ok_or_else(|| nothing("the cutter's involute touches nothing there"))?;
+        let forward = start.speed_mm_per_rad.signum();
+        let towards_form = start.roll_rate.signum();
+        let sound = |c: &FlankContact| c.speed_mm_per_rad * forward > 0.0;
+
+        let (phi_form, form_end) = {
+            let inside = |phi: f64| contact(phi).is_some_and(|c| c.roll < roll_end && sound(&c));
+            let phi =
+                boundary(start.phi_rad, towards_form * step, inside).ok_or_else(|| nothing("it has no root end"))?;
+            let undercut = contact(phi).is_none_or(|c| c.roll < roll_end - 1e-9);
+            (phi, if undercut { FlankEnd::Undercut } else { FlankEnd::CutterCorner })
+        };
+        let (phi_tip, tip_end) = {
+            let top_mm = tip_height_mm.unwrap_or(blank.addendum_mm).min(blank.addendum_mm);
+            let height = |c: &FlankContact| blank.height(c.point_mm, c.phi_rad).0;
+            let inside =
+                |phi: f64| contact(phi).is_some_and(|c| c.roll > roll_start && sound(&c) && height(&c) < top_mm);
+            let phi = boundary(start.phi_rad, -towards_form * step, inside).ok_or_else(|| nothing("it has no tip"))?;
+            let end = contact(phi);
+            let end = match end {
+                Some(c) if height(&c) >= top_mm - 1e-6 => {
+                    if tip_height_mm.is_some() {
+                        FlankEnd::PointedTip
+                    } else {
+                        FlankEnd::BlankOutline
+                    }
+                }
+                Some(c) if c.roll <= roll_start + 1e-9 => FlankEnd::CutterBase,
+                _ => FlankEnd::Undercut,
+            };
+            (phi, end)
+        };
+        let mut flank = Self {
+            tooth,
+            side,
+            form_end,
+            tip_end,
+            generation,
+            space,
+            phi_form,
+            phi_tip,
+            arcs_mm: vec![0.0],
+            speeds: Vec::with_capacity(PANELS),
+        };
+        for panel in 0..PANELS {
+            let speed = PanelSpeed::new(|x| flank.contact(flank.phi_in_panel(panel, x)).speed_mm_per_rad.abs());
+            flank.arcs_mm.push(flank.arcs_mm[panel] + flank.half_panel_rad().abs() * speed.at(1.0)[1]);
+            flank.speeds.push(speed);
+        }
+        Ok(flank)
+    }
+
+    /// Length from form point to tip, mm.
+    pub fn length_mm(&self) -> f64 {
+        self.arcs_mm[PANELS]
+    }
+
+    /// Contact at a polar angle between form point and tip.
+    fn contact(&self, phi_rad: f64) -> FlankContact {
+        self.generation
+            .flank_contact(phi_rad, self.space, self.side)
+            .expect("contact exists between form point and tip")
+    }
+
+    fn half_panel_rad(&self) -> f64 {
+        0.5 * (self.phi_tip - self.phi_form) / PANELS as f64
+    }
+
+    /// Polar angle at x = -1 to 1 in a panel.
+    fn phi_in_panel(&self, panel: usize, x: f64) -> f64 {
+        self.phi_form + self.half_panel_rad() * (2.0 * panel as f64 + 1.0 + x)
+    }
+
+    /// Contact at an arc length from the form point (clamped to the flank).
+    pub fn at_arc(&self, arc_mm: f64) -> FlankContact {
+        let arc_mm = arc_mm.clamp(0.0, self.length_mm());
+        let panel = self.arcs_mm.partition_point(|&a| a <= arc_mm).clamp(1, PANELS) - 1;
+        let [start_mm, end_mm] = [self.arcs_mm[panel], self.arcs_mm[panel + 1]];
+        let half = self.half_panel_rad().abs();
+        let start = 2.0 * (arc_mm - start_mm) / (end_mm - start_mm) - 1.0;
+        let x = newton_within(start, [start.min(-1.0), start.max(1.0)], LastStep::default(), ARC_STEPS, |x| {
+            let [speed, integral] = self.speeds[panel].at(x);
+            let missing_mm = arc_mm - start_mm - half * integral;
+            [missing_mm, if missing_mm.abs() < ARC_MM { 0.0 } else { missing_mm / (half * speed) }]
+        });
+        self.contact(self.phi_in_panel(panel, x))
+    }
+
+    /// Contact where the flank crosses a height over the pitch curve, if it does: arc length from the form point and contact.
+    pub fn at_height(&self, blank: &Blank, height_mm: f64) -> Option<(f64, FlankContact)> {
+        let height_at = |arc: f64| {
+            let c = self.at_arc(arc);
+            blank.height(c.point_mm, c.phi_rad).0 - height_mm
+        };
+        // Heights climb steadily along a flank.
+        let arc = regula_falsi(height_at, 0.0, self.length_mm(), HEIGHT_MM)?;
+        Some((arc, self.at_arc(arc)))
+    }
+}
+
+/// Teeth of the gear: the perimeter in pitches of the cutter.
+fn curve_teeth(generation: &Generation) -> u32 {
+    let pitch_mm = 2.0 * PI * generation.cutter.pitch_radius_mm / f64::from(generation.cutter.teeth);
+    (generation.linkage.curve().perimeter_mm() / pitch_mm).round() as u32
+}
+
+/// Last place where `inside` holds, walking from `start` (inside) by `step` and halving at the end.
+fn boundary(start: f64, step: f64, inside: impl Fn(f64) -> bool) -> Option<f64> {
+    let mut last = start;
+    let outside = (1..=512).map(|i| start + step * f64::from(i)).find(|&phi| {
+        let holds = inside(phi);
+        if holds {
+            last = phi;
+        }
+        !holds
+    })?;
+    Some(halve(inside, last, outside, 60)[0])
+}
+
+/// One ray of a root: place, normal and arc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RootPoint {
+    /// Arc length from the left flank's end, mm.
+    pub arc_mm: f64,
+    /// Point on the target root, gear frame.
+    pub point_mm: DVec2,
+    /// Unit normal out of the gear.
+    pub normal: DVec2,
+    /// Polar angle of the linkage at contact.
+    pub phi_rad: f64,
+}
+
+/// Target root of the space after tooth `space` (space 0 is centred on phi = 0), as points about `spacing_mm` apart.
+///
+/// Each part of the cutter's tip touches over one range of phi; the parts follow each other from the left flank of the space to the right one. Parts that never touch
+/// (a tip circle in a sharp hollow) are left out.
+pub fn target_root(generation: &Generation, space: i64, spacing_mm: f64) -> Vec<RootPoint> {
+    let curve = generation.linkage.curve();
+    let pitch_arc_mm = 2.0 * PI * generation.cutter.pitch_radius_mm / f64::from(generation.cutter.teeth);
+    let phi_space = curve.phi_at_arc(space as f64 * pitch_arc_mm);
+    let step = pitch_arc_mm / curve.frame(phi_space).arc_rate_mm_per_rad / 128.0;
+    let mut points: Vec<RootPoint> = Vec::new();
+    for part in generation.tip_parts() {
+        let contact = |phi: f64| generation.tip_contact(phi, space, &part);
+        let inside = |phi: f64| contact(phi).is_some();
+        // Contact may start anywhere within a pitch of the space; a grid of an 1/128 pitch finds it, bisection its ends.
+        let Some(seed) =
+            (0..256).map(|i| phi_space + step * f64::from((i + 1) / 2 * (1 - 2 * (i % 2)))).find(|&phi| inside(phi))
+        else {
+            continue;
+        };
+        let (Some(from), Some(to)) = (boundary(seed, -step, inside), boundary(seed, step, inside)) else { continue };
+        let ends = [contact(from), contact(to)].map(|c| c.map_or(DVec2::ZERO, |(point, _)| point));
+        let previous = points.last().map(|p| p.point_mm);
+        let backwards = previous.map_or_else(
+            // The first part starts beside the left flank, at the smaller arc.
+            || ends[0].perp_dot(ends[1]) < 0.0,
+            |p| p.distance_squared(ends[1]) < p.distance_squared(ends[0]),
+        );
+        let (from, to) = if backwards { (to, from) } else { (from, to) };
+        let fine = 64;
+        let chord: Vec<(f64, DVec2, DVec2)> = (0..=fine)
+            .filter_map(|i| {
+                let phi = from + (to - from) * f64::from(i) / f64::from(fine);
+                contact(phi).map(|(point, normal)| (phi, point, normal))
+            })
+            .collect();
+        let length: f64 = chord.windows(2).map(|w| w[0].1.distance(w[1].1)).sum();
+        let count = (length / spacing_mm).ceil().max(1.0) as u32;
+        let mut arc = points.last().map_or(0.0, |p| p.arc_mm);
+        let mut travelled = 0.0;
+        let mut next = 0.5 * length / f64::from(count);
+        for pair in chord.windows(2) {
+            let piece = pair[0].1.distance(pair[1].1);
+            while next <= travelled + piece && piece > 0.0 {
+                let share = (next - travelled) / piece;
+                let phi = pair[0].0 + (pair[1].0 - pair[0].0) * share;
+                if let Some((point_mm, normal)) = contact(phi) {
+                    arc += points.last().map_or(0.0, |p| p.point_mm.distance(point_mm));
+                    points.push(RootPoint { arc_mm: arc, point_mm, normal, phi_rad: phi });
+                }
+                next += length / f64::from(count);
+            }
+            travelled += piece;
+        }
+    }
+    points
+}

@@ -1,0 +1,118 @@
+//! The pitch curve: size, closure, curvature.
+
+use crate::gear::PitchCurve;
+use crate::gear::PitchCurveShape;
+use crate::output::text::{Sheet, plain, significant};
+use crate::scene::model::Gear;
+use crate::units::UM_PER_MM;
+
+/// A closure error above this (in modules) is worth a warning: single pitch deviations of good gears are of this size.
+const NOTABLE_CLOSURE_MODULES: f64 = 1e-3;
+
+/// `rolling_radius_mm`: pitch radius of a cutter that has to roll in hollows.
+pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_mm: Option<f64>) {
+    let facts = curve.facts();
+    sheet.heading("Pitch curve");
+    sheet.line("shape", gear.pitch_curve.words());
+    let (name, given) = size_words(&gear.pitch_curve);
+    let origin = if given { "given" } else { "solved so that the curve closes" };
+    sheet.line(name, format!("{:.6} mm, {origin}", curve.size_mm()));
+    sheet.line("radius", format!("{:.3} to {:.3} mm", facts.smallest_radius_mm, facts.largest_radius_mm));
+    let wanted_mm = std::f64::consts::PI * gear.transverse_module_mm() * f64::from(gear.teeth);
+    let error_um = UM_PER_MM * curve.closure_error_mm();
+    let closes = if error_um.abs() < 1e-5 {
+        "closes".to_owned()
+    } else {
+        let word = if error_um > 0.0 { "too long" } else { "too short" };
+        format!("{} um {word}", significant(error_um.abs(), 3))
+    };
+    sheet.line("perimeter", format!("{:.6} mm for pi m z = {wanted_mm:.6} mm: {closes}", curve.perimeter_mm()));
+    if facts.curvature_extrema.is_empty() {
+        sheet.line("radius of curvature", format!("{:.3} mm everywhere; convex", facts.smallest_curvature_radius_mm));
+        return;
+    }
+    // Lobes are equal but for rounding: the first one is named.
+    let sharpest: Vec<f64> = facts
+        .curvature_extrema
+        .iter()
+        .filter(|e| 1.0 / e.curvature_per_mm.abs() <= facts.smallest_curvature_radius_mm * (1.0 + 1e-9))
+        .map(|e| e.phi_rad.to_degrees())
+        .collect();
+    sheet.line(
+        "smallest radius of curvature",
+        format!(
+            "{:.3} mm at polar angle {}",
+            facts.smallest_curvature_radius_mm,
+            match sharpest.as_slice() {
+                [] => "0.00 deg".to_owned(),
+                [one] => format!("{one:.2} deg"),
+                [first, others @ ..] => format!("{first:.2} deg and {} more", others.len()),
+            }
+        ),
+    );
+    if facts.convex {
+        sheet.line("concave zones", "none: the curve is convex");
+        return;
+    }
+    let zones: Vec<String> = facts
+        .concave_zones_rad
+        .iter()
+        .map(|[from, to]| format!("{:.2} to {:.2}", from.to_degrees(), to.to_degrees()))
+        .collect();
+    sheet.line("concave zones", format!("{} deg", zones.join(", ")));
+    let hollow_mm = -1.0 / facts.smallest_curvature.curvature_per_mm;
+    sheet.line(
+        "tightest hollow",
+        format!(
+            "radius {hollow_mm:.3} mm at polar angle {:.2} deg{}",
+            facts.smallest_curvature.phi_rad.to_degrees(),
+            rolling_radius_mm.map_or(String::new(), |radius_mm| format!("; the cutter rolls on {radius_mm:.3} mm"))
+        ),
+    );
+}
+
+/// What must be known of the curve before cutting.
+pub fn warnings(curve: &PitchCurve, gear: &Gear) -> Vec<String> {
+    let error_mm = curve.closure_error_mm();
+    let notable = error_mm.abs() > NOTABLE_CLOSURE_MODULES * gear.module_mm;
+    let text = || {
+        format!(
+            "the pitch curve is {} um {} for {} teeth: the last tooth pays for it; leave the size out and it is solved",
+            significant(UM_PER_MM * error_mm.abs(), 3),
+            if error_mm > 0.0 { "too long" } else { "too short" },
+            gear.teeth
+        )
+    };
+    notable.then(text).into_iter().collect()
+}
+
+/// What the size of a shape is called, and whether the scene gives it.
+fn size_words(shape: &PitchCurveShape) -> (&'static str, bool) {
+    match shape {
+        PitchCurveShape::Circle => ("pitch radius", false),
+        PitchCurveShape::Ellipse { semi_major_axis_mm, .. } => ("semi-major axis", semi_major_axis_mm.is_some()),
+        PitchCurveShape::SinusoidalRatio { center_distance_mm, .. } => {
+            ("centre distance of the pair", center_distance_mm.is_some())
+        }
+        PitchCurveShape::Pascal { mean_radius_mm, .. } | PitchCurveShape::Fourier { mean_radius_mm, .. } => {
+            ("mean radius", mean_radius_mm.is_some())
+        }
+        PitchCurveShape::Table { scale_to_close, .. } => ("mean radius of the points", !scale_to_close),
+        PitchCurveShape::Mate { .. } => ("centre distance of the pair", false),
+    }
+}
+
+/// The gear in a line.
+pub fn gear_words(gear: &Gear) -> String {
+    let helix = match gear.helix_angle_rad {
+        0.0 => String::new(),
+        angle => format!(", helix angle {} deg {}-hand", plain(angle.to_degrees()), gear.hand.name()),
+    };
+    format!(
+        "{} teeth, module {} mm, pressure angle {} deg{helix}, face width {} mm",
+        gear.teeth,
+        plain(gear.module_mm),
+        plain(gear.pressure_angle_rad.to_degrees()),
+        plain(gear.face_width_mm)
+    )
+}

@@ -1,0 +1,102 @@
+//! Meshes of a run: one PLY per flank as it is finished, and the whole gear as one closed body in STL, PLY and glTF.
+
+use crate::colormap::ColourScale;
+use crate::cut::Backend;
+use crate::cut::CutBlank;
+use crate::error::Result;
+use crate::job::GearJob;
+use crate::output::folder::OutputFolder;
+use crate::output::mesh_file::MeshFile;
+use crate::output::mesh_glb::write_glb;
+use crate::output::mesh_ply::write_ply;
+use crate::output::mesh_stl::write_stl;
+use crate::output::progress::Progress;
+use crate::steps::gear_surfaces;
+use crate::surface::gear_solid::gear_solid;
+use crate::surface::outline::{Outline, flank_name};
+use crate::surface::{BlankMesh, Mesh, SurfaceGrid};
+use crate::terms::Side;
+
+/// Heights shown beside each other on meshes of gears that were cut in one operation, µm: what good shaping leaves.
+const HEIGHT_COLOURS_UM: f32 = 5.0;
+
+/// Colours of the stock that the last operation found, the same on maps, meshes and pictures.
+pub fn stock_scale(job: &dyn GearJob) -> ColourScale {
+    let before_last = super::map_operations(job).iter().rev().nth(1).map(|operation| operation.stock_scale);
+    before_last.unwrap_or(ColourScale::Sequential { low: 0.0, high: 1.0 })
+}
+
+/// Quantity that vertices are coloured by: the stock where there is one, else the height over the target.
+fn colour(job: &dyn GearJob) -> (&'static str, ColourScale) {
+    if job.operations().len() > 1 {
+        ("stock_mm", stock_scale(job))
+    } else {
+        ("height_um", ColourScale::Sequential { low: 0.0, high: HEIGHT_COLOURS_UM })
+    }
+}
+
+/// Writes `mesh/flanks/tooth_07_left.ply`.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_flank(
+    job: &dyn GearJob,
+    surface: &SurfaceGrid,
+    tooth: u32,
+    side: Side,
+    folder: &OutputFolder,
+) -> Result<()> {
+    let name = flank_name(tooth, side);
+    let title = format!("{}: tooth {tooth}, {} flank", job.scene().name, side.name());
+    let file = MeshFile { mesh: &surface.mesh(&name), title: &title, colour: colour(job), notes: &[] };
+    write_ply(&folder.path(format!("mesh/flanks/{name}.ply"))?, &file)
+}
+
+/// The gear as a closed body; roots and tips are cut here.
+///
+/// # Errors
+/// The backend's; a bore that reaches the teeth.
+pub fn gear(job: &dyn GearJob, backend: &dyn Backend, flanks: Vec<SurfaceGrid>, progress: &Progress) -> Result<Mesh> {
+    let step = progress.step("roots and tips", u64::from(job.scene().gear.teeth), "teeth");
+    let surfaces = gear_surfaces::complete(job, backend, flanks, &|| step.advance(1))?;
+    let outline = Outline::new(&surfaces, job.blank());
+    let solid = gear_solid(&outline, job.scene().gear.bore_diameter_mm)?;
+    step.finish();
+    Ok(solid)
+}
+
+/// Writes `mesh/blank.ply`: the gear as the rays through the blank have it, whatever its shape, with the pass that left every place.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_blank(job: &dyn GearJob, cut: &CutBlank, folder: &OutputFolder) -> Result<()> {
+    let title = format!("gear of {}, from rays through the blank", job.scene().name);
+    let passes = job.passes();
+    let colour = ("pass_id", ColourScale::Sequential { low: 0.0, high: passes as f32 });
+    let mesh = BlankMesh::new(&cut.field, None).mesh;
+    write_ply(&folder.path("mesh/blank.ply")?, &MeshFile { mesh: &mesh, title: &title, colour, notes: &[] })
+}
+
+/// Writes `mesh/gear.{stl,ply,glb}`; `notes` go into the glTF.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_gear(
+    job: &dyn GearJob,
+    mesh: &Mesh,
+    folder: &OutputFolder,
+    notes: &[(String, String)],
+    progress: &Progress,
+) -> Result<()> {
+    let step = progress.step("meshes", 3, "files");
+    let title = format!("gear of {}", job.scene().name);
+    let file = MeshFile { mesh, title: &title, colour: colour(job), notes };
+    write_stl(&folder.path("mesh/gear.stl")?, &file)?;
+    step.advance(1);
+    write_ply(&folder.path("mesh/gear.ply")?, &file)?;
+    step.advance(1);
+    write_glb(&folder.path("mesh/gear.glb")?, &file)?;
+    step.advance(1);
+    step.finish();
+    Ok(())
+}

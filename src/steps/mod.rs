@@ -1,0 +1,185 @@
+//! Steps of a run that all processes share: flanks in parallel, maps, meshes, pictures, sheets, the parts of the report.
+//!
+//! In: a job ([`GearJob`]) and what it is run with ([`Tools`]). A process puts the steps in its own order and adds what is
+//! its own.
+
+pub mod check_cost;
+pub mod check_curve;
+pub mod damage_table;
+pub mod gear_surfaces;
+pub mod meshes;
+pub mod parts;
+pub mod pictures;
+pub mod record;
+pub mod report;
+pub mod sheets;
+pub mod stages;
+pub mod summary;
+pub mod view_mesh;
+
+use crate::cut::{Backend, CutStats};
+use crate::error::{Error, Result};
+use crate::interrupt::Interrupt;
+use crate::job::GearJob;
+use crate::output::flank_maps::OperationMaps;
+use crate::output::folder::OutputFolder;
+use crate::output::progress::Progress;
+use crate::output::report::{Page, REPORT_FILE};
+use crate::surface::SurfaceGrid;
+use crate::terms::Side;
+use parts::{Part, Parts};
+use rayon::prelude::*;
+use std::sync::Mutex;
+use std::time::Duration;
+
+/// How much work a run was.
+#[derive(Debug, Clone, Copy)]
+pub struct Work {
+    /// What the backend met.
+    pub stats: CutStats,
+    /// Dexels cut, all operations.
+    pub dexels: u64,
+    /// Wall time of cutting and measuring, files of flanks included.
+    pub elapsed: Duration,
+    /// Stopped by the user before all flanks were done.
+    pub interrupted: bool,
+}
+
+/// Where files of single flanks go, what stands in their heads, and which of them are written.
+pub type FlankFiles<'a> = (&'a OutputFolder, &'a [(String, String)], Parts);
+
+/// Everything that a run is done with.
+pub struct Tools<'a> {
+    /// The scene with every value written out.
+    pub resolved: &'a str,
+    /// What cuts.
+    pub backend: &'a dyn Backend,
+    /// Why it was taken.
+    pub backend_why: &'a str,
+    /// Where progress is shown.
+    pub progress: &'a Progress,
+    /// Ctrl-C.
+    pub interrupt: &'a Interrupt,
+    /// Where files go.
+    pub folder: &'a OutputFolder,
+    /// What is written beyond the numbers.
+    pub parts: Parts,
+    /// Scene and program, for the heads of files.
+    pub notes: &'a [(String, String)],
+}
+
+/// Runs something over all flanks in parallel; nothing for those that were left out.
+///
+/// # Errors
+/// The first failure stops the rest; what it was is kept, not the flanks' order of arrival.
+pub fn all_flanks<T: Send>(
+    flanks: &[(u32, Side)],
+    cut_one: impl Fn(&(u32, Side)) -> Result<Option<T>> + Sync,
+) -> Result<Vec<Option<T>>> {
+    let failure = Mutex::new(None);
+    let finished = flanks
+        .par_iter()
+        .map(|flank| {
+            if failure.lock().is_ok_and(|f: std::sync::MutexGuard<Option<Error>>| f.is_some()) {
+                return None;
+            }
+            cut_one(flank).unwrap_or_else(|error| {
+                if let Ok(mut first) = failure.lock() {
+                    first.get_or_insert(error);
+                }
+                None
+            })
+        })
+        .collect();
+    match failure.into_inner().unwrap_or_default() {
+        Some(error) => Err(error),
+        None => Ok(finished),
+    }
+}
+
+/// Both flanks of every tooth, in order.
+pub fn flanks_of(job: &dyn GearJob) -> Vec<(u32, Side)> {
+    (1..=job.scene().gear.teeth).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]).collect()
+}
+
+/// What the maps need to know of the operations.
+pub fn map_operations(job: &dyn GearJob) -> Vec<OperationMaps> {
+    let operations = job.operations();
+    let finishing_mm = operations.last().map_or(0.0, |(_, offset_mm)| *offset_mm);
+    let pressure_angle_rad = job.scene().gear.transverse_pressure_angle_rad();
+    let maps = operations
+        .iter()
+        .map(|(name, offset_mm)| OperationMaps::new(name, offset_mm - finishing_mm, pressure_angle_rad));
+    maps.collect()
+}
+
+/// Whether anything that is written shows maps of flanks.
+pub fn needs_maps(parts: Parts) -> bool {
+    parts.has_any(&[Part::Maps, Part::Pictures, Part::Report])
+}
+
+/// Whether anything that is written shows the surfaces of flanks.
+pub fn needs_surfaces(job: &dyn GearJob, parts: Parts) -> bool {
+    parts.has(Part::Meshes) || parts.has(Part::Pictures) && !job.scene().pictures.is_empty()
+}
+
+/// Axis programs, with what they have to say.
+///
+/// # Errors
+/// Those of `write`.
+pub fn write_programs(progress: &Progress, write: impl FnOnce() -> Result<Vec<String>>) -> Result<()> {
+    let step = progress.step("axis programs", 1, "part");
+    let notes = write()?;
+    step.advance(1);
+    step.finish();
+    for note in notes {
+        progress.note(&note);
+    }
+    Ok(())
+}
+
+/// The report.
+///
+/// # Errors
+/// Those of `page`, and a file that cannot be written.
+pub fn write_report(tools: &Tools, page: impl FnOnce() -> Result<Page>) -> Result<()> {
+    let step = tools.progress.step("report", 1, "page");
+    page()?.write(&tools.folder.path(REPORT_FILE)?)?;
+    step.advance(1);
+    step.finish();
+    Ok(())
+}
+
+/// Meshes of the whole gear and the scene's pictures of it; whether all pictures were drawn.
+///
+/// # Errors
+/// The backend's, files.
+pub fn write_meshes_and_pictures(job: &dyn GearJob, flanks: Vec<SurfaceGrid>, tools: &Tools) -> Result<bool> {
+    let Tools { backend, progress, interrupt, folder, parts, notes, .. } = *tools;
+    let asked = if parts.has(Part::Pictures) { job.scene().pictures.len() } else { 0 };
+    if asked == 0 && !parts.has(Part::Meshes) {
+        return Ok(true);
+    }
+    match meshes::gear(job, backend, flanks, progress) {
+        Ok(solid) => {
+            if parts.has(Part::Meshes) {
+                meshes::write_gear(job, &solid, folder, notes, progress)?;
+            }
+            if asked == 0 {
+                return Ok(true);
+            }
+            let drawn = pictures::draw(job, backend, &solid, progress, interrupt, folder, notes)?;
+            if drawn < asked {
+                progress.note(&format!("stopped: {drawn} of {asked} pictures are drawn"));
+            }
+            Ok(drawn == asked)
+        }
+        // What was cut and measured is not lost for a mesh.
+        Err(Error::Refused(refusal)) => {
+            progress
+                .note(&format!("mesh/gear.* and its pictures are left out; mesh/blank.ply shows the gear. {refusal}"));
+            Ok(true)
+        }
+        Err(error) => Err(error),
+    }
+}

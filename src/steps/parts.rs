@@ -1,0 +1,105 @@
+//! Which parts of a result are written.
+//!
+//! In: names of parts, as they are typed after `--only`. Out: [`Parts`]. The numbers (`results.json`, `run.json`, `tables/`) are always
+//! written. What is not asked for is neither drawn nor computed; what is asked for has the same bytes as in a whole
+//! result.
+
+/// A part that can be left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// `maps/`, `allowance/`, `deviation/`: every flank as PNG and EXR.
+    Maps,
+    /// `pictures/`: sheets of all flanks, charts over the teeth, drawn gears.
+    Pictures,
+    /// `mesh/`: the gear and every flank.
+    Meshes,
+    /// `texture/`: surfaces of the texture windows.
+    Texture,
+    /// `chips/` of shaping and `load/` of hobbing: charts and maps of chips.
+    Chips,
+    /// `axes/`: tables, charts and programs of the axes.
+    Axes,
+    /// `report.html`.
+    Report,
+}
+
+/// The word for no part beyond the numbers.
+pub const NUMBERS: &str = "numbers";
+
+impl Part {
+    /// All of them, in the order in which they are named.
+    pub const ALL: [Self; 7] =
+        [Self::Maps, Self::Pictures, Self::Meshes, Self::Texture, Self::Chips, Self::Axes, Self::Report];
+
+    /// How it is called on the command line and in `run.json`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Maps => "maps",
+            Self::Pictures => "pictures",
+            Self::Meshes => "meshes",
+            Self::Texture => "texture",
+            Self::Chips => "chips",
+            Self::Axes => "axes",
+            Self::Report => "report",
+        }
+    }
+}
+
+/// A choice of parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Parts {
+    /// One bit for each part.
+    bits: u8,
+}
+
+impl Parts {
+    /// The numbers alone.
+    pub const NONE: Self = Self { bits: 0 };
+
+    /// The whole result.
+    pub fn all() -> Self {
+        Self::of(Part::ALL)
+    }
+
+    /// These parts and the numbers.
+    pub fn of(parts: impl IntoIterator<Item = Part>) -> Self {
+        Self { bits: parts.into_iter().fold(0, |bits, part| bits | 1 << part as u8) }
+    }
+
+    /// The parts of these names; [`NUMBERS`] and names of no part add nothing.
+    pub fn named<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+        let part = |name| Part::ALL.into_iter().find(|part| part.name() == name);
+        Self::of(names.into_iter().filter_map(part))
+    }
+
+    /// Whether a part is written.
+    pub fn has(self, part: Part) -> bool {
+        self.bits & 1 << part as u8 != 0
+    }
+
+    /// Whether any of these is written.
+    pub fn has_any(self, parts: &[Part]) -> bool {
+        parts.iter().any(|&part| self.has(part))
+    }
+
+    /// Names of what is written, the numbers first.
+    pub fn names(self) -> Vec<&'static str> {
+        let parts = Part::ALL.into_iter().filter(|&part| self.has(part)).map(Part::name);
+        std::iter::once(NUMBERS).chain(parts).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_choose_parts_and_come_back() {
+        let some = Parts::named(["report", NUMBERS, "maps"]);
+        assert_eq!(some, Parts::of([Part::Maps, Part::Report]));
+        assert_eq!(some.names(), ["numbers", "maps", "report"]);
+        assert!(some.has_any(&[Part::Meshes, Part::Maps]) && !some.has_any(&[Part::Meshes, Part::Axes]));
+        assert_eq!(Parts::named([NUMBERS]), Parts::NONE);
+        assert_eq!(Parts::named(Parts::all().names()), Parts::all());
+    }
+}

@@ -1,0 +1,68 @@
+//! The run record: what is needed to repeat a run and to trust its files.
+
+use super::{Tools, Work};
+use crate::error::{Error, Result};
+use serde_json::{Map, Value, json};
+use sha2::{Digest, Sha256};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// What is needed to repeat the run and to trust its files.
+///
+/// # Errors
+/// Files that cannot be read back for their checksums.
+pub fn run_record(tools: &Tools, work: &Work) -> Result<Value> {
+    let Tools { resolved, backend, backend_why, folder, parts, progress, .. } = *tools;
+    let step = progress.step("checksums", 1, "folder");
+    let mut checksums = Map::new();
+    collect_checksums(&folder.path("")?, "", &mut checksums)?;
+    step.advance(1);
+    step.finish();
+    let stages = progress.stages();
+    Ok(json!({
+        "program": "gearcut",
+        "program_version": env!("CARGO_PKG_VERSION"),
+        "command": "cut",
+        "scene": resolved,
+        "written": parts.names(),
+        "backend": backend.name(),
+        "backend_why": backend_why,
+        "backend_incidents": backend.incidents(),
+        "stage_times": backend
+            .stage_times()
+            .iter()
+            .map(|t| json!({"stage": t.stage, "batches": t.batches, "device_s": t.device_s}))
+            .collect::<Vec<_>>(),
+        "stages": stages.iter().map(|(name, wall_s)| json!({"stage": name, "wall_s": wall_s})).collect::<Vec<_>>(),
+        "complete": !work.interrupted,
+        "dexels": work.dexels,
+        "dexel_passes": work.stats.dexel_passes,
+        "dexels_cut": work.stats.dexels,
+        "dexel_passes_per_dexel_cut": work.stats.dexel_passes as f64 / work.stats.dexels.max(1) as f64,
+        "wall_time_s": work.elapsed.as_secs_f64(),
+        "threads": rayon::current_num_threads(),
+        "sha256": checksums,
+    }))
+}
+
+fn collect_checksums(folder: &Path, prefix: &str, into: &mut Map<String, Value>) -> Result<()> {
+    let mut entries: Vec<_> = std::fs::read_dir(folder)
+        .and_then(Iterator::collect::<std::io::Result<Vec<_>>>)
+        .map_err(Error::reading(folder))?;
+    entries.sort_by_key(std::fs::DirEntry::file_name);
+    for entry in entries {
+        let path = entry.path();
+        let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
+        if path.is_dir() {
+            collect_checksums(&path, &format!("{name}/"), into)?;
+        } else {
+            let digest = Sha256::digest(std::fs::read(&path).map_err(Error::reading(&path))?);
+            let hex = digest.iter().fold(String::new(), |mut text, byte| {
+                let _ = write!(text, "{byte:02x}");
+                text
+            });
+            into.insert(name, Value::String(hex));
+        }
+    }
+    Ok(())
+}

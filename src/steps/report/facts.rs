@@ -1,0 +1,63 @@
+//! What was cut: the gear in words and as a table.
+
+use crate::gear::PitchCurve;
+use crate::output::report::{Block, Table};
+use crate::output::text::plain;
+use crate::scene::model::Gear;
+use crate::units::UM_PER_MM;
+
+/// The gear in a line.
+pub fn gear_words(gear: &Gear) -> String {
+    let kind = match gear.helix_angle_rad {
+        0.0 => "External spur gear".to_owned(),
+        beta => format!("External helical gear, {:.4}° {}-hand", beta.to_degrees(), gear.hand.name()),
+    };
+    format!(
+        "{kind}, {} teeth, module {} mm, pressure angle {}°, face width {} mm; pitch curve: {}",
+        gear.teeth,
+        plain(gear.module_mm),
+        plain(gear.pressure_angle_rad.to_degrees()),
+        plain(gear.face_width_mm),
+        gear.pitch_curve.words(),
+    )
+}
+
+/// A table of names and values.
+pub fn table(caption: &str, rows: Vec<(&str, String)>) -> Block {
+    Block::Table(Table {
+        caption: caption.to_owned(),
+        columns: Vec::new(),
+        rows: rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect(),
+    })
+}
+
+/// A length with its unit.
+pub fn mm(value: f64) -> String {
+    format!("{} mm", plain(value))
+}
+
+/// A limit, or that there is none.
+pub fn limit(value: Option<f64>, unit: &str) -> String {
+    value.map_or_else(|| "not given".to_owned(), |v| format!("{} {unit}", plain(v)))
+}
+
+/// The gear as a table.
+pub fn gear_table(gear: &Gear, curve: &PitchCurve) -> Block {
+    let facts = curve.facts();
+    let shape = if facts.convex { "convex" } else { "concave in places" };
+    table(
+        "Gear",
+        vec![
+            ("Pitch curve", gear.pitch_curve.words()),
+            ("Pitch radius", format!("{:.3} to {:.3} mm", facts.smallest_radius_mm, facts.largest_radius_mm)),
+            ("Smallest radius of curvature", format!("{:.3} mm, {shape}", facts.smallest_curvature_radius_mm)),
+            ("Closing error of the curve", format!("{:.4} µm", UM_PER_MM * curve.closure_error_mm()).replace('-', "−")),
+            ("Module, teeth", format!("{}, {}", mm(gear.module_mm), gear.teeth)),
+            ("Pressure angle", format!("{}°", plain(gear.pressure_angle_rad.to_degrees()))),
+            ("Face width", mm(gear.face_width_mm)),
+            ("Bore", if gear.bore_diameter_mm > 0.0 { mm(gear.bore_diameter_mm) } else { "none".to_owned() }),
+            ("Addendum", format!("{} m", plain(gear.addendum_coefficient))),
+            ("Thickness allowance", format!("{} µm", plain(UM_PER_MM * gear.tooth_thickness_allowance_mm))),
+        ],
+    )
+}

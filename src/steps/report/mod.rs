@@ -1,0 +1,117 @@
+//! Parts of the report's page that all processes share.
+
+pub mod deviations;
+pub mod facts;
+pub mod maps;
+pub mod texture;
+
+use crate::cut::{CutStats, KERNEL_UM};
+use crate::findings::{self, Findings, Quantity};
+use crate::output::progress::duration_text;
+use crate::output::report::{Block, KeyNumber, Section, Table};
+use crate::output::text::{plain, significant};
+
+/// What the run says of itself on the page. Times are left out: the same scene gives the same page.
+#[derive(Debug, Clone, Copy)]
+pub struct RunWords<'a> {
+    /// The scene with every value written out.
+    pub resolved_scene: &'a str,
+    /// Backend with its adapter, as it stands in files.
+    pub backend: &'a str,
+    /// Why it was taken.
+    pub backend_why: &'a str,
+}
+
+/// Number and unit as they are read best.
+pub fn value_and_unit(quantity: &Quantity) -> (String, String) {
+    let Some(value) = quantity.value() else { return ("–".to_owned(), String::new()) };
+    let text = |value: f64, digits| significant(value, digits).replace('-', "−");
+    match quantity.unit().unwrap_or("") {
+        "1" => (format!("{:.1}", 100.0 * value).replace('-', "−"), "%".to_owned()),
+        "um" => (text(if value.abs() < KERNEL_UM { 0.0 } else { value }, 3), "µm".to_owned()),
+        "s" => (duration_text(value), String::new()),
+        "%" => (text(if value < 1e-9 { 0.0 } else { value }, 3), "%".to_owned()),
+        unit @ ("flanks" | "teeth" | "strokes") => (plain(value), unit.to_owned()),
+        unit => (text(value, 4), unit.to_owned()),
+    }
+}
+
+/// A quantity of the results as a key number.
+pub fn key_number(name: &str, quantity: &Quantity) -> KeyNumber {
+    let (value, unit) = value_and_unit(quantity);
+    KeyNumber {
+        name: name.to_owned(),
+        value,
+        unit,
+        definition: quantity.definition().to_owned(),
+        note: quantity.why().unwrap_or("").to_owned(),
+        place: quantity.place().cloned(),
+    }
+}
+
+/// What does not exist here goes to the end.
+pub fn known_first(numbers: Vec<KeyNumber>) -> Vec<KeyNumber> {
+    let (mut known, unknown): (Vec<_>, Vec<_>) = numbers.into_iter().partition(|number| number.value != "–");
+    known.extend(unknown);
+    known
+}
+
+/// What a reader must know of the run, in the page's signs; windows tell their own.
+pub fn warnings(found: &Findings) -> Vec<String> {
+    let of_blank = found.find("blank").map_or(&[][..], |blank| &blank.warnings);
+    found.warnings.iter().chain(of_blank).map(|text| text.replace(" um", " µm").replace(" deg ", "° ")).collect()
+}
+
+/// Peaks of an operation's axes against their limits.
+pub fn peak_table(operation: &findings::Section) -> Table {
+    let number = |value: f64| significant(if value.abs() < 1e-9 { 0.0 } else { value }, 4);
+    let signs = |text: &str| text.replace(" deg", "°").replace("deg", "°").replace("^2", "²");
+    let dash = || "–".to_owned();
+    let peaks = operation.find("axes").map_or(&[][..], |axes| &axes.sections);
+    let rows = peaks.iter().map(|peak| {
+        let largest = peak.quantity("peak");
+        vec![
+            peak.title.clone(),
+            largest.and_then(Quantity::value).map_or_else(dash, number),
+            signs(largest.and_then(Quantity::unit).unwrap_or("")),
+            largest.and_then(Quantity::place).map_or_else(dash, |place| signs(&place.words())),
+            peak.number("limit").map_or_else(dash, number),
+            peak.number("margin").map_or_else(dash, |share| format!("{:.0} %", 100.0 * share)),
+        ]
+    });
+    Table {
+        caption: "Peaks of the axes".to_owned(),
+        columns: ["Axis", "Largest", "Unit", "At", "Limit", "Reserve"].map(str::to_owned).into(),
+        rows: rows.collect(),
+    }
+}
+
+/// What is needed to repeat the run.
+pub fn record(flanks: usize, stats: &CutStats, dexels: u64, run: &RunWords) -> Section {
+    let row = |name: &str, value: String| vec![name.to_owned(), value];
+    let per_dexel = stats.dexel_passes as f64 / dexels.max(1) as f64;
+    let table = Table {
+        caption: "Run".to_owned(),
+        columns: Vec::new(),
+        rows: vec![
+            row("Program", format!("gearcut {}", env!("CARGO_PKG_VERSION"))),
+            row("Backend", format!("{} ({})", run.backend, run.backend_why)),
+            row("Flanks cut", flanks.to_string()),
+            row("Dexels", format!("{:.2} million, {} passes each", dexels as f64 / 1e6, significant(per_dexel, 3))),
+        ],
+    };
+    Section {
+        id: "record",
+        title: "Run record".to_owned(),
+        lead:
+            "What is needed to repeat the run. Times and the SHA-256 of every file stand in run.json beside this page."
+                .to_owned(),
+        blocks: vec![
+            Block::Table(table),
+            Block::Folded(
+                "The scene, every value written out".to_owned(),
+                vec![Block::Verbatim(run.resolved_scene.to_owned())],
+            ),
+        ],
+    }
+}

@@ -1,0 +1,158 @@
+//! Texture windows on the page: the finished surface open, what earlier operations left folded away.
+
+use crate::error::{Error, Result};
+use crate::findings::{self, Findings};
+use crate::output::folder::OutputFolder;
+use crate::output::report::texture::{Parameter, SkConstruction, TextureWindow};
+use crate::output::report::{Block, Section, Table};
+use crate::output::text::significant;
+
+/// The section; none if no window was evaluated. Pictures are those that the folder holds.
+///
+/// # Errors
+/// A picture cannot be read back.
+pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<Section>> {
+    let operations = found.parts("texture");
+    let Some((last, earlier)) = operations.split_last() else { return Ok(None) };
+    let mut blocks = vec![overview(last, earlier)];
+    blocks.extend(shown(last, folder)?);
+    for operation in earlier {
+        blocks.push(Block::Folded(operation.title.clone(), shown(operation, folder)?));
+    }
+    Ok(Some(Section {
+        id: "texture",
+        title: "Surface texture".to_owned(),
+        lead: format!(
+            "Areal parameters by ISO 25178-2 of windows on flanks after {}: what the tool's motion leaves. Chips, wear and vibration of a real cut come on top. All parameters stand in results.json, the surfaces as X3P, SDF, NPY and CSV beside it.",
+            last.key
+        ),
+        blocks,
+    }))
+}
+
+/// The windows of an operation.
+fn shown(operation: &findings::Section, folder: &OutputFolder) -> Result<Vec<Block>> {
+    operation.sections.iter().map(|window| Ok(Block::Texture(texture_window(window, folder)?))).collect()
+}
+
+fn texture_window(window: &findings::Section, folder: &OutputFolder) -> Result<TextureWindow> {
+    let number = |key: &str| window.number(key).map_or_else(|| "–".to_owned(), |value| digits(value, 4));
+    let path = folder.path(format!("{}_relief.png", window.words("files")))?;
+    // A window that could not be evaluated has no picture, nor has one whose files are left out.
+    let png = match std::fs::read(&path) {
+        Ok(png) => Some(png),
+        Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => None,
+        Err(reason) => return Err(Error::reading(&path)(reason)),
+    };
+    let parameters = window.find("parameters").map_or(&[][..], |parameters| &parameters.entries);
+    let parameter = |entry: &findings::Entry| {
+        let quantity = &entry.quantity;
+        Parameter {
+            symbol: entry.key.clone(),
+            value: quantity
+                .value()
+                .map(|value| with_unit(digits(value, 4), quantity.unit().unwrap_or("1")))
+                .ok_or_else(|| quantity.why().unwrap_or("not defined").to_owned()),
+            definition: quantity.definition().to_owned(),
+        }
+    };
+    let um = |symbol: &str| window.number(&format!("parameters.{symbol}"));
+    let abbott = window.find("abbott");
+    let sk = abbott.and_then(|curve| {
+        let from_percent = curve.number("window_percent")?;
+        Some(SkConstruction {
+            line_um: [curve.number("upper_um")?, curve.number("lower_um")?],
+            window_percent: [from_percent, from_percent + 40.0],
+            smr1_percent: um("Smr1")?,
+            smr2_percent: um("Smr2")?,
+            spk_um: um("Spk")?,
+            svk_um: um("Svk")?,
+        })
+    });
+    let curve = abbott.and_then(|curve| curve.table_of("curve")).map_or_else(Vec::new, |table| {
+        table.numbers("ratio").zip(table.numbers("height")).filter_map(|(ratio, z)| Some((ratio?, z?))).collect()
+    });
+    Ok(TextureWindow {
+        title: format!(
+            "Tooth {}, {} flank: {} × {} mm about u {}, v {} mm",
+            window.number("tooth").unwrap_or(f64::NAN),
+            window.words("flank"),
+            number("length_profile"),
+            number("length_lead"),
+            number("center_profile"),
+            number("center_lead")
+        ),
+        chain: window.words("chain").to_owned(),
+        parameters: parameters.iter().map(parameter).collect(),
+        warnings: window.warnings.clone(),
+        png,
+        material_ratio: curve,
+        sk,
+    })
+}
+
+/// The parameters that are compared first, of all windows side by side: what the last operation left comes first.
+fn overview(last: &findings::Section, earlier: &[findings::Section]) -> Block {
+    const COMPARED: [(&str, &str); 8] = [
+        ("Sa", " [µm]"),
+        ("Sq", " [µm]"),
+        ("Sz", " [µm]"),
+        ("Sk", " [µm]"),
+        ("Spk", " [µm]"),
+        ("Svk", " [µm]"),
+        ("Ssk", ""),
+        ("Sku", ""),
+    ];
+    let row = |operation: &findings::Section, window: &findings::Section| {
+        let value = |symbol: &str| {
+            let value = window.number(&format!("parameters.{symbol}"));
+            value.map_or_else(|| "–".to_owned(), |value| digits(value, 3))
+        };
+        let name = format!("{}, {}", window.title, operation.key);
+        std::iter::once(name).chain(COMPARED.map(|(symbol, _)| value(symbol))).collect()
+    };
+    let rows = std::iter::once(last).chain(earlier);
+    let rows = rows.flat_map(|operation| operation.sections.iter().map(move |window| row(operation, window)));
+    let heads = COMPARED.map(|(symbol, unit)| format!("{symbol}{unit}"));
+    Block::Table(Table {
+        caption: "All windows".to_owned(),
+        columns: std::iter::once("Window, after".to_owned()).chain(heads).collect(),
+        rows: rows.collect(),
+    })
+}
+
+/// A number with so many digits; as a power of ten where a plain number would be mostly zeros.
+fn digits(value: f64, count: u32) -> String {
+    let text = if value != 0.0 && value.abs() < 1e-4 {
+        let text = format!("{value:.*e}", count as usize - 1);
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        let raised = exponent.chars().map(|c| match c {
+            '-' => '⁻',
+            digit => "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(digit.to_digit(10).unwrap_or(0) as usize).unwrap_or('⁰'),
+        });
+        format!("{mantissa} × 10{}", raised.collect::<String>())
+    } else {
+        significant(value, count)
+    };
+    text.replace('-', "−")
+}
+
+fn with_unit(number: String, unit: &str) -> String {
+    match unit {
+        "1" => number,
+        "deg" => format!("{number}°"),
+        unit => format!("{number} {}", unit.replace("um", "µm").replace("^2", "²").replace("^3", "³")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_numbers_are_powers_of_ten() {
+        let texts = [0.256_63, -0.001, 3.14e-7, -2e-12, 0.0].map(|value| digits(value, 3));
+        assert_eq!(texts, ["0.257", "−0.00100", "3.14 × 10⁻⁷", "−2.00 × 10⁻¹²", "0"]);
+        assert_eq!(with_unit("2.00".into(), "um^3/um^2"), "2.00 µm³/µm²");
+    }
+}

@@ -1,0 +1,173 @@
+//! All flanks on one picture each: stock, heights, deviations, passes, chips.
+
+use super::parts::Part;
+use super::{Tools, map_operations};
+use crate::colormap::ColourScale;
+use crate::error::{Error, Result};
+use crate::job::GearJob;
+use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
+use crate::output::flank_maps::{CHIPS_SHOWN, FlankMaps, NO_PASS_CAME, OperationMaps};
+use crate::output::folder::OutputFolder;
+use crate::units::UM_PER_MM;
+use rayon::prelude::*;
+use std::path::Path;
+
+/// Deviations whose colours reach the ends of the scale at least, µm: on a finer scale a perfect gear would look faulty.
+const LEAST_DEVIATION_UM: f32 = 1.0;
+
+/// Colours of the deviations of all flanks, µm.
+pub fn deviation_scale(maps: &[FlankMaps]) -> ColourScale {
+    match ColourScale::diverging_over(maps.iter().map(|map| map.deviation_mm.as_slice())) {
+        ColourScale::Diverging { limit } => {
+            ColourScale::Diverging { limit: (limit * UM_PER_MM as f32).max(LEAST_DEVIATION_UM) }
+        }
+        scale @ ColourScale::Sequential { .. } => scale,
+    }
+}
+
+/// Pass ids of one flank less its lowest; NaN where no pass came.
+fn passes_from_first(ids: &[f32]) -> Vec<f32> {
+    let first = ids.iter().copied().fold(f32::NAN, f32::min);
+    ids.iter().map(|&id| id - first).collect()
+}
+
+/// Sheets of all flanks, and their deviations on one scale.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_sheets_and_deviations(job: &dyn GearJob, maps: &[FlankMaps], tools: &Tools) -> Result<()> {
+    let Tools { folder, notes, progress, parts, .. } = *tools;
+    if parts.has(Part::Pictures) {
+        let step = progress.step("sheets", 1, "set");
+        write_contact_sheets(job, maps, folder)?;
+        step.advance(1);
+        step.finish();
+    }
+    if parts.has(Part::Maps) {
+        let step = progress.step("deviation maps", maps.len() as u64, "flanks");
+        let operations = job.operations();
+        let (last, scale) = (operations.last().map_or("", |(name, _)| *name), deviation_scale(maps));
+        maps.par_iter().try_for_each(|map| {
+            map.write_deviation(folder, last, scale, notes)?;
+            step.advance(1);
+            Ok::<(), Error>(())
+        })?;
+        step.finish();
+    }
+    Ok(())
+}
+
+/// All flanks on one picture: stock of each earlier operation; heights, deviations, passes and, where they are known, their chips after the last.
+///
+/// # Errors
+/// Files that cannot be written.
+fn write_contact_sheets(job: &dyn GearJob, maps: &[FlankMaps], folder: &OutputFolder) -> Result<()> {
+    let scales = map_operations(job);
+    let last = scales.len() - 1;
+    let scene = &job.scene().name;
+    for (index, operation) in scales[..last].iter().enumerate() {
+        write_stock_sheet(scene, operation, index, maps, folder)?;
+    }
+    let name = &scales[last].name;
+    write_height_sheet(scene, name, maps, folder)?;
+    write_sheet(
+        &folder.path(format!("pictures/deviation_{name}.png"))?,
+        &format!("{scene}: deviation after {name}, all flanks"),
+        ["mean height of cell over the target", "µm"],
+        deviation_scale(maps),
+        maps,
+        &maps.iter().map(|m| m.deviation_mm.iter().map(|&height| um(height)).collect()).collect::<Vec<_>>(),
+    )?;
+    let passes: Vec<Vec<f32>> = maps.iter().map(|m| passes_from_first(&m.latest_pass)).collect();
+    write_sheet(
+        &folder.path(format!("pictures/passes_{name}.png"))?,
+        &format!("{scene}: the passes of {name} in the order of time, all flanks"),
+        ["latest pass of cell, counted from the flank's first", "1"],
+        usual_span(&passes),
+        maps,
+        &passes,
+    )?;
+    let chips_um = |map: &FlankMaps| map.chips.last().map(|chips| chips.thickness_mm.iter().map(|&h| um(h)).collect());
+    let chips: Vec<Vec<f32>> = maps.iter().filter_map(chips_um).collect();
+    if chips.len() < maps.len() {
+        return Ok(());
+    }
+    write_sheet(
+        &folder.path(format!("pictures/chip_thickness_{name}.png"))?,
+        &format!("{scene}: chips that left the finished surface, all flanks"),
+        ["uncut chip thickness at the nearest dexel", "µm"],
+        ColourScale::between_quantiles(chips.iter().map(Vec::as_slice), CHIPS_SHOWN),
+        maps,
+        &chips,
+    )
+}
+
+/// Colours over the span of passes that the middle one of all flanks has: those that the end of the turn meets the start on span all of it.
+fn usual_span(passes: &[Vec<f32>]) -> ColourScale {
+    let largest = |flank: &Vec<f32>| flank.iter().copied().fold(1.0, f32::max);
+    let mut spans: Vec<f32> = passes.iter().map(largest).collect();
+    spans.sort_by(f32::total_cmp);
+    ColourScale::Sequential { low: 0.0, high: spans.get(spans.len() / 2).copied().unwrap_or(1.0) }
+}
+
+fn um(height_mm: f32) -> f32 {
+    height_mm * UM_PER_MM as f32
+}
+
+/// Stock of one earlier operation on all flanks.
+fn write_stock_sheet(
+    scene: &str,
+    operation: &OperationMaps,
+    index: usize,
+    maps: &[FlankMaps],
+    folder: &OutputFolder,
+) -> Result<()> {
+    let name = &operation.name;
+    write_sheet(
+        &folder.path(format!("pictures/stock_{name}.png"))?,
+        &format!("{scene}: stock of {name}, all flanks"),
+        ["normal stock, mean of cell", "mm"],
+        operation.stock_scale,
+        maps,
+        &maps.iter().map(|m| m.mean_stock_mm(index)).collect::<Vec<_>>(),
+    )
+}
+
+/// Finished surface of all flanks.
+fn write_height_sheet(scene: &str, operation: &str, maps: &[FlankMaps], folder: &OutputFolder) -> Result<()> {
+    let values: Vec<Vec<f32>> = maps
+        .iter()
+        .map(|m| {
+            m.highest_mm.last().map_or_else(Vec::new, |heights| heights.iter().map(|&height| um(height)).collect())
+        })
+        .collect();
+    write_sheet(
+        &folder.path(format!("pictures/heights_{operation}.png"))?,
+        &format!("{scene}: finished surface after {operation}, all flanks"),
+        ["height over the target, highest of cell", "µm"],
+        ColourScale::heights_over(values.iter().map(Vec::as_slice)),
+        maps,
+        &values,
+    )
+}
+
+fn write_sheet(
+    path: &Path,
+    title: &str,
+    [quantity, unit]: [&str; 2],
+    scale: ColourScale,
+    maps: &[FlankMaps],
+    values: &[Vec<f32>],
+) -> Result<()> {
+    if maps.is_empty() {
+        return Ok(());
+    }
+    let labels: Vec<String> = maps.iter().map(|m| format!("{} {}", m.tooth, m.side.name())).collect();
+    let thumbnails: Vec<Thumbnail> = maps
+        .iter()
+        .zip(&labels)
+        .zip(values)
+        .map(|((map, label), values)| Thumbnail { label, grid: &map.grid, values })
+        .collect();
+    write_contact_sheet(path, &ContactSheet { title, quantity, unit, scale, missing: NO_PASS_CAME, maps: &thumbnails })
+}

@@ -1,0 +1,32 @@
+//! What is printed when a run is done: which gear, what was found, how much work it was.
+
+use super::Work;
+use crate::findings::Findings;
+use crate::output::summary;
+use crate::output::text::{Sheet, plain, significant};
+use crate::scene::model::Gear;
+use std::path::Path;
+
+/// The summary of a run that has finished `flanks` flanks on `backend` and has written to `out`.
+pub fn text(gear: &Gear, findings: &Findings, flanks: usize, work: &Work, out: &Path, backend: &str) -> String {
+    let mut sheet = Sheet::default();
+    let state = if findings.complete { "" } else { ", stopped before all were done" };
+    sheet.heading(&format!(
+        "{}: {} teeth, module {} mm, {flanks} of {} flanks cut{state}",
+        findings.scene,
+        gear.teeth,
+        plain(gear.module_mm),
+        2 * gear.teeth,
+    ));
+    summary::print(findings, &mut sheet);
+    sheet.heading("Run");
+    let per_dexel = significant(work.stats.dexel_passes as f64 / work.stats.dexels.max(1) as f64, 3);
+    let alike = if work.stats.dexels < work.dexels { "; rows are alike, so one was cut for all" } else { "" };
+    let millions = work.dexels as f64 / 1e6;
+    summary::line(&mut sheet, "backend", backend);
+    summary::line(&mut sheet, "dexels", &format!("{millions:.1} million, {per_dexel} passes each{alike}"));
+    let seconds = significant(work.elapsed.as_secs_f64(), 3);
+    summary::line(&mut sheet, "cut, measured and mapped in", &format!("{seconds} s"));
+    sheet.line("written to", out.display().to_string());
+    sheet.into_text()
+}

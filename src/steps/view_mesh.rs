@@ -1,0 +1,216 @@
+//! The target gear as a closed, coarse mesh to look at: flanks apart from the rest, so that maps can be laid on them.
+//!
+//! In: the job. Out: [`ViewMesh`] in the work frame. Flanks, roots and tip lands are sampled every half millimetre along the profile, and along the tooth in as many sections as the shape asks for:
+//! straight teeth are ruled along z and need two. What an operation leaves differs from the target by far less than a pixel; it is shown by colours, not by the shape.
+//!
+//! End faces need no general triangulation: every tooth is a ladder from its right to its left flank, and the ring below the teeth a strip from root to bore. All parts meet in the same
+//! points, so the mesh is closed (a test counts its edges).
+
+use crate::error::Result;
+use crate::job::GearJob;
+use crate::surface::triangles::{Profile, Triangles};
+use crate::terms::Side;
+use glam::{DVec2, DVec3};
+
+/// Distance between points along profiles and roots, mm.
+const SPACING_MM: f64 = 0.5;
+/// Intervals across a tip land: its outline is nearly straight.
+const TIP_INTERVALS: usize = 4;
+
+/// One flank: points at arcs times sections, the sections of an arc following each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewFlank {
+    /// Tooth, from 1.
+    pub tooth: u32,
+    /// Flank.
+    pub side: Side,
+    /// Arcs from the form point, mm.
+    pub arcs_mm: Vec<f64>,
+    /// Places along the tooth, mm.
+    pub leads_mm: Vec<f64>,
+    /// Its triangles; corner i n + k belongs to arc i and section k of n.
+    pub triangles: Triangles,
+}
+
+/// The gear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewMesh {
+    /// Flanks in order of teeth, left before right.
+    pub flanks: Vec<ViewFlank>,
+    /// Roots, tip lands, end faces and bore.
+    pub body: Triangles,
+}
+
+impl ViewMesh {
+    /// Samples the target gear of a job.
+    ///
+    /// # Errors
+    /// No flank is generated on some tooth.
+    pub fn new(job: &dyn GearJob) -> Result<Self> {
+        let leads_mm = job.view_leads_mm();
+        let [bottom, top] = [0, leads_mm.len() - 1];
+        let mut flanks = Vec::new();
+        let mut body = Triangles::default();
+        let mut rims = Vec::new();
+        for tooth in 1..=job.scene().gear.teeth {
+            let [left, right] =
+                [Side::Left, Side::Right].map(|side| job.target_profiles(tooth, side, SPACING_MM, &leads_mm));
+            let ((left_arcs, left), (right_arcs, right)) = (left?, right?);
+            let tip: Vec<Profile> = right.iter().zip(&left).map(|(right, left)| tip_land(job, right, left)).collect();
+            for (side, arcs_mm, profiles) in [(Side::Left, left_arcs, &left), (Side::Right, right_arcs, &right)] {
+                let mut triangles = Triangles::default();
+                triangles.wall(profiles, &leads_mm, side == Side::Right);
+                flanks.push(ViewFlank { tooth, side, arcs_mm, leads_mm: leads_mm.clone(), triangles });
+            }
+            body.wall(&tip, &leads_mm, true);
+            for k in [bottom, top] {
+                body.tooth_end([&right[k], &left[k], &tip[k]], leads_mm[k], k == top);
+            }
+            let ends = |profiles: &[Profile]| -> Profile { profiles.iter().map(|profile| profile[0]).collect() };
+            rims.push((ends(&right), ends(&left)));
+        }
+        let mut rim: [Vec<DVec2>; 2] = Default::default();
+        for (space, (index, (right, left))) in (1..).zip(rims.iter().enumerate()) {
+            let next = &rims[(index + 1) % rims.len()].0;
+            let roots = roots(job, space, &leads_mm, left, next)?;
+            body.wall(&roots, &leads_mm, true);
+            for (rim, k) in rim.iter_mut().zip([bottom, top]) {
+                rim.push(right[k].0);
+                rim.extend(roots[k][..roots[k].len() - 1].iter().map(|(point, _)| *point));
+            }
+        }
+        body.rings(&rim, 0.5 * job.scene().gear.bore_diameter_mm, [leads_mm[bottom], leads_mm[top]]);
+        Ok(Self { flanks, body })
+    }
+}
+
+/// Tip land from the right flank's tip to the left one's, as high over the pitch curve as they are.
+fn tip_land(job: &dyn GearJob, right: &Profile, left: &Profile) -> Profile {
+    let ends = [right[right.len() - 1].0, left[left.len() - 1].0];
+    let foot = |point: DVec2| job.blank().height(point, point.to_angle());
+    let heights = ends.map(|end| foot(end).0);
+    (0..=TIP_INTERVALS)
+        .map(|i| {
+            let share = i as f64 / TIP_INTERVALS as f64;
+            let frame = job.curve().frame(foot(ends[0].lerp(ends[1], share)).1);
+            let height_mm = heights[0] + share * (heights[1] - heights[0]);
+            // The ends are the flanks' own points, to the last digit.
+            let point = match i {
+                0 => ends[0],
+                TIP_INTERVALS => ends[1],
+                _ => frame.point_mm + height_mm * frame.normal,
+            };
+            (point, frame.normal.extend(0.0))
+        })
+        .collect()
+}
+
+/// Root of a space from the form points of the left flank before it to those of the right flank after it, in all sections.
+fn roots(job: &dyn GearJob, space: u32, leads_mm: &[f64], left: &Profile, right: &Profile) -> Result<Vec<Profile>> {
+    let roots = job.target_roots(space, SPACING_MM, leads_mm)?;
+    // Points nearly on the flanks' ends would make needles of triangles; what is left out in one section is left out in all.
+    let apart = |i: usize| {
+        let from_ends = |k: usize, point: DVec2| point.distance(left[k].0).min(point.distance(right[k].0));
+        roots.iter().enumerate().all(|(k, root)| from_ends(k, root[i].0) > 0.05 * SPACING_MM)
+    };
+    let kept: Vec<usize> = (0..roots[0].len()).filter(|&i| apart(i)).collect();
+    let whole = |k: usize| {
+        let root = &roots[k];
+        let normal_at = |end: Option<&(DVec2, DVec3)>, other: DVec3| end.map_or(other, |(_, normal)| *normal);
+        let mut profile = vec![(left[k].0, normal_at(root.first(), left[k].1))];
+        profile.extend(kept.iter().map(|&i| root[i]));
+        profile.push((right[k].0, normal_at(root.last(), right[k].1)));
+        profile
+    };
+    Ok((0..leads_mm.len()).map(whole).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::process::hobbing::{HobCutter, HobbingJob};
+    use crate::process::shaping::Job;
+    use crate::scene;
+    use std::collections::HashMap;
+    use std::path::Path;
+
+    fn mesh(scene: &str) -> (Job, ViewMesh) {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping").join(scene);
+        let job = Job::new(scene::load(&path, &[]).expect("a shipped scene").scene).expect("a gear");
+        let mesh = ViewMesh::new(&job).expect("a mesh");
+        (job, mesh)
+    }
+
+    fn hobbed_mesh(name: &str) -> ViewMesh {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/hobbing").join(name).with_extension("toml");
+        let job = HobbingJob::new(&scene::load(&path, &[]).expect("a shipped scene").scene).expect("a gear");
+        ViewMesh::new(&HobCutter::new(&job).expect("passes")).expect("a mesh")
+    }
+
+    fn triangles(mesh: &ViewMesh) -> Vec<[[f64; 3]; 3]> {
+        mesh.flanks
+            .iter()
+            .map(|flank| &flank.triangles)
+            .chain([&mesh.body])
+            .flat_map(|part| {
+                part.indices
+                    .chunks(3)
+                    .map(|corners| [0, 1, 2].map(|k| part.positions_mm[corners[k] as usize].map(f64::from)))
+            })
+            .collect()
+    }
+
+    /// Every edge belongs to two triangles that pass it in opposite directions: closed, and all faces look outwards.
+    #[test]
+    fn the_gear_is_closed_and_looks_outwards() {
+        let shaped =
+            ["elliptical_normal.toml", "circular_m3_z24.toml", "order_2.toml"].map(|name| (name, mesh(name).1));
+        let hobbed = ["circular_helical", "third_order_plain"].map(|name| (name, hobbed_mesh(name)));
+        for (scene, mesh) in shaped.into_iter().chain(hobbed) {
+            let mut edges: HashMap<[[i64; 3]; 2], i32> = HashMap::new();
+            for triangle in triangles(&mesh) {
+                let corners = triangle.map(|corner| corner.map(|value| (value * 1e4).round() as i64));
+                for k in 0..3 {
+                    let (a, b) = (corners[k], corners[(k + 1) % 3]);
+                    *edges.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
+                }
+            }
+            let open = edges.values().filter(|&&count| count != 0).count();
+            assert_eq!(open, 0, "{scene}: {open} of {} edges", edges.len());
+        }
+    }
+
+    /// Volume by the divergence theorem against the area inside the tooth outline known from elsewhere: blank less spaces, from the pitch circle's symmetry.
+    #[test]
+    fn the_round_gear_has_the_volume_of_its_outline() {
+        let (job, mesh) = mesh("circular_m3_z24.toml");
+        let volume: f64 = triangles(&mesh)
+            .iter()
+            .map(|[a, b, c]| {
+                (a[0] * (b[1] * c[2] - b[2] * c[1])
+                    + a[1] * (b[2] * c[0] - b[0] * c[2])
+                    + a[2] * (b[0] * c[1] - b[1] * c[0]))
+                    / 6.0
+            })
+            .sum();
+        // A round gear with m 3, z 24: its teeth and spaces are equally wide on the pitch circle (d = 72 mm), the tooth is 3 mm high above
+        // and 3.75 mm deep below it; the area inside lies between those of the root and tip circles, near that of the pitch circle.
+        let disc = |radius: f64| std::f64::consts::PI * (radius * radius - 100.0) * job.scene.gear.face_width_mm;
+        assert!(volume > disc(36.0 - 1.5) && volume < disc(36.0 + 0.5), "{volume} against {}", disc(36.0));
+    }
+
+    #[test]
+    fn flank_corners_lie_on_the_target() {
+        let (job, mesh) = mesh("elliptical_normal.toml");
+        let generation = job.target_generation();
+        let flank = &mesh.flanks[7];
+        assert_eq!((flank.tooth, flank.side), (4, Side::Right));
+        let target = job.target_flank(&generation, 4, Side::Right).expect("a flank");
+        for (i, &arc) in flank.arcs_mm.iter().enumerate() {
+            let corner = flank.triangles.positions_mm[2 * i + 1];
+            let point = target.at_arc(arc).point_mm;
+            assert!((f64::from(corner[0]) - point.x).hypot(f64::from(corner[1]) - point.y) < 1e-5);
+            assert_eq!(corner[2], 15.0);
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Triangles with normals for a viewer: walls between sections, end faces, bores.
+
+use crate::units::TURN_RAD;
+use glam::{DVec2, DVec3};
+
+/// Points of the target in one transverse section, gear frame, mm, each with the target's unit normal out of the gear.
+pub type Profile = Vec<(DVec2, DVec3)>;
+
+/// Triangles with a normal at every corner; counter-clockwise seen from outside.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Triangles {
+    /// Corners, mm.
+    pub positions_mm: Vec<[f32; 3]>,
+    /// Unit normals at the corners.
+    pub normals: Vec<[f32; 3]>,
+    /// Three corners per triangle.
+    pub indices: Vec<u32>,
+}
+
+impl Triangles {
+    /// One more corner; its index.
+    pub fn corner(&mut self, point: DVec2, z_mm: f64, normal: DVec3) -> u32 {
+        self.positions_mm.push(point.extend(z_mm).as_vec3().to_array());
+        self.normals.push(normal.as_vec3().to_array());
+        self.positions_mm.len() as u32 - 1
+    }
+
+    /// Profiles of all sections joined along the tooth; `forward`: they run counter-clockwise round the gear.
+    pub fn wall(&mut self, profiles: &[Profile], leads_mm: &[f64], forward: bool) {
+        let (first, sections) = (self.positions_mm.len() as u32, leads_mm.len() as u32);
+        for i in 0..profiles[0].len() {
+            for (profile, &lead) in profiles.iter().zip(leads_mm) {
+                let (point, normal) = profile[i];
+                self.corner(point, lead, normal);
+            }
+        }
+        for i in 0..profiles[0].len() as u32 - 1 {
+            for k in 0..sections - 1 {
+                let [a, b] = [k, k + 1].map(|k| first + sections * i + k);
+                let [c, d] = [a, b].map(|corner| corner + sections);
+                let quad = if forward { [a, c, d, a, d, b] } else { [a, d, c, a, b, d] };
+                self.indices.extend(quad);
+            }
+        }
+    }
+
+    /// Flat polygons at one end of the face from triangles that are counter-clockwise seen from +z.
+    pub fn end(&mut self, points: &[DVec2], triangles: &[[usize; 3]], z_mm: f64, top: bool) {
+        let first = self.positions_mm.len() as u32;
+        for &point in points {
+            self.corner(point, z_mm, if top { DVec3::Z } else { DVec3::NEG_Z });
+        }
+        for [a, b, c] in triangles.iter().map(|triangle| triangle.map(|corner| first + corner as u32)) {
+            self.indices.extend(if top { [a, b, c] } else { [a, c, b] });
+        }
+    }
+
+    /// One end of one tooth: a ladder between its right and its left flank, a fan under its tip land.
+    pub fn tooth_end(&mut self, [right, left, tip]: [&Profile; 3], z_mm: f64, top: bool) {
+        let points: Vec<DVec2> =
+            right.iter().chain(left).chain(&tip[1..tip.len() - 1]).map(|&(point, _)| point).collect();
+        let (r_last, l_first) = (right.len() - 1, right.len());
+        let l_last = l_first + left.len() - 1;
+        let mut triangles = Vec::new();
+        // The flanks may have different numbers of points: the one that lags behind takes the next step.
+        let (mut r, mut l) = (0, l_first);
+        while r < r_last || l < l_last {
+            let behind = (r as f64 / r_last as f64) <= ((l - l_first) as f64 / (left.len() - 1) as f64);
+            if r < r_last && (behind || l == l_last) {
+                triangles.push([r, r + 1, l]);
+                r += 1;
+            } else {
+                triangles.push([r, l + 1, l]);
+                l += 1;
+            }
+        }
+        let rim: Vec<usize> = std::iter::once(r_last).chain(l_last + 1..points.len()).chain([l_last]).collect();
+        triangles.extend(rim[1..].windows(2).map(|pair| [rim[0], pair[0], pair[1]]));
+        self.end(&points, &triangles, z_mm, top);
+    }
+
+    /// Both end faces (bottom, top) from their closed rims (counter-clockwise) to the bore, and the bore; without a bore to the axis.
+    pub fn rings(&mut self, rims: &[Vec<DVec2>; 2], bore_radius_mm: f64, leads_mm: [f64; 2]) {
+        let bores = [0, 1].map(|k| {
+            if bore_radius_mm <= 0.0 {
+                self.fan(&rims[k], leads_mm[k], k == 1);
+                return Profile::new();
+            }
+            self.ring(&rims[k], bore_radius_mm, leads_mm[k], k == 1)
+        });
+        if bore_radius_mm > 0.0 {
+            self.wall(&bores, &leads_mm, false);
+        }
+    }
+
+    /// An end face without a bore.
+    pub fn fan(&mut self, rim: &[DVec2], z_mm: f64, top: bool) {
+        let count = rim.len();
+        let points: Vec<DVec2> = rim.iter().copied().chain([DVec2::ZERO]).collect();
+        let fan: Vec<[usize; 3]> = (0..count).map(|i| [i, (i + 1) % count, count]).collect();
+        self.end(&points, &fan, z_mm, top);
+    }
+
+    /// An end face round a bore; gives the bore's closed outline with its normals.
+    pub fn ring(&mut self, rim: &[DVec2], bore_radius_mm: f64, z_mm: f64, top: bool) -> Profile {
+        let count = rim.len();
+        let bore: Vec<DVec2> = (0..count)
+            .map(|i| bore_radius_mm * DVec2::from_angle(rim[0].to_angle() + TURN_RAD * i as f64 / count as f64))
+            .collect();
+        // Rim and bore have equally many points; each rim point looks for the bore point in its own direction.
+        let points: Vec<DVec2> = rim.iter().copied().chain(bore.iter().copied()).collect();
+        let turns = |point: DVec2| (point.to_angle() - rim[0].to_angle()).rem_euclid(TURN_RAD) / TURN_RAD;
+        let (mut outer, mut inner) = (0, 0);
+        let mut triangles = Vec::new();
+        while outer < count || inner < count {
+            let place = |i: usize| if i >= count { 1.0 } else { turns(rim[i]) };
+            let ahead = |i: usize| i as f64 / count as f64;
+            let (o, i) = (outer % count, count + inner % count);
+            if outer < count && (inner == count || place(outer + 1) <= ahead(inner + 1)) {
+                triangles.push([o, (outer + 1) % count, i]);
+                outer += 1;
+            } else {
+                triangles.push([o, count + (inner + 1) % count, i]);
+                inner += 1;
+            }
+        }
+        self.end(&points, &triangles, z_mm, top);
+        bore.iter().chain([&bore[0]]).map(|&point| (point, (-point.normalize_or_zero()).extend(0.0))).collect()
+    }
+}

@@ -1,0 +1,210 @@
+//! The planar kernel against the native one on random and on edge inputs, and proof that the comparison can fail.
+
+use crate::fixtures::paper::*;
+use crate::fixtures::parity::*;
+use gearcut::cut::Backend;
+use gearcut::dexel::{Column, Field};
+use gearcut::passes::planar::strokes::{NODES, cubic_through};
+use gearcut::passes::{CutPlan, PassRecord, Tile};
+use gearcut::process::shaping::Job;
+use gearcut::scene::model::Tip;
+use gearcut::terms::Side;
+use gearcut::tool::CuttingTool;
+use gearcut::tool::edge::{Edge, Segment, SegmentShape};
+use glam::DVec2;
+
+/// Uniform numbers in [0, 1): splitmix64.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn within(&mut self, from: f64, to: f64) -> f64 {
+        from + (to - from) * self.next()
+    }
+}
+
+/// A blade of the paper's cutter, with rounded tips: tables and arcs large and small.
+fn edge() -> Edge {
+    let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 100)]);
+    scene.shaping_mut().expect("shaping").tool.tip = Tip::Round { radius_mm: 0.4 };
+    Job::new(scene).expect("the paper's gear").cutter.edge().clone()
+}
+
+/// A tile of rays that look at one segment, and a pass that moves during its stroke.
+fn random_tile(random: &mut Random, edge: &Edge, pass: u32) -> (Vec<Column>, PassRecord, DVec2) {
+    let index = (random.next() * edge.segments.len() as f64) as usize;
+    let segment = &edge.segments[index];
+    let [y_from, y_to] = segment.y_range_mm;
+    // The middle ray meets the segment a little beyond its ends at most, up to 70 degrees off its normal.
+    let y = random.within(y_from - 0.1, y_to + 0.1);
+    let (x, slope) = place(segment, y);
+    let normal_in_segment = DVec2::from_angle(random.within(-1.2, 1.2)).rotate(DVec2::new(-1.0, slope).normalize());
+    let height_mm = random.within(-1.0, 4.0);
+    let angle = random.within(0.0, 6.3);
+    let from_tile = DVec2::from_angle(angle);
+    let origin_in_segment = DVec2::new(x, y) - height_mm * normal_in_segment;
+    let tile_origin_mm = DVec2::new(random.within(-60.0, 60.0), random.within(-60.0, 60.0));
+    let normal = DVec2::new(from_tile.x, -from_tile.y).rotate(normal_in_segment);
+    let columns = (0..7)
+        .map(|i| {
+            let step = f64::from(i) - 3.0;
+            let turn = DVec2::from_angle(0.01 * step * random.next());
+            Column {
+                arc_mm: 0.005 * step,
+                origin_mm: tile_origin_mm + 0.005 * step * normal.perp(),
+                normal: turn.rotate(normal),
+                low_mm: -1.5,
+                blank_mm: 4.7,
+            }
+        })
+        .collect();
+    // A rigid rotation that goes on during the stroke: arcs rely on unit directions.
+    let turn_rad = random.within(-1e-3, 1e-3);
+    let turning = NODES.map(|tau| DVec2::from_angle(angle + turn_rad * tau));
+    let mut drift = |size: f64| [0.0; 3].map(|_: f64| random.within(-size, size));
+    let cubic = |constant: f64, rest: [f64; 3]| [constant, rest[0], rest[1], rest[2]];
+    let record = PassRecord {
+        pass,
+        segment: index as u32,
+        start_mm: height_mm,
+        cos: cubic_through(&turning.map(|v| v.x)),
+        sin: cubic_through(&turning.map(|v| v.y)),
+        x_mm: cubic(origin_in_segment.x, drift(0.02)),
+        y_mm: cubic(origin_in_segment.y, drift(0.02)),
+    };
+    (columns, record, tile_origin_mm)
+}
+
+/// x and slope of a segment.
+fn place(segment: &Segment, y: f64) -> (f64, f64) {
+    match &segment.shape {
+        SegmentShape::Table(table) => {
+            let [x, slope] = table.x_and_slope(y);
+            (x, slope)
+        }
+        SegmentShape::Arc { radius_mm } => {
+            let x = (radius_mm * radius_mm - y * y).max(1e-3).sqrt();
+            (x - radius_mm, -y / x)
+        }
+    }
+}
+
+/// Many tiles that share nothing but the rows.
+fn random_field(tiles: u32, edge: &Edge, seed: u64) -> (Field, CutPlan) {
+    let mut random = Random(seed);
+    let (mut columns, mut records, mut all) = (Vec::new(), Vec::new(), Vec::new());
+    for pass in 0..tiles {
+        let (rays, record, origin_mm) = random_tile(&mut random, edge, pass);
+        let first = columns.len();
+        columns.extend(rays);
+        let first_record = records.len();
+        // A second pass that ties with the first everywhere: the lower id must stand.
+        records.extend([record, PassRecord { pass: pass + tiles, ..record }]);
+        all.push(Tile { columns: first..columns.len(), origin_mm, records: first_record..records.len() });
+    }
+    let row_phases: Vec<f64> = (0..13).map(|row| f64::from(row) / 6.0 - 1.0).collect();
+    let field = Field { columns, leads_mm: row_phases.clone() };
+    (field, CutPlan { tiles: all, records, row_phases })
+}
+
+#[test]
+fn random_rays_are_cut_alike_and_ties_go_to_the_lowest_pass() {
+    let gpu = software_gpu(strict());
+    let edge = edge();
+    let (field, plan) = random_field(4000, &edge, 7);
+    let blank = field.blank_layer();
+    let (parity, layers) = cut_both(&gpu, "random", &field, &edge, &plan, [&blank; 4]);
+    println!("random: {parity}");
+    assert_eq!(parity.verdict(), Ok(()));
+    assert!(parity.cut > field.len() / 2, "{} of {} rays met something", parity.cut, field.len());
+    let tied = layers[3].passes.iter().filter(|&&pass| pass != u32::MAX && pass >= 4000).count();
+    assert_eq!(tied, 0, "ties went to the higher pass");
+}
+
+#[test]
+fn edge_inputs_are_cut_alike() {
+    let gpu = software_gpu(strict());
+    let edge = edge();
+    for rows in [1, 2, 3, 4, 5, 63, 64, 65, 257] {
+        for columns in [1, 2, 15, 16, 17] {
+            let (mut field, mut plan) = random_field(6, &edge, rows * 100 + columns);
+            plan.row_phases = (0..rows).map(|row| row as f64 / rows as f64 * 2.0 - 1.0).collect();
+            field.leads_mm.clone_from(&plan.row_phases);
+            // Tiles of another width, and one that no pass visits.
+            let width = columns as usize;
+            let own = field.columns.chunks_exact(7).flat_map(|rays| rays.iter().cycle().take(width));
+            field.columns = own.copied().collect();
+            for (index, tile) in plan.tiles.iter_mut().enumerate() {
+                tile.columns = index * width..(index + 1) * width;
+            }
+            plan.tiles[2].records = 0..0;
+            let blank = field.blank_layer();
+            let place = format!("{rows} rows, {columns} columns");
+            let (parity, _) = cut_both(&gpu, &place, &field, &edge, &plan, [&blank; 4]);
+            let verdict = parity.verdict();
+            assert!(verdict.is_ok() || parity.cut == 0, "{verdict:?}");
+        }
+    }
+    let (mut field, mut plan) = random_field(1, &edge, 1);
+    (field.columns, plan.tiles) = (Vec::new(), Vec::new());
+    let mut nothing = field.blank_layer();
+    let stats = gpu.cut(&field, &edge, &plan, &mut nothing).expect("nothing to do");
+    assert_eq!(stats.dexel_passes, 0);
+}
+
+#[test]
+fn small_batches_give_the_same_bytes() {
+    let job = Job::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 720)])).expect("the paper's gear");
+    let generation = job.target_generation();
+    let mut field = job.flank_field(&job.target_flank(&generation, 5, Side::Left).expect("a flank"));
+    field.leads_mm.truncate(200);
+    let plan = CutPlan::brute_force(&field, &job.finishing().strokes, &job.cutter);
+    let cut = |memory_limit_bytes: Option<u64>| {
+        let gpu = software_gpu(gearcut::gpu::GpuOptions { memory_limit_bytes, ..strict() });
+        let mut layer = field.blank_layer();
+        gpu.cut(&field, job.cutter.edge(), &plan, &mut layer).expect("fits");
+        (layer, gpu.stage_times())
+    };
+    let (whole, one) = cut(None);
+    // A few columns and one round of records at a time.
+    let (parts, many) = cut(Some(260_000));
+    println!("{} batches against {}", many[0].batches, one[0].batches);
+    assert!(many[0].batches > 50 * one[0].batches);
+    assert!(whole == parts, "batches change the result");
+}
+
+#[test]
+fn a_planted_difference_is_noticed() {
+    let gpu = software_gpu(strict());
+    let edge = edge();
+    let (field, plan) = random_field(100, &edge, 3);
+    let blank = field.blank_layer();
+    let (honest, layers) = cut_both(&gpu, "honest", &field, &edge, &plan, [&blank; 4]);
+    assert_eq!(honest.verdict(), Ok(()));
+    let compare = |plant: &dyn Fn(&mut gearcut::dexel::Layer)| {
+        let mut planted = layers[3].clone();
+        plant(&mut planted);
+        let mut parity = Parity::default();
+        parity.add("planted", field.rows(), &layers[0], &[layers[1].clone(), layers[2].clone()], &planted);
+        parity.verdict()
+    };
+    let at = layers[0].passes.iter().position(|&pass| pass != u32::MAX).expect("a cut dexel");
+    assert!(compare(&|layer| layer.heights_mm[at] += 2e-5).is_err(), "20 nm on one dexel");
+    assert!(compare(&|layer| layer.heights_mm[at] = f32::from_bits(u32::MAX)).is_err(), "the poison itself");
+    assert!(compare(&|layer| *layer = blank.clone()).is_err(), "no pass at all");
+    // A pass a nanometre-scale lift away in its own frame shows through the whole path.
+    let mut lifted = plan.clone();
+    for record in &mut lifted.records {
+        record.x_mm[0] += 5e-5;
+    }
+    let mut layer = field.blank_layer();
+    gpu.cut(&field, &edge, &lifted, &mut layer).expect("cuts");
+    assert!(compare(&|planted| planted.clone_from(&layer)).is_err(), "passes 50 nm off");
+}

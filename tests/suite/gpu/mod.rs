@@ -1,0 +1,10 @@
+//! The shaders on a software adapter; every test here needs one, but for those of the shaders as text.
+
+mod failures;
+mod golden;
+mod hobbed_blank;
+mod kernel;
+mod scenes;
+mod shaders;
+mod shaped_blank;
+mod spatial;

@@ -1,0 +1,166 @@
+//! The spatial kernel on the GPU against the native one: hobbed patches, tile by tile, and proof that the comparison can fail.
+
+use crate::fixtures::oracle_cases::*;
+use crate::fixtures::parity::*;
+use gearcut::cut::Backend;
+use gearcut::dexel::SpatialField;
+use gearcut::gpu::GpuOptions;
+use gearcut::passes::{SweepPlan, TurningPasses};
+use gearcut::process::hobbing::{HobCutter, HobbingJob};
+use gearcut::scene::load;
+use gearcut::terms::Side;
+use gearcut::tool::CuttingTool;
+use std::f64::consts::TAU;
+use std::path::Path;
+
+/// [`fingerprint`] of the first patch: llvmpipe rounds alike in all its versions.
+const GOLDEN: u64 = 0x4829_c375_1cb1_4edd;
+
+fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|i| from + (to - from) * i as f64 / (count - 1) as f64).collect()
+}
+
+/// A coarse flank from below the tip corner's trochoid to the gear's tip: one tile wide patches at all places of it.
+fn case(name: &str) -> (Case, TurningPasses, SpatialField) {
+    let file = data(name);
+    let case = Case::new(&file["setup"]);
+    let cycle = TAU * f64::from(case.teeth) / number(&file["setup"], "K");
+    let passes = case.passes([-3.5 * cycle, 4.5 * cycle]);
+    let (space, flank) = (file["space"].as_i64().expect("space"), number(&file, "flank"));
+    let field = case.patch(space, flank, &even(-26.0, 24.0, 120), &even(-5.0, 5.0, 131));
+    (case, passes, field)
+}
+
+#[test]
+fn hobbed_flanks_are_cut_alike() {
+    let gpu = software_gpu(strict());
+    let mut all = Parity::default();
+    for name in
+        ["p09_patch_s2_axial", "p10_patch_s2_diag_VL", "p11_patch_circle", "p12_patch_spur", "p13_patch_s4_ellipse"]
+    {
+        let (case, passes, field) = case(name);
+        let plan = SweepPlan::new(&field, &passes, case.hob.edge());
+        let (parity, native, shifted, got) = cut_both_in_space(&gpu, name, &field, case.hob.edge(), &plan);
+        println!("{parity}");
+        assert_eq!(parity.verdict(), Ok(()), "{name}");
+        all.merge(parity);
+        if name == "p09_patch_s2_axial" {
+            let hash = fingerprint(std::slice::from_ref(&got));
+            println!("hash {hash:#018x}");
+            assert_eq!(hash, GOLDEN, "other bytes than before on {}", gpu.name());
+            // The comparison is alive: a dexel 20 nm off, a poisoned one, and passes 50 nm off are seen.
+            let at = native.passes.iter().position(|&pass| pass != u32::MAX).expect("a cut dexel");
+            for plant in [got.heights_mm[at] + 2e-5, f32::from_bits(u32::MAX)] {
+                let mut planted = got.clone();
+                planted.heights_mm[at] = plant;
+                let mut parity = Parity::default();
+                parity.add("planted", field.rows(), &native, &shifted, &planted);
+                assert!(parity.verdict().is_err(), "{plant}");
+            }
+            let mut lifted = plan.clone();
+            lifted.records.iter_mut().for_each(|record| record.place_mm[0][0] += 5e-5);
+            let mut layer = field.blank_layer();
+            gpu.cut_spatial(&field, case.hob.edge(), &lifted, &mut layer).expect("cuts");
+            let mut parity = Parity::default();
+            parity.add("lifted", field.rows(), &native, &shifted, &layer);
+            assert!(parity.verdict().is_err());
+        }
+    }
+    println!("all: {all}");
+}
+
+#[test]
+fn small_batches_give_the_same_bytes() {
+    let (case, passes, field) = case("p11_patch_circle");
+    let plan = SweepPlan::new(&field, &passes, case.hob.edge());
+    let cut = |memory_limit_bytes: Option<u64>| {
+        let gpu = software_gpu(GpuOptions { memory_limit_bytes, ..strict() });
+        let mut layer = field.blank_layer();
+        gpu.cut_spatial(&field, case.hob.edge(), &plan, &mut layer).expect("fits");
+        (layer, gpu.stage_times())
+    };
+    let (whole, one) = cut(None);
+    let (parts, many) = cut(Some(300_000));
+    println!("{} batches against {}", many[0].batches, one[0].batches);
+    assert!(many[0].batches > 5 * one[0].batches);
+    assert!(whole == parts, "batches change the result");
+    // A tile that does not fit is a problem with a reason, not a wrong result.
+    let gpu = software_gpu(GpuOptions { memory_limit_bytes: Some(20_000), ..strict() });
+    let refused = gpu.cut_spatial(&field, case.hob.edge(), &plan, &mut field.blank_layer());
+    assert!(refused.is_err_and(|error| error.to_string().contains("groups")));
+}
+
+mod slow {
+    use super::*;
+
+    #[test]
+    fn flanks_of_helical_gashes_are_cut_alike() {
+        let gpu = software_gpu(strict());
+        let sets = ["fields.flank.profile_spacing_um=80", "fields.flank.lead_spacing_um=400"].map(str::to_owned);
+        let loaded = load(Path::new("scenes/hobbing/circular_helical.toml"), &sets).unwrap_or_else(|e| panic!("{e}"));
+        let job = HobbingJob::new(&loaded.scene).expect("a scene that cuts");
+        let cutter = HobCutter::new(&job).expect("passes");
+        let edge = job.hob.edge();
+        let mut all = Parity::default();
+        for (tooth, side) in [(1, Side::Left), (1, Side::Right), (23, Side::Left)] {
+            let (_, rays) = cutter.rays(tooth, side).expect("a flank");
+            for (operation, passes) in job.operations.iter().zip(&cutter.operations) {
+                let plan = SweepPlan::new(&rays.field, passes, edge);
+                // The rake face turns by this much over the height of a tooth.
+                let twist_rad_per_mm =
+                    plan.records.iter().map(|record| record.twist_rad_per_mm.abs()).fold(f64::INFINITY, f64::min);
+                assert!(twist_rad_per_mm > 1e-4, "the rake faces are planes");
+                let place = format!("tooth {tooth} {}, {}", side.name(), operation.spec.name);
+                let (parity, native, shifted, got) = cut_both_in_space(&gpu, &place, &rays.field, edge, &plan);
+                let heights = native.heights_mm.iter().map(|&h| 1e3 * f64::from(h));
+                let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], h| [a.min(h), b.max(h)]);
+                println!(
+                    "{place}: twist {:.4} deg/mm, heights {low:.3} to {high:.3} um; {parity}",
+                    twist_rad_per_mm.to_degrees()
+                );
+                assert_eq!(parity.verdict(), Ok(()), "{place}");
+                all.merge(parity);
+                // A rake face that is taken for a plane is seen.
+                let mut plane = plan.clone();
+                plane.records.iter_mut().for_each(|record| record.twist_rad_per_mm = 0.0);
+                let mut layer = rays.field.blank_layer();
+                gpu.cut_spatial(&rays.field, edge, &plane, &mut layer).expect("cuts");
+                assert!(layer != got);
+                let mut parity = Parity::default();
+                parity.add("plane", rays.field.rows(), &native, &shifted, &layer);
+                assert!(parity.verdict().is_err());
+            }
+        }
+        println!("all: {all}");
+    }
+
+    #[test]
+    fn long_lists_go_through_in_rounds() {
+        // All passes that can reach the flank at all, on a few of its dexels.
+        let (case, passes, field) = case("p12_patch_spur");
+        let few = SpatialField::new(20, 9, field.low_mm, |column, row| {
+            let [column, row] = [6 * column, 14 * row];
+            (field.ray(column, row), f64::from(field.blank_mm[field.index(column, row)]))
+        });
+        let plan = SweepPlan::brute_force(&few, &passes, case.hob.edge());
+        let longest = plan.tiles.iter().map(|tile| tile.records.len()).max().expect("tiles");
+        println!("{longest} records in a tile");
+        assert!(longest > 10 * 1024, "these lists fit one launch or two");
+        let gpu = software_gpu(strict());
+        let (parity, _, _, whole) = cut_both_in_space(&gpu, "all passes", &few, case.hob.edge(), &plan);
+        println!("{parity}");
+        assert_eq!(parity.verdict(), Ok(()));
+        // Rounds of other lengths leave the same bytes.
+        let cut = |memory_limit_bytes: Option<u64>, plan: &SweepPlan| {
+            let gpu = software_gpu(GpuOptions { memory_limit_bytes, ..strict() });
+            let mut layer = few.blank_layer();
+            gpu.cut_spatial(&few, case.hob.edge(), plan, &mut layer).expect("no list is too long");
+            layer
+        };
+        assert!(cut(Some(300_000), &plan) == whole, "rounds change the result");
+        // Alive: the first round alone leaves something else.
+        let mut short = plan.clone();
+        short.tiles.iter_mut().for_each(|tile| tile.records.end = tile.records.start + 1024.min(tile.records.len()));
+        assert!(cut(None, &short) != whole);
+    }
+}

@@ -1,0 +1,237 @@
+//! The spatial kernel against an independent implementation: heights of hobbed flanks, the passes that left them.
+
+use crate::fixtures::oracle_cases::*;
+use gearcut::cut::Backend;
+use gearcut::cut::cpu::{Cpu, Vectors};
+use gearcut::dexel::{Layer, SpatialField};
+use gearcut::passes::{SweepPlan, TurningPasses};
+use gearcut::process::hobbing::{HobCutter, HobbingJob};
+use gearcut::scene::load;
+use gearcut::terms::Side;
+use gearcut::tool::CuttingTool;
+use gearcut::tool::edge::Edge;
+use serde_json::Value;
+use std::f64::consts::TAU;
+use std::path::Path;
+
+/// Largest difference from the oracle's heights: numerical resolution of the native backend.
+const BOUND_NM: f64 = 0.1;
+
+fn patch(name: &str) -> (Case, TurningPasses, SpatialField, Value) {
+    let file = data(name);
+    let case = Case::new(&file["setup"]);
+    // The slide passes the patch within 3 mm and a facet; three cycles to either side hold every pass that can be lowest there.
+    let cycle = TAU * f64::from(case.teeth) / number(&file["setup"], "K");
+    let passes = case.passes([-3.5 * cycle, 4.5 * cycle]);
+    let space = file["space"].as_i64().expect("space");
+    let field = case.patch(space, number(&file, "flank"), &numbers(&file["sigma"]), &numbers(&file["z"]));
+    (case, passes, field, file)
+}
+
+#[test]
+fn patches_agree_with_the_independent_solver() {
+    for name in
+        ["p09_patch_s2_axial", "p10_patch_s2_diag_VL", "p11_patch_circle", "p12_patch_spur", "p13_patch_s4_ellipse"]
+    {
+        let (case, passes, field, file) = patch(name);
+        let wanted = heights(name, &file);
+        let plan = SweepPlan::new(&field, &passes, case.hob.edge());
+        let mut layer = field.blank_layer();
+        let stats = Cpu::default().cut_spatial(&field, case.hob.edge(), &plan, &mut layer).expect("cuts");
+        let mut worst = (0.0, 0, 0);
+        for (row, heights) in wanted.iter().enumerate() {
+            for (column, wanted) in heights.iter().enumerate() {
+                let got = f64::from(layer.heights_mm[field.index(column, row)]);
+                let nm = (got - wanted).abs() * 1e6;
+                assert!(nm.is_finite());
+                if nm > worst.0 {
+                    worst = (nm, column, row);
+                }
+            }
+        }
+        let per_dexel = stats.dexel_passes as f64 / field.len() as f64;
+        println!(
+            "{name}: {} passes, {:.1} candidates per dexel, worst {:.4} nm at column {} row {}",
+            passes.count(),
+            per_dexel,
+            worst.0,
+            worst.1,
+            worst.2
+        );
+        assert_eq!(stats.unconverged, 0);
+        assert!(worst.0 < BOUND_NM, "{name}: {worst:?}");
+    }
+}
+
+#[test]
+fn all_instruction_sets_give_the_same_bytes() {
+    let (case, passes, field, _) = patch("p12_patch_spur");
+    let few = SpatialField::new(field.columns() / 4, field.rows() / 4, field.low_mm, |column, row| {
+        let [column, row] = [4 * column, 4 * row];
+        (field.ray(column, row), f64::from(field.blank_mm[field.index(column, row)]))
+    });
+    let plan = SweepPlan::new(&few, &passes, case.hob.edge());
+    let cut = |cpu: Cpu| {
+        let mut layer = few.blank_layer();
+        cpu.cut_spatial(&few, case.hob.edge(), &plan, &mut layer).expect("cuts");
+        layer
+    };
+    let widest = cut(Cpu::default());
+    for vectors in [Vectors::Baseline, Vectors::Avx2] {
+        let Some(cpu) = Cpu::with_vectors(vectors) else { continue };
+        assert!(cut(cpu) == widest, "{} differs from the widest", cpu.instruction_set());
+    }
+}
+
+#[test]
+fn target_rays_are_those_of_the_independent_implementation() {
+    for name in ["p09_patch_s2_axial", "p10_patch_s2_diag_VL"] {
+        let (_, _, field, file) = patch(name);
+        for point in file["nominal_points"].as_array().expect("points") {
+            let index = |key: &str| point[key].as_u64().expect("an index") as usize;
+            let ray = field.ray(index("isigma"), index("iz"));
+            let exchanged = |v: &Value| {
+                let v = numbers(v);
+                glam::DVec3::new(v[1], v[0], -v[2])
+            };
+            let (p, n) = (exchanged(&point["P"]), exchanged(&point["N"]));
+            println!("{name}: {} against {p}, {} against {n}", ray.origin_mm, ray.normal);
+            assert!(ray.origin_mm.distance(p) < 1e-9 && ray.normal.distance(n) < 1e-12);
+        }
+    }
+}
+
+/// Two plans of one field leave the same bytes.
+fn same_as_brute_force(name: &str, edge: &Edge, passes: &TurningPasses, field: &SpatialField, start: &Layer) -> Layer {
+    let run = |plan: &SweepPlan, every_root: bool| {
+        let mut layer = start.clone();
+        let stats = Cpu::default().cut_spatial(field, edge, plan, &mut layer).expect("cuts");
+        // Of a hundred million pairs a few are rays that graze a round tip far above what is left in the end.
+        assert!(stats.unconverged == 0 || (!every_root && stats.unconverged < 10), "{name}: {}", stats.unconverged);
+        assert_eq!(stats.dexel_passes, plan.dexel_passes(), "{name}");
+        layer
+    };
+    let [plan, all] = [SweepPlan::new, SweepPlan::brute_force].map(|make| make(field, passes, edge));
+    let (few, brute) = (run(&plan, true), run(&all, false));
+    let differ =
+        (0..field.len()).filter(|&i| few.heights_mm[i] != brute.heights_mm[i] || few.passes[i] != brute.passes[i]);
+    let differ: Vec<usize> = differ.collect();
+    println!(
+        "{name}: {} tiles, {} of {} records, {} dexels differ",
+        plan.tiles.len(),
+        plan.records.len(),
+        all.records.len(),
+        differ.len()
+    );
+    assert!(differ.is_empty(), "{name}: dexel {} of {}", differ[0], field.len());
+    brute
+}
+
+/// A gash touches the target in one point, where it lies on it exactly: a ray there is left by a tooth of that gash and of no other.
+#[test]
+fn marks_are_left_by_the_gashes_of_the_independent_implementation() {
+    let file = data("p08_events_s2");
+    for name in ["axial", "diagonal_VL"] {
+        let part = &file[name];
+        let case = Case::new(&part["setup"]);
+        let cycle = TAU * f64::from(case.teeth);
+        let passes = case.passes([-3.5 * cycle, 4.5 * cycle]);
+        let gash_rad = TAU / number(&part["setup"], "Zb");
+        let (space, flank) = (part["space"].as_i64().expect("space"), number(part, "flank"));
+        let events = part["events"].as_array().expect("events");
+        for event in events {
+            let mark = &event["mark"];
+            let field = case.patch(space, flank, &[number(mark, "sigma")], &[number(mark, "z")]);
+            let plan = SweepPlan::new(&field, &passes, case.hob.edge());
+            let mut layer = field.blank_layer();
+            Cpu::default().cut_spatial(&field, case.hob.edge(), &plan, &mut layer).expect("cuts");
+            let pass = passes.pass(layer.passes[0] - passes.first_pass);
+            let gash = (pass.tool_angle_rad / gash_rad).round() as i64;
+            assert_eq!(gash, event["g"].as_i64().expect("g"), "{name} at {mark}");
+            assert!(layer.heights_mm[0].abs() < 1e-7, "{name} at {mark}: {} mm", layer.heights_mm[0]);
+        }
+        assert!(events.len() >= 17);
+    }
+}
+
+mod slow {
+    use super::*;
+
+    #[test]
+    fn candidates_leave_what_all_passes_leave() {
+        let even = |from: f64, to: f64, count: usize| -> Vec<f64> {
+            (0..count).map(|i| from + (to - from) * i as f64 / (count - 1) as f64).collect()
+        };
+        // Tiles as in use (20 um by 50 um), stratified over the profile from the tip corner's trochoid to the gear's tip; the ends have the longest lists.
+        let cases: [(&str, &[[f64; 2]]); 3] = [
+            ("p09_patch_s2_axial", &[[-26.0, -2.6], [-14.0, 0.7], [8.0, -1.0], [23.0, 0.7]]),
+            ("p10_patch_s2_diag_VL", &[[-3.0, -2.6], [23.0, -2.6]]),
+            ("p13_patch_s4_ellipse", &[[-26.0, 0.7], [8.0, -2.6]]),
+        ];
+        for (name, places) in cases {
+            let (case, passes, _, file) = patch(name);
+            let (space, flank) = (file["space"].as_i64().expect("space"), number(&file, "flank"));
+            for &[sigma, z] in places {
+                let field = case.patch(space, flank, &even(sigma, sigma + 0.8, 16), &even(z, z + 1.55, 32));
+                same_as_brute_force(
+                    &format!("{name} at {sigma}, {z}"),
+                    case.hob.edge(),
+                    &passes,
+                    &field,
+                    &field.blank_layer(),
+                );
+            }
+            // A whole flank, coarse: regions as large as the first halvings.
+            let field = case.patch(space, flank, &even(-26.0, 24.0, 20), &even(-12.0, 12.0, 34));
+            same_as_brute_force(&format!("{name}, whole"), case.hob.edge(), &passes, &field, &field.blank_layer());
+        }
+    }
+
+    /// Whole jobs, from the approach to the overrun: candidates start from all passes of an operation, of which most work on other teeth. Two cuts with a radial approach, helical gashes and round tips; a hob
+    /// that shifts; and one that turns round all the time, so that sweeps end where others go on.
+    #[test]
+    fn candidates_of_whole_jobs_leave_what_all_passes_leave() {
+        let cases = [
+            ("circular_helical", "gear.face_width_mm=14", 3, Side::Right),
+            ("third_order_diagonal", "gear.face_width_mm=50", 5, Side::Left),
+            // The shift turns round six times a revolution.
+            (
+                "third_order_diagonal",
+                "operation.finish.linkage.hobbing_diagonal.shift_mm_per_revolution=500",
+                21,
+                Side::Right,
+            ),
+        ];
+        for (scene, setting, tooth, side) in cases {
+            let path = format!("scenes/hobbing/{scene}.toml");
+            let set =
+                ["fields.flank.profile_spacing_um=20", "fields.flank.lead_spacing_um=50", setting].map(str::to_owned);
+            let scene = load(Path::new(&path), &set).expect("the scene").scene;
+            let job = HobbingJob::new(&scene).expect("the gear");
+            let cutter = HobCutter::new(&job).expect("passes");
+            let whole = cutter.rays(tooth, side).expect("a flank").1.field;
+            // Every so many rays of the flank, so many of them, from a column and a row on.
+            let part = |step: [usize; 2], count: [usize; 2], from: [usize; 2]| {
+                SpatialField::new(count[0], count[1], whole.low_mm, |column, row| {
+                    let (column, row) = (from[0] + column * step[0], from[1] + row * step[1]);
+                    (whole.ray(column, row), f64::from(whole.blank_mm[whole.index(column, row)]))
+                })
+            };
+            let (columns, rows) = (whole.columns(), whole.rows());
+            // A coarse flank from face to face, and two by two tiles as in use where the tip meets one face and the root the other.
+            let fields = [
+                part([columns / 20, rows / 33], [20, 33], [0, 0]),
+                part([1, 1], [17, 40], [columns - 17, 0]),
+                part([1, 1], [17, 40], [0, rows - 40]),
+            ];
+            for (number, field) in fields.iter().enumerate() {
+                let mut layer = field.blank_layer();
+                for passes in &cutter.operations {
+                    let name = format!("{path}, field {number}");
+                    layer = same_as_brute_force(&name, job.hob.edge(), passes, field, &layer);
+                }
+                assert!(layer.passes.iter().any(|&pass| pass != u32::MAX));
+            }
+        }
+    }
+}

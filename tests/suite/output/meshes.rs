@@ -1,0 +1,120 @@
+//! Meshes of cut gears: closed, free of crossings, as large as polygon clipping says, and readable.
+
+use crate::fixtures::clipping::clipped;
+use crate::fixtures::contour::crossings;
+use gearcut::cut::cpu::Cpu;
+use gearcut::process::shaping::Job;
+use gearcut::process::shaping::section::{Section, cutter_solid};
+use gearcut::scene;
+use gearcut::steps::gear_surfaces::complete;
+use gearcut::surface::gear_solid::gear_solid;
+use gearcut::surface::outline::Outline;
+use gearcut::surface::{BlankMesh, Mesh, SurfaceGrid};
+use gearcut::terms::Side;
+use glam::DVec2;
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+const COARSE: [&str; 2] = ["fields.flank.profile_spacing_um=20", "fields.flank.lead_spacing_um=2000"];
+
+fn load(path: &Path, settings: &[&str]) -> Job {
+    let settings: Vec<String> = COARSE.iter().chain(settings).map(|&s| s.to_owned()).collect();
+    Job::new(scene::load(path, &settings).expect("a shipped scene").scene).expect("can be cut")
+}
+
+fn outline_and_solid(job: &Job) -> (Outline, Mesh) {
+    let backend = Cpu::default();
+    let generation = job.target_generation();
+    let flanks = (1..=job.scene.gear.teeth)
+        .flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)])
+        .map(|(tooth, side)| {
+            let target = job.target_flank(&generation, tooth, side).expect("a flank");
+            let cut = job.cut(&backend, job.flank_field(&target)).expect("cut");
+            SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm)
+        })
+        .collect();
+    let surfaces = complete(job, &backend, flanks, &|| ()).expect("roots and tips");
+    let outline = Outline::new(&surfaces, &job.blank);
+    let solid = gear_solid(&outline, job.scene.gear.bore_diameter_mm).expect("a closed body");
+    (outline, solid)
+}
+
+fn shipped_scenes() -> Vec<PathBuf> {
+    let mut scenes: Vec<PathBuf> = std::fs::read_dir("scenes/shaping")
+        .expect("scenes")
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .collect();
+    scenes.sort();
+    assert!(scenes.len() >= 8);
+    scenes
+}
+
+#[test]
+fn every_shipped_scene_gives_a_closed_body() {
+    for path in shipped_scenes() {
+        let job = load(&path, &[]);
+        let (outline, solid) = outline_and_solid(&job);
+        assert!(solid.is_closed(), "{}: {:?}", path.display(), solid.edge_faults());
+        let row = outline.row_mm(0);
+        println!(
+            "{}: {} rows, {} columns, {} triangles, {:.3} mm^3",
+            path.display(),
+            outline.rows(),
+            row.len(),
+            solid.triangles.len(),
+            solid.volume_mm3()
+        );
+        for r in [0, outline.rows() - 1] {
+            assert_eq!(crossings(&outline.row_mm(r)), 0, "{}", path.display());
+        }
+    }
+}
+
+/// Ways that share nothing but the scene: dexels on the flanks sewn together, rays through the blank as the pictures of
+/// the cut draw them, and polygons of every stroke clipped off. Chords of the clipped polygons over some 500 mm of
+/// outline may leave 0.7 mm^2; a single stroke left out where the cutter plunges is far more.
+#[test]
+fn the_body_is_as_large_as_clipping_says() {
+    let job = load(Path::new("scenes/shaping/circular_m3_z24.toml"), &[]);
+    let (_, solid) = outline_and_solid(&job);
+    let from_dexels_mm2 = solid.volume_mm3() / job.scene.gear.face_width_mm;
+    let polygon = clipped(&job);
+    let outline_mm2 =
+        (0..polygon.len()).map(|i| 0.5 * polygon[i].perp_dot(polygon[(i + 1) % polygon.len()])).sum::<f64>();
+    let clipped_mm2 = outline_mm2 - 0.25 * PI * job.scene.gear.bore_diameter_mm.powi(2);
+    println!("{from_dexels_mm2:.4} mm^2 from dexels, {clipped_mm2:.4} mm^2 clipped");
+    assert!((from_dexels_mm2 - clipped_mm2).abs() < 0.7);
+
+    let mut section = Section::new(&job).expect("fits in memory");
+    let strokes = Section::strokes(&job);
+    // In two steps, as pictures do.
+    section.advance(strokes / 3);
+    let half_way_mm2 = section.area_mm2();
+    section.advance(strokes);
+    let drawn = section.solid(DVec2::from_angle(0.3));
+    println!("{:.4} mm^2 on rays, {half_way_mm2:.4} after a third of the strokes", section.area_mm2());
+    assert!((section.area_mm2() - clipped_mm2).abs() < 0.7 && half_way_mm2 > section.area_mm2() + 10.0);
+    assert!(drawn.is_closed(), "{:?}", drawn.edge_faults());
+    assert!((drawn.volume_mm3() / job.scene.gear.face_width_mm - clipped_mm2).abs() < 0.7);
+    let cutter = cutter_solid(&job, [1.0, 3.0], &Section::work_from_tool(&job, 7));
+    assert!(cutter.is_closed() && cutter.volume_mm3() > 0.0, "{:?}", cutter.edge_faults());
+}
+
+/// A few teeth of a gear whose other teeth no pass reaches, and a small pinion that the cutter undercuts.
+#[test]
+fn windows_and_undercut_leave_closed_bodies_in_the_blank() {
+    // Flanks and roots of the target may cross each other or never be reached there, so that no body can be made of
+    // them; rays through the blank know no target.
+    let window = ["operation.finish.window_deg=[0, 100]", "operation.rough.window_deg=[0, 100]"];
+    for settings in [&window[..], &["gear.teeth=12"]] {
+        let settings = [settings, &["fields.blank.spacing_mm=0.2"]].concat();
+        let job = load(Path::new("scenes/shaping/circular_m3_z24.toml"), &settings);
+        let cut = job
+            .cut_blank(&Cpu::default(), job.blank_field().expect("fits"), &|| true)
+            .expect("native")
+            .expect("not stopped");
+        let BlankMesh { mesh, guessed } = BlankMesh::new(&cut.field, None);
+        assert!(mesh.is_closed() && guessed == 0, "{settings:?}: {:?}", mesh.edge_faults());
+    }
+}

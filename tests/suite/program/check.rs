@@ -1,0 +1,105 @@
+//! `gearcut check`: facts, warnings, every committed scene, in a second.
+
+use crate::fixtures::command::gearcut;
+use gearcut::passes::SweepPlan;
+use gearcut::process::hobbing::{HobCutter, HobbingJob};
+use gearcut::scene::load;
+use gearcut::terms::Side;
+use gearcut::tool::CuttingTool;
+use std::path::Path;
+
+const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
+
+#[test]
+fn the_papers_gear_is_described() {
+    let outcome = gearcut(&["check", PAPER]).done().says(&[
+        "42 teeth, module 3 mm, pressure angle 20 deg, face width 30 mm",
+        "395.840616 mm for pi m z = 395.840674 mm: 0.0588 um too short",
+        "28.868 mm at polar angle 0.00 deg and 2 more",
+        "52.67 to 67.33, 172.67 to 187.33, 292.67 to 307.33 deg",
+        "radius 765.301 mm at polar angle 60.00 deg",
+        "pitch 30.000 mm, base 28.191 mm, tip 33.750 mm",
+        "14.95 deg at polar angle",
+        "26 % of a circular gear's",
+        "undercut                      none",
+        "million dexels",
+        "rays 0.1 mm apart in 1 sections; 49.1 thousand cutter teeth reach it and cross 8.7 million of them",
+        "of it for blank and chips",
+        "MB",
+    ]);
+    assert!(outcome.err.contains("warning: operation finish: backing off by 0.5 mm"), "{}", outcome.err);
+}
+
+#[test]
+fn a_circle_has_the_same_teeth_everywhere() {
+    gearcut(&["check", "scenes/shaping/circular_m3_z24.toml"]).done().says(&[
+        "36.000 mm everywhere; convex",
+        "tip land                      2.146 mm on all teeth",
+        "0.00 deg everywhere",
+    ]);
+}
+
+#[test]
+fn limits_undercut_and_narrow_tips_are_warned_about() {
+    let exceeded = gearcut(&["check", PAPER, "--set", "machine.limits.cutter_speed_deg_per_s=1.0"]).done();
+    assert!(exceeded.err.contains("cutter spindle speed reaches 1.321 deg/s, the machine allows 1.000 deg/s"));
+    assert!(exceeded.out.contains("-32 %"), "{}", exceeded.out);
+    let few = ["--set", "gear.teeth=9", "--set", "gear.pitch_curve.circle={}", "--set", "tool.shaper_cutter.teeth=40"];
+    let undercut = gearcut(&[&["check", PAPER][..], &few].concat()).done();
+    assert!(undercut.err.contains("warning: the cutter undercuts tooth 1 left"), "{}", undercut.err);
+}
+
+/// The number before the words `after` on standard output.
+fn number_before(out: &str, after: &str) -> f64 {
+    let words = out.split(after).next().expect("words").split_whitespace().next_back().expect("a number");
+    words.parse().unwrap_or_else(|_| panic!("{words} is no number"))
+}
+
+mod slow {
+    use super::*;
+
+    #[test]
+    fn every_committed_scene_passes() {
+        for (process, least) in [("shaping", 8), ("hobbing", 5)] {
+            let scenes = std::fs::read_dir(format!("scenes/{process}")).expect("the scenes are committed");
+            let mut count = 0;
+            for scene in
+                scenes.map(|entry| entry.expect("a file").path()).filter(|p| p.extension().is_some_and(|e| e == "toml"))
+            {
+                let outcome = gearcut(&["check", &scene.display().to_string()]).done().says(&["Cost of the cut"]);
+                assert!(!outcome.out.contains("NaN") && !outcome.out.contains("inf"), "{}", outcome.out);
+                count += 1;
+            }
+            assert!(count >= least, "{count} scenes");
+        }
+    }
+
+    /// What `check` expects of a hobbed gear, against all that its cut would do.
+    #[test]
+    fn the_cost_of_hobbing_is_that_of_its_plans() {
+        const SCENE: &str = "scenes/hobbing/third_order_diagonal.toml";
+        let settings =
+            ["fields.flank.profile_spacing_um=60", "fields.flank.lead_spacing_um=60", "gear.face_width_mm=20"];
+        let arguments = [&["check", SCENE][..], &settings.map(|setting| ["--set", setting]).concat()].concat();
+        let out = gearcut(&arguments).done().out;
+        let scene = load(Path::new(SCENE), &settings.map(str::to_owned)).expect("the scene").scene;
+        let job = HobbingJob::new(&scene).expect("the gear");
+        let cutter = HobCutter::new(&job).expect("passes");
+        let (mut dexels, mut records, mut evaluations) = (0, 0, 0);
+        for (tooth, side) in (1..=35).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]) {
+            let field = cutter.rays(tooth, side).expect("a flank").1.field;
+            let plan = SweepPlan::new(&field, &cutter.operations[0], job.hob.edge());
+            dexels += field.len();
+            records += plan.records.len();
+            evaluations += plan.dexel_passes();
+        }
+        for (what, found, expected, tolerance) in [
+            ("dexels", 1e6 * number_before(&out, " million in all"), dexels as f64, 0.02),
+            ("evaluations", 1e6 * number_before(&out, " million dexels against"), evaluations as f64, 0.1),
+            ("records", 1e3 * number_before(&out, " thousand records"), records as f64, 0.15),
+        ] {
+            println!("{what}: {found} estimated, {expected} planned");
+            assert!((found / expected - 1.0).abs() < tolerance, "{what}: {found} estimated, {expected} planned");
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! `gearcut compare` on two small hand-made results.
+//!
+//! With `GEARCUT_KEEP=folder` the charts are kept there for a look.
+
+use std::path::Path;
+
+use crate::fixtures::command::gearcut_in;
+use crate::fixtures::json_schema::{assert_is_results, broken_rule};
+use gearcut::findings::Findings;
+use serde_json::{Value, json};
+
+/// Teeth of the hand-made gear and of its period.
+const TEETH: u32 = 42;
+const PERIOD: u32 = 14;
+
+fn number(value: f64, unit: &str) -> Value {
+    json!({ "value": value, "unit": unit, "definition": "made by hand" })
+}
+
+fn none() -> Value {
+    json!({ "value": null, "unit": "%", "definition": "made by hand", "why": "made by hand" })
+}
+
+/// Unevenness of a tooth in percent: the same in each of the three periods.
+fn unevenness(tooth: u32, level: f64) -> f64 {
+    level * (0.55 + 0.45 * (f64::from((tooth - 1) % PERIOD) / f64::from(PERIOD) * std::f64::consts::TAU).sin())
+}
+
+fn document(process: &str, headline: &Value, sections: &Value) -> Value {
+    json!({
+        "schema_version": 2, "program": "gearcut", "program_version": "0.1.0", "process": process,
+        "scene": "made_by_hand", "complete": true, "headline": headline, "warnings": [], "sections": sections,
+    })
+}
+
+fn results(level: f64, smallest_mm: f64) -> Value {
+    let mut stock = number(smallest_mm, "mm");
+    stock["place"] = json!({ "tooth": 3, "flank": "left", "u_mm": 1.0, "v_mm": 0.0 });
+    stock["level"] = json!("headline");
+    let mut spread = number(level, "%");
+    spread["level"] = json!("summary");
+    let rows: Vec<Value> = (1..=TEETH).map(|tooth| json!([tooth, unevenness(tooth, level)])).collect();
+    let column = |key: &str, unit: &str| json!({ "key": key, "unit": unit, "definition": "made by hand" });
+    let mut bars = column("unevenness_mean_denominator", "%");
+    bars["chart"] = json!("bars");
+    let mut witness = none();
+    witness["level"] = json!("headline");
+    document(
+        "shaping",
+        &json!({ "smallest_normal_stock": stock, "witness_mark": witness }),
+        &json!({ "operations": { "$title": "Operations", "rough": {
+            "$title": "Rough",
+            "strokes": number(4200.0, "strokes"),
+            "allowance": {
+                "title": "Allowance", "columns": [column("tooth", "1"), bars], "rows": rows, "period_rows": PERIOD,
+            },
+            "unevenness": { "$title": "Unevenness", "mean_denominator": { "$title": "Mean", "max": spread } },
+        } } }),
+    )
+}
+
+/// Two runs in `out/` of a new folder.
+fn two_runs() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    for (name, document) in [("traditional", results(129.52, 0.25)), ("normal", results(3.98, 0.65))] {
+        put(&folder, name, &document);
+    }
+    folder
+}
+
+fn put(folder: &tempfile::TempDir, name: &str, document: &Value) {
+    assert_is_results(document);
+    let run = folder.path().join("out").join(name);
+    std::fs::create_dir_all(&run).expect("a folder in the test's folder");
+    std::fs::write(run.join("results.json"), document.to_string()).expect("a file in the test's folder");
+}
+
+#[test]
+fn two_results_stand_side_by_side() {
+    let folder = two_runs();
+    gearcut_in(folder.path(), &["compare", "out/traditional", "out/normal"]).done().says(&[
+        "traditional and normal",
+        "smallest normal stock",
+        "0.2500",
+        "0.6500",
+        "0.4000",
+        "operations.rough.unevenness.mean denominator.max",
+        "129.5",
+        "3.980",
+        "compare_traditional_normal",
+    ]);
+    let written = folder.path().join("out/compare_traditional_normal");
+    let csv = std::fs::read_to_string(written.join("comparison.csv")).expect("written");
+    assert!(
+        csv.starts_with("quantity,unit,a,b,difference_b_minus_a,ratio_a_to_b,definition\nname,,traditional,normal,,,"),
+        "{csv}"
+    );
+    // 0.65 - 0.25 and 0.25 / 0.65; details are in the file, on the terminal they are not.
+    assert!(csv.contains("\nsmallest_normal_stock,mm,0.25,0.65,0.4,0.3846153846153846,made by hand\n"), "{csv}");
+    assert!(csv.contains("\nwitness_mark,%,,,,,made by hand\n"), "{csv}");
+    assert!(csv.contains("\noperations.rough.strokes,strokes,4200.0,4200.0,0.0,1.0,made by hand\n"), "{csv}");
+    assert!(!csv.contains("u_mm"), "places are not compared");
+    let stem = "operations_rough_allowance_unevenness_mean_denominator";
+    for name in [format!("{stem}_first_period"), stem.to_owned()] {
+        let svg = std::fs::read_to_string(written.join(format!("{name}.svg"))).expect("written");
+        assert!(svg.contains("traditional") && svg.contains("normal"), "both are in the legend");
+        assert!(written.join(format!("{name}.png")).is_file());
+        if let Some(keep) = std::env::var_os("GEARCUT_KEEP") {
+            let kept = Path::new(&keep).join(format!("compare_{name}.png"));
+            std::fs::copy(written.join(format!("{name}.png")), kept).expect("the folder to keep pictures in");
+        }
+    }
+    for name in ["a.png", "b.svg"] {
+        assert!(written.join(format!("{stem}_{name}")).is_file(), "{name}");
+    }
+    // Again, by the files and into another folder.
+    let files = ["out/traditional/results.json", "out/normal/results.json"];
+    gearcut_in(folder.path(), &["compare", files[0], files[1], "--out", "both"])
+        .done()
+        .says(&["traditional and normal"]);
+    assert!(folder.path().join("both/comparison.csv").is_file());
+    gearcut_in(folder.path(), &["compare", "out/normal", "out/normal", "--out", "both"])
+        .done()
+        .says(&["normal (a) and normal (b)"]);
+}
+
+#[test]
+fn what_is_no_result_is_refused_with_a_reason() {
+    let folder = two_runs();
+    let compare = |a: &str| gearcut_in(folder.path(), &["compare", a, "out/normal"]);
+    compare("out/nothing").failed(1, &["out/nothing"]);
+    let write = |text: &str| std::fs::write(folder.path().join("bad.json"), text).expect("a file in the test's folder");
+    write("not json");
+    compare("bad.json").failed(1, &["bad.json", "not JSON"]);
+    write("{}");
+    compare("bad.json").failed(1, &["schema_version"]);
+    write(r#"{"schema_version": 99}"#);
+    compare("bad.json").failed(1, &["schema version 99", "reads 2"]);
+    write(r#"{"schema_version": 2, "program": "gearcut"}"#);
+    compare("bad.json").failed(1, &["not a complete result", "missing field"]);
+    assert!(!folder.path().join("out/compare_bad.json_normal").exists());
+}
+
+#[test]
+fn results_read_back_as_they_were_written() {
+    let folder = two_runs();
+    let findings = Findings::read(&folder.path().join("out/normal")).expect("a hand-made result");
+    assert_eq!(findings.to_json(), results(3.98, 0.65));
+}
+
+/// The check itself must notice what breaks a rule.
+#[test]
+fn the_schema_refuses_what_is_not_of_the_layout() {
+    let good = || results(3.98, 0.65);
+    let refused = |spoil: fn(&mut Value), words: &str| {
+        let mut document = good();
+        spoil(&mut document);
+        let reason = broken_rule(&document).expect_err(words);
+        assert!(reason.contains(words), "{reason}");
+    };
+    assert_eq!(broken_rule(&good()), Ok(()));
+    refused(|all| all["schema_version"] = json!(1), "schema_version");
+    refused(|all| all["more"] = json!(1), "more");
+    refused(|all| all["headline"]["witness_mark"]["why"] = Value::Null, "witness_mark");
+    refused(|all| all["headline"]["smallest_normal_stock"]["value"] = Value::Null, "smallest_normal_stock");
+    refused(|all| all["headline"]["smallest_normal_stock"]["place"]["tooth"] = json!([3]), "tooth");
+    refused(|all| all["sections"]["operations"]["rough"]["strokes"] = json!(4200), "operations");
+    refused(|all| all["sections"]["operations"]["rough"]["allowance"]["columns"] = json!([]), "operations");
+    refused(|all| all["sections"]["a.b"] = json!({ "$title": "a dot" }), "a.b");
+}
+
+/// Results of a hobbed gear whose three hob teeth take these volumes (mm3); `idle_s`: how long the operation stands idle.
+fn hobbed(volumes: [f64; 3], idle_s: f64) -> Value {
+    let largest = volumes.iter().copied().fold(0.0, f64::max);
+    let rows: Vec<Value> =
+        (1..).zip(volumes).map(|(label, v): (u32, f64)| json!([label.to_string(), v, 0.1 * v, 10.0 * v])).collect();
+    let hardest = volumes.iter().position(|&volume| volume == largest).expect("one") + 1;
+    let shown = |mut quantity: Value| {
+        quantity["level"] = json!("summary");
+        quantity
+    };
+    let mut columns = vec![json!({ "key": "tooth", "unit": null, "definition": "hob tooth" })];
+    columns.extend(
+        [("volume", "mm3"), ("thickness", "mm"), ("way", "mm")]
+            .map(|(key, unit)| json!({ "key": key, "unit": unit, "definition": "made by hand", "chart": "bars" })),
+    );
+    let headline = |mut quantity: Value| {
+        quantity["level"] = json!("headline");
+        quantity
+    };
+    document(
+        "hobbing",
+        &json!({ "highest_mark": headline(number(5.0, "um")), "runout": headline(none()) }),
+        &json!({
+            "operations": { "$title": "Operations", "finish": {
+                "$title": "Finish", "idle_time": shown(number(idle_s, "s")),
+            } },
+            "hob_load": { "$title": "Load", "operations": { "$title": "Operations", "finish": {
+                "$title": "Finish",
+                "largest_volume": shown(number(largest, "mm3")),
+                "hardest_working_tooth": {
+                    "value": hardest.to_string(), "unit": null, "definition": "made by hand",
+                },
+                "teeth": { "title": "Load by hob tooth", "columns": columns, "rows": rows },
+            } } },
+            "marks": { "$title": "Marks", "tooth_03_left": { "$title": "Tooth 3 left", "step_1": {
+                "$title": "Step 1", "kinematic": { "$title": "Kinematics", "length": number(0.9, "mm") },
+            } } },
+        }),
+    )
+}
+
+#[test]
+fn hobbed_gears_stand_side_by_side_with_the_load_of_every_hob_tooth() {
+    let folder = two_runs();
+    for (name, document) in [
+        ("plain", hobbed([1.0, 8.0, 3.0], 0.0)),
+        ("reciprocating", hobbed([4.0, 4.0, 4.0], 0.0)),
+        ("repeating", hobbed([3.0, 4.0, 5.0], 23.1)),
+    ] {
+        put(&folder, name, &document);
+    }
+    let three = ["compare", "out/plain", "out/reciprocating", "out/repeating"];
+    gearcut_in(folder.path(), &three).done().says(&[
+        "plain, reciprocating and repeating",
+        "operations.finish.idle time",
+        "23.10",
+        "hob load.operations.finish.largest volume",
+        "compare_plain_reciprocating_repeating",
+    ]);
+    let written = folder.path().join("out/compare_plain_reciprocating_repeating");
+    let csv = std::fs::read_to_string(written.join("comparison.csv")).expect("written");
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(
+        lines[0],
+        "quantity,unit,a,b,c,difference_b_minus_a,difference_c_minus_a,ratio_a_to_b,ratio_a_to_c,definition"
+    );
+    assert!(lines[1].starts_with("name,,plain,reciprocating,repeating,,,"));
+    for start in [
+        "highest_mark,um,5.0,5.0,5.0,0.0,0.0,1.0,1.0,",
+        "runout,%,,,,,,",
+        "operations.finish.idle_time,s,0.0,0.0,23.1,0.0,23.1,,0.0,",
+        // 8 / 4, 8 / 5: how much less the hardest working tooth does.
+        "hob_load.operations.finish.largest_volume,mm3,8.0,4.0,5.0,-4.0,-3.0,2.0,1.6,",
+        "hob_load.operations.finish.hardest_working_tooth,,2,1,3,,,",
+        "marks.tooth_03_left.step_1.kinematic.length,mm,0.9",
+    ] {
+        assert!(lines.iter().any(|line| line.starts_with(start)), "{start}\n{csv}");
+    }
+    for stem in ["volume", "thickness", "way"] {
+        let svg = std::fs::read_to_string(written.join(format!("hob_load_operations_finish_teeth_{stem}.svg")))
+            .expect("written");
+        assert!(["plain", "reciprocating", "repeating"].iter().all(|name| svg.contains(name)), "all are in the legend");
+        assert!(written.join(format!("hob_load_operations_finish_teeth_{stem}.png")).is_file());
+    }
+    // Of one process only.
+    gearcut_in(folder.path(), &["compare", "out/plain", "out/normal"])
+        .failed(1, &["plain was made by hobbing and normal by shaping", "one process"]);
+    gearcut_in(folder.path(), &["compare", "out/plain"]).failed(2, &["2"]);
+}

@@ -1,0 +1,176 @@
+//! `gearcut cut` from the outside: what it writes, and that the same scene gives the same bytes.
+
+use crate::fixtures::command::{assert_same_files, files, gearcut, gearcut_on_threads, read_json};
+use crate::fixtures::json_schema::assert_is_results;
+use gearcut::output::surface_files::read_surface;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
+const COARSE: [&str; 10] = [
+    "--set",
+    "fields.flank.profile_spacing_um=50",
+    "--set",
+    "fields.flank.lead_spacing_um=5000",
+    "--set",
+    "fields.chips.spacing_mm=0.2",
+    "--set",
+    "fields.blank.spacing_mm=0.5",
+    "--set",
+    "picture=[]",
+];
+
+#[test]
+fn every_shipped_scene_is_cut_and_the_same_scene_gives_the_same_bytes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut scenes: Vec<PathBuf> = std::fs::read_dir("scenes/shaping")
+        .expect("scenes")
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .collect();
+    scenes.sort();
+    assert!(scenes.len() >= 8);
+    for scene in &scenes {
+        let scene_text = scene.to_str().expect("a name");
+        let out = folder.path().join(scene.file_stem().expect("a stem"));
+        let out_text = out.to_str().expect("a path");
+        gearcut_on_threads(2, &[&["cut", scene_text, "--out", out_text, "--backend", "cpu"], &COARSE[..]].concat())
+            .done()
+            .says(&["smallest normal stock", "flanks cut"]);
+        let results = read_json(&out.join("results.json"));
+        assert_is_results(&results);
+        assert_eq!(results["complete"], true);
+        assert_eq!(results["headline"]["undercut_flanks"]["value"], 0, "{scene_text}");
+        let record = read_json(&out.join("run.json"));
+        let checksums = record["sha256"].as_object().expect("checksums");
+        assert_eq!(checksums.len() + 1, files(&out).len(), "all files but the record itself");
+        assert!(record["scene"].as_str().expect("the scene").contains("[gear]"));
+    }
+    // What a surface is of goes with it in every format.
+    for ending in ["x3p", "sdf", "npy", "csv"] {
+        let path = folder.path().join(format!("elliptical_normal/texture/finish/tooth_03_left.{ending}"));
+        let notes = read_surface(&path, None).expect("a surface with its spacing").notes;
+        for (name, words) in [("frame", "arc length along the target profile"), ("scene", "[gear]"), ("run", "version")]
+        {
+            let note = notes.iter().find(|note| note.0 == name);
+            assert!(note.is_some_and(|note| note.1.contains(words)), "{ending}: {name} is {note:?}");
+        }
+    }
+    let again = folder.path().join("again");
+    let text = again.to_str().expect("a path");
+    gearcut_on_threads(1, &[&["cut", PAPER, "--out", text, "--quiet", "--backend", "cpu"], &COARSE[..]].concat())
+        .done();
+    let first = folder.path().join("elliptical_normal");
+    assert_same_files(&files(&first), &files(&again));
+}
+
+#[test]
+fn json_prints_the_results() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("gear");
+    let arguments = [
+        &["cut", "scenes/shaping/circular_m3_z24.toml", "--json", "--out"],
+        &[out.to_str().expect("a path")][..],
+        &COARSE[..],
+    ];
+    let outcome = gearcut(&arguments.concat()).done();
+    let printed: Value = serde_json::from_str(&outcome.out).expect("JSON on standard output");
+    assert_eq!(printed, read_json(&out.join("results.json")));
+    for line in outcome.err.lines() {
+        let event: Value = serde_json::from_str(line).expect("one JSON event per line");
+        assert!(event["event"].is_string());
+    }
+}
+
+#[test]
+fn meshes_pictures_and_frames_are_written_and_are_the_same_every_time() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let small = "picture=[{name='gear',width_px=96,height_px=72},{name='mark',view='flank',tooth=3,side='right',\
+                 colour='pass',width_px=96,height_px=72,exr=true}]";
+    let cut = |name: &str, threads: u32| {
+        let out = folder.path().join(name);
+        let arguments = [
+            &["cut", "scenes/shaping/circular_m3_z24.toml", "--quiet", "--backend", "cpu", "--frames", "3", "--out"],
+            &[out.to_str().expect("a path")][..],
+            &COARSE[..4],
+            &["--set", small],
+        ];
+        gearcut_on_threads(threads, &arguments.concat()).done();
+        files(&out)
+    };
+    let written = cut("a", 2);
+    assert_same_files(&written, &cut("b", 1));
+    let bytes = |name: &str| &written.iter().find(|(path, _)| path == Path::new(name)).expect(name).1;
+    assert!(bytes("mesh/gear.stl").starts_with(b"gearcut, mm: gear of circular_m3_z24 "));
+    assert!(bytes("mesh/gear.glb").starts_with(b"glTF\x02\0\0\0"));
+    assert_eq!(written.iter().filter(|(path, _)| path.starts_with("mesh/flanks")).count(), 48);
+    for name in ["pictures/gear.png", "pictures/mark.png", "frames/frame_0003.png"] {
+        let picture = image::load_from_memory(bytes(name)).expect("a PNG").into_rgb8();
+        let colours: std::collections::BTreeSet<_> = picture.pixels().map(|p| p.0).collect();
+        assert!(colours.len() > 50, "{name} shows hardly anything: {} colours", colours.len());
+    }
+    // An animated PNG says in its acTL chunk how many frames it has.
+    let moving = bytes("frames/cut.apng");
+    let control = moving.windows(4).position(|chunk| chunk == b"acTL").expect("an animation");
+    assert_eq!(moving[control + 4..control + 8], 3_u32.to_be_bytes());
+    let map = gearcut::output::exr_map::read_exr_map(&folder.path().join("a/pictures/mark.exr")).expect("an EXR");
+    let names: Vec<&str> = map.channels.iter().map(|channel| channel.name.as_str()).collect();
+    assert_eq!(names, ["depth_mm", "normal_x", "normal_y", "normal_z", "pass_id", "value"]);
+    assert_eq!((map.grid.u.count, map.grid.v.count), (72, 96));
+    let gearcut::output::exr_map::Samples::U32(passes) = &map.channels[4].samples else { panic!("pass ids are whole") };
+    assert!(passes.iter().filter(|&&pass| pass != u32::MAX).count() > 3000);
+}
+
+/// What is asked for has the bytes that it has in a whole result, and nothing else is there.
+#[test]
+fn parts_that_are_left_out_are_left_out_and_the_rest_keeps_its_bytes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cut = |name: &str, only: &[&str]| {
+        let out = folder.path().join(name);
+        let arguments = [
+            &["cut", "scenes/shaping/circular_m3_z24.toml", "--quiet", "--backend", "cpu", "--out"],
+            &[out.to_str().expect("a path")][..],
+            &COARSE[..],
+            only,
+        ];
+        gearcut(&arguments.concat()).done();
+        files(&out)
+    };
+    let whole = cut("whole", &[]);
+    let is_number = |path: &Path| path.starts_with("tables") || path == Path::new("results.json");
+    let same = |part: &[(PathBuf, Vec<u8>)], belongs: &dyn Fn(&Path) -> bool| {
+        let wanted: Vec<_> = whole.iter().filter(|(path, _)| belongs(path)).cloned().collect();
+        assert!(wanted.len() > 5, "a whole result holds it");
+        let found: Vec<_> = part.iter().filter(|(path, _)| path != Path::new("run.json")).cloned().collect();
+        assert_same_files(&wanted, &found);
+    };
+    same(&cut("numbers", &["--only", "numbers"]), &is_number);
+    same(&cut("maps", &["--only", "maps,axes"]), &|path| {
+        is_number(path) || ["maps", "allowance", "deviation", "axes"].iter().any(|part| path.starts_with(part))
+    });
+    same(&cut("pictures", &["--only", "pictures"]), &|path| is_number(path) || path.starts_with("pictures"));
+    let record = read_json(&folder.path().join("maps/run.json"));
+    assert_eq!(record["written"], serde_json::json!(["numbers", "maps", "axes"]));
+    let stages = record["stages"].as_array().expect("stages");
+    for stage in ["chips", "cut", "cut the whole blank", "tables and charts", "checksums"] {
+        assert!(stages.iter().any(|found| found["stage"] == stage && found["wall_s"].is_f64()), "{stage}: {stages:?}");
+    }
+    gearcut(&["cut", PAPER, "--only", "sheets"]).failed(2, &["sheets", "numbers, maps"]);
+}
+
+/// A draft goes beside the whole result, on coarser dexels unless a setting says otherwise.
+#[test]
+fn a_draft_is_coarse_and_takes_no_result_away() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let scene = root.join("scenes/shaping/circular_m3_z24.toml");
+    let scene = scene.to_str().expect("a path");
+    let arguments = ["cut", scene, "--draft", "--backend", "cpu", "--set", "fields.blank.spacing_mm=0.7"];
+    crate::fixtures::command::gearcut_in(folder.path(), &arguments).done().says(&["flanks cut"]);
+    let out = folder.path().join("out/circular_m3_z24_draft");
+    let record = read_json(&out.join("run.json"));
+    assert_eq!(record["written"], serde_json::json!(["numbers", "report"]));
+    let resolved = record["scene"].as_str().expect("the scene");
+    assert!(resolved.contains("profile_spacing_um = 40.0") && resolved.contains("spacing_mm = 0.7"), "{resolved}");
+    assert!(out.join("report.html").exists() && !out.join("pictures").exists() && !out.join("maps").exists());
+}

@@ -1,0 +1,11 @@
+//! The program as a user starts it.
+
+mod axes;
+mod check;
+mod compare;
+mod cut;
+mod hobbing;
+#[cfg(unix)]
+mod stopped;
+mod texture;
+mod usage;

@@ -1,0 +1,105 @@
+//! `gearcut texture`, run as a user runs it.
+
+use crate::fixtures::command::{gearcut, gearcut_in};
+use serde_json::Value;
+
+const SURFACES: &str = "crates/texture/tests/data";
+
+#[test]
+fn the_table_names_chain_values_units_and_reasons() {
+    let file = format!("{SURFACES}/p3_feed_marks.npy");
+    gearcut(&["texture", &file, "--spacing-um", "40", "--form", "none", "--line", "y=2000"]).done().says(&[
+        "256 x 225, 40 x 40 um apart",
+        "F-operator",
+        "L-filter",
+        "Sa",
+        "0.95304 um",
+        "none",
+        "as along feed marks",
+        "core parameters",
+        "profile along x at y = 2000 um",
+        "RSm",
+    ]);
+}
+
+#[test]
+fn json_holds_every_value_with_unit_and_definition_or_the_reason() {
+    let file = format!("{SURFACES}/p8_sl_filter.npy");
+    let outcome = gearcut(&[
+        "texture",
+        &file,
+        "--spacing-um",
+        "1",
+        "1",
+        "--form",
+        "none",
+        "--s-filter-um",
+        "6",
+        "--l-filter-um",
+        "32",
+        "--crop-um",
+        "64",
+        "--at-ratio-percent",
+        "30",
+        "--at-height-um",
+        "-0.5",
+        "--json",
+    ])
+    .done();
+    let json: Value = serde_json::from_str(&outcome.out).expect("JSON");
+    let parameters = json["parameters"].as_object().expect("by symbol");
+    assert!(parameters.len() > 45, "{}", parameters.len());
+    for (symbol, quantity) in parameters {
+        assert!(quantity["definition"].is_string() && quantity["unit"].is_string(), "{symbol}: {quantity}");
+        assert!(quantity["value"].is_number() || quantity["why"].is_string(), "{symbol}: {quantity}");
+    }
+    let sq = parameters["Sq"]["value"].as_f64().expect("a number");
+    assert!((sq - 0.867441903).abs() < 0.0104, "{sq}");
+    assert!(parameters.contains_key("Smc(30)") && parameters.contains_key("Smr(-0.5)"));
+    let chain = json["chain"].as_array().expect("steps");
+    assert!(chain.iter().any(|s| s.as_str().is_some_and(|s| s.contains("ISO 16610-61, 32 um"))), "{chain:?}");
+}
+
+#[test]
+fn surfaces_are_saved_in_other_formats_with_the_same_numbers() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let source = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(SURFACES).join("formats/tiny_nan.x3p");
+    let source = source.to_str().expect("a plain path");
+    let names = ["s.x3p", "s.sdf", "s_ascii.sdf", "s.npy", "s.csv"];
+    let mut arguments = vec!["texture", source, "--json"];
+    arguments.extend(names.iter().flat_map(|name| ["--save", name]));
+    let first: Value = serde_json::from_str(&gearcut_in(folder.path(), &arguments).done().out).expect("JSON");
+    for name in names {
+        let outcome = gearcut_in(folder.path(), &["texture", name, "--json"]).done();
+        let again: Value = serde_json::from_str(&outcome.out).expect("JSON");
+        assert_eq!(again["read"], first["read"], "{name}");
+        let value = |json: &Value| json["parameters"]["Sq"]["value"].as_f64().expect("a number");
+        assert!((value(&again) / value(&first) - 1.0).abs() < 1e-12, "{name}");
+    }
+}
+
+#[test]
+fn what_cannot_be_done_is_refused_with_a_way_out() {
+    let npy = format!("{SURFACES}/p1_sine_oblique.npy");
+    let x3p = format!("{SURFACES}/formats/tiny_double.x3p");
+    let with = |more: &[&str]| gearcut(&[&["texture", npy.as_str(), "--spacing-um", "1", "1.25"], more].concat());
+    gearcut(&["texture", &npy]).failed(1, &["p1_sine_oblique.npy", "--spacing-um"]);
+    gearcut(&["texture", "no_such_file.x3p"]).failed(1, &["no_such_file.x3p"]);
+    gearcut(&["texture", "README.md"]).failed(1, &["README.md", "not an X3P"]);
+    gearcut(&["texture", &x3p, "--spacing-um", "9"]).failed(1, &["2 x 3 um apart"]);
+    with(&["--crop-um", "200"]).failed(1, &["leaves nothing"]);
+    with(&["--l-filter-um", "0"]).failed(1, &["--l-filter-um", "positive"]);
+    with(&["--s-filter-um", "1"]).failed(1, &["two points"]);
+    with(&["--s-filter-um", "50", "--l-filter-um", "20"]).failed(1, &["must be shorter"]);
+    with(&["--line", "z=3"]).failed(1, &["neither x nor y"]);
+    with(&["--line", "y=1e9"]).failed(1, &["outside"]);
+    with(&["--save", "s.bmp"]).failed(1, &["s.bmp", ".x3p"]);
+    with(&["--at-ratio-percent", "130"]).failed(1, &["130 %"]);
+    with(&["--form", "sphere"]).failed(2, &["poly2-plus-cylinder"]);
+    with(&["--robust"]).failed(2, &["--l-filter-um"]);
+}
+
+#[test]
+fn help_teaches_with_examples() {
+    gearcut(&["texture", "--help"]).done().says(&["gearcut texture measured.sdf", "ISO 16610-61", "--spacing-um"]);
+}

@@ -1,0 +1,268 @@
+//! Scenes that load: the shipped ones, the shortest one, the template, and what is printed from the table of keys.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use gearcut::gear::PitchCurveShape;
+use gearcut::scene::model::{Feed, Infeed, Linkage, NormalReading, Tip, TraditionalDirection};
+use gearcut::scene::model::{Scene, Shaping};
+use gearcut::scene::{LoadedScene, load, parse, reference, schema, template};
+
+const SHORTEST: &str = "[gear]\nmodule_mm = 3.0\nteeth = 24\n[tool.shaper_cutter]\nteeth = 20\n";
+
+fn shaping(scene: &Scene) -> &Shaping {
+    scene.shaping().expect("a shaping scene")
+}
+
+fn read(text: &str) -> LoadedScene {
+    parse(text, "test.toml", Path::new("scenes/shaping"), &[]).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+fn shipped() -> Vec<PathBuf> {
+    let folders = ["scenes/shaping", "scenes/hobbing"].map(|folder| fs::read_dir(folder).expect("a folder of scenes"));
+    let mut paths: Vec<PathBuf> = folders.into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    paths.sort();
+    assert!(paths.len() >= 8, "only {} scenes found", paths.len());
+    paths
+}
+
+#[test]
+fn shipped_scenes_load_and_are_listed_in_the_reference() {
+    let reference = reference::markdown();
+    for path in shipped() {
+        let loaded = load(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(Some(loaded.scene.name.as_str()), path.file_stem().and_then(|stem| stem.to_str()));
+        let process = if loaded.scene.hobbing().is_some() { "hobbing" } else { "shaping" };
+        let name = format!("`{process}/{}.toml`", loaded.scene.name);
+        assert!(reference.contains(&name), "{name} is not listed in src/scene/reference_introduction.md");
+        assert!(fs::read_to_string(&path).is_ok_and(|text| text.starts_with("# ")), "{name} opens without explanation");
+    }
+}
+
+#[test]
+fn the_paper_scene_means_what_it_says() {
+    let scene = load(Path::new("scenes/shaping/elliptical_normal.toml"), &[]).expect("loads").scene;
+    let ellipse = PitchCurveShape::Ellipse { order: 3, eccentricity: 0.1348, semi_major_axis_mm: Some(61.11) };
+    assert_eq!(scene.gear.pitch_curve, ellipse);
+    assert_eq!((scene.gear.module_mm, scene.gear.teeth, scene.gear.face_width_mm), (3.0, 42, 30.0));
+    assert!((scene.gear.pressure_angle_rad - std::f64::consts::PI / 9.0).abs() < 1e-15);
+    assert_eq!((shaping(&scene).tool.teeth, shaping(&scene).tool.addendum_coefficient), (20, 1.25));
+    let offsets: Vec<f64> = shaping(&scene).operations.iter().map(|operation| operation.offset_mm).collect();
+    assert_eq!(offsets, [2.0, 0.0]);
+    assert!(shaping(&scene).operations.iter().all(|operation| operation.feed == Feed::StrokesPerRevolution(4200)));
+    assert_eq!((scene.fields.profile_spacing_mm, scene.fields.lead_spacing_mm), (0.005, 0.05));
+}
+
+/// The example of the design, comments and all: written once, promised to load.
+#[test]
+fn the_example_with_comments_inside_loads() {
+    let text = r#"
+[gear]
+module_mm = 3.0
+teeth = 42
+pressure_angle_deg = 20.0
+face_width_mm = 30.0
+[gear.pitch_curve.ellipse]        # r = a (1 - k^2) / (1 - k cos n phi)
+order = 3
+eccentricity = 0.1348
+semi_major_axis_mm = 61.11        # leave out: solved so that the curve closes on teeth * pi * module
+[tool.shaper_cutter]
+teeth = 20
+addendum_coefficient = 1.25
+[[operation]]
+name = "rough"
+offset_mm = 2.0                   # delta_d
+strokes_per_revolution = 4200
+[operation.linkage.shaping_normal]
+[[operation]]
+name = "finish"
+offset_mm = 0.0
+strokes_per_revolution = 4200
+feed_during_stroke = false        # true: the rotary feed goes on while the cutter is in the work (stroke law: crank)
+[operation.linkage.shaping_normal]
+[fields.flank]
+profile_spacing_um = 5.0
+lead_spacing_um = 50.0
+"#;
+    let mut scene = read(text).scene;
+    scene.name = "elliptical_normal".to_owned();
+    assert_eq!(scene, load(Path::new("scenes/shaping/elliptical_normal.toml"), &[]).expect("loads").scene);
+}
+
+#[test]
+fn the_shortest_scene_cuts_one_finishing_operation() {
+    let scene = read(SHORTEST).scene;
+    assert_eq!(scene.name, "test");
+    assert_eq!(scene.gear.pitch_curve, PitchCurveShape::Circle);
+    assert_eq!(scene.gear.face_width_mm, 30.0);
+    let [finish] = shaping(&scene).operations.as_slice() else {
+        panic!("{} operations", shaping(&scene).operations.len())
+    };
+    assert_eq!((finish.name.as_str(), finish.offset_mm), ("finish", 0.0));
+    assert_eq!(finish.linkage, Linkage::ShapingNormal { reading: NormalReading::Corrected });
+    assert_eq!(finish.feed, Feed::StrokesPerRevolution(2400));
+}
+
+#[test]
+fn stock_per_flank_becomes_an_offset() {
+    let scene = load(Path::new("scenes/shaping/elliptical_finishing_stock.toml"), &[]).expect("loads").scene;
+    let rough = &shaping(&scene).operations[0];
+    assert!((rough.offset_mm * scene.gear.pressure_angle_rad.sin() - 0.2).abs() < 1e-15);
+    assert_eq!(rough.infeed, Infeed::Spiral { depth_mm: 6.2, angle_rad: std::f64::consts::FRAC_PI_2 });
+}
+
+#[test]
+fn every_variant_loads_and_reads_back_from_its_resolved_text() {
+    let curves = [
+        "circle]",
+        "ellipse]\norder = 1\neccentricity = 0.3",
+        "sinusoidal_ratio]\norder = 2\nmean_ratio = 1.1\nratio_amplitude = 0.1\ncenter_distance_mm = 77.7",
+        "pascal]\norder = 2\neccentricity = 0.07\nmean_radius_mm = 36.1",
+        "fourier]\nsine = [0.1]",
+        "table]\nfile = \"table_of_points.csv\"\nscale_to_close = false",
+        "table]\npoints_deg_mm = [[0, 36], [90.5, 36.25], [180.1, 36], [270.7, 36.1]]",
+    ];
+    let tips = ["sharp]", "round]\nradius_mm = 0.3", "chamfer]\nheight_mm = 0.3\nangle_deg = 33.3"];
+    let linkages = ["shaping_traditional]\ndirection = \"polar_radius\"", "shaping_normal]\nreading = \"as_printed\""];
+    let infeeds = [
+        "none]",
+        "plunge]\ndepth_mm = 6.1\nstrokes = 70",
+        "spiral]\ndepth_mm = 6.1\nangle_deg = 77.7",
+        "plunge_and_roll]\nplunge_depth_mm = 3.3\nstrokes = 40\nroll_depth_mm = 2.9\nangle_deg = 66.6",
+    ];
+    let feeds = [
+        "strokes_per_revolution = 777\noffset_mm = 0.1",
+        "circular_feed_mm_per_stroke = 0.123\nwindow_deg = [-10.1, 100.3]",
+    ];
+    let limits = "[machine.limits]\nwork_speed_deg_per_s = 61.7\ncenter_distance_acceleration_mm_per_s2 = 501.3\n";
+    let tool = "[tool.shaper_cutter]\nteeth = 5\nrunout_um = 3.3\npitch_errors_um = [0.1, 0.2, 0.3, 0.4, -0.7]\n";
+    let mut count = 0;
+    for (curve, tip, linkage, infeed, feed) in combinations(&curves, &tips, &linkages, &infeeds, &feeds) {
+        let text = format!(
+            "[gear]\nmodule_mm = 3.0\nteeth = 24\nface_width_mm = 0.3\n[gear.pitch_curve.{curve}\n{tool}\
+             [tool.shaper_cutter.tip.{tip}\n{limits}[[operation]]\nstock_per_flank_mm = 0.17\n[[operation]]\n{feed}\n\
+             stroke_spacing = \"time\"\n[operation.linkage.{linkage}\n[operation.infeed.{infeed}\n\
+             [measure]\nprofile_start_height_mm = -1.1\n[output]\nfolder = 'a \\ \"b\"'\n"
+        );
+        let first = read(&text);
+        let second = read(&first.resolved_toml());
+        assert_eq!(first.scene, second.scene, "{}", first.resolved_toml());
+        count += 1;
+    }
+    println!("{count} combinations read back");
+    let scene = read(&format!("{SHORTEST}[tool.shaper_cutter.tip.round]\nradius_mm = 0.3\n[[operation]]\n[operation.linkage.shaping_traditional]\n")).scene;
+    assert_eq!(shaping(&scene).tool.tip, Tip::Round { radius_mm: 0.3 });
+    let centre_line = Linkage::ShapingTraditional { direction: TraditionalDirection::CenterLine };
+    assert_eq!(shaping(&scene).operations[0].linkage, centre_line);
+}
+
+/// All combinations of five lists.
+fn combinations<'a>(
+    a: &'a [&str],
+    b: &'a [&str],
+    c: &'a [&str],
+    d: &'a [&str],
+    e: &'a [&str],
+) -> impl Iterator<Item = (&'a str, &'a str, &'a str, &'a str, &'a str)> {
+    let pairs = a.iter().flat_map(move |a| b.iter().map(move |b| (*a, *b)));
+    let fours = pairs.flat_map(move |(a, b)| c.iter().flat_map(move |c| d.iter().map(move |d| (a, b, *c, *d))));
+    fours.flat_map(move |(a, b, c, d)| e.iter().map(move |e| (a, b, c, d, *e)))
+}
+
+#[test]
+fn shipped_scenes_read_back_from_their_resolved_text() {
+    for path in shipped() {
+        let first = load(&path, &[]).expect("loads");
+        let second = parse(&first.resolved_toml(), &path.display().to_string(), Path::new(""), &[]);
+        assert_eq!(first.scene, second.unwrap_or_else(|errors| panic!("{errors}")).scene);
+    }
+}
+
+#[test]
+fn the_template_loads() {
+    assert!(template("knitting").is_none());
+    let scene = read(&template("shaping").expect("a template")).scene;
+    assert_eq!(shaping(&scene).operations[0].name, "operation_1");
+    assert_eq!(scene.gear.face_width_mm, 30.0);
+    let scene = read(&template("hobbing").expect("a template")).scene;
+    assert_eq!(scene.hobbing().expect("a hobbing scene").operations[0].name, "operation_1");
+}
+
+#[test]
+fn every_variant_of_hobbing_reads_back_from_its_resolved_text() {
+    let hobs = [
+        "lead_angle_deg = 3.3\nhand = \"left\"\nworm = \"straight_sided\"",
+        "reference_diameter_mm = 80.1\nstarts = 2\ngash_form = \"helical\"\nprotuberance_height_mm = 1.7\nregrind_mm = 0.3",
+    ];
+    let linkages = [
+        "hobbing]\neven_motion = \"rotation_angle\"\nextra_rotation = \"hob\"",
+        "hobbing]\neven_motion = \"polar_angle\"\nform = \"as_printed\"",
+        "hobbing_diagonal]\nshift_mm_per_revolution = 3.1\nshift_direction = \"adds\"\nfeed_of = \"resultant\"",
+        "hobbing_diagonal]\nstrategy = \"repeating\"\nstroke_mm = 33.3\nreturn_mm_per_s = 7.7",
+    ];
+    for hob in hobs {
+        for linkage in linkages {
+            let text = format!(
+                "[gear]\nmodule_mm = 3.0\nteeth = 24\nhelix_angle_deg = 12.3\nhand = \"left\"\n[tool.hob]\nlength_mm = 90\n{hob}\n\
+                 [machine.hobbing_limits]\nhob_speed_deg_per_s = 1234.5\n[[operation]]\napproach = \"radial\"\n\
+                 stock_per_flank_mm = 0.1\n[[operation]]\nfeed_direction = \"conventional\"\noverrun_mm = 7.1\n\
+                 head_angle_deg = 8.8\n[operation.linkage.{linkage}\n"
+            );
+            let first = read(&text);
+            let second = read(&first.resolved_toml());
+            assert_eq!(first.scene, second.scene, "{}", first.resolved_toml());
+            // Nothing of the other process stands in the resolved text.
+            assert!(!first.resolved_toml().contains("strokes"), "{}", first.resolved_toml());
+        }
+    }
+}
+
+/// Blocks of the template stand between empty lines; `#` without a blank marks what can be switched on.
+#[test]
+fn everything_in_the_template_can_be_switched_on() {
+    let text = template("shaping").expect("a template");
+    let switch =
+        |line: &str| line.strip_prefix('#').filter(|rest| rest.starts_with(|c: char| c != ' ')).map(str::to_owned);
+    let (mut variants, mut keys) = (0, 0);
+    for block in text.split("\n\n") {
+        if block.lines().any(|line| line.starts_with("#[")) {
+            let on = block
+                .lines()
+                .filter(|line| !line.contains("file = "))
+                .map(|line| switch(line).unwrap_or(line.to_owned()));
+            let operation = if block.contains("#[operation") { "[[operation]]\n" } else { "" };
+            read(&format!("{SHORTEST}{operation}{}\n", on.collect::<Vec<_>>().join("\n")));
+            variants += 1;
+        } else {
+            for line in block.lines() {
+                let Some(key) = switch(line) else { continue };
+                let rival = if key.starts_with("stock") { "offset_mm = 0.0" } else { "" };
+                let one = block.replacen(line, &key, 1).replacen(rival, if rival.is_empty() { "" } else { "#" }, 1);
+                read(&text.replacen(block, &one, 1));
+                keys += 1;
+            }
+        }
+    }
+    println!("{variants} variants and {keys} keys switched on");
+    assert!(variants >= 10 && keys >= 12, "{variants} variants, {keys} keys");
+}
+
+#[test]
+fn schema_is_up_to_date() {
+    stale("scenes/schema.json", &schema::json_schema(), "gearcut schema > scenes/schema.json");
+}
+
+#[test]
+fn reference_is_up_to_date() {
+    stale("scenes/README.md", &reference::markdown(), "GEARCUT_BLESS=1 cargo test --test suite scene::load");
+}
+
+/// Says when a printed file is no longer what the table of keys says; `GEARCUT_BLESS` rewrites it.
+fn stale(path: &str, wanted: &str, command: &str) {
+    if std::env::var_os("GEARCUT_BLESS").is_some() {
+        fs::write(path, wanted).expect("write the printed file");
+    }
+    let found = fs::read_to_string(path).unwrap_or_default().replace("\r\n", "\n"); // as git may check it out on Windows
+    assert!(found == wanted, "{path} is stale: run `{command}`");
+}

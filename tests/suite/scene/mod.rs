@@ -1,0 +1,7 @@
+//! Scenes: read, refused, overridden.
+
+mod broken;
+mod hostile;
+mod keys;
+mod load;
+mod settings;

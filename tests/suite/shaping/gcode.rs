@@ -1,0 +1,218 @@
+//! G-code: written, read back, cut as read, and refused by line and word where it is malformed.
+
+use crate::fixtures::paper::*;
+use gearcut::cut::cpu::Cpu;
+use gearcut::process::shaping::Job;
+use gearcut::process::shaping::gcode;
+use gearcut::process::shaping::gcode::{AxisProgram, read};
+use gearcut::scene::model::*;
+use gearcut::terms::Side;
+
+fn job(operation: Operation) -> Job {
+    let mut scene = paper_scene(vec![operation]);
+    scene.fields.profile_spacing_mm = 0.05;
+    scene.fields.lead_spacing_mm = 15.0;
+    Job::new(scene).expect("the paper's gear")
+}
+
+fn text(job: &Job) -> String {
+    gcode::text(job, &job.operations[0]).expect("wanted").expect("written")
+}
+
+/// Heights of some flanks after the cut, mm.
+fn heights(job: &Job) -> Vec<f32> {
+    let mut heights = Vec::new();
+    for (tooth, side) in [(1, Side::Right), (7, Side::Left), (8, Side::Right), (21, Side::Left), (42, Side::Left)] {
+        let generation = job.target_generation();
+        let target = job.target_flank(&generation, tooth, side).expect("a flank");
+        let cut = job.cut(&Cpu::default(), job.flank_field(&target)).expect("cut");
+        heights.extend(&cut.layers[0].heights_mm);
+    }
+    heights
+}
+
+/// The same job, cut by a program file.
+fn cut_by(mut operation: Operation, program: &str) -> Job {
+    let file = tempfile::NamedTempFile::new().expect("a file");
+    std::fs::write(file.path(), program).expect("written");
+    operation.program = Some(file.path().to_owned());
+    job(operation)
+}
+
+#[test]
+fn a_program_reads_back_to_its_knots_and_keeps_its_contour_error() {
+    for (linkage, offset_mm, continuous) in [(NORMAL, 0.0, false), (TRADITIONAL, 2.0, false), (NORMAL, 2.0, true)] {
+        let mut operation = operation("cut", linkage, offset_mm, 1200);
+        operation.feed_during_stroke = continuous;
+        let job = job(operation);
+        let schedule = &job.operations[0].schedule;
+        let tip = job.cutter.tip_radius_mm;
+        let mut blocks = Vec::new();
+        for error_mm in [0.01, 0.001, 1e-5] {
+            let program = AxisProgram::fit(schedule, tip, error_mm, continuous);
+            let (reached, stroke) = program.contour_error_mm(schedule, tip, continuous);
+            // Between the strokes, blocks of one stroke cannot be shorter.
+            assert!(
+                reached <= error_mm || (continuous && error_mm < 1e-4),
+                "{reached} mm at stroke {stroke}, {error_mm} asked"
+            );
+            blocks.push((program.knots.len(), reached / error_mm));
+        }
+        println!("blocks and share of the error: {blocks:?}");
+        // Straight lines on a smooth path: a tenth of the error takes three times the blocks, until there is one per stroke.
+        assert!(blocks[0].0 < blocks[1].0 && blocks[1].0 < blocks[2].0, "{blocks:?}");
+        assert!(blocks[0].1 > 0.5, "blocks could be longer: {blocks:?}");
+        let read = read::program(&text(&job)).expect("its own program");
+        let program = AxisProgram::fit(schedule, tip, job.scene.output.gcode_contour_error_mm, continuous);
+        assert_eq!(read.count(), schedule.count());
+        assert_eq!(read.double_strokes_per_minute, 300.0);
+        assert_eq!(read.knots.len(), program.knots.len());
+        for (a, b) in read.knots.iter().zip(&program.knots) {
+            assert_eq!(a.stroke, b.stroke);
+            assert!((a.psi_c_rad - b.psi_c_rad).abs() < 1e-13 && (a.psi_b_rad - b.psi_b_rad).abs() < 1e-13);
+            assert!((a.center_distance_mm - b.center_distance_mm).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn cutting_the_written_program_gives_the_same_gear() {
+    for continuous in [false, true] {
+        let mut operation = operation("cut", NORMAL, 0.0, 1200);
+        operation.feed_during_stroke = continuous;
+        let mut job = job(operation.clone());
+        let direct = heights(&job);
+        let tight_mm = if continuous { 4e-4 } else { 1e-6 };
+        for error_mm in [1e-3, tight_mm] {
+            job.scene.output.gcode_contour_error_mm = error_mm;
+            let program = text(&job);
+            let by_program = heights(&cut_by(operation.clone(), &program));
+            let worst = direct.iter().zip(&by_program).map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max);
+            let lines = program.lines().count();
+            println!("continuous {continuous}, asked {error_mm} mm: {lines} lines, flanks {worst:.2e} mm off");
+            assert!(worst <= error_mm, "{worst}");
+            assert!(error_mm < 1e-3 || worst > 1e-5, "a micrometre is seen on the flanks: {worst}");
+        }
+        if continuous {
+            job.scene.output.gcode_contour_error_mm = 1e-6;
+            let why = gcode::text(&job, &job.operations[0]).expect("wanted").expect_err("a nanometre between strokes");
+            assert!(why.contains("blocks of one double stroke") && why.contains("0.001 um are asked"), "{why}");
+        }
+    }
+}
+
+#[test]
+fn a_wrong_program_is_seen_on_the_flanks() {
+    let operation = operation("cut", NORMAL, 0.0, 1200);
+    let job = job(operation.clone());
+    // Every X a tenth of a millimetre too large: all flanks keep about 0.1 sin(20 deg) more.
+    let shifted: Vec<String> = text(&job)
+        .lines()
+        .map(|line| match line.split_once(" X") {
+            Some((before, after)) if line.starts_with('N') => {
+                let (x, rest) = after.split_once(' ').expect("more words");
+                format!("{before} X{:.6} {rest}", x.parse::<f64>().expect("a number") + 0.1)
+            }
+            _ => line.to_owned(),
+        })
+        .collect();
+    let (direct, wrong) = (heights(&job), heights(&cut_by(operation, &shifted.join("\n"))));
+    let mean = direct.iter().zip(&wrong).map(|(a, b)| f64::from(b - a)).sum::<f64>() / direct.len() as f64;
+    println!("mean {mean:.4} mm");
+    assert!((mean - 0.1 * 20_f64.to_radians().sin()).abs() < 0.004, "{mean}");
+}
+
+#[test]
+fn a_program_of_another_length_is_refused() {
+    let program = text(&job(operation("cut", NORMAL, 0.0, 600)));
+    let file = tempfile::NamedTempFile::new().expect("a file");
+    std::fs::write(file.path(), program).expect("written");
+    let mut operation = operation("cut", NORMAL, 0.0, 1200);
+    operation.program = Some(file.path().to_owned());
+    let refused = Job::new(paper_scene(vec![operation])).expect_err("600 strokes are not 1200").to_string();
+    assert!(
+        refused.contains("operation.cut.program") && refused.contains("600 strokes") && refused.contains("1200"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn limits_are_checked_and_as_printed_is_never_written() {
+    let as_printed = Linkage::ShapingNormal { reading: NormalReading::AsPrinted };
+    let printed = job(operation("cut", as_printed, 2.0, 600));
+    let why = gcode::text(&printed, &printed.operations[0]).expect("wanted").expect_err("never written");
+    assert!(why.contains("as printed"), "{why}");
+
+    let mut fast = job(operation("cut", NORMAL, 0.0, 600));
+    fast.machine.limits.work_speed_rad_per_s = Some(0.001);
+    let why = gcode::text(&fast, &fast.operations[0]).expect("wanted").expect_err("too fast");
+    assert!(why.contains("work spindle") && why.contains("deg/s"), "{why}");
+}
+
+#[test]
+fn the_papers_form_is_marked_and_reads_as_refused() {
+    let mut job = job(operation("cut", NORMAL, 2.0, 600));
+    job.scene.output.gcode = GcodeDialect::PaperG84;
+    let text = text(&job);
+    assert!(text.lines().take(2).all(|line| line.starts_with("(DO NOT RUN")), "{text}");
+    assert!(text.contains("\nG84 A61.11 N3 K0.1348 R30 D0 S2\n"), "{text}");
+    let refused = read::program(&text).expect_err("G84 is not read");
+    assert!(refused.contains("line 5") && refused.contains("`G84`") && refused.contains("tapping"), "{refused}");
+    job.scene.output.gcode = GcodeDialect::None;
+    assert!(gcode::text(&job, &job.operations[0]).is_none());
+}
+
+#[test]
+fn malformed_programs_are_refused_by_line_and_word() {
+    let cases = [
+        ("", "the program ends and the ram never ran"),
+        ("G20\n", "line 1: word `G20`: inches"),
+        ("G21 G91\n", "line 1: word `G91`: relative"),
+        ("G2 X1\n", "line 1: word `G2`: arcs"),
+        ("G54\n", "line 1: word `G54`: this G is not read"),
+        ("M8\n", "line 1: word `M8`: this M is not read"),
+        ("Y1\n", "line 1: word `Y1`: this letter is not read"),
+        ("X\n", "line 1: word `X`: no number"),
+        ("X1..2\n", "line 1: word `X1..2`: no number"),
+        ("X1 X2\n", "line 1: word `X2`: this letter stands twice"),
+        ("#1=3\n", "line 1: `#1=3` does not begin with a letter"),
+        ("(open\n", "line 1: the comment `(open` is not closed"),
+        ("X1 C1 B1\n", "line 1: axes move, but neither G0 nor G1"),
+        ("G0 X90\nS300 M3\n", "line 2: word `M3`: the ram starts before axis C"),
+        ("G0 X90 C0 B0\nM3\n", "line 2: word `M3`: the ram starts without S"),
+        ("S-3\n", "line 1: word `S-3`: double strokes"),
+        ("G4\n", "line 1: word `G4`: a dwell needs P"),
+        ("G1 P3\n", "line 1: word `P3`: P belongs to a dwell"),
+    ];
+    for (program, expected) in cases {
+        let why = read::program(program).expect_err(program);
+        assert!(why.contains(expected), "{program:?}: {why}");
+    }
+    for (tail, expected) in [
+        ("G1 X91 F10\n", "line 4: axes move under the running ram without G93"),
+        ("G93 G1 X91\n", "line 4: word `F` is missing"),
+        ("G0 X91\n", "line 4: word `G0`: rapid travel"),
+        ("G93 G1 X91 F0\n", "line 4: word `F0`: a feed"),
+        ("G93 G1 X91 F10 S200\n", "line 4: word `S200`: the ram's speed changes"),
+        ("G93 G1 X91 F10\n", "line 4: the program ends without M30"),
+        ("M30\nG0 X1\n", "line 5: a block after the end"),
+        ("M5\nS300 M3\n", "line 5: word `M3`: the ram starts a second time"),
+    ] {
+        let why = read::program(&format!("G21 G90 G94\nG0 X90 C0 B0\nS300 M3\n{tail}")).expect_err(tail);
+        assert!(why.contains(expected), "{tail:?}: {why}");
+    }
+}
+
+#[test]
+fn dwells_lower_case_and_comments_are_understood() {
+    let program = "%\n(head)\nn1 g21 g90 g94\nG0X90C-1B+2.5 ; to the start\nS60M3\nG93 G1 X91 (in) F30\nG4 P3\nG1 X92 F60\nM5\nM30\n";
+    let read = read::program(program).expect("well formed");
+    // 60 per minute: two strokes in 1/30 min, three at rest, one more.
+    let knots: Vec<[f64; 2]> = read.knots.iter().map(|k| [k.stroke, k.center_distance_mm]).collect();
+    assert_eq!(knots, [[0.0, 90.0], [2.0, 91.0], [5.0, 91.0], [6.0, 92.0]]);
+    assert_eq!(read.count(), 7);
+    // C counts counter-clockwise, and the work turns by -psi_c.
+    assert!((read.knots[0].psi_c_rad.to_degrees() - 1.0).abs() < 1e-12);
+    assert!((read.knots[0].psi_b_rad.to_degrees() - 2.5).abs() < 1e-12);
+    assert!((read.at(3.5).center_distance_mm - 91.0).abs() < 1e-12);
+}

@@ -1,0 +1,14 @@
+//! Shaping: linkages, flanks, blanks, chips and programs.
+
+mod blank_field;
+mod chips;
+mod flank_chips;
+mod flank_heights;
+mod gcode;
+mod gcode_kinematics;
+mod injected_errors;
+mod linkage_envelope;
+mod linkage_oracle;
+mod oracle;
+mod paper_figures;
+mod rubbing;
