@@ -1,6 +1,7 @@
 //! The whole blank: rays through the elliptical gear's stock at 0.1 mm, 4,200 strokes, both operations.
 //!
-//! Prints a table of its own: time, memory and pairs of ray and pass stand beside each other. `cargo bench --bench blank`; `-- hobbed [SCENE]` for a hobbed blank alone.
+//! Prints a table of its own: time, memory and pairs of ray and pass stand beside each other.
+//! `cargo bench --bench blank`; `-- hobbed [SCENE]` for a hobbed blank alone.
 
 mod common;
 #[allow(

@@ -1,8 +1,10 @@
 //! How the time of a flank grows: with the spacing of the dexels, the number of strokes, the width of the face.
 //!
-//! One flank of the paper's gear, finished, the feed going on during the strokes so that every dexel is cut for itself. Cost must follow area times the passes that touch it and nothing
-//! else: dexels grow with 1/spacing and with the width; passes per dexel do not grow with the strokes once a facet is narrower than a tile is wide, only planning meets more of them.
-//! Each table varies one quantity; the exponent is the least-squares slope of log time over log quantity. Fastest of several runs each; native in one thread, so that its rate is one core's.
+//! One flank of the paper's gear, finished, the feed going on during the strokes so that every dexel is cut for itself.
+//! Cost must follow area times the passes that touch it and nothing else: dexels grow with 1/spacing and with the
+//! width; passes per dexel do not grow with the strokes once a facet is narrower than a tile is wide, only planning
+//! meets more of them. Each table varies one quantity; the exponent is the least-squares slope of log time over log
+//! quantity. Fastest of several runs each; native in one thread, so that its rate is one core's.
 //!
 //! `cargo bench --bench growth`
 

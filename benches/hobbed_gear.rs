@@ -1,16 +1,22 @@
 //! How fast the native backend hobs: single flanks in their parts, the whole gear, and the case of a peer program.
 //!
-//! Job: the third-order gear of Liu et al. 2015 as `scenes/hobbing/third_order_plain.toml` has it: 35 teeth, 50 mm wide, 20 feeds, dexels every 20 um along the profile and 50 um along the tooth. Flanks are
-//! timed in their parts, in one thread; the whole gear runs through `hobbing::run::cut_gear`, as `gearcut cut` does, without files, on all threads.
+//! Job: the third-order gear of Liu et al. 2015 as `scenes/hobbing/third_order_plain.toml` has it: 35 teeth, 50 mm
+//! wide, 20 feeds, dexels every 20 um along the profile and 50 um along the tooth. Flanks are timed in their parts, in
+//! one thread; the whole gear runs through `hobbing::run::cut_gear`, as `gearcut cut` does, without files, on all
+//! threads.
 //!
-//! Of every flank it is said how many records a dexel visits and how far that is from the ideal. Somebody must visit the pass that left a dexel: one record per dexel at least. As long as all dexels of a cell visit
-//! the same records, they are at least the passes that left any dexel of the cell.
+//! Of every flank it is said how many records a dexel visits and how far that is from the ideal. Somebody must visit
+//! the pass that left a dexel: one record per dexel at least. As long as all dexels of a cell visit the same records,
+//! they are at least the passes that left any dexel of the cell.
 //!
-//! The peer's case is one space of a spur gear, cut by the 363 sweeps that `benches/peers/manifold_hobbing.py` subtracts: both flanks, every 9 to 25 um by 50 um.
+//! The peer's case is one space of a spur gear, cut by the 363 sweeps that `benches/peers/manifold_hobbing.py`
+//! subtracts: both flanks, every 9 to 25 um by 50 um.
 //!
-//! The whole blank of the same gear, rays 0.3 mm apart, slices 1 mm and 0.3 mm apart: pairs of ray and sweep stand beside the time.
+//! The whole blank of the same gear, rays 0.3 mm apart, slices 1 mm and 0.3 mm apart: pairs of ray and sweep stand
+//! beside the time.
 //!
-//! `cargo bench --bench hobbed_gear` for all; `-- flank` for the parts alone, `-- peer` for the peer's case alone, `-- blank` for the whole blank alone.
+//! `cargo bench --bench hobbed_gear` for all; `-- flank` for the parts alone, `-- peer` for the peer's case alone,
+//! `-- blank` for the whole blank alone.
 
 mod common;
 #[allow(
@@ -39,7 +45,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::time::Instant;
 
-/// Times in milliseconds, and what was made in them. On a machine with other work the processor time of the thread is the one to read, where the system tells it.
+/// Times in milliseconds, and what was made in them. On a machine with other work the processor time of the thread is
+/// the one to read, where the system tells it.
 struct Times {
     wall: f64,
     processor: f64,
@@ -94,7 +101,8 @@ fn one_flank(job: &HobbingJob, cutter: &HobCutter, tooth: u32, side: Side) {
     assert_eq!(stats.unconverged, 0, "every root was found");
     let per_dexel = |pairs: f64| pairs / field.len() as f64;
     println!(
-        "flank {tooth} {}: {} dexels, {} tiles, {} records; per dexel {:.2} visited, {:.2} indispensable for cells, 1 ideal ({:.2} for whole tiles)",
+        "flank {tooth} {}: {} dexels, {} tiles, {} records; per dexel {:.2} visited, {:.2} indispensable for cells, 1 \
+        ideal ({:.2} for whole tiles)",
         side.name(),
         field.len(),
         plan.tiles.len(),
@@ -126,7 +134,8 @@ fn whole_gear(cutter: &HobCutter) {
     let gear = hobbing::run::cut_gear(cutter, &cpu, &quiet, &Interrupt::default(), None).expect("native");
     assert_eq!(gear.work.stats.unconverged, 0, "every root was found");
     println!(
-        "whole gear, {}: {} flanks in {:.2} s ({:.2} s of processor time); {:.1} million dexels, {:.1} million dexel-passes, {:.2} per dexel",
+        "whole gear, {}: {} flanks in {:.2} s ({:.2} s of processor time); {:.1} million dexels, {:.1} million \
+        dexel-passes, {:.2} per dexel",
         cpu.name(),
         gear.flanks.len(),
         gear.work.elapsed.as_secs_f64(),
@@ -151,14 +160,16 @@ fn whole_blank() {
         let (wall, processor) = (started.elapsed().as_secs_f64(), processor_seconds() - before);
         let (field, stats) = (&cut.field, cut.cuts[0].stats);
         println!(
-            "whole blank, rays {} mm, {} slices: {wall:.1} s ({processor:.1} s of processor time) on {} threads; {:.0} MB, {expected_mb:.0} MB expected",
+            "whole blank, rays {} mm, {} slices: {wall:.1} s ({processor:.1} s of processor time) on {} threads; {:.0} \
+            MB, {expected_mb:.0} MB expected",
             field.grid.spacing_mm(),
             field.slices.len(),
             rayon::current_num_threads(),
             1e-6 * field.bytes() as f64,
         );
         println!(
-            "  pairs of ray and sweep: {:.1} million visited, {:.1} million solved, {:.1} million removed something; {:.0} ns of processor time per visited, {:.0} ns per solved pair",
+            "  pairs of ray and sweep: {:.1} million visited, {:.1} million solved, {:.1} million removed something; \
+            {:.0} ns of processor time per visited, {:.0} ns per solved pair",
             1e-6 * stats.visited as f64,
             1e-6 * stats.solved as f64,
             1e-6 * stats.removing as f64,
@@ -207,7 +218,8 @@ fn peer() {
     let rms = (off_mm.iter().map(|off| off * off).sum::<f64>() / off_mm.len() as f64).sqrt();
     let largest = off_mm.iter().fold(0.0_f64, |most, off| most.max(off.abs()));
     println!(
-        "the peer's case, one thread: {dexels} dexels in {time}; off the exact surface {:.3e} um rms, {:.3e} um largest",
+        "the peer's case, one thread: {dexels} dexels in {time}; off the exact surface {:.3e} um rms, {:.3e} um \
+        largest",
         1e3 * rms,
         1e3 * largest
     );

@@ -1,8 +1,9 @@
 //! Dexel-passes in a second: the planar kernel natively and on every adapter that is there, the same plan in one run.
 //!
 //! One flank of the paper's gear as shipped (5 um by 50 um), finished; strokes that move and strokes that rest. The
-//! rates hold for whole cuts, transfers included. Candidates leave four passes for a dexel, so that most of the time may go into bringing dexels to the device and back; the same records
-//! twenty times over show what a pass costs beside that.
+//! rates hold for whole cuts, transfers included. Candidates leave four passes for a dexel, so that most of the time
+//! may go into bringing dexels to the device and back; the same records twenty times over show what a pass costs beside
+//! that.
 
 #[path = "common/limits.rs"]
 mod limits;

@@ -1,13 +1,19 @@
 //! gearcut against two-dimensional polygon clipping stroke by stroke, the way gear cutting is usually simulated.
 //!
-//! Job: the finishing of the round gear m 3, z 24 with the cutter z0 20 in 1,440 strokes, one transverse section, in one process. The peer, in one thread because strokes follow each other, subtracts the cutter's teeth,
-//! as polygons, from the blank's outline once per stroke (i_overlay 9, 32-bit engine, its buffers kept between strokes). It runs twice: on the outline as one polygon, and on an outline split into one
-//! sector per tooth space, so that a stroke touches a few sectors only. gearcut cuts all 48 flanks and 24 roots, in one thread and in all; its time runs from the scene to the heights: curve, targets, rays, plans and kernel.
+//! Job: the finishing of the round gear m 3, z 24 with the cutter z0 20 in 1,440 strokes, one transverse section, in
+//! one process. The peer, in one thread because strokes follow each other, subtracts the cutter's teeth, as polygons,
+//! from the blank's outline once per stroke (i_overlay 9, 32-bit engine, its buffers kept between strokes). It runs
+//! twice: on the outline as one polygon, and on an outline split into one sector per tooth space, so that a stroke
+//! touches a few sectors only. gearcut cuts all 48 flanks and 24 roots, in one thread and in all; its time runs from
+//! the scene to the heights: curve, targets, rays, plans and kernel.
 //!
-//! Distances are taken on the same rays for both: normals of the exact involute, every 20 um along the profile, 5 % left out at either end. Two references answer two questions:
+//! Distances are taken on the same rays for both: normals of the exact involute, every 20 um along the profile, 5 %
+//! left out at either end. Two references answer two questions:
 //!
-//! * the **surface of the strokes**, the lowest involute over all strokes and cutter teeth, found on each ray from the involute's closed form: the error of the method;
-//! * the **involute** that infinitely many strokes would leave: the error of the method and the scallops that 1,440 strokes leave, whoever computes them.
+//! * the **surface of the strokes**, the lowest involute over all strokes and cutter teeth, found on each ray from the
+//!   involute's closed form: the error of the method;
+//! * the **involute** that infinitely many strokes would leave: the error of the method and the scallops that 1,440
+//!   strokes leave, whoever computes them.
 //!
 //! `cargo bench --bench polygon_clipping`; the same job with shapely: `benches/peers/shapely_clipping.py`.
 
@@ -48,7 +54,8 @@ const SPACING_MM: f64 = 0.02;
 const CHORDS: [usize; 4] = [20, 40, 80, 160];
 /// Share of the profile left out at either end.
 const MARGIN: f64 = 0.05;
-/// Rounds over all methods, in turn, so that a disturbance does not fall on one of them; the fastest run of each counts.
+/// Rounds over all methods, in turn, so that a disturbance does not fall on one of them; the fastest run of each
+/// counts.
 const ROUNDS: usize = 3;
 
 type Contour = Vec<[f64; 2]>;
@@ -103,7 +110,8 @@ fn gearcut_flanks(backend: Cpu, rows: usize) -> Cut {
     Cut { heights_mm, rays, parts }
 }
 
-/// One cutter tooth as a polygon in its own frame: flanks of `chords` chords with equal arrow heights, a tip arc, straight below the base circle.
+/// One cutter tooth as a polygon in its own frame: flanks of `chords` chords with equal arrow heights, a tip arc,
+/// straight below the base circle.
 fn tooth_polygon(cutter: &ShaperCutter, chords: usize) -> Vec<DVec2> {
     let root_mm = cutter.base_radius_mm - 2.0;
     let flank = |side: f64| -> Vec<DVec2> {
@@ -208,7 +216,8 @@ fn outline_height_mm(edges: &[[DVec2; 2]], origin: DVec2, normal: DVec2) -> f64 
         .fold(f64::INFINITY, |best, h| if h.abs() < best.abs() { h } else { best })
 }
 
-/// Height at which a ray enters one cutter flank, from the closed form of the distance to an involute, `r_b (sigma theta + u - atan u - psi_b)`.
+/// Height at which a ray enters one cutter flank, from the closed form of the distance to an involute,
+/// `r_b (sigma theta + u - atan u - psi_b)`.
 fn involute_height_mm(cutter: &ShaperCutter, side: f64, origin: DVec2, direction: DVec2) -> Option<f64> {
     let r_b = cutter.base_radius_mm;
     let mut h = -0.05;
@@ -288,7 +297,8 @@ fn row(what: &str, time: Duration, size: &str, heights_mm: &[f64], stations: &[S
     println!("| {what} | {ms:.1} | {size} | {off_strokes:.2e} | {worst:.2e} | {off_involute:.4} |");
 }
 
-/// A method of cutting: its name, and how it is run; gives the size of its result, the heights at the stations, and the time of its parts if it has any.
+/// A method of cutting: its name, and how it is run; gives the size of its result, the heights at the stations, and the
+/// time of its parts if it has any.
 type Method<'a> = (String, Box<dyn Fn() -> Outcome + 'a>);
 
 /// What one run of a method gave.
@@ -306,7 +316,8 @@ fn main() {
     let stations = stations(&job);
     let [scallops, highest] = rms_and_largest_um(stations.iter().map(|s| s.strokes_mm));
     println!(
-        "{} rays compared; surface of the strokes: {scallops:.4} um rms off the involute, highest scallop {highest:.4} um\n",
+        "{} rays compared; surface of the strokes: {scallops:.4} um rms off the involute, highest scallop {highest:.4} \
+        um\n",
         stations.len()
     );
     let (job, stations) = (&job, &stations);
@@ -350,7 +361,8 @@ fn main() {
         }
     }
     println!(
-        "| method | time, ms | size of the result | off the strokes' surface: rms, um | largest, um | off the involute: rms, um |"
+        "| method | time, ms | size of the result | off the strokes' surface: rms, um | largest, um | off the \
+        involute: rms, um |"
     );
     println!("| --- | --- | --- | --- | --- | --- |");
     let outcomes: Vec<(&str, Outcome)> =
@@ -363,7 +375,8 @@ fn main() {
         let Some(parts) = outcome.parts else { continue };
         let [prepared, laid_out, cut] = parts.map(|part| 1e3 * part.as_secs_f64());
         println!(
-            "{what}: {prepared:.1} ms curve, cutter, strokes; {laid_out:.1} ms targets and rays; {cut:.1} ms plans and kernel"
+            "{what}: {prepared:.1} ms curve, cutter, strokes; {laid_out:.1} ms targets and rays; {cut:.1} ms plans and \
+            kernel"
         );
     }
     let in_one_section = |(what, _): &&(&str, Outcome)| what.ends_with("one thread, one section");

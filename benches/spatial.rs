@@ -1,4 +1,5 @@
-//! Dexel-passes in a second of the spatial kernel: natively and on every adapter that is there, the same plan in one run; and planning by itself.
+//! Dexel-passes in a second of the spatial kernel: natively and on every adapter that is there, the same plan in one
+//! run; and planning by itself.
 //!
 //! A part of one flank of a hobbed three-lobed gear, 20 um by 50 um. The rates hold for whole cuts, transfers included.
 

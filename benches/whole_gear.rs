@@ -1,8 +1,10 @@
 //! How fast the native backend cuts: one flank in its parts, and the whole gear.
 //!
-//! Job: the third-order elliptical gear (m 3, z 42, face 30 mm), dexels every 5 um along the profile and 50 um along the tooth, roughing 2 mm off and finishing, each with 4,200 strokes.
-//! The flank (tooth 7, left) is timed in its parts, in one thread: the plan (which passes can matter to which tile), the cut, the measures. The whole gear runs once per instruction set through
-//! `shaping::cut_gear`, as `gearcut cut` does, without files, on all threads. A dexel-pass is one ray tried against one segment of one pass.
+//! Job: the third-order elliptical gear (m 3, z 42, face 30 mm), dexels every 5 um along the profile and 50 um along
+//! the tooth, roughing 2 mm off and finishing, each with 4,200 strokes. The flank (tooth 7, left) is timed in its
+//! parts, in one thread: the plan (which passes can matter to which tile), the cut, the measures. The whole gear runs
+//! once per instruction set through `shaping::cut_gear`, as `gearcut cut` does, without files, on all threads. A
+//! dexel-pass is one ray tried against one segment of one pass.
 //!
 //! `cargo bench --bench whole_gear` for both; `-- flank` for the parts alone.
 
@@ -31,7 +33,8 @@ use std::time::Duration;
 
 const STROKES: u32 = 4200;
 
-/// With frozen strokes all rows are alike and one is cut for all; when the feed goes on during the stroke every dexel is cut.
+/// With frozen strokes all rows are alike and one is cut for all; when the feed goes on during the stroke every dexel
+/// is cut.
 fn job(feed_during_stroke: bool) -> Job {
     let operation = |name, offset_mm| gearcut::scene::model::Operation {
         feed_during_stroke,
@@ -76,7 +79,8 @@ fn whole_gear(job: &Job, strokes: &str) {
         let seconds = gear.elapsed.as_secs_f64();
         let visits = gear.stats.dexel_passes as f64;
         println!(
-            "whole gear, {strokes}, {}: {seconds:.2} s; {:.1} million dexels (both operations), {:.2} million cut, {:.2} million dexel-passes, {:.2} per dexel cut, {:.2} ns each (wall time, measures included); {}",
+            "whole gear, {strokes}, {}: {seconds:.2} s; {:.1} million dexels (both operations), {:.2} million cut, \
+            {:.2} million dexel-passes, {:.2} per dexel cut, {:.2} ns each (wall time, measures included); {}",
             cpu.name(),
             gear.dexels as f64 * 1e-6,
             gear.stats.dexels as f64 * 1e-6,

@@ -1,8 +1,10 @@
-//! Roughness of both flanks of tooth 3 of the paper's gear against the circular feed: the table and the chart in docs/texture.md.
+//! Roughness of both flanks of tooth 3 of the paper's gear against the circular feed: the table and the chart in
+//! docs/texture.md.
 //!
-//! `cargo run --release --example roughness_against_feed -- [FOLDER]` writes `roughness_against_feed.csv`, `.png` and `.svg` into FOLDER (default `out/roughness`) and prints the table. Rough and finishing cut take the
-//! same feed; the rough one stands 2 mm off, along the normal or along the line of centres. Three windows: 4 mm in the middle of the flank, 2 mm about
-//! the pitch curve, and the whole flank, on which the cusps' height itself changes.
+//! `cargo run --release --example roughness_against_feed -- [FOLDER]` writes `roughness_against_feed.csv`, `.png` and
+//! `.svg` into FOLDER (default `out/roughness`) and prints the table. Rough and finishing cut take the same feed; the
+//! rough one stands 2 mm off, along the normal or along the line of centres. Three windows: 4 mm in the middle of the
+//! flank, 2 mm about the pitch curve, and the whole flank, on which the cusps' height itself changes.
 
 use gearcut::cut::cpu::Cpu;
 use gearcut::measure::topography::Form;

@@ -4,10 +4,10 @@
 //!
 //! - Sequential: viridis by S. van der Walt and N. Smith (2015, CC0), at 33 anchors, within 2 of 255 of the original's
 //!   256 entries. Lightness rises evenly, so it reads in grey and for every kind of colour vision.
-//! - Diverging about zero: computed for gearcut in Oklab (B. Ottosson, 2020). Lightness falls evenly from 0.97 at zero to 0.30 at
-//!   both ends; hue runs 235 to 262 degrees (blue) below and 55 to 25 degrees (orange to red) above; chroma is
-//!   0.125 (blue) or 0.135 (red) times sin(0.8 pi s^0.85) at distance s from zero, which stays inside sRGB. Blue against
-//!   orange-red is the pair that red-green blindness keeps apart.
+//! - Diverging about zero: computed for gearcut in Oklab (B. Ottosson, 2020). Lightness falls evenly from 0.97 at zero
+//!   to 0.30 at both ends; hue runs 235 to 262 degrees (blue) below and 55 to 25 degrees (orange to red) above; chroma
+//!   is 0.125 (blue) or 0.135 (red) times sin(0.8 pi s^0.85) at distance s from zero, which stays inside sRGB. Blue
+//!   against orange-red is the pair that red-green blindness keeps apart.
 //! - Series: M. Okabe and K. Ito (2008), the dark colours first, without the yellow that vanishes on white.
 //!
 //! Between anchors sRGB components are interpolated linearly.
@@ -59,7 +59,8 @@ impl ColourScale {
         Self::Diverging { limit: low.abs().max(high.abs()) }
     }
 
-    /// Scale for heights over a target: sequential where all lie above it, diverging about zero where some lie below it by more than a hundredth of the largest magnitude.
+    /// Scale for heights over a target: sequential where all lie above it, diverging about zero where some lie below it
+    /// by more than a hundredth of the largest magnitude.
     pub fn heights_over<'a>(maps: impl IntoIterator<Item = &'a [f32]>) -> Self {
         let (low, high) = finite_range(maps);
         let limit = low.abs().max(high.abs());

@@ -1,10 +1,10 @@
 //! Ctrl-C that keeps what is finished.
 //!
-//! In: the signals that ask a program to stop (SIGINT, SIGTERM, SIGHUP; Ctrl-C and Ctrl-Break on Windows). Out: a flag that the
-//! work looks at between its units, so that it ends by the usual way and removes its temporary files.
+//! In: the signals that ask a program to stop (SIGINT, SIGTERM, SIGHUP; Ctrl-C and Ctrl-Break on Windows). Out: a flag
+//! that the work looks at between its units, so that it ends by the usual way and removes its temporary files.
 //!
-//! The first signal raises the flag; a second one ends the process at once with code 130, for the user who will not wait.
-//! It leaves what a killed process leaves: a hidden folder beside the results, which the next run removes.
+//! The first signal raises the flag; a second one ends the process at once with code 130, for the user who will not
+//! wait. It leaves what a killed process leaves: a hidden folder beside the results, which the next run removes.
 //!
 //! Road not taken: a global flag that everybody may ask. Passing [`Interrupt`] along shows in the signatures which work
 //! can be stopped, and tests can raise it without a signal.

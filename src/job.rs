@@ -1,7 +1,7 @@
 //! What meshes, pictures, maps and texture ask of a job, whatever its process.
 //!
-//! In: a prepared job. Out: the target's profiles section by section, and surfaces of flanks, roots and tips after all operations. Shaping and hobbing answer each in their own way; nothing behind this
-//! interface knows strokes or hobs.
+//! In: a prepared job. Out: the target's profiles section by section, and surfaces of flanks, roots and tips after all
+//! operations. Shaping and hobbing answer each in their own way; nothing behind this interface knows strokes or hobs.
 
 use crate::cut::Backend;
 use crate::dexel::Layer;
@@ -17,7 +17,8 @@ use crate::terms::Side;
 pub const RAY_DEPTH_MODULES: f64 = 0.5;
 /// How far above the target a ray can reach, in modules: half a pitch, where the neighbouring tooth begins.
 pub const RAY_HEIGHT_MODULES: f64 = 0.5 * std::f64::consts::PI;
-/// Root fields are coarser than flanks, at least so far apart along profile and tooth: roots carry no feed marks that matter.
+/// Root fields are coarser than flanks, at least so far apart along profile and tooth: roots carry no feed marks that
+/// matter.
 pub const ROOT_SPACING_MM: [f64; 2] = [0.02, 1.0];
 /// Distance of tip rays along profile and tooth, mm.
 pub const TIP_SPACING_MM: [f64; 2] = [0.02, 1.0];
@@ -39,7 +40,8 @@ pub trait GearJob: Sync {
     /// Passes of all operations.
     fn passes(&self) -> u32;
 
-    /// Whether marks of an operation follow each other along the tooth. Where the axes rest during strokes a single mark runs along it without end.
+    /// Whether marks of an operation follow each other along the tooth. Where the axes rest during strokes a single
+    /// mark runs along it without end.
     fn marks_follow_along_tooth(&self, operation: usize) -> bool;
 
     /// Length of a target flank's profile in the middle of the face, mm.
@@ -54,10 +56,12 @@ pub trait GearJob: Sync {
     /// The tool generates no flank there.
     fn evaluated_profile_mm(&self, tooth: u32, side: Side) -> Result<[f64; 2]>;
 
-    /// Places along the tooth at which the target's sections say all of its shape: both ends of the face where it is straight.
+    /// Places along the tooth at which the target's sections say all of its shape: both ends of the face where it is
+    /// straight.
     fn view_leads_mm(&self) -> Vec<f64>;
 
-    /// Arcs from the form point about `spacing_mm` apart, and the target flank's profile there in every section of `leads_mm`.
+    /// Arcs from the form point about `spacing_mm` apart, and the target flank's profile there in every section of
+    /// `leads_mm`.
     ///
     /// # Errors
     /// The tool generates no flank there.
@@ -69,7 +73,8 @@ pub trait GearJob: Sync {
         leads_mm: &[f64],
     ) -> Result<(Vec<f64>, Vec<Profile>)>;
 
-    /// Root of the space after tooth `space` in every section of `leads_mm`, equally many points about `spacing_mm` apart, between the ends of its flanks.
+    /// Root of the space after tooth `space` in every section of `leads_mm`, equally many points about `spacing_mm`
+    /// apart, between the ends of its flanks.
     ///
     /// # Errors
     /// The tool generates no flank there.
@@ -88,7 +93,8 @@ pub trait GearJob: Sync {
         leads_mm: &[f64],
     ) -> Result<Vec<Layer>>;
 
-    /// Surface of a flank after all operations with all the dexels of the scene's spacing, no further than `reach_mm` from the middle of the face.
+    /// Surface of a flank after all operations with all the dexels of the scene's spacing, no further than `reach_mm`
+    /// from the middle of the face.
     ///
     /// # Errors
     /// The tool generates no flank there; the backend's.

@@ -1,5 +1,5 @@
-//! gearcut moves a machine's axes by its linkage model, sweeps every real cutting edge stroke by stroke through dexels of
-//! the blank, and measures what is left.
+//! gearcut moves a machine's axes by its linkage model, sweeps every real cutting edge stroke by stroke through dexels
+//! of the blank, and measures what is left.
 //!
 //! The modules, from the ground up; each uses only those above it in this list:
 //!

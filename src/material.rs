@@ -1,15 +1,20 @@
 //! Cutting forces from uncut chip thickness, edge element by edge element.
 //!
-//! Law (linear edge force model: Armarego and Brown 1969; Altintas, Manufacturing Automation, 2012, section 2.4): an edge element of length b with uncut chip thickness h feels
+//! Law (linear edge force model: Armarego and Brown 1969; Altintas, Manufacturing Automation, 2012, section 2.4): an
+//! edge element of length b with uncut chip thickness h feels
 //!
 //! `F_c = (K_c h + K_ce) b` against its motion, and `F_n = (K_n h + K_ne) b` along its normal, away from the work.
 //!
-//! The coefficients belong to an element square to the cutting motion, with the rake of the cutter's tip; what becomes of them on inclined flanks belongs to the chip ledger.
+//! The coefficients belong to an element square to the cutting motion, with the rake of the cutter's tip; what becomes
+//! of them on inclined flanks belongs to the chip ledger.
 //!
-//! **Built-in materials** come from Kienzle's law F_c = k_c1.1 b h^(1 - m_c) (Kienzle and Victor 1957; constants after König and Essel 1973, as shop tables print them), turned
-//! into a line by least squares of the relative error over [`FITTED_MM`], the thicknesses that shaping meets; it stays within 15 % of the law there and lies 30 % above it at 0.3 mm. Kienzle's constants were measured at 0.05 mm and more; below that the line is an extrapolation. They
-//! hold for sharp carbide at about 100 m/min; high-speed steel at shaping speeds and worn edges need 10 to 30 % more. F_n is taken as [`NORMAL_SHARE`] of F_c: friction coefficient
-//! 0.5 at zero rake (Merchant 1945: F_n / F_c = tan(friction angle - rake)). Whoever needs better numbers gives measured ones in the scene.
+//! **Built-in materials** come from Kienzle's law F_c = k_c1.1 b h^(1 - m_c) (Kienzle and Victor 1957; constants after
+//! König and Essel 1973, as shop tables print them), turned into a line by least squares of the relative error over
+//! [`FITTED_MM`], the thicknesses that shaping meets; it stays within 15 % of the law there and lies 30 % above it at
+//! 0.3 mm. Kienzle's constants were measured at 0.05 mm and more; below that the line is an extrapolation. They hold
+//! for sharp carbide at about 100 m/min; high-speed steel at shaping speeds and worn edges need 10 to 30 % more. F_n is
+//! taken as [`NORMAL_SHARE`] of F_c: friction coefficient 0.5 at zero rake (Merchant 1945: F_n / F_c = tan(friction
+//! angle - rake)). Whoever needs better numbers gives measured ones in the scene.
 
 /// Thicknesses over which Kienzle's law becomes a line, mm.
 pub const FITTED_MM: [f64; 2] = [0.01, 0.1];
@@ -96,7 +101,8 @@ impl EdgeForce {
 mod tests {
     use super::*;
 
-    /// Specific cutting force k_c in kN/mm^2 at feeds of 0.16, 0.25, 0.4, 0.63, 1.0 and 1.6 mm under 45 degrees, as a maker of chucks prints it (Röhm, RN 1391, table 2).
+    /// Specific cutting force k_c in kN/mm^2 at feeds of 0.16, 0.25, 0.4, 0.63, 1.0 and 1.6 mm under 45 degrees, as a
+    /// maker of chucks prints it (Röhm, RN 1391, table 2).
     #[test]
     fn built_in_materials_agree_with_a_shop_table() {
         let table = [

@@ -1,8 +1,9 @@
 //! The order of a whole run: scene -> job -> flanks (cut, measure, map, drop) -> gear -> files -> summary.
 //!
 //! The unit of work is one flank through all operations; flanks go to the cores in parallel and are written as they are
-//! finished, so memory grows with the cores and not with the gear. The output folder appears under its name only when it is
-//! complete; what Ctrl-C leaves of it, the flanks that are finished and what follows from them, goes to a folder beside it.
+//! finished, so memory grows with the cores and not with the gear. The output folder appears under its name only when
+//! it is complete; what Ctrl-C leaves of it, the flanks that are finished and what follows from them, goes to a folder
+//! beside it.
 //!
 //! Nothing here knows a process by name: [`crate::process::Job`] cuts itself with the shared [`crate::steps`].
 
@@ -41,7 +42,8 @@ pub struct Outputs {
 
 /// Cuts a scene and writes everything into `out`.
 ///
-/// `backend_why` says why this backend was taken. The output folder is opened before the work begins, so that a bad path fails at once.
+/// `backend_why` says why this backend was taken. The output folder is opened before the work begins, so that a bad
+/// path fails at once.
 ///
 /// # Errors
 /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.

@@ -1,6 +1,7 @@
 //! Surface texture of cut flanks: windows, their heights after every operation, ISO 25178 numbers, files and pictures.
 //!
-//! In: a [`GearJob`] and a backend. Out: [`WindowTexture`] per window and operation, which goes to `results.json` and into `texture/<operation>/`:
+//! In: a [`GearJob`] and a backend. Out: [`WindowTexture`] per window and operation, which goes to `results.json` and
+//! into `texture/<operation>/`:
 //!
 //! | file | what |
 //! | --- | --- |
@@ -8,8 +9,10 @@
 //! | `tooth_03_left_relief.png` | heights after the chain, lit from the side, exaggeration stated |
 //! | `tooth_03_left_abbott.png`, `.svg` | material ratio curve with the construction of Sk |
 //!
-//! A window has its own dexels: places uniform in **arc length** along the profile (y) and along the tooth (x), heights along the target's normals. Equal steps of roll angle would make arcs that grow with the
-//! roll, and Sdq, Sdr, Sal and Std wrong with them. The target is subtracted by the dexels themselves; what the F-operator takes off beyond it is named in the chain.
+//! A window has its own dexels: places uniform in **arc length** along the profile (y) and along the tooth (x), heights
+//! along the target's normals. Equal steps of roll angle would make arcs that grow with the roll, and Sdq, Sdr, Sal and
+//! Std wrong with them. The target is subtracted by the dexels themselves; what the F-operator takes off beyond it is
+//! named in the chain.
 
 mod chart;
 mod files;
@@ -44,9 +47,11 @@ pub struct WindowTexture {
     pub window: Window,
     /// Index of the operation.
     pub operation: usize,
-    /// Heights over the target flank, um; x along the tooth, y along the profile towards the tip; NaN where no pass came. None where none came at all.
+    /// Heights over the target flank, um; x along the tooth, y along the profile towards the tip; NaN where no pass
+    /// came. None where none came at all.
     pub heights: Option<Surface>,
-    /// Marks that follow each other along the tooth and along the profile: `[x, y]`; 0 along the tooth where the axes rest during strokes, so that marks run along it without end.
+    /// Marks that follow each other along the tooth and along the profile: `[x, y]`; 0 along the tooth where the axes
+    /// rest during strokes, so that marks run along it without end.
     pub marks: [usize; 2],
     /// What was evaluated, or why nothing could be.
     pub evaluated: Result<Evaluated, String>,

@@ -1,4 +1,5 @@
-//! What the machine can do at most, measured in the same run as what the kernels do: arithmetic in the widest vectors, and bytes to and from memory.
+//! What the machine can do at most, measured in the same run as what the kernels do: arithmetic in the widest vectors,
+//! and bytes to and from memory.
 
 #![expect(
     clippy::inline_always,
@@ -48,7 +49,8 @@ fn fastest_s(run: impl Fn()) -> f64 {
     times.take(RUNS).fold(f64::INFINITY, f64::min)
 }
 
-/// f64 additions and multiplications in a second, on all of rayon's threads together; not fused, as the kernels' are not.
+/// f64 additions and multiplications in a second, on all of rayon's threads together; not fused, as the kernels' are
+/// not.
 pub fn operations_per_s() -> f64 {
     let threads = rayon::current_num_threads();
     let lanes = Arch::new().dispatch(Arithmetic);

@@ -11,7 +11,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 #[command(
     name = "gearcut",
     version,
-    about = "Cuts non-circular gears on this computer before anyone cuts them in steel, and measures what the cutter leaves.",
+    about = "Cuts non-circular gears on this computer before anyone cuts them in steel, and measures what the cutter \
+        leaves.",
     after_help = "First steps:\n  \
         gearcut check scenes/shaping/elliptical_normal.toml   what the scene means, in a second\n  \
         gearcut cut scenes/shaping/elliptical_normal.toml     cut it and measure it\n  \

@@ -1,7 +1,7 @@
 //! `gearcut check`: what a scene means, before anything is cut.
 //!
-//! One part per question: is this the pitch curve I meant, what does the tool do to the teeth, can the machine follow, what
-//! will the cut cost.
+//! One part per question: is this the pitch curve I meant, what does the tool do to the teeth, can the machine follow,
+//! what will the cut cost.
 
 use super::args::SceneArguments;
 use super::failure::Failure;

@@ -1,7 +1,7 @@
 //! Output folders of the commands that do not cut.
 //!
-//! The rule: what `gearcut cut` wrote is replaced by `gearcut cut` alone. Axis tables and comparisons would otherwise wipe out
-//! a long run whose folder was named by mistake.
+//! The rule: what `gearcut cut` wrote is replaced by `gearcut cut` alone. Axis tables and comparisons would otherwise
+//! wipe out a long run whose folder was named by mistake.
 //!
 //! They listen for Ctrl-C only so that their hidden folders vanish: they take seconds, and what they have so far is no
 //! result.

@@ -1,6 +1,7 @@
 //! Straight lines between knots, as few of them as a tolerance allows.
 
-/// Ends of the longest lines that fit, one after the other, from place 0 to place `last`; where not even a line to the next place fits, it is taken.
+/// Ends of the longest lines that fit, one after the other, from place 0 to place `last`; where not even a line to the
+/// next place fits, it is taken.
 pub fn longest_lines(last: usize, fits: impl Fn(usize, usize) -> bool) -> Vec<usize> {
     let mut ends = Vec::new();
     let mut from = 0;

@@ -10,7 +10,8 @@ pub struct Word<'a> {
     pub text: &'a str,
 }
 
-/// Takes block after block; `block` tells whether the program has ended. Gives the number of lines, and whether an end was there; errors name the line.
+/// Takes block after block; `block` tells whether the program has ended. Gives the number of lines, and whether an end
+/// was there; errors name the line.
 ///
 /// # Errors
 /// Line and word of what is malformed.

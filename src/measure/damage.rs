@@ -1,6 +1,7 @@
 //! What the blank field says about any gear: volumes by two ways, and damage to the target.
 //!
-//! In: the cut blank, the target's section in a slice. Out: [`Damage`] by tooth, side and zone, deepest place and volume.
+//! In: the cut blank, the target's section in a slice. Out: [`Damage`] by tooth, side and zone, deepest place and
+//! volume.
 //!
 //! Material of the target that is not there was taken by the pass that left the surface beside the gap. Whatever lies
 //! less than [`LEAST_DEPTH_MM`] under the target is left out: rays and outline are no better than that.
@@ -15,7 +16,8 @@ use crate::terms::Side;
 use glam::DVec2;
 use std::collections::BTreeMap;
 
-/// Damage and rubbing less deep than this are not reported: above the errors of the outline (chords of the target, 0.1 um in a fillet), below what any machine holds.
+/// Damage and rubbing less deep than this are not reported: above the errors of the outline (chords of the target, 0.1
+/// um in a fillet), below what any machine holds.
 pub const LEAST_DEPTH_MM: f64 = 1e-3;
 
 /// Damage or rubbing on one side of a tooth by one operation.
@@ -178,7 +180,8 @@ pub fn missing_in_slice(
     findings
 }
 
-/// Pass that left the surface at an end of a gap. Where the target is gone from end to end the ray knows no pass; the rays across it, which end in what is left, do.
+/// Pass that left the surface at an end of a gap. Where the target is gone from end to end the ray knows no pass; the
+/// rays across it, which end in what is left, do.
 fn pass_beside(spans: &[intervals::Span], low_mm: f64, high_mm: f64) -> Option<u32> {
     let above = spans.iter().find(|s| s.low.at_mm == high_mm).map(|s| s.low.pass);
     let below = spans.iter().find(|s| s.high.at_mm == low_mm).map(|s| s.high.pass);

@@ -1,8 +1,9 @@
 //! Profile, lead, pitch and runout deviations in the style of ISO 1328:2013, for gears that are not round.
 //!
-//! Profile and lead: heights over the target along its local normals, over a stated range of a line: total deviation F_alpha or F_beta (range), slope deviation f_H (the mean line's rise over the
-//! range) and form deviation f_f (range about the mean line). Pitch: places where the flanks cross the pitch curve, as arcs of that curve, against one pitch pi m each: single f_p and cumulative F_p. No
-//! tolerance class is given: the standard's classes are for round gears.
+//! Profile and lead: heights over the target along its local normals, over a stated range of a line: total deviation
+//! F_alpha or F_beta (range), slope deviation f_H (the mean line's rise over the range) and form deviation f_f (range
+//! about the mean line). Pitch: places where the flanks cross the pitch curve, as arcs of that curve, against one pitch
+//! pi m each: single f_p and cumulative F_p. No tolerance class is given: the standard's classes are for round gears.
 
 use super::crossing::Crossing;
 use crate::dexel::{Field, Layer, NO_PASS};
@@ -22,7 +23,8 @@ pub struct Trace {
 pub struct TraceDeviation {
     /// F_alpha or F_beta, mm: range of the heights.
     pub total_mm: f64,
-    /// f_H_alpha or f_H_beta, mm: rise of the mean line; positive when material is left towards the tip, or towards larger v.
+    /// f_H_alpha or f_H_beta, mm: rise of the mean line; positive when material is left towards the tip, or towards
+    /// larger v.
     pub slope_mm: f64,
     /// f_f_alpha or f_f_beta, mm: range about the mean line.
     pub form_mm: f64,
@@ -117,7 +119,8 @@ impl PitchDeviations {
     }
 }
 
-/// Pitch deviations from the crossings of all flanks of one side in order of teeth; `perimeter_mm` closes the turn. `None` if one is missing.
+/// Pitch deviations from the crossings of all flanks of one side in order of teeth; `perimeter_mm` closes the turn.
+/// `None` if one is missing.
 pub fn pitch(crossings: &[Option<Crossing>], pitch_mm: f64, perimeter_mm: f64) -> Option<PitchDeviations> {
     let arcs: Vec<f64> = crossings.iter().map(|c| c.map(|c| c.arc_mm)).collect::<Option<_>>()?;
     let first = *arcs.first()?;
@@ -146,9 +149,11 @@ impl Runout {
 
 /// Runout from the crossings of all flanks with the pitch curve, in order of teeth; `None` if one is missing.
 ///
-/// The probe touches both flanks of a space at the pitch curve, as a ball of fitting size does. Between the flanks the curve's normal turns by 2 gamma; a probe that moves by d along the normal
-/// in the middle then moves each contact by d (tan(alpha) cos(gamma) + sin(gamma)) along the curve, so in a space that is wider by w it lies w / (2 (tan(alpha) cos(gamma) + sin(gamma))) deeper. The
-/// range is F_r of ISO 1328-2:1997 on a round gear, for small deviations; on other gears no axis is common to all spaces, and the figure says how evenly they were cut to depth.
+/// The probe touches both flanks of a space at the pitch curve, as a ball of fitting size does. Between the flanks the
+/// curve's normal turns by 2 gamma; a probe that moves by d along the normal in the middle then moves each contact by d
+/// (tan(alpha) cos(gamma) + sin(gamma)) along the curve, so in a space that is wider by w it lies w / (2 (tan(alpha)
+/// cos(gamma) + sin(gamma))) deeper. The range is F_r of ISO 1328-2:1997 on a round gear, for small deviations; on
+/// other gears no axis is common to all spaces, and the figure says how evenly they were cut to depth.
 ///
 /// Road not taken: w / (2 tan(alpha)), the law of a rack. On 24 teeth it is 18 % too large.
 pub fn runout(

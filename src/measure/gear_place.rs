@@ -41,8 +41,8 @@ impl Zone {
 }
 
 impl GearPlace {
-    /// Place of a point of a section in which the teeth stand `turned_mm` further along the pitch curve. Tooth j fills the
-    /// arcs of the pitch curve from (j - 1) to j pitches, its left side the upper half.
+    /// Place of a point of a section in which the teeth stand `turned_mm` further along the pitch curve. Tooth j fills
+    /// the arcs of the pitch curve from (j - 1) to j pitches, its left side the upper half.
     pub fn in_section(blank: &Blank, gear: &Gear, point_mm: DVec2, turned_mm: f64) -> Self {
         let (height_mm, phi_rad) = blank.height(point_mm, point_mm.to_angle());
         let teeth = gear.teeth;

@@ -1,8 +1,9 @@
 //! Scallops: the cusps that stand between neighbouring strokes' facets.
 //!
-//! Along a profile the dexels of one facet carry the same pass id. Where the id changes, the two facets meet in a cusp between two dexels; quadratics through
-//! three dexels of either facet, continued to where they cross, give its height without the loss that the grid's spacing would cause.
-//! For closed forms see Gao et al.'s errata in the docs: `h = (ds^2 / 8) (1/rho_g + 1/rho_t)`.
+//! Along a profile the dexels of one facet carry the same pass id. Where the id changes, the two facets meet in a cusp
+//! between two dexels; quadratics through three dexels of either facet, continued to where they cross, give its height
+//! without the loss that the grid's spacing would cause. For closed forms see Gao et al.'s errata in the docs:
+//! `h = (ds^2 / 8) (1/rho_g + 1/rho_t)`.
 
 use crate::dexel::{Field, Layer};
 use crate::math::newton::{LastStep, newton};

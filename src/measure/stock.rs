@@ -1,6 +1,7 @@
 //! Normal stock: what one operation leaves over another one, along the target's normals.
 //!
-//! Dexels that the earlier operation never reached still have the blank's height; their stock is not a stock of machining. They are counted, and left out of the figures.
+//! Dexels that the earlier operation never reached still have the blank's height; their stock is not a stock of
+//! machining. They are counted, and left out of the figures.
 
 use crate::dexel::{Field, Layer, NO_PASS};
 

@@ -1,9 +1,12 @@
-//! The target's transverse section as one closed polygon: flanks, roots and tip lands as finishing leaves them in the limit of many strokes.
+//! The target's transverse section as one closed polygon: flanks, roots and tip lands as finishing leaves them in the
+//! limit of many strokes.
 //!
-//! In: points of the chain, counter-clockwise. Out: area, material on rays, signed distances; what the blank field is judged against, by formulas that share nothing with it.
+//! In: points of the chain, counter-clockwise. Out: area, material on rays, signed distances; what the blank field is
+//! judged against, by formulas that share nothing with it.
 //!
-//! Where the fillet has cut into a flank (undercut), the envelopes of flank and fillet run on past their crossing; the little loop that they form runs clockwise. Material is therefore where
-//! the winding number is positive, and nothing has to be trimmed.
+//! Where the fillet has cut into a flank (undercut), the envelopes of flank and fillet run on past their crossing; the
+//! little loop that they form runs clockwise. Material is therefore where the winding number is positive, and nothing
+//! has to be trimmed.
 
 use crate::dexel::intervals;
 use crate::math::planar_rays::{Family, RayRow};
@@ -64,8 +67,8 @@ impl TargetOutline {
         0.5 * (0..self.points_mm.len()).map(|i| self.segment(i)).map(|[a, b]| a.perp_dot(b)).sum::<f64>()
     }
 
-    /// How far the area by rays of a family may be off, mm2: half a spacing times the way of the outline along the rays.
-    /// The midpoint rule errs by no more than that times the total variation of the length that it sums.
+    /// How far the area by rays of a family may be off, mm2: half a spacing times the way of the outline along the
+    /// rays. The midpoint rule errs by no more than that times the total variation of the length that it sums.
     pub fn area_bound_mm2(&self, family: Family, spacing_mm: f64) -> f64 {
         let way: f64 = (0..self.points_mm.len()).map(|i| self.segment(i)).map(|[a, b]| family.along(b - a).abs()).sum();
         0.5 * spacing_mm * way
@@ -84,7 +87,8 @@ impl TargetOutline {
                 crossings[ray].push((along, if to > from { 1 } else { -1 }));
             }
         }
-        // Counter-clockwise, an edge that climbs across rays along x has the material at smaller x; for rays along y it is the other way round.
+        // Counter-clockwise, an edge that climbs across rays along x has the material at smaller x; for rays along y it
+        // is the other way round.
         let enters = if family == Family::X { -1 } else { 1 };
         crossings
             .into_iter()
@@ -107,7 +111,8 @@ impl TargetOutline {
             .collect()
     }
 
-    /// Distance of a point from the outline, mm: positive outside the target, negative inside; at most `limit_mm` is looked for.
+    /// Distance of a point from the outline, mm: positive outside the target, negative inside; at most `limit_mm` is
+    /// looked for.
     pub fn distance_mm(&self, p: DVec2, limit_mm: f64) -> Option<f64> {
         let [column, row] = self.bucket(p);
         let rows = self.buckets.len() / self.columns;
@@ -136,7 +141,8 @@ impl TargetOutline {
     }
 }
 
-/// Distance from a segment, and a measure of the side (positive on the right) that is largest in magnitude, with negative sign in the first place of ties, for the segment that decides at a corner.
+/// Distance from a segment, and a measure of the side (positive on the right) that is largest in magnitude, with
+/// negative sign in the first place of ties, for the segment that decides at a corner.
 fn signed_distance([a, b]: [DVec2; 2], p: DVec2) -> (f64, f64) {
     let along = b - a;
     let share = ((p - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);

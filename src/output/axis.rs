@@ -1,7 +1,7 @@
 //! Round numbers along an axis.
 //!
-//! In: a range and how many labels fit. Out: tick values at 1, 2 or 5 times a power of ten, with labels that share their
-//! number of decimals, and a common power of ten where the numbers would get long.
+//! In: a range and how many labels fit. Out: tick values at 1, 2 or 5 times a power of ten, with labels that share
+//! their number of decimals, and a common power of ten where the numbers would get long.
 
 /// Ticks of an axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,8 +54,8 @@ pub(super) fn round_range(low: f64, high: f64) -> (f64, f64) {
     ((low / step + 1e-9).floor() * step, (high / step - 1e-9).ceil() * step)
 }
 
-/// A range made so wide that ticks on it are `division` apart at least: about its middle, from tick to tick. No division, no
-/// change.
+/// A range made so wide that ticks on it are `division` apart at least: about its middle, from tick to tick. No
+/// division, no change.
 pub(super) fn widened((low, high): (f64, f64), division: f64) -> (f64, f64) {
     /// Divisions that an axis shows at least.
     const FEWEST: f64 = 6.0;

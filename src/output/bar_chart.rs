@@ -1,7 +1,7 @@
 //! Grouped bars: several series over the same categories, such as the unevenness of every tooth under two linkages.
 //!
-//! In: categories, series with a value or none per category, units. Out: PNG or SVG with axes, legend and each series' mean
-//! as a dashed line.
+//! In: categories, series with a value or none per category, units. Out: PNG or SVG with axes, legend and each series'
+//! mean as a dashed line.
 //!
 //! The value axis always contains zero: a bar's length is its message.
 

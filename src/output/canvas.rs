@@ -2,9 +2,10 @@
 //!
 //! In: points in picture pixels, text sizes in pixels per em. Out: lines, rectangles and text on a bitmap or an SVG.
 //!
-//! plotters places text by boxes whose relation to the letters differs between its bitmap and its SVG backend (by a sixth
-//! of the letter height). This layer places text by the middle of its capitals, which both then agree on, and draws at a
-//! multiple of the picture's size: bitmaps are averaged down afterwards (smooth lines), SVG gets finer coordinates.
+//! plotters places text by boxes whose relation to the letters differs between its bitmap and its SVG backend (by a
+//! sixth of the letter height). This layer places text by the middle of its capitals, which both then agree on, and
+//! draws at a multiple of the picture's size: bitmaps are averaged down afterwards (smooth lines), SVG gets finer
+//! coordinates.
 //!
 //! Road not taken: plotters' chart builder. Its label areas are fixed numbers of pixels, so long labels are clipped.
 
@@ -111,8 +112,8 @@ impl<DB: DrawingBackend> Canvas<DB> {
         if self.letters_finer.is_none() {
             return self.backend.draw_path(places, &style).map_err(text);
         }
-        // plotters fills the outline of a wide line as one polygon, and spikes where its sides nearly coincide; piece by
-        // piece it does not.
+        // plotters fills the outline of a wide line as one polygon, and spikes where its sides nearly coincide; piece
+        // by piece it does not.
         places.windows(2).try_for_each(|piece| self.backend.draw_path(piece.iter().copied(), &style).map_err(text))
     }
 

@@ -1,9 +1,10 @@
 //! Many small maps on one picture, with one colour scale: all flanks of a gear at a glance.
 //!
-//! In: labelled maps in reading order ("7 L", "7 R", ...). Out: one PNG with one colour bar and one scale for all lengths.
+//! In: labelled maps in reading order ("7 L", "7 R", ...). Out: one PNG with one colour bar and one scale for all
+//! lengths.
 //!
-//! The number of columns is even, so that left and right flank of a tooth stand side by side, and is chosen to bring the
-//! picture near the proportions of a screen.
+//! The number of columns is even, so that left and right flank of a tooth stand side by side, and is chosen to bring
+//! the picture near the proportions of a screen.
 
 use std::path::Path;
 

@@ -10,11 +10,12 @@
 //! | stock of each earlier operation over the finished surface | `allowance/tooth_07_left.{png,exr}` |
 //! | deviation of the finished flank | `deviation/tooth_07_left.{png,exr}` |
 //!
-//! Maps have a spacing of their own (the scene's `output.map_spacing_mm`), wider than facets. In EXR files stock, height,
-//! pass id and chip are those of the dexel nearest to the map's place. Pictures show values of whole cells, because single
-//! dexels would make moire of the feed marks: the **highest** dexel, so that no mark is lost; the **mean** stock and
-//! deviation, because an error of form or position is what remains when the marks are averaged; and the **latest** pass.
-//! Chips alone are the nearest dexel's on pictures too, and say so: they are followed for that dexel only.
+//! Maps have a spacing of their own (the scene's `output.map_spacing_mm`), wider than facets. In EXR files stock,
+//! height, pass id and chip are those of the dexel nearest to the map's place. Pictures show values of whole cells,
+//! because single dexels would make moire of the feed marks: the **highest** dexel, so that no mark is lost; the
+//! **mean** stock and deviation, because an error of form or position is what remains when the marks are averaged; and
+//! the **latest** pass. Chips alone are the nearest dexel's on pictures too, and say so: they are followed for that
+//! dexel only.
 
 use super::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
 use super::folder::OutputFolder;
@@ -29,12 +30,14 @@ use crate::terms::Side;
 use crate::units::UM_PER_MM;
 
 /// What map readers need to know about u and v.
-const FRAME: &str = "flank frame: u = arc length along the target profile from the form point to the tip, v = place along the tooth from the middle of the face; heights along the target's outward normal, positive = material left";
+const FRAME: &str = "flank frame: u = arc length along the target profile from the form point to the tip, v = place \
+    along the tooth from the middle of the face; heights along the target's outward normal, positive = material left";
 
 /// Why a cell of a flank has no value.
 pub const NO_PASS_CAME: &str = "no pass came here";
 
-/// Quantiles between which chips are told apart: the places that a first stroke cut whole tooth spaces from would hide all others.
+/// Quantiles between which chips are told apart: the places that a first stroke cut whole tooth spaces from would hide
+/// all others.
 pub const CHIPS_SHOWN: [f64; 2] = [0.0, 0.95];
 
 /// What maps need to know of an operation.
@@ -47,8 +50,9 @@ pub struct OperationMaps {
 }
 
 impl OperationMaps {
-    /// Maps of an operation whose cutter stands `offset_mm` further back than the last one's: on a straight rack it leaves offset sin(alpha) on both flanks, and the colours go from nothing to
-    /// twice that. Where the fillet leaves more, they stay at their end.
+    /// Maps of an operation whose cutter stands `offset_mm` further back than the last one's: on a straight rack it
+    /// leaves offset sin(alpha) on both flanks, and the colours go from nothing to twice that. Where the fillet leaves
+    /// more, they stay at their end.
     pub fn new(name: &str, offset_mm: f64, pressure_angle_rad: f64) -> Self {
         let even_mm = (offset_mm * pressure_angle_rad.sin()).max(1e-3);
         Self { name: name.to_owned(), stock_scale: ColourScale::Sequential { low: 0.0, high: 2.0 * even_mm as f32 } }
@@ -83,7 +87,8 @@ pub struct FlankMaps {
 }
 
 impl FlankMaps {
-    /// Takes the dexels nearest to the places of a map with `spacing_mm`; dexels stand at `arcs_mm` along the profile and `leads_mm` along the tooth.
+    /// Takes the dexels nearest to the places of a map with `spacing_mm`; dexels stand at `arcs_mm` along the profile
+    /// and `leads_mm` along the tooth.
     pub fn sample(tooth: u32, side: Side, [arcs_mm, leads_mm]: [&[f64]; 2], layers: &[Layer], spacing_mm: f64) -> Self {
         let rows = leads_mm.len();
         let lengths = [arcs_mm.last().copied().unwrap_or(0.0), leads_mm[rows - 1] - leads_mm[0]];
@@ -159,7 +164,8 @@ impl FlankMaps {
         format!("tooth_{:02}_{}", self.tooth, self.side.name())
     }
 
-    /// Writes all maps; `operations` are their names and the largest stock that the colours of their allowance maps tell apart, `notes` go into the EXR headers.
+    /// Writes all maps; `operations` are their names and the largest stock that the colours of their allowance maps
+    /// tell apart, `notes` go into the EXR headers.
     ///
     /// # Errors
     /// Files that cannot be written.
@@ -179,7 +185,8 @@ impl FlankMaps {
             };
             write_map_png(&folder.path(format!("maps/{name}/{stem}.png"))?, &picture)?;
             let last = index + 1 == operations.len();
-            // One picture of passes is enough to see the order of cutting: that of the finished surface. The EXR has all.
+            // One picture of passes is enough to see the order of cutting: that of the finished surface. The EXR has
+            // all.
             if last {
                 let picture = MapPicture {
                     title: &format!("{name}: {flank}, the pass that left each place"),
@@ -226,13 +233,15 @@ impl FlankMaps {
                 channels.push(channel(
                     "chip_thickness_mm",
                     "mm",
-                    "uncut chip thickness of that pass there: solid material before the edge along the target's normal, times the cosine to the edge's normal; NaN where none came",
+                    "uncut chip thickness of that pass there: solid material before the edge along the target's \
+                    normal, times the cosine to the edge's normal; NaN where none came",
                     Samples::F32(chips.thickness_mm.clone()),
                 ));
                 channels.push(channel(
                     "edge_part",
                     "1",
-                    "part of the cutter's edge that took it: 0 none, 1 right flank, 2 tip with its corners, 3 left flank",
+                    "part of the cutter's edge that took it: 0 none, 1 right flank, 2 tip with its corners, 3 left \
+                    flank",
                     Samples::U32(chips.sides.clone()),
                 ));
                 channels.sort_by(|a, b| a.name.cmp(&b.name));
@@ -343,7 +352,8 @@ mod tests {
         layer.passes[9] = 8;
         let maps = FlankMaps::sample(1, Side::Left, [&field.arcs_mm(), &field.leads_mm], &[layer], 0.1);
         assert_eq!((maps.grid.u.count, maps.grid.v.count), (2, 2));
-        // The cell at u 0.1, v -0.05 holds the columns at 0.05 (half way, upper cell) and 0.1, and the first row: dexels 4 and 8.
+        // The cell at u 0.1, v -0.05 holds the columns at 0.05 (half way, upper cell) and 0.1, and the first row:
+        // dexels 4 and 8.
         assert_eq!(maps.highest_mm[0][2], 8.0);
         assert_eq!(maps.deviation_mm[2], 6.0);
         // The cell at u 0.1, v 0.05 holds rows 1 and 2 of both columns: 5 (untouched), 6, 9, 10.

@@ -3,8 +3,9 @@
 //! In: words and a size. Out: their width, and how much of which pixels they cover.
 //!
 //! The law: letters follow each other by their advances and kerning, each set to whole pixels (as plotters' bitmap
-//! backend sets them, pixel for pixel). So a letter's pixels depend on the letter and the size alone, and can be kept: a
-//! run draws some hundred letters a hundred thousand times. Every thread keeps its own, so that none waits for another.
+//! backend sets them, pixel for pixel). So a letter's pixels depend on the letter and the size alone, and can be kept:
+//! a run draws some hundred letters a hundred thousand times. Every thread keeps its own, so that none waits for
+//! another.
 //!
 //! Road not taken: whole texts kept. Most titles and values are drawn once; it is their letters that come again.
 

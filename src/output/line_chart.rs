@@ -2,8 +2,8 @@
 //!
 //! In: panels with series of points, units and limits. Out: PNG or SVG; every panel with its own value axis and legend.
 //!
-//! NaN interrupts a curve. Where many points fall on the same pixel column, the first and last of them are drawn, and the extremes that stand out:
-//! the same picture from a tenth of the file.
+//! NaN interrupts a curve. Where many points fall on the same pixel column, the first and last of them are drawn, and
+//! the extremes that stand out: the same picture from a tenth of the file.
 //!
 //! A limit is drawn where it is near the curves; a limit far away is only named, because it would flatten them.
 

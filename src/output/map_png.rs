@@ -2,9 +2,10 @@
 //!
 //! In: a grid, its values, title, quantity, unit and colour scale. Out: one PNG, v to the right, u upward.
 //!
-//! Both axes have the same scale unless that would make the map lower than 160 pixels (a relief 480: marks along a long tooth need
-//! the height) or higher than 640; a line below the map says by how much one of them is stretched then. The smallest and largest values are marked where they are, so that a single outlying
-//! cell is found even where it is smaller than a pixel.
+//! Both axes have the same scale unless that would make the map lower than 160 pixels (a relief 480: marks along a long
+//! tooth need the height) or higher than 640; a line below the map says by how much one of them is stretched then. The
+//! smallest and largest values are marked where they are, so that a single outlying cell is found even where it is
+//! smaller than a pixel.
 //!
 //! Road not taken: a general chart library for the cells. It draws a rectangle per cell, which takes a second per map;
 //! a gear has hundreds.

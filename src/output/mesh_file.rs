@@ -5,7 +5,8 @@ use crate::surface::Mesh;
 use crate::surface::mesh::{Scalar, ScalarValues};
 
 /// Frame and unit of all mesh files.
-pub const FRAME: &str = "gear frame in mm: x through the space at phi = 0, y counter-clockwise from it, z along the tooth from the middle of the face";
+pub const FRAME: &str = "gear frame in mm: x through the space at phi = 0, y counter-clockwise from it, z along the \
+    tooth from the middle of the face";
 
 /// A mesh on its way to a file.
 #[derive(Debug, Clone, Copy)]

@@ -1,7 +1,9 @@
 //! Meshes as binary PLY: places, colours and every quantity by vertex.
 //!
-//! Layout (G. Turk, 1994): a text header that names the properties, then the vertices and the triangles as little-endian records. Comments say units, frame, definitions and the names of the
-//! parts. Colours are sRGB, as PLY viewers take them; quantities are properties of their own name (`height_um`, `stock_mm`, `pass_id`), NaN where there is no value.
+//! Layout (G. Turk, 1994): a text header that names the properties, then the vertices and the triangles as
+//! little-endian records. Comments say units, frame, definitions and the names of the parts. Colours are sRGB, as PLY
+//! viewers take them; quantities are properties of their own name (`height_um`, `stock_mm`, `pass_id`), NaN where there
+//! is no value.
 //!
 //! Road not taken: the part as a property of the triangles. Widely used readers fail on any property beside the list.
 

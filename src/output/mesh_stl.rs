@@ -1,7 +1,8 @@
 //! Triangles as binary STL: what slicers, CAM and CAD systems open.
 //!
-//! Layout (3D Systems, 1989): 80 bytes of text, the number of triangles as u32, then per triangle the normal and three corners as f32 and two spare bytes, all little endian. STL knows neither
-//! units nor neighbours: the text says mm, and corners are equal bytes wherever triangles meet, so that readers can weld them again.
+//! Layout (3D Systems, 1989): 80 bytes of text, the number of triangles as u32, then per triangle the normal and three
+//! corners as f32 and two spare bytes, all little endian. STL knows neither units nor neighbours: the text says mm, and
+//! corners are equal bytes wherever triangles meet, so that readers can weld them again.
 
 use crate::output::atomic::write_atomically;
 use crate::output::mesh_file::MeshFile;

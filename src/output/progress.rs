@@ -1,17 +1,17 @@
 //! What the user sees while the work goes on.
 //!
-//! In: steps ("cut flanks", 84 of them) and their advance, from any thread. Out, on standard error: a bar with the
-//! time left on a terminal, a plain line every few seconds elsewhere, one JSON object per line for programs, or nothing.
+//! In: steps ("cut flanks", 84 of them) and their advance, from any thread. Out, on standard error: a bar with the time
+//! left on a terminal, a plain line every few seconds elsewhere, one JSON object per line for programs, or nothing.
 //!
 //! The rule: results go to files and standard output, talk goes to standard error; and a time left is named only after
 //! two seconds, because before that it is a guess.
 //!
-//! A command that knows its steps beforehand gives a plan: their names with expected seconds, right in proportion. The time
-//! left of the whole command is then what is expected of the rest, at the pace of what is done. Without a plan, a step
-//! speaks for itself alone.
+//! A command that knows its steps beforehand gives a plan: their names with expected seconds, right in proportion. The
+//! time left of the whole command is then what is expected of the rest, at the pace of what is done. Without a plan, a
+//! step speaks for itself alone.
 //!
-//! Road not taken: percentages over the whole run. They would count expected seconds as if they were measured; a time left
-//! is known to be an estimate.
+//! Road not taken: percentages over the whole run. They would count expected seconds as if they were measured; a time
+//! left is known to be an estimate.
 
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -75,8 +75,8 @@ struct Whole {
 }
 
 impl Whole {
-    /// Time left of the whole command, s, when `share` of `step` is done; none without a plan, in the first two seconds,
-    /// or before a twentieth of what is expected is done.
+    /// Time left of the whole command, s, when `share` of `step` is done; none without a plan, in the first two
+    /// seconds, or before a twentieth of what is expected is done.
     fn left_s(&self, step: &str, share: f64) -> Option<f64> {
         let under_way_s: f64 = self.ahead.iter().filter(|(name, _)| name == step).map(|(_, s)| s * share).sum();
         let done_s = self.done_s + under_way_s;

@@ -1,7 +1,8 @@
 //! Light on a map: how bright each cell is when a lamp stands to the upper left.
 //!
-//! Lambert's law on the surface's normals, the lamp 45 deg over the map. Flanks would look flat in true scale, where slopes are thousandths: heights are exaggerated by a round factor that makes nine
-//! slopes in ten smaller than 0.7 (a single step on the surface is no reason to draw all else flat), and the factor is stated.
+//! Lambert's law on the surface's normals, the lamp 45 deg over the map. Flanks would look flat in true scale, where
+//! slopes are thousandths: heights are exaggerated by a round factor that makes nine slopes in ten smaller than 0.7 (a
+//! single step on the surface is no reason to draw all else flat), and the factor is stated.
 
 use crate::output::grid::MapGrid;
 

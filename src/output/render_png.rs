@@ -1,4 +1,5 @@
-//! A drawn stage as PNG: title, the picture, a bar that explains the colours, a scale bar, and what was done to the shape.
+//! A drawn stage as PNG: title, the picture, a bar that explains the colours, a scale bar, and what was done to the
+//! shape.
 //!
 //! Colours of the bar are those of the scale; on bodies light makes them brighter or darker.
 

@@ -1,15 +1,18 @@
 //! `report.html`: a run as one page that opens offline in any browser.
 //!
-//! In: a [`Page`], plain data: headings, numbers, tables, charts, maps, meshes. Out: one file that holds everything: style sheet, scripts, the 3D library (three.js, `assets/three/`), maps and
-//! triangles ([`viewer`]), SVG charts ([`plot`], [`traces`], [`texture`]).
+//! In: a [`Page`], plain data: headings, numbers, tables, charts, maps, meshes. Out: one file that holds everything:
+//! style sheet, scripts, the 3D library (three.js, `assets/three/`), maps and triangles ([`viewer`]), SVG charts
+//! ([`plot`], [`traces`], [`texture`]).
 //!
 //! The rules:
-//! - Text from a scene is text. Markup is made by maud, which escapes whatever is put into it; JSON escapes every `<`; and the page's own security policy names its scripts by their SHA-256, so that
-//!   nothing else would run, and forbids requests of any kind.
+//! - Text from a scene is text. Markup is made by maud, which escapes whatever is put into it; JSON escapes every `<`;
+//!   and the page's own security policy names its scripts by their SHA-256, so that nothing else would run, and forbids
+//!   requests of any kind.
 //! - Same results, same bytes: no date, no duration. Those are in `run.json`.
 //! - Numbers, tables and charts need no script: they are there on paper, in a mail preview and without WebGL.
 //!
-//! Road not taken: charts drawn by a script library from JSON. They would move under the mouse, but not exist on paper, and tie the page to another library.
+//! Road not taken: charts drawn by a script library from JSON. They would move under the mouse, but not exist on paper,
+//! and tie the page to another library.
 
 pub mod plot;
 pub mod texture;
@@ -178,7 +181,8 @@ impl Page {
                             @for section in &self.sections { (section.markup()) }
                         }
                     }
-                    footer { "Written by " (self.program) ". Every number with its unit and definition: results.json beside this file." }
+                    footer { "Written by " (self.program) ". Every number with its unit and definition: results.json \
+                        beside this file." }
                     @if let Some(packed) = packed {
                         script type="application/json" id="viewer-description" { (plot::own(inert_json(&packed.description))) }
                         script type="text/plain" id="viewer-block" { (plot::own(packed.block)) }
@@ -319,11 +323,13 @@ fn viewer_section() -> Markup {
     html! {
         section id="gear" aria-labelledby="gear-title" {
             h2 id="gear-title" { "Gear and maps" }
-            noscript { p class="warning" { "The gear and its maps need JavaScript; all numbers and charts below do not." } }
+            noscript { p class="warning" { "The gear and its maps need JavaScript; all numbers and charts below do \
+                not." } }
             div class="viewer" {
                 div class="stage" {
                     canvas id="gear-view" tabindex="0" role="application" aria-label="The gear in three dimensions" aria-describedby="gear-help" {}
-                    p id="gear-failed" class="warning" hidden { "This browser gives no WebGL 2: the gear cannot be drawn. Maps and charts work without it." }
+                    p id="gear-failed" class="warning" hidden { "This browser gives no WebGL 2: the gear cannot be \
+                        drawn. Maps and charts work without it." }
                     div class="stage-tools" role="toolbar" aria-label="View" {
                         (turn("home", "Home", "View from above, the whole gear"))
                         (turn("front", "Face", "View along the axis"))
@@ -354,14 +360,17 @@ fn viewer_section() -> Markup {
                 }
             }
             p id="gear-help" class="note" {
-                "Drag to turn; click into the view, then turn the wheel or pinch to come closer; drag with the right button to move. Keys: arrows turn, + and − come closer and go away, Home goes back. A click on a flank picks it."
+                "Drag to turn; click into the view, then turn the wheel or pinch to come closer; drag with the right \
+                button to move. Keys: arrows turn, + and − come closer and go away, Home goes back. A click on a flank \
+                picks it."
             }
             figure class="chart map" {
                 figcaption id="map-title" {}
                 canvas id="map" tabindex="0" role="application" aria-labelledby="map-title" aria-describedby="map-help" {}
                 div class="x-name" { "v: along the tooth from the middle of the face [mm]" }
                 output id="map-readout" class="readout-line" aria-live="polite" {}
-                p id="map-help" class="note" { "Point at a place, or move the cross with the arrow keys, to read its value. Up is u: along the profile from the form point (the root side) to the tip." }
+                p id="map-help" class="note" { "Point at a place, or move the cross with the arrow keys, to read its \
+                    value. Up is u: along the profile from the form point (the root side) to the tip." }
             }
             figure class="chart sheet" {
                 figcaption { "All flanks, to one scale" }
@@ -393,7 +402,8 @@ fn policy(scripts: &[String]) -> String {
         scripts.iter().map(|script| format!("'sha256-{}'", STANDARD.encode(Sha256::digest(script)))).collect();
     let scripts = if hashes.is_empty() { "'none'".to_owned() } else { hashes.join(" ") };
     format!(
-        "default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src {scripts}; base-uri 'none'; form-action 'none'"
+        "default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src {scripts}; base-uri 'none'; \
+        form-action 'none'"
     )
 }
 

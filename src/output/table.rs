@@ -1,6 +1,7 @@
 //! Tables as plain CSV, for spreadsheets and scripts.
 //!
-//! In: column names that carry their units (`tooth`, `left_AB_mm`), and rows. Out: an RFC 4180 file with one header line.
+//! In: column names that carry their units (`tooth`, `left_AB_mm`), and rows. Out: an RFC 4180 file with one header
+//! line.
 //!
 //! Numbers are written with the fewest digits that read back to the same f64; a number that is not finite becomes an
 //! empty cell, which spreadsheets and data frames both take as missing.

@@ -207,9 +207,9 @@ impl<F> GearFlanks<F> {
 
 /// Nominal flanks of a gear of the pair, from the depth that the mate's tips ask for up to the tips.
 ///
-/// `addendum_mm` are the tip heights of driver and driven gear over their pitch curves; `extra_mm` tells how much material
-/// a flank carries beyond the nominal one (thinning by T is -T cos(alpha) / 2 on every flank). All points move along
-/// their normals by it, the tip corner too, as heights of dexels do.
+/// `addendum_mm` are the tip heights of driver and driven gear over their pitch curves; `extra_mm` tells how much
+/// material a flank carries beyond the nominal one (thinning by T is -T cos(alpha) / 2 on every flank). All points move
+/// along their normals by it, the tip corner too, as heights of dexels do.
 ///
 /// # Errors
 /// Tips that the flanks do not reach.

@@ -1,11 +1,13 @@
-//! Processes: a folder for each with its tool, linkage, target, passes, and what only it measures; and the table of them.
+//! Processes: a folder for each with its tool, linkage, target, passes, and what only it measures; and the table of
+//! them.
 //!
-//! A process is what [`PROCESSES`] lists. The commands that cut, check and move axes go through [`Process`] and [`Job`] and
-//! know no process by name; what its scenes may say is listed in [`crate::scene::PROCESSES`].
+//! A process is what [`PROCESSES`] lists. The commands that cut, check and move axes go through [`Process`] and [`Job`]
+//! and know no process by name; what its scenes may say is listed in [`crate::scene::PROCESSES`].
 //!
 //! Two traits, not one: a [`Job`] runs whole commands in the process's own order, from the shared steps; a
-//! [`crate::job::GearJob`] answers what those steps ask (target profiles, surfaces of flanks, roots and tips). The road not
-//! taken is one trait with a method for every measure: each new measure of one process would have to be thought of in all.
+//! [`crate::job::GearJob`] answers what those steps ask (target profiles, surfaces of flanks, roots and tips). The road
+//! not taken is one trait with a method for every measure: each new measure of one process would have to be thought of
+//! in all.
 
 pub mod hobbing;
 pub mod shaping;
@@ -43,8 +45,8 @@ pub trait Process: Sync {
 
 /// A scene made ready to cut.
 pub trait Job: Sync {
-    /// Cuts and measures, and writes everything but the run record; `frames` is how many pictures of the cut as it happens
-    /// are drawn.
+    /// Cuts and measures, and writes everything but the run record; `frames` is how many pictures of the cut as it
+    /// happens are drawn.
     ///
     /// # Errors
     /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
@@ -56,7 +58,8 @@ pub trait Job: Sync {
     /// Geometry that cannot be cut.
     fn check(&self, sheet: &mut Sheet) -> Result<Vec<String>>;
 
-    /// Writes axis tables, charts and programs, and says what the axes do; gives what must be known before they are used.
+    /// Writes axis tables, charts and programs, and says what the axes do; gives what must be known before they are
+    /// used.
     ///
     /// # Errors
     /// Files that cannot be written; Ctrl-C.

@@ -1,8 +1,8 @@
 //! One value against its key: type, range, unit.
 //!
 //! In: a node of the tree and the key it was written for. Out: the checked value, still in the unit of the file, or the
-//! fault with the place of the part that is wrong (one number of a list, not the list). Whole numbers pass where numbers
-//! are asked for, never the other way round: `teeth = 24.0` is more likely a mistake than a wish.
+//! fault with the place of the part that is wrong (one number of a list, not the list). Whole numbers pass where
+//! numbers are asked for, never the other way round: `teeth = 24.0` is more likely a mistake than a wish.
 
 use super::keys::{Key, Kind, Range};
 use super::sources::{At, Sources};

@@ -16,7 +16,8 @@ const MOST_DEXELS: f64 = 1e8;
 /// Most strokes of one operation; ten thousand per tooth of a hundred-tooth gear are already beyond any machine.
 const MOST_STROKES: f64 = 1e7;
 
-/// Finest spacing of the rays on which chips are followed, per module: ten times finer than usual, maps take some hundred megabytes.
+/// Finest spacing of the rays on which chips are followed, per module: ten times finer than usual, maps take some
+/// hundred megabytes.
 const MOST_CHIP_SPACINGS_PER_MODULE: f64 = 600.0;
 
 /// Adds a problem for every contradiction.
@@ -242,7 +243,8 @@ fn offset(found: &mut Found, path: &str) -> Option<()> {
     };
     let message = || {
         format!(
-            "an offset of {offset_mm:.3} mm keeps the cutter out of the blank: it reaches {reach_mm:.3} mm deep at offset 0"
+            "an offset of {offset_mm:.3} mm keeps the cutter out of the blank: it reaches {reach_mm:.3} mm deep at \
+            offset 0"
         )
     };
     found.blame(offset_mm >= reach_mm, &join(path, name), message, "take a smaller offset or stock");
@@ -269,7 +271,8 @@ fn feed(found: &mut Found, path: &str) -> Option<()> {
     let key = join(path, "circular_feed_mm_per_stroke");
     let message = || {
         format!(
-            "a feed of {feed_mm} mm gives {strokes:.1} strokes on a pitch curve of {perimeter_mm:.3} mm; 8 are the fewest"
+            "a feed of {feed_mm} mm gives {strokes:.1} strokes on a pitch curve of {perimeter_mm:.3} mm; 8 are the \
+            fewest"
         )
     };
     found.blame(strokes < 8.0, &key, message, "take a smaller feed");

@@ -46,7 +46,8 @@ pub fn load(path: &Path, overrides: &[String]) -> Result<LoadedScene, SceneError
     parse(&text, &file, path.parent().unwrap_or(Path::new("")), overrides)
 }
 
-/// Reads a scene from text; `file_name` is printed in messages and names the scene, `base_dir` holds the files it refers to.
+/// Reads a scene from text; `file_name` is printed in messages and names the scene, `base_dir` holds the files it
+/// refers to.
 ///
 /// # Errors
 /// All problems of the scene, each with its place and a way out.
@@ -92,7 +93,8 @@ const PICTURES: &[&[(&str, &str)]] = &[
     &[("name", "flank"), ("view", "flank")],
 ];
 
-/// Puts in a list that is not written: elements with these texts and all other defaults. A scene without operations cuts one, named finish.
+/// Puts in a list that is not written: elements with these texts and all other defaults. A scene without operations
+/// cuts one, named finish.
 fn imply(root: &mut Node, list: &str, elements: &[&[(&str, &str)]]) {
     if root.entry(list).is_some() {
         return;
@@ -112,8 +114,8 @@ fn imply(root: &mut Node, list: &str, elements: &[&[(&str, &str)]]) {
 impl LoadedScene {
     /// Where `key` was written; `None` for a default, a derived value or an unknown key.
     ///
-    /// Operations are named by their name or by their number from 0 (`operation.rough.offset_mm`, `operation[0].offset_mm`);
-    /// without either, the first operation that writes the key is meant.
+    /// Operations are named by their name or by their number from 0 (`operation.rough.offset_mm`,
+    /// `operation[0].offset_mm`); without either, the first operation that writes the key is meant.
     pub fn locate(&self, key: &str) -> Option<Located> {
         let at = self.paths(key).iter().find_map(|path| self.values.held.get(path)?.at.clone())?;
         Some(Located { place: self.sources.place(&at), written: self.sources.written(&at) })
@@ -121,7 +123,8 @@ impl LoadedScene {
 
     /// A refusal by geometry, printed as the problems of the text are: with file, line, column, value and a way out.
     ///
-    /// A key that was not written is shown by the section that would hold it, and the message says that its default holds.
+    /// A key that was not written is shown by the section that would hold it, and the message says that its default
+    /// holds.
     pub fn explain(&self, refusal: &Refusal) -> SceneErrors {
         let key = &refusal.key;
         let (place, message) = if let Some(Located { place, written }) = self.locate(key) {

@@ -153,7 +153,8 @@ pub struct ShaperCutter {
     pub runout_mm: f64,
     /// Direction of the runout in the cutter frame, from cutter tooth 0.
     pub runout_angle_rad: f64,
-    /// Cumulative pitch error of each cutter tooth on the pitch circle, mm, positive counter-clockwise; empty or one value per tooth.
+    /// Cumulative pitch error of each cutter tooth on the pitch circle, mm, positive counter-clockwise; empty or one
+    /// value per tooth.
     pub pitch_errors_mm: Vec<f64>,
 }
 
@@ -233,7 +234,8 @@ pub struct Operation {
     pub overlap_rad: f64,
     /// How the cutter gets to depth.
     pub infeed: Infeed,
-    /// The rotary feed goes on while the cutter is in the work (crank law); otherwise the pose is frozen during a stroke.
+    /// The rotary feed goes on while the cutter is in the work (crank law); otherwise the pose is frozen during a
+    /// stroke.
     pub feed_during_stroke: bool,
     /// Axis program (G-code) that is cut instead of the linkage's own positions; the linkage remains the target.
     pub program: Option<PathBuf>,
@@ -371,7 +373,8 @@ pub struct Fields {
     pub blank_slice_spacing_mm: f64,
 }
 
-/// Where profiles are evaluated, as heights over the pitch curve along its normal; `None`: from the form point to the tip, 5 % left out at each end.
+/// Where profiles are evaluated, as heights over the pitch curve along its normal; `None`: from the form point to the
+/// tip, 5 % left out at each end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measure {
     /// Lower end.
@@ -419,7 +422,8 @@ pub struct Picture {
     pub side: Side,
     /// What colours show.
     pub colour: PictureColour,
-    /// Where the viewer stands: counter-clockwise from phi = 0, from the tooth's direction, or from the root of a rolled-out flank.
+    /// Where the viewer stands: counter-clockwise from phi = 0, from the tooth's direction, or from the root of a
+    /// rolled-out flank.
     pub azimuth_rad: f64,
     /// How high over the transverse plane, or over the rolled-out flank.
     pub elevation_rad: f64,

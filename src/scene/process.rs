@@ -1,7 +1,7 @@
 //! Which process a scene is for, and which keys only one process knows.
 //!
-//! The tool chooses the process. Keys of another one are refused when they are written and left out of the resolved scene when they are not: a
-//! key that does nothing would be read as one that does.
+//! The tool chooses the process. Keys of another one are refused when they are written and left out of the resolved
+//! scene when they are not: a key that does nothing would be read as one that does.
 
 mod hobbing;
 mod shaping;

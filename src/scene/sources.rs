@@ -59,7 +59,8 @@ impl Sources {
     }
 }
 
-/// Line and column of a byte span of `text`; spans outside the text or inside a character are moved to its nearest start.
+/// Line and column of a byte span of `text`; spans outside the text or inside a character are moved to its nearest
+/// start.
 pub(super) fn line_place(file: &str, text: &str, span: Range<usize>) -> Place {
     let start = floor_boundary(text, span.start);
     let end = floor_boundary(text, span.end).max(start);

@@ -1,4 +1,5 @@
-//! The resolved scene as TOML: every key with its value, defaults marked, so that a run can be repeated from its record.
+//! The resolved scene as TOML: every key with its value, defaults marked, so that a run can be repeated from its
+//! record.
 //!
 //! Values are written as they stood in the file, in its units, with all digits: nothing is converted twice.
 

@@ -1,7 +1,8 @@
 //! What the cut will cost: dexels, records, evaluations, rays through the blank, memory, time.
 //!
-//! Dexels follow from the lengths of all profiles and the spacing. Records and evaluations are planned for a few flanks spread over the gear, exactly as the cut would plan them, and scaled to all
-//! flanks by their dexels. Time is the sum of the parts at rates measured on one processor, named with the result.
+//! Dexels follow from the lengths of all profiles and the spacing. Records and evaluations are planned for a few flanks
+//! spread over the gear, exactly as the cut would plan them, and scaled to all flanks by their dexels. Time is the sum
+//! of the parts at rates measured on one processor, named with the result.
 
 use crate::dexel::BlankGrid;
 use crate::output::progress::duration_text;

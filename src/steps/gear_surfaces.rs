@@ -9,7 +9,8 @@ use crate::surface::flanks::SurfaceGrid;
 use crate::surface::outline::{GearSurfaces, ToothSurfaces};
 use rayon::prelude::*;
 
-/// Cuts roots and tips to go with the flanks, which stand tooth by tooth, left before right; `tooth_done` is called after each tooth.
+/// Cuts roots and tips to go with the flanks, which stand tooth by tooth, left before right; `tooth_done` is called
+/// after each tooth.
 ///
 /// # Errors
 /// A flank that the tool does not generate; the backend's.

@@ -65,7 +65,8 @@ pub fn gear(job: &dyn GearJob, backend: &dyn Backend, flanks: Vec<SurfaceGrid>, 
     Ok(solid)
 }
 
-/// Writes `mesh/blank.ply`: the gear as the rays through the blank have it, whatever its shape, with the pass that left every place.
+/// Writes `mesh/blank.ply`: the gear as the rays through the blank have it, whatever its shape, with the pass that left
+/// every place.
 ///
 /// # Errors
 /// The file cannot be written.

@@ -1,7 +1,8 @@
-//! Steps of a run that all processes share: flanks in parallel, maps, meshes, pictures, sheets, the parts of the report.
+//! Steps of a run that all processes share: flanks in parallel, maps, meshes, pictures, sheets, the parts of the
+//! report.
 //!
-//! In: a job ([`GearJob`]) and what it is run with ([`Tools`]). A process puts the steps in its own order and adds what is
-//! its own.
+//! In: a job ([`GearJob`]) and what it is run with ([`Tools`]). A process puts the steps in its own order and adds what
+//! is its own.
 
 pub mod check_cost;
 pub mod check_curve;

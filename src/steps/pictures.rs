@@ -1,7 +1,8 @@
 //! Pictures of a run: the gear, a tooth, a flank under raking light, as the scene lists them.
 //!
-//! Gear and teeth are drawn from the closed body that is written as mesh. A flank is cut again, at the spacing of its dexels and only as wide as the picture: rolled out flat, so that the height over
-//! the target is all that is left of its shape, and light from the tip grazes every feed mark alike. The factor on its heights stands in the picture.
+//! Gear and teeth are drawn from the closed body that is written as mesh. A flank is cut again, at the spacing of its
+//! dexels and only as wide as the picture: rolled out flat, so that the height over the target is all that is left of
+//! its shape, and light from the tip grazes every feed mark alike. The factor on its heights stands in the picture.
 
 use super::meshes::stock_scale;
 use crate::colormap::ColourScale;
@@ -27,7 +28,8 @@ use std::f64::consts::PI;
 
 /// Colours run between these quantiles of the values; what lies beyond is marked at the colour bar.
 const SHOWN: [f64; 2] = [0.01, 0.98];
-/// Exaggerated feed marks lean about this much: steep enough for raking light to tell their sides apart, flat enough to hide nothing.
+/// Exaggerated feed marks lean about this much: steep enough for raking light to tell their sides apart, flat enough to
+/// hide nothing.
 const MARK_SLOPE: f64 = 0.12;
 /// The lamp over a rolled-out flank stands this high, rad: marks that lean by [`MARK_SLOPE`] stay in its light.
 const RAKING_RAD: f64 = 0.28;
@@ -35,7 +37,8 @@ const RAKING_RAD: f64 = 0.28;
 const RAKING_SHARE: f64 = 0.85;
 /// How far marks take the sky from each other, as a share of the flank: hardly, or every valley would be dark.
 const RAKING_SKY_REACH: f64 = 0.02;
-/// Light that it throws on a white surface without marks: a little more than a studio's, so that both sides of a mark show.
+/// Light that it throws on a white surface without marks: a little more than a studio's, so that both sides of a mark
+/// show.
 const RAKING_LIGHT: f64 = 1.08;
 
 /// Heights of a flank are averaged over so many pixels: what is narrower would fall on a ray or between two.
@@ -192,7 +195,8 @@ fn draw_flank(job: &dyn GearJob, backend: &dyn Backend, picture: &Picture, inter
     let finishing = job.operations().last().map_or("", |(name, _)| *name);
     let title = format!("{}: tooth {}, {side} flank after {finishing}", job.scene().name, picture.tooth);
     let note = format!(
-        "profile rolled out, root below, tip above; heights \u{d7} {exaggeration}, means over two pixels; light from the tip"
+        "profile rolled out, root below, tip above; heights \u{d7} {exaggeration}, means over two pixels; light from \
+        the tip"
     );
     Ok(Drawn { title, note, camera, rendered, legend })
 }
@@ -236,8 +240,8 @@ fn rolled_out(grid: &SurfaceGrid, exaggeration: f64, window_mm: f64) -> Mesh {
     mesh
 }
 
-/// Means of the straight lines through values at rising places, over a window about each place; at the ends over what of
-/// the window there is, as much on either side.
+/// Means of the straight lines through values at rising places, over a window about each place; at the ends over what
+/// of the window there is, as much on either side.
 fn means(places_mm: &[f64], values: &[f64], window_mm: f64) -> Vec<f64> {
     if places_mm.len() < 2 {
         return values.to_vec();

@@ -12,7 +12,8 @@ use crate::units::UM_PER_MM;
 use rayon::prelude::*;
 use std::path::Path;
 
-/// Deviations whose colours reach the ends of the scale at least, µm: on a finer scale a perfect gear would look faulty.
+/// Deviations whose colours reach the ends of the scale at least, µm: on a finer scale a perfect gear would look
+/// faulty.
 const LEAST_DEVIATION_UM: f32 = 1.0;
 
 /// Colours of the deviations of all flanks, µm.
@@ -57,7 +58,8 @@ pub fn write_sheets_and_deviations(job: &dyn GearJob, maps: &[FlankMaps], tools:
     Ok(())
 }
 
-/// All flanks on one picture: stock of each earlier operation; heights, deviations, passes and, where they are known, their chips after the last.
+/// All flanks on one picture: stock of each earlier operation; heights, deviations, passes and, where they are known,
+/// their chips after the last.
 ///
 /// # Errors
 /// Files that cannot be written.
@@ -102,7 +104,8 @@ fn write_contact_sheets(job: &dyn GearJob, maps: &[FlankMaps], folder: &OutputFo
     )
 }
 
-/// Colours over the span of passes that the middle one of all flanks has: those that the end of the turn meets the start on span all of it.
+/// Colours over the span of passes that the middle one of all flanks has: those that the end of the turn meets the
+/// start on span all of it.
 fn usual_span(passes: &[Vec<f32>]) -> ColourScale {
     let largest = |flank: &Vec<f32>| flank.iter().copied().fold(1.0, f32::max);
     let mut spans: Vec<f32> = passes.iter().map(largest).collect();

@@ -1,10 +1,13 @@
 //! The target gear as a closed, coarse mesh to look at: flanks apart from the rest, so that maps can be laid on them.
 //!
-//! In: the job. Out: [`ViewMesh`] in the work frame. Flanks, roots and tip lands are sampled every half millimetre along the profile, and along the tooth in as many sections as the shape asks for:
-//! straight teeth are ruled along z and need two. What an operation leaves differs from the target by far less than a pixel; it is shown by colours, not by the shape.
+//! In: the job. Out: [`ViewMesh`] in the work frame. Flanks, roots and tip lands are sampled every half millimetre
+//! along the profile, and along the tooth in as many sections as the shape asks for: straight teeth are ruled along z
+//! and need two. What an operation leaves differs from the target by far less than a pixel; it is shown by colours, not
+//! by the shape.
 //!
-//! End faces need no general triangulation: every tooth is a ladder from its right to its left flank, and the ring below the teeth a strip from root to bore. All parts meet in the same
-//! points, so the mesh is closed (a test counts its edges).
+//! End faces need no general triangulation: every tooth is a ladder from its right to its left flank, and the ring
+//! below the teeth a strip from root to bore. All parts meet in the same points, so the mesh is closed (a test counts
+//! its edges).
 
 use crate::error::Result;
 use crate::job::GearJob;
@@ -105,10 +108,12 @@ fn tip_land(job: &dyn GearJob, right: &Profile, left: &Profile) -> Profile {
         .collect()
 }
 
-/// Root of a space from the form points of the left flank before it to those of the right flank after it, in all sections.
+/// Root of a space from the form points of the left flank before it to those of the right flank after it, in all
+/// sections.
 fn roots(job: &dyn GearJob, space: u32, leads_mm: &[f64], left: &Profile, right: &Profile) -> Result<Vec<Profile>> {
     let roots = job.target_roots(space, SPACING_MM, leads_mm)?;
-    // Points nearly on the flanks' ends would make needles of triangles; what is left out in one section is left out in all.
+    // Points nearly on the flanks' ends would make needles of triangles; what is left out in one section is left out in
+    // all.
     let apart = |i: usize| {
         let from_ends = |k: usize, point: DVec2| point.distance(left[k].0).min(point.distance(right[k].0));
         roots.iter().enumerate().all(|(k, root)| from_ends(k, root[i].0) > 0.05 * SPACING_MM)
@@ -180,7 +185,8 @@ mod tests {
         }
     }
 
-    /// Volume by the divergence theorem against the area inside the tooth outline known from elsewhere: blank less spaces, from the pitch circle's symmetry.
+    /// Volume by the divergence theorem against the area inside the tooth outline known from elsewhere: blank less
+    /// spaces, from the pitch circle's symmetry.
     #[test]
     fn the_round_gear_has_the_volume_of_its_outline() {
         let (job, mesh) = mesh("circular_m3_z24.toml");
@@ -193,8 +199,9 @@ mod tests {
                     / 6.0
             })
             .sum();
-        // A round gear with m 3, z 24: its teeth and spaces are equally wide on the pitch circle (d = 72 mm), the tooth is 3 mm high above
-        // and 3.75 mm deep below it; the area inside lies between those of the root and tip circles, near that of the pitch circle.
+        // A round gear with m 3, z 24: its teeth and spaces are equally wide on the pitch circle (d = 72 mm), the tooth
+        // is 3 mm high above and 3.75 mm deep below it; the area inside lies between those of the root and tip circles,
+        // near that of the pitch circle.
         let disc = |radius: f64| std::f64::consts::PI * (radius * radius - 100.0) * job.scene.gear.face_width_mm;
         assert!(volume > disc(36.0 - 1.5) && volume < disc(36.0 + 0.5), "{volume} against {}", disc(36.0));
     }

@@ -1,16 +1,21 @@
 //! The whole cut gear as one closed mesh, from the blank field.
 //!
-//! In: a [`BlankField`]. Out: a [`Mesh`] in which every edge lies between exactly two triangles, whatever the shape; with the pass that left each vertex, and its height over the target.
+//! In: a [`BlankField`]. Out: a [`Mesh`] in which every edge lies between exactly two triangles, whatever the shape;
+//! with the pass that left each vertex, and its height over the target.
 //!
-//! **Inside** is decided by family X alone, at the nodes of the grid. An edge of the grid with one node inside is crossed by the surface; where, the rays of its direction say, with the normal there. If
-//! the other family does not know of a crossing (both see the same surface, so only rounding at a node can do that), its middle stands in. Between slices, where sections differ by micrometres, a crossing
-//! is where the straight line between the sections passes the node. Nothing is assumed about the result, and features thinner than the grid are left out.
+//! **Inside** is decided by family X alone, at the nodes of the grid. An edge of the grid with one node inside is
+//! crossed by the surface; where, the rays of its direction say, with the normal there. If the other family does not
+//! know of a crossing (both see the same surface, so only rounding at a node can do that), its middle stands in.
+//! Between slices, where sections differ by micrometres, a crossing is where the straight line between the sections
+//! passes the node. Nothing is assumed about the result, and features thinner than the grid are left out.
 //!
-//! **Vertices** stand one per cell and sheet of the surface (`dual_cells`), where the tangents at the sheet's crossings meet best (dual contouring: Ju et al. 2002): sharp edges stay sharp. They keep inside
-//! their cells, so sections of different cells never cross. **Polygons** stand one per crossed edge. In a face whose inside is at two opposite nodes two edges of the mesh could
-//! join the same two vertices; there each gets a vertex of its own in its middle.
+//! **Vertices** stand one per cell and sheet of the surface (`dual_cells`), where the tangents at the sheet's crossings
+//! meet best (dual contouring: Ju et al. 2002): sharp edges stay sharp. They keep inside their cells, so sections of
+//! different cells never cross. **Polygons** stand one per crossed edge. In a face whose inside is at two opposite
+//! nodes two edges of the mesh could join the same two vertices; there each gets a vertex of its own in its middle.
 //!
-//! **End faces** are flat: the outermost cells hold the rim, and the end face within is triangulated between these vertices and no others. A field of one slice therefore gives walls as tall as the face.
+//! **End faces** are flat: the outermost cells hold the rim, and the end face within is triangulated between these
+//! vertices and no others. A field of one slice therefore gives walls as tall as the face.
 
 use super::dual_cells::{NOT_CROSSED, edge_x, edge_y, edge_z, labels};
 use super::flanks::{height_scalar, pass_scalar};
@@ -25,7 +30,8 @@ use std::collections::HashMap;
 
 /// Vertices stay this share of a cell away from its sides: no two of them coincide, and 10 nm at 0.1 mm are no loss.
 const MARGIN: f64 = 1e-4;
-/// A sheet is a sharp edge where its tangents differ enough: tan(theta / 2) squared, theta = 11 degrees; below, the vertex moves along the mean normal only.
+/// A sheet is a sharp edge where its tangents differ enough: tan(theta / 2) squared, theta = 11 degrees; below, the
+/// vertex moves along the mean normal only.
 const SHARP: f64 = 0.01;
 
 /// A crossing of a grid edge.
@@ -209,7 +215,8 @@ impl<'a> Builder<'a> {
         id
     }
 
-    /// Place of a layer's vertices along the tooth: on the end faces in the outermost cells, else midway between slices.
+    /// Place of a layer's vertices along the tooth: on the end faces in the outermost cells, else midway between
+    /// slices.
     fn layer_mm(&self, layer: usize) -> f64 {
         let grid = &self.field.grid;
         let leads = &grid.leads_mm;
@@ -253,8 +260,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Polygon round a crossed edge: cells counter-clockwise as seen from its higher node, the edge's number in each, and the edge's nodes; the surface faces the higher node if
-    /// the lower one is inside.
+    /// Polygon round a crossed edge: cells counter-clockwise as seen from its higher node, the edge's number in each,
+    /// and the edge's nodes; the surface faces the higher node if the lower one is inside.
     fn polygon(&mut self, slice: usize, cells: [Cell; 4], edges: [usize; 4], nodes: [Cell; 2]) {
         let lower_inside = self.is_inside(Some(nodes[0].0), nodes[0].1, nodes[0].2);
         let inner = nodes[usize::from(!lower_inside)];
@@ -304,7 +311,8 @@ impl<'a> Builder<'a> {
         (n00 == n11 && n10 == n01 && n00 != n10).then_some((axis, high))
     }
 
-    /// Vertex in the middle of a side of the mesh that lies in an ambiguous face, told by the inside node that the side goes round.
+    /// Vertex in the middle of a side of the mesh that lies in an ambiguous face, told by the inside node that the side
+    /// goes round.
     fn middle(&mut self, key: ((u8, Cell), Cell), a: u32, b: u32) -> u32 {
         if let Some(&id) = self.middles.get(&key) {
             return id;
@@ -340,7 +348,8 @@ fn end_between(ray: &Ray, from_mm: f64, to_mm: f64, low_inside: bool) -> Option<
     }
 }
 
-/// Where the tangents at some crossings meet best: least squares of the distances from all of them, from the crossings' mean, along the mean normal alone where they are nearly parallel.
+/// Where the tangents at some crossings meet best: least squares of the distances from all of them, from the crossings'
+/// mean, along the mean normal alone where they are nearly parallel.
 fn best_meeting(crosses: &[Cross]) -> DVec2 {
     let count = crosses.len() as f64;
     let mean = crosses.iter().map(|c| c.point_mm).sum::<DVec2>() / count;

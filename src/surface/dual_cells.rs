@@ -1,9 +1,12 @@
-//! How a surface passes through a cube of eight nodes that are inside or outside: which of the twelve edges it crosses together.
+//! How a surface passes through a cube of eight nodes that are inside or outside: which of the twelve edges it crosses
+//! together.
 //!
-//! Node bits: x + 2 y + 4 z. Edges: 0 to 3 along x (y + 2 z), 4 to 7 along y (x + 2 z), 8 to 11 along z (x + 2 y). Edges that one sheet of the surface crosses carry the same label. Faces with the
-//! inside at two opposite nodes are ambiguous; there the insides are kept apart, by the same rule in both cells that share the face. Every crossed edge then has exactly one
-//! partner in each of its two faces, so each sheet is bounded by one closed chain of edges, and a surface with one vertex per sheet and one polygon per crossed edge has
-//! exactly two polygons at every edge (dual marching cubes: Nielson 2004).
+//! Node bits: x + 2 y + 4 z. Edges: 0 to 3 along x (y + 2 z), 4 to 7 along y (x + 2 z), 8 to 11 along z (x + 2 y).
+//! Edges that one sheet of the surface crosses carry the same label. Faces with the inside at two opposite nodes are
+//! ambiguous; there the insides are kept apart, by the same rule in both cells that share the face. Every crossed edge
+//! then has exactly one partner in each of its two faces, so each sheet is bounded by one closed chain of edges, and a
+//! surface with one vertex per sheet and one polygon per crossed edge has exactly two polygons at every edge (dual
+//! marching cubes: Nielson 2004).
 
 use std::sync::LazyLock;
 

@@ -1,18 +1,21 @@
 //! A flank or root as a grid of surface points, thinned out to the spacing of meshes.
 //!
-//! In: a field and what the operations left on it. Out: [`SurfaceGrid`]: points on the finished surface with their outward normals, the height over the target, the stock of the operation before the
-//! last one and the pass that left the point; and the same as a [`Mesh`].
+//! In: a field and what the operations left on it. Out: [`SurfaceGrid`]: points on the finished surface with their
+//! outward normals, the height over the target, the stock of the operation before the last one and the pass that left
+//! the point; and the same as a [`Mesh`].
 //!
-//! Columns are the dexels nearest to places `spacing_mm` apart, the first and the last one always among them: every vertex lies on the cut surface, nothing is averaged. Rows come from the
-//! same spacing, but where the surface runs straight along the tooth to [`STRAIGHT_MM`] the rows between are left out: strokes whose axes rest leave two rows per flank, whatever its width.
-//! Helical flanks keep all rows: they wind about the axis.
+//! Columns are the dexels nearest to places `spacing_mm` apart, the first and the last one always among them: every
+//! vertex lies on the cut surface, nothing is averaged. Rows come from the same spacing, but where the surface runs
+//! straight along the tooth to [`STRAIGHT_MM`] the rows between are left out: strokes whose axes rest leave two rows
+//! per flank, whatever its width. Helical flanks keep all rows: they wind about the axis.
 
 use super::mesh::{Mesh, Part, Scalar, ScalarValues};
 use crate::dexel::{Layer, NO_PASS, RayGrid};
 use crate::units::UM_PER_MM;
 use glam::{DVec2, DVec3};
 
-/// Rows are left out where straight lines between the others miss no height by more than this, mm: a tenth of a micrometre, below any machine's accuracy.
+/// Rows are left out where straight lines between the others miss no height by more than this, mm: a tenth of a
+/// micrometre, below any machine's accuracy.
 pub const STRAIGHT_MM: f64 = 1e-4;
 
 /// Points of the finished surface over one flank or root, column by column (rows contiguous).
@@ -30,14 +33,16 @@ pub struct SurfaceGrid {
     pub points_mm: Vec<DVec2>,
     /// Height over the target, µm.
     pub height_um: Vec<f32>,
-    /// Normal stock that the last operation found: the surface before it less the surface after it, mm; NaN where one of them is the blank's own, `None` if there was one operation only.
+    /// Normal stock that the last operation found: the surface before it less the surface after it, mm; NaN where one
+    /// of them is the blank's own, `None` if there was one operation only.
     pub stock_mm: Option<Vec<f32>>,
     /// Pass that left the point; [`NO_PASS`] on the blank's own surface.
     pub passes: Vec<u32>,
 }
 
 impl SurfaceGrid {
-    /// Grid with columns and rows about `spacing_mm` apart (never closer than the dexels); `layers` as the operations left them, in order.
+    /// Grid with columns and rows about `spacing_mm` apart (never closer than the dexels); `layers` as the operations
+    /// left them, in order.
     ///
     /// # Panics
     /// No layer or no dexel.
@@ -63,7 +68,8 @@ impl SurfaceGrid {
         let places = || columns.iter().flat_map(|&column| rows.iter().map(move |&row| (column, row)));
         let dexels = || places().map(|(column, row)| column * all + row);
         let stock_mm = before.map(|before| {
-            // Where no pass came, the blank stands: what the last operation found there ends with the ray, not with a surface.
+            // Where no pass came, the blank stands: what the last operation found there ends with the ray, not with a
+            // surface.
             let cut = |i: usize| before.passes[i] != NO_PASS && last.passes[i] != NO_PASS;
             let stock = |i: usize| if cut(i) { before.heights_mm[i] - last.heights_mm[i] } else { f32::NAN };
             dexels().map(stock).collect::<Vec<f32>>()
@@ -180,8 +186,9 @@ fn spaced(places_mm: &[f64], spacing_mm: f64) -> Vec<usize> {
 
 /// Those of the `candidates` between which everything runs straight to [`STRAIGHT_MM`].
 ///
-/// `differences(from, to, visit)` visits the differences of all heights between two rows, in the same order at every call, until `visit` returns false. Each height keeps the window of slopes
-/// that its rows so far allow (the cone method of Williams, 1978): one look at every dexel.
+/// `differences(from, to, visit)` visits the differences of all heights between two rows, in the same order at every
+/// call, until `visit` returns false. Each height keeps the window of slopes that its rows so far allow (the cone
+/// method of Williams, 1978): one look at every dexel.
 fn straight_rows(
     leads_mm: &[f64],
     candidates: &[usize],
@@ -224,7 +231,8 @@ mod tests {
     use super::*;
     use crate::dexel::{Column, Field};
 
-    /// Part of a cylinder of radius 50 mm on the left of a tooth: `columns` dexels 5 µm apart, rows 50 µm apart over 10 mm.
+    /// Part of a cylinder of radius 50 mm on the left of a tooth: `columns` dexels 5 µm apart, rows 50 µm apart over 10
+    /// mm.
     fn field(columns: usize) -> Field {
         let columns = (0..columns)
             .map(|i| {

@@ -1,10 +1,11 @@
 //! Triangles with values on their corners and names on their parts.
 //!
-//! Frame: the gear frame in space, mm; x and y are those of the transverse plane (phi = 0 along x, counter-clockwise), z is the lead, counted from the middle of the face. Triangles are
-//! counter-clockwise seen from outside the material.
+//! Frame: the gear frame in space, mm; x and y are those of the transverse plane (phi = 0 along x, counter-clockwise),
+//! z is the lead, counted from the middle of the face. Triangles are counter-clockwise seen from outside the material.
 //!
-//! A mesh is **closed** when every edge lies between exactly two triangles that run through it in opposite directions; only then has it a volume. Positions are f64: written files are
-//! f32, whose ulp at 60 mm is 4 nm, but edges are told apart by vertex numbers and never by places.
+//! A mesh is **closed** when every edge lies between exactly two triangles that run through it in opposite directions;
+//! only then has it a volume. Positions are f64: written files are f32, whose ulp at 60 mm is 4 nm, but edges are told
+//! apart by vertex numbers and never by places.
 //!
 //! Road not taken: half-edges. Nothing here edits a mesh; it is made once, checked, written and drawn.
 
@@ -41,7 +42,8 @@ pub struct Part {
     pub name: String,
     /// Its triangles.
     pub triangles: Range<usize>,
-    /// Whether the vertices' values are the surface's own. An end face shares the vertices of the flanks round it, but not their heights.
+    /// Whether the vertices' values are the surface's own. An end face shares the vertices of the flanks round it, but
+    /// not their heights.
     pub measured: bool,
 }
 
@@ -128,7 +130,8 @@ impl Mesh {
         !self.triangles.is_empty() && self.edge_faults() == EdgeFaults::default()
     }
 
-    /// Enclosed volume, mm^3, by the divergence theorem; positive where triangles face outwards. Means nothing unless the mesh is closed.
+    /// Enclosed volume, mm^3, by the divergence theorem; positive where triangles face outwards. Means nothing unless
+    /// the mesh is closed.
     pub fn volume_mm3(&self) -> f64 {
         (0..self.triangles.len())
             .map(|t| {

@@ -1,6 +1,7 @@
 //! Surfaces of the cut gear as triangles.
 //!
-//! In: fields with what the operations left on them. Out: [`Mesh`]es in the gear frame, which files and pictures are made of.
+//! In: fields with what the operations left on them. Out: [`Mesh`]es in the gear frame, which files and pictures are
+//! made of.
 //!
 //! | what | where |
 //! | --- | --- |

@@ -1,11 +1,14 @@
 //! The transverse outline of the cut gear, row by row: flanks, roots and tips in one closed chain of columns.
 //!
-//! In: the grids of all flanks, roots and tips. Out: [`Outline`]: columns in the order of growing polar angle, each with one point per row, so that neighbouring rows can be sewn together.
+//! In: the grids of all flanks, roots and tips. Out: [`Outline`]: columns in the order of growing polar angle, each
+//! with one point per row, so that neighbouring rows can be sewn together.
 //!
-//! The order follows from the gear alone: right flank of a tooth from form point to tip, its tip land, its left flank down again, the root of the space behind it, and so on. What no pass
-//! reached (tip lands, teeth outside a window) is the blank's own outline. Where the fillet has cut into a flank (undercut), the straight targets of shaping let flank and root run on past their crossing; what lies
-//! behind it is air and is left out. The roots of a gear whose sections differ end where its flanks begin, in every section at another place: nothing is sought there, for a crossing of one section is none of
-//! the others, and the common end itself would pass for one or not by the last bit.
+//! The order follows from the gear alone: right flank of a tooth from form point to tip, its tip land, its left flank
+//! down again, the root of the space behind it, and so on. What no pass reached (tip lands, teeth outside a window) is
+//! the blank's own outline. Where the fillet has cut into a flank (undercut), the straight targets of shaping let flank
+//! and root run on past their crossing; what lies behind it is air and is left out. The roots of a gear whose sections
+//! differ end where its flanks begin, in every section at another place: nothing is sought there, for a crossing of one
+//! section is none of the others, and the common end itself would pass for one or not by the last bit.
 
 use super::flanks::SurfaceGrid;
 use crate::dexel::NO_PASS;
@@ -14,9 +17,11 @@ use crate::terms::Side;
 use glam::DVec2;
 use std::f64::consts::TAU;
 
-/// Columns nearer than this to the one before are left out, mm: written files are f32, whose ulp reaches 0.03 µm on the largest gears.
+/// Columns nearer than this to the one before are left out, mm: written files are f32, whose ulp reaches 0.03 µm on the
+/// largest gears.
 const NEAREST_MM: f64 = 1e-4;
-/// Points of the blank's own outline stand this far apart along it, mm per mm of its radius: a chord error of 0.3 µm at 60 mm.
+/// Points of the blank's own outline stand this far apart along it, mm per mm of its radius: a chord error of 0.3 µm at
+/// 60 mm.
 const OUTLINE_STEP: f64 = 1.0 / 300.0;
 
 /// All surfaces of a cut gear.
@@ -207,7 +212,8 @@ impl Outline {
 
     /// The blank's outline between two points of every row, ends left out.
     fn fill(&mut self, ends_mm: [&[DVec2]; 2], part: usize, blank: &Blank) {
-        // Angle at which each row begins, and how far it goes: nearly the same in all rows, each turned by its own helix angle.
+        // Angle at which each row begins, and how far it goes: nearly the same in all rows, each turned by its own
+        // helix angle.
         let whole = self.columns.is_empty();
         let rows: Vec<[f64; 2]> = ends_mm[0]
             .iter()
@@ -259,7 +265,8 @@ struct Crossing {
 }
 
 impl Crossing {
-    /// Crossing of a flank with the root that begins (or, `reversed`, ends) beside it; none on an ordinary flank, where they meet at the form point.
+    /// Crossing of a flank with the root that begins (or, `reversed`, ends) beside it; none on an ordinary flank, where
+    /// they meet at the form point.
     fn of(flank: &SurfaceGrid, root: &SurfaceGrid, reversed: bool) -> Self {
         let none = Self { flank_columns: 0, root_columns: 0, point_mm: None };
         let (Some(up), Some(mut along)) = (&flank.straight_target_mm, root.straight_target_mm.clone()) else {

@@ -79,7 +79,8 @@ impl Triangles {
         self.end(&points, &triangles, z_mm, top);
     }
 
-    /// Both end faces (bottom, top) from their closed rims (counter-clockwise) to the bore, and the bore; without a bore to the axis.
+    /// Both end faces (bottom, top) from their closed rims (counter-clockwise) to the bore, and the bore; without a
+    /// bore to the axis.
     pub fn rings(&mut self, rims: &[Vec<DVec2>; 2], bore_radius_mm: f64, leads_mm: [f64; 2]) {
         let bores = [0, 1].map(|k| {
             if bore_radius_mm <= 0.0 {

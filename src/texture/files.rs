@@ -14,7 +14,8 @@ use crate::units::UM_PER_MM;
 use rayon::prelude::*;
 
 /// What readers of the files need to know about x, y and z.
-const FRAME: &str = "x = along the tooth; y = arc length along the target profile, towards the tip; z = height over the target flank along its outward normal, positive = material left";
+const FRAME: &str = "x = along the tooth; y = arc length along the target profile, towards the tip; z = height over \
+    the target flank along its outward normal, positive = material left";
 
 /// Folder of a window's files inside the output, and the stem of their names.
 pub fn stem(job: &dyn GearJob, texture: &WindowTexture, index: usize) -> String {
@@ -70,7 +71,8 @@ fn write_one(
         (
             "frame".to_owned(),
             format!(
-                "{FRAME}; first point at x = {x} mm from the middle of the face, y = {y} mm from the start of the involute"
+                "{FRAME}; first point at x = {x} mm from the middle of the face, y = {y} mm from the start of the \
+                involute"
             ),
         ),
         ("surface".to_owned(), what.clone()),

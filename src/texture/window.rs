@@ -1,7 +1,8 @@
 //! Where texture is looked at: the scene's windows, or those that every gear gets.
 //!
-//! Without a `[[texture]]` in the scene, the whole active flanks (the evaluated profile over the whole face) of three teeth are taken: the one with the largest and the one with the smallest pitch-curve radius, where curvature and so the marks differ most, and
-//! tooth 3, which Gao et al. (2017, Fig. 13) measured.
+//! Without a `[[texture]]` in the scene, the whole active flanks (the evaluated profile over the whole face) of three
+//! teeth are taken: the one with the largest and the one with the smallest pitch-curve radius, where curvature and so
+//! the marks differ most, and tooth 3, which Gao et al. (2017, Fig. 13) measured.
 
 use crate::error::{Refusal, Result};
 use crate::job::GearJob;
@@ -65,7 +66,8 @@ impl Window {
 /// All windows of a job.
 ///
 /// # Errors
-/// A tooth that the gear does not have, a window that does not lie on its flank, or one with too few or too many points.
+/// A tooth that the gear does not have, a window that does not lie on its flank, or one with too few or too many
+/// points.
 pub fn windows(job: &dyn GearJob) -> Result<Vec<Window>> {
     let asked = if job.scene().textures.is_empty() { default_windows(job) } else { job.scene().textures.clone() };
     let mut windows = Vec::new();

@@ -28,7 +28,8 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Every path into the crate that code of a file names, `crate::a::b` as `["a", "b"]`; tests inside the file look wherever they like.
+/// Every path into the crate that code of a file names, `crate::a::b` as `["a", "b"]`; tests inside the file look
+/// wherever they like.
 fn named(text: &str) -> Vec<Vec<String>> {
     let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
     let mut found = Vec::new();

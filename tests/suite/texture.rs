@@ -32,7 +32,8 @@ fn finishing_scene(module_mm: f64, teeth: u32, cutter_teeth: u32, shape: PitchCu
     scene
 }
 
-/// Cusps of a flank: rolling distance from the pitch point along the pitch line (positive towards the root) and height, mm; and the feed in force.
+/// Cusps of a flank: rolling distance from the pitch point along the pitch line (positive towards the root) and height,
+/// mm; and the feed in force.
 fn flank_cusps(job: &Job, tooth: u32, side: Side, crossing_arc_mm: f64) -> (Vec<[f64; 2]>, f64) {
     let generation = job.target_generation();
     let flank = job.target_flank(&generation, tooth, side).expect("a flank");
@@ -89,7 +90,8 @@ fn cusps_on_a_round_gear_are_as_high_as_brute_force_says() {
     check_cusps("shape_ext_m2_z30_zc25", &job, 4, Side::Right, 3.25 * pitch_mm);
 }
 
-/// The reference flanks cross the pitch curve at the ends of the axes: the ellipse is turned until they do. Its circumference takes 38 teeth, and 27 cutter teeth have a pitch radius of 24.995 mm, where the reference has 25.
+/// The reference flanks cross the pitch curve at the ends of the axes: the ellipse is turned until they do. Its
+/// circumference takes 38 teeth, and 27 cutter teeth have a pitch radius of 24.995 mm, where the reference has 25.
 #[test]
 fn cusps_on_an_ellipse_are_as_high_as_brute_force_says() {
     let (a, b, teeth) = (40.0_f64, 30.0_f64, 38_u32);
@@ -180,7 +182,8 @@ fn without_windows_the_extreme_teeth_and_tooth_3_are_taken_whole() {
     }
 }
 
-/// Marks are a tenth of a millimetre apart on the profile, and lean by one of them over the face where the feed goes on during the stroke.
+/// Marks are a tenth of a millimetre apart on the profile, and lean by one of them over the face where the feed goes on
+/// during the stroke.
 #[test]
 fn a_window_with_too_few_marks_says_so() {
     for (during_stroke, length_mm, directions) in [
@@ -219,7 +222,8 @@ fn a_window_too_coarse_for_its_marks_says_so() {
     }
 }
 
-/// A gear and a cutter so large that a few marks are all alike: the fingerprint of parabolic scallops, cut and not painted.
+/// A gear and a cutter so large that a few marks are all alike: the fingerprint of parabolic scallops, cut and not
+/// painted.
 #[test]
 fn a_cut_scallop_surface_has_the_fingerprint_of_its_shape() {
     let mut scene = finishing_scene(2.0, 1000, 300, PitchCurveShape::Circle, 0.3);
@@ -262,7 +266,8 @@ fn a_cut_scallop_surface_has_the_fingerprint_of_its_shape() {
     assert_eq!(evaluation.value("Str"), None, "marks without end have no longest decay");
 }
 
-/// With no offset both linkages move the cutter alike: what they leave is the same surface, and its roughness has the ratio 1.
+/// With no offset both linkages move the cutter alike: what they leave is the same surface, and its roughness has the
+/// ratio 1.
 #[test]
 fn both_linkages_finish_to_the_same_roughness() {
     let measured = |linkage| {

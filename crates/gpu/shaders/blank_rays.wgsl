@@ -1,9 +1,11 @@
 // Takes the passes of a tile from its rays through the blank, in order of time.
 //
-// One thread per ray, one workgroup per tile. Reads launch, tiles, passes, parts; rewrites spans and their counts; adds what every pass removed, in fixed point, so that the sum
-// does not depend on the order of threads; lists the pieces that were taken, in any order, if the host asks for them. A list that has no room says how much it needs, and the host comes back with more.
-// A pass is a closed curve and nothing else: a cutter tooth's outline in shaping, the section of a hob tooth's sweep in hobbing.
-// Twins: crates/core/src/cut/cpu/blank.rs (derivation there), crates/core/src/cut/cpu/blank_sweeps.rs. Adds at most 30 nm to an end that its ray meets at 45 degrees or steeper.
+// One thread per ray, one workgroup per tile. Reads launch, tiles, passes, parts; rewrites spans and their counts; adds
+// what every pass removed, in fixed point, so that the sum does not depend on the order of threads; lists the pieces
+// that were taken, in any order, if the host asks for them. A list that has no room says how much it needs, and the
+// host comes back with more. A pass is a closed curve and nothing else: a cutter tooth's outline in shaping, the
+// section of a hob tooth's sweep in hobbing. Twins: crates/core/src/cut/cpu/blank.rs (derivation there),
+// crates/core/src/cut/cpu/blank_sweeps.rs. Adds at most 30 nm to an end that its ray meets at 45 degrees or steeper.
 
 @group(0) @binding(0) var<uniform> launch: BlankLaunch;
 @group(0) @binding(1) var<storage, read> tiles: array<BlankTile>;

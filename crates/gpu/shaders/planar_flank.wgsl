@@ -1,9 +1,9 @@
 // Lowers the dexels of a field by every pass that their tile visits.
 //
-// One thread per eight rows of a column; one workgroup row (y) per tile, so that records are read in step. Reads launch,
-// tiles, columns, records, row phases; lowers heights and passes in place; counts iterations that stopped short.
-// Twin: crates/core/src/cut/cpu/planar.rs (derivation there). Adds at most 1 nm to a height, of which the rounding to f32 is a
-// part.
+// One thread per eight rows of a column; one workgroup row (y) per tile, so that records are read in step. Reads
+// launch, tiles, columns, records, row phases; lowers heights and passes in place; counts iterations that stopped
+// short. Twin: crates/core/src/cut/cpu/planar.rs (derivation there). Adds at most 1 nm to a height, of which the
+// rounding to f32 is a part.
 
 @group(0) @binding(0) var<uniform> launch: Launch;
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
@@ -15,7 +15,8 @@
 @group(0) @binding(6) var<storage, read_write> passes: array<vec4<u32>>;
 @group(0) @binding(7) var<storage, read_write> unconverged: atomic<u32>;
 
-// Records of a launch at most: what a uniform buffer holds everywhere (64 KiB). All threads of a wave read the same one, which is what such buffers are for.
+// Records of a launch at most: what a uniform buffer holds everywhere (64 KiB). All threads of a wave read the same
+// one, which is what such buffers are for.
 const ROUND_RECORDS: u32 = 512u;
 // Threads of a workgroup: one wave on every GPU, and the host's number.
 override WORKGROUP_THREADS: u32 = 64u;
@@ -23,7 +24,8 @@ override WORKGROUP_THREADS: u32 = 64u;
 override FROZEN: bool = false;
 // Some of the records are arcs: software adapters pay for both ways of entering whichever is taken.
 override ARCS: bool = true;
-// Quads of four rows that a thread cuts: a record is read once for both, and while one waits for a division the other goes on.
+// Quads of four rows that a thread cuts: a record is read once for both, and while one waits for a division the other
+// goes on.
 const QUADS_PER_THREAD: u32 = 2u;
 
 // A column's ray in a record's segment: coefficients of tau^0 to tau^3.

@@ -2,7 +2,8 @@
 //
 // One thread per four rows of a column; one workgroup row (y) per tile, so that records are read in step. Reads tiles,
 // records, cells, rays; lowers heights and passes in place; counts iterations that stopped short. Twin:
-// crates/core/src/cut/cpu/spatial.rs; derivation: crates/core/src/passes/spatial/sweep.rs. Adds at most 2 nm to a height.
+// crates/core/src/cut/cpu/spatial.rs; derivation: crates/core/src/passes/spatial/sweep.rs. Adds at most 2 nm to a
+// height.
 
 @group(0) @binding(0) var<storage, read> tiles: array<SweepTile>;
 @group(0) @binding(1) var<storage, read> records: array<SweepRecord>;
@@ -18,14 +19,16 @@
 override WORKGROUP_THREADS: u32 = 64u;
 // Rake faces turn along the tool's axis (helical gashes).
 override TWISTED: bool = false;
-// Newton steps at most: four suffice from the tile's middle; a ray that grazes a round halves what is missing with every step.
+// Newton steps at most: four suffice from the tile's middle; a ray that grazes a round halves what is missing with
+// every step.
 const MAX_STEPS: u32 = 24u;
 // Steps below these (10 nm, and a moment that moves the blade by as little) are the last.
 const LAST_STEP_MM: f32 = 1e-5;
 const LAST_STEP_T: f32 = 2e-7;
 // A last step above this has not arrived.
 const CONVERGED_MM: f32 = 2e-5;
-// Heights are held within this of the start, and moments within a sweep, so that no iterate grows beyond what f32 holds.
+// Heights are held within this of the start, and moments within a sweep, so that no iterate grows beyond what f32
+// holds.
 const REACH_MM: f32 = 200.0;
 const LARGEST_T: f32 = 1.0;
 

@@ -1,8 +1,8 @@
 //! Cuts a field of any size into batches that a device can hold, and a batch's work into rounds that one launch can do.
 //!
-//! In: the plan, what the device allows. Out: batches of whole columns; rounds of tiles with their composed records. Dexels of a batch
-//! stay on the device through its rounds, which run in order, so that a tile with more records than one launch may have is
-//! cut like any other.
+//! In: the plan, what the device allows. Out: batches of whole columns; rounds of tiles with their composed records.
+//! Dexels of a batch stay on the device through its rounds, which run in order, so that a tile with more records than
+//! one launch may have is cut like any other.
 
 use super::problem::GpuProblem;
 use super::{compose, pipeline, records};
@@ -61,7 +61,8 @@ pub fn padded(rows: usize) -> usize {
     rows.next_multiple_of(pipeline::QUAD_ROWS)
 }
 
-/// Batches of a plan, covering all columns once. Records of a batch keep to half of its memory, unless a single tile has more.
+/// Batches of a plan, covering all columns once. Records of a batch keep to half of its memory, unless a single tile
+/// has more.
 ///
 /// # Errors
 /// Not even a single column with a round of records fits.
@@ -129,7 +130,8 @@ pub struct Round {
 }
 
 impl Round {
-    /// Composes the rounds of `batch`; tiles that meet arcs go into rounds of their own, because a shader that knows no arcs is quicker.
+    /// Composes the rounds of `batch`; tiles that meet arcs go into rounds of their own, because a shader that knows no
+    /// arcs is quicker.
     pub fn compose(batch: &Batch, plan: &CutPlan, field: &Field, edge: &Edge) -> Vec<Self> {
         let rows = field.rows();
         let mut of_kind = [Self::default(), Self::default()].map(|round| vec![round]);

@@ -1,10 +1,12 @@
 //! The blank field of shaping on the GPU: strokes taken from rays in f32.
 //!
-//! In: a [`BlankField`], an operation, as [`gearcut_core::cut::cpu::blank`]. Out: the field after it and what every pass removed. The host places every tooth in f64, splits its
-//! outline where it turns back across the rays, and hands over each part as a pair of cubics; the shader finds roots and keeps the lists ([`super::blank_rays`]). Along the rays coordinates reach the blank's radius, where an f32
-//! resolves 8 nm at 70 mm; across them they start at the tile.
+//! In: a [`BlankField`], an operation, as [`gearcut_core::cut::cpu::blank`]. Out: the field after it and what every
+//! pass removed. The host places every tooth in f64, splits its outline where it turns back across the rays, and hands
+//! over each part as a pair of cubics; the shader finds roots and keeps the lists ([`super::blank_rays`]). Along the
+//! rays coordinates reach the blank's radius, where an f32 resolves 8 nm at 70 mm; across them they start at the tile.
 //!
-//! Return strokes go through the shader in their turn: they take nothing and add up the material that they meet. Where and how deep a stroke rubs is worked out natively, on the few tiles that met any.
+//! Return strokes go through the shader in their turn: they take nothing and add up the material that they meet. Where
+//! and how deep a stroke rubs is worked out natively, on the few tiles that met any.
 
 use super::blank_rays::{PassWork, Terms, TileDone, TileWork, parts};
 use super::problem::GpuProblem;
@@ -19,14 +21,16 @@ use gearcut_core::tool::closed_tooth::PlacedScratch;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Tiles of one submission: enough to fill a large GPU with their rays, few enough that their parts stay tens of megabytes.
+/// Tiles of one submission: enough to fill a large GPU with their rays, few enough that their parts stay tens of
+/// megabytes.
 const GROUP_TILES: usize = 16;
-/// Material that the return strokes of a tile may meet unnoticed, mm along its rays: half the depth at which reports speak of rubbing, a dozen times what f32 may be off.
+/// Material that the return strokes of a tile may meet unnoticed, mm along its rays: half the depth at which reports
+/// speak of rubbing, a dozen times what f32 may be off.
 const UNNOTICED_MM: f64 = 5e-4;
 
 impl Gpu {
-    /// Runs an operation over the blank field; `first_room` spans are reserved beside those that a ray has, and more when they are needed. `advance` is called after every tile
-    /// and says whether to go on; `None`: stopped.
+    /// Runs an operation over the blank field; `first_room` spans are reserved beside those that a ray has, and more
+    /// when they are needed. `advance` is called after every tile and says whether to go on; `None`: stopped.
     ///
     /// # Errors
     /// The device fails, or a ray crosses one tooth more than eight times; the field is then as it was.

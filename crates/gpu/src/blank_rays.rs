@@ -1,9 +1,12 @@
 //! Launches of the kernel `blank_rays`: tiles of rays, and pass by pass the closed curves that are taken from them.
 //!
-//! In: tiles with what is left on their rays and their passes in order of time, every curve split into [`BlankPart`]s. Out: what is left then, what every pass took of every tile, and the pieces of
-//! material that it took, where they are asked for. Cutter teeth in their strokes ([`super::blank`]) and sections of a hob tooth's sweep ([`super::blank_sweeps`]) are the same from here on.
+//! In: tiles with what is left on their rays and their passes in order of time, every curve split into [`BlankPart`]s.
+//! Out: what is left then, what every pass took of every tile, and the pieces of material that it took, where they are
+//! asked for. Cutter teeth in their strokes ([`super::blank`]) and sections of a hob tooth's sweep
+//! ([`super::blank_sweeps`]) are the same from here on.
 //!
-//! No list has a fixed capacity: a ray without room stops, and the tiles in work are begun again with room for what it needed. Tiles that do not fit the device together go one half after the other.
+//! No list has a fixed capacity: a ray without room stops, and the tiles in work are begun again with room for what it
+//! needed. Tiles that do not fit the device together go one half after the other.
 
 use super::device::Device;
 use super::pipeline::BLANK_RAYS;
@@ -22,12 +25,15 @@ use wgpu::BufferUsages as Use;
 const LAUNCH_BYTES: usize = 64 << 20;
 /// Spans that a ray has room for at first, beside those it has.
 const FIRST_ROOM: usize = 8;
-/// Iterations of all its loops that a thread may take in one launch: llvmpipe ends every loop after 65,535 of them in all, without a word.
+/// Iterations of all its loops that a thread may take in one launch: llvmpipe ends every loop after 65,535 of them in
+/// all, without a word.
 const MOST_ITERATIONS: usize = 50_000;
-/// What a pass may take of these beside one for each of its parts: Newton's steps and places in the list for each of eight crossings; so many times the room of a ray's list for its spans.
+/// What a pass may take of these beside one for each of its parts: Newton's steps and places in the list for each of
+/// eight crossings; so many times the room of a ray's list for its spans.
 const ITERATIONS_PER_PASS: usize = 8 * (12 + 8);
 const LIST_WALKS_PER_PASS: usize = 4 * 4;
-/// More than rounding moves a ray and a node against each other: an ulp of f32 is 8 nm up to 128 mm from a tile's first ray, where tiles of rays 2 mm apart end.
+/// More than rounding moves a ray and a node against each other: an ulp of f32 is 8 nm up to 128 mm from a tile's first
+/// ray, where tiles of rays 2 mm apart end.
 const MARGIN_MM: f64 = 2e-5;
 /// Longest wait for a launch.
 const PATIENCE: Duration = Duration::from_secs(600);
@@ -110,7 +116,8 @@ struct Round {
 }
 
 impl Round {
-    /// The next passes of all tiles, as many as a launch may hold; `next` is how far each tile has come. `None`: all are done.
+    /// The next passes of all tiles, as many as a launch may hold; `next` is how far each tile has come. `None`: all
+    /// are done.
     fn compose(work: &[TileWork], next: &mut [usize], capacity: usize, parts_of_tile: usize) -> Option<Self> {
         let mut round = Self::default();
         let mut first_ray = 0;
@@ -347,8 +354,9 @@ fn roomy(device: &Device, label: &str, size: usize, bytes: &[u8], usage: Use) ->
 
 /// The parts of a curve that rays of a tile cross; in f64 until the last subtraction. None: no ray comes near.
 ///
-/// Rounded to f32 a node may change sides with a ray beside it. Neighbouring parts share the rounded node, so that the ray crosses one of them still, and crossings come in pairs as long as both are there: parts are
-/// taken along that come within [`MARGIN_MM`] of a ray.
+/// Rounded to f32 a node may change sides with a ray beside it. Neighbouring parts share the rounded node, so that the
+/// ray crosses one of them still, and crossings come in pairs as long as both are there: parts are taken along that
+/// come within [`MARGIN_MM`] of a ray.
 pub fn parts(
     crossings: &mut RayCrossings,
     curve: &impl ClosedCurve,
@@ -374,7 +382,8 @@ pub fn parts(
         .collect()
 }
 
-/// Components of a normal along and across the rays, as the kernel has them. Seen along and across them, rays along y are a mirror image: there the kernel's normals point the other way.
+/// Components of a normal along and across the rays, as the kernel has them. Seen along and across them, rays along y
+/// are a mirror image: there the kernel's normals point the other way.
 fn turned(normal: [f32; 2], family: Family) -> [f32; 2] {
     match family {
         Family::X => normal,

@@ -2,18 +2,21 @@
 //!
 //! In: a [`BlankField`], the passes as sections in its slices ([`SweptSections`]), as
 //! [`gearcut_core::cut::cpu::blank_sweeps`]. Out: the field after the operation and what every pass took. The host
-//! follows every sweep into every slice
-//! in f64 and hands over the cubics of its section, tile by tile in the tile's frame; the shader finds roots and keeps the lists, as in shaping ([`super::blank_rays`]).
+//! follows every sweep into every slice in f64 and hands over the cubics of its section, tile by tile in the tile's
+//! frame; the shader finds roots and keeps the lists, as in shaping ([`super::blank_rays`]).
 //!
-//! **Candidates.** Most sweeps go where nothing is left. Passes go to the device in chunks of time; when a chunk is composed, the rays are back from the one before, and tiles are visited only by passes whose bounds
-//! meet material that was left then, as on the processor. A pass that is visited for nothing takes nothing: results do not depend on the chunks but for the rounding of lengths.
+//! **Candidates.** Most sweeps go where nothing is left. Passes go to the device in chunks of time; when a chunk is
+//! composed, the rays are back from the one before, and tiles are visited only by passes whose bounds meet material
+//! that was left then, as on the processor. A pass that is visited for nothing takes nothing: results do not depend on
+//! the chunks but for the rounding of lengths.
 //!
 //! **Chips.** Volume and travel follow from what every pass took of every tile. The thickness needs both surfaces of a
 //! chip: the shader lists every piece of material with its ends, old and new, and the
 //! host measures between them by the native kernel's own code.
 //!
-//! The road not taken: sections laid over the rays by the device. It would have to split curves where they turn back across the rays, in f32 and to the same bits for both parts, or lose the pairing of
-//! crossings on which the kernel rests.
+//! The road not taken: sections laid over the rays by the device. It would have to split curves where they turn back
+//! across the rays, in f32 and to the same bits for both parts, or lose the pairing of crossings on which the kernel
+//! rests.
 
 use super::blank_rays::{PassWork, TakenPiece, Terms, TileDone, TileWork, parts};
 use super::problem::GpuProblem;
@@ -30,9 +33,11 @@ use gearcut_core::passes::sections::swept_sections::{SweepHeading, SweptSection,
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Passes that are composed together: some turns of the hob. Fewer leave the device waiting for the host, more visit rays for nothing.
+/// Passes that are composed together: some turns of the hob. Fewer leave the device waiting for the host, more visit
+/// rays for nothing.
 const CHUNK_PASSES: usize = 512;
-/// Tiles of one submission, of all slices: 65,536 rays fill a large GPU; their lists and parts are some tens of megabytes.
+/// Tiles of one submission, of all slices: 65,536 rays fill a large GPU; their lists and parts are some tens of
+/// megabytes.
 const GROUP_TILES: usize = 1024;
 /// Pieces of a launch that there is room for at first, for each span that a ray has room for.
 const PIECES_PER_SPAN: usize = 1 << 13;
@@ -40,8 +45,9 @@ const PIECES_PER_SPAN: usize = 1 << 13;
 const TILE_RAYS: usize = WORKGROUP_THREADS as usize;
 
 impl Gpu {
-    /// Runs an operation whose passes have the ids `passes`; `first_room` spans are reserved beside those that a ray has, pieces in proportion, and more when they are needed. `advance` is called as often as there are slices
-    /// and says whether to go on; `None`: stopped.
+    /// Runs an operation whose passes have the ids `passes`; `first_room` spans are reserved beside those that a ray
+    /// has, pieces in proportion, and more when they are needed. `advance` is called as often as there are slices and
+    /// says whether to go on; `None`: stopped.
     ///
     /// # Errors
     /// The device fails, or a ray crosses one section more than eight times; the field is then as it was.

@@ -1,11 +1,15 @@
 //! The piece of an edge that a tile can meet, as one polynomial for each record.
 //!
-//! In: a record of the plan, the tile's rays. Out: the range of y (segment frame) over which any of them can meet the segment, and polynomials of degree five that follow the edge's table
-//! there. A tile is a tenth of a millimetre wide, so one polynomial nearly always serves; where rays graze, the range is cut in halves until each is followed within 0.1 nm.
+//! In: a record of the plan, the tile's rays. Out: the range of y (segment frame) over which any of them can meet the
+//! segment, and polynomials of degree five that follow the edge's table there. A tile is a tenth of a millimetre wide,
+//! so one polynomial nearly always serves; where rays graze, the range is cut in halves until each is followed within
+//! 0.1 nm.
 //!
-//! A shader then reads the edge with the record and looks nothing up: a table indexed by every lane for itself costs a software adapter more than all arithmetic.
+//! A shader then reads the edge with the record and looks nothing up: a table indexed by every lane for itself costs a
+//! software adapter more than all arithmetic.
 //!
-//! Road not taken: the table's own cubic, continued beyond its cell. A tenth of a millimetre crosses a cell's end too often, and a quarter of a cell further it errs by 0.1 nm already.
+//! Road not taken: the table's own cubic, continued beyond its cell. A tenth of a millimetre crosses a cell's end too
+//! often, and a quarter of a cell further it errs by 0.1 nm already.
 
 use gearcut_core::dexel::Column;
 use gearcut_core::passes::PassRecord;
@@ -16,7 +20,8 @@ use glam::DVec2;
 const TOLERANCE_MM: f64 = 1e-7;
 /// Places at which a polynomial is compared with the table, between those that define it.
 const CHECKS: usize = 16;
-/// A range is not halved below this share of a table's cell: there the polynomial is the table's own cubic, but for the joint of two cells.
+/// A range is not halved below this share of a table's cell: there the polynomial is the table's own cubic, but for the
+/// joint of two cells.
 const SMALLEST_CELLS: f64 = 0.5;
 /// What the range is widened by, mm: a thousand times what f32 moves a place.
 const MARGIN_MM: f64 = 1e-3;
@@ -32,7 +37,8 @@ pub struct Curve {
     pub range_mm: [f64; 2],
 }
 
-/// y over which the tile's rays can meet the segment, between the lowest height that a hit may have and the blank's surface: hulls of the cubics in the stroke's phase, -1 to 1.
+/// y over which the tile's rays can meet the segment, between the lowest height that a hit may have and the blank's
+/// surface: hulls of the cubics in the stroke's phase, -1 to 1.
 pub fn reach_mm(record: &PassRecord, columns: &[Column], tile_origin_mm: DVec2) -> [f64; 2] {
     let mut reach = [f64::INFINITY, f64::NEG_INFINITY];
     for column in columns {
@@ -55,7 +61,8 @@ fn hull([c0, c1, c2, c3]: [f64; 4]) -> [f64; 4] {
     [a0, a0 + a1 / 3.0, a0 + (2.0 * a1 + a2) / 3.0, a0 + a1 + a2 + a3]
 }
 
-/// Polynomials that follow a table over a range, in order of y; each counts from the place nearest to `near_mm`, so that what stands near it is small.
+/// Polynomials that follow a table over a range, in order of y; each counts from the place nearest to `near_mm`, so
+/// that what stands near it is small.
 pub fn curves(table: &EdgeTable, [from, to]: [f64; 2], near_mm: f64, curves: &mut Vec<Curve>) {
     let curve = Curve::through(table, [from, to], near_mm.clamp(from, to));
     if (to - from) * table.cells_per_mm <= SMALLEST_CELLS || curve.follows(table) {

@@ -20,7 +20,8 @@ pub struct Stage {
     pub variants: &'static [&'static [(&'static str, f64)]],
 }
 
-/// The planar kernel: strokes that move or rest, edges with or without arcs; [`planar_variant`] finds the one that serves.
+/// The planar kernel: strokes that move or rest, edges with or without arcs; [`planar_variant`] finds the one that
+/// serves.
 pub const PLANAR_FLANK: Stage = Stage {
     name: "planar_flank",
     text: concat!(

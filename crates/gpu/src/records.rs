@@ -67,8 +67,8 @@ pub struct PassRecord {
     pub y_to_mm: f32,
     /// Id of the pass.
     pub pass_id: u32,
-    /// Table: coefficients of t to t^4, t = y against the base point. Arc: base point against the centre, mm; square of its distance
-    /// from the centre less that of the radius, mm^2; nothing.
+    /// Table: coefficients of t to t^4, t = y against the base point. Arc: base point against the centre, mm; square of
+    /// its distance from the centre less that of the radius, mm^2; nothing.
     pub curve: [f32; 4],
     /// Table: coefficient of t^5.
     pub curve_5: f32,

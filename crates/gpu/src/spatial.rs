@@ -1,10 +1,12 @@
 //! Rays in space on the device: composed tile by tile, sent in batches, brought back.
 //!
-//! In: field, edge, plan of sweeps, layer. Out: the layer lowered. Four rows of a column make a **group**, the lanes of one thread; the groups of a tile follow each other, so that a
-//! batch is a run of tiles. As in [`super::compose`], everything large is subtracted here in f64: a record counts from the tile's middle ray at its start height on one
+//! In: field, edge, plan of sweeps, layer. Out: the layer lowered. Four rows of a column make a **group**, the lanes of
+//! one thread; the groups of a tile follow each other, so that a batch is a run of tiles. As in [`super::compose`],
+//! everything large is subtracted here in f64: a record counts from the tile's middle ray at its start height on one
 //! side, from a base point of the segment near it on the other.
 //!
-//! A tile's dexels stay on the device while its records come in **rounds**, in their order: what is left does not depend on how they are split.
+//! A tile's dexels stay on the device while its records come in **rounds**, in their order: what is left does not
+//! depend on how they are split.
 
 use super::batches::Allowance;
 use super::edge_cells::EdgeCells;
@@ -28,7 +30,8 @@ const GROUP_BYTES: usize = (6 + 2 + 2) * ROWS * 4;
 const LAUNCH_PAIRS: u64 = 1 << 27;
 /// Workgroups in one dimension: what every WebGPU device has.
 const WORKGROUPS: usize = 65535;
-/// Records of a tile in one launch at most: each takes up to 34 iterations of a thread's loops, of which llvmpipe ends all after 65,535 without a word. Candidates are a few dozen; a tile with more goes through in rounds.
+/// Records of a tile in one launch at most: each takes up to 34 iterations of a thread's loops, of which llvmpipe ends
+/// all after 65,535 without a word. Candidates are a few dozen; a tile with more goes through in rounds.
 const ROUND_RECORDS: usize = 1024;
 
 /// Heights and passes of the whole field, the layer untouched.

@@ -25,8 +25,8 @@ pub struct SweepTile {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct SweepRecord {
-    /// Rows r, q, y of the rotation, three for each of u^0, u^1, u^2; last the same coefficient of the place of the tile's
-    /// middle ray at the start height, mm.
+    /// Rows r, q, y of the rotation, three for each of u^0, u^1, u^2; last the same coefficient of the place of the
+    /// tile's middle ray at the start height, mm.
     pub turn: [[f32; 4]; 9],
     /// Coefficients of u^3 of the place, and the height where the iteration starts, mm.
     pub place_3: [f32; 4],

@@ -1,9 +1,10 @@
 //! Charts of the report: SVG whose colours come from the page, so that they are legible on light, dark and paper.
 //!
-//! In: the same [`LineChart`] and [`BarChart`] that are written as files, and bars from a low to a high value. Out: markup. Titles, names and legends are HTML beside the SVG: they wrap on
-//! narrow screens, and readers can select them.
+//! In: the same [`LineChart`] and [`BarChart`] that are written as files, and bars from a low to a high value. Out:
+//! markup. Titles, names and legends are HTML beside the SVG: they wrap on narrow screens, and readers can select them.
 //!
-//! Road not taken: the SVG files themselves. Their colours and their 1100 pixels are fixed; on a telephone or in the dark they cannot be read.
+//! Road not taken: the SVG files themselves. Their colours and their 1100 pixels are fixed; on a telephone or in the
+//! dark they cannot be read.
 
 use std::fmt::Write as _;
 

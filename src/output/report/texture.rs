@@ -130,7 +130,8 @@ fn all_parameters(window: &TextureWindow) -> super::Table {
     }
 }
 
-/// The curve with the equivalent line, Sk between its ends, and the triangles whose areas are those of peaks and valleys.
+/// The curve with the equivalent line, Sk between its ends, and the triangles whose areas are those of peaks and
+/// valleys.
 fn material_ratio(window: &TextureWindow) -> Markup {
     const WIDTH: f64 = 460.0;
     const LEFT: f64 = 52.0;

@@ -1,8 +1,10 @@
-//! The gear inspector's sheet: one upright trace per tooth, deviation across, as on the printout of a gear measuring machine.
+//! The gear inspector's sheet: one upright trace per tooth, deviation across, as on the printout of a gear measuring
+//! machine.
 //!
-//! In: traces (place, deviation) with their evaluated range, mean line and figures. Out: markup. All traces of the sheets side by side, left and right flanks, share one magnification: a round number of
-//! micrometres per division, chosen so that the evaluated parts fit, and not below one, where a trace would show noise of
-//! the sampling as if it were a fault. What lies outside (a tip break, an undercut) is cut off at the edge of its column.
+//! In: traces (place, deviation) with their evaluated range, mean line and figures. Out: markup. All traces of the
+//! sheets side by side, left and right flanks, share one magnification: a round number of micrometres per division,
+//! chosen so that the evaluated parts fit, and not below one, where a trace would show noise of the sampling as if it
+//! were a fault. What lies outside (a tip break, an undercut) is cut off at the edge of its column.
 
 use maud::{Markup, html};
 

@@ -1,9 +1,12 @@
 //! What the page's viewer draws: the gear's triangles and the maps of all flanks, packed.
 //!
-//! In: meshes and values on grids. Out: one JSON document (names, units, sizes, offsets) and one block of bytes, zlib over little-endian arrays, in base64.
+//! In: meshes and values on grids. Out: one JSON document (names, units, sizes, offsets) and one block of bytes, zlib
+//! over little-endian arrays, in base64.
 //!
-//! Values become whole numbers of 16 bits between the smallest and the largest of their quantity (0: no value): a step is 1/65534 of the range, far finer than a colour. High and low bytes
-//! are kept apart, which halves what zlib leaves. Maps with more than [`CELLS_PER_QUANTITY`] cells in all are thinned by a whole factor: the page stays small whatever the gear; the EXR maps beside it keep every cell.
+//! Values become whole numbers of 16 bits between the smallest and the largest of their quantity (0: no value): a step
+//! is 1/65534 of the range, far finer than a colour. High and low bytes are kept apart, which halves what zlib leaves.
+//! Maps with more than [`CELLS_PER_QUANTITY`] cells in all are thinned by a whole factor: the page stays small whatever
+//! the gear; the EXR maps beside it keep every cell.
 
 use std::io::Write as _;
 

@@ -1,10 +1,11 @@
 //! How a hobbing machine has to move: axis table, charts like the papers' figures, peaks against limits, marks.
 //!
-//! In: a prepared [`HobbingJob`]. Out: [`HobbingAxesReport`] with its text for the terminal, and per operation in `axes/`: `<operation>.csv` (even steps of time over the whole
-//! operation), `<operation>_velocities` over the polar angle and `<operation>_accelerations` over time, both for one cycle in the middle of the cut (as figures 4 and 5 of Liu et al.
-//! 2013 and 5 and 6 of Liu et al. 2015), `<operation>_path` with slide, shift and infeed; before anything is cut also, for the
-//! first operation, `<operation>_teeth`: how the hob's teeth share one transverse section. Once the blank is cut, the volumes of all passes say it better
-//! ([`super::measure::hob_load`]).
+//! In: a prepared [`HobbingJob`]. Out: [`HobbingAxesReport`] with its text for the terminal, and per operation in
+//! `axes/`: `<operation>.csv` (even steps of time over the whole operation), `<operation>_velocities` over the polar
+//! angle and `<operation>_accelerations` over time, both for one cycle in the middle of the cut (as figures 4 and 5 of
+//! Liu et al. 2013 and 5 and 6 of Liu et al. 2015), `<operation>_path` with slide, shift and infeed; before anything is
+//! cut also, for the first operation, `<operation>_teeth`: how the hob's teeth share one transverse section. Once the
+//! blank is cut, the volumes of all passes say it better ([`super::measure::hob_load`]).
 
 use crate::error::Result;
 use crate::findings::{Place, Quantity, Section};
@@ -152,7 +153,8 @@ impl HobbingAxesReport {
             sheet.line(
                 "shift",
                 format!(
-                    "{} mm per revolution between {from:.3} and {to:.3} mm, {} strokes; {} mm of it along the gear's axis",
+                    "{} mm per revolution between {from:.3} and {to:.3} mm, {} strokes; {} mm of it along the gear's \
+                    axis",
                     significant(shift_mm_per_revolution, 4),
                     self.shift_strokes,
                     significant(self.shift_of_resultant_mm, 3)
@@ -247,7 +249,8 @@ impl HobbingAxesReport {
                 let limit = peak.limit.filter(|limit| peak.value > *limit)?;
                 let text = |value: f64| significant(shown(value, unit), 4);
                 Some(format!(
-                    "operation {name}: the {axis} reaches {} {unit}, the machine allows {} {unit}: lower hob_speed_per_minute, or take another even_motion",
+                    "operation {name}: the {axis} reaches {} {unit}, the machine allows {} {unit}: lower \
+                    hob_speed_per_minute, or take another even_motion",
                     text(peak.value),
                     text(limit)
                 ))
@@ -256,7 +259,8 @@ impl HobbingAxesReport {
         if self.feed_mark_mm > self.spec.ridge_tolerance_mm {
             let ratio = (self.spec.ridge_tolerance_mm / self.feed_mark_mm).sqrt();
             warnings.push(format!(
-                "operation {name}: the feed leaves marks up to {} um high, {} um are allowed (ridge_tolerance_um): feed at most {} mm per revolution",
+                "operation {name}: the feed leaves marks up to {} um high, {} um are allowed (ridge_tolerance_um): \
+                feed at most {} mm per revolution",
                 significant(UM_PER_MM * self.feed_mark_mm, 3),
                 significant(UM_PER_MM * self.spec.ridge_tolerance_mm, 3),
                 significant(ratio * self.spec.axial_feed_mm_per_revolution, 3)
@@ -264,7 +268,8 @@ impl HobbingAxesReport {
         }
         if self.law.is_as_printed() {
             warnings.push(format!(
-                "operation {name}: the linkage is the one printed in the paper; work and carriage part on a curve that is no circle, and no G-code is written"
+                "operation {name}: the linkage is the one printed in the paper; work and carriage part on a curve that \
+                is no circle, and no G-code is written"
             ));
         }
         warnings
@@ -314,7 +319,8 @@ impl HobbingAxesReport {
         ]
     }
 
-    /// Share of the first operation's work on every hob tooth: one space in the middle of the face stands for all; none for later operations.
+    /// Share of the first operation's work on every hob tooth: one space in the middle of the face stands for all; none
+    /// for later operations.
     fn work_of_teeth(&self, job: &HobbingJob) -> Option<BarChart> {
         let operation = job.operations.first().filter(|_| self.index == 0)?;
         let module_mm = job.scene.gear.module_mm;

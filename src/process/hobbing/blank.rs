@@ -1,4 +1,5 @@
-//! The blank field of a hobbing job: rays through the whole stock, cut by the sweeps of all operations; the target's section at any height.
+//! The blank field of a hobbing job: rays through the whole stock, cut by the sweeps of all operations; the target's
+//! section at any height.
 
 use super::{HobCutter, HobbingJob};
 use crate::cut::Backend;
@@ -47,7 +48,8 @@ impl HobbingJob {
         Ok(BlankField::new(self.blank_grid()?, &outline, 0.5 * self.scene.gear.bore_diameter_mm))
     }
 
-    /// The target's section at `z_mm` as a polygon with points `spacing_mm` apart; its error is the arrow height of so long a chord.
+    /// The target's section at `z_mm` as a polygon with points `spacing_mm` apart; its error is the arrow height of so
+    /// long a chord.
     pub fn target_outline(&self, z_mm: f64, spacing_mm: f64) -> TargetOutline {
         let teeth: Vec<Vec<DVec2>> = (1..=i64::from(self.scene.gear.teeth))
             .into_par_iter()
@@ -56,7 +58,8 @@ impl HobbingJob {
         TargetOutline::new(teeth.concat())
     }
 
-    /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise. Flanks begin where the fillet meets them, undercut or not.
+    /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise. Flanks begin where the fillet
+    /// meets them, undercut or not.
     fn tooth_outline(&self, tooth: i64, z_mm: f64, spacing_mm: f64) -> Vec<DVec2> {
         let target = &self.target;
         let steps = |length_mm: f64| (length_mm.abs() / spacing_mm).ceil().max(1.0) as usize;
@@ -116,7 +119,8 @@ impl HobCutter<'_> {
         SweptSections::new(passes, self.job.hob.edge(), reach_mm, self.job.scene.gear.face_width_mm, cull)
     }
 
-    /// Runs all operations over the uncut blank; `advance` is called as often as there are slices, in every operation, and says whether to go on. `None`: stopped.
+    /// Runs all operations over the uncut blank; `advance` is called as often as there are slices, in every operation,
+    /// and says whether to go on. `None`: stopped.
     ///
     /// # Errors
     /// The backend's.

@@ -76,7 +76,8 @@ fn hob_warnings(job: &HobbingJob) -> Vec<String> {
     let common = greatest_common_divisor(hob.starts, gear.teeth);
     if common > 1 {
         warnings.push(format!(
-            "{} starts and {} teeth share the divisor {common}: each start always cuts the same tooth spaces, and the hob's pitch errors stay on the gear",
+            "{} starts and {} teeth share the divisor {common}: each start always cuts the same tooth spaces, and the \
+            hob's pitch errors stay on the gear",
             hob.starts, gear.teeth
         ));
     }
@@ -94,7 +95,8 @@ fn hob_warnings(job: &HobbingJob) -> Vec<String> {
         let closure_mm = job.curve.closure_error_mm().abs() * operation.linkage.end_s() / operation.linkage.cycle_s();
         if closure_mm > 1e-3 * gear.module_mm {
             warnings.push(format!(
-                "operation {}: the pitch curve's closure error adds up to {} mm over its cycles: leave the size out and it is solved",
+                "operation {}: the pitch curve's closure error adds up to {} mm over its cycles: leave the size out \
+                and it is solved",
                 operation.spec.name,
                 significant(closure_mm, 3)
             ));
@@ -104,7 +106,8 @@ fn hob_warnings(job: &HobbingJob) -> Vec<String> {
         {
             let [first, second] = operation.plan.slide_feeds_mm;
             warnings.push(format!(
-                "operation {}: with feed_of = \"resultant\" the slide feeds {} mm per revolution one way and {} mm the other: feed marks differ by a factor of {}",
+                "operation {}: with feed_of = \"resultant\" the slide feeds {} mm per revolution one way and {} mm the \
+                other: feed marks differ by a factor of {}",
                 operation.spec.name,
                 significant(first, 4),
                 significant(second, 4),
@@ -165,7 +168,8 @@ impl Teeth {
         let named: Vec<String> = teeth.iter().take(MOST_NAMED).map(u32::to_string).collect();
         let more = if teeth.len() > MOST_NAMED { ", ..." } else { "" };
         vec![format!(
-            "the hob's tip corner undercuts {} teeth ({}{more}), where the pitch curve is sharp: use more teeth, a smaller addendum_coefficient of the hob, or a flatter curve",
+            "the hob's tip corner undercuts {} teeth ({}{more}), where the pitch curve is sharp: use more teeth, a \
+            smaller addendum_coefficient of the hob, or a flatter curve",
             teeth.len(),
             named.join(", ")
         )]

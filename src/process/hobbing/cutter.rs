@@ -1,6 +1,7 @@
 //! Cutting a hobbing job: the passes of all operations, the dexel field of every flank.
 //!
-//! In: [`HobbingJob`]. Out: fields and layers, one flank at a time, so that memory does not grow with the number of teeth.
+//! In: [`HobbingJob`]. Out: fields and layers, one flank at a time, so that memory does not grow with the number of
+//! teeth.
 
 use super::HobbingJob;
 use crate::cut::{Backend, CutStats};
@@ -13,7 +14,8 @@ use crate::process::hobbing::flank_patch::FlankPatch;
 use crate::terms::Side;
 use crate::tool::{CuttingTool, SpatialTool};
 
-/// Places along profile and tooth at which the blank's height over the flank is taken; between them it is bilinear: it matters only where nothing cuts.
+/// Places along profile and tooth at which the blank's height over the flank is taken; between them it is bilinear: it
+/// matters only where nothing cuts.
 const BLANK_PLACES: usize = 17;
 
 /// A hobbing job with the passes of its operations.
@@ -92,12 +94,14 @@ impl<'a> HobCutter<'a> {
         Ok((target, rays))
     }
 
-    /// Rays of a part of a flank: places along the profile, arcs of the middle section from where the patch begins, and along the tooth, mm.
+    /// Rays of a part of a flank: places along the profile, arcs of the middle section from where the patch begins, and
+    /// along the tooth, mm.
     pub fn rays_over(&self, target: &FlankPatch, arcs_mm: Vec<f64>, leads_mm: Vec<f64>) -> PlacedRays {
         let job = self.job;
         let gear = &job.scene.gear;
         let width_mm = gear.face_width_mm;
-        // The stock is taken as long as the rays need it: at the faces, where normals lean out of it, only the surface counts.
+        // The stock is taken as long as the rays need it: at the faces, where normals lean out of it, only the surface
+        // counts.
         let limit_mm = RAY_HEIGHT_MODULES * gear.module_mm;
         let last = BLANK_PLACES - 1;
         let exits: Vec<f64> = (0..BLANK_PLACES * BLANK_PLACES)

@@ -1,11 +1,14 @@
 //! The target flank of a hobbed tooth as a patch of polynomials, ready for a million dexels.
 //!
-//! In: the rack's generation, the blank, tooth and side. Out: points and normals at any share of the profile and any place along the tooth. A contact takes the
-//! inverse of an arc length; on a flank both coordinates are smooth, so Chebyshev polynomials of a dozen terms hold them to a picometre, and a dexel costs some
-//! products. The number of terms is doubled until an error measured between the nodes is small enough.
+//! In: the rack's generation, the blank, tooth and side. Out: points and normals at any share of the profile and any
+//! place along the tooth. A contact takes the inverse of an arc length; on a flank both coordinates are smooth, so
+//! Chebyshev polynomials of a dozen terms hold them to a picometre, and a dexel costs some products. The number of
+//! terms is doubled until an error measured between the nodes is small enough.
 //!
-//! Along the profile the patch runs from where the flank is whole over the whole face (the latest start of the involute in any section: near the ends of an undercut tooth a little
-//! flank below is left out) to the blank's outline, by shares of the roll between them: the profile's length is no smooth coordinate where the envelope nearly stands still.
+//! Along the profile the patch runs from where the flank is whole over the whole face (the latest start of the involute
+//! in any section: near the ends of an undercut tooth a little flank below is left out) to the blank's outline, by
+//! shares of the roll between them: the profile's length is no smooth coordinate where the envelope nearly stands
+//! still.
 
 use super::rack_generation::RackGeneration;
 use crate::dexel::Ray;
@@ -49,7 +52,8 @@ pub struct FlankPatch {
     pub error_mm: f64,
     /// Length of the profile in the middle section up to the ends of equal shares of its roll, mm.
     lengths_mm: Vec<f64>,
-    /// Places of the contact on the line of action at both ends of the middle section's profile, mm from the pitch point towards the tip.
+    /// Places of the contact on the line of action at both ends of the middle section's profile, mm from the pitch
+    /// point towards the tip.
     on_line_of_action_mm: [f64; 2],
 }
 
@@ -152,15 +156,16 @@ impl FlankPatch {
         self.lengths_mm[PANELS]
     }
 
-    /// Place on the line of action at which the profile of the middle section is touched where it has a length, both in mm; counted from the pitch point, positive towards the tip. Over it an involute of
-    /// another base circle runs straight. On a round gear it is the roll length of ISO 1328-1 less `r sin(alpha_t)`.
+    /// Place on the line of action at which the profile of the middle section is touched where it has a length, both in
+    /// mm; counted from the pitch point, positive towards the tip. Over it an involute of another base circle runs
+    /// straight. On a round gear it is the roll length of ISO 1328-1 less `r sin(alpha_t)`.
     pub fn on_line_of_action_mm(&self, length_mm: f64) -> f64 {
         let [form_mm, tip_mm] = self.on_line_of_action_mm;
         form_mm + self.share_at(length_mm) * (tip_mm - form_mm)
     }
 
-    /// Share of the roll at which the profile of the middle section has a length, mm. Between panels the length is a parabola through its own rates: a column stands
-    /// within some nanometres of its place, and on the flank exactly.
+    /// Share of the roll at which the profile of the middle section has a length, mm. Between panels the length is a
+    /// parabola through its own rates: a column stands within some nanometres of its place, and on the flank exactly.
     pub fn share_at(&self, length_mm: f64) -> f64 {
         let length_mm = length_mm.clamp(0.0, self.length_mm());
         let panel = self.lengths_mm.partition_point(|&l| l <= length_mm).clamp(1, PANELS) - 1;

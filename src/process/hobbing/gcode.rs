@@ -1,7 +1,7 @@
 //! G-code for a five- or six-axis CNC hobbing machine: written from a linkage, and read back into axis positions.
 //!
-//! In: a prepared operation and the **contour error**, the largest displacement of the hob in the work that straight lines may cause where both meet. Out: two texts, and from any such text the axes at every
-//! moment ([`read()`]).
+//! In: a prepared operation and the **contour error**, the largest displacement of the hob in the work that straight
+//! lines may cause where both meet. Out: two texts, and from any such text the axes at every moment ([`read()`]).
 //!
 //! | word | axis | unit |
 //! | --- | --- | --- |
@@ -12,11 +12,14 @@
 //! | B | hob spindle in the cutting direction | deg |
 //! | C | work spindle, counter-clockwise seen against Z | deg |
 //!
-//! **Fully interpolated**: every block is a straight line in all axes, in inverse time (`G93`). **With an electronic gearbox**: the control itself couples the work to hob, slide and shift as it does for a round gear,
-//! `C = k_B B + k_Z Z + k_W W`, the rolling of a circle as long as the pitch curve; the word C then commands what is added to it, the variation of a gear that is not round. Its digits stay few and the
-//! synchronism of hob and work no longer hangs on the interpolation.
+//! **Fully interpolated**: every block is a straight line in all axes, in inverse time (`G93`). **With an electronic
+//! gearbox**: the control itself couples the work to hob, slide and shift as it does for a round gear,
+//! `C = k_B B + k_Z Z + k_W W`, the rolling of a circle as long as the pitch curve; the word C then commands what is
+//! added to it, the variation of a gear that is not round. Its digits stay few and the synchronism of hob and work no
+//! longer hangs on the interpolation.
 //!
-//! Road not taken: cycles of single controls. Their names and parameters differ from maker to maker; the coupling's three numbers stand in the head of the program instead.
+//! Road not taken: cycles of single controls. Their names and parameters differ from maker to maker; the coupling's
+//! three numbers stand in the head of the program instead.
 
 mod program;
 mod read;
@@ -36,7 +39,8 @@ use crate::units::UM_PER_MM;
 /// Axis letters in the order hob, work, tangential, radial, slide, shift.
 const LETTERS: [char; 6] = ['B', 'C', 'X', 'Y', 'Z', 'W'];
 
-/// Writes both programs of all operations as `axes/<operation>.ngc` and `axes/<operation>_gearbox.ngc`; gives a sentence for each operation that has none.
+/// Writes both programs of all operations as `axes/<operation>.ngc` and `axes/<operation>_gearbox.ngc`; gives a
+/// sentence for each operation that has none.
 ///
 /// # Errors
 /// Files that cannot be written.
@@ -56,7 +60,8 @@ pub fn write_all(job: &HobbingJob, folder: &OutputFolder) -> crate::Result<Vec<S
     Ok(left_out)
 }
 
-/// Both programs of an operation, fully interpolated and with a gearbox; an error is the reason why there are none, `None`: none are wanted.
+/// Both programs of an operation, fully interpolated and with a gearbox; an error is the reason why there are none,
+/// `None`: none are wanted.
 pub fn texts(job: &HobbingJob, operation: &PreparedHobbing) -> Option<Result<[String; 2], String>> {
     match job.scene.output.gcode {
         GcodeDialect::None => None,
@@ -80,7 +85,8 @@ fn linear(job: &HobbingJob, operation: &PreparedHobbing) -> Result<[String; 2], 
     let (reached_mm, time_s) = program.contour_error_mm(job, operation);
     if reached_mm > asked_mm {
         return Err(format!(
-            "blocks of {} ms leave a contour error of {} um at {time_s:.3} s, {} um are asked; ask for no less, or lower hob_speed_per_minute",
+            "blocks of {} ms leave a contour error of {} um at {time_s:.3} s, {} um are asked; ask for no less, or \
+            lower hob_speed_per_minute",
             significant(1e3 * program::shortest_block_s(linkage), 3),
             significant(reached_mm * UM_PER_MM, 3),
             plain(asked_mm * UM_PER_MM),

@@ -1,28 +1,34 @@
 //! The hob: a worm cut into teeth by gashes; its rake faces hold the cutting edges.
 //!
-//! In: the scene's hob, normal module m_n and pressure angle alpha_n of the gear. Out: the edge of one tooth in the rake face, and the place of
-//! every tooth, numbered along the thread.
+//! In: the scene's hob, normal module m_n and pressure angle alpha_n of the gear. Out: the edge of one tooth in the
+//! rake face, and the place of every tooth, numbered along the thread.
 //!
-//! **Tool frame.** z along the hob's axis in the direction d0 of the rack's pitch line (the one in which the thread does *not* run when the hob cuts), origin in the
-//! middle of the hob, x from the axis towards the gear when the hob's angle is 0. The hob turns by +angle about +z if it is right-handed, by -angle if left-handed, so
-//! that its thread, seen as a rack, runs to -z.
+//! **Tool frame.** z along the hob's axis in the direction d0 of the rack's pitch line (the one in which the thread
+//! does *not* run when the hob cuts), origin in the middle of the hob, x from the axis towards the gear when the hob's
+//! angle is 0. The hob turns by +angle about +z if it is right-handed, by -angle if left-handed, so that its thread,
+//! seen as a rack, runs to -z.
 //!
-//! **Sizes.** sin(lambda) = K m_n / (2 R_p); axial pitch p_x = pi m_n / cos(lambda); lead = K p_x; p = lead / 2 pi. On the pitch cylinder a tooth is
-//! pi m_n / 2 thick in the normal section.
+//! **Sizes.** sin(lambda) = K m_n / (2 R_p); axial pitch p_x = pi m_n / cos(lambda); lead = K p_x; p = lead / 2 pi. On
+//! the pitch cylinder a tooth is pi m_n / 2 thick in the normal section.
 //!
-//! **Edge.** In the axial section the flank of an involute worm (ZI) lies at the half thickness
-//! w(rho) = w_p - p (inv(rho) - inv(R_p)), inv(rho) = u - atan u, u^2 = (rho / r_b)^2 - 1, with cos(lambda_b) = cos(lambda) cos(alpha_n) and
-//! r_b = p / tan(lambda_b); the straight-sided one at w_p - (rho - R_p) tan(alpha_n) / cos(lambda) (Litvin and Fuentes, Gear Geometry and Applied Theory, 2004, chapter
-//! 19). Axial gashes with zero rake hold just this section. Gashes at right angles to the thread wind about the axis with the lead 2 pi R_p / tan(lambda), hand opposite to
-//! the thread; in the coordinates (distance from the axis, place along it) of such a rake face all axial lengths are cos^2(lambda) of those above.
+//! **Edge.** In the axial section the flank of an involute worm (ZI) lies at the half thickness w(rho) = w_p - p
+//! (inv(rho) - inv(R_p)), inv(rho) = u - atan u, u^2 = (rho / r_b)^2 - 1, with cos(lambda_b) = cos(lambda) cos(alpha_n)
+//! and r_b = p / tan(lambda_b); the straight-sided one at w_p - (rho - R_p) tan(alpha_n) / cos(lambda) (Litvin and
+//! Fuentes, Gear Geometry and Applied Theory, 2004, chapter 19). Axial gashes with zero rake hold just this section.
+//! Gashes at right angles to the thread wind about the axis with the lead 2 pi R_p / tan(lambda), hand opposite to the
+//! thread; in the coordinates (distance from the axis, place along it) of such a rake face all axial lengths are
+//! cos^2(lambda) of those above.
 //!
-//! **Blade frame.** Origin on the hob's axis, x radially through the tooth's middle, y along -z of the tool: the left flank has y > 0 and cuts left flanks of the gear.
+//! **Blade frame.** Origin on the hob's axis, x radially through the tooth's middle, y along -z of the tool: the left
+//! flank has y > 0 and cuts left flanks of the gear.
 //!
-//! **Numbers.** Teeth follow each other along the thread; tooth 1 is the first at the entering end (+z, where uncut work arrives), tooth n + 1 stands lead / gashes
-//! further on. A hob with several starts counts each thread by itself: A1, A2, ..., B1, ... The blade index runs through all of A, then B.
+//! **Numbers.** Teeth follow each other along the thread; tooth 1 is the first at the entering end (+z, where uncut
+//! work arrives), tooth n + 1 stands lead / gashes further on. A hob with several starts counts each thread by itself:
+//! A1, A2, ..., B1, ... The blade index runs through all of A, then B.
 //!
-//! **Regrinding** moves the rake faces back along the relief. With radial relief the whole edge sinks by one amount while lead and axial lengths stay: the pitch
-//! cylinder on which the thread is right shrinks with it, and a ZI hob is then no longer quite ZI. The head angle stays that of the new hob.
+//! **Regrinding** moves the rake faces back along the relief. With radial relief the whole edge sinks by one amount
+//! while lead and axial lengths stay: the pitch cylinder on which the thread is right shrinks with it, and a ZI hob is
+//! then no longer quite ZI. The head angle stays that of the new hob.
 
 use crate::error::Refusal;
 use crate::frame::Rigid3;
@@ -42,7 +48,8 @@ const LARGEST_LEAD_ANGLE_RAD: f64 = 0.35;
 /// stands
 /// at half its radius, far behind the work.
 const HALF_SWEEP_RAD: f64 = PI / 3.0;
-/// Share of the root radius by which relief lowers a tooth at most: with relief angles of some 10 deg and gashes 30 deg apart it is a tenth.
+/// Share of the root radius by which relief lowers a tooth at most: with relief angles of some 10 deg and gashes 30 deg
+/// apart it is a tenth.
 const DEEPEST_RELIEF: f64 = 0.25;
 /// Steps to the place where the tip round touches the flank at most, and how far rounding may still move it then, mm.
 const TOUCH_STEPS: u32 = 100;
@@ -63,7 +70,8 @@ pub struct Hob {
     pub module_mm: f64,
     /// Lead angle lambda on the pitch cylinder of the new hob.
     pub lead_angle_rad: f64,
-    /// Radius of the pitch cylinder: the distance of the hob's axis from the rack's pitch plane (smaller after regrinding), mm.
+    /// Radius of the pitch cylinder: the distance of the hob's axis from the rack's pitch plane (smaller after
+    /// regrinding), mm.
     pub pitch_radius_mm: f64,
     /// Radius of the tip, mm.
     pub tip_radius_mm: f64,
@@ -89,7 +97,8 @@ pub struct HobTooth {
     pub start: u32,
     /// Number along the thread, from 1 at the entering end.
     pub number: u32,
-    /// Count of gash passages, any integer: with axial gashes its rake face looks at the gear at the hob angle 2 pi `passage` / gashes.
+    /// Count of gash passages, any integer: with axial gashes its rake face looks at the gear at the hob angle 2 pi
+    /// `passage` / gashes.
     pub passage: i64,
     /// z of its middle in the tool frame, mm.
     pub axial_mm: f64,
@@ -170,7 +179,8 @@ impl Hob {
             return Err(Refusal::new(
                 size_key,
                 format!(
-                    "{starts} starts of module {m} mm on a pitch cylinder of {:.3} mm diameter need the lead angle {:.2} deg; up to {:.0} deg is a hob",
+                    "{starts} starts of module {m} mm on a pitch cylinder of {:.3} mm diameter need the lead angle \
+                    {:.2} deg; up to {:.0} deg is a hob",
                     2.0 * new_pitch_radius_mm,
                     lead_angle_rad.to_degrees(),
                     LARGEST_LEAD_ANGLE_RAD.to_degrees()
@@ -189,7 +199,8 @@ impl Hob {
             return Err(Refusal::new(
                 size_key,
                 format!(
-                    "the hob's root radius {root_radius_mm:.3} mm does not clear the base cylinder of its thread, {base_radius_mm:.3} mm"
+                    "the hob's root radius {root_radius_mm:.3} mm does not clear the base cylinder of its thread, \
+                    {base_radius_mm:.3} mm"
                 ),
                 "use fewer starts, a larger reference diameter or a smaller dedendum_coefficient",
             ));
@@ -199,7 +210,8 @@ impl Hob {
             return Err(Refusal::new(
                 "tool.hob.regrind_mm",
                 format!(
-                    "no hob tooth falls by {} mm from its rake face to its back: at most {most_mm:.3} mm are taken, a quarter of the root radius",
+                    "no hob tooth falls by {} mm from its rake face to its back: at most {most_mm:.3} mm are taken, a \
+                    quarter of the root radius",
                     spec.regrind_mm
                 ),
                 "use a smaller regrind_mm",

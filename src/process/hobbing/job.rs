@@ -1,6 +1,8 @@
-//! A hobbing scene made ready to cut: pitch curve, hob, blank, linkages with their feed plans, and the target that the rack leaves.
+//! A hobbing scene made ready to cut: pitch curve, hob, blank, linkages with their feed plans, and the target that the
+//! rack leaves.
 //!
-//! In: the checked scene. Out: [`HobbingJob`]. The last operation is the finishing one: the rack in its place is the target's.
+//! In: the checked scene. Out: [`HobbingJob`]. The last operation is the finishing one: the rack in its place is the
+//! target's.
 
 use crate::error::{Refusal, Result};
 use crate::gear::PitchCurve;
@@ -106,8 +108,9 @@ impl HobbingJob {
         turns * self.hob.teeth.len() as f64
     }
 
-    /// Height of the generating marks at the pitch line where the curve bends by `curvature_per_mm`: consecutive gashes leave facets of the arc
-    /// ds = K pi m_n / (gashes cos beta), ridges ds^2 sin(alpha_t) cos(beta_b) / (8 rho) normal to the flank, mm.
+    /// Height of the generating marks at the pitch line where the curve bends by `curvature_per_mm`: consecutive gashes
+    /// leave facets of the arc ds = K pi m_n / (gashes cos beta), ridges ds^2 sin(alpha_t) cos(beta_b) / (8 rho) normal
+    /// to the flank, mm.
     pub fn generating_mark_mm(&self, curvature_per_mm: f64) -> f64 {
         let gear = &self.scene.gear;
         let arc_mm = self.gash_arc_mm();
@@ -115,13 +118,15 @@ impl HobbingJob {
         arc_mm * arc_mm * gear.transverse_pressure_angle_rad().sin() * cos_base * curvature_per_mm / 8.0
     }
 
-    /// Arc of the pitch curve from one gash to the next, mm; the same for every linkage, because hob and work are geared.
+    /// Arc of the pitch curve from one gash to the next, mm; the same for every linkage, because hob and work are
+    /// geared.
     pub fn gash_arc_mm(&self) -> f64 {
         f64::from(self.hob.starts) * PI * self.scene.gear.transverse_module_mm() / f64::from(self.hob.gashes)
     }
 }
 
-/// The law that a linkage table asks for; diagonal hobbing keeps the arc even and lets the work carry the extra rotation.
+/// The law that a linkage table asks for; diagonal hobbing keeps the arc even and lets the work carry the extra
+/// rotation.
 fn law(spec: &HobbingOperation) -> HobbingLaw {
     match spec.kind {
         HobbingKind::Plain { even, extra, form } => HobbingLaw { even, extra, form },
@@ -166,8 +171,10 @@ fn rack(gear: &Gear, hob: &Hob, tip_radius_mm: f64, thinning_mm: f64) -> Rack {
 
 /// How far a hob's tips go under the gear's root in hollows of the pitch curve, mm; none where it is convex.
 ///
-/// The tips lie on a straight line in the transverse plane, h under the pitch line. While the rack touches the curve at s, the root under another place s' stands at -(P(s') - h n(s') - P(s)) . n(s) under that line's
-/// pitch line; where that is less than h the tooth that runs there cuts the difference out of it, as far as the hob reaches: both sides of s by half its length.
+/// The tips lie on a straight line in the transverse plane, h under the pitch line. While the rack touches the curve at
+/// s, the root under another place s' stands at -(P(s') - h n(s') - P(s)) . n(s) under that line's pitch line; where
+/// that is less than h the tooth that runs there cuts the difference out of it, as far as the hob reaches: both sides
+/// of s by half its length.
 pub fn cut_under_hollows_mm(curve: &PitchCurve, hob: &Hob) -> Option<f64> {
     if curve.facts().smallest_curvature.curvature_per_mm >= 0.0 {
         return None;
@@ -204,13 +211,15 @@ fn refuse_hollows(curve: &PitchCurve, hob: &Hob) -> Result<(), Refusal> {
     Err(Refusal::new(
         "gear.pitch_curve",
         format!(
-            "the pitch curve is hollow at polar angle {:.2} deg (radius {:.1} mm): a hob {} mm long would cut {:.3} mm under the root on both sides of the tooth it cuts, because \
+            "the pitch curve is hollow at polar angle {:.2} deg (radius {:.1} mm): a hob {} mm long would cut {:.3} mm \
+            under the root on both sides of the tooth it cuts, because \
              its tips lie on a straight line; hobbing needs a convex pitch curve",
             hollow.phi_rad.to_degrees(),
             -1.0 / hollow.curvature_per_mm,
             hob.length_mm,
             deepest_mm
         ),
-        "make the variation of the radius smaller (an ellipse of order n is convex up to eccentricity 1 / (n^2 - 1)), or shape the gear with [tool.shaper_cutter]",
+        "make the variation of the radius smaller (an ellipse of order n is convex up to eccentricity 1 / (n^2 - 1)), \
+        or shape the gear with [tool.shaper_cutter]",
     ))
 }

@@ -1,23 +1,26 @@
 //! Linkages of hobbing: six axes from time, and the hob's pose in the work with its velocity.
 //!
-//! In: pitch curve, gear helix, hob, a law (which motion is kept even, who carries the extra rotation) and a feed path (how slide, shift and infeed move). Out:
-//! [`HobbingAxes`] as series in time, and `work_from_tool(t)`.
+//! In: pitch curve, gear helix, hob, a law (which motion is kept even, who carries the extra rotation) and a feed path
+//! (how slide, shift and infeed move). Out: [`HobbingAxes`] as series in time, and `work_from_tool(t)`.
 //!
-//! **Machine frame** (Liu et al. 2013, Liu et al. 2015). Origin in the pitch point P, x along the rack's pitch line, y out of the gear, z along the rotation vector of the
-//! work. The work turns by +phi; its centre lies at -(X, Y), (X, Y) = r (cos mu, sin mu), theta = phi - mu + pi / 2. The hob's axis crosses the line x = 0, y = R_p + radial
-//! at the height z (slide) in the direction d0 = (cos g, 0, sin g), g = h beta - h_b lambda unless the head is set otherwise; shift u moves the hob along d0. The gear
-//! frame of the other modules is this one turned over: its z is -z here, theta is its phi.
+//! **Machine frame** (Liu et al. 2013, Liu et al. 2015). Origin in the pitch point P, x along the rack's pitch line, y
+//! out of the gear, z along the rotation vector of the work. The work turns by +phi; its centre lies at -(X, Y), (X,
+//! Y) = r (cos mu, sin mu), theta = phi - mu + pi / 2. The hob's axis crosses the line x = 0, y = R_p + radial at the
+//! height z (slide) in the direction d0 = (cos g, 0, sin g), g = h beta - h_b lambda unless the head is set otherwise;
+//! shift u moves the hob along d0. The gear frame of the other modules is this one turned over: its z is -z here, theta
+//! is its phi.
 //!
 //! **Rolling.** Hob, slide and shift together carry a rack; the gear's pitch curve rolls on it:
 //!
 //! `s = (K m_n omega / 2 - u cos lambda) / cos beta - h z tan beta`
 //!
-//! for the arc s, hob angle omega, slide z and shift u. Every **exact** law keeps this at every moment; then theta follows from s and everything else from theta. The laws differ
-//! in what is even in time while the slide rests: the arc (hob at constant speed), the work angle, or the polar angle; and in whether the
-//! slide's share is carried by the work (the whole rolling speeds up, ds/dt = v_b - h v_z tan beta) or by the hob.
+//! for the arc s, hob angle omega, slide z and shift u. Every **exact** law keeps this at every moment; then theta
+//! follows from s and everything else from theta. The laws differ in what is even in time while the slide rests: the
+//! arc (hob at constant speed), the work angle, or the polar angle; and in whether the slide's share is carried by the
+//! work (the whole rolling speeds up, ds/dt = v_b - h v_z tan beta) or by the hob.
 //!
-//! **As printed.** The papers add v_z tan(beta) / r to the work's speed and leave the carriage alone (Liu et al. 2013, Eq. 14 and 15). That is right for a circle
-//! only: on other curves work and carriage part. Kept to show what it does.
+//! **As printed.** The papers add v_z tan(beta) / r to the work's speed and leave the carriage alone (Liu et al. 2013,
+//! Eq. 14 and 15). That is right for a circle only: on other curves work and carriage part. Kept to show what it does.
 //!
 //! Velocities and accelerations are the series' coefficients, no differences.
 
@@ -116,7 +119,8 @@ impl HobbingGeometry {
         DVec3::new(self.head_angle_rad.cos(), 0.0, self.head_angle_rad.sin())
     }
 
-    /// Pose of the tool in the machine frame, whose origin is the pitch point: hob angle (rad), distance from full depth, slide and shift (mm).
+    /// Pose of the tool in the machine frame, whose origin is the pitch point: hob angle (rad), distance from full
+    /// depth, slide and shift (mm).
     pub fn machine_from_tool(&self, hob_rad: f64, radial_mm: f64, slide_mm: f64, shift_mm: f64) -> Rigid3 {
         let axis = self.hob_axis();
         let (sin, cos) = (self.hob_hand * hob_rad).sin_cos();
@@ -197,10 +201,12 @@ pub struct HobbingLinkage {
 }
 
 impl HobbingLinkage {
-    /// Linkage on `curve`; the hob turns at `hob_speed_rad_per_s` in the mean of a cycle without feed (always, when the arc is even and the work carries the extra rotation).
+    /// Linkage on `curve`; the hob turns at `hob_speed_rad_per_s` in the mean of a cycle without feed (always, when the
+    /// arc is even and the work carries the extra rotation).
     ///
     /// # Errors
-    /// A law that needs a convex pitch curve on one that is not; feeds so fast that the rolling would stand still or turn back.
+    /// A law that needs a convex pitch curve on one that is not; feeds so fast that the rolling would stand still or
+    /// turn back.
     pub fn new(
         curve: Arc<PitchCurve>,
         geometry: HobbingGeometry,
@@ -252,7 +258,8 @@ impl HobbingLinkage {
         let backwards = || {
             Refusal::new(
                 "operation.axial_feed_mm_per_revolution",
-                "the feeds' share of the rolling is faster than the rolling itself, or the pitch curve is not convex where the law needs it",
+                "the feeds' share of the rolling is faster than the rolling itself, or the pitch curve is not convex \
+                where the law needs it",
                 "use smaller feeds; on a pitch curve with hollows keep the arc even (basis = \"arc_length\")",
             )
         };
@@ -373,7 +380,8 @@ impl HobbingLinkage {
         self.stretches.iter().map(|s| s.start_s).chain([self.end_s]).collect()
     }
 
-    /// Axes at a time (any; before the beginning and after the end the feeds go on), N <= 3. Where rates jump, those of the later stretch.
+    /// Axes at a time (any; before the beginning and after the end the feeds go on), N <= 3. Where rates jump, those of
+    /// the later stretch.
     pub fn axes<const N: usize>(&self, time_s: f64) -> HobbingAxes<N> {
         let stretch = self.stretch_at(time_s);
         let g = &self.geometry;
@@ -427,13 +435,15 @@ impl HobbingLinkage {
         work_from_machine(&axes).after(&self.machine_from_tool(&axes))
     }
 
-    /// Pose of the head in the gear frame: the tool frame as it stands at hob angle 0, carried along but not turning with the hob.
+    /// Pose of the head in the gear frame: the tool frame as it stands at hob angle 0, carried along but not turning
+    /// with the hob.
     pub fn work_from_head(&self, time_s: f64) -> Rigid3 {
         let axes = HobbingAxes { hob_rad: Jet::constant(0.0), ..self.axes::<1>(time_s) };
         work_from_machine(&axes).after(&self.machine_from_tool(&axes))
     }
 
-    /// Pose of the work in the hob's head, the frame that carries the hob without turning with it, when the hob has turned to `hob_rad`.
+    /// Pose of the work in the hob's head, the frame that carries the hob without turning with it, when the hob has
+    /// turned to `hob_rad`.
     pub fn head_from_work(&self, hob_rad: f64) -> Rigid3 {
         let tool_from_work = self.work_from_tool(self.time_at_hob_angle(hob_rad)).inverse();
         let rotation = DMat3::from_rotation_z(self.geometry.hob_hand * hob_rad);

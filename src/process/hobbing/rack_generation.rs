@@ -1,17 +1,21 @@
-//! What a rack leaves when the pitch curve rolls on it: flanks and roots of hobbed gears, in closed form, section by section along the tooth.
+//! What a rack leaves when the pitch curve rolls on it: flanks and roots of hobbed gears, in closed form, section by
+//! section along the tooth.
 //!
-//! In: pitch curve, helix, the rack that the hob stands for. Out: points, normals and ends of any flank in any transverse section; where the fillet of the rack's tip
-//! corner takes over from the flank.
+//! In: pitch curve, helix, the rack that the hob stands for. Out: points, normals and ends of any flank in any
+//! transverse section; where the fillet of the rack's tip corner takes over from the flank.
 //!
-//! **Law.** In the section at z (gear frame) the rack is the one at z = 0 moved by h z tan(beta) along its pitch line, so that flank e of space i crosses the pitch
-//! curve at the arc
+//! **Law.** In the section at z (gear frame) the rack is the one at z = 0 moved by h z tan(beta) along its pitch line,
+//! so that flank e of space i crosses the pitch curve at the arc
 //!
 //! `s_f = i pi m_t - e w + h z tan(beta)`,  w half the rack's tooth on the pitch line,
 //!
-//! e = +1 for the flank at the low-arc side of the space (the left flank of tooth i), -1 for the other one. When the curve has rolled on by sigma from there, the flank touches at
-//! `q = P(s_f + sigma) + c (e cos(alpha_t) t + sin(alpha_t) n)`, c = -e sigma cos(alpha_t): contact normals pass through the pitch point (Litvin and Fuentes 2004, chapter
-//! 5). Along the profile `dl = (sin(alpha_t) + c / rho) dsigma`; where that turns negative the envelope turns back and the tip corner has **undercut** the flank: the profile goes on with the
-//! corner's own path. A tip round of radius r (in the normal section, taken as circular in the transverse one) touches along the line from P through its centre.
+//! e = +1 for the flank at the low-arc side of the space (the left flank of tooth i), -1 for the other one. When the
+//! curve has rolled on by sigma from there, the flank touches at
+//! `q = P(s_f + sigma) + c (e cos(alpha_t) t + sin(alpha_t) n)`, c = -e sigma cos(alpha_t): contact normals pass
+//! through the pitch point (Litvin and Fuentes 2004, chapter 5). Along the profile
+//! `dl = (sin(alpha_t) + c / rho) dsigma`; where that turns negative the envelope turns back and the tip corner has
+//! **undercut** the flank: the profile goes on with the corner's own path. A tip round of radius r (in the normal
+//! section, taken as circular in the transverse one) touches along the line from P through its centre.
 //!
 //! The ideal is a hob with infinitely many gashes and infinitely fine feed.
 
@@ -139,7 +143,8 @@ impl RackGeneration {
         let frame = self.curve.frame(phi_rad);
         let distance_mm = -e * roll_mm * cos;
         let across = e * cos * frame.tangent + sin * frame.normal;
-        // The flank holds the tooth trace, so the normal leans along the axis: n_z = -e h tan(beta) cos(alpha_t) of its transverse part.
+        // The flank holds the tooth trace, so the normal leans along the axis: n_z = -e h tan(beta) cos(alpha_t) of its
+        // transverse part.
         let lean = -e * self.rack.hand * self.rack.helix_angle_rad.tan() * cos;
         RackContact {
             roll_mm,
@@ -166,8 +171,9 @@ impl RackGeneration {
         frame.point_mm + touch.x * frame.tangent + touch.y * frame.normal
     }
 
-    /// Where the profile of a flank crosses the curve `height_mm` over the pitch curve (along its normals, negative inwards): on the flank, or on the fillet where the corner
-    /// has cut deeper into the tooth. `None` where neither reaches that height.
+    /// Where the profile of a flank crosses the curve `height_mm` over the pitch curve (along its normals, negative
+    /// inwards): on the flank, or on the fillet where the corner has cut deeper into the tooth. `None` where neither
+    /// reaches that height.
     pub fn crossing(
         &self,
         blank: &Blank,
@@ -210,7 +216,8 @@ impl RackGeneration {
         self.space_arc_mm(space, z_mm) + sign(side) * self.rack.corner_center_mm().x
     }
 
-    /// Rolled arc at which the path of the tip corner has climbed on the flank's side to `height_mm` over the pitch curve; `None` where it does not reach that height.
+    /// Rolled arc at which the path of the tip corner has climbed on the flank's side to `height_mm` over the pitch
+    /// curve; `None` where it does not reach that height.
     pub fn corner_arc_at_height_mm(
         &self,
         blank: &Blank,
@@ -239,7 +246,8 @@ impl RackGeneration {
         halve(sound, bad - corner / f64::from(steps), bad, 60)[0]
     }
 
-    /// Roll and height over the pitch curve at which the flank begins: at the tip corner's end or, undercut, where the fillet meets it. The flag tells which.
+    /// Roll and height over the pitch curve at which the flank begins: at the tip corner's end or, undercut, where the
+    /// fillet meets it. The flag tells which.
     pub fn form_point(&self, blank: &Blank, space: i64, side: Side, z_mm: f64) -> FormPoint {
         let e = sign(side);
         let deepest = self.sound_roll_mm(space, side, z_mm);

@@ -1,10 +1,13 @@
 //! The target's root between two hobbed flanks, section by section: what the rack's tip corners and tip line leave.
 //!
-//! In: the rack's generation, a space, the rolls at which both flanks' fields begin. Out: points of the root with their normals, from the left flank of the space (low arc) to the right one, equally many
-//! in every section, so that sections can be sewn together.
+//! In: the rack's generation, a space, the rolls at which both flanks' fields begin. Out: points of the root with their
+//! normals, from the left flank of the space (low arc) to the right one, equally many in every section, so that
+//! sections can be sewn together.
 //!
-//! **Law.** Five pieces: the left flank from where its field begins down to its own form point, the path of the left corner, the tip line, and both again for the right flank. Every piece touches its tool on a
-//! normal through the pitch point P (Litvin and Fuentes, Gear Geometry and Applied Theory, 2004, chapter 6); the tip line leaves the curve that runs parallel to the pitch curve, `P - h n`.
+//! **Law.** Five pieces: the left flank from where its field begins down to its own form point, the path of the left
+//! corner, the tip line, and both again for the right flank. Every piece touches its tool on a normal through the pitch
+//! point P (Litvin and Fuentes, Gear Geometry and Applied Theory, 2004, chapter 6); the tip line leaves the curve that
+//! runs parallel to the pitch curve, `P - h n`.
 
 use super::rack_generation::RackGeneration;
 use crate::gear::blank::Blank;
@@ -29,7 +32,8 @@ pub struct RackRootPoint {
 type Piece<'a> = Box<dyn Fn(f64) -> (DVec2, DVec2) + 'a>;
 
 impl RackGeneration {
-    /// Root of a space in the section `z_mm`; `start_rolls_mm` are those at which the fields of its left and right flank begin, `count` points stand evenly along it, both ends included.
+    /// Root of a space in the section `z_mm`; `start_rolls_mm` are those at which the fields of its left and right
+    /// flank begin, `count` points stand evenly along it, both ends included.
     pub fn root(
         &self,
         blank: &Blank,
@@ -53,7 +57,8 @@ impl RackGeneration {
     /// Flank and corner on one side of a space, from the flank's field down to the tip line.
     fn root_half(&self, blank: &Blank, space: i64, side: Side, start_mm: f64, z_mm: f64) -> RootHalf<'_> {
         let form = self.form_point(blank, space, side, z_mm);
-        // A field begins where the flank is whole in all sections, never below the section's own form point but by rounding.
+        // A field begins where the flank is whole in all sections, never below the section's own form point but by
+        // rounding.
         let end_mm = if side.sign() * (form.roll_mm - start_mm) > 0.0 { form.roll_mm } else { start_mm };
         let bottom_arc_mm = self.corner_bottom_arc_mm(space, side, z_mm);
         let top_arc_mm =
@@ -138,7 +143,8 @@ mod tests {
         (RackGeneration { curve, rack }, blank)
     }
 
-    /// The root runs from flank to flank without a gap or a step back, its normals stand across it, and its deepest points are the rack's tip line's: on a round gear the root circle.
+    /// The root runs from flank to flank without a gap or a step back, its normals stand across it, and its deepest
+    /// points are the rack's tip line's: on a round gear the root circle.
     #[test]
     fn a_root_joins_its_flanks_and_lies_on_the_root_circle() {
         for (teeth, tip_radius_mm) in [(40, 0.0), (40, 0.8), (14, 0.8)] {
@@ -156,7 +162,8 @@ mod tests {
             for pair in root.windows(2) {
                 let chord = pair[1].point_mm - pair[0].point_mm;
                 assert!(chord.length() < 1.02 * step_mm && chord.length() > 0.7 * step_mm, "{chord} of {step_mm}");
-                // Counter-clockwise round the gear: outside lies to the right of the chord; at an undercut's edge the surface has a corner.
+                // Counter-clockwise round the gear: outside lies to the right of the chord; at an undercut's edge the
+                // surface has a corner.
                 assert!(chord.normalize().perp_dot(pair[0].normal) < -0.5, "{pair:?}");
             }
             let circle_mm = 0.5 * generation.curve.perimeter_mm() / PI - 5.0;

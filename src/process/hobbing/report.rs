@@ -1,4 +1,5 @@
-//! The page of a hobbed gear: the same sections as a shaped one's, and what hobbing adds: marks, five curves, six axes, the work of the hob's teeth.
+//! The page of a hobbed gear: the same sections as a shaped one's, and what hobbing adds: marks, five curves, six axes,
+//! the work of the hob's teeth.
 
 mod facts;
 
@@ -82,7 +83,8 @@ fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
         profile_place: "roll from the pitch point, up to the tip",
         lead_place: "in the middle of the profile",
         lead_name: "Helix",
-        target: "the surface that the last operation would leave with infinitely many gashes and an infinitely fine feed",
+        target: "the surface that the last operation would leave with infinitely many gashes and an infinitely fine \
+            feed",
     }
 }
 
@@ -90,7 +92,9 @@ fn five_curves(scene: &str, gear: &HobbedGear) -> Option<Section> {
     Some(Section {
         id: "curves",
         title: "Points on five curves".to_owned(),
-        lead: "Where five curves beside the pitch curve cross every flank in the middle of the face, as cut less as meant, as Liu et al. (2015) measured their gear. Every point stands in tables/offset_curves.csv.".to_owned(),
+        lead: "Where five curves beside the pitch curve cross every flank in the middle of the face, as cut less as \
+            meant, as Liu et al. (2015) measured their gear. Every point stands in tables/offset_curves.csv."
+            .to_owned(),
         blocks: vec![Block::Lines(points::chart(scene, gear)?)],
     })
 }
@@ -127,7 +131,10 @@ fn marks_section(found: &Findings) -> Section {
     Section {
         id: "marks",
         title: "Cutting marks".to_owned(),
-        lead: "The shortest two steps from mark to mark on the flank at the pitch line: from the machine's motion, and independently from the autocorrelation of the heights as cut.".to_owned(),
+        lead:
+            "The shortest two steps from mark to mark on the flank at the pitch line: from the machine's motion, and \
+            independently from the autocorrelation of the heights as cut."
+                .to_owned(),
         blocks: vec![Block::Table(Table {
             caption: "Lattice of cutting marks".to_owned(),
             columns: columns.map(str::to_owned).into(),

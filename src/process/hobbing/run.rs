@@ -193,7 +193,10 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     if !needs_surfaces(&cutter, parts) {
         // Nothing of the whole gear is asked for.
     } else if job.operations.iter().any(|operation| operation.linkage.law().is_as_printed()) {
-        progress.note("mesh/gear.* and pictures of the gear are left out: what the linkage as printed leaves has no flanks to join");
+        progress.note(
+            "mesh/gear.* and pictures of the gear are left out: what the linkage as printed leaves has no \
+            flanks to join",
+        );
     } else if !gear.work.interrupted {
         let surfaces = std::mem::take(&mut gear.surfaces);
         gear.work.interrupted = !write_meshes_and_pictures(&cutter, surfaces, tools)?;

@@ -1,7 +1,10 @@
 //! Surfaces of a hobbed gear, as meshes, pictures and texture ask for them.
 //!
-//! Everything stands section by section along the tooth, each section's rays turned with the helix. Roots are taken along rays from the target's root to a point in the middle of the space: gashes are few, and what
-//! they leave in a tight fillet stands higher than its normals can go before they cross. Tips are taken along the normals of the pitch curve; they are cut only by a hob that tops the gear, and otherwise the blank's own surface stands there. The linkage as printed destroys flanks and tips alike: [`crate::run`] makes no closed body of it.
+//! Everything stands section by section along the tooth, each section's rays turned with the helix. Roots are taken
+//! along rays from the target's root to a point in the middle of the space: gashes are few, and what they leave in a
+//! tight fillet stands higher than its normals can go before they cross. Tips are taken along the normals of the pitch
+//! curve; they are cut only by a hob that tops the gear, and otherwise the blank's own surface stands there. The
+//! linkage as printed destroys flanks and tips alike: [`crate::run`] makes no closed body of it.
 
 use crate::cut::Backend;
 use crate::dexel::PlacedRays;
@@ -19,7 +22,8 @@ use crate::surface::triangles::Profile;
 use crate::terms::Side;
 use glam::DVec2;
 
-/// Distance of the sections that show a helical gear's shape, mm: chords a micrometre off a helix of 20 deg on a radius of 60 mm.
+/// Distance of the sections that show a helical gear's shape, mm: chords a micrometre off a helix of 20 deg on a radius
+/// of 60 mm.
 const VIEW_SECTION_MM: f64 = 5.0;
 
 /// Share of a root's length at either end over which its rays turn from the flank's normal to the middle of the space.
@@ -181,7 +185,8 @@ impl GearJob for HobCutter<'_> {
 }
 
 impl HobCutter<'_> {
-    /// Whether the hob's roots come down to the blank's outline at full depth. If they do not, no edge reaches a tip land: it is highest over the hob where it passes the pitch point.
+    /// Whether the hob's roots come down to the blank's outline at full depth. If they do not, no edge reaches a tip
+    /// land: it is highest over the hob where it passes the pitch point.
     fn tops_the_gear(&self) -> bool {
         let dedendum = self.job.scene.hobbing().map_or(0.0, |hobbing| hobbing.tool.dedendum_coefficient);
         let deepest_mm = self.job.operations.iter().map(|o| o.offset_mm).fold(f64::INFINITY, f64::min);

@@ -1,9 +1,11 @@
 //! How the machine has to move: axis tables, charts, peaks against limits, relief on the return stroke.
 //!
-//! In: a prepared [`Job`]. Out: [`OperationAxes`] with its text for the terminal and its part of `results.json`, and per operation
-//! in `axes/`: `<operation>.csv` (one row per stroke), `<operation>_positions`, `_velocities`, `_accelerations` and `_relief` as PNG and SVG.
+//! In: a prepared [`Job`]. Out: [`OperationAxes`] with its text for the terminal and its part of `results.json`, and
+//! per operation in `axes/`: `<operation>.csv` (one row per stroke), `<operation>_positions`, `_velocities`,
+//! `_accelerations` and `_relief` as PNG and SVG.
 //!
-//! The laws stand in [`crate::process::shaping::linkage::dynamics`] and [`crate::process::shaping::linkage::relief`]; here their numbers get degrees and micrometres.
+//! The laws stand in [`crate::process::shaping::linkage::dynamics`] and [`crate::process::shaping::linkage::relief`];
+//! here their numbers get degrees and micrometres.
 
 mod charts;
 mod quantities;

@@ -42,7 +42,8 @@ impl Job {
         BlankGrid::new(&self.blank, &outline, width_mm, fields.blank_spacing_mm, slice_spacing_mm)
     }
 
-    /// Poses of the return strokes of an operation: the cutter drawn back along the line of centres. `None` where the machine does not back off.
+    /// Poses of the return strokes of an operation: the cutter drawn back along the line of centres. `None` where the
+    /// machine does not back off.
     pub fn return_strokes(&self, operation: usize) -> Option<StrokeSet> {
         let operation = &self.operations[operation];
         let back_off_mm = self.machine.back_off_mm;
@@ -65,7 +66,8 @@ impl Job {
         ClosedTooth::new(self.cutter.edge(), (nearest_mm - blank_reach_mm - 1.0).max(0.0))
     }
 
-    /// Runs all operations over the uncut blank; `advance` is called after every tile and says whether to go on. `None`: stopped.
+    /// Runs all operations over the uncut blank; `advance` is called after every tile and says whether to go on.
+    /// `None`: stopped.
     ///
     /// # Errors
     /// The backend's.
@@ -95,7 +97,8 @@ impl Job {
         Ok(Some(cut))
     }
 
-    /// The target's transverse section as a polygon with points `spacing_mm` apart; its error is the arrow height of so long a chord.
+    /// The target's transverse section as a polygon with points `spacing_mm` apart; its error is the arrow height of so
+    /// long a chord.
     ///
     /// # Errors
     /// A tooth without a flank, or one whose tip the cutter's base shapes: its outline is not known in closed form.
@@ -117,7 +120,8 @@ impl Job {
                 return Err(Refusal::new(
                     "tool.shaper_cutter",
                     format!(
-                        "the tip of tooth {tooth} is shaped by the cutter's base; its target is not known in closed form"
+                        "the tip of tooth {tooth} is shaped by the cutter's base; its target is not known in closed \
+                        form"
                     ),
                     "use a smaller gear.addendum_coefficient or a cutter with more teeth",
                 ));

@@ -1,8 +1,10 @@
 //! The shaper cutter: an involute pinion whose teeth are the blades.
 //!
-//! Comes from the scene, goes to target flanks and passes. The edge is the **projected transverse profile**: an involute with the gear's pressure
-//! angle on the pitch circle r_c = m z0 / 2, tooth thickness pi m / 2 + 2 x0 m tan(alpha) - thinning, tip circle (ha0 + x0) m above it. Below the base circle the flank goes on
-//! straight along the tangent of the involute's last point, as cutters are relieved there; its exact run touches only gear tips that reach below the cutter's involute.
+//! Comes from the scene, goes to target flanks and passes. The edge is the **projected transverse profile**: an
+//! involute with the gear's pressure angle on the pitch circle r_c = m z0 / 2, tooth thickness pi m / 2 + 2 x0 m
+//! tan(alpha) - thinning, tip circle (ha0 + x0) m above it. Below the base circle the flank goes on straight along the
+//! tangent of the involute's last point, as cutters are relieved there; its exact run touches only gear tips that reach
+//! below the cutter's involute.
 
 use crate::error::Refusal;
 use crate::frame::Rigid2;
@@ -14,9 +16,11 @@ use crate::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 
-/// The involute is followed down to the roll where its tangent leaves it by this much at the base circle: half the edge tables' tolerance.
+/// The involute is followed down to the roll where its tangent leaves it by this much at the base circle: half the edge
+/// tables' tolerance.
 const BASE_CIRCLE_TOLERANCE_MM: f64 = 2.5e-8;
-/// Below this radius of curvature (in modules) the involute gets a table of its own: its curvature changes too fast for the cells of the rest.
+/// Below this radius of curvature (in modules) the involute gets a table of its own: its curvature changes too fast for
+/// the cells of the rest.
 const NEAR_BASE_CURVATURE_MODULES: f64 = 0.5;
 
 /// A shaper cutter ready to cut.
@@ -44,7 +48,8 @@ pub struct ShaperCutter {
 /// Part of the left tip corner that the fillet is the envelope of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CornerPart {
-    /// A round, or a sharp corner (radius 0): a circle that touches with normals between two polar angles in the tooth frame.
+    /// A round, or a sharp corner (radius 0): a circle that touches with normals between two polar angles in the tooth
+    /// frame.
     Round {
         /// Centre in the tooth frame.
         center_mm: DVec2,
@@ -92,7 +97,8 @@ impl ShaperCutter {
             return Err(Refusal::new(
                 "tool.shaper_cutter.addendum_coefficient",
                 format!("the cutter's teeth are pointed below the tip circle of radius {tip_radius_mm:.3} mm"),
-                "use a smaller addendum_coefficient or profile_shift_coefficient, less thinning_mm, or more cutter teeth",
+                "use a smaller addendum_coefficient or profile_shift_coefficient, less thinning_mm, or more cutter \
+                teeth",
             ));
         }
         let start_roll =
@@ -107,7 +113,8 @@ impl ShaperCutter {
                 (u, vec![CornerPart::Round { center_mm, radius_mm: 0.0, normals_rad }], None, center_mm.to_angle())
             }
             model::Tip::Round { radius_mm } => {
-                // The round's centre lies on the parallel involute radius_mm inside the flank, radius_mm below the tip circle.
+                // The round's centre lies on the parallel involute radius_mm inside the flank, radius_mm below the tip
+                // circle.
                 let inner = Involute { half_angle_rad: half_angle_rad - radius_mm / base_radius_mm, ..left };
                 let u_center = inner.roll_at_radius(tip_radius_mm - radius_mm);
                 let center_mm = inner.point(u_center);
@@ -279,7 +286,8 @@ pub(crate) mod tests {
         ShaperCutter::new(&spec, &gear).expect("an ordinary cutter")
     }
 
-    /// Distance to an involute flank in closed form: r_b (sigma theta + u - atan u - psi_b), exact along the flank's normals.
+    /// Distance to an involute flank in closed form: r_b (sigma theta + u - atan u - psi_b), exact along the flank's
+    /// normals.
     fn involute_distance_mm(flank: &Involute, p: DVec2) -> f64 {
         let u = flank.roll_at_radius(p.length());
         flank.base_radius_mm * (flank.side * p.to_angle() + u - u.atan() - flank.half_angle_rad)

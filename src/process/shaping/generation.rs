@@ -1,18 +1,22 @@
 //! What a cutter's edge leaves when the linkage runs on continuously: contact by the meshing condition, in closed form.
 //!
-//! In: linkage, cutter, offset. Out: for each polar angle phi, the point where a cutter flank, tip corner or tip circle touches its envelope in the gear frame.
+//! In: linkage, cutter, offset. Out: for each polar angle phi, the point where a cutter flank, tip corner or tip circle
+//! touches its envelope in the gear frame.
 //!
-//! With the cutter's centre O(phi) and orientation chi(phi), a point p of the cutter moves by `O' + chi' i (p - O)`, and it touches the envelope where that velocity
-//! has no part along the edge's normal n. An involute's normals all pass its base circle at the distance r_b, so `n . i (p - O) = sigma r_b` whatever the roll, and with
+//! With the cutter's centre O(phi) and orientation chi(phi), a point p of the cutter moves by `O' + chi' i (p - O)`,
+//! and it touches the envelope where that velocity has no part along the edge's normal n. An involute's normals all
+//! pass its base circle at the distance r_b, so `n . i (p - O) = sigma r_b` whatever the roll, and with
 //! `n = i sigma exp(i eta)` the condition becomes
 //!
 //! `sin(arg O' - eta) = - chi' r_b / |O'|`
 //!
-//! for **any** linkage; the roll follows from the tooth's own angle, `u = psi_b - sigma (eta - chi_tooth)`. The contact moves along the profile at
-//! `lambda = O' . exp(i eta) - sigma r_b u eta'` (mm per rad of phi) and the profile turns at `eta' / lambda`. Where lambda changes its sign the envelope turns back: undercut.
-//! A circle of the tool (tip round, sharp corner with radius 0, tip circle) touches along the normal of its centre's path.
+//! for **any** linkage; the roll follows from the tooth's own angle, `u = psi_b - sigma (eta - chi_tooth)`. The contact
+//! moves along the profile at `lambda = O' . exp(i eta) - sigma r_b u eta'` (mm per rad of phi) and the profile turns
+//! at `eta' / lambda`. Where lambda changes its sign the envelope turns back: undercut. A circle of the tool (tip
+//! round, sharp corner with radius 0, tip circle) touches along the normal of its centre's path.
 //!
-//! For the finishing linkages this equals `q = P + (S_e - S) cos(a) (cos(a) t + sigma sin(a) n)`, independent of the cutter (checked against the oracle).
+//! For the finishing linkages this equals `q = P + (S_e - S) cos(a) (cos(a) t + sigma sin(a) n)`, independent of the
+//! cutter (checked against the oracle).
 
 use crate::math::jet::Jet;
 use crate::process::shaping::ShaperCutter;
@@ -92,7 +96,8 @@ impl Generation<'_> {
         cutter_angle - TAU * space as f64 / f64::from(self.cutter.teeth)
     }
 
-    /// Contact of the cutter flank that cuts side `side` of space `space` at `phi_rad`; `None` where the flank touches nothing.
+    /// Contact of the cutter flank that cuts side `side` of space `space` at `phi_rad`; `None` where the flank touches
+    /// nothing.
     pub fn flank_contact(&self, phi_rad: f64, space: i64, side: Side) -> Option<FlankContact> {
         let sigma = side.sign();
         let m = self.motion(phi_rad);
@@ -124,7 +129,8 @@ impl Generation<'_> {
         })
     }
 
-    /// Contact of a tip part of the tooth that cuts `space`: point (gear frame, mm) and normal out of the gear, where that part touches at all.
+    /// Contact of a tip part of the tooth that cuts `space`: point (gear frame, mm) and normal out of the gear, where
+    /// that part touches at all.
     pub fn tip_contact(&self, phi_rad: f64, space: i64, part: &TipPart) -> Option<(DVec2, DVec2)> {
         let m = self.motion(phi_rad);
         let turn = DVec2::from_angle(self.tooth_angle(m.angle, space));

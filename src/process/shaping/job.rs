@@ -1,7 +1,8 @@
-//! A shaping scene made ready to cut: pitch curve, cutter, blank, linkages, strokes; and the dexel fields of every flank and root.
+//! A shaping scene made ready to cut: pitch curve, cutter, blank, linkages, strokes; and the dexel fields of every
+//! flank and root.
 //!
-//! In: the checked scene. Out: [`Job`], from which fields and plans are made one flank at a time, so that memory does not grow with the number of teeth.
-//! The last operation is the finishing one: its continuous envelope is the target.
+//! In: the checked scene. Out: [`Job`], from which fields and plans are made one flank at a time, so that memory does
+//! not grow with the number of teeth. The last operation is the finishing one: its continuous envelope is the target.
 
 use crate::cut::{Backend, CutStats};
 use crate::dexel::{Column, Field, Layer};
@@ -205,7 +206,8 @@ impl Job {
         TargetFlank::new(generation, &self.blank, tooth, side, self.pointed_mm[tooth as usize - 1])
     }
 
-    /// Tip land of a tooth: from the left flank's tip to the right one's along the outline's direction, mm; negative if the flanks have crossed.
+    /// Tip land of a tooth: from the left flank's tip to the right one's along the outline's direction, mm; negative if
+    /// the flanks have crossed.
     pub fn tip_land_mm(&self, left: &TargetFlank, right: &TargetFlank) -> f64 {
         let (l, r) = (left.at_arc(left.length_mm()), right.at_arc(right.length_mm()));
         let tangent = self
@@ -246,7 +248,8 @@ impl Job {
         self.field_over(flank, arcs_mm, self.leads_mm(fields.lead_spacing_mm))
     }
 
-    /// Dexel field on a part of a target flank: places along the profile (arcs from the form point) and along the tooth, mm.
+    /// Dexel field on a part of a target flank: places along the profile (arcs from the form point) and along the
+    /// tooth, mm.
     pub fn field_over(&self, flank: &TargetFlank, arcs_mm: impl Iterator<Item = f64>, leads_mm: Vec<f64>) -> Field {
         let module_mm = self.scene.gear.module_mm;
         let mut exit_mm = 0.0;
@@ -303,12 +306,14 @@ impl Job {
         leads_mm(self.scene.gear.face_width_mm, spacing_mm)
     }
 
-    /// Whether every row of a field is cut alike: the cutter stands still while it is in the work, so its pose is the same at all places along the tooth.
+    /// Whether every row of a field is cut alike: the cutter stands still while it is in the work, so its pose is the
+    /// same at all places along the tooth.
     pub fn rows_are_alike(&self) -> bool {
         self.operations.iter().all(|operation| operation.strokes.law == StrokeLaw::Frozen)
     }
 
-    /// Runs all operations over a field. Where all rows are alike, one is cut for all: every height and pass id is what cutting each of them would give.
+    /// Runs all operations over a field. Where all rows are alike, one is cut for all: every height and pass id is what
+    /// cutting each of them would give.
     ///
     /// # Errors
     /// The backend's.

@@ -1,7 +1,9 @@
 //! Surfaces of a shaped gear, as meshes, pictures and texture ask for them.
 //!
-//! Roots and tips are coarse fields of their own: roots along the normals of the target's fillet, tips along the normals of the blank's outline, from the pitch curve up. A tip ray that no pass reached says
-//! that the blank's own surface stands there; where the cutter's base has cut the tips down, or a window left a tooth alone, it says that too.
+//! Roots and tips are coarse fields of their own: roots along the normals of the target's fillet, tips along the
+//! normals of the blank's outline, from the pitch curve up. A tip ray that no pass reached says that the blank's own
+//! surface stands there; where the cutter's base has cut the tips down, or a window left a tooth alone, it says that
+//! too.
 
 use crate::cut::Backend;
 use crate::dexel::{Column, Field, Layer};

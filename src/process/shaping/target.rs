@@ -1,8 +1,10 @@
 //! Target flanks and roots: the curves that dexels stand on.
 //!
-//! The target is the envelope of the finishing operation ([`Generation`]) as a curve in the transverse plane with arc length, normal and polar angle. A flank runs from its **form
-//! point** (where the cutter's involute ends at its tip corner, or where the envelope turns back: undercut) to its **tip** (the blank's outline, the end of the cutter's involute near its base, or the
-//! point where both flanks meet). A root runs from the left flank of its space over the tip corners' fillets to the right one.
+//! The target is the envelope of the finishing operation ([`Generation`]) as a curve in the transverse plane with arc
+//! length, normal and polar angle. A flank runs from its **form point** (where the cutter's involute ends at its tip
+//! corner, or where the envelope turns back: undercut) to its **tip** (the blank's outline, the end of the cutter's
+//! involute near its base, or the point where both flanks meet). A root runs from the left flank of its space over the
+//! tip corners' fillets to the right one.
 
 use super::generation::{FlankContact, Generation};
 use crate::error::Refusal;
@@ -67,8 +69,9 @@ pub struct TargetFlank<'a> {
     speeds: Vec<PanelSpeed>,
 }
 
-/// Speed in one panel as the quartic through its five Gauss points, in Legendre polynomials of x = -1 to 1: its integral is the Gauss rule's at x = 1 and as
-/// accurate in between, so places on the flank are found from arcs without going back to the meshing condition.
+/// Speed in one panel as the quartic through its five Gauss points, in Legendre polynomials of x = -1 to 1: its
+/// integral is the Gauss rule's at x = 1 and as accurate in between, so places on the flank are found from arcs without
+/// going back to the meshing condition.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct PanelSpeed([f64; 5]);
 
@@ -132,10 +135,12 @@ impl<'a> TargetFlank<'a> {
             Refusal::new(
                 "tool.shaper_cutter",
                 format!("no flank is generated on tooth {tooth} {}: {what}", side.name()),
-                "use a cutter with fewer teeth or a smaller addendum_coefficient, or a pitch curve with a larger smallest radius",
+                "use a cutter with fewer teeth or a smaller addendum_coefficient, or a pitch curve with a larger \
+                smallest radius",
             )
         };
-        // A place on the generated flank to start from: the pitch crossing lies a quarter pitch beside the space's middle, contact is near it.
+        // A place on the generated flank to start from: the pitch crossing lies a quarter pitch beside the space's
+        // middle, contact is near it.
         let step = pitch_arc_mm / curve.frame(phi_space).arc_rate_mm_per_rad / 64.0;
         let roll_pitch = 0.5 * (roll_start + roll_end);
         let start = (-128..=128)
@@ -230,7 +235,8 @@ impl<'a> TargetFlank<'a> {
         self.contact(self.phi_in_panel(panel, x))
     }
 
-    /// Contact where the flank crosses a height over the pitch curve, if it does: arc length from the form point and contact.
+    /// Contact where the flank crosses a height over the pitch curve, if it does: arc length from the form point and
+    /// contact.
     pub fn at_height(&self, blank: &Blank, height_mm: f64) -> Option<(f64, FlankContact)> {
         let height_at = |arc: f64| {
             let c = self.at_arc(arc);
@@ -276,8 +282,8 @@ pub struct RootPoint {
 
 /// Target root of the space after tooth `space` (space 0 is centred on phi = 0), as points about `spacing_mm` apart.
 ///
-/// Each part of the cutter's tip touches over one range of phi; the parts follow each other from the left flank of the space to the right one. Parts that never touch
-/// (a tip circle in a sharp hollow) are left out.
+/// Each part of the cutter's tip touches over one range of phi; the parts follow each other from the left flank of the
+/// space to the right one. Parts that never touch (a tip circle in a sharp hollow) are left out.
 pub fn target_root(generation: &Generation, space: i64, spacing_mm: f64) -> Vec<RootPoint> {
     let curve = generation.linkage.curve();
     let pitch_arc_mm = 2.0 * PI * generation.cutter.pitch_radius_mm / f64::from(generation.cutter.teeth);
@@ -287,7 +293,8 @@ pub fn target_root(generation: &Generation, space: i64, spacing_mm: f64) -> Vec<
     for part in generation.tip_parts() {
         let contact = |phi: f64| generation.tip_contact(phi, space, &part);
         let inside = |phi: f64| contact(phi).is_some();
-        // Contact may start anywhere within a pitch of the space; a grid of an 1/128 pitch finds it, bisection its ends.
+        // Contact may start anywhere within a pitch of the space; a grid of an 1/128 pitch finds it, bisection its
+        // ends.
         let Some(seed) =
             (0..256).map(|i| phi_space + step * f64::from((i + 1) / 2 * (1 - 2 * (i % 2)))).find(|&phi| inside(phi))
         else {

@@ -19,7 +19,8 @@ const ECCENTRICITY: Key = Key {
     unit: "",
     default: Default::Required,
     example: "0.1",
-    teach: "k, how far the curve departs from a circle (0 is a circle). It turns concave beyond 1 / (n^2 - 1) for an ellipse, beyond 1 / (n^2 + 1) for a limacon.",
+    teach: "k, how far the curve departs from a circle (0 is a circle). It turns concave beyond 1 / (n^2 - 1) for an \
+        ellipse, beyond 1 / (n^2 + 1) for a limacon.",
 };
 
 /// Mean radius R, common to limacon and Fourier series.
@@ -68,7 +69,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "deg",
                 default: Default::Number(0.0),
                 example: "10.5",
-                teach: "Helix angle on the pitch curve; 0 is a spur gear. Module and pressure angle are those of the normal section. Only hobbing cuts helical gears so far.",
+                teach: "Helix angle on the pitch curve; 0 is a spur gear. Module and pressure angle are those of the \
+                    normal section. Only hobbing cuts helical gears so far.",
             },
             Key {
                 name: "hand",
@@ -108,7 +110,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "mm",
                 default: Default::Number(0.0),
                 example: "-0.08",
-                teach: "Change of the tooth thickness on the pitch curve; negative makes thinner teeth and so backlash.",
+                teach: "Change of the tooth thickness on the pitch curve; negative makes thinner teeth and so \
+                    backlash.",
             },
         ],
         groups: &[],
@@ -119,7 +122,8 @@ pub(super) static SECTIONS: &[Section] = &[
         role: Role::Choice { default: Some("circle"), what: "pitch curve" },
         keys: &[],
         groups: &[],
-        teach: "Shape of the closed pitch curve r(phi) on which the tooth spaces are rolled; a space is centred on phi = 0.",
+        teach: "Shape of the closed pitch curve r(phi) on which the tooth spaces are rolled; a space is centred on phi \
+            = 0.",
     },
     Section {
         path: "gear.pitch_curve.circle",
@@ -173,7 +177,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "mm",
                 default: Default::LeftOut("solved so that the curve closes on its teeth"),
                 example: "120.0",
-                teach: "C of the pair. Leave it out, and the size is solved so that the perimeter is pi x module x teeth.",
+                teach: "C of the pair. Leave it out, and the size is solved so that the perimeter is pi x module x \
+                    teeth.",
             },
         ],
         groups: &[],
@@ -226,7 +231,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "deg, mm",
                 default: Default::OneOfGroup,
                 example: "[[0.0, 60.0], [90.0, 50.0], [180.0, 60.0], [270.0, 50.0]]",
-                teach: "Polar angles, increasing, and radii; the curve closes by itself, so the first point is not repeated at 360.",
+                teach: "Polar angles, increasing, and radii; the curve closes by itself, so the first point is not \
+                    repeated at 360.",
             },
             Key {
                 name: "file",
@@ -234,7 +240,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "",
                 default: Default::OneOfGroup,
                 example: "\"points.csv\"",
-                teach: "The same points from a CSV file with the header phi_deg,radius_mm; the path is relative to the scene, # begins a comment.",
+                teach: "The same points from a CSV file with the header phi_deg,radius_mm; the path is relative to the \
+                    scene, # begins a comment.",
             },
             Key {
                 name: "scale_to_close",
@@ -242,7 +249,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "",
                 default: Default::Boolean(true),
                 example: "true",
-                teach: "Scale the radii so that the perimeter is exactly pi x module x teeth; measured points seldom close by themselves.",
+                teach: "Scale the radii so that the perimeter is exactly pi x module x teeth; measured points seldom \
+                    close by themselves.",
             },
         ],
         groups: &[Group { names: &["points_deg_mm", "file"], required: true }],

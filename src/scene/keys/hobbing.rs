@@ -48,7 +48,8 @@ const FORM: Key = word(
     &["exact", "as_printed"],
     "exact",
     "\"exact\"",
-    "exact rolls without slip at every moment; as_printed adds v_z tan(beta) / r to the work alone, as the papers do: wrong on curves that are no circles, kept to show what it does, never written as G-code.",
+    "exact rolls without slip at every moment; as_printed adds v_z tan(beta) / r to the work alone, as the papers do: \
+    wrong on curves that are no circles, kept to show what it does, never written as G-code.",
 );
 
 /// Tool sections, after the shaper cutter's.
@@ -118,14 +119,16 @@ pub(super) static TOOL: &[Section] = &[Section {
             Range::closed(0.1, 2.5),
             1.25,
             "1.25",
-            "Depth of the hob's thread under its pitch cylinder; more than the gear's addendum, or the hob tops the gear.",
+            "Depth of the hob's thread under its pitch cylinder; more than the gear's addendum, or the hob tops the \
+            gear.",
         ),
         word(
             "worm",
             &["involute", "straight_sided"],
             "involute",
             "\"involute\"",
-            "Flanks of the thread: involute helicoid (ZI), which cuts exact involutes, or straight in the axial section (ZA), which cuts nearly that.",
+            "Flanks of the thread: involute helicoid (ZI), which cuts exact involutes, or straight in the axial \
+            section (ZA), which cuts nearly that.",
         ),
         number(
             "tip_radius_mm",
@@ -165,7 +168,8 @@ pub(super) static TOOL: &[Section] = &[Section {
             Range::closed(0.0, 50.0),
             0.0,
             "2.0",
-            "How much the hob's radius has shrunk by regrinding its rake faces; the lead stays, so the profile changes.",
+            "How much the hob's radius has shrunk by regrinding its rake faces; the lead stays, so the profile \
+            changes.",
         ),
     ],
     groups: &[Group { names: &["lead_angle_deg", "reference_diameter_mm"], required: true }],
@@ -194,7 +198,8 @@ pub(super) static MACHINE: &[Section] = &[Section {
         limit("radial_acceleration_mm_per_s2", "mm/s^2", "1000.0", "Largest acceleration of Y."),
     ],
     groups: &[],
-    teach: "Largest speeds and accelerations of the axes of a hobbing machine, where known. Slide and shift run at constant feeds; their jumps are left to the control.",
+    teach: "Largest speeds and accelerations of the axes of a hobbing machine, where known. Slide and shift run at \
+        constant feeds; their jumps are left to the control.",
 }];
 
 /// Keys of an operation that only hobbing has.
@@ -229,7 +234,8 @@ pub(super) const APPROACH: Key = word(
     &["axial", "radial"],
     "axial",
     "\"axial\"",
-    "axial: at depth beside the face, then along the axis into the work; radial: to depth at the face, then along the axis.",
+    "axial: at depth beside the face, then along the axis into the work; radial: to depth at the face, then along the \
+    axis.",
 );
 /// Radial feed.
 pub(super) const RADIAL_FEED: Key = number(
@@ -298,7 +304,8 @@ pub(super) static LINKAGES: &[Section] = &[
                 &["arc_length", "rotation_angle", "polar_angle"],
                 "arc_length",
                 "\"arc_length\"",
-                "Motion that is even in time: arc of the pitch curve (the hob turns evenly), angle of the work, or polar angle of the pitch point.",
+                "Motion that is even in time: arc of the pitch curve (the hob turns evenly), angle of the work, or \
+                polar angle of the pitch point.",
             ),
             word(
                 "extra_rotation",
@@ -310,7 +317,8 @@ pub(super) static LINKAGES: &[Section] = &[
             FORM,
         ],
         groups: &[],
-        teach: "Five axes: hob, work, two slides in the transverse plane and the axial slide. The papers' schemes I, III and V are even arc, work angle and polar angle with work; II, IV and VI the same with hob.",
+        teach: "Five axes: hob, work, two slides in the transverse plane and the axial slide. The papers' schemes I, \
+            III and V are even arc, work angle and polar angle with work; II, IV and VI the same with hob.",
     },
     Section {
         path: "operation[].linkage.hobbing_diagonal",
@@ -329,14 +337,16 @@ pub(super) static LINKAGES: &[Section] = &[
                 &["adds", "subtracts"],
                 "subtracts",
                 "\"subtracts\"",
-                "Whether the shift adds to the speed of the rolling (U in the paper) or takes from it (V); with reciprocating shift the first stroke's.",
+                "Whether the shift adds to the speed of the rolling (U in the paper) or takes from it (V); with \
+                reciprocating shift the first stroke's.",
             ),
             word(
                 "strategy",
                 &["one_way", "repeating", "reciprocating"],
                 "reciprocating",
                 "\"reciprocating\"",
-                "At the end of the hob: one_way must not reach it; repeating leaves the work and travels back idle; reciprocating turns round.",
+                "At the end of the hob: one_way must not reach it; repeating leaves the work and travels back idle; \
+                reciprocating turns round.",
             ),
             optional(
                 "stroke_mm",
@@ -351,7 +361,8 @@ pub(super) static LINKAGES: &[Section] = &[
                 &["slide", "resultant"],
                 "slide",
                 "\"slide\"",
-                "What axial_feed_mm_per_revolution counts: the slide's way, which spaces the feed marks, or slide and the shift's part along the gear's axis together, as the paper keeps constant.",
+                "What axial_feed_mm_per_revolution counts: the slide's way, which spaces the feed marks, or slide and \
+                the shift's part along the gear's axis together, as the paper keeps constant.",
             ),
             number(
                 "return_mm_per_s",
@@ -364,6 +375,7 @@ pub(super) static LINKAGES: &[Section] = &[
             FORM,
         ],
         groups: &[],
-        teach: "Six axes: the hob shifts along its axis while it cuts, so that all its teeth take part; conditions UL, UR, VL and VR of the paper follow from shift_direction and gear.hand.",
+        teach: "Six axes: the hob shifts along its axis while it cuts, so that all its teeth take part; conditions UL, \
+            UR, VL and VR of the paper follow from shift_direction and gear.hand.",
     },
 ];

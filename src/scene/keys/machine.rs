@@ -136,7 +136,8 @@ pub(super) static AFTER_OPERATIONS: &[Section] = &[
             },
         ],
         groups: &[],
-        teach: "Rays along the normals of the target flanks: half the spacing along the profile doubles time and memory.",
+        teach: "Rays along the normals of the target flanks: half the spacing along the profile doubles time and \
+            memory.",
     },
     Section {
         path: "fields.blank",
@@ -156,7 +157,9 @@ pub(super) static AFTER_OPERATIONS: &[Section] = &[
                 unit: "mm",
                 default: Default::Number(2.5),
                 example: "2.5",
-                teach: "Largest distance of transverse slices of hobbed gears, and of shaped ones where the feed goes on during a stroke; with the axes at rest all sections are equal and one slice stands for the face.",
+                teach: "Largest distance of transverse slices of hobbed gears, and of shaped ones where the feed goes \
+                    on during a stroke; with the axes at rest all sections are equal and one slice stands for the \
+                    face.",
             },
         ],
         groups: &[],
@@ -214,7 +217,8 @@ pub(super) static AFTER_OPERATIONS: &[Section] = &[
                 unit: "mm",
                 default: Default::Number(0.1),
                 example: "0.1",
-                teach: "Spacing of vertices on meshes; rows along the tooth are left out where the surface is straight to 0.1 um.",
+                teach: "Spacing of vertices on meshes; rows along the tooth are left out where the surface is straight \
+                    to 0.1 um.",
             },
             Key {
                 name: "folder",
@@ -230,7 +234,8 @@ pub(super) static AFTER_OPERATIONS: &[Section] = &[
                 unit: "",
                 default: Default::Word("linear"),
                 example: "\"linear\"",
-                teach: "Form of the axis programs: straight lines in inverse time, the one-block form of Gao et al. 2017 (not to be run: G84 taps on most machines), or none.",
+                teach: "Form of the axis programs: straight lines in inverse time, the one-block form of Gao et al. \
+                    2017 (not to be run: G84 taps on most machines), or none.",
             },
             Key {
                 name: "gcode_contour_error_um",

@@ -26,7 +26,8 @@ pub(super) static SECTIONS: &[Section] = &[Section {
             unit: "",
             default: Default::Word(MATERIALS[0].name),
             example: "\"16MnCr5\"",
-            teach: "Steel whose built-in force coefficients hold: Kienzle's law after Koenig and Essel (1973), as a line from 0.01 to 0.1 mm of chip.",
+            teach: "Steel whose built-in force coefficients hold: Kienzle's law after Koenig and Essel (1973), as a \
+                line from 0.01 to 0.1 mm of chip.",
         },
         coefficient(
             "cutting_force_n_per_mm2",
@@ -44,5 +45,6 @@ pub(super) static SECTIONS: &[Section] = &[Section {
         coefficient("normal_edge_force_n_per_mm", "N/mm", "30.0", "K_ne: force normal to the edge per length of edge."),
     ],
     groups: &[],
-    teach: "The work's material: cutting force = (K_c h + K_ce) b for a chip of thickness h over a length b of edge, and the same normal to the edge.",
+    teach: "The work's material: cutting force = (K_c h + K_ce) b for a chip of thickness h over a length b of edge, \
+        and the same normal to the edge.",
 }];

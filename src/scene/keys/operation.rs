@@ -51,7 +51,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "mm",
                 default: Default::Number(0.0),
                 example: "0.0",
-                teach: "delta_d: how far the tool stays back, along the direction the linkage gives (radially in hobbing); 0 cuts to depth.",
+                teach: "delta_d: how far the tool stays back, along the direction the linkage gives (radially in \
+                    hobbing); 0 cuts to depth.",
             },
             Key {
                 name: "stock_per_flank_mm",
@@ -83,7 +84,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "",
                 default: Default::Word("work_angle"),
                 example: "\"work_angle\"",
-                teach: "What advances equally from stroke to stroke: the work angle, the arc of pitch curve, or time with the slowest axis at its limit.",
+                teach: "What advances equally from stroke to stroke: the work angle, the arc of pitch curve, or time \
+                    with the slowest axis at its limit.",
             },
             Key {
                 name: "window_deg",
@@ -115,7 +117,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "",
                 default: Default::Boolean(false),
                 example: "false",
-                teach: "true: the rotary feed goes on while the cutter is in the work, as on a crank machine; false: the axes rest during each stroke.",
+                teach: "true: the rotary feed goes on while the cutter is in the work, as on a crank machine; false: \
+                    the axes rest during each stroke.",
             },
             Key {
                 name: "program",
@@ -123,7 +126,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "",
                 default: Default::LeftOut("the linkage moves the axes"),
                 example: "\"finish.ngc\"",
-                teach: "Axis program (G-code, relative to the scene file) that is cut instead of the linkage's own positions; the linkage remains the target, so that maps show what the program does wrong.",
+                teach: "Axis program (G-code, relative to the scene file) that is cut instead of the linkage's own \
+                    positions; the linkage remains the target, so that maps show what the program does wrong.",
             },
             HOB_SPEED,
             AXIAL_FEED,
@@ -140,14 +144,16 @@ pub(super) static SECTIONS: &[Section] = &[
             Group { names: &["offset_mm", "stock_per_flank_mm"], required: false },
             Group { names: &["strokes_per_revolution", "circular_feed_mm_per_stroke"], required: false },
         ],
-        teach: "One run of the cutter over the work. Operations are cut in the order written; the last one is the finishing cut and defines the target flanks. Without any, a single one named finish is cut.",
+        teach: "One run of the cutter over the work. Operations are cut in the order written; the last one is the \
+            finishing cut and defines the target flanks. Without any, a single one named finish is cut.",
     },
     Section {
         path: "operation[].linkage",
         role: Role::Choice { default: Some("shaping_normal"), what: "linkage" },
         keys: &[],
         groups: &[],
-        teach: "Law that moves the axes. With an offset of 0 both linkages of shaping cut the same gear; with [tool.hob] the default is hobbing.",
+        teach: "Law that moves the axes. With an offset of 0 both linkages of shaping cut the same gear; with \
+            [tool.hob] the default is hobbing.",
     },
     Section {
         path: "operation[].linkage.shaping_traditional",
@@ -158,10 +164,12 @@ pub(super) static SECTIONS: &[Section] = &[
             unit: "",
             default: Default::Word("center_line"),
             example: "\"center_line\"",
-            teach: "Direction of the offset: the machine's radial axis, or the polar radius of the pitch point (kept for comparison).",
+            teach: "Direction of the offset: the machine's radial axis, or the polar radius of the pitch point (kept \
+                for comparison).",
         }],
         groups: &[],
-        teach: "The angles of the finishing cut, the offset added to the centre distance: simple, and it leaves uneven stock where the curvature changes.",
+        teach: "The angles of the finishing cut, the offset added to the centre distance: simple, and it leaves uneven \
+            stock where the curvature changes.",
     },
     Section {
         path: "operation[].linkage.shaping_normal",
@@ -172,7 +180,8 @@ pub(super) static SECTIONS: &[Section] = &[
             unit: "",
             default: Default::Word("corrected"),
             example: "\"corrected\"",
-            teach: "Reading of the paper's Eq. 12: with the offset in the cutter's angle, or without it as printed (wrong, kept to show what it does).",
+            teach: "Reading of the paper's Eq. 12: with the offset in the cutter's angle, or without it as printed \
+                (wrong, kept to show what it does).",
         }],
         groups: &[],
         teach: "The offset along the normal of the pitch curve, so that both flanks keep even stock.",

@@ -21,7 +21,8 @@ pub(super) static SECTIONS: &[Section] = &[Section {
             unit: "",
             default: Default::Word("gear"),
             example: "\"gear\"",
-            teach: "The whole gear; one tooth with its neighbours; or one flank, rolled out flat under raking light with its heights exaggerated, so that feed marks show.",
+            teach: "The whole gear; one tooth with its neighbours; or one flank, rolled out flat under raking light \
+                with its heights exaggerated, so that feed marks show.",
         },
         Key {
             name: "tooth",
@@ -45,7 +46,8 @@ pub(super) static SECTIONS: &[Section] = &[Section {
             unit: "",
             default: Default::LeftOut("clay on a flank and after a single operation, else stock"),
             example: "\"stock\"",
-            teach: "What colours show: the stock that the last operation found, the height over the target, the pass that left the surface, or nothing.",
+            teach: "What colours show: the stock that the last operation found, the height over the target, the pass \
+                that left the surface, or nothing.",
         },
         Key {
             name: "azimuth_deg",
@@ -53,7 +55,8 @@ pub(super) static SECTIONS: &[Section] = &[Section {
             unit: "deg",
             default: Default::LeftOut("-60 for the gear, -25 for a tooth, 0 for a flank"),
             example: "-60.0",
-            teach: "Where the viewer stands: counter-clockwise from phi = 0 (gear), from the tooth's own direction (tooth), or from the root towards larger leads (flank).",
+            teach: "Where the viewer stands: counter-clockwise from phi = 0 (gear), from the tooth's own direction \
+                (tooth), or from the root towards larger leads (flank).",
         },
         Key {
             name: "elevation_deg",
@@ -105,5 +108,6 @@ pub(super) static SECTIONS: &[Section] = &[Section {
         },
     ],
     groups: &[],
-    teach: "Pictures of the cut gear. A scene without this list draws the gear, tooth 1 and its left flank; picture = [] draws none.",
+    teach: "Pictures of the cut gear. A scene without this list draws the gear, tooth 1 and its left flank; picture = \
+        [] draws none.",
 }];

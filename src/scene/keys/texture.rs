@@ -72,7 +72,8 @@ pub(super) static SECTIONS: &[Section] = &[Section {
         },
     ],
     groups: &[],
-    teach: "A window on a flank whose surface texture is evaluated after every operation. Without any, the active flanks of the teeth with the largest and the smallest pitch-curve radius and of tooth 3 are taken.",
+    teach: "A window on a flank whose surface texture is evaluated after every operation. Without any, the active \
+        flanks of the teeth with the largest and the smallest pitch-curve radius and of tooth 3 are taken.",
 }];
 
 const fn length(name: &'static str, left_out: &'static str, example: &'static str, teach: &'static str) -> Key {

@@ -29,7 +29,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "modules",
                 default: Default::Number(1.25),
                 example: "1.25",
-                teach: "Height of the cutter tooth over its pitch circle; 1.25 leaves the gear a root clearance of a quarter module.",
+                teach: "Height of the cutter tooth over its pitch circle; 1.25 leaves the gear a root clearance of a \
+                    quarter module.",
             },
             Key {
                 name: "dedendum_coefficient",
@@ -37,7 +38,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "modules",
                 default: Default::Number(1.25),
                 example: "1.25",
-                teach: "Depth of the cutter's tooth space under its pitch circle; more than the gear's addendum, or the cutter tops the gear.",
+                teach: "Depth of the cutter's tooth space under its pitch circle; more than the gear's addendum, or \
+                    the cutter tops the gear.",
             },
             Key {
                 name: "profile_shift_coefficient",
@@ -45,7 +47,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "modules",
                 default: Default::Number(0.0),
                 example: "0.0",
-                teach: "Profile shift x0 of the cutter; a new cutter has a positive one that falls with every regrinding.",
+                teach: "Profile shift x0 of the cutter; a new cutter has a positive one that falls with every \
+                    regrinding.",
             },
             Key {
                 name: "thinning_mm",
@@ -61,7 +64,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "deg",
                 default: Default::Number(0.0),
                 example: "5.0",
-                teach: "Top rake of the dished rake face: inclines the flanks' edges and changes cutting forces, not shapes (the profile is the edge's projection). 0: a flat face square to the stroke.",
+                teach: "Top rake of the dished rake face: inclines the flanks' edges and changes cutting forces, not \
+                    shapes (the profile is the edge's projection). 0: a flat face square to the stroke.",
             },
             Key {
                 name: "runout_um",
@@ -85,7 +89,8 @@ pub(super) static SECTIONS: &[Section] = &[
                 unit: "um",
                 default: Default::EmptyList,
                 example: "[]",
-                teach: "Cumulative pitch error of each cutter tooth on the pitch circle, positive counter-clockwise: one value per tooth, or none.",
+                teach: "Cumulative pitch error of each cutter tooth on the pitch circle, positive counter-clockwise: \
+                    one value per tooth, or none.",
             },
         ],
         groups: &[],

@@ -56,7 +56,8 @@ pub enum HobSize {
 pub enum Worm {
     /// Involute helicoid (ZI of ISO 1122-2): cuts exact involutes.
     Involute,
-    /// Straight in the axial section (ZA): the straight-sided basic rack as many hobs are ground; cuts nearly an involute.
+    /// Straight in the axial section (ZA): the straight-sided basic rack as many hobs are ground; cuts nearly an
+    /// involute.
     StraightSided,
 }
 
@@ -94,7 +95,8 @@ pub enum ExtraRotation {
 pub enum LinkageForm {
     /// Rolling without slip at every moment.
     Exact,
-    /// As printed: extra rotation v_z tan(beta) / r of the work alone. Wrong on curves that are no circles; kept to show what it does.
+    /// As printed: extra rotation v_z tan(beta) / r of the work alone. Wrong on curves that are no circles; kept to
+    /// show what it does.
     AsPrinted,
 }
 
@@ -109,7 +111,8 @@ pub struct Hobbing {
     pub operations: Vec<HobbingOperation>,
 }
 
-/// Largest speeds and accelerations of a hobbing machine's axes in the order hob, work, tangential (X), radial (Y), slide, shift; rad or mm, per s and s^2.
+/// Largest speeds and accelerations of a hobbing machine's axes in the order hob, work, tangential (X), radial (Y),
+/// slide, shift; rad or mm, per s and s^2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HobbingAxisLimits {
     /// Speeds; `None`: not limited.
@@ -135,13 +138,15 @@ pub struct HobbingOperation {
     pub feed_direction: FeedDirection,
     /// How the hob gets to depth.
     pub approach: Approach,
-    /// Way of the slide from its start to where the hob's axis passes the face; `None`: as much as the hob needs to start clear of the blank.
+    /// Way of the slide from its start to where the hob's axis passes the face; `None`: as much as the hob needs to
+    /// start clear of the blank.
     pub approach_mm: Option<f64>,
     /// Way of the slide beyond the other face; `None`: until the last contact has left the work.
     pub overrun_mm: Option<f64>,
     /// Tilt of the hob's axis against the transverse plane, if not h beta - h_b lambda.
     pub head_angle_rad: Option<f64>,
-    /// Place of the hob's middle along its axis at the start, mm from the pitch point; `None`: 0, or the end of the shift's range.
+    /// Place of the hob's middle along its axis at the start, mm from the pitch point; `None`: 0, or the end of the
+    /// shift's range.
     pub shift_start_mm: Option<f64>,
     /// Feed marks higher than this are warned of, mm.
     pub ridge_tolerance_mm: f64,

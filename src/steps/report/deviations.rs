@@ -1,4 +1,5 @@
-//! Deviations of the finished gear as a gear inspector knows them: profile and lead traces, pitch, runout, tooth thickness.
+//! Deviations of the finished gear as a gear inspector knows them: profile and lead traces, pitch, runout, tooth
+//! thickness.
 
 use crate::measure::deviation::{PitchDeviations, Runout, Trace, TraceDeviation};
 use crate::output::bar_chart::{BarChart, BarSeries};
@@ -55,14 +56,18 @@ pub fn section(inspection: &Inspection) -> Section {
         Block::Heading(format!("{}, {}", inspection.lead_name, inspection.lead_place)),
         Block::Traces(SIDES.map(|(side, name)| lead_sheet(inspection, side, name)).into()),
         Block::Note(
-            "Four teeth evenly around the gear and those with the largest total deviation of either flank. Heights over the target along its normal; dashed lines bound the evaluated part, the straight line is its mean line. F total, ff form, fH slope deviation, µm."
+            "Four teeth evenly around the gear and those with the largest total deviation of either flank. Heights \
+            over the target along its normal; dashed lines bound the evaluated part, the straight line is its mean \
+            line. F total, ff form, fH slope deviation, µm."
                 .to_owned(),
         ),
         Block::Heading("Pitch, runout, tooth thickness".to_owned()),
     ];
     blocks.extend(pitch_charts(inspection));
     blocks.push(Block::Note(
-        "Pitch and thickness are arcs of the pitch curve in the middle of the face. Runout is the place, along the curve's normal, of a probe that touches both flanks of a space there; a round gear's Fr. No tolerance class is given: the standard's classes are for round gears."
+        "Pitch and thickness are arcs of the pitch curve in the middle of the face. Runout is the place, along the \
+        curve's normal, of a probe that touches both flanks of a space there; a round gear's Fr. No tolerance class is \
+        given: the standard's classes are for round gears."
             .to_owned(),
     ));
     Section {

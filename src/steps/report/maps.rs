@@ -56,7 +56,9 @@ fn quantities(job: &dyn GearJob, maps: &[FlankMaps]) -> Vec<ViewerQuantity> {
     quantities.reverse();
     quantities.push(ViewerQuantity {
         name: format!("Deviation after {finishing}"),
-        definition: "Mean height of each cell over the target: what remains when the feed marks are averaged. Red: material left; blue: cut too deep.".to_owned(),
+        definition: "Mean height of each cell over the target: what remains when the feed marks are averaged. Red: \
+            material left; blue: cut too deep."
+            .to_owned(),
         unit: "µm".to_owned(),
         scale: sheets::deviation_scale(maps),
         thinning: Thinning::Mean,

@@ -23,7 +23,9 @@ pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<Section
         id: "texture",
         title: "Surface texture".to_owned(),
         lead: format!(
-            "Areal parameters by ISO 25178-2 of windows on flanks after {}: what the tool's motion leaves. Chips, wear and vibration of a real cut come on top. All parameters stand in results.json, the surfaces as X3P, SDF, NPY and CSV beside it.",
+            "Areal parameters by ISO 25178-2 of windows on flanks after {}: what the tool's motion leaves. Chips, wear \
+            and vibration of a real cut come on top. All parameters stand in results.json, the surfaces as X3P, SDF, \
+            NPY and CSV beside it.",
             last.key
         ),
         blocks,

@@ -3,7 +3,8 @@
 //! In: meshes. Out: [`Shape`], one tree over all triangles with normals at their corners; and with a look for each body
 //! [`Stage`], what a ray finds where it meets one. Pictures that colour the same bodies differently share their shape.
 //!
-//! Normals at a corner are the mean, weighted by angles, of the triangles round it that lean less than `CREASE_RAD` against this one: flanks look smooth, edges stay sharp, whatever the mesh.
+//! Normals at a corner are the mean, weighted by angles, of the triangles round it that lean less than `CREASE_RAD`
+//! against this one: flanks look smooth, edges stay sharp, whatever the mesh.
 
 use super::bvh::{Bvh, Hit};
 use crate::colormap::ColourScale;
@@ -12,7 +13,8 @@ use crate::surface::mesh::ScalarValues;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Triangles that lean more than this against each other meet at an edge: 30 degrees, between the turn of a fillet per 0.1 mm and the corner at a tip.
+/// Triangles that lean more than this against each other meet at an edge: 30 degrees, between the turn of a fillet per
+/// 0.1 mm and the corner at a tip.
 const CREASE_RAD: f64 = std::f64::consts::FRAC_PI_6;
 
 /// How a body looks.
@@ -80,7 +82,8 @@ pub struct Stage<'a> {
 pub struct Found {
     /// Distance along the ray, mm.
     pub distance_mm: f64,
-    /// Smooth unit normal, on the side from which the ray meets the triangle; at the rim of a round body it may lean away from the ray.
+    /// Smooth unit normal, on the side from which the ray meets the triangle; at the rim of a round body it may lean
+    /// away from the ray.
     pub normal: DVec3,
     /// Unit normal of the triangle, towards the ray's origin.
     pub flat: DVec3,

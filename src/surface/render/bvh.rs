@@ -1,9 +1,11 @@
 //! Which triangle a ray meets first: a tree of boxes over triangles.
 //!
-//! Binned surface-area heuristic (Wald, 2007), twelve bins per axis, leaves of at most four triangles; triangles by Möller and Trumbore (1997). Everything is f64 and the tree depends on the triangles
-//! and nothing else, so that the same mesh gives the same picture.
+//! Binned surface-area heuristic (Wald, 2007), twelve bins per axis, leaves of at most four triangles; triangles by
+//! Möller and Trumbore (1997). Everything is f64 and the tree depends on the triangles and nothing else, so that the
+//! same mesh gives the same picture.
 //!
-//! Road not taken: a crate. Those that fit are fast through single precision and SIMD, which this renderer does not need, or bring a second linear algebra along.
+//! Road not taken: a crate. Those that fit are fast through single precision and SIMD, which this renderer does not
+//! need, or bring a second linear algebra along.
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -1,6 +1,7 @@
 //! The camera: parallel rays through a rectangle of pixels.
 //!
-//! Parallel projection, as in drawings: lengths across the view are true everywhere, so that one scale bar holds for the whole picture, and depth is the distance from the picture plane.
+//! Parallel projection, as in drawings: lengths across the view are true everywhere, so that one scale bar holds for
+//! the whole picture, and depth is the distance from the picture plane.
 
 use glam::DVec3;
 
@@ -34,7 +35,8 @@ impl Camera {
         self.extent_mm / f64::from(self.size_px.0)
     }
 
-    /// Origin of the ray through a place of the picture (pixels from the upper left corner), `back_mm` in front of the target's plane.
+    /// Origin of the ray through a place of the picture (pixels from the upper left corner), `back_mm` in front of the
+    /// target's plane.
     pub fn origin_mm(&self, x_px: f64, y_px: f64, back_mm: f64) -> DVec3 {
         let (width, height) = (f64::from(self.size_px.0), f64::from(self.size_px.1));
         let pixel_mm = self.pixel_mm();
@@ -44,7 +46,8 @@ impl Camera {
             + self.towards * back_mm
     }
 
-    /// Direction from the target to a viewer at an azimuth (from `front` towards `left`) and an elevation over their plane.
+    /// Direction from the target to a viewer at an azimuth (from `front` towards `left`) and an elevation over their
+    /// plane.
     pub fn direction(front: DVec3, left: DVec3, azimuth_rad: f64, elevation_rad: f64) -> DVec3 {
         let over = front.cross(left);
         let (sin, cos) = elevation_rad.sin_cos();

@@ -1,10 +1,12 @@
 //! Light on a stage, and the picture it makes.
 //!
-//! In: stage, camera, lights. Out: [`Rendered`]: sRGB pixels, and at every pixel's middle depth, normal, value and pass id.
+//! In: stage, camera, lights. Out: [`Rendered`]: sRGB pixels, and at every pixel's middle depth, normal, value and pass
+//! id.
 //!
-//! A point is lit by one lamp (with shadows, a little soft) and by the sky, of which it sees as much as rays over its hemisphere say (ambient occlusion), weighted by the cosine. Four rays per pixel, stratified;
-//! each asks the sky in directions of its own (a golden-ratio sequence, started by a hash of the pixel), and the share of the sky is then averaged over neighbours on the same smooth surface.
-//! Nothing is random: the same stage gives the same bytes.
+//! A point is lit by one lamp (with shadows, a little soft) and by the sky, of which it sees as much as rays over its
+//! hemisphere say (ambient occlusion), weighted by the cosine. Four rays per pixel, stratified; each asks the sky in
+//! directions of its own (a golden-ratio sequence, started by a hash of the pixel), and the share of the sky is then
+//! averaged over neighbours on the same smooth surface. Nothing is random: the same stage gives the same bytes.
 //!
 //! Colours stand for values, so that light changes their brightness and hardly their hue.
 
@@ -19,25 +21,31 @@ use rayon::prelude::*;
 const SIDE: u32 = 2;
 /// Sky rays per camera ray.
 const SKY_RAYS: u32 = 1;
-/// Rounds over which the sky's share is averaged: squares of 7 by 7 pixels that lie this many pixels apart (the à-trous scheme of Dammertz et al., 2010).
+/// Rounds over which the sky's share is averaged: squares of 7 by 7 pixels that lie this many pixels apart (the à-trous
+/// scheme of Dammertz et al., 2010).
 const SMOOTH_STEPS_PX: [i64; 2] = [1, 4];
-/// A pixel whose surface shows in fewer sky rays than this, as at the rim of a flank seen edge on, takes the sky's share of all that is round it: its own few rays would make it black or white.
+/// A pixel whose surface shows in fewer sky rays than this, as at the rim of a flank seen edge on, takes the sky's
+/// share of all that is round it: its own few rays would make it black or white.
 const LEAST_SKY_RAYS: f32 = 16.0;
 /// Radius of the lamp at unit distance: shadows grow soft by a fiftieth of their length.
 const LAMP_RADIUS: f64 = 0.02;
 /// Rays start this share of the stage's size off the surface, so that they do not meet it again.
 const OFF_SURFACE: f64 = 2e-6;
 
-/// Light of the open sky on a white surface that faces up, before its share: with the studio's lamp beside it, clay in the open comes out at the middle of the grey scale.
+/// Light of the open sky on a white surface that faces up, before its share: with the studio's lamp beside it, clay in
+/// the open comes out at the middle of the grey scale.
 const SKY_GAIN: f64 = 1.7;
-/// Share by which faces that look down get less of the sky than faces that look up, as in a room: faces turned away from the lamp keep their shape.
+/// Share by which faces that look down get less of the sky than faces that look up, as in a room: faces turned away
+/// from the lamp keep their shape.
 const SKY_FROM_ABOVE: f64 = 0.25;
 /// How narrow highlights are (the exponent of Blinn, 1977), and how bright at full gloss.
 const HIGHLIGHT_POWER: i32 = 40;
 const HIGHLIGHT: f64 = 0.5;
-/// Light up to here comes out as it is; more is bent towards white and never reaches it, so that the brightest marks keep their shape.
+/// Light up to here comes out as it is; more is bent towards white and never reaches it, so that the brightest marks
+/// keep their shape.
 const KNEE: f64 = 0.6;
-/// The studio's lamp: so much towards the viewer, up, and to the left; its share of the light; how far bodies take the sky from each other, as a share of their size; and its brightness.
+/// The studio's lamp: so much towards the viewer, up, and to the left; its share of the light; how far bodies take the
+/// sky from each other, as a share of their size; and its brightness.
 const STUDIO_LAMP: [f64; 3] = [0.9, 0.65, 0.75];
 const STUDIO_LAMP_SHARE: f64 = 0.48;
 const STUDIO_SKY_REACH: f64 = 0.25;
@@ -72,7 +80,8 @@ pub struct Rendered {
     pub size_px: (u32, u32),
     /// sRGB, rows from the top.
     pub rgb: Vec<[u8; 3]>,
-    /// Distance from the picture plane through the camera's target, mm, away from the viewer; infinite where nothing stands.
+    /// Distance from the picture plane through the camera's target, mm, away from the viewer; infinite where nothing
+    /// stands.
     pub depth_mm: Vec<f32>,
     /// Smooth unit normal in the stage's frame; zero where nothing stands.
     pub normal: Vec<[f32; 3]>,

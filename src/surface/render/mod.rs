@@ -7,7 +7,8 @@
 //! | bodies, their looks, what a ray finds | [`bodies`] |
 //! | lamp, sky, pixels | [`light`] |
 //!
-//! Road not taken: drawing on the GPU. A picture must not depend on driver and adapter, and a second of the processor is cheap beside the cut.
+//! Road not taken: drawing on the GPU. A picture must not depend on driver and adapter, and a second of the processor
+//! is cheap beside the cut.
 
 pub mod bodies;
 pub mod bvh;

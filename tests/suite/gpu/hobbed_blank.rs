@@ -1,4 +1,5 @@
-//! The blank of hobbed gears on the GPU beside the native kernel: ends of spans, volumes and chips of every pass; lists that grow; devices that fail; and proof that the comparison can fail.
+//! The blank of hobbed gears on the GPU beside the native kernel: ends of spans, volumes and chips of every pass; lists
+//! that grow; devices that fail; and proof that the comparison can fail.
 
 use crate::fixtures::blank_parity::BlankParity;
 use crate::fixtures::parity::{software_gpu, strict};
@@ -16,7 +17,8 @@ use gearcut::scene::load;
 use std::path::Path;
 use std::sync::LazyLock;
 
-/// A round spur gear in one cut, a helical one in two by a hob with helical gashes, and the third-order gear, whose radius of 170 mm f32 resolves to 15 nm.
+/// A round spur gear in one cut, a helical one in two by a hob with helical gashes, and the third-order gear, whose
+/// radius of 170 mm f32 resolves to 15 nm.
 const CASES: [(&str, [&str; 3]); 3] = [
     ("circular_spur", ["gear.face_width_mm=4", "fields.blank.spacing_mm=0.5", "fields.blank.slice_spacing_mm=2.0"]),
     ("circular_helical", ["gear.face_width_mm=4", "fields.blank.spacing_mm=0.5", "fields.blank.slice_spacing_mm=2.0"]),
@@ -69,13 +71,15 @@ impl Native {
 /// The spur gear, which several tests look at.
 static SPUR: LazyLock<Native> = LazyLock::new(|| Native::of(CASES[0]));
 
-/// What a pass may remove more or less than it does natively, on rays where they are and shifted to both sides, mm along its rays: twenty rays that are 50 nm off. A ray that grazes a surface crosses it or not, and what
-/// it meets there may be tenths of a millimetre; the shifts say where.
+/// What a pass may remove more or less than it does natively, on rays where they are and shifted to both sides, mm
+/// along its rays: twenty rays that are 50 nm off. A ray that grazes a surface crosses it or not, and what it meets
+/// there may be tenths of a millimetre; the shifts say where.
 const PASS_BOUND_MM: f64 = 1e-3;
 /// What all passes of an operation together may be off.
 const SUM_BOUND: f64 = 1e-6;
 
-/// Largest volume by which a pass leaves what the native passes span, mm3, and what all passes together are off, relatively, by the worse family.
+/// Largest volume by which a pass leaves what the native passes span, mm3, and what all passes together are off,
+/// relatively, by the worse family.
 fn volumes_apart(native: &[[f64; 2]], beside: [&[[f64; 2]]; 2], gpu: &[[f64; 2]]) -> [f64; 2] {
     let mut worst_mm3 = 0.0_f64;
     for (pass, got) in gpu.iter().enumerate() {
@@ -130,7 +134,8 @@ fn the_gpu_leaves_the_same_spans_volumes_and_chips() {
                 ours.teeth.iter().zip(&theirs.teeth).map(|(a, b)| 1e3 * (a.thickness_mm - b.thickness_mm).abs());
             let (apart_um, largest) = (apart_um.fold(0.0, f64::max), thickest_mm(&ours));
             println!(
-                "operation {index}: {} and {} chips, way {:.1} and {:.1} mm, thickest {largest:.4} mm, teeth at most {apart_um:.4} um apart",
+                "operation {index}: {} and {} chips, way {:.1} and {:.1} mm, thickest {largest:.4} mm, teeth at most \
+                {apart_um:.4} um apart",
                 native.chips[index].len(),
                 got.chips[index].len(),
                 sum(&ours),

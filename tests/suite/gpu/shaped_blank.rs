@@ -1,4 +1,5 @@
-//! The blank of shaped gears on the GPU beside the native kernel: ends of spans, volumes of every pass, rubbing; lists that grow; and proof that the comparison can fail.
+//! The blank of shaped gears on the GPU beside the native kernel: ends of spans, volumes of every pass, rubbing; lists
+//! that grow; and proof that the comparison can fail.
 
 use crate::fixtures::paper::*;
 use crate::fixtures::parity::*;
@@ -83,7 +84,8 @@ fn the_gpu_leaves_the_same_spans_and_volumes() {
     let [ours, theirs] = [&native.field, &field].map(BlankField::volumes_mm3);
     let off = [0, 1].map(|f| (theirs[f] / ours[f] - 1.0).abs());
     println!(
-        "{ends} steep ends at most {:.1} nm apart, {apart} further; {others} of {lists} lists of other lengths; volumes {off:?} apart",
+        "{ends} steep ends at most {:.1} nm apart, {apart} further; {others} of {lists} lists of other lengths; \
+        volumes {off:?} apart",
         1e6 * worst_mm
     );
     assert!(ends > 2000 && 1000 * apart <= ends);
@@ -100,7 +102,8 @@ fn the_gpu_leaves_the_same_spans_and_volumes() {
             assert!(apart < 0.05);
         }
     }
-    // Return strokes that rub are worked out natively where the device met any: none that counts is missed, none is made up.
+    // Return strokes that rub are worked out natively where the device met any: none that counts is missed, none is
+    // made up.
     for (native, cut) in native.cuts.iter().zip(&cuts) {
         let deep = native.rubs.iter().filter(|rub| rub.depth_mm > LEAST_DEPTH_MM).count();
         println!("{} rays rub, {deep} of them deep, {} on the GPU", native.rubs.len(), cut.rubs.len());

@@ -1,4 +1,5 @@
-//! The spatial kernel on the GPU against the native one: hobbed patches, tile by tile, and proof that the comparison can fail.
+//! The spatial kernel on the GPU against the native one: hobbed patches, tile by tile, and proof that the comparison
+//! can fail.
 
 use crate::fixtures::oracle_cases::*;
 use crate::fixtures::parity::*;

@@ -1,4 +1,5 @@
-//! The blank field of hobbed gears: sections of sweeps against the equations of the flank kernel, candidates against all passes, what is left against the target, loads against the ledger.
+//! The blank field of hobbed gears: sections of sweeps against the equations of the flank kernel, candidates against
+//! all passes, what is left against the target, loads against the ledger.
 
 use crate::fixtures::space_ledger::{LedgerGrid, SpaceLedger};
 use gearcut::cut::Backend;
@@ -51,7 +52,8 @@ fn off_edge_mm(edge: &Edge, point: DVec2) -> f64 {
 
 #[test]
 fn sections_hold_the_edge_at_the_moment_of_their_slice() {
-    // The last two turn their shift round six times a revolution, and lift the hob from its work at 20 mm/s: a cubic over such a moment has its corner rounded off.
+    // The last two turn their shift round six times a revolution, and lift the hob from its work at 20 mm/s: a cubic
+    // over such a moment has its corner rounded off.
     let turning = "operation.finish.linkage.hobbing_diagonal.shift_mm_per_revolution=500";
     let lifting = "operation.finish.linkage.hobbing_diagonal.strategy=repeating";
     for (scene, sets, bound_nm) in [
@@ -244,7 +246,8 @@ fn what_is_left_is_the_target_and_its_marks() {
         assert!((section.cut_mm2[0] - section.cut_mm2[1]).abs() < section.bound_mm2[0]);
         assert!((0..2).all(|f| (section.cut_mm2[f] - section.target_mm2).abs() < section.bound_mm2[f]));
         assert!(report.gouges.is_empty() && report.interference.is_empty(), "{:?}", report.gouges);
-        // No end that a pass left lies under the target; near the pitch curve none lies higher over it than feed and generating marks together. (A sharp hob corner leaves higher cusps in fillets.)
+        // No end that a pass left lies under the target; near the pitch curve none lies higher over it than feed and
+        // generating marks together. (A sharp hob corner leaves higher cusps in fillets.)
         let sharpest = job.curve.facts().curvature_extrema.iter().map(|e| e.curvature_per_mm).fold(0.0, f64::max);
         let marks_um = 1e3 * (job.finishing().plan.feed_mark_mm + job.generating_mark_mm(sharpest));
         let (mut lowest_um, mut highest_um, mut ends) = (f64::INFINITY, 0.0_f64, 0);
@@ -266,9 +269,11 @@ fn what_is_left_is_the_target_and_its_marks() {
             }
         }
         println!(
-            "{scene}: {ends} ends, {lowest_um:.4} um and more over the target, at most {highest_um:.2} at the pitch curve; marks {marks_um:.2}"
+            "{scene}: {ends} ends, {lowest_um:.4} um and more over the target, at most {highest_um:.2} at the pitch \
+            curve; marks {marks_um:.2}"
         );
-        // 0.2 um: chords of the outline over hollow fillets lie in the material's stead. Marks are formulas for the pitch line.
+        // 0.2 um: chords of the outline over hollow fillets lie in the material's stead. Marks are formulas for the
+        // pitch line.
         assert!(ends > 10_000 && lowest_um > -0.2);
         assert!(highest_um < 1.3 * marks_um && highest_um > 0.5 * marks_um);
     }

@@ -1,7 +1,9 @@
-//! The sewn body of hobbed gears, undercut ones among them: closed, and in the place where the rays through the blank and the target's polygon have it, on every tooth.
+//! The sewn body of hobbed gears, undercut ones among them: closed, and in the place where the rays through the blank
+//! and the target's polygon have it, on every tooth.
 //!
-//! The blank field knows neither flanks nor roots: its rays run through the whole stock, and its kernel cuts sections of sweeps. The polygon of the target follows from the rack's meshing alone. A vertex that lies anywhere but
-//! on the cut surface misses both.
+//! The blank field knows neither flanks nor roots: its rays run through the whole stock, and its kernel cuts sections
+//! of sweeps. The polygon of the target follows from the rack's meshing alone. A vertex that lies anywhere but on the
+//! cut surface misses both.
 
 use crate::fixtures::contour::crossings;
 use gearcut::cut::CutBlank;
@@ -20,11 +22,13 @@ use glam::DVec2;
 use rayon::prelude::*;
 use std::path::Path;
 
-/// How far the body's sections may lie from the blank's contours, mm: chords of 0.1 mm miss a ridge that a sharp hob corner leaves by half of that times the slope of its sides, 35 degrees.
+/// How far the body's sections may lie from the blank's contours, mm: chords of 0.1 mm miss a ridge that a sharp hob
+/// corner leaves by half of that times the slope of its sides, 35 degrees.
 const FROM_BLANK_MM: f64 = 0.035;
 /// The same in the mean over a section, mm, as area per length of the contour: chords cut off ridges and fill grooves.
 const MEAN_FROM_BLANK_MM: f64 = 0.001;
-/// How far the body may lie under the target, mm: the helix's chord over a row of 1 mm on the smallest root, and that of the polygon.
+/// How far the body may lie under the target, mm: the helix's chord over a row of 1 mm on the smallest root, and that
+/// of the polygon.
 const UNDER_TARGET_MM: f64 = 0.002;
 
 /// A thin slice of a scene's gear: rows of the body and slices of the blank 1 mm apart.
@@ -125,7 +129,8 @@ fn check(name: &str, settings: &[&str]) {
         of_chords = [of_chords[0].min(low), of_chords[1].max(high)];
     }
     println!(
-        "{name} {settings:?}: {} triangles; {farthest_mm:.4} mm from the blank, {mean_mm:.6} mm in the mean; over the target: blank {of_blank:.5?}, body {of_body:.5?}, between rows {of_chords:.5?} mm",
+        "{name} {settings:?}: {} triangles; {farthest_mm:.4} mm from the blank, {mean_mm:.6} mm in the mean; over the \
+        target: blank {of_blank:.5?}, body {of_body:.5?}, between rows {of_chords:.5?} mm",
         solid.triangles.len()
     );
     assert!(farthest_mm < FROM_BLANK_MM && mean_mm < MEAN_FROM_BLANK_MM);

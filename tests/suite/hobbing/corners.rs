@@ -1,4 +1,5 @@
-//! Sweeps that last over a corner of the motion, where the shift turns round: heights against the motion itself, moment by moment.
+//! Sweeps that last over a corner of the motion, where the shift turns round: heights against the motion itself, moment
+//! by moment.
 
 use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::Ray;
@@ -9,7 +10,8 @@ use gearcut::terms::Side;
 use glam::DVec3;
 use std::path::Path;
 
-/// The pass's place (distance from the axis, y) at the moment at which its rake face holds a point, by iteration, and that moment as the angle that the blade has swept.
+/// The pass's place (distance from the axis, y) at the moment at which its rake face holds a point, by iteration, and
+/// that moment as the angle that the blade has swept.
 fn in_rake_face(job: &HobbingJob, set: &TurningPasses, pass: &BladePass, point_mm: DVec3) -> ([f64; 2], f64) {
     let (linkage, place) = (&job.operations[0].linkage, set.place(pass));
     let at = |swept: f64| linkage.head_from_work(pass.tool_angle_rad + swept).point(point_mm);
@@ -90,7 +92,8 @@ mod slow {
                     if nm > worst_nm {
                         worst_nm = nm;
                         println!(
-                            "tooth {tooth} {side:?} column {column} row {row}, {from_corner:.4} rad from the corner: {nm:.3} nm"
+                            "tooth {tooth} {side:?} column {column} row {row}, {from_corner:.4} rad from the corner: \
+                            {nm:.3} nm"
                         );
                     }
                 }

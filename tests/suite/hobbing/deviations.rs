@@ -1,6 +1,8 @@
-//! Errors put into hob and machine on purpose, and the profile, helix and pitch deviations that a round helical gear must show for them in closed form.
+//! Errors put into hob and machine on purpose, and the profile, helix and pitch deviations that a round helical gear
+//! must show for them in closed form.
 //!
-//! Every gear is cut twice, with the error and without it; the difference of the figures is the error's alone, since both carry the same marks.
+//! Every gear is cut twice, with the error and without it; the difference of the figures is the error's alone, since
+//! both carry the same marks.
 
 use gearcut::cut::cpu::Cpu;
 use gearcut::frame::Rigid3;
@@ -53,7 +55,8 @@ fn cos_base_helix(job: &HobbingJob) -> f64 {
     (job.scene.gear.helix_angle_rad.sin() * job.scene.gear.pressure_angle_rad.cos()).asin().cos()
 }
 
-/// A hob of another pressure angle rolls an involute of another base circle: h = L dr_b / r_b in the transverse section, straight over the roll length L.
+/// A hob of another pressure angle rolls an involute of another base circle: h = L dr_b / r_b in the transverse
+/// section, straight over the roll length L.
 #[test]
 fn a_hobs_pressure_angle_error_is_a_straight_profile_slope_over_the_roll() {
     let right = job(&[]);
@@ -92,7 +95,8 @@ fn a_hobs_pressure_angle_error_is_a_straight_profile_slope_over_the_roll() {
     }
 }
 
-/// A work table that runs ahead by k per mm of the slide winds the teeth by k r_b per mm in the transverse section, out of the material on one side and into it on the other.
+/// A work table that runs ahead by k per mm of the slide winds the teeth by k r_b per mm in the transverse section, out
+/// of the material on one side and into it on the other.
 #[test]
 fn a_wrong_differential_is_a_helix_slope() {
     let job = job(&[]);
@@ -112,7 +116,8 @@ fn a_wrong_differential_is_a_helix_slope() {
         let helix = bad.helix.expect("evaluated");
         let slope_mm = helix.slope_mm - clean.helix.expect("evaluated").slope_mm;
         let face_mm = helix.between_mm[1] - helix.between_mm[0];
-        // Work that runs ahead shows the tool its teeth too late: they are cut turned back, away from the space behind a left flank's tooth.
+        // Work that runs ahead shows the tool its teeth too late: they are cut turned back, away from the space behind
+        // a left flank's tooth.
         let expected_mm = -side.sign() * ahead_rad_per_mm * face_mm * base_mm * cos_base_helix(&job);
         println!("{side:?}: f_H_beta {slope_mm:.6} mm for {expected_mm:.6}, over {face_mm:.3} mm");
         assert!(expected_mm.abs() > 0.003 && (slope_mm / expected_mm - 1.0).abs() < 0.01);
@@ -122,7 +127,8 @@ fn a_wrong_differential_is_a_helix_slope() {
 mod slow {
     use super::*;
 
-    /// Work clamped off its axis by e: cumulative pitch follows n . e / cos(alpha_t) from tooth to tooth, and the runout is 2 e.
+    /// Work clamped off its axis by e: cumulative pitch follows n . e / cos(alpha_t) from tooth to tooth, and the
+    /// runout is 2 e.
     #[test]
     fn work_off_its_axis_is_a_wave_of_pitch_and_runout() {
         let job = job(&["gear.teeth=12", "gear.face_width_mm=1"]);

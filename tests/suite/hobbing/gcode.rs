@@ -1,4 +1,5 @@
-//! Programs of hobbing machines: written, read back, with and without an electronic gearbox, and refused where they must be.
+//! Programs of hobbing machines: written, read back, with and without an electronic gearbox, and refused where they
+//! must be.
 
 use gearcut::process::hobbing::HobbingJob;
 use gearcut::process::hobbing::gcode::{Gearbox, HobbingProgram, read, texts};
@@ -12,14 +13,16 @@ fn job(name: &str, settings: &[&str]) -> HobbingJob {
     HobbingJob::new(&scene::load(Path::new(&path), &settings).expect("a scene").scene).expect("a job")
 }
 
-/// Largest distance between points of the hob, as a program has them in the work and as the linkage has them, at odd moments, mm.
+/// Largest distance between points of the hob, as a program has them in the work and as the linkage has them, at odd
+/// moments, mm.
 fn apart_mm(job: &HobbingJob, program: &HobbingProgram) -> f64 {
     let linkage = &job.finishing().linkage;
     (0..4001)
         .map(|i| {
             let time_s = linkage.end_s() * f64::from(i) / 4001.0;
             let [hob, work, x, y, slide, shift] = program.at(time_s);
-            // The papers' own equations, by hand: the work's centre at -(x, y), turned by the work's angle; frame and turn-over as documented.
+            // The papers' own equations, by hand: the work's centre at -(x, y), turned by the work's angle; frame and
+            // turn-over as documented.
             let g = linkage.geometry();
             let (axis, up) = (DVec3::new(g.head_angle_rad.cos(), 0.0, g.head_angle_rad.sin()), DVec3::Y);
             // A hob tooth's tip and two places of the thread beside it, on the side of the work.

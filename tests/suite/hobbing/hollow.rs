@@ -1,4 +1,5 @@
-//! A hob on a pitch curve with hollows: the scene is refused with a depth; cut all the same, the gear loses that much of its roots, and only there.
+//! A hob on a pitch curve with hollows: the scene is refused with a depth; cut all the same, the gear loses that much
+//! of its roots, and only there.
 
 use gearcut::cut::cpu::Cpu;
 use gearcut::process::hobbing::job::cut_under_hollows_mm;
@@ -48,7 +49,8 @@ fn a_hob_cuts_under_the_roots_of_hollows_and_nowhere_on_a_convex_curve() {
             assert!(report.gouges.is_empty(), "{:?}", report.gouges);
             continue;
         };
-        // All of them within half the hob's length (and half a tooth) of a place where the curve is hollow, along the curve.
+        // All of them within half the hob's length (and half a tooth) of a place where the curve is hollow, along the
+        // curve.
         let perimeter_mm = job.curve.perimeter_mm();
         let frame = |arc_mm: f64| job.curve.frame(job.curve.phi_at_arc(arc_mm));
         let hollow_mm: Vec<f64> = (0..1000)

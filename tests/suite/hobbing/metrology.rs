@@ -1,4 +1,5 @@
-//! What is measured on a hobbed gear: points on curves beside the pitch curve, and the lattice of marks, each by two ways that share only the passes.
+//! What is measured on a hobbed gear: points on curves beside the pitch curve, and the lattice of marks, each by two
+//! ways that share only the passes.
 
 use crate::fixtures::oracle_cases::{data, numbers};
 use gearcut::cut::cpu::Cpu;
@@ -29,7 +30,8 @@ fn points_on_five_curves_are_those_of_the_paper_and_agree_with_the_flanks_height
     for (tooth, side) in [(1, Side::Right), (12, Side::Left), (6, Side::Right)] {
         let points = offset_curves::measure(&cutter, &backend, tooth, side).expect("cut");
         assert_eq!(points.len(), 5);
-        // Targets: the independent implementation's rows of this flank; its x and y are exchanged, its spaces those before (right flanks) or after the tooth.
+        // Targets: the independent implementation's rows of this flank; its x and y are exchanged, its spaces those
+        // before (right flanks) or after the tooth.
         let space = f64::from(tooth) - if side == Side::Right { 1.0 } else { 0.0 };
         let rows: Vec<Vec<f64>> = file["rows"].as_array().expect("rows").iter().map(numbers).collect();
         let rows = rows.iter().filter(|row| row[0] == space && row[1] == side.sign());
@@ -103,7 +105,8 @@ fn a_surface_shows_the_marks_that_the_motion_makes() {
 mod slow {
     use super::*;
 
-    /// Approach and overrun are long enough: at both faces the marks of every flank are no higher than in the middle, whichever tooth the hob meets last.
+    /// Approach and overrun are long enough: at both faces the marks of every flank are no higher than in the middle,
+    /// whichever tooth the hob meets last.
     #[test]
     fn faces_are_finished_as_the_middle_is() {
         let settings =

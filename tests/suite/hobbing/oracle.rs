@@ -1,8 +1,9 @@
-//! Hobbing against an independent implementation: pitch curves, five and six axes, edge points in the work, marks, target points, engagement.
+//! Hobbing against an independent implementation: pitch curves, five and six axes, edge points in the work, marks,
+//! target points, engagement.
 //!
-//! tests/data/hobbing/p*.json hold numbers of a program in another language with solvers of its own; the tolerances stand in the files. S4 is the ellipse of Liu et al.
-//! 2013, S2 the third-order gear of Liu et al. 2015. The data stand in the papers' work frame (x_c, y_c, z_c), which is the gear frame turned over: x_c = y,
-//! y_c = x, z_c = -z.
+//! tests/data/hobbing/p*.json hold numbers of a program in another language with solvers of its own; the tolerances
+//! stand in the files. S4 is the ellipse of Liu et al. 2013, S2 the third-order gear of Liu et al. 2015. The data stand
+//! in the papers' work frame (x_c, y_c, z_c), which is the gear frame turned over: x_c = y, y_c = x, z_c = -z.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -281,7 +282,8 @@ fn as_printed_parts_work_and_carriage() {
         let printed = law(even, extra, LinkageForm::AsPrinted);
         let hob_speed = cycle_speed(&curve, &geometry, cycle_s);
         let linkage = HobbingLinkage::new(curve.clone(), geometry, printed, hob_speed, &path).unwrap();
-        // What the work has turned beyond the rolling, and how far P then lies from where the exact rolling has it, in the directions of the machine.
+        // What the work has turned beyond the rolling, and how far P then lies from where the exact rolling has it, in
+        // the directions of the machine.
         let error = |t: f64| {
             let axes = linkage.axes::<1>(t);
             let theta = axes.polar_rad.value();
@@ -422,7 +424,8 @@ fn generating_marks_are_spaced_alike_by_every_law() {
             |c: f64| (target.rack.pressure_angle_rad.sin() + c / rho) * geometry.arc_per_hob_rad_mm() * per_gash;
         close("spacing", spacing(0.0), numbers(&s4["profile_spacing_at_pitch"])[i], rel);
         close("spacing", spacing(5.0), numbers(&s4["profile_spacing_c_plus5"])[i], rel);
-        // What differs between the laws is the arc per time: marks of a constant period, such as a servo's, not those of gashes.
+        // What differs between the laws is the arc per time: marks of a constant period, such as a servo's, not those
+        // of gashes.
         for model in ["I", "III", "V"] {
             let (_, even, extra) = SCHEMES.into_iter().find(|s| s.0 == model).unwrap();
             let law = law(even, extra, LinkageForm::Exact);

@@ -1,5 +1,6 @@
-//! What the papers of Liu et al. 2013 (S4) and 2015 (S2) print, against the model: speed ranges, accelerations, feeds of Table 1; and the closed forms and lattices that an independent implementation
-//! gives beside its patches of surface.
+//! What the papers of Liu et al. 2013 (S4) and 2015 (S2) print, against the model: speed ranges, accelerations, feeds
+//! of Table 1; and the closed forms and lattices that an independent implementation gives beside its patches of
+//! surface.
 
 use crate::fixtures::oracle_cases::*;
 use gearcut::process::hobbing::HobbingJob;
@@ -173,7 +174,8 @@ fn patches_have_the_lattice_and_the_closed_heights_of_the_independent_implementa
         let marks = Marks { linkage: &case.linkage, target: &target, hob: &case.hob, side };
         // The data count z the other way.
         let wanted = ["v1", "v2"].map(|v| DVec2::from_slice(&numbers(&lattice[v])) * DVec2::new(1.0, -1.0));
-        // Steps grow and shrink along a non-circular profile; the file's are those of one of the gashes about the pitch line.
+        // Steps grow and shrink along a non-circular profile; the file's are those of one of the gashes about the pitch
+        // line.
         let (gash, space, _) = marks.nearest(space, case.teeth, 0.0);
         let apart = (gash - 3..=gash + 3)
             .map(|gash| {

@@ -20,7 +20,8 @@ const BOUND_NM: f64 = 0.1;
 fn patch(name: &str) -> (Case, TurningPasses, SpatialField, Value) {
     let file = data(name);
     let case = Case::new(&file["setup"]);
-    // The slide passes the patch within 3 mm and a facet; three cycles to either side hold every pass that can be lowest there.
+    // The slide passes the patch within 3 mm and a facet; three cycles to either side hold every pass that can be
+    // lowest there.
     let cycle = TAU * f64::from(case.teeth) / number(&file["setup"], "K");
     let passes = case.passes([-3.5 * cycle, 4.5 * cycle]);
     let space = file["space"].as_i64().expect("space");
@@ -127,7 +128,8 @@ fn same_as_brute_force(name: &str, edge: &Edge, passes: &TurningPasses, field: &
     brute
 }
 
-/// A gash touches the target in one point, where it lies on it exactly: a ray there is left by a tooth of that gash and of no other.
+/// A gash touches the target in one point, where it lies on it exactly: a ray there is left by a tooth of that gash and
+/// of no other.
 #[test]
 fn marks_are_left_by_the_gashes_of_the_independent_implementation() {
     let file = data("p08_events_s2");
@@ -162,7 +164,8 @@ mod slow {
         let even = |from: f64, to: f64, count: usize| -> Vec<f64> {
             (0..count).map(|i| from + (to - from) * i as f64 / (count - 1) as f64).collect()
         };
-        // Tiles as in use (20 um by 50 um), stratified over the profile from the tip corner's trochoid to the gear's tip; the ends have the longest lists.
+        // Tiles as in use (20 um by 50 um), stratified over the profile from the tip corner's trochoid to the gear's
+        // tip; the ends have the longest lists.
         let cases: [(&str, &[[f64; 2]]); 3] = [
             ("p09_patch_s2_axial", &[[-26.0, -2.6], [-14.0, 0.7], [8.0, -1.0], [23.0, 0.7]]),
             ("p10_patch_s2_diag_VL", &[[-3.0, -2.6], [23.0, -2.6]]),
@@ -187,8 +190,9 @@ mod slow {
         }
     }
 
-    /// Whole jobs, from the approach to the overrun: candidates start from all passes of an operation, of which most work on other teeth. Two cuts with a radial approach, helical gashes and round tips; a hob
-    /// that shifts; and one that turns round all the time, so that sweeps end where others go on.
+    /// Whole jobs, from the approach to the overrun: candidates start from all passes of an operation, of which most
+    /// work on other teeth. Two cuts with a radial approach, helical gashes and round tips; a hob that shifts; and one
+    /// that turns round all the time, so that sweeps end where others go on.
     #[test]
     fn candidates_of_whole_jobs_leave_what_all_passes_leave() {
         let cases = [
@@ -218,7 +222,8 @@ mod slow {
                 })
             };
             let (columns, rows) = (whole.columns(), whole.rows());
-            // A coarse flank from face to face, and two by two tiles as in use where the tip meets one face and the root the other.
+            // A coarse flank from face to face, and two by two tiles as in use where the tip meets one face and the
+            // root the other.
             let fields = [
                 part([columns / 20, rows / 33], [20, 33], [0, 0]),
                 part([1, 1], [17, 40], [columns - 17, 0]),

@@ -109,7 +109,8 @@ fn feed_and_generating_marks_have_their_closed_heights() {
         let target = case.rack_generation();
         let marks = marks(&case, &target, -1.0);
         let crossing_arc_mm = target.crossing_arc_mm(space, Side::Right, 0.0);
-        // The mark nearest to the pitch line, from the kinematics; then straight lines along the tooth and along the profile through it.
+        // The mark nearest to the pitch line, from the kinematics; then straight lines along the tooth and along the
+        // profile through it.
         let around = ((crossing_arc_mm / case.linkage.geometry().arc_per_hob_rad_mm()) / TAU * 10.0).round() as i64;
         let (passage, at) = (around - 4..=around + 4)
             .map(|passage| (passage, marks.mark(passage, space)))
@@ -138,13 +139,15 @@ fn feed_and_generating_marks_have_their_closed_heights() {
         let frame = case.curve.frame(case.curve.phi_at_arc(PI * module * (space as f64 + 0.25) + sigma));
         let (rho, c) = (1.0 / frame.curvature_per_mm, sigma * cos);
         let step = marks.to_next_gash(passage, space);
-        // Half a mark away the edge has left the line along which the worm touches the rack (docs/spatial_kernel.md); on spur gears.
+        // Half a mark away the edge has left the line along which the worm touches the rack (docs/spatial_kernel.md);
+        // on spur gears.
         let half_mm = 0.5 * step.x * (sin + c / rho);
         let off_line = (tilt * half_mm).powi(2) / (2.0 * contact_radius_mm * sin);
         let off_line = off_line * (1.0 + 2.0 * sin * sin * contact_radius_mm / rho);
         let generating_closed = step.x * step.x * (sin + c / rho) / (8.0 * rho) + off_line;
         println!(
-            "{name}: rho {rho:.1}, feed mark {:.4} against {:.4} um, generating mark {:.4} against {:.4} um, {:.4} of them off the line of contact",
+            "{name}: rho {rho:.1}, feed mark {:.4} against {:.4} um, generating mark {:.4} against {:.4} um, {:.4} of \
+            them off the line of contact",
             feed_mark * 1e3,
             feed_closed * 1e3,
             generating_mark * 1e3,

@@ -1,6 +1,8 @@
-//! Uncut chip thickness of hob teeth against a front of points: sections of all passes through one tooth space as fine polygons, no rays, no normals.
+//! Uncut chip thickness of hob teeth against a front of points: sections of all passes through one tooth space as fine
+//! polygons, no rays, no normals.
 //!
-//! The surface of the material is a cloud of points. A pass takes those inside its section away: they are the old surface of its chip. Points of the section's border that stand in material join the cloud: the new one. The chip's
+//! The surface of the material is a cloud of points. A pass takes those inside its section away: they are the old
+//! surface of its chip. Points of the section's border that stand in material join the cloud: the new one. The chip's
 //! thickness is the largest distance of a new point from the nearest old one.
 
 use gearcut::cut::cpu::Cpu;
@@ -13,7 +15,8 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Distance of the front's points and of the corners of sections, mm. Both are the same, so that two sections that nearly coincide hold each other's points alike.
+/// Distance of the front's points and of the corners of sections, mm. Both are the same, so that two sections that
+/// nearly coincide hold each other's points alike.
 const STEP_MM: f64 = 0.04;
 
 struct Polygon {
@@ -146,7 +149,8 @@ mod slow {
             // Two slices of all 40 spaces by rays, of two spaces by points: the thickest chip of all.
             let by_rays = blank.chips[0].iter().map(|chip| chip.thickness_mm).fold(0.0, f64::max);
             let by_points = wanted.values().copied().fold(0.0, f64::max);
-            // Chip by chip, those that points tell well: rays may miss a short thick place, but find none that is not there.
+            // Chip by chip, those that points tell well: rays may miss a short thick place, but find none that is not
+            // there.
             let mut ratios: Vec<f64> = blank.chips[0]
                 .iter()
                 .filter_map(|chip| Some(chip.thickness_mm / wanted.get(&chip.pass).filter(|&&mm| mm > 0.07)?))
@@ -155,7 +159,8 @@ mod slow {
             let at = |share: f64| ratios[((ratios.len() - 1) as f64 * share).round() as usize];
             let near = ratios.iter().filter(|&&ratio| (ratio - 1.0).abs() < 0.1).count() as f64 / ratios.len() as f64;
             println!(
-                "rays {spacing} mm apart: thickest {by_rays:.4} mm, {by_points:.4} by points; {} chips, ratio {:.3} {:.3} {:.3} {:.3}, {near:.3} within a tenth",
+                "rays {spacing} mm apart: thickest {by_rays:.4} mm, {by_points:.4} by points; {} chips, ratio {:.3} \
+                {:.3} {:.3} {:.3}, {near:.3} within a tenth",
                 ratios.len(),
                 at(0.0),
                 at(0.5),

@@ -1,4 +1,5 @@
-//! What each property of a hob or of its setting does to the gear, against closed forms: profiles by the rack that the thread sweeps, marks, starts.
+//! What each property of a hob or of its setting does to the gear, against closed forms: profiles by the rack that the
+//! thread sweeps, marks, starts.
 
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
@@ -32,7 +33,8 @@ fn heights(job: &HobbingJob, rays: &[Ray]) -> Vec<f64> {
     layer.heights_mm.iter().map(|&h| f64::from(h)).collect()
 }
 
-/// A straight rack flank rolled on a circle: one of both flanks of the space at phi = 0, gear frame. The flank crosses the pitch line at the half width `half_mm` from the space's middle.
+/// A straight rack flank rolled on a circle: one of both flanks of the space at phi = 0, gear frame. The flank crosses
+/// the pitch line at the half width `half_mm` from the space's middle.
 struct RolledFlank {
     radius_mm: f64,
     pressure_angle_rad: f64,
@@ -40,10 +42,12 @@ struct RolledFlank {
 }
 
 impl RolledFlank {
-    /// The ray on which the rack's flank touches at a height over its pitch line (negative below), at z, towards either side of the space.
+    /// The ray on which the rack's flank touches at a height over its pitch line (negative below), at z, towards either
+    /// side of the space.
     fn ray(&self, height_mm: f64, z_mm: f64, side: f64) -> Ray {
         let (sin, cos) = self.pressure_angle_rad.sin_cos();
-        // The contact stands on the flank's normal through the pitch point, x along the pitch line, material on the side of larger x; the rack has rolled on so far that its flank is there.
+        // The contact stands on the flank's normal through the pitch point, x along the pitch line, material on the
+        // side of larger x; the rack has rolled on so far that its flank is there.
         let contact = DVec2::new(-height_mm * cos / sin, height_mm);
         let rolled_mm = contact.x - self.half_mm - height_mm * sin / cos;
         let back = DVec2::from_angle(rolled_mm / self.radius_mm);
@@ -54,8 +58,9 @@ impl RolledFlank {
     }
 }
 
-/// Sweeping rack of a thread: half thickness of its tooth along the rack at distance `x_mm` from the hob's axis, the thread's axial section `half_thickness_mm(rho)` wound with the parameter `p`, seen along the gear's
-/// axis, the head tilted by `tilt_rad`. The furthest place that the helicoid reaches, over its turn.
+/// Sweeping rack of a thread: half thickness of its tooth along the rack at distance `x_mm` from the hob's axis, the
+/// thread's axial section `half_thickness_mm(rho)` wound with the parameter `p`, seen along the gear's axis, the head
+/// tilted by `tilt_rad`. The furthest place that the helicoid reaches, over its turn.
 fn swept_half_mm(half_thickness_mm: impl Fn(f64) -> f64, parameter_mm: f64, tilt_rad: f64, x_mm: f64) -> f64 {
     let reach = |turn: f64| {
         let axial = half_thickness_mm(x_mm / turn.cos()) + parameter_mm * turn;
@@ -83,8 +88,9 @@ const STEEP: [&str; 6] = [
 
 #[test]
 fn an_involute_hob_at_a_wrong_head_angle_keeps_the_profile_and_loses_thickness() {
-    // A thread whose involute helicoid has the gear's base pitch meshes with it at any crossing of the axes. The rack runs by p cos(g) per radian then, so that it rolls on the circle r cos(g) / cos(lambda) under the pressure angle that keeps
-    // the base circle; where the flanks stand follows from the width of the rack on that circle.
+    // A thread whose involute helicoid has the gear's base pitch meshes with it at any crossing of the axes. The rack
+    // runs by p cos(g) per radian then, so that it rolls on the circle r cos(g) / cos(lambda) under the pressure angle
+    // that keeps the base circle; where the flanks stand follows from the width of the rack on that circle.
     let (pressure_angle, radius, r) = (20_f64.to_radians(), 30.0, 60.0);
     let new = job("circular_spur", &STEEP);
     let job = job("circular_spur", &[&STEEP[..], &["operation.finish.head_angle_deg=-9.4"]].concat());

@@ -98,7 +98,8 @@ fn share(image: &RgbImage, colour: [u8; 3]) -> f64 {
     image.pixels().filter(|pixel| pixel.0 == colour).count() as f64 / f64::from(image.width() * image.height())
 }
 
-/// Whether tags are closed in the order they were opened, attributes are quoted, and no bare `<` or `&` stands in texts.
+/// Whether tags are closed in the order they were opened, attributes are quoted, and no bare `<` or `&` stands in
+/// texts.
 fn assert_well_formed(svg: &str) {
     let mut open = Vec::new();
     let mut rest = svg;

@@ -169,7 +169,8 @@ fn the_schema_refuses_what_is_not_of_the_layout() {
     refused(|all| all["sections"]["a.b"] = json!({ "$title": "a dot" }), "a.b");
 }
 
-/// Results of a hobbed gear whose three hob teeth take these volumes (mm3); `idle_s`: how long the operation stands idle.
+/// Results of a hobbed gear whose three hob teeth take these volumes (mm3); `idle_s`: how long the operation stands
+/// idle.
 fn hobbed(volumes: [f64; 3], idle_s: f64) -> Value {
     let largest = volumes.iter().copied().fold(0.0, f64::max);
     let rows: Vec<Value> =

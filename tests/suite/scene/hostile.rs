@@ -7,7 +7,8 @@ use proptest::prelude::*;
 
 const SCENE: &str = include_str!("../../../scenes/shaping/elliptical_finishing_stock.toml");
 
-/// Reads `text`; a scene that is taken must resolve to one that is taken and equal in the same folder, a refused one must say why.
+/// Reads `text`; a scene that is taken must resolve to one that is taken and equal in the same folder, a refused one
+/// must say why.
 fn feed(text: &str, settings: &[String]) {
     match parse(text, "hostile.toml", Path::new("tests/broken"), settings) {
         Ok(loaded) => {
@@ -71,7 +72,8 @@ proptest! {
     }
 
     #[test]
-    fn random_toml_like_text(text in "(\\[{1,2}(gear|tool|operation|[a-z.]{0,9})\\]{1,2}\n|[a-z_]{1,9} ?= ?[-0-9.e\"\\[\\]{}a-z,]{0,12}\n){0,20}") {
+    fn random_toml_like_text(text in "(\\[{1,2}(gear|tool|operation|[a-z.]{0,9})\\]{1,2}\n|[a-z_]{1,9} ?= \
+        ?[-0-9.e\"\\[\\]{}a-z,]{0,12}\n){0,20}") {
         feed(&text, &[]);
     }
 

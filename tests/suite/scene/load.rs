@@ -151,7 +151,11 @@ fn every_variant_loads_and_reads_back_from_its_resolved_text() {
         count += 1;
     }
     println!("{count} combinations read back");
-    let scene = read(&format!("{SHORTEST}[tool.shaper_cutter.tip.round]\nradius_mm = 0.3\n[[operation]]\n[operation.linkage.shaping_traditional]\n")).scene;
+    let scene = read(&format!(
+        "{SHORTEST}[tool.shaper_cutter.tip.round]\nradius_mm = \
+        0.3\n[[operation]]\n[operation.linkage.shaping_traditional]\n"
+    ))
+    .scene;
     assert_eq!(shaping(&scene).tool.tip, Tip::Round { radius_mm: 0.3 });
     let centre_line = Linkage::ShapingTraditional { direction: TraditionalDirection::CenterLine };
     assert_eq!(shaping(&scene).operations[0].linkage, centre_line);
@@ -193,7 +197,8 @@ fn the_template_loads() {
 fn every_variant_of_hobbing_reads_back_from_its_resolved_text() {
     let hobs = [
         "lead_angle_deg = 3.3\nhand = \"left\"\nworm = \"straight_sided\"",
-        "reference_diameter_mm = 80.1\nstarts = 2\ngash_form = \"helical\"\nprotuberance_height_mm = 1.7\nregrind_mm = 0.3",
+        "reference_diameter_mm = 80.1\nstarts = 2\ngash_form = \"helical\"\nprotuberance_height_mm = 1.7\nregrind_mm = \
+        0.3",
     ];
     let linkages = [
         "hobbing]\neven_motion = \"rotation_angle\"\nextra_rotation = \"hob\"",
@@ -204,7 +209,8 @@ fn every_variant_of_hobbing_reads_back_from_its_resolved_text() {
     for hob in hobs {
         for linkage in linkages {
             let text = format!(
-                "[gear]\nmodule_mm = 3.0\nteeth = 24\nhelix_angle_deg = 12.3\nhand = \"left\"\n[tool.hob]\nlength_mm = 90\n{hob}\n\
+                "[gear]\nmodule_mm = 3.0\nteeth = 24\nhelix_angle_deg = 12.3\nhand = \"left\"\n[tool.hob]\nlength_mm = \
+                90\n{hob}\n\
                  [machine.hobbing_limits]\nhob_speed_deg_per_s = 1234.5\n[[operation]]\napproach = \"radial\"\n\
                  stock_per_flank_mm = 0.1\n[[operation]]\nfeed_direction = \"conventional\"\noverrun_mm = 7.1\n\
                  head_angle_deg = 8.8\n[operation.linkage.{linkage}\n"
@@ -263,6 +269,7 @@ fn stale(path: &str, wanted: &str, command: &str) {
     if std::env::var_os("GEARCUT_BLESS").is_some() {
         fs::write(path, wanted).expect("write the printed file");
     }
-    let found = fs::read_to_string(path).unwrap_or_default().replace("\r\n", "\n"); // as git may check it out on Windows
+    // as git may check it out on Windows
+    let found = fs::read_to_string(path).unwrap_or_default().replace("\r\n", "\n");
     assert!(found == wanted, "{path} is stale: run `{command}`");
 }

@@ -88,7 +88,8 @@ fn refusals_are_explained_at_their_place() {
     let loaded = set(&[]);
     let refusal = Refusal::new("tool.shaper_cutter.teeth", "the cutter undercuts", "take fewer teeth");
     let expected = format!(
-        "error: {PAPER}:19:9: `tool.shaper_cutter.teeth` = 20: the cutter undercuts\n  19 | teeth = 20\n     |         ^^\n  way out: take fewer teeth"
+        "error: {PAPER}:19:9: `tool.shaper_cutter.teeth` = 20: the cutter undercuts\n  19 | teeth = 20\n     |         \
+        ^^\n  way out: take fewer teeth"
     );
     assert_eq!(loaded.explain(&refusal).to_string(), expected);
     let refusal = Refusal::new("gear.bore_diameter_mm", "too large", "make it smaller");

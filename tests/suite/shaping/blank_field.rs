@@ -1,4 +1,5 @@
-//! The blank field against brute force, against the target's closed form, against polygon clipping of the same strokes, and with a hundred injected defects.
+//! The blank field against brute force, against the target's closed form, against polygon clipping of the same strokes,
+//! and with a hundred injected defects.
 
 use crate::fixtures::clipping::clipped;
 use crate::fixtures::paper::*;
@@ -23,7 +24,8 @@ use gearcut::surface::BlankMesh;
 use glam::DVec2;
 use std::path::PathBuf;
 
-/// Points of the target's outline, mm: chords of a fillet of 0.8 mm then miss 0.25 um, a quarter of the least damage that is reported.
+/// Points of the target's outline, mm: chords of a fillet of 0.8 mm then miss 0.25 um, a quarter of the least damage
+/// that is reported.
 const TARGET_SPACING_MM: f64 = 0.04;
 
 fn job(scene: Scene) -> Job {
@@ -152,7 +154,8 @@ fn volumes_balance_and_sections_are_the_targets() {
     for f in 0..2 {
         let off_mm2 = end_face.cut_mm2[f] - end_face.target_mm2;
         println!("family {f}: {off_mm2:.4} mm2 off the target, bound {:.1}", end_face.bound_mm2[f]);
-        // Strokes leave more than the target, most of it in the fillets, where a sharp corner leaves teeth of some micrometres; the rest is what rays 0.1 mm apart miss.
+        // Strokes leave more than the target, most of it in the fillets, where a sharp corner leaves teeth of some
+        // micrometres; the rest is what rays 0.1 mm apart miss.
         assert!(off_mm2.abs() < end_face.bound_mm2[f] && (0.0..0.5).contains(&off_mm2));
     }
     assert!(clean.gouges.is_empty() && clean.interference.is_empty() && clean.stroke_faults.is_empty());
@@ -165,7 +168,8 @@ fn volumes_balance_and_sections_are_the_targets() {
 
 #[test]
 fn surfaces_lie_on_the_target() {
-    // Rounded corners leave no teeth in the fillets; at 4,200 strokes nothing stands more than 0.2 um over the target, and nothing lies below it but the chords of the target's own fillets.
+    // Rounded corners leave no teeth in the fillets; at 4,200 strokes nothing stands more than 0.2 um over the target,
+    // and nothing lies below it but the chords of the target's own fillets.
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 4200)]);
     scene.shaping_mut().expect("shaping").tool.tip = gearcut::scene::model::Tip::Round { radius_mm: 0.6 };
     scene.fields.blank_spacing_mm = 0.2;
@@ -188,7 +192,8 @@ fn sections_equal_polygon_clipping_of_the_same_strokes() {
     // Chords of 0.02 mm on the cutter stand 5 to 60 nm off it; nothing else differs.
     println!("ends of rays at most {:.1} nm off the clipped outline", 1e6 * ends);
     assert!(ends < 1e-4);
-    // Between the rays: the mesh's contour against the clipped outline, both ways. Cusps between rays are what a grid of 0.1 mm cannot hold; within 0.5 of half a cell.
+    // Between the rays: the mesh's contour against the clipped outline, both ways. Cusps between rays are what a grid
+    // of 0.1 mm cannot hold; within 0.5 of half a cell.
     let mesh = BlankMesh::new(&cut.field, None).mesh;
     let rim: Vec<DVec2> = mesh.positions_mm.iter().filter(|p| p.z < 0.0).map(|p| p.truncate()).collect();
     let outer = |p: &&DVec2| p.length() > 20.0;
@@ -265,9 +270,11 @@ fn gouges_are_found_and_named() {
             assert!(!made.is_empty(), "run {run}: stroke {at} is not found");
             let deepest = made.iter().map(|d| d.depth_mm).fold(0.0, f64::max);
             let excess_mm = depth(k as u32) - if operation == 1 { 0.0 } else { 2.0 };
-            // An earlier operation stands back along the normal; pushed along the line of centres it comes in beside its own place.
+            // An earlier operation stands back along the normal; pushed along the line of centres it comes in beside
+            // its own place.
             assert!(operation == 0 || deepest <= 1.001 * excess_mm, "run {run}: {deepest} of {excess_mm}");
-            // A tenth of it at least shows: where the tip does not reach the root, the flanks take the sine of the pressure angle.
+            // A tenth of it at least shows: where the tip does not reach the root, the flanks take the sine of the
+            // pressure angle.
             assert!(deepest >= 0.1 * excess_mm, "run {run}: {deepest} of {excess_mm}");
             assert!(made.iter().all(|d| teeth_away(&job, operation, f64::from(at), d.place.tooth) <= 2.5));
             found += 1;
@@ -302,7 +309,8 @@ mod slow {
             assert_eq!(target.is_none(), name == "fourier_concave", "{name}");
             let report = blank_report::measure(&job, &cut, target.as_ref());
             println!(
-                "{name}: {} slices, {} triangles, {guessed} guessed, volume {:.5} of the rays', {} gouges, {} interference, {} rubs, faults {:?}",
+                "{name}: {} slices, {} triangles, {guessed} guessed, volume {:.5} of the rays', {} gouges, {} \
+                interference, {} rubs, faults {:?}",
                 cut.field.slices.len(),
                 mesh.triangles.len(),
                 2.0 * volume_mm3 / (x + y),
@@ -314,7 +322,8 @@ mod slow {
             assert!(mesh.is_closed(), "{name}: {:?}", mesh.edge_faults());
             assert!((2.0 * volume_mm3 / (x + y) - 1.0).abs() < 1e-3, "{name}");
             assert_eq!(guessed, 0, "{name}");
-            // A cutter that runs out by 5 um gouges as deep as that, and no deeper but for the target's chords; nothing else does.
+            // A cutter that runs out by 5 um gouges as deep as that, and no deeper but for the target's chords; nothing
+            // else does.
             let runout_mm = job.cutter_spec.runout_mm;
             let damage = || report.gouges.iter().chain(&report.interference);
             assert_eq!(damage().count() > 0, runout_mm > 0.0, "{name}");
@@ -335,7 +344,8 @@ mod slow {
                 (0..20).map(|b| if b == blade { shift_mm } else { 0.0 }).collect();
             let job = job(scene);
             let report = blank_report::measure(&job, &cut(&job), Some(&target));
-            // Cutter tooth b cuts the spaces b, b + 20, b + 40 of 42 in turn against its own count: each of them is damaged on one side, as deep as the shift along the flank's normal.
+            // Cutter tooth b cuts the spaces b, b + 20, b + 40 of 42 in turn against its own count: each of them is
+            // damaged on one side, as deep as the shift along the flank's normal.
             assert!(!report.gouges.is_empty(), "run {run}");
             let teeth: std::collections::BTreeSet<u32> = report.gouges.iter().map(|d| d.place.tooth).collect();
             assert!((2..=3).contains(&teeth.len()), "run {run}: teeth {teeth:?}");
@@ -360,7 +370,8 @@ mod slow {
             let mut job = job(machine_scene());
             let operation = (run % 2) as usize;
             let doubled = run >= 3;
-            // Ten strokes, more than three teeth apart; the last tooth pitch of the turn meets what the first strokes cut and leaves no trace of a stroke.
+            // Ten strokes, more than three teeth apart; the last tooth pitch of the turn meets what the first strokes
+            // cut and leaves no trace of a stroke.
             let faulty: Vec<u32> = (0..10).map(|k| 37 + 131 * k + 7 * run).collect();
             let mut list = Vec::new();
             for at in 0..1440 {

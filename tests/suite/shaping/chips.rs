@@ -1,4 +1,5 @@
-//! The chip ledger against closed forms, against exact polygon clipping of the same strokes, and against the blank field.
+//! The chip ledger against closed forms, against exact polygon clipping of the same strokes, and against the blank
+//! field.
 
 use crate::fixtures::paper::*;
 use gearcut::cut::CutBlank;
@@ -110,8 +111,8 @@ fn drawn_back(job: Job, by_mm: f64) -> Job {
     })
 }
 
-/// Whether sections are those of exact polygons: their sum within a thousandth; strokes within what the ends of chips allow, half a spacing of 0.05 mm at each of a few ends
-/// of chips some tenths of a millimetre thick.
+/// Whether sections are those of exact polygons: their sum within a thousandth; strokes within what the ends of chips
+/// allow, half a spacing of 0.05 mm at each of a few ends of chips some tenths of a millimetre thick.
 fn sections_verdict(ours_mm2: &[f64], exact_mm2: &[f64]) -> Result<(), String> {
     let [taken, sum] = [ours_mm2, exact_mm2].map(|areas| areas.iter().sum::<f64>());
     let mut off: Vec<(f64, usize)> =
@@ -119,7 +120,8 @@ fn sections_verdict(ours_mm2: &[f64], exact_mm2: &[f64]) -> Result<(), String> {
     off.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (median, (worst, stroke)) = (off[off.len() / 2].0, off[off.len() - 1]);
     let told = format!(
-        "sum {taken:.4} of {sum:.4} mm2; per stroke off by {median:.4} (median), {worst:.4} (worst, stroke {stroke}) of {:.3}",
+        "sum {taken:.4} of {sum:.4} mm2; per stroke off by {median:.4} (median), {worst:.4} (worst, stroke {stroke}) \
+        of {:.3}",
         sum / exact_mm2.len() as f64
     );
     println!("{told}");
@@ -160,7 +162,8 @@ fn the_ledger_and_the_blank_field_take_the_same_volume() {
 
 #[test]
 fn a_plunging_tooth_takes_chips_of_known_thickness() {
-    // Strokes of 0.02 mm straight into the work: every place of the edge takes 0.02 mm times the share of its normal along the line of centres.
+    // Strokes of 0.02 mm straight into the work: every place of the edge takes 0.02 mm times the share of its normal
+    // along the line of centres.
     let mut scene = paper_scene(vec![operation("cut", NORMAL, 0.0, 240)]);
     scene.gear.teeth = 24;
     scene.gear.pitch_curve = PitchCurveShape::Circle;
@@ -239,7 +242,8 @@ fn forces_follow_from_section_and_contact_and_balance_the_torques() {
                 50.0 * stroke.contact_length_mm()
             };
             assert!((stroke.cutting_n / expected - 1.0).abs() < 0.04, "{index}: {} for {expected}", stroke.cutting_n);
-            // Whatever the edge does, the torques about both axes differ by the tangential force at the centre distance.
+            // Whatever the edge does, the torques about both axes differ by the tangential force at the centre
+            // distance.
             let l = job.operations[0].schedule.state(index as f64).center_distance_mm;
             let balance = stroke.work_torque_nmm + stroke.cutter_torque_nmm + l * stroke.tangential_n;
             assert!(balance.abs() < 1e-6 * l * stroke.cutting_n, "{balance}");
@@ -258,7 +262,8 @@ fn a_dropped_pass_turns_the_balance_red() {
         .chunks(job.cutter.blade_count() as usize)
         .map(|passes| passes.iter().map(|pass| 0.5 * (pass[0] + pass[1])).sum::<f64>() / width_mm)
         .collect();
-    // The largest difference of a stroke, as a share of the mean stroke; the first one takes a plug, the last ones meet what it left.
+    // The largest difference of a stroke, as a share of the mean stroke; the first one takes a plug, the last ones meet
+    // what it left.
     let mean_mm2 = by_blank.iter().sum::<f64>() / by_blank.len() as f64;
     let worst = |ledger: &[f64]| {
         let pairs = ledger.iter().zip(&by_blank).skip(1).take(440);
@@ -289,7 +294,8 @@ fn a_raked_cutter_changes_forces_and_keeps_their_balance() {
     let (raked, job) = with_rake(5_f64.to_radians());
     for (index, (stroke, flat)) in raked.iter().zip(&flat).enumerate().take(700).skip(200) {
         assert_eq!(stroke.area_mm2, flat.area_mm2, "rake changes forces, not shapes");
-        // Flanks lose rake against the tip, to which the coefficients belong: a little more force, far below the share of the angle.
+        // Flanks lose rake against the tip, to which the coefficients belong: a little more force, far below the share
+        // of the angle.
         let more = stroke.cutting_n / flat.cutting_n - 1.0;
         assert!((1e-4..0.06).contains(&more), "{index}: {more}");
         let l = job.operations[0].schedule.state(index as f64).center_distance_mm;

@@ -21,7 +21,8 @@ fn field(job: &Job, tooth: u32, side: Side, count: u32) -> (Field, Vec<f64>) {
     (job.field_over(&flank, arcs, vec![-15.0, 0.0, 7.5, 15.0]), rolls)
 }
 
-/// What each pass of the cutter's involute leaves of a ray on its own, by the closed form: stroke, tooth, height and cosine, in order of time.
+/// What each pass of the cutter's involute leaves of a ray on its own, by the closed form: stroke, tooth, height and
+/// cosine, in order of time.
 fn exact_heights(job: &Job, side: Side, field: &Field, column: usize) -> Vec<(usize, u32, [f64; 2])> {
     let ray = field.columns[column];
     let near =
@@ -75,7 +76,8 @@ fn thickness_on_a_flank_is_that_of_the_closed_form() {
 
 #[test]
 fn chips_on_a_round_gear_are_four_scallops_thick() {
-    // Facets meet half a stroke from their contacts; a chip goes from nothing to twice c, and c is four times the scallop's height: sin(alpha) / 8 (1 / rho + 1 / r_c) ds^2 at the pitch point.
+    // Facets meet half a stroke from their contacts; a chip goes from nothing to twice c, and c is four times the
+    // scallop's height: sin(alpha) / 8 (1 / rho + 1 / r_c) ds^2 at the pitch point.
     let strokes = 2400;
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, strokes)]);
     (scene.gear.pitch_curve, scene.gear.teeth) = (PitchCurveShape::Circle, 24);

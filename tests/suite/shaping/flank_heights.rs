@@ -28,7 +28,8 @@ fn heights_are_within_a_fiftieth_of_a_nanometre_of_the_closed_form() {
         let set = &job.finishing().strokes;
         for (index, column) in cut.field.columns.iter().enumerate() {
             let height = f64::from(cut.layers[0].column(index, cut.field.rows())[0]);
-            // Away from the form point, where the tip corner also cuts, and from the cutter's base circle, where its straight base does.
+            // Away from the form point, where the tip corner also cuts, and from the cutter's base circle, where its
+            // straight base does.
             if index < 4 || flank.at_arc(column.arc_mm).roll < 0.08 {
                 continue;
             }
@@ -90,7 +91,8 @@ fn candidates_equal_brute_force_bit_for_bit() {
 
 #[test]
 fn candidates_equal_brute_force_where_facets_are_wide_and_shaved() {
-    // Facets of few strokes meet at steep crests, and strokes of a second turn shave slivers off them: narrower than the cells in which passes are compared.
+    // Facets of few strokes meet at steep crests, and strokes of a second turn shave slivers off them: narrower than
+    // the cells in which passes are compared.
     let mut operations = vec![operation("rough", TRADITIONAL, 0.3, 150), operation("finish", NORMAL, 0.0, 97)];
     operations[1].revolutions = 3;
     operations[1].overlap_rad = 0.37;

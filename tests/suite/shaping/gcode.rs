@@ -59,7 +59,8 @@ fn a_program_reads_back_to_its_knots_and_keeps_its_contour_error() {
             blocks.push((program.knots.len(), reached / error_mm));
         }
         println!("blocks and share of the error: {blocks:?}");
-        // Straight lines on a smooth path: a tenth of the error takes three times the blocks, until there is one per stroke.
+        // Straight lines on a smooth path: a tenth of the error takes three times the blocks, until there is one per
+        // stroke.
         assert!(blocks[0].0 < blocks[1].0 && blocks[1].0 < blocks[2].0, "{blocks:?}");
         assert!(blocks[0].1 > 0.5, "blocks could be longer: {blocks:?}");
         let read = read::program(&text(&job)).expect("its own program");
@@ -205,7 +206,8 @@ fn malformed_programs_are_refused_by_line_and_word() {
 
 #[test]
 fn dwells_lower_case_and_comments_are_understood() {
-    let program = "%\n(head)\nn1 g21 g90 g94\nG0X90C-1B+2.5 ; to the start\nS60M3\nG93 G1 X91 (in) F30\nG4 P3\nG1 X92 F60\nM5\nM30\n";
+    let program = "%\n(head)\nn1 g21 g90 g94\nG0X90C-1B+2.5 ; to the start\nS60M3\nG93 G1 X91 (in) F30\nG4 P3\nG1 X92 \
+        F60\nM5\nM30\n";
     let read = read::program(program).expect("well formed");
     // 60 per minute: two strokes in 1/30 min, three at rest, one more.
     let knots: Vec<[f64; 2]> = read.knots.iter().map(|k| [k.stroke, k.center_distance_mm]).collect();

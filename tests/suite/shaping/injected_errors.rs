@@ -1,4 +1,5 @@
-//! Errors put in on purpose come out as their closed forms say: cutter runout, cutter pitch error, work eccentricity; and a round gear is an involute gear.
+//! Errors put in on purpose come out as their closed forms say: cutter runout, cutter pitch error, work eccentricity;
+//! and a round gear is an involute gear.
 
 use crate::fixtures::paper::*;
 use gearcut::cut::cpu::Cpu;

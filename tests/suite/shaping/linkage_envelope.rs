@@ -1,8 +1,9 @@
 //! Allowances that follow from the linkages alone, against an independent implementation and the paper's readings.
 //!
-//! The envelope of an involute cutter flank under a planar motion is known in closed form: every contact normal passes through
-//! the instantaneous centre Q and touches the base circle. Points A to D are where rough and finish envelope cross the pitch
-//! curve (Gao et al. 2017, Fig. 9). This checks poses and their rates together: a wrong rate moves Q and every point with it.
+//! The envelope of an involute cutter flank under a planar motion is known in closed form: every contact normal passes
+//! through the instantaneous centre Q and touches the base circle. Points A to D are where rough and finish envelope
+//! cross the pitch curve (Gao et al. 2017, Fig. 9). This checks poses and their rates together: a wrong rate moves Q
+//! and every point with it.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
@@ -29,7 +30,8 @@ fn contact(linkage: &ShapingLinkage, phi: f64, offset_mm: f64, space: f64, side:
     let base_mm = linkage.cutter_pitch_radius_mm() * alpha.cos();
     let to_center = motion.instantaneous_center_mm() - motion.pose.center_mm;
     let working = (base_mm / to_center.length()).acos();
-    // Angles in the frame of the cutter: tooth `space` stands at -space * pitch; the flank leaves the base circle there.
+    // Angles in the frame of the cutter: tooth `space` stands at -space * pitch; the flank leaves the base circle
+    // there.
     let tooth = motion.pose.angle_rad - space * TAU / CUTTER_TEETH;
     let half_thickness = FRAC_PI_2 / CUTTER_TEETH + alpha.tan() - alpha;
     let base_start = tooth + side * half_thickness;

@@ -1,8 +1,8 @@
 //! Pitch curve, axes, strokes and velocities against an independent implementation.
 //!
-//! tests/data/shaping/external_*.json hold numbers of a program in another language that computes every value in two ways
-//! (f64 and multi-precision); the tolerances stand in the files. Case S0 is the third-order ellipse of Gao et al. 2017,
-//! Table 1; the circle is its closed-form limit.
+//! tests/data/shaping/external_*.json hold numbers of a program in another language that computes every value in two
+//! ways (f64 and multi-precision); the tolerances stand in the files. Case S0 is the third-order ellipse of Gao et al.
+//! 2017, Table 1; the circle is its closed-form limit.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

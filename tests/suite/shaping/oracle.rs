@@ -1,4 +1,5 @@
-//! External shaping against the independent implementation's values (tests/data/shaping): target flanks, allowances, unevenness, facets.
+//! External shaping against the independent implementation's values (tests/data/shaping): target flanks, allowances,
+//! unevenness, facets.
 
 use crate::fixtures::paper::*;
 use gearcut::cut::Backend;
@@ -81,7 +82,8 @@ fn check_exact(expected: &Value, got: &[ToothAllowance], tolerance: &Value) {
         assert!((tooth.cd_mm().expect("CD") - number(&row["CD"])).abs() < number(&tolerance["exact_allowance"]));
         assert!((tooth.unevenness_mean_percent().expect("ratio") - number(&row["unevenness"])).abs() < percent);
     }
-    // The oracle's summary is over the first period of the third-order gear, its teeth 1 to 14; of the circle over the rows given.
+    // The oracle's summary is over the first period of the third-order gear, its teeth 1 to 14; of the circle over the
+    // rows given.
     let count = expected["teeth"].as_array().expect("teeth").len().min(14);
     let summary = summarise(got[..count].iter().map(ToothAllowance::unevenness_mean_percent)).expect("teeth");
     assert!((summary.max_percent - number(&expected["max"])).abs() < percent);
@@ -114,7 +116,8 @@ fn stroke_allowances_are_the_oracles() {
                 worst = worst.max((tooth.cd_mm().expect("CD") - number(&expected["CD"][i])).abs());
             }
             println!("N = {strokes} {name}: worst {worst:.2e} mm");
-            // Both programs are exact here: far inside the oracle's own tolerance (2e-6 mm), which serves polygon models.
+            // Both programs are exact here: far inside the oracle's own tolerance (2e-6 mm), which serves polygon
+            // models.
             assert!(worst < 1e-10, "N = {strokes} {name}: {worst:.2e} mm");
         }
     }

@@ -1,5 +1,6 @@
-//! The unevenness figures that Gao et al. (2017) print, beside what geometry gives: with a closed turn, with strokes that begin and end inside the first lobe, and with two readings of
-//! the formulas that do not fit. docs/shaping.md shows the table that this test prints (`cargo test --test paper_figures -- --nocapture`).
+//! The unevenness figures that Gao et al. (2017) print, beside what geometry gives: with a closed turn, with strokes
+//! that begin and end inside the first lobe, and with two readings of the formulas that do not fit. docs/shaping.md
+//! shows the table that this test prints (`cargo test --test paper_figures -- --nocapture`).
 //!
 //! Expected values come from an independent implementation in another language; nothing here is fitted to the paper.
 
@@ -17,7 +18,8 @@ const POLAR: Linkage = Linkage::ShapingTraditional { direction: TraditionalDirec
 /// What the paper prints: largest and mean, percent.
 const PRINTED: [[f64; 2]; 2] = [[132.47, 91.23], [5.03, 2.76]];
 
-/// A run whose strokes begin about a degree after the lobe does and end about a degree before its end: no stroke comes back over the first and the last flank.
+/// A run whose strokes begin about a degree after the lobe does and end about a degree before its end: no stroke comes
+/// back over the first and the last flank.
 struct Run {
     /// N.
     strokes: u32,
@@ -68,7 +70,8 @@ const RUNS: [Run; 4] = [
     },
 ];
 
-/// Allowances of the first lobe and the rack allowance; roughing 2 mm off by `linkage`, then finishing, both with N strokes per revolution in a window of work angles.
+/// Allowances of the first lobe and the rack allowance; roughing 2 mm off by `linkage`, then finishing, both with N
+/// strokes per revolution in a window of work angles.
 fn lobe(linkage: Linkage, strokes: u32, window_deg: Option<[f64; 2]>, surface: Surface) -> (Vec<ToothAllowance>, f64) {
     let mut operations = vec![operation("rough", linkage, 2.0, strokes), operation("finish", NORMAL, 0.0, strokes)];
     for operation in &mut operations {

@@ -26,7 +26,8 @@ fn rubs(job: &Job) -> Vec<Rub> {
 /// A return stroke of one cutter tooth, deepest place.
 struct Deepest {
     rub: Rub,
-    /// Back-off times the share of the edge's normal along it, at the place of the edge that rubs; and the largest of these on this tooth inside the blank.
+    /// Back-off times the share of the edge's normal along it, at the place of the edge that rubs; and the largest of
+    /// these on this tooth inside the blank.
     own_mm: f64,
     most_mm: f64,
     /// The straight, radial base of the cutter tooth: back-off times the sine of its angle from the line of centres.
@@ -70,8 +71,10 @@ fn deepest(job: &Job) -> Vec<Deepest> {
 
 #[test]
 fn return_strokes_enter_the_stock_as_deep_as_the_back_off_presses_the_edge_into_it() {
-    // Drawn back by b along the line of centres u, an edge that has just cut moves by b (u . n) along its normal n, out of the tool. In contact with a flank that is -b sin(20 deg): clear. On a cutter tooth that
-    // stands beside the line of centres the side that looks away from it is pressed into what the stroke has left; on the radial base of the tooth by b times the sine of its angle.
+    // Drawn back by b along the line of centres u, an edge that has just cut moves by b (u . n) along its normal n, out
+    // of the tool. In contact with a flank that is -b sin(20 deg): clear. On a cutter tooth that stands beside the line
+    // of centres the side that looks away from it is pressed into what the stroke has left; on the radial base of the
+    // tooth by b times the sine of its angle.
     for back_off_mm in [0.1, 0.5] {
         let found = deepest(&round_job(back_off_mm));
         let (mut on_base, mut exact) = (0, 0);
@@ -95,7 +98,8 @@ fn return_strokes_enter_the_stock_as_deep_as_the_back_off_presses_the_edge_into_
 
 #[test]
 fn no_edge_enters_deeper_than_it_has_moved_along_its_normal() {
-    // On the elliptical gear cutter teeth enter at all angles, and rays run along slivers: length alone would say a millimetre at half a millimetre of back-off.
+    // On the elliptical gear cutter teeth enter at all angles, and rays run along slivers: length alone would say a
+    // millimetre at half a millimetre of back-off.
     let job = Job::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 1440)])).expect("the paper's gear");
     let found = deepest(&job);
     let exact = found.iter().filter(|d| (d.rub.depth_mm - d.own_mm).abs() < 1e-6).count();
@@ -104,7 +108,8 @@ fn no_edge_enters_deeper_than_it_has_moved_along_its_normal() {
         "{} passes rub, {exact} as deep as their edge has moved to a nanometre, at most {largest:.3} mm",
         found.len()
     );
-    // The nearest place of the sampled edge stands up to 0.01 mm beside the ray's: its normal is off by as much as the edge bends there.
+    // The nearest place of the sampled edge stands up to 0.01 mm beside the ray's: its normal is off by as much as the
+    // edge bends there.
     assert!(found.len() > 1000 && 4 * exact > found.len() && largest < 0.25);
 }
 

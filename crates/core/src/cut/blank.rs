@@ -51,7 +51,8 @@ pub struct Rub {
     pub slice: u32,
     /// Middle of the entered material, gear frame.
     pub place_mm: DVec2,
-    /// How deep the edge goes in, along its normal, mm: at most as far as it has moved along it since its stroke; 0 on rays that graze it, whose place the other family's rays judge.
+    /// How deep the edge goes in, along its normal, mm: at most as far as it has moved along it since its stroke; 0 on
+    /// rays that graze it, whose place the other family's rays judge.
     pub depth_mm: f64,
     /// Volume of the ray's share, mm3, for one family of rays.
     pub volume_mm3: f64,

@@ -69,8 +69,8 @@ pub trait Backend: Sync {
     /// Whatever keeps the backend from finishing; the layer is then unusable.
     fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error>;
 
-    /// Takes all strokes of an operation from the blank and checks its return strokes; `advance` is called after every tile and says whether to go on. `None`: stopped, the field
-    /// is then as it was or partly cut.
+    /// Takes all strokes of an operation from the blank and checks its return strokes; `advance` is called after every
+    /// tile and says whether to go on. `None`: stopped, the field is then as it was or partly cut.
     ///
     /// # Errors
     /// As [`Self::cut`].
@@ -81,8 +81,9 @@ pub trait Backend: Sync {
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<BlankCut>, Error>;
 
-    /// Takes all sweeps of a hobbing operation, whose passes have the ids `passes`, from the blank; `advance` is called as often as the field has slices and says whether to go on. `None`: stopped, the
-    /// field is then as it was or partly cut.
+    /// Takes all sweeps of a hobbing operation, whose passes have the ids `passes`, from the blank; `advance` is called
+    /// as often as the field has slices and says whether to go on. `None`: stopped, the field is then as it was or
+    /// partly cut.
     ///
     /// # Errors
     /// As [`Self::cut`].

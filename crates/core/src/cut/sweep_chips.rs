@@ -1,7 +1,8 @@
 //! What sweeps of a turning tool take from the whole blank: volume, thickness and travel, pass by pass, whatever
 //! backend cut it.
 //!
-//! In: the material that a pass takes from each ray of a slice, with the ends that it found and those that it left (`ChipSurfaces`). Out: its share in that slice, summed over slices ([`PassChip`]).
+//! In: the material that a pass takes from each ray of a slice, with the ends that it found and those that it left
+//! (`ChipSurfaces`). Out: its share in that slice, summed over slices ([`PassChip`]).
 
 use crate::cut::{BlankCut, BlankStats};
 use crate::dexel::intervals::{End, Span};
@@ -72,7 +73,8 @@ impl PassChip {
         surfaces: &ChipSurfaces,
         spacing_mm: f64,
     ) -> Self {
-        // Half a disc about the thickest place is all chip, or a quarter at a corner: a bound where rays are too far apart to meet the old surface beside them.
+        // Half a disc about the thickest place is all chip, or a quarter at a corner: a bound where rays are too far
+        // apart to meet the old surface beside them.
         let area_mm2 = removed_mm3[0].min(removed_mm3[1]) / width_mm;
         let thickness_mm = surfaces.thickness_mm(heading, spacing_mm).min((4.0 * area_mm2 / PI).sqrt());
         Self { pass, removed_mm3, thickness_mm, travel_mm: heading.travel_per_mm * width_mm }
@@ -92,12 +94,14 @@ pub struct ChipSurfaces {
 struct NewPlace {
     at: DVec2,
     normal: DVec2,
-    /// How far the old surface at the other end of the chip on the same ray lies from it; where this pass left that end as well, how wide the tool is there, mm.
+    /// How far the old surface at the other end of the chip on the same ray lies from it; where this pass left that end
+    /// as well, how wide the tool is there, mm.
     across_mm: f64,
 }
 
-/// Distance of the old surface from a place of the new one, from the normals (new, old) where a ray `length_mm` long crosses both: to the old tangent, exact for a straight trace, or between two circles about
-/// one point, exact for these; the smaller one.
+/// Distance of the old surface from a place of the new one, from the normals (new, old) where a ray `length_mm` long
+/// crosses both: to the old tangent, exact for a straight trace, or between two circles about one point, exact for
+/// these; the smaller one.
 fn between_mm(family: Family, length_mm: f64, normals: [DVec2; 2]) -> f64 {
     let [new, old] = normals.map(|normal| normal * family.along(normal).signum());
     length_mm * family.along(old).min(family.along(new + old) / (1.0 + new.dot(old)))
@@ -140,7 +144,8 @@ impl ChipSurfaces {
         }
     }
 
-    /// Largest distance of a place of the new surface from the old one, across the swept surface; the old one between its places, `spacing_mm` apart, goes on along its tangents.
+    /// Largest distance of a place of the new surface from the old one, across the swept surface; the old one between
+    /// its places, `spacing_mm` apart, goes on along its tangents.
     fn thickness_mm(&self, heading: &SweepHeading, spacing_mm: f64) -> f64 {
         self.new.iter().fold(0.0, |largest_mm, place| {
             let upright = heading.upright(place.normal);

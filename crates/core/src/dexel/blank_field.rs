@@ -1,13 +1,17 @@
 //! The blank field: two families of rays through the whole blank, in transverse slices.
 //!
-//! In: the blank, its bore and face width, a spacing. Out: for every ray the spans of material. Rays of family X run along x and stand side by side in y, those of family
-//! Y the other way round; the rays of both families meet in the nodes of one square grid, the same in all slices. Family X decides what is inside; family Y supplies
-//! crossings in its own direction, so that no face of the work is seen only by rays that graze it.
+//! In: the blank, its bore and face width, a spacing. Out: for every ray the spans of material. Rays of family X run
+//! along x and stand side by side in y, those of family Y the other way round; the rays of both families meet in the
+//! nodes of one square grid, the same in all slices. Family X decides what is inside; family Y supplies crossings in
+//! its own direction, so that no face of the work is seen only by rays that graze it.
 //!
-//! **Slices.** With the axes at rest during the strokes, the cutter's pose does not depend on the place along the tooth: all transverse sections of the work are equal, and **one** slice
-//! stands for the whole face. Only where the feed runs on during a stroke are there several, both end faces among them; between two slices the surface runs straight.
+//! **Slices.** With the axes at rest during the strokes, the cutter's pose does not depend on the place along the
+//! tooth: all transverse sections of the work are equal, and **one** slice stands for the whole face. Only where the
+//! feed runs on during a stroke are there several, both end faces among them; between two slices the surface runs
+//! straight.
 //!
-//! Nothing has a fixed capacity: lists grow. What a field will need is estimated beforehand, and one that does not fit is refused with a spacing that does.
+//! Nothing has a fixed capacity: lists grow. What a field will need is estimated beforehand, and one that does not fit
+//! is refused with a spacing that does.
 
 use super::intervals::{self, End, Span};
 use crate::error::Refusal;
@@ -26,7 +30,8 @@ pub type Ray = Vec<Span>;
 pub struct BlankGrid {
     /// Rays of family X (side by side in y) and of family Y (side by side in x).
     pub rows: [RayRow; 2],
-    /// Places of the slices along the tooth from the middle of the face, mm, increasing; a single one stands for the whole face.
+    /// Places of the slices along the tooth from the middle of the face, mm, increasing; a single one stands for the
+    /// whole face.
     pub leads_mm: Vec<f64>,
     /// Face width, mm.
     pub face_width_mm: f64,
@@ -49,7 +54,8 @@ pub struct BlankField {
 }
 
 impl BlankGrid {
-    /// Grid over a blank: nodes at odd half spacings from the gear axis, so that it is symmetric and none lies on the axis.
+    /// Grid over a blank: nodes at odd half spacings from the gear axis, so that it is symmetric and none lies on the
+    /// axis.
     ///
     /// `slice_spacing_mm` is the largest distance of slices, or `None` where all sections are equal.
     ///
@@ -75,7 +81,8 @@ impl BlankGrid {
             return Err(Refusal::new(
                 "fields.blank.spacing_mm",
                 format!(
-                    "the blank field at {spacing_mm} mm in {slices} slices needs about {:.2e} bytes; at most {MOST_BYTES:.0e} are taken",
+                    "the blank field at {spacing_mm} mm in {slices} slices needs about {:.2e} bytes; at most \
+                    {MOST_BYTES:.0e} are taken",
                     need(spacing_mm)
                 ),
                 format!(
@@ -123,10 +130,12 @@ impl BlankGrid {
     }
 }
 
-/// Bytes of one slice: spans of both families, twice the length of an outline with teeth all round, and the lists' heads.
+/// Bytes of one slice: spans of both families, twice the length of an outline with teeth all round, and the lists'
+/// heads.
 fn section_bytes(blank: &Blank, size: DVec2, spacing_mm: f64) -> f64 {
     let rays = (size.x + size.y) / spacing_mm;
-    // Every tooth adds its two flanks to the outline; rays cross a closed curve twice per span, and lists grow in steps of two.
+    // Every tooth adds its two flanks to the outline; rays cross a closed curve twice per span, and lists grow in steps
+    // of two.
     let outline_mm = blank.curve().perimeter_mm() * (1.0 + 2.0 * 4.5 / std::f64::consts::PI);
     let spans = 2.0 * rays + 2.0 * outline_mm / spacing_mm;
     2.0 * spans * size_of::<Span>() as f64 + rays * size_of::<Ray>() as f64

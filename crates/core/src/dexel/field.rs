@@ -1,8 +1,9 @@
 //! A field of dexels over one flank (or root) of the gear, and what an operation leaves on it.
 //!
-//! Columns follow each other along the profile; every column is a ray in the transverse plane, repeated at each row along the tooth. Any origins and
-//! directions are allowed: the regular flank grid, the root fillet and odd inspection rays are the same type. Heights are measured along the ray from its origin
-//! (on the target), in mm, positive where material is left.
+//! Columns follow each other along the profile; every column is a ray in the transverse plane, repeated at each row
+//! along the tooth. Any origins and directions are allowed: the regular flank grid, the root fillet and odd inspection
+//! rays are the same type. Heights are measured along the ray from its origin (on the target), in mm, positive where
+//! material is left.
 
 use glam::DVec2;
 
@@ -70,7 +71,8 @@ impl Field {
         Layer { heights_mm, passes: vec![NO_PASS; self.len()] }
     }
 
-    /// The same rays in the middle of the face alone: all there is to cut where the passes do not change along the tooth.
+    /// The same rays in the middle of the face alone: all there is to cut where the passes do not change along the
+    /// tooth.
     #[must_use]
     pub fn section(&self) -> Self {
         Self { columns: self.columns.clone(), leads_mm: vec![0.0] }

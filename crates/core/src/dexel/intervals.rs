@@ -1,12 +1,15 @@
-//! Material on one ray of the blank: sorted, disjoint spans, each end with the pass that left it and the surface's normal there.
+//! Material on one ray of the blank: sorted, disjoint spans, each end with the pass that left it and the surface's
+//! normal there.
 //!
-//! The law is subtraction of closed intervals in order of time. A pass that ends exactly where an earlier one ended removes nothing, so the earlier one, which has the lower
-//! id, keeps its mark: ties need no rule of their own. Lists grow as they must; there is no capacity to run out of.
+//! The law is subtraction of closed intervals in order of time. A pass that ends exactly where an earlier one ended
+//! removes nothing, so the earlier one, which has the lower id, keeps its mark: ties need no rule of their own. Lists
+//! grow as they must; there is no capacity to run out of.
 
 use super::NO_PASS;
 use glam::DVec2;
 
-/// Shorter remnants are dropped and counted as removed: a picometre is what rounding leaves between two strokes, not material.
+/// Shorter remnants are dropped and counted as removed: a picometre is what rounding leaves between two strokes, not
+/// material.
 pub const LEAST_SPAN_MM: f64 = 1e-9;
 
 /// One end of a span.
@@ -70,7 +73,8 @@ pub fn overlap_mm(spans: &[Span], low_mm: f64, high_mm: f64) -> f64 {
         .sum()
 }
 
-/// Takes the material between `from` and `to` away; these become the ends of what is left. Gives the length removed, mm.
+/// Takes the material between `from` and `to` away; these become the ends of what is left. Gives the length removed,
+/// mm.
 pub fn subtract(spans: &mut Vec<Span>, from: End, to: End) -> f64 {
     let first = spans.partition_point(|s| s.high.at_mm <= from.at_mm);
     let met = spans[first..].partition_point(|s| s.low.at_mm < to.at_mm);

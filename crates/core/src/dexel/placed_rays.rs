@@ -3,7 +3,8 @@
 use super::{Field, SpatialField};
 use glam::DVec2;
 
-/// Rays of a flank, root or tip, column by column along the profile and row by row along the tooth: every row stands in one transverse section.
+/// Rays of a flank, root or tip, column by column along the profile and row by row along the tooth: every row stands in
+/// one transverse section.
 pub trait RayGrid {
     /// Arc length of each column along the target profile, mm.
     fn arcs_mm(&self) -> Vec<f64>;
@@ -64,8 +65,8 @@ impl RayGrid for PlacedRays {
         &self.leads_mm
     }
 
-    /// A normal that leans along the axis by nz leaves the section; a surface `height_mm` along it cuts the section height / cos(lean) from the origin, to the first order in heights over
-    /// radii of curvature.
+    /// A normal that leans along the axis by nz leaves the section; a surface `height_mm` along it cuts the section
+    /// height / cos(lean) from the origin, to the first order in heights over radii of curvature.
     fn point_mm(&self, column: usize, row: usize, height_mm: f64) -> DVec2 {
         let ray = self.field.ray(column, row);
         let across = ray.normal.truncate();

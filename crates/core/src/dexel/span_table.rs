@@ -1,11 +1,15 @@
-//! What is left on neighbouring rays, so that "does anything lie between two places?" is answered without a branch: a rough copy of the spans that never says no where the spans say yes.
+//! What is left on neighbouring rays, so that "does anything lie between two places?" is answered without a branch: a
+//! rough copy of the spans that never says no where the spans say yes.
 //!
 //! In: rays and their spans ([`super::intervals`]). Out: whether material may lie between two places of a ray.
 //!
-//! **The law.** A row holds the ends of eight spans in f32, rounded outward by one step; spans beyond them are one with the last, gaps and all. Rounding to the nearest keeps the order of numbers, so that
-//! places that are rounded to be asked for overlap a span of the row whenever they overlap the span itself. A row is renewed when its ray is cut; one that is not only holds too much.
+//! **The law.** A row holds the ends of eight spans in f32, rounded outward by one step; spans beyond them are one with
+//! the last, gaps and all. Rounding to the nearest keeps the order of numbers, so that places that are rounded to be
+//! asked for overlap a span of the row whenever they overlap the span itself. A row is renewed when its ray is cut; one
+//! that is not only holds too much.
 //!
-//! The road not taken: the spans themselves, searched by halves. A list of its own for every ray costs two misses of the cache and a search that no processor foresees: some 50 ns, against 2.
+//! The road not taken: the spans themselves, searched by halves. A list of its own for every ray costs two misses of
+//! the cache and a search that no processor foresees: some 50 ns, against 2.
 
 use super::blank_field::Ray;
 use super::intervals::Span;

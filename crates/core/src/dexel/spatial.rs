@@ -1,8 +1,10 @@
-//! A field of dexels whose rays stand anywhere in space: flanks of helical gears, where every row along the tooth has a profile of its own.
+//! A field of dexels whose rays stand anywhere in space: flanks of helical gears, where every row along the tooth has a
+//! profile of its own.
 //!
-//! Columns follow each other along the profile, rows along the tooth, as in [`super::Field`]; but each dexel has its own origin and direction. They lie component by
-//! component and row after row, as the kernels read them. Heights count from the origin along the direction, in mm, positive where material is left; what a cut
-//! leaves is a [`Layer`] like any other.
+//! Columns follow each other along the profile, rows along the tooth, as in [`super::Field`]; but each dexel has its
+//! own origin and direction. They lie component by component and row after row, as the kernels read them. Heights count
+//! from the origin along the direction, in mm, positive where material is left; what a cut leaves is a [`Layer`] like
+//! any other.
 
 use super::{Layer, NO_PASS};
 use glam::DVec3;
@@ -37,7 +39,8 @@ pub struct SpatialField {
 }
 
 impl SpatialField {
-    /// Field of `columns` by `rows` rays; `ray(column, row)` gives each with the height of the blank's surface along it.
+    /// Field of `columns` by `rows` rays; `ray(column, row)` gives each with the height of the blank's surface along
+    /// it.
     pub fn new(columns: usize, rows: usize, low_mm: f64, mut ray: impl FnMut(usize, usize) -> (Ray, f64)) -> Self {
         let mut field = Self {
             columns,

@@ -1,6 +1,8 @@
-//! The blank: the stock before cutting. Its outline is the pitch curve moved outwards along its normals by the addendum.
+//! The blank: the stock before cutting. Its outline is the pitch curve moved outwards along its normals by the
+//! addendum.
 //!
-//! Heights over the pitch curve are measured along its normal; they decide where flanks end at the tip and where a ray leaves the stock.
+//! Heights over the pitch curve are measured along its normal; they decide where flanks end at the tip and where a ray
+//! leaves the stock.
 
 use super::PitchCurve;
 use crate::error::Refusal;
@@ -40,7 +42,8 @@ impl Blank {
             return Err(Refusal::new(
                 "gear.addendum_coefficient",
                 format!(
-                    "the blank's outline, {addendum_mm} mm outside the pitch curve, crosses itself in a hollow of radius {:.3} mm",
+                    "the blank's outline, {addendum_mm} mm outside the pitch curve, crosses itself in a hollow of \
+                    radius {:.3} mm",
                     -1.0 / tightest
                 ),
                 "use a smaller addendum_coefficient or module_mm, or a pitch curve with a wider hollow",
@@ -92,8 +95,8 @@ impl Blank {
         phi + ((phi_guess_rad - phi) / TURN_RAD).round() * TURN_RAD
     }
 
-    /// Distance from a point inside along a unit direction to the outline, at most `limit_mm`; `start_mm` is a first guess.
-    /// Where Newton's method does not settle, the range from the point to the limit is halved.
+    /// Distance from a point inside along a unit direction to the outline, at most `limit_mm`; `start_mm` is a first
+    /// guess. Where Newton's method does not settle, the range from the point to the limit is halved.
     pub fn exit_mm(&self, point_mm: DVec2, direction: DVec2, phi_guess_rad: f64, start_mm: f64, limit_mm: f64) -> f64 {
         let height_and_foot = |t: f64| self.height(point_mm + t * direction, phi_guess_rad);
         let found = iterate("the way out of the blank", start_mm.clamp(0.0, limit_mm), EXIT_STEPS, |t| {

@@ -1,7 +1,7 @@
 //! The blank's outline as a closed curve on rays: the pitch curve moved outwards along its normals.
 //!
-//! Parameter: polar angle phi of the foot on the pitch curve. With the distance a, the outline is P + a n and its derivative (1 + a kappa) s' t; the
-//! blank refuses hollows tighter than a, so it never turns back.
+//! Parameter: polar angle phi of the foot on the pitch curve. With the distance a, the outline is P + a n and its
+//! derivative (1 + a kappa) s' t; the blank refuses hollows tighter than a, so it never turns back.
 
 use super::blank::Blank;
 use crate::math::planar_rays::{ClosedCurve, Piece};

@@ -1,15 +1,15 @@
 //! The pitch curve: the closed curve on which the teeth are rolled.
 //!
-//! In: the scene's shape, module and number of teeth. Out: radius, frame, curvature and arc length at any polar angle, the
-//! inverse of the arc length, and facts about the shape. Frame: the gear frame, phi counter-clockwise, t in the direction
-//! of increasing phi, outward normal n = -i t.
+//! In: the scene's shape, module and number of teeth. Out: radius, frame, curvature and arc length at any polar angle,
+//! the inverse of the arc length, and facts about the shape. Frame: the gear frame, phi counter-clockwise, t in the
+//! direction of increasing phi, outward normal n = -i t.
 //!
-//! Law: ds/dphi = sqrt(r^2 + r'^2); z teeth of module m fit without a remainder when the perimeter is pi m z. The perimeter
-//! is proportional to the size of the curve, so a size that is left out follows from one quadrature.
+//! Law: ds/dphi = sqrt(r^2 + r'^2); z teeth of module m fit without a remainder when the perimeter is pi m z. The
+//! perimeter is proportional to the size of the curve, so a size that is left out follows from one quadrature.
 //!
 //! A curve r(phi) > 0 with one radius per angle cannot cross itself; positive radii are therefore all that is checked
-//! against crossing. Road not taken: curves given as points x, y. They can loop, and the polar angle is what every linkage
-//! formula in the literature is written in.
+//! against crossing. Road not taken: curves given as points x, y. They can loop, and the polar angle is what every
+//! linkage formula in the literature is written in.
 
 #[cfg(test)]
 pub(crate) mod examples;
@@ -55,7 +55,8 @@ pub struct PitchFrame {
     pub tangent: DVec2,
     /// Unit normal out of the gear, -i t.
     pub normal: DVec2,
-    /// Angle from the polar radius to the tangent, atan2(r, r'), in (0, pi). The plain arctan(r / r') of the papers fails where r' < 0.
+    /// Angle from the polar radius to the tangent, atan2(r, r'), in (0, pi). The plain arctan(r / r') of the papers
+    /// fails where r' < 0.
     pub mu_rad: f64,
     /// ds/dphi, mm per rad.
     pub arc_rate_mm_per_rad: f64,
@@ -69,8 +70,9 @@ impl PitchCurve {
     /// Pitch curve with arc lengths good to [`DEFAULT_ACCURACY_MM`].
     ///
     /// # Errors
-    /// Parameters outside their range, a radius that is not positive everywhere, a table out of order, or a given size whose
-    /// perimeter misses pi m z by more than [`LARGEST_CLOSURE_ERROR_MODULES`]; the refusal says which size closes.
+    /// Parameters outside their range, a radius that is not positive everywhere, a table out of order, or a given size
+    /// whose perimeter misses pi m z by more than [`LARGEST_CLOSURE_ERROR_MODULES`]; the refusal says which size
+    /// closes.
     pub fn new(shape: &PitchCurveShape, module_mm: f64, teeth: u32) -> Result<Self, Refusal> {
         Self::with_accuracy(shape, module_mm, teeth, DEFAULT_ACCURACY_MM)
     }
@@ -123,7 +125,8 @@ impl PitchCurve {
             return Err(Refusal::new(
                 size_key,
                 format!(
-                    "the perimeter {:.6} mm misses pi m z = {wanted_mm:.6} mm by {closure_error_mm:.6} mm; {} mm is allowed",
+                    "the perimeter {:.6} mm misses pi m z = {wanted_mm:.6} mm by {closure_error_mm:.6} mm; {} mm is \
+                    allowed",
                     arc.closed(),
                     LARGEST_CLOSURE_ERROR_MODULES * module_mm
                 ),
@@ -157,7 +160,8 @@ impl PitchCurve {
         }
     }
 
-    /// Arc length S in mm from phi = 0 to `phi_rad`: unwrapped, so that a whole turn adds the perimeter exactly; negative before 0.
+    /// Arc length S in mm from phi = 0 to `phi_rad`: unwrapped, so that a whole turn adds the perimeter exactly;
+    /// negative before 0.
     pub fn arc_mm(&self, phi_rad: f64) -> f64 {
         self.arc.at(phi_rad)
     }
@@ -177,8 +181,8 @@ impl PitchCurve {
         self.closure_error_mm
     }
 
-    /// The size parameter in use, given or solved, mm: radius of the circle, semi-major axis, centre distance (also of a mate), mean radius (for
-    /// a table: mean of the radii of its points).
+    /// The size parameter in use, given or solved, mm: radius of the circle, semi-major axis, centre distance (also of
+    /// a mate), mean radius (for a table: mean of the radii of its points).
     pub fn size_mm(&self) -> f64 {
         self.size_mm
     }

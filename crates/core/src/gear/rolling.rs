@@ -1,7 +1,7 @@
 //! The pitch curve as a linkage law sees it: polar angle, radius and arc as series in the law's parameter.
 //!
-//! The parameter is the polar angle phi itself, or time or stroke when phi is a series in them: derivatives then follow by
-//! the chain rule without further formulas.
+//! The parameter is the polar angle phi itself, or time or stroke when phi is a series in them: derivatives then follow
+//! by the chain rule without further formulas.
 
 use super::PitchCurve;
 use crate::math::Jet;

@@ -1,8 +1,8 @@
 //! What all iterations share: a limit on their steps, and an error with numbers where they do not end before it.
 //!
-//! The finders: [`super::roots`] (brackets: bisection, regula falsi), [`super::newton`] (Newton's method, free and within a
-//! bracket), [`super::extremum`] (golden section). What fits none of them goes through [`iterate`]. Three iterations
-//! run on several rays at once and have loops of their own: the kernels of flanks (`cut::cpu::planar`,
+//! The finders: [`super::roots`] (brackets: bisection, regula falsi), [`super::newton`] (Newton's method, free and
+//! within a bracket), [`super::extremum`] (golden section). What fits none of them goes through [`iterate`]. Three
+//! iterations run on several rays at once and have loops of their own: the kernels of flanks (`cut::cpu::planar`,
 //! `passes::spatial::sweep_roots`) count the rays that do not converge (`CutStats::unconverged`), and
 //! [`super::planar_rays`] stays within the ends of a part of a curve, which it can always halve.
 

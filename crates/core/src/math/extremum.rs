@@ -1,8 +1,8 @@
 //! Largest value of a function that is sampled densely enough.
 //!
-//! In: a function and an even grid on which its largest hump is wider than two cells. Out: place and value of the maximum,
-//! by golden-section search around the best sample. It needs no derivative and accepts kinks; the value is good to
-//! rounding, the place of a smooth maximum to the square root of it.
+//! In: a function and an even grid on which its largest hump is wider than two cells. Out: place and value of the
+//! maximum, by golden-section search around the best sample. It needs no derivative and accepts kinks; the value is
+//! good to rounding, the place of a smooth maximum to the square root of it.
 //!
 //! It cannot fail: every step leaves 0.618 of the bracket, which ends the search after some 50 evaluations beside those
 //! of

@@ -1,12 +1,13 @@
 //! Truncated Taylor series: a number that carries its derivatives.
 //!
-//! In: a formula written once with `+ - * /`, `sqrt`, `sin_cos`, `atan2`. Out: its value and the derivatives of the same
-//! formula, exact to rounding. The law is the ring of power series cut off after N terms: products convolve, and every
-//! elementary function follows from its differential equation by a recurrence over the coefficients (Griewank and Walther,
-//! *Evaluating Derivatives*, 2008, table 13.2).
+//! In: a formula written once with `+ - * /`, `sqrt`, `sin_cos`, `atan2`. Out: its value and the derivatives of the
+//! same formula, exact to rounding. The law is the ring of power series cut off after N terms: products convolve, and
+//! every elementary function follows from its differential equation by a recurrence over the coefficients (Griewank and
+//! Walther, *Evaluating Derivatives*, 2008, table 13.2).
 //!
-//! Road not taken: derivatives written out by hand. The third derivative of a linkage fills a page, and a slip in it looks
-//! like a slightly wrong acceleration. N is a constant of the type, so that `Jet<1>` costs what a plain number costs.
+//! Road not taken: derivatives written out by hand. The third derivative of a linkage fills a page, and a slip in it
+//! looks like a slightly wrong acceleration. N is a constant of the type, so that `Jet<1>` costs what a plain number
+//! costs.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -87,8 +88,8 @@ impl<const N: usize> Jet<N> {
         Jet(std::array::from_fn(|k| if k == 0 { value } else { self.0[k - 1] / k as f64 }))
     }
 
-    /// This function of the old parameter, the old parameter being `inner` of a new one. The value of `inner` must be the
-    /// place around which this series was made.
+    /// This function of the old parameter, the old parameter being `inner` of a new one. The value of `inner` must be
+    /// the place around which this series was made.
     #[must_use]
     pub fn compose(&self, inner: &Self) -> Self {
         let mut step = *inner;

@@ -1,7 +1,7 @@
 //! Newton's method: free from a good guess, or within a bracket, where it cannot fail.
 //!
-//! In: a function that gives what is missing at a value and the step that should bring it (missing / rate). Out: the value.
-//! The step is the caller's, so that secants and bounded rates serve as well as derivatives.
+//! In: a function that gives what is missing at a value and the step that should bring it (missing / rate). Out: the
+//! value. The step is the caller's, so that secants and bounded rates serve as well as derivatives.
 //!
 //! The last step is taken, not evaluated again: of a smooth function the error left is of the order of its square.
 
@@ -59,13 +59,13 @@ pub fn newton(
     })
 }
 
-/// Root of a function whose missing part falls through zero once between `low` and `high`, from `start` between them; `at`
-/// gives what is missing at a value (positive below the root) and the step to take there.
+/// Root of a function whose missing part falls through zero once between `low` and `high`, from `start` between them;
+/// `at` gives what is missing at a value (positive below the root) and the step to take there.
 ///
-/// Ends may be infinite: values that were looked at take their places. A step beyond an end goes to it, the first time, and
-/// to the middle of the bracket afterwards. It ends with the first step as small as `last`, which is taken; after `most` steps
-/// the bracket is halved to the last bit. **It cannot fail**: it takes at most `most` evaluations, as many doublings as
-/// an infinite end needs, and some 60 halvings on ordinary brackets. What is not a number gives NaN.
+/// Ends may be infinite: values that were looked at take their places. A step beyond an end goes to it, the first time,
+/// and to the middle of the bracket afterwards. It ends with the first step as small as `last`, which is taken; after
+/// `most` steps the bracket is halved to the last bit. **It cannot fail**: it takes at most `most` evaluations, as many
+/// doublings as an infinite end needs, and some 60 halvings on ordinary brackets. What is not a number gives NaN.
 pub fn newton_within(
     start: f64,
     [mut low, mut high]: [f64; 2],
@@ -105,7 +105,8 @@ pub fn newton_within(
     halved(x, [low, high], |x| at(x)[0])
 }
 
-/// Root of a function whose missing part falls through zero once between two ends, infinite or not, by doubling and halving.
+/// Root of a function whose missing part falls through zero once between two ends, infinite or not, by doubling and
+/// halving.
 fn halved(from: f64, [mut low, mut high]: [f64; 2], mut missing: impl FnMut(f64) -> f64) -> f64 {
     for side in [-1.0, 1.0] {
         let mut reach = 1e-9 * (1.0 + from.abs());

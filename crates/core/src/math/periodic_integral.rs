@@ -1,12 +1,12 @@
 //! Integral of a positive function of period 2 pi, and its inverse, both in nanoseconds.
 //!
-//! In: the function (ds/dphi of a pitch curve, or the shortest time per radian of a machine), the angles where it is not
-//! smooth, and the accuracy. Out: F(phi) unwrapped over any number of turns, and phi(F).
+//! In: the function (ds/dphi of a pitch curve, or the shortest time per radian of a machine), the angles where it is
+//! not smooth, and the accuracy. Out: F(phi) unwrapped over any number of turns, and phi(F).
 //!
 //! Law: the turn is cut into panels that never straddle a break. On each panel the function is expanded in Legendre
-//! polynomials from its values at Gauss-Legendre nodes and integrated term by term; the result is kept as one polynomial, so
-//! that a query is a direct index and a Horner scheme. Panels are halved until the last two terms, which bound what was cut
-//! off, fall under the accuracy. Whole turns add the closed value exactly.
+//! polynomials from its values at Gauss-Legendre nodes and integrated term by term; the result is kept as one
+//! polynomial, so that a query is a direct index and a Horner scheme. Panels are halved until the last two terms, which
+//! bound what was cut off, fall under the accuracy. Whole turns add the closed value exactly.
 //!
 //! Road not taken: adaptive quadrature per query. It is as accurate and a thousand times slower, and two queries
 //! close together would not be consistent to rounding.
@@ -40,8 +40,8 @@ pub struct PeriodicIntegral {
 
 impl PeriodicIntegral {
     /// Prepares the integral of `f` over one turn; `breaks_rad` are the places in (0, 2 pi) where `f` is not smooth, in
-    /// increasing order; `smoothness` is the number of panels per turn to begin with. `None` when the accuracy (in the unit
-    /// of the integral) cannot be reached or `f` is not positive and finite.
+    /// increasing order; `smoothness` is the number of panels per turn to begin with. `None` when the accuracy (in the
+    /// unit of the integral) cannot be reached or `f` is not positive and finite.
     pub fn new(f: impl Fn(f64) -> f64, breaks_rad: &[f64], smoothness: usize, accuracy: f64) -> Option<Self> {
         let basis = integrated_lagrange_basis().ok()?;
         let mut split = smoothness.max(4);
@@ -185,8 +185,8 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (p, n as f64 * (before - x * p) / (1.0 - x * x))
 }
 
-/// The panel basis. Lagrange polynomial i is sum over k of (k + 1/2) w_i P_k(x_i) P_k(x), and the integral of P_k from -1 is
-/// (P_{k+1} - P_{k-1}) / (2 k + 1).
+/// The panel basis. Lagrange polynomial i is sum over k of (k + 1/2) w_i P_k(x_i) P_k(x), and the integral of P_k from
+/// -1 is (P_{k+1} - P_{k-1}) / (2 k + 1).
 fn integrated_lagrange_basis() -> Result<Basis, NotConverged> {
     let mut nodes = [0.0; NODES];
     let mut weights = [0.0; NODES];

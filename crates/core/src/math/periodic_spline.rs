@@ -1,9 +1,9 @@
 //! Periodic cubic spline through the points of a table.
 //!
-//! In: polar angles and radii of measured or computed points. Out: a radius law with continuous curvature (C2); the third
-//! derivative is constant between points and jumps at them. Law: continuity of the first derivative at every point gives a
-//! cyclic tridiagonal system for the second derivatives (de Boor, *A Practical Guide to Splines*, 1978, ch. IV), solved
-//! with the Sherman-Morrison formula.
+//! In: polar angles and radii of measured or computed points. Out: a radius law with continuous curvature (C2); the
+//! third derivative is constant between points and jumps at them. Law: continuity of the first derivative at every
+//! point gives a cyclic tridiagonal system for the second derivatives (de Boor, *A Practical Guide to Splines*, 1978,
+//! ch. IV), solved with the Sherman-Morrison formula.
 //!
 //! Road not taken: trigonometric interpolation. It is smoother, but rings on points that are not evenly spaced.
 

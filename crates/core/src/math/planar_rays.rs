@@ -1,14 +1,16 @@
 //! Where the parallel rays of a family cross a closed curve.
 //!
-//! In: a [`ClosedCurve`] in pieces that hardly turn; the rays of one family. Out: for every ray the crossings, with the curve's normal and its sense, so that what lies
-//! inside follows from the winding number.
+//! In: a [`ClosedCurve`] in pieces that hardly turn; the rays of one family. Out: for every ray the crossings, with the
+//! curve's normal and its sense, so that what lies inside follows from the winding number.
 //!
-//! A piece whose tangent turns through the rays' direction is split there. Every part is then monotone across the rays, and a ray between its two ends crosses it exactly once: no root is
-//! searched for where there is none, and none is missed, however a ray grazes the curve. Parts own their lower end and not their upper one, and neighbours share
-//! the same node, so crossings of a closed curve always come in pairs. The root itself is found by Newton's method inside the part's ends.
+//! A piece whose tangent turns through the rays' direction is split there. Every part is then monotone across the rays,
+//! and a ray between its two ends crosses it exactly once: no root is searched for where there is none, and none is
+//! missed, however a ray grazes the curve. Parts own their lower end and not their upper one, and neighbours share the
+//! same node, so crossings of a closed curve always come in pairs. The root itself is found by Newton's method inside
+//! the part's ends.
 //!
-//! Road not taken: each ray against each segment. The rays of a pass lie side by side, and going along the curve finds all of them in the time that
-//! a handful of rays would take.
+//! Road not taken: each ray against each segment. The rays of a pass lie side by side, and going along the curve finds
+//! all of them in the time that a handful of rays would take.
 
 use glam::DVec2;
 use std::ops::Range;
@@ -86,7 +88,8 @@ impl RayRow {
     }
 }
 
-/// Part of a closed curve between two nodes; piece i ends where piece i + 1 starts, the last one where the first starts.
+/// Part of a closed curve between two nodes; piece i ends where piece i + 1 starts, the last one where the first
+/// starts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
     /// Law of the curve that holds here; [`Piece::STRAIGHT`] for a chord.
@@ -173,7 +176,8 @@ impl RayCrossings {
         self.lay_within(curve, family, row, window, 0.0);
     }
 
-    /// The same; [`Self::cubics`] then gives the parts as well that come within `margin_mm` of a ray: a kernel that rounds places has rays cross some of them, and counts in pairs only if it has all.
+    /// The same; [`Self::cubics`] then gives the parts as well that come within `margin_mm` of a ray: a kernel that
+    /// rounds places has rays cross some of them, and counts in pairs only if it has all.
     pub fn lay_within(
         &mut self,
         curve: &impl ClosedCurve,
@@ -248,8 +252,8 @@ impl RayCrossings {
         }
     }
 
-    /// The parts as cubics through their ends with the curve's own directions there, for kernels that know no curve. A part turns by a few degrees, so its cubic is
-    /// off by a nanometre at most on an arc of 30 mm.
+    /// The parts as cubics through their ends with the curve's own directions there, for kernels that know no curve. A
+    /// part turns by a few degrees, so its cubic is off by a nanometre at most on an arc of 30 mm.
     pub fn cubics(&self, curve: &impl ClosedCurve, family: Family) -> impl Iterator<Item = PartCubic> {
         self.parts.iter().map(move |part| {
             let run = [part.along[1] - part.along[0], part.across[1] - part.across[0]];

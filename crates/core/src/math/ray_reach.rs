@@ -1,6 +1,8 @@
-//! Between which places each ray of a family can cross a closed curve at all, before anything is solved: from a polygon and how far the curve may lie from it.
+//! Between which places each ray of a family can cross a closed curve at all, before anything is solved: from a polygon
+//! and how far the curve may lie from it.
 //!
-//! In: a [`LooseOutline`]. Out: per ray the least and the largest place that the curve can have on it; whatever the curve encloses on that ray lies between them.
+//! In: a [`LooseOutline`]. Out: per ray the least and the largest place that the curve can have on it; whatever the
+//! curve encloses on that ray lies between them.
 //!
 //! The law: a piece within `tolerance` of its chord is met only by rays within the chord's ends and the tolerance, and
 //! there no further from the chord's line than tolerance x sqrt(1 + slope^2) along the ray, nor beyond

@@ -101,8 +101,8 @@ pub fn regula_falsi(mut f: impl FnMut(f64) -> f64, from: f64, to: f64, residual:
     Some(bisect(|x| f(x) < 0.0, a, b))
 }
 
-/// Sample angles of one turn. The grid is shifted off zero, because curves with symmetric lobes have their extrema on round
-/// fractions of the turn, where the sign would be a matter of rounding.
+/// Sample angles of one turn. The grid is shifted off zero, because curves with symmetric lobes have their extrema on
+/// round fractions of the turn, where the sign would be a matter of rounding.
 pub fn sample_angle_rad(index: usize, samples: usize) -> f64 {
     (index as f64 - 0.381_966) * TURN_RAD / samples as f64
 }

@@ -1,21 +1,26 @@
-//! One tooth of a cutter as a closed region of the transverse plane: its edge, closed inwards through the cutter's body.
+//! One tooth of a cutter as a closed region of the transverse plane: its edge, closed inwards through the cutter's
+//! body.
 //!
-//! In: the blade's [`Edge`]. Out: nodes and pieces for [`crate::math::planar_rays`], in the blade frame, and the curve in any pose. From the ends of the edge two straight lines
-//! run towards the blade's origin, the cutter's axis, to a radius that the blank never reaches; so whatever of the blank lies in the cutter lies in the region of one of
-//! its teeth, and the lines themselves never meet material that the edge has not taken.
+//! In: the blade's [`Edge`]. Out: nodes and pieces for [`crate::math::planar_rays`], in the blade frame, and the curve
+//! in any pose. From the ends of the edge two straight lines run towards the blade's origin, the cutter's axis, to a
+//! radius that the blank never reaches; so whatever of the blank lies in the cutter lies in the region of one of its
+//! teeth, and the lines themselves never meet material that the edge has not taken.
 //!
-//! Pieces turn by at most `PIECE_TURN_RAD`, which makes the chord a good guess for Newton's method and leaves at most one place in a piece where it runs along a ray, and they lie within
-//! `CUBIC_MM` of the cubic through their ends, which stands for them in f32 kernels.
+//! Pieces turn by at most `PIECE_TURN_RAD`, which makes the chord a good guess for Newton's method and leaves at most
+//! one place in a piece where it runs along a ray, and they lie within `CUBIC_MM` of the cubic through their ends,
+//! which stands for them in f32 kernels.
 
 use super::edge::{Edge, Segment};
 use crate::frame::Rigid2;
 use crate::math::planar_rays::{ClosedCurve, Piece};
 use glam::DVec2;
 
-/// Largest turn of the tangent within a piece: 3 degrees of an arc of 30 mm stay within 10 um of their chord. Half as much doubles the pieces and saves no Newton step.
+/// Largest turn of the tangent within a piece: 3 degrees of an arc of 30 mm stay within 10 um of their chord. Half as
+/// much doubles the pieces and saves no Newton step.
 const PIECE_TURN_RAD: f64 = 0.05;
 
-/// Largest distance of a piece from the cubic through its ends and end tangents, mm: a fraction of what f32 resolves 70 mm from the axis.
+/// Largest distance of a piece from the cubic through its ends and end tangents, mm: a fraction of what f32 resolves 70
+/// mm from the axis.
 const CUBIC_MM: f64 = 1e-6;
 
 /// Closed outline of a cutter tooth in the blade frame.

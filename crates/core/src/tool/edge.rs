@@ -1,9 +1,10 @@
 //! A blade's cutting edge: a chain of named segments, analytic in f64, with the table each backend reads.
 //!
-//! Segments follow each other counter-clockwise round the blade (up the right flank, over the tip, down the left flank), the tool's body on
-//! their left. Every segment has a frame of its own: origin at its middle, **x out of the tool**, y along its chord in the chain's direction. A ray
-//! (origin and direction in that frame, p(h) = o + h n) enters the tool where `f(h) = x(h) - U(y(h))` falls through zero, U being the edge's x over y:
-//! an [`EdgeTable`] or, for arcs, the circle itself.
+//! Segments follow each other counter-clockwise round the blade (up the right flank, over the tip, down the left
+//! flank), the tool's body on their left. Every segment has a frame of its own: origin at its middle, **x out of the
+//! tool**, y along its chord in the chain's direction. A ray (origin and direction in that frame, p(h) = o + h n)
+//! enters the tool where `f(h) = x(h) - U(y(h))` falls through zero, U being the edge's x over y: an [`EdgeTable`] or,
+//! for arcs, the circle itself.
 
 use super::edge_table::{EdgeTable, TableError};
 use crate::error::NotConverged;
@@ -122,7 +123,8 @@ struct InvoluteProfile {
 
 impl Profile for InvoluteProfile {
     fn x_and_slope(&self, y_mm: f64) -> Result<[f64; 2], NotConverged> {
-        // dp/du = r_b u e(u), e the direction to the base circle's contact point: Newton on y(u) from the chord's share of u^2.
+        // dp/du = r_b u e(u), e the direction to the base circle's contact point: Newton on y(u) from the chord's share
+        // of u^2.
         let [u0, u1] = self.roll_range;
         let y_at = |u: f64| self.segment_from_blade.point(self.involute.point(u)).y;
         let (y0, y1) = (y_at(u0), y_at(u1));
@@ -299,11 +301,11 @@ impl Segment {
         }
     }
 
-    /// Where the ray `origin + h direction` (segment frame, unit direction) enters the tool through this segment or its continuation
-    /// (end tangents of a table, the full circle of an arc). `None`: it never does.
+    /// Where the ray `origin + h direction` (segment frame, unit direction) enters the tool through this segment or its
+    /// continuation (end tangents of a table, the full circle of an arc). `None`: it never does.
     ///
-    /// The residual of a convex segment is convex in h, so Newton's method from a place where it falls runs monotonically
-    /// to the entry, however far away it starts.
+    /// The residual of a convex segment is convex in h, so Newton's method from a place where it falls runs
+    /// monotonically to the entry, however far away it starts.
     pub fn enter(&self, origin_mm: DVec2, direction: DVec2) -> Option<RayHit> {
         match &self.shape {
             SegmentShape::Arc { radius_mm } => {

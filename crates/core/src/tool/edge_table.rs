@@ -1,9 +1,10 @@
 //! The edge as both backends read it: x over y in cubic cells of equal width.
 //!
-//! A segment that is not an arc is tabulated in its own frame (origin at its middle, y along its chord, x out of the tool) as
-//! Hermite cubics with direct index. The residual of a ray, `x - U(y)`, then has no division and no transcendental function, which is what keeps
-//! the f32 kernels at a fraction of a nanometre on hardware that rounds divisions to 2.5 ULP, and it takes any profile. Beyond its ends the table goes
-//! on along its end tangents: candidate bounds need an edge that continues, hits there are not accepted.
+//! A segment that is not an arc is tabulated in its own frame (origin at its middle, y along its chord, x out of the
+//! tool) as Hermite cubics with direct index. The residual of a ray, `x - U(y)`, then has no division and no
+//! transcendental function, which is what keeps the f32 kernels at a fraction of a nanometre on hardware that rounds
+//! divisions to 2.5 ULP, and it takes any profile. Beyond its ends the table goes on along its end tangents: candidate
+//! bounds need an edge that continues, hits there are not accepted.
 //!
 //! Road not taken: the analytic involute in the kernel (needs an arctangent; seven times the f32 error).
 
@@ -41,7 +42,8 @@ pub struct EdgeTable {
 }
 
 impl EdgeTable {
-    /// Table of a profile between two places, both given as y; halves the cells until the largest error met is below [`TABLE_TOLERANCE_MM`].
+    /// Table of a profile between two places, both given as y; halves the cells until the largest error met is below
+    /// [`TABLE_TOLERANCE_MM`].
     ///
     /// # Errors
     /// Even 4096 cells do not reach the tolerance, or the profile has no place with some y.

@@ -1,13 +1,13 @@
 //! The involute flank of a tooth, in the tooth's frame (x along the tooth's centre line, outwards).
 //!
-//! With base radius r_b and half tooth angle psi_b on the base circle, the flank on side sigma (+1: counter-clockwise, -1: clockwise)
-//! at roll u (tangent of the local pressure angle; arc of the base circle unrolled over r_b) is
+//! With base radius r_b and half tooth angle psi_b on the base circle, the flank on side sigma (+1: counter-clockwise,
+//! -1: clockwise) at roll u (tangent of the local pressure angle; arc of the base circle unrolled over r_b) is
 //!
 //! `p(u) = r_b exp(i sigma (psi_b - u)) (1 + i sigma u)`
 //!
-//! Its outward normal is `i sigma exp(i sigma (psi_b - u))`, its radius of curvature r_b u, and the arc from the base circle r_b u^2 / 2.
-//! Parallel involutes share their normals: an offset d outwards is the same flank with psi_b + d / r_b (Litvin and Fuentes, Gear Geometry and
-//! Applied Theory, 2004, chapter 10).
+//! Its outward normal is `i sigma exp(i sigma (psi_b - u))`, its radius of curvature r_b u, and the arc from the base
+//! circle r_b u^2 / 2. Parallel involutes share their normals: an offset d outwards is the same flank with psi_b + d /
+//! r_b (Litvin and Fuentes, Gear Geometry and Applied Theory, 2004, chapter 10).
 
 use glam::DVec2;
 

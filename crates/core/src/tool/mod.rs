@@ -1,9 +1,10 @@
 //! Tools: how many blades, where they sit, and the edge each one cuts with.
 //!
-//! A tool gives its edge as a chain of named segments in the **blade frame** (x along the blade's centre line towards its tip, y across it so that
-//! the blade's left flank has y > 0) and the place of every blade in the tool. What cuts is the rake face's outline: a tool whose rake faces stay in
-//! transverse planes of the work ([`PlanarTool`]: shaper cutters, by the profile projected along the stroke) gives plane motions, any other one
-//! ([`SpatialTool`]: hobs; skiving cutters and face-mill heads fit as well) gives places in space.
+//! A tool gives its edge as a chain of named segments in the **blade frame** (x along the blade's centre line towards
+//! its tip, y across it so that the blade's left flank has y > 0) and the place of every blade in the tool. What cuts
+//! is the rake face's outline: a tool whose rake faces stay in transverse planes of the work ([`PlanarTool`]: shaper
+//! cutters, by the profile projected along the stroke) gives plane motions, any other one ([`SpatialTool`]: hobs;
+//! skiving cutters and face-mill heads fit as well) gives places in space.
 
 pub mod closed_tooth;
 pub mod edge;
@@ -29,10 +30,12 @@ pub trait PlanarTool: CuttingTool {
 
 /// A tool whose rake faces move through space.
 pub trait SpatialTool: CuttingTool {
-    /// Place of blade `index` in the tool frame. The rake face holds the blade's x and y axes; z = x cross y is its normal.
+    /// Place of blade `index` in the tool frame. The rake face holds the blade's x and y axes; z = x cross y is its
+    /// normal.
     fn tool_from_blade(&self, index: u32) -> Rigid3;
-    /// How much the rake face turns about the tool's axis per mm of blade y, rad/mm, counted about the tool's +z: 0 for a plane rake face through
-    /// the axis. With a twist, blade coordinates are cylindrical: x is the distance from the tool's axis, y runs along it.
+    /// How much the rake face turns about the tool's axis per mm of blade y, rad/mm, counted about the tool's +z: 0 for
+    /// a plane rake face through the axis. With a twist, blade coordinates are cylindrical: x is the distance from the
+    /// tool's axis, y runs along it.
     fn rake_twist_rad_per_mm(&self) -> f64;
     /// Largest angle between a blade in the work and the direction from the tool's axis towards the work, rad, below
     /// half pi: further round, every blade is clear of the blank.

@@ -1,4 +1,5 @@
-// What the host hands over for the blank field, member by member the same as crates/gpu/src/records.rs; a test compares both.
+// What the host hands over for the blank field, member by member the same as crates/gpu/src/records.rs; a test compares
+// both.
 
 // What holds for a whole launch.
 struct BlankLaunch {
@@ -42,8 +43,8 @@ struct BlankPart {
     padding_3: f32,
 }
 
-// Material on a ray; normals as components along and across the rays, out of the material for rays along x; for rays along y
-// the host turns them round, which the exchanged axes make up for.
+// Material on a ray; normals as components along and across the rays, out of the material for rays along x; for rays
+// along y the host turns them round, which the exchanged axes make up for.
 struct BlankSpan {
     low_mm: f32,
     high_mm: f32,

@@ -1,12 +1,12 @@
 // Entry of four rays into one segment. Coordinates count from the segment's base point, which lies near the contact:
-// they are tenths of a millimetre, so that f32 resolves a hundredth of a nanometre. Derivation: crates/core/src/cut/cpu/planar.rs;
-// base points: crates/gpu/src/compose.rs.
+// they are tenths of a millimetre, so that f32 resolves a hundredth of a nanometre. Derivation:
+// crates/core/src/cut/cpu/planar.rs; base points: crates/gpu/src/compose.rs.
 
 // Newton steps at most: two suffice from the tile's middle, grazing rays take five.
 const MAX_STEPS: u32 = 8u;
-// A step below this (100 nm) is the last one: the error after it is its square times half the bend of the edge along the
-// ray, 0.005 nm where the radius is 1 mm. The residual of a grazing ray is known to some 1e-8 mm, so its steps may not
-// shrink much further.
+// A step below this (100 nm) is the last one: the error after it is its square times half the bend of the edge along
+// the ray, 0.005 nm where the radius is 1 mm. The residual of a grazing ray is known to some 1e-8 mm, so its steps may
+// not shrink much further.
 const LAST_STEP_MM: f32 = 1e-4;
 // Heights are held within this of the start, so that no iterate grows beyond what f32 holds; rays are far shorter.
 const REACH_MM: f32 = 200.0;

@@ -46,8 +46,8 @@ struct PassRecord {
     y_to_mm: f32,
     // Id of the pass.
     pass_id: u32,
-    // Table: coefficients of t to t^4, t = y against the base point. Arc: base point against the centre; square of its distance
-    // from the centre less that of the radius; nothing.
+    // Table: coefficients of t to t^4, t = y against the base point. Arc: base point against the centre; square of its
+    // distance from the centre less that of the radius; nothing.
     curve: vec4<f32>,
     // Table: coefficient of t^5.
     curve_5: f32,

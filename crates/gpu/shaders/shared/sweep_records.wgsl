@@ -1,5 +1,5 @@
-// What the host hands over for rays in space, member by member the same as crates/gpu/src/sweep_records.rs; a test compares
-// both.
+// What the host hands over for rays in space, member by member the same as crates/gpu/src/sweep_records.rs; a test
+// compares both.
 
 // Dexels that visit the same passes, in groups of four rows.
 struct SweepTile {
@@ -14,8 +14,8 @@ struct SweepTile {
 // One sweep of one segment over one tile. Axes: r from the tool's axis, q in the direction of rotation, y along the
 // blade's; r and y count from the segment's base point.
 struct SweepRecord {
-    // Rows r, q, y of the rotation, three for each of u^0, u^1, u^2; in w the same coefficient of the place of the tile's
-    // middle ray at the start height.
+    // Rows r, q, y of the rotation, three for each of u^0, u^1, u^2; in w the same coefficient of the place of the
+    // tile's middle ray at the start height.
     turn: array<vec4<f32>, 9>,
     // Coefficients of u^3 of the place, and the height where the iteration starts.
     place_3: vec4<f32>,

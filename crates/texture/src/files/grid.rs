@@ -2,8 +2,8 @@
 //!
 //! In: two axes with names, meaning and spacing in mm. Out: the order of the values and their places.
 //!
-//! Values lie with v fastest: `index = u * v.count + v`. A map is mostly long along v and short along u, so that order gives
-//! pictures and EXR rows as they are drawn: v to the right.
+//! Values lie with v fastest: `index = u * v.count + v`. A map is mostly long along v and short along u, so that order
+//! gives pictures and EXR rows as they are drawn: v to the right.
 
 /// One axis of a map.
 #[derive(Debug, Clone, PartialEq)]

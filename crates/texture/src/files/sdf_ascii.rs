@@ -25,7 +25,8 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
         return Err(format!("an SDF file holds at most 65535 points a side, not {}", nx.max(ny)));
     }
     let mut text = format!(
-        "aISO-1.0\nManufacID = {MAKER}\nCreateDate = {UNKNOWN_DATE}\nModDate = {UNKNOWN_DATE}\nNumPoints = {nx}\nNumProfiles = {ny}\n\
+        "aISO-1.0\nManufacID = {MAKER}\nCreateDate = {UNKNOWN_DATE}\nModDate = {UNKNOWN_DATE}\nNumPoints = \
+        {nx}\nNumProfiles = {ny}\n\
          Xscale = {:e}\nYscale = {:e}\nZscale = 1e-6\nZresolution = -1\nCompression = 0\nDataType = 7\nCheckType = 0\n*\n",
         surface.dx_um() * 1e-6,
         surface.dy_um() * 1e-6

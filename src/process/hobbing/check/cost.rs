@@ -1,6 +1,7 @@
 //! The cost of a hobbing scene.
 //!
-//! Flanks are planned in a band about the middle of the face. For the blank, the sweeps that reach a slice are found for some passes and slices, and the rays that they cross are counted.
+//! Flanks are planned in a band about the middle of the face. For the blank, the sweeps that reach a slice are found
+//! for some passes and slices, and the rays that they cross are counted.
 
 use crate::Result;
 use crate::math::planar_rays::FAMILIES;

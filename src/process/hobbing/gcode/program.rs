@@ -1,7 +1,8 @@
 //! Straight lines in all axes that follow a linkage.
 //!
-//! In: a prepared operation, the contour error. Out: [`HobbingProgram`]: the longest blocks that keep the hob, where it can be in the work, within that error; what it asks of the axes; the share of it that an electronic
-//! gearbox takes over.
+//! In: a prepared operation, the contour error. Out: [`HobbingProgram`]: the longest blocks that keep the hob, where it
+//! can be in the work, within that error; what it asks of the axes; the share of it that an electronic gearbox takes
+//! over.
 
 use crate::gcode::{Digits, longest_lines};
 use crate::process::hobbing::HobbingJob;
@@ -146,7 +147,8 @@ fn rounded(axes: &Positions, digits: Digits) -> Positions {
 }
 
 impl HobbingProgram {
-    /// Longest straight lines, one after the other, that keep the hob within `contour_error_mm` of the operation's linkage, as far as the shortest blocks can. Feeds begin and end at knots.
+    /// Longest straight lines, one after the other, that keep the hob within `contour_error_mm` of the operation's
+    /// linkage, as far as the shortest blocks can. Feeds begin and end at knots.
     pub fn fit(job: &HobbingJob, operation: &PreparedHobbing, contour_error_mm: f64) -> Self {
         let linkage = &operation.linkage;
         let zone = ContactZone::new(job, operation);
@@ -200,8 +202,8 @@ impl HobbingProgram {
             .reduce(|| (0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst })
     }
 
-    /// What the program asks beyond the machine's limits: speeds within blocks, and steps of speed between blocks over the mean of their times. Where feeds begin, change and end, at `corners_s`, the control's own
-    /// ramps hold.
+    /// What the program asks beyond the machine's limits: speeds within blocks, and steps of speed between blocks over
+    /// the mean of their times. Where feeds begin, change and end, at `corners_s`, the control's own ramps hold.
     pub fn exceeded(&self, limits: &HobbingAxisLimits, corners_s: &[f64]) -> Vec<String> {
         let mut exceeded = Vec::new();
         for (axis, name) in NAMES.iter().enumerate() {

@@ -1,10 +1,12 @@
-//! Axis positions from the text of a hobbing program: only what is known is read, everything else is refused by line and word.
+//! Axis positions from the text of a hobbing program: only what is known is read, everything else is refused by line
+//! and word.
 
 use super::LETTERS;
 use super::program::{HobbingKnot, HobbingProgram};
 use crate::gcode::{Word, blocks};
 
-/// Axis positions of a program in this dialect: `G0` to the start, `G1` in `G93` with `F` in every block, `G21`, `G90`, `G94`, `M30`, words `N X Y Z W B C`, comments. Without W the shift is `shift_mm`.
+/// Axis positions of a program in this dialect: `G0` to the start, `G1` in `G93` with `F` in every block, `G21`, `G90`,
+/// `G94`, `M30`, words `N X Y Z W B C`, comments. Without W the shift is `shift_mm`.
 ///
 /// # Errors
 /// Line and word of what is malformed, unknown or missing.

@@ -43,8 +43,8 @@ fn points(segment: &Segment) -> Vec<DVec2> {
 
 #[test]
 fn edges_lie_on_an_involute_helicoid() {
-    // An involute helicoid has an involute of its base circle in every plane across the axis. Edge points of several teeth, brought to such planes along the screw, must
-    // lie on it: all starts, hands and gashes by one law.
+    // An involute helicoid has an involute of its base circle in every plane across the axis. Edge points of several
+    // teeth, brought to such planes along the screw, must lie on it: all starts, hands and gashes by one law.
     for (hand, starts, gash_form) in
         [(Hand::Right, 1, GashForm::Axial), (Hand::Left, 3, GashForm::Axial), (Hand::Left, 2, GashForm::Helical)]
     {
@@ -81,8 +81,8 @@ fn edges_lie_on_an_involute_helicoid() {
 fn tooth_and_space_fill_the_pitch() {
     for gash_form in [GashForm::Axial, GashForm::Helical] {
         let hob = hob(&model::Hob { gash_form, ..spec() }).unwrap();
-        // In the normal section a tooth is pi m / 2 thick, whatever the gashes: axial half thickness times cos(lambda), and times cos(lambda) again for the
-        // section across the thread that a helical gash is.
+        // In the normal section a tooth is pi m / 2 thick, whatever the gashes: axial half thickness times cos(lambda),
+        // and times cos(lambda) again for the section across the thread that a helical gash is.
         let normal = 2.0 * hob.half_thickness_mm(hob.pitch_radius_mm);
         let turn = hob.lead_angle_rad.cos();
         let expected = match gash_form {

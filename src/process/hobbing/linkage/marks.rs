@@ -1,13 +1,17 @@
 //! Cutting marks on the flanks from kinematics alone: where each gash touches, and the lattice that the touches form.
 //!
-//! In: linkage, target, hob. Out: [`Mark`]s in flank coordinates (roll past the pitch line, z), steps between them as vectors on the flank, the shortest two of the lattice.
+//! In: linkage, target, hob. Out: [`Mark`]s in flank coordinates (roll past the pitch line, z), steps between them as
+//! vectors on the flank, the shortest two of the lattice.
 //!
-//! **Law.** Hob and gear are conjugate to one rack; both touch it where its flank's normal passes the pitch point of each: on the line of action `Q = (0, 0, z) + lambda N` of the
-//! machine frame, N the rack's normal, z the slide. The rack stands at lambda = -e sigma cos(alpha_n) cos(beta) along it, sigma the roll in the section z. A gash's mark is where its rake
-//! face holds Q at that moment. There the edge lies on the target exactly; between marks it leaves ridges.
+//! **Law.** Hob and gear are conjugate to one rack; both touch it where its flank's normal passes the pitch point of
+//! each: on the line of action `Q = (0, 0, z) + lambda N` of the machine frame, N the rack's normal, z the slide. The
+//! rack stands at lambda = -e sigma cos(alpha_n) cos(beta) along it, sigma the roll in the section z. A gash's mark is
+//! where its rake face holds Q at that moment. There the edge lies on the target exactly; between marks it leaves
+//! ridges.
 //!
-//! Neighbours in the lattice are the next gash (v1) and the same hob tooth when the work has come round, gear teeth / starts turns of the hob later (v2). Without shift v2 is the axial feed along the
-//! tooth; with shift it crosses the profile.
+//! Neighbours in the lattice are the next gash (v1) and the same hob tooth when the work has come round, gear teeth /
+//! starts turns of the hob later (v2). Without shift v2 is the axial feed along the tooth; with shift it crosses the
+//! profile.
 
 use super::HobbingLinkage;
 use crate::math::convergence::{Step, iterate};
@@ -51,7 +55,8 @@ pub struct Marks<'a> {
 }
 
 impl Marks<'_> {
-    /// Mark of gash passage `gash` (any integer, counted from hob angle 0) on the flank of `space` (any integer, counted along the rolled arc without wrapping).
+    /// Mark of gash passage `gash` (any integer, counted from hob angle 0) on the flank of `space` (any integer,
+    /// counted along the rolled arc without wrapping).
     pub fn mark(&self, gash: i64, space: i64) -> Mark {
         let start = self.linkage.time_at_hob_angle(TURN_RAD * gash as f64 / f64::from(self.hob.gashes));
         let residual = |t: f64| self.touch(gash, space, t).0;
@@ -105,8 +110,8 @@ impl Marks<'_> {
         (rake - place, mark)
     }
 
-    /// Mark nearest to the pitch line of the flank of `space` (0 to one less than the gear's `teeth`) in the cycle in which the slide comes nearest to the height `z_mm`: its gash, the space counted without
-    /// wrapping, the mark.
+    /// Mark nearest to the pitch line of the flank of `space` (0 to one less than the gear's `teeth`) in the cycle in
+    /// which the slide comes nearest to the height `z_mm`: its gash, the space counted without wrapping, the mark.
     pub fn nearest(&self, space: i64, teeth: u32, z_mm: f64) -> (i64, i64, Mark) {
         let cycles = (self.linkage.end_s() / self.linkage.cycle_s()).ceil() as i64;
         let slide_apart = |space: i64| {
@@ -151,7 +156,8 @@ impl Marks<'_> {
         step(self.mark(gash, space), self.mark(gash + turns, space + teeth))
     }
 
-    /// A step (roll, z) measured on the flank where the profile takes `length_per_roll` (see [`crate::process::hobbing::rack_generation::RackContact::length_per_roll`]).
+    /// A step (roll, z) measured on the flank where the profile takes `length_per_roll` (see
+    /// [`crate::process::hobbing::rack_generation::RackContact::length_per_roll`]).
     pub fn on_flank(&self, step: DVec2, length_per_roll: f64) -> MarkStep {
         let (sin_t, cos_t) = self.target.rack.pressure_angle_rad.sin_cos();
         let g = self.linkage.geometry();
@@ -170,14 +176,16 @@ impl Marks<'_> {
         }
     }
 
-    /// The two shortest steps that span the same lattice as `steps` on a flank where the profile takes `length_per_roll`, the shortest first.
+    /// The two shortest steps that span the same lattice as `steps` on a flank where the profile takes
+    /// `length_per_roll`, the shortest first.
     pub fn reduced(&self, steps: [DVec2; 2], length_per_roll: f64) -> [MarkStep; 2] {
         let on_flank = |step: DVec2| self.on_flank(step, length_per_roll);
         shortest(steps, |step| on_flank(step).on_flank_mm).map(on_flank)
     }
 }
 
-/// The two shortest steps that span the same lattice as two others (Lagrange's reduction), the shortest first; `vector` gives the length of a step.
+/// The two shortest steps that span the same lattice as two others (Lagrange's reduction), the shortest first; `vector`
+/// gives the length of a step.
 ///
 /// Every round but the last makes the longer step shorter by a factor of `sqrt(3)` or ends the reduction: lengths of 15
 /// digits

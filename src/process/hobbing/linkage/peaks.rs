@@ -1,7 +1,8 @@
 //! Largest speeds and accelerations of the six axes.
 //!
-//! In: a linkage. Out: [`HobbingPeaks`] in the order hob, work, tangential (X), radial (Y with the infeed), slide, shift. Within a stretch of constant feeds the rates repeat with every
-//! cycle along the pitch curve, so one cycle of each stretch is searched. Rates jump between stretches; the infinite acceleration there is left to the control.
+//! In: a linkage. Out: [`HobbingPeaks`] in the order hob, work, tangential (X), radial (Y with the infeed), slide,
+//! shift. Within a stretch of constant feeds the rates repeat with every cycle along the pitch curve, so one cycle of
+//! each stretch is searched. Rates jump between stretches; the infinite acceleration there is left to the control.
 
 use super::{HobbingAxes, HobbingLinkage};
 use crate::machine::Peak;

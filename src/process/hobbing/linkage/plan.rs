@@ -1,11 +1,14 @@
 //! From an operation to its feed path: where slide, shift and infeed begin, how they run, how long it takes.
 //!
-//! In: the operation, hob, gear. Out: [`FeedPlan`]. The slide begins where the hob clears the blank and ends where the last contact has left the other face; both follow
-//! from the hob's tip cylinder and the length of contact unless the scene gives them. The hob must carry full contact at every moment: it touches the rack's flanks up to
-//! h / tan(alpha_t) beside the pitch point, h the larger of both addenda, so its teeth must reach that far along its axis on both sides of the pitch point.
+//! In: the operation, hob, gear. Out: [`FeedPlan`]. The slide begins where the hob clears the blank and ends where the
+//! last contact has left the other face; both follow from the hob's tip cylinder and the length of contact unless the
+//! scene gives them. The hob must carry full contact at every moment: it touches the rack's flanks up to h /
+//! tan(alpha_t) beside the pitch point, h the larger of both addenda, so its teeth must reach that far along its axis
+//! on both sides of the pitch point.
 //!
-//! A **shift** moves the hob along its own axis and therefore moves no point of that axis against the gear: what spaces the feed marks is the slide alone.
-//! Liu et al. 2015 keep v*_z = v_z + v_u sin(g) constant, slide and the shift's component together; a scene may ask for that.
+//! A **shift** moves the hob along its own axis and therefore moves no point of that axis against the gear: what spaces
+//! the feed marks is the slide alone. Liu et al. 2015 keep v*_z = v_z + v_u sin(g) constant, slide and the shift's
+//! component together; a scene may ask for that.
 
 use super::{FeedPath, FeedPhase, HobbingGeometry};
 use crate::error::Refusal;
@@ -31,13 +34,15 @@ pub struct FeedPlan {
     pub contact_half_length_mm: f64,
     /// First and last place of the hob's middle along its axis, mm.
     pub shift_range_mm: [f64; 2],
-    /// Feed of the slide in the time of one cycle, mm, always positive; first and, where it differs after a reversal of the shift, second.
+    /// Feed of the slide in the time of one cycle, mm, always positive; first and, where it differs after a reversal of
+    /// the shift, second.
     pub slide_feeds_mm: [f64; 2],
     /// Time in which the hob does not cut: idle travel of a repeating shift, s.
     pub idle_s: f64,
     /// Number of shift strokes begun; 1 without a shift.
     pub shift_strokes: u32,
-    /// Height of the feed marks, largest, mm: f^2 sin(alpha_n) / (8 R) with f = feed / cos(g) and R the smallest contact radius of the hob.
+    /// Height of the feed marks, largest, mm: f^2 sin(alpha_n) / (8 R) with f = feed / cos(g) and R the smallest
+    /// contact radius of the hob.
     pub feed_mark_mm: f64,
 }
 
@@ -63,7 +68,8 @@ pub fn feed_mark_mm(feed_mm: f64, head_angle_rad: f64, pressure_angle_rad: f64, 
 }
 
 impl FeedPlan {
-    /// Plan of an operation whose cycle along the pitch curve takes `cycle_s`; `offset_mm` is how far the hob stays back from full depth, allowances included.
+    /// Plan of an operation whose cycle along the pitch curve takes `cycle_s`; `offset_mm` is how far the hob stays
+    /// back from full depth, allowances included.
     ///
     /// # Errors
     /// A hob too short for its contact, a shift longer than the hob, a shift that outruns the feed.
@@ -169,7 +175,8 @@ impl FeedPlan {
         [depth_mm, gear_addendum_mm]: [f64; 2],
         tilt: f64,
     ) -> (f64, f64) {
-        // Half the chord that the tip line cuts from the blank, no longer than the hob or the blank; a flat curve has no chord of its own.
+        // Half the chord that the tip line cuts from the blank, no longer than the hob or the blank; a flat curve has
+        // no chord of its own.
         let facts = curve.facts();
         let flattest = facts.smallest_curvature.curvature_per_mm;
         let outline_mm = if flattest > 0.0 { 1.0 / flattest + gear_addendum_mm } else { f64::INFINITY };
@@ -178,8 +185,9 @@ impl FeedPlan {
         let reach_mm = if chord_mm.is_finite() { chord_mm.min(longest_mm) } else { longest_mm };
         let sink_mm = (hob.tip_radius_mm.powi(2) - (hob.tip_radius_mm - depth_mm).powi(2)).max(0.0).sqrt();
         let approach = sink_mm / tilt.cos() + reach_mm * tilt.tan().abs() + CLEARANCE_MM;
-        // Hob and flank touch on the normal through the pitch point, which leans along the gear's axis: h sin(beta) / tan(alpha_n) at the height h. Each tooth's last pass comes up to one feed before the end, and cuts
-        // half a feed to either side.
+        // Hob and flank touch on the normal through the pitch point, which leans along the gear's axis: h sin(beta) /
+        // tan(alpha_n) at the height h. Each tooth's last pass comes up to one feed before the end, and cuts half a
+        // feed to either side.
         let highest_mm = gear_addendum_mm.max(hob.tip_radius_mm - hob.pitch_radius_mm);
         let lean_mm = highest_mm * gear.helix_angle_rad.sin() / gear.pressure_angle_rad.tan();
         let overrun = lean_mm + 0.5 * operation.axial_feed_mm_per_revolution + CLEARANCE_MM;
@@ -228,7 +236,8 @@ impl FeedPlan {
             return Err(Refusal::new(
                 "operation.linkage.hobbing_diagonal.shift_mm_per_revolution",
                 format!(
-                    "the shift alone moves {:.3} mm along the gear's axis per revolution, more than the resulting feed of {} mm: the slide would have to go back",
+                    "the shift alone moves {:.3} mm along the gear's axis per revolution, more than the resulting feed \
+                    of {} mm: the slide would have to go back",
                     shift_mm_per_revolution * tilt.sin().abs(),
                     operation.axial_feed_mm_per_revolution
                 ),
@@ -263,7 +272,8 @@ impl FeedPlan {
                         format!(
                             "the cut takes {needed_mm:.1} mm of shift, the hob has {stroke_mm:.1} mm with full contact"
                         ),
-                        "use strategy = \"reciprocating\" or \"repeating\", less shift_mm_per_revolution, or a longer hob",
+                        "use strategy = \"reciprocating\" or \"repeating\", less shift_mm_per_revolution, or a longer \
+                        hob",
                     ));
                 }
                 ShiftStrategy::Reciprocating => toward = -toward,

@@ -128,7 +128,8 @@ fn exact_laws_roll_without_slip() {
                 + g.arc_per_shift() * axes.shift_mm.value();
             assert!((rolled - axes.arc_mm.value()).abs() < 1e-9, "{law:?} at {t}");
             let RigidMotion3 { pose, .. } = linkage.motion(t);
-            // P, a point of the work's pitch curve, lies under the hob's axis at the pitch radius while the hob is at depth.
+            // P, a point of the work's pitch curve, lies under the hob's axis at the pitch radius while the hob is at
+            // depth.
             let p = linkage.curve().frame(axes.polar_rad.value()).point_mm;
             let work_from_head = linkage.work_from_head(t);
             let head = work_from_head.inverse().point(DVec3::new(p.x, p.y, 0.0));

@@ -1,8 +1,11 @@
-//! What the blank field says about a hobbed gear: volumes by two ways, sections against the target's, damage to the target.
+//! What the blank field says about a hobbed gear: volumes by two ways, sections against the target's, damage to the
+//! target.
 //!
-//! In: the job and its cut blank. Out: [`HobbedBlankReport`]. As in [`crate::process::shaping::measure::blank_report`]; the target's section differs from slice to slice, since the teeth wind, and is made anew for each.
+//! In: the job and its cut blank. Out: [`HobbedBlankReport`]. As in [`crate::process::shaping::measure::blank_report`];
+//! the target's section differs from slice to slice, since the teeth wind, and is made anew for each.
 //!
-//! A hob that cuts where it should not, the far side of a lobe or a neighbouring tooth, is found here: the flanks' own rays end before.
+//! A hob that cuts where it should not, the far side of a lobe or a neighbouring tooth, is found here: the flanks' own
+//! rays end before.
 
 use crate::cut::BlankStats;
 use crate::cut::CutBlank;
@@ -14,7 +17,8 @@ use crate::process::hobbing::HobCutter;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Distance of the target outline's points, mm: chords of a fillet of 0.8 mm then miss 0.25 um, a quarter of the least damage that is reported.
+/// Distance of the target outline's points, mm: chords of a fillet of 0.8 mm then miss 0.25 um, a quarter of the least
+/// damage that is reported.
 const TARGET_SPACING_MM: f64 = 0.04;
 
 /// Everything that the blank field says about a hobbed gear.

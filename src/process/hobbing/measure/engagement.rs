@@ -1,13 +1,16 @@
-//! Which hob teeth do the work: the area of a tooth space in one transverse section, booked on the tooth that removes it first.
+//! Which hob teeth do the work: the area of a tooth space in one transverse section, booked on the tooth that removes
+//! it first.
 //!
-//! In: a hobbing linkage that cuts into full stock, hob, pitch curve. Out: [`Engagement`], area per hob tooth. Law: a point of the section is taken by the first pass whose edge
-//! holds it at the moment when the rake face goes through it. Only the thread that runs through the space can reach it, so there is one tooth per gash passage.
+//! In: a hobbing linkage that cuts into full stock, hob, pitch curve. Out: [`Engagement`], area per hob tooth. Law: a
+//! point of the section is taken by the first pass whose edge holds it at the moment when the rake face goes through
+//! it. Only the thread that runs through the space can reach it, so there is one tooth per gash passage.
 //!
-//! This is a load figure in a plane, from points: it says how the work is shared, not how thick the chips are, and nothing
-//! about tool life. It serves `gearcut axes`, before anything is cut, and takes a second; what the teeth do in the whole
-//! process is measured on the cut blank ([`super::hob_load`]).
+//! This is a load figure in a plane, from points: it says how the work is shared, not how thick the chips are, and
+//! nothing about tool life. It serves `gearcut axes`, before anything is cut, and takes a second; what the teeth do in
+//! the whole process is measured on the cut blank ([`super::hob_load`]).
 //!
-//! The point's path in the hob's head is a polynomial in the hob angle through five poses per pass, exact to far below the grid.
+//! The point's path in the hob's head is a polynomial in the hob angle through five poses per pass, exact to far below
+//! the grid.
 
 use crate::frame::Rigid3;
 use crate::process::hobbing::Hob;
@@ -31,7 +34,8 @@ const STEPS: usize = 4;
 /// Area per tooth.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Engagement {
-    /// Area in mm^2 by gash passage of the tooth (see [`crate::process::hobbing::hob::HobTooth::passage`]), negative towards the entering side.
+    /// Area in mm^2 by gash passage of the tooth (see [`crate::process::hobbing::hob::HobTooth::passage`]), negative
+    /// towards the entering side.
     pub area_mm2: BTreeMap<i64, f64>,
 }
 
@@ -68,7 +72,8 @@ impl Engagement {
         }
     }
 
-    /// Engagement in `space` at the section `z_mm` (gear frame); points stand `spacing_mm` apart from `depth_mm` below to `addendum_mm` over the pitch curve.
+    /// Engagement in `space` at the section `z_mm` (gear frame); points stand `spacing_mm` apart from `depth_mm` below
+    /// to `addendum_mm` over the pitch curve.
     pub fn of_space(
         linkage: &HobbingLinkage,
         target: &RackGeneration,
@@ -132,7 +137,8 @@ fn passes(linkage: &HobbingLinkage, target: &RackGeneration, hob: &Hob, space: u
         let arc_mm = axes.arc_mm.value() - target.space_arc_mm(0, z_mm);
         let cycle = ((arc_mm / pitch_mm - f64::from(space)) / teeth as f64).round() as i64;
         let counted = i64::from(space) + cycle * teeth;
-        // Thread and turn that run through that space: start = space modulo starts, one turn further for every `starts` spaces.
+        // Thread and turn that run through that space: start = space modulo starts, one turn further for every `starts`
+        // spaces.
         let start = counted.rem_euclid(starts);
         let passage = gash - gashes * counted.div_euclid(starts);
         let Some(tooth) = hob.teeth.iter().find(|tooth| i64::from(tooth.start) == start && tooth.passage == passage)
@@ -150,7 +156,8 @@ fn passes(linkage: &HobbingLinkage, target: &RackGeneration, hob: &Hob, space: u
 }
 
 impl Pass {
-    /// Whether the tooth may reach anything within a distance of a point: not behind the hob nor beyond its tip or flanks by more than the work moves meanwhile.
+    /// Whether the tooth may reach anything within a distance of a point: not behind the hob nor beyond its tip or
+    /// flanks by more than the work moves meanwhile.
     fn reaches(&self, hob: &Hob, point: DVec3, around_mm: f64) -> bool {
         let middle = self.head_from_work[2].point(point);
         let slack_mm = self.drift_mm + around_mm;

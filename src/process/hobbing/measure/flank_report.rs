@@ -1,10 +1,13 @@
 //! Everything measured on one hobbed flank after all operations.
 //!
-//! In: the cut flank. Out: [`HobbedReport`]: where the flank begins, heights over the target on the evaluated part, stock of earlier operations, profile and helix deviations.
+//! In: the cut flank. Out: [`HobbedReport`]: where the flank begins, heights over the target on the evaluated part,
+//! stock of earlier operations, profile and helix deviations.
 //!
-//! The evaluated part leaves out a twentieth at both ends of profile and face. Profile deviations are those of the middle row, helix deviations those of the middle
-//! column (ISO 1328-1:2013: F_alpha and F_beta total, f_H slope, f_f form), along the target's local normals in space: on a gear that is not round the target takes the place of the design helix, and on a helical gear
-//! the standard's figures in the transverse section are these over cos(beta_b). Profiles stand over the roll, as the standard's do: over the place of the contact on the line of action.
+//! The evaluated part leaves out a twentieth at both ends of profile and face. Profile deviations are those of the
+//! middle row, helix deviations those of the middle column (ISO 1328-1:2013: F_alpha and F_beta total, f_H slope, f_f
+//! form), along the target's local normals in space: on a gear that is not round the target takes the place of the
+//! design helix, and on a helical gear the standard's figures in the transverse section are these over cos(beta_b).
+//! Profiles stand over the roll, as the standard's do: over the place of the contact on the line of action.
 
 use crate::dexel::NO_PASS;
 use crate::measure::deviation::{Trace, TraceDeviation};
@@ -22,7 +25,8 @@ pub struct Heights {
     pub lowest_mm: f64,
     /// Highest.
     pub highest_mm: f64,
-    /// Where the lowest and the highest one stand: arc of the middle section from the form point, and place along the tooth, mm.
+    /// Where the lowest and the highest one stand: arc of the middle section from the form point, and place along the
+    /// tooth, mm.
     pub extremes_at_mm: [[f64; 2]; 2],
     /// Arithmetic mean.
     pub mean_mm: f64,
@@ -47,7 +51,8 @@ pub struct HobbedReport {
     pub finished: Option<Heights>,
     /// What each earlier operation left over the finished surface.
     pub stock: Vec<Option<Heights>>,
-    /// Heights along the profile in the middle of the face, over the place on the line of action ([`crate::process::hobbing::flank_patch::FlankPatch::on_line_of_action_mm`]).
+    /// Heights along the profile in the middle of the face, over the place on the line of action
+    /// ([`crate::process::hobbing::flank_patch::FlankPatch::on_line_of_action_mm`]).
     pub profile_trace: Trace,
     /// Its deviations.
     pub profile: Option<TraceDeviation>,

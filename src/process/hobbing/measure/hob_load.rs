@@ -3,15 +3,19 @@
 //! In: what every pass took of the blank field (all spaces, the whole face, approach and overrun). Out: for every tooth
 //! the volume taken, the largest uncut chip thickness and the travel in the cut.
 //!
-//! **Volume**: lengths taken from the rays of both families, their mean. **Thickness**: the largest distance of a place of the surface that a pass leaves from the surface that it finds, in a slice, times the cosine between slice
-//! and swept surface. Of every place only the ray counts that meets it within 45 degrees of its normal: it gives the distance of both surfaces at its ends, exact where they are straight or circles about one point. Where the
-//! other end is no old surface (a tooth that plunges) or lies on another facet, the nearest old place bounds it, the old surface going on along its tangent for half the rays' distance; and a disc about that place has to fit into the chip.
-//! Not taken: the path along the normal until the material ends. Thin chips have the same, but for a tooth that plunges
-//! it runs across the whole tooth. **Travel in the cut**: for each pass the slices in which it takes anything,
-//! each worth the tip's travel through the slice's share of the face.
+//! **Volume**: lengths taken from the rays of both families, their mean. **Thickness**: the largest distance of a place
+//! of the surface that a pass leaves from the surface that it finds, in a slice, times the cosine between slice and
+//! swept surface. Of every place only the ray counts that meets it within 45 degrees of its normal: it gives the
+//! distance of both surfaces at its ends, exact where they are straight or circles about one point. Where the other end
+//! is no old surface (a tooth that plunges) or lies on another facet, the nearest old place bounds it, the old surface
+//! going on along its tangent for half the rays' distance; and a disc about that place has to fit into the chip. Not
+//! taken: the path along the normal until the material ends. Thin chips have the same, but for a tooth that plunges it
+//! runs across the whole tooth. **Travel in the cut**: for each pass the slices in which it takes anything, each worth
+//! the tip's travel through the slice's share of the face.
 //!
-//! **Load is not life.** The volume taken is a measure of work done, as long as the specific cutting force is taken as constant along the edge; thin chips cost more force per area, and wear
-//! follows temperature and thickness besides. Ratios of load say which teeth work and how evenly; they say nothing of hours.
+//! **Load is not life.** The volume taken is a measure of work done, as long as the specific cutting force is taken as
+//! constant along the edge; thin chips cost more force per area, and wear follows temperature and thickness besides.
+//! Ratios of load say which teeth work and how evenly; they say nothing of hours.
 
 use crate::cut::sweep_chips::PassChip;
 use crate::passes::TurningPasses;

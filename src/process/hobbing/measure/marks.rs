@@ -1,12 +1,16 @@
-//! The lattice of cutting marks on a hobbed flank: from the machine's motion, and from the surface itself, side by side.
+//! The lattice of cutting marks on a hobbed flank: from the machine's motion, and from the surface itself, side by
+//! side.
 //!
-//! **From kinematics** ([`crate::process::hobbing::linkage::marks`]): a gash leaves its mark where its rake face passes the point in which worm, rack and gear touch. Neither the pitch curve nor the law in time enters: in the
-//! coordinates (roll, z) the marks of an even feed are one lattice on every gear.
+//! **From kinematics** ([`crate::process::hobbing::linkage::marks`]): a gash leaves its mark where its rake face passes
+//! the point in which worm, rack and gear touch. Neither the pitch curve nor the law in time enters: in the coordinates
+//! (roll, z) the marks of an even feed are one lattice on every gear.
 //!
-//! **From the surface.** A patch about the pitch line in the middle of the face, regular in (roll, z), is cut by all passes; the autocorrelation of its heights has peaks at the vectors from mark to mark. Nothing of
-//! the kinematics enters but the size of the patch.
+//! **From the surface.** A patch about the pitch line in the middle of the face, regular in (roll, z), is cut by all
+//! passes; the autocorrelation of its heights has peaks at the vectors from mark to mark. Nothing of the kinematics
+//! enters but the size of the patch.
 //!
-//! Lengths and angles are those on the flank at the pitch line, where a step of roll is sin(alpha_t) long in the transverse plane, and a step of z at constant roll 1 / cos(beta) along the tooth trace.
+//! Lengths and angles are those on the flank at the pitch line, where a step of roll is sin(alpha_t) long in the
+//! transverse plane, and a step of z at constant roll 1 / cos(beta) along the tooth trace.
 
 use crate::cut::Backend;
 use crate::dexel::{NO_PASS, Ray, SpatialField};
@@ -20,7 +24,8 @@ use glam::DVec2;
 /// Lower peaks are chance: marks repeat with correlations above 0.9.
 const SMALLEST_PEAK: f64 = 0.5;
 
-/// A peak is the highest of so many lags to either side: along a ridge that crosses the grid askew, single lags stand out that are no marks.
+/// A peak is the highest of so many lags to either side: along a ridge that crosses the grid askew, single lags stand
+/// out that are no marks.
 const LOBE: i64 = 8;
 /// Points of the patch along roll and z.
 const POINTS: usize = 121;
@@ -68,7 +73,8 @@ pub fn measure(cutter: &HobCutter, backend: &dyn Backend, tooth: u32, side: Side
     let room_mm = [target.form_roll_mm.abs().min(tip_roll_mm.abs()), 0.5 * job.scene.gear.face_width_mm];
     if half_mm[0] > room_mm[0] || half_mm[1] > room_mm[1] {
         return Ok(lattice(Err(format!(
-            "the patch of {:.2} mm of roll and {:.2} mm along the axis that would show the steps is larger than the flank",
+            "the patch of {:.2} mm of roll and {:.2} mm along the axis that would show the steps is larger than the \
+            flank",
             2.0 * half_mm[0],
             2.0 * half_mm[1]
         ))));
@@ -97,7 +103,8 @@ pub fn measure(cutter: &HobCutter, backend: &dyn Backend, tooth: u32, side: Side
         return Ok(lattice(Err("the heights repeat themselves in fewer than two directions".to_owned())));
     };
     let found = marks.reduced([first, second], length_per_roll);
-    // Where the lattice is nearly rectangular, the longer step and its sum or difference with the shorter one are equally long, and either may be taken.
+    // Where the lattice is nearly rectangular, the longer step and its sum or difference with the shorter one are
+    // equally long, and either may be taken.
     let [shorter, longer] = found;
     let pairs = [0.0, 1.0, -1.0]
         .map(|turns| [shorter, marks.on_flank(longer.step_mm + turns * shorter.step_mm, length_per_roll)])
@@ -106,7 +113,8 @@ pub fn measure(cutter: &HobCutter, backend: &dyn Backend, tooth: u32, side: Side
     Ok(lattice(Ok(like(pairs, kinematic))))
 }
 
-/// Steps of a lattice in the order and direction of those of another, from the pair that lies nearest: each of `others` takes the nearer one, forwards or backwards.
+/// Steps of a lattice in the order and direction of those of another, from the pair that lies nearest: each of `others`
+/// takes the nearer one, forwards or backwards.
 fn like(pairs: impl Iterator<Item = [MarkStep; 2]>, others: [MarkStep; 2]) -> [MarkStep; 2] {
     let turned = |step: MarkStep, other: MarkStep| {
         let back = step.on_flank_mm.dot(other.on_flank_mm) < 0.0;
@@ -128,10 +136,12 @@ pub fn between_rad(a_rad: f64, b_rad: f64) -> f64 {
     apart.min(0.5 * TURN_RAD - apart)
 }
 
-/// Steps from mark to mark as the surface shows them: peaks of its autocorrelation, nearest first by `length`, none the negative of another.
+/// Steps from mark to mark as the surface shows them: peaks of its autocorrelation, nearest first by `length`, none the
+/// negative of another.
 ///
-/// `heights` stand on a regular grid, `count[0]` columns of `count[1]` rows, `spacing_mm` apart. Lags reach a third of the grid, and steps shorter than eight points are not told from the marks themselves. A
-/// paraboloid through a peak's neighbours places it between grid points.
+/// `heights` stand on a regular grid, `count[0]` columns of `count[1]` rows, `spacing_mm` apart. Lags reach a third of
+/// the grid, and steps shorter than eight points are not told from the marks themselves. A paraboloid through a peak's
+/// neighbours places it between grid points.
 pub fn autocorrelation_steps(
     heights: &[f64],
     count: [usize; 2],
@@ -177,7 +187,8 @@ pub fn autocorrelation_steps(
             if (du == 0 && dv <= 0) || at(du, dv) < SMALLEST_PEAK || !is_peak(du, dv) {
                 continue;
             }
-            // Vertex of the paraboloid through the nine lags around: on a ridge that runs askew both directions belong together.
+            // Vertex of the paraboloid through the nine lags around: on a ridge that runs askew both directions belong
+            // together.
             let d = |i: i64, j: i64| at(du + i, dv + j);
             let gradient = 0.5 * DVec2::new(d(1, 0) - d(-1, 0), d(0, 1) - d(0, -1));
             let (uu, vv) = (d(1, 0) - 2.0 * d(0, 0) + d(-1, 0), d(0, 1) - 2.0 * d(0, 0) + d(0, -1));

@@ -1,14 +1,21 @@
-//! Tooth profiles as Liu et al. (2015, section 6.2) measured them: points in which five curves beside the pitch curve cross every flank, as cut against as meant.
+//! Tooth profiles as Liu et al. (2015, section 6.2) measured them: points in which five curves beside the pitch curve
+//! cross every flank, as cut against as meant.
 //!
-//! In: the hobbing job and a backend. Out: per flank five [`CurvePoint`]s in the middle of the face, and over all of them the frequencies of their errors with the fitted normal distribution.
+//! In: the hobbing job and a backend. Out: per flank five [`CurvePoint`]s in the middle of the face, and over all of
+//! them the frequencies of their errors with the fitted normal distribution.
 //!
-//! The curves run along the pitch curve at constant distances, at 3 and 6 mm to both sides on the paper's gear of module 8; here at the same shares of the normal module. Where the tip corner has undercut a
-//! flank, the target is the corner's own path ([`RackGeneration::crossing`](crate::process::hobbing::rack_generation::RackGeneration::crossing)): 20 of the paper's 350 points lie there.
+//! The curves run along the pitch curve at constant distances, at 3 and 6 mm to both sides on the paper's gear of
+//! module 8; here at the same shares of the normal module. Where the tip corner has undercut a flank, the target is the
+//! corner's own path
+//! ([`RackGeneration::crossing`](crate::process::hobbing::rack_generation::RackGeneration::crossing)): 20 of the
+//! paper's 350 points lie there.
 //!
-//! **As cut.** A ray along the curve's tangent, out of the tooth, through the target's point is cut by all passes, moved to where the surface was found, and cut again if that was far: the same bent dexel as in
+//! **As cut.** A ray along the curve's tangent, out of the tooth, through the target's point is cut by all passes,
+//! moved to where the surface was found, and cut again if that was far: the same bent dexel as in
 //! [`crate::measure::crossing`]. The rays share nothing with those of the maps, which stand along the flanks' normals.
 //!
-//! The paper measured with a coordinate measuring machine and found a spread of 38 um; what is found here is what the process alone leaves: feed and generating marks.
+//! The paper measured with a coordinate measuring machine and found a spread of 38 um; what is found here is what the
+//! process alone leaves: feed and generating marks.
 
 use crate::cut::Backend;
 use crate::dexel::{NO_PASS, Ray, SpatialField};
@@ -24,7 +31,8 @@ use std::f64::consts::PI;
 pub const OFFSETS_MODULES: [f64; 5] = [-0.75, -0.375, 0.0, 0.375, 0.75];
 /// The one that is the pitch curve itself.
 const PITCH_CURVE: usize = 2;
-/// A ray along the tangent leaves its curve by d^2 / (2 rho). Where the surface was found so far away that this is more, mm, it is cut again there.
+/// A ray along the tangent leaves its curve by d^2 / (2 rho). Where the surface was found so far away that this is
+/// more, mm, it is cut again there.
 const BEND_MM: f64 = 1e-6;
 /// Rounds at most: each leaves the square of the distance before it, so that more are an error.
 const ROUNDS: u32 = 4;
@@ -159,7 +167,8 @@ pub struct ErrorSpread {
 }
 
 impl ErrorSpread {
-    /// Of errors in um; `None` with fewer than two. As in the paper, intervals are about one standard deviation wide: 1, 2 or 4 times a power of ten, not less than it.
+    /// Of errors in um; `None` with fewer than two. As in the paper, intervals are about one standard deviation wide:
+    /// 1, 2 or 4 times a power of ten, not less than it.
     pub fn of(errors_um: &[f64]) -> Option<Self> {
         let count = errors_um.len();
         if count < 2 {
@@ -199,7 +208,8 @@ impl ErrorSpread {
 mod tests {
     use super::*;
 
-    /// The paper's own table of errors in x (Liu et al. 2015, Table 2): grouped at the medians, its standard deviation is 0.03966 mm.
+    /// The paper's own table of errors in x (Liu et al. 2015, Table 2): grouped at the medians, its standard deviation
+    /// is 0.03966 mm.
     #[test]
     fn the_papers_frequencies_come_back_with_their_spread() {
         let table = [(-120.0, 1), (-80.0, 19), (-40.0, 85), (0.0, 141), (40.0, 84), (80.0, 18), (120.0, 2)];

@@ -106,7 +106,8 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, axes: &[HobbingAxesReport]) -> 
             extreme_at(
                 &|f| f.finished.map(|h| h.highest_mm),
                 &|f| f.finished.map(|h| h.extremes_at_mm[1]),
-                "highest place of the finished surface over the target on the evaluated part of any flank: feed and generating marks together",
+                "highest place of the finished surface over the target on the evaluated part of any flank: feed and \
+                generating marks together",
             ),
         ),
         Entry::headline(
@@ -115,7 +116,8 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, axes: &[HobbingAxesReport]) -> 
             extreme_at(
                 &|f| f.finished.map(|h| -h.lowest_mm),
                 &|f| f.finished.map(|h| h.extremes_at_mm[0]),
-                "deepest place of the finished surface below the target, positive inwards; an exact linkage leaves none",
+                "deepest place of the finished surface below the target, positive inwards; an exact linkage leaves \
+                none",
             ),
         ),
         Entry::headline(
@@ -124,7 +126,8 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, axes: &[HobbingAxesReport]) -> 
             Quantity::number(
                 job.finishing().plan.feed_mark_mm * UM_PER_MM,
                 "um",
-                "f^2 sin(alpha_n) / (8 R_c) of the last operation, f the feed over cos of the head angle, R_c the hob's smallest contact radius",
+                "f^2 sin(alpha_n) / (8 R_c) of the last operation, f the feed over cos of the head angle, R_c the \
+                hob's smallest contact radius",
             ),
         ),
         Entry::headline(

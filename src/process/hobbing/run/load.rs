@@ -10,7 +10,8 @@ use crate::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
 use crate::steps::parts::{Part, Parts};
 
 /// What the load rests on.
-pub const ASSUMPTION: &str = "volume that a tooth takes, as a measure of the work that it does with the specific cutting force the same everywhere; wear follows heat and chip thickness besides, so this is no life";
+pub const ASSUMPTION: &str = "volume that a tooth takes, as a measure of the work that it does with the specific \
+    cutting force the same everywhere; wear follows heat and chip thickness besides, so this is no life";
 
 /// One chart: its file, its title, what it shows, its unit and a tooth's value.
 type Chart = (&'static str, &'static str, &'static str, fn(&ToothLoad) -> f64);

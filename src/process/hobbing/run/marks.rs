@@ -82,7 +82,8 @@ pub fn write(lattices: &[MarkLattice], folder: &OutputFolder) -> Result<()> {
     write_table(&folder.path("tables/marks.csv")?, &COLUMNS, rows)
 }
 
-/// Length (mm), angle to the tooth trace and to the gear's axis (deg) on the surface less those of the kinematics; the angle to the trace without its sign.
+/// Length (mm), angle to the tooth trace and to the gear's axis (deg) on the surface less those of the kinematics; the
+/// angle to the trace without its sign.
 fn difference(seen: &MarkStep, known: &MarkStep) -> [f64; 3] {
     [
         seen.length_mm() - known.length_mm(),

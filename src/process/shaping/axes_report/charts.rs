@@ -1,7 +1,7 @@
 //! Axis charts over the work angle: positions, velocities, accelerations, relief clearance.
 //!
-//! The cutter angle itself is nearly a straight line; what a gear engineer looks for is how far it departs from even rolling, so
-//! both are shown.
+//! The cutter angle itself is nearly a straight line; what a gear engineer looks for is how far it departs from even
+//! rolling, so both are shown.
 
 use super::{StrokeRow, acceleration_limits, linkage_words, speed_limits};
 use crate::output::line_chart::{Limit, LineChart, LineSeries, Panel};

@@ -1,6 +1,7 @@
 //! The cost of a shaping scene.
 //!
-//! For the blank and the chips, the cutter teeth that reach the blank are counted for strokes spread over all operations, and the rays that they cross.
+//! For the blank and the chips, the cutter teeth that reach the blank are counted for strokes spread over all
+//! operations, and the rays that they cross.
 
 use crate::Refusal;
 use crate::cut::cpu::blank::TILE_RAYS;
@@ -35,7 +36,8 @@ const PLANNED_TILES: usize = 32;
 const PLACED_STROKES: usize = 40;
 /// What one thread takes for a ray that a cutter tooth crosses, its return stroke checked, s.
 const BLANK_S_PER_RAY_PASS: f64 = 2.0e-7;
-/// What it takes to follow the chips of a cutter tooth in one stroke, s, at the spacing [`CHIP_SPACING_MM`]; it grows with the inverse of the spacing.
+/// What it takes to follow the chips of a cutter tooth in one stroke, s, at the spacing [`CHIP_SPACING_MM`]; it grows
+/// with the inverse of the spacing.
 const CHIPS_S_PER_PASS: f64 = 1.6e-4;
 const CHIP_SPACING_MM: f64 = 0.05;
 

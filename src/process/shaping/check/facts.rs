@@ -1,8 +1,10 @@
-//! The teeth as finishing would leave them in the limit of many strokes: where flanks begin and end, how wide the tips are.
+//! The teeth as finishing would leave them in the limit of many strokes: where flanks begin and end, how wide the tips
+//! are.
 //!
 //! In: a prepared [`Job`]. Out: [`ToothFacts`] of every tooth. Nothing is cut for this.
 //!
-//! Heights are measured over the pitch curve along its normal, so that they mean the same on every tooth of a non-circular gear.
+//! Heights are measured over the pitch curve along its normal, so that they mean the same on every tooth of a
+//! non-circular gear.
 
 use crate::Refusal;
 use crate::process::shaping::Job;

@@ -52,15 +52,15 @@ pub fn warnings(job: &Job, facts: &[ToothFacts]) -> Vec<String> {
     let undercut = flanks_with(facts, FlankFacts::is_undercut);
     if undercut != NONE {
         warnings.push(format!(
-            "the cutter undercuts {undercut}: use a smaller tool.shaper_cutter.addendum_coefficient, more teeth on the gear, \
-             or a pitch curve with a larger smallest radius of curvature"
+            "the cutter undercuts {undercut}: use a smaller tool.shaper_cutter.addendum_coefficient, more teeth on the \
+            gear, or a pitch curve with a larger smallest radius of curvature"
         ));
     }
     let base = flanks_with(facts, |flank| flank.end == FlankEnd::CutterBase);
     if base != NONE {
         warnings.push(format!(
-            "the cutter's involute ends before the tip of {base}: the rest of the tip is cut by the cutter's base; use a \
-             cutter with more teeth or a smaller gear.addendum_coefficient"
+            "the cutter's involute ends before the tip of {base}: the rest of the tip is cut by the cutter's base; use \
+            a cutter with more teeth or a smaller gear.addendum_coefficient"
         ));
     }
     let pointed = list(facts.iter().filter(|tooth| tooth.is_pointed()).map(|tooth| tooth.tooth.to_string()));

@@ -1,15 +1,20 @@
-//! The cutter tooth as the chip ledger sees it: a polygon to cut with, stations to measure at, and a zone for every family of rays.
+//! The cutter tooth as the chip ledger sees it: a polygon to cut with, stations to measure at, and a zone for every
+//! family of rays.
 //!
-//! In: a blade's [`Edge`]. Out, all in the blade frame: the edge as chords that stay within `CHORD_MM` of it, closed through the tool's axis; **stations** in the middle of equal
-//! steps along the edge, with exact point and normal; and the **tip zone**, the part of the tooth that lies nearer to its tip than to its flanks.
+//! In: a blade's [`Edge`]. Out, all in the blade frame: the edge as chords that stay within `CHORD_MM` of it, closed
+//! through the tool's axis; **stations** in the middle of equal steps along the edge, with exact point and normal; and
+//! the **tip zone**, the part of the tooth that lies nearer to its tip than to its flanks.
 //!
-//! Why zones: a chip of ten micrometres under the tip lies between two rays that run along it, and is seen by one stroke in five. Rays across it see it always. So the chip's area is
-//! counted by the rays along the tooth inside the tip zone and by the rays across the tooth outside of it; the zones are disjoint and fill the tooth, so nothing is counted twice.
+//! Why zones: a chip of ten micrometres under the tip lies between two rays that run along it, and is seen by one
+//! stroke in five. Rays across it see it always. So the chip's area is counted by the rays along the tooth inside the
+//! tip zone and by the rays across the tooth outside of it; the zones are disjoint and fill the tooth, so nothing is
+//! counted twice.
 
 use crate::tool::edge::{Edge, Segment, SegmentName};
 use glam::DVec2;
 
-/// Largest distance of a chord from the edge: the same chords cut every stroke, so that thicknesses keep far less of it.
+/// Largest distance of a chord from the edge: the same chords cut every stroke, so that thicknesses keep far less of
+/// it.
 const CHORD_MM: f64 = 2e-5;
 
 /// Part of the edge that results tell apart.
@@ -92,7 +97,8 @@ impl EdgePolygon {
             let [from, to] = segment.y_range_mm;
             let [first, last] = segment.slope_range.map(f64::atan);
             let length_mm = arc_length_mm(segment);
-            // A chord of an arc turning by t stays within length t / 8 of it; twice as many chords where the curvature is uneven.
+            // A chord of an arc turning by t stays within length t / 8 of it; twice as many chords where the curvature
+            // is uneven.
             let chords = (length_mm * (last - first).abs() / (4.0 * CHORD_MM)).sqrt();
             let steps = (length_mm / spacing_mm).ceil().max(1.0);
             let chords_per_step = (chords / steps).ceil().max(1.0);
@@ -159,7 +165,8 @@ fn arc_length_mm(segment: &Segment) -> f64 {
     (0..PIECES).map(|i| at(i).distance(at(i + 1))).sum()
 }
 
-/// The triangle between the bisectors of both tip corners, widened beyond the tip. Its sides start where the normal is half-way between tip and flank.
+/// The triangle between the bisectors of both tip corners, widened beyond the tip. Its sides start where the normal is
+/// half-way between tip and flank.
 fn tip_zone(stations: &[Station]) -> [DVec2; 3] {
     let half_way = |normal: DVec2| normal.to_angle().abs();
     // Where the left flank begins, beside the tip.

@@ -1,15 +1,22 @@
 //! The chip with which every place of a flank got its surface.
 //!
-//! In: the job and a field of rays on a flank (few of them: those of a map). Out, after each operation: uncut chip thickness, the part of the cutter's edge that took it, and the pass.
+//! In: the job and a field of rays on a flank (few of them: those of a map). Out, after each operation: uncut chip
+//! thickness, the part of the cutter's edge that took it, and the pass.
 //!
-//! **Definition.** Every pass that touches a ray is taken in strict order of time, over all operations so far. A pass that lies lower than all before it lowers the surface; the material between is solid, for
-//! no earlier pass has reached it. Its length along the ray times the cosine between ray and edge normal is the thickness across the chip: where the edge runs parallel to the surface that it finds, as it does within milliradians
-//! from stroke to stroke, the distance between them. The last pass that lowers the surface leaves it. Where it is the first pass of all, the chip reaches to the blank's surface or to the end of the ray, half a pitch out.
+//! **Definition.** Every pass that touches a ray is taken in strict order of time, over all operations so far. A pass
+//! that lies lower than all before it lowers the surface; the material between is solid, for no earlier pass has
+//! reached it. Its length along the ray times the cosine between ray and edge normal is the thickness across the chip:
+//! where the edge runs parallel to the surface that it finds, as it does within milliradians from stroke to stroke, the
+//! distance between them. The last pass that lowers the surface leaves it. Where it is the first pass of all, the chip
+//! reaches to the blank's surface or to the end of the ray, half a pitch out.
 //!
-//! The candidates that suffice for heights do not do here: the pass before the last one may lie above it on a whole tile, and be pruned. So passes are chosen column by column, from bounds of the height that each leaves
-//! on the column's rays; a test holds the choice against all passes. Heights are f64 throughout: on finished flanks the edge goes through the
-//! contact, chips are thinner than a micrometre, and the ledger's sections, good to a tenth of a micrometre, would not see them. Away from the contact by t strokes, passes stand c t^2 over the target
-//! (c is four times the height of a scallop, t at most a half on the surface that is left), so thickness runs from 0 at one end of a facet through c in its middle to 2 c at the other.
+//! The candidates that suffice for heights do not do here: the pass before the last one may lie above it on a whole
+//! tile, and be pruned. So passes are chosen column by column, from bounds of the height that each leaves on the
+//! column's rays; a test holds the choice against all passes. Heights are f64 throughout: on finished flanks the edge
+//! goes through the contact, chips are thinner than a micrometre, and the ledger's sections, good to a tenth of a
+//! micrometre, would not see them. Away from the contact by t strokes, passes stand c t^2 over the target (c is four
+//! times the height of a scallop, t at most a half on the surface that is left), so thickness runs from 0 at one end of
+//! a facet through c in its middle to 2 c at the other.
 
 use super::edge_polygon::EdgeSide;
 use crate::dexel::field::{Column, Field, NO_PASS};
@@ -64,12 +71,14 @@ struct Reaching {
     near: usize,
     /// Segments that can meet the rays.
     segments: SegmentSet,
-    /// Lowest and highest height that the pass leaves on any of the column's rays, mm; the highest is infinite where it may miss one.
+    /// Lowest and highest height that the pass leaves on any of the column's rays, mm; the highest is infinite where it
+    /// may miss one.
     heights_mm: [f64; 2],
 }
 
-/// Passes that can decide the last chip on any ray of a column: those that may lie lowest, and those that may lie lowest of all before one of these. The others lower surfaces too, but surfaces that are gone
-/// when the last chip is cut.
+/// Passes that can decide the last chip on any ray of a column: those that may lie lowest, and those that may lie
+/// lowest of all before one of these. The others lower surfaces too, but surfaces that are gone when the last chip is
+/// cut.
 fn counting(reaching: &[Reaching], blank_mm: f64) -> Vec<Reaching> {
     let surely = |passes: &[Reaching]| passes.iter().map(|pass| pass.heights_mm[1]).fold(blank_mm, f64::min);
     let left_mm = surely(reaching);
@@ -168,9 +177,11 @@ impl<'a> Segments<'a> {
 
     /// A pass over a column: which segments can meet its rays, and how high it leaves them.
     ///
-    /// The tool lies inside each of its flanks and lands with the tangents at their ends, for its edge is convex: it enters no lower than the highest of their entries, nor lower than all those of the segments that the rays
-    /// can meet (others are not looked at), and just there if that one lies on its segment. Between the phases at which this is looked at heights follow a parabola nearly, which passes its samples by an eighth of their second difference; half
-    /// of it is allowed for.
+    /// The tool lies inside each of its flanks and lands with the tangents at their ends, for its edge is convex: it
+    /// enters no lower than the highest of their entries, nor lower than all those of the segments that the rays can
+    /// meet (others are not looked at), and just there if that one lies on its segment. Between the phases at which
+    /// this is looked at heights follow a parabola nearly, which passes its samples by an eighth of their second
+    /// difference; half of it is allowed for.
     fn reaching(&self, near: usize, pass: &Near, ray: &Column) -> Option<Reaching> {
         let segments = self.meeting(pass, ray);
         if segments == 0 {
@@ -192,7 +203,8 @@ impl<'a> Segments<'a> {
         Some(Reaching { near, segments, heights_mm: [low_mm, high_mm].map(|h| h.max(ray.low_mm)) })
     }
 
-    /// Bounds of the height at which a ray enters the tool through one of the given segments: no lower than the first (infinite: it does not), and the second if it surely enters.
+    /// Bounds of the height at which a ray enters the tool through one of the given segments: no lower than the first
+    /// (infinite: it does not), and the second if it surely enters.
     fn entry_mm(&self, blade_from_work: &Rigid2, ray: &Column, set: SegmentSet) -> [f64; 2] {
         let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
         let (mut inside_mm, mut lowest_mm, mut sure_mm) = (f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY);
@@ -258,7 +270,8 @@ fn passes_near(job: &Job, field: &Field) -> Vec<Near> {
     job.operations.iter().enumerate().flat_map(of_operation).collect()
 }
 
-/// Whether a ray that runs into a segment does so above a height, by one look at the segment there: the residual of a convex segment is convex in h, so where it is positive and falls its root lies higher.
+/// Whether a ray that runs into a segment does so above a height, by one look at the segment there: the residual of a
+/// convex segment is convex in h, so where it is positive and falls its root lies higher.
 fn is_above(segment: &Segment, o: DVec2, n: DVec2, height_mm: f64) -> bool {
     let SegmentShape::Table(_) = segment.shape else { return false };
     let [x, slope] = segment.x_and_slope(o.y + height_mm * n.y);

@@ -21,8 +21,9 @@ const COARSE_CORNERS: usize = 16;
 /// Half of the way along the pitch curve, in pitches, over which the outline can matter to a space.
 const NEIGHBOURHOOD_PITCHES: f64 = 1.6;
 
-/// How far the rays of a section are turned against the space. Rays that run along the blank's outline would meet the ends of all chips at the same fraction of their spacing, and all
-/// areas would be off to the same side; turned by this much, they meet them at every fraction in turn.
+/// How far the rays of a section are turned against the space. Rays that run along the blank's outline would meet the
+/// ends of all chips at the same fraction of their spacing, and all areas would be off to the same side; turned by this
+/// much, they meet them at every fraction in turn.
 const SKEW_RAD: f64 = 0.15;
 
 /// Largest uncut chip thickness over rows (strokes or spaces) and stations of the edge.
@@ -39,7 +40,8 @@ pub struct ThicknessMap {
 /// Chips of one operation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OperationChips {
-    /// The first stroke comes at full depth, without an infeed: it takes a plug of whole tooth spaces at once, as no machine would, and is left out where strokes are compared.
+    /// The first stroke comes at full depth, without an infeed: it takes a plug of whole tooth spaces at once, as no
+    /// machine would, and is left out where strokes are compared.
     pub enters_at_depth: bool,
     /// One entry per stroke.
     pub strokes: Vec<StrokeChips>,

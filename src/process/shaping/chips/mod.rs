@@ -1,13 +1,17 @@
 //! The chip ledger: what every stroke takes away, how thick, and with what force.
 //!
-//! In: a [`crate::process::shaping::Job`]. Out: [`ChipLedger`] with one [`StrokeChips`] per stroke and maps of uncut chip thickness over stroke and edge, and over tooth space and edge.
+//! In: a [`crate::process::shaping::Job`]. Out: [`ChipLedger`] with one [`StrokeChips`] per stroke and maps of uncut
+//! chip thickness over stroke and edge, and over tooth space and edge.
 //!
-//! Every tooth space is a [`section::Section`] of its own, in the transverse plane in the middle of the face, and sees **all** passes that touch it in strict order of
-//! time: nothing is left out because it does not shape the final surface. Each cutter tooth in each stroke belongs to the space that its tip stands in; so every chip is counted once. Where
-//! the axes rest during the stroke all sections are equal and the ledger is exact for the whole face; where the feed goes on, the middle section stands for the
-//! face, the others being the same a fraction of a stroke earlier or later.
+//! Every tooth space is a [`section::Section`] of its own, in the transverse plane in the middle of the face, and sees
+//! **all** passes that touch it in strict order of time: nothing is left out because it does not shape the final
+//! surface. Each cutter tooth in each stroke belongs to the space that its tip stands in; so every chip is counted
+//! once. Where the axes rest during the stroke all sections are equal and the ledger is exact for the whole face; where
+//! the feed goes on, the middle section stands for the face, the others being the same a fraction of a stroke earlier
+//! or later.
 //!
-//! Rays on a flank see only the chips that shape it, and those exactly: [`flank::last_chips`] says with how thick a chip each place of a flank was cut last.
+//! Rays on a flank see only the chips that shape it, and those exactly: [`flank::last_chips`] says with how thick a
+//! chip each place of a flank was cut last.
 
 pub mod edge_polygon;
 pub mod flank;

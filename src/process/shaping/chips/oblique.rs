@@ -1,18 +1,24 @@
 //! Force coefficients of an edge element whose rake face leans: oblique cutting.
 //!
-//! In: the coefficients of the material, the cutter's top rake, a place of the edge. Out: [`ElementForce`] with all three components.
+//! In: the coefficients of the material, the cutter's top rake, a place of the edge. Out: [`ElementForce`] with all
+//! three components.
 //!
-//! **Geometry.** The edge is known by its projection on the transverse plane; the cutting motion is square to it. A cutter with top rake gamma has a dished, conical rake face, whose height along
-//! the cutting motion grows with the distance rho from the cutter axis, z = rho tan gamma. With t along and n across the projected edge, n out of the tool, and e away from the axis:
+//! **Geometry.** The edge is known by its projection on the transverse plane; the cutting motion is square to it. A
+//! cutter with top rake gamma has a dished, conical rake face, whose height along the cutting motion grows with the
+//! distance rho from the cutter axis, z = rho tan gamma. With t along and n across the projected edge, n out of the
+//! tool, and e away from the axis:
 //!
 //! `tan(inclination) = tan(gamma) (t . e)`, `tan(normal rake) = tan(gamma) (n . e) cos(inclination)`.
 //!
-//! So the tip circle cuts square to its motion with the full rake, and flanks are inclined by nearly gamma with little rake. At gamma = 0 inclination and rake vanish everywhere: this holds for every flat face
-//! square to the stroke, whatever the profile.
+//! So the tip circle cuts square to its motion with the full rake, and flanks are inclined by nearly gamma with little
+//! rake. At gamma = 0 inclination and rake vanish everywhere: this holds for every flat face square to the stroke,
+//! whatever the profile.
 //!
-//! **Law.** The classical transformation from orthogonal cutting (E. J. A. Armarego, R. C. Whitfield, CIRP Annals 34, 1985; Y. Altintas, *Manufacturing Automation*, 2nd ed. 2012, section 2.9). The coefficients hold where the
-//! inclination is zero and the rake is gamma. From them come the friction angle beta, tan(beta - gamma) = K_n / K_c, the shear angle by Merchant (1945), phi = pi/4 - (beta - rake)/2, and the shear stress. With these, chip flow
-//! by Stabler (1964), eta = inclination i, and tan(beta_n) = tan(beta) cos(eta):
+//! **Law.** The classical transformation from orthogonal cutting (E. J. A. Armarego, R. C. Whitfield, CIRP Annals 34,
+//! 1985; Y. Altintas, *Manufacturing Automation*, 2nd ed. 2012, section 2.9). The coefficients hold where the
+//! inclination is zero and the rake is gamma. From them come the friction angle beta, tan(beta - gamma) = K_n / K_c,
+//! the shear angle by Merchant (1945), phi = pi/4 - (beta - rake)/2, and the shear stress. With these, chip flow by
+//! Stabler (1964), eta = inclination i, and tan(beta_n) = tan(beta) cos(eta):
 //!
 //! ```text
 //! c   = sqrt(cos^2(phi + beta_n - rake_n) + tan^2(eta) sin^2(beta_n))
@@ -30,7 +36,8 @@ use std::f64::consts::FRAC_PI_4;
 /// How the rake face leans at a place of the edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RakeFace {
-    /// Of the edge against the plane square to the motion, rad; positive where the edge runs ahead along t, a quarter turn counter-clockwise from n.
+    /// Of the edge against the plane square to the motion, rad; positive where the edge runs ahead along t, a quarter
+    /// turn counter-clockwise from n.
     pub inclination_rad: f64,
     /// Rake in the plane square to the edge, rad.
     pub normal_rake_rad: f64,
@@ -127,7 +134,8 @@ mod tests {
         }
     }
 
-    /// Statics in space, without the formulas: rake face, chip flow and shear plane as vectors; friction pulls along the flow, and what is left in the shear plane is its area times the shear stress.
+    /// Statics in space, without the formulas: rake face, chip flow and shear plane as vectors; friction pulls along
+    /// the flow, and what is left in the shear plane is its area times the shear stress.
     #[test]
     fn inclined_elements_are_in_equilibrium() {
         let force = MATERIALS[0].edge_force();

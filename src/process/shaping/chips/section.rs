@@ -1,14 +1,19 @@
-//! One tooth space in the transverse plane, cut stroke by stroke: what every stroke takes away, and how thick it is along the edge.
+//! One tooth space in the transverse plane, cut stroke by stroke: what every stroke takes away, and how thick it is
+//! along the edge.
 //!
-//! In: the blank's outline, a window round the space, then the poses of the cutter's teeth **in order of time**. Out, per pass: chip area and uncut chip thickness at the edge's stations.
+//! In: the blank's outline, a window round the space, then the poses of the cutter's teeth **in order of time**. Out,
+//! per pass: chip area and uncut chip thickness at the edge's stations.
 //!
-//! The material is held by two families of rays, along and across the space. A pass crosses a ray at two places of the edge; the material between them is the chip on that ray, and
-//! where it ends lies on the surface that the stroke found. These ends, from both families, are exact points of the surface before; joined in the order of the edge
-//! they are that surface. **Uncut chip thickness** at a place of the edge is its shortest distance from there: where edge and old surface run parallel, as they do within
-//! milliradians from stroke to stroke, the distance along the edge's normal. In a corner of the edge, where normals cross inside the tool, it stays defined.
+//! The material is held by two families of rays, along and across the space. A pass crosses a ray at two places of the
+//! edge; the material between them is the chip on that ray, and where it ends lies on the surface that the stroke
+//! found. These ends, from both families, are exact points of the surface before; joined in the order of the edge they
+//! are that surface. **Uncut chip thickness** at a place of the edge is its shortest distance from there: where edge
+//! and old surface run parallel, as they do within milliradians from stroke to stroke, the distance along the edge's
+//! normal. In a corner of the edge, where normals cross inside the tool, it stays defined.
 //!
-//! Errors: ends are exact but for chords of 20 nm; between rays the old surface is straight, which costs spacing^2 / (8 radius), 30 nm at 0.05 mm on a radius of 10 mm; lengths of contact
-//! and areas end within half a spacing at each end of a chip.
+//! Errors: ends are exact but for chords of 20 nm; between rays the old surface is straight, which costs spacing^2 / (8
+//! radius), 30 nm at 0.05 mm on a radius of 10 mm; lengths of contact and areas end within half a spacing at each end
+//! of a chip.
 
 use super::edge_polygon::{EdgePolygon, Station};
 use crate::dexel::NO_PASS;
@@ -150,7 +155,8 @@ impl<'a> Section<'a> {
 }
 
 impl Side {
-    /// Takes the tooth away; gives the length removed in this family's zone and the longest run from edge to old surface, mm.
+    /// Takes the tooth away; gives the length removed in this family's zone and the longest run from edge to old
+    /// surface, mm.
     fn cut(&mut self, corners_mm: &[DVec2], zone_mm: &[DVec2; 3], edge_chords: f64) -> (f64, f64) {
         for ray in self.touched.clone() {
             self.by_ray[ray].clear();
@@ -217,7 +223,8 @@ impl Side {
                 intervals::subtract(spans, end(from), end(to));
             }
         }
-        // Rays that run along the edge find the old surface far away, where others find it too; the chords that close the tooth are no edge.
+        // Rays that run along the edge find the old surface far away, where others find it too; the chords that close
+        // the tooth are no edge.
         self.crossings.retain(|c| c.square);
         (taken_mm, deepest_mm)
     }
@@ -272,8 +279,9 @@ fn blank_spans(mut ends_mm: Vec<f64>) -> Vec<Span> {
     ends_mm.as_chunks::<2>().0.iter().map(|&[low, high]| Span { low: end(low), high: end(high) }).collect()
 }
 
-/// Calls `meet` with every crossing of a closed polygon with the rays, in the polygon's order: ray, coordinate along it, parameter of the polygon, and whether the ray stands within
-/// 60 degrees of the chord's normal. Every ray is crossed an even number of times, because which rays a chord crosses follows from the ranks of its corners alone.
+/// Calls `meet` with every crossing of a closed polygon with the rays, in the polygon's order: ray, coordinate along
+/// it, parameter of the polygon, and whether the ray stands within 60 degrees of the chord's normal. Every ray is
+/// crossed an even number of times, because which rays a chord crosses follows from the ranks of its corners alone.
 fn lay(corners_mm: &[DVec2], family: Family, row: &RayRow, mut meet: impl FnMut(usize, f64, f64, bool)) {
     let per_mm = 1.0 / row.spacing_mm;
     let rank = |p: DVec2| {

@@ -5,7 +5,8 @@ use super::oblique::ElementForce;
 use crate::frame::Rigid2;
 use glam::DVec2;
 
-/// Thinner than this the edge rubs and makes no chip: it counts neither as contact nor for forces. A tenth of a micrometre is far below the radius of any cutting edge.
+/// Thinner than this the edge rubs and makes no chip: it counts neither as contact nor for forces. A tenth of a
+/// micrometre is far below the radius of any cutting edge.
 pub const LEAST_CHIP_MM: f64 = 1e-4;
 /// A side of the edge takes part in a chip when it is in contact over at least this share of the module.
 const SIDE_CONTACT_MODULES: f64 = 0.02;
@@ -25,7 +26,8 @@ pub struct ToothChip {
     pub area_mm2: f64,
     /// Length of edge in contact: right, tip, left, mm.
     pub contact_mm: [f64; 3],
-    /// Largest uncut chip thickness: right, tip, left, mm; on flanks, where the corner of the tip is further away than that.
+    /// Largest uncut chip thickness: right, tip, left, mm; on flanks, where the corner of the tip is further away than
+    /// that.
     pub thickest_mm: [f64; 3],
     /// Cutting force along the stroke, N.
     pub cutting_n: f64,

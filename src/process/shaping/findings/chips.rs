@@ -7,7 +7,8 @@ use crate::units::UM_PER_MM;
 use std::f64::consts::PI;
 
 const IDLE: &str = "all strokes are idle";
-const ENTRY_SECTION: &str = "section of a first stroke at full depth without infeed: whole tooth spaces at once, as no machine cuts; the largest values leave it out";
+const ENTRY_SECTION: &str = "section of a first stroke at full depth without infeed: whole tooth spaces at once, as no \
+    machine cuts; the largest values leave it out";
 /// What the force of an entry is.
 pub const ENTRY_FORCE: &str =
     "cutting force of a first stroke at full depth without infeed; the largest values leave it out";

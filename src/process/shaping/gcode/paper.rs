@@ -1,7 +1,9 @@
 //! The one-block form of the literature, `G84 A N K R D S`, for reading beside the paper and for nothing else.
 //!
-//! Gao et al. 2017 put the law of the normal linkage into their control and call it with one block: A semi-major axis (mm), N order, K eccentricity, R pitch radius of the cutter (mm),
-//! D polar angle of the start (deg), S residual feed delta_d (mm). On nearly every other control **G84 is a tapping cycle**: the file says DO NOT RUN before anything else.
+//! Gao et al. 2017 put the law of the normal linkage into their control and call it with one block: A semi-major axis
+//! (mm), N order, K eccentricity, R pitch radius of the cutter (mm), D polar angle of the start (deg), S residual feed
+//! delta_d (mm). On nearly every other control **G84 is a tapping cycle**: the file says DO NOT RUN before anything
+//! else.
 
 use crate::gear::PitchCurveShape;
 use crate::output::text::plain;

@@ -6,7 +6,8 @@ use crate::scene::model::AxisLimits;
 use glam::DVec2;
 use std::f64::consts::PI;
 
-/// Half of the arc of the cutter round the line of centres that can be in the work; a cutter of twelve teeth meets it over less.
+/// Half of the arc of the cutter round the line of centres that can be in the work; a cutter of twelve teeth meets it
+/// over less.
 const ENGAGED_RAD: f64 = 1.0;
 /// Samples between two strokes where the feed goes on during them.
 const SAMPLES_PER_STROKE: usize = 4;
@@ -80,7 +81,8 @@ impl Knot {
         }
     }
 
-    /// Largest displacement of the cutter's edge in the work against another position, over the arc that can be in the work, mm.
+    /// Largest displacement of the cutter's edge in the work against another position, over the arc that can be in the
+    /// work, mm.
     pub fn displacement_mm(&self, other: &Self, tip_radius_mm: f64) -> f64 {
         let (a, b) = (self.pose(), other.pose());
         let shift = b.center_mm - a.center_mm;
@@ -99,8 +101,9 @@ impl Knot {
 }
 
 impl AxisProgram {
-    /// Longest straight lines, one after the other, that keep every stroke of a schedule within `contour_error_mm`; with `continuous` also what lies between the strokes, as far as
-    /// blocks of one stroke can. Knots stand on whole strokes and are rounded as they will be written.
+    /// Longest straight lines, one after the other, that keep every stroke of a schedule within `contour_error_mm`;
+    /// with `continuous` also what lies between the strokes, as far as blocks of one stroke can. Knots stand on whole
+    /// strokes and are rounded as they will be written.
     pub fn fit(schedule: &StrokeSchedule, tip_radius_mm: f64, contour_error_mm: f64, continuous: bool) -> Self {
         let per_stroke = samples_per_stroke(continuous);
         let last = schedule.count() - 1;
@@ -137,7 +140,8 @@ impl AxisProgram {
         }
     }
 
-    /// Largest displacement from a schedule at its strokes, with `continuous` also between them, mm, and the stroke coordinate.
+    /// Largest displacement from a schedule at its strokes, with `continuous` also between them, mm, and the stroke
+    /// coordinate.
     pub fn contour_error_mm(&self, schedule: &StrokeSchedule, tip_radius_mm: f64, continuous: bool) -> (f64, f64) {
         let per_stroke = samples_per_stroke(continuous);
         (0..=(schedule.count() - 1) * per_stroke)
@@ -148,7 +152,8 @@ impl AxisProgram {
             .fold((0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst })
     }
 
-    /// What the program asks beyond the machine's limits: speeds within blocks, and steps of speed between blocks taken within one double stroke.
+    /// What the program asks beyond the machine's limits: speeds within blocks, and steps of speed between blocks taken
+    /// within one double stroke.
     pub fn exceeded(&self, limits: &AxisLimits) -> Vec<String> {
         let stroke_s = 60.0 / self.double_strokes_per_minute;
         let speeds = |pick: fn(&Knot) -> f64| -> Vec<f64> {

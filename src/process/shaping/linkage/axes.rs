@@ -1,10 +1,11 @@
 //! Axis positions and cutter poses: what every shaping linkage answers with.
 //!
-//! In: the pitch curve at a parameter ([`crate::gear::Rolling`]). Out: [`Axes`] (work angle, cutter angle, centre distance) as series in
-//! that parameter, and the [`CutterPose`] that they give. The law is the frame convention in the head of [`super`].
+//! In: the pitch curve at a parameter ([`crate::gear::Rolling`]). Out: [`Axes`] (work angle, cutter angle, centre
+//! distance) as series in that parameter, and the [`CutterPose`] that they give. The law is the frame convention in the
+//! head of [`super`].
 //!
-//! The parameter is the polar angle phi, or time or stroke when phi itself is a series in them: derivatives then follow by
-//! the chain rule without further formulas. The number of terms N is chosen by the caller: 1 for positions, 2 for
+//! The parameter is the polar angle phi, or time or stroke when phi itself is a series in them: derivatives then follow
+//! by the chain rule without further formulas. The number of terms N is chosen by the caller: 1 for positions, 2 for
 //! rates, 3 for accelerations.
 
 use std::f64::consts::PI;
@@ -45,8 +46,8 @@ pub struct PoseMotion {
 }
 
 impl PoseMotion {
-    /// Point of the gear frame (mm) that is at rest in cutter and work alike: O_b + i O_b' / theta'. In finishing it is the
-    /// pitch point; the contact normals of all flanks pass through it.
+    /// Point of the gear frame (mm) that is at rest in cutter and work alike: O_b + i O_b' / theta'. In finishing it is
+    /// the pitch point; the contact normals of all flanks pass through it.
     pub fn instantaneous_center_mm(&self) -> DVec2 {
         self.pose.center_mm + self.center_rate_mm_per_rad.perp() / self.angle_rate
     }

@@ -1,12 +1,12 @@
 //! Speeds and accelerations of the axes over an operation, and their peaks against the machine's limits.
 //!
-//! In: a stroke schedule and the axis limits. Out: position, velocity and acceleration of work, cutter and centre distance
-//! at any stroke, and the largest of them. Law: the axes are series in the stroke coordinate (chain rule, no differences),
-//! and d lambda/dt = double strokes per minute / 60. The rotary feed is taken as continuous; a machine that stands still
-//! while the cutter is in the work has to cover the same way in the return stroke alone.
+//! In: a stroke schedule and the axis limits. Out: position, velocity and acceleration of work, cutter and centre
+//! distance at any stroke, and the largest of them. Law: the axes are series in the stroke coordinate (chain rule, no
+//! differences), and d lambda/dt = double strokes per minute / 60. The rotary feed is taken as continuous; a machine
+//! that stands still while the cutter is in the work has to cover the same way in the return stroke alone.
 //!
-//! Speeds jump where an infeed begins or ends. The infinite acceleration there is left out, because every control rounds such
-//! a corner; both sides of it are counted in the peaks.
+//! Speeds jump where an infeed begins or ends. The infinite acceleration there is left out, because every control
+//! rounds such a corner; both sides of it are counted in the peaks.
 
 use super::axes::Axes;
 use super::schedule::StrokeSchedule;

@@ -1,8 +1,9 @@
 //! Linkages of external shaping, ready for queries.
 //!
-//! In: the kind of linkage, the pitch curve, the cutter's pitch radius r_c = m z0 / 2. Out: axis positions, poses, and the
-//! polar angle that belongs to a work angle, each for any offset: infeed changes the offset from stroke to stroke.
-//! The laws stand in [`crate::process::shaping::linkage::normal`] and [`crate::process::shaping::linkage::traditional`].
+//! In: the kind of linkage, the pitch curve, the cutter's pitch radius r_c = m z0 / 2. Out: axis positions, poses, and
+//! the polar angle that belongs to a work angle, each for any offset: infeed changes the offset from stroke to stroke.
+//! The laws stand in [`crate::process::shaping::linkage::normal`] and
+//! [`crate::process::shaping::linkage::traditional`].
 
 use std::sync::Arc;
 

@@ -1,10 +1,10 @@
 //! From the work angle back to the polar angle.
 //!
-//! In: the lag alpha(phi) = phi - psi_c(phi) of a linkage whose work angle increases with phi, and a work angle. Out: phi,
-//! unwrapped, to rounding. Law: Steffensen's iteration, which Gao et al. 2017 use as well: the residual is its own step for
-//! the divided difference, so that convergence is quadratic without a derivative. Here every value also narrows
-//! a bracket, which begins as psi_c -+ pi/2 because |alpha| < pi/2; an iterate that leaves it is replaced by its middle, and
-//! after a few iterations only halving is left. The iteration therefore cannot fail.
+//! In: the lag alpha(phi) = phi - psi_c(phi) of a linkage whose work angle increases with phi, and a work angle. Out:
+//! phi, unwrapped, to rounding. Law: Steffensen's iteration, which Gao et al. 2017 use as well: the residual is its own
+//! step for the divided difference, so that convergence is quadratic without a derivative. Here every value also
+//! narrows a bracket, which begins as psi_c -+ pi/2 because |alpha| < pi/2; an iterate that leaves it is replaced by
+//! its middle, and after a few iterations only halving is left. The iteration therefore cannot fail.
 //!
 //! Starts come from a table ([`Starts`]) good to about 1e-9 rad: two or three evaluations are left.
 //!

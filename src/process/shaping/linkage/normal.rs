@@ -1,7 +1,7 @@
 //! Normal linkage: the cutter stays back along the normal of the pitch curve.
 //!
-//! In: the rolling pitch curve, r_c and the offset delta_d. Out: axis positions. Law, with d = r_c + delta_d (Gao et al.
-//! 2017, Eq. 9, 10 and 12, which all have the form of Eq. 1 with d for r_c):
+//! In: the rolling pitch curve, r_c and the offset delta_d. Out: axis positions. Law, with d = r_c + delta_d (Gao et
+//! al. 2017, Eq. 9, 10 and 12, which all have the form of Eq. 1 with d for r_c):
 //!
 //! ```text
 //! alpha' = atan2(d cos mu, r + d sin mu)     psi_c = phi - alpha'
@@ -9,13 +9,13 @@
 //! l      = |P + d n| = sqrt(r^2 + 2 r d sin mu + d^2)
 //! ```
 //!
-//! With cos mu = r'/s' and sin mu = r/s' (s' = ds/dphi) no angle mu is needed. The orientation of the cutter in the gear
-//! frame, psi_c + pi + psi_b = phi + mu + pi/2 + S/r_c, does not contain d: the rough position is the finish position moved
-//! along the normal, which is what evens the allowance out.
+//! With cos mu = r'/s' and sin mu = r/s' (s' = ds/dphi) no angle mu is needed. The orientation of the cutter in the
+//! gear frame, psi_c + pi + psi_b = phi + mu + pi/2 + S/r_c, does not contain d: the rough position is the finish
+//! position moved along the normal, which is what evens the allowance out.
 //!
-//! As printed, Eq. 12 has beta (without the offset) in psi_b. The cutter is then also turned by beta - beta' against the
-//! normal offset, up to 0.17 mm on the pitch circle of the paper's example, and the unevenness of the allowance is 43.6 %
-//! instead of 4.0 %: kept as a reading of its own, to show that.
+//! As printed, Eq. 12 has beta (without the offset) in psi_b. The cutter is then also turned by beta - beta' against
+//! the normal offset, up to 0.17 mm on the pitch circle of the paper's example, and the unevenness of the allowance is
+//! 43.6 % instead of 4.0 %: kept as a reading of its own, to show that.
 //!
 //! The inverse work angle is one to one while 1 + d kappa > 0, since psi_c' = s' (1 + d kappa) (r sin mu + d) / l^2.
 

@@ -1,11 +1,12 @@
 //! Clearance of the flanks when the cutter backs off.
 //!
-//! In: a linkage, the offset, the pressure angle alpha_p. Out: what of the back-off becomes clearance on each flank, and where
-//! it is least. Before the return stroke the cutter is drawn back by d along the line of centres, direction u. A flank in
-//! contact with unit normal v (out of the work) then clears by d (u . v).
+//! In: a linkage, the offset, the pressure angle alpha_p. Out: what of the back-off becomes clearance on each flank,
+//! and where it is least. Before the return stroke the cutter is drawn back by d along the line of centres, direction
+//! u. A flank in contact with unit normal v (out of the work) then clears by d (u . v).
 //!
-//! Law: all contact normals of one moment pass through the instantaneous centre Q and touch the cutter's base circle. With
-//! e the direction from Q to the cutter axis O_b, the normals stand at pi/2 -+ alpha_w from i e, where cos alpha_w = r_b /
+//! Law: all contact normals of one moment pass through the instantaneous centre Q and touch the cutter's base circle.
+//! With e the direction from Q to the cutter axis O_b, the normals stand at pi/2 -+ alpha_w from i e, where cos
+//! alpha_w = r_b /
 //! |Q O_b|. With beta the angle from e to u (the linkage's beta in finishing, positive where r' > 0):
 //!
 //! ```text
@@ -13,10 +14,12 @@
 //! right flank (smaller arc):  d sin(alpha_w - beta)
 //! ```
 //!
-//! In finishing Q is the pitch point and alpha_w = alpha_p. A circular gear has beta = 0 and clears by d sin alpha_p on both
-//! flanks: that is the value the ratios refer to. A non-circular gear loses on one flank wherever its radius changes; at
+//! In finishing Q is the pitch point and alpha_w = alpha_p. A circular gear has beta = 0 and clears by d sin alpha_p on
+//! both flanks: that is the value the ratios refer to. A non-circular gear loses on one flank wherever its radius
+//! changes; at
 //! |beta| = alpha_p the cutter slides along the flank, beyond it the cutter is pressed into it. The statement is exact for a
-//! small d; with d = 2 mm, overlapping the outlines of cutter and gear shows that rubbing already begins about 1.5 deg before.
+//! small d; with d = 2 mm, overlapping the outlines of cutter and gear shows that rubbing already begins about 1.5 deg
+//! before.
 
 use std::f64::consts::TAU;
 
@@ -116,8 +119,8 @@ impl SmallestRelief {
         match self.verdict() {
             ReliefVerdict::Clears => None,
             ReliefVerdict::Tight => Some(format!(
-                "backing off by {back_off_mm} mm along the line of centres clears {place} by only {clearance_um:.1} um, \
-                 {:.0} % of what a circular gear gets: back off further, or along the normal of the pitch curve",
+                "backing off by {back_off_mm} mm along the line of centres clears {place} by only {clearance_um:.1} \
+                um, {:.0} % of what a circular gear gets: back off further, or along the normal of the pitch curve",
                 100.0 * self.ratio
             )),
             ReliefVerdict::Rubs => Some(format!(

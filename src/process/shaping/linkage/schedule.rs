@@ -1,15 +1,15 @@
 //! The strokes of one operation: where every axis stands at every stroke, and in between.
 //!
-//! In: the operation (feed, spacing, window, infeed), the linkage, the machine. Out: [`StrokeSchedule`], which answers for any
-//! real stroke coordinate lambda: stroke i (from 0) is lambda = i, and the rotary feed that goes on during a stroke is
-//! lambda = i + u.
+//! In: the operation (feed, spacing, window, infeed), the linkage, the machine. Out: [`StrokeSchedule`], which answers
+//! for any real stroke coordinate lambda: stroke i (from 0) is lambda = i, and the rotary feed that goes on during a
+//! stroke is lambda = i + u.
 //!
-//! Law: the progress sigma (work angle, arc or time) is linear in the rolling stroke, sigma = sigma_0 + (i_0 + rho) sigma_per_stroke;
-//! phi follows by inversion at the offset of that stroke, the axes from phi. With N strokes per revolution and the work angle
-//! as progress this is psi_c(i) = (i - 1) 2 pi / N (Gao et al. 2017), whole turns without the stroke N + 1 that
-//! repeats the first. A window takes exactly those strokes of this grid that lie in it, ends included; with another
-//! progress the grid begins at the window's first angle. Plunging strokes come before rho = 0 and stand at the phi of the first
-//! rolling stroke.
+//! Law: the progress sigma (work angle, arc or time) is linear in the rolling stroke, sigma = sigma_0 + (i_0 + rho)
+//! sigma_per_stroke; phi follows by inversion at the offset of that stroke, the axes from phi. With N strokes per
+//! revolution and the work angle as progress this is psi_c(i) = (i - 1) 2 pi / N (Gao et al. 2017), whole turns without
+//! the stroke N + 1 that repeats the first. A window takes exactly those strokes of this grid that lie in it, ends
+//! included; with another progress the grid begins at the window's first angle. Plunging strokes come before rho = 0
+//! and stand at the phi of the first rolling stroke.
 //!
 //! Road not taken: a list of poses. It is large at finishing feeds and has nothing to say between strokes.
 
@@ -75,8 +75,8 @@ impl StrokeSchedule {
     /// Lays out the strokes.
     ///
     /// # Errors
-    /// A feed without strokes, a window that no stroke falls into or that is combined with further revolutions, equal times
-    /// without a speed limit, an offset at which the linkage does not roll.
+    /// A feed without strokes, a window that no stroke falls into or that is combined with further revolutions, equal
+    /// times without a speed limit, an offset at which the linkage does not roll.
     pub fn new(operation: &Operation, linkage: &ShapingLinkage, machine: &Machine) -> Result<Self, Refusal> {
         let key = |name: &str| format!("operation.{}.{name}", operation.name);
         let strokes_per_revolution = strokes_per_revolution(operation.feed, linkage.curve().perimeter_mm(), key)?;
@@ -102,7 +102,8 @@ impl StrokeSchedule {
             progress.along(linkage, Jet::variable(phi), Jet::constant(offset_mm)).value()
         };
         let (start, first_index) = match operation.spacing {
-            StrokeSpacing::WorkAngle => (0.0, (from_rad / per_stroke - COUNT_SLACK).ceil()), // the grid of psi_c begins at 0
+            // the grid of psi_c begins at 0
+            StrokeSpacing::WorkAngle => (0.0, (from_rad / per_stroke - COUNT_SLACK).ceil()),
             _ => (sigma(from_rad), 0.0),
         };
         let reach = (sigma(to_rad) - start) / per_stroke - first_index;
@@ -152,8 +153,8 @@ impl StrokeSchedule {
         self.strokes_per_revolution
     }
 
-    /// Mean arc of pitch curve per double stroke as it is really run, mm: a circular feed is rounded down to whole strokes
-    /// per revolution.
+    /// Mean arc of pitch curve per double stroke as it is really run, mm: a circular feed is rounded down to whole
+    /// strokes per revolution.
     pub fn circular_feed_mm_per_stroke(&self) -> f64 {
         self.linkage.curve().perimeter_mm() / f64::from(self.strokes_per_revolution)
     }
@@ -192,7 +193,8 @@ impl StrokeSchedule {
         self.progress.phi(&self.linkage, self.sigma(rolled), self.offset_mm(stroke))
     }
 
-    /// The machine at a stroke coordinate (any real; before the first and after the last stroke the motion is continued).
+    /// The machine at a stroke coordinate (any real; before the first and after the last stroke the motion is
+    /// continued).
     pub fn state(&self, stroke: f64) -> StrokeState {
         let (phi_rad, offset_mm) = (self.phi_rad(stroke), self.offset_mm(stroke));
         let axes = self.linkage.axes_along::<1>(Jet::constant(phi_rad), Jet::constant(offset_mm));
@@ -216,8 +218,8 @@ impl StrokeSchedule {
         }
     }
 
-    /// Axis positions as series in the stroke coordinate. phi is found first; then its derivatives, one after the other, from
-    /// what is missing in sigma(phi(lambda), offset(lambda)) against its linear course.
+    /// Axis positions as series in the stroke coordinate. phi is found first; then its derivatives, one after the
+    /// other, from what is missing in sigma(phi(lambda), offset(lambda)) against its linear course.
     pub fn axes_by_stroke(&self, stroke: f64) -> Axes<3> {
         let offset = self.infeed.offset(stroke);
         let rolled = stroke - self.infeed.plunge_strokes() as f64;

@@ -1,12 +1,16 @@
-//! What the blank field says about the whole gear: volumes by two ways, damage to the target, return strokes that rub, strokes that are missing.
+//! What the blank field says about the whole gear: volumes by two ways, damage to the target, return strokes that rub,
+//! strokes that are missing.
 //!
 //! In: the job and its cut blank. Out: [`BlankReport`].
 //!
-//! * **Balance.** The volume that the passes removed, summed pass by pass, against what is missing from the rays; the section that is left against the area of the target's outline, which
-//!   comes from the meshing condition and knows neither rays nor strokes.
-//! * **Gouges and interference.** Material of the target that is not there, deeper than [`crate::measure::damage::LEAST_DEPTH_MM`]: a gouge if the last operation took it, interference if an earlier one did. Strokes
-//!   only approach the target from outside, so a clean cut shows none at any number of strokes.
-//! * **Rubbing.** Material that the cutter enters on its way back; on surfaces that stay, or on stock that a later stroke takes away.
+//! * **Balance.** The volume that the passes removed, summed pass by pass, against what is missing from the rays; the
+//!   section that is left against the area of the target's outline, which comes from the meshing condition and knows
+//!   neither rays nor strokes.
+//! * **Gouges and interference.** Material of the target that is not there, deeper than
+//!   [`crate::measure::damage::LEAST_DEPTH_MM`]: a gouge if the last operation took it, interference if an earlier one
+//!   did. Strokes only approach the target from outside, so a clean cut shows none at any number of strokes.
+//! * **Rubbing.** Material that the cutter enters on its way back; on surfaces that stay, or on stock that a later
+//!   stroke takes away.
 //! * **Strokes.** See [`super::stroke_faults`].
 
 use super::stroke_faults::{LEAST_CELLS, StrokeFault, stroke_faults};
@@ -109,7 +113,8 @@ fn end_face(job: &Job, cut: &CutBlank, left_mm3: [f64; 2], target: &TargetOutlin
     }
 }
 
-/// Findings side by side of the teeth, deepest place and volume each; only those at least [`crate::measure::damage::LEAST_DEPTH_MM`] deep.
+/// Findings side by side of the teeth, deepest place and volume each; only those at least
+/// [`crate::measure::damage::LEAST_DEPTH_MM`] deep.
 fn collect(job: &Job, findings: impl Iterator<Item = Finding>) -> Vec<(Damage, bool)> {
     let place = |finding: &Finding| place_of(job, finding.point_mm);
     damage::collect(findings, place, |operation, pass| job.operations[operation].strokes.stroke_and_blade(pass))

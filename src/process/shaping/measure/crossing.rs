@@ -17,7 +17,8 @@ use std::ops::ControlFlow;
 const MOST_RAYS: u32 = 12;
 const LAST_MOVE_MM: f64 = 1e-10;
 
-/// Crossing of the envelope of one operation with the pitch curve on one flank; `None` where its involute does not reach the curve.
+/// Crossing of the envelope of one operation with the pitch curve on one flank; `None` where its involute does not
+/// reach the curve.
 pub fn envelope_crossing(job: &Job, generation: &Generation, tooth: u32, side: Side) -> Option<Crossing> {
     let flank = TargetFlank::new(generation, &job.blank, tooth, side, None).ok()?;
     let (_, contact) = flank.at_height(&job.blank, 0.0)?;
@@ -25,7 +26,8 @@ pub fn envelope_crossing(job: &Job, generation: &Generation, tooth: u32, side: S
     Some(Crossing { point_mm: contact.point_mm, phi_rad, arc_mm: job.curve.arc_mm(phi_rad) })
 }
 
-/// Crossing of what the strokes of operations 0 to `last_operation` leave in the middle of the face, on one flank; `start` is a crossing near it (the target's).
+/// Crossing of what the strokes of operations 0 to `last_operation` leave in the middle of the face, on one flank;
+/// `start` is a crossing near it (the target's).
 ///
 /// `None` where no pass comes within reach: half a pitch into the space, half a module into the tooth.
 ///

@@ -1,7 +1,8 @@
 //! Everything measured on one flank after all operations.
 //!
-//! In: the job, the target flank, the cut field. Out: [`FlankReport`]: where the flank begins and ends, stock between each operation and the finished surface, heights, scallops,
-//! profile deviations, undercut, the witness mark. Heights come from the dexels; begin and end from the closed form.
+//! In: the job, the target flank, the cut field. Out: [`FlankReport`]: where the flank begins and ends, stock between
+//! each operation and the finished surface, heights, scallops, profile deviations, undercut, the witness mark. Heights
+//! come from the dexels; begin and end from the closed form.
 
 use crate::dexel::NO_PASS;
 use crate::measure::deviation::{Trace, TraceDeviation};
@@ -63,11 +64,13 @@ pub struct FlankReport {
     pub lead: Option<TraceDeviation>,
     /// The profile in the middle of the face.
     pub profile_trace: Trace,
-    /// The line along the tooth at the pitch curve, or in the middle of the evaluated profile where the flank does not reach the curve.
+    /// The line along the tooth at the pitch curve, or in the middle of the evaluated profile where the flank does not
+    /// reach the curve.
     pub lead_trace: Trace,
     /// Scallops in the middle of the face.
     pub scallops: Option<Scallops>,
-    /// What the first and last finishing strokes stand above the rest of this flank (0 if nothing), where they touched it.
+    /// What the first and last finishing strokes stand above the rest of this flank (0 if nothing), where they touched
+    /// it.
     pub witness: Option<Extreme>,
     /// Dexels that were cut deeper than their rays record.
     pub below_range: u64,
@@ -75,10 +78,12 @@ pub struct FlankReport {
     pub untouched: u64,
 }
 
-/// Cuts shallower than this below the target are numerical: the edge tables, f32 heights and Newton's last step together.
+/// Cuts shallower than this below the target are numerical: the edge tables, f32 heights and Newton's last step
+/// together.
 pub const RESOLUTION_MM: f64 = 1e-6;
 
-/// Arcs between which profiles and textures are evaluated, mm from the form point: as the scene says, else without 5 % of the flank at either end.
+/// Arcs between which profiles and textures are evaluated, mm from the form point: as the scene says, else without 5 %
+/// of the flank at either end.
 pub fn evaluated_profile_mm(job: &Job, flank: &TargetFlank) -> [f64; 2] {
     let arc_at = |height: Option<f64>| height.and_then(|h| flank.at_height(&job.blank, h)).map(|(arc, _)| arc);
     let length_mm = flank.length_mm();

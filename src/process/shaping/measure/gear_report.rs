@@ -139,7 +139,8 @@ mod tests {
     use crate::scene;
     use std::path::Path;
 
-    /// A round gear clamped off its axis by e and cut: a probe on the gear's own axis runs out by 2 e, and the left and right pitch errors swing with it.
+    /// A round gear clamped off its axis by e and cut: a probe on the gear's own axis runs out by 2 e, and the left and
+    /// right pitch errors swing with it.
     #[test]
     fn a_gear_cut_off_its_axis_runs_out_by_twice_the_eccentricity() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping/circular_m3_z24.toml");
@@ -152,7 +153,8 @@ mod tests {
         let (left, right) = (side(|t| t.b), side(|t| t.c));
         let alpha = job.scene.gear.pressure_angle_rad;
         let runout = runout(&job.curve, &left, &right, alpha).expect("all cross");
-        // The space after the last tooth is centred on phi = 0, the side that the gear was shifted to, towards the cutter: it is cut deepest, and the probe lies deepest.
+        // The space after the last tooth is centred on phi = 0, the side that the gear was shifted to, towards the
+        // cutter: it is cut deepest, and the probe lies deepest.
         let innermost = runout.radial_mm.iter().copied().fold(f64::INFINITY, f64::min);
         assert_eq!(runout.radial_mm.last(), Some(&innermost));
         // Feed marks of 0.1 um and the second order in e / d are all that may be between.

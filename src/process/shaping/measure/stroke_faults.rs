@@ -1,25 +1,33 @@
 //! Strokes that are missing or were made twice, told from what every stroke removed.
 //!
-//! In: volume removed by every pass. Out: strokes that stand alone. With an even feed the volume changes slowly from stroke to stroke, so a stroke that removed far more than the two before
-//! and the two after it stands where another one is missing, and one that removed next to nothing was either made twice (the next one cuts as usual) or did not
+//! In: volume removed by every pass. Out: strokes that stand alone. With an even feed the volume changes slowly from
+//! stroke to stroke, so a stroke that removed far more than the two before and the two after it stands where another
+//! one is missing, and one that removed next to nothing was either made twice (the next one cuts as usual) or did not
 //! cut (the next one takes its chip as well).
 //!
-//! **The family that is smooth speaks for a cutter tooth.** A thin chip that lies along the rays of one family is met as a whole by one ray or by none, which makes that family's figure
-//! of that tooth jump; the other family then sees the chip squarely. So each tooth in the work is judged by the family that scatters less over the stroke and its neighbours. A fault must show in the
-//! tooth that takes most, and in all teeth together; so neither a tooth that comes into the work looks like one, nor the end of a plunge.
+//! **The family that is smooth speaks for a cutter tooth.** A thin chip that lies along the rays of one family is met
+//! as a whole by one ray or by none, which makes that family's figure of that tooth jump; the other family then sees
+//! the chip squarely. So each tooth in the work is judged by the family that scatters less over the stroke and its
+//! neighbours. A fault must show in the tooth that takes most, and in all teeth together; so neither a tooth that comes
+//! into the work looks like one, nor the end of a plunge.
 //!
-//! Chips have to be as large as some cells of the grid to be told apart. The surface alone would not do at all: at 4,200 strokes the facet of a missing stroke is narrower than the rays' distance.
+//! Chips have to be as large as some cells of the grid to be told apart. The surface alone would not do at all: at
+//! 4,200 strokes the facet of a missing stroke is narrower than the rays' distance.
 
-/// A stroke that removed more than this times its neighbours follows a gap. On the elliptical gear 30 missing strokes measure 1.64 to 2.11, and no other stroke of the judged operations of the shipped
-/// scenes more than 1.3.
+/// A stroke that removed more than this times its neighbours follows a gap. On the elliptical gear 30 missing strokes
+/// measure 1.64 to 2.11, and no other stroke of the judged operations of the shipped scenes more than 1.3.
 const ALONE_HIGH: f64 = 1.5;
-/// One that removed less than this times its neighbours did not cut. The same strokes measure 0 when made twice, the others 0.6 and more.
+/// One that removed less than this times its neighbours did not cut. The same strokes measure 0 when made twice, the
+/// others 0.6 and more.
 const ALONE_LOW: f64 = 0.3;
-/// Strokes on either side that a stroke is compared with. The largest (or smallest) of the four is passed over, so that one jump among them hides nothing.
+/// Strokes on either side that a stroke is compared with. The largest (or smallest) of the four is passed over, so that
+/// one jump among them hides nothing.
 const NEIGHBOURS: usize = 2;
-/// Where the neighbours remove less than this share of the mean stroke, as at the end of the turn, a stroke is not judged: it leaves hardly a trace, and few rays meet its chips.
+/// Where the neighbours remove less than this share of the mean stroke, as at the end of the turn, a stroke is not
+/// judged: it leaves hardly a trace, and few rays meet its chips.
 const LEAST_SHARE: f64 = 0.3;
-/// Operations whose mean stroke removes less than this many cells of the grid from a section are not judged: chance decides how many rays meet their chips.
+/// Operations whose mean stroke removes less than this many cells of the grid from a section are not judged: chance
+/// decides how many rays meet their chips.
 pub const LEAST_CELLS: f64 = 10.0;
 
 /// What is wrong with a stroke.
@@ -55,12 +63,14 @@ impl StrokeFaultKind {
     }
 }
 
-/// Faults of an operation with `blades` passes per stroke; the first stroke, which may enter the full stock, is not judged.
+/// Faults of an operation with `blades` passes per stroke; the first stroke, which may enter the full stock, is not
+/// judged.
 pub fn stroke_faults(removed_mm3: &[[f64; 2]], blades: u32) -> Vec<StrokeFault> {
     let blades = blades as usize;
     let count = removed_mm3.len() / blades.max(1);
     let mean = [0, 1].map(|f| removed_mm3.iter().map(|pass| pass[f]).sum::<f64>() / count.max(1) as f64);
-    // Removed relative to the neighbours, as the tooth that takes most and as all teeth say: against no fault being high, and being low.
+    // Removed relative to the neighbours, as the tooth that takes most and as all teeth say: against no fault being
+    // high, and being low.
     let ratios = |at: usize| -> [f64; 2] {
         let near = at.saturating_sub(NEIGHBOURS)..(at + NEIGHBOURS + 1).min(count);
         let (mut own, mut expected, mut usual) = (0.0, 0.0, 0.0);

@@ -1,7 +1,8 @@
 //! Allowances AB and CD of every tooth and their unevenness (Gao et al. 2017, Fig. 9 and Eq. 14).
 //!
-//! The equation's print is lost. Two denominators fit the paper's figures about equally well, so both are always given, by name: the **mean** of AB and CD, `|AB - CD| / ((AB + CD) / 2)`, and the
-//! **rack** allowance, `|AB - CD| / (delta_d tan(alpha))`, what the offset delta_d leaves on a straight rack.
+//! The equation's print is lost. Two denominators fit the paper's figures about equally well, so both are always given,
+//! by name: the **mean** of AB and CD, `|AB - CD| / ((AB + CD) / 2)`, and the **rack** allowance,
+//! `|AB - CD| / (delta_d tan(alpha))`, what the offset delta_d leaves on a straight rack.
 
 use super::crossing::{envelope_crossing, stroke_crossing};
 use crate::error::Result;
@@ -95,7 +96,8 @@ pub fn allowances(job: &Job, operation: usize, surface: Surface) -> Result<Vec<T
         .collect()
 }
 
-/// delta_d tan(alpha): what the offset between an operation and finishing leaves on a straight rack along the pitch line, mm.
+/// delta_d tan(alpha): what the offset between an operation and finishing leaves on a straight rack along the pitch
+/// line, mm.
 pub fn rack_allowance_mm(job: &Job, operation: usize) -> f64 {
     (job.operations[operation].spec.offset_mm - job.finishing().spec.offset_mm)
         * job.scene.gear.pressure_angle_rad.tan()

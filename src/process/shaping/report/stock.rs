@@ -23,7 +23,8 @@ pub fn section(job: &Job, found: &Findings) -> Option<Section> {
         id: "stock",
         title: "Stock and allowance".to_owned(),
         lead: format!(
-            "What is left for {finishing}. Stock is measured along the target's normal over whole flanks; AB (left flank) and CD (right flank) are chords on the pitch curve between the two operations."
+            "What is left for {finishing}. Stock is measured along the target's normal over whole flanks; AB (left \
+            flank) and CD (right flank) are chords on the pitch curve between the two operations."
         ),
         blocks,
     })

@@ -15,7 +15,8 @@ use crate::process::shaping::measure::blank_report::BlankReport;
 use crate::steps::damage_table::{damage_cells, damage_columns};
 use crate::terms::Side;
 
-/// Distance of the target outline's points: chords of a fillet then miss about 60 nm, a fifteenth of the least depth that is reported.
+/// Distance of the target outline's points: chords of a fillet then miss about 60 nm, a fifteenth of the least depth
+/// that is reported.
 const TARGET_SPACING_MM: f64 = 0.02;
 
 /// The cut blank and what it says; nothing after Ctrl-C.

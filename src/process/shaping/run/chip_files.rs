@@ -1,7 +1,8 @@
 //! Chip tables, charts over the work angle, and maps of uncut chip thickness.
 //!
-//! Out, per operation: `tables/chips_<operation>.csv` (one row per stroke), `chips/<operation>_load.{png,svg}` and `_chips.{png,svg}` (line charts),
-//! `chips/<operation>_thickness_by_stroke.{png,exr}` and `_thickness_by_space.{png,exr}`.
+//! Out, per operation: `tables/chips_<operation>.csv` (one row per stroke), `chips/<operation>_load.{png,svg}` and
+//! `_chips.{png,svg}` (line charts), `chips/<operation>_thickness_by_stroke.{png,exr}` and
+//! `_thickness_by_space.{png,exr}`.
 
 use crate::colormap::ColourScale;
 use crate::error::Result;
@@ -18,7 +19,8 @@ use crate::process::shaping::chips::edge_polygon::EdgeSide;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips, ThicknessMap};
 use crate::units::UM_PER_MM;
 
-/// Charts and colours end at this many times the 90th percentile: first strokes into the full blank would flatten everything else.
+/// Charts and colours end at this many times the 90th percentile: first strokes into the full blank would flatten
+/// everything else.
 const SHOWN_OVER_Q90: f64 = 2.0;
 
 /// A curve of a chart: its name and its value at a stroke.
@@ -296,7 +298,10 @@ fn write_map(
         definition: "largest uncut chip thickness of all cutter teeth; NaN where nothing is cut".into(),
         samples: Samples::F32(thickness_mm),
     }];
-    let frame = "edge frame of a cutter tooth: v = arc along the edge from the middle of the tip, left flank positive; u = feed".to_owned();
+    let frame =
+        "edge frame of a cutter tooth: v = arc along the edge from the middle of the tip, left flank positive; \
+        u = feed"
+            .to_owned();
     let map = ExrMap { grid, frame, channels, notes: notes.to_vec() };
     write_exr_map(&folder.path(format!("{stem}.exr"))?, &map).map_err(file_error)
 }

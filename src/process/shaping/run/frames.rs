@@ -24,7 +24,8 @@ const SIZE_PX: (u32, u32) = (720, 540);
 const FRAME_MS: u16 = 100;
 const HOLD_MS: u16 = 2000;
 
-/// Draws `count` frames into `frames/frame_0001.png` and so on, and all of them into `frames/cut.apng`; how many were finished before Ctrl-C.
+/// Draws `count` frames into `frames/frame_0001.png` and so on, and all of them into `frames/cut.apng`; how many were
+/// finished before Ctrl-C.
 ///
 /// # Errors
 /// Files that cannot be written; a blank field that does not fit in memory.

@@ -1,12 +1,15 @@
 //! The blank kernel: strokes of an operation taken from the blank field in order of time.
 //!
-//! In: a [`BlankField`], the strokes, the closed tooth of the cutter. Out: the field after the operation, the volume that every pass removed, and where the return strokes rub.
+//! In: a [`BlankField`], the strokes, the closed tooth of the cutter. Out: the field after the operation, the volume
+//! that every pass removed, and where the return strokes rub.
 //!
-//! A tile is some neighbouring rays of one family in one slice. It takes its candidate passes in order of time: the tooth's outline is placed in the work once, [`RayCrossings`] lays it
-//! over the rays, and rays whose crossings cannot reach material are left alone before anything is solved. What a ray is left with does not depend on tiles, threads or
-//! candidates, and the volumes are summed in the order of the tiles: same scene, same bytes.
+//! A tile is some neighbouring rays of one family in one slice. It takes its candidate passes in order of time: the
+//! tooth's outline is placed in the work once, [`RayCrossings`] lays it over the rays, and rays whose crossings cannot
+//! reach material are left alone before anything is solved. What a ray is left with does not depend on tiles, threads
+//! or candidates, and the volumes are summed in the order of the tiles: same scene, same bytes.
 //!
-//! After each stroke the cutter goes back, drawn off by the relief motion; if return poses are given, material that their teeth would enter is reported, and left where it is.
+//! After each stroke the cutter goes back, drawn off by the relief motion; if return poses are given, material that
+//! their teeth would enter is reported, and left where it is.
 
 use crate::cut::{BlankCut, BlankOperation, BlankStats, Rub};
 use crate::dexel::blank_field::{BlankField, Ray};
@@ -20,7 +23,8 @@ use rayon::prelude::*;
 /// Rays of a tile: a cutter tooth of module 3 at 0.1 mm covers one or two tiles.
 pub const TILE_RAYS: usize = 64;
 
-/// Rays that meet an edge at least this steeply (cosine to its normal) tell how deep it lies: every edge is met so by one of the two families.
+/// Rays that meet an edge at least this steeply (cosine to its normal) tell how deep it lies: every edge is met so by
+/// one of the two families.
 const STEEP: f64 = 0.7;
 
 /// One tile's share of a [`BlankCut`].
@@ -80,7 +84,8 @@ pub fn cut(
     Some(result)
 }
 
-/// Where the return strokes rub on one tile of a slice, its strokes taken from a copy: for backends that know that something rubs there and not where.
+/// Where the return strokes rub on one tile of a slice, its strokes taken from a copy: for backends that know that
+/// something rubs there and not where.
 pub fn rubs_of_tile(
     field: &BlankField,
     [slice, family, first]: [usize; 3],
@@ -156,7 +161,8 @@ impl Tile<'_> {
         done
     }
 
-    /// Calls `act` with every ray that the curve crosses near material, the crossings solved; `wanted` is asked first, ray by ray in their order.
+    /// Calls `act` with every ray that the curve crosses near material, the crossings solved; `wanted` is asked first,
+    /// ray by ray in their order.
     fn visit(
         &self,
         curve: &impl ClosedCurve,
@@ -182,7 +188,8 @@ impl Tile<'_> {
         }
     }
 
-    /// Takes what lies inside a curve from the rays that are wanted, as they are asked about in their order; gives the length removed, mm. `chip` is shown each ray before: its place across, its spans, the ends of the cut.
+    /// Takes what lies inside a curve from the rays that are wanted, as they are asked about in their order; gives the
+    /// length removed, mm. `chip` is shown each ray before: its place across, its spans, the ends of the cut.
     pub fn take(
         &mut self,
         curve: &impl ClosedCurve,
@@ -233,15 +240,17 @@ impl Tile<'_> {
             |_| true,
             |ray, at_mm, crossings| {
                 for [from, to] in crossings.as_chunks::<2>().0 {
-                    // Each piece of material by itself: a tooth between two of them enters both, and neither by the sum.
+                    // Each piece of material by itself: a tooth between two of them enters both, and neither by the
+                    // sum.
                     for span in &self.rays[ray] {
                         let (low_mm, high_mm) = (span.low.at_mm.max(from.at_mm), span.high.at_mm.min(to.at_mm));
                         let length_mm = high_mm - low_mm;
                         if length_mm <= intervals::LEAST_SPAN_MM {
                             continue;
                         }
-                        // Along the edge's normal the material is at most as thick as this; rays that graze say little and leave the depth to the other family. Nor can the edge enter deeper
-                        // than it has moved along its normal since it cut there: a ray may run along a thin sliver.
+                        // Along the edge's normal the material is at most as thick as this; rays that graze say little
+                        // and leave the depth to the other family. Nor can the edge enter deeper than it has moved
+                        // along its normal since it cut there: a ray may run along a thin sliver.
                         let ends = [(from, span.low.at_mm < from.at_mm), (to, span.high.at_mm > to.at_mm)];
                         let steep = |c: &Crossing| family.along(c.outward()).abs();
                         let moved_mm = |c: &Crossing| {

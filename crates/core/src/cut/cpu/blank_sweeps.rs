@@ -3,11 +3,13 @@
 //! In: a [`BlankField`], the passes as sections in its slices ([`SweptSections`]). Out: the field after the operation
 //! and what every pass took.
 //!
-//! Some neighbouring slices go to a core together, with all passes in order of time. Most passes go where nothing is left: one section in the middle of the slices tells where a pass may be in each of them
-//! ([`SectionBand`]), and that is compared with what is left there ([`RayReach`], [`SpanTable`]). Only a pass that may
-//! find something is followed into the slice and laid over those rays, of both
-//! families, near which it may. What a slice is left with does not depend on the others, and chips are summed in the order of the slices: same scene, same bytes. `tests/suite/hobbing/blank.rs` compares
-//! spans, marks and chips with those of all passes on all rays, bit for bit, and plants a culling that is wrong.
+//! Some neighbouring slices go to a core together, with all passes in order of time. Most passes go where nothing is
+//! left: one section in the middle of the slices tells where a pass may be in each of them ([`SectionBand`]), and that
+//! is compared with what is left there ([`RayReach`], [`SpanTable`]). Only a pass that may find something is followed
+//! into the slice and laid over those rays, of both families, near which it may. What a slice is left with does not
+//! depend on the others, and chips are summed in the order of the slices: same scene, same bytes.
+//! `tests/suite/hobbing/blank.rs` compares spans, marks and chips with those of all passes on all rays, bit for bit,
+//! and plants a culling that is wrong.
 
 use super::blank::{Scratch, Tile};
 use crate::cut::BlankStats;
@@ -24,7 +26,8 @@ use std::ops::Range;
 /// Most slices that are cut together.
 const BLOCK_SLICES: usize = 8;
 
-/// Runs an operation whose passes have the ids `passes`; `advance` is called as often as there are slices and says whether to go on. `None`: stopped.
+/// Runs an operation whose passes have the ids `passes`; `advance` is called as often as there are slices and says
+/// whether to go on. `None`: stopped.
 pub fn cut(
     field: &mut BlankField,
     sections: &SweptSections,
@@ -93,7 +96,8 @@ struct Memory {
     surfaces: ChipSurfaces,
 }
 
-/// Neighbouring slices with all passes in order of time. `advance` is called as often as there are slices, whenever another such share of the passes is done.
+/// Neighbouring slices with all passes in order of time. `advance` is called as often as there are slices, whenever
+/// another such share of the passes is done.
 fn cut_block(
     grid: &BlankGrid,
     mut slices: Vec<SliceCut>,

@@ -1,7 +1,9 @@
-//! The native backend: f64, one tile at a time, 16 rows at once (8 in space), with the widest vectors that the processor has.
+//! The native backend: f64, one tile at a time, 16 rows at once (8 in space), with the widest vectors that the
+//! processor has.
 //!
-//! The instruction set is chosen when the program starts, so `cargo build --release` without flags is fast everywhere. No fused multiply-add is used and every
-//! chunk has the same rows on all of them: AVX2, AVX-512 and plain x86-64 or ARM give the **same bytes**.
+//! The instruction set is chosen when the program starts, so `cargo build --release` without flags is fast everywhere.
+//! No fused multiply-add is used and every chunk has the same rows on all of them: AVX2, AVX-512 and plain x86-64 or
+//! ARM give the **same bytes**.
 
 pub mod blank;
 pub mod blank_sweeps;
@@ -73,7 +75,8 @@ impl Cpu {
     /// of the plan. `spread_per_mm`: how much the rays
     /// of each column part (curvature of the curve that they stand on), so that lengths become areas.
     ///
-    /// The plan must hold every pass that reaches the field: what a pruned one would have taken would be booked on another.
+    /// The plan must hold every pass that reaches the field: what a pruned one would have taken would be booked on
+    /// another.
     pub fn cut_with_ledger(
         self,
         field: &SpatialField,

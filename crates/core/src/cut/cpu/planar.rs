@@ -1,11 +1,14 @@
 //! The planar kernel: rays of one tile against the segments of its passes.
 //!
-//! In: columns of rays, records ([`PassRecord`]), edge segments, the phase tau of every row, the layer so far. Out: lowered heights and the passes that lowered them.
+//! In: columns of rays, records ([`PassRecord`]), edge segments, the phase tau of every row, the layer so far. Out:
+//! lowered heights and the passes that lowered them.
 //!
-//! For a ray and a pass, the place in the segment's frame is `x0 + h nx`, `y0 + h ny` with all four cubics in tau. The entry into the tool is the falling root of
-//! `f(h) = x0 + h nx - U(y0 + h ny)`; Newton's method starts at the tile's middle root, some hundred nanometres to micrometres away, and needs two steps. Sixteen rows of a column go
-//! together. They meet the edge within a micrometre of each other, nearly always in the same cell of its table, whose four coefficients are then loaded once; when they straddle a cell's end, each
-//! row loads its own. Both ways compute the same numbers.
+//! For a ray and a pass, the place in the segment's frame is `x0 + h nx`, `y0 + h ny` with all four cubics in tau. The
+//! entry into the tool is the falling root of `f(h) = x0 + h nx - U(y0 + h ny)`; Newton's method starts at the tile's
+//! middle root, some hundred nanometres to micrometres away, and needs two steps. Sixteen rows of a column go together.
+//! They meet the edge within a micrometre of each other, nearly always in the same cell of its table, whose four
+//! coefficients are then loaded once; when they straddle a cell's end, each row loads its own. Both ways compute the
+//! same numbers.
 
 #![expect(
     clippy::inline_always,
@@ -24,9 +27,11 @@ use glam::DVec2;
 const LANES: usize = 16;
 /// Newton steps at most; from the tile's middle two suffice, a dozen serve rays that graze.
 const MAX_STEPS: usize = 16;
-/// A step below this (10 nm) is the last one: the error after it is its square times half the bend of the edge along the ray, 5e-11 mm where the radius is 1 mm.
+/// A step below this (10 nm) is the last one: the error after it is its square times half the bend of the edge along
+/// the ray, 5e-11 mm where the radius is 1 mm.
 const LAST_STEP_MM: f64 = 1e-5;
-/// Hits this far beyond a segment's end still count: neighbouring segments then leave no slit for a ray to slip through.
+/// Hits this far beyond a segment's end still count: neighbouring segments then leave no slit for a ray to slip
+/// through.
 const END_OVERLAP_MM: f64 = 1e-9;
 
 /// One tile's work; called through the instruction set dispatch.
@@ -136,9 +141,10 @@ fn rays_at(ray: &RayCubics, tau: &Lanes) -> Rays {
     Rays { x0: at(&ray.x0), y0: at(&ray.y0), nx: at(&ray.nx), ny: at(&ray.ny) }
 }
 
-/// Newton's method. The residual of a convex segment is convex in h: from any place where it falls the iteration runs to the entry, from the left without overshooting. A lane
-/// that finds itself where the residual rises goes back to `lowest_mm`, where it falls if there is any entry above at all; one that gets there twice has passed the bottom
-/// of a residual without roots: its ray misses the segment.
+/// Newton's method. The residual of a convex segment is convex in h: from any place where it falls the iteration runs
+/// to the entry, from the left without overshooting. A lane that finds itself where the residual rises goes back to
+/// `lowest_mm`, where it falls if there is any entry above at all; one that gets there twice has passed the bottom of a
+/// residual without roots: its ray misses the segment.
 #[inline(always)]
 fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_mm: f64, lowest_mm: f64) -> Entries {
     let (y_start, y_end) = (table.y_start_mm, table.y_end_mm());
@@ -193,7 +199,8 @@ fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_m
     entries
 }
 
-/// All lanes are smaller in magnitude than the limit: one comparison of vectors, where a largest value would be sought lane after lane.
+/// All lanes are smaller in magnitude than the limit: one comparison of vectors, where a largest value would be sought
+/// lane after lane.
 #[inline(always)]
 fn all_below(lanes: &Lanes, limit: f64) -> bool {
     let mut below = true;
@@ -247,8 +254,9 @@ fn enter_arc(radius_mm: f64, [y_from, y_to]: [f64; 2], rays: &Rays) -> Entries {
     entries
 }
 
-/// Lowers the heights and gives the number of rows whose root is unknown though it may lie below what is there (from the left Newton's method
-/// climbs towards the entry, so iterates above the height that is there do no harm); a cut deeper than the ray records is put at its lowest height, far deeper ones belong to the other side of the tooth.
+/// Lowers the heights and gives the number of rows whose root is unknown though it may lie below what is there (from
+/// the left Newton's method climbs towards the entry, so iterates above the height that is there do no harm); a cut
+/// deeper than the ray records is put at its lowest height, far deeper ones belong to the other side of the tooth.
 #[inline(always)]
 fn keep_lowest(entries: &Entries, low_mm: f64, pass: u32, best: &mut Lanes, best_pass: &mut [u32; LANES]) -> u64 {
     let mut unknown = 0;

@@ -1,8 +1,10 @@
 //! The spatial kernel: rays of one tile against the sweeps of its passes.
 //!
-//! In: rays in space, records ([`SweepRecord`], where the equations are derived), edge segments, the layer so far. Out: lowered heights and the passes that lowered them.
+//! In: rays in space, records ([`SweepRecord`], where the equations are derived), edge segments, the layer so far. Out:
+//! lowered heights and the passes that lowered them.
 //!
-//! Eight rows of a column go together; Newton's method (`passes/sweep_roots.rs`) starts from polynomials over the tile: mostly two steps.
+//! Eight rows of a column go together; Newton's method (`passes/sweep_roots.rs`) starts from polynomials over the tile:
+//! mostly two steps.
 
 #![expect(
     clippy::inline_always,
@@ -17,9 +19,11 @@ use crate::passes::spatial::sweep_plan::SweepTile;
 use crate::passes::spatial::sweep_roots::{LANES, Lanes, Rays};
 use crate::tool::edge::{Segment, SegmentShape};
 
-/// Hits this far beyond a segment's end still count: neighbouring segments then leave no slit for a ray to slip through.
+/// Hits this far beyond a segment's end still count: neighbouring segments then leave no slit for a ray to slip
+/// through.
 const END_OVERLAP_MM: f64 = 1e-9;
-/// Newton steps below this, in mm and in t, are the last: the error after them is of their squares, so that heights do not depend on where the search started.
+/// Newton steps below this, in mm and in t, are the last: the error after them is of their squares, so that heights do
+/// not depend on where the search started.
 const LAST_STEP: f64 = 1e-8;
 /// A last step below this has arrived, mm.
 const CONVERGED_MM: f64 = 1e-6;
@@ -41,7 +45,8 @@ impl pulp::NullaryFnOnce for SpatialTileCut<'_> {
     fn call(self) -> CutStats {
         let Self { field, tile, records, segments, heights_mm, passes } = self;
         let mut stats = CutStats::default();
-        // All rays of the tile first: they lie all over the memory, and waiting for many at a time costs little more than waiting for one.
+        // All rays of the tile first: they lie all over the memory, and waiting for many at a time costs little more
+        // than waiting for one.
         let mut chunks: Vec<Chunk> = Vec::with_capacity(tile.columns.len() * tile.rows.len().div_ceil(LANES));
         for column in tile.columns.clone() {
             for first in tile.rows.clone().step_by(LANES) {
@@ -183,7 +188,8 @@ impl Chunk {
         std::array::from_fn(|l| from + rows[l] * (slope + rows[l] * yy))
     }
 
-    /// Lowers the heights by one record; gives for every lane whether its root is unknown though it may lie below what is there, and the cosine at which the ray met the edge.
+    /// Lowers the heights by one record; gives for every lane whether its root is unknown though it may lie below what
+    /// is there, and the cosine at which the ray met the edge.
     #[inline(always)]
     fn lower(&mut self, record: &SweepRecord, segments: &[Segment], low_mm: f64) -> ([u64; LANES], Lanes) {
         let segment = &segments[record.segment as usize];

@@ -1,8 +1,8 @@
 //! What a pitch curve is like: its extreme curvatures, its concave zones, its extreme radii.
 //!
-//! In: r(phi) with three derivatives. Out: [`CurveFacts`], found once per curve. Law: with dots for d/dphi,
-//! kappa = (r^2 + 2 r'^2 - r r'') / (r^2 + r'^2)^(3/2), positive where the gear is convex; its extrema are the sign changes
-//! of its own derivative, zones are bounded by the sign changes of kappa.
+//! In: r(phi) with three derivatives. Out: [`CurveFacts`], found once per curve. Law: with dots for d/dphi, kappa =
+//! (r^2 + 2 r'^2 - r r'') / (r^2 + r'^2)^(3/2), positive where the gear is convex; its extrema are the sign changes of
+//! its own derivative, zones are bounded by the sign changes of kappa.
 
 use crate::math::jet::Jet;
 use crate::math::roots::{sample_angle_rad, sign_changes};

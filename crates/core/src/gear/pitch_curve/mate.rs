@@ -1,19 +1,21 @@
 //! Pitch curve of the gear that runs with a driver: r2 rolls on r1 at a fixed centre distance.
 //!
-//! In: the driver's closed curve r1(phi1), tooth numbers, and whether the mate is external or internal. Out: r2(phi2) with
-//! three derivatives, and the centre distance a. Law (Litvin and Fuentes, *Noncircular Gears*, 2009, ch. 2): both curves
-//! touch on the line of centres and pass equal arcs, r1 dphi1 = r2 dphi2, hence
+//! In: the driver's closed curve r1(phi1), tooth numbers, and whether the mate is external or internal. Out: r2(phi2)
+//! with three derivatives, and the centre distance a. Law (Litvin and Fuentes, *Noncircular Gears*, 2009, ch. 2): both
+//! curves touch on the line of centres and pass equal arcs, r1 dphi1 = r2 dphi2, hence
 //!
 //! ```text
 //! external: r2 = a - r1, phi2 runs against phi1        internal: r2 = a + r1, phi2 runs with phi1
 //! closure:  integral over one turn of r1 / r2 dphi1 = 2 pi z1 / z2
 //! ```
 //!
-//! The closure has one solution a, which is found; a rounded centre distance leaves a gap after the last tooth. The curve's
-//! perimeter is then pi m z2 by itself. It closes smoothly only if the driver looks the same after z2 / z1 of its turns.
+//! The closure has one solution a, which is found; a rounded centre distance leaves a gap after the last tooth. The
+//! curve's perimeter is then pi m z2 by itself. It closes smoothly only if the driver looks the same after z2 / z1 of
+//! its turns.
 //!
-//! The mate's angle phi2 = 0 meets the driver's angle `start`. A tooth space is centred on zero of either gear, so gears
-//! that run together need a start in the middle of a driver's tooth; the first one is taken unless another is given.
+//! The mate's angle phi2 = 0 meets the driver's angle `start`. A tooth space is centred on zero of either gear, so
+//! gears that run together need a start in the middle of a driver's tooth; the first one is taken unless another is
+//! given.
 
 use std::f64::consts::PI;
 
@@ -39,7 +41,8 @@ pub struct Driver {
     pub curve: PitchCurveShape,
     /// Its number of teeth.
     pub teeth: u32,
-    /// Polar angle of the driver that meets the mate's polar angle 0, rad; `None`: the middle of the driver's first tooth.
+    /// Polar angle of the driver that meets the mate's polar angle 0, rad; `None`: the middle of the driver's first
+    /// tooth.
     pub start_rad: Option<f64>,
 }
 
@@ -61,8 +64,8 @@ impl MateLaw {
     /// Mate with `teeth` teeth of `module_mm`.
     ///
     /// # Errors
-    /// A driver that is refused by itself, an internal mate with no more teeth than its driver, a driver that does not close
-    /// or does not look the same after the mate's turn.
+    /// A driver that is refused by itself, an internal mate with no more teeth than its driver, a driver that does not
+    /// close or does not look the same after the mate's turn.
     pub(super) fn new(
         driver: &Driver,
         kind: GearKind,
@@ -104,8 +107,8 @@ impl MateLaw {
             return Err(Refusal::new(
                 &format!("{KEY}.driver_teeth"),
                 format!(
-                    "one turn of the mate is {turns:.6} turns of its driver, after which the driver looks different: the \
-                     mate's curve does not close"
+                    "one turn of the mate is {turns:.6} turns of its driver, after which the driver looks different: \
+                    the mate's curve does not close"
                 ),
                 "choose tooth numbers whose quotient is a whole number of the driver's repeats in one turn",
             ));

@@ -1,8 +1,8 @@
 //! r(phi) of each kind of pitch curve, with three derivatives.
 //!
-//! In: the checked shape. Out: the unit radius u(phi), where r = size * u and the size is the shape's own parameter in mm
-//! (semi-major axis, centre distance, mean radius). Each law is written once, as a formula of series ([`Jet`]), and its
-//! derivatives follow from it.
+//! In: the checked shape. Out: the unit radius u(phi), where r = size * u and the size is the shape's own parameter in
+//! mm (semi-major axis, centre distance, mean radius). Each law is written once, as a formula of series ([`Jet`]), and
+//! its derivatives follow from it.
 //!
 //! Sources: n-order ellipse, Gao et al. 2017, Eq. 13; driver of a sinusoidal ratio, Litvin and Fuentes, *Noncircular
 //! Gears*, 2009, ch. 2: r = C / (1 + i(phi)) with i the angular speed ratio driver : driven.
@@ -158,8 +158,8 @@ impl RadiusLaw {
         }
     }
 
-    /// Number of samples per turn between which the curvature has no two sign changes of itself or its slope: 128 per period of
-    /// the highest harmonic that counts, 8 between knots of a table.
+    /// Number of samples per turn between which the curvature has no two sign changes of itself or its slope: 128 per
+    /// period of the highest harmonic that counts, 8 between knots of a table.
     pub(super) fn samples_per_turn(&self) -> usize {
         let periods = match self {
             Self::Circle => 1.0,

@@ -2,7 +2,8 @@
 
 use crate::gear::{Driver, GearKind};
 
-/// Shape of the closed pitch curve r(phi). A size left out (`None`) is solved so that the curve closes: perimeter = pi m z.
+/// Shape of the closed pitch curve r(phi). A size left out (`None`) is solved so that the curve closes: perimeter = pi
+/// m z.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PitchCurveShape {
     /// r = m z / 2.

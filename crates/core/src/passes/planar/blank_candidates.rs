@@ -1,7 +1,8 @@
 //! The passes that can take material from some rays of the blank field, in order of time.
 //!
-//! A pass is left out only when the circle round its edge stays clear of the blank's circle or of the strip that a tile's rays fill. No assumption is made about
-//! which tooth cuts where. Whether the candidates leave the same spans and marks as all passes do is tested bit for bit.
+//! A pass is left out only when the circle round its edge stays clear of the blank's circle or of the strip that a
+//! tile's rays fill. No assumption is made about which tooth cuts where. Whether the candidates leave the same spans
+//! and marks as all passes do is tested bit for bit.
 
 use super::strokes::StrokeSet;
 use crate::frame::Rigid2;

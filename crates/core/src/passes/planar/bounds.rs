@@ -1,17 +1,18 @@
 //! Bounds on one segment's pass over one tile: clear of it, bounded by samples, or undecided.
 //!
-//! Samples are entries of the segment at a few rays across the tile (places) and at one or three phases of the stroke. Between them the height is bilinear within an error
-//! C L^2 / 8, where C bounds the second derivative along the profile. With the target's curvature k_t, the edge's curvature k_e, the angle theta between ray and
-//! edge normal and the height a over the target, differentiating the entry along the profile twice gives
+//! Samples are entries of the segment at a few rays across the tile (places) and at one or three phases of the stroke.
+//! Between them the height is bilinear within an error C L^2 / 8, where C bounds the second derivative along the
+//! profile. With the target's curvature k_t, the edge's curvature k_e, the angle theta between ray and edge normal and
+//! the height a over the target, differentiating the entry along the profile twice gives
 //!
 //! `a'' = (1 + a k_t) / cos^2 theta [ k_e (1 + a k_t) / cos theta - k_t ] + k_t (1 + a k_t) tan^2 theta + a k_t' tan theta`
 //!
 //! C takes absolute values and half as much again for what varies inside the tile.
 //!
-//! Most passes need no samples: a segment is convex, so it lies behind its tangent at any place, and a tile whose lowest certain surface stays in front of that tangent by more than the
-//! edge can bulge between two samples is not touched. The same look culls a whole time interval of strokes at once
-//! ([`super::time_intervals`]): there the tangent must stay away by as much as any
-//! of the strokes moves the blade.
+//! Most passes need no samples: a segment is convex, so it lies behind its tangent at any place, and a tile whose
+//! lowest certain surface stays in front of that tangent by more than the edge can bulge between two samples is not
+//! touched. The same look culls a whole time interval of strokes at once ([`super::time_intervals`]): there the tangent
+//! must stay away by as much as any of the strokes moves the blade.
 
 use super::near::NearPass;
 use super::upper_bound::BoundHeights;
@@ -148,7 +149,8 @@ impl<'a> SegmentBounds<'a> {
         }
     }
 
-    /// Whether the segment's box comes within `margin_mm` of a ray between two heights, in any sampled phase; `rays` are one place's.
+    /// Whether the segment's box comes within `margin_mm` of a ray between two heights, in any sampled phase; `rays`
+    /// are one place's.
     pub fn box_meets(&self, rays: &[BladeRay], segment: usize, heights_mm: [f64; 2], margin_mm: f64) -> bool {
         let Segment { blade_from_segment, y_range_mm, .. } = &self.segments[segment];
         let [x_low, x_high] = self.x_ranges_mm[segment];
@@ -176,9 +178,9 @@ impl<'a> SegmentBounds<'a> {
     /// Whether the segment surely meets all rays of the tile above the upper bounds, one for each of `rays`: one
     /// residual each instead of a root.
     ///
-    /// A convex segment lies behind its tangent at the aimed point's y; a ray that still runs towards it there enters it further up. Between neighbouring samples the segment
-    /// can bulge by `k_e L^2 / 8` and the surface of the upper bounds by `k_t L^2 / 8`; `motion_bound` is what the
-    /// poses themselves may differ.
+    /// A convex segment lies behind its tangent at the aimed point's y; a ray that still runs towards it there enters
+    /// it further up. Between neighbouring samples the segment can bulge by `k_e L^2 / 8` and the surface of the upper
+    /// bounds by `k_t L^2 / 8`; `motion_bound` is what the poses themselves may differ.
     pub fn stays_above(
         &self,
         rays: &[BladeRay],
@@ -277,7 +279,8 @@ impl<'a> SegmentBounds<'a> {
             return Verdict::Clear;
         }
         let along_profile_mm = CURVATURE_SAFETY * curvature * sampling.cell_mm * sampling.cell_mm / 8.0;
-        // Along the stroke the middle phase shows the bend: an eighth of the second difference over the half range is the error of a chord.
+        // Along the stroke the middle phase shows the bend: an eighth of the second difference over the half range is
+        // the error of a chord.
         let along_stroke_mm = heights_mm
             .chunks_exact(phases.len())
             .filter(|h| h.len() == 3)
@@ -291,7 +294,8 @@ impl<'a> SegmentBounds<'a> {
 
 /// Leaves out every pass that another, certain one undercuts at all corners of all cells (cell by cell).
 ///
-/// A difference of two bilinear functions is extreme at corners, so comparing there, with both errors added, decides for the whole cell.
+/// A difference of two bilinear functions is extreme at corners, so comparing there, with both errors added, decides
+/// for the whole cell.
 pub fn undominated(samples: Vec<Samples>, cells: usize) -> Vec<Samples> {
     let Some(any) = samples.first() else { return samples };
     let per_place = any.heights_mm.len() / (cells + 1);

@@ -1,14 +1,14 @@
 //! Tiles and the passes that can leave the lowest surface on them.
 //!
-//! Every (dexel, pass) pair costs, so a tile (up to 16 columns by all rows) visits only passes that can matter. Pass k is left out when some other pass is **lower at every dexel of the
-//! tile, for certain**: see [`super::bounds`]. First a coarse look down the trees of [`super::time_intervals`] finds
-//! the handful of passes near the lowest surface, then a finer one in quarters
-//! of the tile decides. What the bounds cannot decide (a ray grazing a corner round, a segment met partly beyond its
-//! end) is kept unless its box stays clear of the rays
-//! below the surface that is already certain. Equality with brute force over all passes is tested bit for bit.
+//! Every (dexel, pass) pair costs, so a tile (up to 16 columns by all rows) visits only passes that can matter. Pass k
+//! is left out when some other pass is **lower at every dexel of the tile, for certain**: see [`super::bounds`]. First
+//! a coarse look down the trees of [`super::time_intervals`] finds the handful of passes near the lowest surface, then
+//! a finer one in quarters of the tile decides. What the bounds cannot decide (a ray grazing a corner round, a segment
+//! met partly beyond its end) is kept unless its box stays clear of the rays below the surface that is already certain.
+//! Equality with brute force over all passes is tested bit for bit.
 //!
-//! Road not taken: the contact moment from the meshing condition. It knows only the finishing envelope; roughing, plunges, partial turns and undercut need no
-//! special case here.
+//! Road not taken: the contact moment from the meshing condition. It knows only the finishing envelope; roughing,
+//! plunges, partial turns and undercut need no special case here.
 
 use super::bounds::{
     BladeRay, MAX_PHASES, MAX_PLACES, MotionBound, Samples, Sampling, SegmentBounds, Verdict, undominated,
@@ -28,9 +28,11 @@ use std::ops::Range;
 
 /// Most columns of a tile; narrower tiles carry fewer passes per dexel but more records.
 pub const TILE_COLUMNS: usize = 16;
-/// Tiles are no wider than this where the columns are coarse: twice the width of a facet at 4,200 strokes. Wider ones collect passes of many facets.
+/// Tiles are no wider than this where the columns are coarse: twice the width of a facet at 4,200 strokes. Wider ones
+/// collect passes of many facets.
 const TILE_WIDTH_MM: f64 = 0.08;
-/// Tiles of fewer dexels than this are widened all the same: planning one costs about as much as some thousand dexel-passes.
+/// Tiles of fewer dexels than this are widened all the same: planning one costs about as much as some thousand
+/// dexel-passes.
 const MIN_TILE_DEXELS: usize = 4096;
 /// Cells across a tile in which dominance is decided.
 const CELLS: usize = 4;

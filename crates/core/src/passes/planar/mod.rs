@@ -1,4 +1,5 @@
-//! Passes whose rake face is a transverse plane: strokes of a cutter, and which of them can matter to rays in that plane.
+//! Passes whose rake face is a transverse plane: strokes of a cutter, and which of them can matter to rays in that
+//! plane.
 
 pub mod blank_candidates;
 pub mod bounds;

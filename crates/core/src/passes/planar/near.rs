@@ -1,6 +1,8 @@
-//! The passes that can reach a region of the work at all: blade circle against region circle, for every stroke and blade.
+//! The passes that can reach a region of the work at all: blade circle against region circle, for every stroke and
+//! blade.
 //!
-//! No assumption about which tooth cuts which space: runout, pitch errors, several turns and plunges need no special case.
+//! No assumption about which tooth cuts which space: runout, pitch errors, several turns and plunges need no special
+//! case.
 
 use super::bounds::MAX_PHASES;
 use super::strokes::StrokeSet;
@@ -84,7 +86,8 @@ fn bound_poses(poses: &[Rigid2]) -> ArrayVec<Rigid2, MAX_PHASES> {
     super::strokes::poses_at(poses, &BOUND_PHASES).into_iter().collect()
 }
 
-/// Height at which the lowest of some passes meets a ray of the gear frame at the middle of the stroke, above `low_mm`; exact, without tables' neighbours or tiles.
+/// Height at which the lowest of some passes meets a ray of the gear frame at the middle of the stroke, above `low_mm`;
+/// exact, without tables' neighbours or tiles.
 pub fn lowest_entry(near: &[NearPass], edge: &Edge, origin_mm: DVec2, direction: DVec2, low_mm: f64) -> Option<f64> {
     let mut lowest: Option<f64> = None;
     for pass in near {

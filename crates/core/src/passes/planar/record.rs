@@ -1,7 +1,8 @@
 //! What a backend needs of one pass in one tile: which segment, and how the tile's coordinates become the segment's.
 //!
-//! `p_segment = R(tau) p_tile + t(tau)`, all four entries cubics in the stroke's phase tau, composed in f64 from poses far away
-//! (gear axis 60 mm, cutter axis 30 mm off) so that only millimetres are left: the tile's origin lies on the flank, the segment's on the edge.
+//! `p_segment = R(tau) p_tile + t(tau)`, all four entries cubics in the stroke's phase tau, composed in f64 from poses
+//! far away (gear axis 60 mm, cutter axis 30 mm off) so that only millimetres are left: the tile's origin lies on the
+//! flank, the segment's on the edge.
 
 use super::strokes::{StrokeSet, cubic_through};
 use crate::frame::Rigid2;
@@ -15,7 +16,8 @@ pub struct PassRecord {
     pub pass: u32,
     /// Index of the segment in the blade's edge.
     pub segment: u32,
-    /// Where Newton's method starts: the height at which the tile's middle ray enters the segment or its continuation, mm; below all rays if it does not.
+    /// Where Newton's method starts: the height at which the tile's middle ray enters the segment or its continuation,
+    /// mm; below all rays if it does not.
     pub start_mm: f64,
     /// Cosine of the rotation, coefficients of tau^0 to tau^3.
     pub cos: [f64; 4],

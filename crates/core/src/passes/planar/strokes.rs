@@ -1,11 +1,14 @@
 //! The strokes of one operation as poses of the cutter, ready for the dexels.
 //!
-//! The planar kernel needs the cutter's pose at every place along the tooth. While a stroke goes through the face the rotary feed may go on; what the cutter does is smooth in the
-//! **phase** of the stroke (time), not in the place along the tooth (the crank makes that relation steep near the ends of the stroke). So each row of a field has a
-//! phase tau in [-1, 1], each stroke has poses at Chebyshev nodes of tau, and everything made of them is a cubic in tau. A frozen stroke is the constant.
+//! The planar kernel needs the cutter's pose at every place along the tooth. While a stroke goes through the face the
+//! rotary feed may go on; what the cutter does is smooth in the **phase** of the stroke (time), not in the place along
+//! the tooth (the crank makes that relation steep near the ends of the stroke). So each row of a field has a phase tau
+//! in [-1, 1], each stroke has poses at Chebyshev nodes of tau, and everything made of them is a cubic in tau. A frozen
+//! stroke is the constant.
 //!
-//! Law of the ram: z = z_m + (L/2) cos(theta), L = approach + face + overrun, theta from 0 to pi during the cut, half of a double stroke's time; so a place z is reached at
-//! theta = arccos(2 (z - z_m) / L). The stroke's own moment is the one when the middle of the face is cut.
+//! Law of the ram: z = z_m + (L/2) cos(theta), L = approach + face + overrun, theta from 0 to pi during the cut, half
+//! of a double stroke's time; so a place z is reached at theta = arccos(2 (z - z_m) / L). The stroke's own moment is
+//! the one when the middle of the face is cut.
 
 use crate::frame::Rigid2;
 use crate::tool::PlanarTool;
@@ -26,7 +29,8 @@ pub enum StrokeLaw {
         length_mm: f64,
         /// Middle of the stroke relative to the middle of the face, mm.
         middle_mm: f64,
-        /// Half of the share of a double stroke that the face takes: tau = 1 is this much of a stroke after the middle of the face.
+        /// Half of the share of a double stroke that the face takes: tau = 1 is this much of a stroke after the middle
+        /// of the face.
         half_share: f64,
     },
 }
@@ -61,8 +65,8 @@ impl StrokeLaw {
         }
     }
 
-    /// Fraction of a double stroke from the stroke's own moment to the one at which the return stroke passes the same place again; 0 where the axes rest.
-    /// The ram is there at theta and at 2 pi - theta.
+    /// Fraction of a double stroke from the stroke's own moment to the one at which the return stroke passes the same
+    /// place again; 0 where the axes rest. The ram is there at theta and at 2 pi - theta.
     pub fn return_share(&self, tau: f64) -> f64 {
         match *self {
             Self::Frozen => 0.0,

@@ -1,7 +1,7 @@
 //! The lowest surface that is certain so far on a tile: what a pass must undercut to matter.
 //!
-//! In each cell between two places it is **one** pass with its error, not the lowest of several corner by corner: between two corners that belong to different passes
-//! both may lie high, and a third may be lowest there.
+//! In each cell between two places it is **one** pass with its error, not the lowest of several corner by corner:
+//! between two corners that belong to different passes both may lie high, and a third may be lowest there.
 
 use super::bounds::{MAX_PHASES, MAX_PLACES, Samples};
 use arrayvec::ArrayVec;

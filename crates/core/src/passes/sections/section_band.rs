@@ -4,12 +4,13 @@
 //! In: a pass, a range of slices ([`SweptSections`]). Out: in each of them a polygon and how far the true section may
 //! lie from it ([`LooseOutline`]).
 //!
-//! **The law.** As the slice's place z moves, an edge point goes through it at another moment, in another place: P(z) = P + z P' + error. The blade's point stands at depth rho cos(delta) towards the work
-//! and b = rho sin(delta) along its travel, so that the depth bends with the travel by d2/db2 sqrt(rho^2 - b^2) = -1 /
-//! (rho cos^3(delta)); the work turns slower than the tool by the number of its teeth, which adds
-//! some hundredths of that. With w, the travel per mm of z, the error is w^2 z^2 / (2 rho cos^3(delta)); twice as much
-//! tolerance is given. Arrow heights of pieces, and the direction in which the section
-//! is closed, change as the third derivative does: by a tenth of that for pieces as long as they are here, which is given on top.
+//! **The law.** As the slice's place z moves, an edge point goes through it at another moment, in another place: P(z) =
+//! P + z P' + error. The blade's point stands at depth rho cos(delta) towards the work and b = rho sin(delta) along its
+//! travel, so that the depth bends with the travel by d2/db2 sqrt(rho^2 - b^2) = -1 / (rho cos^3(delta)); the work
+//! turns slower than the tool by the number of its teeth, which adds some hundredths of that. With w, the travel per mm
+//! of z, the error is w^2 z^2 / (2 rho cos^3(delta)); twice as much tolerance is given. Arrow heights of pieces, and
+//! the direction in which the section is closed, change as the third derivative does: by a tenth of that for pieces as
+//! long as they are here, which is given on top.
 //!
 //! The factor 2 is what answers for the hundredths left out: it is no bound proved for every machine, but one that true
 //! sections are compared with (`tests/suite/hobbing/blank.rs`: their points use less than half of their
@@ -66,7 +67,8 @@ pub enum InSlice {
 }
 
 impl SectionBand {
-    /// Takes over pass `index`; slices are asked for within `z_range_mm`. `false`: the pass crosses none of them where the blank may be.
+    /// Takes over pass `index`; slices are asked for within `z_range_mm`. `false`: the pass crosses none of them where
+    /// the blank may be.
     pub fn set(&mut self, sections: &SweptSections, index: usize, z_range_mm: [f64; 2]) -> bool {
         let pass = &sections.passes[index];
         let ends_mm = z_range_mm.map(|z_mm| pass.behind_mm(z_mm));
@@ -104,7 +106,8 @@ impl SectionBand {
         true
     }
 
-    /// Bounds of the pass in a slice: the outline from its neighbours, or else its section there with that section's chords; into memory that is reused.
+    /// Bounds of the pass in a slice: the outline from its neighbours, or else its section there with that section's
+    /// chords; into memory that is reused.
     pub fn bounds(
         &self,
         sections: &SweptSections,

@@ -3,8 +3,9 @@
 //! In: a pass of [`TurningPasses`]. Out: the moment at which an edge point goes through a transverse slice (Newton's
 //! method), its place there, and how that place follows the edge point and the slice.
 //!
-//! The pose is a polynomial of the swept angle, entry by entry, through Chebyshev nodes. The row of z comes first: the moment needs no other, and rows lie side by side so that four entries go through a
-//! processor's vector at once. Where the motion has a corner during the sweep, each stretch of it has polynomials of its own.
+//! The pose is a polynomial of the swept angle, entry by entry, through Chebyshev nodes. The row of z comes first: the
+//! moment needs no other, and rows lie side by side so that four entries go through a processor's vector at once. Where
+//! the motion has a corner during the sweep, each stretch of it has polynomials of its own.
 
 use crate::math::convergence::{Step, iterate};
 use crate::math::roots::bisect;
@@ -121,7 +122,8 @@ impl Sweeping {
         self.entries::<ENTRIES>(swept).map(|e| [0, 1, 2, 3].map(|c| DVec3::new(e[ROW + c], e[2 * ROW + c], e[c])))
     }
 
-    /// How far the slice lies from the blade's axis in the direction in which the blade moves in the middle of its sweep, mm.
+    /// How far the slice lies from the blade's axis in the direction in which the blade moves in the middle of its
+    /// sweep, mm.
     pub fn behind_mm(&self, z_mm: f64) -> f64 {
         let [_, along, axis, middle] = self.middle_row();
         (z_mm - middle - axis * self.axial_mm) / along
@@ -228,7 +230,8 @@ impl Sweeping {
     }
 }
 
-/// Through the poses of a stretch at Chebyshev nodes of swept angles from `from` to `to`: in powers of the angle over the whole sweep.
+/// Through the poses of a stretch at Chebyshev nodes of swept angles from `from` to `to`: in powers of the angle over
+/// the whole sweep.
 fn polynomials(set: &TurningPasses, pass: &BladePass, stretch: u32, [from, to]: [f64; 2]) -> Pose {
     // A short piece would be known from too little: the stretch's law goes on beyond its ends.
     let half = (0.5 * (to - from)).max(SHORTEST_RAD);

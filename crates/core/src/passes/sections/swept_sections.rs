@@ -1,23 +1,28 @@
 //! A turning tool's sweep where it crosses a transverse slice of the work: a closed curve, as a cutter tooth's outline
 //! is in shaping.
 //!
-//! In: the passes of an operation, the blade's edge, a slice. Out: for each pass a [`SweptSection`] that rays along x and y are laid on.
+//! In: the passes of an operation, the blade's edge, a slice. Out: for each pass a [`SweptSection`] that rays along x
+//! and y are laid on.
 //!
-//! **The law.** A point of the work is removed when it lies inside the blade's edge at the moment at which the rake face holds it. Place in the rake face and moment are coordinates of space, one to one
-//! as long as the blade moves across the slice; so what a sweep removes of the plane z = const is the tooth's region itself, every point put where it stands when it goes through that plane, and its border is
-//! the edge, point by point: for the edge point (rho, y) the moment delta is the root of
+//! **The law.** A point of the work is removed when it lies inside the blade's edge at the moment at which the rake
+//! face holds it. Place in the rake face and moment are coordinates of space, one to one as long as the blade moves
+//! across the slice; so what a sweep removes of the plane z = const is the tooth's region itself, every point put where
+//! it stands when it goes through that plane, and its border is the edge, point by point: for the edge point (rho, y)
+//! the moment delta is the root of
 //!
 //! `z(work_from_head(delta) (rho cos(delta + twist y), rho sin(delta + twist y), z0 + y)) = z_slice`.
 //!
-//! No ray is searched for several moments: a ray that a sweep meets more than once crosses this curve more than twice. The curve is a chain of cubics with the true points
-//! and directions at their ends, less than 20 nm off between them (tested against the equations of [`crate::passes::spatial::sweep`]).
+//! No ray is searched for several moments: a ray that a sweep meets more than once crosses this curve more than twice.
+//! The curve is a chain of cubics with the true points and directions at their ends, less than 20 nm off between them
+//! (tested against the equations of [`crate::passes::spatial::sweep`]).
 //!
 //! **Behind the blank.** Edge points that go through the slice nearer to the tool's axis, seen from the work, than the
 //! end of a sweep (a hob: half the tip radius) are left out, as everywhere
 //! ([`TurningPasses::half_sweep_rad`]); the curve is closed
 //! there through the tool's body.
 //!
-//! The road not taken: rays against segments with two unknowns each, as flanks are cut. Rays of a slice lie side by side, and one walk along the outline finds the crossings of all of them.
+//! The road not taken: rays against segments with two unknowns each, as flanks are cut. Rays of a slice lie side by
+//! side, and one walk along the outline finds the crossings of all of them.
 
 use super::swept_pose::{SliceCrossing, Sweeping};
 use crate::math::planar_rays::{ClosedCurve, Family, Piece};
@@ -27,7 +32,8 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
 
-/// Longest piece of the edge, as a share of the distance of its tip from the axis: a cubic over it misses some nanometres where the sweep leaves the work.
+/// Longest piece of the edge, as a share of the distance of its tip from the axis: a cubic over it misses some
+/// nanometres where the sweep leaves the work.
 const PIECE_SHARE: f64 = 0.03;
 /// Largest turn of the edge within a piece, rad.
 const PIECE_TURN_RAD: f64 = 0.1;
@@ -83,7 +89,8 @@ pub struct SweepHeading {
 }
 
 impl SweptSections {
-    /// Passes of an operation for a blank within `reach_mm` of the gear axis, over the face; all of them, wherever they are, if not `cull`.
+    /// Passes of an operation for a blank within `reach_mm` of the gear axis, over the face; all of them, wherever they
+    /// are, if not `cull`.
     pub fn new(set: &TurningPasses, edge: &Edge, reach_mm: f64, face_width_mm: f64, cull: bool) -> Self {
         let tip_mm = edge.segments.iter().flat_map(|s| s.y_range_mm.map(|y| place(s, y)[0].x)).fold(0.0, f64::max);
         let longest_mm = PIECE_SHARE * tip_mm;
@@ -170,7 +177,8 @@ impl SweptSections {
         Some(pass.place_mm(swept, DVec2::new(self.tip_mm, 0.0), self.twist_rad_per_mm).truncate())
     }
 
-    /// Section of pass `index` at a place along the face, into memory that is reused. `false`: the pass does not cross the slice where the blank may be.
+    /// Section of pass `index` at a place along the face, into memory that is reused. `false`: the pass does not cross
+    /// the slice where the blank may be.
     pub fn section(&self, index: usize, z_mm: f64, into: &mut SweptSection) -> bool {
         let pass = &self.passes[index];
         let behind_mm = pass.behind_mm(z_mm);
@@ -212,7 +220,8 @@ impl SweptSections {
         true
     }
 
-    /// Which part of the edge may meet the blank in a slice that lies so far behind the middle of a sweep. `None`: no part.
+    /// Which part of the edge may meet the blank in a slice that lies so far behind the middle of a sweep. `None`: no
+    /// part.
     pub(super) fn reached(&self, pass: &Sweeping, behind_mm: f64) -> Option<ReachedEdge> {
         if behind_mm.abs() >= self.half_travel_mm() {
             return None;
@@ -225,7 +234,8 @@ impl SweptSections {
         (first < last).then_some(ReachedEdge { nodes: first..=last, least_mm })
     }
 
-    /// Follows ends of pieces to the moments at which they go through a slice: `visit` gets the index, the point of the edge and its crossing. `false`: one of them has no such moment.
+    /// Follows ends of pieces to the moments at which they go through a slice: `visit` gets the index, the point of the
+    /// edge and its crossing. `false`: one of them has no such moment.
     pub(super) fn walk(
         &self,
         pass: &Sweeping,
@@ -253,7 +263,8 @@ pub(super) struct ReachedEdge {
     pub least_mm: f64,
 }
 
-/// Largest distance of a piece from its chord, from the rates over its parameter at both ends: a cubic stays within the polygon of its control points.
+/// Largest distance of a piece from its chord, from the rates over its parameter at both ends: a cubic stays within the
+/// polygon of its control points.
 pub(super) fn sagitta_mm(nodes_mm: [DVec2; 2], rates_mm: &[DVec2; 2]) -> f64 {
     let across = (nodes_mm[1] - nodes_mm[0]).normalize_or_zero();
     across.perp_dot(rates_mm[0]).abs().max(across.perp_dot(rates_mm[1]).abs()) / 3.0 + 1e-9
@@ -269,8 +280,9 @@ impl SweptSection {
 }
 
 impl SweepHeading {
-    /// Cosine between the slice and the normal of the swept surface where its trace has the normal `trace`: the blade moves along the circumference, so that normal is a mean of the tool's axis and of
-    /// the direction out of it. The work's own motion, some hundredths of the blade's, is left out.
+    /// Cosine between the slice and the normal of the swept surface where its trace has the normal `trace`: the blade
+    /// moves along the circumference, so that normal is a mean of the tool's axis and of the direction out of it. The
+    /// work's own motion, some hundredths of the blade's, is left out.
     pub fn upright(&self, trace: DVec2) -> f64 {
         let [axis, out] = self.axis_and_out;
         let (along, outward) = (trace.perp_dot(out.truncate()), -trace.perp_dot(axis.truncate()));
@@ -301,7 +313,8 @@ impl ClosedCurve for SweptSection {
     }
 }
 
-/// Ends of the pieces of an edge in the blade frame, and the directions at both ends of each over a parameter from 0 to 1.
+/// Ends of the pieces of an edge in the blade frame, and the directions at both ends of each over a parameter from 0
+/// to 1.
 fn edge_pieces(edge: &Edge, longest_mm: f64) -> (Vec<DVec2>, Vec<[DVec2; 2]>) {
     let (mut nodes_mm, mut rates_mm) = (Vec::new(), Vec::new());
     for segment in &edge.segments {

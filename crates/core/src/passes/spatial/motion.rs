@@ -1,13 +1,16 @@
 //! The machine's motion as a table: where the work stands in the tool's head at any angle of the tool.
 //!
-//! In: the linkage's pose as a function of the tool's angle (f64, arc lengths inverted, integrals solved). Out: the same as polynomials of degree seven over panels of an
-//! eighth of a turn, so that planning, which asks some ten million times, asks a table. While a hob turns by an eighth the work turns by some hundredths of a radian: the
+//! In: the linkage's pose as a function of the tool's angle (f64, arc lengths inverted, integrals solved). Out: the
+//! same as polynomials of degree seven over panels of an eighth of a turn, so that planning, which asks some ten
+//! million times, asks a table. While a hob turns by an eighth the work turns by some hundredths of a radian: the
 //! remainder of degree seven is far below 1e-10 mm on any gear; [`MotionTable::error_mm`] measures it.
 //!
-//! **Stretches** end at the corners, where rates jump (the slide starts, a shift turns round). A sweep that lasts over a corner follows one law before it and another one after it, and each is needed as a smooth motion
-//! that goes on a little beyond its end.
+//! **Stretches** end at the corners, where rates jump (the slide starts, a shift turns round). A sweep that lasts over
+//! a corner follows one law before it and another one after it, and each is needed as a smooth motion that goes on a
+//! little beyond its end.
 //!
-//! The head is the frame that carries the tool without turning with it: its z axis is the tool's axis, its x axis is where a blade points at tool angle 0 and blade angle 0.
+//! The head is the frame that carries the tool without turning with it: its z axis is the tool's axis, its x axis is
+//! where a blade points at tool angle 0 and blade angle 0.
 
 use crate::frame::Rigid3;
 use glam::{DMat3, DVec3};
@@ -112,7 +115,8 @@ impl MotionTable {
         Rigid3 { rotation: DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]), translation_mm: DVec3::new(x, y, z) }
     }
 
-    /// Largest distance from the exact motion of a point `reach_mm` away from the work's origin, at the places where the polynomials err most.
+    /// Largest distance from the exact motion of a point `reach_mm` away from the work's origin, at the places where
+    /// the polynomials err most.
     pub fn error_mm(&self, reach_mm: f64, head_from_work: impl Fn(f64) -> Rigid3 + Sync) -> f64 {
         (0..self.panels.len())
             .into_par_iter()

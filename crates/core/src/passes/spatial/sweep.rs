@@ -1,20 +1,26 @@
 //! One blade's sweep as seen from a tile of dexels, and where it meets a ray.
 //!
-//! **The law.** A point p of the work is in the rake face at one moment of the sweep; it is removed if it lies inside the blade's edge then. With the moment as t = tan(delta / 2), delta the angle
-//! of the rake face from where it holds the tile's origin, and the point in axes fixed to the head there (r out of the axis, q in the direction of rotation, y along the blade's y), the moment is the
-//! root of
+//! **The law.** A point p of the work is in the rake face at one moment of the sweep; it is removed if it lies inside
+//! the blade's edge then. With the moment as t = tan(delta / 2), delta the angle of the rake face from where it holds
+//! the tile's origin, and the point in axes fixed to the head there (r out of the axis, q in the direction of rotation,
+//! y along the blade's y), the moment is the root of
 //!
 //! `q (1 - t^2) = 2 t R`,  R the distance along r from the axis,
 //!
-//! and the point's distance from the axis is then exactly `R + q t`: no square root, no transcendental function, and nothing large is subtracted from anything
-//! large once r counts from a point of the edge. A helically gashed tool has rake faces that turn with y; the point is turned back by that angle first.
+//! and the point's distance from the axis is then exactly `R + q t`: no square root, no transcendental function, and
+//! nothing large is subtracted from anything large once r counts from a point of the edge. A helically gashed tool has
+//! rake faces that turn with y; the point is turned back by that angle first.
 //!
-//! The work moves meanwhile. Its pose in those axes is a polynomial in u = t - t^3 / 3 + t^5 / 5, which is delta / 2 but for t^7 / 7, over the little that a tile needs: cubic for
-//! the tile's origin (140 mm away from the axis it turns about), quadratic for directions. On a ray o + h n this gives two equations, the moment and the edge, in the unknowns h and t; Newton's method solves both at once.
+//! The work moves meanwhile. Its pose in those axes is a polynomial in u = t - t^3 / 3 + t^5 / 5, which is delta / 2
+//! but for t^7 / 7, over the little that a tile needs: cubic for the tile's origin (140 mm away from the axis it turns
+//! about), quadratic for directions. On a ray o + h n this gives two equations, the moment and the edge, in the
+//! unknowns h and t; Newton's method solves both at once.
 //!
-//! Where the rates of slide or shift jump during a sweep, each of the two motions makes a sweep of its own, smooth, and good up to that moment or from it on.
+//! Where the rates of slide or shift jump during a sweep, each of the two motions makes a sweep of its own, smooth, and
+//! good up to that moment or from it on.
 //!
-//! Road not taken: eliminating t beforehand by a polynomial in the tile's three coordinates. It needs order four in one of them, and long rays leave its range.
+//! Road not taken: eliminating t beforehand by a polynomial in the tile's three coordinates. It needs order four in one
+//! of them, and long rays leave its range.
 
 use super::sweep_roots::LARGEST_T;
 use crate::math::convergence::{Step, iterate};
@@ -34,8 +40,8 @@ const LAST_T: f64 = 1e-12;
 /// axis,
 /// and a fifth more is for what the work moves meanwhile.
 const REACH_SHARE: f64 = 0.6;
-/// A tile that reaches further than the rest of its origin's distance from the axis counts as this share of it away: it asks
-/// for more than [`LARGEST_T`] in any case, and gets that.
+/// A tile that reaches further than the rest of its origin's distance from the axis counts as this share of it away: it
+/// asks for more than [`LARGEST_T`] in any case, and gets that.
 const LEAST_DISTANCE: f64 = 0.3;
 /// Secants at most towards the moment at which a rake face holds a tile's origin, and the angle that may be missing,
 /// rad.
@@ -78,7 +84,8 @@ pub struct SweepRecord {
     pub pass: u32,
     /// Index of the segment in the blade's edge.
     pub segment: u32,
-    /// Cells of the tile in which it can leave the lowest surface, as bits (see [`super::sweep_plan::SweepTile::cell`]).
+    /// Cells of the tile in which it can leave the lowest surface, as bits (see
+    /// [`super::sweep_plan::SweepTile::cell`]).
     pub cells: u16,
     /// Where Newton's method starts.
     pub start: SweepStart,
@@ -94,7 +101,8 @@ pub struct SweepRecord {
     pub place_mm: [[f64; 3]; 4],
 }
 
-/// Heights and moments from which Newton's method starts on a tile: polynomials in columns x and rows y from the tile's middle ray, coefficients of 1, x, y, x^2, x y, y^2.
+/// Heights and moments from which Newton's method starts on a tile: polynomials in columns x and rows y from the tile's
+/// middle ray, coefficients of 1, x, y, x^2, x y, y^2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SweepStart {
     /// Heights, mm.
@@ -104,15 +112,17 @@ pub struct SweepStart {
 }
 
 impl SweepRecord {
-    /// Whether the motion has a corner among the moments that a tile can ask for, so that rays may miss the sweep where its continuation goes on.
+    /// Whether the motion has a corner among the moments that a tile can ask for, so that rays may miss the sweep where
+    /// its continuation goes on.
     pub fn ends_in_tile(&self) -> bool {
         self.t_range != [-LARGEST_T, LARGEST_T]
     }
 }
 
 impl Sweep {
-    /// Sweep of a pass in a stretch of the motion as seen from a tile with its origin at `origin_mm` (gear frame) and nothing further than `reach_mm` from it. `None`: the
-    /// blade holds the origin at no moment of its sweep, or the whole tile at no moment of the stretch.
+    /// Sweep of a pass in a stretch of the motion as seen from a tile with its origin at `origin_mm` (gear frame) and
+    /// nothing further than `reach_mm` from it. `None`: the blade holds the origin at no moment of its sweep, or the
+    /// whole tile at no moment of the stretch.
     pub fn new(set: &TurningPasses, pass: &BladePass, stretch: u32, origin_mm: DVec3, reach_mm: f64) -> Option<Self> {
         let place = set.place(pass);
         let twist = set.rake_twist_rad_per_mm;
@@ -172,7 +182,8 @@ impl Sweep {
             places.iter_mut().zip(origin).for_each(|(entry, value)| entry[node] = value);
         }
         let turns = turns.map(|values| {
-            // A cube is 3/4 of its base but for the Chebyshev polynomial T3, the smallest in its worst place: a quadratic is enough.
+            // A cube is 3/4 of its base but for the Chebyshev polynomial T3, the smallest in its worst place: a
+            // quadratic is enough.
             let [c0, c1, c2, c3] = cubic_through(&values);
             [c0, (c1 + 0.75 * c3) / largest_u, c2 / largest_u.powi(2)]
         });
@@ -211,8 +222,8 @@ impl Sweep {
         }
     }
 
-    /// Distance from the tool's axis and place along the blade's y of a point (tile frame) at the moment when the rake face holds it. `None`: at no moment of
-    /// the sweep and the stretch.
+    /// Distance from the tool's axis and place along the blade's y of a point (tile frame) at the moment when the rake
+    /// face holds it. `None`: at no moment of the sweep and the stretch.
     pub fn in_rake_face(&self, p_mm: DVec3) -> Option<[f64; 2]> {
         let held = iterate("the moment at which a rake face holds a point", 0.0, MAX_STEPS, |t| {
             let [u, _] = half_angle(t);
@@ -237,7 +248,8 @@ impl Sweep {
     }
 }
 
-/// Inverse of [`half_angle`] at the nodes of a sweep, to rounding: a fixed number of Newton steps, tested over all of them.
+/// Inverse of [`half_angle`] at the nodes of a sweep, to rounding: a fixed number of Newton steps, tested over all of
+/// them.
 fn t_at(u: f64) -> f64 {
     (0..4).fold(u.tan(), |t, _| {
         let [value, rate] = half_angle(t);

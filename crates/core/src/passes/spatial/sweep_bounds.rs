@@ -1,12 +1,15 @@
 //! Which sweeps can leave the lowest surface on a region of a spatial field.
 //!
-//! Every candidate's heights on nine rays are known (`sweep_samples`): where its segment, or the continuation of it, enters them. In each of the four cells between them
-//! the difference of two sweeps' heights lies above its lowest corner less an eighth of its second differences along both sides; all sweeps of one tool bend nearly
-//! alike, so these are small where the heights' own are not. In a cell a sweep goes when another one, certain to enter through the segment itself there, is lower by this
-//! measure with half as much again for what second differences cannot show; or when its own entries lie beyond the segment's ends by the same measure.
+//! Every candidate's heights on nine rays are known (`sweep_samples`): where its segment, or the continuation of it,
+//! enters them. In each of the four cells between them the difference of two sweeps' heights lies above its lowest
+//! corner less an eighth of its second differences along both sides; all sweeps of one tool bend nearly alike, so these
+//! are small where the heights' own are not. In a cell a sweep goes when another one, certain to enter through the
+//! segment itself there, is lower by this measure with half as much again for what second differences cannot show; or
+//! when its own entries lie beyond the segment's ends by the same measure.
 //!
-//! This is no proof: second differences of nine values bound what is smooth between them, and sweeps are; a function that turned within a cell would be missed by more than the safety holds. What stands for it is the
-//! comparison with all passes, bit for bit, on regions of all sizes (`tests/suite/hobbing/spatial.rs`).
+//! This is no proof: second differences of nine values bound what is smooth between them, and sweeps are; a function
+//! that turned within a cell would be missed by more than the safety holds. What stands for it is the comparison with
+//! all passes, bit for bit, on regions of all sizes (`tests/suite/hobbing/spatial.rs`).
 //!
 //! What the samples cannot decide (no root on one of the rays, a sweep that ends at a corner of the motion) is kept
 //! unless the segment stays clear of all that the rays pass below the lowest certain surface.

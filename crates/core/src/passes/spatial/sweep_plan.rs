@@ -1,8 +1,10 @@
 //! Tiles of a spatial field and the sweeps that can leave the lowest surface on them.
 //!
-//! A field is halved in both directions again and again, down to tiles of 16 by 32 dexels and then to their cells of 4 by 8; at every level the sweeps that the level above has kept for the region are sampled on
-//! nine rays, and those go that another one surely undercuts (see `sweep_samples`, `sweep_bounds`). The search begins with the passes whose blades pass the field in its place along the tool's axis. On S2's gear these
-//! are some thousands of 84,800; a sixteenth of the flank keeps some hundreds, a tile half a dozen, a cell between one and two.
+//! A field is halved in both directions again and again, down to tiles of 16 by 32 dexels and then to their cells of 4
+//! by 8; at every level the sweeps that the level above has kept for the region are sampled on nine rays, and those go
+//! that another one surely undercuts (see `sweep_samples`, `sweep_bounds`). The search begins with the passes whose
+//! blades pass the field in its place along the tool's axis. On S2's gear these are some thousands of 84,800; a
+//! sixteenth of the flank keeps some hundreds, a tile half a dozen, a cell between one and two.
 //!
 //! Equality with brute force over all passes is tested bit for bit.
 
@@ -207,7 +209,8 @@ impl SweepPlanner<'_> {
         }
     }
 
-    /// Middle of nine rays, and a distance from there that nothing between lowest and blank height of any of them exceeds.
+    /// Middle of nine rays, and a distance from there that nothing between lowest and blank height of any of them
+    /// exceeds.
     fn surroundings(&self, dexels: &[usize; RAYS]) -> (DVec3, f64) {
         let ray = |dexel: usize| self.field.ray(dexel / self.field.rows(), dexel % self.field.rows());
         let origin_mm = ray(dexels[RAYS / 2]).origin_mm;
@@ -290,8 +293,9 @@ impl SweepPlanner<'_> {
 
 /// Passes whose blade comes within `reach_mm` of a place of the work, in time order.
 ///
-/// While the rake face goes through the neighbourhood the place itself moves in the head, and with it everything within reach turns a little: some per cent of
-/// the sweep. The bound takes a tenth of the reach for that, and a millimetre more.
+/// While the rake face goes through the neighbourhood the place itself moves in the head, and with it everything within
+/// reach turns a little: some per cent of the sweep. The bound takes a tenth of the reach for that, and a millimetre
+/// more.
 fn near_passes(set: &TurningPasses, edge: &Edge, center_mm: DVec3, reach_mm: f64) -> Vec<BladePass> {
     let margin_mm = NEAR_SHARE * reach_mm + NEAR_MM;
     let y_reach_mm = edge.center_mm.y.abs() + edge.reach_mm;
@@ -318,10 +322,12 @@ fn near_passes(set: &TurningPasses, edge: &Edge, center_mm: DVec3, reach_mm: f64
         .collect()
 }
 
-/// Whether a pass's blade passes some points of the work (the first one in their middle, none further than `reach_mm` from it) in their own place along the tool's axis.
+/// Whether a pass's blade passes some points of the work (the first one in their middle, none further than `reach_mm`
+/// from it) in their own place along the tool's axis.
 ///
-/// While the rake face goes through the neighbourhood the points move a little along the axis, nearly evenly: their places are taken at the moment when the rake face holds the middle, and when it holds
-/// what is furthest before and behind.
+/// While the rake face goes through the neighbourhood the points move a little along the axis, nearly evenly: their
+/// places are taken at the moment when the rake face holds the middle, and when it holds what is furthest before and
+/// behind.
 fn passes_beside(set: &TurningPasses, edge: &Edge, pass: &BladePass, points_mm: &[DVec3], reach_mm: f64) -> bool {
     let place = set.place(pass);
     let pose = |swept: f64| set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept);

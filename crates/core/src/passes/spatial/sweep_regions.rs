@@ -1,8 +1,9 @@
 //! Regions of a spatial field: dexels that are bounded together by nine rays of theirs, and the parts that they are
 //! halved into.
 //!
-//! In: a field. Out: regions with the dexels of their nine rays, first, middle and last column by first, middle and last row, and how far a smooth function with known values there can leave straight lines
-//! between them. Neighbouring regions share their edges.
+//! In: a field. Out: regions with the dexels of their nine rays, first, middle and last column by first, middle and
+//! last row, and how far a smooth function with known values there can leave straight lines between them. Neighbouring
+//! regions share their edges.
 
 #![expect(
     clippy::inline_always,
@@ -60,7 +61,8 @@ impl Span {
         [Self::new(from, counts[0], tile, self.last), Self::new(middle, counts[1], tile, self.last)]
     }
 
-    /// Weights of three values whose sum is as far as the smooth function behind them leaves straight lines between them, by its second differences. Nothing if it cannot be told.
+    /// Weights of three values whose sum is as far as the smooth function behind them leaves straight lines between
+    /// them, by its second differences. Nothing if it cannot be told.
     fn bend(&self) -> Option<[f64; SIDE]> {
         let [from, middle, to] = self.at;
         let [a, b] = [middle - from, to - middle].map(|lines| lines as f64);
@@ -117,7 +119,8 @@ impl<'a> Region<'a> {
         [at(0, 1).distance(at(2, 1)), at(1, 0).distance(at(1, 2))]
     }
 
-    /// How far a smooth function with these values on the nine rays can leave its bilinear interpolation in any of the four cells between them.
+    /// How far a smooth function with these values on the nine rays can leave its bilinear interpolation in any of the
+    /// four cells between them.
     #[inline(always)]
     pub fn bend(&self, values: &[f64; RAYS]) -> f64 {
         let Some([across, along]) = &self.bends else { return f64::INFINITY };
@@ -131,7 +134,8 @@ impl<'a> Region<'a> {
         most_across + most_along
     }
 
-    /// Which directions are halved: both, or the longer one; facets are some two and a half times as long as wide. A tile is halved in both.
+    /// Which directions are halved: both, or the longer one; facets are some two and a half times as long as wide. A
+    /// tile is halved in both.
     pub fn split(&self) -> [bool; 2] {
         let [width_mm, length_mm] = self.extent_mm();
         let (wide, long) = (self.columns.count > 1, self.rows.count > 1);

@@ -1,10 +1,11 @@
 //! Where eight rays meet the sweep of one segment: Newton's method for all of them at once.
 //!
-//! In: a record ([`SweepRecord`], where the equations are derived), its segment, eight rays, the heights and moments to start from. Out: the heights and moments at which the rays enter the segment or its
-//! continuation. The native kernel cuts with it, and planning samples with it: both see the same surface.
+//! In: a record ([`SweepRecord`], where the equations are derived), its segment, eight rays, the heights and moments to
+//! start from. Out: the heights and moments at which the rays enter the segment or its continuation. The native kernel
+//! cuts with it, and planning samples with it: both see the same surface.
 //!
-//! The rays become polynomials in u first. Each step then solves both linearised equations. Where the edge's residual rises along a ray, the ray runs out of the tool: it goes back to its lowest height and
-//! tries once more.
+//! The rays become polynomials in u first. Each step then solves both linearised equations. Where the edge's residual
+//! rises along a ray, the ray runs out of the tool: it goes back to its lowest height and tries once more.
 
 #![expect(
     clippy::inline_always,
@@ -17,7 +18,8 @@ use crate::tool::edge::{Segment, SegmentShape};
 use crate::tool::edge_table::EdgeTable;
 use glam::DVec3;
 
-/// Rays that go together: an AVX-512 register or two AVX2 registers per quantity; a ray's polynomials alone fill twenty-one.
+/// Rays that go together: an AVX-512 register or two AVX2 registers per quantity; a ray's polynomials alone fill
+/// twenty-one.
 pub const LANES: usize = 8;
 /// Newton steps at most: two or three suffice; a ray that grazes a round halves what is missing with every step.
 const MAX_STEPS: usize = 32;
@@ -60,7 +62,8 @@ struct Paths {
 }
 
 impl Rays {
-    /// Rays of a field that follow each other in a column, from a dexel on, in a frame with its origin at `origin_mm`, gear frame, mm.
+    /// Rays of a field that follow each other in a column, from a dexel on, in a frame with its origin at `origin_mm`,
+    /// gear frame, mm.
     #[inline(always)]
     pub fn following(field: &SpatialField, origin_mm: DVec3, first: usize) -> Self {
         let mut rays = Self { origin: [[0.0; LANES]; 3], normal: [[0.0; LANES]; 3] };
@@ -87,8 +90,9 @@ impl Rays {
 }
 
 impl SweepRecord {
-    /// Entries of eight rays (in the record's frame) into the segment or its continuation, from starting heights and moments; no root below `lowest_mm` is looked for where the first search runs
-    /// out of the tool. Steps below `last_step` (in mm, and in t) are the last: the error after them is of their squares.
+    /// Entries of eight rays (in the record's frame) into the segment or its continuation, from starting heights and
+    /// moments; no root below `lowest_mm` is looked for where the first search runs out of the tool. Steps below
+    /// `last_step` (in mm, and in t) are the last: the error after them is of their squares.
     #[inline(always)]
     pub fn roots(&self, segment: &Segment, rays: &Rays, start: [&Lanes; 2], lowest_mm: f64, last_step: f64) -> Roots {
         if self.twist_rad_per_mm == 0.0 {
@@ -100,8 +104,9 @@ impl SweepRecord {
 }
 
 impl SweepRecord {
-    /// Moments, distances from the tool's axis less the segment's, and places along the blade's y less the segment's, of eight points (of the rays, at these heights), after some steps. A step
-    /// gains as many digits as the tool turns faster than the work.
+    /// Moments, distances from the tool's axis less the segment's, and places along the blade's y less the segment's,
+    /// of eight points (of the rays, at these heights), after some steps. A step gains as many digits as the tool turns
+    /// faster than the work.
     #[inline(always)]
     pub fn places(&self, rays: &Rays, height_mm: &Lanes, steps: usize) -> [Lanes; 3] {
         let paths = paths(self, rays);
@@ -146,7 +151,8 @@ fn roots<const TWISTED: bool>(
     let mut cosine = [0.0; LANES];
     let (mut y_last, mut x_last, mut rises) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
     for _ in 0..MAX_STEPS {
-        // What the second part needs: distance from the axis, q and the place in the segment's frame, with their rates over h and t.
+        // What the second part needs: distance from the axis, q and the place in the segment's frame, with their rates
+        // over h and t.
         let (mut r, mut r_h, mut r_t) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         let (mut q, mut q_h, mut q_t) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         let (mut x, mut x_h, mut x_t) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
@@ -238,7 +244,8 @@ fn roots<const TWISTED: bool>(
 #[inline(always)]
 fn paths(record: &SweepRecord, rays: &Rays) -> Paths {
     let mut paths = Paths { place: [[[0.0; LANES]; 3]; 4], along: [[[0.0; LANES]; 3]; 3] };
-    // Lanes outermost in all these loops: a long body is made into vectors as it stands, a short one is unrolled first and then torn.
+    // Lanes outermost in all these loops: a long body is made into vectors as it stands, a short one is unrolled first
+    // and then torn.
     for l in 0..LANES {
         let [o, n] = [&rays.origin, &rays.normal].map(|v| [v[0][l], v[1][l], v[2][l]]);
         for k in 0..3 {

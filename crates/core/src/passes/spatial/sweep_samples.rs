@@ -1,8 +1,9 @@
 //! The heights of sweeps on nine rays of each region of a spatial field.
 //!
-//! In: a field, candidates. Out: for every candidate the heights at which its segment, or the continuation of it, enters nine rays: first, middle and last column by first, middle and last row. Neighbouring
-//! regions share their edges, and the parts of a region share its nine rays: where both directions are halved, sixteen new rays serve four parts. They are searched eight at a time, from the mean of
-//! their neighbours.
+//! In: a field, candidates. Out: for every candidate the heights at which its segment, or the continuation of it,
+//! enters nine rays: first, middle and last column by first, middle and last row. Neighbouring regions share their
+//! edges, and the parts of a region share its nine rays: where both directions are halved, sixteen new rays serve four
+//! parts. They are searched eight at a time, from the mean of their neighbours.
 
 #![expect(
     clippy::inline_always,
@@ -25,7 +26,8 @@ const FINE: usize = 2 * SIDE - 1;
 const GRAZING_COSINE: f64 = 0.1;
 /// Rays that run out of a segment at more than this cosine do not enter it.
 const LEAVING_COSINE: f64 = 0.05;
-/// Newton steps below this, in mm and in t, are the last: the error after them, of the order of their squares, is some picometres.
+/// Newton steps below this, in mm and in t, are the last: the error after them, of the order of their squares, is some
+/// picometres.
 pub(super) const LAST_STEP: f64 = 1e-5;
 /// No root further away is one, mm.
 const FARTHEST_MM: f64 = 1e3;
@@ -43,7 +45,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Sweeps of candidates, in their order; those whose blades hold the origin at no moment are left out. `index_of` gives the place of every candidate.
+    /// Sweeps of candidates, in their order; those whose blades hold the origin at no moment are left out. `index_of`
+    /// gives the place of every candidate.
     pub fn new(
         set: &TurningPasses,
         edge: &Edge,
@@ -199,7 +202,8 @@ impl Region<'_> {
         indices.iter().zip(&fine).map(|(&index, fine)| fine.part(index, [even, even])).collect()
     }
 
-    /// Parts of the region with what is sampled on each; a candidate goes to the parts whose cells are set in its mask (cells in the order of columns, then rows).
+    /// Parts of the region with what is sampled on each; a candidate goes to the parts whose cells are set in its mask
+    /// (cells in the order of columns, then rows).
     pub fn parts(&self, frame: &Frame, edge: &Edge, alive: &[(Sampled, u8)]) -> Vec<(Self, Vec<Sampled>)> {
         let split = self.split();
         let halves = [self.columns.halves(), self.rows.halves()];

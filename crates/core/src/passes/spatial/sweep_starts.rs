@@ -1,6 +1,7 @@
 //! Where Newton's method starts on the dexels of a tile.
 //!
-//! In: a tile, its records. Out: in every record polynomials over the tile's columns and rows, for the height and the place along the segment.
+//! In: a tile, its records. Out: in every record polynomials over the tile's columns and rows, for the height and the
+//! place along the segment.
 
 #![expect(
     clippy::inline_always,
@@ -15,8 +16,9 @@ use crate::dexel::SpatialField;
 use crate::tool::edge::Edge;
 use pulp::Arch;
 
-/// Gives the records of a tile the polynomials that Newton's method starts from: through the middle ray, the ends of the middle column and row, and two corners. Where one of them does not meet the segment or
-/// its continuation, only the middle ray counts; where that one does not, the lowest height.
+/// Gives the records of a tile the polynomials that Newton's method starts from: through the middle ray, the ends of
+/// the middle column and row, and two corners. Where one of them does not meet the segment or its continuation, only
+/// the middle ray counts; where that one does not, the lowest height.
 pub fn find_starts(field: &SpatialField, tile: &SweepTile, edge: &Edge, records: &mut [SweepRecord]) {
     Arch::new().dispatch(Starting { field, tile, edge, records });
 }
@@ -65,7 +67,8 @@ impl pulp::NullaryFnOnce for Starting<'_> {
     }
 }
 
-/// Coefficients of 1, x, y, x^2, x y, y^2 through values in the middle, to both sides along x and along y, and in two corners (their mean).
+/// Coefficients of 1, x, y, x^2, x y, y^2 through values in the middle, to both sides along x and along y, and in two
+/// corners (their mean).
 #[inline(always)]
 fn quadratic(places: &[[f64; 2]; LANES], values: &Lanes) -> [f64; 6] {
     let along = |axis: usize, before: usize, after: usize| {

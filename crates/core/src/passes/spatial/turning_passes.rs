@@ -1,10 +1,12 @@
 //! The passes of an operation with a turning tool: every tooth's sweep in every turn.
 //!
-//! In: the tool (blades whose rake faces hold its axis), the machine's motion over the tool's angle. Out: passes by number.
+//! In: the tool (blades whose rake faces hold its axis), the machine's motion over the tool's angle. Out: passes by
+//! number.
 //!
-//! **Numbering.** Pass id = first id + turn x teeth + rank, where turns count from the first one that reaches the work, and rank is the tooth's place in the order in which the
-//! tool's teeth pass the head's x axis (towards the work) within a turn; teeth of one gash follow each other by their own number. Ids therefore grow with time, gash
-//! by gash. [`TurningPasses::blade_of`] leads back from the id to the turn and the tooth.
+//! **Numbering.** Pass id = first id + turn x teeth + rank, where turns count from the first one that reaches the work,
+//! and rank is the tooth's place in the order in which the tool's teeth pass the head's x axis (towards the work)
+//! within a turn; teeth of one gash follow each other by their own number. Ids therefore grow with time, gash by gash.
+//! [`TurningPasses::blade_of`] leads back from the id to the turn and the tooth.
 
 use super::motion::MotionTable;
 use crate::tool::SpatialTool;

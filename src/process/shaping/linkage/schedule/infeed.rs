@@ -1,8 +1,8 @@
 //! How the offset falls to its final value from stroke to stroke.
 //!
-//! In: the scene's infeed. Out: the offset (mm) and its slope as a piecewise linear function of the stroke, and how many
-//! strokes plunge before the rolling begins. Law: every plunging stroke takes the same depth, every rolling stroke of the
-//! infeed takes the same depth; the offset runs along the direction of the linkage.
+//! In: the scene's infeed. Out: the offset (mm) and its slope as a piecewise linear function of the stroke, and how
+//! many strokes plunge before the rolling begins. Law: every plunging stroke takes the same depth, every rolling stroke
+//! of the infeed takes the same depth; the offset runs along the direction of the linkage.
 
 use crate::math::Jet;
 use crate::scene::model::Infeed;

@@ -1,8 +1,8 @@
 //! What advances equally from stroke to stroke: work angle, arc, or time.
 //!
-//! In: the scene's choice of spacing and the axis speed limits. Out: the progress sigma as a function of phi, as a series and
-//! inverted. Law: sigma = psi_c, sigma = S, or sigma = T with dT/dphi = max over the limited axes of |daxis/dphi| / limit, the
-//! shortest time in which the path can be run while the slowest axis is at its speed limit.
+//! In: the scene's choice of spacing and the axis speed limits. Out: the progress sigma as a function of phi, as a
+//! series and inverted. Law: sigma = psi_c, sigma = S, or sigma = T with dT/dphi = max over the limited axes of
+//! |daxis/dphi| / limit, the shortest time in which the path can be run while the slowest axis is at its speed limit.
 //!
 //! Road not taken: limits on acceleration in T. They make the law depend on the path behind, and the peaks that
 //! [`crate::process::shaping::linkage::dynamics`] reports tell whether they matter.
