@@ -8,7 +8,7 @@
 //! - [`backend`]: which machine cuts
 //! - [`interrupt`]: Ctrl-C as a flag
 //! - [`colormap`]: numbers as colours
-//! - [`machine`]: peaks of axes against their limits
+//! - [`machine`]: the axes of a machine: kinds, units, motion, limits, peaks
 //! - [`material`]: cutting forces from chip thickness
 //! - [`scene`]: the scene file as checked values
 //! - [`measure`]: what is left, in numbers

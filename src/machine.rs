@@ -1,19 +1,74 @@
-//! What a machine is asked for, whatever its axes are called.
+//! A machine as its axes say it, whatever the process: names, kinds, motion, limits, peaks.
+//!
+//! In: the axes of a machine ([`Axis`]), where they stand and how they move at any value of one coordinate, time or
+//! stroke ([`Motion`]), and what each is allowed ([`Limits`]). Out: units and names of columns, which follow from the
+//! kind of an axis ([`Kind`]), and the largest speeds and accelerations against the limits ([`peaks`]).
+//!
+//! How a table, a chart or a sentence is made from that is said once for all processes in [`crate::steps::axes`].
+//!
+//! Road not taken: a struct with a named field for every axis. Each table, chart and warning then has to list the axes
+//! again, in its own words and units.
 
-/// Largest magnitude of a speed or acceleration.
+mod axis;
+mod peak;
+#[cfg(test)]
+pub(crate) mod tests;
+
+pub use axis::{Axis, Kind, Order};
+pub use peak::{Limits, Peak, peaks, smallest_margin};
+
+use crate::math::Jet;
+
+/// One axis at one moment; rad or mm, per s, per s^2.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Peak {
-    /// Magnitude, in rad or mm per s or s^2.
-    pub value: f64,
-    /// Moment at which it is reached: stroke coordinate of a shaper, s of a hobbing machine.
-    pub stroke: f64,
-    /// What the machine allows, if it is known.
-    pub limit: Option<f64>,
+pub struct AxisMotion {
+    /// Where it stands.
+    pub position: f64,
+    /// How fast it moves, per s.
+    pub velocity: f64,
+    /// How it accelerates, per s^2.
+    pub acceleration: f64,
 }
 
-impl Peak {
-    /// What is left of the limit, as a share of it: negative when the limit is exceeded; `None` without a limit.
-    pub fn margin(&self) -> Option<f64> {
-        self.limit.map(|limit| 1.0 - self.value / limit)
+/// A part of a motion without corners.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// Coordinate at which it begins.
+    pub from: f64,
+    /// Coordinate at which it ends, just before a corner: what holds there belongs to the next piece.
+    pub to: f64,
+    /// Even cells, no hump of a speed or acceleration narrower than two of them.
+    pub cells: usize,
+}
+
+/// N named axes that move along one coordinate.
+pub trait Motion<const N: usize> {
+    /// The axes in their order.
+    const AXES: &'static [Axis; N];
+
+    /// Where they stand and how they move at a coordinate, in the order of [`Self::AXES`].
+    fn at(&self, coordinate: f64) -> [AxisMotion; N];
+
+    /// Pieces without corners that show all of the motion.
+    fn pieces(&self) -> Vec<Piece>;
+}
+
+impl AxisMotion {
+    /// From a series in a coordinate that advances by `per_s` every second.
+    pub fn along(series: Jet<3>, per_s: f64) -> Self {
+        Self {
+            position: series.value(),
+            velocity: series.derivative(1) * per_s,
+            acceleration: series.derivative(2) * per_s * per_s,
+        }
+    }
+
+    /// Position, velocity or acceleration.
+    pub fn of(&self, order: Order) -> f64 {
+        match order {
+            Order::Position => self.position,
+            Order::Speed => self.velocity,
+            Order::Acceleration => self.acceleration,
+        }
     }
 }

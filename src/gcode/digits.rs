@@ -1,5 +1,7 @@
 //! How many digits a program needs.
 
+use crate::machine::Kind;
+
 /// Share of the contour error that rounding of the written digits may take, for each axis.
 const ROUNDING_SHARE: f64 = 0.05;
 
@@ -8,7 +10,7 @@ const ROUNDING_SHARE: f64 = 0.05;
 pub struct Digits {
     /// Of angles in degrees.
     pub angle: usize,
-    /// Of the centre distance in mm.
+    /// Of lengths in mm.
     pub length: usize,
 }
 
@@ -18,6 +20,19 @@ impl Digits {
         let step_mm = 2.0 * ROUNDING_SHARE * contour_error_mm;
         let digits = |step: f64| (-step.log10()).ceil().clamp(3.0, 12.0) as usize;
         Self { angle: digits((step_mm / reach_mm).to_degrees()), length: digits(step_mm) }
+    }
+
+    /// Of positions of an axis.
+    pub fn of(self, kind: Kind) -> usize {
+        match kind {
+            Kind::Rotary => self.angle,
+            Kind::Linear => self.length,
+        }
+    }
+
+    /// A position, rad or mm, as a reader of its digits takes it back.
+    pub fn rounded(self, kind: Kind, position: f64) -> f64 {
+        kind.from_shown(Self::round(kind.shown(position), self.of(kind)))
     }
 
     /// A value as it is written.

@@ -1,12 +1,15 @@
 //! G-code: the words, blocks and straight lines of programs, whatever the machine's axes are.
 //!
-//! What a program says of a machine belongs to the process; here is only how programs are spelled and read.
+//! What a program says of a machine belongs to the process; here is only how programs are spelled and read. Letters
+//! and units of positions follow from the axes ([`crate::machine`]).
 
+mod axes;
 mod digits;
 mod lines;
 mod text;
 mod words;
 
+pub use axes::{axis_word, beyond_limits};
 pub use digits::Digits;
 pub use lines::longest_lines;
 pub use text::ProgramText;

@@ -4,6 +4,7 @@
 //! In: a job ([`GearJob`]) and what it is run with ([`Tools`]). A process puts the steps in its own order and adds what
 //! is its own.
 
+pub mod axes;
 pub mod check_cost;
 pub mod check_curve;
 pub mod damage_table;

@@ -7,6 +7,7 @@ use crate::output::text::{Sheet, plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::scene::model::HobbingKind;
+use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use crate::terms::Side;
 
@@ -25,13 +26,13 @@ pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<String>> {
     print_hob(sheet, job);
     teeth.print(sheet);
     for operation in &operations {
-        operation.print(sheet);
+        axes::print(operation, sheet);
     }
     cost::print(sheet, job)?;
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
     warnings.extend(hob_warnings(job));
     warnings.extend(teeth.warnings());
-    warnings.extend(operations.iter().flat_map(HobbingAxesReport::warnings));
+    warnings.extend(axes::warnings(&operations));
     Ok(warnings)
 }
 

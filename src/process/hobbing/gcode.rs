@@ -28,37 +28,11 @@ mod text;
 pub use program::{Gearbox, HobbingKnot, HobbingProgram, Positions};
 pub use read::read;
 
-use crate::output::atomic::write_bytes_atomically;
-use crate::output::folder::OutputFolder;
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::scene::model::GcodeDialect;
 use crate::units::UM_PER_MM;
-
-/// Axis letters in the order hob, work, tangential, radial, slide, shift.
-const LETTERS: [char; 6] = ['B', 'C', 'X', 'Y', 'Z', 'W'];
-
-/// Writes both programs of all operations as `axes/<operation>.ngc` and `axes/<operation>_gearbox.ngc`; gives a
-/// sentence for each operation that has none.
-///
-/// # Errors
-/// Files that cannot be written.
-pub fn write_all(job: &HobbingJob, folder: &OutputFolder) -> crate::Result<Vec<String>> {
-    let mut left_out = Vec::new();
-    for operation in &job.operations {
-        let name = &operation.spec.name;
-        match texts(job, operation) {
-            Some(Ok([full, geared])) => {
-                write_bytes_atomically(&folder.path(format!("axes/{name}.ngc"))?, full.as_bytes())?;
-                write_bytes_atomically(&folder.path(format!("axes/{name}_gearbox.ngc"))?, geared.as_bytes())?;
-            }
-            Some(Err(why)) => left_out.push(format!("operation {name}: no G-code written: {why}")),
-            None => {}
-        }
-    }
-    Ok(left_out)
-}
 
 /// Both programs of an operation, fully interpolated and with a gearbox; an error is the reason why there are none,
 /// `None`: none are wanted.

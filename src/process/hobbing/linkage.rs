@@ -39,9 +39,9 @@ use crate::math::periodic_integral::PeriodicIntegral;
 use crate::process::hobbing::Hob;
 use crate::scene::model::{EvenMotion, ExtraRotation, LinkageForm};
 
+pub mod dynamics;
 pub mod marks;
 mod path;
-pub mod peaks;
 pub mod plan;
 #[cfg(test)]
 mod tests;

@@ -22,7 +22,7 @@ use crate::interrupt::Interrupt;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use crate::scene::Scene;
-use crate::steps::Tools;
+use crate::steps::{Tools, axes};
 use axes_report::HobbingAxesReport;
 
 pub use blank::HobbedBlank;
@@ -57,15 +57,6 @@ impl super::Job for HobbingJob {
     }
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<String>> {
-        let operations = HobbingAxesReport::of_job(self);
-        for operation in &operations {
-            interrupt.check()?;
-            operation.write(self, folder)?;
-            operation.write_work_of_teeth(self, folder)?;
-            operation.print(sheet);
-        }
-        interrupt.check()?;
-        let left_out = gcode::write_all(self, folder)?;
-        Ok(operations.iter().flat_map(HobbingAxesReport::warnings).chain(left_out).collect())
+        axes::command(&HobbingAxesReport::of_job(self), folder, interrupt, sheet)
     }
 }

@@ -12,11 +12,10 @@ use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::run::{HobbedGear, load, points};
 use crate::process::hobbing::{HobCutter, HobbingJob};
+use crate::steps::axes;
 use crate::steps::report::deviations;
 use crate::steps::report::deviations::{Inspected, Inspection};
-use crate::steps::report::{
-    RunWords, facts::gear_words, key_number, known_first, maps, peak_table, record, texture, warnings,
-};
+use crate::steps::report::{RunWords, facts::gear_words, key_number, known_first, maps, record, texture, warnings};
 use std::f64::consts::PI;
 
 /// The page of a run.
@@ -28,7 +27,7 @@ pub fn page(
     gear: &HobbedGear,
     found: &Findings,
     loads: &[OperationLoad],
-    axes: &[HobbingAxesReport],
+    motion: &[HobbingAxesReport],
     run: &RunWords,
     folder: &OutputFolder,
 ) -> Result<Page> {
@@ -39,7 +38,12 @@ pub fn page(
     sections.push(marks_section(found));
     sections.extend(texture::section(found, folder)?);
     sections.extend(load_section(job, loads));
-    sections.push(motion(cutter, found, axes));
+    sections.push(axes::section(
+        motion,
+        found,
+        "How the linkage moves the machine over one cycle along the pitch curve, and what it asks of the axes.",
+        "Accelerations, feed path",
+    ));
     sections.push(facts::section(job));
     sections.push(record(gear.flanks.len(), &gear.work.stats, gear.work.dexels, run));
     let operation = |operation: &findings::Section| {
@@ -155,22 +159,4 @@ fn load_section(job: &HobbingJob, loads: &[OperationLoad]) -> Option<Section> {
         ),
         blocks: charts.into_iter().map(|(_, chart)| Block::Bars(chart)).collect(),
     })
-}
-
-fn motion(cutter: &HobCutter, found: &Findings, axes: &[HobbingAxesReport]) -> Section {
-    let mut blocks = Vec::new();
-    for (report, operation) in axes.iter().zip(found.parts("operations")) {
-        blocks.push(Block::Heading(format!("{}: {}", report.name(), report.words())));
-        blocks.push(Block::Table(peak_table(operation)));
-        let mut charts = report.charts(cutter.job).into_iter().map(|(_, chart)| Block::Lines(chart));
-        blocks.extend(charts.next());
-        blocks.push(Block::Folded("Accelerations, feed path".to_owned(), charts.collect()));
-    }
-    Section {
-        id: "motion",
-        title: "Axis motion".to_owned(),
-        lead: "How the linkage moves the machine over one cycle along the pitch curve, and what it asks of the axes."
-            .to_owned(),
-        blocks,
-    }
 }

@@ -17,7 +17,6 @@ use crate::output::flank_maps::FlankMaps;
 use crate::output::progress::Progress;
 use crate::process::CutDone;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
-use crate::process::hobbing::gcode;
 use crate::process::hobbing::measure::flank_report;
 use crate::process::hobbing::measure::flank_report::HobbedReport;
 use crate::process::hobbing::measure::offset_curves;
@@ -27,7 +26,7 @@ use crate::process::hobbing::{HobCutter, HobbingJob};
 use crate::steps::parts::{Part, Parts};
 use crate::steps::report::RunWords;
 use crate::steps::{
-    FlankFiles, Tools, Work, all_flanks, flanks_of, map_operations, meshes, needs_maps, needs_surfaces, stages,
+    FlankFiles, Tools, Work, all_flanks, axes, flanks_of, map_operations, meshes, needs_maps, needs_surfaces, stages,
     summary, write_meshes_and_pictures, write_programs, write_report,
 };
 use crate::surface::SurfaceGrid;
@@ -171,9 +170,9 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     let whole = if gear.work.interrupted { None } else { blank::cut(&cutter, backend, progress, interrupt)? };
     gear.work.interrupted |= whole.is_none();
     let loads = whole.as_ref().map_or_else(Vec::new, |whole| load::measure(&cutter, &whole.blank));
-    let axes = HobbingAxesReport::of_job(job);
+    let motion = HobbingAxesReport::of_job(job);
     let measured = findings::Measured {
-        axes: &axes,
+        motion: &motion,
         textures: &textures,
         lattices: &lattices,
         whole: whole.as_ref().map(|whole| (whole, loads.as_slice())),
@@ -202,14 +201,14 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
         gear.work.interrupted = !write_meshes_and_pictures(&cutter, surfaces, tools)?;
     }
     if parts.has(Part::Axes) {
-        for operation in &axes {
-            operation.write(job, folder)?;
+        for operation in &motion {
+            axes::write(operation, folder)?;
         }
-        write_programs(progress, || gcode::write_all(job, folder))?;
+        write_programs(progress, || axes::write_programs(&motion, folder))?;
     }
     if parts.has(Part::Report) {
         let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
-        write_report(tools, || report::page(&cutter, &gear, &found, &loads, &axes, &words, folder))?;
+        write_report(tools, || report::page(&cutter, &gear, &found, &loads, &motion, &words, folder))?;
     }
     let out = folder.results_path(!gear.work.interrupted);
     let flanks = gear.flanks.len();

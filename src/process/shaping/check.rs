@@ -8,6 +8,7 @@ use crate::error::Result;
 use crate::output::text::Sheet;
 use crate::process::shaping::Job;
 use crate::process::shaping::axes_report::OperationAxes;
+use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use facts::ToothFacts;
 
@@ -23,11 +24,11 @@ pub fn print(sheet: &mut Sheet, job: &Job) -> Result<Vec<String>> {
     check_curve::print(sheet, &job.curve, &job.scene.gear, Some(job.cutter.pitch_radius_mm));
     teeth::print(sheet, job, &facts);
     for operation in &operations {
-        operation.print(sheet);
+        axes::print(operation, sheet);
     }
     cost::print(sheet, job, &facts)?;
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
     warnings.extend(teeth::warnings(job, &facts));
-    warnings.extend(operations.iter().flat_map(OperationAxes::warnings));
+    warnings.extend(axes::warnings(&operations));
     Ok(warnings)
 }

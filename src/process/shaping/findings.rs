@@ -13,11 +13,12 @@ use crate::measure::deviation::{PitchDeviations, Runout};
 use crate::measure::stock::{Extreme, Stock};
 use crate::output::text::significant;
 use crate::process::shaping::Job;
-use crate::process::shaping::axes_report::{OperationAxes, linkage_words};
+use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips};
 use crate::process::shaping::measure::unevenness::{ToothAllowance, Unevenness as Percent, summarise};
 use crate::process::shaping::measure::{FlankReport, GearReport};
 use crate::process::shaping::target::FlankEnd;
+use crate::steps::axes;
 use crate::units::UM_PER_MM;
 use chips::{ENTRY_FORCE, entry, peak};
 use teeth::stock_range;
@@ -31,8 +32,8 @@ const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve
 const GOUGE_MM: f64 = 1e-4;
 
 /// Operations, deviations and teeth.
-pub fn sections(job: &Job, report: &GearReport, ledger: &ChipLedger, axes: &[OperationAxes]) -> Vec<Section> {
-    let operations = (0..job.operations.len()).map(|index| operation(job, report, ledger, &axes[index], index));
+pub fn sections(job: &Job, report: &GearReport, ledger: &ChipLedger, motion: &[OperationAxes]) -> Vec<Section> {
+    let operations = (0..job.operations.len()).map(|index| operation(job, report, ledger, &motion[index], index));
     let period = "teeth after which the pitch curve repeats: the first period of tables and charts";
     let teeth = (1..=job.scene.gear.teeth).map(|tooth| teeth::finished_tooth(report, tooth));
     vec![
@@ -126,7 +127,7 @@ fn quantity_at(
 }
 
 /// What to look at first.
-pub fn headline(job: &Job, report: &GearReport, chips: &ChipLedger, axes: &[OperationAxes]) -> Vec<Entry> {
+pub fn headline(job: &Job, report: &GearReport, chips: &ChipLedger, motion: &[OperationAxes]) -> Vec<Entry> {
     let flanks = &report.flanks;
     let last_stock = job.operations.len().checked_sub(2);
     let stock = |flank: &FlankReport| last_stock.and_then(|index| flank.stock[index]);
@@ -143,8 +144,7 @@ pub fn headline(job: &Job, report: &GearReport, chips: &ChipLedger, axes: &[Oper
     let narrowest = report.tip_lands_mm.iter().copied().reduce(f64::min);
     let unevenness =
         report.allowances.last().and_then(|a| summarise(a.strokes.iter().map(ToothAllowance::unevenness_mean_percent)));
-    let relief = axes.iter().map(|a| a.relief.ratio).reduce(f64::min);
-    let margin = axes.iter().filter_map(OperationAxes::smallest_margin).reduce(f64::min);
+    let relief = motion.iter().map(|operation| operation.relief.ratio).reduce(f64::min);
     let cycle_s: f64 = job.operations.iter().map(|o| o.schedule.time_s(o.schedule.count() as f64)).sum();
     let removed_mm3: f64 =
         (0..job.operations.len()).map(|index| chips.area_mm2(index)).sum::<f64>() * job.scene.gear.face_width_mm;
@@ -245,16 +245,7 @@ pub fn headline(job: &Job, report: &GearReport, chips: &ChipLedger, axes: &[Oper
                 "no dexel of an evaluated profile was left by the first or last strokes",
             ),
         ),
-        Entry::headline(
-            "axis_margin",
-            "left of the tightest limit",
-            Quantity::number_or(
-                margin,
-                "1",
-                "what is left of the tightest axis limit, as a share of it",
-                "the scene gives no axis limits",
-            ),
-        ),
+        axes::margin_entry(motion),
         Entry::headline(
             "relief_ratio",
             "relief over a round gear's",
@@ -341,7 +332,7 @@ fn percent(value: Option<f64>, definition: &'static str, why: &str) -> Quantity 
     Quantity::number_or(value, "%", definition, why)
 }
 
-fn operation(job: &Job, report: &GearReport, ledger: &ChipLedger, axes: &OperationAxes, index: usize) -> Section {
+fn operation(job: &Job, report: &GearReport, ledger: &ChipLedger, motion: &OperationAxes, index: usize) -> Section {
     let operation = &job.operations[index];
     let allowance = report.allowances.iter().find(|a| a.operation == index);
     let last = index + 1 == job.operations.len();
@@ -393,7 +384,7 @@ fn operation(job: &Job, report: &GearReport, ledger: &ChipLedger, axes: &Operati
     let strokes = schedule.count();
     let stock_of_teeth = allowance.into_iter().flat_map(|of| &of.strokes);
     Section::new(&spec.name, format!("Operation {}", spec.name))
-        .with("linkage", Quantity::text(linkage_words(spec.linkage), "linkage of cutter and work"))
+        .with("linkage", Quantity::text(operation.linkage.words(), "linkage of cutter and work"))
         .with("offset", Quantity::number(spec.offset_mm, "mm", "delta_d in force, thickness allowance included"))
         .with("strokes", Quantity::count(strokes as u64, "strokes", "strokes, plunging ones included"))
         .with(
@@ -409,8 +400,8 @@ fn operation(job: &Job, report: &GearReport, ledger: &ChipLedger, axes: &Operati
             Quantity::number(schedule.time_s(strokes as f64), "s", "time of the operation's double strokes"),
         )
         .table(teeth::allowance(report, allowance))
-        .part(axes.axes_findings())
-        .part(axes.relief_findings())
+        .part(axes::findings(motion))
+        .part(motion.relief_findings())
         .part(chips::chips(job, ledger, index))
         .part(stock_range("flank_stock", "Stock on all active flanks", &over_flanks, "on all active flanks", why))
         .part(stock_range(
@@ -428,7 +419,7 @@ fn operation(job: &Job, report: &GearReport, ledger: &ChipLedger, axes: &Operati
 }
 
 /// What a reader must know before trusting the numbers.
-pub fn warnings(report: &GearReport, stats: &CutStats, interrupted: bool, axes: &[OperationAxes]) -> Vec<String> {
+pub fn warnings(report: &GearReport, stats: &CutStats, interrupted: bool, motion: &[OperationAxes]) -> Vec<String> {
     let mut warnings = Vec::new();
     let below: u64 = report.flanks.iter().map(|f| f.below_range).sum();
     if below > 0 {
@@ -462,6 +453,6 @@ pub fn warnings(report: &GearReport, stats: &CutStats, interrupted: bool, axes: 
     if interrupted {
         warnings.push("stopped by Ctrl-C: figures cover the finished flanks only".to_owned());
     }
-    warnings.extend(axes.iter().flat_map(OperationAxes::warnings));
+    warnings.extend(axes::warnings(motion));
     warnings
 }

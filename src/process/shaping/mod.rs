@@ -23,7 +23,7 @@ use crate::interrupt::Interrupt;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use crate::scene::Scene;
-use crate::steps::Tools;
+use crate::steps::{Tools, axes};
 use axes_report::OperationAxes;
 
 pub use cutter::ShaperCutter;
@@ -54,13 +54,6 @@ impl super::Job for Job {
     }
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<String>> {
-        axes_report::write(self, folder)?;
-        let operations = OperationAxes::of_job(self);
-        for operation in &operations {
-            operation.print(sheet);
-        }
-        interrupt.check()?;
-        let left_out = gcode::write_all(self, folder)?;
-        Ok(operations.iter().flat_map(OperationAxes::warnings).chain(left_out).collect())
+        axes::command(&OperationAxes::of_job(self), folder, interrupt, sheet)
     }
 }

@@ -9,15 +9,16 @@ mod stock;
 use crate::error::Result;
 use crate::findings::{self, Findings, Quantity};
 use crate::output::folder::OutputFolder;
-use crate::output::report::{Block, KeyNumber, Page, Section};
+use crate::output::report::{KeyNumber, Page};
 use crate::output::text::{plain, significant};
 use crate::process::shaping::CutGear;
 use crate::process::shaping::Job;
-use crate::process::shaping::axes_report;
+use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::measure::GearReport;
+use crate::steps::axes;
 use crate::steps::report::deviations::{Inspected, Inspection};
 use crate::steps::report::{
-    RunWords, deviations, key_number, known_first, maps, peak_table, record, texture, value_and_unit, warnings,
+    RunWords, deviations, key_number, known_first, maps, record, texture, value_and_unit, warnings,
 };
 use std::f64::consts::PI;
 
@@ -25,12 +26,24 @@ use std::f64::consts::PI;
 ///
 /// # Errors
 /// No flank is generated on some tooth; a picture of the folder cannot be read back.
-pub fn page(job: &Job, cut: &CutGear, found: &Findings, run: &RunWords, folder: &OutputFolder) -> Result<Page> {
+pub fn page(
+    job: &Job,
+    cut: &CutGear,
+    found: &Findings,
+    motion: &[OperationAxes],
+    run: &RunWords,
+    folder: &OutputFolder,
+) -> Result<Page> {
     let mut sections = stock::section(job, found).into_iter().collect::<Vec<_>>();
     let inspection = inspection(&cut.report, job.scene.gear.module_mm);
     sections.push(deviations::section(&inspection));
     sections.extend(texture::section(found, folder)?);
-    sections.push(motion(job, found));
+    sections.push(axes::section(
+        motion,
+        found,
+        "How the linkage moves the machine over one turn of the work, and what it asks of the axes.",
+        "Velocities, accelerations, relief",
+    ));
     sections.push(facts::section(job));
     sections.push(record(cut.report.flanks.len(), &cut.stats, cut.dexels, run));
     let operations = found.parts("operations");
@@ -108,23 +121,6 @@ fn key_numbers(found: &Findings) -> Vec<KeyNumber> {
         card("Time of all strokes", "cycle_time"),
     ]);
     known_first(numbers)
-}
-
-fn motion(job: &Job, found: &Findings) -> Section {
-    let mut blocks = Vec::new();
-    for (index, operation) in found.parts("operations").iter().enumerate() {
-        blocks.push(Block::Heading(format!("{}: {}", operation.key, operation.words("linkage"))));
-        blocks.push(Block::Table(peak_table(operation)));
-        let mut charts = axes_report::charts(job, index).into_iter();
-        blocks.extend(charts.next().map(Block::Lines));
-        blocks.push(Block::Folded("Velocities, accelerations, relief".to_owned(), charts.map(Block::Lines).collect()));
-    }
-    Section {
-        id: "motion",
-        title: "Axis motion".to_owned(),
-        lead: "How the linkage moves the machine over one turn of the work, and what it asks of the axes.".to_owned(),
-        blocks,
-    }
 }
 
 /// What a gear inspector would find on a shaped gear of module `module_mm`.

@@ -17,12 +17,11 @@ use crate::process::shaping::Job;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::chips::{ChipLedger, last_chips};
 use crate::process::shaping::findings;
-use crate::process::shaping::gcode;
 use crate::process::shaping::measure::{FlankReport, GearReport, flank_report, gear_report};
 use crate::steps::parts::{Part, Parts};
 use crate::steps::report::RunWords;
 use crate::steps::{
-    FlankFiles, Tools, Work, all_flanks, flanks_of, map_operations, meshes, needs_maps, needs_surfaces, stages,
+    FlankFiles, Tools, Work, all_flanks, axes, flanks_of, map_operations, meshes, needs_maps, needs_surfaces, stages,
     summary, write_meshes_and_pictures, write_programs, write_report,
 };
 use crate::surface::SurfaceGrid;
@@ -157,8 +156,8 @@ pub(super) fn run(job: &Job, tools: &Tools, frames: Option<u32>) -> Result<CutDo
     if let Some((_, report)) = &whole {
         blank::write_table_of_damage(job, report, folder)?;
     }
-    let axes = OperationAxes::of_job(job);
-    let mut sections = findings::sections(job, &gear.report, &gear.chips, &axes);
+    let motion = OperationAxes::of_job(job);
+    let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion);
     sections.extend(whole.as_ref().map(|(cut, report)| findings::blank::findings(job, cut, report)));
     sections.push(texture::findings(job, &textures));
     let found = Findings {
@@ -166,12 +165,12 @@ pub(super) fn run(job: &Job, tools: &Tools, frames: Option<u32>) -> Result<CutDo
         process: "shaping".to_owned(),
         scene: job.scene.name.clone(),
         complete: !gear.interrupted,
-        headline: findings::headline(job, &gear.report, &gear.chips, &axes),
-        warnings: findings::warnings(&gear.report, &gear.stats, gear.interrupted, &axes),
+        headline: findings::headline(job, &gear.report, &gear.chips, &motion),
+        warnings: findings::warnings(&gear.report, &gear.stats, gear.interrupted, &motion),
         sections,
     };
     let results = found.to_json();
-    files::write(job, &gear, &results, tools)?;
+    files::write(job, &gear, &motion, &results, tools)?;
     if parts.has(Part::Texture) {
         texture::write(job, &textures, folder, notes)?;
     }
@@ -190,11 +189,11 @@ pub(super) fn run(job: &Job, tools: &Tools, frames: Option<u32>) -> Result<CutDo
         }
     }
     if parts.has(Part::Axes) {
-        write_programs(progress, || gcode::write_all(job, folder))?;
+        write_programs(progress, || axes::write_programs(&motion, folder))?;
     }
     if parts.has(Part::Report) {
         let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
-        write_report(tools, || report::page(job, &gear, &found, &words, folder))?;
+        write_report(tools, || report::page(job, &gear, &found, &motion, &words, folder))?;
     }
     let out = folder.results_path(!interrupted);
     let work = Work { stats: gear.stats, dexels: gear.dexels, elapsed: gear.elapsed, interrupted };

@@ -1,6 +1,7 @@
 //! What was cut: the gear in words and as a table.
 
 use crate::gear::PitchCurve;
+use crate::machine::{Axis, Limits, Order};
 use crate::output::report::{Block, Table};
 use crate::output::text::plain;
 use crate::scene::model::Gear;
@@ -37,8 +38,17 @@ pub fn mm(value: f64) -> String {
 }
 
 /// A limit, or that there is none.
-pub fn limit(value: Option<f64>, unit: &str) -> String {
+fn limit(value: Option<f64>, unit: &str) -> String {
     value.map_or_else(|| "not given".to_owned(), |v| format!("{} {unit}", plain(v)))
+}
+
+/// Largest speeds of a machine's axes, each after the axis's name.
+pub fn speed_limits<const N: usize>(names: [&str; N], axes: &[Axis; N], limits: &[Limits; N]) -> String {
+    let one = |((name, axis), limits): ((&str, &Axis), &Limits)| {
+        let speed = limits.of(Order::Speed).map(|speed| axis.kind.shown(speed));
+        format!("{name} {}", limit(speed, axis.kind.sign(Order::Speed)))
+    };
+    names.into_iter().zip(axes).zip(limits).map(one).collect::<Vec<_>>().join(", ")
 }
 
 /// The gear as a table.

@@ -14,12 +14,28 @@ const LAST_BRACKET: f64 = 1e-10;
 
 /// Place and value of the maximum over `cells` even cells of [lo, hi].
 pub fn maximum(f: impl Fn(f64) -> f64, lo: f64, hi: f64, cells: usize) -> (f64, f64) {
-    let place = |i: usize| lo + (hi - lo) * i as f64 / cells.max(1) as f64;
-    let mut best = (lo, f(lo));
+    let samples = (0..=cells).map(|i| f(grid_place([lo, hi], cells, i)));
+    maximum_of_grid(samples, &f, [lo, hi], cells)
+}
+
+/// Place `i` of `cells` even cells of a range.
+pub fn grid_place([lo, hi]: [f64; 2], cells: usize, i: usize) -> f64 {
+    lo + (hi - lo) * i as f64 / cells.max(1) as f64
+}
+
+/// The same as [`maximum`] where the values at the grid's places are known: one grid then serves many functions that
+/// are computed together.
+pub fn maximum_of_grid(
+    samples: impl IntoIterator<Item = f64>,
+    f: impl Fn(f64) -> f64,
+    range: [f64; 2],
+    cells: usize,
+) -> (f64, f64) {
+    let place = |i: usize| grid_place(range, cells, i);
+    let mut best = (range[0], f64::NAN);
     let mut best_index = 0;
-    for i in 1..=cells {
-        let value = f(place(i));
-        if value > best.1 {
+    for (i, value) in samples.into_iter().enumerate() {
+        if i == 0 || value > best.1 {
             best = (place(i), value);
             best_index = i;
         }

@@ -4,10 +4,11 @@
 //! can be in the work, within that error; what it asks of the axes; the share of it that an electronic gearbox takes
 //! over.
 
-use crate::gcode::{Digits, longest_lines};
+use crate::gcode::{Digits, beyond_limits, longest_lines};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::HobbingLinkage;
+use crate::process::hobbing::linkage::dynamics::{self, AXES, in_order};
 use crate::process::hobbing::linkage::{HobbingGeometry, work_from_machine_at};
 use crate::scene::model::HobbingAxisLimits;
 use crate::units::TURN_RAD;
@@ -22,8 +23,6 @@ const SHARE_OF_CYCLE: f64 = 1.0 / 1440.0;
 const SAMPLES: usize = 2;
 /// Share of the contour error that the samples may show, so that what lies between them stays below all of it.
 const SAMPLED_SHARE: f64 = 0.95;
-/// Names of the axes in that order.
-const NAMES: [&str; 6] = ["hob spindle", "work spindle", "tangential axis", "radial axis", "slide", "shift"];
 
 /// Positions of hob (rad), work (rad), tangential, radial with infeed, slide and shift (mm).
 pub type Positions = [f64; 6];
@@ -119,15 +118,7 @@ pub(super) fn digits(job: &HobbingJob, contour_error_mm: f64) -> Digits {
 }
 
 fn exact(linkage: &HobbingLinkage, time_s: f64) -> Positions {
-    let axes = linkage.axes::<1>(time_s);
-    [
-        axes.hob_rad.value(),
-        axes.work_rad.value(),
-        axes.x_mm.value(),
-        axes.y_mm.value() + axes.radial_mm.value(),
-        axes.slide_mm.value(),
-        axes.shift_mm.value(),
-    ]
+    in_order(&linkage.axes::<1>(time_s)).map(|series| series.value())
 }
 
 fn between(a: &HobbingKnot, b: &HobbingKnot, time_s: f64) -> Positions {
@@ -137,13 +128,7 @@ fn between(a: &HobbingKnot, b: &HobbingKnot, time_s: f64) -> Positions {
 
 /// Positions as they will be written.
 fn rounded(axes: &Positions, digits: Digits) -> Positions {
-    std::array::from_fn(|i| {
-        if i < 2 {
-            Digits::round(axes[i].to_degrees(), digits.angle).to_radians()
-        } else {
-            Digits::round(axes[i], digits.length)
-        }
-    })
+    std::array::from_fn(|axis| digits.rounded(AXES[axis].kind, axes[axis]))
 }
 
 impl HobbingProgram {
@@ -205,8 +190,9 @@ impl HobbingProgram {
     /// What the program asks beyond the machine's limits: speeds within blocks, and steps of speed between blocks over
     /// the mean of their times. Where feeds begin, change and end, at `corners_s`, the control's own ramps hold.
     pub fn exceeded(&self, limits: &HobbingAxisLimits, corners_s: &[f64]) -> Vec<String> {
+        let limits = dynamics::limits(limits);
         let mut exceeded = Vec::new();
-        for (axis, name) in NAMES.iter().enumerate() {
+        for (axis, described) in AXES.iter().enumerate() {
             let speeds: Vec<(f64, f64, f64)> = self
                 .knots
                 .windows(2)
@@ -220,18 +206,7 @@ impl HobbingProgram {
                 .filter(|pair| !ramp(pair[1].0))
                 .map(|pair| 2.0 * (pair[1].2 - pair[0].2).abs() / (pair[1].1 - pair[0].0))
                 .fold(0.0, f64::max);
-            let (unit, shown): (&str, fn(f64) -> f64) = if axis < 2 { ("deg", f64::to_degrees) } else { ("mm", |v| v) };
-            for (value, limit, per) in
-                [(largest, limits.speeds[axis], "/s"), (step, limits.accelerations[axis], "/s^2")]
-            {
-                if let Some(limit) = limit.filter(|&limit| value > limit) {
-                    exceeded.push(format!(
-                        "the {name} needs {:.4} {unit}{per}, the machine allows {:.4}",
-                        shown(value),
-                        shown(limit)
-                    ));
-                }
-            }
+            exceeded.extend(beyond_limits(described, &limits[axis], [largest, step]));
         }
         exceeded
     }

@@ -1,9 +1,9 @@
 //! Axis positions from the text of a hobbing program: only what is known is read, everything else is refused by line
 //! and word.
 
-use super::LETTERS;
 use super::program::{HobbingKnot, HobbingProgram};
 use crate::gcode::{Word, blocks};
+use crate::process::hobbing::linkage::dynamics::AXES;
 
 /// Axis positions of a program in this dialect: `G0` to the start, `G1` in `G93` with `F` in every block, `G21`, `G90`,
 /// `G94`, `M30`, words `N X Y Z W B C`, comments. Without W the shift is `shift_mm`.
@@ -57,7 +57,7 @@ impl Reader {
                 ('M', _) => return refuse("this M is not read; known are M2, M30"),
                 ('F', _) if word.number > 0.0 => per_minute = Some(word.number),
                 ('F', _) => return refuse("a feed must be above zero"),
-                (letter, _) => match LETTERS.iter().position(|&axis| axis == letter) {
+                (letter, _) => match AXES.iter().position(|axis| axis.letter == letter) {
                     Some(axis) => {
                         self.position[axis] = Some(word.number);
                         moves = true;
@@ -71,12 +71,9 @@ impl Reader {
 
     fn travel(&mut self, per_minute: Option<f64>) -> Result<(), String> {
         if let Some(axis) = self.position.iter().position(Option::is_none) {
-            return Err(format!("axes move before axis {} has a position", LETTERS[axis]));
+            return Err(format!("axes move before axis {} has a position", AXES[axis].letter));
         }
-        let axes = std::array::from_fn(|i| {
-            let value = self.position[i].unwrap_or_default();
-            if i < 2 { value.to_radians() } else { value }
-        });
+        let axes = std::array::from_fn(|axis| AXES[axis].kind.from_shown(self.position[axis].unwrap_or_default()));
         match (self.motion, self.knots.last()) {
             (None, _) => Err("axes move, but neither G0 nor G1 has been given".to_owned()),
             (Some(0), None) => {

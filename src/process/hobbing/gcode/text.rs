@@ -1,13 +1,13 @@
 //! A hobbing program as text: what the man at the machine must know, then the blocks.
 
 use super::program::{Gearbox, HobbingKnot, HobbingProgram, digits};
-use crate::gcode::ProgramText;
+use crate::gcode::{ProgramText, axis_word};
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
+use crate::process::hobbing::linkage::dynamics::AXES;
 use crate::scene::model::HobbingKind;
 use crate::units::UM_PER_MM;
-use std::fmt::Write as _;
 
 /// The text of a program, with everything in its head that the man at the machine must know.
 pub fn text(
@@ -77,23 +77,11 @@ pub fn text(
     // together.
     let work_digits = if gearbox.is_some() { digits.angle + 2 } else { digits.angle };
     let position = |knot: &HobbingKnot| {
-        // Negated zeros read as nonsense.
-        let clean = |value: f64| if value == 0.0 { 0.0 } else { value };
-        let mut words = format!(
-            "X{:.*} Y{:.*} Z{:.*}",
-            digits.length,
-            clean(knot.axes[2]),
-            digits.length,
-            clean(knot.axes[3]),
-            digits.length,
-            clean(knot.axes[4])
-        );
-        if diagonal {
-            let _ = write!(words, " W{:.*}", digits.length, clean(knot.axes[5]));
-        }
-        let [hob, work] = [knot.axes[0], knot.axes[1]].map(|rad| clean(rad.to_degrees()));
-        let _ = write!(words, " B{hob:.*} C{work:.*}", digits.angle, work_digits);
-        words
+        let word = |axis: usize| axis_word(&AXES[axis], knot.axes[axis], digits.of(AXES[axis].kind));
+        let mut words: Vec<String> = [2, 3, 4].map(word).into();
+        words.extend(diagonal.then(|| word(5)));
+        words.extend([word(0), axis_word(&AXES[1], knot.axes[1], work_digits)]);
+        words.join(" ")
     };
     let mut text = ProgramText::new(&head);
     text.block("G21 G90 G94");

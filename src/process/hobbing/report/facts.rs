@@ -3,8 +3,9 @@
 use crate::output::report::Section;
 use crate::output::text::plain;
 use crate::process::hobbing::HobbingJob;
+use crate::process::hobbing::linkage::dynamics::{self, AXES};
 use crate::scene::model::{GashForm, Hobbing, Worm};
-use crate::steps::report::facts::{gear_table, limit, mm, table};
+use crate::steps::report::facts::{gear_table, mm, speed_limits, table};
 
 /// Tables of gear, hob and machine.
 pub fn section(job: &HobbingJob) -> Section {
@@ -25,11 +26,8 @@ pub fn section(job: &HobbingJob) -> Section {
         GashForm::Axial => "axial",
         GashForm::Helical => "across the thread",
     };
-    let axes = ["hob", "work", "X", "Y", "slide", "shift"];
-    let speeds = axes.iter().zip(limits.speeds).enumerate().map(|(i, (axis, value))| {
-        let (value, unit) = if i < 2 { (value.map(f64::to_degrees), "°/s") } else { (value, "mm/s") };
-        format!("{axis} {}", limit(value, unit))
-    });
+    let names = ["hob", "work", "X", "Y", "slide", "shift"];
+    let speeds = speed_limits(names, &AXES, &dynamics::limits(limits));
     let blocks = vec![
         gear_table(&job.scene.gear, &job.curve),
         table(
@@ -53,7 +51,7 @@ pub fn section(job: &HobbingJob) -> Section {
                 ("Reground by", mm(tool.regrind_mm)),
             ],
         ),
-        table("Machine", vec![("Speed limits", speeds.collect::<Vec<_>>().join(", "))]),
+        table("Machine", vec![("Speed limits", speeds)]),
     ];
     Section { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
 }

@@ -10,6 +10,7 @@ use crate::process::hobbing::measure::flank_report::HobbedReport;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::measure::marks::MarkLattice;
 use crate::process::hobbing::{HobCutter, HobbingJob};
+use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::texture::{self, WindowTexture};
 use crate::units::UM_PER_MM;
 
@@ -19,7 +20,7 @@ const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve
 /// What was measured beside the flanks.
 pub struct Measured<'a> {
     /// What every operation asks of the machine.
-    pub axes: &'a [HobbingAxesReport],
+    pub motion: &'a [HobbingAxesReport<'a>],
     /// Texture of windows.
     pub textures: &'a [WindowTexture],
     /// Lattices of cutting marks.
@@ -32,10 +33,10 @@ pub struct Measured<'a> {
 pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> Findings {
     let job = cutter.job;
     let work = &gear.work;
-    let operations = job.operations.iter().zip(measured.axes).zip(&gear.passes);
+    let operations = job.operations.iter().zip(measured.motion).zip(&gear.passes);
     let mut sections = vec![
         Section::new("operations", "Operations")
-            .parts(operations.map(|((of, axes), &passes)| operation(of, axes, passes))),
+            .parts(operations.map(|((of, motion), &passes)| operation(of, motion, passes))),
         points::findings(gear),
         marks::findings(measured.lattices),
         Section::new("teeth", "Finished teeth").parts((1..=job.scene.gear.teeth).map(|number| tooth(gear, number))),
@@ -54,13 +55,13 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
         sections.push(blank::findings(cutter, whole));
     }
     let mut warnings = warnings(job, gear);
-    warnings.extend(measured.axes.iter().flat_map(HobbingAxesReport::warnings));
+    warnings.extend(axes::warnings(measured.motion));
     Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         process: "hobbing".to_owned(),
         scene: job.scene.name.clone(),
         complete: !work.interrupted,
-        headline: headline(job, gear, measured.axes),
+        headline: headline(job, gear, measured.motion),
         warnings,
         sections,
     }
@@ -72,7 +73,7 @@ fn largest(gear: &HobbedGear, value: impl Fn(&HobbedReport) -> Option<f64>) -> O
 }
 
 /// What to look at first.
-fn headline(job: &HobbingJob, gear: &HobbedGear, axes: &[HobbingAxesReport]) -> Vec<Entry> {
+fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -> Vec<Entry> {
     type At<'a> = &'a dyn Fn(&HobbedReport) -> Option<[f64; 2]>;
     let extreme_at = |value: &dyn Fn(&HobbedReport) -> Option<f64>, at: At, definition: &'static str| {
         let found = largest(gear, value);
@@ -178,16 +179,7 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, axes: &[HobbingAxesReport]) -> 
                 "flanks whose involute the hob's tip corner has cut away in some section",
             ),
         ),
-        Entry::headline(
-            "axis_margin",
-            "left of the tightest limit",
-            Quantity::number_or(
-                axes.iter().filter_map(HobbingAxesReport::smallest_margin).reduce(f64::min),
-                "1",
-                "what is left of the tightest axis limit, as a share of it",
-                "the scene gives no axis limits",
-            ),
-        ),
+        axes::margin_entry(motion),
         Entry::headline(
             "cycle_time",
             "cycle time",
@@ -200,10 +192,10 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, axes: &[HobbingAxesReport]) -> 
     ]
 }
 
-fn operation(operation: &PreparedHobbing, axes: &HobbingAxesReport, passes: u32) -> Section {
+fn operation(operation: &PreparedHobbing, motion: &HobbingAxesReport, passes: u32) -> Section {
     let spec = &operation.spec;
     Section::new(&spec.name, format!("Operation {}", spec.name))
-        .with("linkage", Quantity::text(axes.words(), "linkage of hob and work"))
+        .with("linkage", Quantity::text(motion.linkage_words(), "linkage of hob and work"))
         .with(
             "offset",
             Quantity::number(
@@ -223,7 +215,7 @@ fn operation(operation: &PreparedHobbing, axes: &HobbingAxesReport, passes: u32)
         )
         .shown("cycle_time", "time", Quantity::number(operation.linkage.end_s(), "s", "time of the operation"))
         .shown("idle_time", "idle", Quantity::number(operation.plan.idle_s, "s", "time in which the hob does not cut"))
-        .part(axes.axes_findings())
+        .part(axes::findings(motion))
 }
 
 /// Pitch and thickness of a tooth, middle of the face.

@@ -26,30 +26,10 @@ pub mod write;
 
 pub use program::{AxisProgram, Knot};
 
-use crate::error::Result;
-use crate::output::atomic::write_bytes_atomically;
-use crate::output::folder::OutputFolder;
 use crate::output::text::{plain, significant};
 use crate::process::shaping::{Job, PreparedOperation};
 use crate::scene::model::{GcodeDialect, Linkage, NormalReading};
 use crate::units::UM_PER_MM;
-
-/// Writes the programs of all operations as `axes/<operation>.ngc`; gives a sentence for each that was not written.
-///
-/// # Errors
-/// Files that cannot be written.
-pub fn write_all(job: &Job, folder: &OutputFolder) -> Result<Vec<String>> {
-    let mut left_out = Vec::new();
-    for operation in &job.operations {
-        let name = &operation.spec.name;
-        match text(job, operation) {
-            Some(Ok(text)) => write_bytes_atomically(&folder.path(format!("axes/{name}.ngc"))?, text.as_bytes())?,
-            Some(Err(why)) => left_out.push(format!("operation {name}: no G-code written: {why}")),
-            None => {}
-        }
-    }
-    Ok(left_out)
-}
 
 /// The program of an operation; an error is the reason why there is none, `None`: none is wanted.
 pub fn text(job: &Job, operation: &PreparedOperation) -> Option<Result<String, String>> {

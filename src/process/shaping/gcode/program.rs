@@ -1,6 +1,7 @@
 //! Axis positions as straight lines between knots, in the stroke coordinate.
 
-use crate::gcode::{Digits, longest_lines};
+use crate::gcode::{Digits, beyond_limits, longest_lines};
+use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
 use crate::scene::model::AxisLimits;
 use glam::DVec2;
@@ -42,13 +43,15 @@ fn samples_per_stroke(continuous: bool) -> usize {
 impl Knot {
     /// The knot as it will be written.
     fn rounded(&self, digits: Digits) -> Self {
-        let angle = |rad: f64| Digits::round(rad.to_degrees(), digits.angle).to_radians();
-        Self {
-            psi_c_rad: angle(self.psi_c_rad),
-            psi_b_rad: angle(self.psi_b_rad),
-            center_distance_mm: Digits::round(self.center_distance_mm, digits.length),
-            ..*self
-        }
+        let axes = self.axes();
+        let rounded: [f64; 3] = std::array::from_fn(|index| digits.rounded(AXES[index].kind, axes[index]));
+        let [psi_c_rad, psi_b_rad, center_distance_mm] = rounded;
+        Self { psi_c_rad, psi_b_rad, center_distance_mm, ..*self }
+    }
+
+    /// In the order of [`AXES`].
+    fn axes(&self) -> [f64; 3] {
+        [self.psi_c_rad, self.psi_b_rad, self.center_distance_mm]
     }
 
     /// Where a schedule has the axes.
@@ -156,49 +159,21 @@ impl AxisProgram {
     /// within one double stroke.
     pub fn exceeded(&self, limits: &AxisLimits) -> Vec<String> {
         let stroke_s = 60.0 / self.double_strokes_per_minute;
-        let speeds = |pick: fn(&Knot) -> f64| -> Vec<f64> {
-            self.knots
+        let limits = dynamics::limits(limits);
+        let beyond = AXES.iter().zip(&limits).enumerate().flat_map(|(index, (axis, limits))| {
+            let speeds: Vec<f64> = self
+                .knots
                 .windows(2)
                 .filter(|pair| pair[1].stroke > pair[0].stroke)
-                .map(|pair| (pick(&pair[1]) - pick(&pair[0])) / ((pair[1].stroke - pair[0].stroke) * stroke_s))
-                .collect()
-        };
-        let mut exceeded = Vec::new();
-        let mut check = |axis: &str, unit: &str, speeds: &[f64], speed: Option<f64>, acceleration: Option<f64>| {
+                .map(|pair| {
+                    let way = pair[1].axes()[index] - pair[0].axes()[index];
+                    way / ((pair[1].stroke - pair[0].stroke) * stroke_s)
+                })
+                .collect();
             let largest = speeds.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
             let step = speeds.windows(2).fold(0.0_f64, |most, v| most.max((v[1] - v[0]).abs())) / stroke_s;
-            let shown = |value: f64| if unit == "deg" { value.to_degrees() } else { value };
-            for (value, limit, per) in [(largest, speed, "/s"), (step, acceleration, "/s^2")] {
-                if let Some(limit) = limit.filter(|&limit| value > limit) {
-                    exceeded.push(format!(
-                        "{axis} needs {:.4} {unit}{per}, the machine allows {:.4}",
-                        shown(value),
-                        shown(limit)
-                    ));
-                }
-            }
-        };
-        check(
-            "the work spindle",
-            "deg",
-            &speeds(|k| k.psi_c_rad),
-            limits.work_speed_rad_per_s,
-            limits.work_acceleration_rad_per_s2,
-        );
-        check(
-            "the cutter spindle",
-            "deg",
-            &speeds(|k| k.psi_b_rad),
-            limits.cutter_speed_rad_per_s,
-            limits.cutter_acceleration_rad_per_s2,
-        );
-        check(
-            "the centre distance",
-            "mm",
-            &speeds(|k| k.center_distance_mm),
-            limits.center_distance_speed_mm_per_s,
-            limits.center_distance_acceleration_mm_per_s2,
-        );
-        exceeded
+            beyond_limits(axis, limits, [largest, step])
+        });
+        beyond.collect()
     }
 }

@@ -1,9 +1,10 @@
 //! The text of a program, with everything in its head that the man at the machine must know.
 
 use super::program::{AxisProgram, Knot};
-use crate::gcode::{Digits, ProgramText};
+use crate::gcode::{Digits, ProgramText, axis_word};
+use crate::machine::Axis;
 use crate::output::text::plain;
-use crate::process::shaping::axes_report::linkage_words;
+use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::{Job, PreparedOperation};
 
 /// A program in the linear dialect, for an operation of a job.
@@ -31,7 +32,7 @@ pub fn text(job: &Job, operation: &PreparedOperation, program: &AxisProgram) -> 
             job.cutter.teeth,
             plain(job.cutter.pitch_radius_mm)
         ),
-        format!("LINKAGE {}, offset {} mm", linkage_words(operation.spec.linkage), plain(operation.spec.offset_mm)),
+        format!("LINKAGE {}, offset {} mm", operation.linkage.words(), plain(operation.spec.offset_mm)),
         format!(
             "STROKES {} at {} per minute; S is double strokes per minute",
             program.count(),
@@ -47,17 +48,10 @@ pub fn text(job: &Job, operation: &PreparedOperation, program: &AxisProgram) -> 
         "Relief on the return stroke is the machine's own; approach and clamping are the operator's".to_owned(),
     ];
     let position = |knot: &Knot| {
-        // Negated zeros read as nonsense.
-        let clean = |value: f64| if value == 0.0 { 0.0 } else { value };
-        format!(
-            "X{:.*} C{:.*} B{:.*}",
-            digits.length,
-            knot.center_distance_mm,
-            digits.angle,
-            clean(-knot.psi_c_rad.to_degrees()),
-            digits.angle,
-            clean(knot.psi_b_rad.to_degrees()),
-        )
+        let [work, cutter, distance] = &AXES;
+        let word = |axis: &Axis, position: f64| axis_word(axis, position, digits.of(axis.kind));
+        // The work turns by -psi_c.
+        [word(distance, knot.center_distance_mm), word(work, -knot.psi_c_rad), word(cutter, knot.psi_b_rad)].join(" ")
     };
     let mut text = ProgramText::new(&head);
     text.block("G21 G90 G94");

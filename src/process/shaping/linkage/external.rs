@@ -14,7 +14,7 @@ use crate::gear::PitchCurve;
 use crate::gear::Rolling;
 use crate::math::Jet;
 use crate::process::shaping::linkage::{normal, traditional};
-use crate::scene::model::Linkage;
+use crate::scene::model::{Linkage, NormalReading, TraditionalDirection};
 
 /// One linkage on one pitch curve with one cutter.
 #[derive(Debug, Clone)]
@@ -90,6 +90,18 @@ impl ShapingLinkage {
     /// Which linkage this is.
     pub fn kind(&self) -> Linkage {
         self.kind
+    }
+
+    /// The linkage in words.
+    pub fn words(&self) -> &'static str {
+        match self.kind {
+            Linkage::ShapingNormal { reading: NormalReading::Corrected } => "normal linkage",
+            Linkage::ShapingNormal { reading: NormalReading::AsPrinted } => "normal linkage, Eq. 12 as printed",
+            Linkage::ShapingTraditional { direction: TraditionalDirection::CenterLine } => "traditional linkage",
+            Linkage::ShapingTraditional { direction: TraditionalDirection::PolarRadius } => {
+                "traditional linkage along the polar radius"
+            }
+        }
     }
 
     /// r_c, mm.

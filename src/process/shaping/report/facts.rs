@@ -3,8 +3,9 @@
 use crate::output::report::Section;
 use crate::output::text::plain;
 use crate::process::shaping::Job;
+use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::scene::model::Tip;
-use crate::steps::report::facts::{gear_table, limit, mm, table};
+use crate::steps::report::facts::{gear_table, mm, speed_limits, table};
 use crate::units::UM_PER_MM;
 
 /// Tables of gear, cutter and machine.
@@ -47,12 +48,7 @@ pub fn section(job: &Job) -> Section {
                 ("Work eccentricity", format!("{} µm", plain(UM_PER_MM * machine.work_eccentricity_mm))),
                 (
                     "Speed limits",
-                    format!(
-                        "work {}, cutter {}, centre distance {}",
-                        limit(machine.limits.work_speed_rad_per_s.map(f64::to_degrees), "°/s"),
-                        limit(machine.limits.cutter_speed_rad_per_s.map(f64::to_degrees), "°/s"),
-                        limit(machine.limits.center_distance_speed_mm_per_s, "mm/s"),
-                    ),
+                    speed_limits(["work", "cutter", "centre distance"], &AXES, &dynamics::limits(&machine.limits)),
                 ),
             ],
         ),

@@ -9,11 +9,11 @@ use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::table::{Cell, write_table};
 use crate::process::shaping::CutGear;
 use crate::process::shaping::Job;
-use crate::process::shaping::axes_report;
+use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::measure::unevenness::ToothAllowance;
-use crate::steps::Tools;
 use crate::steps::parts::Part;
 use crate::steps::sheets::write_sheets_and_deviations;
+use crate::steps::{Tools, axes};
 use crate::units::UM_PER_MM;
 use serde_json::Value;
 use std::path::Path;
@@ -22,7 +22,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(job: &Job, cut: &CutGear, results: &Value, tools: &Tools) -> Result<()> {
+pub fn write(job: &Job, cut: &CutGear, motion: &[OperationAxes], results: &Value, tools: &Tools) -> Result<()> {
     let Tools { folder, notes, progress, parts, .. } = *tools;
     let step = progress.step("tables and charts", 3 + cut.report.allowances.len() as u64, "parts");
     write_flank_table(cut, &folder.path("tables/flanks.csv")?, job)?;
@@ -45,7 +45,9 @@ pub fn write(job: &Job, cut: &CutGear, results: &Value, tools: &Tools) -> Result
     }
     step.advance(1);
     if parts.has(Part::Axes) {
-        axes_report::write(job, folder)?;
+        for operation in motion {
+            axes::write(operation, folder)?;
+        }
     }
     step.advance(1);
     step.finish();

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::super::dynamics::{MachineMotion, motion, peaks};
+use super::super::dynamics::limits;
 use super::super::relief::{ReliefFlank, ReliefVerdict, relief_ratio, smallest_relief};
 use super::*;
+use crate::machine::{Motion as _, Order, peaks};
 use crate::scene::model::{Infeed, StrokeSpacing};
 
 #[test]
@@ -15,18 +16,16 @@ fn motions_match_differences_and_peaks_bound_them() {
         for infeed in [Infeed::None, Infeed::Spiral { depth_mm: 1.0, angle_rad: 2.0 }] {
             (run.spacing, run.infeed) = (spacing, infeed);
             let strokes = schedule(&run);
-            let peaks = peaks(&strokes, &machine().limits);
-            let axes = |m: MachineMotion| [m.work, m.cutter, m.center_distance];
-            let bounds = [peaks.work, peaks.cutter, peaks.center_distance];
+            let peaks = peaks(&strokes, &limits(&machine().limits));
+            assert_eq!(peaks.len(), 6);
             let h = 1e-3;
             for i in 0..300 {
                 let stroke = f64::from(i) * 2.4 + 0.31;
                 let step_s = strokes.time_s(h);
-                let (before, here, after) =
-                    (motion(&strokes, stroke - h), motion(&strokes, stroke), motion(&strokes, stroke + h));
-                assert!((axes(here)[0].position - strokes.state(stroke).psi_c_rad).abs() < 1e-11);
-                for (axis, bound) in bounds.iter().enumerate() {
-                    let (b, a, m) = (axes(before)[axis], axes(after)[axis], axes(here)[axis]);
+                let (before, here, after) = (strokes.at(stroke - h), strokes.at(stroke), strokes.at(stroke + h));
+                assert!((here[0].position - strokes.state(stroke).psi_c_rad).abs() < 1e-11);
+                for (axis, bounds) in peaks.chunks(2).enumerate() {
+                    let (b, a, m) = (before[axis], after[axis], here[axis]);
                     let speed = (a.position - b.position) / (2.0 * step_s);
                     assert!((speed - m.velocity).abs() < 1e-6 * (1.0 + speed.abs()), "{spacing:?} {infeed:?} {axis}");
                     let change = (a.velocity - b.velocity) / (2.0 * step_s);
@@ -35,14 +34,15 @@ fn motions_match_differences_and_peaks_bound_them() {
                         kink || (change - m.acceleration).abs() < 1e-3 * (1.0 + change.abs()),
                         "{spacing:?} {axis}"
                     );
-                    assert!(m.velocity.abs() <= bound.speed.value * (1.0 + 1e-12));
-                    assert!(m.acceleration.abs() <= bound.acceleration.value * (1.0 + 1e-9) + 1e-9);
+                    assert!(m.velocity.abs() <= bounds[0].value * (1.0 + 1e-12));
+                    assert!(m.acceleration.abs() <= bounds[1].value * (1.0 + 1e-9) + 1e-9);
                 }
             }
             let limit = machine().limits.work_speed_rad_per_s.unwrap();
-            let margin = peaks.work.speed.margin().unwrap();
-            assert!((margin - (1.0 - peaks.work.speed.value / limit)).abs() < 1e-15);
-            assert!(peaks.work.acceleration.margin().is_none());
+            assert_eq!((peaks[0].order, peaks[1].order), (Order::Speed, Order::Acceleration));
+            let margin = peaks[0].margin().unwrap();
+            assert!((margin - (1.0 - peaks[0].value / limit)).abs() < 1e-15);
+            assert!(peaks[1].margin().is_none());
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::super::dynamics::motion;
 use super::*;
+use crate::machine::Motion as _;
 use crate::scene::model::{AxisLimits, Feed, Infeed, StrokeSpacing};
 
 #[test]
@@ -50,10 +50,10 @@ fn spacings_advance_equally() {
     assert_eq!(strokes.count(), 500);
     // At every stroke one axis uses the same share of its limit, and no axis uses more.
     let share = |stroke: f64| {
-        let (m, limits) = (motion(&strokes, stroke), machine().limits);
-        (m.work.velocity / limits.work_speed_rad_per_s.unwrap())
-            .max(m.cutter.velocity / limits.cutter_speed_rad_per_s.unwrap())
-            .max(m.center_distance.velocity.abs() / limits.center_distance_speed_mm_per_s.unwrap())
+        let ([work, cutter, distance], limits) = (strokes.at(stroke), machine().limits);
+        (work.velocity / limits.work_speed_rad_per_s.unwrap())
+            .max(cutter.velocity / limits.cutter_speed_rad_per_s.unwrap())
+            .max(distance.velocity.abs() / limits.center_distance_speed_mm_per_s.unwrap())
     };
     for i in 0..999 {
         assert!((share(f64::from(i) * 0.5) / share(0.0) - 1.0).abs() < 1e-9);

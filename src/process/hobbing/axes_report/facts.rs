@@ -1,0 +1,56 @@
+//! What a gear engineer reads on the terminal about feeds, ways, times and marks of an operation.
+
+use super::HobbingAxesReport;
+use crate::output::progress::duration_text;
+use crate::output::text::{Sheet, plain, significant};
+use crate::process::hobbing::job::PreparedHobbing;
+use crate::scene::model::HobbingKind;
+use crate::steps::axes::AxesOfOperation;
+use crate::units::{TURN_RAD, UM_PER_MM};
+
+/// Feeds, ways, times, marks.
+pub(super) fn print(axes: &HobbingAxesReport, sheet: &mut Sheet) {
+    let (job, operation) = (axes.job, axes.operation());
+    let PreparedHobbing { spec, plan, linkage, .. } = operation;
+    sheet.heading(&format!("Operation {}: {}, offset {} mm", spec.name, axes.linkage_words(), plain(spec.offset_mm)));
+    let hob_speed = spec.hob_speed_rad_per_s / TURN_RAD * 60.0;
+    sheet.line("hob speed", format!("{} 1/min, mean of a cycle", significant(hob_speed, 5)));
+    let tilt_rad = linkage.geometry().head_angle_rad;
+    sheet.line("head angle", format!("{:.4} deg", tilt_rad.to_degrees()));
+    let [first, second] = plan.slide_feeds_mm;
+    let feeds = if (first - second).abs() < 1e-9 {
+        significant(first, 4)
+    } else {
+        format!("{} and, the shift reversed, {}", significant(first, 4), significant(second, 4))
+    };
+    sheet.line("feed of the slide", format!("{feeds} mm per revolution of the work"));
+    let (approach, face, overrun) = (plan.approach_mm, job.scene.gear.face_width_mm, plan.overrun_mm);
+    sheet.line("way of the slide", format!("{approach:.3} mm before the face, {face:.3} across, {overrun:.3} beyond"));
+    if let HobbingKind::Diagonal { shift_mm_per_revolution, .. } = spec.kind {
+        let [from, to] = plan.shift_range_mm;
+        sheet.line(
+            "shift",
+            format!(
+                "{} mm per revolution between {from:.3} and {to:.3} mm, {} strokes; {} mm of it along the gear's axis",
+                significant(shift_mm_per_revolution, 4),
+                plan.shift_strokes,
+                significant(shift_mm_per_revolution * tilt_rad.sin().abs(), 3)
+            ),
+        );
+    }
+    let idle = if plan.idle_s > 0.0 { format!(", {} of it idle", duration_text(plan.idle_s)) } else { String::new() };
+    let cycles = linkage.end_s() / linkage.cycle_s();
+    sheet.line("time", format!("{}{idle}; {cycles:.2} cycles along the pitch curve", duration_text(linkage.end_s())));
+    sheet.line("passes", format!("{:.0} of hob teeth", job.passes(operation)));
+    sheet.line("feed marks", format!("up to {} um high", significant(UM_PER_MM * plan.feed_mark_mm, 3)));
+    let facts = job.curve.facts();
+    let [flat, sharp] = [facts.smallest_curvature, facts.largest_curvature]
+        .map(|extremum| significant(UM_PER_MM * job.generating_mark_mm(extremum.curvature_per_mm), 3));
+    sheet.line(
+        "generating marks",
+        format!(
+            "{flat} um where the curve is flattest, {sharp} um where it is sharpest, one every {:.4} mm of arc",
+            job.gash_arc_mm()
+        ),
+    );
+}

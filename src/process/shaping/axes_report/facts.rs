@@ -1,0 +1,55 @@
+//! What a gear engineer reads on the terminal about the strokes of an operation and their relief.
+
+use super::OperationAxes;
+use crate::output::progress::duration_text;
+use crate::output::text::{Sheet, plain, significant};
+use crate::process::shaping::linkage::relief::ReliefFlank;
+use crate::steps::axes::AxesOfOperation;
+use crate::units::UM_PER_MM;
+
+/// A smaller beta than this, rad, is rounding: the curve is a circle.
+const ROUND_BETA_RAD: f64 = 1e-9;
+
+/// Strokes, time, relief.
+pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
+    let (operation, back_off_mm) = (axes.operation(), axes.job.machine.back_off_mm);
+    let (name, offset, schedule) = (axes.name(), plain(operation.spec.offset_mm), &operation.schedule);
+    sheet.heading(&format!("Operation {name}: {}, offset {offset} mm", axes.linkage_words()));
+    let plunging = match schedule.plunge_count() {
+        0 => String::new(),
+        count => format!(", {count} of them plunging"),
+    };
+    let per_turn = schedule.strokes_per_revolution();
+    sheet.line("strokes", format!("{}{plunging}; {per_turn} per turn", schedule.count()));
+    let feed = significant(schedule.circular_feed_mm_per_stroke(), 3);
+    sheet.line("circular feed", format!("{feed} mm per double stroke, mean over the pitch curve"));
+    sheet.line("time", duration_text(schedule.time_s(schedule.count() as f64)));
+    let round = axes.largest_beta_rad < ROUND_BETA_RAD;
+    let beta_place = if round {
+        "everywhere".to_owned()
+    } else {
+        format!("at polar angle {:.2} deg", axes.largest_beta_phi_rad.to_degrees())
+    };
+    sheet.line(
+        "largest beta",
+        format!("{:.2} deg {beta_place} (line of centres against the normal)", axes.largest_beta_rad.to_degrees()),
+    );
+    let flank = match axes.relief.flank {
+        ReliefFlank::Left => "left",
+        ReliefFlank::Right => "right",
+    };
+    let relief_place = if round {
+        "everywhere".to_owned()
+    } else {
+        format!("on the {flank} flank at polar angle {:.2} deg", axes.relief.phi_rad.to_degrees())
+    };
+    sheet.line(
+        "smallest relief",
+        format!(
+            "{} um for {} mm back-off {relief_place}, {:.0} % of a circular gear's",
+            significant(UM_PER_MM * axes.relief.clearance_mm(back_off_mm), 3),
+            plain(back_off_mm),
+            100.0 * axes.relief.ratio,
+        ),
+    );
+}

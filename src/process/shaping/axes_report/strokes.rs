@@ -1,0 +1,61 @@
+//! All strokes of an operation, and what they add to the axis table: one row per stroke.
+
+use crate::Result;
+use crate::machine::{AxisMotion, Motion as _};
+use crate::output::table::Cell;
+use crate::process::shaping::linkage::dynamics::AXES;
+use crate::process::shaping::linkage::relief::{self, ReliefRatio};
+use crate::process::shaping::{Job, PreparedOperation};
+use crate::steps::axes;
+use std::path::Path;
+
+/// One stroke: the machine's motion and the clearance of its return.
+#[derive(Debug)]
+pub(super) struct StrokeRow {
+    /// Stroke, from 0.
+    pub stroke: usize,
+    pub time_s: f64,
+    /// Work, cutter, centre distance.
+    pub motion: [AxisMotion; 3],
+    pub phi_rad: f64,
+    pub offset_mm: f64,
+    /// Clearance as a share of a circular gear's.
+    pub relief: ReliefRatio,
+}
+
+/// All strokes of an operation.
+pub(super) fn rows(job: &Job, operation: &PreparedOperation) -> Vec<StrokeRow> {
+    let PreparedOperation { linkage, schedule, .. } = operation;
+    let row = |stroke: usize| {
+        let coordinate = stroke as f64;
+        let (phi_rad, offset_mm) = (schedule.phi_rad(coordinate), schedule.offset_mm(coordinate));
+        StrokeRow {
+            stroke,
+            time_s: schedule.time_s(coordinate),
+            motion: schedule.at(coordinate),
+            phi_rad,
+            offset_mm,
+            relief: relief::relief_ratio(linkage, phi_rad, offset_mm, job.scene.gear.pressure_angle_rad),
+        }
+    };
+    (0..schedule.count()).map(row).collect()
+}
+
+/// Writes the table; `stroke` counts from 0, as pass ids do, and angles run on beyond a turn.
+pub(super) fn write_table(path: &Path, rows: &[StrokeRow]) -> Result<()> {
+    let own = [
+        vec!["stroke", "time_s"],
+        vec!["offset_mm", "phi_deg"],
+        vec!["left_relief_share_of_circular", "right_relief_share_of_circular"],
+    ];
+    let row = |row: &StrokeRow| {
+        let stroke = Cell::Whole(i64::try_from(row.stroke).unwrap_or(i64::MAX));
+        let own = [
+            vec![stroke, row.time_s.into()],
+            vec![row.offset_mm.into(), row.phi_rad.to_degrees().into()],
+            vec![row.relief.left.into(), row.relief.right.into()],
+        ];
+        (own, row.motion)
+    };
+    axes::write_table(path, &AXES, own, rows.iter().map(row))
+}

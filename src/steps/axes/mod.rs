@@ -1,0 +1,158 @@
+//! What every operation asks of a machine's axes: tables, charts, peaks against limits, programs, once for all
+//! processes.
+//!
+//! In: operations that tell how the axes of their machine move ([`AxesOfOperation`]). Out: lines and warnings for the
+//! terminal, findings, the files in `axes/`, the page's section. Names and units follow from the axes
+//! ([`crate::machine`]); a process adds what only it knows (strokes, relief, feeds, marks), how it speaks of a place,
+//! and the way out of an exceeded limit.
+
+pub mod charts;
+mod peaks;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use peaks::{Named, PeakWords, STEADY, findings, margin_entry};
+pub use table::{Own, write_table};
+
+use crate::error::Result;
+use crate::findings::Findings;
+use crate::interrupt::Interrupt;
+use crate::machine::Peak;
+use crate::output::atomic::write_bytes_atomically;
+use crate::output::bar_chart::BarChart;
+use crate::output::folder::OutputFolder;
+use crate::output::line_chart::LineChart;
+use crate::output::report;
+use crate::output::text::Sheet;
+use crate::steps::report::peak_table;
+use std::path::Path;
+
+/// A chart with the word that ends the name of its file.
+pub type NamedChart<C> = (&'static str, C);
+
+/// How the axes of a machine move in one operation.
+pub trait AxesOfOperation {
+    /// Name of the operation; its files are named after it.
+    fn name(&self) -> &str;
+
+    /// The linkage in words.
+    fn linkage_words(&self) -> String;
+
+    /// How this process speaks of peaks.
+    fn peak_words(&self) -> &PeakWords;
+
+    /// Peaks of the axes in the order in which they are listed.
+    fn peaks(&self) -> &[Peak];
+
+    /// Where a peak is, in the unit of [`PeakWords::place`].
+    fn place(&self, peak: &Peak) -> f64;
+
+    /// Heading and facts for the terminal, the table of peaks apart.
+    fn print_facts(&self, sheet: &mut Sheet);
+
+    /// What the user should know beside exceeded limits.
+    fn own_warnings(&self) -> Vec<String>;
+
+    /// Writes the axis table.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    fn write_table(&self, path: &Path) -> Result<()>;
+
+    /// Charts of the motion; the first one is shown first.
+    fn charts(&self) -> &[NamedChart<LineChart>];
+
+    /// Charts of what can be told before anything is cut.
+    fn forecasts(&self) -> Vec<NamedChart<BarChart>> {
+        Vec::new()
+    }
+
+    /// Programs, each with the end of its file's name; an error is the reason why there are none, `None`: none are
+    /// wanted.
+    fn programs(&self) -> Option<Result<Vec<(&'static str, String)>, String>>;
+}
+
+/// Facts and peaks of an operation.
+pub fn print(operation: &impl AxesOfOperation, sheet: &mut Sheet) {
+    operation.print_facts(sheet);
+    sheet.table(&peaks::rows(operation));
+}
+
+/// What the user should know before cutting: limits exceeded, and what the process says.
+pub fn warnings<O: AxesOfOperation>(operations: &[O]) -> Vec<String> {
+    operations.iter().flat_map(|operation| peaks::exceeded(operation).chain(operation.own_warnings())).collect()
+}
+
+/// Writes tables and charts of the motion into the folder's `axes/`.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write(operation: &impl AxesOfOperation, folder: &OutputFolder) -> Result<()> {
+    let name = operation.name();
+    operation.write_table(&folder.path(format!("axes/{name}.csv"))?)?;
+    for (what, chart) in operation.charts() {
+        chart.write_png(&folder.path(format!("axes/{name}_{what}.png"))?)?;
+        chart.write_svg(&folder.path(format!("axes/{name}_{what}.svg"))?)?;
+    }
+    Ok(())
+}
+
+/// Writes the programs of all operations into `axes/`; gives a sentence for each operation that has none.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_programs<O: AxesOfOperation>(operations: &[O], folder: &OutputFolder) -> Result<Vec<String>> {
+    let mut left_out = Vec::new();
+    for operation in operations {
+        let name = operation.name();
+        match operation.programs() {
+            Some(Ok(programs)) => {
+                for (end, text) in programs {
+                    write_bytes_atomically(&folder.path(format!("axes/{name}{end}.ngc"))?, text.as_bytes())?;
+                }
+            }
+            Some(Err(why)) => left_out.push(format!("operation {name}: no G-code written: {why}")),
+            None => {}
+        }
+    }
+    Ok(left_out)
+}
+
+/// All that the command `axes` writes and says; gives what must be known before the programs are used.
+///
+/// # Errors
+/// Files that cannot be written; Ctrl-C.
+pub fn command<O: AxesOfOperation>(
+    operations: &[O],
+    folder: &OutputFolder,
+    interrupt: &Interrupt,
+    sheet: &mut Sheet,
+) -> Result<Vec<String>> {
+    for operation in operations {
+        interrupt.check()?;
+        write(operation, folder)?;
+        let name = operation.name();
+        for (what, chart) in operation.forecasts() {
+            chart.write_png(&folder.path(format!("axes/{name}_{what}.png"))?)?;
+            chart.write_svg(&folder.path(format!("axes/{name}_{what}.svg"))?)?;
+        }
+        print(operation, sheet);
+    }
+    interrupt.check()?;
+    let left_out = write_programs(operations, folder)?;
+    Ok(warnings(operations).into_iter().chain(left_out).collect())
+}
+
+/// The page's section: peaks and first chart of every operation, the other charts folded under their name.
+pub fn section<O: AxesOfOperation>(operations: &[O], found: &Findings, lead: &str, folded: &str) -> report::Section {
+    let mut blocks = Vec::new();
+    for (operation, found) in operations.iter().zip(found.parts("operations")) {
+        blocks.push(report::Block::Heading(format!("{}: {}", operation.name(), operation.linkage_words())));
+        blocks.push(report::Block::Table(peak_table(found)));
+        let mut charts = operation.charts().iter().map(|(_, chart)| report::Block::Lines(chart.clone()));
+        blocks.extend(charts.next());
+        blocks.push(report::Block::Folded(folded.to_owned(), charts.collect()));
+    }
+    report::Section { id: "motion", title: "Axis motion".to_owned(), lead: lead.to_owned(), blocks }
+}

@@ -1,0 +1,105 @@
+//! Peaks of the axes against their limits: rows for the terminal, sentences where a limit is exceeded, findings.
+
+use super::AxesOfOperation;
+use crate::findings::{Entry, Place, Quantity, Section};
+use crate::machine::{Peak, smallest_margin};
+use crate::output::text::significant;
+
+/// Speeds and accelerations below this, in deg or mm per s or s^2, are what rounding leaves of a standing axis.
+pub const STEADY: f64 = 1e-9;
+
+/// How a process speaks of the peaks of its axes.
+#[derive(Debug)]
+pub struct PeakWords {
+    /// Title of the places on the terminal.
+    pub at: &'static str,
+    /// Name of the coordinate of a place, as findings spell it.
+    pub place: &'static str,
+    /// Its unit on the terminal, and digits after the point.
+    pub place_unit: (&'static str, usize),
+    /// What else a reader must know of a place; ends the definition of a peak.
+    pub place_note: &'static str,
+    /// What to do about an exceeded limit.
+    pub way_out: &'static str,
+    /// How findings name a peak.
+    pub named: fn(&Peak) -> Named,
+    /// Peaks below this, in the unit that is read, are zero among the findings.
+    pub zero_below: f64,
+}
+
+/// A peak by its names among the findings.
+#[derive(Debug)]
+pub struct Named {
+    /// Key.
+    pub key: String,
+    /// Title.
+    pub title: String,
+    /// What is largest, such as `speed of the work spindle`.
+    pub quantity: String,
+    /// Why there is no limit.
+    pub unlimited: String,
+}
+
+/// A row of titles, then one per peak.
+pub(super) fn rows(operation: &impl AxesOfOperation) -> Vec<Vec<String>> {
+    let words = operation.peak_words();
+    let titles = ["axis", "largest", words.at, "limit", "left"].map(str::to_owned).to_vec();
+    let rows = operation.peaks().iter().map(|peak| {
+        let text = |value: f64| format!("{} {}", significant(zero_below(STEADY, value), 4), peak.unit());
+        let (unit, digits) = words.place_unit;
+        let limit = peak.shown_limit().map_or_else(|| "not given".to_owned(), text);
+        let left = peak.margin().map_or_else(String::new, |share| format!("{:.0} %", 100.0 * share));
+        vec![peak.name(), text(peak.shown()), format!("{:.digits$} {unit}", operation.place(peak)), limit, left]
+    });
+    [titles].into_iter().chain(rows).collect()
+}
+
+/// A sentence for each limit that is exceeded.
+pub(super) fn exceeded(operation: &impl AxesOfOperation) -> impl Iterator<Item = String> {
+    operation.peaks().iter().filter(|peak| peak.exceeds_its_limit()).filter_map(|peak| {
+        Some(format!(
+            "operation {}: the {} reaches {} {unit}, the machine allows {} {unit}: {}",
+            operation.name(),
+            peak.name(),
+            significant(peak.shown(), 4),
+            significant(peak.shown_limit()?, 4),
+            operation.peak_words().way_out,
+            unit = peak.unit(),
+        ))
+    })
+}
+
+/// Peaks against limits as findings, axis by axis.
+pub fn findings(operation: &impl AxesOfOperation) -> Section {
+    let words = operation.peak_words();
+    let one = |peak: &Peak| {
+        let Named { key, title, quantity, unlimited } = (words.named)(peak);
+        let definition = format!("largest {quantity} during the operation{}", words.place_note);
+        let at = Place::default().and(words.place, operation.place(peak));
+        let allowed = format!("largest {quantity} that the machine allows");
+        Section::new(key, title)
+            .with("peak", Quantity::number(zero_below(words.zero_below, peak.shown()), peak.unit(), definition).at(at))
+            .with("limit", Quantity::number_or(peak.shown_limit(), peak.unit(), allowed, unlimited.clone()))
+            .with("margin", Quantity::number_or(peak.margin(), "1", "1 - peak / limit", unlimited))
+    };
+    Section::new("axes", "Peaks of the axes").parts(operation.peaks().iter().map(one))
+}
+
+/// The headline's number of all operations.
+pub fn margin_entry<O: AxesOfOperation>(operations: &[O]) -> Entry {
+    let margin = smallest_margin(operations.iter().flat_map(AxesOfOperation::peaks));
+    Entry::headline(
+        "axis_margin",
+        "left of the tightest limit",
+        Quantity::number_or(
+            margin,
+            "1",
+            "what is left of the tightest axis limit, as a share of it",
+            "the scene gives no axis limits",
+        ),
+    )
+}
+
+fn zero_below(least: f64, value: f64) -> f64 {
+    if value.abs() < least { 0.0 } else { value }
+}
