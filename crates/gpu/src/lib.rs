@@ -5,6 +5,24 @@
 //! fields of any size go through in [`batches`]; the host composes one batch while the device works on the one before.
 //! Nothing is written to the layer before all batches are back, so a device that fails loses nothing: the flank is cut
 //! again natively, or the run stops, as the user chose.
+//!
+//! The modules, from the ground up; each uses only those above it in this list, and the backend at their head:
+//!
+//! - `problem`: what can go wrong on a device, as values
+//! - [`adapter`]: which adapters are there, and which one serves
+//! - `device`: a device that reports its problems
+//! - [`pipeline`]: shaders as text and as pipelines
+//! - `readback`: a batch sent, cut and brought back
+//! - [`records`]: what the shaders of shaping read, byte for byte
+//! - [`sweep_records`]: what the shader of hobbed flanks reads
+//! - [`near_edge`]: the piece of an edge that a tile can meet, as one polynomial
+//! - [`compose`]: from the plan's f64 records to f32 records
+//! - [`batches`]: fields of any size in batches and rounds
+//! - [`edge_cells`]: tables of an edge for the spatial shader
+//! - `spatial`: flanks cut by sweeps
+//! - `blank_rays`: launches of the kernel that cuts rays of the blank
+//! - `blank`: the blank of shaping
+//! - `blank_sweeps`: the blank of hobbing
 
 pub mod adapter;
 pub mod batches;

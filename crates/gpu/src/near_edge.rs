@@ -119,12 +119,12 @@ impl Curve {
 mod tests {
     use super::*;
     use gearcut_core::error::NotConverged;
-    use gearcut_core::tool::edge::Profile;
+    use gearcut_core::tool::edge_profile::EdgeProfile;
 
     /// A circle of radius 3 mm.
     struct Circle;
 
-    impl Profile for Circle {
+    impl EdgeProfile for Circle {
         fn x_and_slope(&self, y_mm: f64) -> Result<[f64; 2], NotConverged> {
             let x = (9.0 - y_mm * y_mm).sqrt();
             Ok([x, -y_mm / x])

@@ -17,7 +17,7 @@ use super::{Gpu, GpuProblem, IN_FLIGHT, WORKGROUP_THREADS};
 use gearcut_core::dexel::{Layer, SpatialField};
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::passes::spatial::sweep;
-use gearcut_core::passes::spatial::sweep_plan::SweepTile as PlanTile;
+use gearcut_core::passes::spatial::sweep_tile::SweepTile as PlanTile;
 use gearcut_core::tool::edge::{Edge, Segment, SegmentShape};
 use glam::{DVec2, DVec3};
 use std::ops::Range;

@@ -10,7 +10,6 @@ pub mod pitch_curve;
 pub mod rolling;
 
 pub use kind::GearKind;
-pub use pitch_curve::mate::Driver;
-pub use pitch_curve::shape::PitchCurveShape;
+pub use pitch_curve::shape::{Driver, PitchCurveShape};
 pub use pitch_curve::{CurvatureExtremum, CurveFacts, PitchCurve, PitchFrame};
 pub use rolling::Rolling;

@@ -89,3 +89,8 @@ pub(super) fn factor(name: &str, value: f64) -> std::result::Result<f64, String>
     let usable = value.is_finite() && value != 0.0;
     usable.then_some(value).ok_or_else(|| format!("{name} is {value}; it must be a number other than 0"))
 }
+
+/// A number of points from a header.
+pub(super) fn side(count: i32) -> std::result::Result<usize, String> {
+    usize::try_from(count).map_err(|_| format!("a side of {count} points"))
+}

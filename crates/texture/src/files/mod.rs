@@ -25,6 +25,7 @@ pub mod grid;
 mod npy;
 mod sdf;
 mod sdf_ascii;
+mod sdf_parts;
 mod sur;
 mod x3p;
 

@@ -5,18 +5,11 @@
 
 use std::fmt::Write as _;
 
+use super::SurfaceFile;
 use super::bounds::{factor, height, kept_number, points};
-use super::sdf::raw_type;
-use super::{SurfaceFile, notes_json, notes_of};
+use super::sdf_parts::{MAKER, UNKNOWN_DATE, raw_type, trailer_notes, trailer_text};
 use crate::surface::Surface;
 use crate::text::quoted;
-
-/// Who wrote the file.
-pub(super) const MAKER: &str = "gearcut";
-/// The format demands dates; zeros are its custom for "not recorded". A clock's would make every file differ.
-pub(super) const UNKNOWN_DATE: &str = "000000000000";
-/// Trailer line that carries the notes.
-const NOTES: &str = "Notes";
 
 pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
     let surface = &file.surface;
@@ -73,18 +66,4 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
         .collect::<Result<Vec<f64>, String>>()?;
     let surface = Surface::new(nx, ny, dx * 1e6, dy * 1e6, heights)?;
     Ok(SurfaceFile { surface, notes: trailer_notes(parts.next().unwrap_or_default()) })
-}
-
-/// Trailer with the notes; empty without any.
-pub(super) fn trailer_text(notes: &[(String, String)]) -> String {
-    if notes.is_empty() {
-        return String::new();
-    }
-    format!("{NOTES} = {}\n*\n", notes_json(notes))
-}
-
-/// Notes of a trailer: our own line, else the whole text as a comment.
-pub(super) fn trailer_notes(trailer: &str) -> Vec<(String, String)> {
-    let own = trailer.lines().filter_map(|line| line.split_once('=')).find(|(key, _)| key.trim() == NOTES);
-    notes_of(own.map_or_else(|| trailer.trim_matches(['*', '\n', '\r', ' ', '\0']), |(_, json)| json))
 }

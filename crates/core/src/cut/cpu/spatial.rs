@@ -15,8 +15,8 @@
 use crate::cut::CutStats;
 use crate::dexel::SpatialField;
 use crate::passes::spatial::sweep::SweepRecord;
-use crate::passes::spatial::sweep_plan::SweepTile;
 use crate::passes::spatial::sweep_roots::{LANES, Lanes, Rays};
+use crate::passes::spatial::sweep_tile::SweepTile;
 use crate::tool::edge::{Segment, SegmentShape};
 
 /// Hits this far beyond a segment's end still count: neighbouring segments then leave no slit for a ray to slip

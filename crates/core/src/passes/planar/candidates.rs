@@ -10,11 +10,10 @@
 //! Road not taken: the contact moment from the meshing condition. It knows only the finishing envelope; roughing,
 //! plunges, partial turns and undercut need no special case here.
 
-use super::bounds::{
-    BladeRay, MAX_PHASES, MAX_PLACES, MotionBound, Samples, Sampling, SegmentBounds, Verdict, undominated,
-};
-use super::near::{NearPass, near_passes};
+use super::bounds::{BladeRay, MotionBound, SegmentBounds, Verdict};
+use super::near::{MAX_PHASES, NearPass, near_passes};
 use super::record::PassRecord;
+use super::samples::{MAX_PLACES, Samples, Sampling, undominated};
 use super::strokes::StrokeSet;
 use super::time_intervals::{Content, IntervalTree, TimeInterval};
 use super::upper_bound::UpperBound;

@@ -4,7 +4,6 @@
 //! No assumption about which tooth cuts which space: runout, pitch errors, several turns and plunges need no special
 //! case.
 
-use super::bounds::MAX_PHASES;
 use super::strokes::StrokeSet;
 use crate::frame::Rigid2;
 use crate::tool::PlanarTool;
@@ -12,8 +11,10 @@ use crate::tool::edge::Edge;
 use arrayvec::ArrayVec;
 use glam::DVec2;
 
+/// Phases at which a pass is sampled at most: three, or one where the stroke is frozen.
+pub const MAX_PHASES: usize = 3;
 /// Phases at which bounds look at a pass: the whole range and its middle, or the one pose of a frozen stroke.
-const BOUND_PHASES: [f64; 3] = [-1.0, 0.0, 1.0];
+const BOUND_PHASES: [f64; MAX_PHASES] = [-1.0, 0.0, 1.0];
 
 /// Safety on the bend of a path that three poses show.
 const BEND_SAFETY: f64 = 1.5;

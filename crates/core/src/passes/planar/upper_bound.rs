@@ -3,7 +3,8 @@
 //! In each cell between two places it is **one** pass with its error, not the lowest of several corner by corner:
 //! between two corners that belong to different passes both may lie high, and a third may be lowest there.
 
-use super::bounds::{MAX_PHASES, MAX_PLACES, Samples};
+use super::near::MAX_PHASES;
+use super::samples::{MAX_PLACES, Samples};
 use arrayvec::ArrayVec;
 
 /// Heights at the sample rays of a tile above which a pass is undercut in every cell.

@@ -22,7 +22,6 @@
 //! Road not taken: eliminating t beforehand by a polynomial in the tile's three coordinates. It needs order four in one
 //! of them, and long rays leave its range.
 
-use super::sweep_roots::LARGEST_T;
 use crate::math::convergence::{Step, iterate};
 use crate::math::roots::bisect;
 use crate::passes::planar::strokes::{NODES, cubic_through};
@@ -32,6 +31,8 @@ use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+/// Largest |t|: a sweep's whole range from one of its ends.
+pub const LARGEST_T: f64 = 1.0;
 /// Steps at most towards the moment at which a rake face holds a point, and the last one (in t): the work turns some
 /// hundredths as fast as the tool, so that each gains more than a digit.
 const MAX_STEPS: u32 = 24;
@@ -85,7 +86,7 @@ pub struct SweepRecord {
     /// Index of the segment in the blade's edge.
     pub segment: u32,
     /// Cells of the tile in which it can leave the lowest surface, as bits (see
-    /// [`super::sweep_plan::SweepTile::cell`]).
+    /// [`super::sweep_tile::SweepTile::cell`]).
     pub cells: u16,
     /// Where Newton's method starts.
     pub start: SweepStart,

@@ -19,10 +19,10 @@
     reason = "the instruction set of the dispatching function holds only for what is inlined into it"
 )]
 
-use super::sweep_plan::Candidate;
+use super::sweep::LARGEST_T;
 use super::sweep_regions::{ALL, RAYS, Region, SIDE};
-use super::sweep_roots::{LANES, LARGEST_T, Rays};
-use super::sweep_samples::{Frame, Sampled};
+use super::sweep_roots::{LANES, Rays};
+use super::sweep_samples::{Candidate, Sampled, SweepFrame};
 use crate::dexel::SpatialField;
 use crate::tool::edge::Segment;
 use pulp::Arch;
@@ -55,7 +55,7 @@ pub struct RegionBounds<'a> {
     /// The region.
     pub region: &'a Region<'a>,
     /// Where the candidates are seen from.
-    pub frame: &'a Frame,
+    pub frame: &'a SweepFrame,
 }
 
 /// A candidate whose entries into all nine rays are known.

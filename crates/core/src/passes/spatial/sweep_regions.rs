@@ -10,7 +10,7 @@
     reason = "the instruction set of the dispatching function holds only for what is inlined into it"
 )]
 
-use super::sweep_plan::{TILE_COLUMNS, TILE_ROWS};
+use super::sweep_tile::{TILE_COLUMNS, TILE_ROWS};
 use crate::dexel::SpatialField;
 use std::ops::Range;
 

@@ -10,12 +10,11 @@
     reason = "the instruction set of the dispatching function holds only for what is inlined into it"
 )]
 
-use super::sweep::{Sweep, SweepRecord};
-use super::sweep_plan::Candidate;
+use super::sweep::{LARGEST_T, Sweep, SweepRecord};
 use super::sweep_regions::{RAYS, Region, SIDE};
-use super::sweep_roots::{LANES, LARGEST_T, Lanes, Rays, Roots};
+use super::sweep_roots::{LANES, Lanes, Rays, Roots};
+use super::turning_passes::{BladePass, TurningPasses};
 use crate::dexel::SpatialField;
-use crate::passes::spatial::turning_passes::TurningPasses;
 use crate::tool::edge::Edge;
 use glam::DVec3;
 use pulp::Arch;
@@ -32,8 +31,26 @@ pub(super) const LAST_STEP: f64 = 1e-5;
 /// No root further away is one, mm.
 const FARTHEST_MM: f64 = 1e3;
 
+/// A blade's sweep by one of its segments, as far as one stretch of the motion goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// The pass.
+    pub pass: BladePass,
+    /// Stretch of the motion.
+    pub stretch: u32,
+    /// Index of the segment in the blade's edge.
+    pub segment: usize,
+}
+
+impl Candidate {
+    /// Pass and stretch: one smooth sweep.
+    pub fn sweep(&self) -> (u32, u32) {
+        (self.pass.pass, self.stretch)
+    }
+}
+
 /// Sweeps as seen from one origin.
-pub struct Frame {
+pub struct SweepFrame {
     /// Gear frame, mm.
     pub origin_mm: DVec3,
     /// Nothing that is looked at is further from it, mm.
@@ -44,7 +61,7 @@ pub struct Frame {
     pub records: Vec<SweepRecord>,
 }
 
-impl Frame {
+impl SweepFrame {
     /// Sweeps of candidates, in their order; those whose blades hold the origin at no moment are left out. `index_of`
     /// gives the place of every candidate.
     pub fn new(
@@ -134,7 +151,7 @@ struct Place {
 
 /// Samples candidates on new rays of a region.
 struct SampledRays<'a> {
-    frame: &'a Frame,
+    frame: &'a SweepFrame,
     edge: &'a Edge,
     lowest_mm: f64,
     field: &'a SpatialField,
@@ -186,7 +203,7 @@ impl Fine {
 
 impl Region<'_> {
     /// Candidates of a frame on the nine rays, searched from the target.
-    pub fn sample(&self, frame: &Frame, edge: &Edge) -> Vec<Sampled> {
+    pub fn sample(&self, frame: &SweepFrame, edge: &Edge) -> Vec<Sampled> {
         let even = [0, 2, 4];
         let dexels = self.dexels();
         let places: Vec<Place> = (0..RAYS)
@@ -204,7 +221,7 @@ impl Region<'_> {
 
     /// Parts of the region with what is sampled on each; a candidate goes to the parts whose cells are set in its mask
     /// (cells in the order of columns, then rows).
-    pub fn parts(&self, frame: &Frame, edge: &Edge, alive: &[(Sampled, u8)]) -> Vec<(Self, Vec<Sampled>)> {
+    pub fn parts(&self, frame: &SweepFrame, edge: &Edge, alive: &[(Sampled, u8)]) -> Vec<(Self, Vec<Sampled>)> {
         let split = self.split();
         let halves = [self.columns.halves(), self.rows.halves()];
         // Dexel lines of the fine grid; a direction that stays whole has its even ones alone.
@@ -253,7 +270,7 @@ impl Region<'_> {
         parts
     }
 
-    fn search(&self, frame: &Frame, edge: &Edge, places: &[Place], indices: &[u32], fine: &mut [Fine]) {
+    fn search(&self, frame: &SweepFrame, edge: &Edge, places: &[Place], indices: &[u32], fine: &mut [Fine]) {
         let lowest_mm = 2.0 * self.field.low_mm;
         Arch::new().dispatch(SampledRays { frame, edge, lowest_mm, field: self.field, places, indices, fine });
     }
