@@ -11,8 +11,8 @@
 //! the chunks but for the rounding of lengths.
 //!
 //! **Chips.** Volume and travel follow from what every pass took of every tile. The thickness needs both surfaces of a
-//! chip: the shader lists every piece of material with its ends, old and new, and the
-//! host measures between them by the native kernel's own code.
+//! chip: the shader lists every piece of material with its ends, old and new, and the host measures between them by the
+//! native kernel's own code.
 //!
 //! The road not taken: sections laid over the rays by the device. It would have to split curves where they turn back
 //! across the rays, in f32 and to the same bits for both parts, or lose the pairing of crossings on which the kernel
@@ -178,7 +178,7 @@ impl SliceVisits {
         visits
     }
 
-    /// Adds a pass where it may meet what is left, refused as natively.
+    /// Adds a pass where it may meet what is left, culled as natively.
     fn add(
         &mut self,
         grid: &BlankGrid,

@@ -52,7 +52,7 @@ use gearcut_core::error::Error;
 use gearcut_core::passes::sections::swept_sections::SweptSections;
 use gearcut_core::passes::{CutPlan, SweepPlan};
 use gearcut_core::tool::edge::Edge;
-use readback::{InFlight, Input, Launch, Returned, Shipment};
+use readback::{InFlight, Input, Returned, Shipment, StageLaunch};
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -204,7 +204,7 @@ impl Gpu {
         layer: &Layer,
     ) -> Result<(Layer, u64), GpuProblem> {
         self.device.alive()?;
-        let work = Work { gpu: self, field, edge, plan, layer, row_phases: padded_phases(&plan.row_phases) };
+        let work = CutInputs { gpu: self, field, edge, plan, layer, row_phases: padded_phases(&plan.row_phases) };
         let (rows, padded) = (field.rows(), batches::padded(field.rows()));
         let mut result = layer.clone();
         let mut unconverged = 0;
@@ -250,7 +250,7 @@ fn padded_columns<T: Copy>(values: &[T], rows: usize) -> Vec<T> {
 }
 
 /// One cut's inputs.
-struct Work<'a> {
+struct CutInputs<'a> {
     gpu: &'a Gpu,
     field: &'a Field,
     edge: &'a Edge,
@@ -259,7 +259,7 @@ struct Work<'a> {
     row_phases: Vec<f32>,
 }
 
-impl Work<'_> {
+impl CutInputs<'_> {
     fn send(&self, batch: &Batch) -> Result<InFlight, GpuProblem> {
         let Self { gpu, field, edge, plan, layer, row_phases } = self;
         let rows = field.rows();
@@ -278,10 +278,10 @@ impl Work<'_> {
         };
         let records: Vec<Vec<records::PassRecord>> = rounds.iter().map(Round::padded_records).collect();
         let shared = |label, bytes| Input::Shared { label, bytes, usage: wgpu::BufferUsages::STORAGE };
-        let launches: Vec<Launch> = rounds
+        let launches: Vec<StageLaunch> = rounds
             .iter()
             .zip(&records)
-            .map(|(round, records)| Launch {
+            .map(|(round, records)| StageLaunch {
                 pipeline: &gpu.planar_flank[round.variant()],
                 tiles: bytemuck::cast_slice(&round.tiles),
                 records: bytemuck::cast_slice(records),

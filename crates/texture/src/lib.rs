@@ -1,11 +1,11 @@
-//! Surface texture: areal parameters of ISO 25178-2, profile parameters of ISO 21920-2, and the files that
-//! instruments write surfaces to.
+//! Surface texture: areal parameters of ISO 25178-2, profile parameters of ISO 21920-2, and the files that instruments
+//! write surfaces to.
 //!
 //! A surface does not say what was cut or measured: a flank of a gear, a ground shaft or a lens mould. Heights and
 //! spacing are in um, angles in degrees.
 //!
-//! In: a [`Surface`], measured or cut, and a [`Chain`] of form removal, filters and crop. Out: [`Evaluation`], the
-//! full set with units, definitions and, where a value does not exist, the reason.
+//! In: a [`Surface`], measured or cut, and a [`Chain`] of form removal, filters and crop. Out: [`Evaluation`], the full
+//! set with units, definitions and, where a value does not exist, the reason.
 //!
 //! The modules, from the ground up; each uses only those above it in this list:
 //!
@@ -31,8 +31,8 @@
 //! # Example
 //!
 //! Waves of amplitude 0.5 um, 85 um long and oblique, on a tilted plane. The plane goes, waves shorter than 10 um and
-//! longer than 800 um go, half of an L-filter is left out at every side, and what is left has the numbers of a sine:
-//! Sa = 2 A / pi, Sk = 1.775 A. The S-filter lets the waves pass with 2^-(10/85)^2 = 0.990.
+//! longer than 800 um go, half of an L-filter is left out at every side, and what is left has the numbers of a sine: Sa
+//! = 2 A / pi, Sk = 1.775 A. The S-filter lets the waves pass with 2^-(10/85)^2 = 0.990.
 //!
 //! ```
 //! use gearcut_texture::{Arguments, Chain, Evaluation, Form, Surface};

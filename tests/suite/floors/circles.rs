@@ -1,8 +1,8 @@
 //! Circles among the files and folders of a crate.
 //!
 //! In: what modules import from each other. Out: a line for every circle among neighbours: files and folders that stand
-//! in the same folder. `x.rs` or `x/mod.rs` and the folder `x/` are one neighbour, named `x`: it imports what any file in
-//! it imports.
+//! in the same folder. `x.rs` or `x/mod.rs` and the folder `x/` are one neighbour, named `x`: it imports what any file
+//! in it imports.
 //!
 //! A head (`mod.rs`, or `x.rs` beside `x/`) and the files of its own folder are not counted against each other: a head
 //! declares and re-exports its children, and children use the types that it defines. What reaches a child through its

@@ -1,7 +1,7 @@
 //! The gear by itself: its pitch curve, and the blank before cutting.
 //!
-//! Comes from the checked scene, goes to the linkage, the target flanks and the fields. Frame: the gear frame, origin
-//! in the work axis, polar angle phi counter-clockwise, fixed to the work.
+//! In: shape, module and number of teeth from the checked scene. Out: what linkages, target flanks and fields build on.
+//! Frame: the gear frame, origin in the work axis, polar angle phi counter-clockwise, fixed to the work.
 
 pub mod blank;
 pub mod blank_outline;

@@ -40,8 +40,7 @@ pub enum SegmentName {
 /// Last step along a ray to an edge, mm.
 const ENTRY_MM: f64 = 1e-12;
 /// Newton steps along a ray to an edge at most: where it grazes the edge each halves what is missing, so that these
-/// bring
-/// ten millimetres down to a last bit.
+/// bring ten millimetres down to a last bit.
 const ENTRY_STEPS: u32 = 60;
 /// Fall of the residual along a ray below which the ray runs beside the edge and does not enter it.
 const LEAST_FALL: f64 = 1e-9;

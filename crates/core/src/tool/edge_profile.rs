@@ -1,7 +1,7 @@
 //! Profiles of segments as analytic functions: x over y, in the frame of the segment's chord.
 //!
-//! In: an involute, a straight line or any smooth curve of the blade. Out: x and slope at a y, from which the table of a
-//! segment is fitted ([`super::edge_table`]). Newton's method finds the parameter of the curve that belongs to a y.
+//! In: an involute, a straight line or any smooth curve of the blade. Out: x and slope at a y, from which the table of
+//! a segment is fitted ([`super::edge_table`]). Newton's method finds the parameter of the curve that belongs to a y.
 
 use super::involute::Involute;
 use crate::error::NotConverged;

@@ -71,8 +71,8 @@ pub(super) fn unreadable(path: &Path) -> impl FnOnce(String) -> Error {
     move |reason| Error::Unreadable { path, reason: text::reason(&reason) }
 }
 
-/// `value` made of the number `raw` of a file: a number too large for f64 stays a number, which is refused as a
-/// height, where infinity would pass as a hole.
+/// `value` made of the number `raw` of a file: a number too large for f64 stays a number, which is refused as a height,
+/// where infinity would pass as a hole.
 pub(super) fn kept_number(raw: f64, value: f64) -> f64 {
     if raw.is_finite() { value.clamp(f64::MIN, f64::MAX) } else { value }
 }

@@ -1,7 +1,7 @@
 //! SDF ASCII (ISO 25178-71): header lines `Name = value`, a star, heights, a star, trailer, a star.
 //!
-//! Heights are written in um (`Zscale` 1e-6) with the fewest digits that read back the same, one line per row; holes
-//! as `NaN`, which every reader that was tried takes, where `BAD` fails in one. Read: both.
+//! Heights are written in um (`Zscale` 1e-6) with the fewest digits that read back the same, one line per row; holes as
+//! `NaN`, which every reader that was tried takes, where `BAD` fails in one. Read: both.
 
 use std::fmt::Write as _;
 
@@ -18,9 +18,9 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
         return Err(format!("an SDF file holds at most 65535 points a side, not {}", nx.max(ny)));
     }
     let mut text = format!(
-        "aISO-1.0\nManufacID = {MAKER}\nCreateDate = {UNKNOWN_DATE}\nModDate = {UNKNOWN_DATE}\nNumPoints = \
-        {nx}\nNumProfiles = {ny}\n\
-         Xscale = {:e}\nYscale = {:e}\nZscale = 1e-6\nZresolution = -1\nCompression = 0\nDataType = 7\nCheckType = 0\n*\n",
+        "aISO-1.0\nManufacID = {MAKER}\nCreateDate = {UNKNOWN_DATE}\nModDate = {UNKNOWN_DATE}\n\
+         NumPoints = {nx}\nNumProfiles = {ny}\nXscale = {:e}\nYscale = {:e}\nZscale = 1e-6\n\
+         Zresolution = -1\nCompression = 0\nDataType = 7\nCheckType = 0\n*\n",
         surface.dx_um() * 1e-6,
         surface.dy_um() * 1e-6
     );

@@ -175,6 +175,7 @@ impl MateLaw {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gear::PitchCurveShape;
 
     fn sinusoidal(order: u32) -> PitchCurveShape {
         PitchCurveShape::SinusoidalRatio { order, mean_ratio: 1.2, ratio_amplitude: 0.2, center_distance_mm: None }

@@ -1,7 +1,6 @@
 //! Heights of passes at sample rays of a tile, and which passes others surely undercut.
 //!
-//! In: samples of every pass that the bounds could decide ([`super::bounds`]). Out: those that no other pass
-//! dominates.
+//! In: samples of every pass that the bounds could decide ([`super::bounds`]). Out: those that no other pass dominates.
 
 use super::near::MAX_PHASES;
 use crate::dexel::field::Column;
@@ -24,7 +23,7 @@ pub struct Sampling<'a> {
 
 /// Heights of one segment's pass at the sample rays of a tile.
 #[derive(Debug, Clone)]
-pub struct Samples {
+pub struct PassSamples {
     /// Index of the near pass.
     pub pass: usize,
     /// Segment of the blade.
@@ -41,7 +40,7 @@ pub struct Samples {
 ///
 /// A difference of two bilinear functions is extreme at corners, so comparing there, with both errors added, decides
 /// for the whole cell.
-pub fn undominated(samples: Vec<Samples>, cells: usize) -> Vec<Samples> {
+pub fn undominated(samples: Vec<PassSamples>, cells: usize) -> Vec<PassSamples> {
     let Some(any) = samples.first() else { return samples };
     let per_place = any.heights_mm.len() / (cells + 1);
     let corners = |cell: usize| cell * per_place..(cell + 2) * per_place;
@@ -61,7 +60,7 @@ pub fn undominated(samples: Vec<Samples>, cells: usize) -> Vec<Samples> {
             lowest
         })
         .collect();
-    let dominates = |other: &Samples, k: &Samples, cell: usize| {
+    let dominates = |other: &PassSamples, k: &PassSamples, cell: usize| {
         corners(cell).all(|c| k.heights_mm[c] - other.heights_mm[c] > k.error_mm + other.error_mm)
     };
     let keep: Vec<bool> = samples

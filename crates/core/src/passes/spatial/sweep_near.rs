@@ -1,38 +1,39 @@
 //! Passes whose blades come near a region of the work at all: the first look, in a few poses of the work.
 //!
-//! In: the passes of an operation, a place and a reach. Out: the passes that planning begins with, with candidates
-//! and with brute force alike; so the comparison with all passes says nothing about the numbers here.
+//! In: the passes of an operation, a place and a reach. Out: the passes that planning begins with. [`near_passes`]
+//! serves candidates and brute force alike, so that the comparison of both says nothing about its numbers: they rest on
+//! their derivations, and on the patches of an independent solver that `tests/suite/hobbing/spatial.rs` compares with.
+//! [`passes_beside`] serves candidates alone; that comparison stands for its numbers.
 
 use super::turning_passes::{BladePass, TurningPasses};
 use crate::tool::edge::Edge;
 use glam::DVec3;
 
-/// What profiles and paths bend between the places that are looked at, along the tool's axis, mm.
+/// What profiles and paths bend between the places that are looked at, along the tool's axis, mm. Found by trial, no
+/// proof; candidates are compared with all passes in `tests/suite/hobbing/spatial.rs`.
 const AXIAL_MARGIN_MM: f64 = 1.0;
-/// While a blade sweeps through the work, a point of it moves in the head by at most this, mm: rolling moves the pitch
-/// curve
-/// by half of module x starts per radian of the tool, so that over 60 degrees this holds up to module x starts = 38 mm.
-/// Planning with all passes begins with the same ones: the bound rests on this derivation alone.
+/// While a blade sweeps through the work, a point of it moves in the head by at most this, mm. Rolling moves the pitch
+/// curve by half of module x starts per radian of the tool. Over a sweep's 60 degrees to either side that is 0.52 x
+/// module x starts: the bound holds up to module x starts = 38 mm.
 const ROLLED_MM: f64 = 20.0;
-/// What is within reach turns in the head meanwhile: it comes nearer to the tool by at most this share of the reach. A
-/// gear
-/// with z teeth per start turns by 1.05 / z rad in 60 degrees of the tool: the share holds from six teeth per start on.
+/// What is within reach turns in the head meanwhile, and comes nearer to the tool by at most this share of the reach. A
+/// gear with z teeth per start turns by 1.05 / z rad in 60 degrees of the tool, and a point at distance d from the
+/// place moves by d times this angle at most: the bound holds from six teeth per start on.
 const TURNED_SHARE: f64 = 0.2;
-/// Share of the reach, and length in mm, that a pass may be further away than the reach when it is looked at in one
-/// pose.
-/// Found by trial; the bound is kept wide, as planning with all passes begins with the same ones.
+/// A pass looked at in one pose may be further away than the reach by a tenth of it and [`NEAR_MM`]: what is within
+/// reach turns by some per cent during the sweep. Found by trial and kept wide; no proof.
 const NEAR_SHARE: f64 = 1.1;
+/// The same as a length, mm.
 const NEAR_MM: f64 = 1.0;
-/// A region that holds the tool's axis is seen from this share of the tip's radius: it limits the angle at which a
-/// blade meets
-/// it to four times what is within reach of the tip. Found by trial.
+/// A region that holds the tool's axis is seen from this share of the tip's radius. The angle at which a blade meets it
+/// is taken as reach / distance and is so limited to four times what is within reach of the tip. Found by trial; no
+/// proof.
 const LEAST_DISTANCE: f64 = 0.25;
 
 /// Passes whose blade comes within `reach_mm` of a place of the work, in time order.
 ///
-/// While the rake face goes through the neighbourhood the place itself moves in the head, and with it everything within
-/// reach turns a little: some per cent of the sweep. The bound takes a tenth of the reach for that, and a millimetre
-/// more.
+/// While the rake face goes through the neighbourhood the place itself moves in the head, and everything within reach
+/// turns with it a little. The first look takes both by their bounds, the second one by what three poses show.
 pub fn near_passes(set: &TurningPasses, edge: &Edge, center_mm: DVec3, reach_mm: f64) -> Vec<BladePass> {
     let margin_mm = NEAR_SHARE * reach_mm + NEAR_MM;
     let y_reach_mm = edge.center_mm.y.abs() + edge.reach_mm;

@@ -1,10 +1,11 @@
 //! Tiles of a spatial field and the sweeps that can leave the lowest surface on them.
 //!
 //! A field is halved in both directions again and again, down to tiles of 16 by 32 dexels and then to their cells of 4
-//! by 8; at every level the sweeps that the level above has kept for the region are sampled on nine rays, and those go
-//! that another one surely undercuts (see `sweep_samples`, `sweep_bounds`). The search begins with the passes whose
-//! blades pass the field in its place along the tool's axis. On S2's gear these are some thousands of 84,800; a
-//! sixteenth of the flank keeps some hundreds, a tile half a dozen, a cell between one and two.
+//! by 8. At every level the sweeps that the level above has kept for the region are sampled on nine rays, and those
+//! that another one surely undercuts are culled (see `sweep_samples`, `sweep_bounds`). The search begins with the
+//! passes whose blades pass the field in its place along the tool's axis (`sweep_near`). On a third-order gear of 50 mm
+//! face these are some thousands of 84,800; a sixteenth of the flank keeps some hundreds, a tile half a dozen, a cell
+//! between one and two.
 //!
 //! Equality with brute force over all passes is tested bit for bit.
 
@@ -12,7 +13,7 @@ use super::sweep::SweepRecord;
 use super::sweep_bounds::RegionBounds;
 use super::sweep_near::{near_passes, passes_beside};
 use super::sweep_regions::{RAYS, Region, SIDE};
-use super::sweep_samples::{Candidate, Sampled, SweepFrame};
+use super::sweep_samples::{Sampled, SweepCandidate, SweepFrame};
 use super::sweep_starts::find_starts;
 use super::sweep_tile::{CELLS, SweepTile};
 use super::turning_passes::TurningPasses;
@@ -23,11 +24,13 @@ use std::ops::Range;
 
 /// All cells of a tile.
 const ALL_CELLS: u16 = u16::MAX;
-/// Surroundings reach this much further than the ends of nine rays, for what bulges between them. Found by trial;
-/// proved by
-/// comparison with all passes in `tests/suite/hobbing/spatial.rs`.
+/// Surroundings reach this much further than the ends of nine rays, for what bulges between them: a surface of radius
+/// rho bulges by a / (2 rho) of the reach over a region that reaches a, so that 5 % holds up to a = rho / 10. For
+/// larger regions it was found by trial; the comparison with all passes in `tests/suite/hobbing/spatial.rs` stands for
+/// it.
 const BULGE: f64 = 1.05;
-/// A region whose surroundings are smaller than this share of its frame's gets a frame of its own.
+/// A region whose surroundings are smaller than this share of its frame's gets a frame of its own. It decides about
+/// time alone: a frame holds for all that is within its reach.
 const NEW_FRAME: f64 = 0.7;
 
 /// Everything a backend needs to run one operation over one field.
@@ -45,7 +48,7 @@ impl SweepPlan {
         SweepPlanner { field, set, edge, prune: true }.plan()
     }
 
-    /// Plan with every segment of every pass that can reach the field at all: what candidates are proved against.
+    /// Plan with every segment of every pass that can reach the field at all: what candidates are compared with.
     pub fn brute_force(field: &SpatialField, set: &TurningPasses, edge: &Edge) -> Self {
         SweepPlanner { field, set, edge, prune: false }.plan()
     }
@@ -91,11 +94,11 @@ impl SweepPlanner<'_> {
             let points_mm = self.ends_mm(&whole.dexels(), origin_mm);
             near.retain(|pass| passes_beside(self.set, self.edge, pass, &points_mm, reach_mm));
         }
-        let near: Vec<Candidate> = near
+        let near: Vec<SweepCandidate> = near
             .into_iter()
             .flat_map(|pass| self.set.stretches(&pass).map(move |stretch| (pass, stretch)))
             .flat_map(|(pass, stretch)| {
-                (0..self.edge.segments.len()).map(move |segment| Candidate { pass, stretch, segment })
+                (0..self.edge.segments.len()).map(move |segment| SweepCandidate { pass, stretch, segment })
             })
             .collect();
         if self.prune {
@@ -135,7 +138,7 @@ impl SweepPlanner<'_> {
                 self.halve(&part, frame, &sampled, upper_bound_mm, plan);
                 continue;
             }
-            let candidates: Vec<Candidate> = sampled.iter().map(|s| frame.candidates[s.index as usize]).collect();
+            let candidates: Vec<SweepCandidate> = sampled.iter().map(|s| frame.candidates[s.index as usize]).collect();
             let (frame, index_of) = self.frame(origin_mm, reach_mm, &candidates);
             let mut places = index_of.into_iter();
             sampled.retain_mut(|s| {
@@ -174,7 +177,7 @@ impl SweepPlanner<'_> {
         RegionBounds { field: self.field, segments: &self.edge.segments, region, frame }
     }
 
-    fn frame(&self, origin_mm: DVec3, reach_mm: f64, candidates: &[Candidate]) -> (SweepFrame, Vec<Option<u32>>) {
+    fn frame(&self, origin_mm: DVec3, reach_mm: f64, candidates: &[SweepCandidate]) -> (SweepFrame, Vec<Option<u32>>) {
         SweepFrame::new(self.set, self.edge, origin_mm, reach_mm, candidates)
     }
 
@@ -203,12 +206,19 @@ impl SweepPlanner<'_> {
             }
         }
         kept.sort_unstable();
-        let candidates: Vec<Candidate> = kept.iter().map(|&index| frame.candidates[index as usize]).collect();
+        let candidates: Vec<SweepCandidate> = kept.iter().map(|&index| frame.candidates[index as usize]).collect();
         let cells: Vec<u16> = kept.iter().map(|&index| cells[index as usize]).collect();
         self.tile(region.columns.dexels(), region.rows.dexels(), &candidates, &cells, plan);
     }
 
-    fn tile(&self, columns: Range<usize>, rows: Range<usize>, kept: &[Candidate], cells: &[u16], plan: &mut SweepPlan) {
+    fn tile(
+        &self,
+        columns: Range<usize>,
+        rows: Range<usize>,
+        kept: &[SweepCandidate],
+        cells: &[u16],
+        plan: &mut SweepPlan,
+    ) {
         let dexels = {
             let lines =
                 |range: &Range<usize>| [range.start, usize::midpoint(range.start, range.end - 1), range.end - 1];

@@ -21,19 +21,22 @@ use pulp::Arch;
 
 /// Rays along each side of a region with its parts.
 const FINE: usize = 2 * SIDE - 1;
-/// Rays steeper than this against an edge's normal (cosine) prove nothing.
+/// Rays steeper than this against an edge's normal (cosine) prove nothing. A larger value is safe: candidates that such
+/// a ray meets are undecided, and kept unless their box stays clear of the rays.
 const GRAZING_COSINE: f64 = 0.1;
-/// Rays that run out of a segment at more than this cosine do not enter it.
+/// A candidate goes where all nine rays run out of its segment at more than this cosine. Between the rays the cosine
+/// changes by less, on regions of the sizes in use; no proof. The comparison with all passes in
+/// `tests/suite/hobbing/spatial.rs` stands for it.
 const LEAVING_COSINE: f64 = 0.05;
 /// Newton steps below this, in mm and in t, are the last: the error after them, of the order of their squares, is some
 /// picometres.
 pub(super) const LAST_STEP: f64 = 1e-5;
-/// No root further away is one, mm.
+/// No root further away is one, mm: what a ray of a flank may keep is some millimetres long.
 const FARTHEST_MM: f64 = 1e3;
 
 /// A blade's sweep by one of its segments, as far as one stretch of the motion goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Candidate {
+pub struct SweepCandidate {
     /// The pass.
     pub pass: BladePass,
     /// Stretch of the motion.
@@ -42,7 +45,7 @@ pub struct Candidate {
     pub segment: usize,
 }
 
-impl Candidate {
+impl SweepCandidate {
     /// Pass and stretch: one smooth sweep.
     pub fn sweep(&self) -> (u32, u32) {
         (self.pass.pass, self.stretch)
@@ -56,7 +59,7 @@ pub struct SweepFrame {
     /// Nothing that is looked at is further from it, mm.
     pub reach_mm: f64,
     /// What the records are.
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<SweepCandidate>,
     /// Records.
     pub records: Vec<SweepRecord>,
 }
@@ -69,7 +72,7 @@ impl SweepFrame {
         edge: &Edge,
         origin_mm: DVec3,
         reach_mm: f64,
-        candidates: &[Candidate],
+        candidates: &[SweepCandidate],
     ) -> (Self, Vec<Option<u32>>) {
         let mut frame = Self { origin_mm, reach_mm, candidates: Vec::new(), records: Vec::new() };
         let mut index_of = Vec::with_capacity(candidates.len());
@@ -140,7 +143,7 @@ impl Fine {
 
 /// A ray to be searched.
 #[derive(Clone, Copy)]
-struct Place {
+struct SearchedRay {
     /// On the fine grid.
     fine: usize,
     /// In the field.
@@ -155,7 +158,7 @@ struct SampledRays<'a> {
     edge: &'a Edge,
     lowest_mm: f64,
     field: &'a SpatialField,
-    places: &'a [Place],
+    places: &'a [SearchedRay],
     indices: &'a [u32],
     fine: &'a mut [Fine],
 }
@@ -167,7 +170,7 @@ impl pulp::NullaryFnOnce for SampledRays<'_> {
     fn call(self) {
         for places in self.places.chunks(LANES) {
             // Lanes beyond the last place repeat it.
-            let lane: [Place; LANES] = std::array::from_fn(|l| places[l.min(places.len() - 1)]);
+            let lane: [SearchedRay; LANES] = std::array::from_fn(|l| places[l.min(places.len() - 1)]);
             let rays = Rays::new(self.field, self.frame.origin_mm, lane.map(|place| place.dexel));
             for (&index, fine) in self.indices.iter().zip(self.fine.iter_mut()) {
                 let record = &self.frame.records[index as usize];
@@ -206,10 +209,10 @@ impl Region<'_> {
     pub fn sample(&self, frame: &SweepFrame, edge: &Edge) -> Vec<Sampled> {
         let even = [0, 2, 4];
         let dexels = self.dexels();
-        let places: Vec<Place> = (0..RAYS)
+        let places: Vec<SearchedRay> = (0..RAYS)
             .map(|ray| {
                 let fine = even[ray / SIDE] * FINE + even[ray % SIDE];
-                Place { fine, dexel: dexels[ray], neighbours: [fine; 4] }
+                SearchedRay { fine, dexel: dexels[ray], neighbours: [fine; 4] }
             })
             .collect();
         let indices: Vec<u32> = (0..frame.records.len() as u32).collect();
@@ -242,7 +245,7 @@ impl Region<'_> {
                     let ([left, right], [below, above]) = ([i - i % 2, i + i % 2], [j - j % 2, j + j % 2]);
                     let neighbours = [(left, below), (left, above), (right, below), (right, above)];
                     let neighbours = neighbours.map(|(i, j)| i * FINE + j);
-                    places.push(Place { fine: i * FINE + j, dexel: self.field.index(*column, *row), neighbours });
+                    places.push(SearchedRay { fine: i * FINE + j, dexel: self.field.index(*column, *row), neighbours });
                 }
             }
         }
@@ -270,7 +273,7 @@ impl Region<'_> {
         parts
     }
 
-    fn search(&self, frame: &SweepFrame, edge: &Edge, places: &[Place], indices: &[u32], fine: &mut [Fine]) {
+    fn search(&self, frame: &SweepFrame, edge: &Edge, places: &[SearchedRay], indices: &[u32], fine: &mut [Fine]) {
         let lowest_mm = 2.0 * self.field.low_mm;
         Arch::new().dispatch(SampledRays { frame, edge, lowest_mm, field: self.field, places, indices, fine });
     }
