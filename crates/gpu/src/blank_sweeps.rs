@@ -171,8 +171,8 @@ impl SliceVisits {
             if sections.culls() && !memory.band.set(sections, pass, [leads_mm[0], leads_mm[leads_mm.len() - 1]]) {
                 continue;
             }
-            for ((visits, &lead_mm), left) in visits.iter_mut().zip(leads_mm).zip(&left) {
-                visits.add(grid, sections, pass, lead_mm, left, &mut memory);
+            for ((visits, &z_mm), left) in visits.iter_mut().zip(leads_mm).zip(&left) {
+                visits.add(grid, sections, pass, z_mm, left, &mut memory);
             }
         }
         visits
@@ -184,14 +184,14 @@ impl SliceVisits {
         grid: &BlankGrid,
         sections: &SweptSections,
         pass: usize,
-        lead_mm: f64,
+        z_mm: f64,
         left: &[SpanTable; 2],
         memory: &mut Memory,
     ) {
         let Memory { band, section, outline, reach, crossings, near } = memory;
         let mut followed = false;
         if sections.culls() {
-            match band.bounds(sections, lead_mm, outline, section) {
+            match band.bounds(sections, z_mm, outline, section) {
                 InSlice::Nowhere => return,
                 InSlice::Within => {}
                 InSlice::Followed => followed = true,
@@ -211,7 +211,7 @@ impl SliceVisits {
                 }
             }
         }
-        if near.iter().all(Vec::is_empty) || (!followed && !sections.section(pass, lead_mm, section)) {
+        if near.iter().all(Vec::is_empty) || (!followed && !sections.section(pass, z_mm, section)) {
             return;
         }
         let mut visiting = false;
