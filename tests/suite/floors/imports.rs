@@ -115,9 +115,9 @@ fn string_end(text: &str) -> Option<usize> {
         let start = 2 + hashes;
         return text[start..].find(&close).map(|end| start + end + close.len());
     }
-    if text.starts_with('"') {
+    if let Some(inside) = text.strip_prefix('"') {
         let mut escaped = false;
-        return text[1..].char_indices().find_map(|(at, c)| {
+        return inside.char_indices().find_map(|(at, c)| {
             let ends = c == '"' && !escaped;
             escaped = c == '\\' && !escaped;
             ends.then_some(at + 2)
