@@ -19,12 +19,12 @@ pub struct SweepTile {
     pub rows: Range<usize>,
     /// Origin of the tile's frame, gear frame, mm; axes are parallel to the gear's.
     pub origin_mm: DVec3,
-    /// Records in [`SweepPlan::records`], in order of pass id.
+    /// Records in [`super::sweep_plan::SweepPlan::records`], in order of pass id.
     pub records: Range<usize>,
 }
 
 impl SweepTile {
-    /// Cell of a dexel: bit of [`SweepRecord::cells`].
+    /// Cell of a dexel: bit of [`super::sweep::SweepRecord::cells`].
     pub fn cell(&self, column: usize, row: usize) -> usize {
         let (columns, rows) = (TILE_COLUMNS / CELLS, TILE_ROWS / CELLS);
         CELLS * ((column - self.columns.start) / columns) + (row - self.rows.start) / rows
