@@ -20,7 +20,7 @@ use crate::output::text::{Sheet, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::{self, AXES};
-use crate::scene::model::{HobbingKind, ShiftDirection, ShiftStrategy};
+use crate::process::hobbing::scene::model::{HobbingKind, ShiftDirection, ShiftStrategy};
 use crate::steps::axes::{self, AxesOfOperation, Named, NamedChart, PeakWords, STEADY};
 use crate::units::UM_PER_MM;
 use std::path::Path;

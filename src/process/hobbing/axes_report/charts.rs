@@ -10,7 +10,7 @@ use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::{self, AXES};
 use crate::process::hobbing::measure::engagement::Engagement;
-use crate::scene::model::HobbingKind;
+use crate::process::hobbing::scene::model::HobbingKind;
 use crate::steps::axes::NamedChart;
 use crate::steps::axes::charts::{Abscissa, chart, panel, panels};
 use crate::units::TURN_RAD;

@@ -4,7 +4,7 @@ use super::HobbingAxesReport;
 use crate::output::progress::duration_text;
 use crate::output::text::{Sheet, plain, significant};
 use crate::process::hobbing::job::PreparedHobbing;
-use crate::scene::model::HobbingKind;
+use crate::process::hobbing::scene::model::HobbingKind;
 use crate::steps::axes::AxesOfOperation;
 use crate::units::{TURN_RAD, UM_PER_MM};
 

@@ -6,7 +6,7 @@ use crate::output::text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::AXES;
-use crate::scene::model::HobbingKind;
+use crate::process::hobbing::scene::model::HobbingKind;
 use crate::units::UM_PER_MM;
 
 /// The text of a program, with everything in its head that the man at the machine must know.

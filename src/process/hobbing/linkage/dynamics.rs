@@ -7,7 +7,7 @@
 use super::{HobbingAxes, HobbingLinkage};
 use crate::machine::{Axis, AxisMotion, Kind, Limits, Motion, Piece};
 use crate::math::Jet;
-use crate::scene::model::HobbingAxisLimits;
+use crate::process::hobbing::scene::model::HobbingAxisLimits;
 
 /// Stretches with the same feeds are searched once; so many different ones are looked at.
 const MOST_STRETCHES: usize = 64;

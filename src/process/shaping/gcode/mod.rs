@@ -27,8 +27,9 @@ pub mod write;
 pub use program::{AxisProgram, Knot};
 
 use crate::output::text::{plain, significant};
+use crate::process::shaping::scene::model::{Linkage, NormalReading};
 use crate::process::shaping::{Job, PreparedOperation};
-use crate::scene::model::{GcodeDialect, Linkage, NormalReading};
+use crate::scene::model::GcodeDialect;
 use crate::units::UM_PER_MM;
 
 /// The program of an operation; an error is the reason why there is none, `None`: none is wanted.

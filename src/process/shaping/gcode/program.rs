@@ -3,7 +3,7 @@
 use crate::gcode::{Digits, beyond_limits, longest_lines};
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
-use crate::scene::model::AxisLimits;
+use crate::process::shaping::scene::model::AxisLimits;
 use glam::DVec2;
 use std::f64::consts::PI;
 

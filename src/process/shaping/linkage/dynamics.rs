@@ -11,7 +11,7 @@
 use super::axes::Axes;
 use super::schedule::StrokeSchedule;
 use crate::machine::{Axis, AxisMotion, Kind, Limits, Motion, Piece};
-use crate::scene::model::AxisLimits;
+use crate::process::shaping::scene::model::AxisLimits;
 
 /// The axes: work angle psi_c, cutter angle psi_b, centre distance l.
 pub const AXES: [Axis; 3] = [

@@ -4,7 +4,7 @@ use crate::output::report::Section;
 use crate::output::text::plain;
 use crate::process::shaping::Job;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
-use crate::scene::model::Tip;
+use crate::process::shaping::scene::model::Tip;
 use crate::steps::report::facts::{gear_table, mm, speed_limits, table};
 use crate::units::UM_PER_MM;
 

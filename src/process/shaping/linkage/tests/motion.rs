@@ -6,7 +6,7 @@ use super::super::dynamics::limits;
 use super::super::relief::{ReliefFlank, ReliefVerdict, relief_ratio, smallest_relief};
 use super::*;
 use crate::machine::{Motion as _, Order, peaks};
-use crate::scene::model::{Infeed, StrokeSpacing};
+use crate::process::shaping::scene::model::{Infeed, StrokeSpacing};
 
 #[test]
 fn motions_match_differences_and_peaks_bound_them() {
