@@ -27,7 +27,7 @@ const WORDS: PeakWords = PeakWords {
 };
 
 impl AxesOfOperation for Made {
-    fn name(&self) -> &str {
+    fn name(&self) -> &'static str {
         "finish"
     }
 
