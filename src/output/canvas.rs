@@ -181,12 +181,15 @@ mod tests {
             let (low, high) = (places.iter().min().expect("ink"), places.iter().max().expect("ink"));
             0.5 * (low + high) as f64
         };
+        let off = |raster: &Raster, column, row| [middle(raster, column) - 30.0, middle(raster, row) - 20.0];
         let (column, row): (fn(usize) -> usize, fn(usize) -> usize) = (|i| i % 60, |i| i / 60);
         let mut raster = white();
         Canvas(&mut raster).text("HIH", (30.0, 20.0), 15.0, Side::Middle).expect("the embedded font");
-        assert!((middle(&raster, column) - 30.0).abs() <= 1.0 && (middle(&raster, row) - 20.0).abs() <= 1.0);
+        let distance_px = off(&raster, column, row);
+        assert!(distance_px.iter().all(|distance| distance.abs() <= 1.0), "{distance_px:?}");
         let mut raster = white();
         Canvas(&mut raster).text_upward("HIH", (30.0, 20.0), 15.0, Side::Middle).expect("the embedded font");
-        assert!((middle(&raster, column) - 30.0).abs() <= 1.0 && (middle(&raster, row) - 20.0).abs() <= 1.0);
+        let distance_px = off(&raster, column, row);
+        assert!(distance_px.iter().all(|distance| distance.abs() <= 1.0), "{distance_px:?}");
     }
 }

@@ -81,6 +81,7 @@ fn texture_window(window: &findings::Section, folder: &OutputFolder) -> Result<T
             .collect(),
         sk,
     });
+    let material_ratio = material_ratio.filter(|chart| chart.curve.len() > 1);
     Ok(TextureWindow {
         title: format!(
             "Tooth {}, {} flank: {} × {} mm about u {}, v {} mm",
