@@ -107,7 +107,9 @@ impl Figure<'_> {
                     div class="panel" {
                         div class="panel-head" {
                             span class="panel-name" { (plot.name.html()) }
-                            ul class="legend" { @for entry in &plot.legend { li { (entry.sample.html()) (entry.words) } } }
+                            ul class="legend" {
+                                @for entry in &plot.legend { li { (entry.sample.html()) (entry.words) } }
+                            }
                         }
                         (drawing(plot.size_px, &format!("{}: {}", self.title, plot.name.words), &plot.drawing))
                     }

@@ -2,9 +2,9 @@
 //!
 //! In: words and a size. Out: their width, and how much of which pixels they cover.
 //!
-//! The law: letters follow each other by their advances and kerning, each set to whole pixels . So a letter's pixels depend on the letter and the size alone, and can be kept:
-//! a run draws some hundred letters a hundred thousand times. Every thread keeps its own, so that none waits for
-//! another.
+//! The law: letters follow each other by their advances and kerning, each set to whole pixels and beginning with its
+//! ink, without its left bearing. So a letter's pixels depend on the letter and the size alone, and can be kept: a run
+//! draws some hundred letters a hundred thousand times. Every thread keeps its own, so that none waits for another.
 //!
 //! Road not taken: whole texts kept. Most titles and values are drawn once; it is their letters that come again.
 

@@ -1,5 +1,5 @@
-//! The material ratio curve with the construction of Sk on it: the equivalent line, Sk between its ends, and the triangles
-//! whose areas are those of peaks and valleys.
+//! The material ratio curve with the construction of Sk on it: the equivalent line, Sk between its ends, and the
+//! triangles whose areas are those of peaks and valleys.
 //!
 //! In: the curve and the numbers of its core as ISO 25178-2 defines them. Out: the chart, on a page or as an SVG file.
 
@@ -8,7 +8,7 @@ use std::path::Path;
 use maud::{Markup, html};
 
 use crate::Result;
-use crate::output::axis::{round_range, value_text};
+use crate::output::axis::{number_text, round_range};
 use crate::output::figure::{Entry, Figure, Name, Plot, Sample};
 use crate::output::plot::{Frame, LABELS_PX, path, px};
 
@@ -47,8 +47,8 @@ impl SkConstruction {
     }
 
     fn legend(&self) -> Vec<Entry> {
-        let um = |value: f64| format!("{} µm", value_text(value));
-        let percent = |value: f64| format!("{value:.1} %");
+        let um = |value: f64| format!("{} µm", number_text(value, 4));
+        let percent = |value: f64| format!("{value:.2} %");
         let sk = um(self.line_um[0] - self.line_um[1]);
         vec![
             Entry { sample: Sample::Line(1), words: format!("equivalent line, Sk {sk}, 40 % window thick") },

@@ -1,7 +1,7 @@
 //! A chart as a file of its own: one SVG that browsers, drawing programs and office programs open.
 //!
-//! In: a [`Figure`]. Out: its title, names, legends and plots in one drawing, what it shows in words for screen readers,
-//! the rules of its classes, and a white ground.
+//! In: a [`Figure`]. Out: its title, names, legends and plots in one drawing, what it shows in words for screen
+//! readers, the rules of its classes, and a white ground.
 //!
 //! The law: nothing is left to the viewer but the letters. Variables of style sheets, which most programs do not know,
 //! are replaced by the light colours of the report; rules name single classes or elements. Places of words come from
@@ -139,7 +139,9 @@ impl<'a> Head<'a> {
                         Item::Name(words) => text x=(px(x)) y=(baseline) font-size=(EM_PX) { (words) },
                         Item::Entry(entry) => {
                             (entry.sample.svg(x, y))
-                            text class="tick" x=(px(x + SAMPLE_PX + 7.0)) y=(baseline) font-size=(EM_PX) { (entry.words) }
+                            text class="tick" x=(px(x + SAMPLE_PX + 7.0)) y=(baseline) font-size=(EM_PX) {
+                                (entry.words)
+                            }
                         }
                     }
                 }
