@@ -2,7 +2,7 @@
 //!
 //! In: a [`Page`], plain data: headings, numbers, tables, charts, maps, meshes. Out: one file that holds everything:
 //! style sheet, scripts, the 3D library (three.js, `assets/three/`), maps and triangles ([`viewer`]), SVG charts
-//! ([`plot`], [`traces`], [`texture`]).
+//! ([`BarChart`] and its like, [`traces`], [`texture`]).
 //!
 //! The rules:
 //! - Text from a scene is text. Markup is made by maud, which escapes whatever is put into it; JSON escapes every `<`;
@@ -14,7 +14,6 @@
 //! Road not taken: charts drawn by a script library from JSON. They would move under the mouse, but not exist on paper,
 //! and tie the page to another library.
 
-pub mod plot;
 pub mod texture;
 pub mod traces;
 pub mod viewer;
@@ -23,7 +22,7 @@ use std::path::Path;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use maud::{DOCTYPE, Markup, html};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use crate::Result;
@@ -31,7 +30,7 @@ use crate::findings::Place;
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
-use crate::output::report::plot::RangeChart;
+use crate::output::range_chart::RangeChart;
 use crate::output::report::texture::TextureWindow;
 use crate::output::report::traces::TraceSheet;
 use crate::output::report::viewer::Viewer;
@@ -39,7 +38,8 @@ use crate::output::report::viewer::Viewer;
 /// Name of the file in an output folder.
 pub const REPORT_FILE: &str = "report.html";
 
-const STYLE: &str = include_str!("../../assets/report/page.css");
+const STYLE: &str =
+    concat!(include_str!("../../assets/report/page.css"), include_str!("../../assets/report/chart.css"));
 const THREE: &str = include_str!("../../assets/three/three.min.js");
 /// The page's own scripts, in order: data and colours, maps and picker, the gear.
 const SCRIPTS: [&str; 3] = [
@@ -166,7 +166,7 @@ impl Page {
                     meta name="color-scheme" content="light dark";
                     meta name="generator" content=(self.program);
                     title { (self.title) " – gearcut report" }
-                    style { (plot::own(STYLE)) }
+                    style { (PreEscaped(STYLE)) }
                 }
                 body {
                     a class="skip" href="#key-numbers" { "Skip to the numbers" }
@@ -184,9 +184,9 @@ impl Page {
                     footer { "Written by " (self.program) ". Every number with its unit and definition: results.json \
                         beside this file." }
                     @if let Some(packed) = packed {
-                        script type="application/json" id="viewer-description" { (plot::own(inert_json(&packed.description))) }
-                        script type="text/plain" id="viewer-block" { (plot::own(packed.block)) }
-                        @for script in scripts { script { (plot::own(script)) } }
+                        script type="application/json" id="viewer-description" { (PreEscaped(inert_json(&packed.description))) }
+                        script type="text/plain" id="viewer-block" { (PreEscaped(packed.block)) }
+                        @for script in scripts { script { (PreEscaped(script)) } }
                     }
                 }
             }
@@ -272,9 +272,9 @@ impl Block {
         match self {
             Self::Heading(words) => html! { h3 { (words) } },
             Self::Note(words) => html! { p class="note" { (words) } },
-            Self::Lines(chart) => plot::lines(chart),
-            Self::Bars(chart) => plot::bars(chart),
-            Self::Ranges(chart) => plot::ranges(chart),
+            Self::Lines(chart) => chart.figure().html(),
+            Self::Bars(chart) => chart.figure().html(),
+            Self::Ranges(chart) => chart.figure().html(),
             Self::Traces(sheets) => traces::sheets(sheets),
             Self::Table(table) => table.markup(),
             Self::Texture(window) => texture::window(window),

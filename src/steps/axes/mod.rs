@@ -92,7 +92,6 @@ pub fn write(operation: &impl AxesOfOperation, folder: &OutputFolder) -> Result<
     let name = operation.name();
     operation.write_table(&folder.path(format!("axes/{name}.csv"))?)?;
     for (what, chart) in operation.charts() {
-        chart.write_png(&folder.path(format!("axes/{name}_{what}.png"))?)?;
         chart.write_svg(&folder.path(format!("axes/{name}_{what}.svg"))?)?;
     }
     Ok(())
@@ -134,7 +133,6 @@ pub fn command<O: AxesOfOperation>(
         write(operation, folder)?;
         let name = operation.name();
         for (what, chart) in operation.forecasts() {
-            chart.write_png(&folder.path(format!("axes/{name}_{what}.png"))?)?;
             chart.write_svg(&folder.path(format!("axes/{name}_{what}.svg"))?)?;
         }
         print(operation, sheet);

@@ -37,7 +37,6 @@ pub fn write(job: &HobbingJob, loads: &[OperationLoad], folder: &OutputFolder, p
         return Ok(());
     }
     for (stem, chart) in charts(job, loads) {
-        chart.write_png(&folder.path(format!("load/{stem}.png"))?)?;
         chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
     }
     Ok(())
