@@ -5,19 +5,27 @@ mod facts;
 
 use crate::error::Result;
 use crate::findings::{self, Findings};
+use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
+use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, Section, Table};
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
-use crate::process::hobbing::measure::hob_load::OperationLoad;
-use crate::process::hobbing::run::{HobbedGear, load, points};
-use crate::process::hobbing::{HobCutter, HobbingJob};
+use crate::process::hobbing::{HobCutter, HobbedGear};
 use crate::steps::report::deviations;
 use crate::steps::report::deviations::{Inspected, Inspection};
 use crate::steps::report::{
     RunWords, facts::gear_words, key_number, known_first, maps, peak_table, record, texture, warnings,
 };
 use std::f64::consts::PI;
+
+/// Charts that are files of their own as well.
+pub struct Charts {
+    /// Bars by hob tooth, with the names of their files; none where the run was stopped before the whole blank was cut.
+    pub loads: Vec<(String, BarChart)>,
+    /// Frequencies of errors of the points on five curves; none where nothing spreads.
+    pub points: Option<LineChart>,
+}
 
 /// The page of a run.
 ///
@@ -27,7 +35,7 @@ pub fn page(
     cutter: &HobCutter,
     gear: &HobbedGear,
     found: &Findings,
-    loads: &[OperationLoad],
+    charts: Charts,
     axes: &[HobbingAxesReport],
     run: &RunWords,
     folder: &OutputFolder,
@@ -35,10 +43,10 @@ pub fn page(
     let job = cutter.job;
     let inspection = inspection(cutter, gear);
     let mut sections = vec![deviations::section(&inspection)];
-    sections.extend(five_curves(&job.scene.name, gear));
+    sections.extend(charts.points.map(five_curves));
     sections.push(marks_section(found));
     sections.extend(texture::section(found, folder)?);
-    sections.extend(load_section(job, loads));
+    sections.extend(load_section(found, charts.loads));
     sections.push(motion(cutter, found, axes));
     sections.push(facts::section(job));
     sections.push(record(gear.flanks.len(), &gear.work.stats, gear.work.dexels, run));
@@ -88,15 +96,15 @@ fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
     }
 }
 
-fn five_curves(scene: &str, gear: &HobbedGear) -> Option<Section> {
-    Some(Section {
+fn five_curves(chart: LineChart) -> Section {
+    Section {
         id: "curves",
         title: "Points on five curves".to_owned(),
         lead: "Where five curves beside the pitch curve cross every flank in the middle of the face, as cut less as \
             meant, as Liu et al. (2015) measured their gear. Every point stands in tables/offset_curves.csv."
             .to_owned(),
-        blocks: vec![Block::Lines(points::chart(scene, gear)?)],
-    })
+        blocks: vec![Block::Lines(chart)],
+    }
 }
 
 fn marks_section(found: &Findings) -> Section {
@@ -144,14 +152,13 @@ fn marks_section(found: &Findings) -> Section {
 }
 
 /// Nothing where the run was stopped before the whole blank was cut.
-fn load_section(job: &HobbingJob, loads: &[OperationLoad]) -> Option<Section> {
-    let charts = load::charts(job, loads);
+fn load_section(found: &Findings, charts: Vec<(String, BarChart)>) -> Option<Section> {
     (!charts.is_empty()).then(|| Section {
         id: "load",
         title: "Work of the hob's teeth".to_owned(),
         lead: format!(
             "What each tooth of the hob does in the whole process, approach and overrun included. The load is the {}.",
-            load::ASSUMPTION
+            found.find("hob_load").map_or("", |load| load.words("assumption"))
         ),
         blocks: charts.into_iter().map(|(_, chart)| Block::Bars(chart)).collect(),
     })

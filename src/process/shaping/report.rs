@@ -32,7 +32,7 @@ pub fn page(job: &Job, cut: &CutGear, found: &Findings, run: &RunWords, folder: 
     sections.extend(texture::section(found, folder)?);
     sections.push(motion(job, found));
     sections.push(facts::section(job));
-    sections.push(record(cut.report.flanks.len(), &cut.stats, cut.dexels, run));
+    sections.push(record(cut.report.flanks.len(), &cut.work.stats, cut.work.dexels, run));
     let operations = found.parts("operations");
     Ok(Page {
         title: job.scene.name.clone(),

@@ -1,11 +1,11 @@
 //! The whole gear, from rays through the blank: volumes, damage, rubbing, strokes.
 
+use super::PlanarGear;
+use super::blank_report::BlankReport;
 use crate::cut::CutBlank;
 use crate::findings::damage::pairs;
 use crate::findings::{Quantity, Section};
 use crate::measure::damage::{Damage, OperationVolume};
-use crate::process::shaping::Job;
-use crate::process::shaping::measure::BlankReport;
 
 /// What is counted.
 const STROKE_FAULTS: &str = "strokes that are missing, did not cut or were made twice, told from what each stroke \
@@ -14,7 +14,7 @@ const STROKE_FAULTS: &str = "strokes that are missing, did not cut or were made 
 const NO_TARGET: &str = "the target's outline is not known in closed form: the cutter's base shapes the tips";
 
 /// The section.
-pub fn findings(job: &Job, cut: &CutBlank, report: &BlankReport) -> Section {
+pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Section {
     let mean = |families: [f64; 2]| 0.5 * (families[0] + families[1]);
     let volume = |families: [f64; 2], definition: &'static str| Quantity::number(mean(families), "mm3", definition);
     let area = |value: Option<f64>, definition: &'static str| Quantity::number_or(value, "mm2", definition, NO_TARGET);
@@ -30,8 +30,8 @@ pub fn findings(job: &Job, cut: &CutBlank, report: &BlankReport) -> Section {
     } else {
         Quantity::undefined("strokes", STROKE_FAULTS, "no operation takes chips as large as ten cells of the grid")
     };
-    let operations = job.operations.iter().zip(&report.operations).map(|(operation, removed)| {
-        let name = &operation.spec.name;
+    let operations = gear.operations.iter().zip(&report.operations).map(|(operation, removed)| {
+        let name = operation.name;
         let volume = volume(removed.by_passes_mm3, "volume that its passes removed, summed pass by pass");
         Section::new(name, format!("Operation {name}")).shown("removed_volume", "removed", volume)
     });
@@ -64,7 +64,7 @@ pub fn findings(job: &Job, cut: &CutBlank, report: &BlankReport) -> Section {
         .with(
             "end_face_area",
             Quantity::number(
-                mean(report.left_mm3) / job.scene.gear.face_width_mm,
+                mean(report.left_mm3) / gear.scene.gear.face_width_mm,
                 "mm2",
                 "transverse section that is left, mean over the face",
             ),
