@@ -14,6 +14,7 @@ pub mod linkage;
 pub mod measure;
 mod report;
 mod run;
+pub mod scene;
 pub mod section;
 mod surfaces;
 pub mod target;
@@ -24,7 +25,6 @@ use crate::error::Result;
 use crate::interrupt::Interrupt;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
-use crate::scene::Scene;
 use crate::steps::Tools;
 use axes_report::OperationAxes;
 
@@ -33,18 +33,7 @@ pub use gear::{CutGear, cut_gear};
 pub use job::{Job, PreparedOperation};
 
 /// The process.
-#[derive(Debug)]
-pub struct Shaping;
-
-impl Process for Shaping {
-    fn name(&self) -> &'static str {
-        "shaping"
-    }
-
-    fn prepare(&self, scene: &Scene) -> Result<Box<dyn super::Job>> {
-        Ok(Box::new(Job::new(scene.clone())?))
-    }
-}
+pub static PROCESS: Process = Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(Job::new(scene.clone())?)) };
 
 impl super::Job for Job {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {

@@ -15,7 +15,7 @@ use gearcut::passes::spatial::sweep::Sweep;
 use gearcut::process::hobbing::measure::blank_report;
 use gearcut::process::hobbing::measure::hob_load::OperationLoad;
 use gearcut::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
-use gearcut::scene::load;
+use gearcut::process::load;
 use gearcut::surface::BlankMesh;
 use gearcut::tool::CuttingTool;
 use gearcut::tool::edge::Edge;

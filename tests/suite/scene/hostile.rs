@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use gearcut::scene::{load, parse};
+use gearcut::process::{load, parse, table};
 use proptest::prelude::*;
 
 const SCENE: &str = include_str!("../../../scenes/shaping/elliptical_finishing_stock.toml");
@@ -56,9 +56,10 @@ fn value() -> impl Strategy<Value = String> {
 
 /// Paths of keys and sections, right and wrong.
 fn path() -> impl Strategy<Value = String> {
-    let keys: Vec<String> = gearcut::scene::keys::all()
+    let keys: Vec<String> = table()
+        .keys()
         .map(|(path, _)| path.replace("[]", ".0"))
-        .chain(gearcut::scene::keys::sections().map(|section| section.path.replace("[]", ".1")))
+        .chain(table().sections().iter().map(|section| section.path.replace("[]", ".1")))
         .collect();
     prop_oneof![8 => prop::sample::select(keys), 1 => "[a-z.\\[\\]0-9]{0,20}"]
 }

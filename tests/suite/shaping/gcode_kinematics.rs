@@ -12,7 +12,8 @@ use crate::fixtures::paper::*;
 use gearcut::gear::PitchCurveShape;
 use gearcut::process::shaping::Job;
 use gearcut::process::shaping::gcode;
-use gearcut::scene::model::{Linkage, Scene};
+use gearcut::process::shaping::scene::model::Linkage;
+use gearcut::scene::model::Scene;
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use gearcut::gear::PitchCurve;
 use gearcut::gear::PitchCurveShape;
 use gearcut::process::shaping::linkage::ShapingLinkage;
-use gearcut::scene::model::{Linkage, NormalReading, TraditionalDirection};
+use gearcut::process::shaping::scene::model::{Linkage, NormalReading, TraditionalDirection};
 use glam::DVec2;
 use serde_json::Value;
 
