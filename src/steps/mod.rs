@@ -20,6 +20,7 @@ pub mod sheets;
 pub mod stages;
 pub mod summary;
 pub mod view_mesh;
+pub mod whole_blank;
 
 use crate::cut::{Backend, CutStats};
 use crate::error::{Error, Result};

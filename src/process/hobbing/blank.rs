@@ -12,6 +12,7 @@ use crate::math::roots::halve;
 use crate::measure::target_outline::TargetOutline;
 use crate::passes::sections::swept_sections::SweptSections;
 use crate::process::hobbing::rack_generation::FormPoint;
+use crate::steps::whole_blank;
 use crate::terms::Side;
 use crate::tool::CuttingTool;
 use crate::units::TURN_RAD;
@@ -33,10 +34,7 @@ impl HobbingJob {
     /// # Errors
     /// A field that does not fit in memory.
     pub fn blank_grid(&self) -> Result<BlankGrid, Refusal> {
-        let fields = &self.scene.fields;
-        let outline = BlankOutline::new(&self.blank);
-        let width_mm = self.scene.gear.face_width_mm;
-        BlankGrid::new(&self.blank, &outline, width_mm, fields.blank_spacing_mm, Some(fields.blank_slice_spacing_mm))
+        whole_blank::grid(&self.scene, &self.blank, false)
     }
 
     /// The uncut blank at the scene's spacing.
@@ -44,8 +42,7 @@ impl HobbingJob {
     /// # Errors
     /// A field that does not fit in memory.
     pub fn blank_field(&self) -> Result<BlankField, Refusal> {
-        let outline = BlankOutline::new(&self.blank);
-        Ok(BlankField::new(self.blank_grid()?, &outline, 0.5 * self.scene.gear.bore_diameter_mm))
+        whole_blank::field(&self.scene, &self.blank, false)
     }
 
     /// The target's section at `z_mm` as a polygon with points `spacing_mm` apart; its error is the arrow height of so

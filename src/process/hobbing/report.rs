@@ -12,11 +12,10 @@ use crate::output::report::{Block, Page, Section, Table};
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::{HobCutter, HobbedGear};
+use crate::steps;
 use crate::steps::report::deviations;
 use crate::steps::report::deviations::{Inspected, Inspection};
-use crate::steps::report::{
-    RunWords, facts::gear_words, key_number, known_first, maps, peak_table, record, texture, warnings,
-};
+use crate::steps::report::{RunWords, key_number, peak_table, record, texture};
 use std::f64::consts::PI;
 
 /// Charts that are files of their own as well.
@@ -60,19 +59,8 @@ pub fn page(
             mm("axial_feed")
         )
     };
-    Ok(Page {
-        title: job.scene.name.clone(),
-        subtitle: gear_words(&job.scene.gear),
-        operations: found.parts("operations").iter().map(operation).collect(),
-        complete: found.complete,
-        program: format!("gearcut {}", found.program_version),
-        key_numbers: known_first(
-            found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect(),
-        ),
-        warnings: warnings(found),
-        viewer: Some(maps::viewer(cutter, &gear.maps)?),
-        sections,
-    })
+    let key_numbers = found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect();
+    steps::report::page(cutter, found, &gear.maps, operation, key_numbers, sections)
 }
 
 fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {

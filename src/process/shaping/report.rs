@@ -15,10 +15,9 @@ use crate::process::shaping::CutGear;
 use crate::process::shaping::Job;
 use crate::process::shaping::axes_report;
 use crate::process::shaping::measure::GearReport;
+use crate::steps;
 use crate::steps::report::deviations::{Inspected, Inspection};
-use crate::steps::report::{
-    RunWords, deviations, key_number, known_first, maps, peak_table, record, texture, value_and_unit, warnings,
-};
+use crate::steps::report::{RunWords, deviations, key_number, peak_table, record, texture, value_and_unit};
 use std::f64::consts::PI;
 
 /// The page of a run.
@@ -33,18 +32,8 @@ pub fn page(job: &Job, cut: &CutGear, found: &Findings, run: &RunWords, folder: 
     sections.push(motion(job, found));
     sections.push(facts::section(job));
     sections.push(record(cut.report.flanks.len(), &cut.work.stats, cut.work.dexels, run));
-    let operations = found.parts("operations");
-    Ok(Page {
-        title: job.scene.name.clone(),
-        subtitle: crate::steps::report::facts::gear_words(&job.scene.gear),
-        operations: operations.iter().map(|operation| operation_words(operation, operations.len())).collect(),
-        complete: found.complete,
-        program: format!("gearcut {}", found.program_version),
-        key_numbers: key_numbers(found),
-        warnings: warnings(found),
-        viewer: Some(maps::viewer(job, &cut.maps)?),
-        sections,
-    })
+    let operations = found.parts("operations").len();
+    steps::report::page(job, found, &cut.maps, |of| operation_words(of, operations), key_numbers(found), sections)
 }
 
 fn operation_words(operation: &findings::Section, count: usize) -> String {
@@ -107,7 +96,7 @@ fn key_numbers(found: &Findings) -> Vec<KeyNumber> {
         card("Reserve to the tightest axis limit", "axis_margin"),
         card("Time of all strokes", "cycle_time"),
     ]);
-    known_first(numbers)
+    numbers
 }
 
 fn motion(job: &Job, found: &Findings) -> Section {

@@ -6,16 +6,16 @@ use crate::dexel::{BlankField, BlankGrid};
 use crate::error::{Refusal, Result};
 use crate::gear::blank_outline::BlankOutline;
 use crate::passes::StrokeSet;
+use crate::steps::whole_blank;
 use crate::tool::closed_tooth::ClosedTooth;
 
 impl PlanarGear<'_> {
-    /// The uncut blank at the scene's spacing.
+    /// The uncut blank at the scene's spacing; one section stands for all where all axes rest during the strokes.
     ///
     /// # Errors
     /// A field that does not fit in memory.
     pub fn blank_field(&self) -> Result<BlankField, Refusal> {
-        let outline = BlankOutline::new(self.blank);
-        Ok(BlankField::new(self.grid_within(&outline)?, &outline, 0.5 * self.scene.gear.bore_diameter_mm))
+        whole_blank::field(self.scene, self.blank, self.rows_are_alike())
     }
 
     /// Where its rays stand.
@@ -23,15 +23,7 @@ impl PlanarGear<'_> {
     /// # Errors
     /// A field that does not fit in memory.
     pub fn blank_grid(&self) -> Result<BlankGrid, Refusal> {
-        self.grid_within(&BlankOutline::new(self.blank))
-    }
-
-    fn grid_within(&self, outline: &BlankOutline) -> Result<BlankGrid, Refusal> {
-        let fields = &self.scene.fields;
-        // With all axes at rest during the strokes every section is the same one.
-        let slice_spacing_mm = (!self.rows_are_alike()).then_some(fields.blank_slice_spacing_mm);
-        let width_mm = self.scene.gear.face_width_mm;
-        BlankGrid::new(self.blank, outline, width_mm, fields.blank_spacing_mm, slice_spacing_mm)
+        whole_blank::grid(self.scene, self.blank, self.rows_are_alike())
     }
 
     /// The tool's tooth closed through its body, down to where no stroke of an operation brings the blank.

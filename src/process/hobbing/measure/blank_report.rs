@@ -1,8 +1,9 @@
 //! What the blank field says about a hobbed gear: volumes by two ways, sections against the target's, damage to the
 //! target.
 //!
-//! In: the job and its cut blank. Out: [`HobbedBlankReport`]. As in [`crate::process::shaping::measure::blank_report`];
-//! the target's section differs from slice to slice, since the teeth wind, and is made anew for each.
+//! In: the job and its cut blank. Out: [`HobbedBlankReport`]. As in
+//! [`crate::steps::planar::blank_report`]; where the teeth wind, the target's section differs from slice to slice and is
+//! made anew for each.
 //!
 //! A hob that cuts where it should not, the far side of a lobe or a neighbouring tooth, is found here: the flanks' own
 //! rays end before.
