@@ -1,9 +1,9 @@
 //! Roughness of both flanks of tooth 3 of the paper's gear against the circular feed: the table and the chart in
 //! docs/texture.md.
 //!
-//! `cargo run --release --example roughness_against_feed -- [FOLDER]` writes `roughness_against_feed.csv`, `.png` and
-//! `.svg` into FOLDER (default `out/roughness`) and prints the table. Rough and finishing cut take the same feed; the
-//! rough one stands 2 mm off, along the normal or along the line of centres. Three windows: 4 mm in the middle of the
+//! `cargo run --release --example roughness_against_feed -- [FOLDER]` writes `roughness_against_feed.csv` and `.svg`
+//! into FOLDER (default `out/roughness`) and prints the table. Rough and finishing cut take the same feed; the rough
+//! one stands 2 mm off, along the normal or along the line of centres. Three windows: 4 mm in the middle of the
 //! flank, 2 mm about the pitch curve, and the whole flank, on which the cusps' height itself changes.
 
 use gearcut::cut::cpu::Cpu;
@@ -154,7 +154,6 @@ fn main() -> Result<(), Box<dyn Error>> {
             panel(&rows, &["rough, normal", "rough, traditional"], 0),
         ],
     };
-    chart.write_png(&folder.join("roughness_against_feed.png"))?;
     chart.write_svg(&folder.join("roughness_against_feed.svg"))?;
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Colours for values: two scales for maps, one palette for series.
+//! Colours for values: two scales for maps.
 //!
 //! In: a value and a range. Out: an sRGB colour.
 //!
@@ -8,26 +8,13 @@
 //!   to 0.30 at both ends; hue runs 235 to 262 degrees (blue) below and 55 to 25 degrees (orange to red) above; chroma
 //!   is 0.125 (blue) or 0.135 (red) times sin(0.8 pi s^0.85) at distance s from zero, which stays inside sRGB. Blue
 //!   against orange-red is the pair that red-green blindness keeps apart.
-//! - Series: M. Okabe and K. Ito (2008), the dark colours first, without the yellow that vanishes on white.
 //!
 //! Between anchors sRGB components are interpolated linearly.
 //!
 //! Road not taken: rainbow scales. They draw borders where the surface has none, and hide some that it has.
 
-use plotters::style::RGBColor;
-
 /// Cells without a value: a grey that neither scale contains.
 pub(super) const NO_VALUE: [u8; 3] = [150, 150, 150];
-/// Colours of series, in order of use.
-pub(super) const SERIES: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(0, 0, 0),
-];
 
 /// How values become colours.
 #[derive(Debug, Clone, Copy, PartialEq)]

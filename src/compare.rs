@@ -6,9 +6,9 @@
 //! | file | what |
 //! | --- | --- |
 //! | `comparison.csv` | one line per quantity: unit, the values a, b, ..., their differences to a, a over them, definition |
-//! | `<path>_<column>.png`, `.svg` | bars of a column that asks for them, all rows: the unevenness of the allowance by tooth of the gear, volume, thickness and way by tooth of the hob |
-//! | `<path>_<column>_first_period.png`, `.svg` | the rows of the pitch curve's first period (Gao et al. 2017, Fig. 10) |
-//! | `<path>_<column>_a.png`, `_b.png`, ..., `.svg` | one result each, on its own scale |
+//! | `<path>_<column>.svg` | bars of a column that asks for them, all rows: the unevenness of the allowance by tooth of the gear, volume, thickness and way by tooth of the hob |
+//! | `<path>_<column>_first_period.svg` | the rows of the pitch curve's first period (Gao et al. 2017, Fig. 10) |
+//! | `<path>_<column>_a.svg`, `_b.svg`, ... | one result each, on its own scale |
 //!
 //! Everything is read from the trees by path, whatever the process: what joins the tree joins the comparison. Results
 //! of different gears may be compared: what one of them lacks stays empty. Places are not compared.
@@ -75,7 +75,6 @@ impl Comparison {
     pub fn write(&self, folder: &OutputFolder) -> Result<()> {
         self.write_csv(&folder.path("comparison.csv")?)?;
         for (name, chart) in charts::charts(&self.results) {
-            chart.write_png(&folder.path(format!("{name}.png"))?)?;
             chart.write_svg(&folder.path(format!("{name}.svg"))?)?;
         }
         Ok(())

@@ -7,7 +7,7 @@
 //! | --- | --- |
 //! | `tooth_03_left.x3p`, `.sdf`, `.npy`, `.csv` | heights over the target flank, nothing removed |
 //! | `tooth_03_left_relief.png` | heights after the chain, lit from the side, exaggeration stated |
-//! | `tooth_03_left_abbott.png`, `.svg` | material ratio curve with the construction of Sk |
+//! | `tooth_03_left_abbott.svg` | material ratio curve with the construction of Sk |
 //!
 //! A window has its own dexels, cut for it: places uniform in **arc length** along the profile (y) and along the tooth
 //! (x), heights along the target's normals. Its points lie between the rows and columns of the flank's own field, which

@@ -50,7 +50,7 @@ pub enum Command {
         gearcut axes scenes/shaping/elliptical_normal.toml --out out/axes_of_my_gear\n\n\
         Writes a folder (out/<scene>_axes unless --out is given): axes/<operation>.csv with one row per stroke (s, deg,\n\
         mm, deg/s, mm/s, deg/s^2, mm/s^2), <operation>.ngc (G-code in straight lines, see docs/gcode.md), and charts of positions, velocities, accelerations and relief clearance over\n\
-        the work angle as PNG and SVG. Prints the peaks against the machine's limits.")]
+        the work angle as SVG. Prints the peaks against the machine's limits.")]
     Axes(AxesArguments),
     /// Put results side by side.
     #[command(after_help = "Example:\n  \
@@ -59,7 +59,7 @@ pub enum Command {
         Takes 2 to 7 results of one process; the others are compared with the first. Writes a folder\n\
         (compare_<A>_<B>... beside the last one unless --out is given): comparison.csv with every number\n\
         of all results under its path in results.json, with unit and definition, its difference to the\n\
-        first and the first over it (2 means that this result has half); and bar charts as PNG and SVG.\n\
+        first and the first over it (2 means that this result has half); and bar charts as SVG.\n\
         Shaped gears: unevenness of the allowance by tooth (%), in one chart (first period of the pitch\n\
         curve, and all teeth) and each on its own scale.\n\
         Hobbed gears: what each tooth of the hob does over the whole process: volume (mm3), largest\n\

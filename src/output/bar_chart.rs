@@ -1,20 +1,18 @@
 //! Grouped bars: several series over the same categories, such as the unevenness of every tooth under two linkages.
 //!
-//! In: categories, series with a value or none per category, units. Out: PNG or SVG with axes, legend and each series'
-//! mean as a dashed line.
+//! In: categories, series with a value or none per category, units. Out: bars with their axis, a legend, and each
+//! series' mean as a dashed line: on a page or as an SVG file.
 //!
 //! The value axis always contains zero: a bar's length is its message.
 
 use std::path::Path;
 
-use plotters::prelude::DrawingBackend;
+use maud::html;
 
 use crate::Result;
-use crate::colormap::SERIES;
 use crate::output::axis::{round_range, value_text, widened};
-use crate::output::canvas::{Canvas, Drawn, INK, PAPER, Side, text_width_px};
-use crate::output::charts::{self, Draw, EM_PX, Frame, Legend, Sample};
-use crate::output::heat::fitting_em_px;
+use crate::output::figure::{Entry, Figure, MOST_SERIES, Name, Plot, Sample};
+use crate::output::plot::{Frame, LABELS_PX, Slots, WIDTH_PX, px};
 
 /// A bar chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,62 +43,29 @@ pub struct BarSeries {
 }
 
 impl BarSeries {
-    pub(super) fn finite(&self) -> impl Iterator<Item = f64> {
+    fn finite(&self) -> impl Iterator<Item = f64> {
         self.values.iter().flatten().copied().filter(|value| value.is_finite())
     }
 
-    pub(super) fn mean(&self) -> Option<f64> {
+    fn mean(&self) -> Option<f64> {
         let count = self.finite().count();
         (count > 0).then(|| self.finite().sum::<f64>() / count as f64)
     }
 }
 
 impl BarChart {
-    /// Writes the chart as PNG.
-    ///
-    /// # Errors
-    /// Series that do not fit the categories or the palette, and files that cannot be written.
-    pub fn write_png(&self, path: &Path) -> Result<()> {
-        charts::write_png(path, self)
-    }
-
     /// Writes the chart as SVG.
     ///
     /// # Errors
-    /// As [`write_png`](Self::write_png).
+    /// Series that do not fit the categories or the palette, and files that cannot be written.
     pub fn write_svg(&self, path: &Path) -> Result<()> {
-        charts::write_svg(path, self)
+        self.figure().write_svg(path, self.problem())
     }
 
-    /// Values at the bottom and the top.
-    pub(super) fn range(&self) -> (f64, f64) {
-        let values = || self.series.iter().flat_map(BarSeries::finite);
-        let range = round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max));
-        widened(range, self.least_division)
-    }
-
-    fn legend(&self) -> std::result::Result<Legend, String> {
-        let entries = self.series.iter().zip(SERIES).map(|(series, colour)| {
-            let mean = series
-                .mean()
-                .map_or_else(|| ": no values".to_owned(), |mean| format!(", mean {} {}", value_text(mean), self.unit));
-            (Sample::Block, colour, format!("{}{mean}", series.name))
-        });
-        Legend::within(WIDTH_PX - LEFT_PX - RIGHT_PX, entries)
-    }
-}
-
-const WIDTH_PX: f64 = 1100.0;
-const LEFT_PX: f64 = 96.0;
-const RIGHT_PX: f64 = 28.0;
-const LEGEND_TOP_PX: f64 = 50.0;
-const PLOT_HEIGHT_PX: f64 = 330.0;
-const BELOW_PX: f64 = 66.0;
-
-impl Draw for BarChart {
+    /// Why the chart cannot be drawn, if it cannot.
     fn problem(&self) -> Option<String> {
-        if self.series.is_empty() || self.series.len() > SERIES.len() {
-            return Some(format!("a bar chart shows 1 to {} series, not {}", SERIES.len(), self.series.len()));
+        if !(1..=MOST_SERIES).contains(&self.series.len()) {
+            return Some(format!("a bar chart shows 1 to {MOST_SERIES} series, not {}", self.series.len()));
         }
         let wrong = self.series.iter().find(|series| series.values.len() != self.categories.len())?;
         Some(format!(
@@ -111,71 +76,90 @@ impl Draw for BarChart {
         ))
     }
 
-    fn size_px(&self) -> std::result::Result<(u32, u32), String> {
-        let height_px = LEGEND_TOP_PX + self.legend()?.height_px() + 8.0 + PLOT_HEIGHT_PX + BELOW_PX;
-        Ok((WIDTH_PX as u32, height_px as u32))
+    /// Values at the bottom and the top.
+    fn range(&self) -> (f64, f64) {
+        let values = || self.series.iter().flat_map(BarSeries::finite);
+        let range = round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max));
+        widened(range, self.least_division)
     }
 
-    fn draw<DB: DrawingBackend>(&self, canvas: &mut Canvas<DB>) -> Drawn {
-        let legend = self.legend()?;
-        canvas.text(&self.title, (LEFT_PX, 28.0), fitting_em_px(&self.title, 20.0, WIDTH_PX - 130.0)?, Side::Start)?;
-        legend.draw(canvas, (LEFT_PX, LEGEND_TOP_PX))?;
-        let top = LEGEND_TOP_PX + legend.height_px() + 8.0;
-        let frame =
-            Frame { left: LEFT_PX, right: WIDTH_PX - RIGHT_PX, top, bottom: top + PLOT_HEIGHT_PX, range: self.range() };
-        frame.draw_value_axis(canvas, &self.value_name, &self.unit, 24.0)?;
-        self.draw_bars(canvas, &frame)?;
-        self.draw_means(canvas, &frame)?;
-        self.draw_categories(canvas, &frame)?;
-        frame.draw_outline(canvas)
+    fn entry(&self, index: usize, extent: f64) -> Entry {
+        let series = &self.series[index];
+        let mean = series.mean().map_or_else(
+            || ": no values".to_owned(),
+            |mean| format!(", mean {} {}", value_text(without_rounding(mean, extent)), self.unit),
+        );
+        Entry { sample: Sample::Block(index), words: format!("{}{mean}", series.name) }
+    }
+
+    /// The chart laid out.
+    pub(super) fn figure(&self) -> Figure<'_> {
+        let frame = Frame::new(236.0, self.range());
+        let slots = Slots { frame: &frame, categories: &self.categories, series: self.series.len() };
+        let width = slots.bar_px();
+        let drawing = html! {
+            (frame.value_axis())
+            @for (k, series) in self.series.iter().enumerate() {
+                g class=(format!("bars s{k}")) {
+                    @for (index, (value, category)) in series.values.iter().zip(&self.categories).enumerate() {
+                        @if let Some(value) = value.filter(|value| value.is_finite()) {
+                            @let (top, bottom) = (frame.y(value.max(0.0)), frame.y(value.min(0.0)));
+                            rect x=(px(slots.left(index, k))) y=(px(top)) width=(px(width)) height=(px(bottom - top)) {
+                                title {
+                                    (self.category_name) " " (category) ", " (series.name) ": "
+                                    (value_text(value)) " " (self.unit)
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+            (frame.across("zero", 0.0))
+            @for (k, mean) in self.series.iter().enumerate().filter_map(|(k, series)| Some((k, series.mean()?))) {
+                // Ground below the dashes, so that they show on bars of their own colour.
+                (frame.across("mean-ground", mean))
+                (frame.across(&format!("mean s{k}"), mean))
+            }
+            (frame.outline())
+            (slots.labels())
+        };
+        let extent = frame.range.1 - frame.range.0;
+        Figure {
+            title: &self.title,
+            plots: vec![Plot {
+                name: Name::new(&self.value_name, frame.ticks().unit_text(&self.unit)),
+                legend: (0..self.series.len()).map(|index| self.entry(index, extent)).collect(),
+                size_px: (WIDTH_PX, frame.bottom + LABELS_PX),
+                drawing,
+            }],
+            x_name: Name::new(&self.category_name, String::new()),
+        }
     }
 }
 
-impl BarChart {
-    fn slot_px(&self, frame: &Frame) -> f64 {
-        (frame.right - frame.left) / self.categories.len() as f64
-    }
+/// Zero instead of what adding up numbers of this size leaves of zero.
+fn without_rounding(sum: f64, size: f64) -> f64 {
+    if sum.abs() < 1e-9 * size { 0.0 } else { sum }
+}
 
-    fn draw_bars<DB: DrawingBackend>(&self, canvas: &mut Canvas<DB>, frame: &Frame) -> Drawn {
-        let slot_px = self.slot_px(frame);
-        // A fifth of each slot stays empty, so that groups keep apart.
-        let bar_px = 0.8 * slot_px / self.series.len() as f64;
-        for (k, (series, colour)) in self.series.iter().zip(SERIES).enumerate() {
-            for (slot, value) in series.values.iter().enumerate() {
-                let Some(value) = value.filter(|value| value.is_finite()) else { continue };
-                let x = frame.left + slot_px * (slot as f64 + 0.1) + bar_px * k as f64;
-                let (high, low) = (frame.y(value.max(0.0)), frame.y(value.min(0.0)));
-                canvas.fill((x, high), (x + bar_px, low), colour)?;
-            }
-        }
-        canvas.line(&[(frame.left, frame.y(0.0)), (frame.right, frame.y(0.0))], INK, 1.0)
-    }
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-    fn draw_means<DB: DrawingBackend>(&self, canvas: &mut Canvas<DB>, frame: &Frame) -> Drawn {
-        for (series, colour) in self.series.iter().zip(SERIES) {
-            let Some(mean) = series.mean() else { continue };
-            let (from, to) = ((frame.left, frame.y(mean)), (frame.right, frame.y(mean)));
-            // Paper below the dashes, so that they show on bars of their own colour.
-            canvas.line(&[from, to], PAPER, 3.5)?;
-            canvas.dashed(from, to, colour, 2.0)?;
-        }
-        Ok(())
-    }
-
-    /// Labels every category, or every second, fifth, tenth ... where they would touch.
-    fn draw_categories<DB: DrawingBackend>(&self, canvas: &mut Canvas<DB>, frame: &Frame) -> Drawn {
-        let slot_px = self.slot_px(frame);
-        let mut widest_px: f64 = 0.0;
-        for label in &self.categories {
-            widest_px = widest_px.max(text_width_px(label, EM_PX)?);
-        }
-        let every =
-            [1, 2, 5, 10, 20, 50, 100, 200, 500].into_iter().find(|&every| slot_px * every as f64 > widest_px + 6.0);
-        for (slot, label) in self.categories.iter().enumerate().step_by(every.unwrap_or(1000)) {
-            let x = frame.left + slot_px * (slot as f64 + 0.5);
-            canvas.text(label, (x, frame.bottom + 16.0), EM_PX, Side::Middle)?;
-        }
-        let middle = 0.5 * (frame.left + frame.right);
-        canvas.text(&self.category_name, (middle, frame.bottom + 42.0), EM_PX, Side::Middle)
+    #[test]
+    fn bars_stand_on_zero_and_tell_their_value() {
+        let chart = BarChart {
+            least_division: 0.0,
+            title: "<b>pitch</b>".into(),
+            category_name: "tooth".into(),
+            categories: vec!["1".into(), "2".into(), "3".into()],
+            value_name: "f_p".into(),
+            unit: "µm".into(),
+            series: vec![BarSeries { name: "left".into(), values: vec![Some(2.0), None, Some(-1.0)] }],
+        };
+        let text = chart.figure().html().into_string();
+        assert_eq!(text.matches("<rect").count(), 3, "two bars and the frame");
+        assert!(text.contains("&lt;b&gt;pitch&lt;/b&gt;") && !text.contains("<b>"));
+        assert!(text.contains("tooth 3, left: −1.00 µm"), "{text}");
     }
 }

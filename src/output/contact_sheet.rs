@@ -8,13 +8,12 @@
 
 use std::path::Path;
 
-use plotters::style::RGBColor;
-
 use crate::colormap::{ColourScale, NO_VALUE};
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::canvas::{Canvas, INK, Side};
 use crate::output::grid::MapGrid;
-use crate::output::heat::{ColourBar, PixelBox, fitting_em_px, paint_cells, scale_problem, shown_range};
+use crate::output::heat::{ColourBar, PixelBox, paint_cells, scale_problem, shown_range};
+use crate::output::letters::fitting_em_px;
 use crate::output::raster::Raster;
 use crate::{Error, Result};
 
@@ -114,14 +113,13 @@ fn draw(sheet: &ContactSheet) -> std::result::Result<Vec<u8>, String> {
     }
     bar.paint(&mut raster);
 
-    let size_px = raster.size_px;
-    let mut canvas = Canvas::bitmap(&mut raster.rgb, size_px, 1)?;
+    let mut canvas = Canvas(&mut raster);
     let left = f64::from(MARGIN_PX);
     let title_em_px = fitting_em_px(sheet.title, 20.0, f64::from(width_px) - 2.0 * left)?;
     canvas.text(sheet.title, (left, 28.0), title_em_px, Side::Start)?;
     for (area, map) in areas.iter().zip(sheet.maps) {
         let (upper_left, lower_right) = area.corners();
-        canvas.frame(upper_left, lower_right, INK)?;
+        canvas.frame(upper_left, lower_right, INK);
         canvas.text(map.label, (upper_left.0, upper_left.1 - 10.0), EM_PX, Side::Start)?;
     }
     bar.annotate(&mut canvas, f64::from(bar_height_px + TOP_PX))?;
@@ -130,19 +128,18 @@ fn draw(sheet: &ContactSheet) -> std::result::Result<Vec<u8>, String> {
     let y = f64::from(TOP_PX + body_px) + 28.0;
     let (v_bar_mm, u_bar_mm) = (scale_bar_mm(longest_mm), scale_bar_mm(highest_mm));
     let v_end = left + v_bar_mm * v_px_per_mm;
-    canvas.line(&[(left, y), (v_end, y)], INK, 3.0)?;
+    canvas.fill((left, y - 1.0), (v_end, y + 1.0), INK);
     let axes = &sheet.maps[0].grid;
     canvas.text(&format!("{}: {v_bar_mm} mm", axes.v.name), (v_end + 10.0, y), EM_PX, Side::Start)?;
     let u_x = v_end + 120.0;
     let u_half = 0.5 * u_bar_mm * u_px_per_mm;
-    canvas.line(&[(u_x, y - u_half), (u_x, y + u_half)], INK, 3.0)?;
+    canvas.fill((u_x - 1.0, y - u_half), (u_x + 1.0, y + u_half), INK);
     canvas.text(&format!("{}: {u_bar_mm} mm", axes.u.name), (u_x + 10.0, y), EM_PX, Side::Start)?;
     if sheet.maps.iter().flat_map(|map| map.values).any(|value| value.is_nan()) {
         let x = u_x + 120.0;
-        canvas.fill((x, y - 7.0), (x + 14.0, y + 7.0), RGBColor(NO_VALUE[0], NO_VALUE[1], NO_VALUE[2]))?;
+        canvas.fill((x, y - 7.0), (x + 14.0, y + 7.0), NO_VALUE);
         canvas.text(sheet.missing, (x + 22.0, y), EM_PX, Side::Start)?;
     }
-    canvas.finish()?;
     raster.png()
 }
 

@@ -5,12 +5,11 @@
 //! A cell larger than a pixel stays a rectangle of one colour: nothing is smoothed into existence. Where several cells
 //! share a pixel, it shows the mean of those that have a value; extremes that this hides are marked by the caller.
 
-use plotters::prelude::DrawingBackend;
-
 use crate::colormap::ColourScale;
 use crate::output::axis::{Ticks, value_text};
-use crate::output::canvas::{Canvas, Drawn, INK, Side, text_width_px};
+use crate::output::canvas::{Canvas, Drawn, INK, Side};
 use crate::output::grid::MapGrid;
+use crate::output::letters::fitting_em_px;
 use crate::output::raster::Raster;
 
 /// Rectangle of pixels.
@@ -130,16 +129,16 @@ impl ColourBar<'_> {
     }
 
     /// Draws frame, ticks and name; the name may be as long as `room_px`.
-    pub(super) fn annotate<DB: DrawingBackend>(&self, canvas: &mut Canvas<DB>, room_px: f64) -> Drawn {
+    pub(super) fn annotate(&self, canvas: &mut Canvas, room_px: f64) -> Drawn {
         let ((left, top), (right, bottom)) = self.area.corners();
-        canvas.frame((left, top), (right, bottom), INK)?;
+        canvas.frame((left, top), (right, bottom), INK);
         let (low, high) = self.scale.ends();
         let middle = 0.5 * (left + right);
         if self.shown.1 > high {
-            canvas.polygon(&[(left, top - 3.0), (right, top - 3.0), (middle, top - 13.0)], INK)?;
+            canvas.triangle([(left, top - 3.0), (right, top - 3.0), (middle, top - 13.0)], INK);
         }
         if self.shown.0 < low {
-            canvas.polygon(&[(left, bottom + 3.0), (right, bottom + 3.0), (middle, bottom + 13.0)], INK)?;
+            canvas.triangle([(left, bottom + 3.0), (right, bottom + 3.0), (middle, bottom + 13.0)], INK);
         }
         let mut unit = self.unit.to_owned();
         if high > low {
@@ -148,7 +147,7 @@ impl ColourBar<'_> {
             unit = ticks.unit_text(self.unit);
             for (value, label) in ticks.values.iter().zip(&ticks.labels) {
                 let y = bottom - (value - low) / (high - low) * (bottom - top);
-                canvas.line(&[(right, y), (right + 5.0, y)], INK, 1.0)?;
+                canvas.fill((right, y), (right + 5.0, y), INK);
                 canvas.text(label, (right + 9.0, y), Self::EM_PX, Side::Start)?;
             }
         } else {
@@ -158,11 +157,6 @@ impl ColourBar<'_> {
         let at = (right + f64::from(Self::LABEL_WIDTH_PX) - 24.0, 0.5 * (top + bottom));
         canvas.text_upward(&name, at, fitting_em_px(&name, Self::EM_PX, room_px)?, Side::Middle)
     }
-}
-
-/// `em_px`, or less where the words would be longer than `room_px`.
-pub(super) fn fitting_em_px(words: &str, em_px: f64, room_px: f64) -> Result<f64, String> {
-    Ok(em_px * (room_px / text_width_px(words, em_px)?.max(1.0)).min(1.0))
 }
 
 /// Values that a picture shows, without NaN.

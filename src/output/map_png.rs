@@ -12,14 +12,13 @@
 
 use std::path::Path;
 
-use plotters::prelude::DrawingBackend;
-
 use crate::colormap::{ColourScale, NO_VALUE};
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::axis::{Ticks, number_text, value_text};
 use crate::output::canvas::{Canvas, Drawn, INK, PAPER, Point, Side};
 use crate::output::grid::{MapAxis, MapGrid};
-use crate::output::heat::{ColourBar, PixelBox, fitting_em_px, paint_cells, scale_problem, shade_cells, shown_range};
+use crate::output::heat::{ColourBar, PixelBox, paint_cells, scale_problem, shade_cells, shown_range};
+use crate::output::letters::fitting_em_px;
 use crate::output::raster::Raster;
 pub use crate::output::relief::Relief;
 use crate::{Error, Result};
@@ -97,8 +96,7 @@ fn draw(picture: &MapPicture, relief: Option<&Relief>) -> std::result::Result<Ve
     }
     bar.paint(&mut raster);
 
-    let size_px = raster.size_px;
-    let mut canvas = Canvas::bitmap(&mut raster.rgb, size_px, 1)?;
+    let mut canvas = Canvas(&mut raster);
     let title_em_px = fitting_em_px(picture.title, TITLE_EM_PX, f64::from(MAP_WIDTH_PX))?;
     canvas.text(picture.title, (f64::from(LEFT_PX), 28.0), title_em_px, Side::Start)?;
     draw_axes(&mut canvas, map, picture.grid)?;
@@ -108,23 +106,22 @@ fn draw(picture: &MapPicture, relief: Option<&Relief>) -> std::result::Result<Ve
         let at = (f64::from(LEFT_PX), f64::from(TOP_PX + height_px) + 100.0);
         canvas.text(&relief.words(), at, EM_PX, Side::Start)?;
     }
-    canvas.finish()?;
     raster.png()
 }
 
-fn draw_axes<DB: DrawingBackend>(canvas: &mut Canvas<DB>, map: PixelBox, grid: &MapGrid) -> Drawn {
+fn draw_axes(canvas: &mut Canvas, map: PixelBox, grid: &MapGrid) -> Drawn {
     let ((left, top), (right, bottom)) = map.corners();
-    canvas.frame((left, top), (right, bottom), INK)?;
+    canvas.frame((left, top), (right, bottom), INK);
     let v_ticks = axis_ticks(&grid.v, map.width / 90);
     for (value, label) in v_ticks.values.iter().zip(&v_ticks.labels) {
         let x = left + (value - grid.v.low_edge_mm()) / grid.v.length_mm() * (right - left);
-        canvas.line(&[(x, bottom), (x, bottom + 5.0)], INK, 1.0)?;
+        canvas.fill((x, bottom), (x, bottom + 5.0), INK);
         canvas.text(label, (x, bottom + 16.0), EM_PX, Side::Middle)?;
     }
     let u_ticks = axis_ticks(&grid.u, map.height / 40);
     for (value, label) in u_ticks.values.iter().zip(&u_ticks.labels) {
         let y = bottom - (value - grid.u.low_edge_mm()) / grid.u.length_mm() * (bottom - top);
-        canvas.line(&[(left - 5.0, y), (left, y)], INK, 1.0)?;
+        canvas.fill((left - 5.0, y), (left, y), INK);
         canvas.text(label, (left - 9.0, y), EM_PX, Side::End)?;
     }
     let v_name = axis_name(&grid.v, &v_ticks);
@@ -143,12 +140,7 @@ fn axis_name(axis: &MapAxis, ticks: &Ticks) -> String {
 }
 
 /// Marks the extremes in the map and explains marks, grey cells and a stretched u below it.
-fn draw_notes<DB: DrawingBackend>(
-    canvas: &mut Canvas<DB>,
-    map: PixelBox,
-    picture: &MapPicture,
-    u_stretch: f64,
-) -> Drawn {
+fn draw_notes(canvas: &mut Canvas, map: PixelBox, picture: &MapPicture, u_stretch: f64) -> Drawn {
     let ((left, top), (right, bottom)) = map.corners();
     let y = bottom + 78.0;
     let mut column_x = left;
@@ -162,8 +154,8 @@ fn draw_notes<DB: DrawingBackend>(
         let (u_mm, v_mm) = picture.grid.place_mm(index);
         let across = (v_mm - picture.grid.v.low_edge_mm()) / picture.grid.v.length_mm();
         let along = (u_mm - picture.grid.u.low_edge_mm()) / picture.grid.u.length_mm();
-        draw_mark(canvas, (left + across * (right - left), bottom - along * (bottom - top)), upward)?;
-        draw_mark(canvas, (column_x + 7.0, y), upward)?;
+        draw_mark(canvas, (left + across * (right - left), bottom - along * (bottom - top)), upward);
+        draw_mark(canvas, (column_x + 7.0, y), upward);
         let unit = if picture.unit == "1" { String::new() } else { format!(" {}", picture.unit) };
         let (u, v) = (number_text(u_mm, 2), number_text(v_mm, 2));
         let words = format!("{word} {}{unit} at v {v}, u {u} mm", value_text(value.into()));
@@ -173,9 +165,7 @@ fn draw_notes<DB: DrawingBackend>(
     }
     let missing = picture.values.iter().filter(|value| value.is_nan()).count();
     if missing > 0 {
-        let [red, green, blue] = NO_VALUE;
-        let grey = plotters::style::RGBColor(red, green, blue);
-        canvas.fill((column_x, y - 7.0), (column_x + 14.0, y + 7.0), grey)?;
+        canvas.fill((column_x, y - 7.0), (column_x + 14.0, y + 7.0), NO_VALUE);
         let words = format!("{}: {missing} of {} cells", picture.missing, picture.values.len());
         let em_px = fitting_em_px(&words, EM_PX, column_px - 30.0)?;
         canvas.text(&words, (column_x + 20.0, y), em_px, Side::Start)?;
@@ -191,12 +181,12 @@ fn draw_notes<DB: DrawingBackend>(
 }
 
 /// Triangle around the place it marks, light around dark so that it shows on every colour.
-fn draw_mark<DB: DrawingBackend>(canvas: &mut Canvas<DB>, at: Point, upward: bool) -> Drawn {
+fn draw_mark(canvas: &mut Canvas, at: Point, upward: bool) {
     let side = if upward { 1.0 } else { -1.0 };
     let triangle = |size: f64| {
         [(0.0, -1.1 * side), (0.95, 0.7 * side), (-0.95, 0.7 * side)]
             .map(|(x, y): Point| (at.0 + size * x, at.1 + size * y))
     };
-    canvas.polygon(&triangle(9.0), PAPER)?;
-    canvas.polygon(&triangle(6.0), INK)
+    canvas.triangle(triangle(9.0), PAPER);
+    canvas.triangle(triangle(6.0), INK);
 }

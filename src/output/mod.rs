@@ -13,7 +13,7 @@
 //! | pictures of maps: one, all flanks, their colours | [`map_png`], [`contact_sheet`], [`crate::colormap`] |
 //! | meshes for other programs | [`mesh_file`], [`mesh_stl`], [`mesh_ply`], [`mesh_glb`] |
 //! | drawn bodies, one or many | [`render_png`], [`apng`] |
-//! | charts: grouped bars, panels of curves | [`bar_chart`], [`line_chart`] |
+//! | charts, on the page and as SVG files | [`bar_chart`], [`line_chart`], [`range_chart`], [`ratio_chart`] |
 //! | the report: everything on one page that opens offline | [`report`] |
 //! | progress and Ctrl-C | [`progress`], [`crate::interrupt`] |
 
@@ -22,8 +22,8 @@ pub mod atomic;
 mod axis;
 pub mod bar_chart;
 mod canvas;
-mod charts;
 pub mod contact_sheet;
+mod figure;
 pub mod flank_maps;
 pub mod folder;
 mod font;
@@ -35,8 +35,11 @@ pub mod mesh_file;
 pub mod mesh_glb;
 pub mod mesh_ply;
 pub mod mesh_stl;
+mod plot;
 pub mod progress;
+pub mod range_chart;
 mod raster;
+pub mod ratio_chart;
 mod relief;
 pub mod render_png;
 pub mod report;

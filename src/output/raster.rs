@@ -35,20 +35,22 @@ impl Raster {
         }
     }
 
-    /// Picture of half the size, each pixel the mean of four; smooths what was drawn at twice the size.
-    pub(super) fn halved(&self) -> Self {
-        let (width, height) = (self.size_px.0 / 2, self.size_px.1 / 2);
-        let row_bytes = self.size_px.0 as usize * 3;
-        let mut half = Self::white((width, height));
-        for (y, row) in half.rgb.chunks_exact_mut(width as usize * 3).enumerate() {
-            for (i, value) in row.iter_mut().enumerate() {
-                let at = 2 * y * row_bytes + (i / 3) * 6 + i % 3;
-                let sum: u16 =
-                    [at, at + 3, at + row_bytes, at + row_bytes + 3].map(|k| u16::from(self.rgb[k])).iter().sum();
-                *value = ((sum + 2) / 4) as u8;
-            }
+    /// Mixes a colour into one pixel, of which it covers the part 0 to 1; nothing where the pixel lies outside.
+    pub(super) fn blend(&mut self, (x, y): (i32, i32), colour: [u8; 3], part: f64) {
+        let (width, height) = self.size_px;
+        let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return };
+        if x >= width || y >= height || part <= 0.0 {
+            return;
         }
-        half
+        if part >= 1.0 - 1.0 / 256.0 {
+            return self.set(x, y, colour);
+        }
+        let weight = (part * 256.0) as u16;
+        let start = (y as usize * width as usize + x as usize) * 3;
+        for (value, new) in self.rgb[start..start + 3].iter_mut().zip(colour) {
+            let change = (u16::from(value.abs_diff(new)) * weight / 256) as u8;
+            *value = if new > *value { *value + change } else { *value - change };
+        }
     }
 
     /// The picture as a PNG file.

@@ -8,7 +8,8 @@ use crate::output::apng::Frame;
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::canvas::{Canvas, INK, Side};
 use crate::output::contact_sheet::scale_bar_mm;
-use crate::output::heat::{ColourBar, PixelBox, fitting_em_px, scale_problem};
+use crate::output::heat::{ColourBar, PixelBox, scale_problem};
+use crate::output::letters::fitting_em_px;
 use crate::output::raster::Raster;
 use crate::surface::render::Rendered;
 use crate::{Error, Result};
@@ -103,7 +104,7 @@ fn draw(picture: &RenderPicture) -> std::result::Result<Raster, String> {
     if let Some(bar) = &bar {
         bar.paint(&mut raster);
     }
-    let mut canvas = Canvas::bitmap(&mut raster.rgb, total_px, 1)?;
+    let mut canvas = Canvas(&mut raster);
     let left = f64::from(MARGIN_PX);
     let room_px = f64::from(total_px.0) - 2.0 * left;
     canvas.text(picture.title, (left, 28.0), fitting_em_px(picture.title, 20.0, room_px)?, Side::Start)?;
@@ -113,12 +114,11 @@ fn draw(picture: &RenderPicture) -> std::result::Result<Raster, String> {
     let y = f64::from(TOP_PX + height) + 26.0;
     let bar_mm = scale_bar_mm(0.6 * picture.pixel_mm * f64::from(width));
     let end = left + bar_mm / picture.pixel_mm;
-    canvas.line(&[(left, y), (end, y)], INK, 3.0)?;
+    canvas.fill((left, y - 1.0), (end, y + 1.0), INK);
     canvas.text(&format!("{bar_mm} mm"), (end + 10.0, y), EM_PX, Side::Start)?;
     let note_left = end + 90.0;
     let note_em_px = fitting_em_px(picture.note, EM_PX, f64::from(total_px.0) - left - note_left)?;
     canvas.text(picture.note, (f64::from(total_px.0) - left, y), note_em_px, Side::End)?;
-    canvas.finish()?;
     Ok(raster)
 }
 

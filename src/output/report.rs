@@ -2,7 +2,7 @@
 //!
 //! In: a [`Page`], plain data: headings, numbers, tables, charts, maps, meshes. Out: one file that holds everything:
 //! style sheet, scripts, the 3D library (three.js, `assets/three/`), maps and triangles ([`viewer`]), SVG charts
-//! ([`plot`], [`traces`], [`texture`]).
+//! ([`crate::output::bar_chart`] and its like, [`traces`], [`texture`]).
 //!
 //! The rules:
 //! - Text from a scene is text. Markup is made by maud, which escapes whatever is put into it; JSON escapes every `<`;
@@ -16,7 +16,6 @@
 
 mod blocks;
 mod gear_frame;
-pub mod plot;
 pub mod texture;
 pub mod traces;
 pub mod viewer;
@@ -25,7 +24,7 @@ use std::path::Path;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use maud::{DOCTYPE, Markup, html};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use crate::Result;
@@ -39,7 +38,8 @@ pub use blocks::{Block, Section, Table};
 /// Name of the file in an output folder.
 pub const REPORT_FILE: &str = "report.html";
 
-const STYLE: &str = include_str!("../../assets/report/page.css");
+const STYLE: &str =
+    concat!(include_str!("../../assets/report/page.css"), include_str!("../../assets/report/chart.css"));
 const THREE: &str = include_str!("../../assets/three/three.min.js");
 /// The page's own scripts, in order: data and colours, maps and picker, the gear.
 const SCRIPTS: [&str; 3] = [
@@ -117,7 +117,7 @@ impl Page {
                     meta name="color-scheme" content="light dark";
                     meta name="generator" content=(self.program);
                     title { (self.title) " – gearcut report" }
-                    style { (plot::own(STYLE)) }
+                    style { (PreEscaped(STYLE)) }
                 }
                 body {
                     a class="skip" href="#key-numbers" { "Skip to the numbers" }
@@ -135,9 +135,9 @@ impl Page {
                     footer { "Written by " (self.program) ". Every number with its unit and definition: results.json \
                         beside this file." }
                     @if let Some(packed) = packed {
-                        script type="application/json" id="viewer-description" { (plot::own(inert_json(&packed.description))) }
-                        script type="text/plain" id="viewer-block" { (plot::own(packed.block)) }
-                        @for script in scripts { script { (plot::own(script)) } }
+                        script type="application/json" id="viewer-description" { (PreEscaped(inert_json(&packed.description))) }
+                        script type="text/plain" id="viewer-block" { (PreEscaped(packed.block)) }
+                        @for script in scripts { script { (PreEscaped(script)) } }
                     }
                 }
             }

@@ -72,7 +72,7 @@ pub(super) fn nearest<'a>(table: &'a Table, section: &'a TableSection, name: &st
 }
 
 fn candidates<'a>(table: &'a Table, section: &'a TableSection) -> impl Iterator<Item = Candidate<'a>> {
-    let keys = section.keys.iter().map(move |key| Candidate::Key(section, *key));
+    let keys = section.keys.iter().map(move |key| Candidate::Key(section, key));
     keys.chain(table.children(section).map(Candidate::Section))
 }
 

@@ -100,7 +100,6 @@ fn write_one(
     write_relief_png(&folder.path(format!("{stem}_relief.png"))?, &picture, &relief)?;
     let chart =
         chart::abbott(format!("Material ratio of {what}"), &evaluated.evaluation.curve, &evaluated.evaluation.core);
-    chart.write_png(&folder.path(format!("{stem}_abbott.png"))?)?;
     chart.write_svg(&folder.path(format!("{stem}_abbott.svg"))?)
 }
 

@@ -1,10 +1,10 @@
 //! What stands on the page: sections of headings, charts, tables and notes.
 
-use super::plot::{self, RangeChart};
 use super::texture::{self, TextureWindow};
 use super::traces::{self, TraceSheet};
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
+use crate::output::range_chart::RangeChart;
 use maud::{Markup, html};
 
 /// A part of the page with its own heading.
@@ -75,9 +75,9 @@ impl Block {
         match self {
             Self::Heading(words) => html! { h3 { (words) } },
             Self::Note(words) => html! { p class="note" { (words) } },
-            Self::Lines(chart) => plot::lines(chart),
-            Self::Bars(chart) => plot::bars(chart),
-            Self::Ranges(chart) => plot::ranges(chart),
+            Self::Lines(chart) => chart.figure().html(),
+            Self::Bars(chart) => chart.figure().html(),
+            Self::Ranges(chart) => chart.figure().html(),
             Self::Traces(sheets) => traces::sheets(sheets),
             Self::Table(table) => table.markup(),
             Self::Texture(window) => texture::window(window),

@@ -4,8 +4,7 @@
 
 use maud::{Markup, html};
 
-use super::plot::{path, px, svg};
-use crate::output::axis::{Ticks, round_range};
+use crate::output::ratio_chart::RatioChart;
 
 /// One evaluated window of a flank.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,10 +19,8 @@ pub struct TextureWindow {
     pub warnings: Vec<String>,
     /// A picture of the surface as PNG, if there is one.
     pub png: Option<Vec<u8>>,
-    /// Areal material ratio curve: ratio in percent, height in um over the mean plane; falling heights.
-    pub material_ratio: Vec<(f64, f64)>,
-    /// The construction of Sk on that curve.
-    pub sk: Option<SkConstruction>,
+    /// The material ratio curve, if there is one.
+    pub material_ratio: Option<RatioChart>,
 }
 
 /// A parameter as it is shown.
@@ -43,23 +40,6 @@ const FIRST: [&str; 18] = [
     "Sdr",
 ];
 
-/// Core of the material ratio curve (ISO 25178-2; the least-squares line through the 40 % window of smallest slope).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SkConstruction {
-    /// Heights of the equivalent line at 0 % and at 100 %, um.
-    pub line_um: [f64; 2],
-    /// First and last ratio of the 40 % window, percent.
-    pub window_percent: [f64; 2],
-    /// Smr1, percent.
-    pub smr1_percent: f64,
-    /// Smr2, percent.
-    pub smr2_percent: f64,
-    /// Spk, um.
-    pub spk_um: f64,
-    /// Svk, um.
-    pub svk_um: f64,
-}
-
 /// One window.
 pub fn window(window: &TextureWindow) -> Markup {
     html! {
@@ -77,7 +57,7 @@ pub fn window(window: &TextureWindow) -> Markup {
                 }
             }
             div class="texture-body" {
-                @if window.material_ratio.len() > 1 { (material_ratio(window)) }
+                @if let Some(chart) = &window.material_ratio { (chart.figure().html()) }
                 (first_parameters(window))
             }
             @if !window.parameters.is_empty() {
@@ -130,74 +110,10 @@ fn all_parameters(window: &TextureWindow) -> super::Table {
     }
 }
 
-/// The curve with the equivalent line, Sk between its ends, and the triangles whose areas are those of peaks and
-/// valleys.
-fn material_ratio(window: &TextureWindow) -> Markup {
-    const WIDTH: f64 = 460.0;
-    const LEFT: f64 = 52.0;
-    const RIGHT: f64 = 44.0;
-    const BOTTOM: f64 = 268.0;
-    let triangles = |sk: &SkConstruction| [sk.line_um[0] + sk.spk_um, sk.line_um[1] - sk.svk_um];
-    let ends = window.sk.iter().flat_map(|sk| sk.line_um.into_iter().chain(triangles(sk)));
-    let heights = window.material_ratio.iter().map(|point| point.1).chain(ends);
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
-    let (low, high) = round_range(low, high);
-    let x = |percent: f64| LEFT + percent / 100.0 * (WIDTH - LEFT - RIGHT);
-    let y = |height: f64| BOTTOM - (height - low) / (high - low) * (BOTTOM - 10.0);
-    let ticks = Ticks::over(low, high, 8);
-    let curve: Vec<(f64, f64)> = window.material_ratio.iter().map(|&(ratio, height)| (x(ratio), y(height))).collect();
-    let content = html! {
-        @for (&value, label) in ticks.values.iter().zip(&ticks.labels) {
-            line class="grid" x1=(LEFT) x2=(WIDTH - RIGHT) y1=(px(y(value))) y2=(px(y(value))) {}
-            text class="tick end" x=(LEFT - 7.0) y=(px(y(value) + 4.0)) { (label) }
-        }
-        @for percent in [0.0, 20.0, 40.0, 60.0, 80.0, 100.0] {
-            line class="grid" x1=(px(x(percent))) x2=(px(x(percent))) y1="10" y2=(BOTTOM) {}
-            text class="tick middle" x=(px(x(percent))) y=(px(BOTTOM + 17.0)) { (percent) }
-        }
-        @if let Some(sk) = &window.sk {
-            @let [top, base] = sk.line_um;
-            polygon class="peak" points=(points(&[(x(0.0), y(top)), (x(sk.smr1_percent), y(top)), (x(0.0), y(top + sk.spk_um))])) {}
-            polygon class="valley" points=(points(&[(x(100.0), y(base)), (x(sk.smr2_percent), y(base)), (x(100.0), y(base - sk.svk_um))])) {}
-            @for (height, percent) in [(top, sk.smr1_percent), (base, sk.smr2_percent)] {
-                line class="limit" x1=(px(x(0.0))) x2=(px(x(100.0))) y1=(px(y(height))) y2=(px(y(height))) {}
-                line class="limit" x1=(px(x(percent))) x2=(px(x(percent))) y1="10" y2=(BOTTOM) {}
-            }
-            text class="label" x=(px(x(sk.smr1_percent) + 4.0)) y="24" { "Smr1" }
-            text class="label end" x=(px(x(sk.smr2_percent) - 4.0)) y="24" { "Smr2" }
-            path class="curve s1" d=(path(&[(x(0.0), y(top)), (x(100.0), y(base))])) {}
-            path class="window" d=(path(&sk.window_percent.map(|p| (x(p), y(top + (base - top) * p / 100.0))))) {}
-            line class="dimension" x1=(px(x(100.0) + 12.0)) x2=(px(x(100.0) + 12.0)) y1=(px(y(top))) y2=(px(y(base))) {}
-            text class="label" x=(px(x(100.0) + 18.0)) y=(px(0.5 * (y(top) + y(base)) + 4.0)) { "Sk" }
-            @if sk.spk_um > 0.0 { text class="label" x=(px(x(0.0) + 6.0)) y=(px(y(top + 0.2 * sk.spk_um))) { "Spk" } }
-            @if sk.svk_um > 0.0 { text class="label" x=(px(x(100.0) + 6.0)) y=(px(y(base) + 15.0)) { "Svk" } }
-        }
-        path class="curve s0" d=(path(&curve)) {}
-        rect class="frame" x=(LEFT) y="10" width=(WIDTH - LEFT - RIGHT) height=(BOTTOM - 10.0) {}
-    };
-    html! {
-        figure class="chart" {
-            figcaption { "Material ratio curve and the construction of Sk" }
-            div class="panel-head" {
-                span class="panel-name" { "height " span class="unit" { "[" (ticks.unit_text("µm")) "]" } }
-                (super::plot::legend(&[
-                    ("line s0".to_owned(), "areal material ratio".to_owned()),
-                    ("line s1".to_owned(), "equivalent line, 40 % window thick".to_owned()),
-                ]))
-            }
-            (svg(WIDTH, BOTTOM + 26.0, &format!("Material ratio curve of {}", window.title), &content))
-            div class="x-name" { "material ratio [%]" }
-        }
-    }
-}
-
-fn points(corners: &[(f64, f64)]) -> String {
-    corners.iter().map(|&(x, y)| format!("{},{}", px(x), px(y))).collect::<Vec<_>>().join(" ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::ratio_chart::SkConstruction;
     use crate::output::report::{Block, Page, Section};
 
     /// A row of parabolic feed marks of 1 um: the ratio curve is (1 - p)^2, its core line in closed form.
@@ -221,14 +137,17 @@ mod tests {
             .collect(),
             warnings: vec!["fewer than five marks".into()],
             png: None,
-            material_ratio: (0..=200).map(|k| f64::from(k) / 200.0).map(|p| (100.0 * p, height(p))).collect(),
-            sk: Some(SkConstruction {
-                line_um: [0.373_333 - mean, -0.026_667 - mean],
-                window_percent: [60.0, 100.0],
-                smr1_percent: 38.9,
-                smr2_percent: 100.0,
-                spk_um: 0.576,
-                svk_um: 0.0,
+            material_ratio: Some(RatioChart {
+                title: "Material ratio curve and the construction of Sk".into(),
+                curve: (0..=200).map(|k| f64::from(k) / 200.0).map(|p| (100.0 * p, height(p))).collect(),
+                sk: Some(SkConstruction {
+                    line_um: [0.373_333 - mean, -0.026_667 - mean],
+                    window_percent: [60.0, 100.0],
+                    smr1_percent: 38.9,
+                    smr2_percent: 100.0,
+                    spk_um: 0.576,
+                    svk_um: 0.0,
+                }),
             }),
         }
     }

@@ -8,8 +8,9 @@
 
 use maud::{Markup, html};
 
-use super::plot::{path, px, svg};
 use crate::output::axis::{Ticks, round_step, value_text};
+use crate::output::figure::drawing;
+use crate::output::plot::{path, px};
 
 /// A sheet of traces.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,7 +98,7 @@ impl TraceSheet {
                         @if self.mirrored { "←" } @else { "→" }
                     }
                 }
-                (svg(width, TOP + HEIGHT + 12.0 + ROW * rows, &self.title, &content))
+                (drawing((width, TOP + HEIGHT + 12.0 + ROW * rows), &self.title, &content))
             }
         }
     }

@@ -290,7 +290,6 @@ impl HobbingAxesReport {
         });
         write_table(&folder.path(format!("axes/{name}.csv"))?, &COLUMNS, rows)?;
         for (what, chart) in self.charts(job) {
-            chart.write_png(&folder.path(format!("axes/{name}_{what}.png"))?)?;
             chart.write_svg(&folder.path(format!("axes/{name}_{what}.svg"))?)?;
         }
         Ok(())
@@ -303,7 +302,6 @@ impl HobbingAxesReport {
     /// Files that cannot be written.
     pub fn write_work_of_teeth(&self, job: &HobbingJob, folder: &OutputFolder) -> Result<()> {
         if let Some(chart) = self.work_of_teeth(job) {
-            chart.write_png(&folder.path(format!("axes/{}_teeth.png", self.spec.name))?)?;
             chart.write_svg(&folder.path(format!("axes/{}_teeth.svg", self.spec.name))?)?;
         }
         Ok(())

@@ -2,7 +2,7 @@
 //!
 //! In: a prepared [`Job`]. Out: [`OperationAxes`] with its text for the terminal and its part of `results.json`, and
 //! per operation in `axes/`: `<operation>.csv` (one row per stroke), `<operation>_positions`, `_velocities`,
-//! `_accelerations` and `_relief` as PNG and SVG.
+//! `_accelerations` and `_relief` as SVG.
 //!
 //! The laws stand in [`crate::process::shaping::linkage::dynamics`] and [`crate::process::shaping::linkage::relief`];
 //! here their numbers get degrees and micrometres.
@@ -151,7 +151,6 @@ fn write_operation(job: &Job, operation: &PreparedOperation, folder: &OutputFold
     let rows = rows(job, operation);
     table::write(&folder.path(format!("axes/{name}.csv"))?, &rows)?;
     for (what, chart) in charts::all(job, operation, &rows) {
-        chart.write_png(&folder.path(format!("axes/{name}_{what}.png"))?)?;
         chart.write_svg(&folder.path(format!("axes/{name}_{what}.svg"))?)?;
     }
     Ok(())

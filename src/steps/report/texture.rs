@@ -3,7 +3,8 @@
 use crate::error::{Error, Result};
 use crate::findings::{self, Findings};
 use crate::output::folder::OutputFolder;
-use crate::output::report::texture::{Parameter, SkConstruction, TextureWindow};
+use crate::output::ratio_chart::{RatioChart, SkConstruction};
+use crate::output::report::texture::{Parameter, TextureWindow};
 use crate::output::report::{Block, Section, Table};
 use crate::output::text::significant;
 
@@ -71,9 +72,16 @@ fn texture_window(window: &findings::Section, folder: &OutputFolder) -> Result<T
             svk_um: um("Svk")?,
         })
     });
-    let curve = abbott.and_then(|curve| curve.table_of("curve")).map_or_else(Vec::new, |table| {
-        table.numbers("ratio").zip(table.numbers("height")).filter_map(|(ratio, z)| Some((ratio?, z?))).collect()
+    let material_ratio = abbott.and_then(|curve| curve.table_of("curve")).map(|table| RatioChart {
+        title: "Material ratio curve and the construction of Sk".to_owned(),
+        curve: table
+            .numbers("ratio")
+            .zip(table.numbers("height"))
+            .filter_map(|(ratio, z)| Some((ratio?, z?)))
+            .collect(),
+        sk,
     });
+    let material_ratio = material_ratio.filter(|chart| chart.curve.len() > 1);
     Ok(TextureWindow {
         title: format!(
             "Tooth {}, {} flank: {} × {} mm about u {}, v {} mm",
@@ -88,8 +96,7 @@ fn texture_window(window: &findings::Section, folder: &OutputFolder) -> Result<T
         parameters: parameters.iter().map(parameter).collect(),
         warnings: window.warnings.clone(),
         png,
-        material_ratio: curve,
-        sk,
+        material_ratio,
     })
 }
 

@@ -158,7 +158,7 @@ fn a_hobbed_gear_comes_with_meshes_charts_marks_points_and_programs() {
         "mesh/gear.glb",
         "mesh/flanks/tooth_16_right.ply",
         "pictures/flank.png",
-        "pictures/offset_curves.png",
+        "pictures/offset_curves.svg",
         "pictures/passes_finish.png",
         "deviation/tooth_01_left.png",
         "tables/flanks.csv",
@@ -214,7 +214,7 @@ fn a_hobbed_gear_comes_with_meshes_charts_marks_points_and_programs() {
         "texture.finish",
         "Sa",
     ]);
-    assert!(compared.join("hob_load_operations_finish_teeth_volume.png").is_file());
+    assert!(compared.join("hob_load_operations_finish_teeth_volume.svg").is_file());
     let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
     for words in [
         "Cutting marks",

@@ -86,7 +86,10 @@ proptest! {
     }
 
     #[test]
-    fn lines_shuffled(order in Just((0..SCENE.lines().count()).collect::<Vec<_>>()).prop_shuffle(), kept in 1_usize..45) {
+    fn lines_shuffled(
+        order in Just((0..SCENE.lines().count()).collect::<Vec<_>>()).prop_shuffle(),
+        kept in 1_usize..45,
+    ) {
         let lines: Vec<&str> = SCENE.lines().collect();
         let shuffled: Vec<&str> = order.iter().take(kept).filter_map(|&i| lines.get(i).copied()).collect();
         feed(&shuffled.join("\n"), &[]);

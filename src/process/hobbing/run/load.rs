@@ -43,7 +43,6 @@ pub fn write(
         return Ok(());
     }
     for (stem, chart) in charts {
-        chart.write_png(&folder.path(format!("load/{stem}.png"))?)?;
         chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
     }
     Ok(())

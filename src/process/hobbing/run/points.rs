@@ -60,7 +60,7 @@ fn points(gear: &HobbedGear) -> impl Iterator<Item = (u32, &'static str, &CurveP
         .flat_map(|(flank, points)| points.iter().map(|point| (flank.tooth, flank.side.name(), point)))
 }
 
-/// Writes `tables/offset_curves.csv` and `pictures/offset_curves.{png,svg}`.
+/// Writes `tables/offset_curves.csv` and `pictures/offset_curves.svg`.
 ///
 /// # Errors
 /// Files that cannot be written.
@@ -96,7 +96,6 @@ pub fn write(gear: &HobbedGear, chart: Option<&LineChart>, folder: &OutputFolder
     });
     write_table(&folder.path("tables/offset_curves.csv")?, &columns, rows)?;
     if let Some(chart) = chart.filter(|_| parts.has(Part::Pictures)) {
-        chart.write_png(&folder.path("pictures/offset_curves.png")?)?;
         chart.write_svg(&folder.path("pictures/offset_curves.svg")?)?;
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use crate::findings::{self, Findings};
 use crate::output::bar_chart::{BarChart, BarSeries};
-use crate::output::report::plot::{RangeChart, RangeSeries};
+use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, Section, Table};
 use crate::output::text::significant;
 use crate::process::shaping::Job;

@@ -1,7 +1,7 @@
 //! Chip tables, charts over the work angle, and maps of uncut chip thickness.
 //!
-//! Out, per operation: `tables/chips_<operation>.csv` (one row per stroke), `chips/<operation>_load.{png,svg}` and
-//! `_chips.{png,svg}` (line charts), `chips/<operation>_thickness_by_stroke.{png,exr}` and
+//! Out, per operation: `tables/chips_<operation>.csv` (one row per stroke), `chips/<operation>_load.svg` and
+//! `_chips.svg` (line charts), `chips/<operation>_thickness_by_stroke.{png,exr}` and
 //! `_thickness_by_space.{png,exr}`.
 
 use crate::colormap::ColourScale;
@@ -50,7 +50,6 @@ pub fn write_charts_and_maps(
     for (index, operation) in job.operations.iter().enumerate() {
         let name = &operation.spec.name;
         for (what, chart) in charts(job, ledger, index) {
-            chart.write_png(&folder.path(format!("chips/{name}_{what}.png"))?)?;
             chart.write_svg(&folder.path(format!("chips/{name}_{what}.svg"))?)?;
         }
         let chips = &ledger.operations[index];

@@ -34,7 +34,6 @@ pub fn write(job: &Job, cut: &CutGear, results: &Value, tools: &Tools) -> Result
         write_allowance_table(&allowance.strokes, &allowance.envelope, allowance.rack_mm, &path)?;
         if parts.has(Part::Pictures) {
             let chart = unevenness_chart(job, &allowance.strokes, name);
-            chart.write_png(&folder.path(format!("pictures/unevenness_{name}.png"))?)?;
             chart.write_svg(&folder.path(format!("pictures/unevenness_{name}.svg"))?)?;
         }
         step.advance(1);
