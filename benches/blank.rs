@@ -20,8 +20,8 @@ use gearcut::gpu::{Gpu, GpuOptions};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
 use gearcut::process::shaping::Job;
-use gearcut::process::shaping::measure::blank_report;
 use gearcut::process::shaping::scene::model::Shaping;
+use gearcut::steps::planar::blank_report;
 use gearcut::surface::BlankMesh;
 use std::path::Path;
 use std::time::Instant;
@@ -72,7 +72,7 @@ fn main() {
         let mut last = None;
         for _ in 0..ROUNDS {
             let started = Instant::now();
-            let field = job.blank_field().expect("fits in memory");
+            let field = job.planar().blank_field().expect("fits in memory");
             last = job.cut_blank(&Cpu::default(), field, &|| true).expect("native");
             fastest = fastest.min(started.elapsed().as_secs_f64());
         }
@@ -94,7 +94,7 @@ fn main() {
         let target = job.target_outline(0.02).expect("ordinary teeth");
         println!("target outline: {:.2} s, {} points", started.elapsed().as_secs_f64(), target.points_mm().len());
         let started = Instant::now();
-        let report = blank_report::measure(&job, &cut, Some(&target));
+        let report = blank_report::measure(&job.planar(), &cut, Some(&target));
         println!("report: {:.2} s, {} gouges", started.elapsed().as_secs_f64(), report.gouges.len());
         let started = Instant::now();
         let mesh = BlankMesh::new(&cut.field, Some(&target)).mesh;
@@ -102,7 +102,7 @@ fn main() {
         for wish in [AdapterWish::Real, AdapterWish::Software] {
             let Ok(gpu) = Gpu::new(wish, GpuOptions::default()) else { continue };
             let started = Instant::now();
-            let field = job.blank_field().expect("fits in memory");
+            let field = job.planar().blank_field().expect("fits in memory");
             let cut = job.cut_blank(&gpu, field, &|| true).expect("the device works").expect("not stopped");
             let rubs: usize = cut.cuts.iter().map(|done| done.rubs.len()).sum();
             println!(

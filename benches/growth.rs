@@ -56,8 +56,7 @@ fn take(case: Case, backends: &[(String, Box<dyn Backend>)]) -> Taken {
     scene.fields.profile_spacing_mm = 1e-3 * case.profile_um;
     scene.fields.lead_spacing_mm = 1e-3 * case.lead_um;
     let job = Job::new(scene).expect("the paper's gear");
-    let generation = job.target_generation();
-    let field = job.flank_field(&job.target_flank(&generation, 5, Side::Left).expect("a flank"));
+    let field = job.flank_field(job.target_flank(5, Side::Left));
     let fastest_ms = |run: &mut dyn FnMut()| {
         let time = |()| {
             let started = Instant::now();

@@ -2,7 +2,7 @@
 //!
 //! Job: the third-order gear of Liu et al. 2015 as `scenes/hobbing/third_order_plain.toml` has it: 35 teeth, 50 mm
 //! wide, 20 feeds, dexels every 20 um along the profile and 50 um along the tooth. Flanks are timed in their parts, in
-//! one thread; the whole gear runs through `hobbing::run::cut_gear`, as `gearcut cut` does, without files, on all
+//! one thread; the whole gear runs through `hobbing::cut_gear`, as `gearcut cut` does, without files, on all
 //! threads.
 //!
 //! Of every flank it is said how many records a dexel visits and how far that is from the ideal. Somebody must visit
@@ -131,7 +131,7 @@ fn whole_gear(cutter: &HobCutter) {
     let cpu = Cpu::default();
     let quiet = Progress::new(ProgressMode::Quiet);
     let before = processor_seconds();
-    let gear = hobbing::run::cut_gear(cutter, &cpu, &quiet, &Interrupt::default(), None).expect("native");
+    let gear = hobbing::cut_gear(cutter, &cpu, &quiet, &Interrupt::default(), None).expect("native");
     assert_eq!(gear.work.stats.unconverged, 0, "every root was found");
     println!(
         "whole gear, {}: {} flanks in {:.2} s ({:.2} s of processor time); {:.1} million dexels, {:.1} million \

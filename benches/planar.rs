@@ -37,8 +37,7 @@ fn planar(criterion: &mut Criterion) {
             operation.feed_during_stroke = feed_during_stroke;
         }
         let job = Job::new(scene).expect("the shipped gear");
-        let generation = job.target_generation();
-        let field = job.flank_field(&job.target_flank(&generation, 5, Side::Left).expect("a flank"));
+        let field = job.flank_field(job.target_flank(5, Side::Left));
         let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
         let kind = if feed_during_stroke { "moving" } else { "frozen" };
         for (name, plan) in

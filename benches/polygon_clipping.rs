@@ -87,13 +87,10 @@ fn gearcut_flanks(backend: Cpu, rows: usize) -> Cut {
     let started = Instant::now();
     let job = Job::new(scene()).expect("a round gear");
     let prepared = started.elapsed();
-    let generation = job.target_generation();
     let leads_mm: Vec<f64> = (0..rows).map(|row| 0.05 * (row as f64 - (rows / 2) as f64)).collect();
     let section = |field: Field| Field { leads_mm: leads_mm.clone(), ..field };
     let places: Vec<(u32, Side)> = flanks().collect();
-    let on_flanks = places
-        .par_iter()
-        .map(|&(tooth, side)| section(job.flank_field(&job.target_flank(&generation, tooth, side).expect("a flank"))));
+    let on_flanks = places.par_iter().map(|&(tooth, side)| section(job.flank_field(job.target_flank(tooth, side))));
     let on_roots = (1..=TEETH).into_par_iter().map(|space| section(job.root_field(space)));
     let fields: Vec<Field> = on_flanks.chain(on_roots).collect();
     let laid_out = started.elapsed();
@@ -102,7 +99,7 @@ fn gearcut_flanks(backend: Cpu, rows: usize) -> Cut {
     let mut heights_mm: Vec<Vec<f64>> = fields
         .into_par_iter()
         .map(|field| {
-            job.cut_rows(&backend, &field).expect("native").0[0].heights_mm.iter().map(|&h| h.into()).collect()
+            job.planar().cut_rows(&backend, &field).expect("native").0[0].heights_mm.iter().map(|&h| h.into()).collect()
         })
         .collect();
     heights_mm.truncate(flanks().count());
@@ -249,13 +246,12 @@ struct Station {
 }
 
 fn stations(job: &Job) -> Vec<Station> {
-    let generation = job.target_generation();
     let strokes = &job.finishing().strokes;
     let mut stations = Vec::new();
     for (index, (tooth, side)) in flanks().enumerate() {
-        let flank = job.target_flank(&generation, tooth, side).expect("a flank");
+        let flank = job.target_flank(tooth, side);
         let evaluated = MARGIN * flank.length_mm()..(1.0 - MARGIN) * flank.length_mm();
-        for (column, ray) in job.flank_field(&flank).columns.iter().enumerate() {
+        for (column, ray) in job.flank_field(flank).columns.iter().enumerate() {
             if !evaluated.contains(&ray.arc_mm) {
                 continue;
             }

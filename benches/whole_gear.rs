@@ -44,9 +44,8 @@ fn job(feed_during_stroke: bool) -> Job {
 }
 
 fn one_flank(criterion: &mut Criterion, job: &Job) {
-    let generation = job.target_generation();
-    let flank = job.target_flank(&generation, 7, Side::Left).expect("a flank");
-    let field = job.flank_field(&flank);
+    let flank = job.target_flank(7, Side::Left);
+    let field = job.flank_field(flank);
     let finishing = job.finishing();
     let plan = CutPlan::new(&field, &finishing.strokes, &job.cutter);
     println!(
@@ -76,20 +75,20 @@ fn whole_gear(job: &Job, strokes: &str) {
     for cpu in common::backends() {
         let quiet = Progress::new(ProgressMode::Quiet);
         let gear = shaping::cut_gear(job, &cpu, &quiet, &Interrupt::default(), None).expect("native");
-        let seconds = gear.elapsed.as_secs_f64();
-        let visits = gear.stats.dexel_passes as f64;
+        let seconds = gear.work.elapsed.as_secs_f64();
+        let visits = gear.work.stats.dexel_passes as f64;
         println!(
             "whole gear, {strokes}, {}: {seconds:.2} s; {:.1} million dexels (both operations), {:.2} million cut, \
             {:.2} million dexel-passes, {:.2} per dexel cut, {:.2} ns each (wall time, measures included); {}",
             cpu.name(),
-            gear.dexels as f64 * 1e-6,
-            gear.stats.dexels as f64 * 1e-6,
+            gear.work.dexels as f64 * 1e-6,
+            gear.work.stats.dexels as f64 * 1e-6,
             visits * 1e-6,
-            visits / gear.stats.dexels as f64,
+            visits / gear.work.stats.dexels as f64,
             1e9 * seconds / visits,
             peak_memory()
         );
-        assert_eq!(gear.stats.unconverged, 0, "every root was found");
+        assert_eq!(gear.work.stats.unconverged, 0, "every root was found");
     }
 }
 

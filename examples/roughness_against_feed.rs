@@ -53,11 +53,10 @@ fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn 
         form: Form::Poly2,
     };
     let probe = Job::new(scene.clone())?;
-    let generation = probe.target_generation();
     let mut about_pitch_curve = Vec::new();
     let mut whole = Vec::new();
     for (side, sides) in [(Side::Left, WindowSides::Left), (Side::Right, WindowSides::Right)] {
-        let flank = probe.target_flank(&generation, 3, side)?;
+        let flank = probe.target_flank(3, side);
         let crossing_mm = flank.at_height(&probe.blank, 0.0).map(|(arc_mm, _)| arc_mm);
         about_pitch_curve.push(window(sides, crossing_mm, Some(LENGTHS_MM[1])));
         whole.push(window(sides, Some(0.5 * flank.length_mm()), Some(flank.length_mm())));

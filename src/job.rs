@@ -1,6 +1,6 @@
 //! What meshes, pictures, maps and texture ask of a job, whatever its process.
 //!
-//! In: a prepared job. Out: the target's profiles section by section, and surfaces of flanks, roots and tips after all
+//! In: a prepared job. Out: the target's profiles section by section, and surfaces of flanks and tips after all
 //! operations. Shaping and hobbing answer each in their own way; nothing behind this interface knows strokes or hobs.
 
 use crate::cut::Backend;
@@ -99,12 +99,6 @@ pub trait GearJob: Sync {
     /// # Errors
     /// The tool generates no flank there; the backend's.
     fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid>;
-
-    /// Surface of the root of a space (space j lies after tooth j) after all operations.
-    ///
-    /// # Errors
-    /// The tool generates no flank there; the backend's.
-    fn root_surface(&self, backend: &dyn Backend, space: u32) -> Result<SurfaceGrid>;
 
     /// Surface of the tip land of a tooth after all operations; `None` on a pointed tooth.
     ///

@@ -9,8 +9,9 @@
 //! | `tooth_03_left_relief.png` | heights after the chain, lit from the side, exaggeration stated |
 //! | `tooth_03_left_abbott.svg` | material ratio curve with the construction of Sk |
 //!
-//! A window has its own dexels: places uniform in **arc length** along the profile (y) and along the tooth (x), heights
-//! along the target's normals. Equal steps of roll angle would make arcs that grow with the roll, and Sdq, Sdr, Sal and
+//! A window has its own dexels, cut for it: places uniform in **arc length** along the profile (y) and along the tooth
+//! (x), heights along the target's normals. Its points lie between the rows and columns of the flank's own field, which
+//! cannot stand in for them. Equal steps of roll angle would make arcs that grow with the roll, and Sdq, Sdr, Sal and
 //! Std wrong with them. The target is subtracted by the dexels themselves; what the F-operator takes off beyond it is
 //! named in the chain.
 
@@ -100,17 +101,17 @@ impl WindowTexture {
     }
 }
 
-/// Cuts and evaluates all windows of a job.
+/// Cuts and evaluates windows of a job, as from [`windows()`].
 ///
 /// # Errors
 /// Geometry and the backend. After Ctrl-C the windows that are finished are returned.
 pub fn measure(
     job: &dyn GearJob,
+    windows: &[Window],
     backend: &dyn Backend,
     progress: &Progress,
     interrupt: &Interrupt,
 ) -> Result<Vec<WindowTexture>> {
-    let windows = windows(job)?;
     let step = progress.step("texture", windows.len() as u64, "windows");
     let textures: Vec<Vec<WindowTexture>> = windows
         .par_iter()

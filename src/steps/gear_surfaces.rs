@@ -1,6 +1,6 @@
-//! Cuts what a closed gear needs beside its flanks: roots and tip lands.
+//! Cuts what a closed gear needs beside its flanks and roots: tip lands.
 //!
-//! In: a job and its flanks. Out: [`GearSurfaces`], from which the closed outline is made.
+//! In: a job, its flanks and roots. Out: [`GearSurfaces`], from which the closed outline is made.
 
 use crate::cut::Backend;
 use crate::error::Result;
@@ -9,34 +9,36 @@ use crate::surface::flanks::SurfaceGrid;
 use crate::surface::outline::{GearSurfaces, ToothSurfaces};
 use rayon::prelude::*;
 
-/// Cuts roots and tips to go with the flanks, which stand tooth by tooth, left before right; `tooth_done` is called
-/// after each tooth.
+/// Cuts tips to go with the flanks, which stand tooth by tooth, left before right, and with the roots, space by space;
+/// `tooth_done` is called after each tooth.
 ///
 /// # Errors
 /// A flank that the tool does not generate; the backend's.
 ///
 /// # Panics
-/// A flank is missing.
+/// A flank or a root is missing.
 pub fn complete(
     job: &dyn GearJob,
     backend: &dyn Backend,
     flanks: Vec<SurfaceGrid>,
+    roots: Vec<SurfaceGrid>,
     tooth_done: &(dyn Fn() + Sync),
 ) -> Result<GearSurfaces> {
     let teeth = job.scene().gear.teeth;
-    assert_eq!(flanks.len(), 2 * teeth as usize, "both flanks of every tooth");
-    let others: Vec<_> = (1..=teeth)
+    assert_eq!([flanks.len(), roots.len()], [2, 1].map(|of_tooth| of_tooth * teeth as usize), "every flank and root");
+    let tips: Vec<_> = (1..=teeth)
         .into_par_iter()
         .map(|tooth| {
-            let both = (job.tip_surface(backend, tooth)?, job.root_surface(backend, tooth)?);
+            let tip = job.tip_surface(backend, tooth)?;
             tooth_done();
-            Ok(both)
+            Ok(tip)
         })
         .collect::<Result<_>>()?;
     let mut flanks = flanks.into_iter();
     let mut flank = || flanks.next().expect("counted above");
-    let teeth = others
+    let teeth = tips
         .into_iter()
+        .zip(roots)
         .map(|(tip, root)| {
             let (left, right) = (flank(), flank());
             ToothSurfaces { right, tip, left, root }

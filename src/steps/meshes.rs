@@ -52,13 +52,19 @@ pub fn write_flank(
     write_ply(&folder.path(format!("mesh/flanks/{name}.ply"))?, &file)
 }
 
-/// The gear as a closed body; roots and tips are cut here.
+/// The gear as a closed body; tips are cut here.
 ///
 /// # Errors
 /// The backend's; a bore that reaches the teeth.
-pub fn gear(job: &dyn GearJob, backend: &dyn Backend, flanks: Vec<SurfaceGrid>, progress: &Progress) -> Result<Mesh> {
-    let step = progress.step("roots and tips", u64::from(job.scene().gear.teeth), "teeth");
-    let surfaces = gear_surfaces::complete(job, backend, flanks, &|| step.advance(1))?;
+pub fn gear(
+    job: &dyn GearJob,
+    backend: &dyn Backend,
+    flanks: Vec<SurfaceGrid>,
+    roots: Vec<SurfaceGrid>,
+    progress: &Progress,
+) -> Result<Mesh> {
+    let step = progress.step("tips", u64::from(job.scene().gear.teeth), "teeth");
+    let surfaces = gear_surfaces::complete(job, backend, flanks, roots, &|| step.advance(1))?;
     let outline = Outline::new(&surfaces, job.blank());
     let solid = gear_solid(&outline, job.scene().gear.bore_diameter_mm)?;
     step.finish();

@@ -7,17 +7,21 @@
 pub mod axes;
 pub mod check_cost;
 pub mod check_curve;
+pub mod cut_flanks;
 pub mod damage_table;
+pub mod gear_maps;
 pub mod gear_surfaces;
 pub mod meshes;
 pub mod parts;
 pub mod pictures;
+pub mod planar;
 pub mod record;
 pub mod report;
 pub mod sheets;
 pub mod stages;
 pub mod summary;
 pub mod view_mesh;
+pub mod whole_blank;
 
 use crate::cut::{Backend, CutStats};
 use crate::error::{Error, Result};
@@ -152,17 +156,23 @@ pub fn write_report(tools: &Tools, page: impl FnOnce() -> Result<Page>) -> Resul
     Ok(())
 }
 
-/// Meshes of the whole gear and the scene's pictures of it; whether all pictures were drawn.
+/// Meshes of the whole gear and the scene's pictures of it, from all flanks and roots in order; whether all pictures
+/// were drawn.
 ///
 /// # Errors
 /// The backend's, files.
-pub fn write_meshes_and_pictures(job: &dyn GearJob, flanks: Vec<SurfaceGrid>, tools: &Tools) -> Result<bool> {
+pub fn write_meshes_and_pictures(
+    job: &dyn GearJob,
+    flanks: Vec<SurfaceGrid>,
+    roots: Vec<SurfaceGrid>,
+    tools: &Tools,
+) -> Result<bool> {
     let Tools { backend, progress, interrupt, folder, parts, notes, .. } = *tools;
     let asked = if parts.has(Part::Pictures) { job.scene().pictures.len() } else { 0 };
     if asked == 0 && !parts.has(Part::Meshes) {
         return Ok(true);
     }
-    match meshes::gear(job, backend, flanks, progress) {
+    match meshes::gear(job, backend, flanks, roots, progress) {
         Ok(solid) => {
             if parts.has(Part::Meshes) {
                 meshes::write_gear(job, &solid, folder, notes, progress)?;

@@ -1,7 +1,8 @@
 //! Pictures of a run: the gear, a tooth, a flank under raking light, as the scene lists them.
 //!
 //! Gear and teeth are drawn from the closed body that is written as mesh. A flank is cut again, at the spacing of its
-//! dexels and only as wide as the picture: rolled out flat, so that the height over the target is all that is left of
+//! dexels and only as wide as the picture, whose edges lie between the rows of the flank's own field; that field is gone
+//! by then, and as large as a thousand pictures. The flank is rolled out flat, so that the height over the target is all that is left of
 //! its shape, and light from the tip grazes every feed mark alike. The factor on its heights stands in the picture.
 
 use super::meshes::stock_scale;

@@ -1,5 +1,6 @@
 //! All flanks on one picture each: stock, heights, deviations, passes, chips.
 
+use super::gear_maps::{GearMaps, finished_heights_um, um};
 use super::parts::Part;
 use super::{Tools, map_operations};
 use crate::colormap::ColourScale;
@@ -8,23 +9,8 @@ use crate::job::GearJob;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
 use crate::output::flank_maps::{CHIPS_SHOWN, FlankMaps, NO_PASS_CAME, OperationMaps};
 use crate::output::folder::OutputFolder;
-use crate::units::UM_PER_MM;
 use rayon::prelude::*;
 use std::path::Path;
-
-/// Deviations whose colours reach the ends of the scale at least, µm: on a finer scale a perfect gear would look
-/// faulty.
-const LEAST_DEVIATION_UM: f32 = 1.0;
-
-/// Colours of the deviations of all flanks, µm.
-pub fn deviation_scale(maps: &[FlankMaps]) -> ColourScale {
-    match ColourScale::diverging_over(maps.iter().map(|map| map.deviation_mm.as_slice())) {
-        ColourScale::Diverging { limit } => {
-            ColourScale::Diverging { limit: (limit * UM_PER_MM as f32).max(LEAST_DEVIATION_UM) }
-        }
-        scale @ ColourScale::Sequential { .. } => scale,
-    }
-}
 
 /// Pass ids of one flank less its lowest; NaN where no pass came.
 fn passes_from_first(ids: &[f32]) -> Vec<f32> {
@@ -36,7 +22,7 @@ fn passes_from_first(ids: &[f32]) -> Vec<f32> {
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write_sheets_and_deviations(job: &dyn GearJob, maps: &[FlankMaps], tools: &Tools) -> Result<()> {
+pub fn write_sheets_and_deviations(job: &dyn GearJob, maps: &GearMaps, tools: &Tools) -> Result<()> {
     let Tools { folder, notes, progress, parts, .. } = *tools;
     if parts.has(Part::Pictures) {
         let step = progress.step("sheets", 1, "set");
@@ -45,11 +31,11 @@ pub fn write_sheets_and_deviations(job: &dyn GearJob, maps: &[FlankMaps], tools:
         step.finish();
     }
     if parts.has(Part::Maps) {
-        let step = progress.step("deviation maps", maps.len() as u64, "flanks");
+        let step = progress.step("deviation maps", maps.flanks.len() as u64, "flanks");
         let operations = job.operations();
-        let (last, scale) = (operations.last().map_or("", |(name, _)| *name), deviation_scale(maps));
-        maps.par_iter().try_for_each(|map| {
-            map.write_deviation(folder, last, scale, notes)?;
+        let last = operations.last().map_or("", |(name, _)| *name);
+        maps.flanks.par_iter().try_for_each(|map| {
+            map.write_deviation(folder, last, maps.deviation_scale, notes)?;
             step.advance(1);
             Ok::<(), Error>(())
         })?;
@@ -63,7 +49,8 @@ pub fn write_sheets_and_deviations(job: &dyn GearJob, maps: &[FlankMaps], tools:
 ///
 /// # Errors
 /// Files that cannot be written.
-fn write_contact_sheets(job: &dyn GearJob, maps: &[FlankMaps], folder: &OutputFolder) -> Result<()> {
+fn write_contact_sheets(job: &dyn GearJob, gear: &GearMaps, folder: &OutputFolder) -> Result<()> {
+    let maps = &gear.flanks;
     let scales = map_operations(job);
     let last = scales.len() - 1;
     let scene = &job.scene().name;
@@ -71,14 +58,14 @@ fn write_contact_sheets(job: &dyn GearJob, maps: &[FlankMaps], folder: &OutputFo
         write_stock_sheet(scene, operation, index, maps, folder)?;
     }
     let name = &scales[last].name;
-    write_height_sheet(scene, name, maps, folder)?;
+    write_height_sheet(scene, name, gear, folder)?;
     write_sheet(
         &folder.path(format!("pictures/deviation_{name}.png"))?,
         &format!("{scene}: deviation after {name}, all flanks"),
         ["mean height of cell over the target", "µm"],
-        deviation_scale(maps),
+        gear.deviation_scale,
         maps,
-        &maps.iter().map(|m| m.deviation_mm.iter().map(|&height| um(height)).collect()).collect::<Vec<_>>(),
+        &maps.iter().map(|map| um(&map.deviation_mm)).collect::<Vec<_>>(),
     )?;
     let passes: Vec<Vec<f32>> = maps.iter().map(|m| passes_from_first(&m.latest_pass)).collect();
     write_sheet(
@@ -89,7 +76,7 @@ fn write_contact_sheets(job: &dyn GearJob, maps: &[FlankMaps], folder: &OutputFo
         maps,
         &passes,
     )?;
-    let chips_um = |map: &FlankMaps| map.chips.last().map(|chips| chips.thickness_mm.iter().map(|&h| um(h)).collect());
+    let chips_um = |map: &FlankMaps| map.chips.last().map(|chips| um(&chips.thickness_mm));
     let chips: Vec<Vec<f32>> = maps.iter().filter_map(chips_um).collect();
     if chips.len() < maps.len() {
         return Ok(());
@@ -113,10 +100,6 @@ fn usual_span(passes: &[Vec<f32>]) -> ColourScale {
     ColourScale::Sequential { low: 0.0, high: spans.get(spans.len() / 2).copied().unwrap_or(1.0) }
 }
 
-fn um(height_mm: f32) -> f32 {
-    height_mm * UM_PER_MM as f32
-}
-
 /// Stock of one earlier operation on all flanks.
 fn write_stock_sheet(
     scene: &str,
@@ -137,19 +120,14 @@ fn write_stock_sheet(
 }
 
 /// Finished surface of all flanks.
-fn write_height_sheet(scene: &str, operation: &str, maps: &[FlankMaps], folder: &OutputFolder) -> Result<()> {
-    let values: Vec<Vec<f32>> = maps
-        .iter()
-        .map(|m| {
-            m.highest_mm.last().map_or_else(Vec::new, |heights| heights.iter().map(|&height| um(height)).collect())
-        })
-        .collect();
+fn write_height_sheet(scene: &str, operation: &str, maps: &GearMaps, folder: &OutputFolder) -> Result<()> {
+    let values: Vec<Vec<f32>> = maps.flanks.iter().map(finished_heights_um).collect();
     write_sheet(
         &folder.path(format!("pictures/heights_{operation}.png"))?,
         &format!("{scene}: finished surface after {operation}, all flanks"),
         ["height over the target, highest of cell", "µm"],
-        ColourScale::heights_over(values.iter().map(Vec::as_slice)),
-        maps,
+        maps.height_scale,
+        &maps.flanks,
         &values,
     )
 }

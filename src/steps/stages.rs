@@ -17,6 +17,8 @@ pub struct Costs<'a> {
     pub before: &'a [(&'static str, f64)],
     /// For cutting and measuring a flank, s.
     pub flank_s: f64,
+    /// For cutting a root that only meshes show, s; 0 where roots are measured with the flanks.
+    pub root_s: f64,
     /// For a tooth's share of the blank, s.
     pub blank_s: f64,
 }
@@ -35,7 +37,8 @@ pub fn plan(job: &dyn GearJob, tools: &Tools, frames: Option<u32>, costs: &Costs
         ("tables and charts", 0.1 + share(Part::Chips, 0.4) + share(Part::Axes, 0.8)),
         ("sheets", share(Part::Pictures, 0.008 * teeth)),
         ("deviation maps", share(Part::Maps, 0.012 * teeth)),
-        ("roots and tips", if needs_surfaces(job, parts) { 0.02 * teeth } else { 0.0 }),
+        ("roots", if needs_surfaces(job, parts) { costs.root_s * teeth } else { 0.0 }),
+        ("tips", if needs_surfaces(job, parts) { 0.005 * teeth } else { 0.0 }),
         ("meshes", share(Part::Meshes, 0.02 * teeth)),
         ("pictures", share(Part::Pictures, 1.6 * scene.pictures.len() as f64)),
         ("frames", frames.map_or(0.0, |count| 0.5 * f64::from(count))),

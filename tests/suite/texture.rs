@@ -36,9 +36,8 @@ fn finishing_scene(module_mm: f64, teeth: u32, cutter_teeth: u32, shape: PitchCu
 /// Cusps of a flank: rolling distance from the pitch point along the pitch line (positive towards the root) and height,
 /// mm; and the feed in force.
 fn flank_cusps(job: &Job, tooth: u32, side: Side, crossing_arc_mm: f64) -> (Vec<[f64; 2]>, f64) {
-    let generation = job.target_generation();
-    let flank = job.target_flank(&generation, tooth, side).expect("a flank");
-    let cut = job.cut(&Cpu::default(), job.flank_field(&flank)).expect("cut");
+    let flank = job.target_flank(tooth, side);
+    let cut = job.cut(&Cpu::default(), job.flank_field(flank)).expect("cut");
     let rolled = |arc_mm: f64| job.curve.arc_mm(flank.at_arc(arc_mm).phi_rad) - crossing_arc_mm;
     let towards_root = (rolled(0.0) - rolled(flank.length_mm())).signum();
     let found = cusps(&cut.field, &cut.layers[0], 0);
@@ -229,9 +228,8 @@ fn a_window_too_coarse_for_its_marks_says_so() {
 fn a_cut_scallop_surface_has_the_fingerprint_of_its_shape() {
     let mut scene = finishing_scene(2.0, 1000, 300, PitchCurveShape::Circle, 0.3);
     let probe = Job::new(scene.clone()).expect("a job");
-    let generation = probe.target_generation();
-    let flank = probe.target_flank(&generation, 7, Side::Left).expect("a flank");
-    let cut = probe.cut(&Cpu::default(), probe.flank_field(&flank)).expect("cut");
+    let flank = probe.target_flank(7, Side::Left);
+    let cut = probe.cut(&Cpu::default(), probe.flank_field(flank)).expect("cut");
     let all = cusps(&cut.field, &cut.layers[0], 0);
     let first = all.len() / 2 - 5;
     let marks = &all[first..=first + 10];

@@ -12,6 +12,7 @@ use crate::math::roots::halve;
 use crate::measure::target_outline::TargetOutline;
 use crate::passes::sections::swept_sections::SweptSections;
 use crate::process::hobbing::rack_generation::FormPoint;
+use crate::steps::whole_blank;
 use crate::terms::Side;
 use crate::tool::CuttingTool;
 use crate::units::TURN_RAD;
@@ -33,10 +34,7 @@ impl HobbingJob {
     /// # Errors
     /// A field that does not fit in memory.
     pub fn blank_grid(&self) -> Result<BlankGrid, Refusal> {
-        let fields = &self.scene.fields;
-        let outline = BlankOutline::new(&self.blank);
-        let width_mm = self.scene.gear.face_width_mm;
-        BlankGrid::new(&self.blank, &outline, width_mm, fields.blank_spacing_mm, Some(fields.blank_slice_spacing_mm))
+        whole_blank::grid(&self.scene, &self.blank, false)
     }
 
     /// The uncut blank at the scene's spacing.
@@ -44,30 +42,38 @@ impl HobbingJob {
     /// # Errors
     /// A field that does not fit in memory.
     pub fn blank_field(&self) -> Result<BlankField, Refusal> {
-        let outline = BlankOutline::new(&self.blank);
-        Ok(BlankField::new(self.blank_grid()?, &outline, 0.5 * self.scene.gear.bore_diameter_mm))
+        whole_blank::field(&self.scene, &self.blank, false)
     }
 
     /// The target's section at `z_mm` as a polygon with points `spacing_mm` apart; its error is the arrow height of so
     /// long a chord.
     pub fn target_outline(&self, z_mm: f64, spacing_mm: f64) -> TargetOutline {
-        let teeth: Vec<Vec<DVec2>> = (1..=i64::from(self.scene.gear.teeth))
+        let teeth = i64::from(self.scene.gear.teeth);
+        // Right flanks of a space belong to the root of one tooth and to the flank of the next.
+        let right_forms: Vec<FormPoint> = (0..=teeth)
             .into_par_iter()
-            .map(|tooth| self.tooth_outline(tooth, z_mm, spacing_mm))
+            .map(|space| self.target.form_point(&self.blank, space, Side::Right, z_mm))
+            .collect();
+        let teeth: Vec<Vec<DVec2>> = (1..=teeth)
+            .into_par_iter()
+            .map(|tooth| {
+                let right_forms = [tooth - 1, tooth].map(|space| &right_forms[space as usize]);
+                self.tooth_outline(tooth, right_forms, z_mm, spacing_mm)
+            })
             .collect();
         TargetOutline::new(teeth.concat())
     }
 
     /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise. Flanks begin where the fillet
-    /// meets them, undercut or not.
-    fn tooth_outline(&self, tooth: i64, z_mm: f64, spacing_mm: f64) -> Vec<DVec2> {
+    /// meets them, undercut or not; `right_forms` are those of the right flanks in the spaces before and behind the
+    /// tooth.
+    fn tooth_outline(&self, tooth: i64, right_forms: [&FormPoint; 2], z_mm: f64, spacing_mm: f64) -> Vec<DVec2> {
         let target = &self.target;
         let steps = |length_mm: f64| (length_mm.abs() / spacing_mm).ceil().max(1.0) as usize;
         let between =
             |from: f64, to: f64, count: usize| (0..=count).map(move |i| from + (to - from) * i as f64 / count as f64);
         let limit_mm = 4.0 * target.rack.transverse_module_mm;
         // From the tip corner to the blank's outline, as rolls.
-        let form_point = |space: i64, side: Side| target.form_point(&self.blank, space, side, z_mm);
         let flank = |space: i64, side: Side, form: &FormPoint| -> Vec<DVec2> {
             let at = |roll_mm: f64| target.flank_contact(space, side, roll_mm, z_mm);
             let stands_out = |roll_mm: f64| {
@@ -86,8 +92,8 @@ impl HobbingJob {
             let count = 2 * steps(end_mm - bottom_mm);
             between(bottom_mm, end_mm, count).map(|arc| target.corner_point_mm(space, side, arc, z_mm)).collect()
         };
-        let left_form = form_point(tooth, Side::Left);
-        let mut points = flank(tooth - 1, Side::Right, &form_point(tooth - 1, Side::Right));
+        let left_form = target.form_point(&self.blank, tooth, Side::Left, z_mm);
+        let mut points = flank(tooth - 1, Side::Right, right_forms[0]);
         let left = flank(tooth, Side::Left, &left_form);
         let foot = |p: DVec2| self.blank.height(p, p.to_angle()).1;
         let from = foot(points[points.len() - 1]);
@@ -105,7 +111,7 @@ impl HobbingJob {
             let frame = self.curve.frame(self.curve.phi_at_arc(arc));
             frame.point_mm - target.rack.tip_height_mm * frame.normal
         }));
-        let high = corner(tooth, Side::Right, &form_point(tooth, Side::Right));
+        let high = corner(tooth, Side::Right, right_forms[1]);
         points.extend(&high[..high.len() - 1]);
         points
     }

@@ -4,12 +4,14 @@ mod cost;
 
 use crate::error::Result;
 use crate::output::text::{Sheet, plain, significant};
-use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::scene::model::HobbingKind;
+use crate::process::hobbing::{HobCutter, HobbingJob};
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
+use crate::steps::flanks_of;
 use crate::terms::Side;
+use rayon::prelude::*;
 
 /// Share of the largest tooth count of a warning's list.
 const MOST_NAMED: usize = 6;
@@ -20,7 +22,8 @@ const MOST_NAMED: usize = 6;
 /// Geometry that cannot be cut.
 pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<String>> {
     let operations = HobbingAxesReport::of_job(job);
-    let teeth = Teeth::of_job(job);
+    let cutter = HobCutter::new(job)?;
+    let teeth = Teeth::of(&cutter)?;
     sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
     check_curve::print(sheet, &job.curve, &job.scene.gear, None);
     print_hob(sheet, job);
@@ -28,7 +31,7 @@ pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<String>> {
     for operation in &operations {
         axes::print(operation, sheet);
     }
-    cost::print(sheet, job)?;
+    cost::print(sheet, &cutter)?;
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
     warnings.extend(hob_warnings(job));
     warnings.extend(teeth.warnings());
@@ -126,16 +129,12 @@ struct Teeth {
 }
 
 impl Teeth {
-    fn of_job(job: &HobbingJob) -> Self {
-        let flanks = (1..=job.scene.gear.teeth)
-            .flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)])
-            .map(|(tooth, side)| {
-                let space = i64::from(tooth) - i64::from(side == Side::Right);
-                let form = job.target.form_point(&job.blank, space, side, 0.0);
-                (tooth, side, form.height_mm, form.undercut)
-            })
-            .collect();
-        Self { flanks }
+    fn of(cutter: &HobCutter) -> Result<Self> {
+        let flank = |(tooth, side): (u32, Side)| {
+            let form = cutter.target(tooth, side)?.middle_form;
+            Ok((tooth, side, form.height_mm, form.undercut))
+        };
+        Ok(Self { flanks: flanks_of(cutter).into_par_iter().map(flank).collect::<Result<_>>()? })
     }
 
     fn print(&self, sheet: &mut Sheet) {

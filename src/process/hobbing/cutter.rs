@@ -1,7 +1,8 @@
 //! Cutting a hobbing job: the passes of all operations, the dexel field of every flank.
 //!
 //! In: [`HobbingJob`]. Out: fields and layers, one flank at a time, so that memory does not grow with the number of
-//! teeth.
+//! teeth. Of every flank only the target stays, once somebody has asked for it: some ten kilobytes of polynomials, found
+//! by nested searches that take longer than a thousand dexels.
 
 use super::HobbingJob;
 use crate::cut::{Backend, CutStats};
@@ -13,6 +14,7 @@ use crate::passes::{MotionTable, SweepPlan, TurningPasses};
 use crate::process::hobbing::flank_patch::FlankPatch;
 use crate::terms::Side;
 use crate::tool::{CuttingTool, SpatialTool};
+use std::sync::OnceLock;
 
 /// Places along profile and tooth at which the blank's height over the flank is taken; between them it is bilinear: it
 /// matters only where nothing cuts.
@@ -24,13 +26,15 @@ pub struct HobCutter<'a> {
     pub job: &'a HobbingJob,
     /// Passes of every operation, numbered on from one to the next.
     pub operations: Vec<TurningPasses>,
+    /// Targets that were asked for: left and right flank of tooth 1, then of tooth 2 and so on.
+    targets: Vec<OnceLock<Result<FlankPatch, Refusal>>>,
 }
 
 /// One flank after all operations.
 #[derive(Debug)]
-pub struct HobbedFlank {
+pub struct HobbedFlank<'a> {
     /// The target.
-    pub target: FlankPatch,
+    pub target: &'a FlankPatch,
     /// Rays; columns stand at arcs of the middle section.
     pub rays: PlacedRays,
     /// What each operation left, in order.
@@ -67,31 +71,38 @@ impl<'a> HobCutter<'a> {
             first_pass = passes.end_pass();
             operations.push(passes);
         }
-        Ok(Self { job, operations })
+        let targets = (0..2 * job.scene.gear.teeth).map(|_| OnceLock::new()).collect();
+        Ok(Self { job, operations, targets })
     }
 
     /// Target flank of a tooth.
     ///
     /// # Errors
     /// The hob generates no flank there.
-    pub fn target(&self, tooth: u32, side: Side) -> Result<FlankPatch, Refusal> {
+    pub fn target(&self, tooth: u32, side: Side) -> Result<&FlankPatch, Refusal> {
         let job = self.job;
-        FlankPatch::new(&job.target, &job.blank, tooth, side, job.scene.gear.face_width_mm)
+        let place = 2 * (tooth as usize - 1) + usize::from(side == Side::Right);
+        let find = || FlankPatch::new(&job.target, &job.blank, tooth, side, job.scene.gear.face_width_mm);
+        self.targets[place].get_or_init(find).as_ref().map_err(Clone::clone)
+    }
+
+    /// Places of the rays of a flank with the scene's spacing: along its profile and along the tooth, mm.
+    pub fn places_mm(&self, target: &FlankPatch) -> [Vec<f64>; 2] {
+        let fields = self.job.scene.fields;
+        let length_mm = target.length_mm();
+        let columns = (length_mm / fields.profile_spacing_mm).round().max(1.0) as usize;
+        let arcs_mm = (0..=columns).map(|i| length_mm * i as f64 / columns as f64).collect();
+        [arcs_mm, leads_mm(self.job.scene.gear.face_width_mm, fields.lead_spacing_mm)]
     }
 
     /// Rays of a flank with the scene's spacing.
     ///
     /// # Errors
     /// A flank without a target.
-    pub fn rays(&self, tooth: u32, side: Side) -> Result<(FlankPatch, PlacedRays), Refusal> {
+    pub fn rays(&self, tooth: u32, side: Side) -> Result<(&FlankPatch, PlacedRays), Refusal> {
         let target = self.target(tooth, side)?;
-        let fields = self.job.scene.fields;
-        let length_mm = target.length_mm();
-        let columns = (length_mm / fields.profile_spacing_mm).round().max(1.0) as usize;
-        let arcs_mm: Vec<f64> = (0..=columns).map(|i| length_mm * i as f64 / columns as f64).collect();
-        let leads_mm = leads_mm(self.job.scene.gear.face_width_mm, fields.lead_spacing_mm);
-        let rays = self.rays_over(&target, arcs_mm, leads_mm);
-        Ok((target, rays))
+        let [arcs_mm, leads_mm] = self.places_mm(target);
+        Ok((target, self.rays_over(target, arcs_mm, leads_mm)))
     }
 
     /// Rays of a part of a flank: places along the profile, arcs of the middle section from where the patch begins, and
@@ -151,7 +162,7 @@ impl<'a> HobCutter<'a> {
     ///
     /// # Errors
     /// A flank without a target, the backend's.
-    pub fn cut(&self, backend: &dyn Backend, tooth: u32, side: Side) -> Result<HobbedFlank> {
+    pub fn cut(&self, backend: &dyn Backend, tooth: u32, side: Side) -> Result<HobbedFlank<'_>> {
         let (target, rays) = self.rays(tooth, side)?;
         let (layers, stats) = self.cut_field(backend, &rays.field)?;
         Ok(HobbedFlank { target, rays, layers, stats })

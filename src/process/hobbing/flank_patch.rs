@@ -10,7 +10,7 @@
 //! shares of the roll between them: the profile's length is no smooth coordinate where the envelope nearly stands
 //! still.
 
-use super::rack_generation::RackGeneration;
+use super::rack_generation::{FormPoint, RackGeneration};
 use crate::dexel::Ray;
 use crate::error::Refusal;
 use crate::gear::blank::Blank;
@@ -31,6 +31,8 @@ const GAUSS: [(f64, f64); 4] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
 ];
 
+/// Sections to either side of the middle of the face in which the beginning of the flank is found.
+const MIDDLE_SECTION: usize = 4;
 /// Components: point and normal.
 const PARTS: usize = 6;
 /// Panels of the profile's length.
@@ -46,6 +48,8 @@ pub struct FlankPatch {
     pub form_roll_mm: f64,
     /// Height over the pitch curve where the patch begins, in the section where the flank begins last, mm.
     pub form_height_mm: f64,
+    /// Where the flank begins in the middle of the face.
+    pub middle_form: FormPoint,
     /// Whether the tip corner has undercut the flank in any section.
     pub undercut: bool,
     /// Largest distance from the flank found between the nodes, mm.
@@ -87,60 +91,62 @@ impl FlankPatch {
     ) -> Result<Self, Refusal> {
         // The left flank of a tooth bounds the space after it.
         let space = i64::from(tooth) - i64::from(side == Side::Right);
-        let sections = 9;
-        let forms = (0..sections).map(|i| {
-            let z_mm = face_width_mm * (f64::from(i) / f64::from(sections - 1) - 0.5);
-            generation.form_point(blank, space, side, z_mm)
-        });
-        let forms: Vec<_> = forms.collect();
+        let middle_form = generation.form_point(blank, space, side, 0.0);
+        let form_in = |section: usize| {
+            let z_mm = face_width_mm * (section as f64 / (2 * MIDDLE_SECTION) as f64 - 0.5);
+            if section == MIDDLE_SECTION || generation.is_straight() {
+                middle_form
+            } else {
+                generation.form_point(blank, space, side, z_mm)
+            }
+        };
+        let forms: Vec<FormPoint> = (0..=2 * MIDDLE_SECTION).map(form_in).collect();
         // Rolls towards the root have the side's sign.
         let latest = forms
             .iter()
             .min_by(|a, b| (side.sign() * a.roll_mm).total_cmp(&(side.sign() * b.roll_mm)))
-            .expect("nine sections");
+            .expect("a middle section at least");
         let source = Source { generation, blank, space, side, face_width_mm, form_roll_mm: latest.roll_mm };
-        let undercut = forms.iter().any(|form| form.undercut);
+        let no_tip = || {
+            Refusal::new(
+                "gear.addendum_coefficient",
+                format!("the {} flank of tooth {tooth} does not reach the blank's outline", side.name()),
+                "use a smaller addendum_coefficient",
+            )
+        };
+        let tip_roll_mm = source.tip_roll_mm(0.0).ok_or_else(no_tip)?;
+        let on_line_of_action_mm =
+            [latest.roll_mm, tip_roll_mm].map(|roll| generation.flank_contact(space, side, roll, 0.0).distance_mm);
+        let mut patch = Self {
+            coefficients: Vec::new(),
+            face_width_mm,
+            form_roll_mm: latest.roll_mm,
+            form_height_mm: latest.height_mm,
+            middle_form,
+            undercut: forms.iter().any(|form| form.undercut),
+            error_mm: 0.0,
+            lengths_mm: source.lengths_mm(tip_roll_mm),
+            on_line_of_action_mm,
+        };
+        let checks = source.checks();
         let mut terms = TERMS[0];
-        loop {
-            let parts = source.coefficients(terms).zip(source.lengths_mm()).zip(source.tip_roll_mm(0.0));
-            let ((coefficients, lengths_mm), tip_roll_mm) = parts.ok_or_else(|| {
-                Refusal::new(
-                    "gear.addendum_coefficient",
-                    format!("the {} flank of tooth {tooth} does not reach the blank's outline", side.name()),
-                    "use a smaller addendum_coefficient",
-                )
-            })?;
-            let form_height_mm = latest.height_mm;
-            let form_roll_mm = latest.roll_mm;
-            let on_line_of_action_mm =
-                [form_roll_mm, tip_roll_mm].map(|roll| generation.flank_contact(space, side, roll, 0.0).distance_mm);
-            let mut patch = Self {
-                coefficients,
-                face_width_mm,
-                form_roll_mm,
-                form_height_mm,
-                undercut,
-                error_mm: 0.0,
-                lengths_mm,
-                on_line_of_action_mm,
-            };
-            patch.error_mm = source.error_mm(&patch);
+        while terms <= TERMS[1] {
+            patch.coefficients = source.coefficients(terms).ok_or_else(no_tip)?;
+            patch.error_mm = error_mm(&checks, &patch);
             if patch.error_mm <= TOLERANCE_MM {
                 return Ok(patch);
             }
             terms = terms * 3 / 2;
-            if terms > TERMS[1] {
-                return Err(Refusal::new(
-                    "gear.pitch_curve",
-                    format!(
-                        "the {} flank of tooth {tooth} is not smooth: polynomials keep an error of {:.3} nm",
-                        side.name(),
-                        patch.error_mm * 1e6
-                    ),
-                    "use a pitch curve without corners",
-                ));
-            }
         }
+        Err(Refusal::new(
+            "gear.pitch_curve",
+            format!(
+                "the {} flank of tooth {tooth} is not smooth: polynomials keep an error of {:.3} nm",
+                side.name(),
+                patch.error_mm * 1e6
+            ),
+            "use a pitch curve without corners",
+        ))
     }
 
     /// Section at `z_mm` (from the middle of the face).
@@ -190,9 +196,8 @@ impl Section {
 
 impl Source<'_> {
     /// Lengths of the middle section's profile up to the panels' ends.
-    fn lengths_mm(&self) -> Option<Vec<f64>> {
-        let tip = self.tip_roll_mm(0.0)?;
-        let half = 0.5 * (tip - self.form_roll_mm) / PANELS as f64;
+    fn lengths_mm(&self, tip_roll_mm: f64) -> Vec<f64> {
+        let half = 0.5 * (tip_roll_mm - self.form_roll_mm) / PANELS as f64;
         let speed = |roll: f64| self.generation.flank_contact(self.space, self.side, roll, 0.0).length_per_roll;
         let mut lengths_mm = vec![0.0];
         for panel in 0..PANELS {
@@ -203,7 +208,7 @@ impl Source<'_> {
                 .sum();
             lengths_mm.push(lengths_mm[panel] + (half * sum).abs());
         }
-        Some(lengths_mm)
+        lengths_mm
     }
 
     fn tip_roll_mm(&self, z_mm: f64) -> Option<f64> {
@@ -242,24 +247,39 @@ impl Source<'_> {
         Some((0..terms).map(|k| chebyshev(&rows.iter().map(|row| row[k]).collect::<Vec<_>>())).collect())
     }
 
-    /// Largest distance of the patch from the flank at places between the nodes.
-    fn error_mm(&self, patch: &FlankPatch) -> f64 {
-        let mut worst = 0.0_f64;
-        for z in [-1.0, -0.93, -0.41, 0.17, 0.77, 1.0] {
+    /// Places between the nodes at which patches are held against the flank; none in a section without a tip.
+    fn checks(&self) -> Vec<Option<Check>> {
+        let section = |z: f64| {
             let z_mm = 0.5 * self.face_width_mm * z;
-            let Some(tip) = self.tip_roll_mm(z_mm) else { return f64::INFINITY };
-            let section = patch.section(z_mm);
-            for share in [0.0, 0.02, 0.31, 0.66, 0.98, 1.0] {
-                let exact = self.at(share, z_mm, tip);
-                let ray = section.ray(share);
-                let point = DVec3::new(exact[0], exact[1], exact[2]);
-                let normal = DVec3::new(exact[3], exact[4], exact[5]);
-                // A turn of the normal moves what stands a millimetre above the flank.
-                worst = worst.max(ray.origin_mm.distance(point)).max(ray.normal.distance(normal));
-            }
-        }
-        worst
+            let tip = self.tip_roll_mm(z_mm);
+            [0.0, 0.02, 0.31, 0.66, 0.98, 1.0].map(|share| {
+                let [x, y, z, nx, ny, nz] = self.at(share, z_mm, tip?);
+                Some(Check {
+                    z_mm,
+                    share,
+                    exact: Ray { origin_mm: DVec3::new(x, y, z), normal: DVec3::new(nx, ny, nz) },
+                })
+            })
+        };
+        [-1.0, -0.93, -0.41, 0.17, 0.77, 1.0].into_iter().flat_map(section).collect()
     }
+}
+
+/// A place of the flank itself.
+struct Check {
+    z_mm: f64,
+    share: f64,
+    exact: Ray,
+}
+
+/// Largest distance of a patch from the flank at these places.
+fn error_mm(checks: &[Option<Check>], patch: &FlankPatch) -> f64 {
+    let error = |check: &Check| {
+        let ray = patch.section(check.z_mm).ray(check.share);
+        // A turn of the normal moves what stands a millimetre above the flank.
+        ray.origin_mm.distance(check.exact.origin_mm).max(ray.normal.distance(check.exact.normal))
+    };
+    checks.iter().map(|check| check.as_ref().map_or(f64::INFINITY, error)).fold(0.0, f64::max)
 }
 
 /// Coefficients of the Chebyshev polynomials through values at their nodes.

@@ -6,6 +6,7 @@ pub mod check;
 pub mod cutter;
 pub mod flank_patch;
 pub mod gcode;
+pub mod gear;
 pub mod hob;
 pub mod job;
 pub mod linkage;
@@ -27,6 +28,7 @@ use axes_report::HobbingAxesReport;
 
 pub use blank::HobbedBlank;
 pub use cutter::{HobCutter, HobbedFlank};
+pub use gear::{HobbedGear, cut_gear};
 pub use hob::Hob;
 pub use job::HobbingJob;
 

@@ -124,6 +124,11 @@ fn sign(side: Side) -> f64 {
 }
 
 impl RackGeneration {
+    /// Whether all sections along the tooth are alike: a spur gear.
+    pub fn is_straight(&self) -> bool {
+        self.rack.helix_angle_rad == 0.0
+    }
+
     /// Arc s_f at which a flank of `space` crosses the pitch curve in the section `z_mm`.
     pub fn crossing_arc_mm(&self, space: i64, side: Side, z_mm: f64) -> f64 {
         self.space_arc_mm(space, z_mm) - sign(side) * self.rack.half_thickness_mm
@@ -182,6 +187,20 @@ impl RackGeneration {
         height_mm: f64,
         z_mm: f64,
     ) -> Option<ProfileCrossing> {
+        let sound_roll_mm = self.sound_roll_mm(space, side, z_mm);
+        self.crossing_from(sound_roll_mm, blank, space, side, height_mm, z_mm)
+    }
+
+    /// The same where it is known how far the flank is sound ([`Self::sound_roll_mm`]).
+    pub fn crossing_from(
+        &self,
+        sound_roll_mm: f64,
+        blank: &Blank,
+        space: i64,
+        side: Side,
+        height_mm: f64,
+        z_mm: f64,
+    ) -> Option<ProfileCrossing> {
         let e = sign(side);
         let on = |point_mm: DVec2, phi_guess: f64, part| {
             let (height, foot) = blank.height(point_mm, phi_guess);
@@ -196,9 +215,8 @@ impl RackGeneration {
             on(point, self.curve.phi_at_arc(arc), ProfilePart::Fillet)
         };
         // Rolls towards the root have the sign of e; the flank ends at the corner or where it turns back.
-        let root_roll = self.sound_roll_mm(space, side, z_mm);
         let tip_roll = -e * 4.0 * self.rack.transverse_module_mm;
-        let on_flank = regula_falsi(|roll| flank_at(roll).0 - height_mm, root_roll, tip_roll, ZERO_MM)
+        let on_flank = regula_falsi(|roll| flank_at(roll).0 - height_mm, sound_roll_mm, tip_roll, ZERO_MM)
             .map(|roll| flank_at(roll).1);
         let on_corner = self.corner_arc_at_height_mm(blank, space, side, height_mm, z_mm).map(|arc| corner_at(arc).1);
         match (on_flank, on_corner) {
@@ -237,7 +255,7 @@ impl RackGeneration {
     }
 
     /// Last roll towards the root at which the flank is sound: the corner's, or just before the envelope turns back.
-    fn sound_roll_mm(&self, space: i64, side: Side, z_mm: f64) -> f64 {
+    pub fn sound_roll_mm(&self, space: i64, side: Side, z_mm: f64) -> f64 {
         let corner = self.tip_corner_roll_mm(side);
         let sound = |roll: f64| self.flank_contact(space, side, roll, z_mm).length_per_roll > 0.0;
         let steps = 64;
@@ -256,7 +274,7 @@ impl RackGeneration {
             blank.height(contact.point_mm.truncate(), contact.phi_rad).0
         };
         let cut_away = |roll: f64| {
-            let found = self.crossing(blank, space, side, height(roll), z_mm);
+            let found = self.crossing_from(deepest, blank, space, side, height(roll), z_mm);
             found.is_none_or(|c| c.part == ProfilePart::Fillet)
         };
         let start = deepest * (1.0 - 1e-9);

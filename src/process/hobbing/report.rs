@@ -5,18 +5,27 @@ mod facts;
 
 use crate::error::Result;
 use crate::findings::{self, Findings};
+use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
+use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, Section, Table};
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
-use crate::process::hobbing::measure::hob_load::OperationLoad;
-use crate::process::hobbing::run::{HobbedGear, load, points};
-use crate::process::hobbing::{HobCutter, HobbingJob};
+use crate::process::hobbing::{HobCutter, HobbedGear};
+use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations;
 use crate::steps::report::deviations::{Inspected, Inspection};
-use crate::steps::report::{RunWords, facts::gear_words, key_number, known_first, maps, record, texture, warnings};
+use crate::steps::report::{RunWords, key_number, record, texture};
 use std::f64::consts::PI;
+
+/// Charts that are files of their own as well.
+pub struct Charts {
+    /// Bars by hob tooth, with the names of their files; none where the run was stopped before the whole blank was cut.
+    pub loads: Vec<(String, BarChart)>,
+    /// Frequencies of errors of the points on five curves; none where nothing spreads.
+    pub points: Option<LineChart>,
+}
 
 /// The page of a run.
 ///
@@ -26,7 +35,7 @@ pub fn page(
     cutter: &HobCutter,
     gear: &HobbedGear,
     found: &Findings,
-    loads: &[OperationLoad],
+    charts: Charts,
     motion: &[HobbingAxesReport],
     run: &RunWords,
     folder: &OutputFolder,
@@ -34,10 +43,10 @@ pub fn page(
     let job = cutter.job;
     let inspection = inspection(cutter, gear);
     let mut sections = vec![deviations::section(&inspection)];
-    sections.extend(five_curves(&job.scene.name, gear));
+    sections.extend(charts.points.map(five_curves));
     sections.push(marks_section(found));
     sections.extend(texture::section(found, folder)?);
-    sections.extend(load_section(job, loads));
+    sections.extend(load_section(found, charts.loads));
     sections.push(axes::section(
         motion,
         found,
@@ -56,19 +65,8 @@ pub fn page(
             mm("axial_feed")
         )
     };
-    Ok(Page {
-        title: job.scene.name.clone(),
-        subtitle: gear_words(&job.scene.gear),
-        operations: found.parts("operations").iter().map(operation).collect(),
-        complete: found.complete,
-        program: format!("gearcut {}", found.program_version),
-        key_numbers: known_first(
-            found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect(),
-        ),
-        warnings: warnings(found),
-        viewer: Some(maps::viewer(cutter, &gear.maps)?),
-        sections,
-    })
+    let key_numbers = found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect();
+    steps::report::page(cutter, found, &gear.maps, operation, key_numbers, sections)
 }
 
 fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
@@ -92,15 +90,15 @@ fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
     }
 }
 
-fn five_curves(scene: &str, gear: &HobbedGear) -> Option<Section> {
-    Some(Section {
+fn five_curves(chart: LineChart) -> Section {
+    Section {
         id: "curves",
         title: "Points on five curves".to_owned(),
         lead: "Where five curves beside the pitch curve cross every flank in the middle of the face, as cut less as \
             meant, as Liu et al. (2015) measured their gear. Every point stands in tables/offset_curves.csv."
             .to_owned(),
-        blocks: vec![Block::Lines(points::chart(scene, gear)?)],
-    })
+        blocks: vec![Block::Lines(chart)],
+    }
 }
 
 fn marks_section(found: &Findings) -> Section {
@@ -148,14 +146,13 @@ fn marks_section(found: &Findings) -> Section {
 }
 
 /// Nothing where the run was stopped before the whole blank was cut.
-fn load_section(job: &HobbingJob, loads: &[OperationLoad]) -> Option<Section> {
-    let charts = load::charts(job, loads);
+fn load_section(found: &Findings, charts: Vec<(String, BarChart)>) -> Option<Section> {
     (!charts.is_empty()).then(|| Section {
         id: "load",
         title: "Work of the hob's teeth".to_owned(),
         lead: format!(
             "What each tooth of the hob does in the whole process, approach and overrun included. The load is the {}.",
-            load::ASSUMPTION
+            found.find("hob_load").map_or("", |load| load.words("assumption"))
         ),
         blocks: charts.into_iter().map(|(_, chart)| Block::Bars(chart)).collect(),
     })

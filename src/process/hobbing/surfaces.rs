@@ -104,43 +104,15 @@ impl GearJob for HobCutter<'_> {
         arcs_mm: &[f64],
         leads_mm: &[f64],
     ) -> Result<Vec<Layer>> {
-        let rays = self.rays_over(&self.target(tooth, side)?, arcs_mm.to_vec(), leads_mm.to_vec());
+        let rays = self.rays_over(self.target(tooth, side)?, arcs_mm.to_vec(), leads_mm.to_vec());
         Ok(self.cut_field(backend, &rays.field)?.0)
     }
 
     fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid> {
-        let (target, rays) = self.rays(tooth, side)?;
-        let rays = self.rays_over(&target, rays.arcs_mm, band_mm(rays.leads_mm, reach_mm));
+        let target = self.target(tooth, side)?;
+        let [arcs_mm, leads_mm] = self.places_mm(target);
+        let rays = self.rays_over(target, arcs_mm, band_mm(leads_mm, reach_mm));
         self.surface(backend, &rays, self.job.scene.fields.profile_spacing_mm)
-    }
-
-    fn root_surface(&self, backend: &dyn Backend, space: u32) -> Result<SurfaceGrid> {
-        let fields = self.job.scene.fields;
-        let leads_mm = leads_mm(self.job.scene.gear.face_width_mm, fields.lead_spacing_mm.max(ROOT_SPACING_MM[1]));
-        let roots = self.roots(space, fields.profile_spacing_mm.max(ROOT_SPACING_MM[0]), &leads_mm)?;
-        let target = &self.job.target;
-        // In every section a point in the middle of the space, half way down.
-        let focus: Vec<DVec2> = leads_mm
-            .iter()
-            .map(|&lead| {
-                let arc_mm = target.space_arc_mm(i64::from(space), lead);
-                let frame = self.job.curve.frame(self.job.curve.phi_at_arc(arc_mm));
-                frame.point_mm - 0.5 * target.rack.tip_height_mm * frame.normal
-            })
-            .collect();
-        let field = self.field(roots[0].len(), &leads_mm, |column, row| {
-            let root = &roots[row];
-            let (point, last) = (root[column], root[root.len() - 1]);
-            let to_focus = focus[row] - point.point_mm;
-            // At both ends rays begin as the flanks' own, so that root and flank join in one point.
-            let [before, after] = [point.arc_mm, last.arc_mm - point.arc_mm];
-            let end_normal = if before < after { root[0].normal } else { last.normal };
-            let share = (before.min(after) / (BLEND_SHARE * last.arc_mm)).min(1.0);
-            let direction = end_normal.lerp(to_focus.normalize_or(point.normal), share);
-            (point.point_mm, direction.normalize_or(point.normal), FOCUS_SHARE * to_focus.length())
-        });
-        let arcs_mm = roots[roots.len() / 2].iter().map(|point| point.arc_mm).collect();
-        self.surface(backend, &PlacedRays { field, arcs_mm, leads_mm }, self.job.scene.output.mesh_spacing_mm)
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {
@@ -151,7 +123,7 @@ impl GearJob for HobCutter<'_> {
         let ends: Vec<[f64; 2]> = leads_mm
             .iter()
             .map(|&lead| {
-                flanks.each_ref().map(|flank| {
+                flanks.map(|flank| {
                     let tip_mm = flank.section(lead).ray(1.0).origin_mm.truncate();
                     job.curve.arc_mm(job.blank.height(tip_mm, tip_mm.to_angle()).1)
                 })
@@ -185,6 +157,39 @@ impl GearJob for HobCutter<'_> {
 }
 
 impl HobCutter<'_> {
+    /// Surface of the root of a space (space j lies after tooth j) after all operations.
+    ///
+    /// # Errors
+    /// The hob generates no flank there; the backend's.
+    pub fn root_surface(&self, backend: &dyn Backend, space: u32) -> Result<SurfaceGrid> {
+        let fields = self.job.scene.fields;
+        let leads_mm = leads_mm(self.job.scene.gear.face_width_mm, fields.lead_spacing_mm.max(ROOT_SPACING_MM[1]));
+        let roots = self.roots(space, fields.profile_spacing_mm.max(ROOT_SPACING_MM[0]), &leads_mm)?;
+        let target = &self.job.target;
+        // In every section a point in the middle of the space, half way down.
+        let focus: Vec<DVec2> = leads_mm
+            .iter()
+            .map(|&lead| {
+                let arc_mm = target.space_arc_mm(i64::from(space), lead);
+                let frame = self.job.curve.frame(self.job.curve.phi_at_arc(arc_mm));
+                frame.point_mm - 0.5 * target.rack.tip_height_mm * frame.normal
+            })
+            .collect();
+        let field = self.field(roots[0].len(), &leads_mm, |column, row| {
+            let root = &roots[row];
+            let (point, last) = (root[column], root[root.len() - 1]);
+            let to_focus = focus[row] - point.point_mm;
+            // At both ends rays begin as the flanks' own, so that root and flank join in one point.
+            let [before, after] = [point.arc_mm, last.arc_mm - point.arc_mm];
+            let end_normal = if before < after { root[0].normal } else { last.normal };
+            let share = (before.min(after) / (BLEND_SHARE * last.arc_mm)).min(1.0);
+            let direction = end_normal.lerp(to_focus.normalize_or(point.normal), share);
+            (point.point_mm, direction.normalize_or(point.normal), FOCUS_SHARE * to_focus.length())
+        });
+        let arcs_mm = roots[roots.len() / 2].iter().map(|point| point.arc_mm).collect();
+        self.surface(backend, &PlacedRays { field, arcs_mm, leads_mm }, self.job.scene.output.mesh_spacing_mm)
+    }
+
     /// Whether the hob's roots come down to the blank's outline at full depth. If they do not, no edge reaches a tip
     /// land: it is highest over the hob where it passes the pitch point.
     fn tops_the_gear(&self) -> bool {
@@ -201,6 +206,9 @@ impl HobCutter<'_> {
         let root = |lead: f64, count| job.target.root(&job.blank, i64::from(space), starts, lead, count);
         let length_mm = root(0.0, 2)[1].arc_mm;
         let count = (length_mm / spacing_mm).ceil().max(8.0) as usize + 1;
+        if job.target.is_straight() {
+            return Ok(vec![root(0.0, count); leads_mm.len()]);
+        }
         Ok(leads_mm.iter().map(|&lead| root(lead, count)).collect())
     }
 

@@ -1,47 +1,19 @@
-//! The blank field of a job: rays through the whole stock, cut by all operations.
+//! The whole stock of a shaping job: its return strokes, and the target's section that the gear is held against.
 
 use super::Job;
-use crate::cut::BlankOperation;
 use crate::cut::{Backend, CutBlank};
-use crate::dexel::{BlankField, BlankGrid};
+use crate::dexel::BlankField;
 use crate::error::{Refusal, Result};
 use crate::frame::Rigid2;
-use crate::gear::blank_outline::BlankOutline;
 use crate::measure::target_outline::TargetOutline;
 use crate::passes::StrokeSet;
-use crate::passes::planar::strokes::StrokeLaw;
 use crate::process::shaping::target::{FlankEnd, TargetFlank, target_root};
 use crate::terms::Side;
-use crate::tool::closed_tooth::ClosedTooth;
-use crate::tool::{CuttingTool, PlanarTool};
 use crate::units::TURN_RAD;
 use glam::DVec2;
 use rayon::prelude::*;
 
 impl Job {
-    /// The uncut blank at the scene's spacing.
-    ///
-    /// # Errors
-    /// A field that does not fit in memory.
-    pub fn blank_field(&self) -> Result<BlankField, Refusal> {
-        let outline = BlankOutline::new(&self.blank);
-        Ok(BlankField::new(self.blank_grid()?, &outline, 0.5 * self.scene.gear.bore_diameter_mm))
-    }
-
-    /// Where its rays stand.
-    ///
-    /// # Errors
-    /// A field that does not fit in memory.
-    pub fn blank_grid(&self) -> Result<BlankGrid, Refusal> {
-        let fields = &self.scene.fields;
-        let outline = BlankOutline::new(&self.blank);
-        // With all axes at rest during the strokes every section is the same one.
-        let moving = self.operations.iter().any(|o| o.strokes.law != StrokeLaw::Frozen);
-        let slice_spacing_mm = moving.then_some(fields.blank_slice_spacing_mm);
-        let width_mm = self.scene.gear.face_width_mm;
-        BlankGrid::new(&self.blank, &outline, width_mm, fields.blank_spacing_mm, slice_spacing_mm)
-    }
-
     /// Poses of the return strokes of an operation: the cutter drawn back along the line of centres. `None` where the
     /// machine does not back off.
     pub fn return_strokes(&self, operation: usize) -> Option<StrokeSet> {
@@ -57,17 +29,8 @@ impl Job {
         (back_off_mm > 0.0).then(|| StrokeSet::returning(set.first_pass, &self.cutter, set.law, set.count(), pose))
     }
 
-    /// The cutter's tooth closed through its body, down to where no stroke of an operation brings the blank.
-    pub fn closed_tooth(&self, strokes: &StrokeSet, blank_reach_mm: f64) -> ClosedTooth {
-        let runout = self.cutter.tool_from_blade(0).translation_mm;
-        let poses = (0..strokes.count()).flat_map(|stroke| strokes.poses(stroke));
-        let nearest_mm = poses.map(|pose| pose.point(runout).length()).fold(f64::INFINITY, f64::min);
-        // Between the nodes of a moving stroke the cutter comes no nearer than this by far.
-        ClosedTooth::new(self.cutter.edge(), (nearest_mm - blank_reach_mm - 1.0).max(0.0))
-    }
-
-    /// Runs all operations over the uncut blank; `advance` is called after every tile and says whether to go on.
-    /// `None`: stopped.
+    /// Runs all operations over the uncut blank, their return strokes checked; `advance` is called after every tile and
+    /// says whether to go on. `None`: stopped.
     ///
     /// # Errors
     /// The backend's.
@@ -77,24 +40,7 @@ impl Job {
         field: BlankField,
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<CutBlank>> {
-        let mut cut = CutBlank { blank_mm3: field.volumes_mm3(), field, left_mm3: Vec::new(), cuts: Vec::new() };
-        let reach_mm = BlankOutline::new(&self.blank).reach_mm();
-        for (index, operation) in self.operations.iter().enumerate() {
-            let tooth = self.closed_tooth(&operation.strokes, reach_mm);
-            let returns = self.return_strokes(index);
-            let operation = BlankOperation {
-                strokes: &operation.strokes,
-                returns: returns.as_ref(),
-                tool: &self.cutter,
-                tooth: &tooth,
-                blank_reach_mm: reach_mm,
-                cull: true,
-            };
-            let Some(done) = backend.cut_blank(&mut cut.field, &operation, advance)? else { return Ok(None) };
-            cut.cuts.push(done);
-            cut.left_mm3.push(cut.field.volumes_mm3());
-        }
-        Ok(Some(cut))
+        self.planar().cut_blank(backend, field, |operation| self.return_strokes(operation), advance)
     }
 
     /// The target's transverse section as a polygon with points `spacing_mm` apart; its error is the arrow height of so
@@ -112,10 +58,8 @@ impl Job {
 
     /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise.
     fn tooth_outline(&self, tooth: u32, spacing_mm: f64) -> Result<Vec<DVec2>, Refusal> {
-        let generation = self.target_generation();
-        let [right, left] = [Side::Right, Side::Left].map(|side| self.target_flank(&generation, tooth, side));
-        let (right, left) = (right?, left?);
-        for flank in [&right, &left] {
+        let [right, left] = [Side::Right, Side::Left].map(|side| self.target_flank(tooth, side));
+        for flank in [right, left] {
             if matches!(flank.tip_end, FlankEnd::CutterBase | FlankEnd::Undercut) {
                 return Err(Refusal::new(
                     "tool.shaper_cutter",
@@ -131,13 +75,13 @@ impl Job {
             let count = (flank.length_mm() / spacing_mm).ceil().max(1.0) as usize;
             (0..=count).map(|i| flank.at_arc(flank.length_mm() * i as f64 / count as f64).point_mm).collect()
         };
-        let mut points = along(&right);
+        let mut points = along(right);
         if left.tip_end == FlankEnd::BlankOutline && right.tip_end == FlankEnd::BlankOutline {
             let foot = |flank: &TargetFlank| {
                 let tip = flank.at_arc(flank.length_mm());
                 self.blank.height(tip.point_mm, tip.phi_rad).1
             };
-            let (from, to) = (foot(&right), foot(&left));
+            let (from, to) = (foot(right), foot(left));
             // Tips lie within a tooth of each other, but contact angles may be a turn apart.
             let to = from + (to - from).rem_euclid(TURN_RAD);
             let land = |phi: f64| {
@@ -147,8 +91,8 @@ impl Job {
             let count = (land(from).distance(land(to)) / spacing_mm).ceil().max(1.0) as usize;
             points.extend((1..count).map(|i| land(from + (to - from) * i as f64 / count as f64)));
         }
-        points.extend(along(&left).into_iter().rev());
-        points.extend(target_root(&generation, i64::from(tooth), spacing_mm).iter().map(|p| p.point_mm));
+        points.extend(along(left).into_iter().rev());
+        points.extend(target_root(self.target_generation(), i64::from(tooth), spacing_mm).iter().map(|p| p.point_mm));
         Ok(points)
     }
 }

@@ -17,7 +17,7 @@ use facts::ToothFacts;
 /// # Errors
 /// Geometry that cannot be cut.
 pub fn print(sheet: &mut Sheet, job: &Job) -> Result<Vec<String>> {
-    let facts = ToothFacts::of_job(job)?;
+    let facts = ToothFacts::of_job(job);
     let operations = OperationAxes::of_job(job);
 
     sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));

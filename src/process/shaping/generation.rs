@@ -25,14 +25,15 @@ use crate::process::shaping::linkage::ShapingLinkage;
 use crate::terms::Side;
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// Continuous generation of all tooth spaces by one operation.
 #[derive(Debug, Clone)]
-pub struct Generation<'a> {
+pub struct Generation {
     /// How the cutter moves.
-    pub linkage: &'a ShapingLinkage,
+    pub linkage: ShapingLinkage,
     /// What cuts.
-    pub cutter: &'a ShaperCutter,
+    pub cutter: Arc<ShaperCutter>,
     /// The operation's offset, mm.
     pub offset_mm: f64,
 }
@@ -73,7 +74,7 @@ pub enum TipPart {
     Corner(CornerPart, f64),
 }
 
-impl Generation<'_> {
+impl Generation {
     fn motion(&self, phi_rad: f64) -> Motion {
         let axes = self.linkage.axes(phi_rad, self.offset_mm);
         let d = |jet: &Jet<3>| [jet.value(), jet.derivative(1), jet.derivative(2)];

@@ -7,16 +7,18 @@ pub mod chips;
 pub mod cutter;
 pub mod findings;
 pub mod gcode;
+pub mod gear;
 pub mod generation;
 pub mod job;
 pub mod linkage;
 pub mod measure;
 mod report;
-pub mod run;
+mod run;
 pub mod scene;
 pub mod section;
 mod surfaces;
 pub mod target;
+pub mod tooth_target;
 
 use super::{CutDone, Process};
 use crate::error::Result;
@@ -27,8 +29,8 @@ use crate::steps::{Tools, axes};
 use axes_report::OperationAxes;
 
 pub use cutter::ShaperCutter;
-pub use job::{CutFlank, Job, PreparedOperation};
-pub use run::{CutGear, cut_gear};
+pub use gear::{CutGear, cut_gear};
+pub use job::{Job, PreparedOperation};
 
 /// The process.
 pub static PROCESS: Process = Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(Job::new(scene.clone())?)) };

@@ -15,11 +15,10 @@ use crate::process::shaping::CutGear;
 use crate::process::shaping::Job;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::measure::GearReport;
+use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations::{Inspected, Inspection};
-use crate::steps::report::{
-    RunWords, deviations, key_number, known_first, maps, record, texture, value_and_unit, warnings,
-};
+use crate::steps::report::{RunWords, deviations, key_number, record, texture, value_and_unit};
 use std::f64::consts::PI;
 
 /// The page of a run.
@@ -45,19 +44,9 @@ pub fn page(
         "Velocities, accelerations, relief",
     ));
     sections.push(facts::section(job));
-    sections.push(record(cut.report.flanks.len(), &cut.stats, cut.dexels, run));
-    let operations = found.parts("operations");
-    Ok(Page {
-        title: job.scene.name.clone(),
-        subtitle: crate::steps::report::facts::gear_words(&job.scene.gear),
-        operations: operations.iter().map(|operation| operation_words(operation, operations.len())).collect(),
-        complete: found.complete,
-        program: format!("gearcut {}", found.program_version),
-        key_numbers: key_numbers(found),
-        warnings: warnings(found),
-        viewer: Some(maps::viewer(job, &cut.maps)?),
-        sections,
-    })
+    sections.push(record(cut.report.flanks.len(), &cut.work.stats, cut.work.dexels, run));
+    let operations = found.parts("operations").len();
+    steps::report::page(job, found, &cut.maps, |of| operation_words(of, operations), key_numbers(found), sections)
 }
 
 fn operation_words(operation: &findings::Section, count: usize) -> String {
@@ -120,7 +109,7 @@ fn key_numbers(found: &Findings) -> Vec<KeyNumber> {
         card("Reserve to the tightest axis limit", "axis_margin"),
         card("Time of all strokes", "cycle_time"),
     ]);
-    known_first(numbers)
+    numbers
 }
 
 /// What a gear inspector would find on a shaped gear of module `module_mm`.

@@ -91,7 +91,7 @@ impl<'a> Section<'a> {
         let strokes = StrokeSet::new(first_pass, cutter, StrokeLaw::Frozen, count, |stroke| {
             Self::work_from_tool(self.job, first + stroke as usize)
         });
-        let tooth = self.job.closed_tooth(&strokes, reach_mm);
+        let tooth = self.job.planar().closed_tooth(&strokes, reach_mm);
         let operation = BlankOperation {
             strokes: &strokes,
             returns: None,

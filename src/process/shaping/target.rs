@@ -11,9 +11,12 @@ use crate::error::Refusal;
 use crate::gear::blank::Blank;
 use crate::math::newton::{LastStep, newton_within};
 use crate::math::roots::{halve, regula_falsi};
+use crate::measure::crossing::Crossing;
+use crate::steps::planar::ProfilePoint;
 use crate::terms::Side;
 use glam::DVec2;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// A length of profile is met if no more than this is missing, mm; Newton steps to it before its panel is halved.
 const ARC_MM: f64 = 1e-13;
@@ -48,7 +51,7 @@ pub enum FlankEnd {
 
 /// Flank of one gear tooth as finishing leaves it in the limit of many strokes.
 #[derive(Debug, Clone)]
-pub struct TargetFlank<'a> {
+pub struct TargetFlank {
     /// Gear tooth, counted from 1 at the first tooth of positive polar angle.
     pub tooth: u32,
     /// Which of its flanks.
@@ -57,7 +60,7 @@ pub struct TargetFlank<'a> {
     pub form_end: FlankEnd,
     /// Why it ends at its tip.
     pub tip_end: FlankEnd,
-    generation: &'a Generation<'a>,
+    generation: Arc<Generation>,
     space: i64,
     /// Polar angle of the form point.
     phi_form: f64,
@@ -112,13 +115,13 @@ fn space_of(tooth: u32, side: Side) -> i64 {
     i64::from(tooth) - i64::from(side == Side::Right)
 }
 
-impl<'a> TargetFlank<'a> {
+impl TargetFlank {
     /// Target flank of a tooth; `tip_height_mm` may lower the tip (pointed teeth).
     ///
     /// # Errors
     /// No involute is generated at all (the cutter undercuts the whole flank).
     pub fn new(
-        generation: &'a Generation<'a>,
+        generation: &Arc<Generation>,
         blank: &Blank,
         tooth: u32,
         side: Side,
@@ -184,7 +187,7 @@ impl<'a> TargetFlank<'a> {
             side,
             form_end,
             tip_end,
-            generation,
+            generation: generation.clone(),
             space,
             phi_form,
             phi_tip,
@@ -246,6 +249,13 @@ impl<'a> TargetFlank<'a> {
         let arc = regula_falsi(height_at, 0.0, self.length_mm(), HEIGHT_MM)?;
         Some((arc, self.at_arc(arc)))
     }
+
+    /// Where the flank crosses the pitch curve; `None` where it does not reach it.
+    pub fn pitch_crossing(&self, blank: &Blank) -> Option<Crossing> {
+        let (_, contact) = self.at_height(blank, 0.0)?;
+        let phi_rad = blank.height(contact.point_mm, contact.phi_rad).1;
+        Some(Crossing { point_mm: contact.point_mm, phi_rad, arc_mm: blank.curve().arc_mm(phi_rad) })
+    }
 }
 
 /// Teeth of the gear: the perimeter in pitches of the cutter.
@@ -267,29 +277,16 @@ fn boundary(start: f64, step: f64, inside: impl Fn(f64) -> bool) -> Option<f64> 
     Some(halve(inside, last, outside, 60)[0])
 }
 
-/// One ray of a root: place, normal and arc.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RootPoint {
-    /// Arc length from the left flank's end, mm.
-    pub arc_mm: f64,
-    /// Point on the target root, gear frame.
-    pub point_mm: DVec2,
-    /// Unit normal out of the gear.
-    pub normal: DVec2,
-    /// Polar angle of the linkage at contact.
-    pub phi_rad: f64,
-}
-
 /// Target root of the space after tooth `space` (space 0 is centred on phi = 0), as points about `spacing_mm` apart.
 ///
 /// Each part of the cutter's tip touches over one range of phi; the parts follow each other from the left flank of the
 /// space to the right one. Parts that never touch (a tip circle in a sharp hollow) are left out.
-pub fn target_root(generation: &Generation, space: i64, spacing_mm: f64) -> Vec<RootPoint> {
+pub fn target_root(generation: &Generation, space: i64, spacing_mm: f64) -> Vec<ProfilePoint> {
     let curve = generation.linkage.curve();
     let pitch_arc_mm = 2.0 * PI * generation.cutter.pitch_radius_mm / f64::from(generation.cutter.teeth);
     let phi_space = curve.phi_at_arc(space as f64 * pitch_arc_mm);
     let step = pitch_arc_mm / curve.frame(phi_space).arc_rate_mm_per_rad / 128.0;
-    let mut points: Vec<RootPoint> = Vec::new();
+    let mut points: Vec<ProfilePoint> = Vec::new();
     for part in generation.tip_parts() {
         let contact = |phi: f64| generation.tip_contact(phi, space, &part);
         let inside = |phi: f64| contact(phi).is_some();
@@ -328,7 +325,7 @@ pub fn target_root(generation: &Generation, space: i64, spacing_mm: f64) -> Vec<
                 let phi = pair[0].0 + (pair[1].0 - pair[0].0) * share;
                 if let Some((point_mm, normal)) = contact(phi) {
                     arc += points.last().map_or(0.0, |p| p.point_mm.distance(point_mm));
-                    points.push(RootPoint { arc_mm: arc, point_mm, normal, phi_rad: phi });
+                    points.push(ProfilePoint { arc_mm: arc, point_mm, normal, phi_rad: phi });
                 }
                 next += length / f64::from(count);
             }

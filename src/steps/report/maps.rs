@@ -1,23 +1,21 @@
 //! The gear and its maps for the page's viewer.
 
-use crate::colormap::ColourScale;
 use crate::error::Result;
 use crate::job::GearJob;
 use crate::output::flank_maps::FlankMaps;
 use crate::output::report::viewer::{Thinning, Viewer, ViewerFlank, ViewerQuantity};
+use crate::steps::gear_maps::{GearMaps, finished_heights_um, um};
 use crate::steps::map_operations;
-use crate::steps::sheets;
 use crate::steps::view_mesh::ViewMesh;
-use crate::units::UM_PER_MM;
 
 /// Mesh of the target, and on it: stock of every earlier operation, deviation and height of the finished surface.
 ///
 /// # Errors
 /// No flank is generated on some tooth.
-pub fn viewer(job: &dyn GearJob, maps: &[FlankMaps]) -> Result<Viewer> {
+pub fn viewer(job: &dyn GearJob, maps: &GearMaps) -> Result<Viewer> {
     let mesh = ViewMesh::new(job)?;
     let flanks = mesh.flanks.into_iter().map(|flank| {
-        let map = maps.iter().find(|map| map.tooth == flank.tooth && map.side == flank.side);
+        let map = maps.flanks.iter().find(|map| map.tooth == flank.tooth && map.side == flank.side);
         let leads = &flank.leads_mm;
         ViewerFlank {
             tooth: flank.tooth,
@@ -34,12 +32,11 @@ pub fn viewer(job: &dyn GearJob, maps: &[FlankMaps]) -> Result<Viewer> {
     Ok(Viewer { flanks: flanks.collect(), quantities: quantities(job, maps), body: mesh.body })
 }
 
-fn quantities(job: &dyn GearJob, maps: &[FlankMaps]) -> Vec<ViewerQuantity> {
+fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
     let operations = map_operations(job);
     let last = operations.len() - 1;
     let finishing = &operations[last].name;
-    let over = |values: &dyn Fn(&FlankMaps) -> Vec<f32>| maps.iter().map(values).collect::<Vec<_>>();
-    let um = |values: &[f32]| values.iter().map(|value| value * UM_PER_MM as f32).collect::<Vec<_>>();
+    let over = |values: &dyn Fn(&FlankMaps) -> Vec<f32>| maps.flanks.iter().map(values).collect::<Vec<_>>();
     let mut quantities: Vec<ViewerQuantity> = operations[..last]
         .iter()
         .enumerate()
@@ -60,18 +57,17 @@ fn quantities(job: &dyn GearJob, maps: &[FlankMaps]) -> Vec<ViewerQuantity> {
             material left; blue: cut too deep."
             .to_owned(),
         unit: "µm".to_owned(),
-        scale: sheets::deviation_scale(maps),
+        scale: maps.deviation_scale,
         thinning: Thinning::Mean,
         values: over(&|map| um(&map.deviation_mm)),
     });
-    let heights = over(&|map| um(&map.highest_mm[last]));
     quantities.push(ViewerQuantity {
         name: format!("Height after {finishing}"),
         definition: "Highest place of each cell over the target, feed marks included.".to_owned(),
         unit: "µm".to_owned(),
-        scale: ColourScale::heights_over(heights.iter().map(Vec::as_slice)),
+        scale: maps.height_scale,
         thinning: Thinning::Highest,
-        values: heights,
+        values: over(&finished_heights_um),
     });
     quantities
 }

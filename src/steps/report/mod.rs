@@ -6,10 +6,13 @@ pub mod maps;
 pub mod texture;
 
 use crate::cut::{CutStats, KERNEL_UM};
+use crate::error::Result;
 use crate::findings::{self, Findings, Quantity};
+use crate::job::GearJob;
 use crate::output::progress::duration_text;
-use crate::output::report::{Block, KeyNumber, Section, Table};
+use crate::output::report::{Block, KeyNumber, Page, Section, Table};
 use crate::output::text::{plain, significant};
+use crate::steps::gear_maps::GearMaps;
 
 /// What the run says of itself on the page. Times are left out: the same scene gives the same page.
 #[derive(Debug, Clone, Copy)]
@@ -20,6 +23,31 @@ pub struct RunWords<'a> {
     pub backend: &'a str,
     /// Why it was taken.
     pub backend_why: &'a str,
+}
+
+/// A page with the parts that are the same for all processes; `operation` puts an operation's findings into a line.
+///
+/// # Errors
+/// No flank is generated on some tooth.
+pub fn page(
+    job: &dyn GearJob,
+    found: &Findings,
+    maps: &GearMaps,
+    operation: impl Fn(&findings::Section) -> String,
+    key_numbers: Vec<KeyNumber>,
+    sections: Vec<Section>,
+) -> Result<Page> {
+    Ok(Page {
+        title: job.scene().name.clone(),
+        subtitle: facts::gear_words(&job.scene().gear),
+        operations: found.parts("operations").iter().map(operation).collect(),
+        complete: found.complete,
+        program: format!("gearcut {}", found.program_version),
+        key_numbers: known_first(key_numbers),
+        warnings: warnings(found),
+        viewer: Some(maps::viewer(job, maps)?),
+        sections,
+    })
 }
 
 /// Number and unit as they are read best.
@@ -50,14 +78,14 @@ pub fn key_number(name: &str, quantity: &Quantity) -> KeyNumber {
 }
 
 /// What does not exist here goes to the end.
-pub fn known_first(numbers: Vec<KeyNumber>) -> Vec<KeyNumber> {
+fn known_first(numbers: Vec<KeyNumber>) -> Vec<KeyNumber> {
     let (mut known, unknown): (Vec<_>, Vec<_>) = numbers.into_iter().partition(|number| number.value != "–");
     known.extend(unknown);
     known
 }
 
 /// What a reader must know of the run, in the page's signs; windows tell their own.
-pub fn warnings(found: &Findings) -> Vec<String> {
+fn warnings(found: &Findings) -> Vec<String> {
     let of_blank = found.find("blank").map_or(&[][..], |blank| &blank.warnings);
     found.warnings.iter().chain(of_blank).map(|text| text.replace(" um", " µm").replace(" deg ", "° ")).collect()
 }

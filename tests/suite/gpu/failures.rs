@@ -20,8 +20,7 @@ fn job() -> Job {
 }
 
 fn field(job: &Job, tooth: u32) -> Field {
-    let generation = job.target_generation();
-    job.flank_field(&job.target_flank(&generation, tooth, Side::Left).expect("a flank"))
+    job.flank_field(job.target_flank(tooth, Side::Left))
 }
 
 fn redoing(memory_limit_bytes: Option<u64>) -> GpuOptions {
@@ -48,7 +47,7 @@ fn a_blank_after_the_loss_is_cut_natively_and_the_loss_is_told() {
     let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 90)]);
     scene.fields.blank_spacing_mm = 0.5;
     let job = Job::new(scene).expect("the paper's gear");
-    let cut = |backend: &dyn Backend| job.cut_blank(backend, job.blank_field().expect("fits"), &|| true);
+    let cut = |backend: &dyn Backend| job.cut_blank(backend, job.planar().blank_field().expect("fits"), &|| true);
     let gpu = software_gpu(redoing(None));
     gpu.lose_device();
     assert!(cut(&gpu).expect("cut natively") == cut(&Cpu::default()).expect("the native backend"));
@@ -58,7 +57,9 @@ fn a_blank_after_the_loss_is_cut_natively_and_the_loss_is_told() {
     assert!(matches!(cut(&strict), Err(Error::Device(_))));
     // Ctrl-C between tiles.
     let working = software_gpu(redoing(None));
-    assert!(job.cut_blank(&working, job.blank_field().expect("fits"), &|| false).expect("no failure").is_none());
+    assert!(
+        job.cut_blank(&working, job.planar().blank_field().expect("fits"), &|| false).expect("no failure").is_none()
+    );
 }
 
 #[test]
@@ -125,8 +126,8 @@ fn refused_memory_is_told_and_made_good() {
     assert!(matches!(problem, GpuProblem::OutOfMemory { .. }), "{problem}");
 
     let redoing = software_gpu(redoing(Some(500)));
-    let (cut, _) = job.cut_rows(&redoing, &field(&job, 5)).expect("cut natively");
-    let (native, _) = job.cut_rows(&Cpu::default(), &field(&job, 5)).expect("the native backend");
+    let (cut, _) = job.planar().cut_rows(&redoing, &field(&job, 5)).expect("cut natively");
+    let (native, _) = job.planar().cut_rows(&Cpu::default(), &field(&job, 5)).expect("the native backend");
     assert!(cut == native);
     assert!(redoing.incidents()[0].contains("out of device memory"), "{:?}", redoing.incidents());
 }

@@ -21,8 +21,7 @@ fn job() -> Job {
 }
 
 fn fields(job: &Job) -> Vec<Field> {
-    let generation = job.target_generation();
-    let flank = |(tooth, side)| job.flank_field(&job.target_flank(&generation, tooth, side).expect("a flank"));
+    let flank = |(tooth, side)| job.flank_field(job.target_flank(tooth, side));
     [(1, Side::Left), (15, Side::Right)].map(flank).into()
 }
 
@@ -48,7 +47,8 @@ fn the_finishing_stock_scene_has_its_golden_bytes() {
     let job = job();
     let gpu = software_gpu(strict());
     let flanks = fields(&job);
-    let layers: Vec<Layer> = flanks.iter().flat_map(|field| job.cut_rows(&gpu, field).expect("cuts").0).collect();
+    let layers: Vec<Layer> =
+        flanks.iter().flat_map(|field| job.planar().cut_rows(&gpu, field).expect("cuts").0).collect();
     let dexels: usize = layers.iter().map(|l| l.passes.len()).sum();
     println!("{dexels} dexels, fingerprint {:#018x}", fingerprint(&layers));
     assert_eq!(fingerprint(&layers), GOLDEN, "other bytes than before on {}", gpu.name());

@@ -162,8 +162,7 @@ fn edge_inputs_are_cut_alike() {
 #[test]
 fn small_batches_give_the_same_bytes() {
     let job = Job::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 720)])).expect("the paper's gear");
-    let generation = job.target_generation();
-    let mut field = job.flank_field(&job.target_flank(&generation, 5, Side::Left).expect("a flank"));
+    let mut field = job.flank_field(job.target_flank(5, Side::Left));
     field.leads_mm.truncate(200);
     let plan = CutPlan::brute_force(&field, &job.finishing().strokes, &job.cutter);
     let cut = |memory_limit_bytes: Option<u64>| {

@@ -32,14 +32,13 @@ fn scenes(process: &str, fewest: usize) -> Vec<Scene> {
 
 /// Three flanks and a root of a scene.
 fn fields(job: &Job) -> Vec<(String, Field)> {
-    let generation = job.target_generation();
     let teeth = job.scene.gear.teeth;
     let flanks = [(1, Side::Left), (teeth / 3 + 1, Side::Right), (teeth - 1, Side::Left)];
     let mut fields: Vec<(String, Field)> = flanks
         .into_iter()
         .map(|(tooth, side)| {
-            let flank = job.target_flank(&generation, tooth, side).expect("a flank");
-            (format!("tooth {tooth} {side:?}"), job.flank_field(&flank))
+            let flank = job.target_flank(tooth, side);
+            (format!("tooth {tooth} {side:?}"), job.flank_field(flank))
         })
         .collect();
     fields.push(("root 2".into(), job.root_field(2)));

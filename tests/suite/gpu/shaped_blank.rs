@@ -15,7 +15,7 @@ use gearcut::process::shaping::Job;
 use gearcut::process::shaping::scene::model::Shaping;
 
 fn cut(job: &Job) -> CutBlank {
-    job.cut_blank(&Cpu::default(), job.blank_field().expect("fits in memory"), &|| true)
+    job.cut_blank(&Cpu::default(), job.planar().blank_field().expect("fits in memory"), &|| true)
         .expect("the native backend")
         .expect("not stopped")
 }
@@ -36,11 +36,11 @@ fn the_gpu_leaves_the_same_spans_and_volumes() {
     let gpu = software_gpu(strict());
     let reach_mm = BlankOutline::new(&job.blank).reach_mm();
     let run = |rooms: usize, strokes: Option<&StrokeSet>| {
-        let mut field = job.blank_field().expect("fits");
+        let mut field = job.planar().blank_field().expect("fits");
         let mut cuts = Vec::new();
         for (index, prepared) in job.operations.iter().enumerate() {
             let strokes = strokes.filter(|_| index == 1).unwrap_or(&prepared.strokes);
-            let tooth = job.closed_tooth(strokes, reach_mm);
+            let tooth = job.planar().closed_tooth(strokes, reach_mm);
             let returns = job.return_strokes(index);
             let operation = BlankOperation {
                 strokes,

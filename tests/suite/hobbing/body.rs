@@ -58,7 +58,9 @@ fn outline(cutter: &HobCutter) -> Outline {
             SurfaceGrid::new(&cut.rays, &cut.layers, job.scene.output.mesh_spacing_mm)
         })
         .collect();
-    let surfaces = complete(cutter, &Cpu::default(), flanks, &|| ()).expect("roots and tips");
+    let root = |space| cutter.root_surface(&Cpu::default(), space).expect("a root");
+    let roots = (1..=job.scene.gear.teeth).into_par_iter().map(root).collect();
+    let surfaces = complete(cutter, &Cpu::default(), flanks, roots, &|| ()).expect("tips");
     Outline::new(&surfaces, &job.blank)
 }
 

@@ -24,16 +24,20 @@ fn load(path: &Path, settings: &[&str]) -> Job {
 
 fn outline_and_solid(job: &Job) -> (Outline, Mesh) {
     let backend = Cpu::default();
-    let generation = job.target_generation();
     let flanks = (1..=job.scene.gear.teeth)
         .flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)])
         .map(|(tooth, side)| {
-            let target = job.target_flank(&generation, tooth, side).expect("a flank");
-            let cut = job.cut(&backend, job.flank_field(&target)).expect("cut");
+            let target = job.target_flank(tooth, side);
+            let cut = job.cut(&backend, job.flank_field(target)).expect("cut");
             SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm)
         })
         .collect();
-    let surfaces = complete(job, &backend, flanks, &|| ()).expect("roots and tips");
+    let root = |space| {
+        let cut = job.cut(&backend, job.root_field(space)).expect("cut");
+        SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm)
+    };
+    let roots = (1..=job.scene.gear.teeth).map(root).collect();
+    let surfaces = complete(job, &backend, flanks, roots, &|| ()).expect("tips");
     let outline = Outline::new(&surfaces, &job.blank);
     let solid = gear_solid(&outline, job.scene.gear.bore_diameter_mm).expect("a closed body");
     (outline, solid)
@@ -111,7 +115,7 @@ fn windows_and_undercut_leave_closed_bodies_in_the_blank() {
         let settings = [settings, &["fields.blank.spacing_mm=0.2"]].concat();
         let job = load(Path::new("scenes/shaping/circular_m3_z24.toml"), &settings);
         let cut = job
-            .cut_blank(&Cpu::default(), job.blank_field().expect("fits"), &|| true)
+            .cut_blank(&Cpu::default(), job.planar().blank_field().expect("fits"), &|| true)
             .expect("native")
             .expect("not stopped");
         let BlankMesh { mesh, guessed } = BlankMesh::new(&cut.field, None);

@@ -16,11 +16,11 @@ use gearcut::measure::target_outline::TargetOutline;
 use gearcut::passes::StrokeSet;
 use gearcut::process::load;
 use gearcut::process::shaping::Job;
-use gearcut::process::shaping::measure::blank_report;
-use gearcut::process::shaping::measure::blank_report::BlankReport;
-use gearcut::process::shaping::measure::stroke_faults::StrokeFaultKind;
 use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::scene::model::Scene;
+use gearcut::steps::planar::blank_report;
+use gearcut::steps::planar::blank_report::BlankReport;
+use gearcut::steps::planar::stroke_faults::StrokeFaultKind;
 use gearcut::surface::BlankMesh;
 use glam::DVec2;
 use std::path::PathBuf;
@@ -34,7 +34,7 @@ fn job(scene: Scene) -> Job {
 }
 
 fn cut(job: &Job) -> CutBlank {
-    job.cut_blank(&Cpu::default(), job.blank_field().expect("fits in memory"), &|| true)
+    job.cut_blank(&Cpu::default(), job.planar().blank_field().expect("fits in memory"), &|| true)
         .expect("the native backend")
         .expect("not stopped")
 }
@@ -44,7 +44,7 @@ fn target(job: &Job) -> TargetOutline {
 }
 
 fn report(job: &Job, cut: &CutBlank) -> BlankReport {
-    blank_report::measure(job, cut, Some(&target(job)))
+    blank_report::measure(&job.planar(), cut, Some(&target(job)))
 }
 
 /// A round gear of 24 teeth in so many finishing strokes.
@@ -79,10 +79,10 @@ fn candidates_leave_the_same_bits_as_all_passes() {
         scene.fields.blank_slice_spacing_mm = 10.0;
         let job = job(scene);
         let reach_mm = BlankOutline::new(&job.blank).reach_mm();
-        let mut fields = [job.blank_field().expect("fits"), job.blank_field().expect("fits")];
+        let mut fields = [job.planar().blank_field().expect("fits"), job.planar().blank_field().expect("fits")];
         for index in 0..2 {
             let strokes = &job.operations[index].strokes;
-            let tooth = job.closed_tooth(strokes, reach_mm);
+            let tooth = job.planar().closed_tooth(strokes, reach_mm);
             let returns = job.return_strokes(index);
             let done: Vec<BlankCut> = [true, false]
                 .into_iter()
@@ -222,14 +222,14 @@ fn fields_beyond_memory_are_refused_with_a_spacing_that_fits() {
     scene.fields.blank_spacing_mm = 0.001;
     scene.fields.blank_slice_spacing_mm = 0.5;
     Shaping::of_mut(&mut scene).expect("shaping").operations[1].feed_during_stroke = true;
-    let refusal = job(scene.clone()).blank_grid().expect_err("a thousand million spans");
+    let refusal = job(scene.clone()).planar().blank_grid().expect_err("a thousand million spans");
     assert_eq!(refusal.key, "fields.blank.spacing_mm");
     assert!(refusal.problem.contains("61 slices") && refusal.problem.contains("bytes"), "{refusal}");
     let fits = refusal.way_out.split(' ').find_map(|word| word.parse::<f64>().ok()).expect("a spacing");
     scene.fields.blank_spacing_mm = fits;
-    assert!(job(scene.clone()).blank_grid().is_ok());
+    assert!(job(scene.clone()).planar().blank_grid().is_ok());
     scene.fields.blank_spacing_mm = 0.9 * fits;
-    assert!(job(scene).blank_grid().is_err());
+    assert!(job(scene).planar().blank_grid().is_err());
 }
 
 /// The elliptical gear, 1,440 strokes in both operations.
@@ -264,7 +264,7 @@ fn gouges_are_found_and_named() {
             })
             .collect();
         replace_strokes(&mut job, operation, &list);
-        let report = blank_report::measure(&job, &cut(&job), Some(&target));
+        let report = blank_report::measure(&job.planar(), &cut(&job), Some(&target));
         let damage = if operation == 1 { &report.gouges } else { &report.interference };
         let other = if operation == 1 { &report.interference } else { &report.gouges };
         for (k, &at) in faulty.iter().enumerate() {
@@ -309,7 +309,7 @@ mod slow {
             // The cutter's base shapes the tips of one scene: there is no target in closed form, and nothing to damage.
             let target = job.target_outline(TARGET_SPACING_MM).ok();
             assert_eq!(target.is_none(), name == "fourier_concave", "{name}");
-            let report = blank_report::measure(&job, &cut, target.as_ref());
+            let report = blank_report::measure(&job.planar(), &cut, target.as_ref());
             println!(
                 "{name}: {} slices, {} triangles, {guessed} guessed, volume {:.5} of the rays', {} gouges, {} \
                 interference, {} rubs, faults {:?}",
@@ -345,7 +345,7 @@ mod slow {
             Shaping::of_mut(&mut scene).expect("shaping").tool.pitch_errors_mm =
                 (0..20).map(|b| if b == blade { shift_mm } else { 0.0 }).collect();
             let job = job(scene);
-            let report = blank_report::measure(&job, &cut(&job), Some(&target));
+            let report = blank_report::measure(&job.planar(), &cut(&job), Some(&target));
             // Cutter tooth b cuts the spaces b, b + 20, b + 40 of 42 in turn against its own count: each of them is
             // damaged on one side, as deep as the shift along the flank's normal.
             assert!(!report.gouges.is_empty(), "run {run}");
@@ -385,7 +385,7 @@ mod slow {
                 list.extend(std::iter::repeat_n(Stroke { at: f64::from(at), push_mm: 0.0 }, copies));
             }
             replace_strokes(&mut job, operation, &list);
-            let report = blank_report::measure(&job, &cut(&job), Some(&target));
+            let report = blank_report::measure(&job.planar(), &cut(&job), Some(&target));
             assert_eq!(report.stroke_faults.len(), 10, "run {run}: {:?}", report.stroke_faults);
             for (k, (fault, &at)) in report.stroke_faults.iter().zip(&faulty).enumerate() {
                 // Strokes are numbered as the machine made them.

@@ -24,7 +24,7 @@ fn ledger(job: &Job) -> ChipLedger {
 }
 
 fn cut_blank(job: &Job) -> CutBlank {
-    job.cut_blank(&Cpu::default(), job.blank_field().expect("fits in memory"), &|| true)
+    job.cut_blank(&Cpu::default(), job.planar().blank_field().expect("fits in memory"), &|| true)
         .expect("the native backend")
         .expect("not stopped")
 }

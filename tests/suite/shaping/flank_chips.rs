@@ -14,11 +14,10 @@ use std::f64::consts::TAU;
 
 /// Rays of a flank at so many places of its profile.
 fn field(job: &Job, tooth: u32, side: Side, count: u32) -> (Field, Vec<f64>) {
-    let generation = job.target_generation();
-    let flank = job.target_flank(&generation, tooth, side).expect("a flank");
+    let flank = job.target_flank(tooth, side);
     let arcs = (0..count).map(|i| flank.length_mm() * f64::from(i) / f64::from(count - 1));
     let rolls = arcs.clone().map(|arc_mm| flank.at_arc(arc_mm).roll).collect();
-    (job.field_over(&flank, arcs, vec![-15.0, 0.0, 7.5, 15.0]), rolls)
+    (job.field_over(flank, arcs, vec![-15.0, 0.0, 7.5, 15.0]), rolls)
 }
 
 /// What each pass of the cutter's involute leaves of a ray on its own, by the closed form: stroke, tooth, height and

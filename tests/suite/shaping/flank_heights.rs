@@ -20,11 +20,10 @@ fn heights_are_within_a_fiftieth_of_a_nanometre_of_the_closed_form() {
     scene.fields.lead_spacing_mm = 30.0;
     scene.fields.profile_spacing_mm = 0.02;
     let job = Job::new(scene).expect("the paper's gear");
-    let generation = job.target_generation();
     let (mut worst_nm, mut compared) = (0.0_f64, 0);
     for (tooth, side) in [(2, Side::Left), (5, Side::Right), (8, Side::Left), (9, Side::Right)] {
-        let flank = job.target_flank(&generation, tooth, side).expect("a flank");
-        let cut = job.cut(&Cpu::default(), job.flank_field(&flank)).expect("the native backend");
+        let flank = job.target_flank(tooth, side);
+        let cut = job.cut(&Cpu::default(), job.flank_field(flank)).expect("the native backend");
         let set = &job.finishing().strokes;
         for (index, column) in cut.field.columns.iter().enumerate() {
             let height = f64::from(cut.layers[0].column(index, cut.field.rows())[0]);
@@ -71,12 +70,11 @@ fn candidates_equal_brute_force_bit_for_bit() {
                 op.feed_during_stroke = feed_during_stroke;
             }
             let job = Job::new(coarse_rows(paper_scene(operations))).expect("the paper's gear");
-            let generation = job.target_generation();
             for (tooth, side) in
                 [(1, Side::Left), (1, Side::Right), (7, Side::Left), (8, Side::Right), (14, Side::Left)]
             {
-                let flank = job.target_flank(&generation, tooth, side).expect("a flank");
-                let field = job.flank_field(&flank);
+                let flank = job.target_flank(tooth, side);
+                let field = job.flank_field(flank);
                 for op in &job.operations {
                     checked += compare_with_brute_force(&job, &field, op);
                 }
@@ -101,10 +99,9 @@ fn candidates_equal_brute_force_where_facets_are_wide_and_shaved() {
             op.feed_during_stroke = feed_during_stroke;
         }
         let job = Job::new(coarse_rows(paper_scene(operations.clone()))).expect("the paper's gear");
-        let generation = job.target_generation();
         for (tooth, side) in [(3, Side::Left), (9, Side::Right)] {
-            let flank = job.target_flank(&generation, tooth, side).expect("a flank");
-            let field = job.flank_field(&flank);
+            let flank = job.target_flank(tooth, side);
+            let field = job.flank_field(flank);
             for op in &job.operations {
                 compare_whole_field(&job, &field, op);
             }
@@ -127,9 +124,8 @@ fn compare_whole_field(job: &Job, field: &Field, op: &gearcut::process::shaping:
 fn rows_that_are_alike_are_what_cutting_each_of_them_gives() {
     let operations = vec![operation("rough", TRADITIONAL, 2.0, 360), operation("finish", NORMAL, 0.0, 360)];
     let job = Job::new(coarse_rows(paper_scene(operations))).expect("the paper's gear");
-    let generation = job.target_generation();
-    let field = job.flank_field(&job.target_flank(&generation, 5, Side::Left).expect("a flank"));
-    let (layers, stats) = job.cut_rows(&Cpu::default(), &field).expect("native");
+    let field = job.flank_field(job.target_flank(5, Side::Left));
+    let (layers, stats) = job.planar().cut_rows(&Cpu::default(), &field).expect("native");
     let once = job.cut(&Cpu::default(), field).expect("native");
     assert!(once.layers == layers);
     assert_eq!(stats.dexels, 9 * once.stats.dexels);
@@ -166,9 +162,8 @@ fn compare_with_brute_force(job: &Job, field: &Field, op: &gearcut::process::sha
 #[test]
 fn a_missing_pass_is_noticed() {
     let job = Job::new(coarse_rows(paper_scene(vec![operation("finish", NORMAL, 0.0, 4200)]))).expect("the gear");
-    let generation = job.target_generation();
-    let flank = job.target_flank(&generation, 7, Side::Left).expect("a flank");
-    let field = job.flank_field(&flank);
+    let flank = job.target_flank(7, Side::Left);
+    let field = job.flank_field(flank);
     let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
     let cpu = Cpu::default();
     let (all, passes) = cut_bits(&job, &field, &plan, cpu);
@@ -191,8 +186,7 @@ fn all_instruction_sets_give_the_same_bytes() {
     let mut scene = paper_scene(vec![op]);
     scene.fields = Fields { profile_spacing_mm: 0.02, lead_spacing_mm: 0.5, ..scene.fields };
     let job = Job::new(scene).expect("the gear");
-    let generation = job.target_generation();
-    let field = job.flank_field(&job.target_flank(&generation, 3, Side::Right).expect("a flank"));
+    let field = job.flank_field(job.target_flank(3, Side::Right));
     let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
     let widest = cut_bits(&job, &field, &plan, Cpu::default());
     for vectors in [Vectors::Baseline, Vectors::Avx2] {

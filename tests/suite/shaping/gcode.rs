@@ -24,9 +24,8 @@ fn text(job: &Job) -> String {
 fn heights(job: &Job) -> Vec<f32> {
     let mut heights = Vec::new();
     for (tooth, side) in [(1, Side::Right), (7, Side::Left), (8, Side::Right), (21, Side::Left), (42, Side::Left)] {
-        let generation = job.target_generation();
-        let target = job.target_flank(&generation, tooth, side).expect("a flank");
-        let cut = job.cut(&Cpu::default(), job.flank_field(&target)).expect("cut");
+        let target = job.target_flank(tooth, side);
+        let cut = job.cut(&Cpu::default(), job.flank_field(target)).expect("cut");
         heights.extend(&cut.layers[0].heights_mm);
     }
     heights

@@ -4,10 +4,11 @@
 use crate::fixtures::paper::*;
 use gearcut::cut::cpu::Cpu;
 use gearcut::gear::PitchCurveShape;
+use gearcut::process::shaping::Job;
 use gearcut::process::shaping::scene::model::*;
-use gearcut::process::shaping::{CutFlank, Job};
 use gearcut::scene::Scene;
 use gearcut::scene::model::*;
+use gearcut::steps::planar::CutField;
 use gearcut::terms::Side;
 use glam::DVec2;
 
@@ -21,16 +22,15 @@ fn fine_scene() -> Scene {
 
 /// Cuts the same flank with and without an error; gives columns with both heights, away from form point and tip.
 fn heights(sound: &Job, faulty: &Job, tooth: u32, side: Side) -> Vec<(DVec2, DVec2, f64, f64)> {
-    let cut = |job: &Job| -> CutFlank {
-        let generation = sound.target_generation();
-        let flank = sound.target_flank(&generation, tooth, side).expect("flank");
-        job.cut(&Cpu::default(), sound.flank_field(&flank)).expect("native")
+    let cut = |job: &Job| -> CutField {
+        let flank = sound.target_flank(tooth, side);
+        job.cut(&Cpu::default(), sound.flank_field(flank)).expect("native")
     };
     let (a, b) = (cut(sound), cut(faulty));
     let count = a.field.columns.len();
     (8..count - 12)
         .map(|i| {
-            let at = |cut: &CutFlank| f64::from(cut.layers[0].column(i, cut.field.rows())[0]);
+            let at = |cut: &CutField| f64::from(cut.layers[0].column(i, cut.field.rows())[0]);
             (a.field.columns[i].origin_mm, a.field.columns[i].normal, at(&a), at(&b))
         })
         .collect()
@@ -46,8 +46,7 @@ fn cutter_runout_moves_flanks_by_its_part_along_the_normal() {
     let faulty = Job::new(scene).expect("the gear");
     let mut worst_um = 0.0_f64;
     for (tooth, side) in FLANKS {
-        let generation = sound.target_generation();
-        let flank = sound.target_flank(&generation, tooth, side).expect("flank");
+        let flank = sound.target_flank(tooth, side);
         for (origin, normal, before, after) in heights(&sound, &faulty, tooth, side) {
             // The cutter's orientation when it touches here: the target's own contact.
             let contact = (0..2000)
@@ -113,13 +112,12 @@ fn a_round_gear_is_an_exact_involute_gear() {
     scene.gear.pitch_curve = PitchCurveShape::Circle;
     scene.gear.teeth = 24;
     let job = Job::new(scene).expect("a round gear");
-    let generation = job.target_generation();
     let alpha = 20_f64.to_radians();
     let (r, r_b) = (36.0, 36.0 * alpha.cos());
     let psi_b = std::f64::consts::PI / 48.0 + alpha.tan() - alpha;
     let mut worst_mm = 0.0_f64;
     for (tooth, side) in [(1, Side::Left), (7, Side::Right), (20, Side::Left)] {
-        let flank = job.target_flank(&generation, tooth, side).expect("flank");
+        let flank = job.target_flank(tooth, side);
         for i in 0..=100 {
             let contact = flank.at_arc(flank.length_mm() * f64::from(i) / 100.0);
             let p = contact.point_mm;
@@ -131,7 +129,7 @@ fn a_round_gear_is_an_exact_involute_gear() {
         }
         let tip = flank.at_arc(flank.length_mm()).point_mm.length();
         assert!((tip - (r + 3.0)).abs() < 1e-9);
-        let cut = job.cut(&Cpu::default(), job.flank_field(&flank)).expect("native");
+        let cut = job.cut(&Cpu::default(), job.flank_field(flank)).expect("native");
         let heights = cut.layers[0].heights_mm.iter().skip(2 * cut.field.rows());
         let (low, high) = heights.fold((f32::INFINITY, 0.0_f32), |(l, h), &v| (l.min(v), h.max(v)));
         assert!(low > -1e-7 && high < 2e-4, "scallops only: {low} to {high} mm");

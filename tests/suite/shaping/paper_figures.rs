@@ -7,7 +7,7 @@
 use crate::fixtures::paper::*;
 use gearcut::process::shaping::Job;
 use gearcut::process::shaping::measure::unevenness::{
-    Surface, ToothAllowance, Unevenness, allowances, rack_allowance_mm, summarise,
+    Surface, ToothAllowance, Unevenness, rack_allowance_mm, summarise,
 };
 use gearcut::process::shaping::scene::model::*;
 
@@ -78,7 +78,7 @@ fn lobe(linkage: Linkage, strokes: u32, window_deg: Option<[f64; 2]>, surface: S
         operation.window_rad = window_deg.map(|ends| ends.map(f64::to_radians));
     }
     let job = Job::new(paper_scene(operations)).expect("the paper's gear");
-    let mut teeth = allowances(&job, 0, surface).expect("flanks");
+    let mut teeth = paper_allowances(&job, surface);
     teeth.truncate(LOBE_TEETH);
     (teeth, rack_allowance_mm(&job, 0))
 }

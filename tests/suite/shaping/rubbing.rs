@@ -7,8 +7,8 @@ use gearcut::gear::PitchCurveShape;
 use gearcut::measure::damage::LEAST_DEPTH_MM;
 use gearcut::process::shaping::Job;
 use gearcut::process::shaping::chips::edge_polygon::{EdgePolygon, Station};
-use gearcut::process::shaping::measure::blank_report;
 use gearcut::process::shaping::scene::model::Shaping;
+use gearcut::steps::planar::blank_report;
 use gearcut::tool::{CuttingTool, PlanarTool};
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ fn round_job(back_off_mm: f64) -> Job {
 }
 
 fn rubs(job: &Job) -> Vec<Rub> {
-    let cut = job.cut_blank(&Cpu::default(), job.blank_field().expect("fits"), &|| true).expect("native");
+    let cut = job.cut_blank(&Cpu::default(), job.planar().blank_field().expect("fits"), &|| true).expect("native");
     cut.expect("not stopped").cuts.remove(0).rubs
 }
 
@@ -117,7 +117,7 @@ fn no_edge_enters_deeper_than_it_has_moved_along_its_normal() {
 #[test]
 fn what_rubs_on_a_round_gear_is_stock() {
     let job = round_job(0.5);
-    let cut = job.cut_blank(&Cpu::default(), job.blank_field().expect("fits"), &|| true).expect("native");
-    let report = blank_report::measure(&job, &cut.expect("not stopped"), None);
+    let cut = job.cut_blank(&Cpu::default(), job.planar().blank_field().expect("fits"), &|| true).expect("native");
+    let report = blank_report::measure(&job.planar(), &cut.expect("not stopped"), None);
     assert!(report.rubbing.len() > 10 && report.rubbing.iter().all(|rubbing| !rubbing.stays), "{:?}", report.rubbing);
 }

@@ -9,7 +9,7 @@ use crate::output::text::{Sheet, significant};
 use crate::passes::SweepPlan;
 use crate::passes::sections::swept_sections::SweptSection;
 use crate::passes::spatial::sweep::SweepRecord;
-use crate::process::hobbing::{HobCutter, HobbingJob};
+use crate::process::hobbing::HobCutter;
 use crate::terms::Side;
 use crate::tool::CuttingTool;
 use rayon::prelude::*;
@@ -41,9 +41,8 @@ const BLANK_S_PER_RAY_PASS: f64 = 4.2e-8;
 ///
 /// # Errors
 /// A flank that the hob does not generate; a blank field that does not fit in memory.
-pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<()> {
-    let cutter = HobCutter::new(job)?;
-    crate::steps::check_cost::print(sheet, &job.scene.fields, &flank_cost(&cutter)?, &blank_cost(&cutter)?);
+pub fn print(sheet: &mut Sheet, cutter: &HobCutter) -> Result<()> {
+    crate::steps::check_cost::print(sheet, &cutter.job.scene.fields, &flank_cost(cutter)?, &blank_cost(cutter)?);
     Ok(())
 }
 
@@ -58,11 +57,10 @@ struct Planned {
 fn plan(cutter: &HobCutter, tooth: u32, side: Side) -> Result<Planned> {
     let target = cutter.target(tooth, side)?;
     let fields = &cutter.job.scene.fields;
-    let columns = (target.length_mm() / fields.profile_spacing_mm).round().max(1.0) as usize;
-    let arcs_mm = (0..=columns).map(|i| target.length_mm() * i as f64 / columns as f64).collect();
+    let [arcs_mm, _] = cutter.places_mm(target);
     let rows = ((cutter.job.scene.gear.face_width_mm / fields.lead_spacing_mm).round() as usize + 1).min(PLANNED_ROWS);
     let leads_mm = (0..rows).map(|i| fields.lead_spacing_mm * (i as f64 - 0.5 * (rows - 1) as f64)).collect();
-    let field = cutter.rays_over(&target, arcs_mm, leads_mm).field;
+    let field = cutter.rays_over(target, arcs_mm, leads_mm).field;
     let mut sum = Planned { dexels: field.len() as f64, tiles: 0.0, records: 0.0, evaluations: 0.0 };
     for passes in &cutter.operations {
         let plan = SweepPlan::new(&field, passes, cutter.job.hob.edge());

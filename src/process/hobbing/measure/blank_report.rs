@@ -1,8 +1,9 @@
 //! What the blank field says about a hobbed gear: volumes by two ways, sections against the target's, damage to the
 //! target.
 //!
-//! In: the job and its cut blank. Out: [`HobbedBlankReport`]. As in [`crate::process::shaping::measure::blank_report`];
-//! the target's section differs from slice to slice, since the teeth wind, and is made anew for each.
+//! In: the job and its cut blank. Out: [`HobbedBlankReport`]. As in
+//! [`crate::steps::planar::blank_report`]; where the teeth wind, the target's section differs from slice to slice and is
+//! made anew for each.
 //!
 //! A hob that cuts where it should not, the far side of a lobe or a neighbouring tooth, is found here: the flanks' own
 //! rays end before.
@@ -15,6 +16,7 @@ use crate::measure::gear_place::GearPlace;
 use crate::measure::target_outline::TargetOutline;
 use crate::process::hobbing::HobCutter;
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// Distance of the target outline's points, mm: chords of a fillet of 0.8 mm then miss 0.25 um, a quarter of the least
@@ -46,10 +48,13 @@ pub fn measure(cutter: &HobCutter, cut: &CutBlank) -> HobbedBlankReport {
     let gear = &job.scene.gear;
     let grid = &cut.field.grid;
     let operation_of = |pass: u32| cutter.operations.iter().position(|o| (o.first_pass..o.end_pass()).contains(&pass));
+    // One section stands for all of a spur gear.
+    let straight = job.target.is_straight().then(|| job.target_outline(0.0, TARGET_SPACING_MM));
     let slices: Vec<_> = (0..cut.field.slices.len())
         .into_par_iter()
         .map(|slice| {
-            let target: TargetOutline = job.target_outline(grid.leads_mm[slice], TARGET_SPACING_MM);
+            let own = || Cow::Owned(job.target_outline(grid.leads_mm[slice], TARGET_SPACING_MM));
+            let target: Cow<TargetOutline> = straight.as_ref().map_or_else(own, Cow::Borrowed);
             let bounds_mm2 = FAMILIES.map(|f| target.area_bound_mm2(f, grid.spacing_mm()));
             (target.area_mm2(), bounds_mm2, damage::missing_in_slice(&cut.field, slice, &target, gear, operation_of))
         })

@@ -75,9 +75,10 @@ pub fn measure(cutter: &HobCutter, backend: &dyn Backend, tooth: u32, side: Side
     let (curve, blank, gear) = (&job.curve, &job.blank, &job.scene.gear);
     let space = i64::from(tooth) - i64::from(side == Side::Right);
     let mut points: Vec<CurvePoint> = Vec::new();
+    let sound_roll_mm = job.target.sound_roll_mm(space, side, 0.0);
     for offset in OFFSETS_MODULES {
         let offset_mm = offset * gear.module_mm;
-        if let Some(target) = job.target.crossing(blank, space, side, offset_mm, 0.0) {
+        if let Some(target) = job.target.crossing_from(sound_roll_mm, blank, space, side, offset_mm, 0.0) {
             points.push(CurvePoint { offset_mm, target, cut_mm: None, along_mm: None });
         }
     }

@@ -4,21 +4,19 @@ use crate::cut::Backend;
 use crate::error::Result;
 use crate::findings::damage::{damage, pairs};
 use crate::findings::{Quantity, Section};
-use crate::measure::damage::{Damage, OperationVolume};
+use crate::measure::damage::Damage;
 use crate::process::hobbing::{HobCutter, HobbedBlank};
 
-use crate::colormap::ColourScale;
 use crate::interrupt::Interrupt;
 use crate::output::folder::OutputFolder;
-use crate::output::mesh_file::MeshFile;
-use crate::output::mesh_ply::write_ply;
 use crate::output::progress::Progress;
 use crate::output::table::{Cell, write_table};
 use crate::process::hobbing::measure::blank_report;
 use crate::process::hobbing::measure::blank_report::HobbedBlankReport;
 use crate::steps::damage_table::{damage_cells, damage_columns};
+use crate::steps::meshes;
 use crate::steps::parts::{Part, Parts};
-use crate::surface::BlankMesh;
+use crate::steps::whole_blank::{self, mean};
 
 /// The cut blank and what it says.
 #[derive(Debug)]
@@ -68,11 +66,7 @@ pub fn write(cutter: &HobCutter, whole: &WholeBlank, folder: &OutputFolder, part
     if !parts.has(Part::Meshes) {
         return Ok(());
     }
-    let passes = cutter.operations.last().map_or(0, crate::passes::TurningPasses::end_pass);
-    let mesh = BlankMesh::new(&whole.blank.cut.field, None).mesh;
-    let title = format!("gear of {}, from rays through the blank", cutter.job.scene.name);
-    let colour = ("pass_id", ColourScale::Sequential { low: 0.0, high: passes as f32 });
-    write_ply(&folder.path("mesh/blank.ply")?, &MeshFile { mesh: &mesh, title: &title, colour, notes: &[] })
+    meshes::write_blank(cutter, &whole.blank.cut, folder)
 }
 
 fn hob_tooth(cutter: &HobCutter, damage: &Damage) -> String {
@@ -84,53 +78,16 @@ fn hob_tooth(cutter: &HobCutter, damage: &Damage) -> String {
 pub fn findings(cutter: &HobCutter, whole: &WholeBlank) -> Section {
     let report = &whole.report;
     let grid = &whole.blank.cut.field.grid;
-    let mean = |families: [f64; 2]| 0.5 * (families[0] + families[1]);
     let number = |of: f64, unit: &'static str, definition: &'static str| Quantity::number(of, unit, definition);
-    let imbalance = report.operations.iter().map(OperationVolume::imbalance).fold(0.0, f64::max);
-    let operations = cutter.job.operations.iter().zip(&report.operations).map(|(operation, removed)| {
-        let name = &operation.spec.name;
-        let definition = "volume that its passes removed, summed pass by pass";
-        Section::new(name, format!("Operation {name}")).shown(
-            "removed_volume",
-            "removed",
-            number(mean(removed.by_passes_mm3), "mm3", definition),
-        )
-    });
     let section = &report.section;
     let damage = |key, title, places: &[Damage], what| {
         damage(key, title, places, what, |place, d| {
             place.and("hob_turn", d.stroke as u64).and("hob_tooth", hob_tooth(cutter, d))
         })
     };
-    Section::new("blank", "The whole gear")
-        .with("spacing", number(grid.spacing_mm(), "mm", "distance of the rays through the blank"))
-        .with(
-            "slices",
-            Quantity::count(grid.leads_mm.len() as u64, "slices", "transverse sections, both end faces among them"),
-        )
-        .shown(
-            "blank_volume",
-            "blank",
-            number(
-                mean(report.blank_mm3),
-                "mm3",
-                "volume of the uncut blank less its bore; mean of both families of rays",
-            ),
-        )
-        .shown(
-            "left_volume",
-            "left",
-            number(mean(report.left_mm3), "mm3", "volume that is left after the last operation"),
-        )
-        .with(
-            "imbalance",
-            number(
-                imbalance,
-                "1",
-                "largest difference of an operation between what its passes removed, summed pass by pass, and what is \
-                 missing from the rays, relative to it",
-            ),
-        )
+    let slices = (grid.leads_mm.len(), "transverse sections, both end faces among them");
+    let names = cutter.job.operations.iter().map(|operation| operation.spec.name.as_str());
+    whole_blank::findings(grid.spacing_mm(), slices, [report.blank_mm3, report.left_mm3], &report.operations)
         .with(
             "section_area",
             number(mean(section.cut_mm2), "mm2", "transverse section that is left, mean over the face"),
@@ -157,7 +114,7 @@ pub fn findings(cutter: &HobCutter, whole: &WholeBlank) -> Section {
             pairs(report.stats.visited, "pairs of ray and pass in which the ray crosses the sweep of the hob tooth"),
         )
         .with("ray_passes_removing", pairs(report.stats.removing, "those of them that removed material"))
-        .part(Section::new("operations", "Removed by each operation").parts(operations))
+        .part(whole_blank::removed(names, &report.operations))
         .part(damage("gouges", "gouges", &report.gouges, "target material that the last operation took"))
         .part(damage(
             "interference",

@@ -1,11 +1,10 @@
 //! Tables, contact sheets and results of a hobbed gear.
 
-use super::HobbedGear;
 use crate::error::Result;
 use crate::findings::RESULTS_FILE;
 use crate::output::table::{Cell, write_table};
 use crate::process::hobbing::measure::flank_report::Heights;
-use crate::process::hobbing::{HobCutter, HobbingJob};
+use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
 use crate::steps::{Tools, sheets};
 use crate::units::UM_PER_MM;
 use serde_json::Value;

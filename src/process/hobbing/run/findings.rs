@@ -1,6 +1,6 @@
 //! What a run finds on a hobbed gear: names, units, definitions, places.
 
-use super::{HobbedGear, blank, load, marks, points};
+use super::{blank, load, marks, points};
 use crate::findings::{Entry, Findings, Place, Quantity, Section};
 use crate::job::RAY_DEPTH_MODULES;
 use crate::measure::deviation::PitchDeviations;
@@ -9,7 +9,7 @@ use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::measure::flank_report::HobbedReport;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::measure::marks::MarkLattice;
-use crate::process::hobbing::{HobCutter, HobbingJob};
+use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::texture::{self, WindowTexture};
 use crate::units::UM_PER_MM;

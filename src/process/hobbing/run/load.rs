@@ -10,7 +10,7 @@ use crate::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
 use crate::steps::parts::{Part, Parts};
 
 /// What the load rests on.
-pub const ASSUMPTION: &str = "volume that a tooth takes, as a measure of the work that it does with the specific \
+const ASSUMPTION: &str = "volume that a tooth takes, as a measure of the work that it does with the specific \
     cutting force the same everywhere; wear follows heat and chip thickness besides, so this is no life";
 
 /// One chart: its file, its title, what it shows, its unit and a tooth's value.
@@ -31,12 +31,18 @@ pub fn measure(cutter: &HobCutter, blank: &HobbedBlank) -> Vec<OperationLoad> {
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(job: &HobbingJob, loads: &[OperationLoad], folder: &OutputFolder, parts: Parts) -> Result<()> {
+pub fn write(
+    job: &HobbingJob,
+    loads: &[OperationLoad],
+    charts: &[(String, BarChart)],
+    folder: &OutputFolder,
+    parts: Parts,
+) -> Result<()> {
     write_load_table(job, loads, folder)?;
     if !parts.has(Part::Chips) {
         return Ok(());
     }
-    for (stem, chart) in charts(job, loads) {
+    for (stem, chart) in charts {
         chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
     }
     Ok(())

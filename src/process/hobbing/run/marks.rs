@@ -9,15 +9,15 @@ use crate::process::hobbing::linkage::marks::MarkStep;
 use crate::process::hobbing::measure::marks;
 use crate::process::hobbing::measure::marks::{MarkLattice, between_rad};
 use crate::steps::Tools;
-use crate::texture;
+use crate::texture::Window;
 use rayon::prelude::*;
 
 /// Lattices of every flank that has a texture window, in the windows' order.
 ///
 /// # Errors
 /// The backend's. After Ctrl-C those that are finished are returned.
-pub fn measure(cutter: &HobCutter, tools: &Tools) -> Result<Vec<MarkLattice>> {
-    let mut flanks: Vec<_> = texture::windows(cutter)?.iter().map(|window| (window.tooth, window.side)).collect();
+pub fn measure(cutter: &HobCutter, windows: &[Window], tools: &Tools) -> Result<Vec<MarkLattice>> {
+    let mut flanks: Vec<_> = windows.iter().map(|window| (window.tooth, window.side)).collect();
     flanks.dedup();
     let step = tools.progress.step("marks", flanks.len() as u64, "flanks");
     let lattices: Vec<Option<MarkLattice>> = flanks

@@ -1,11 +1,11 @@
 //! Points on five curves beside the pitch curve, as cut against as meant: table, histogram, findings.
 
-use super::HobbedGear;
 use crate::error::Result;
 use crate::findings::{Column, Datum, Quantity, Section, Table};
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::table::{Cell, write_table};
+use crate::process::hobbing::HobbedGear;
 use crate::process::hobbing::measure::offset_curves::{CurvePoint, ErrorSpread};
 use crate::steps::parts::{Part, Parts};
 use crate::units::UM_PER_MM;
@@ -64,7 +64,7 @@ fn points(gear: &HobbedGear) -> impl Iterator<Item = (u32, &'static str, &CurveP
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(scene: &str, gear: &HobbedGear, folder: &OutputFolder, parts: Parts) -> Result<()> {
+pub fn write(gear: &HobbedGear, chart: Option<&LineChart>, folder: &OutputFolder, parts: Parts) -> Result<()> {
     let columns = [
         "tooth",
         "flank",
@@ -95,7 +95,7 @@ pub fn write(scene: &str, gear: &HobbedGear, folder: &OutputFolder, parts: Parts
         ]
     });
     write_table(&folder.path("tables/offset_curves.csv")?, &columns, rows)?;
-    if let Some(chart) = chart(scene, gear).filter(|_| parts.has(Part::Pictures)) {
+    if let Some(chart) = chart.filter(|_| parts.has(Part::Pictures)) {
         chart.write_svg(&folder.path("pictures/offset_curves.svg")?)?;
     }
     Ok(())

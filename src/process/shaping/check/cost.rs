@@ -44,10 +44,9 @@ const CHIP_SPACING_MM: f64 = 0.05;
 /// Adds the estimate to the report.
 ///
 /// # Errors
-/// A flank that the cutter does not generate.
+/// A blank field that does not fit in memory.
 pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) -> Result<(), Refusal> {
     let surfaces = job.operations.len();
-    let generation = job.target_generation();
     let (mut rows, mut planned_columns, mut records) = (0, 0.0, 0.0);
     let (mut evaluations, mut tiles) = (0.0, 0.0);
     for (tooth, side) in facts
@@ -55,11 +54,10 @@ pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) -> Result<(), R
         .step_by(facts.len().div_ceil(PLANNED_FLANKS).max(1))
         .zip([Side::Left, Side::Right].into_iter().cycle())
     {
-        let flank = job.target_flank(&generation, tooth.tooth, side)?;
-        let field = some_tiles(job.flank_field(&flank));
+        let field = some_tiles(job.flank_field(job.target_flank(tooth.tooth, side)));
         rows = field.rows();
         planned_columns += field.columns.len() as f64;
-        let field = if job.rows_are_alike() { field.section() } else { field };
+        let field = if job.planar().rows_are_alike() { field.section() } else { field };
         for operation in &job.operations {
             let plan = CutPlan::new(&field, &operation.strokes, &job.cutter);
             records += plan.records.len() as f64;
@@ -74,10 +72,10 @@ pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) -> Result<(), R
     let (all_columns, longest) = (per_flank.iter().sum::<f64>(), per_flank.iter().copied().fold(0.0, f64::max));
     let (dexels, largest) = (all_columns * rows as f64, longest * rows as f64);
     let scale = all_columns / planned_columns;
-    let rows_cut = if job.rows_are_alike() { 1 } else { rows };
+    let rows_cut = if job.planar().rows_are_alike() { 1 } else { rows };
     let map_spacing_mm = job.scene.output.map_spacing_mm;
     let map_rows =
-        if job.rows_are_alike() { 1.0 } else { (job.scene.gear.face_width_mm / map_spacing_mm).floor() + 1.0 };
+        if job.planar().rows_are_alike() { 1.0 } else { (job.scene.gear.face_width_mm / map_spacing_mm).floor() + 1.0 };
     let map_cells = all_columns * spacing_mm / map_spacing_mm * map_rows;
     let idle_rows = rows_cut.next_multiple_of(ROWS_AT_ONCE) as f64 / rows_cut as f64;
     let flanks = FlankCost {
@@ -101,13 +99,13 @@ pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) -> Result<(), R
 
 /// Rays through the blank and the cutter teeth that cross them.
 fn blank_cost(job: &Job) -> Result<BlankCost, Refusal> {
-    let grid = job.blank_grid()?;
+    let grid = job.planar().blank_grid()?;
     let reach_mm = BlankOutline::new(&job.blank).reach_mm();
     let (mut passes, mut ray_passes) = (0.0, 0.0);
     let (mut placed, mut crossings) = (PlacedScratch::default(), RayCrossings::default());
     for operation in &job.operations {
         let set = &operation.strokes;
-        let tooth = job.closed_tooth(set, reach_mm);
+        let tooth = job.planar().closed_tooth(set, reach_mm);
         let every = set.count().div_ceil(PLACED_STROKES).max(1);
         let all = passes_at(set, set.law.tau(0.0), &job.cutter, &tooth, reach_mm);
         passes += all.len() as f64;

@@ -6,11 +6,9 @@
 //! Heights are measured over the pitch curve along its normal, so that they mean the same on every tooth of a
 //! non-circular gear.
 
-use crate::Refusal;
 use crate::process::shaping::Job;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use crate::terms::Side;
-use rayon::prelude::*;
 
 /// One flank of the target.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,20 +40,13 @@ pub struct ToothFacts {
 
 impl ToothFacts {
     /// Of all teeth of a job.
-    ///
-    /// # Errors
-    /// A flank that the cutter does not generate.
-    pub fn of_job(job: &Job) -> Result<Vec<Self>, Refusal> {
-        let generation = job.target_generation();
-        (1..=job.scene.gear.teeth)
-            .into_par_iter()
-            .map(|tooth| {
-                let left = job.target_flank(&generation, tooth, Side::Left)?;
-                let right = job.target_flank(&generation, tooth, Side::Right)?;
-                let tip_land_mm = job.tip_land_mm(&left, &right);
-                Ok(Self { tooth, left: FlankFacts::new(job, &left), right: FlankFacts::new(job, &right), tip_land_mm })
-            })
-            .collect()
+    pub fn of_job(job: &Job) -> Vec<Self> {
+        let facts = |tooth| {
+            let target = job.target(tooth);
+            let [left, right] = [Side::Left, Side::Right].map(|side| FlankFacts::new(job, target.flank(side)));
+            Self { tooth, left, right, tip_land_mm: target.tip_land_mm }
+        };
+        (1..=job.scene.gear.teeth).map(facts).collect()
     }
 
     /// Both flanks with their sides.

@@ -102,7 +102,7 @@ pub fn last_chips(job: &Job, field: &Field) -> Vec<LastChips> {
 
 /// The same of those passes that `choose` leaves of all that reach a column whose blank is so high.
 fn last_chips_of(job: &Job, field: &Field, choose: impl Fn(&[Reaching], f64) -> Vec<Reaching>) -> Vec<LastChips> {
-    let leads_mm: &[f64] = if job.rows_are_alike() { &[0.0] } else { &field.leads_mm };
+    let leads_mm: &[f64] = if job.planar().rows_are_alike() { &[0.0] } else { &field.leads_mm };
     let segments = Segments::new(job.cutter.edge());
     let blades: Vec<Rigid2> = (0..job.cutter.blade_count()).map(|b| job.cutter.tool_from_blade(b).inverse()).collect();
     let near = passes_near(job, field);
@@ -292,10 +292,9 @@ mod tests {
             operation.feed_during_stroke = true;
         }
         let job = Job::new(scene).expect("the shipped gear");
-        let generation = job.target_generation();
         let (mut all, mut kept) = (0, 0);
         for (tooth, side) in [(1, Side::Left), (8, Side::Right)] {
-            let field = job.flank_field(&job.target_flank(&generation, tooth, side).expect("a flank"));
+            let field = job.flank_field(job.target_flank(tooth, side));
             let columns: Vec<usize> = (0..field.columns.len()).step_by(31).collect();
             let field = field.at([&columns, &[0, 100, 300, 500, 600]]);
             let chosen = last_chips(&job, &field);

@@ -5,7 +5,6 @@ use crate::math::convergence::{Step, iterate};
 use crate::measure::crossing::Crossing;
 use crate::passes::planar::near::{lowest_entry, near_passes};
 use crate::process::shaping::Job;
-use crate::process::shaping::generation::Generation;
 use crate::process::shaping::target::TargetFlank;
 use crate::terms::Side;
 use crate::tool::CuttingTool;
@@ -19,11 +18,11 @@ const LAST_MOVE_MM: f64 = 1e-10;
 
 /// Crossing of the envelope of one operation with the pitch curve on one flank; `None` where its involute does not
 /// reach the curve.
-pub fn envelope_crossing(job: &Job, generation: &Generation, tooth: u32, side: Side) -> Option<Crossing> {
-    let flank = TargetFlank::new(generation, &job.blank, tooth, side, None).ok()?;
-    let (_, contact) = flank.at_height(&job.blank, 0.0)?;
-    let phi_rad = job.blank.height(contact.point_mm, contact.phi_rad).1;
-    Some(Crossing { point_mm: contact.point_mm, phi_rad, arc_mm: job.curve.arc_mm(phi_rad) })
+pub fn envelope_crossing(job: &Job, operation: usize, tooth: u32, side: Side) -> Option<Crossing> {
+    if operation + 1 == job.operations.len() {
+        return job.target(tooth).pitch_crossing(side);
+    }
+    TargetFlank::new(job.generation(operation), &job.blank, tooth, side, None).ok()?.pitch_crossing(&job.blank)
 }
 
 /// Crossing of what the strokes of operations 0 to `last_operation` leave in the middle of the face, on one flank;

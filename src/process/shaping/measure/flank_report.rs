@@ -8,8 +8,9 @@ use crate::dexel::NO_PASS;
 use crate::measure::deviation::{Trace, TraceDeviation};
 use crate::measure::scallop::{Cusp, cusps};
 use crate::measure::stock::{Extreme, Stock, extremes, stock};
+use crate::process::shaping::Job;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
-use crate::process::shaping::{CutFlank, Job};
+use crate::steps::planar::CutField;
 use crate::terms::Side;
 
 /// Share of the flank left out at either end when the scene does not say where profiles are evaluated, and of the face.
@@ -94,8 +95,8 @@ pub fn evaluated_profile_mm(job: &Job, flank: &TargetFlank) -> [f64; 2] {
 }
 
 /// Measures a flank.
-pub fn measure(job: &Job, flank: &TargetFlank, cut: &CutFlank) -> FlankReport {
-    let CutFlank { field, layers, .. } = cut;
+pub fn measure(job: &Job, flank: &TargetFlank, cut: &CutField) -> FlankReport {
+    let CutField { field, layers, .. } = cut;
     let finished = layers.last().expect("at least one operation");
     let limit = |arc_mm: f64, end| {
         let contact = flank.at_arc(arc_mm);

@@ -3,8 +3,7 @@
 //! In: the job, the flank reports. Out: [`GearReport`].
 
 use super::flank_report::FlankReport;
-use super::unevenness::{Surface, ToothAllowance, allowances, rack_allowance_mm};
-use crate::cut::Backend;
+use super::unevenness::{Surface, ToothAllowance, allowances, crossings, rack_allowance_mm};
 use crate::error::Result;
 use crate::gear::PitchCurveShape;
 use crate::measure::crossing::Crossing;
@@ -12,8 +11,7 @@ use crate::measure::deviation::{PitchDeviations, Runout, pitch, runout};
 use crate::measure::stock::{Stock, stock};
 use crate::measure::thickness::Thickness;
 use crate::process::shaping::Job;
-use crate::terms::Side;
-use rayon::prelude::*;
+use crate::steps::planar::CutField;
 
 /// Allowances of one operation over the finished gear.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +40,7 @@ pub struct RootReport {
 pub struct GearReport {
     /// Flanks, in order of teeth, left before right; those of an interrupted run only.
     pub flanks: Vec<FlankReport>,
-    /// Roots, in order.
+    /// Roots, in order; empty where no earlier operation leaves stock in them and no mesh needs them.
     pub roots: Vec<RootReport>,
     /// Tip land of each tooth, mm.
     pub tip_lands_mm: Vec<f64>,
@@ -58,65 +56,46 @@ pub struct GearReport {
     pub period_teeth: u32,
 }
 
-/// Measures what belongs to the whole gear; `flanks` as far as they were cut.
+/// Measures what belongs to the whole gear; `flanks` and `roots` as far as they were cut.
 ///
 /// # Errors
-/// The backend's, in the roots.
-pub fn measure(job: &Job, backend: &dyn Backend, flanks: Vec<FlankReport>) -> Result<GearReport> {
+/// What the strokes leave on some flank is not found.
+pub fn measure(job: &Job, flanks: Vec<FlankReport>, roots: Vec<RootReport>) -> Result<GearReport> {
     let teeth = job.scene.gear.teeth;
     let last = job.operations.len() - 1;
-    let allowances: Vec<OperationAllowance> = (0..last)
+    let envelope = crossings(job, last, Surface::Envelope)?;
+    // B and C of every operation.
+    let finished = crossings(job, last, Surface::Strokes)?;
+    let allowances = (0..last)
         .map(|operation| {
             Ok(OperationAllowance {
                 operation,
                 rack_mm: rack_allowance_mm(job, operation),
-                envelope: allowances(job, operation, Surface::Envelope)?,
-                strokes: allowances(job, operation, Surface::Strokes)?,
+                envelope: allowances(&crossings(job, operation, Surface::Envelope)?, &envelope),
+                strokes: allowances(&crossings(job, operation, Surface::Strokes)?, &finished),
             })
         })
         .collect::<Result<_>>()?;
-    // B and C of any operation are the finished flanks; with one operation they are asked for alone.
-    let finished = match allowances.first() {
-        Some(first) => first.strokes.clone(),
-        None => super::unevenness::allowances(job, last, Surface::Strokes)?,
-    };
-    let thickness = finished.iter().map(|tooth| Some(Thickness::between(tooth.b?, tooth.c?))).collect();
+    let thickness = finished.iter().map(|&[left, right]| Some(Thickness::between(left?, right?))).collect();
     let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
-    let deviations = |flank: fn(&ToothAllowance) -> Option<Crossing>| {
-        let crossings: Vec<_> = finished.iter().map(flank).collect();
-        pitch(&crossings, pitch_mm, job.curve.perimeter_mm())
-    };
-    let runout = {
-        let side = |flank: fn(&ToothAllowance) -> Option<Crossing>| finished.iter().map(flank).collect::<Vec<_>>();
-        runout(&job.curve, &side(|t| t.b), &side(|t| t.c), job.scene.gear.pressure_angle_rad)
-    };
-    let generation = job.target_generation();
-    let tip_lands_mm = (1..=teeth)
-        .into_par_iter()
-        .map(|tooth| {
-            let flank = |side| job.target_flank(&generation, tooth, side);
-            Ok(job.tip_land_mm(&flank(Side::Left)?, &flank(Side::Right)?))
-        })
-        .collect::<Result<_>>()?;
-    let roots = (1..=teeth)
-        .into_par_iter()
-        .map(|space| {
-            let cut = job.cut(backend, job.root_field(space))?;
-            let finished = &cut.layers[last];
-            let stock = cut.layers[..last].iter().map(|layer| stock(&cut.field, layer, finished)).collect();
-            Ok(RootReport { space, stock })
-        })
-        .collect::<Result<_>>()?;
+    let [left, right] = [0, 1].map(|side| finished.iter().map(|tooth| tooth[side]).collect::<Vec<_>>());
+    let deviations = |side: &[Option<Crossing>]| pitch(side, pitch_mm, job.curve.perimeter_mm());
     Ok(GearReport {
         flanks,
         roots,
-        tip_lands_mm,
+        tip_lands_mm: (1..=teeth).map(|tooth| job.target(tooth).tip_land_mm).collect(),
         allowances,
         thickness,
-        pitch: [deviations(|t| t.b), deviations(|t| t.c)],
-        runout,
+        pitch: [deviations(&left), deviations(&right)],
+        runout: runout(&job.curve, &left, &right, job.scene.gear.pressure_angle_rad),
         period_teeth: period_teeth(&job.scene.gear.pitch_curve, teeth),
     })
+}
+
+/// Stock in one root, on rays long enough.
+pub fn root_stock(space: u32, cut: &CutField) -> RootReport {
+    let (finished, earlier) = cut.layers.split_last().expect("at least one operation");
+    RootReport { space, stock: earlier.iter().map(|layer| stock(&cut.field, layer, finished)).collect() }
 }
 
 /// Teeth of one period: those of an n-th of the curve when n divides z, else all.
@@ -149,9 +128,8 @@ mod tests {
         let eccentricity_mm = 0.02;
         Shaping::of_mut(&mut scene).expect("shaping").machine.work_eccentricity_mm = eccentricity_mm;
         let job = Job::new(scene).expect("a gear");
-        let cut = allowances(&job, job.operations.len() - 1, Surface::Strokes).expect("all flanks");
-        let side = |flank: fn(&ToothAllowance) -> Option<Crossing>| cut.iter().map(flank).collect::<Vec<_>>();
-        let (left, right) = (side(|t| t.b), side(|t| t.c));
+        let cut = crossings(&job, job.operations.len() - 1, Surface::Strokes).expect("all flanks");
+        let [left, right] = [0, 1].map(|side| cut.iter().map(|tooth| tooth[side]).collect::<Vec<_>>());
         let alpha = job.scene.gear.pressure_angle_rad;
         let runout = runout(&job.curve, &left, &right, alpha).expect("all cross");
         // The space after the last tooth is centred on phi = 0, the side that the gear was shifted to, towards the

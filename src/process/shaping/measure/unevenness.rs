@@ -67,33 +67,36 @@ impl ToothAllowance {
     }
 }
 
-/// Allowances of all teeth between an operation and the finishing one.
+/// Crossings of a tooth's left and right flank with the pitch curve.
+pub type ToothCrossings = [Option<Crossing>; 2];
+
+/// Where the surface that an operation leaves crosses the pitch curve, tooth by tooth.
 ///
 /// # Errors
-/// No flank is generated on some tooth, or what the strokes leave on one is not found.
-pub fn allowances(job: &Job, operation: usize, surface: Surface) -> Result<Vec<ToothAllowance>> {
+/// What the strokes leave on some flank is not found.
+pub fn crossings(job: &Job, operation: usize, surface: Surface) -> Result<Vec<ToothCrossings>> {
     let finishing = job.operations.len() - 1;
-    let (rough, finish) = (job.generation(operation), job.target_generation());
     (1..=job.scene.gear.teeth)
         .into_par_iter()
         .map(|tooth| {
-            let pair = |side: Side| -> Result<_> {
-                let target = envelope_crossing(job, &finish, tooth, side);
-                Ok(match surface {
-                    Surface::Envelope => (envelope_crossing(job, &rough, tooth, side), target),
-                    Surface::Strokes => {
-                        let at = |operation| match target {
-                            Some(start) => stroke_crossing(job, operation, side, start),
-                            None => Ok(None),
-                        };
-                        (at(operation)?, at(finishing)?)
-                    }
-                })
+            let on = |side: Side| -> Result<_> {
+                match surface {
+                    Surface::Envelope => Ok(envelope_crossing(job, operation, tooth, side)),
+                    Surface::Strokes => match envelope_crossing(job, finishing, tooth, side) {
+                        Some(start) => Ok(stroke_crossing(job, operation, side, start)?),
+                        None => Ok(None),
+                    },
+                }
             };
-            let ((a, b), (d, c)) = (pair(Side::Left)?, pair(Side::Right)?);
-            Ok(ToothAllowance { tooth, a, b, c, d })
+            Ok([on(Side::Left)?, on(Side::Right)?])
         })
         .collect()
+}
+
+/// Allowances of all teeth between what an operation leaves and what the finishing one leaves.
+pub fn allowances(operation: &[ToothCrossings], finished: &[ToothCrossings]) -> Vec<ToothAllowance> {
+    let teeth = (1..).zip(operation.iter().zip(finished));
+    teeth.map(|(tooth, (&[a, d], &[b, c]))| ToothAllowance { tooth, a, b, c, d }).collect()
 }
 
 /// delta_d tan(alpha): what the offset between an operation and finishing leaves on a straight rack along the pitch

@@ -1,7 +1,7 @@
 //! What the blank field says about the whole gear: volumes by two ways, damage to the target, return strokes that rub,
 //! strokes that are missing.
 //!
-//! In: the job and its cut blank. Out: [`BlankReport`].
+//! In: the gear and its cut blank. Out: [`BlankReport`].
 //!
 //! * **Balance.** The volume that the passes removed, summed pass by pass, against what is missing from the rays; the
 //!   section that is left against the area of the target's outline, which comes from the meshing condition and knows
@@ -13,6 +13,7 @@
 //!   stroke takes away.
 //! * **Strokes.** See [`super::stroke_faults`].
 
+use super::PlanarGear;
 use super::stroke_faults::{LEAST_CELLS, StrokeFault, stroke_faults};
 use crate::cut::BlankStats;
 use crate::cut::CutBlank;
@@ -23,9 +24,7 @@ use crate::measure::damage::{self, Damage, EndFace, Finding, OperationVolume};
 use crate::measure::gear_place::GearPlace;
 use crate::measure::target_outline::TargetOutline;
 use crate::passes::StrokeSet;
-use crate::process::shaping::Job;
 use crate::terms::Side;
-use crate::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 
 /// Strokes beside a gouging one that are not called faulty: it stands out, and the next ones find their chips gone.
@@ -76,12 +75,12 @@ pub struct BlankReport {
     pub stats: BlankStats,
 }
 
-/// Report on a cut blank; `target` as from [`Job::target_outline`], if there is one.
-pub fn measure(job: &Job, cut: &CutBlank, target: Option<&TargetOutline>) -> BlankReport {
+/// Report on a cut blank; `target` is the target's transverse section, where it is known in closed form.
+pub fn measure(gear: &PlanarGear, cut: &CutBlank, target: Option<&TargetOutline>) -> BlankReport {
     let operations = damage::volumes(cut);
     let left_mm3 = cut.left_mm3.last().copied().unwrap_or(cut.blank_mm3);
-    let last = job.operations.len() - 1;
-    let damage = target.map(|target| damage_to(job, cut, target)).unwrap_or_default();
+    let last = gear.operations.len() - 1;
+    let damage = target.map(|target| damage_to(gear, cut, target)).unwrap_or_default();
     let (gouges, interference): (Vec<Damage>, Vec<Damage>) = damage.into_iter().partition(|d| d.operation == last);
     let mut stats = BlankStats::default();
     for done in &cut.cuts {
@@ -91,22 +90,22 @@ pub fn measure(job: &Job, cut: &CutBlank, target: Option<&TargetOutline>) -> Bla
         blank_mm3: cut.blank_mm3,
         left_mm3,
         operations,
-        end_face: target.map(|target| end_face(job, cut, left_mm3, target)),
-        strokes_judged: (0..job.operations.len()).map(|operation| is_judged(job, cut, operation)).collect(),
-        stroke_faults: faults(job, cut, &gouges, &interference),
+        end_face: target.map(|target| end_face(gear, cut, left_mm3, target)),
+        strokes_judged: (0..gear.operations.len()).map(|operation| is_judged(gear, cut, operation)).collect(),
+        stroke_faults: faults(gear, cut, &gouges, &interference),
         gouges,
         interference,
-        rubbing: rubbing(job, cut),
+        rubbing: rubbing(gear, cut),
         stats,
     }
 }
 
-fn end_face(job: &Job, cut: &CutBlank, left_mm3: [f64; 2], target: &TargetOutline) -> EndFace {
-    let gear = &job.scene.gear;
+fn end_face(gear: &PlanarGear, cut: &CutBlank, left_mm3: [f64; 2], target: &TargetOutline) -> EndFace {
+    let spec = &gear.scene.gear;
     let spacing_mm = cut.field.grid.spacing_mm();
-    let bore_radius_mm = 0.5 * gear.bore_diameter_mm;
+    let bore_radius_mm = 0.5 * spec.bore_diameter_mm;
     EndFace {
-        cut_mm2: left_mm3.map(|v| v / gear.face_width_mm),
+        cut_mm2: left_mm3.map(|v| v / spec.face_width_mm),
         target_mm2: target.area_mm2() - std::f64::consts::PI * bore_radius_mm * bore_radius_mm,
         // The bore adds four radii of way along the rays, half a spacing each.
         bound_mm2: FAMILIES.map(|f| target.area_bound_mm2(f, spacing_mm) + 2.0 * bore_radius_mm * spacing_mm),
@@ -115,24 +114,24 @@ fn end_face(job: &Job, cut: &CutBlank, left_mm3: [f64; 2], target: &TargetOutlin
 
 /// Findings side by side of the teeth, deepest place and volume each; only those at least
 /// [`crate::measure::damage::LEAST_DEPTH_MM`] deep.
-fn collect(job: &Job, findings: impl Iterator<Item = Finding>) -> Vec<(Damage, bool)> {
-    let place = |finding: &Finding| place_of(job, finding.point_mm);
-    damage::collect(findings, place, |operation, pass| job.operations[operation].strokes.stroke_and_blade(pass))
+fn collect(gear: &PlanarGear, findings: impl Iterator<Item = Finding>) -> Vec<(Damage, bool)> {
+    let place = |finding: &Finding| place_of(gear, finding.point_mm);
+    damage::collect(findings, place, |operation, pass| gear.operations[operation].strokes.stroke_and_blade(pass))
 }
 
-fn damage_to(job: &Job, cut: &CutBlank, target: &TargetOutline) -> Vec<Damage> {
+fn damage_to(gear: &PlanarGear, cut: &CutBlank, target: &TargetOutline) -> Vec<Damage> {
     let slices = 0..cut.field.slices.len();
     let findings = slices.flat_map(|slice| {
-        damage::missing_in_slice(&cut.field, slice, target, &job.scene.gear, |pass| operation_of(job, pass))
+        damage::missing_in_slice(&cut.field, slice, target, &gear.scene.gear, |pass| operation_of(gear, pass))
     });
-    collect(job, findings).into_iter().map(|(damage, _)| damage).collect()
+    collect(gear, findings).into_iter().map(|(damage, _)| damage).collect()
 }
 
-fn operation_of(job: &Job, pass: u32) -> Option<usize> {
-    job.operations.iter().position(|o| (o.strokes.first_pass..o.strokes.end_pass()).contains(&pass))
+fn operation_of(gear: &PlanarGear, pass: u32) -> Option<usize> {
+    gear.operations.iter().position(|o| (o.strokes.first_pass..o.strokes.end_pass()).contains(&pass))
 }
 
-fn rubbing(job: &Job, cut: &CutBlank) -> Vec<Rubbing> {
+fn rubbing(gear: &PlanarGear, cut: &CutBlank) -> Vec<Rubbing> {
     let grid: &BlankGrid = &cut.field.grid;
     let findings = cut.cuts.iter().enumerate().flat_map(|(operation, done)| {
         done.rubs.iter().map(move |rub| {
@@ -150,32 +149,32 @@ fn rubbing(job: &Job, cut: &CutBlank) -> Vec<Rubbing> {
             }
         })
     });
-    collect(job, findings).into_iter().map(|(damage, stays)| Rubbing { damage, stays }).collect()
+    collect(gear, findings).into_iter().map(|(damage, stays)| Rubbing { damage, stays }).collect()
 }
 
 /// Whether the mean stroke of an operation removes enough cells of the grid from a section.
-fn is_judged(job: &Job, cut: &CutBlank, operation: usize) -> bool {
-    let strokes = job.operations[operation].strokes.count() as f64;
+fn is_judged(gear: &PlanarGear, cut: &CutBlank, operation: usize) -> bool {
+    let strokes = gear.operations[operation].strokes.count() as f64;
     let removed_mm3 = &cut.cuts[operation].removed_mm3;
     let volume_mm3: f64 = removed_mm3.iter().map(|pass| 0.5 * (pass[0] + pass[1])).sum();
     let cell_mm2 = cut.field.grid.spacing_mm().powi(2);
-    volume_mm3 / (strokes * job.scene.gear.face_width_mm * cell_mm2) >= LEAST_CELLS
+    volume_mm3 / (strokes * gear.scene.gear.face_width_mm * cell_mm2) >= LEAST_CELLS
 }
 
 /// Faults of strokes, less those that a gouge explains: a stroke that cut too deep stands alone as well.
-fn faults(job: &Job, cut: &CutBlank, gouges: &[Damage], interference: &[Damage]) -> Vec<PlacedStrokeFault> {
+fn faults(gear: &PlanarGear, cut: &CutBlank, gouges: &[Damage], interference: &[Damage]) -> Vec<PlacedStrokeFault> {
     let gouged = |operation: usize, stroke: usize| {
         gouges.iter().chain(interference).any(|d| d.operation == operation && d.stroke.abs_diff(stroke) <= GOUGE_SHADOW)
     };
     let mut placed = Vec::new();
-    for (operation, (prepared, done)) in job.operations.iter().zip(&cut.cuts).enumerate() {
-        let set = &prepared.strokes;
-        if !is_judged(job, cut, operation) {
+    for (operation, (prepared, done)) in gear.operations.iter().zip(&cut.cuts).enumerate() {
+        let set = prepared.strokes;
+        if !is_judged(gear, cut, operation) {
             continue;
         }
         for fault in stroke_faults(&done.removed_mm3, set.blades) {
             if !gouged(operation, fault.stroke) {
-                let space = busiest_space(job, set, &done.removed_mm3, fault.stroke);
+                let space = busiest_space(gear, set, &done.removed_mm3, fault.stroke);
                 placed.push(PlacedStrokeFault { operation, fault, space });
             }
         }
@@ -184,21 +183,21 @@ fn faults(job: &Job, cut: &CutBlank, gouges: &[Damage], interference: &[Damage])
 }
 
 /// Tooth space (behind the tooth of this number) in which the strokes round this one took most.
-fn busiest_space(job: &Job, set: &StrokeSet, removed_mm3: &[[f64; 2]], stroke: usize) -> u32 {
+fn busiest_space(gear: &PlanarGear, set: &StrokeSet, removed_mm3: &[[f64; 2]], stroke: usize) -> u32 {
     let blades = set.blades as usize;
     let near = stroke.saturating_sub(1)..(stroke + 2).min(set.count());
     let taken = |blade: usize| near.clone().map(|s| removed_mm3[s * blades + blade].iter().sum::<f64>()).sum::<f64>();
     let busiest = (0..blades).max_by(|&a, &b| taken(a).total_cmp(&taken(b))).unwrap_or(0);
-    let work_from_blade = set.poses(stroke)[0].after(&job.cutter.tool_from_blade(busiest as u32));
-    let place = place_of(job, work_from_blade.point(job.cutter.edge().center_mm));
+    let work_from_blade = set.poses(stroke)[0].after(&gear.tool.tool_from_blade(busiest as u32));
+    let place = place_of(gear, work_from_blade.point(gear.tool.edge().center_mm));
     // The middle of a cutter tooth stands in a space: behind a tooth on its left side, else behind the tooth before.
     match place.side {
         Side::Left => place.tooth,
-        Side::Right => (place.tooth + job.scene.gear.teeth - 2) % job.scene.gear.teeth + 1,
+        Side::Right => (place.tooth + gear.scene.gear.teeth - 2) % gear.scene.gear.teeth + 1,
     }
 }
 
 /// Place of a point of the gear frame; the teeth stand alike in all sections.
-fn place_of(job: &Job, point_mm: DVec2) -> GearPlace {
-    GearPlace::in_section(&job.blank, &job.scene.gear, point_mm, 0.0)
+fn place_of(gear: &PlanarGear, point_mm: DVec2) -> GearPlace {
+    GearPlace::in_section(gear.blank, &gear.scene.gear, point_mm, 0.0)
 }

@@ -1,11 +1,12 @@
 //! The whole gear, from rays through the blank: volumes, damage, rubbing, strokes.
 
+use super::PlanarGear;
+use super::blank_report::BlankReport;
 use crate::cut::CutBlank;
 use crate::findings::damage::pairs;
 use crate::findings::{Quantity, Section};
-use crate::measure::damage::{Damage, OperationVolume};
-use crate::process::shaping::Job;
-use crate::process::shaping::measure::BlankReport;
+use crate::measure::damage::Damage;
+use crate::steps::whole_blank::{self, mean};
 
 /// What is counted.
 const STROKE_FAULTS: &str = "strokes that are missing, did not cut or were made twice, told from what each stroke \
@@ -14,15 +15,12 @@ const STROKE_FAULTS: &str = "strokes that are missing, did not cut or were made 
 const NO_TARGET: &str = "the target's outline is not known in closed form: the cutter's base shapes the tips";
 
 /// The section.
-pub fn findings(job: &Job, cut: &CutBlank, report: &BlankReport) -> Section {
-    let mean = |families: [f64; 2]| 0.5 * (families[0] + families[1]);
-    let volume = |families: [f64; 2], definition: &'static str| Quantity::number(mean(families), "mm3", definition);
+pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Section {
     let area = |value: Option<f64>, definition: &'static str| Quantity::number_or(value, "mm2", definition, NO_TARGET);
     let end_face = report.end_face;
     let against_target = |key, title, places: &[Damage], what| {
         if end_face.is_some() { damage(key, title, places, what) } else { unjudged(key, title, what) }
     };
-    let imbalance = report.operations.iter().map(OperationVolume::imbalance).fold(0.0, f64::max);
     let rubbing =
         |stays: bool| -> Vec<Damage> { report.rubbing.iter().filter(|r| r.stays == stays).map(|r| r.damage).collect() };
     let faults = if report.strokes_judged.contains(&true) {
@@ -30,41 +28,14 @@ pub fn findings(job: &Job, cut: &CutBlank, report: &BlankReport) -> Section {
     } else {
         Quantity::undefined("strokes", STROKE_FAULTS, "no operation takes chips as large as ten cells of the grid")
     };
-    let operations = job.operations.iter().zip(&report.operations).map(|(operation, removed)| {
-        let name = &operation.spec.name;
-        let volume = volume(removed.by_passes_mm3, "volume that its passes removed, summed pass by pass");
-        Section::new(name, format!("Operation {name}")).shown("removed_volume", "removed", volume)
-    });
     let unjudged = "gouges and interference are not judged";
-    Section::new("blank", "The whole gear")
-        .with("spacing", Quantity::number(cut.field.grid.spacing_mm(), "mm", "distance of the rays through the blank"))
-        .with(
-            "slices",
-            Quantity::count(
-                cut.field.slices.len() as u64,
-                "slices",
-                "transverse sections; one stands for the whole face where all are equal",
-            ),
-        )
-        .shown(
-            "blank_volume",
-            "blank",
-            volume(report.blank_mm3, "volume of the uncut blank less its bore; mean of both families of rays"),
-        )
-        .shown("left_volume", "left", volume(report.left_mm3, "volume that is left after the last operation"))
-        .with(
-            "imbalance",
-            Quantity::number(
-                imbalance,
-                "1",
-                "largest difference of an operation between what its passes removed, summed pass by pass, and what is \
-                 missing from the rays, relative to it",
-            ),
-        )
+    let slices = (cut.field.slices.len(), "transverse sections; one stands for the whole face where all are equal");
+    let volumes = [report.blank_mm3, report.left_mm3];
+    whole_blank::findings(cut.field.grid.spacing_mm(), slices, volumes, &report.operations)
         .with(
             "end_face_area",
             Quantity::number(
-                mean(report.left_mm3) / job.scene.gear.face_width_mm,
+                mean(report.left_mm3) / gear.scene.gear.face_width_mm,
                 "mm2",
                 "transverse section that is left, mean over the face",
             ),
@@ -90,7 +61,7 @@ pub fn findings(job: &Job, cut: &CutBlank, report: &BlankReport) -> Section {
             pairs(report.stats.visited, "pairs of ray and pass in which the ray crosses the cutter tooth"),
         )
         .with("ray_passes_removing", pairs(report.stats.removing, "those of them that removed material"))
-        .part(Section::new("operations", "Removed by each operation").parts(operations))
+        .part(whole_blank::removed(gear.operations.iter().map(|operation| operation.name), &report.operations))
         .part(against_target("gouges", "gouges", &report.gouges, "target material that the last operation took"))
         .part(against_target(
             "interference",

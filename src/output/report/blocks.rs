@@ -1,0 +1,122 @@
+//! What stands on the page: sections of headings, charts, tables and notes.
+
+use super::texture::{self, TextureWindow};
+use super::traces::{self, TraceSheet};
+use crate::output::bar_chart::BarChart;
+use crate::output::line_chart::LineChart;
+use crate::output::range_chart::RangeChart;
+use maud::{Markup, html};
+
+/// A part of the page with its own heading.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Section {
+    /// Name in links; lower-case letters.
+    pub id: &'static str,
+    /// Heading.
+    pub title: String,
+    /// A sentence or two about what is shown.
+    pub lead: String,
+    /// What it holds.
+    pub blocks: Vec<Block>,
+}
+
+/// A piece of a section.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Block {
+    /// A smaller heading.
+    Heading(String),
+    /// A paragraph in small print.
+    Note(String),
+    /// Curves.
+    Lines(LineChart),
+    /// Bars.
+    Bars(BarChart),
+    /// Bars from low to high.
+    Ranges(RangeChart),
+    /// The inspector's sheets, side by side.
+    Traces(Vec<TraceSheet>),
+    /// Rows and columns.
+    Table(Table),
+    /// A texture window.
+    Texture(TextureWindow),
+    /// Blocks that are folded away until asked for.
+    Folded(String, Vec<Block>),
+    /// Text as it is, such as a scene.
+    Verbatim(String),
+}
+
+/// A table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// What it shows.
+    pub caption: String,
+    /// Heads of the columns; empty for a list of names and values.
+    pub columns: Vec<String>,
+    /// Rows; the first cell names the row.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Section {
+    /// The section as HTML.
+    pub(super) fn markup(&self) -> Markup {
+        let title_id = format!("{}-title", self.id);
+        html! {
+            section id=(self.id) aria-labelledby=(title_id) {
+                h2 id=(title_id) { (self.title) }
+                @if !self.lead.is_empty() { p class="lead" { (self.lead) } }
+                @for block in &self.blocks { (block.markup()) }
+            }
+        }
+    }
+}
+
+impl Block {
+    fn markup(&self) -> Markup {
+        match self {
+            Self::Heading(words) => html! { h3 { (words) } },
+            Self::Note(words) => html! { p class="note" { (words) } },
+            Self::Lines(chart) => chart.figure().html(),
+            Self::Bars(chart) => chart.figure().html(),
+            Self::Ranges(chart) => chart.figure().html(),
+            Self::Traces(sheets) => traces::sheets(sheets),
+            Self::Table(table) => table.markup(),
+            Self::Texture(window) => texture::window(window),
+            Self::Folded(summary, blocks) => html! {
+                details { summary { (summary) } @for block in blocks { (block.markup()) } }
+            },
+            Self::Verbatim(text) => html! { pre tabindex="0" { (text) } },
+        }
+    }
+}
+
+impl Table {
+    /// The table as HTML.
+    pub(super) fn markup(&self) -> Markup {
+        // A column of numbers is set to the right.
+        let number = |column: usize| {
+            let cells = || self.rows.iter().filter_map(|row| row.get(column));
+            !self.columns.is_empty()
+                && cells().all(|cell| cell.starts_with(|c: char| c.is_ascii_digit() || "−-–+".contains(c)))
+        };
+        let class = |column: usize| if number(column) { "number" } else { "" };
+        html! {
+            div class="table" tabindex="0" role="group" aria-label=(self.caption) {
+                table class=(if self.columns.is_empty() { "list" } else { "" }) {
+                    caption { (self.caption) }
+                    @if !self.columns.is_empty() {
+                        thead { tr { @for (index, column) in self.columns.iter().enumerate() { th scope="col" class=(class(index)) { (column) } } } }
+                    }
+                    tbody {
+                        @for row in &self.rows {
+                            tr {
+                                @for (index, cell) in row.iter().enumerate() {
+                                    @if index == 0 { th scope="row" class=(class(0)) { (cell) } } @else { td class=(class(index)) { (cell) } }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! A hobbed gear, cut and measured flank by flank.
+
+use crate::cut::Backend;
+use crate::error::{Error, Result};
+use crate::interrupt::Interrupt;
+use crate::measure::crossing::Crossing;
+use crate::measure::deviation::{self, PitchDeviations, Runout};
+use crate::measure::thickness::Thickness;
+use crate::output::progress::Progress;
+use crate::process::hobbing::HobCutter;
+use crate::process::hobbing::cutter::HobbedFlank;
+use crate::process::hobbing::measure::flank_report::{self, HobbedReport};
+use crate::process::hobbing::measure::offset_curves::{self, CurvePoint};
+use crate::steps::cut_flanks::{CutFlank, cut_flanks};
+use crate::steps::gear_maps::GearMaps;
+use crate::steps::{FlankFiles, Work};
+use crate::surface::SurfaceGrid;
+use crate::terms::Side;
+use std::f64::consts::PI;
+
+/// A hobbed and measured gear.
+#[derive(Debug)]
+pub struct HobbedGear {
+    /// Finished flanks in order.
+    pub flanks: Vec<HobbedReport>,
+    /// Where five curves beside the pitch curve cross them.
+    pub points: Vec<Vec<CurvePoint>>,
+    /// Pitch deviations of left and right flanks.
+    pub pitch: [Option<PitchDeviations>; 2],
+    /// Places of a probe in the space after each tooth.
+    pub runout: Option<Runout>,
+    /// Thickness of each tooth on the pitch curve.
+    pub thickness: Vec<Option<Thickness>>,
+    /// Maps of all finished flanks at map spacing.
+    pub maps: GearMaps,
+    /// Their surfaces at mesh spacing; empty where nothing that is written needs them.
+    pub surfaces: Vec<SurfaceGrid>,
+    /// Passes of every operation.
+    pub passes: Vec<u32>,
+    /// How much work it was.
+    pub work: Work,
+}
+
+/// Cuts and measures all flanks; maps and meshes of flanks go to `folder` as soon as a flank is done, if they are among
+/// the parts that it shall hold.
+///
+/// # Errors
+/// Geometry, the backend, files. Ctrl-C is no error: what is finished is returned.
+pub fn cut_gear(
+    cutter: &HobCutter,
+    backend: &dyn Backend,
+    progress: &Progress,
+    interrupt: &Interrupt,
+    folder: Option<FlankFiles<'_>>,
+) -> Result<HobbedGear> {
+    let cut = cut_flanks(
+        cutter,
+        progress,
+        interrupt,
+        folder,
+        |tooth, side| {
+            let flank = cutter.cut(backend, tooth, side)?;
+            let report = flank_report::measure(tooth, side, &flank);
+            let points = offset_curves::measure(cutter, backend, tooth, side)?;
+            let HobbedFlank { rays, layers, stats, .. } = flank;
+            Ok(CutFlank { rays, layers, stats, report: (report, points) })
+        },
+        |_, _| Vec::new(),
+    )?;
+    if cut.reports.is_empty() {
+        return Err(Error::Interrupted);
+    }
+    let (flanks, points) = cut.reports.into_iter().unzip();
+    let mut gear = HobbedGear {
+        flanks,
+        points,
+        pitch: [None, None],
+        runout: None,
+        thickness: Vec::new(),
+        maps: cut.maps,
+        surfaces: cut.surfaces,
+        passes: cutter.operations.iter().map(crate::passes::TurningPasses::count).collect(),
+        work: cut.work,
+    };
+    measure_teeth(cutter, &mut gear);
+    Ok(gear)
+}
+
+/// Pitch, runout and thickness from where the flanks cross the pitch curve in the middle of the face.
+fn measure_teeth(cutter: &HobCutter, gear: &mut HobbedGear) {
+    let spec = &cutter.job.scene.gear;
+    let crossings = |side: Side| -> Vec<Option<Crossing>> {
+        (1..=spec.teeth)
+            .map(|tooth| {
+                let at = gear.flanks.iter().position(|flank| flank.tooth == tooth && flank.side == side)?;
+                offset_curves::pitch_crossing(&gear.points[at], cutter)
+            })
+            .collect()
+    };
+    let [left, right] = [Side::Left, Side::Right].map(crossings);
+    let (curve, pitch_mm) = (&cutter.job.curve, PI * spec.transverse_module_mm());
+    gear.pitch = [&left, &right].map(|side| deviation::pitch(side, pitch_mm, curve.perimeter_mm()));
+    gear.runout = deviation::runout(curve, &left, &right, spec.transverse_pressure_angle_rad());
+    gear.thickness =
+        left.iter().zip(&right).map(|(left, right)| Some(Thickness::between((*left)?, (*right)?))).collect();
+}

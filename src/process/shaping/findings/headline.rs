@@ -1,0 +1,249 @@
+//! What to look at first on a shaped gear.
+
+use super::chips::{ENTRY_FORCE, entry, peak};
+use super::place;
+use crate::findings::{Entry, Quantity};
+use crate::measure::stock::Extreme;
+use crate::process::shaping::Job;
+use crate::process::shaping::axes_report::OperationAxes;
+use crate::process::shaping::chips::{ChipLedger, StrokeChips};
+use crate::process::shaping::measure::unevenness::{ToothAllowance, summarise};
+use crate::process::shaping::measure::{FlankReport, GearReport};
+use crate::process::shaping::target::FlankEnd;
+use crate::steps::axes;
+
+/// Why a single operation has no stock.
+const SINGLE: &str = "the scene has one operation; stock is what an earlier operation leaves";
+
+/// The extreme that `better` prefers over all flanks.
+fn extreme_over<'a>(
+    flanks: &'a [FlankReport],
+    pick: impl Fn(&'a FlankReport) -> Option<Extreme>,
+    better: fn(f64, f64) -> bool,
+) -> Option<(&'a FlankReport, Extreme)> {
+    flanks
+        .iter()
+        .filter_map(|flank| pick(flank).map(|extreme| (flank, extreme)))
+        .reduce(|best, next| if better(next.1.value_mm, best.1.value_mm) { next } else { best })
+}
+
+fn quantity_at(
+    found: Option<(&FlankReport, Extreme)>,
+    scale: f64,
+    unit: &'static str,
+    definition: &'static str,
+    why: &str,
+) -> Quantity {
+    match found {
+        Some((flank, extreme)) => {
+            Quantity::number(extreme.value_mm * scale, unit, definition).at(place(flank, &extreme))
+        }
+        None => Quantity::undefined(unit, definition, why),
+    }
+}
+
+/// What to look at first.
+pub fn headline(job: &Job, report: &GearReport, chips: &ChipLedger, motion: &[OperationAxes]) -> Vec<Entry> {
+    let flanks = &report.flanks;
+    let last_stock = job.operations.len().checked_sub(2);
+    let stock = |flank: &FlankReport| last_stock.and_then(|index| flank.stock[index]);
+    let why = if last_stock.is_none() { SINGLE } else { "no flank was cut" };
+    let none = "no flank was cut";
+    let form = |flank: &FlankReport| Some(Extreme { value_mm: flank.form.height_mm, arc_mm: 0.0, lead_mm: 0.0 });
+    let scallop = |flank: &FlankReport| {
+        flank.scallops.map(|s| Extreme { value_mm: s.largest.height_mm, arc_mm: s.largest.arc_mm, lead_mm: 0.0 })
+    };
+    let undercut =
+        flanks.iter().filter(|f| f.form.end == FlankEnd::Undercut || f.tip.end == FlankEnd::Undercut).count();
+    let pointed = flanks.iter().filter(|f| f.tip.end == FlankEnd::PointedTip).count().div_ceil(2);
+    let thickness: Vec<f64> = report.thickness.iter().flatten().map(|t| t.arc_mm).collect();
+    let narrowest = report.tip_lands_mm.iter().copied().reduce(f64::min);
+    let unevenness =
+        report.allowances.last().and_then(|a| summarise(a.strokes.iter().map(ToothAllowance::unevenness_mean_percent)));
+    let relief = motion.iter().map(|operation| operation.relief.ratio).reduce(f64::min);
+    let cycle_s: f64 = job.operations.iter().map(|o| o.schedule.time_s(o.schedule.count() as f64)).sum();
+    let removed_mm3: f64 =
+        (0..job.operations.len()).map(|index| chips.area_mm2(index)).sum::<f64>() * job.scene.gear.face_width_mm;
+    // The operation in which something is largest.
+    let largest = |value: fn(&StrokeChips) -> f64| {
+        let of = |index: usize| chips.operations[index].largest(value).map_or(0.0, |(_, stroke)| value(stroke));
+        (0..job.operations.len()).reduce(|best, next| if of(next) > of(best) { next } else { best }).unwrap_or(0)
+    };
+    let thickness_why = "no tooth crosses the pitch curve with both flanks";
+    vec![
+        Entry::headline(
+            "smallest_normal_stock",
+            "smallest normal stock",
+            quantity_at(
+                extreme_over(flanks, |f| stock(f).map(|s| s.smallest), |a, b| a < b),
+                1.0,
+                "mm",
+                "smallest stock that the last operation finds on the active flanks, along the target's normal",
+                why,
+            ),
+        ),
+        Entry::headline(
+            "largest_normal_stock",
+            "largest normal stock",
+            quantity_at(
+                extreme_over(flanks, |f| stock(f).map(|s| s.largest), |a, b| a > b),
+                1.0,
+                "mm",
+                "largest stock that the last operation finds on the active flanks, along the target's normal",
+                why,
+            ),
+        ),
+        Entry::headline(
+            "start_of_involute",
+            "highest start of involute",
+            quantity_at(
+                extreme_over(flanks, form, |a, b| a > b),
+                1.0,
+                "mm",
+                "highest start of the involute of all flanks, as height over the pitch curve",
+                none,
+            ),
+        ),
+        Entry::headline(
+            "undercut_flanks",
+            "undercut flanks",
+            Quantity::count(undercut as u64, "flanks", "flanks whose generated profile turns back"),
+        ),
+        Entry::headline(
+            "tip_land",
+            "narrowest tip land",
+            Quantity::number_or(narrowest, "mm", "narrowest tip land of all teeth", none),
+        ),
+        Entry::headline(
+            "pointed_teeth",
+            "pointed teeth",
+            Quantity::count(pointed as u64, "teeth", "teeth that are pointed below the blank's outline"),
+        ),
+        Entry::headline(
+            "scallop_height",
+            "highest scallop",
+            quantity_at(
+                extreme_over(flanks, scallop, |a, b| a > b),
+                1e3,
+                "um",
+                "highest cusp between two strokes' facets on the evaluated profiles, over the target",
+                "no cusp between facets of three dexels and more was met: the dexels are too coarse for the feed",
+            ),
+        ),
+        Entry::headline(
+            "smallest_tooth_thickness",
+            "thinnest tooth, arc",
+            Quantity::number_or(
+                thickness.iter().copied().reduce(f64::min),
+                "mm",
+                "smallest tooth thickness, arc of the pitch curve",
+                thickness_why,
+            ),
+        ),
+        Entry::headline(
+            "largest_tooth_thickness",
+            "thickest tooth, arc",
+            Quantity::number_or(
+                thickness.iter().copied().reduce(f64::max),
+                "mm",
+                "largest tooth thickness, arc of the pitch curve",
+                thickness_why,
+            ),
+        ),
+        Entry::headline(
+            "witness_mark",
+            "witness mark",
+            quantity_at(
+                extreme_over(flanks, |f| f.witness, |a, b| a > b),
+                1e3,
+                "um",
+                "how far what the first and last strokes left stands above the rest of its flank",
+                "no dexel of an evaluated profile was left by the first or last strokes",
+            ),
+        ),
+        axes::margin_entry(motion),
+        Entry::headline(
+            "relief_ratio",
+            "relief over a round gear's",
+            Quantity::number_or(
+                relief,
+                "1",
+                "smallest relief clearance on the return stroke, as a share of a circular gear's",
+                none,
+            ),
+        ),
+        Entry::headline(
+            "cycle_time",
+            "time of all strokes",
+            Quantity::number(cycle_s, "s", "time of all double strokes of all operations"),
+        ),
+        Entry::headline(
+            "largest_chip_section",
+            "largest chip section",
+            peak(
+                job,
+                chips,
+                largest(|s| s.area_mm2),
+                "section of all chips of a stroke, all operations",
+                "mm^2",
+                &|s| s.area_mm2,
+            ),
+        ),
+        Entry::headline(
+            "largest_cutting_force",
+            "largest cutting force",
+            peak(job, chips, largest(|s| s.cutting_n), "cutting force along the stroke, all operations", "N", &|s| {
+                s.cutting_n
+            }),
+        ),
+        Entry::headline(
+            "entry_cutting_force",
+            "first stroke at full depth",
+            entry(
+                chips.operations.iter().filter_map(|o| o.entry()).map(|s| s.cutting_n).reduce(f64::max),
+                "N",
+                ENTRY_FORCE,
+            ),
+        ),
+        Entry::headline(
+            "removal_rate",
+            "removal rate",
+            Quantity::number(
+                removed_mm3 / (cycle_s / 60.0) / 1e3,
+                "cm^3/min",
+                "volume taken away by all operations over the time of their double strokes",
+            ),
+        ),
+        Entry::headline(
+            "idle_strokes",
+            "idle strokes",
+            Quantity::count(
+                chips.operations.iter().map(|o| o.idle() as u64).sum(),
+                "strokes",
+                "strokes of all operations in which no cutter tooth meets material",
+            ),
+        ),
+        Entry::headline(
+            "unevenness_max",
+            "largest unevenness",
+            percent(
+                unevenness.map(|u| u.max_percent),
+                "largest |AB - CD| over the mean of AB and CD, all teeth, as cut",
+                why,
+            ),
+        ),
+        Entry::headline(
+            "unevenness_mean",
+            "mean unevenness",
+            percent(
+                unevenness.map(|u| u.mean_percent),
+                "mean of |AB - CD| over the mean of AB and CD, all teeth, as cut",
+                why,
+            ),
+        ),
+    ]
+}
+
+fn percent(value: Option<f64>, definition: &'static str, why: &str) -> Quantity {
+    Quantity::number_or(value, "%", definition, why)
+}

@@ -1,0 +1,99 @@
+//! One operation on a shaped gear: strokes, axes, chips, and the stock that it leaves.
+
+use super::{chips, teeth};
+use crate::findings::{Quantity, Section};
+use crate::measure::stock::Stock;
+use crate::process::shaping::Job;
+use crate::process::shaping::axes_report::OperationAxes;
+use crate::process::shaping::chips::ChipLedger;
+use crate::process::shaping::measure::unevenness::{ToothAllowance, Unevenness as Percent, summarise};
+use crate::process::shaping::measure::{FlankReport, GearReport};
+use crate::steps::axes;
+use teeth::stock_range;
+
+/// Everything that was found on an operation.
+pub fn operation(job: &Job, report: &GearReport, ledger: &ChipLedger, motion: &OperationAxes, index: usize) -> Section {
+    let operation = &job.operations[index];
+    let allowance = report.allowances.iter().find(|a| a.operation == index);
+    let last = index + 1 == job.operations.len();
+    let why = if last { "the last operation leaves no stock to itself" } else { "no flank was reached" };
+    let over_flanks: Vec<(Option<&FlankReport>, Stock)> =
+        report.flanks.iter().filter_map(|f| Some((Some(f), (*f.stock.get(index)?)?))).collect();
+    let over_roots: Vec<(Option<&FlankReport>, Stock)> =
+        report.roots.iter().filter_map(|r| Some((None, (*r.stock.get(index)?)?))).collect();
+    let by_mean = |teeth: &[ToothAllowance]| summarise(teeth.iter().map(ToothAllowance::unevenness_mean_percent));
+    let by_rack =
+        |teeth: &[ToothAllowance], rack_mm| summarise(teeth.iter().map(|t| t.unevenness_rack_percent(rack_mm)));
+    // As cut, and in the limit of many strokes; over the mean, and over the rack.
+    let [cut, limit] = [", as cut", ", limit of many strokes"];
+    let [mean, rack] = ["over the mean of AB and CD", "over delta_d tan(alpha)"];
+    let spread = |key: &str, [over, of]: [&str; 2], found: Option<Percent>| {
+        let of_words = if of == cut { cut } else { ", in the limit of many strokes" };
+        Section::new(key, format!("|AB - CD| {over}{of}"))
+            .shown(
+                "max",
+                "max",
+                Quantity::number_or(
+                    found.map(|u| u.max_percent),
+                    "%",
+                    format!("largest |AB - CD| {over}{of_words}"),
+                    why,
+                ),
+            )
+            .shown(
+                "mean",
+                "mean",
+                Quantity::number_or(
+                    found.map(|u| u.mean_percent),
+                    "%",
+                    format!("mean over the teeth of |AB - CD| {over}{of_words}"),
+                    why,
+                ),
+            )
+    };
+    let unevenness = Section::new("unevenness", "Unevenness of the allowance")
+        .part(spread("mean_denominator", [mean, cut], allowance.and_then(|a| by_mean(&a.strokes))))
+        .part(spread("rack_denominator", [rack, cut], allowance.and_then(|a| by_rack(&a.strokes, a.rack_mm))))
+        .part(spread("envelope_mean_denominator", [mean, limit], allowance.and_then(|a| by_mean(&a.envelope))))
+        .part(spread(
+            "envelope_rack_denominator",
+            [rack, limit],
+            allowance.and_then(|a| by_rack(&a.envelope, a.rack_mm)),
+        ));
+    let (spec, schedule) = (&operation.spec, &operation.schedule);
+    let strokes = schedule.count();
+    let stock_of_teeth = allowance.into_iter().flat_map(|of| &of.strokes);
+    Section::new(&spec.name, format!("Operation {}", spec.name))
+        .with("linkage", Quantity::text(operation.linkage.words(), "linkage of cutter and work"))
+        .with("offset", Quantity::number(spec.offset_mm, "mm", "delta_d in force, thickness allowance included"))
+        .with("strokes", Quantity::count(strokes as u64, "strokes", "strokes, plunging ones included"))
+        .with(
+            "circular_feed",
+            Quantity::number(
+                schedule.circular_feed_mm_per_stroke(),
+                "mm per stroke",
+                "mean arc of the pitch curve per double stroke",
+            ),
+        )
+        .with(
+            "cycle_time",
+            Quantity::number(schedule.time_s(strokes as f64), "s", "time of the operation's double strokes"),
+        )
+        .table(teeth::allowance(report, allowance))
+        .part(axes::findings(motion))
+        .part(motion.relief_findings())
+        .part(chips::chips(job, ledger, index))
+        .part(stock_range("flank_stock", "Stock on all active flanks", &over_flanks, "on all active flanks", why))
+        .part(stock_range(
+            "root_stock",
+            "Stock in all roots",
+            &over_roots,
+            "in all roots, on rays that do not end before it",
+            why,
+        ))
+        .part(unevenness)
+        .part(
+            Section::new("teeth", "Stock of each tooth")
+                .parts(stock_of_teeth.map(|of| teeth::tooth_stock(report, index, of.tooth))),
+        )
+}

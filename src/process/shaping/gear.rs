@@ -1,0 +1,99 @@
+//! A shaped gear, cut and measured: flank by flank, root by root, chip by chip.
+
+use crate::cut::Backend;
+use crate::error::{Error, Result};
+use crate::interrupt::Interrupt;
+use crate::output::progress::Progress;
+use crate::process::shaping::Job;
+use crate::process::shaping::chips::{ChipLedger, last_chips};
+use crate::process::shaping::measure::gear_report::{RootReport, root_stock};
+use crate::process::shaping::measure::{GearReport, flank_report, gear_report};
+use crate::steps::cut_flanks::{CutFlank, cut_flanks};
+use crate::steps::gear_maps::GearMaps;
+use crate::steps::parts::Parts;
+use crate::steps::planar::CutField;
+use crate::steps::{FlankFiles, Work, needs_surfaces};
+use crate::surface::SurfaceGrid;
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// A cut and measured gear, before anything is written about it as a whole.
+#[derive(Debug)]
+pub struct CutGear {
+    /// What was measured.
+    pub report: GearReport,
+    /// What every stroke takes away.
+    pub chips: ChipLedger,
+    /// Maps of all finished flanks at map spacing.
+    pub maps: GearMaps,
+    /// Surfaces of all finished flanks at mesh spacing, in order; empty where nothing that is written needs them.
+    pub surfaces: Vec<SurfaceGrid>,
+    /// Surfaces of all roots at mesh spacing, in order; empty where nothing that is written needs them.
+    pub roots: Vec<SurfaceGrid>,
+    /// How much work it was, chips and roots included in its time.
+    pub work: Work,
+}
+
+/// Cuts and measures all flanks and roots of a job; maps and meshes of flanks go to `folder` as soon as a flank is
+/// done, if they are among the parts that it shall hold.
+///
+/// # Errors
+/// Geometry, the backend, files. Ctrl-C is no error: what is finished is returned.
+pub fn cut_gear(
+    job: &Job,
+    backend: &dyn Backend,
+    progress: &Progress,
+    interrupt: &Interrupt,
+    folder: Option<FlankFiles<'_>>,
+) -> Result<CutGear> {
+    let started = Instant::now();
+    let chips = follow_chips(job, progress, interrupt)?;
+    let cut = cut_flanks(
+        job,
+        progress,
+        interrupt,
+        folder,
+        |tooth, side| {
+            let target = job.target_flank(tooth, side);
+            let cut = job.cut(backend, job.flank_field(target))?;
+            let report = flank_report::measure(job, target, &cut);
+            let CutField { field, layers, stats } = cut;
+            Ok(CutFlank { rays: field, layers, stats, report })
+        },
+        |field, maps| last_chips(job, &field.at([&maps.dexels[0], &maps.dexels[1]])),
+    )?;
+    let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
+    let roots = cut_roots(job, backend, needs_surfaces(job, parts) && !cut.work.interrupted)?;
+    let (root_reports, roots): (Vec<RootReport>, Vec<Option<SurfaceGrid>>) = roots.into_iter().unzip();
+    let report = gear_report::measure(job, cut.reports, root_reports)?;
+    let roots = roots.into_iter().flatten().collect();
+    let work = Work { elapsed: started.elapsed(), ..cut.work };
+    Ok(CutGear { report, chips, maps: cut.maps, surfaces: cut.surfaces, roots, work })
+}
+
+/// Cuts every root once, for the stock that operations find in it and, if meshes need it, for its surface; nothing
+/// where neither is asked for.
+fn cut_roots(job: &Job, backend: &dyn Backend, surfaces: bool) -> Result<Vec<(RootReport, Option<SurfaceGrid>)>> {
+    if job.operations.len() < 2 && !surfaces {
+        return Ok(Vec::new());
+    }
+    (1..=job.scene.gear.teeth)
+        .into_par_iter()
+        .map(|space| {
+            let cut = job.cut(backend, job.root_field(space))?;
+            let surface = || SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm);
+            Ok((root_stock(space, &cut), surfaces.then(surface)))
+        })
+        .collect()
+}
+
+/// All strokes in order of time, space by space.
+fn follow_chips(job: &Job, progress: &Progress, interrupt: &Interrupt) -> Result<ChipLedger> {
+    let step = progress.step("chips", u64::from(job.scene.gear.teeth), "tooth spaces");
+    let chips = ChipLedger::new(job, &|| {
+        step.advance(1);
+        !interrupt.is_raised()
+    });
+    step.finish();
+    chips.ok_or(Error::Interrupted)
+}

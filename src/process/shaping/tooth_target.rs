@@ -1,0 +1,92 @@
+//! Targets of all teeth, each found once: both flanks, where they cross the pitch curve, the tip land.
+//!
+//! In: the finishing operation's generation, the blank. Out: a [`ToothTarget`] for every tooth. Dexels, windows,
+//! outlines, meshes and reports all ask for places on the same flanks.
+//!
+//! A tooth whose flanks cross below the blank's outline is **pointed**: its flanks end where they meet, at the height
+//! over the pitch curve at which the tip land has shrunk to nothing.
+//!
+//! Some kilobytes stay in memory for each tooth. Road not taken: to find a flank again for whoever asks. It takes a
+//! thousand contacts, and a run asks a dozen times.
+
+use super::generation::Generation;
+use super::target::TargetFlank;
+use crate::error::Refusal;
+use crate::gear::blank::Blank;
+use crate::math::roots::try_halve;
+use crate::measure::crossing::Crossing;
+use crate::terms::Side;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// A tip land narrower than this is a point, mm.
+const POINTED_MM: f64 = 1e-3;
+
+/// Target of one tooth.
+#[derive(Debug, Clone)]
+pub struct ToothTarget {
+    left: TargetFlank,
+    right: TargetFlank,
+    pitch_crossings: [Option<Crossing>; 2],
+    /// Tip land: from the left flank's tip to the right one's along the outline's direction, mm.
+    pub tip_land_mm: f64,
+}
+
+impl ToothTarget {
+    /// Targets of the teeth 1 to `teeth`, in order.
+    ///
+    /// # Errors
+    /// The first tooth on which the cutter generates no flank, or which is pointed below the pitch curve.
+    pub fn of_all(generation: &Arc<Generation>, blank: &Blank, teeth: u32) -> Result<Vec<Self>, Refusal> {
+        let found: Vec<Result<Self, Refusal>> =
+            (1..=teeth).into_par_iter().map(|tooth| Self::new(generation, blank, tooth)).collect();
+        // In order of teeth: whichever thread was first, the same tooth is blamed.
+        found.into_iter().collect()
+    }
+
+    fn new(generation: &Arc<Generation>, blank: &Blank, tooth: u32) -> Result<Self, Refusal> {
+        let up_to = |height_mm: Option<f64>| -> Result<(TargetFlank, TargetFlank, f64), Refusal> {
+            let flank = |side| TargetFlank::new(generation, blank, tooth, side, height_mm);
+            let (left, right) = (flank(Side::Left)?, flank(Side::Right)?);
+            let tip_land_mm = tip_land_mm(blank, &left, &right);
+            Ok((left, right, tip_land_mm))
+        };
+        let whole = up_to(None)?;
+        let pitch_crossings = [&whole.0, &whole.1].map(|flank| flank.pitch_crossing(blank));
+        let (left, right, tip_land_mm) = if whole.2 > 0.0 {
+            whole
+        } else {
+            let wider = |height_mm: f64| Ok::<bool, Refusal>(up_to(Some(height_mm))?.2 > POINTED_MM);
+            let [pointed_mm, _] = try_halve(wider, 0.0, blank.addendum_mm, 40)?;
+            if pointed_mm == 0.0 {
+                return Err(Refusal::new(
+                    "gear.tooth_thickness_allowance_mm",
+                    format!("tooth {tooth} is pointed below the pitch curve"),
+                    "use a larger module, a cutter with less profile shift, or a smaller thickness allowance",
+                ));
+            }
+            up_to(Some(pointed_mm))?
+        };
+        Ok(Self { left, right, pitch_crossings, tip_land_mm })
+    }
+
+    /// One of its flanks.
+    pub fn flank(&self, side: Side) -> &TargetFlank {
+        match side {
+            Side::Left => &self.left,
+            Side::Right => &self.right,
+        }
+    }
+
+    /// Where one of them crosses the pitch curve; `None` where its involute does not reach the curve.
+    pub fn pitch_crossing(&self, side: Side) -> Option<Crossing> {
+        self.pitch_crossings[usize::from(side == Side::Right)]
+    }
+}
+
+/// Negative if the flanks have crossed.
+fn tip_land_mm(blank: &Blank, left: &TargetFlank, right: &TargetFlank) -> f64 {
+    let (l, r) = (left.at_arc(left.length_mm()), right.at_arc(right.length_mm()));
+    let foot_rad = blank.height(0.5 * (l.point_mm + r.point_mm), 0.5 * (l.phi_rad + r.phi_rad)).1;
+    (l.point_mm - r.point_mm).dot(blank.curve().frame(foot_rad).tangent)
+}

@@ -1,0 +1,112 @@
+//! All flanks of a gear, cut and measured in parallel, each written and thinned out as soon as it is done.
+//!
+//! In: the job; how the process cuts and measures one flank. Out: [`CutFlanks`]: reports, and maps and surfaces at
+//! their own spacings. The dexels themselves are dropped flank by flank: of a gear they would fill the memory.
+
+use super::gear_maps::GearMaps;
+use super::parts::{Part, Parts};
+use super::{FlankFiles, Work, all_flanks, flanks_of, map_operations, meshes, needs_maps, needs_surfaces};
+use crate::cut::CutStats;
+use crate::dexel::{Layer, RayGrid};
+use crate::error::Result;
+use crate::interrupt::Interrupt;
+use crate::job::GearJob;
+use crate::measure::last_chips::LastChips;
+use crate::output::flank_maps::FlankMaps;
+use crate::output::progress::Progress;
+use crate::surface::SurfaceGrid;
+use crate::terms::Side;
+use std::time::Instant;
+
+/// One flank after all operations.
+#[derive(Debug)]
+pub struct CutFlank<G, R> {
+    /// Rays.
+    pub rays: G,
+    /// What each operation left, in order.
+    pub layers: Vec<Layer>,
+    /// What the backend met.
+    pub stats: CutStats,
+    /// What the process measured on it.
+    pub report: R,
+}
+
+/// All flanks that were finished, in order of teeth, left before right.
+#[derive(Debug)]
+pub struct CutFlanks<R> {
+    /// What was measured.
+    pub reports: Vec<R>,
+    /// Their maps at map spacing.
+    pub maps: GearMaps,
+    /// Their surfaces at mesh spacing; empty where nothing that is written needs them.
+    pub surfaces: Vec<SurfaceGrid>,
+    /// How much work it was.
+    pub work: Work,
+}
+
+/// What is left of a flank when its dexels are dropped.
+struct Kept<R> {
+    report: R,
+    maps: Option<FlankMaps>,
+    surface: Option<SurfaceGrid>,
+    stats: CutStats,
+    dexels: u64,
+}
+
+/// Cuts all flanks; `cut_one` cuts and measures one, `chips` says what chips left the cells of its maps (nothing where
+/// a process does not follow them). Maps and meshes go to `folder` as soon as a flank is done, if they are among the
+/// parts that it shall hold.
+///
+/// # Errors
+/// Those of `cut_one`; files. Ctrl-C is no error: what is finished is returned.
+pub fn cut_flanks<G: RayGrid, R: Send>(
+    job: &dyn GearJob,
+    progress: &Progress,
+    interrupt: &Interrupt,
+    folder: Option<FlankFiles<'_>>,
+    cut_one: impl Fn(u32, Side) -> Result<CutFlank<G, R>> + Sync,
+    chips: impl Fn(&G, &FlankMaps) -> Vec<LastChips> + Sync,
+) -> Result<CutFlanks<R>> {
+    let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
+    let started = Instant::now();
+    let output = &job.scene().output;
+    let operations = map_operations(job);
+    let flanks = flanks_of(job);
+    let step = progress.step("cut", flanks.len() as u64, "flanks");
+    let finished = all_flanks(&flanks, |&(tooth, side)| {
+        if interrupt.is_raised() {
+            return Ok(None);
+        }
+        let CutFlank { rays, layers, stats, report } = cut_one(tooth, side)?;
+        let maps = needs_maps(parts).then(|| {
+            let arcs_mm = rays.arcs_mm();
+            let mut maps = FlankMaps::sample(tooth, side, [&arcs_mm, rays.leads_mm()], &layers, output.map_spacing_mm);
+            maps.chips = chips(&rays, &maps);
+            maps
+        });
+        let surface = needs_surfaces(job, parts).then(|| SurfaceGrid::new(&rays, &layers, output.mesh_spacing_mm));
+        if let Some((folder, notes, _)) = folder {
+            if let Some(maps) = maps.as_ref().filter(|_| parts.has(Part::Maps)) {
+                maps.write(folder, &operations, notes)?;
+            }
+            if let Some(surface) = surface.as_ref().filter(|_| parts.has(Part::Meshes)) {
+                meshes::write_flank(job, surface, tooth, side, folder)?;
+            }
+        }
+        step.advance(1);
+        let dexels = layers.iter().map(|layer| layer.heights_mm.len() as u64).sum();
+        Ok(Some(Kept { report, maps, surface, stats, dexels }))
+    })?;
+    step.finish();
+    let interrupted = finished.iter().any(Option::is_none);
+    let mut work = Work { stats: CutStats::default(), dexels: 0, elapsed: started.elapsed(), interrupted };
+    let (mut reports, mut maps, mut surfaces) = (Vec::new(), Vec::new(), Vec::new());
+    for flank in finished.into_iter().flatten() {
+        reports.push(flank.report);
+        maps.extend(flank.maps);
+        surfaces.extend(flank.surface);
+        work.stats += flank.stats;
+        work.dexels += flank.dexels;
+    }
+    Ok(CutFlanks { reports, maps: GearMaps::new(maps), surfaces, work })
+}

@@ -1,0 +1,194 @@
+//! A gear that is cut in transverse sections by the strokes of a planar tool: its rays on straight flanks, roots and
+//! tips, and all operations over them.
+//!
+//! In: the scene, the blank, the tool, the strokes of every operation. Out: fields, and what every operation leaves on
+//! them; in [`blank`], [`blank_report`], [`blank_findings`] and [`blank_table`] the same for rays through the whole blank. A process
+//! whose tool cuts in planes gives points of its target ([`ProfilePoint`]); how it found them is its own.
+//!
+//! Fields are made one flank at a time, so that memory does not grow with the number of teeth.
+
+pub mod blank;
+pub mod blank_findings;
+pub mod blank_report;
+pub mod blank_table;
+pub mod stroke_faults;
+
+use crate::cut::{Backend, CutStats};
+use crate::dexel::{Column, Field, Layer};
+use crate::error::Result;
+use crate::gear::blank::Blank;
+use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, leads_mm};
+use crate::passes::planar::strokes::StrokeLaw;
+use crate::passes::{CutPlan, StrokeSet};
+use crate::scene::Scene;
+use crate::tool::PlanarTool;
+use glam::DVec2;
+
+/// Rays of a fillet stay within this share of its radius: further out they would cross each other.
+const FILLET_SHARE: f64 = 0.8;
+
+/// A point of a target's profile with what its ray needs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProfilePoint {
+    /// Arc length along the profile, mm.
+    pub arc_mm: f64,
+    /// Place in the transverse plane, gear frame, mm.
+    pub point_mm: DVec2,
+    /// Unit normal out of the gear.
+    pub normal: DVec2,
+    /// A polar angle near the foot of the point on the pitch curve, rad.
+    pub phi_rad: f64,
+}
+
+/// One operation.
+#[derive(Debug, Clone, Copy)]
+pub struct PlanarOperation<'a> {
+    /// Name in the scene.
+    pub name: &'a str,
+    /// Its strokes; pass ids go on from one operation to the next.
+    pub strokes: &'a StrokeSet,
+}
+
+/// What all planar steps need to know.
+#[derive(Clone)]
+pub struct PlanarGear<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The stock.
+    pub blank: &'a Blank,
+    /// The tool of all operations.
+    pub tool: &'a dyn PlanarTool,
+    /// Operations in order; the last one finishes.
+    pub operations: Vec<PlanarOperation<'a>>,
+}
+
+/// A field after all operations.
+#[derive(Debug)]
+pub struct CutField {
+    /// Rays.
+    pub field: Field,
+    /// What each operation left, in order.
+    pub layers: Vec<Layer>,
+    /// What the backend met.
+    pub stats: CutStats,
+}
+
+impl PlanarGear<'_> {
+    /// Places along a profile of this length with the scene's spacing, mm from its beginning.
+    pub fn arcs_mm(&self, length_mm: f64) -> impl Iterator<Item = f64> + use<> {
+        let spacing_mm = self.scene.fields.profile_spacing_mm;
+        let count = (length_mm / spacing_mm).floor() as usize + 1;
+        (0..count).map(move |i| i as f64 * spacing_mm)
+    }
+
+    /// Rows along the tooth: evenly over the face, both ends included.
+    pub fn leads_mm(&self, spacing_mm: f64) -> Vec<f64> {
+        leads_mm(self.scene.gear.face_width_mm, spacing_mm)
+    }
+
+    /// Rays on points of a target flank, `leads_mm` along the tooth.
+    pub fn flank_field(&self, points: impl Iterator<Item = ProfilePoint>, leads_mm: Vec<f64>) -> Field {
+        let limit_mm = RAY_HEIGHT_MODULES * self.scene.gear.module_mm;
+        // Rays follow each other: where one leaves the blank, the next one leaves it nearby.
+        let mut exit_mm = 0.0;
+        let columns = points
+            .map(|point| {
+                exit_mm = self.blank.exit_mm(point.point_mm, point.normal, point.phi_rad, exit_mm, limit_mm);
+                self.column(&point, exit_mm)
+            })
+            .collect();
+        Field { columns, leads_mm }
+    }
+
+    /// Distance of the points of a root on which [`Self::root_field`] stands, mm.
+    pub fn root_spacing_mm(&self) -> f64 {
+        self.scene.fields.profile_spacing_mm.max(ROOT_SPACING_MM[0])
+    }
+
+    /// Rays on points of a target root, all of them.
+    pub fn root_field(&self, points: &[ProfilePoint]) -> Field {
+        let module_mm = self.scene.gear.module_mm;
+        let columns = points
+            .iter()
+            .enumerate()
+            .map(|(i, point)| {
+                let (a, b) = (points[i.saturating_sub(1)], points[(i + 1).min(points.len() - 1)]);
+                // Where normals converge (the fillet), rays end before they meet.
+                let closing = -(b.normal - a.normal).dot((b.point_mm - a.point_mm).normalize_or_zero());
+                let radius_mm = if closing > 0.0 { (b.arc_mm - a.arc_mm) / closing } else { f64::INFINITY };
+                let limit_mm = (RAY_HEIGHT_MODULES * module_mm).min(FILLET_SHARE * radius_mm);
+                self.column(point, self.blank.exit_mm(point.point_mm, point.normal, point.phi_rad, limit_mm, limit_mm))
+            })
+            .collect();
+        Field { columns, leads_mm: self.leads_mm(self.scene.fields.lead_spacing_mm.max(ROOT_SPACING_MM[1])) }
+    }
+
+    fn column(&self, point: &ProfilePoint, blank_mm: f64) -> Column {
+        Column {
+            arc_mm: point.arc_mm,
+            origin_mm: point.point_mm,
+            normal: point.normal,
+            low_mm: -RAY_DEPTH_MODULES * self.scene.gear.module_mm,
+            blank_mm,
+        }
+    }
+
+    /// Rays over a tip land, along the normals of the pitch curve and from it up, between the polar angles of the feet
+    /// of both its ends; `None` where there is hardly any land. A ray that no pass reached says that the blank's own
+    /// surface stands there; where a tool has cut the tips down, or a window left a tooth alone, it says that too.
+    pub fn tip_field(&self, feet_rad: [f64; 2]) -> Option<Field> {
+        let curve = self.blank.curve();
+        let [from_mm, to_mm] = feet_rad.map(|phi| curve.arc_mm(phi));
+        let count = ((to_mm - from_mm) / TIP_SPACING_MM[0]).floor();
+        if count < 2.0 {
+            return None;
+        }
+        let columns = (0..count as u32)
+            .map(|i| {
+                let arc_mm = (to_mm - from_mm) * (f64::from(i) + 0.5) / count;
+                let phi_rad = curve.phi_at_arc(from_mm + arc_mm);
+                let frame = curve.frame(phi_rad);
+                let point = ProfilePoint { arc_mm, point_mm: frame.point_mm, normal: frame.normal, phi_rad };
+                self.column(&point, self.blank.addendum_mm)
+            })
+            .collect();
+        Some(Field { columns, leads_mm: self.leads_mm(TIP_SPACING_MM[1]) })
+    }
+
+    /// Whether every row of a field is cut alike: the tool stands still while it is in the work, so its pose is the
+    /// same at all places along the tooth.
+    pub fn rows_are_alike(&self) -> bool {
+        self.operations.iter().all(|operation| operation.strokes.law == StrokeLaw::Frozen)
+    }
+
+    /// Runs all operations over a field. Where all rows are alike, one is cut for all: every height and pass id is what
+    /// cutting each of them would give.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
+        if self.rows_are_alike() && field.rows() > 1 {
+            let (layers, stats) = self.cut_rows(backend, &field.section())?;
+            let rows = field.rows();
+            return Ok(CutField { layers: layers.iter().map(|layer| layer.repeated(rows)).collect(), field, stats });
+        }
+        let (layers, stats) = self.cut_rows(backend, &field)?;
+        Ok(CutField { field, layers, stats })
+    }
+
+    /// Runs all operations over every row of a field.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_rows(&self, backend: &dyn Backend, field: &Field) -> Result<(Vec<Layer>, CutStats)> {
+        let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
+        let mut stats = CutStats::default();
+        for operation in &self.operations {
+            let plan = CutPlan::new(field, operation.strokes, self.tool);
+            let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
+            stats += backend.cut(field, self.tool.edge(), &plan, &mut layer)?;
+            layers.push(layer);
+        }
+        Ok((layers, stats))
+    }
+}

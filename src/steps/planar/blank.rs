@@ -1,0 +1,69 @@
+//! Rays through the whole blank of a planar gear: uncut, and cut by all operations.
+
+use super::PlanarGear;
+use crate::cut::{Backend, BlankOperation, CutBlank};
+use crate::dexel::{BlankField, BlankGrid};
+use crate::error::{Refusal, Result};
+use crate::gear::blank_outline::BlankOutline;
+use crate::passes::StrokeSet;
+use crate::steps::whole_blank;
+use crate::tool::closed_tooth::ClosedTooth;
+
+impl PlanarGear<'_> {
+    /// The uncut blank at the scene's spacing; one section stands for all where all axes rest during the strokes.
+    ///
+    /// # Errors
+    /// A field that does not fit in memory.
+    pub fn blank_field(&self) -> Result<BlankField, Refusal> {
+        whole_blank::field(self.scene, self.blank, self.rows_are_alike())
+    }
+
+    /// Where its rays stand.
+    ///
+    /// # Errors
+    /// A field that does not fit in memory.
+    pub fn blank_grid(&self) -> Result<BlankGrid, Refusal> {
+        whole_blank::grid(self.scene, self.blank, self.rows_are_alike())
+    }
+
+    /// The tool's tooth closed through its body, down to where no stroke of an operation brings the blank.
+    pub fn closed_tooth(&self, strokes: &StrokeSet, blank_reach_mm: f64) -> ClosedTooth {
+        let mount_mm = self.tool.tool_from_blade(0).translation_mm;
+        let poses = (0..strokes.count()).flat_map(|stroke| strokes.poses(stroke));
+        let nearest_mm = poses.map(|pose| pose.point(mount_mm).length()).fold(f64::INFINITY, f64::min);
+        // Between the nodes of a moving stroke the tool comes no nearer than this by far.
+        ClosedTooth::new(self.tool.edge(), (nearest_mm - blank_reach_mm - 1.0).max(0.0))
+    }
+
+    /// Runs all operations over the uncut blank; `returns` gives the poses of an operation's return strokes where they
+    /// are to be checked. `advance` is called after every tile and says whether to go on. `None`: stopped.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_blank(
+        &self,
+        backend: &dyn Backend,
+        field: BlankField,
+        returns: impl Fn(usize) -> Option<StrokeSet>,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<CutBlank>> {
+        let mut cut = CutBlank { blank_mm3: field.volumes_mm3(), field, left_mm3: Vec::new(), cuts: Vec::new() };
+        let reach_mm = BlankOutline::new(self.blank).reach_mm();
+        for (index, operation) in self.operations.iter().enumerate() {
+            let tooth = self.closed_tooth(operation.strokes, reach_mm);
+            let returns = returns(index);
+            let operation = BlankOperation {
+                strokes: operation.strokes,
+                returns: returns.as_ref(),
+                tool: self.tool,
+                tooth: &tooth,
+                blank_reach_mm: reach_mm,
+                cull: true,
+            };
+            let Some(done) = backend.cut_blank(&mut cut.field, &operation, advance)? else { return Ok(None) };
+            cut.cuts.push(done);
+            cut.left_mm3.push(cut.field.volumes_mm3());
+        }
+        Ok(Some(cut))
+    }
+}
