@@ -18,9 +18,10 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::gpu::adapter::AdapterWish;
 use gearcut::gpu::{Gpu, GpuOptions};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
+use gearcut::process::load;
 use gearcut::process::shaping::Job;
 use gearcut::process::shaping::measure::blank_report;
-use gearcut::scene::load;
+use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::surface::BlankMesh;
 use std::path::Path;
 use std::time::Instant;
@@ -63,7 +64,7 @@ fn main() {
             scenes::operation("rough", scenes::NORMAL, 2.0, 4200),
             scenes::operation("finish", scenes::NORMAL, 0.0, 4200),
         ]);
-        for operation in &mut scene.shaping_mut().expect("shaping").operations {
+        for operation in &mut Shaping::of_mut(&mut scene).expect("shaping").operations {
             operation.feed_during_stroke = feed_during_stroke;
         }
         let job = Job::new(scene).expect("the paper's gear");

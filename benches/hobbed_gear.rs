@@ -36,7 +36,7 @@ use gearcut::passes::SweepPlan;
 use gearcut::process::hobbing;
 use gearcut::process::hobbing::measure::flank_report;
 use gearcut::process::hobbing::{HobCutter, HobbedFlank, HobbingJob};
-use gearcut::scene::load;
+use gearcut::process::load;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use oracle_cases::{Case, data, heights, number, numbers};

@@ -17,8 +17,9 @@ use gearcut::dexel::Field;
 use gearcut::gpu::adapter::adapters;
 use gearcut::gpu::{Gpu, GpuOptions};
 use gearcut::passes::{CutPlan, Tile};
+use gearcut::process::load;
 use gearcut::process::shaping::Job;
-use gearcut::scene::load;
+use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use std::path::Path;
@@ -32,7 +33,7 @@ fn planar(criterion: &mut Criterion) {
     );
     for feed_during_stroke in [true, false] {
         let mut scene = load(Path::new("scenes/shaping/elliptical_normal.toml"), &[]).expect("the shipped scene").scene;
-        for operation in &mut scene.shaping_mut().expect("shaping").operations {
+        for operation in &mut Shaping::of_mut(&mut scene).expect("shaping").operations {
             operation.feed_during_stroke = feed_during_stroke;
         }
         let job = Job::new(scene).expect("the shipped gear");

@@ -10,7 +10,7 @@ use gearcut::gpu::adapter::adapters;
 use gearcut::gpu::{Gpu, GpuOptions};
 use gearcut::passes::SweepPlan;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
-use gearcut::scene::load;
+use gearcut::process::load;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use std::path::Path;

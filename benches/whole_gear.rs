@@ -36,7 +36,7 @@ const STROKES: u32 = 4200;
 /// With frozen strokes all rows are alike and one is cut for all; when the feed goes on during the stroke every dexel
 /// is cut.
 fn job(feed_during_stroke: bool) -> Job {
-    let operation = |name, offset_mm| gearcut::scene::model::Operation {
+    let operation = |name, offset_mm| shaping::scene::model::Operation {
         feed_during_stroke,
         ..scenes::operation(name, scenes::NORMAL, offset_mm, STROKES)
     };

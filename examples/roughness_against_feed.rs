@@ -10,9 +10,10 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::measure::topography::Form;
 use gearcut::output::line_chart::{LineChart, LineSeries, Panel};
 use gearcut::output::table::{Cell, write_table};
+use gearcut::process::load;
 use gearcut::process::shaping::Job;
-use gearcut::scene::load;
-use gearcut::scene::model::{Feed, TextureWindow, WindowSides};
+use gearcut::process::shaping::scene::model::{Feed, Shaping};
+use gearcut::scene::model::{TextureWindow, WindowSides};
 use gearcut::terms::Side;
 use gearcut::texture::{cut_window, windows};
 use std::error::Error;
@@ -37,7 +38,7 @@ struct Row {
 fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn Error>> {
     let path = format!("scenes/shaping/{scene}.toml");
     let mut scene = load(Path::new(&path), &[]).map_err(|problems| problems.to_string())?.scene;
-    for operation in &mut scene.shaping_mut().expect("shaping").operations {
+    for operation in &mut Shaping::of_mut(&mut scene).expect("shaping").operations {
         operation.feed = feed;
     }
     let window = |sides, center_profile_mm, length_profile_mm| TextureWindow {

@@ -1,12 +1,16 @@
 """Hobbing of one tooth space by booleans of meshes, with manifold3d: the peer of gearcut's spatial kernel.
 
-Case: the spur gear of tests/data/hobbing/p12_patch_spur.json (m 8 mm, 35 teeth, hob with 10 gashes, feed 2.5 mm), one space, a slab of 6 mm, the 363 hob tooth positions whose sweeps can shape it: 11 revolutions of
-the work by 33 teeth. The sweep of a tooth's rake face through the slab is a closed mesh (its sections joined), and the sweeps are subtracted from the blank one after the other in the order of time, or all at once.
-The blank is the sector of one space alone; an outline of the whole gear would cost the peer more.
+Case: the spur gear of tests/data/hobbing/p12_patch_spur.json (m 8 mm, 35 teeth, hob with 10 gashes, feed 2.5 mm), one
+space, a slab of 6 mm, the 363 hob tooth positions whose sweeps can shape it: 11 revolutions of the work by 33 teeth.
+The sweep of a tooth's rake face through the slab is a closed mesh (its sections joined), and the sweeps are subtracted
+from the blank one after the other in the order of time, or all at once. The blank is the sector of one space alone; an
+outline of the whole gear would cost the peer more.
 
-The distance along the rays of the file from the exact surface of all passes, an independent solution that stands in the file, is the error of the method.
+The distance along the rays of the file from the exact surface of all passes, an independent solution that stands in the
+file, is the error of the method.
 
-    python3 -m venv /tmp/peer && /tmp/peer/bin/pip install manifold3d==3.5.4 numpy==2.4.6 && /tmp/peer/bin/python benches/peers/manifold_hobbing.py
+    python3 -m venv /tmp/peer && /tmp/peer/bin/pip install manifold3d==3.5.4 numpy==2.4.6
+    /tmp/peer/bin/python benches/peers/manifold_hobbing.py
 
 Times are processor time of the whole process. `cargo bench --bench hobbed_gear -- peer` times gearcut on the same case.
 """
@@ -44,7 +48,10 @@ def hob_profile(points_per_flank):
 
 
 def sections(profile, tooth, cycle, moments):
-    """Places of the profile in the gear's frame at some moments: (moment, point, xyz). Gear frame: the machine's axes at rest when space 0 stands at the pitch point, origin in the gear's axis."""
+    """Places of the profile in the gear's frame at some moments: (moment, point, xyz).
+
+    Gear frame: the machine's axes at rest when space 0 stands at the pitch point, origin in the gear's axis.
+    """
     own = 2 * math.pi * tooth / GASHES
     hob = own + 2 * math.pi * TEETH * cycle + moments  # hob angle; the tooth points to the work at moment 0
     axis = np.array([math.cos(TILT), 0.0, math.sin(TILT)])
@@ -148,7 +155,9 @@ def main():
     # Time grows with hob angle.
     positions.sort()
     print(f"{len(positions)} positions")
-    print("| method | sections x points | sweeps, s | subtracting, s | first fifth, last fifth, s | triangles | off the exact surface: rms, um | largest, um |")
+    names = ["method", "sections x points", "sweeps, s", "subtracting, s", "first fifth, last fifth, s", "triangles"]
+    names += ["off the exact surface: rms, um", "largest, um"]
+    print(f"| {' | '.join(names)} |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- |")
     for count, points in ((13, 4), (25, 8), (49, 16), (97, 16)):
         started = time.process_time()

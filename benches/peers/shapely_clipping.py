@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Polygon clipping stroke by stroke with shapely (GEOS): the peer in Python, on the machine where gearcut's own benchmark runs.
+"""Polygon clipping stroke by stroke with shapely (GEOS): the peer in Python of gearcut's own benchmark.
 
-Job: round gear m 3 mm, z 24, alpha 20 deg, cutter z0 20 with sharp tips at 1.25 m, 1,440 strokes at equal work angles, one
-transverse section. The blank is its tip circle; every stroke subtracts the cutter's teeth that reach it. Prints the time of
-the clipping alone and how far the outline ends from the exact involute, measured along the involute's normal on all flanks,
-5 % of the profile left out at either end.
+Job: round gear m 3 mm, z 24, alpha 20 deg, cutter z0 20 with sharp tips at 1.25 m, 1,440 strokes at equal work angles,
+one transverse section. The blank is its tip circle; every stroke subtracts the cutter's teeth that reach it. Prints the
+time of the clipping alone and how far the outline ends from the exact involute, measured along the involute's normal on
+all flanks, 5 % of the profile left out at either end. Times compare on one machine alone.
 
-    python3 -m venv /tmp/peer && /tmp/peer/bin/pip install shapely==2.2.0 numpy==2.4.6 && /tmp/peer/bin/python benches/peers/shapely_clipping.py
+    python3 -m venv /tmp/peer && /tmp/peer/bin/pip install shapely==2.2.0 numpy==2.4.6
+    /tmp/peer/bin/python benches/peers/shapely_clipping.py
 """
 
 import math
@@ -102,4 +103,5 @@ if __name__ == "__main__":
         gear, _ = runs[0]
         d = deviations_um(gear)
         fastest = min(run[1] for run in runs)
-        print(f"{chords} chords per flank: {fastest:.2f} s, {len(d)} rays, {np.sqrt(np.mean(d * d)):.3f} um rms off the involute")
+        rms = np.sqrt(np.mean(d * d))
+        print(f"{chords} chords per flank: {fastest:.2f} s, {len(d)} rays, {rms:.3f} um rms off the involute")

@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use gearcut::process::PROCESSES;
 use gearcut::steps::parts::Parts;
 
+use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// The whole command line.
@@ -133,8 +135,8 @@ pub struct CutArguments {
 }
 
 /// Words that `--only` takes.
-fn part_names() -> clap::builder::PossibleValuesParser {
-    clap::builder::PossibleValuesParser::new(Parts::all().names())
+fn part_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(Parts::all().names())
 }
 
 /// What computes.
@@ -237,7 +239,7 @@ pub enum FormChoice {
 #[derive(Debug, Args)]
 pub struct NewArguments {
     /// What the scene is for.
-    #[arg(value_parser = clap::builder::PossibleValuesParser::new(gearcut::scene::PROCESSES.map(|process| process.name)))]
+    #[arg(value_parser = PossibleValuesParser::new(PROCESSES.map(|process| process.scene.name)))]
     pub process: String,
     /// File to write [default: standard output].
     #[arg(long, value_name = "FILE")]

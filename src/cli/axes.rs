@@ -6,7 +6,7 @@ use gearcut::Error;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::folder::OutputFolder;
 use gearcut::output::text::Sheet;
-use gearcut::{process, scene};
+use gearcut::process;
 use serde_json::json;
 
 use super::args::AxesArguments;
@@ -16,7 +16,7 @@ use super::print;
 
 /// Runs the command.
 pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
-    let scene = scene::load(&arguments.scene.scene, &arguments.scene.settings)?;
+    let scene = process::load(&arguments.scene.scene, &arguments.scene.settings)?;
     let default = || PathBuf::from("out").join(format!("{}_axes", scene.scene.name));
     let out = arguments.out.clone().unwrap_or_else(default);
     let mut sheet = Sheet::default();

@@ -7,11 +7,11 @@ use super::args::SceneArguments;
 use super::failure::Failure;
 use super::print;
 use gearcut::output::text::Sheet;
-use gearcut::{process, scene};
+use gearcut::process;
 
 /// Runs the command.
 pub fn run(arguments: &SceneArguments) -> Result<(), Failure> {
-    let scene = scene::load(&arguments.scene, &arguments.settings)?;
+    let scene = process::load(&arguments.scene, &arguments.settings)?;
     let mut sheet = Sheet::default();
     let checked = process::prepare(&scene.scene).and_then(|job| job.check(&mut sheet));
     let warnings = checked.map_err(|error| Failure::of_scene(&scene, error))?;

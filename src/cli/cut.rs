@@ -9,7 +9,7 @@ use gearcut::run::Outputs;
 use gearcut::scene::Scene;
 use gearcut::steps::parts::{Part, Parts};
 use gearcut::units::UM_PER_MM;
-use gearcut::{Error, run, scene};
+use gearcut::{Error, process, run};
 
 use super::args::{BackendChoice, CutArguments, GpuFailureChoice, SceneArguments};
 use super::failure::Failure;
@@ -22,10 +22,10 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
         drivers::without_window_system();
     }
     let SceneArguments { scene: path, settings } = &arguments.scene;
-    let mut scene = scene::load(path, settings)?;
+    let mut scene = process::load(path, settings)?;
     if arguments.draft {
         // What the user sets comes last and wins.
-        scene = scene::load(path, &[draft_settings(&scene.scene).as_slice(), settings].concat())?;
+        scene = process::load(path, &[draft_settings(&scene.scene).as_slice(), settings].concat())?;
     }
     let parts = match (arguments.only.as_slice(), arguments.draft) {
         ([], false) => Parts::all(),
@@ -77,13 +77,14 @@ fn draft_settings(scene: &Scene) -> Vec<String> {
     let dexels_um = |spacing_mm: f64, most: f64| (DRAFT_DEXELS * UM_PER_MM * spacing_mm).min(most);
     let rays_mm = |spacing_mm: f64, most: f64| (DRAFT_RAYS * spacing_mm).min(most);
     let mut settings = vec![
-        ("flank.profile_spacing_um", dexels_um(fields.profile_spacing_mm, 1000.0)),
-        ("flank.lead_spacing_um", dexels_um(fields.lead_spacing_mm, 10_000.0)),
-        ("blank.spacing_mm", rays_mm(fields.blank_spacing_mm, 10.0)),
-        ("blank.slice_spacing_mm", rays_mm(fields.blank_slice_spacing_mm, 1000.0)),
+        ("fields.flank.profile_spacing_um", dexels_um(fields.profile_spacing_mm, 1000.0)),
+        ("fields.flank.lead_spacing_um", dexels_um(fields.lead_spacing_mm, 10_000.0)),
+        ("fields.blank.spacing_mm", rays_mm(fields.blank_spacing_mm, 10.0)),
+        ("fields.blank.slice_spacing_mm", rays_mm(fields.blank_slice_spacing_mm, 1000.0)),
     ];
-    settings.extend(scene.shaping().map(|shaping| ("chips.spacing_mm", rays_mm(shaping.chip_spacing_mm, 2.0))));
-    settings.into_iter().map(|(key, value)| format!("fields.{key}={value:?}")).collect()
+    let own = scene.process.ray_spacings();
+    settings.extend(own.into_iter().map(|(key, [spacing_mm, most_mm])| (key, rays_mm(spacing_mm, most_mm))));
+    settings.into_iter().map(|(key, value)| format!("{key}={value:?}")).collect()
 }
 
 /// The folder for what is less than a whole result: beside it, so that it does not take its place.

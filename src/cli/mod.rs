@@ -29,7 +29,9 @@ pub fn run(arguments: Arguments) -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Texture(arguments) => texture::run(&arguments),
         Command::Devices => devices::run(),
-        Command::Schema => print::to_stdout(&gearcut::scene::schema::json_schema()).map_err(Failure::from),
+        Command::Schema => {
+            print::to_stdout(&gearcut::scene::schema::json_schema(gearcut::process::table())).map_err(Failure::from)
+        }
         Command::New(arguments) => new::run(&arguments),
     };
     match done {

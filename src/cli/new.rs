@@ -3,7 +3,7 @@
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
 
-use gearcut::{Error, scene};
+use gearcut::{Error, process, scene};
 
 use super::args::NewArguments;
 use super::failure::Failure;
@@ -12,7 +12,7 @@ use super::print;
 /// Runs the command.
 pub fn run(arguments: &NewArguments) -> Result<(), Failure> {
     // The argument parser has refused every other process.
-    let text = scene::template(&arguments.process).unwrap_or_default();
+    let text = scene::template(process::table(), &arguments.process).unwrap_or_default();
     let Some(path) = &arguments.out else { return Ok(print::to_stdout(&text)?) };
     let mut file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|failed| {
         if failed.kind() == ErrorKind::AlreadyExists {

@@ -1,8 +1,8 @@
 //! Processes: a folder for each with its tool, linkage, target, passes, and what only it measures; and the table of
 //! them.
 //!
-//! A process is what [`PROCESSES`] lists. The commands that cut, check and move axes go through [`Process`] and [`Job`]
-//! and know no process by name; what its scenes may say is listed in [`crate::scene::PROCESSES`].
+//! A process is what [`PROCESSES`] lists: what its scenes may say, and how one is made ready. The reader of scenes and
+//! the commands that cut, check and move axes go through [`Process`] and [`Job`] and know no process by name.
 //!
 //! Two traits, not one: a [`Job`] runs whole commands in the process's own order, from the shared steps; a
 //! [`crate::job::GearJob`] answers what those steps ask (target profiles, surfaces of flanks, roots and tips). The road
@@ -16,9 +16,11 @@ use crate::error::Result;
 use crate::interrupt::Interrupt;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
-use crate::scene::Scene;
+use crate::scene::{self, LoadedScene, Scene, SceneErrors, SceneProcess, Table};
 use crate::steps::{Tools, Work};
 use serde_json::Value;
+use std::path::Path;
+use std::sync::LazyLock;
 
 /// What came of a cut.
 #[derive(Debug)]
@@ -32,15 +34,12 @@ pub struct CutDone {
 }
 
 /// A process of manufacture.
-pub trait Process: Sync {
-    /// What scenes call it.
-    fn name(&self) -> &'static str;
-
-    /// Makes a scene ready to cut.
-    ///
-    /// # Errors
-    /// Geometry that cannot be cut; a scene for another process.
-    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Job>>;
+#[derive(Debug)]
+pub struct Process {
+    /// What its scenes may say.
+    pub scene: &'static SceneProcess,
+    /// Makes a scene ready to cut; it refuses geometry that cannot be cut, and scenes of other processes.
+    pub prepare: fn(&Scene) -> Result<Box<dyn Job>>,
 }
 
 /// A scene made ready to cut.
@@ -67,23 +66,35 @@ pub trait Job: Sync {
 }
 
 /// All processes; a new one adds its line here.
-pub const PROCESSES: [&dyn Process; 2] = [&shaping::Shaping, &hobbing::Hobbing];
+pub static PROCESSES: [&Process; 2] = [&shaping::PROCESS, &hobbing::PROCESS];
+
+/// The keys of all scenes.
+pub fn table() -> &'static Table {
+    static TABLE: LazyLock<Table> = LazyLock::new(|| Table::new(&PROCESSES.map(|process| process.scene)));
+    &TABLE
+}
+
+/// Loads the scene file at `path`, with `--set` arguments put in.
+///
+/// # Errors
+/// All problems of the scene, each with its place and a way out.
+pub fn load(path: &Path, settings: &[String]) -> Result<LoadedScene, SceneErrors> {
+    scene::load(path, settings, table())
+}
+
+/// Reads a scene from text; see [`scene::parse`].
+///
+/// # Errors
+/// All problems of the scene, each with its place and a way out.
+pub fn parse(text: &str, file_name: &str, base_dir: &Path, settings: &[String]) -> Result<LoadedScene, SceneErrors> {
+    scene::parse(text, file_name, base_dir, settings, table())
+}
 
 /// Makes a scene ready to cut, by the process that its tool is for.
 ///
 /// # Errors
 /// Geometry that cannot be cut: see the parts.
 pub fn prepare(scene: &Scene) -> Result<Box<dyn Job>> {
-    let process = PROCESSES.into_iter().find(|process| process.name() == scene.process_name());
-    process.expect("every process that scenes are read for is listed").prepare(scene)
-}
-
-#[cfg(test)]
-mod tests {
-    /// What scenes can be written for and what can be cut are the same processes.
-    #[test]
-    fn scenes_and_jobs_list_the_same_processes() {
-        let jobs = super::PROCESSES.map(super::Process::name);
-        assert_eq!(jobs, crate::scene::PROCESSES.map(|process| process.name));
-    }
+    let process = PROCESSES.iter().find(|process| process.scene.name == scene.process_name());
+    (process.expect("scenes are read for the processes of the table").prepare)(scene)
 }

@@ -1,74 +1,23 @@
 //! Values held against each other: contradictions that no single key shows, and sizes that no memory holds.
 //!
-//! In: checked values, some of which may be missing because they were wrong. A check asks only when all its
-//! values are there, so one wrong key never gives two problems. What needs the pitch curve itself (curvature,
-//! undercut, closing) is refused later, where the curve is known.
+//! Here for the keys that all processes share; each process checks its own. What needs the pitch curve itself
+//! (curvature, undercut, closing) is refused later, where the curve is known.
 
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
 use super::keys::join;
-use super::values::{Values, View};
-use super::walk::Problems;
+use super::problems::Found;
 
 /// Most dexels on one flank: 100 million take 1.5 GB through all operations, a hundred times a usual flank.
 const MOST_DEXELS: f64 = 1e8;
-/// Most strokes of one operation; ten thousand per tooth of a hundred-tooth gear are already beyond any machine.
-const MOST_STROKES: f64 = 1e7;
 
-/// Finest spacing of the rays on which chips are followed, per module: ten times finer than usual, maps take some
-/// hundred megabytes.
-const MOST_CHIP_SPACINGS_PER_MODULE: f64 = 600.0;
-
-/// Adds a problem for every contradiction.
-pub(super) fn cross_check(values: &Values, problems: &mut Problems<'_>) {
-    let mut found = Found { values, problems };
-    let found = &mut found;
+/// Adds a problem for every contradiction between shared keys.
+pub(super) fn cross_check(found: &mut Found<'_, '_, '_>) {
     // A missing value ends only the check that asks for it.
-    let _: [Option<()>; 9] = [
-        gear_bore(found),
-        sinusoidal(found),
-        fourier(found),
-        cutter_core(found),
-        cutter_thinning(found),
-        pitch_errors(found),
-        dexels(found),
-        chips(found),
-        profile(found),
-    ];
-    tip(found);
+    let _: [Option<()>; 4] = [gear_bore(found), sinusoidal(found), fourier(found), dexels(found)];
     names(found);
-    for index in 0..values.count("picture") {
+    for index in 0..found.values.count("picture") {
         let _: Option<()> = picture_tooth(found, &format!("picture.{index}"));
-    }
-    for index in 0..values.count("operation") {
-        let path = format!("operation.{index}");
-        let _: [Option<()>; 6] = [
-            window(found, &path),
-            offset(found, &path),
-            strokes(found, &path),
-            feed(found, &path),
-            time_spacing(found, &path),
-            infeed(found, &path),
-        ];
-    }
-}
-
-struct Found<'a, 'b, 'c> {
-    values: &'a Values,
-    problems: &'b mut Problems<'c>,
-}
-
-impl<'a> Found<'a, '_, '_> {
-    fn view(&self, path: &'a str) -> View<'a> {
-        self.values.view(path)
-    }
-
-    /// Blames `path` when `wrong`.
-    fn blame(&mut self, wrong: bool, path: &str, message: impl FnOnce() -> String, way_out: &str) {
-        if wrong {
-            self.problems.add(&self.values.place_of(path), message(), way_out.to_owned());
-        }
     }
 }
 
@@ -107,59 +56,6 @@ fn fourier(found: &mut Found) -> Option<()> {
     Some(())
 }
 
-fn cutter_core(found: &mut Found) -> Option<()> {
-    let path = "tool.shaper_cutter";
-    let cutter = found.view(path);
-    let teeth = f64::from(cutter.whole("teeth")?);
-    let (dedendum, shift) = (cutter.number("dedendum_coefficient")?, cutter.number("profile_shift_coefficient")?);
-    let root_modules = teeth / 2.0 - dedendum + shift;
-    let message = || format!("`{path}.teeth`: {teeth} teeth leave a cutter root radius of {root_modules:.3} modules");
-    found.blame(root_modules < 0.5, &join(path, "teeth"), message, "take more teeth or a smaller dedendum_coefficient");
-    Some(())
-}
-
-fn cutter_thinning(found: &mut Found) -> Option<()> {
-    let path = "tool.shaper_cutter";
-    let module_mm = found.view("gear").number("module_mm")?;
-    let thinning_mm = found.view(path).number("thinning_mm")?;
-    let allowance_mm = found.view("gear").number("tooth_thickness_allowance_mm")?;
-    let half_pitch_mm = PI * module_mm / 2.0;
-    let key = join(path, "thinning_mm");
-    let message = || format!("`{key}`: {thinning_mm} takes the whole tooth thickness of {half_pitch_mm:.3} mm away");
-    found.blame(thinning_mm.abs() >= half_pitch_mm, &key, message, "thin by a small part of the module");
-    let key = "gear.tooth_thickness_allowance_mm";
-    let message =
-        || format!("`{key}`: {allowance_mm} is as much as the whole tooth thickness of {half_pitch_mm:.3} mm");
-    found.blame(allowance_mm.abs() >= half_pitch_mm, key, message, "take a small part of the module");
-    Some(())
-}
-
-fn pitch_errors(found: &mut Found) -> Option<()> {
-    let path = "tool.shaper_cutter";
-    let cutter = found.view(path);
-    let (teeth, errors) = (cutter.whole("teeth")? as usize, cutter.numbers("pitch_errors_um")?.len());
-    let message = || format!("`{path}.pitch_errors_um`: {errors} values for {teeth} cutter teeth");
-    let key = join(path, "pitch_errors_um");
-    found.blame(errors != 0 && errors != teeth, &key, message, "give one value per cutter tooth, or none");
-    Some(())
-}
-
-fn tip(found: &mut Found) {
-    for (path, name) in [("tool.shaper_cutter.tip.round", "radius_mm"), ("tool.shaper_cutter.tip.chamfer", "height_mm")]
-    {
-        let size_mm = found.view(path).number(name);
-        let addendum = found.view("tool.shaper_cutter").number("addendum_coefficient");
-        let module_mm = found.view("gear").number("module_mm");
-        if let (Some(size_mm), Some(addendum), Some(module_mm)) = (size_mm, addendum, module_mm) {
-            let addendum_mm = addendum * module_mm;
-            let key = join(path, name);
-            let message =
-                || format!("`{key}`: {size_mm} is not smaller than the cutter's addendum of {addendum_mm:.3} mm");
-            found.blame(size_mm >= addendum_mm, &key, message, "take about 0.2 modules");
-        }
-    }
-}
-
 fn dexels(found: &mut Found) -> Option<()> {
     let (gear, flank) = (found.view("gear"), found.view("fields.flank"));
     let (module_mm, face_width_mm) = (gear.number("module_mm")?, gear.number("face_width_mm")?);
@@ -172,32 +68,13 @@ fn dexels(found: &mut Found) -> Option<()> {
     Some(())
 }
 
-fn chips(found: &mut Found) -> Option<()> {
-    let path = "fields.chips.spacing_mm";
-    let spacing_mm = found.view("fields.chips").number("spacing_mm")?;
-    let least_mm = found.view("gear").number("module_mm")? / MOST_CHIP_SPACINGS_PER_MODULE;
-    let message =
-        || format!("`{path}`: {spacing_mm} is finer than the maps of chips can hold for this module: {least_mm:.4} mm");
-    found.blame(spacing_mm < least_mm, path, message, "use module_mm / 600 or more; module_mm / 60 is the default");
-    Some(())
-}
-
-fn profile(found: &mut Found) -> Option<()> {
-    let measure = found.view("measure");
-    let (start_mm, end_mm) = (measure.number("profile_start_height_mm")?, measure.number("profile_end_height_mm")?);
-    let message = || format!("the evaluated profile ends at {end_mm} mm, not above its start at {start_mm} mm");
-    let way_out = "make profile_end_height_mm larger than profile_start_height_mm";
-    found.blame(start_mm >= end_mm, "measure.profile_end_height_mm", message, way_out);
-    Some(())
-}
-
 /// Names of operations are unique, also where folders do not tell capitals from small letters.
 fn names(found: &mut Found) {
     for (list, what, written) in [("operation", "operations", "folders are"), ("picture", "pictures", "files are")] {
         let mut seen: BTreeMap<String, usize> = BTreeMap::new();
         for index in 0..found.values.count(list) {
             let path = format!("{list}.{index}");
-            let Some(name) = found.values.view(&path).text("name") else { continue };
+            let Some(name) = found.view(&path).text("name") else { continue };
             let (name, first) = (name.to_owned(), *seen.entry(name.to_lowercase()).or_insert(index));
             let message = || format!("{what} {} and {} are both named \"{name}\"", first + 1, index + 1);
             let way_out =
@@ -208,103 +85,8 @@ fn names(found: &mut Found) {
 }
 
 fn picture_tooth(found: &mut Found, path: &str) -> Option<()> {
-    let (tooth, teeth) = (found.values.view(path).whole("tooth")?, found.view("gear").whole("teeth")?);
+    let (tooth, teeth) = (found.view(path).whole("tooth")?, found.view("gear").whole("teeth")?);
     let message = || format!("`picture.tooth`: there is no tooth {tooth} on a gear of {teeth}");
     found.blame(tooth > teeth, &join(path, "tooth"), message, "teeth are counted from 1, the first at phi > 0");
-    Some(())
-}
-
-fn window(found: &mut Found, path: &str) -> Option<()> {
-    let operation = found.values.view(path);
-    let window = operation.numbers("window_deg")?;
-    let (start, end) = (*window.first()?, *window.get(1)?);
-    let (revolutions, overlap_deg) = (operation.whole("revolutions"), operation.number("overlap_deg"));
-    let key = join(path, "window_deg");
-    let message = || format!("the window [{start}, {end}] deg ends before it begins");
-    found.blame(start >= end, &key, message, "write the smaller work angle first");
-    let message = || format!("the window [{start}, {end}] deg is wider than a turn");
-    found.blame(end - start > 360.0, &key, message, "leave window_deg out, and use revolutions and overlap_deg");
-    let message = || "a window cuts part of one turn, so more revolutions or an overlap contradict it".to_owned();
-    let contradicted = revolutions.is_some_and(|turns| turns > 1) || overlap_deg.is_some_and(|overlap| overlap > 0.0);
-    found.blame(contradicted, &key, message, "keep either window_deg or revolutions and overlap_deg");
-    Some(())
-}
-
-fn offset(found: &mut Found, path: &str) -> Option<()> {
-    let (gear, cutter) = (found.view("gear"), found.view("tool.shaper_cutter"));
-    let shift = cutter.number("profile_shift_coefficient")?.max(0.0);
-    let reach = gear.number("addendum_coefficient")? + cutter.number("addendum_coefficient")? + shift;
-    let reach_mm = reach * gear.number("module_mm")?;
-    let operation = found.values.view(path);
-    let (name, offset_mm) = if let Some(stock_mm) = operation.number("stock_per_flank_mm") {
-        ("stock_per_flank_mm", stock_mm / gear.number("pressure_angle_deg")?.to_radians().sin())
-    } else {
-        ("offset_mm", operation.number("offset_mm")?)
-    };
-    let message = || {
-        format!(
-            "an offset of {offset_mm:.3} mm keeps the cutter out of the blank: it reaches {reach_mm:.3} mm deep at \
-            offset 0"
-        )
-    };
-    found.blame(offset_mm >= reach_mm, &join(path, name), message, "take a smaller offset or stock");
-    Some(())
-}
-
-fn strokes(found: &mut Found, path: &str) -> Option<()> {
-    let operation = found.values.view(path);
-    let per_turn = f64::from(operation.whole("strokes_per_revolution")?);
-    let turns = f64::from(operation.whole("revolutions")?) + operation.number("overlap_deg")? / 360.0;
-    let strokes = per_turn * turns;
-    let message = || format!("{strokes:.2e} strokes in one operation; at most {MOST_STROKES:.0e} are taken");
-    let key = join(path, "strokes_per_revolution");
-    found.blame(strokes > MOST_STROKES, &key, message, "take fewer strokes or revolutions");
-    Some(())
-}
-
-fn feed(found: &mut Found, path: &str) -> Option<()> {
-    let gear = found.view("gear");
-    let perimeter_mm = PI * gear.number("module_mm")? * f64::from(gear.whole("teeth")?);
-    let operation = found.values.view(path);
-    let feed_mm = operation.number("circular_feed_mm_per_stroke")?;
-    let strokes = perimeter_mm / feed_mm;
-    let key = join(path, "circular_feed_mm_per_stroke");
-    let message = || {
-        format!(
-            "a feed of {feed_mm} mm gives {strokes:.1} strokes on a pitch curve of {perimeter_mm:.3} mm; 8 are the \
-            fewest"
-        )
-    };
-    found.blame(strokes < 8.0, &key, message, "take a smaller feed");
-    let turns = f64::from(operation.whole("revolutions")?) + operation.number("overlap_deg")? / 360.0;
-    let all = strokes * turns;
-    let message = || format!("{all:.2e} strokes in one operation; at most {MOST_STROKES:.0e} are taken");
-    found.blame(all > MOST_STROKES, &key, message, "take a larger feed or fewer revolutions");
-    Some(())
-}
-
-fn time_spacing(found: &mut Found, path: &str) -> Option<()> {
-    let by_time = found.values.view(path).text("stroke_spacing")? == "time";
-    let limits = found.view("machine.limits");
-    let names = ["work_speed_deg_per_s", "cutter_speed_deg_per_s", "center_distance_speed_mm_per_s"];
-    let limited = names.iter().any(|name| limits.number(name).is_some());
-    let message =
-        || "stroke_spacing = \"time\" lets the slowest axis run at its limit, but no axis speed is limited".to_owned();
-    let way_out = "write a speed under [machine.limits], or take \"work_angle\" or \"arc\"";
-    found.blame(by_time && !limited, &join(path, "stroke_spacing"), message, way_out);
-    Some(())
-}
-
-fn infeed(found: &mut Found, path: &str) -> Option<()> {
-    let operation = found.values.view(path);
-    let inside = format!("{path}.infeed.{}", operation.variant("infeed")?);
-    let angle_deg = found.values.view(&inside).number("angle_deg")?;
-    let turn_deg = match operation.numbers("window_deg") {
-        Some([start, end]) => end - start,
-        _ => 360.0 * f64::from(operation.whole("revolutions")?) + operation.number("overlap_deg")?,
-    };
-    let message = || format!("the infeed takes {angle_deg} deg, but the operation rolls over only {turn_deg} deg");
-    let way_out = "feed over a smaller angle, or roll over more: revolutions, overlap_deg";
-    found.blame(angle_deg >= turn_deg, &join(&inside, "angle_deg"), message, way_out);
     Some(())
 }

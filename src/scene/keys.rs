@@ -1,21 +1,19 @@
-//! The one table of scene keys: name, kind, unit, range, default and a sentence, for every key there is.
+//! Scene keys: name, kind, unit, range, default and a sentence for each; and the sections that all processes share.
 //!
-//! The reader checks files against it, and the JSON schema, the key reference and the template are printed
-//! from it, so none of them can fall behind. A section holds keys; a section may offer a choice, where the
-//! name of the table written inside it picks the variant (`[gear.pitch_curve.ellipse]`).
+//! A section holds keys; a section may offer a choice, where the name of the table written inside it picks the variant
+//! (`[gear.pitch_curve.ellipse]`). What only some processes read stands in their folders; [`super::Table`] puts both
+//! together. The reader checks files against that table, and the JSON schema, the key reference and the template are
+//! printed from it, so none of them can fall behind.
 //!
 //! Road not taken: structs with derived deserialisation. They report one problem at a time, lose the place of
 //! a value inside a choice, and keep ranges, units and sentences somewhere else.
 
 mod gear;
-mod hobbing;
-mod machine;
-mod material;
-mod operation;
+mod output;
 mod picture;
+mod process;
 mod range;
 mod texture;
-mod tool;
 
 pub use range::Range;
 
@@ -110,7 +108,7 @@ pub struct Group {
     pub required: bool,
 }
 
-/// One table of the scene file.
+/// One table of the scene file, as the shared sections or a process list it.
 #[derive(Debug)]
 pub struct Section {
     /// Path with `[]` after the name of a list: `operation[].infeed.plunge`; the whole file is the empty path.
@@ -123,6 +121,17 @@ pub struct Section {
     pub groups: &'static [Group],
     /// What the section is about, in one or two sentences.
     pub teach: &'static str,
+}
+
+/// Keys that a process adds to a shared section.
+#[derive(Debug)]
+pub struct Addition {
+    /// Path of the section.
+    pub path: &'static str,
+    /// The keys, printed after those of the section.
+    pub keys: &'static [Key],
+    /// Which of them exclude each other.
+    pub groups: &'static [Group],
 }
 
 /// How a section stands in the file.
@@ -149,35 +158,12 @@ pub enum Role {
 /// The file as a whole.
 const ROOT: Section = Section { path: "", role: Role::Plain, keys: &[], groups: &[], teach: "The scene." };
 
-/// All sections in the order of a scene file; a section stands after the one that holds it.
-pub fn sections() -> impl Iterator<Item = &'static Section> {
+/// The sections that all processes share, each after the one that holds it.
+pub(super) fn shared() -> impl Iterator<Item = &'static Section> {
     static FIRST: &[Section] = &[ROOT];
-    [
-        FIRST,
-        gear::SECTIONS,
-        material::SECTIONS,
-        tool::SECTIONS,
-        hobbing::TOOL,
-        machine::BEFORE_OPERATIONS,
-        hobbing::MACHINE,
-        operation::SECTIONS,
-        hobbing::LINKAGES,
-        texture::SECTIONS,
-        machine::AFTER_OPERATIONS,
-        picture::SECTIONS,
-    ]
-    .into_iter()
-    .flatten()
-}
-
-/// The section of this path, `[]` included.
-pub fn section(path: &str) -> Option<&'static Section> {
-    sections().find(|section| section.path == path)
-}
-
-/// All keys with their full paths, in file order.
-pub fn all() -> impl Iterator<Item = (String, &'static Key)> {
-    sections().flat_map(|section| section.keys.iter().map(|key| (join(section.path, key.name), key)))
+    [FIRST, gear::SECTIONS, process::SECTIONS, texture::SECTIONS, output::SECTIONS, picture::SECTIONS]
+        .into_iter()
+        .flatten()
 }
 
 /// `name` inside `path`.
@@ -185,46 +171,47 @@ pub fn join(path: &str, name: &str) -> String {
     if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
 }
 
-impl Section {
-    /// The key of this name.
-    pub fn key(&self, name: &str) -> Option<&'static Key> {
-        self.keys.iter().find(|key| key.name == name)
-    }
-
-    /// Sections directly inside this one.
-    pub fn children(&self) -> impl Iterator<Item = &'static Section> {
-        let path = self.path;
-        sections().filter(move |section| !section.path.is_empty() && section.parent_path() == path)
-    }
-
-    /// Variant of a choice that holds when none is written.
-    pub fn default(&self) -> Option<&'static str> {
-        if let Role::Choice { default, .. } = self.role { default } else { None }
-    }
-
-    /// Last name of the path, without `[]`: `ellipse`, `operation`.
-    pub fn name(&self) -> &'static str {
-        self.path.rsplit('.').next().unwrap_or_default().trim_end_matches("[]")
-    }
-
-    /// Path of the section that holds this one.
-    pub fn parent_path(&self) -> &'static str {
-        self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
-    }
-
-    /// The group of exclusive keys that `name` belongs to.
-    pub fn group_of(&self, name: &str) -> Option<&'static Group> {
-        self.groups.iter().find(|group| group.names.contains(&name))
-    }
-
-    /// How the section's header is written: `[gear]`, `[[operation]]`, `[operation.linkage.shaping_normal]`.
-    pub fn header(&self) -> String {
-        let path = self.path.replace("[]", "");
-        if matches!(self.role, Role::List { .. }) { format!("[[{path}]]") } else { format!("[{path}]") }
-    }
-}
-
 impl Key {
+    /// A switch between words.
+    pub const fn word(
+        name: &'static str,
+        words: &'static [&'static str],
+        default: &'static str,
+        example: &'static str,
+        teach: &'static str,
+    ) -> Self {
+        Self { name, kind: Kind::Word(words), unit: "", default: Default::Word(default), example, teach }
+    }
+
+    /// A number with a default.
+    pub const fn number(
+        name: &'static str,
+        unit: &'static str,
+        range: Range,
+        default: f64,
+        example: &'static str,
+        teach: &'static str,
+    ) -> Self {
+        Self { name, kind: Kind::Number(range), unit, default: Default::Number(default), example, teach }
+    }
+
+    /// A number that may be left out; `words` say what holds then.
+    pub const fn optional(
+        name: &'static str,
+        unit: &'static str,
+        range: Range,
+        words: &'static str,
+        example: &'static str,
+        teach: &'static str,
+    ) -> Self {
+        Self { name, kind: Kind::Number(range), unit, default: Default::LeftOut(words), example, teach }
+    }
+
+    /// A limit of an axis, where known.
+    pub const fn limit(name: &'static str, unit: &'static str, example: &'static str, teach: &'static str) -> Self {
+        Self::optional(name, unit, Range::above(0.0, 1e7), "not limited", example, teach)
+    }
+
     /// Unit and range in brackets, as messages print it: `(mm, 0.1 to 50)`.
     pub fn brackets(&self) -> String {
         let allowed = self.allowed();

@@ -5,11 +5,14 @@ use std::path::Path;
 use super::errors::{Place, Problem, SceneErrors};
 use super::keys::join;
 use super::points::{read_points, read_text};
+use super::problems::{Found, Problems};
+use super::process::SceneProcess;
 use super::sources::{At, Sources};
+use super::table::Table;
 use super::tree::{Entry, Node, Value, parse_document};
 use super::values::Values;
-use super::walk::{Problems, walk};
-use super::{Scene, build, checks, overrides, process, write};
+use super::walk::walk;
+use super::{Scene, build, checks, foreign, overrides, write};
 use crate::error::Refusal;
 
 /// A scene without problems, with the memory of where each value was written.
@@ -30,20 +33,21 @@ pub struct Located {
     pub written: String,
 }
 
-/// Loads the scene file at `path`, with the `--set` arguments `overrides` put in.
+/// Loads the scene file at `path`, with the `--set` arguments `overrides` put in, against the keys of `table`.
 ///
 /// # Errors
 /// All problems of the scene, each with its place and a way out.
-pub fn load(path: &Path, overrides: &[String]) -> Result<LoadedScene, SceneErrors> {
+pub fn load(path: &Path, overrides: &[String], table: &Table) -> Result<LoadedScene, SceneErrors> {
     let file = path.display().to_string();
+    let first = table.processes().first().map_or("", |process| process.name);
     let text = read_text(path).map_err(|why| {
         SceneErrors::new(vec![Problem {
             place: Place::File { file: file.clone() },
             message: format!("cannot read the scene: {why}"),
-            way_out: "give the path of a scene file; `gearcut new shaping` writes one to start from".to_owned(),
+            way_out: format!("give the path of a scene file; `gearcut new {first}` writes one to start from"),
         }])
     })?;
-    parse(&text, &file, path.parent().unwrap_or(Path::new("")), overrides)
+    parse(&text, &file, path.parent().unwrap_or(Path::new("")), overrides, table)
 }
 
 /// Reads a scene from text; `file_name` is printed in messages and names the scene, `base_dir` holds the files it
@@ -51,7 +55,13 @@ pub fn load(path: &Path, overrides: &[String]) -> Result<LoadedScene, SceneError
 ///
 /// # Errors
 /// All problems of the scene, each with its place and a way out.
-pub fn parse(text: &str, file_name: &str, base_dir: &Path, overrides: &[String]) -> Result<LoadedScene, SceneErrors> {
+pub fn parse(
+    text: &str,
+    file_name: &str,
+    base_dir: &Path,
+    overrides: &[String],
+    table: &Table,
+) -> Result<LoadedScene, SceneErrors> {
     let sources = Sources { file: file_name.to_owned(), text: text.to_owned(), overrides: overrides.to_vec() };
     let mut problems = Problems { sources: &sources, list: Vec::new() };
     let mut root = match parse_document(text) {
@@ -69,21 +79,35 @@ pub fn parse(text: &str, file_name: &str, base_dir: &Path, overrides: &[String])
     imply(&mut root, "texture", &[]);
     imply(&mut root, "picture", PICTURES);
     for (index, argument) in overrides.iter().enumerate() {
-        if let Err(problem) = overrides::apply(&mut root, index, argument) {
+        if let Err(problem) = overrides::apply(&mut root, table, index, argument) {
             problems.list.push(problem);
         }
     }
-    process::imply_linkages(&mut root);
-    let mut values = walk(&root, &mut problems);
-    process::keep_own(&mut values, &mut problems);
-    read_points(&mut values, base_dir, &mut problems);
-    checks::cross_check(&values, &mut problems);
+    let process = chosen(&root, table);
+    let own = process.map(|process| Table::new(&[process]));
+    let mut values = walk(&root, table, own.as_ref(), &mut problems);
+    if let (Some(process), Some(own)) = (process, &own) {
+        foreign::refuse_foreign(&mut values, process, own, table, &mut problems);
+        (process.derive)(&mut values);
+    }
+    read_points(&mut values, table, base_dir, &mut problems);
+    let mut found = Found { values: &values, problems: &mut problems };
+    checks::cross_check(&mut found);
+    if let Some(process) = process {
+        (process.check)(&mut found);
+    }
     let list = problems.list;
     let stem = Path::new(file_name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
-    match build::build(stem, base_dir, &values) {
+    match process.and_then(|process| build::build(stem, process, base_dir, &values)) {
         Some(scene) if list.is_empty() => Ok(LoadedScene { scene, values, sources }),
         _ => Err(SceneErrors::new(list)),
     }
+}
+
+/// The process that the first known tool is for.
+fn chosen(root: &Node, table: &Table) -> Option<&'static SceneProcess> {
+    let tools = root.entry("tool")?.node.entries();
+    tools.iter().find_map(|tool| table.processes().iter().copied().find(|process| process.tool == tool.name))
 }
 
 /// Pictures of a scene that lists none.
@@ -141,7 +165,7 @@ impl LoadedScene {
 
     /// The scene as TOML with every default filled in; it reads back to an equal scene under the same file name.
     pub fn resolved_toml(&self) -> String {
-        write::resolved(&self.scene.name, &self.values)
+        write::resolved(&self.scene.name, &Table::new(&[self.scene.process.process()]), &self.values)
     }
 
     /// Paths among the values that `key` may mean, the likeliest first.
@@ -150,7 +174,7 @@ impl LoadedScene {
         let Some(rest) = plain.strip_prefix("operation.") else { return vec![plain] };
         let (first, deeper) = rest.split_once('.').unwrap_or((rest, ""));
         let by_number = first.parse::<usize>().ok();
-        let by_name = || self.scene.operation_names().iter().position(|name| *name == first);
+        let by_name = || self.scene.process.operation_names().iter().position(|name| *name == first);
         match by_number.or_else(by_name) {
             Some(index) => vec![join(&format!("operation.{index}"), deeper)],
             None => (0..self.values.count("operation")).map(|index| format!("operation.{index}.{rest}")).collect(),

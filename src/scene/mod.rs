@@ -1,34 +1,42 @@
 //! Scene text to checked values: every key present, in range and in internal units, or a list of all problems.
 //!
-//! In: a TOML file and `--set` arguments. Out: a [`LoadedScene`], which holds the [`Scene`] for the computation, can
-//! point at any key again when geometry refuses it, and can write the scene back with every default filled in.
+//! In: a TOML file, `--set` arguments, and the [`Table`] of the keys that processes list. Out: a [`LoadedScene`], which
+//! holds the [`Scene`] for the computation, can point at any key again when geometry refuses it, and can write the
+//! scene back with every default filled in. No process is known by name: each brings its [`SceneProcess`].
 //!
-//! The path of a text: `tree` (TOML with places) -> `overrides` (`--set`) -> `walk` (against the table in [`keys`]) ->
-//! `points` (CSV) -> `checks` (values against each other) -> `build` (the model). What was written and what it means
-//! are two types; only `build` knows both.
+//! The path of a text: `tree` (TOML with places) -> `overrides` (`--set`) -> `walk` (against the [`Table`]) ->
+//! `foreign` (keys of other processes) -> `points` (CSV) -> `checks` (values against each other) -> `build` (the
+//! model). What was written and what it means are two types; only `build` knows both. Defaults that follow from other
+//! keys, checks and `build` have a part here for what all processes share, and one in every process.
 
-mod build;
+pub(crate) mod build;
 mod check;
 mod checks;
 pub mod errors;
+mod foreign;
 pub mod keys;
 mod loaded;
 pub mod model;
 mod overrides;
 mod points;
+pub(crate) mod problems;
 mod process;
 pub mod reference;
 pub mod schema;
 mod sources;
 mod suggest;
+mod table;
 mod template;
+#[cfg(test)]
+mod tests;
 mod tree;
-mod values;
+pub(crate) mod values;
 mod walk;
 mod write;
 
 pub use errors::{Place, Problem, SceneErrors};
 pub use loaded::{LoadedScene, Located, load, parse};
 pub use model::Scene;
-pub use process::{PROCESSES, SceneProcess};
+pub use process::{Copied, Part, ProcessPart, SceneProcess};
+pub use table::{Table, TableSection};
 pub use template::template;

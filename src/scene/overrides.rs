@@ -6,12 +6,13 @@
 //! Operations are named by their name or by their number from 0: `operation.rough.offset_mm=2`.
 
 use super::errors::{Place, Problem};
-use super::keys::{self, Role, Section, join};
+use super::keys::{self, Role, join};
 use super::sources::At;
+use super::table::{Table, TableSection};
 use super::tree::{Entry, Node, Value, parse_value};
 
 /// Puts argument number `index` into `root`.
-pub(super) fn apply(root: &mut Node, index: usize, argument: &str) -> Result<(), Problem> {
+pub(super) fn apply(root: &mut Node, table: &Table, index: usize, argument: &str) -> Result<(), Problem> {
     let refuse = |message: String, way_out: &str| Problem {
         place: Place::Set { argument: argument.to_owned() },
         message,
@@ -31,28 +32,28 @@ pub(super) fn apply(root: &mut Node, index: usize, argument: &str) -> Result<(),
             "write names with dots between them, for example gear.module_mm",
         ));
     }
-    put(root, &names, value, At::Set(index, 0..key.len())).map_err(|message| {
+    put(root, table, &names, value, At::Set(index, 0..key.len())).map_err(|message| {
         refuse(message, "name an operation by its name or by its number from 0, and set keys one by one")
     })
 }
 
 /// Goes down `names` from `root`, makes the tables that are missing, and sets `value` at the end.
-fn put(root: &mut Node, names: &[&str], value: Node, name_at: At) -> Result<(), String> {
+fn put(root: &mut Node, table: &Table, names: &[&str], value: Node, name_at: At) -> Result<(), String> {
     let mut node = root;
     let mut pattern = String::new();
     let mut rest = names;
     while let Some((&name, deeper)) = rest.split_first() {
-        let section = keys::section(&pattern);
-        let child = section.and_then(|section| section.children().find(|child| child.name() == name));
+        let section = table.section(&pattern);
+        let child = section.and_then(|section| table.children(section).find(|child| child.name() == name));
         let Some(entries) = node.entries_mut() else {
             return Err(format!("`{pattern}` is not a section that could hold `{name}`"));
         };
         if let Some(section) = section {
-            displace(entries, section, name);
+            displace(entries, table, section, name);
         }
         let place = entries.iter().position(|entry| entry.name == name).unwrap_or_else(|| {
-            let table = Node { value: Value::Table(Vec::new()), at: name_at.clone() };
-            entries.push(Entry { name: name.to_owned(), name_at: name_at.clone(), node: table });
+            let new = Node { value: Value::Table(Vec::new()), at: name_at.clone() };
+            entries.push(Entry { name: name.to_owned(), name_at: name_at.clone(), node: new });
             entries.len() - 1
         });
         let entry = &mut entries[place];
@@ -79,12 +80,12 @@ fn put(root: &mut Node, names: &[&str], value: Node, name_at: At) -> Result<(), 
 }
 
 /// Takes out of a table what the file says otherwise about the same choice as `name`.
-fn displace(entries: &mut Vec<Entry>, section: &Section, name: &str) {
+fn displace(entries: &mut Vec<Entry>, table: &Table, section: &TableSection, name: &str) {
     let is_choice = matches!(section.role, Role::Choice { .. });
     let group = section.group_of(name);
     entries.retain(|entry| {
         let rival = if is_choice {
-            section.children().any(|child| child.name() == entry.name)
+            table.children(section).any(|child| child.name() == entry.name)
         } else {
             group.is_some_and(|group| group.names.contains(&entry.name.as_str()))
         };

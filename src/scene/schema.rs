@@ -5,29 +5,30 @@
 
 use serde_json::{Map, Value, json};
 
-use super::keys::{self, Default, Key, Kind, Range, Role, Section};
+use super::keys::{Default, Key, Kind, Range, Role};
+use super::table::{Table, TableSection};
 
 /// The schema as text, one line break at the end: the content of `scenes/schema.json`.
-pub fn json_schema() -> String {
+pub fn json_schema(table: &Table) -> String {
     let mut root = Map::new();
     root.insert("$schema".to_owned(), json!("https://json-schema.org/draft/2020-12/schema"));
     root.insert("title".to_owned(), json!("gearcut scene"));
-    if let Some(section) = keys::section("") {
-        root.extend(table(section));
+    if let Some(section) = table.section("") {
+        root.extend(of_section(table, section));
     }
     let mut text = serde_json::to_string_pretty(&Value::Object(root)).unwrap_or_default();
     text.push('\n');
     text
 }
 
-/// Schema of one table.
-fn table(section: &'static Section) -> Map<String, Value> {
+/// Schema of one section.
+fn of_section(table: &Table, section: &TableSection) -> Map<String, Value> {
     let mut properties = Map::new();
-    for key in section.keys {
+    for key in &section.keys {
         properties.insert(key.name.to_owned(), property(key));
     }
-    for child in section.children() {
-        let inner = Value::Object(table(child));
+    for child in table.children(section) {
+        let inner = Value::Object(of_section(table, child));
         let value = match child.role {
             Role::List { fewest } => json!({ "type": "array", "minItems": fewest, "items": inner }),
             _ => inner,
@@ -39,7 +40,7 @@ fn table(section: &'static Section) -> Map<String, Value> {
     schema.insert("description".to_owned(), json!(section.teach));
     schema.insert("additionalProperties".to_owned(), json!(false));
     schema.insert("properties".to_owned(), Value::Object(properties));
-    let required: Vec<&str> = required_names(section).collect();
+    let required: Vec<&str> = required_names(table, section);
     if !required.is_empty() {
         schema.insert("required".to_owned(), json!(required));
     }
@@ -64,17 +65,18 @@ fn table(section: &'static Section) -> Map<String, Value> {
 }
 
 /// Keys and sections that must be there.
-fn required_names(section: &'static Section) -> impl Iterator<Item = &'static str> {
+fn required_names(table: &Table, section: &TableSection) -> Vec<&'static str> {
     let keys = section.keys.iter().filter(|key| matches!(key.default, Default::Required)).map(|key| key.name);
-    keys.chain(section.children().filter(|child| must_be_there(child)).map(Section::name))
+    let sections = table.children(section).filter(|child| must_be_there(table, child)).map(TableSection::name);
+    keys.chain(sections).collect()
 }
 
 /// Whether a table must be written: it asks for something, and it is not one of several to choose from.
-fn must_be_there(section: &'static Section) -> bool {
+fn must_be_there(table: &Table, section: &TableSection) -> bool {
     match section.role {
         Role::Variant | Role::List { .. } => false,
         Role::Choice { default, .. } => default.is_none(),
-        Role::Plain => required_names(section).next().is_some(),
+        Role::Plain => !required_names(table, section).is_empty(),
     }
 }
 

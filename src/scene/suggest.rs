@@ -6,7 +6,8 @@
 
 use strsim::normalized_damerau_levenshtein;
 
-use super::keys::{self, Key, Section, join};
+use super::keys::{Key, join};
+use super::table::{Table, TableSection};
 
 /// Likeness from which a name of the same section is worth proposing: half of the letters in common.
 const LIKE_ENOUGH_HERE: f64 = 0.5;
@@ -17,12 +18,12 @@ const LIKE_ENOUGH_ELSEWHERE: f64 = 0.75;
 const LONGEST_COMPARED: usize = 80;
 
 /// A key or section to propose.
-pub(super) enum Candidate {
-    Key(&'static Section, &'static Key),
-    Section(&'static Section),
+pub(super) enum Candidate<'a> {
+    Key(&'a TableSection, &'static Key),
+    Section(&'a TableSection),
 }
 
-impl Candidate {
+impl Candidate<'_> {
     fn name(&self) -> &'static str {
         match self {
             Self::Key(_, key) => key.name,
@@ -31,12 +32,12 @@ impl Candidate {
     }
 
     /// Whether this is the key `key` of `section`.
-    pub fn is_key(&self, section: &Section, key: &Key) -> bool {
+    pub fn is_key(&self, section: &TableSection, key: &Key) -> bool {
         matches!(self, Self::Key(holder, known) if holder.path == section.path && known.name == key.name)
     }
 
     /// What to do about a name written in `section` that probably means this.
-    pub fn way_out(&self, section: &Section) -> String {
+    pub fn way_out(&self, section: &TableSection) -> String {
         match self {
             Self::Key(holder, key) if holder.path == section.path => {
                 format!("write {} instead, or remove it", key.name)
@@ -56,27 +57,27 @@ impl Candidate {
 }
 
 /// Path of a key as messages print it: `operation.offset_mm`.
-pub(super) fn display_path(section: &Section, key: &Key) -> String {
+pub(super) fn display_path(section: &TableSection, key: &Key) -> String {
     join(section.path, key.name).replace("[]", "")
 }
 
 /// The nearest known key or section to `name`, written in `section`.
-pub(super) fn nearest(section: &'static Section, name: &str) -> Option<Candidate> {
+pub(super) fn nearest<'a>(table: &'a Table, section: &'a TableSection, name: &str) -> Option<Candidate<'a>> {
     if name.len() > LONGEST_COMPARED {
         return None;
     }
-    let here = candidates(section);
-    let elsewhere = keys::sections().flat_map(candidates);
+    let here = candidates(table, section);
+    let elsewhere = table.sections().iter().flat_map(|section| candidates(table, section));
     best(here, name, LIKE_ENOUGH_HERE).or_else(|| best(elsewhere, name, LIKE_ENOUGH_ELSEWHERE))
 }
 
-fn candidates(section: &'static Section) -> impl Iterator<Item = Candidate> {
+fn candidates<'a>(table: &'a Table, section: &'a TableSection) -> impl Iterator<Item = Candidate<'a>> {
     let keys = section.keys.iter().map(move |key| Candidate::Key(section, key));
-    keys.chain(section.children().map(Candidate::Section))
+    keys.chain(table.children(section).map(Candidate::Section))
 }
 
-fn best(candidates: impl Iterator<Item = Candidate>, name: &str, least: f64) -> Option<Candidate> {
-    let mut found: Option<(f64, Candidate)> = None;
+fn best<'a>(candidates: impl Iterator<Item = Candidate<'a>>, name: &str, least: f64) -> Option<Candidate<'a>> {
+    let mut found: Option<(f64, Candidate<'a>)> = None;
     for candidate in candidates {
         let likeness = likeness(name, candidate.name());
         if likeness >= least && found.as_ref().is_none_or(|(best, _)| likeness > *best) {

@@ -1,19 +1,20 @@
 //! A commented scene to start from: every key with its unit, its range and its default.
 //!
-//! Printed from the table of keys. Keys that must be written and those with a fixed default stand ready; the others,
-//! and all variants but the default ones, stand behind a `#` without a blank. Keys of other processes are left out.
+//! Printed from the table of the process's keys. Keys that must be written and those with a fixed default stand ready;
+//! the others, and all variants but the default ones, stand behind a `#` without a blank.
 
 use std::fmt::Write as _;
 
-use super::keys::{self, Default, Key, Role, Section, join};
-use super::process::{SceneProcess, sections_of};
+use super::keys::{self, Default, Key, Role};
+use super::table::{Table, TableSection};
 
 /// Width of a comment line.
 const COMMENT_CHARS: usize = 100;
 
-/// The scene for the process of this name, or `None` if there is none.
-pub fn template(process: &str) -> Option<String> {
-    let process = SceneProcess::named(process)?;
+/// The scene for the process of this name, or `None` if the table has none.
+pub fn template(table: &Table, process: &str) -> Option<String> {
+    let process = table.process(process)?;
+    let own = Table::new(&[process]);
     let (tool, needed) = (process.tool_words, process.needed);
     let mut out = format!(
         "# Scene for cutting a gear with {tool}.\n\
@@ -22,32 +23,29 @@ pub fn template(process: &str) -> Option<String> {
          # Lines that begin with # and no blank are keys and sections to switch on.\n\
          # `gearcut check` says what the scene means; `gearcut cut` cuts it.\n",
     );
-    for section in sections_of(process).filter(|section| !section.path.is_empty()) {
-        write_section(&mut out, process, section);
+    for section in own.sections().iter().filter(|section| !section.path.is_empty()) {
+        write_section(&mut out, &own, section);
     }
     Some(out)
 }
 
-fn write_section(out: &mut String, process: &SceneProcess, section: &'static Section) {
-    let known: Vec<&Key> = section.keys.iter().filter(|key| process.knows(&join(section.path, key.name))).collect();
-    if section.role == Role::Plain && known.is_empty() {
+fn write_section(out: &mut String, own: &Table, section: &TableSection) {
+    if section.role == Role::Plain && section.keys.is_empty() {
         return;
     }
     out.push('\n');
-    write_comment(out, section.teach);
+    write_comment(out, &section.teach);
     if let Role::Choice { default, what } = section.role {
-        let children = section.children().filter(|child| process.knows(child.path));
-        let names = keys::either(children.map(|child| child.name().to_owned()));
-        let default = default.map(|name| default_of(process, section, name));
+        let names = keys::either(own.children(section).map(|child| child.name().to_owned()));
         let default = default.map_or(String::new(), |name| format!("; default {name}"));
         write_comment(out, &format!("The {what} is one of: {names}{default}."));
         return;
     }
-    let active = is_active(process, section);
+    let active = is_active(own, section);
     let mark = if active { "" } else { "#" };
     let _ = writeln!(out, "{mark}{}", section.header());
     let mut grouped: Vec<&str> = Vec::new();
-    for key in known {
+    for key in &section.keys {
         // Of a group that must be written, the first stands ready.
         let group = section.group_of(key.name).filter(|group| group.required);
         let first = group.is_some_and(|group| !grouped.iter().any(|name| group.names.contains(name)));
@@ -57,20 +55,13 @@ fn write_section(out: &mut String, process: &SceneProcess, section: &'static Sec
 }
 
 /// Whether a section stands ready: it holds by default, or there is nothing else to choose.
-fn is_active(process: &SceneProcess, section: &Section) -> bool {
-    let choice = keys::section(section.parent_path()).map(|parent| parent.role);
+fn is_active(own: &Table, section: &TableSection) -> bool {
+    let choice = own.section(section.parent_path()).map(|parent| parent.role);
     match (section.role, choice) {
         (Role::List { fewest }, _) => fewest > 0,
-        (Role::Variant, Some(Role::Choice { default, .. })) => {
-            default.is_none_or(|name| default_of(process, section, name) == section.name())
-        }
+        (Role::Variant, Some(Role::Choice { default, .. })) => default.is_none_or(|name| name == section.name()),
         _ => true,
     }
-}
-
-/// The variant that holds by default: the linkage depends on the process.
-fn default_of(process: &SceneProcess, section: &Section, name: &'static str) -> &'static str {
-    if section.path.starts_with("operation[].linkage") { process.default_linkage } else { name }
 }
 
 /// Whether a key stands ready, with the value that holds without it, or with its example if it must be written.

@@ -7,10 +7,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::keys::join;
 use super::sources::At;
+use crate::terms::Hand;
+use crate::units::UM_PER_MM;
 
 /// A value that fits its key.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Checked {
+pub(crate) enum Checked {
     Number(f64),
     Whole(u32),
     Boolean(bool),
@@ -29,22 +31,22 @@ pub(super) struct Held {
 
 /// All values of a scene.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Values {
+pub(crate) struct Values {
     /// By path with the number of the operation: `operation.0.offset_mm`.
-    pub held: BTreeMap<String, Held>,
+    pub(super) held: BTreeMap<String, Held>,
     /// Paths of all keys that were written, right or wrong.
-    pub written: BTreeSet<String>,
+    pub(super) written: BTreeSet<String>,
     /// Variant of each choice: `gear.pitch_curve` -> `ellipse`.
-    pub variants: BTreeMap<String, &'static str>,
+    pub(super) variants: BTreeMap<String, &'static str>,
     /// Where each section that was written begins.
-    pub sections: BTreeMap<String, At>,
+    pub(super) sections: BTreeMap<String, At>,
     /// How many elements each list has: `operation` -> 2.
-    pub counts: BTreeMap<&'static str, usize>,
+    pub(super) counts: BTreeMap<&'static str, usize>,
 }
 
 /// The values of one section.
 #[derive(Clone, Copy)]
-pub(super) struct View<'a> {
+pub(crate) struct View<'a> {
     values: &'a Values,
     path: &'a str,
 }
@@ -60,8 +62,21 @@ impl Values {
         self.counts.get(list).copied().unwrap_or(0)
     }
 
+    /// Puts in a default that follows from other keys, unless the key is written, right or wrong.
+    pub fn put_default(&mut self, path: &str, name: &str, value: Checked) {
+        let full = join(path, name);
+        if !self.written.contains(&full) {
+            self.held.insert(full, Held { value, at: None });
+        }
+    }
+
+    /// Whether a key is written, right or wrong.
+    pub fn is_written(&self, path: &str, name: &str) -> bool {
+        self.written.contains(&join(path, name))
+    }
+
     /// Place of a value or section, or of the nearest section around it that was written.
-    pub fn place_of(&self, path: &str) -> At {
+    pub(super) fn place_of(&self, path: &str) -> At {
         if let Some(at) = self.held.get(path).and_then(|held| held.at.clone()) {
             return at;
         }
@@ -86,6 +101,16 @@ impl<'a> View<'a> {
         if let Some(Checked::Number(number)) = self.get(name) { Some(*number) } else { None }
     }
 
+    /// An angle in radians; the key's unit is degrees.
+    pub fn rad(self, name: &str) -> Option<f64> {
+        self.number(name).map(f64::to_radians)
+    }
+
+    /// A length in mm; the key's unit is um.
+    pub fn mm_from_um(self, name: &str) -> Option<f64> {
+        self.number(name).map(|um| um / UM_PER_MM)
+    }
+
     /// A whole number.
     pub fn whole(self, name: &str) -> Option<u32> {
         if let Some(Checked::Whole(number)) = self.get(name) { Some(*number) } else { None }
@@ -99,6 +124,15 @@ impl<'a> View<'a> {
     /// A word, name or path.
     pub fn text(self, name: &str) -> Option<&'a str> {
         if let Some(Checked::Text(text)) = self.get(name) { Some(text) } else { None }
+    }
+
+    /// A hand.
+    pub fn hand(self, name: &str) -> Option<Hand> {
+        match self.text(name)? {
+            "right" => Some(Hand::Right),
+            "left" => Some(Hand::Left),
+            _ => None,
+        }
     }
 
     /// A list of numbers.

@@ -1,42 +1,24 @@
 //! Goes through the tree, holds every key against the table, and fills in the defaults.
 //!
-//! In: the tree of a scene with its `--set` arguments. Out: checked values, and a problem for every key or
+//! In: the tree of a scene with its `--set` arguments, the table of all processes and that of the scene's own, which
+//! says what holds by default. Out: checked values, and a problem for every key or
 //! section that is unknown, missing, given beside its rival, of the wrong type or out of range.
 
 use super::check::check;
-use super::errors::{MOST_PROBLEMS, Problem};
-use super::keys::{self, Default, Key, Role, Section, join};
+use super::errors::MOST_PROBLEMS;
+use super::keys::{self, Default, Key, Role, join};
 use super::overrides::default_name;
-use super::sources::{At, Sources};
+use super::problems::Problems;
+use super::sources::At;
 use super::suggest::{display_path, nearest};
+use super::table::{Table, TableSection};
 use super::tree::{Entry, Node, Value};
 use super::values::{Checked, Held, Values};
-use crate::material::Kienzle;
 
-/// Collects problems.
-pub(super) struct Problems<'a> {
-    pub sources: &'a Sources,
-    pub list: Vec<Problem>,
-}
-
-impl Problems<'_> {
-    /// Whether no more problems are taken.
-    pub fn full(&self) -> bool {
-        self.list.len() >= MOST_PROBLEMS
-    }
-
-    /// Adds a problem.
-    pub fn add(&mut self, at: &At, message: String, way_out: String) {
-        if !self.full() {
-            self.list.push(Problem { place: self.sources.place(at), message, way_out });
-        }
-    }
-}
-
-/// Checks the whole scene.
-pub(super) fn walk(root: &Node, problems: &mut Problems<'_>) -> Values {
-    let mut walk = Walk { values: Values::default(), problems };
-    if let Some(section) = keys::section("") {
+/// Checks the whole scene; `own` is the table of its process, if its tool chooses one.
+pub(super) fn walk(root: &Node, table: &Table, own: Option<&Table>, problems: &mut Problems<'_>) -> Values {
+    let mut walk = Walk { table, own, values: Values::default(), problems };
+    if let Some(section) = table.section("") {
         walk.table(section, "", root, &At::Implied);
     }
     walk.derive();
@@ -44,17 +26,19 @@ pub(super) fn walk(root: &Node, problems: &mut Problems<'_>) -> Values {
 }
 
 struct Walk<'a, 'b> {
+    table: &'a Table,
+    own: Option<&'a Table>,
     values: Values,
     problems: &'a mut Problems<'b>,
 }
 
-impl Walk<'_, '_> {
+impl<'a> Walk<'a, '_> {
     /// Checks `table`, which stands for `section` under the concrete `path` and was named at `at`.
-    fn table(&mut self, section: &'static Section, path: &str, table: &Node, at: &At) {
+    fn table(&mut self, section: &'a TableSection, path: &str, table: &Node, at: &At) {
         if !matches!(table.value, Value::Table(_)) {
             let written = self.problems.sources.written(&table.at);
             let headers = match section.role {
-                Role::Choice { .. } => keys::either(section.children().map(Section::header)),
+                Role::Choice { .. } => keys::either(self.table.children(section).map(TableSection::header)),
                 _ => section.header(),
             };
             self.problems.add(
@@ -70,21 +54,21 @@ impl Walk<'_, '_> {
         for entry in table.entries() {
             if let Some(key) = section.key(&entry.name) {
                 self.key(section, key, path, entry);
-            } else if !section.children().any(|child| child.name() == entry.name) {
+            } else if !self.table.children(section).any(|child| child.name() == entry.name) {
                 self.unknown(section, entry);
             }
         }
         self.groups(section, path, table);
-        for key in section.keys {
+        for key in section.keys.iter().copied() {
             if table.entry(key.name).is_none() {
                 self.not_written(section, key, path, table, at);
             }
         }
-        if let Role::Choice { default, what } = section.role {
-            self.choice(section, path, table, at, default, what);
+        if let Role::Choice { what, .. } = section.role {
+            self.choice(section, path, table, at, what);
         } else {
             let implied = Node::implied_table();
-            for child in section.children() {
+            for child in self.table.children(section) {
                 let child_path = join(path, child.name());
                 let entry = table.entry(child.name());
                 let node = entry.map_or(&implied, |entry| &entry.node);
@@ -99,7 +83,7 @@ impl Walk<'_, '_> {
     }
 
     /// Checks the elements of a list of tables.
-    fn list(&mut self, section: &'static Section, fewest: usize, path: &str, list: &Node, at: &At) {
+    fn list(&mut self, section: &'a TableSection, fewest: usize, path: &str, list: &Node, at: &At) {
         let name = section.name();
         match &list.value {
             Value::List(items) if items.len() < fewest => self.problems.add(
@@ -123,19 +107,14 @@ impl Walk<'_, '_> {
     }
 
     /// Takes the one variant of a choice.
-    fn choice(
-        &mut self,
-        section: &'static Section,
-        path: &str,
-        table: &Node,
-        at: &At,
-        default: Option<&'static str>,
-        what: &str,
-    ) {
-        let written: Vec<(&'static Section, &Entry)> = table
+    fn choice(&mut self, section: &'a TableSection, path: &str, table: &Node, at: &At, what: &str) {
+        let default = self.own.and_then(|own| own.section(section.path)).unwrap_or(section).default();
+        let written: Vec<(&TableSection, &Entry)> = table
             .entries()
             .iter()
-            .filter_map(|entry| section.children().find(|child| child.name() == entry.name).map(|child| (child, entry)))
+            .filter_map(|entry| {
+                self.table.children(section).find(|child| child.name() == entry.name).map(|child| (child, entry))
+            })
             .collect();
         if let [(first, _), (second, entry), ..] = written.as_slice() {
             self.problems.add(
@@ -149,20 +128,22 @@ impl Walk<'_, '_> {
             self.table(child, &join(path, child.name()), &entry.node, &entry.name_at);
         } else if !table.entries().is_empty() {
             // An unknown variant, reported already.
-        } else if let Some(child) = default.and_then(|name| section.children().find(|child| child.name() == name)) {
+        } else if let Some(child) =
+            default.and_then(|name| self.table.children(section).find(|child| child.name() == name))
+        {
             self.values.variants.insert(path.to_owned(), child.name());
             self.table(child, &join(path, child.name()), &Node::implied_table(), &At::Implied);
         } else {
             self.problems.add(
                 at,
                 format!("the {what} is missing"),
-                format!("write {}", keys::either(section.children().map(Section::header))),
+                format!("write {}", keys::either(self.table.children(section).map(TableSection::header))),
             );
         }
     }
 
     /// Checks one key that was written.
-    fn key(&mut self, section: &'static Section, key: &'static Key, path: &str, entry: &Entry) {
+    fn key(&mut self, section: &'a TableSection, key: &'static Key, path: &str, entry: &Entry) {
         let full = join(path, key.name);
         self.values.written.insert(full.clone());
         match check(&display_path(section, key), key, &entry.node, self.problems.sources) {
@@ -178,14 +159,14 @@ impl Walk<'_, '_> {
     }
 
     /// Puts in a static default, or asks for a required key.
-    fn not_written(&mut self, section: &'static Section, key: &'static Key, path: &str, table: &Node, at: &At) {
+    fn not_written(&mut self, section: &'a TableSection, key: &'static Key, path: &str, table: &Node, at: &At) {
         let rival_written =
             section.group_of(key.name).is_some_and(|group| group.names.iter().any(|name| table.entry(name).is_some()));
         let misspelt = || {
             let unknown = table.entries().iter().filter(|entry| section.key(&entry.name).is_none());
             unknown
                 .take(MOST_PROBLEMS)
-                .filter_map(|entry| nearest(section, &entry.name))
+                .filter_map(|entry| nearest(self.table, section, &entry.name))
                 .any(|found| found.is_key(section, key))
         };
         if rival_written {
@@ -214,8 +195,8 @@ impl Walk<'_, '_> {
     }
 
     /// Rivals: at most one written, or exactly one.
-    fn groups(&mut self, section: &'static Section, path: &str, table: &Node) {
-        for group in section.groups {
+    fn groups(&mut self, section: &'a TableSection, path: &str, table: &Node) {
+        for group in &section.groups {
             let written: Vec<&Entry> =
                 table.entries().iter().filter(|entry| group.names.contains(&entry.name.as_str())).collect();
             let names = || keys::either(group.names.iter().map(|name| format!("`{name}`")));
@@ -236,7 +217,7 @@ impl Walk<'_, '_> {
         }
     }
 
-    fn unknown(&mut self, section: &'static Section, entry: &Entry) {
+    fn unknown(&mut self, section: &'a TableSection, entry: &Entry) {
         if self.problems.full() {
             return; // the search for the nearest name is the slowest thing here
         }
@@ -247,61 +228,34 @@ impl Walk<'_, '_> {
             _ => "key",
         };
         let article = if what.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
-        let (hint, way_out) = match nearest(section, &entry.name) {
+        let (hint, way_out) = match nearest(self.table, section, &entry.name) {
             Some(found) => (format!(" Did you mean {}?", found.words()), found.way_out(section)),
-            None => (String::new(), format!("correct or remove it; {}", contents(section))),
+            None => (String::new(), format!("correct or remove it; {}", self.contents(section))),
         };
         self.problems.add(&entry.name_at, format!("`{name}` is not {article} {what}.{hint}"), way_out);
     }
 
-    /// Defaults that follow from other keys.
+    /// Defaults that follow from other keys, whatever the process.
     fn derive(&mut self) {
-        let gear = self.values.view("gear");
-        let (module_mm, teeth) = (gear.number("module_mm"), gear.whole("teeth"));
-        if let Some(module_mm) = module_mm {
-            self.default("gear", "face_width_mm", Checked::Number((10.0 * module_mm).min(1000.0)));
-            self.default("fields.chips", "spacing_mm", Checked::Number((module_mm / 60.0).max(0.002)));
-        }
-        if let Some(material) = self.values.view("material").text("name").and_then(Kienzle::named) {
-            let force = material.edge_force();
-            for (name, value) in [
-                ("cutting_force_n_per_mm2", force.cutting_n_per_mm2),
-                ("cutting_edge_force_n_per_mm", force.cutting_edge_n_per_mm),
-                ("normal_force_n_per_mm2", force.normal_n_per_mm2),
-                ("normal_edge_force_n_per_mm", force.normal_edge_n_per_mm),
-            ] {
-                self.default("material", name, Checked::Number(value));
-            }
+        if let Some(module_mm) = self.values.view("gear").number("module_mm") {
+            self.values.put_default("gear", "face_width_mm", Checked::Number((10.0 * module_mm).min(1000.0)));
         }
         for (list, count) in self.values.counts.clone() {
-            let is_named = keys::section(&format!("{list}[]")).is_some_and(|s| s.keys.iter().any(|k| k.name == "name"));
+            let section = self.table.section(&format!("{list}[]"));
+            let is_named = section.is_some_and(|section| section.key("name").is_some());
             for index in (0..count).filter(|_| is_named) {
-                self.default(&format!("{list}.{index}"), "name", Checked::Text(default_name(list, index)));
-            }
-        }
-        for index in 0..self.values.count("operation") {
-            let path = format!("operation.{index}");
-            if let Some(teeth) = teeth
-                && !self.values.written.contains(&join(&path, "circular_feed_mm_per_stroke"))
-            {
-                self.default(&path, "strokes_per_revolution", Checked::Whole(100 * teeth));
+                let name = Checked::Text(default_name(list, index));
+                self.values.put_default(&format!("{list}.{index}"), "name", name);
             }
         }
     }
 
-    fn default(&mut self, path: &str, name: &str, value: Checked) {
-        let full = join(path, name);
-        if !self.values.written.contains(&full) {
-            self.values.held.insert(full, Held { value, at: None });
-        }
+    /// What a section takes, in words.
+    fn contents(&self, section: &TableSection) -> String {
+        let holder = if section.path.is_empty() { "a scene".to_owned() } else { section.header() };
+        let keys = section.keys.iter().map(|key| key.name);
+        let names: Vec<&str> = keys.chain(self.table.children(section).map(TableSection::name)).collect();
+        let names = if names.is_empty() { "no keys".to_owned() } else { names.join(", ") };
+        format!("{holder} takes {names}")
     }
-}
-
-/// What a section takes, in words.
-fn contents(section: &'static Section) -> String {
-    let holder = if section.path.is_empty() { "a scene".to_owned() } else { section.header() };
-    let names: Vec<&str> =
-        section.keys.iter().map(|key| key.name).chain(section.children().map(Section::name)).collect();
-    let names = if names.is_empty() { "no keys".to_owned() } else { names.join(", ") };
-    format!("{holder} takes {names}")
 }

@@ -5,25 +5,24 @@
 
 use std::fmt::Write as _;
 
-use super::keys::{Default, Role, Section, join};
-use super::process::{SceneProcess, sections_of};
+use super::keys::{Default, Role, join};
+use super::table::{Table, TableSection};
 use super::values::{Checked, Values};
 
-/// The whole scene called `name`.
-pub(super) fn resolved(name: &str, values: &Values) -> String {
+/// The whole scene called `name`, with the keys of its process's `own` table.
+pub(super) fn resolved(name: &str, own: &Table, values: &Values) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let mut out = format!("# Scene {name} with every default filled in, written by gearcut {version}.\n");
-    let Some(process) = SceneProcess::of(values) else { return out };
     // Empty lists are keys of the file itself, which come before its first table.
-    for section in sections_of(process).filter(|section| matches!(section.role, Role::List { .. })) {
+    for section in own.sections().iter().filter(|section| matches!(section.role, Role::List { .. })) {
         if values.count(section.name()) == 0 {
             let _ = writeln!(out, "{} = []", section.name());
         }
     }
-    let mut sections = sections_of(process).peekable();
+    let mut sections = own.sections().iter().peekable();
     while let Some(section) = sections.next() {
         let Some((list, _)) = section.path.split_once("[]") else {
-            write_section(&mut out, process, section, section.path, values);
+            write_section(&mut out, section, section.path, values);
             continue;
         };
         // The list's own sections follow each other; they are written element by element.
@@ -34,7 +33,7 @@ pub(super) fn resolved(name: &str, values: &Values) -> String {
         for index in 0..values.count(list) {
             for section in &inside {
                 let path = section.path.replacen("[]", &format!(".{index}"), 1);
-                write_section(&mut out, process, section, &path, values);
+                write_section(&mut out, section, &path, values);
             }
         }
     }
@@ -42,11 +41,11 @@ pub(super) fn resolved(name: &str, values: &Values) -> String {
 }
 
 /// One section, unless another variant of its choice holds.
-fn write_section(out: &mut String, process: &SceneProcess, section: &Section, path: &str, values: &Values) {
+fn write_section(out: &mut String, section: &TableSection, path: &str, values: &Values) {
     let is_header = match section.role {
         Role::Choice { .. } => false,
         Role::List { .. } => true,
-        Role::Plain => section.keys.iter().any(|key| process.knows(&join(section.path, key.name))),
+        Role::Plain => !section.keys.is_empty(),
         Role::Variant => {
             let choice = path.rsplit_once('.').map_or("", |(choice, _)| choice);
             if values.variants.get(choice) != Some(&section.name()) {
@@ -58,7 +57,7 @@ fn write_section(out: &mut String, process: &SceneProcess, section: &Section, pa
     if is_header {
         let _ = write!(out, "\n{}\n", section.header());
     }
-    for key in section.keys.iter().filter(|key| process.knows(&join(section.path, key.name))) {
+    for key in &section.keys {
         let rival_holds = section.group_of(key.name).is_some_and(|group| {
             let first = group.names.iter().find(|name| values.held.contains_key(&join(path, name)));
             first != Some(&key.name)

@@ -133,22 +133,22 @@ fn roots(job: &dyn GearJob, space: u32, leads_mm: &[f64], left: &Profile, right:
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::process;
     use crate::process::hobbing::{HobCutter, HobbingJob};
     use crate::process::shaping::Job;
-    use crate::scene;
     use std::collections::HashMap;
     use std::path::Path;
 
     fn mesh(scene: &str) -> (Job, ViewMesh) {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping").join(scene);
-        let job = Job::new(scene::load(&path, &[]).expect("a shipped scene").scene).expect("a gear");
+        let job = Job::new(process::load(&path, &[]).expect("a shipped scene").scene).expect("a gear");
         let mesh = ViewMesh::new(&job).expect("a mesh");
         (job, mesh)
     }
 
     fn hobbed_mesh(name: &str) -> ViewMesh {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/hobbing").join(name).with_extension("toml");
-        let job = HobbingJob::new(&scene::load(&path, &[]).expect("a shipped scene").scene).expect("a gear");
+        let job = HobbingJob::new(&process::load(&path, &[]).expect("a shipped scene").scene).expect("a gear");
         ViewMesh::new(&HobCutter::new(&job).expect("passes")).expect("a mesh")
     }
 

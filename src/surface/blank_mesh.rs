@@ -21,7 +21,7 @@ use super::dual_cells::{NOT_CROSSED, edge_x, edge_y, edge_z, labels};
 use super::flanks::{height_scalar, pass_scalar};
 use super::mesh::{Mesh, Part};
 use super::plane_area::triangles_inside;
-use crate::dexel::blank_field::{BlankField, Ray};
+use crate::dexel::blank_field::{BlankField, RayMaterial};
 use crate::dexel::{NO_PASS, intervals};
 use crate::measure::target_outline::TargetOutline;
 use crate::units::UM_PER_MM;
@@ -338,7 +338,7 @@ impl<'a> Builder<'a> {
 }
 
 /// The end of material in an edge of the grid: where it ends if the lower node is inside, else where it begins.
-fn end_between(ray: &Ray, from_mm: f64, to_mm: f64, low_inside: bool) -> Option<intervals::End> {
+fn end_between(ray: &RayMaterial, from_mm: f64, to_mm: f64, low_inside: bool) -> Option<intervals::End> {
     if low_inside {
         let span = ray.get(ray.partition_point(|s| s.high.at_mm < from_mm))?;
         (span.high.at_mm <= to_mm).then_some(span.high)
@@ -395,7 +395,7 @@ mod tests {
         let row = RayRow { first_mm: 0.0, spacing_mm: 1.0, count: size + 2 };
         let node = |s: usize, i: usize, j: usize| (1..=size).contains(&i) && (1..=size).contains(&j) && inside(s, i, j);
         let end = |at_mm: f64, normal: [f32; 2]| End { at_mm, pass: at_mm as u32, normal };
-        let ray = |along_x: bool, s: usize, r: usize| -> Ray {
+        let ray = |along_x: bool, s: usize, r: usize| -> RayMaterial {
             let here = |k: usize| if along_x { node(s, k, r) } else { node(s, r, k) };
             let out = |sign: f32| if along_x { [sign, 0.0] } else { [0.0, sign] };
             let mut spans = Vec::new();

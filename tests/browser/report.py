@@ -1,7 +1,9 @@
-"""Opens a report as a reader does and asserts that it works: no errors, no requests, a gear that turns, maps that follow the picker.
+"""Opens a report as a reader does and asserts that it works.
 
-In: the report, a folder for screenshots, the browser. Out: screenshots of wide, narrow, light, dark
-and printed pages for a look; exit code 1 with the reason when something is wrong.
+No errors, no requests, a gear that turns, maps that follow the picker.
+
+In: the report, a folder for screenshots, the browser. Out: screenshots of wide, narrow, light, dark and printed pages
+for a look; exit code 1 with the reason when something is wrong.
 """
 
 import pathlib
@@ -11,8 +13,9 @@ import time
 from playwright.sync_api import sync_playwright
 
 # WebGL on the processor; nothing that a browser does on the network of its own accord.
-ARGUMENTS = """--no-sandbox --disable-gpu --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader --ignore-gpu-blocklist
-    --no-first-run --disable-quic --disable-background-networking --disable-component-update --disable-sync""".split()
+ARGUMENTS = """--no-sandbox --disable-gpu --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader
+    --ignore-gpu-blocklist --no-first-run --disable-quic --disable-background-networking --disable-component-update
+    --disable-sync""".split()
 
 
 def main(report, pictures, chromium):
@@ -36,7 +39,8 @@ def main(report, pictures, chromium):
             ("narrow_dark", 390, 844, "dark"),
         ]:
             other = open_page(browser, address, pictures, width, height, scheme)
-            overflow = other.page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+            wider = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
+            overflow = other.page.evaluate(wider)
             assert overflow <= 0, f"{name}: the page is {overflow} px wider than the screen"
             assert drawn_share(other) > 0.05, f"{name}: the gear is not drawn"
             keep_pictures(other, name)
@@ -95,7 +99,8 @@ def check_text(opened):
     name = "<script>document.title='run'<script>"
     assert page.locator("h1").inner_text() == name, "the scene's name is not shown as it is"
     assert page.title().startswith(name), f"the title is {page.title()}"
-    assert page.locator("#key-numbers .value").first.inner_text().strip() not in ("", "–"), "the first number is missing"
+    first = page.locator("#key-numbers .value").first.inner_text().strip()
+    assert first not in ("", "–"), "the first number is missing"
 
 
 def kept(opened, canvas):
@@ -152,7 +157,8 @@ def drawn_share(opened):
 
 
 def becomes(opened, canvas, reference, like, what):
-    """Waits until a canvas differs from a kept picture by more than 0.05 % (`like` false) or hardly at all (`like` true)."""
+    """Waits until a canvas differs from a kept picture by more than 0.05 % (`like` false) or hardly at all (`like`
+    true)."""
     for _ in range(100):
         now = kept(opened, canvas)
         share = difference(opened, reference, now)
@@ -235,7 +241,8 @@ def check_picker(opened):
     canvas = page.locator("#gear-view")
     canvas.scroll_into_view_if_needed()
     canvas.click()
-    page.wait_for_function("(title) => document.getElementById('map-title').textContent === title", arg=title, timeout=20_000)
+    shows_title = "(title) => document.getElementById('map-title').textContent === title"
+    page.wait_for_function(shows_title, arg=title, timeout=20_000)
 
 
 def check_tables_and_pictures(opened):

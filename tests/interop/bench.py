@@ -1,7 +1,8 @@
 """Every texture parameter of one 2048 x 2048 map in gearcut and in surfalize, one after the other in the same run.
 
-What is timed is one parameter alone, from the heights in memory: centring, sorting, transforms and segmentation included, nothing kept
-from another parameter. gearcut's families share that work, so that all parameters of a family cost alike.
+What is timed is one parameter alone, from the heights in memory: centring, sorting, transforms and segmentation
+included, nothing kept from another parameter. gearcut's families share that work, so that all parameters of a family
+cost alike.
 """
 
 import json
@@ -35,10 +36,12 @@ ROUNDS = 3
 def main():
     with tempfile.TemporaryDirectory(prefix="gearcut_texture_") as folder:
         path = os.path.join(folder, "map.npy")
-        command = ["cargo", "bench", "--quiet", "-p", "gearcut-texture", "--bench", "texture", "--", "--json", "--map", path]
+        bench = ["cargo", "bench", "--quiet", "-p", "gearcut-texture", "--bench", "texture"]
+        command = [*bench, "--", "--json", "--map", path]
         ours = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout)
         z = np.load(path)
-    print(f"full set in gearcut: {ours['all']:.0f} ms; surfalize {surfalize.__version__}; load {os.getloadavg()[0]:.1f}")
+    peer = f"surfalize {surfalize.__version__}"
+    print(f"full set in gearcut: {ours['all']:.0f} ms; {peer}; load {os.getloadavg()[0]:.1f}")
     print("| parameter | gearcut, ms | surfalize, ms | ratio |")
     print("| --- | --- | --- | --- |")
     slower, whole = [], 0.0

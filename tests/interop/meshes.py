@@ -35,30 +35,38 @@ def main(folder):
     check("PLY: positive volume", ply.volume > 0)
 
     blank = trimesh.load(mesh / "blank.ply", process=False)
-    check("blank.ply: watertight as written", blank.is_watertight and blank.is_winding_consistent, f"{len(blank.faces)} triangles")
-    check("blank.ply: the same volume by rays as by flanks", np.isclose(blank.volume, stl.volume, rtol=2e-3), f"{blank.volume:.1f} mm^3")
+    closed = blank.is_watertight and blank.is_winding_consistent
+    check("blank.ply: watertight as written", closed, f"{len(blank.faces)} triangles")
+    same = np.isclose(blank.volume, stl.volume, rtol=2e-3)
+    check("blank.ply: the same volume by rays as by flanks", same, f"{blank.volume:.1f} mm^3")
 
     read = meshio.read(mesh / "gear.ply")
     check("meshio: same vertices", np.array_equal(read.points.astype(np.float32), ply.vertices.astype(np.float32)))
     quantities = set(read.point_data)
-    check("meshio: quantities by vertex", {"height_um", "pass_id", "red", "green", "blue"} <= quantities, str(sorted(quantities)))
+    wanted = {"height_um", "pass_id", "red", "green", "blue"}
+    check("meshio: quantities by vertex", wanted <= quantities, str(sorted(quantities)))
     passes = read.point_data["pass_id"]
     cut = passes != NO_PASS
     heights = read.point_data["height_um"]
-    check("meshio: a height wherever a pass came", np.isfinite(heights[cut]).all(), f"{cut.sum()} of {len(cut)} vertices cut")
+    reached = f"{cut.sum()} of {len(cut)} vertices cut"
+    check("meshio: a height wherever a pass came", np.isfinite(heights[cut]).all(), reached)
     check("meshio: no height where none came", np.isnan(heights[~cut]).all())
     if "stock_mm" in quantities:
         stock = read.point_data["stock_mm"][cut]
-        check("meshio: stock is not negative", (stock[np.isfinite(stock)] > -1e-6).all(), f"largest {np.nanmax(stock):.4f} mm")
+        positive = (stock[np.isfinite(stock)] > -1e-6).all()
+        check("meshio: stock is not negative", positive, f"largest {np.nanmax(stock):.4f} mm")
 
     gltf = pygltflib.GLTF2().load(str(mesh / "gear.glb"))
     buffer = gltf.binary_blob()
     names = [node.name for node in gltf.nodes]
     flanks = sorted(name for name in names if name.startswith("tooth_"))
     check("glTF: a node per flank", len(flanks) % 2 == 0 and len(flanks) == len(set(flanks)), f"{len(flanks)} flanks")
-    check("glTF: as many triangles as the STL", sum(gltf.accessors[p.indices].count for m in gltf.meshes for p in m.primitives) == 3 * len(stl.faces))
+    corners = sum(gltf.accessors[p.indices].count for m in gltf.meshes for p in m.primitives)
+    check("glTF: as many triangles as the STL", corners == 3 * len(stl.faces))
     check("glTF: the scene is inside", gltf.asset.extras["scene"] == scene)
-    check("glTF: units, frame and colours are told", gltf.asset.extras["buffer_unit"] == "mm" and "gear frame" in gltf.asset.extras["frame"])
+    extras = gltf.asset.extras
+    told = extras["buffer_unit"] == "mm" and "gear frame" in extras["frame"]
+    check("glTF: units, frame and colours are told", told)
 
     def values(index):
         accessor = gltf.accessors[index]
@@ -70,12 +78,14 @@ def main(folder):
 
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     with_heights = 0
-    height_at = {place.tobytes(): height for place, height in zip(read.points.astype(np.float32), heights.astype(np.float32))}
+    pairs = zip(read.points.astype(np.float32), heights.astype(np.float32))
+    height_at = {place.tobytes(): height for place, height in pairs}
     for part in gltf.meshes:
         attributes = part.primitives[0].attributes
         places = values(attributes.POSITION)
         accessor = gltf.accessors[attributes.POSITION]
-        check_quietly(np.allclose(places.min(0), accessor.min) and np.allclose(places.max(0), accessor.max), part.name, "box")
+        inside = np.allclose(places.min(0), accessor.min) and np.allclose(places.max(0), accessor.max)
+        check_quietly(inside, part.name, "box")
         lengths = np.linalg.norm(values(attributes.NORMAL).astype(float), axis=1)
         check_quietly(np.allclose(lengths, 1, atol=1e-5), part.name, "unit normals")
         check_quietly((values(part.primitives[0].indices) < len(places)).all(), part.name, "indices")
@@ -90,20 +100,23 @@ def main(folder):
                 with_heights += 1
         low, high = np.minimum(low, places.min(0)), np.maximum(high, places.max(0))
     check("glTF: same box as the STL", np.allclose([low, high], stl.bounds))
-    check("glTF: boxes, normals, indices and heights of all parts", with_heights > 0, f"{len(gltf.meshes)} parts, {with_heights} with heights")
+    counted = f"{len(gltf.meshes)} parts, {with_heights} with heights"
+    check("glTF: boxes, normals, indices and heights of all parts", with_heights > 0, counted)
 
     seen = trimesh.load(mesh / "gear.glb")
     check("trimesh opens the glTF", len(seen.geometry) == len(gltf.meshes))
     size = seen.bounds[1] - seen.bounds[0]
     width = stl.bounds[1] - stl.bounds[0]
-    check("glTF: metres, y up", np.allclose(size * 1000, [width[0], width[2], width[1]], rtol=1e-4), f"{size.round(5).tolist()} m")
+    upright = [width[0], width[2], width[1]]
+    check("glTF: metres, y up", np.allclose(size * 1000, upright, rtol=1e-4), f"{size.round(5).tolist()} m")
 
     body = cKDTree(ply.triangles_center)
     files = sorted((mesh / "flanks").glob("*.ply"))
     check("a PLY per flank", [f.stem for f in files] == flanks)
     for file in files:
         flank = trimesh.load(file, process=False)
-        # Its triangles lie beside those of the closed body, whose quads may be split the other way, and look the same way.
+        # Its triangles lie beside those of the closed body, whose quads may be split the other way, and look the same
+        # way.
         distance, nearest = body.query(flank.triangles_center)
         same = (flank.face_normals * ply.face_normals[nearest]).sum(1)[distance < 0.1]
         check_quietly(len(same) > 0 and np.quantile(same, 0.02) > 0.9, file.name, "faces outwards")

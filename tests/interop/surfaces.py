@@ -1,7 +1,7 @@
-"""Heights and spacing of one surface through files, from gearcut to other programs and back; and its parameters in all of them.
+"""Heights and spacing of one surface through files, from gearcut to other programs and back; its parameters in all.
 
-The surface that travels is asymmetric in x and y, rows and columns differ in number and spacing, and one copy has a hole: nothing can be
-flipped, transposed or scaled unseen.
+The surface that travels is asymmetric in x and y, rows and columns differ in number and spacing, and one copy has a
+hole: nothing can be flipped, transposed or scaled unseen.
 """
 
 import json
@@ -181,7 +181,8 @@ def compare_parameters(program, path, defined):
     # A column as a profile, across the marks; cropped to a number of points that five sections share evenly.
     margin = len(surface.data) * 3 % 5
     crop_um = margin * surface.step_y
-    cropped = json.loads(gearcut(program, path, "--form", "none", "--crop-um", repr(crop_um), "--line", "x=0", "--json"))
+    arguments = ["--form", "none", "--crop-um", repr(crop_um), "--line", "x=0", "--json"]
+    cropped = json.loads(gearcut(program, path, *arguments))
     line = cropped["profiles"][0]["parameters"]
     heights = surface.data[margin : len(surface.data) - margin, int(np.ceil(crop_um / surface.step_x - 1e-9))]
     profile = surfalize.Profile(heights - heights.mean(), surface.step_y)

@@ -1,118 +1,136 @@
-//! The floors of the house: a module uses only those that its crate lists above it.
+//! The floors of the house: a module uses only those that its crate lists above it, processes do not use each other,
+//! and no files or folders import each other in a circle.
 
+mod circles;
+mod imports;
+
+use circles::circles;
+use imports::{Imports, ModulePath, Sources, imports, sources};
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+
+/// Sources of the crates, each with a list of its modules at the head of its `lib.rs`.
+const CRATES: [&str; 4] = ["src", "crates/core/src", "crates/gpu/src", "crates/texture/src"];
+
+/// Sources in which no files or folders import each other in a circle.
+const WITHOUT_CIRCLES: [&str; 3] = ["crates/core/src", "crates/gpu/src", "crates/texture/src"];
+
+fn read(source: &str) -> Sources {
+    sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join(source))
+}
 
 /// Names of the crate's own modules in the order of its list, from the ground up.
 fn floors(lib: &str) -> Vec<String> {
-    let own: Vec<&str> = lib.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect();
+    let declared = |line: &str| {
+        let name = line.strip_prefix("pub mod ").or_else(|| line.strip_prefix("mod "))?.strip_suffix(';')?;
+        (name != "tests").then(|| name.to_owned())
+    };
+    let own: Vec<String> = lib.lines().filter_map(declared).collect();
     let listed: Vec<String> = lib
         .lines()
-        .filter_map(|line| Some(line.strip_prefix("//! - [`")?.split_once('`')?.0.to_owned()))
-        .filter(|name| own.contains(&name.as_str()))
+        .filter_map(|line| {
+            Some(line.strip_prefix("//! - ")?.trim_start_matches('[').strip_prefix('`')?.split_once('`')?.0)
+        })
+        .filter(|name| own.iter().any(|own| own == name))
+        .map(str::to_owned)
         .collect();
     assert_eq!(listed.len(), own.len(), "the list at the head of lib.rs and its modules differ: {listed:?}, {own:?}");
     listed
 }
 
-/// Rust files under a folder.
-fn files(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder of the project") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            files(&path, found);
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
-            found.push(path);
-        }
-    }
-}
-
-/// Every path into the crate that code of a file names, `crate::a::b` as `["a", "b"]`; tests inside the file look
-/// wherever they like.
-fn named(text: &str) -> Vec<Vec<String>> {
-    let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
-    let mut found = Vec::new();
-    for line in code.lines().filter(|line| !line.trim_start().starts_with("//")) {
-        for (at, _) in line.match_indices("crate::") {
-            let path: String =
-                line[at..].chars().take_while(|c| c.is_alphanumeric() || matches!(c, '_' | ':')).collect();
-            found.push(path.split("::").skip(1).map(str::to_owned).collect());
-        }
-    }
-    found
-}
-
-/// Arrows that point up, as "file -> module".
-fn arrows_up(src: &Path, lib: &str) -> Vec<String> {
-    let floors = floors(lib);
+/// Arrows that point up, as "module -> module".
+fn arrows_up(imports: &Imports, floors: &[String]) -> Vec<String> {
     let floor: BTreeMap<&str, usize> = floors.iter().enumerate().map(|(i, name)| (name.as_str(), i)).collect();
-    let mut paths = Vec::new();
-    files(src, &mut paths);
-    let mut up = Vec::new();
-    for path in paths {
-        let inside = path.strip_prefix(src).expect("under the folder");
-        let first = inside.iter().next().and_then(|name| name.to_str()).expect("a name").trim_end_matches(".rs");
-        let Some(&here) = floor.get(first) else { continue };
-        let text = fs::read_to_string(&path).expect("a source file");
-        for named in named(&text) {
-            let there = named.first().and_then(|name| floor.get(name.as_str()));
-            if there.is_some_and(|&there| there > here) {
-                up.push(format!("{} -> {}", inside.display(), named[0]));
-            }
-        }
-    }
-    up
+    let of = |module: &ModulePath| module.first().and_then(|first| floor.get(first.as_str())).copied();
+    let arrows = imports.iter().flat_map(|(from, others)| others.iter().map(move |to| (from, to)));
+    arrows
+        .filter(|(from, to)| of(from).zip(of(to)).is_some_and(|(here, there)| there > here))
+        .map(|(from, to)| format!("{} -> {}", from.join("::"), to.join("::")))
+        .collect()
 }
 
 /// Processes do not know each other: what two of them need stands on a lower floor.
-fn arrows_between_processes(src: &Path) -> Vec<String> {
-    let mut across = Vec::new();
-    for entry in fs::read_dir(src.join("process")).expect("the folder of processes") {
-        let folder = entry.expect("an entry").path();
-        if !folder.is_dir() {
-            continue;
-        }
-        let own = folder.file_name().and_then(|name| name.to_str()).expect("a name").to_owned();
-        let mut paths = Vec::new();
-        files(&folder, &mut paths);
-        for path in paths {
-            let text = fs::read_to_string(&path).expect("a source file");
-            for named in named(&text).iter().filter(|named| named.first().is_some_and(|name| name == "process")) {
-                if named.get(1).is_some_and(|other| *other != own && src.join("process").join(other).is_dir()) {
-                    across.push(format!("{} -> {}", path.display(), named.join("::")));
-                }
-            }
-        }
-    }
-    across
+fn arrows_between_processes(imports: &Imports) -> Vec<String> {
+    let process = |module: &ModulePath| match module.as_slice() {
+        [process, name, ..] if process == "process" => Some(name.clone()),
+        _ => None,
+    };
+    let arrows = imports.iter().flat_map(|(from, others)| others.iter().map(move |to| (from, to)));
+    arrows
+        .filter(|(from, to)| process(from).zip(process(to)).is_some_and(|(here, there)| here != there))
+        .map(|(from, to)| format!("{} -> {}", from.join("::"), to.join("::")))
+        .collect()
 }
-
-const SOURCES: [&str; 3] = ["src", "crates/core/src", "crates/gpu/src"];
 
 #[test]
 fn no_arrow_points_up() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for source in SOURCES {
-        let src = root.join(source);
-        let lib = fs::read_to_string(src.join("lib.rs")).expect("lib.rs");
-        if source != "crates/gpu/src" {
-            let up = arrows_up(&src, &lib);
-            assert!(up.is_empty(), "{source}: arrows that point up:\n{}", up.join("\n"));
-        }
+    for source in CRATES {
+        let sources = read(source);
+        let up = arrows_up(&imports(&sources), &floors(&sources[&Vec::new()]));
+        assert!(up.is_empty(), "{source}: arrows that point up:\n{}", up.join("\n"));
     }
-    let across = arrows_between_processes(&root.join("src"));
+    let across = arrows_between_processes(&imports(&read("src")));
     assert!(across.is_empty(), "processes that use each other:\n{}", across.join("\n"));
 }
 
-/// The same test must notice an arrow that is planted: with the list turned upside down nearly every arrow points up.
+#[test]
+fn nothing_is_imported_in_a_circle() {
+    for source in WITHOUT_CIRCLES {
+        let found = circles(&imports(&read(source)));
+        assert!(found.is_empty(), "{source}: circles:\n{}", found.join("\n"));
+    }
+}
+
+/// Adds a line to the text of a module.
+fn planted(sources: &Sources, module: &str, line: &str) -> Sources {
+    let path: ModulePath = module.split("::").map(str::to_owned).collect();
+    let mut sources = sources.clone();
+    let text = sources.get_mut(&path).expect("a module of the crate");
+    *text = format!("{line}\n{text}");
+    sources
+}
+
+/// The same test must notice an arrow that is planted, however it is written.
 #[test]
 fn planted_arrows_are_noticed() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/core/src");
-    let lib = fs::read_to_string(src.join("lib.rs")).expect("lib.rs");
-    let mut lines: Vec<&str> = lib.lines().filter(|line| line.starts_with("//! - [`")).collect();
-    lines.reverse();
-    let modules: Vec<&str> = lib.lines().filter(|line| line.starts_with("pub mod ")).collect();
-    let turned = [lines, modules].concat().join("\n");
-    assert!(arrows_up(&src, &turned).len() > 50);
+    let sources = read("crates/core/src");
+    let floors = floors(&sources[&Vec::new()]);
+    for line in [
+        "use crate::cut::Backend;",
+        "use crate::{error::{self, NotConverged}, cut};",
+        "use super::super::{cut::cpu as native};",
+        "fn planted() -> crate::cut::CutStats { /* \" */ unimplemented!() }",
+    ] {
+        let up = arrows_up(&imports(&planted(&sources, "math::roots", line)), &floors);
+        let [only] = up.as_slice() else { panic!("{} arrows by {line}: {up:?}", up.len()) };
+        assert!(only.starts_with("math::roots -> cut"), "{only}");
+    }
+    for line in ["// use crate::cut::Backend;", "const TEXT: &str = \"use crate::cut::Backend; \\\" crate::cut\";"] {
+        assert_eq!(arrows_up(&imports(&planted(&sources, "math::roots", line)), &floors), [""; 0], "{line}");
+    }
+    let across = planted(&read("src"), "process::hobbing::job", "use super::super::{shaping::ShaperCutter as Other};");
+    assert_eq!(arrows_between_processes(&imports(&across)), ["process::hobbing::job -> process::shaping::cutter"]);
+}
+
+/// The same test must notice circles that are planted: between files, between folders, and through the re-exports of a
+/// head.
+#[test]
+fn planted_circles_are_noticed() {
+    let sources = read("crates/core/src");
+    for (module, line, folder, neighbours) in [
+        ("passes::planar::near", "use super::candidates::CutPlan;", "passes::planar", ["candidates", "near"]),
+        ("passes::planar::near", "use super::{candidates as up};", "passes::planar", ["candidates", "near"]),
+        ("passes::planar::strokes", "use crate::{passes::{spatial::motion}, units};", "passes", ["planar", "spatial"]),
+        ("passes::planar::strokes", "use crate::passes::SweepPlan;", "passes", ["planar", "spatial"]),
+        ("tool::involute", "use super::edge::Edge;", "tool", ["edge", "involute"]),
+    ] {
+        let found = circles(&imports(&planted(&sources, module, line)));
+        let [only] = found.as_slice() else { panic!("{} circles by {line}: {found:?}", found.len()) };
+        let names =
+            only.strip_prefix(&format!("{folder}: ")).and_then(|rest| rest.split_once(": ")).expect("its names").0;
+        let names: Vec<&str> = names.split(", ").collect();
+        assert!(neighbours.iter().all(|name| names.contains(name)), "{line} in {module}: {only}");
+    }
+    let children = planted(&sources, "tool::edge", "use super::CuttingTool;");
+    assert_eq!(circles(&imports(&children)), [""; 0], "a head and its children are not counted");
 }

@@ -6,7 +6,8 @@ use gearcut::gear::PitchCurveShape;
 use gearcut::measure::scallop::cusps;
 use gearcut::measure::topography::Form;
 use gearcut::process::shaping::Job;
-use gearcut::scene::model::{Feed, Scene, StrokeSpacing, TextureWindow, WindowSides};
+use gearcut::process::shaping::scene::model::{Feed, Shaping, StrokeSpacing};
+use gearcut::scene::model::{Scene, TextureWindow, WindowSides};
 use gearcut::terms::Side;
 use gearcut::texture::{WindowTexture, cut_window, windows};
 use serde_json::Value;
@@ -26,7 +27,7 @@ fn finishing_scene(module_mm: f64, teeth: u32, cutter_teeth: u32, shape: PitchCu
     scene.gear.teeth = teeth;
     scene.gear.pitch_curve = shape;
     scene.gear.face_width_mm = 10.0;
-    scene.shaping_mut().expect("shaping").tool.teeth = cutter_teeth;
+    Shaping::of_mut(&mut scene).expect("shaping").tool.teeth = cutter_teeth;
     scene.fields.profile_spacing_mm = 0.002;
     scene.fields.lead_spacing_mm = 10.0;
     scene
@@ -193,7 +194,7 @@ fn a_window_with_too_few_marks_says_so() {
         (true, 2.0, &["along the tooth"]),
     ] {
         let mut scene = finishing_scene(2.0, 30, 25, PitchCurveShape::Circle, 0.3);
-        scene.shaping_mut().expect("shaping").operations[0].feed_during_stroke = during_stroke;
+        Shaping::of_mut(&mut scene).expect("shaping").operations[0].feed_during_stroke = during_stroke;
         scene.textures = vec![window(3, WindowSides::Left, None, Some(length_mm), 1e-3, Form::Plane)];
         let textures = textures(&Job::new(scene).expect("a job"));
         let warnings = textures[0].warnings();

@@ -15,6 +15,46 @@
 //! - [`dexel`]: rays with the material that is left on them
 //! - [`passes`]: one blade's trip through the work, and which passes can matter to which dexels
 //! - [`cut`]: backends, and the native one
+//!
+//! Lengths are in mm and angles in rad, in names as in values; points and directions say which frame they are in.
+//!
+//! # Example
+//!
+//! The pitch curve of an elliptical gear of third order, and the place at which a ray enters a cutter tooth.
+//!
+//! ```
+//! use gearcut_core::gear::{PitchCurve, PitchCurveShape};
+//! use gearcut_core::tool::edge::{Edge, Segment, SegmentName};
+//! use gearcut_core::tool::edge_table::TABLE_TOLERANCE_MM;
+//! use gearcut_core::tool::involute::Involute;
+//! use std::f64::consts::PI;
+//!
+//! // Module 3 mm, 42 teeth: the semi-major axis is left out, and follows from the perimeter.
+//! let shape = PitchCurveShape::Ellipse { order: 3, eccentricity: 0.1348, semi_major_axis_mm: None };
+//! let curve = PitchCurve::new(&shape, 3.0, 42)?;
+//! assert!((curve.perimeter_mm() - PI * 3.0 * 42.0).abs() < 1e-9);
+//! assert!((curve.size_mm() - 61.110_009_074).abs() < 1e-8);
+//!
+//! // The point at a polar angle of 60 degrees, in the gear frame. The curve is slightly hollow there.
+//! let place = curve.frame(60_f64.to_radians());
+//! assert!((place.radius_mm - 61.110_009_074 * (1.0 - 0.1348)).abs() < 1e-8);
+//! assert!((place.point_mm.x - 0.5 * place.radius_mm).abs() < 1e-9);
+//! assert!((1.0 / place.curvature_per_mm + 765.3).abs() < 0.1);
+//!
+//! // The left flank of a cutter tooth: an involute on a base circle of 28.19 mm radius, in the blade frame.
+//! let involute = Involute { base_radius_mm: 28.19, half_angle_rad: 0.09, side: 1.0 };
+//! let edge = Edge::new(vec![Segment::involute(SegmentName::FlankLeft, involute, [0.2, 0.5])?]);
+//!
+//! // A ray against the flank's normal, from 0.1 mm outside, enters the tooth after 0.1 mm.
+//! let (roll, gap_mm) = (0.35, 0.1);
+//! let segment = &edge.segments[0];
+//! let segment_from_blade = segment.blade_from_segment.inverse();
+//! let origin_mm = segment_from_blade.point(involute.point(roll) + gap_mm * involute.normal(roll));
+//! let hit = segment.enter(origin_mm, segment_from_blade.direction(-involute.normal(roll))).expect("it enters");
+//! assert!((hit.height_mm - gap_mm).abs() < TABLE_TOLERANCE_MM);
+//! assert!((hit.curvature_per_mm * 28.19 * roll - 1.0).abs() < 1e-3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod cut;
 pub mod dexel;

@@ -161,7 +161,9 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
                 let k = record.arc_half_curvature;
                 let m_x = record.base_x_mm;
                 let m_y = record.base_y_mm;
-                residual = k * (x.value * (x.value + 2.0 * m_x) + y.value * (y.value + 2.0 * m_y) + record.arc_excess_mm2);
+                let across = x.value * (x.value + 2.0 * m_x);
+                let along = y.value * (y.value + 2.0 * m_y);
+                residual = k * (across + along + record.arc_excess_mm2);
                 g_x = 2.0 * k * (x.value + m_x);
                 g_y = 2.0 * k * (y.value + m_y);
             }

@@ -34,7 +34,7 @@ pub struct Allowance {
 
 /// Columns of a tile, which share its records.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Piece {
+pub struct TileColumns {
     /// Tile of the plan.
     pub tile: usize,
     /// Columns of the field.
@@ -47,7 +47,7 @@ pub struct Batch {
     /// Columns of the field.
     pub columns: Range<usize>,
     /// The same tile by tile.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<TileColumns>,
 }
 
 /// Bytes that a batch needs: dexels once on the device and once to come back, columns, rounds of records.
@@ -94,7 +94,7 @@ pub fn batches(plan: &CutPlan, allowance: Allowance) -> Result<Vec<Batch>, GpuPr
     for (index, tile) in plan.tiles.iter().enumerate() {
         for start in tile.columns.clone().step_by(columns_at_most) {
             let columns = start..(start + columns_at_most).min(tile.columns.end);
-            let piece = Piece { tile: index, columns: columns.clone() };
+            let piece = TileColumns { tile: index, columns: columns.clone() };
             let fits = |batch: &&mut Batch| {
                 batch.columns.end == columns.start
                     && columns.end - batch.columns.start <= columns_at_most
@@ -178,7 +178,7 @@ impl Round {
         by_pairs.min(ROUND_RECORDS - self.records.len())
     }
 
-    fn take(&mut self, piece: &Piece, batch: &Batch, dexels: u64, records: &[records::PassRecord]) {
+    fn take(&mut self, piece: &TileColumns, batch: &Batch, dexels: u64, records: &[records::PassRecord]) {
         self.tiles.push(records::Tile {
             first_column: (piece.columns.start - batch.columns.start) as u32,
             column_count: piece.columns.len() as u32,

@@ -14,7 +14,7 @@ use super::problem::GpuProblem;
 use super::readback::empty;
 use super::records::{BlankLaunch, BlankPart, BlankPass, BlankPiece, BlankSpan, BlankTile};
 use super::{Gpu, WORKGROUP_THREADS};
-use gearcut_core::dexel::blank_field::Ray;
+use gearcut_core::dexel::blank_field::RayMaterial;
 use gearcut_core::dexel::intervals::{End, Span};
 use gearcut_core::math::planar_rays::{ClosedCurve, Family, RayCrossings, RayRow};
 use std::ops::Range;
@@ -43,7 +43,7 @@ pub struct TileWork<'a> {
     /// Direction of the rays.
     pub family: Family,
     /// What is left on them.
-    pub rays: &'a [Ray],
+    pub rays: &'a [RayMaterial],
     /// In order of time.
     pub passes: Vec<PassWork>,
 }
@@ -91,7 +91,7 @@ pub struct TakenPiece {
 #[derive(Default)]
 pub struct TileDone {
     /// What is left.
-    pub rays: Vec<Ray>,
+    pub rays: Vec<RayMaterial>,
     /// Passes that took anything, in order of time, with the length, mm.
     pub removed_mm: Vec<(u32, f64)>,
     /// Length of what return strokes met, mm.
@@ -109,13 +109,13 @@ enum Outcome {
 
 /// Passes of one launch.
 #[derive(Default)]
-struct Round {
+struct PassRound {
     tiles: Vec<BlankTile>,
     passes: Vec<BlankPass>,
     parts: Vec<BlankPart>,
 }
 
-impl Round {
+impl PassRound {
     /// The next passes of all tiles, as many as a launch may hold; `next` is how far each tile has come. `None`: all
     /// are done.
     fn compose(work: &[TileWork], next: &mut [usize], capacity: usize, parts_of_tile: usize) -> Option<Self> {
@@ -209,7 +209,7 @@ impl Gpu {
             LAUNCH_BYTES.min(device.facts.binding_bytes as usize) / size_of::<BlankPart>() / work.len().max(1);
         let mut done: Vec<TileDone> = work.iter().map(|_| TileDone::default()).collect();
         let mut next = vec![0; work.len()];
-        while let Some(round) = Round::compose(work, &mut next, capacity, parts_of_tile) {
+        while let Some(round) = PassRound::compose(work, &mut next, capacity, parts_of_tile) {
             let zeros = vec![0_u32; round.passes.len()];
             let removed_buffer = filled(device, "removed", bytemuck::cast_slice(&zeros), Use::STORAGE | Use::COPY_SRC)?;
             let needs_buffer = filled(device, "needs", &[0; NEEDS_BYTES], Use::STORAGE | Use::COPY_SRC)?;

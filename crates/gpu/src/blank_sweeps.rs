@@ -11,8 +11,8 @@
 //! the chunks but for the rounding of lengths.
 //!
 //! **Chips.** Volume and travel follow from what every pass took of every tile. The thickness needs both surfaces of a
-//! chip: the shader lists every piece of material with its ends, old and new, and the
-//! host measures between them by the native kernel's own code.
+//! chip: the shader lists every piece of material with its ends, old and new, and the host measures between them by the
+//! native kernel's own code.
 //!
 //! The road not taken: sections laid over the rays by the device. It would have to split curves where they turn back
 //! across the rays, in f32 and to the same bits for both parts, or lose the pairing of crossings on which the kernel
@@ -171,27 +171,27 @@ impl SliceVisits {
             if sections.culls() && !memory.band.set(sections, pass, [leads_mm[0], leads_mm[leads_mm.len() - 1]]) {
                 continue;
             }
-            for ((visits, &lead_mm), left) in visits.iter_mut().zip(leads_mm).zip(&left) {
-                visits.add(grid, sections, pass, lead_mm, left, &mut memory);
+            for ((visits, &z_mm), left) in visits.iter_mut().zip(leads_mm).zip(&left) {
+                visits.add(grid, sections, pass, z_mm, left, &mut memory);
             }
         }
         visits
     }
 
-    /// Adds a pass where it may meet what is left, refused as natively.
+    /// Adds a pass where it may meet what is left, culled as natively.
     fn add(
         &mut self,
         grid: &BlankGrid,
         sections: &SweptSections,
         pass: usize,
-        lead_mm: f64,
+        z_mm: f64,
         left: &[SpanTable; 2],
         memory: &mut Memory,
     ) {
         let Memory { band, section, outline, reach, crossings, near } = memory;
         let mut followed = false;
         if sections.culls() {
-            match band.bounds(sections, lead_mm, outline, section) {
+            match band.bounds(sections, z_mm, outline, section) {
                 InSlice::Nowhere => return,
                 InSlice::Within => {}
                 InSlice::Followed => followed = true,
@@ -211,7 +211,7 @@ impl SliceVisits {
                 }
             }
         }
-        if near.iter().all(Vec::is_empty) || (!followed && !sections.section(pass, lead_mm, section)) {
+        if near.iter().all(Vec::is_empty) || (!followed && !sections.section(pass, z_mm, section)) {
             return;
         }
         let mut visiting = false;

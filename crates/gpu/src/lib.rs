@@ -5,6 +5,24 @@
 //! fields of any size go through in [`batches`]; the host composes one batch while the device works on the one before.
 //! Nothing is written to the layer before all batches are back, so a device that fails loses nothing: the flank is cut
 //! again natively, or the run stops, as the user chose.
+//!
+//! The modules, from the ground up; each uses only those above it in this list, and the backend at their head:
+//!
+//! - `problem`: what can go wrong on a device, as values
+//! - [`adapter`]: which adapters are there, and which one serves
+//! - `device`: a device that reports its problems
+//! - [`pipeline`]: shaders as text and as pipelines
+//! - `readback`: a batch sent, cut and brought back
+//! - [`records`]: what the shaders of shaping read, byte for byte
+//! - [`sweep_records`]: what the shader of hobbed flanks reads
+//! - [`near_edge`]: the piece of an edge that a tile can meet, as one polynomial
+//! - [`compose`]: from the plan's f64 records to f32 records
+//! - [`batches`]: fields of any size in batches and rounds
+//! - [`edge_cells`]: tables of an edge for the spatial shader
+//! - `spatial`: flanks cut by sweeps
+//! - `blank_rays`: launches of the kernel that cuts rays of the blank
+//! - `blank`: the blank of shaping
+//! - `blank_sweeps`: the blank of hobbing
 
 pub mod adapter;
 pub mod batches;
@@ -34,7 +52,7 @@ use gearcut_core::error::Error;
 use gearcut_core::passes::sections::swept_sections::SweptSections;
 use gearcut_core::passes::{CutPlan, SweepPlan};
 use gearcut_core::tool::edge::Edge;
-use readback::{InFlight, Input, Launch, Returned, Shipment};
+use readback::{InFlight, Input, Returned, Shipment, StageLaunch};
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -186,7 +204,7 @@ impl Gpu {
         layer: &Layer,
     ) -> Result<(Layer, u64), GpuProblem> {
         self.device.alive()?;
-        let work = Work { gpu: self, field, edge, plan, layer, row_phases: padded_phases(&plan.row_phases) };
+        let work = CutInputs { gpu: self, field, edge, plan, layer, row_phases: padded_phases(&plan.row_phases) };
         let (rows, padded) = (field.rows(), batches::padded(field.rows()));
         let mut result = layer.clone();
         let mut unconverged = 0;
@@ -232,7 +250,7 @@ fn padded_columns<T: Copy>(values: &[T], rows: usize) -> Vec<T> {
 }
 
 /// One cut's inputs.
-struct Work<'a> {
+struct CutInputs<'a> {
     gpu: &'a Gpu,
     field: &'a Field,
     edge: &'a Edge,
@@ -241,7 +259,7 @@ struct Work<'a> {
     row_phases: Vec<f32>,
 }
 
-impl Work<'_> {
+impl CutInputs<'_> {
     fn send(&self, batch: &Batch) -> Result<InFlight, GpuProblem> {
         let Self { gpu, field, edge, plan, layer, row_phases } = self;
         let rows = field.rows();
@@ -260,10 +278,10 @@ impl Work<'_> {
         };
         let records: Vec<Vec<records::PassRecord>> = rounds.iter().map(Round::padded_records).collect();
         let shared = |label, bytes| Input::Shared { label, bytes, usage: wgpu::BufferUsages::STORAGE };
-        let launches: Vec<Launch> = rounds
+        let launches: Vec<StageLaunch> = rounds
             .iter()
             .zip(&records)
-            .map(|(round, records)| Launch {
+            .map(|(round, records)| StageLaunch {
                 pipeline: &gpu.planar_flank[round.variant()],
                 tiles: bytemuck::cast_slice(&round.tiles),
                 records: bytemuck::cast_slice(records),

@@ -28,7 +28,7 @@ const MARGIN_MM: f64 = 1e-3;
 
 /// A polynomial of degree five for x over y, and where it holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Curve {
+pub struct EdgePolynomial {
     /// Point from which it counts, segment frame, mm; on the polynomial, so that its constant is zero.
     pub base_mm: DVec2,
     /// Coefficients of t to t^5, t = y less that of the base.
@@ -63,8 +63,8 @@ fn hull([c0, c1, c2, c3]: [f64; 4]) -> [f64; 4] {
 
 /// Polynomials that follow a table over a range, in order of y; each counts from the place nearest to `near_mm`, so
 /// that what stands near it is small.
-pub fn curves(table: &EdgeTable, [from, to]: [f64; 2], near_mm: f64, curves: &mut Vec<Curve>) {
-    let curve = Curve::through(table, [from, to], near_mm.clamp(from, to));
+pub fn curves(table: &EdgeTable, [from, to]: [f64; 2], near_mm: f64, curves: &mut Vec<EdgePolynomial>) {
+    let curve = EdgePolynomial::through(table, [from, to], near_mm.clamp(from, to));
     if (to - from) * table.cells_per_mm <= SMALLEST_CELLS || curve.follows(table) {
         curves.push(curve);
         return;
@@ -74,7 +74,7 @@ pub fn curves(table: &EdgeTable, [from, to]: [f64; 2], near_mm: f64, curves: &mu
     self::curves(table, [middle, to], near_mm, curves);
 }
 
-impl Curve {
+impl EdgePolynomial {
     /// Interpolates the table at Chebyshev's places of the range.
     fn through(table: &EdgeTable, [from, to]: [f64; 2], base_y_mm: f64) -> Self {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from).max(f64::MIN_POSITIVE));
@@ -119,12 +119,12 @@ impl Curve {
 mod tests {
     use super::*;
     use gearcut_core::error::NotConverged;
-    use gearcut_core::tool::edge::Profile;
+    use gearcut_core::tool::edge_profile::EdgeProfile;
 
     /// A circle of radius 3 mm.
     struct Circle;
 
-    impl Profile for Circle {
+    impl EdgeProfile for Circle {
         fn x_and_slope(&self, y_mm: f64) -> Result<[f64; 2], NotConverged> {
             let x = (9.0 - y_mm * y_mm).sqrt();
             Ok([x, -y_mm / x])

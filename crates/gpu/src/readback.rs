@@ -34,7 +34,7 @@ pub enum Input<'a> {
 }
 
 /// One launch of a stage.
-pub struct Launch<'a> {
+pub struct StageLaunch<'a> {
     /// The stage's pipeline in the variant that serves.
     pub pipeline: &'a wgpu::ComputePipeline,
     /// Tiles as bytes.
@@ -54,7 +54,7 @@ pub struct Shipment<'a> {
     /// `UNIFORM` or `STORAGE`, whichever the stage reads records from.
     pub record_usage: Use,
     /// Launches in order.
-    pub launches: &'a [Launch<'a>],
+    pub launches: &'a [StageLaunch<'a>],
     /// Heights before.
     pub heights_mm: &'a [f32],
     /// Passes before.

@@ -11,13 +11,13 @@
 use super::batches::Allowance;
 use super::edge_cells::EdgeCells;
 use super::pipeline::{self, SPATIAL_ROWS_PER_THREAD};
-use super::readback::{self, InFlight, Input, Launch, Returned, Shipment};
+use super::readback::{self, InFlight, Input, Returned, Shipment, StageLaunch};
 use super::sweep_records::{SweepRecord, SweepTile};
 use super::{Gpu, GpuProblem, IN_FLIGHT, WORKGROUP_THREADS};
 use gearcut_core::dexel::{Layer, SpatialField};
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::passes::spatial::sweep;
-use gearcut_core::passes::spatial::sweep_plan::SweepTile as PlanTile;
+use gearcut_core::passes::spatial::sweep_tile::SweepTile as PlanTile;
 use gearcut_core::tool::edge::{Edge, Segment, SegmentShape};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -123,16 +123,16 @@ fn batches(plan: &SweepPlan, allowance: Allowance) -> Result<Vec<Range<usize>>, 
 
 /// One launch: the next records of the tiles that have any left.
 #[derive(Default)]
-struct Round {
+struct SweepRound {
     tiles: Vec<SweepTile>,
     records: Vec<SweepRecord>,
 }
 
-impl Round {
-    fn launch<'a>(&'a self, gpu: &'a Gpu) -> Launch<'a> {
+impl SweepRound {
+    fn launch<'a>(&'a self, gpu: &'a Gpu) -> StageLaunch<'a> {
         let twisted = self.records.iter().any(|record| record.twist_rad_per_mm != 0.0);
         let widest = self.tiles.iter().map(|tile| tile.group_count).max().unwrap_or(0);
-        Launch {
+        StageLaunch {
             pipeline: &gpu.spatial_flank[usize::from(twisted)],
             tiles: bytemuck::cast_slice(&self.tiles),
             records: bytemuck::cast_slice(&self.records),
@@ -152,15 +152,15 @@ fn send(
 ) -> Result<InFlight, GpuProblem> {
     let plan_tiles = &plan.tiles[batch];
     let round_records = records_at_most(gpu.allowance()).min(ROUND_RECORDS);
-    let (mut rounds, mut rays) = (Vec::<Round>::new(), Vec::<[f32; ROWS]>::new());
+    let (mut rounds, mut rays) = (Vec::<SweepRound>::new(), Vec::<[f32; ROWS]>::new());
     let mut first_group = 0;
     for tile in plan_tiles {
         let middle =
             field.ray((tile.columns.start + tile.columns.end - 1) / 2, (tile.rows.start + tile.rows.end - 1) / 2);
         let middle = middle.normal.as_vec3();
         for (round, records) in plan.records[tile.records.clone()].chunks(round_records).enumerate() {
-            rounds.resize_with(rounds.len().max(round + 1), Round::default);
-            let Round { tiles, records: composed } = &mut rounds[round];
+            rounds.resize_with(rounds.len().max(round + 1), SweepRound::default);
+            let SweepRound { tiles, records: composed } = &mut rounds[round];
             tiles.push(SweepTile {
                 middle: middle.extend(field.low_mm as f32).to_array(),
                 first_group,
@@ -187,7 +187,7 @@ fn send(
     let dexels: Vec<usize> = lanes(field, plan_tiles).collect();
     let heights_mm: Vec<f32> = dexels.iter().map(|&at| layer.heights_mm[at]).collect();
     let passes: Vec<u32> = dexels.iter().map(|&at| layer.passes[at]).collect();
-    let launches: Vec<Launch> = rounds.iter().map(|round| round.launch(gpu)).collect();
+    let launches: Vec<StageLaunch> = rounds.iter().map(|round| round.launch(gpu)).collect();
     let shared = |label, bytes| Input::Shared { label, bytes, usage: wgpu::BufferUsages::STORAGE };
     readback::send(
         &gpu.device,

@@ -1,8 +1,8 @@
 //! Time of the full texture parameter set of a 2048 x 2048 map, family by family.
 //!
 //! `cargo bench -p gearcut-texture` prints a table; `tests/interop/run --bench` runs surfalize on the same map in the
-//! same run and prints the ratio for every parameter. `-- --json --map FILE` is what it calls: the map goes to FILE
-//! as NPY, the times go to standard output as JSON. Best of five rounds.
+//! same run and prints the ratio for every parameter. `-- --json --map FILE` is what it calls: the map goes to FILE as
+//! NPY, the times go to standard output as JSON. Best of five rounds.
 
 use gearcut_texture::core::Core;
 use gearcut_texture::features::Features;

@@ -1,7 +1,7 @@
 //! Reads a measured surface, takes off its form and its waviness, and prints its parameters.
 //!
-//! `cargo run -p gearcut-texture --example read_x3p -- FILE.x3p [L_FILTER_UM]`; without a file the one of the tests
-//! is taken.
+//! `cargo run -p gearcut-texture --example read_x3p -- FILE.x3p [L_FILTER_UM]`; without a file the one of the tests is
+//! taken.
 
 use gearcut_texture::files::read_surface;
 use gearcut_texture::{Arguments, Chain, Evaluation, Form};

@@ -1,14 +1,14 @@
 //! Files that are either complete or absent.
 //!
-//! In: a final path and a closure that writes the contents. Out: the file under its name, or an error that
-//! names it and tells the system's reason.
+//! In: a final path and a closure that writes the contents. Out: the file under its name, or an error that names it and
+//! tells the system's reason.
 //!
 //! The bytes go to a temporary name in the same folder; only when all of them are written and flushed is that name
-//! changed to the final one. A full disk, a failing closure or a killed run therefore never leaves half a file under
-//! a name that somebody opens later.
+//! changed to the final one. A full disk, a failing closure or a killed run therefore never leaves half a file under a
+//! name that somebody opens later.
 //!
-//! Road not taken: forcing every file to the platter (`fsync`) before renaming. It would also survive a power cut,
-//! at the price of seconds for the hundreds of maps of one run; after a power cut the run is repeated instead.
+//! Road not taken: forcing every file to the platter (`fsync`) before renaming. It would also survive a power cut, at
+//! the price of seconds for the hundreds of maps of one run; after a power cut the run is repeated instead.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, Write};
@@ -57,8 +57,8 @@ fn write_through<W: Sink>(
     Ok(())
 }
 
-/// Names and rights of temporary files: hidden, and readable as the user's umask says (the default of the crate
-/// would leave results that nobody else may read).
+/// Names and rights of temporary files: hidden, and readable as the user's umask says (the default of the crate would
+/// leave results that nobody else may read).
 fn new_file_builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".gearcut-").suffix(".part");

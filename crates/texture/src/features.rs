@@ -1,7 +1,7 @@
 //! Feature parameters: Spd, Spc, S10z, S5p, S5v (ISO 25178-2, feature characterisation with Wolf pruning at 5 % of Sz).
 //!
-//! Hills that reach the edge of the map or a hole are left out: nobody knows how high they rise beyond it. The area
-//! is that of all points, nx dx times ny dy.
+//! Hills that reach the edge of the map or a hole are left out: nobody knows how high they rise beyond it. The area is
+//! that of all points, nx dx times ny dy.
 
 use super::surface::Surface;
 use super::watershed::{Hill, hills};

@@ -50,7 +50,7 @@ pub fn remove(surface: &Surface, form: Form) -> Result<(Surface, Option<String>)
         Form::Plane => 3,
         Form::Poly2 | Form::Poly2PlusCylinder => 6,
     };
-    let frame = Frame::of(surface);
+    let frame = UnitCoordinates::of(surface);
     let fit = Fit::new(surface, &frame, terms)?;
     if form != Form::Poly2PlusCylinder {
         return Ok((fit.residual(surface, &frame), None));
@@ -63,13 +63,13 @@ pub fn remove(surface: &Surface, form: Form) -> Result<(Surface, Option<String>)
 }
 
 /// Coordinates from -1 to 1 over the surface: the normal equations stay well conditioned.
-struct Frame {
+struct UnitCoordinates {
     half_um: [f64; 2],
     nx: usize,
     ny: usize,
 }
 
-impl Frame {
+impl UnitCoordinates {
     fn of(surface: &Surface) -> Self {
         let [x, y] = surface.size_mm();
         Self { half_um: [500.0 * x, 500.0 * y], nx: surface.nx(), ny: surface.ny() }
@@ -93,7 +93,7 @@ fn basis(x: f64, y: f64) -> [f64; 6] {
 struct Fit([f64; 6]);
 
 impl Fit {
-    fn new(surface: &Surface, frame: &Frame, terms: usize) -> Result<Self, String> {
+    fn new(surface: &Surface, frame: &UnitCoordinates, terms: usize) -> Result<Self, String> {
         let sums: [f64; 27] = surface.sum_rows(|row, heights| {
             let y = frame.y(row);
             let mut sums = [0.0; 27];
@@ -130,12 +130,12 @@ impl Fit {
         basis(x, y).iter().zip(self.0).map(|(b, c)| b * c).sum()
     }
 
-    fn residual(&self, surface: &Surface, frame: &Frame) -> Surface {
+    fn residual(&self, surface: &Surface, frame: &UnitCoordinates) -> Surface {
         map_points(surface, frame, |x, y, z| z - self.at(x, y))
     }
 }
 
-fn map_points(surface: &Surface, frame: &Frame, f: impl Fn(f64, f64, f64) -> f64 + Sync) -> Surface {
+fn map_points(surface: &Surface, frame: &UnitCoordinates, f: impl Fn(f64, f64, f64) -> f64 + Sync) -> Surface {
     use rayon::prelude::*;
     let nx = surface.nx();
     let mut heights = surface.heights_um().to_vec();
@@ -182,7 +182,7 @@ struct Cylinder {
 }
 
 impl Cylinder {
-    fn refined(surface: &Surface, frame: &Frame, fit: &Fit) -> Result<Self, String> {
+    fn refined(surface: &Surface, frame: &UnitCoordinates, fit: &Fit) -> Result<Self, String> {
         let [hx, hy] = frame.half_um;
         let c = fit.0;
         // Principal curvatures of the polynomial in um.
@@ -223,18 +223,18 @@ impl Cylinder {
         Ok(best)
     }
 
-    fn reach_um(&self, frame: &Frame) -> f64 {
+    fn reach_um(&self, frame: &UnitCoordinates) -> f64 {
         let (sin, cos) = self.angle.sin_cos();
         (frame.half_um[0] * cos).abs() + (frame.half_um[1] * sin).abs()
     }
 
-    fn held_upright(mut self, frame: &Frame) -> Self {
+    fn held_upright(mut self, frame: &UnitCoordinates) -> Self {
         let limit = LARGEST_SPAN / self.reach_um(frame);
         self.curvature = self.curvature.clamp(-limit, limit);
         self
     }
 
-    fn subtracted(&self, surface: &Surface, frame: &Frame) -> Surface {
+    fn subtracted(&self, surface: &Surface, frame: &UnitCoordinates) -> Surface {
         let (sin, cos) = self.angle.sin_cos();
         let [hx, hy] = frame.half_um;
         let k = self.curvature;

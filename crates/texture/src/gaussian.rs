@@ -1,19 +1,19 @@
 //! Areal Gaussian filter (ISO 16610-61) as a local regression, and its robust form (ISO 16610-71).
 //!
-//! Weighting function `s(x, y) = 1 / (a L)^2 exp(-pi (x^2 + y^2) / (a L)^2)` with `a = sqrt(ln 2 / pi)`: it lets a
-//! wave of length lambda pass with `2^-(L / lambda)^2`, half of it at lambda = L.
+//! Weighting function `s(x, y) = 1 / (a L)^2 exp(-pi (x^2 + y^2) / (a L)^2)` with `a = sqrt(ln 2 / pi)`: it lets a wave
+//! of length lambda pass with `2^-(L / lambda)^2`, half of it at lambda = L.
 //!
 //! **Edges and holes.** A plain weighted mean bends a tilted surface where half of the weights miss. Here every point
 //! gets the value of the plane that fits its neighbourhood best with those weights (moment criterion of first order,
-//! ISO 16610-28): away from edges this is the plain filter, because the weights are symmetric there; at edges and
-//! round holes, planes pass unchanged. Holes stay holes.
+//! ISO 16610-28): away from edges this is the plain filter, because the weights are symmetric there; at edges and round
+//! holes, planes pass unchanged. Holes stay holes.
 //!
-//! **Robust.** Points that stand far from the filtered surface are weighted down by Tukey's biweight `(1 - (r /
-//! c)^2)^2`, `c = 4.4478 median |r|`, and the filter is repeated until c settles, so that deep dales and high peaks
-//! do not pull the mean surface.
+//! **Robust.** Points that stand far from the filtered surface are weighted down by Tukey's biweight
+//! `(1 - (r / c)^2)^2`, `c = 4.4478 median |r|`, and the filter is repeated until c settles, so that deep dales and
+//! high peaks do not pull the mean surface.
 //!
-//! The sums over neighbourhoods are convolutions with `s`, `x s`, `y s` and so on, all separable; lines go through
-//! the Fourier transform, so that the time does not grow with L.
+//! The sums over neighbourhoods are convolutions with `s`, `x s`, `y s` and so on, all separable; lines go through the
+//! Fourier transform, so that the time does not grow with L.
 
 use rayon::prelude::*;
 use realfft::num_complex::Complex;

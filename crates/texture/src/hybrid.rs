@@ -1,8 +1,8 @@
 //! Hybrid parameters: root mean square gradient Sdq and developed area ratio Sdr (ISO 25178-2:2021, D.3).
 //!
 //! Sdq takes forward differences, each direction averaged over its own pairs. Sdr splits every cell of four points
-//! along both diagonals and averages the two areas: one diagonal alone would favour a direction. Pairs and cells with
-//! a hole are left out.
+//! along both diagonals and averages the two areas: one diagonal alone would favour a direction. Pairs and cells with a
+//! hole are left out.
 
 use super::surface::Surface;
 

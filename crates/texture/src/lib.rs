@@ -1,31 +1,38 @@
-//! Surface texture: areal parameters of ISO 25178-2, profile parameters of ISO 21920-2, and the files that
-//! instruments write surfaces to.
+//! Surface texture: areal parameters of ISO 25178-2, profile parameters of ISO 21920-2, and the files that instruments
+//! write surfaces to.
 //!
 //! A surface does not say what was cut or measured: a flank of a gear, a ground shaft or a lens mould. Heights and
 //! spacing are in um, angles in degrees.
 //!
-//! In: a [`Surface`], measured or cut, and a [`Chain`] of form removal, filters and crop. Out: [`Evaluation`], the
-//! full set with units, definitions and, where a value does not exist, the reason.
+//! In: a [`Surface`], measured or cut, and a [`Chain`] of form removal, filters and crop. Out: [`Evaluation`], the full
+//! set with units, definitions and, where a value does not exist, the reason.
 //!
-//! | what | where |
-//! | --- | --- |
-//! | heights on a grid with holes | [`surface`] |
-//! | F-operator, S- and L-filter, crop | [`chain`]: [`form`], [`gaussian`] |
-//! | Sa Sq Ssk Sku Sp Sv Sz | [`height`] |
-//! | Sdq Sdr | [`hybrid`] |
-//! | Sal Str Std Ssw | [`spatial`], from the `spectrum` |
-//! | Smr Smc Sdc Sxp Vm Vv Vmp Vmc Vvc Vvv | [`ratio`] |
-//! | Sk Spk Svk Smr1 Smr2 Spkx Svkx Sak1 Sak2 | [`core`] |
-//! | Spd Spc S10z S5p S5v | [`features`], from the `watershed` |
-//! | Ra Rq Rz Rt RSm Rsk Rku Rk Rpk Rvk Mr1 Mr2 | [`profile`] |
-//! | X3P, SDF, SUR, NPY, CSV and EXR maps, read and written | [`files`] |
-//! | files that are complete or absent | [`atomic`] |
+//! The modules, from the ground up; each uses only those above it in this list:
+//!
+//! - `error`: errors as values, with the file and the reason
+//! - `text`: words out of a file, fit to print
+//! - [`atomic`]: files that are complete or absent
+//! - [`surface`]: heights on a grid with holes
+//! - [`form`]: the F-operator
+//! - [`gaussian`]: S- and L-filter
+//! - [`chain`]: form removal, filters and crop, one after the other
+//! - [`height`]: Sa Sq Ssk Sku Sp Sv Sz
+//! - [`hybrid`]: Sdq Sdr
+//! - [`ratio`]: Smr Smc Sdc Sxp Vm Vv Vmp Vmc Vvc Vvv
+//! - [`core`]: Sk Spk Svk Smr1 Smr2 Spkx Svkx Sak1 Sak2
+//! - [`profile`]: Ra Rq Rz Rt RSm Rsk Rku Rk Rpk Rvk Mr1 Mr2
+//! - `spectrum`: Fourier transforms of a surface
+//! - [`spatial`]: Sal Str Std Ssw
+//! - `watershed`: hills and their pruning
+//! - [`features`]: Spd Spc S10z S5p S5v
+//! - [`parameters`]: all of them, with units and definitions
+//! - [`files`]: X3P, SDF, SUR, NPY, CSV and EXR maps, read and written
 //!
 //! # Example
 //!
 //! Waves of amplitude 0.5 um, 85 um long and oblique, on a tilted plane. The plane goes, waves shorter than 10 um and
-//! longer than 800 um go, half of an L-filter is left out at every side, and what is left has the numbers of a sine:
-//! Sa = 2 A / pi, Sk = 1.775 A. The S-filter lets the waves pass with 2^-(10/85)^2 = 0.990.
+//! longer than 800 um go, half of an L-filter is left out at every side, and what is left has the numbers of a sine: Sa
+//! = 2 A / pi, Sk = 1.775 A. The S-filter lets the waves pass with 2^-(10/85)^2 = 0.990.
 //!
 //! ```
 //! use gearcut_texture::{Arguments, Chain, Evaluation, Form, Surface};

@@ -1,13 +1,13 @@
 //! Spatial parameters: Sal and Str from the autocorrelation, Std and Ssw from the spectrum (ISO 25178-2).
 //!
-//! f(tx, ty) is the unbiased linear autocorrelation, 1 at lag 0. The region round lag 0 where f stays above s = 0.2
-//! is followed; Sal is the shortest distance from lag 0 to its border, Str that divided by the longest one. A region
-//! that reaches the edge of the field (feed marks do, along the lay) has no longest distance: Str is undefined there,
-//! which is not 0.
+//! f(tx, ty) is the unbiased linear autocorrelation, 1 at lag 0. The region round lag 0 where f stays above s = 0.2 is
+//! followed; Sal is the shortest distance from lag 0 to its border, Str that divided by the longest one. A region that
+//! reaches the edge of the field (feed marks do, along the lay) has no longest distance: Str is undefined there, which
+//! is not 0.
 //!
 //! Std is the direction of the **wave vector** with the largest angular amplitude, counted counter-clockwise from +x
-//! towards +y; the lay runs across it. Ssw is the wavelength of the largest Fourier component of the window, as fine
-//! as whole waves in the window can tell.
+//! towards +y; the lay runs across it. Ssw is the wavelength of the largest Fourier component of the window, as fine as
+//! whole waves in the window can tell.
 
 use super::spectrum::{PowerSpectrum, Products, power, products};
 use super::surface::Surface;
@@ -17,8 +17,8 @@ use rayon::prelude::*;
 const DECAY: f64 = 0.2;
 /// Width of the classes of direction, deg.
 const CLASS_DEG: f64 = 0.5;
-/// Columns of the spectrum that are sorted into classes at a time; fixed, so that the number of threads never changes
-/// a digit.
+/// Columns of the spectrum that are sorted into classes at a time; fixed, so that the number of threads never changes a
+/// digit.
 const COLUMNS: usize = 32;
 
 /// Spatial parameters, each with the reason where it is undefined.

@@ -1,9 +1,9 @@
 //! Fourier transforms of a surface: the autocorrelation, and the power of its waves.
 //!
-//! **Autocorrelation.** Padded with zeros to twice its size, transformed, squared and transformed back, a surface
-//! gives the sum of products at every lag **without** wrap-around; divided by the number of points that overlap it is
-//! the unbiased linear autocorrelation. Road not taken: the circular one. It correlates the upper edge with the lower
-//! one, which moves Sal by several per cent.
+//! **Autocorrelation.** Padded with zeros to twice its size, transformed, squared and transformed back, a surface gives
+//! the sum of products at every lag **without** wrap-around; divided by the number of points that overlap it is the
+//! unbiased linear autocorrelation. Road not taken: the circular one. It correlates the upper edge with the lower one,
+//! which moves Sal by several per cent.
 //!
 //! **Power.** The transform without padding, from which directions and wavelengths are read.
 
@@ -32,8 +32,8 @@ pub(crate) struct PowerSpectrum {
     pub power: Vec<f64>,
 }
 
-/// Lines along y of the transform along x, padded with zeros to `mx` values; holes count as 0. One line of `ny`
-/// values for each frequency from 0 to `mx` / 2.
+/// Lines along y of the transform along x, padded with zeros to `mx` values; holes count as 0. One line of `ny` values
+/// for each frequency from 0 to `mx` / 2.
 fn transformed_along_x(surface: &Surface, mx: usize) -> Vec<Complex<f64>> {
     let to_x = RealFftPlanner::<f64>::new().plan_fft_forward(mx);
     let half = mx / 2 + 1;

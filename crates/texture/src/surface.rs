@@ -1,7 +1,7 @@
 //! A measured or simulated surface: heights on a regular grid, with holes.
 //!
-//! Rows follow y, x runs fastest; heights in micrometres, positive out of the material; NaN marks a point that was
-//! not measured. Sums over a surface are taken row by row and folded in the order of the rows, so that the number of
+//! Rows follow y, x runs fastest; heights in micrometres, positive out of the material; NaN marks a point that was not
+//! measured. Sums over a surface are taken row by row and folded in the order of the rows, so that the number of
 //! threads never changes a digit.
 
 use rayon::prelude::*;

@@ -1,10 +1,10 @@
 //! Hills of a surface: watershed, and Wolf pruning of those that are too low.
 //!
 //! Every point belongs to the hill that its steepest way up leads to. Two neighbouring hills meet in a saddle, the
-//! highest pass between them. Wolf pruning takes the hill that rises least over its highest saddle and gives it to
-//! the neighbour there, until all rise at least by the threshold. Going through the saddles from the highest down and
-//! letting the lower of two peaks end at the saddle where they first meet does the same in one sweep (the rise that
-//! is compared is the persistence of the peak).
+//! highest pass between them. Wolf pruning takes the hill that rises least over its highest saddle and gives it to the
+//! neighbour there, until all rise at least by the threshold. Going through the saddles from the highest down and
+//! letting the lower of two peaks end at the saddle where they first meet does the same in one sweep (the rise that is
+//! compared is the persistence of the peak).
 //!
 //! Neighbours are all eight. Equal heights are told apart by their place in the map, so that plateaus have one peak.
 //! Holes end a hill as the edge of the map does. Dales are the hills of the surface turned upside down.

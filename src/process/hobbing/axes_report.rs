@@ -22,7 +22,7 @@ use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::peaks::{HobbingPeaks, in_order, peaks};
 use crate::process::hobbing::linkage::{HobbingAxes, HobbingLaw};
 use crate::process::hobbing::measure::engagement::Engagement;
-use crate::scene::model::{HobbingKind, HobbingOperation, ShiftDirection, ShiftStrategy};
+use crate::process::hobbing::scene::model::{HobbingKind, HobbingOperation, ShiftDirection, ShiftStrategy};
 use crate::units::{TURN_RAD, UM_PER_MM};
 
 /// Rows of the axis table per cycle along the pitch curve.

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::output::text::{Sheet, plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
-use crate::scene::model::HobbingKind;
+use crate::process::hobbing::scene::model::HobbingKind;
 use crate::steps::check_curve::{self, gear_words};
 use crate::terms::Side;
 

@@ -33,9 +33,10 @@
 use crate::error::Refusal;
 use crate::frame::Rigid3;
 use crate::math::convergence::{Step, iterate};
-use crate::scene::model;
-use crate::scene::model::{GashForm, HobSize, Worm};
-use crate::tool::edge::{BladeCurve, Edge, Segment, SegmentName};
+use crate::process::hobbing::scene::model;
+use crate::process::hobbing::scene::model::{GashForm, HobSize, Worm};
+use crate::tool::edge::{Edge, Segment, SegmentName};
+use crate::tool::edge_profile::BladeCurve;
 use crate::tool::edge_table::TableError;
 use crate::tool::{CuttingTool, SpatialTool};
 use glam::{DMat3, DVec2, DVec3};

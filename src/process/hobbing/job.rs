@@ -10,10 +10,11 @@ use crate::gear::blank::Blank;
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::linkage::{FeedPlan, HobbingGeometry, HobbingLaw, HobbingLinkage};
 use crate::process::hobbing::rack_generation::{Rack, RackGeneration};
-use crate::scene::Scene;
-use crate::scene::model::{
-    EvenMotion, ExtraRotation, Gear, Hobbing, HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm,
+use crate::process::hobbing::scene::model::{
+    self, EvenMotion, ExtraRotation, Hobbing, HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm,
 };
+use crate::scene::Scene;
+use crate::scene::model::Gear;
 use crate::units::TURN_RAD;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -41,6 +42,8 @@ pub struct PreparedHobbing {
 pub struct HobbingJob {
     /// The scene.
     pub scene: Scene,
+    /// The hob as the scene describes it.
+    pub hob_spec: model::Hob,
     /// Limits of the axes.
     pub limits: HobbingAxisLimits,
     /// The pitch curve.
@@ -72,7 +75,7 @@ impl HobbingJob {
     /// Geometry that cannot be cut.
     pub fn past_hollows(scene: &Scene) -> Result<Self> {
         let gear = &scene.gear;
-        let Some(Hobbing { tool, limits, operations: specs }) = scene.hobbing() else {
+        let Some(Hobbing { tool, limits, operations: specs }) = Hobbing::of(scene) else {
             return Err(Refusal::new("tool", "this tool does not hob gears", "write [tool.hob] for hobbing").into());
         };
         let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
@@ -94,7 +97,16 @@ impl HobbingJob {
         let finishing_mm = operations.last().map_or(0.0, |operation| operation.offset_mm);
         let rack = rack(gear, &hob, tool.tip_radius_mm, tool.thinning_mm).pulled_back(finishing_mm);
         let target = RackGeneration { curve: curve.clone(), rack };
-        Ok(Self { scene: scene.clone(), limits: *limits, curve, hob, blank, operations, target })
+        Ok(Self {
+            scene: scene.clone(),
+            hob_spec: tool.clone(),
+            limits: *limits,
+            curve,
+            hob,
+            blank,
+            operations,
+            target,
+        })
     }
 
     /// The finishing operation.

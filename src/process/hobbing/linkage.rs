@@ -37,7 +37,7 @@ use crate::math::Jet;
 use crate::math::newton::{EVERYWHERE, LastStep, newton_within};
 use crate::math::periodic_integral::PeriodicIntegral;
 use crate::process::hobbing::Hob;
-use crate::scene::model::{EvenMotion, ExtraRotation, LinkageForm};
+use crate::process::hobbing::scene::model::{EvenMotion, ExtraRotation, LinkageForm};
 
 pub mod marks;
 mod path;

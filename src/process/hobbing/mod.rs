@@ -14,6 +14,7 @@ pub mod rack_generation;
 pub mod rack_root;
 mod report;
 pub mod run;
+pub mod scene;
 mod surfaces;
 
 use super::{CutDone, Process};
@@ -21,7 +22,6 @@ use crate::error::Result;
 use crate::interrupt::Interrupt;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
-use crate::scene::Scene;
 use crate::steps::Tools;
 use axes_report::HobbingAxesReport;
 
@@ -31,18 +31,7 @@ pub use hob::Hob;
 pub use job::HobbingJob;
 
 /// The process.
-#[derive(Debug)]
-pub struct Hobbing;
-
-impl Process for Hobbing {
-    fn name(&self) -> &'static str {
-        "hobbing"
-    }
-
-    fn prepare(&self, scene: &Scene) -> Result<Box<dyn super::Job>> {
-        Ok(Box::new(HobbingJob::new(scene)?))
-    }
-}
+pub static PROCESS: Process = Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(HobbingJob::new(scene)?)) };
 
 impl super::Job for HobbingJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {

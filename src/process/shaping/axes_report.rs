@@ -20,8 +20,8 @@ use crate::process::shaping::linkage::dynamics;
 use crate::process::shaping::linkage::dynamics::{MachineMotion, MachinePeaks};
 use crate::process::shaping::linkage::relief;
 use crate::process::shaping::linkage::relief::{ReliefRatio, SmallestRelief};
+use crate::process::shaping::scene::model::{AxisLimits, Linkage, NormalReading, Operation, TraditionalDirection};
 use crate::process::shaping::{Job, PreparedOperation};
-use crate::scene::model::{AxisLimits, Linkage, NormalReading, Operation, TraditionalDirection};
 use crate::units::TURN_RAD;
 use crate::{Error, Result};
 

@@ -8,7 +8,8 @@
 
 use crate::error::Refusal;
 use crate::frame::Rigid2;
-use crate::scene::model;
+use crate::process::shaping::scene::model;
+use crate::scene::model::Gear;
 use crate::tool::edge::{Edge, Segment, SegmentName};
 use crate::tool::edge_table::TableError;
 use crate::tool::involute::{Involute, inv};
@@ -72,7 +73,7 @@ impl ShaperCutter {
     ///
     /// # Errors
     /// Pointed teeth, a tip round that does not fit, a pitch error list of the wrong length.
-    pub fn new(spec: &model::ShaperCutter, gear: &model::Gear) -> Result<Self, Refusal> {
+    pub fn new(spec: &model::ShaperCutter, gear: &Gear) -> Result<Self, Refusal> {
         let (m, alpha) = (gear.module_mm, gear.pressure_angle_rad);
         let pitch_radius_mm = 0.5 * m * f64::from(spec.teeth);
         let base_radius_mm = pitch_radius_mm * alpha.cos();
@@ -259,7 +260,7 @@ pub(crate) mod tests {
 
     /// The paper's cutter: 20 teeth of module 3.
     pub(crate) fn paper_cutter(tip: model::Tip) -> ShaperCutter {
-        let gear = model::Gear {
+        let gear = Gear {
             module_mm: 3.0,
             teeth: 42,
             pressure_angle_rad: 20_f64.to_radians(),

@@ -20,9 +20,9 @@ use crate::process::shaping::gcode;
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::generation::Generation;
 use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule};
+use crate::process::shaping::scene::model::{self, Machine, Measure, Operation, Shaping};
 use crate::process::shaping::target::{TargetFlank, target_root};
 use crate::scene::Scene;
-use crate::scene::model::{self, Machine, Measure, Operation, Process};
 use crate::terms::Side;
 use crate::tool::CuttingTool;
 use glam::DVec2;
@@ -103,7 +103,7 @@ impl Job {
     /// Geometry that cannot be cut: see the parts.
     pub fn new(scene: Scene) -> Result<Self> {
         let gear = &scene.gear;
-        let Process::Shaping(shaping) = &scene.process else {
+        let Some(shaping) = Shaping::of(&scene) else {
             let way_out = "write [tool.shaper_cutter] for shaping";
             return Err(Refusal::new("tool", "this tool does not shape gears", way_out).into());
         };

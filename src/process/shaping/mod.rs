@@ -13,6 +13,7 @@ pub mod linkage;
 pub mod measure;
 mod report;
 pub mod run;
+pub mod scene;
 pub mod section;
 mod surfaces;
 pub mod target;
@@ -22,7 +23,6 @@ use crate::error::Result;
 use crate::interrupt::Interrupt;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
-use crate::scene::Scene;
 use crate::steps::Tools;
 use axes_report::OperationAxes;
 
@@ -31,18 +31,7 @@ pub use job::{CutFlank, Job, PreparedOperation};
 pub use run::{CutGear, cut_gear};
 
 /// The process.
-#[derive(Debug)]
-pub struct Shaping;
-
-impl Process for Shaping {
-    fn name(&self) -> &'static str {
-        "shaping"
-    }
-
-    fn prepare(&self, scene: &Scene) -> Result<Box<dyn super::Job>> {
-        Ok(Box::new(Job::new(scene.clone())?))
-    }
-}
+pub static PROCESS: Process = Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(Job::new(scene.clone())?)) };
 
 impl super::Job for Job {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {

@@ -13,7 +13,7 @@ use gearcut::gpu::{Gpu, GpuOptions, OnGpuFailure};
 use gearcut::process::hobbing::measure::blank_report;
 use gearcut::process::hobbing::measure::hob_load::OperationLoad;
 use gearcut::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
-use gearcut::scene::load;
+use gearcut::process::load;
 use std::path::Path;
 use std::sync::LazyLock;
 

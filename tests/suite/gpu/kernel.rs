@@ -7,7 +7,7 @@ use gearcut::dexel::{Column, Field};
 use gearcut::passes::planar::strokes::{NODES, cubic_through};
 use gearcut::passes::{CutPlan, PassRecord, Tile};
 use gearcut::process::shaping::Job;
-use gearcut::scene::model::Tip;
+use gearcut::process::shaping::scene::model::{Shaping, Tip};
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use gearcut::tool::edge::{Edge, Segment, SegmentShape};
@@ -33,7 +33,7 @@ impl Random {
 /// A blade of the paper's cutter, with rounded tips: tables and arcs large and small.
 fn edge() -> Edge {
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 100)]);
-    scene.shaping_mut().expect("shaping").tool.tip = Tip::Round { radius_mm: 0.4 };
+    Shaping::of_mut(&mut scene).expect("shaping").tool.tip = Tip::Round { radius_mm: 0.4 };
     Job::new(scene).expect("the paper's gear").cutter.edge().clone()
 }
 

@@ -5,8 +5,10 @@ use gearcut::cut::Backend;
 use gearcut::dexel::Field;
 use gearcut::passes::{CutPlan, SweepPlan};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
+use gearcut::process::load;
 use gearcut::process::shaping::Job;
-use gearcut::scene::{load, model::Scene};
+use gearcut::process::shaping::scene::model::Shaping;
+use gearcut::scene::model::Scene;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use std::path::PathBuf;
@@ -46,7 +48,7 @@ fn fields(job: &Job) -> Vec<(String, Field)> {
 
 fn compare(gpu: &dyn Backend, mut scene: Scene, feed_during_stroke: bool) -> Parity {
     scene.fields.lead_spacing_mm = scene.gear.face_width_mm / ROW_INTERVALS;
-    for operation in &mut scene.shaping_mut().expect("shaping").operations {
+    for operation in &mut Shaping::of_mut(&mut scene).expect("shaping").operations {
         operation.feed_during_stroke = feed_during_stroke;
     }
     let name = scene.name.clone();

@@ -12,6 +12,7 @@ use gearcut::gear::blank_outline::BlankOutline;
 use gearcut::measure::damage::LEAST_DEPTH_MM;
 use gearcut::passes::StrokeSet;
 use gearcut::process::shaping::Job;
+use gearcut::process::shaping::scene::model::Shaping;
 
 fn cut(job: &Job) -> CutBlank {
     job.cut_blank(&Cpu::default(), job.blank_field().expect("fits in memory"), &|| true)
@@ -27,7 +28,7 @@ const STEEP: f32 = 0.7;
 #[test]
 fn the_gpu_leaves_the_same_spans_and_volumes() {
     let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 1200), operation("finish", NORMAL, 0.0, 240)]);
-    scene.shaping_mut().expect("shaping").operations[1].feed_during_stroke = true;
+    Shaping::of_mut(&mut scene).expect("shaping").operations[1].feed_during_stroke = true;
     scene.fields.blank_spacing_mm = 0.5;
     scene.fields.blank_slice_spacing_mm = 30.0;
     let job = Job::new(scene).expect("a scene that cuts");

@@ -8,7 +8,7 @@ use gearcut::dexel::SpatialField;
 use gearcut::gpu::GpuOptions;
 use gearcut::passes::{SweepPlan, TurningPasses};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
-use gearcut::scene::load;
+use gearcut::process::load;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use std::f64::consts::TAU;

@@ -15,7 +15,7 @@ use gearcut::passes::spatial::sweep::Sweep;
 use gearcut::process::hobbing::measure::blank_report;
 use gearcut::process::hobbing::measure::hob_load::OperationLoad;
 use gearcut::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
-use gearcut::scene::load;
+use gearcut::process::load;
 use gearcut::surface::BlankMesh;
 use gearcut::tool::CuttingTool;
 use gearcut::tool::edge::Edge;
@@ -212,7 +212,7 @@ fn candidates_leave_what_all_passes_leave() {
         let stopped =
             blank_sweeps::cut(&mut field, &cutter.sections(0, true), set.first_pass..set.end_pass(), &|| false);
         assert!(stopped.is_none(), "told to stop");
-        // A wrong refusal is noticed: passes that outlines too narrow by some micrometres keep out.
+        // A wrong cull is noticed: outlines too narrow by some micrometres keep passes out.
         assert!(cut(true, -3.0) != all, "{scene}");
     }
 }

@@ -11,8 +11,8 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::intervals::Span;
 use gearcut::math::planar_rays::FAMILIES;
 use gearcut::measure::target_outline::TargetOutline;
+use gearcut::process;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
-use gearcut::scene;
 use gearcut::steps::gear_surfaces::complete;
 use gearcut::surface::SurfaceGrid;
 use gearcut::surface::gear_solid::gear_solid;
@@ -43,7 +43,7 @@ fn job(name: &str, settings: &[&str]) -> HobbingJob {
         "output.mesh_spacing_mm=0.1",
     ];
     let settings: Vec<String> = thin.iter().chain(settings).map(|&s| s.to_owned()).collect();
-    let loaded = scene::load(Path::new(&format!("scenes/hobbing/{name}.toml")), &settings).expect("a scene");
+    let loaded = process::load(Path::new(&format!("scenes/hobbing/{name}.toml")), &settings).expect("a scene");
     HobbingJob::new(&loaded.scene).expect("a job")
 }
 

@@ -5,7 +5,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::Ray;
 use gearcut::passes::spatial::turning_passes::{BladePass, TurningPasses};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
-use gearcut::scene::load;
+use gearcut::process::load;
 use gearcut::terms::Side;
 use glam::DVec3;
 use std::path::Path;

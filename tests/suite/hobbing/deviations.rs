@@ -8,11 +8,11 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::frame::Rigid3;
 use gearcut::measure::deviation;
 use gearcut::passes::{MotionTable, TurningPasses};
+use gearcut::process;
 use gearcut::process::hobbing::measure::flank_report;
 use gearcut::process::hobbing::measure::flank_report::HobbedReport;
 use gearcut::process::hobbing::measure::offset_curves;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
-use gearcut::scene;
 use gearcut::terms::Side;
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
@@ -31,7 +31,7 @@ fn job(settings: &[&str]) -> HobbingJob {
         "fields.flank.lead_spacing_um=500",
     ];
     let settings: Vec<String> = fine.iter().chain(settings).map(|&s| s.to_owned()).collect();
-    let loaded = scene::load(Path::new("scenes/hobbing/circular_spur.toml"), &settings).expect("a scene");
+    let loaded = process::load(Path::new("scenes/hobbing/circular_spur.toml"), &settings).expect("a scene");
     HobbingJob::new(&loaded.scene).expect("a job")
 }
 

@@ -1,16 +1,16 @@
 //! Programs of hobbing machines: written, read back, with and without an electronic gearbox, and refused where they
 //! must be.
 
+use gearcut::process;
 use gearcut::process::hobbing::HobbingJob;
 use gearcut::process::hobbing::gcode::{Gearbox, HobbingProgram, read, texts};
-use gearcut::scene;
 use glam::DVec3;
 use std::path::Path;
 
 fn job(name: &str, settings: &[&str]) -> HobbingJob {
     let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
     let path = format!("scenes/hobbing/{name}.toml");
-    HobbingJob::new(&scene::load(Path::new(&path), &settings).expect("a scene").scene).expect("a job")
+    HobbingJob::new(&process::load(Path::new(&path), &settings).expect("a scene").scene).expect("a job")
 }
 
 /// Largest distance between points of the hob, as a program has them in the work and as the linkage has them, at odd

@@ -5,7 +5,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::process::hobbing::job::cut_under_hollows_mm;
 use gearcut::process::hobbing::measure::blank_report;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
-use gearcut::scene::load;
+use gearcut::process::load;
 use gearcut::units::TURN_RAD;
 use std::path::Path;
 

@@ -4,11 +4,11 @@
 use crate::fixtures::oracle_cases::{data, numbers};
 use gearcut::cut::cpu::Cpu;
 use gearcut::job::GearJob;
+use gearcut::process;
 use gearcut::process::hobbing::measure::marks;
 use gearcut::process::hobbing::measure::marks::between_rad;
 use gearcut::process::hobbing::measure::offset_curves;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
-use gearcut::scene;
 use gearcut::terms::Side;
 use glam::DVec2;
 use std::path::Path;
@@ -16,7 +16,7 @@ use std::path::Path;
 /// The third-order gear of the 2015 paper with sharp tip corners.
 fn job(settings: &[&str]) -> HobbingJob {
     let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
-    let scene = scene::load(Path::new("tests/data/hobbing/three_lobes.toml"), &settings).expect("a scene").scene;
+    let scene = process::load(Path::new("tests/data/hobbing/three_lobes.toml"), &settings).expect("a scene").scene;
     HobbingJob::new(&scene).expect("a job")
 }
 
@@ -113,7 +113,7 @@ mod slow {
             ["fields.flank.profile_spacing_um=200", "fields.flank.lead_spacing_um=100", "gear.face_width_mm=20"];
         for scene in ["third_order_plain", "circular_helical"] {
             let path = format!("scenes/hobbing/{scene}.toml");
-            let scene = scene::load(Path::new(&path), &settings.map(str::to_owned)).expect("the scene").scene;
+            let scene = process::load(Path::new(&path), &settings.map(str::to_owned)).expect("the scene").scene;
             let job = HobbingJob::new(&scene).expect("the gear");
             let cutter = HobCutter::new(&job).expect("passes");
             let mut worst = (0.0_f64, String::new());

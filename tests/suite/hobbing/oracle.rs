@@ -18,7 +18,7 @@ use gearcut::process::hobbing::linkage::marks::Marks;
 use gearcut::process::hobbing::linkage::{FeedPath, HobbingAxes, HobbingGeometry, HobbingLinkage};
 use gearcut::process::hobbing::measure::engagement::Engagement;
 use gearcut::process::hobbing::rack_generation::{ProfilePart, RackGeneration};
-use gearcut::scene::model::{EvenMotion, ExtraRotation, LinkageForm};
+use gearcut::process::hobbing::scene::model::{EvenMotion, ExtraRotation, LinkageForm};
 use gearcut::terms::Side;
 use gearcut::tool::SpatialTool;
 use glam::{DVec2, DVec3};

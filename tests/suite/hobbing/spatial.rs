@@ -6,7 +6,7 @@ use gearcut::cut::cpu::{Cpu, Vectors};
 use gearcut::dexel::{Layer, SpatialField};
 use gearcut::passes::{SweepPlan, TurningPasses};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
-use gearcut::scene::load;
+use gearcut::process::load;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use gearcut::tool::edge::Edge;

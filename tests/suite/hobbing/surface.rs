@@ -10,7 +10,7 @@ use gearcut::process::hobbing::linkage::marks::Marks;
 use gearcut::process::hobbing::measure::hob_load::ToothLoad;
 use gearcut::process::hobbing::measure::marks::{autocorrelation_steps, between_rad};
 use gearcut::process::hobbing::rack_generation::RackGeneration;
-use gearcut::scene::model::GashForm;
+use gearcut::process::hobbing::scene::model::GashForm;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use glam::DVec2;

@@ -9,7 +9,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::math::planar_rays::{ClosedCurve, Piece};
 use gearcut::passes::sections::swept_sections::SweptSection;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
-use gearcut::scene::load;
+use gearcut::process::load;
 use glam::DVec2;
 use rayon::prelude::*;
 use std::collections::BTreeMap;

@@ -7,7 +7,7 @@ use gearcut::dexel::{NO_PASS, Ray, SpatialField};
 use gearcut::math::planar_rays::FAMILIES;
 use gearcut::passes::SweepPlan;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
-use gearcut::scene::load;
+use gearcut::process::load;
 use gearcut::tool::CuttingTool;
 use gearcut::units::TURN_RAD;
 use glam::DVec2;

@@ -3,9 +3,9 @@
 use crate::fixtures::clipping::clipped;
 use crate::fixtures::contour::crossings;
 use gearcut::cut::cpu::Cpu;
+use gearcut::process;
 use gearcut::process::shaping::Job;
 use gearcut::process::shaping::section::{Section, cutter_solid};
-use gearcut::scene;
 use gearcut::steps::gear_surfaces::complete;
 use gearcut::surface::gear_solid::gear_solid;
 use gearcut::surface::outline::Outline;
@@ -19,7 +19,7 @@ const COARSE: [&str; 2] = ["fields.flank.profile_spacing_um=20", "fields.flank.l
 
 fn load(path: &Path, settings: &[&str]) -> Job {
     let settings: Vec<String> = COARSE.iter().chain(settings).map(|&s| s.to_owned()).collect();
-    Job::new(scene::load(path, &settings).expect("a shipped scene").scene).expect("can be cut")
+    Job::new(process::load(path, &settings).expect("a shipped scene").scene).expect("can be cut")
 }
 
 fn outline_and_solid(job: &Job) -> (Outline, Mesh) {

@@ -3,7 +3,7 @@
 use crate::fixtures::command::gearcut;
 use gearcut::passes::SweepPlan;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
-use gearcut::scene::load;
+use gearcut::process::{PROCESSES, load};
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use std::path::Path;
@@ -60,8 +60,8 @@ mod slow {
 
     #[test]
     fn every_committed_scene_passes() {
-        for (process, least) in [("shaping", 8), ("hobbing", 5)] {
-            let scenes = std::fs::read_dir(format!("scenes/{process}")).expect("the scenes are committed");
+        for process in PROCESSES.map(|process| process.scene) {
+            let scenes = std::fs::read_dir(format!("scenes/{}", process.name)).expect("the scenes are committed");
             let mut count = 0;
             for scene in
                 scenes.map(|entry| entry.expect("a file").path()).filter(|p| p.extension().is_some_and(|e| e == "toml"))
@@ -70,7 +70,7 @@ mod slow {
                 assert!(!outcome.out.contains("NaN") && !outcome.out.contains("inf"), "{}", outcome.out);
                 count += 1;
             }
-            assert!(count >= least, "{count} scenes");
+            assert_eq!(count, process.scenes.lines().count(), "scenes for {}", process.name);
         }
     }
 

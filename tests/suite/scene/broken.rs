@@ -1,10 +1,14 @@
 //! Broken scenes and the exact words they are answered with.
 //!
 //! Every `tests/broken/*.toml` must be refused with the text beside it in `.expected`. Lines `#! --set KEY=VALUE` in a
-//! scene are its settings. To rewrite the expected texts, run the test with `GEARCUT_BLESS=1`, then read them.
+//! scene are its settings; `{tools}` stands for the names of all tools, `{headers of tools}` for their headers. To
+//! rewrite the expected texts, run the test with `GEARCUT_BLESS=1`, then read them.
 
 use std::fs;
 use std::path::Path;
+
+use gearcut::process::{load, table};
+use gearcut::scene::keys::either;
 
 /// The folder, relative to the package, as it stands in the messages.
 const FOLDER: &str = "tests/broken";
@@ -48,9 +52,14 @@ fn message(path: &str) -> String {
     let text = fs::read_to_string(path).expect("a broken scene");
     let settings: Vec<String> =
         text.lines().filter_map(|line| line.strip_prefix("#! --set ")).map(str::to_owned).collect();
-    match gearcut::scene::load(Path::new(path), &settings) {
+    match load(Path::new(path), &settings) {
         Ok(_) => panic!("{path} loads, but it should not"),
-        Err(errors) => format!("{errors}\n"),
+        Err(errors) => {
+            let tools: Vec<&str> = table().processes().iter().map(|process| process.tool).collect();
+            let headers = table().processes().iter().map(|process| process.tool_header());
+            let text = format!("{errors}\n").replace(&tools.join(", "), "{tools}");
+            text.replace(&either(headers), "{headers of tools}")
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use gearcut::scene::{load, parse};
+use gearcut::process::{load, parse, table};
 use proptest::prelude::*;
 
 const SCENE: &str = include_str!("../../../scenes/shaping/elliptical_finishing_stock.toml");
@@ -56,9 +56,10 @@ fn value() -> impl Strategy<Value = String> {
 
 /// Paths of keys and sections, right and wrong.
 fn path() -> impl Strategy<Value = String> {
-    let keys: Vec<String> = gearcut::scene::keys::all()
+    let keys: Vec<String> = table()
+        .keys()
         .map(|(path, _)| path.replace("[]", ".0"))
-        .chain(gearcut::scene::keys::sections().map(|section| section.path.replace("[]", ".1")))
+        .chain(table().sections().iter().map(|section| section.path.replace("[]", ".1")))
         .collect();
     prop_oneof![8 => prop::sample::select(keys), 1 => "[a-z.\\[\\]0-9]{0,20}"]
 }
@@ -85,7 +86,10 @@ proptest! {
     }
 
     #[test]
-    fn lines_shuffled(order in Just((0..SCENE.lines().count()).collect::<Vec<_>>()).prop_shuffle(), kept in 1_usize..45) {
+    fn lines_shuffled(
+        order in Just((0..SCENE.lines().count()).collect::<Vec<_>>()).prop_shuffle(),
+        kept in 1_usize..45,
+    ) {
         let lines: Vec<&str> = SCENE.lines().collect();
         let shuffled: Vec<&str> = order.iter().take(kept).filter_map(|&i| lines.get(i).copied()).collect();
         feed(&shuffled.join("\n"), &[]);

@@ -1,13 +1,22 @@
-//! The table of keys agrees with itself.
+//! The table of keys agrees with itself, and so does that of every process.
 
 use std::collections::BTreeSet;
 
-use gearcut::scene::keys::{Default, Kind, Role, all, section, sections};
+use gearcut::process::table;
+use gearcut::scene::Table;
+use gearcut::scene::keys::{Default, Kind, Role, Section};
 
 #[test]
 fn sections_stand_inside_sections_and_choices_have_their_default() {
+    agrees(table());
+    for process in table().processes() {
+        agrees(&Table::new(&[process]));
+    }
+}
+
+fn agrees(table: &Table) {
     let mut seen = BTreeSet::new();
-    for section in sections() {
+    for section in table.sections() {
         assert!(
             section.path.is_empty() || seen.contains(section.parent_path()),
             "{} stands before its holder",
@@ -16,10 +25,36 @@ fn sections_stand_inside_sections_and_choices_have_their_default() {
         assert!(seen.insert(section.path), "{} twice", section.path);
         assert!(section.teach.ends_with('.'), "{}: {}", section.path, section.teach);
         if let Role::Choice { default: Some(default), .. } = section.role {
-            assert!(section.children().any(|child| child.name() == default), "{}: {default}", section.path);
+            assert!(table.children(section).any(|child| child.name() == default), "{}: {default}", section.path);
         }
-        for group in section.groups {
+        for group in &section.groups {
             assert!(group.names.iter().all(|name| section.key(name).is_some()), "{}: {:?}", section.path, group.names);
+        }
+    }
+}
+
+/// Each process has one tool of its own, and what several list is the same but for the default of a choice.
+#[test]
+fn processes_do_not_contradict_each_other() {
+    let processes = table().processes();
+    let tools: BTreeSet<&str> = processes.iter().map(|process| process.tool).collect();
+    let names: BTreeSet<&str> = processes.iter().map(|process| process.name).collect();
+    assert_eq!([tools.len(), names.len()], [processes.len(); 2], "{tools:?}, {names:?}");
+    for (i, process) in processes.iter().enumerate() {
+        let tool = format!("tool.{}", process.tool);
+        assert!(Table::new(&[process]).section(&tool).is_some(), "{tool}");
+        for other in &processes[..i] {
+            let lists = |section: &&Section| other.sections.iter().copied().flatten().find(|o| o.path == section.path);
+            for section in process.sections.iter().copied().flatten() {
+                let Some(twin) = lists(&section) else { continue };
+                let keys = [section, twin].map(|section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>());
+                assert_eq!(keys[0], keys[1], "{}", section.path);
+                let whats = [section.role, twin.role].map(|role| match role {
+                    Role::Choice { what, .. } => what,
+                    _ => "no choice",
+                });
+                assert_eq!(whats[0], whats[1], "{}", section.path);
+            }
         }
     }
 }
@@ -27,7 +62,7 @@ fn sections_stand_inside_sections_and_choices_have_their_default() {
 #[test]
 fn defaults_are_allowed_and_units_stand_in_the_names() {
     let mut paths = BTreeSet::new();
-    for (path, key) in all() {
+    for (path, key) in table().keys() {
         assert!(key.teach.ends_with('.'), "{path}: {}", key.teach);
         match (key.kind, key.default) {
             (Kind::Number(range), Default::Number(number)) => assert!(range.contains(number), "{path} = {number}"),
@@ -70,7 +105,8 @@ fn defaults_are_allowed_and_units_stand_in_the_names() {
 
 #[test]
 fn ranges_keep_their_open_ends() {
-    let ellipse = section("gear.pitch_curve.ellipse").and_then(|section| section.key("eccentricity")).expect("a key");
+    let ellipse =
+        table().section("gear.pitch_curve.ellipse").and_then(|section| section.key("eccentricity")).expect("a key");
     let Kind::Number(range) = ellipse.kind else { panic!("a number") };
     assert!(range.contains(0.0) && range.contains(1.0_f64.next_down()) && !range.contains(1.0));
     assert!(!range.contains(f64::NAN) && !range.contains(-f64::MIN_POSITIVE));

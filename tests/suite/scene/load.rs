@@ -4,39 +4,54 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use gearcut::gear::PitchCurveShape;
-use gearcut::scene::model::{Feed, Infeed, Linkage, NormalReading, Tip, TraditionalDirection};
-use gearcut::scene::model::{Scene, Shaping};
-use gearcut::scene::{LoadedScene, load, parse, reference, schema, template};
+use gearcut::process::shaping::scene::model::{
+    Feed, Infeed, Linkage, NormalReading, Shaping, Tip, TraditionalDirection,
+};
+use gearcut::process::{PROCESSES, load, parse, table};
+use gearcut::scene::keys::Role;
+use gearcut::scene::model::Scene;
+use gearcut::scene::{LoadedScene, SceneProcess, Table, TableSection, reference, schema, template};
 
 const SHORTEST: &str = "[gear]\nmodule_mm = 3.0\nteeth = 24\n[tool.shaper_cutter]\nteeth = 20\n";
 
 fn shaping(scene: &Scene) -> &Shaping {
-    scene.shaping().expect("a shaping scene")
+    Shaping::of(scene).expect("a shaping scene")
 }
 
 fn read(text: &str) -> LoadedScene {
     parse(text, "test.toml", Path::new("scenes/shaping"), &[]).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
+/// Scenes that come with the program, process by process.
 fn shipped() -> Vec<PathBuf> {
-    let folders = ["scenes/shaping", "scenes/hobbing"].map(|folder| fs::read_dir(folder).expect("a folder of scenes"));
-    let mut paths: Vec<PathBuf> = folders.into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path())).collect();
+    PROCESSES.iter().flat_map(|process| shipped_of(process.scene)).collect()
+}
+
+/// Scenes of a process; there are as many as its list says.
+fn shipped_of(process: &SceneProcess) -> Vec<PathBuf> {
+    let folder = fs::read_dir(format!("scenes/{}", process.name)).expect("a folder of scenes");
+    let mut paths: Vec<PathBuf> = folder.filter_map(|entry| Some(entry.ok()?.path())).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
     paths.sort();
-    assert!(paths.len() >= 8, "only {} scenes found", paths.len());
+    assert!(!paths.is_empty(), "no scenes for {}", process.name);
+    assert_eq!(paths.len(), process.scenes.lines().count(), "scenes for {}: {paths:?}", process.name);
     paths
 }
 
 #[test]
 fn shipped_scenes_load_and_are_listed_in_the_reference() {
-    let reference = reference::markdown();
-    for path in shipped() {
-        let loaded = load(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
-        assert_eq!(Some(loaded.scene.name.as_str()), path.file_stem().and_then(|stem| stem.to_str()));
-        let process = if loaded.scene.hobbing().is_some() { "hobbing" } else { "shaping" };
-        let name = format!("`{process}/{}.toml`", loaded.scene.name);
-        assert!(reference.contains(&name), "{name} is not listed in src/scene/reference_introduction.md");
-        assert!(fs::read_to_string(&path).is_ok_and(|text| text.starts_with("# ")), "{name} opens without explanation");
+    let reference = reference::markdown(table());
+    for process in PROCESSES.map(|process| process.scene) {
+        for path in shipped_of(process) {
+            let loaded = load(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
+            assert_eq!(Some(loaded.scene.name.as_str()), path.file_stem().and_then(|stem| stem.to_str()));
+            assert_eq!(loaded.scene.process_name(), process.name);
+            let name = format!("`{}/{}.toml`", process.name, loaded.scene.name);
+            assert!(process.scenes.contains(&name), "{name} is not listed in scene/scenes.md of its process");
+            assert!(reference.contains(&name), "{name} is not in the reference");
+            let text = fs::read_to_string(&path);
+            assert!(text.is_ok_and(|text| text.starts_with("# ")), "{name} opens without explanation");
+        }
     }
 }
 
@@ -185,12 +200,13 @@ fn shipped_scenes_read_back_from_their_resolved_text() {
 
 #[test]
 fn the_template_loads() {
-    assert!(template("knitting").is_none());
-    let scene = read(&template("shaping").expect("a template")).scene;
-    assert_eq!(shaping(&scene).operations[0].name, "operation_1");
-    assert_eq!(scene.gear.face_width_mm, 30.0);
-    let scene = read(&template("hobbing").expect("a template")).scene;
-    assert_eq!(scene.hobbing().expect("a hobbing scene").operations[0].name, "operation_1");
+    assert!(template(table(), "knitting").is_none());
+    for process in table().processes() {
+        let scene = read(&template(table(), process.name).expect("a template")).scene;
+        assert_eq!(scene.process_name(), process.name);
+        assert_eq!(scene.process.operation_names(), ["operation_1"]);
+        assert_eq!(scene.gear.face_width_mm, 30.0);
+    }
 }
 
 #[test]
@@ -227,41 +243,81 @@ fn every_variant_of_hobbing_reads_back_from_its_resolved_text() {
 /// Blocks of the template stand between empty lines; `#` without a blank marks what can be switched on.
 #[test]
 fn everything_in_the_template_can_be_switched_on() {
-    let text = template("shaping").expect("a template");
-    let switch =
-        |line: &str| line.strip_prefix('#').filter(|rest| rest.starts_with(|c: char| c != ' ')).map(str::to_owned);
-    let (mut variants, mut keys) = (0, 0);
-    for block in text.split("\n\n") {
-        if block.lines().any(|line| line.starts_with("#[")) {
-            let on = block
-                .lines()
-                .filter(|line| !line.contains("file = "))
-                .map(|line| switch(line).unwrap_or(line.to_owned()));
-            let operation = if block.contains("#[operation") { "[[operation]]\n" } else { "" };
-            read(&format!("{SHORTEST}{operation}{}\n", on.collect::<Vec<_>>().join("\n")));
-            variants += 1;
-        } else {
-            for line in block.lines() {
-                let Some(key) = switch(line) else { continue };
-                let rival = if key.starts_with("stock") { "offset_mm = 0.0" } else { "" };
-                let one = block.replacen(line, &key, 1).replacen(rival, if rival.is_empty() { "" } else { "#" }, 1);
-                read(&text.replacen(block, &one, 1));
-                keys += 1;
+    for process in table().processes() {
+        let text = template(table(), process.name).expect("a template");
+        let shortest = shortest(&text);
+        read(&shortest);
+        let (mut variants, mut keys) = (0, 0);
+        for block in text.split("\n\n") {
+            if block.lines().any(|line| line.starts_with("#[")) {
+                let on =
+                    block.lines().filter(|line| !line.contains("file = ")).map(|line| switch(line).unwrap_or(line));
+                let operation = if block.contains("#[operation") { "[[operation]]\n" } else { "" };
+                read(&format!("{shortest}{operation}{}\n", on.collect::<Vec<_>>().join("\n")));
+                variants += 1;
+            } else {
+                for key in block.lines().filter_map(switch) {
+                    let mut one = block.replacen(&format!("#{key}"), key, 1);
+                    for rival in rivals(name(key)) {
+                        one = one.replacen(&format!("\n{rival} = "), &format!("\n#{rival} = "), 1);
+                    }
+                    read(&text.replacen(block, &one, 1));
+                    keys += 1;
+                }
             }
         }
+        println!("{}: {variants} variants and {keys} keys switched on", process.name);
+        assert_eq!(variants, switched_off(&Table::new(&[process])), "{}", process.name);
+        assert!(keys >= 12, "{}: {keys} keys", process.name);
     }
-    println!("{variants} variants and {keys} keys switched on");
-    assert!(variants >= 10 && keys >= 12, "{variants} variants, {keys} keys");
+}
+
+/// Sections of a process's table that do not hold unless they are written.
+fn switched_off(own: &Table) -> usize {
+    let off = own.sections().iter().filter(|section| match section.role {
+        Role::List { fewest } => fewest == 0,
+        Role::Variant => {
+            let default = own.section(section.parent_path()).and_then(TableSection::default);
+            default.is_some_and(|default| default != section.name())
+        }
+        _ => false,
+    });
+    off.count()
+}
+
+/// A line of the template switched on, if it is off.
+fn switch(line: &str) -> Option<&str> {
+    line.strip_prefix('#').filter(|rest| rest.starts_with(|c: char| c != ' '))
+}
+
+/// Name of the key that a line of the template gives.
+fn name(line: &str) -> &str {
+    line.split(" = ").next().unwrap_or_default()
+}
+
+/// Keys that exclude this one.
+fn rivals(name: &str) -> impl Iterator<Item = &'static str> {
+    let groups = table().sections().iter().filter_map(move |section| section.group_of(name));
+    groups.flat_map(|group| group.names).copied().filter(move |rival| *rival != name)
+}
+
+/// What of a template cannot be left out: gear and tool with the keys that must be written.
+fn shortest(template: &str) -> String {
+    let needed = |line: &&str| {
+        let header = *line == "[gear]" || line.starts_with("[tool.") && line.matches('.').count() == 1;
+        header || !line.starts_with('#') && (line.ends_with("; required") || line.ends_with("; one of the two"))
+    };
+    template.lines().filter(needed).flat_map(|line| [line, "\n"]).collect()
 }
 
 #[test]
 fn schema_is_up_to_date() {
-    stale("scenes/schema.json", &schema::json_schema(), "gearcut schema > scenes/schema.json");
+    stale("scenes/schema.json", &schema::json_schema(table()), "gearcut schema > scenes/schema.json");
 }
 
 #[test]
 fn reference_is_up_to_date() {
-    stale("scenes/README.md", &reference::markdown(), "GEARCUT_BLESS=1 cargo test --test suite scene::load");
+    stale("scenes/README.md", &reference::markdown(table()), "GEARCUT_BLESS=1 cargo test --test suite scene::load");
 }
 
 /// Says when a printed file is no longer what the table of keys says; `GEARCUT_BLESS` rewrites it.

@@ -4,14 +4,17 @@ use std::path::Path;
 
 use gearcut::Refusal;
 use gearcut::gear::PitchCurveShape;
-use gearcut::scene::model::{Feed, Linkage, NormalReading, StrokeSpacing, TraditionalDirection};
-use gearcut::scene::model::{Scene, Shaping};
-use gearcut::scene::{LoadedScene, Place, load, parse};
+use gearcut::process::shaping::scene::model::{
+    Feed, Linkage, NormalReading, Shaping, StrokeSpacing, TraditionalDirection,
+};
+use gearcut::process::{load, parse};
+use gearcut::scene::model::Scene;
+use gearcut::scene::{LoadedScene, Place};
 
 const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
 
 fn shaping(scene: &Scene) -> &Shaping {
-    scene.shaping().expect("a shaping scene")
+    Shaping::of(scene).expect("a shaping scene")
 }
 
 fn set(settings: &[&str]) -> LoadedScene {

@@ -14,11 +14,12 @@ use gearcut::gear::blank_outline::BlankOutline;
 use gearcut::math::planar_rays::FAMILIES;
 use gearcut::measure::target_outline::TargetOutline;
 use gearcut::passes::StrokeSet;
+use gearcut::process::load;
 use gearcut::process::shaping::Job;
 use gearcut::process::shaping::measure::blank_report;
 use gearcut::process::shaping::measure::blank_report::BlankReport;
 use gearcut::process::shaping::measure::stroke_faults::StrokeFaultKind;
-use gearcut::scene::load;
+use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::scene::model::Scene;
 use gearcut::surface::BlankMesh;
 use glam::DVec2;
@@ -72,8 +73,8 @@ fn candidates_leave_the_same_bits_as_all_passes() {
     for (feed_during_stroke, runout_mm) in [(false, 0.05), (true, 0.0)] {
         let mut scene =
             paper_scene(vec![operation("rough", TRADITIONAL, 1.0, 150), operation("finish", NORMAL, 0.0, 150)]);
-        scene.shaping_mut().expect("shaping").operations[1].feed_during_stroke = feed_during_stroke;
-        scene.shaping_mut().expect("shaping").tool.runout_mm = runout_mm;
+        Shaping::of_mut(&mut scene).expect("shaping").operations[1].feed_during_stroke = feed_during_stroke;
+        Shaping::of_mut(&mut scene).expect("shaping").tool.runout_mm = runout_mm;
         scene.fields.blank_spacing_mm = 0.6;
         scene.fields.blank_slice_spacing_mm = 10.0;
         let job = job(scene);
@@ -171,7 +172,8 @@ fn surfaces_lie_on_the_target() {
     // Rounded corners leave no teeth in the fillets; at 4,200 strokes nothing stands more than 0.2 um over the target,
     // and nothing lies below it but the chords of the target's own fillets.
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 4200)]);
-    scene.shaping_mut().expect("shaping").tool.tip = gearcut::scene::model::Tip::Round { radius_mm: 0.6 };
+    Shaping::of_mut(&mut scene).expect("shaping").tool.tip =
+        gearcut::process::shaping::scene::model::Tip::Round { radius_mm: 0.6 };
     scene.fields.blank_spacing_mm = 0.2;
     let job = job(scene);
     let target = job.target_outline(0.02).expect("ordinary teeth");
@@ -219,7 +221,7 @@ fn fields_beyond_memory_are_refused_with_a_spacing_that_fits() {
     let mut scene = machine_scene();
     scene.fields.blank_spacing_mm = 0.001;
     scene.fields.blank_slice_spacing_mm = 0.5;
-    scene.shaping_mut().expect("shaping").operations[1].feed_during_stroke = true;
+    Shaping::of_mut(&mut scene).expect("shaping").operations[1].feed_during_stroke = true;
     let refusal = job(scene.clone()).blank_grid().expect_err("a thousand million spans");
     assert_eq!(refusal.key, "fields.blank.spacing_mm");
     assert!(refusal.problem.contains("61 slices") && refusal.problem.contains("bytes"), "{refusal}");
@@ -340,7 +342,7 @@ mod slow {
             let mut scene = machine_scene();
             let blade = (3 * run + 1) % 20;
             let shift_mm = if run % 2 == 0 { 0.05 } else { -0.05 } * (1.0 + f64::from(run) / 10.0);
-            scene.shaping_mut().expect("shaping").tool.pitch_errors_mm =
+            Shaping::of_mut(&mut scene).expect("shaping").tool.pitch_errors_mm =
                 (0..20).map(|b| if b == blade { shift_mm } else { 0.0 }).collect();
             let job = job(scene);
             let report = blank_report::measure(&job, &cut(&job), Some(&target));

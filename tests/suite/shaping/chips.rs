@@ -11,8 +11,8 @@ use gearcut::passes::StrokeSet;
 use gearcut::process::shaping::chips::ChipLedger;
 use gearcut::process::shaping::chips::edge_polygon::EdgeSide;
 use gearcut::process::shaping::linkage::{CutterPose, StrokeSchedule};
+use gearcut::process::shaping::scene::model::{Infeed, Shaping};
 use gearcut::process::shaping::{Job, PreparedOperation};
-use gearcut::scene::model::Infeed;
 use gearcut::tool::{CuttingTool, PlanarTool};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -167,8 +167,8 @@ fn a_plunging_tooth_takes_chips_of_known_thickness() {
     let mut scene = paper_scene(vec![operation("cut", NORMAL, 0.0, 240)]);
     scene.gear.teeth = 24;
     scene.gear.pitch_curve = PitchCurveShape::Circle;
-    scene.shaping_mut().expect("shaping").operations[0].infeed = Infeed::Plunge { depth_mm: 6.0, strokes: 300 };
-    scene.shaping_mut().expect("shaping").operations[0].window_rad = Some([0.0, 0.01]);
+    Shaping::of_mut(&mut scene).expect("shaping").operations[0].infeed = Infeed::Plunge { depth_mm: 6.0, strokes: 300 };
+    Shaping::of_mut(&mut scene).expect("shaping").operations[0].window_rad = Some([0.0, 0.01]);
     let job = Job::new(scene).expect("an ordinary gear");
     let chips = ledger(&job);
     let operation = &chips.operations[0];
@@ -315,7 +315,8 @@ fn a_first_stroke_at_depth_stands_apart() {
     println!("{} N on entry, {} N in stroke {stroke}", entry.cutting_n, largest.cutting_n);
     assert!(stroke > 0 && entry.cutting_n > 10.0 * largest.cutting_n);
     let mut scene = job.scene.clone();
-    scene.shaping_mut().expect("shaping").operations[0].infeed = Infeed::Spiral { depth_mm: 6.0, angle_rad: 1.0 };
+    Shaping::of_mut(&mut scene).expect("shaping").operations[0].infeed =
+        Infeed::Spiral { depth_mm: 6.0, angle_rad: 1.0 };
     let fed = &ledger(&Job::new(scene).expect("an ordinary gear")).operations[0];
     assert!(fed.entry().is_none());
     assert!(fed.largest(|s| s.cutting_n).expect("it cuts").1.cutting_n < 0.2 * entry.cutting_n);
@@ -326,7 +327,7 @@ fn runs_past_the_first_turn_are_idle() {
     let mut scene = paper_scene(vec![operation("cut", NORMAL, 0.0, 240)]);
     scene.gear.teeth = 24;
     scene.gear.pitch_curve = PitchCurveShape::Circle;
-    scene.shaping_mut().expect("shaping").operations[0].revolutions = 2;
+    Shaping::of_mut(&mut scene).expect("shaping").operations[0].revolutions = 2;
     let job = Job::new(scene).expect("an ordinary gear");
     let operation = &ledger(&job).operations[0];
     // The second turn repeats the first: whole pitches apart, the same cutter angles come back.

@@ -5,6 +5,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::process::shaping::Job;
 use gearcut::process::shaping::gcode;
 use gearcut::process::shaping::gcode::{AxisProgram, read};
+use gearcut::process::shaping::scene::model::*;
 use gearcut::scene::model::*;
 use gearcut::terms::Side;
 

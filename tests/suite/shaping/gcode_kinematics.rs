@@ -1,18 +1,18 @@
-//! X, C and B of shaping programs against kinematics written out here from nothing but the pitch curve: a sign or
-//! a phase that is wrong in writer and reader alike shows.
+//! X, C and B of shaping programs against kinematics written out here from nothing but the pitch curve: a sign or a
+//! phase that is wrong in writer and reader alike shows.
 //!
-//! Seen from above, from where the ram comes, the cutter's axis stands in the direction +x from the work's. The
-//! work turns clockwise and the cutter counter-clockwise, as two wheels that roll on each
-//! other must. The law: the cutter's pitch circle rolls without slip on the pitch curve, so the arc from the
-//! pitch point to cutter tooth 0 is the arc of the pitch curve from the polar angle 0 to the pitch
-//! point. On a circle this is the ratio of the teeth; on an ellipse the arc is summed by Simpson's rule, and the
-//! work angle inverted by bisection.
+//! Seen from above, from where the ram comes, the cutter's axis stands in the direction +x from the work's. The work
+//! turns clockwise and the cutter counter-clockwise, as two wheels that roll on each other must. The law: the cutter's
+//! pitch circle rolls without slip on the pitch curve, so the arc from the pitch point to cutter tooth 0 is the arc of
+//! the pitch curve from the polar angle 0 to the pitch point. On a circle this is the ratio of the teeth; on an ellipse
+//! the arc is summed by Simpson's rule, and the work angle inverted by bisection.
 
 use crate::fixtures::paper::*;
 use gearcut::gear::PitchCurveShape;
 use gearcut::process::shaping::Job;
 use gearcut::process::shaping::gcode;
-use gearcut::scene::model::{Linkage, Scene};
+use gearcut::process::shaping::scene::model::Linkage;
+use gearcut::scene::model::Scene;
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 
@@ -127,18 +127,18 @@ impl Ellipse {
         [r * out, -tangent.perp()]
     }
 
-    /// The cutter's axis when it touches at `phi`, backed off along the normal, and where its tooth 0 points:
-    /// gear frame.
+    /// The cutter's axis when it touches at `phi`, backed off along the normal, and where its tooth 0 points: gear
+    /// frame.
     fn cutter(&self, phi: f64, offset_mm: f64) -> (DVec2, f64) {
         let [point, normal] = Self::point_and_normal(phi);
-        // Counter-clockwise round the gear, the cutter rolls counter-clockwise: tooth 0 is ahead of the
-        // contact by the arc that has passed it.
+        // Counter-clockwise round the gear, the cutter rolls counter-clockwise: tooth 0 is ahead of the contact by the
+        // arc that has passed it.
         let ahead_rad = self.arc_mm(phi) / CUTTER_PITCH_RADIUS_MM;
         (point + (CUTTER_PITCH_RADIUS_MM + offset_mm) * normal, (-normal).to_angle() + ahead_rad)
     }
 
-    /// X, C and B when the work has turned by `psi_c`: a linkage moves the cutter back along the normal or
-    /// along the line of centres.
+    /// X, C and B when the work has turned by `psi_c`: a linkage moves the cutter back along the normal or along the
+    /// line of centres.
     fn axes(&self, psi_c: f64, linkage: Linkage, offset_mm: f64) -> [f64; 3] {
         let along_normal_mm = if linkage == NORMAL { offset_mm } else { 0.0 };
         // Unwrapped: the axis never leaves its pitch point by a quarter of a turn.
@@ -171,8 +171,8 @@ fn an_ellipse_and_its_cutter_roll_on_each_other() {
         for position in &positions {
             let psi_c = TAU * position.stroke.round() / f64::from(STROKES);
             let [x_mm, c_deg, mut b_deg] = ellipse.axes(psi_c, linkage, offset_mm);
-            // The direction of the normal is known but for whole turns; the cutter turns by less than
-            // one between blocks.
+            // The direction of the normal is known but for whole turns; the cutter turns by less than one between
+            // blocks.
             b_deg += 360.0 * ((turned_deg - b_deg) / 360.0).round();
             turned_deg = b_deg;
             at(position, [x_mm, c_deg, b_deg]);

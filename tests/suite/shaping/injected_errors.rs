@@ -4,6 +4,7 @@
 use crate::fixtures::paper::*;
 use gearcut::cut::cpu::Cpu;
 use gearcut::gear::PitchCurveShape;
+use gearcut::process::shaping::scene::model::*;
 use gearcut::process::shaping::{CutFlank, Job};
 use gearcut::scene::Scene;
 use gearcut::scene::model::*;
@@ -40,7 +41,7 @@ fn cutter_runout_moves_flanks_by_its_part_along_the_normal() {
     let sound = Job::new(fine_scene()).expect("the gear");
     let (runout_mm, angle_rad) = (0.01, 0.6);
     let mut scene = fine_scene();
-    let cutter = &mut scene.shaping_mut().expect("shaping").tool;
+    let cutter = &mut Shaping::of_mut(&mut scene).expect("shaping").tool;
     (cutter.runout_mm, cutter.runout_angle_rad) = (runout_mm, angle_rad);
     let faulty = Job::new(scene).expect("the gear");
     let mut worst_um = 0.0_f64;
@@ -69,7 +70,7 @@ fn a_cutter_pitch_error_appears_on_the_spaces_of_its_tooth() {
     let mut scene = fine_scene();
     let error_mm = 0.01;
     // Space 2 is cut by cutter tooth -2, that is 18 of 20.
-    scene.shaping_mut().expect("shaping").tool.pitch_errors_mm =
+    Shaping::of_mut(&mut scene).expect("shaping").tool.pitch_errors_mm =
         (0..20).map(|j| if j == 18 { error_mm } else { 0.0 }).collect();
     let faulty = Job::new(scene).expect("the gear");
     let cos = 20_f64.to_radians().cos();
@@ -93,7 +94,7 @@ fn work_eccentricity_shifts_the_whole_gear() {
     let sound = Job::new(fine_scene()).expect("the gear");
     let mut scene = fine_scene();
     let shift = 0.01 * DVec2::from_angle(2.0);
-    let machine = &mut scene.shaping_mut().expect("shaping").machine;
+    let machine = &mut Shaping::of_mut(&mut scene).expect("shaping").machine;
     (machine.work_eccentricity_mm, machine.work_eccentricity_angle_rad) = (0.01, 2.0);
     let faulty = Job::new(scene).expect("the gear");
     let mut worst_um = 0.0_f64;

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use gearcut::gear::PitchCurve;
 use gearcut::gear::PitchCurveShape;
 use gearcut::process::shaping::linkage::ShapingLinkage;
-use gearcut::scene::model::{Linkage, NormalReading, TraditionalDirection};
+use gearcut::process::shaping::scene::model::{Linkage, NormalReading, TraditionalDirection};
 use glam::DVec2;
 use serde_json::Value;
 
@@ -22,8 +22,8 @@ const AS_PRINTED: Linkage = Linkage::ShapingNormal { reading: NormalReading::AsP
 const TRADITIONAL: Linkage = Linkage::ShapingTraditional { direction: TraditionalDirection::CenterLine };
 const POLAR: Linkage = Linkage::ShapingTraditional { direction: TraditionalDirection::PolarRadius };
 
-/// Point of the envelope at `phi` on the flank of cutter tooth `space` that cuts the gear flank of the given side
-/// (+1: left flank of the tooth before the space, -1: right flank of the tooth after it).
+/// Point of the envelope at `phi` on the flank of cutter tooth `space` that cuts the gear flank of the given side (+1:
+/// left flank of the tooth before the space, -1: right flank of the tooth after it).
 fn contact(linkage: &ShapingLinkage, phi: f64, offset_mm: f64, space: f64, side: f64) -> DVec2 {
     let motion = linkage.pose_motion(phi, offset_mm);
     let alpha = 20f64.to_radians();

@@ -11,7 +11,7 @@ use crate::fixtures::paper::{NORMAL, TRADITIONAL, operation, paper_scene};
 use gearcut::gear::PitchCurve;
 use gearcut::gear::PitchCurveShape;
 use gearcut::process::shaping::linkage::{ShapingLinkage, StrokeSchedule};
-use gearcut::scene::model::{Linkage, NormalReading};
+use gearcut::process::shaping::scene::model::{Linkage, NormalReading, Shaping};
 use serde_json::Value;
 
 const AS_PRINTED: Linkage = Linkage::ShapingNormal { reading: NormalReading::AsPrinted };
@@ -174,7 +174,7 @@ fn velocities_and_instantaneous_centers_agree() {
 #[test]
 fn strokes_agree() {
     let paper = paper_scene(Vec::new());
-    let machine = &paper.shaping().expect("a shaping scene").machine;
+    let machine = &Shaping::of(&paper).expect("a shaping scene").machine;
     for (curve, _, axes, expected) in cases() {
         let (r_c, delta_d) = (number(&axes["r_c"]), number(&axes["delta_d"]));
         let n = expected["N"].as_u64().unwrap();

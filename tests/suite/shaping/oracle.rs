@@ -11,6 +11,7 @@ use gearcut::passes::planar::strokes::StrokeLaw;
 use gearcut::passes::{CutPlan, StrokeSet};
 use gearcut::process::shaping::Job;
 use gearcut::process::shaping::measure::unevenness::{Surface, ToothAllowance, allowances, summarise};
+use gearcut::process::shaping::scene::model::*;
 use gearcut::scene::model::*;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;

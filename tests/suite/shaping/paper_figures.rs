@@ -9,7 +9,7 @@ use gearcut::process::shaping::Job;
 use gearcut::process::shaping::measure::unevenness::{
     Surface, ToothAllowance, Unevenness, allowances, rack_allowance_mm, summarise,
 };
-use gearcut::scene::model::*;
+use gearcut::process::shaping::scene::model::*;
 
 /// The paper averages over the teeth of the first lobe.
 const LOBE_TEETH: usize = 14;

@@ -8,13 +8,14 @@ use gearcut::measure::damage::LEAST_DEPTH_MM;
 use gearcut::process::shaping::Job;
 use gearcut::process::shaping::chips::edge_polygon::{EdgePolygon, Station};
 use gearcut::process::shaping::measure::blank_report;
+use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::tool::{CuttingTool, PlanarTool};
 use std::collections::BTreeMap;
 
 fn round_job(back_off_mm: f64) -> Job {
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 480)]);
     (scene.gear.pitch_curve, scene.gear.teeth) = (PitchCurveShape::Circle, 24);
-    scene.shaping_mut().expect("shaping").machine.back_off_mm = back_off_mm;
+    Shaping::of_mut(&mut scene).expect("shaping").machine.back_off_mm = back_off_mm;
     Job::new(scene).expect("a round gear")
 }
 

@@ -19,7 +19,7 @@ pub struct BlankOperation<'a> {
     pub tooth: &'a ClosedTooth,
     /// Largest distance of the blank from the gear axis, mm.
     pub blank_reach_mm: f64,
-    /// Whether candidates are chosen; otherwise every pass visits every ray: what candidates are proved against.
+    /// Whether candidates are chosen; otherwise every pass visits every ray: what candidates are compared with.
     pub cull: bool,
 }
 
@@ -52,7 +52,7 @@ pub struct Rub {
     /// Middle of the entered material, gear frame.
     pub place_mm: DVec2,
     /// How deep the edge goes in, along its normal, mm: at most as far as it has moved along it since its stroke; 0 on
-    /// rays that graze it, whose place the other family's rays judge.
+    /// rays that graze it, whose place the other family's rays know.
     pub depth_mm: f64,
     /// Volume of the ray's share, mm3, for one family of rays.
     pub volume_mm3: f64,

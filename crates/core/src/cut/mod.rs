@@ -2,8 +2,8 @@
 //!
 //! One law, several machines: [`cpu::Cpu`] (f64, vectorised at run time) always works, the GPU backend (f32 in local
 //! frames, within nanometres) runs on any Vulkan, Metal or DirectX 12 adapter; the program takes one of them. A backend
-//! reads the plan's records and the tool's edge tables and lowers the heights of a [`Layer`]; among
-//! passes that leave the same height the lowest id wins, so the result does not depend on any order of work.
+//! reads the plan's records and the tool's edge tables and lowers the heights of a [`Layer`]; among passes that leave
+//! the same height the lowest id wins, so the result does not depend on any order of work.
 
 pub mod blank;
 pub mod cpu;

@@ -23,7 +23,7 @@ use glam::DVec2;
 /// Largest field: 2 GB leave room for everything else on an ordinary machine.
 pub const MOST_BYTES: f64 = 2e9;
 /// Material on one ray.
-pub type Ray = Vec<Span>;
+pub type RayMaterial = Vec<Span>;
 
 /// Where the rays stand.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +41,7 @@ pub struct BlankGrid {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slice {
     /// Rays of family X, then of family Y.
-    pub rays: [Vec<Ray>; 2],
+    pub rays: [Vec<RayMaterial>; 2],
 }
 
 /// Rays through the whole blank with what is left on them.
@@ -138,7 +138,7 @@ fn section_bytes(blank: &Blank, size: DVec2, spacing_mm: f64) -> f64 {
     // of two.
     let outline_mm = blank.curve().perimeter_mm() * (1.0 + 2.0 * 4.5 / std::f64::consts::PI);
     let spans = 2.0 * rays + 2.0 * outline_mm / spacing_mm;
-    2.0 * spans * size_of::<Span>() as f64 + rays * size_of::<Ray>() as f64
+    2.0 * spans * size_of::<Span>() as f64 + rays * size_of::<RayMaterial>() as f64
 }
 
 impl BlankField {
@@ -151,7 +151,7 @@ impl BlankField {
 
     /// Area of every section by each family, mm2: lengths times spacing.
     pub fn areas_mm2(&self) -> Vec<[f64; 2]> {
-        let area = |rays: &Vec<Ray>| rays.iter().map(|ray| intervals::length_mm(ray)).sum::<f64>();
+        let area = |rays: &Vec<RayMaterial>| rays.iter().map(|ray| intervals::length_mm(ray)).sum::<f64>();
         let spacing = self.grid.spacing_mm();
         self.slices.iter().map(|s| [area(&s.rays[0]) * spacing, area(&s.rays[1]) * spacing]).collect()
     }
@@ -171,11 +171,11 @@ impl BlankField {
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         let lists = self.slices.iter().flat_map(|s| &s.rays).flatten();
-        lists.map(|ray| ray.capacity() * size_of::<Span>() + size_of::<Ray>()).sum()
+        lists.map(|ray| ray.capacity() * size_of::<Span>() + size_of::<RayMaterial>()).sum()
     }
 }
 
-fn blank_rays(outline: &BlankOutline, family: Family, row: &RayRow, bore_radius_mm: f64) -> Vec<Ray> {
+fn blank_rays(outline: &BlankOutline, family: Family, row: &RayRow, bore_radius_mm: f64) -> Vec<RayMaterial> {
     let mut crossings = RayCrossings::default();
     crossings.lay(outline, family, row, 0..row.count);
     let mut found = Vec::new();
@@ -183,7 +183,7 @@ fn blank_rays(outline: &BlankOutline, family: Family, row: &RayRow, bore_radius_
         .map(|ray| {
             let at_mm = row.at_mm(ray);
             crossings.solve(outline, family, ray, at_mm, &mut found);
-            let mut spans: Ray = found
+            let mut spans: RayMaterial = found
                 .as_chunks::<2>()
                 .0
                 .iter()

@@ -1,17 +1,17 @@
-//! What is left on neighbouring rays, so that "does anything lie between two places?" is answered without a branch: a
-//! rough copy of the spans that never says no where the spans say yes.
+//! What is left on neighbouring rays, as a rough copy of their spans. It answers "does anything lie between two
+//! places?" without a branch, and never says no where the spans say yes.
 //!
 //! In: rays and their spans ([`super::intervals`]). Out: whether material may lie between two places of a ray.
 //!
 //! **The law.** A row holds the ends of eight spans in f32, rounded outward by one step; spans beyond them are one with
-//! the last, gaps and all. Rounding to the nearest keeps the order of numbers, so that places that are rounded to be
-//! asked for overlap a span of the row whenever they overlap the span itself. A row is renewed when its ray is cut; one
-//! that is not only holds too much.
+//! the last, gaps and all. The two places that are asked for are rounded to the nearest f32. Rounding keeps the order
+//! of numbers: places that overlap a span overlap its copy as well. A row is renewed when its ray is cut; a row that is
+//! out of date holds too much, which is safe.
 //!
 //! The road not taken: the spans themselves, searched by halves. A list of its own for every ray costs two misses of
-//! the cache and a search that no processor foresees: some 50 ns, against 2.
+//! the cache and a search whose branches no processor predicts: some 50 ns, against 2.
 
-use super::blank_field::Ray;
+use super::blank_field::RayMaterial;
 use super::intervals::Span;
 
 /// Spans of a row: a ray through a gear of 35 teeth meets six at most.
@@ -32,7 +32,7 @@ struct Row {
 
 impl SpanTable {
     /// Of neighbouring rays.
-    pub fn new(rays: &[Ray]) -> Self {
+    pub fn new(rays: &[RayMaterial]) -> Self {
         Self { rows: rays.iter().map(|spans| Row::new(spans)).collect() }
     }
 
@@ -78,18 +78,24 @@ mod tests {
     proptest! {
         /// Against the spans themselves, also where there are more of them than a row has places for.
         #[test]
-        fn whatever_overlaps_is_held(ends in proptest::collection::vec(-200.0_f64..200.0, 0..40), [a, b] in [-200.0_f64..200.0, -200.0..200.0], touching in 0_usize..40) {
+        fn whatever_overlaps_is_held(
+            ends in proptest::collection::vec(-200.0_f64..200.0, 0..40),
+            [a, b] in [-200.0_f64..200.0, -200.0..200.0],
+            touching in 0_usize..40,
+        ) {
             let mut ends = ends;
             ends.sort_by(f64::total_cmp);
             let end = |at_mm: f64| End { at_mm, pass: NO_PASS, normal: [1.0, 0.0] };
-            let spans: Vec<Span> = ends.as_chunks::<2>().0.iter().map(|[low, high]| Span { low: end(*low), high: end(*high) }).collect();
+            let spans = ends.as_chunks::<2>().0.iter().map(|[low, high]| Span { low: end(*low), high: end(*high) });
+            let spans: Vec<Span> = spans.collect();
             let table = SpanTable::new(std::slice::from_ref(&spans));
             // Also places that only just reach the end of a span, by less than f32 can tell.
             let near = ends.get(touching).map_or(a, |end| end + 1e-9);
             for [from, to] in [[a.min(b), a.max(b)], [near - 0.1, near], [near - 2e-9, near + 0.1]] {
                 prop_assert!(table.may_hold(0, [from, to]) || !overlaps(&spans, from, to));
                 // With few spans it says no wherever they are clear by a micrometre.
-                prop_assert!(spans.len() > SPANS || !table.may_hold(0, [from, to]) || overlaps(&spans, from - 1e-3, to + 1e-3));
+                let near = || overlaps(&spans, from - 1e-3, to + 1e-3);
+                prop_assert!(spans.len() > SPANS || !table.may_hold(0, [from, to]) || near());
             }
             prop_assert!(!table.may_hold(0, [f64::INFINITY, f64::NEG_INFINITY]));
         }

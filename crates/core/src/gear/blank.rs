@@ -81,8 +81,8 @@ impl Blank {
     }
 
     /// Foot of a point on the nearest place of the curve, in the turn nearest to `phi_guess_rad`. It cannot fail: the
-    /// distance
-    /// rises to both sides of the nearest of many samples, and its slope is bracketed between that one's neighbours.
+    /// distance rises to both sides of the nearest of many samples, and its slope is bracketed between that one's
+    /// neighbours.
     fn nearest_foot_rad(&self, point_mm: DVec2, phi_guess_rad: f64) -> f64 {
         let samples = self.curve.samples_per_turn();
         let apart_mm = |index: usize| self.curve.frame(sample_angle_rad(index, samples)).point_mm.distance(point_mm);

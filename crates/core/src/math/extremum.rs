@@ -5,8 +5,7 @@
 //! good to rounding, the place of a smooth maximum to the square root of it.
 //!
 //! It cannot fail: every step leaves 0.618 of the bracket, which ends the search after some 50 evaluations beside those
-//! of
-//! the grid. A function that is not a number anywhere on the grid but at its beginning gives that place.
+//! of the grid. A function that is not a number anywhere on the grid but at its beginning gives that place.
 
 /// Width of the last bracket, as a share of 1 + |place|: the value of a smooth maximum changes by its square, below
 /// rounding.

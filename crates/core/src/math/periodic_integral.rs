@@ -8,8 +8,8 @@
 //! polynomial, so that a query is a direct index and a Horner scheme. Panels are halved until the last two terms, which
 //! bound what was cut off, fall under the accuracy. Whole turns add the closed value exactly.
 //!
-//! Road not taken: adaptive quadrature per query. It is as accurate and a thousand times slower, and two queries
-//! close together would not be consistent to rounding.
+//! Road not taken: adaptive quadrature per query. It is as accurate and a thousand times slower, and two queries close
+//! together would not be consistent to rounding.
 
 use super::newton::{LastStep, newton, newton_within};
 use crate::error::NotConverged;

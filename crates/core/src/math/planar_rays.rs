@@ -119,7 +119,7 @@ pub trait ClosedCurve {
 
 /// One crossing of a ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Crossing {
+pub struct CurveCrossing {
     /// Coordinate along the ray, mm.
     pub at_mm: f64,
     /// Direction of the curve there.
@@ -128,7 +128,7 @@ pub struct Crossing {
     pub climbs: bool,
 }
 
-impl Crossing {
+impl CurveCrossing {
     /// Unit normal out of the curve's inside.
     pub fn outward(&self) -> DVec2 {
         -self.tangent.perp().normalize_or_zero()
@@ -137,7 +137,7 @@ impl Crossing {
 
 /// A monotone part of a piece.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct MonotonePart {
     law: u32,
     range: [f64; 2],
     /// Coordinates along and across at both ends.
@@ -161,7 +161,7 @@ pub struct PartCubic {
 /// Crossings of one curve with some rays: scratch memory that is used over and over.
 #[derive(Debug, Default)]
 pub struct RayCrossings {
-    parts: Vec<Part>,
+    parts: Vec<MonotonePart>,
     /// Per ray of the window: parts that it crosses.
     met: Vec<Vec<u32>>,
     /// Parts are kept that come this near to a ray.
@@ -241,7 +241,7 @@ impl RayCrossings {
         let chord_mm = (along[1] - along[0]).hypot(high - low);
         let tolerance_mm = piece.sagitta_mm * chord_mm / (high - low);
         let id = self.parts.len() as u32;
-        self.parts.push(Part { law: piece.law, range, along, across, tolerance_mm });
+        self.parts.push(MonotonePart { law: piece.law, range, along, across, tolerance_mm });
         if rays.is_empty() {
             return;
         }
@@ -301,7 +301,14 @@ impl RayCrossings {
     }
 
     /// Crossings of a ray in order along it.
-    pub fn solve(&self, curve: &impl ClosedCurve, family: Family, ray: usize, at_mm: f64, found: &mut Vec<Crossing>) {
+    pub fn solve(
+        &self,
+        curve: &impl ClosedCurve,
+        family: Family,
+        ray: usize,
+        at_mm: f64,
+        found: &mut Vec<CurveCrossing>,
+    ) {
         found.clear();
         for &id in &self.met[ray - self.rays.start] {
             found.push(cross(curve, family, &self.parts[id as usize], at_mm));
@@ -320,13 +327,13 @@ fn turning_point(first_rate: f64, range: [f64; 2], rate: impl Fn(f64) -> f64) ->
     0.5 * (same + other)
 }
 
-fn cross(curve: &impl ClosedCurve, family: Family, part: &Part, at_mm: f64) -> Crossing {
+fn cross(curve: &impl ClosedCurve, family: Family, part: &MonotonePart, at_mm: f64) -> CurveCrossing {
     let climbs = part.across[1] > part.across[0];
     let share = (at_mm - part.across[0]) / (part.across[1] - part.across[0]);
     if part.law == Piece::STRAIGHT {
         let run = part.along[1] - part.along[0];
         let tangent = family.point(run, part.across[1] - part.across[0]);
-        return Crossing { at_mm: part.along[0] + share * run, tangent, climbs };
+        return CurveCrossing { at_mm: part.along[0] + share * run, tangent, climbs };
     }
     // Parameters below and above the root.
     let [mut low, mut high] = if climbs { part.range } else { [part.range[1], part.range[0]] };
@@ -355,5 +362,5 @@ fn cross(curve: &impl ClosedCurve, family: Family, part: &Part, at_mm: f64) -> C
     let rest = (at_mm - family.across(place[0])) / family.across(place[1]);
     let at_mm = if rest.abs() < LAST_STEP { along + rest * family.along(place[1]) } else { along };
     let forward = if part.range[1] >= part.range[0] { place[1] } else { -place[1] };
-    Crossing { at_mm, tangent: forward, climbs }
+    CurveCrossing { at_mm, tangent: forward, climbs }
 }

@@ -5,8 +5,8 @@
 //! curve encloses on that ray lies between them.
 //!
 //! The law: a piece within `tolerance` of its chord is met only by rays within the chord's ends and the tolerance, and
-//! there no further from the chord's line than tolerance x sqrt(1 + slope^2) along the ray, nor beyond
-//! the chord's ends by more than the tolerance.
+//! there no further from the chord's line than tolerance x sqrt(1 + slope^2) along the ray, nor beyond the chord's ends
+//! by more than the tolerance.
 
 use crate::math::planar_rays::{ClosedCurve, Family, RayRow};
 use glam::DVec2;
@@ -14,7 +14,7 @@ use std::ops::Range;
 
 /// Rays within this share of their distance of a piece's end count as met: division rounds.
 const ROUNDING_RAYS: f64 = 1e-9;
-/// Places are that sure, mm.
+/// Error of places through rounding at most, mm.
 const ROUNDING_MM: f64 = 1e-9;
 
 /// Steeper sides run along the rays.
@@ -131,8 +131,9 @@ mod tests {
             let mut at: Vec<DVec2> = corners.iter().map(|(p, _)| DVec2::from_array(*p)).collect();
             // A side along the rays, but for a rounding.
             at[1].x = at[0].x + [0.0, 1e-13, 1e-5, 1.0][upright];
-            let moved: Vec<DVec2> =
-                at.iter().zip(&corners).map(|(p, (_, m))| *p + DVec2::from_array(*m) * tolerance_mm / 2.0_f64.sqrt()).collect();
+            let share_mm = tolerance_mm / 2.0_f64.sqrt();
+            let moved = at.iter().zip(&corners).map(|(p, (_, m))| *p + share_mm * DVec2::from_array(*m));
+            let moved: Vec<DVec2> = moved.collect();
             let outline = LooseOutline { tolerances_mm: vec![tolerance_mm; at.len()], corners_mm: at };
             let row = RayRow { first_mm: 0.05, spacing_mm: 0.1, count: 100 };
             for family in FAMILIES {
@@ -147,7 +148,8 @@ mod tests {
                         if (from < across) == (to < across) {
                             continue;
                         }
-                        let along = family.along(*a) + (across - from) / (to - from) * (family.along(b) - family.along(*a));
+                        let share = (across - from) / (to - from);
+                        let along = family.along(*a) + share * (family.along(b) - family.along(*a));
                         prop_assert!(reach.rays.contains(&ray));
                         let [low, high] = reach.places_mm[ray - reach.rays.start];
                         prop_assert!(low <= along && along <= high, "ray {} at {}: {} to {}", ray, along, low, high);

@@ -1,12 +1,10 @@
 //! Roots within brackets: nothing but signs is needed, and nothing can fail.
 //!
 //! In: a function or a condition, and two values between which it changes once. Out: the place, to the accuracy asked
-//! for or
-//! to the last bit. Kinks and jumps (a spline's third derivative) do no harm.
+//! for or to the last bit. Kinks and jumps (a spline's third derivative) do no harm.
 //!
 //! [`sign_changes`] finds its brackets itself, all round a turn; the function must be sampled densely enough that no
-//! two
-//! changes fall between neighbours.
+//! two changes fall between neighbours.
 
 use crate::units::TURN_RAD;
 use std::convert::Infallible;
@@ -26,8 +24,7 @@ const TO_THE_LAST_BIT: u32 = 2200;
 const MOST_SECANTS: u32 = 200;
 
 /// The bracket of a condition that holds at `inside` and, once it has ceased, up to `outside`, after some halvings: its
-/// new
-/// ends, in this order. It is narrower by 2^-`halvings`, or its ends are neighbouring numbers. One evaluation per
+/// new ends, in this order. It is narrower by 2^-`halvings`, or its ends are neighbouring numbers. One evaluation per
 /// halving.
 pub fn halve(mut holds: impl FnMut(f64) -> bool, inside: f64, outside: f64, halvings: u32) -> [f64; 2] {
     let Ok(bracket) = try_halve(|x| Ok::<_, Infallible>(holds(x)), inside, outside, halvings);
@@ -65,12 +62,10 @@ pub fn bisect(is_low: impl FnMut(f64) -> bool, lo: f64, hi: f64) -> f64 {
 }
 
 /// Zero of a function that is at most 0 at `from` and at least 0 at `to`: where it is nearer to 0 than `residual`, or
-/// to
-/// some 1e-14 of the place. `None` where the function does not change its sign, or is not a number.
+/// to some 1e-14 of the place. `None` where the function does not change its sign, or is not a number.
 ///
 /// Regula falsi with the value at the end that stays halved (Illinois rule), so that both ends close in; after 200
-/// steps
-/// the bracket is halved to the last bit.
+/// steps the bracket is halved to the last bit.
 pub fn regula_falsi(mut f: impl FnMut(f64) -> f64, from: f64, to: f64, residual: f64) -> Option<f64> {
     let (mut a, mut b) = (from, to);
     let (mut f_a, mut f_b) = (f(a), f(b));

@@ -6,12 +6,11 @@
 //! enters the tool where `f(h) = x(h) - U(y(h))` falls through zero, U being the edge's x over y: an [`EdgeTable`] or,
 //! for arcs, the circle itself.
 
+use super::edge_profile::{BladeCurve, CurveProfile, InvoluteProfile, StraightProfile};
 use super::edge_table::{EdgeTable, TableError};
-use crate::error::NotConverged;
+use super::involute::Involute;
 use crate::frame::Rigid2;
 use crate::math::convergence::{Step, iterate};
-use crate::math::newton::{LastStep, newton};
-use crate::tool::involute::Involute;
 use glam::DVec2;
 use std::ops::ControlFlow;
 
@@ -38,28 +37,13 @@ pub enum SegmentName {
     RootLeft,
 }
 
-/// Newton steps to a place of a profile at most. They go on until rounding alone moves the place, which is then known
-/// to
-/// [`SETTLED`], as a share of one plus the parameter.
-const PROFILE_STEPS: u32 = 50;
-const SETTLED: f64 = 1e-12;
 /// Last step along a ray to an edge, mm.
 const ENTRY_MM: f64 = 1e-12;
 /// Newton steps along a ray to an edge at most: where it grazes the edge each halves what is missing, so that these
-/// bring
-/// ten millimetres down to a last bit.
+/// bring ten millimetres down to a last bit.
 const ENTRY_STEPS: u32 = 60;
 /// Fall of the residual along a ray below which the ray runs beside the edge and does not enter it.
 const LEAST_FALL: f64 = 1e-9;
-
-/// x over y of a segment in its own frame.
-pub trait Profile {
-    /// x in mm and dx/dy at `y_mm`.
-    ///
-    /// # Errors
-    /// The place with this y is not found.
-    fn x_and_slope(&self, y_mm: f64) -> Result<[f64; 2], NotConverged>;
-}
 
 /// How a backend evaluates a segment.
 #[derive(Debug, Clone, PartialEq)]
@@ -112,76 +96,6 @@ pub struct RayHit {
     pub normal: DVec2,
     /// Curvature of the edge at the hit, 1/mm, positive where the tool is convex; 0 on the continuation.
     pub curvature_per_mm: f64,
-}
-
-/// Part of an involute as a profile over its chord.
-struct InvoluteProfile {
-    involute: Involute,
-    segment_from_blade: Rigid2,
-    roll_range: [f64; 2],
-}
-
-impl Profile for InvoluteProfile {
-    fn x_and_slope(&self, y_mm: f64) -> Result<[f64; 2], NotConverged> {
-        // dp/du = r_b u e(u), e the direction to the base circle's contact point: Newton on y(u) from the chord's share
-        // of u^2.
-        let [u0, u1] = self.roll_range;
-        let y_at = |u: f64| self.segment_from_blade.point(self.involute.point(u)).y;
-        let (y0, y1) = (y_at(u0), y_at(u1));
-        let start = (u0 * u0 + (u1 * u1 - u0 * u0) * (y_mm - y0) / (y1 - y0)).max(0.25 * u0 * u0).sqrt();
-        let mut tangent = DVec2::Y;
-        let last = LastStep { absolute: 1e-16, relative: 1e-15 };
-        let u = newton("the roll of an involute's point", start, last, PROFILE_STEPS, |u| {
-            let along = -self.involute.side * self.segment_from_blade.direction(self.involute.normal(u)).perp();
-            tangent = along;
-            let missing_mm = y_mm - y_at(u);
-            let step = missing_mm / (self.involute.base_radius_mm * u * along.y);
-            // The involute begins at roll 0.
-            [missing_mm, if step < -0.5 * u { -0.5 * u } else { step }]
-        })
-        .or_else(|error| error.settled(SETTLED * (1.0 + error.last.abs())))?;
-        Ok([self.segment_from_blade.point(self.involute.point(u)).x, tangent.x / tangent.y])
-    }
-}
-
-/// A smooth curve in the blade frame over a parameter, nearly proportional to the place along its chord.
-pub trait BladeCurve {
-    /// Point (mm) and derivative with respect to the parameter.
-    fn point_and_rate(&self, parameter: f64) -> [DVec2; 2];
-}
-
-/// Part of a [`BladeCurve`] as a profile over its chord.
-struct CurveProfile<'a, C> {
-    curve: &'a C,
-    segment_from_blade: Rigid2,
-    range: [f64; 2],
-}
-
-impl<C: BladeCurve> Profile for CurveProfile<'_, C> {
-    fn x_and_slope(&self, y_mm: f64) -> Result<[f64; 2], NotConverged> {
-        let at = |w: f64| {
-            let [point, rate] = self.curve.point_and_rate(w);
-            [self.segment_from_blade.point(point), self.segment_from_blade.direction(rate)]
-        };
-        let ([w0, w1], [y0, y1]) = (self.range, self.range.map(|w| at(w)[0].y));
-        let start = w0 + (w1 - w0) * (y_mm - y0) / (y1 - y0);
-        let w = newton("the parameter of a profile's point", start, LastStep::relative(1e-15), PROFILE_STEPS, |w| {
-            let [point, rate] = at(w);
-            [y_mm - point.y, (y_mm - point.y) / rate.y]
-        })
-        .or_else(|error| error.settled(SETTLED * (1.0 + error.last.abs())))?;
-        let [point, rate] = at(w);
-        Ok([point.x, rate.x / rate.y])
-    }
-}
-
-/// The chord itself.
-struct StraightProfile;
-
-impl Profile for StraightProfile {
-    fn x_and_slope(&self, _y_mm: f64) -> Result<[f64; 2], NotConverged> {
-        Ok([0.0, 0.0])
-    }
 }
 
 /// Frame on the chord from `start` to `end` (chain direction): origin at its middle, y along it, x out of the tool.

@@ -8,7 +8,7 @@
 //!
 //! Road not taken: the analytic involute in the kernel (needs an arctangent; seven times the f32 error).
 
-use super::edge::Profile;
+use super::edge_profile::EdgeProfile;
 use crate::error::NotConverged;
 
 /// Largest distance between table and edge: far below what the dexels resolve (0.1 nm).
@@ -47,7 +47,7 @@ impl EdgeTable {
     ///
     /// # Errors
     /// Even 4096 cells do not reach the tolerance, or the profile has no place with some y.
-    pub fn fit(profile: &impl Profile, y_range_mm: [f64; 2]) -> Result<Self, TableError> {
+    pub fn fit(profile: &impl EdgeProfile, y_range_mm: [f64; 2]) -> Result<Self, TableError> {
         let mut count = 1;
         loop {
             let table = Self::with_cells(profile, y_range_mm, count)?;
@@ -62,7 +62,7 @@ impl EdgeTable {
         }
     }
 
-    fn with_cells(profile: &impl Profile, [y0, y1]: [f64; 2], count: usize) -> Result<Self, NotConverged> {
+    fn with_cells(profile: &impl EdgeProfile, [y0, y1]: [f64; 2], count: usize) -> Result<Self, NotConverged> {
         let width = (y1 - y0) / count as f64;
         let nodes: Vec<[f64; 2]> =
             (0..=count).map(|i| profile.x_and_slope(y0 + width * i as f64)).collect::<Result<_, _>>()?;
@@ -78,7 +78,7 @@ impl EdgeTable {
     }
 
     /// Largest error at three places inside every cell (a Hermite cubic errs most near the middle).
-    fn error_mm(&self, profile: &impl Profile) -> Result<f64, NotConverged> {
+    fn error_mm(&self, profile: &impl EdgeProfile) -> Result<f64, NotConverged> {
         let width = 1.0 / self.cells_per_mm;
         (0..self.cells.len())
             .flat_map(|i| [0.25, 0.5, 0.75].map(|part| self.y_start_mm + width * (i as f64 + part)))

@@ -8,6 +8,7 @@
 
 pub mod closed_tooth;
 pub mod edge;
+pub mod edge_profile;
 pub mod edge_table;
 pub mod involute;
 

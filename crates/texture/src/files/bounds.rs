@@ -71,8 +71,8 @@ pub(super) fn unreadable(path: &Path) -> impl FnOnce(String) -> Error {
     move |reason| Error::Unreadable { path, reason: text::reason(&reason) }
 }
 
-/// `value` made of the number `raw` of a file: a number too large for f64 stays a number, which is refused as a
-/// height, where infinity would pass as a hole.
+/// `value` made of the number `raw` of a file: a number too large for f64 stays a number, which is refused as a height,
+/// where infinity would pass as a hole.
 pub(super) fn kept_number(raw: f64, value: f64) -> f64 {
     if raw.is_finite() { value.clamp(f64::MIN, f64::MAX) } else { value }
 }
@@ -88,4 +88,9 @@ pub(super) fn height(word: &str) -> std::result::Result<f64, String> {
 pub(super) fn factor(name: &str, value: f64) -> std::result::Result<f64, String> {
     let usable = value.is_finite() && value != 0.0;
     usable.then_some(value).ok_or_else(|| format!("{name} is {value}; it must be a number other than 0"))
+}
+
+/// A number of points from a header.
+pub(super) fn side(count: i32) -> std::result::Result<usize, String> {
+    usize::try_from(count).map_err(|_| format!("a side of {count} points"))
 }

@@ -9,8 +9,8 @@
 //! -0.9,-0.793,
 //! ```
 //!
-//! Read: commas, semicolons, tabs or blanks between heights; an empty cell, `nan`, `bad` or `---` is a hole; lines
-//! that begin with `#` are comments, of which `dx_um`, `dy_um` and `notes` count.
+//! Read: commas, semicolons, tabs or blanks between heights; an empty cell, `nan`, `bad` or `---` is a hole; lines that
+//! begin with `#` are comments, of which `dx_um`, `dy_um` and `notes` count.
 
 use std::fmt::Write as _;
 

@@ -7,8 +7,8 @@
 //! every offset in the file stays right.
 //!
 //! Layout (OpenEXR file layout, "Header"): magic number and version, 4 bytes each; then attributes, each a
-//! null-terminated name, a null-terminated type, the value's length as i32 (little endian) and the value; then one
-//! null byte.
+//! null-terminated name, a null-terminated type, the value's length as i32 (little endian) and the value; then one null
+//! byte.
 
 /// Where the first attribute begins: behind magic number and version.
 const HEADER_START: usize = 8;

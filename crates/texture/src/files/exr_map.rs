@@ -5,8 +5,8 @@
 //! again.
 //!
 //! Header attributes: `program`, `frame`; per axis `u.name`, `u.meaning`, `u.start_mm`, `u.step_mm` and the same for v;
-//! per channel `channel.<name>.unit` and `.definition`; every note under its own name. Texts are UTF-8.
-//! The same map gives the same bytes.
+//! per channel `channel.<name>.unit` and `.definition`; every note under its own name. Texts are UTF-8. The same map
+//! gives the same bytes.
 //!
 //! Road not taken: one EXR with a layer per surface. A viewer would open 84 layers to show one, and a run could not
 //! write one and forget it before the next.

@@ -13,8 +13,8 @@
 //! | `.csv` | f64, um, shortest text that reads back | in comment lines | empty | in comment lines |
 //! | `.exr` | f32, mm | f64 | NaN | header attributes |
 //!
-//! The same surface gives the same bytes: dates that a format demands are its word for "unknown", zip entries carry
-//! no time. X3P is the one to archive: every reader that was tried opens it as it is written here.
+//! The same surface gives the same bytes: dates that a format demands are its word for "unknown", zip entries carry no
+//! time. X3P is the one to archive: every reader that was tried opens it as it is written here.
 
 mod bounds;
 mod csv_text;
@@ -25,6 +25,7 @@ pub mod grid;
 mod npy;
 mod sdf;
 mod sdf_ascii;
+mod sdf_parts;
 mod sur;
 mod x3p;
 
@@ -92,15 +93,15 @@ pub fn write_surface(path: &Path, format: Format, file: &SurfaceFile) -> Result<
 /// Files that cannot be read, are no regular files or larger than their format allows, are damaged, are none of these
 /// formats, hold heights or spacings out of range ([`Surface::new`]), or carry no spacing when none is given.
 pub fn read_surface(path: &Path, spacing_um: Option<SpacingUm>) -> Result<SurfaceFile> {
-    let (kind, bytes) = bounds::read(path, |head| Kind::of(head, path).map(|kind| (kind, kind.most_bytes())))?;
+    let (kind, bytes) = bounds::read(path, |head| FileKind::of(head, path).map(|kind| (kind, kind.most_bytes())))?;
     let found = match kind {
-        Kind::X3p => x3p::decode(&bytes),
-        Kind::SdfBinary => sdf::decode(&bytes),
-        Kind::SdfAscii => sdf_ascii::decode(&bytes),
-        Kind::Sur => sur::decode(&bytes),
-        Kind::Npy => npy::facts_beside(path).and_then(|facts| npy::decode(&bytes, facts.as_ref(), spacing_um)),
-        Kind::Exr => exr::decode(&bytes),
-        Kind::Csv => csv_text::decode(&bytes, spacing_um),
+        FileKind::X3p => x3p::decode(&bytes),
+        FileKind::SdfBinary => sdf::decode(&bytes),
+        FileKind::SdfAscii => sdf_ascii::decode(&bytes),
+        FileKind::Sur => sur::decode(&bytes),
+        FileKind::Npy => npy::facts_beside(path).and_then(|facts| npy::decode(&bytes, facts.as_ref(), spacing_um)),
+        FileKind::Exr => exr::decode(&bytes),
+        FileKind::Csv => csv_text::decode(&bytes, spacing_um),
     };
     let file = found.map_err(unreadable(path))?;
     if let Some([x, y]) = spacing_um {
@@ -115,7 +116,7 @@ pub fn read_surface(path: &Path, spacing_um: Option<SpacingUm>) -> Result<Surfac
 
 /// What a file is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum FileKind {
     X3p,
     SdfBinary,
     SdfAscii,
@@ -125,7 +126,7 @@ enum Kind {
     Csv,
 }
 
-impl Kind {
+impl FileKind {
     /// By its first bytes, or by its ending where text begins with heights.
     fn of(head: &[u8], path: &Path) -> std::result::Result<Self, String> {
         let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();

@@ -1,5 +1,5 @@
-//! NPY (NumPy Enhancement Proposal 1, version 1.0): heights as `<f8`, rows = y; spacing and notes in a JSON file of
-//! the same name beside it.
+//! NPY (NumPy Enhancement Proposal 1, version 1.0): heights as `<f8`, rows = y; spacing and notes in a JSON file of the
+//! same name beside it.
 //!
 //! Read: any little- or big-endian float or signed integer of 2 to 8 bytes in C order, one array of two axes, heights
 //! in um.

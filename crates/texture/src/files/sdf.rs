@@ -4,8 +4,8 @@
 //! spacing in m, 62 metres per unit of height, 70 resolution (-1: unknown), 78 compression, 79 type of heights, 80
 //! check, 81 heights. Version ISO-2.0, whose sizes have 32 bits, is read too.
 
-use super::bounds::{factor, kept_number, points};
-use super::sdf_ascii::{MAKER, UNKNOWN_DATE, trailer_notes, trailer_text};
+use super::bounds::{factor, kept_number, points, side};
+use super::sdf_parts::{MAKER, UNKNOWN_DATE, raw_type, trailer_notes, trailer_text, type_code};
 use super::{Bytes, Raw, SurfaceFile};
 use crate::surface::Surface;
 use crate::text::quoted;
@@ -54,27 +54,4 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
     let trailer = String::from_utf8_lossy(&data[count * raw.bytes()..]).into_owned();
     let surface = Surface::new(nx, ny, dx * UM_PER_M, dy * UM_PER_M, heights)?;
     Ok(SurfaceFile { surface, notes: trailer_notes(&trailer) })
-}
-
-/// A number of points from a header.
-pub(super) fn side(count: i32) -> Result<usize, String> {
-    usize::try_from(count).map_err(|_| format!("a side of {count} points"))
-}
-
-fn type_code(raw: Raw) -> u8 {
-    match raw {
-        Raw::F32 => 3,
-        Raw::I8 => 4,
-        Raw::I16 => 5,
-        Raw::I32 => 6,
-        Raw::F64 => 7,
-    }
-}
-
-/// Type of heights by its number.
-pub(super) fn raw_type(code: u8) -> Result<Raw, String> {
-    [Raw::F32, Raw::I8, Raw::I16, Raw::I32, Raw::F64]
-        .into_iter()
-        .find(|&raw| type_code(raw) == code)
-        .ok_or_else(|| format!("heights of SDF type {code} are not read"))
 }

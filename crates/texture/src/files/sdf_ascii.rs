@@ -1,22 +1,15 @@
 //! SDF ASCII (ISO 25178-71): header lines `Name = value`, a star, heights, a star, trailer, a star.
 //!
-//! Heights are written in um (`Zscale` 1e-6) with the fewest digits that read back the same, one line per row; holes
-//! as `NaN`, which every reader that was tried takes, where `BAD` fails in one. Read: both.
+//! Heights are written in um (`Zscale` 1e-6) with the fewest digits that read back the same, one line per row; holes as
+//! `NaN`, which every reader that was tried takes, where `BAD` fails in one. Read: both.
 
 use std::fmt::Write as _;
 
+use super::SurfaceFile;
 use super::bounds::{factor, height, kept_number, points};
-use super::sdf::raw_type;
-use super::{SurfaceFile, notes_json, notes_of};
+use super::sdf_parts::{MAKER, UNKNOWN_DATE, raw_type, trailer_notes, trailer_text};
 use crate::surface::Surface;
 use crate::text::quoted;
-
-/// Who wrote the file.
-pub(super) const MAKER: &str = "gearcut";
-/// The format demands dates; zeros are its custom for "not recorded". A clock's would make every file differ.
-pub(super) const UNKNOWN_DATE: &str = "000000000000";
-/// Trailer line that carries the notes.
-const NOTES: &str = "Notes";
 
 pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
     let surface = &file.surface;
@@ -25,9 +18,9 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
         return Err(format!("an SDF file holds at most 65535 points a side, not {}", nx.max(ny)));
     }
     let mut text = format!(
-        "aISO-1.0\nManufacID = {MAKER}\nCreateDate = {UNKNOWN_DATE}\nModDate = {UNKNOWN_DATE}\nNumPoints = \
-        {nx}\nNumProfiles = {ny}\n\
-         Xscale = {:e}\nYscale = {:e}\nZscale = 1e-6\nZresolution = -1\nCompression = 0\nDataType = 7\nCheckType = 0\n*\n",
+        "aISO-1.0\nManufacID = {MAKER}\nCreateDate = {UNKNOWN_DATE}\nModDate = {UNKNOWN_DATE}\n\
+         NumPoints = {nx}\nNumProfiles = {ny}\nXscale = {:e}\nYscale = {:e}\nZscale = 1e-6\n\
+         Zresolution = -1\nCompression = 0\nDataType = 7\nCheckType = 0\n*\n",
         surface.dx_um() * 1e-6,
         surface.dy_um() * 1e-6
     );
@@ -73,18 +66,4 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
         .collect::<Result<Vec<f64>, String>>()?;
     let surface = Surface::new(nx, ny, dx * 1e6, dy * 1e6, heights)?;
     Ok(SurfaceFile { surface, notes: trailer_notes(parts.next().unwrap_or_default()) })
-}
-
-/// Trailer with the notes; empty without any.
-pub(super) fn trailer_text(notes: &[(String, String)]) -> String {
-    if notes.is_empty() {
-        return String::new();
-    }
-    format!("{NOTES} = {}\n*\n", notes_json(notes))
-}
-
-/// Notes of a trailer: our own line, else the whole text as a comment.
-pub(super) fn trailer_notes(trailer: &str) -> Vec<(String, String)> {
-    let own = trailer.lines().filter_map(|line| line.split_once('=')).find(|(key, _)| key.trim() == NOTES);
-    notes_of(own.map_or_else(|| trailer.trim_matches(['*', '\n', '\r', ' ', '\0']), |(_, json)| json))
 }

@@ -4,8 +4,7 @@
 //! with 32 bits, the steps spread over the range of heights, no offset (a reader loses it), the micro sign as the
 //! single byte 0xB5 (readers fail on two). Read: 16 and 32 bits, any metric unit, offset.
 
-use super::bounds::{factor, points};
-use super::sdf::side;
+use super::bounds::{factor, points, side};
 use super::{Bytes, Raw, SurfaceFile};
 use crate::surface::Surface;
 use crate::text::quoted;

@@ -179,8 +179,8 @@ fn spacing_is_needed_once_and_must_not_contradict() {
     assert!(read_surface(&path, None).expect_err("a word").to_string().contains("line 4: `x`"));
 }
 
-/// Files that surfalize, SurfaceTopography and x3pio wrote (`tests/interop/run --keep`): the same heights and
-/// spacing, holes included.
+/// Files that surfalize, SurfaceTopography and x3pio wrote (`tests/interop/run --keep`): the same heights and spacing,
+/// holes included.
 #[test]
 fn files_of_other_programs_hold_the_surface_they_were_given() {
     let folder = data("written_elsewhere");

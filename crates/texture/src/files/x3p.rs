@@ -4,8 +4,8 @@
 //! 2000`; MD5 of `main.xml` in lower case; NaN for what was not measured. Record 2 carries the notes in its comment.
 //! The format demands dates: the epoch stands for "not recorded", because the same scene must give the same bytes.
 //!
-//! Read: types D, F, L and I (with increment and offset), validity bits, both revisions. A checksum of `data.bin`
-//! where one of `main.xml` should stand is accepted, because a common writer puts it there.
+//! Read: types D, F, L and I (with increment and offset), validity bits, both revisions. A checksum of `data.bin` where
+//! one of `main.xml` should stand is accepted, because a common writer puts it there.
 
 use std::fmt::{Display, Write as _};
 use std::io::{Cursor, Read, Write};
@@ -23,6 +23,10 @@ const MAIN: &str = "main.xml";
 const DATA: &str = "bindata/data.bin";
 const CHECKSUM: &str = "md5checksum.hex";
 const NOT_RECORDED: &str = "1970-01-01T00:00:00Z";
+/// Namespace of ISO 25178-72, named after the standard before it; its schema stands under it.
+const NAMESPACE: &str = "http://www.opengps.eu/2008/ISO5436_2";
+/// Namespace of schema instances.
+const INSTANCE: &str = "http://www.w3.org/2001/XMLSchema-instance";
 /// Most bytes of the XML record: notes hold a scene and the record of a run.
 const MOST_MAIN: usize = 16 << 20;
 /// Most bytes of the file with the checksum.
@@ -65,7 +69,7 @@ fn main_xml(file: &SurfaceFile, data_checksum: &str) -> String {
     let version = env!("CARGO_PKG_VERSION");
     format!(
         r#"<?xml version="1.0" encoding="UTF-8" standalone="no"?>
-<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:schemaLocation="http://www.opengps.eu/2008/ISO5436_2 http://www.opengps.eu/2008/ISO5436_2/ISO5436_2.xsd">
+<p:ISO5436_2 xmlns:p="{NAMESPACE}" xmlns:xsi="{INSTANCE}" xsi:schemaLocation="{NAMESPACE} {NAMESPACE}/ISO5436_2.xsd">
   <Record1>
     <Revision>ISO5436 - 2000</Revision>
     <FeatureType>SUR</FeatureType>
@@ -127,7 +131,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
     let main = entry(&mut zip, MAIN, MOST_MAIN)?;
     let text = std::str::from_utf8(&main).map_err(|_| format!("{MAIN} is not UTF-8"))?;
     let document = roxmltree::Document::parse(text).map_err(|reason| format!("{MAIN}: {reason}"))?;
-    let record = Record(document.root_element());
+    let record = XmlRecord(document.root_element());
     let feature = record.text("Record1/FeatureType")?;
     if feature != "SUR" {
         return Err(format!("the file holds `{}`, not a surface (SUR)", quoted(feature)));
@@ -208,9 +212,9 @@ fn entry(zip: &mut ZipArchive<Cursor<&[u8]>>, name: &str, most: usize) -> Result
 }
 
 /// The XML record.
-struct Record<'a>(roxmltree::Node<'a, 'a>);
+struct XmlRecord<'a>(roxmltree::Node<'a, 'a>);
 
-impl<'a> Record<'a> {
+impl<'a> XmlRecord<'a> {
     /// Text at a path of element names.
     fn text(&self, path: &str) -> Result<&'a str, String> {
         let mut node = self.0;

@@ -9,7 +9,7 @@ use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::HobbingLinkage;
 use crate::process::hobbing::linkage::{HobbingGeometry, work_from_machine_at};
-use crate::scene::model::HobbingAxisLimits;
+use crate::process::hobbing::scene::model::HobbingAxisLimits;
 use crate::units::TURN_RAD;
 use glam::DVec3;
 use rayon::prelude::*;

@@ -5,7 +5,7 @@ use crate::gcode::ProgramText;
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
-use crate::scene::model::HobbingKind;
+use crate::process::hobbing::scene::model::HobbingKind;
 use crate::units::UM_PER_MM;
 use std::fmt::Write as _;
 

@@ -8,7 +8,7 @@ use super::{HobbingAxes, HobbingLinkage};
 use crate::machine::Peak;
 use crate::math::Jet;
 use crate::math::extremum::maximum;
-use crate::scene::model::HobbingAxisLimits;
+use crate::process::hobbing::scene::model::HobbingAxisLimits;
 
 /// Stretches with the same feeds are searched once; so many different ones are looked at.
 const MOST_STRETCHES: usize = 64;

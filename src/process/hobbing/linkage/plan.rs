@@ -14,7 +14,10 @@ use super::{FeedPath, FeedPhase, HobbingGeometry};
 use crate::error::Refusal;
 use crate::gear::PitchCurve;
 use crate::process::hobbing::Hob;
-use crate::scene::model::{Approach, FeedDirection, FeedOf, Gear, HobbingKind, HobbingOperation, ShiftStrategy};
+use crate::process::hobbing::scene::model::{
+    Approach, FeedDirection, FeedOf, HobbingKind, HobbingOperation, ShiftStrategy,
+};
+use crate::scene::model::Gear;
 
 /// Room left between hob and blank before the cut, mm.
 const CLEARANCE_MM: f64 = 1.0;
@@ -306,13 +309,13 @@ impl FeedPlan {
 
 #[cfg(test)]
 mod tests {
+    use crate::process;
     use crate::process::hobbing::HobbingJob;
-    use crate::scene;
     use std::path::Path;
 
     fn job(file: &str, settings: &[&str]) -> crate::Result<HobbingJob> {
         let settings: Vec<String> = settings.iter().map(|&s| format!("operation.finish.{s}")).collect();
-        HobbingJob::new(&scene::load(Path::new(&format!("scenes/hobbing/{file}.toml")), &settings)?.scene)
+        HobbingJob::new(&process::load(Path::new(&format!("scenes/hobbing/{file}.toml")), &settings)?.scene)
     }
 
     fn diagonal(settings: &[&str]) -> crate::Result<HobbingJob> {
@@ -369,7 +372,7 @@ mod tests {
                 "operation.finish.linkage.hobbing_diagonal.feed_of=resultant".to_owned(),
                 format!("gear.hand={hand}"),
             ];
-            let scene = scene::load(Path::new("scenes/hobbing/third_order_diagonal.toml"), &settings).unwrap().scene;
+            let scene = process::load(Path::new("scenes/hobbing/third_order_diagonal.toml"), &settings).unwrap().scene;
             let job = HobbingJob::new(&scene).unwrap();
             // The scene's feeds are per revolution of nearly 15 s.
             let found = job.finishing().plan.slide_feeds_mm[0] / 15.0;
@@ -394,7 +397,7 @@ mod tests {
         ]));
         assert!(key.ends_with("shift_mm_per_revolution"));
         let short =
-            scene::load(Path::new("scenes/hobbing/third_order_plain.toml"), &["tool.hob.length_mm=40".to_owned()]);
+            process::load(Path::new("scenes/hobbing/third_order_plain.toml"), &["tool.hob.length_mm=40".to_owned()]);
         let (key, problem) = refused(HobbingJob::new(&short.unwrap().scene));
         assert!(key == "tool.hob.length_mm" && problem.contains("whole contact"), "{problem}");
     }
@@ -402,12 +405,12 @@ mod tests {
     #[test]
     fn hollow_curves_are_refused_and_say_why() {
         let settings = ["gear.pitch_curve.ellipse.eccentricity=0.2".to_owned()];
-        let scene = scene::load(Path::new("scenes/hobbing/third_order_plain.toml"), &settings).unwrap().scene;
+        let scene = process::load(Path::new("scenes/hobbing/third_order_plain.toml"), &settings).unwrap().scene;
         let (key, problem) = refused(HobbingJob::new(&scene));
         assert!(key == "gear.pitch_curve" && problem.contains("straight line"), "{problem}");
         // The limit of convexity, 1 / (n^2 - 1), is not refused.
         let settings = ["gear.pitch_curve.ellipse.eccentricity=0.125".to_owned()];
-        let scene = scene::load(Path::new("scenes/hobbing/third_order_plain.toml"), &settings).unwrap().scene;
+        let scene = process::load(Path::new("scenes/hobbing/third_order_plain.toml"), &settings).unwrap().scene;
         HobbingJob::new(&scene).unwrap();
     }
 
@@ -416,7 +419,7 @@ mod tests {
         let job = job("circular_helical", &[]).unwrap();
         let [rough, finish] = job.operations.as_slice() else { panic!("two operations") };
         assert!((rough.offset_mm * 20_f64.to_radians().sin() - 0.15).abs() < 1e-12);
-        let slide = |o: &crate::process::hobbing::job::PreparedHobbing| o.linkage.axes::<2>(o.linkage.end_s()).slide_mm;
+        let slide = |o: &process::hobbing::job::PreparedHobbing| o.linkage.axes::<2>(o.linkage.end_s()).slide_mm;
         // Right-hand hob: climb feeds up, conventional down.
         assert!(slide(rough).derivative(1) > 0.0 && slide(finish).derivative(1) < 0.0);
         let start = rough.linkage.axes::<1>(0.0).radial_mm.value();

@@ -3,20 +3,12 @@
 use crate::output::report::Section;
 use crate::output::text::plain;
 use crate::process::hobbing::HobbingJob;
-use crate::scene::model::{GashForm, Hobbing, Worm};
+use crate::process::hobbing::scene::model::{GashForm, Worm};
 use crate::steps::report::facts::{gear_table, limit, mm, table};
 
 /// Tables of gear, hob and machine.
 pub fn section(job: &HobbingJob) -> Section {
-    let hob = &job.hob;
-    let Some(Hobbing { tool, limits, .. }) = job.scene.hobbing() else {
-        return Section {
-            id: "setup",
-            title: "What was cut, and how".to_owned(),
-            lead: String::new(),
-            blocks: Vec::new(),
-        };
-    };
+    let (hob, tool, limits) = (&job.hob, &job.hob_spec, &job.limits);
     let worm = match tool.worm {
         Worm::Involute => "involute worm (ZI)",
         Worm::StraightSided => "straight-sided in the axial section",

@@ -259,7 +259,7 @@ fn tooth(gear: &HobbedGear, number: u32) -> Section {
 /// What a reader must know before trusting the numbers.
 fn warnings(job: &HobbingJob, gear: &HobbedGear) -> Vec<String> {
     let mut warnings = Vec::new();
-    if job.scene.hobbing().is_some_and(|hobbing| hobbing.tool.protuberance.is_some()) {
+    if job.hob_spec.protuberance.is_some() {
         warnings.push(
             "the target knows no protuberance: the relief that it leaves at the roots is reported as a cut below the \
              target and as gouges"

@@ -189,7 +189,7 @@ fn tip_zone(stations: &[Station]) -> [DVec2; 3] {
 mod tests {
     use super::*;
     use crate::process::shaping::cutter::tests::paper_cutter;
-    use crate::scene::model::Tip;
+    use crate::process::shaping::scene::model::Tip;
     use crate::tool::CuttingTool;
 
     fn polygon(tip: Tip) -> EdgePolygon {

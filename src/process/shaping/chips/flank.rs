@@ -22,8 +22,7 @@ use super::edge_polygon::EdgeSide;
 use crate::dexel::field::{Column, Field, NO_PASS};
 use crate::frame::Rigid2;
 use crate::measure::LastChips;
-use crate::passes::planar::bounds::MAX_PHASES;
-use crate::passes::planar::near::{NearPass, near_passes};
+use crate::passes::planar::near::{MAX_PHASES, NearPass, near_passes};
 use crate::process::shaping::{Job, PreparedOperation};
 use crate::tool::edge::{Edge, Segment, SegmentShape};
 use crate::tool::{CuttingTool, PlanarTool};
@@ -281,14 +280,15 @@ fn is_above(segment: &Segment, o: DVec2, n: DVec2, height_mm: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::load;
+    use crate::process::load;
+    use crate::process::shaping::scene::model::Shaping;
     use crate::terms::Side;
     use std::path::Path;
 
     #[test]
     fn the_passes_that_count_leave_the_chips_of_all() {
         let mut scene = load(Path::new("scenes/shaping/elliptical_normal.toml"), &[]).expect("the shipped scene").scene;
-        for operation in &mut scene.shaping_mut().expect("shaping").operations {
+        for operation in &mut Shaping::of_mut(&mut scene).expect("shaping").operations {
             operation.feed_during_stroke = true;
         }
         let job = Job::new(scene).expect("the shipped gear");

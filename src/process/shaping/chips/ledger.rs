@@ -6,7 +6,7 @@ use super::section::Section;
 use super::stroke::{LEAST_CHIP_MM, Stand, StrokeChips, ToothChip};
 use crate::frame::Rigid2;
 use crate::process::shaping::Job;
-use crate::scene::model::Infeed;
+use crate::process::shaping::scene::model::Infeed;
 use crate::tool::{CuttingTool, PlanarTool};
 use crate::units::TURN_RAD;
 use glam::DVec2;

@@ -30,8 +30,9 @@ use crate::error::Result;
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::folder::OutputFolder;
 use crate::output::text::{plain, significant};
+use crate::process::shaping::scene::model::{Linkage, NormalReading};
 use crate::process::shaping::{Job, PreparedOperation};
-use crate::scene::model::{GcodeDialect, Linkage, NormalReading};
+use crate::scene::model::GcodeDialect;
 use crate::units::UM_PER_MM;
 
 /// Writes the programs of all operations as `axes/<operation>.ngc`; gives a sentence for each that was not written.

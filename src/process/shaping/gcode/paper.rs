@@ -7,8 +7,8 @@
 
 use crate::gear::PitchCurveShape;
 use crate::output::text::plain;
+use crate::process::shaping::scene::model::Linkage;
 use crate::process::shaping::{Job, PreparedOperation};
-use crate::scene::model::Linkage;
 
 /// The program.
 ///

@@ -2,7 +2,7 @@
 
 use crate::gcode::{Digits, longest_lines};
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
-use crate::scene::model::AxisLimits;
+use crate::process::shaping::scene::model::AxisLimits;
 use glam::DVec2;
 use std::f64::consts::PI;
 

@@ -13,7 +13,7 @@ use super::schedule::StrokeSchedule;
 use crate::machine::Peak;
 use crate::math::Jet;
 use crate::math::extremum::maximum;
-use crate::scene::model::AxisLimits;
+use crate::process::shaping::scene::model::AxisLimits;
 
 /// One axis at one moment; rad or mm, per s, per s^2.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -14,7 +14,7 @@ use crate::gear::PitchCurve;
 use crate::gear::Rolling;
 use crate::math::Jet;
 use crate::process::shaping::linkage::{normal, traditional};
-use crate::scene::model::Linkage;
+use crate::process::shaping::scene::model::Linkage;
 
 /// One linkage on one pitch curve with one cutter.
 #[derive(Debug, Clone)]

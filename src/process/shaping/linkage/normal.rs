@@ -22,7 +22,7 @@
 use super::axes::Axes;
 use crate::gear::Rolling;
 use crate::math::Jet;
-use crate::scene::model::NormalReading;
+use crate::process::shaping::scene::model::NormalReading;
 
 /// alpha', from the polar radius of the pitch point to the cutter centre.
 pub(super) fn alpha<const N: usize>(rolling: &Rolling<N>, d: Jet<N>) -> Jet<N> {

@@ -20,7 +20,7 @@ use super::ShapingLinkage;
 use super::axes::{Axes, CutterPose};
 use crate::error::Refusal;
 use crate::math::Jet;
-use crate::scene::model::{Feed, Machine, Operation, StrokeSpacing};
+use crate::process::shaping::scene::model::{Feed, Machine, Operation, StrokeSpacing};
 use crate::units::TURN_RAD;
 use infeed::InfeedPlan;
 use progress::Progress;

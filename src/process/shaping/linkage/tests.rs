@@ -14,7 +14,7 @@ use super::*;
 use crate::gear::PitchCurve;
 use crate::gear::PitchCurveShape;
 use crate::math::Jet;
-use crate::scene::model::{
+use crate::process::shaping::scene::model::{
     AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, StrokeSpacing, TraditionalDirection,
 };
 use pitch_curves::{any_curve, examples};

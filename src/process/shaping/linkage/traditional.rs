@@ -14,7 +14,7 @@ use super::axes::Axes;
 use crate::gear::Rolling;
 use crate::math::Jet;
 use crate::process::shaping::linkage::normal::{alpha, beta, center_distance};
-use crate::scene::model::TraditionalDirection;
+use crate::process::shaping::scene::model::TraditionalDirection;
 
 /// Angle from the polar radius of the pitch point to the cutter centre.
 pub(super) fn work_lag<const N: usize>(

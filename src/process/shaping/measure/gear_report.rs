@@ -136,7 +136,8 @@ fn period_teeth(shape: &PitchCurveShape, teeth: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene;
+    use crate::process;
+    use crate::process::shaping::scene::model::Shaping;
     use std::path::Path;
 
     /// A round gear clamped off its axis by e and cut: a probe on the gear's own axis runs out by 2 e, and the left and
@@ -144,9 +145,9 @@ mod tests {
     #[test]
     fn a_gear_cut_off_its_axis_runs_out_by_twice_the_eccentricity() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping/circular_m3_z24.toml");
-        let mut scene = scene::load(&path, &[]).expect("a shipped scene").scene;
+        let mut scene = process::load(&path, &[]).expect("a shipped scene").scene;
         let eccentricity_mm = 0.02;
-        scene.shaping_mut().expect("shaping").machine.work_eccentricity_mm = eccentricity_mm;
+        Shaping::of_mut(&mut scene).expect("shaping").machine.work_eccentricity_mm = eccentricity_mm;
         let job = Job::new(scene).expect("a gear");
         let cut = allowances(&job, job.operations.len() - 1, Surface::Strokes).expect("all flanks");
         let side = |flank: fn(&ToothAllowance) -> Option<Crossing>| cut.iter().map(flank).collect::<Vec<_>>();

@@ -3,7 +3,7 @@
 use crate::output::report::Section;
 use crate::output::text::plain;
 use crate::process::shaping::Job;
-use crate::scene::model::Tip;
+use crate::process::shaping::scene::model::Tip;
 use crate::steps::report::facts::{gear_table, limit, mm, table};
 use crate::units::UM_PER_MM;
 

@@ -12,10 +12,10 @@
 //! their teeth would enter is reported, and left where it is.
 
 use crate::cut::{BlankCut, BlankOperation, BlankStats, Rub};
-use crate::dexel::blank_field::{BlankField, Ray};
+use crate::dexel::blank_field::{BlankField, RayMaterial};
 use crate::dexel::intervals::{self, End, Span};
 use crate::frame::Rigid2;
-use crate::math::planar_rays::{ClosedCurve, Crossing, FAMILIES, Family, RayCrossings, RayRow};
+use crate::math::planar_rays::{ClosedCurve, CurveCrossing, FAMILIES, Family, RayCrossings, RayRow};
 use crate::passes::planar::blank_candidates::{PlacedPass, passes_at, reaching_strip};
 use crate::tool::closed_tooth::PlacedScratch;
 use rayon::prelude::*;
@@ -29,7 +29,7 @@ const STEEP: f64 = 0.7;
 
 /// One tile's share of a [`BlankCut`].
 #[derive(Default)]
-struct TileCut {
+struct RayTileCut {
     removed_mm: Vec<(u32, f64)>,
     rubs: Vec<Rub>,
     stats: BlankStats,
@@ -58,7 +58,7 @@ pub fn cut(
         let passes = place(set);
         let returns = operation.returns.map(place).unwrap_or_default();
         let tiles = slice.rays.iter_mut().zip(FAMILIES).zip(&grid.rows).flat_map(|((rays, family), row)| {
-            rays.chunks_mut(TILE_RAYS).enumerate().map(move |(tile, rays)| Tile {
+            rays.chunks_mut(TILE_RAYS).enumerate().map(move |(tile, rays)| RayTile {
                 family,
                 row,
                 first: tile * TILE_RAYS,
@@ -66,9 +66,9 @@ pub fn cut(
                 slice: index as u32,
             })
         });
-        let tiles: Vec<Tile> = tiles.collect();
+        let tiles: Vec<RayTile> = tiles.collect();
         let area_per_length = grid.spacing_mm() * width_mm;
-        let cuts: Vec<(Family, Option<TileCut>)> = tiles
+        let cuts: Vec<(Family, Option<RayTileCut>)> = tiles
             .into_par_iter()
             .map(|tile| (tile.family, advance().then(|| tile.cut(operation, &passes, &returns, area_per_length))))
             .collect();
@@ -96,16 +96,16 @@ pub fn rubs_of_tile(
     let grid = &field.grid;
     let mut rays = field.slices[slice].rays[family][first..first + count].to_vec();
     let (row, family) = (&grid.rows[family], FAMILIES[family]);
-    let tile = Tile { family, row, first, rays: &mut rays, slice: slice as u32 };
+    let tile = RayTile { family, row, first, rays: &mut rays, slice: slice as u32 };
     tile.cut(operation, passes, returns, grid.spacing_mm() * grid.slice_widths_mm()[slice]).rubs
 }
 
 /// Neighbouring rays of one family in one slice.
-pub(super) struct Tile<'a> {
+pub(super) struct RayTile<'a> {
     pub family: Family,
     pub row: &'a RayRow,
     pub first: usize,
-    pub rays: &'a mut [Ray],
+    pub rays: &'a mut [RayMaterial],
     pub slice: u32,
 }
 
@@ -113,25 +113,25 @@ pub(super) struct Tile<'a> {
 #[derive(Default)]
 pub(super) struct Scratch {
     crossings: RayCrossings,
-    found: Vec<Crossing>,
+    found: Vec<CurveCrossing>,
     cuts: Vec<(usize, End, End)>,
 }
 
-impl Tile<'_> {
+impl RayTile<'_> {
     fn cut(
         mut self,
         operation: &BlankOperation,
         passes: &[PlacedPass],
         returns: &[PlacedPass],
         volume_per_length: f64,
-    ) -> TileCut {
+    ) -> RayTileCut {
         let strip = if operation.cull {
             [self.row.at_mm(self.first), self.row.at_mm(self.first + self.rays.len() - 1)]
         } else {
             [f64::NEG_INFINITY, f64::INFINITY]
         };
         let (mut scratch, mut placed) = (Scratch::default(), PlacedScratch::default());
-        let mut done = TileCut::default();
+        let mut done = RayTileCut::default();
         let mut returns = reaching_strip(returns, operation.tooth, self.family, strip).peekable();
         // The stroke that a return stroke follows, with the same cutter tooth.
         let stroke_of = |back: &PlacedPass| {
@@ -169,7 +169,7 @@ impl Tile<'_> {
         scratch: &mut Scratch,
         stats: &mut BlankStats,
         mut wanted: impl FnMut(usize) -> bool,
-        mut act: impl FnMut(usize, f64, &[Crossing]),
+        mut act: impl FnMut(usize, f64, &[CurveCrossing]),
     ) {
         scratch.crossings.lay(curve, self.family, self.row, self.first..self.first + self.rays.len());
         for ray in scratch.crossings.touched() {
@@ -227,7 +227,7 @@ impl Tile<'_> {
         (work_from_edge, at_stroke): (&Rigid2, Option<&Rigid2>),
         volume_per_length: f64,
         scratch: &mut Scratch,
-        done: &mut TileCut,
+        done: &mut RayTileCut,
     ) {
         let mut uncounted = BlankStats::default();
         let family = self.family;
@@ -252,8 +252,8 @@ impl Tile<'_> {
                         // and leave the depth to the other family. Nor can the edge enter deeper than it has moved
                         // along its normal since it cut there: a ray may run along a thin sliver.
                         let ends = [(from, span.low.at_mm < from.at_mm), (to, span.high.at_mm > to.at_mm)];
-                        let steep = |c: &Crossing| family.along(c.outward()).abs();
-                        let moved_mm = |c: &Crossing| {
+                        let steep = |c: &CurveCrossing| family.along(c.outward()).abs();
+                        let moved_mm = |c: &CurveCrossing| {
                             // A tooth that met nothing on its way down has no stroke here.
                             let Some(at_stroke) = at_stroke else { return f64::INFINITY };
                             let place_mm = family.point(c.at_mm, at_mm);

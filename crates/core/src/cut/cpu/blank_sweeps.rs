@@ -11,7 +11,7 @@
 //! `tests/suite/hobbing/blank.rs` compares spans, marks and chips with those of all passes on all rays, bit for bit,
 //! and plants a culling that is wrong.
 
-use super::blank::{Scratch, Tile};
+use super::blank::{RayTile, Scratch};
 use crate::cut::BlankStats;
 use crate::cut::sweep_chips::{ChipAccumulator, ChipSurfaces, PassChip, SweepsCut};
 use crate::dexel::blank_field::{BlankField, BlankGrid, Slice};
@@ -157,7 +157,7 @@ impl SliceCut<'_> {
         for (f, family) in FAMILIES.into_iter().enumerate() {
             let (Some(&first), Some(&last)) = (near[f].first(), near[f].last()) else { continue };
             let rays = &mut self.slice.rays[f][first..=last];
-            let mut tile = Tile { family, row: &grid.rows[f], first, rays, slice: self.index };
+            let mut tile = RayTile { family, row: &grid.rows[f], first, rays, slice: self.index };
             let mut met = BlankStats::default();
             let mut next = near[f].iter().copied().peekable();
             let wanted = |ray: usize| {

@@ -72,10 +72,10 @@ impl Cpu {
     }
 
     /// Runs all records of a plan in their order and records what each takes from the rays: one entry for each record
-    /// of the plan. `spread_per_mm`: how much the rays
-    /// of each column part (curvature of the curve that they stand on), so that lengths become areas.
+    /// of the plan. `spread_per_mm`: how much the rays of each column part (curvature of the curve that they stand on),
+    /// so that lengths become areas.
     ///
-    /// The plan must hold every pass that reaches the field: what a pruned one would have taken would be booked on
+    /// The plan must hold every pass that reaches the field: what a culled one would have taken would be added to
     /// another.
     pub fn cut_with_ledger(
         self,

@@ -7,8 +7,8 @@
 //! entry into the tool is the falling root of `f(h) = x0 + h nx - U(y0 + h ny)`; Newton's method starts at the tile's
 //! middle root, some hundred nanometres to micrometres away, and needs two steps. Sixteen rows of a column go together.
 //! They meet the edge within a micrometre of each other, nearly always in the same cell of its table, whose four
-//! coefficients are then loaded once; when they straddle a cell's end, each row loads its own. Both ways compute the
-//! same numbers.
+//! coefficients are then loaded once; when they straddle a cell's end, each row loads its own. Both compute the same
+//! numbers.
 
 #![expect(
     clippy::inline_always,
@@ -45,7 +45,7 @@ pub struct TileCut<'a> {
     pub passes: &'a mut [u32],
 }
 
-type Lanes = [f64; LANES];
+type RowLanes = [f64; LANES];
 
 /// A column's ray in the segment's frame: cubics in tau.
 #[derive(Clone, Copy)]
@@ -57,16 +57,16 @@ struct RayCubics {
 }
 
 /// Rays of sixteen rows in the segment's frame.
-struct Rays {
-    x0: Lanes,
-    y0: Lanes,
-    nx: Lanes,
-    ny: Lanes,
+struct RowRays {
+    x0: RowLanes,
+    y0: RowLanes,
+    nx: RowLanes,
+    ny: RowLanes,
 }
 
 /// Heights of sixteen rows, and whether each is an entry on the segment, converged.
 struct Entries {
-    h: Lanes,
+    h: RowLanes,
     hit: [bool; LANES],
     unconverged: [bool; LANES],
 }
@@ -130,7 +130,7 @@ fn ray_cubics(record: &PassRecord, o: DVec2, n: DVec2) -> RayCubics {
 }
 
 #[inline(always)]
-fn rays_at(ray: &RayCubics, tau: &Lanes) -> Rays {
+fn rays_at(ray: &RayCubics, tau: &RowLanes) -> RowRays {
     let at = |c: &[f64; 4]| {
         let mut value = [0.0; LANES];
         for l in 0..LANES {
@@ -138,7 +138,7 @@ fn rays_at(ray: &RayCubics, tau: &Lanes) -> Rays {
         }
         value
     };
-    Rays { x0: at(&ray.x0), y0: at(&ray.y0), nx: at(&ray.nx), ny: at(&ray.ny) }
+    RowRays { x0: at(&ray.x0), y0: at(&ray.y0), nx: at(&ray.nx), ny: at(&ray.ny) }
 }
 
 /// Newton's method. The residual of a convex segment is convex in h: from any place where it falls the iteration runs
@@ -146,7 +146,7 @@ fn rays_at(ray: &RayCubics, tau: &Lanes) -> Rays {
 /// `lowest_mm`, where it falls if there is any entry above at all; one that gets there twice has passed the bottom of a
 /// residual without roots: its ray misses the segment.
 #[inline(always)]
-fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_mm: f64, lowest_mm: f64) -> Entries {
+fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &RowRays, start_mm: f64, lowest_mm: f64) -> Entries {
     let (y_start, y_end) = (table.y_start_mm, table.y_end_mm());
     let width = 1.0 / table.cells_per_mm;
     let last_cell = (table.cells.len() - 1) as f64;
@@ -202,7 +202,7 @@ fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &Rays, start_m
 /// All lanes are smaller in magnitude than the limit: one comparison of vectors, where a largest value would be sought
 /// lane after lane.
 #[inline(always)]
-fn all_below(lanes: &Lanes, limit: f64) -> bool {
+fn all_below(lanes: &RowLanes, limit: f64) -> bool {
     let mut below = true;
     for lane in lanes {
         below &= lane.abs() < limit;
@@ -224,7 +224,7 @@ fn newton_terms(
     inside: f64,
     y: f64,
     h: f64,
-    rays: &Rays,
+    rays: &RowRays,
     l: usize,
 ) -> (f64, f64) {
     let t = inside - y_start - cell * width;
@@ -234,7 +234,7 @@ fn newton_terms(
 }
 
 #[inline(always)]
-fn enter_arc(radius_mm: f64, [y_from, y_to]: [f64; 2], rays: &Rays) -> Entries {
+fn enter_arc(radius_mm: f64, [y_from, y_to]: [f64; 2], rays: &RowRays) -> Entries {
     let mut entries = Entries { h: [0.0; LANES], hit: [false; LANES], unconverged: [false; LANES] };
     for l in 0..LANES {
         let (x0, y0, nx, ny) = (rays.x0[l], rays.y0[l], rays.nx[l], rays.ny[l]);
@@ -258,7 +258,7 @@ fn enter_arc(radius_mm: f64, [y_from, y_to]: [f64; 2], rays: &Rays) -> Entries {
 /// the left Newton's method climbs towards the entry, so iterates above the height that is there do no harm); a cut
 /// deeper than the ray records is put at its lowest height, far deeper ones belong to the other side of the tooth.
 #[inline(always)]
-fn keep_lowest(entries: &Entries, low_mm: f64, pass: u32, best: &mut Lanes, best_pass: &mut [u32; LANES]) -> u64 {
+fn keep_lowest(entries: &Entries, low_mm: f64, pass: u32, best: &mut RowLanes, best_pass: &mut [u32; LANES]) -> u64 {
     let mut unknown = 0;
     for l in 0..LANES {
         unknown += u64::from(entries.unconverged[l] & (entries.h[l] < best[l]));

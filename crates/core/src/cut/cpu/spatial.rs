@@ -3,8 +3,8 @@
 //! In: rays in space, records ([`SweepRecord`], where the equations are derived), edge segments, the layer so far. Out:
 //! lowered heights and the passes that lowered them.
 //!
-//! Eight rows of a column go together; Newton's method (`passes/sweep_roots.rs`) starts from polynomials over the tile:
-//! mostly two steps.
+//! Eight rows of a column go together. Newton's method ([`crate::passes::spatial::sweep_roots`]) starts from
+//! polynomials over the tile and mostly takes two steps.
 
 #![expect(
     clippy::inline_always,
@@ -15,8 +15,8 @@
 use crate::cut::CutStats;
 use crate::dexel::SpatialField;
 use crate::passes::spatial::sweep::SweepRecord;
-use crate::passes::spatial::sweep_plan::SweepTile;
 use crate::passes::spatial::sweep_roots::{LANES, Lanes, Rays};
+use crate::passes::spatial::sweep_tile::SweepTile;
 use crate::tool::edge::{Segment, SegmentShape};
 
 /// Hits this far beyond a segment's end still count: neighbouring segments then leave no slit for a ray to slip

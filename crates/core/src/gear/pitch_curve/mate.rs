@@ -21,7 +21,7 @@ use std::f64::consts::PI;
 
 use super::{LARGEST_CLOSURE_ERROR_MODULES, PitchCurve};
 use crate::error::Refusal;
-use crate::gear::{GearKind, PitchCurveShape};
+use crate::gear::{Driver, GearKind};
 use crate::math::Jet;
 use crate::math::periodic_integral::PeriodicIntegral;
 use crate::math::roots::bisect;
@@ -33,18 +33,6 @@ const TURN_ACCURACY_RAD: f64 = 1e-14;
 const REPEAT_TOLERANCE: f64 = 1e-9;
 /// Scene key of the mate.
 const KEY: &str = "gear.pitch_curve.mate";
-
-/// A driver as a mate's shape names it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Driver {
-    /// Its pitch curve.
-    pub curve: PitchCurveShape,
-    /// Its number of teeth.
-    pub teeth: u32,
-    /// Polar angle of the driver that meets the mate's polar angle 0, rad; `None`: the middle of the driver's first
-    /// tooth.
-    pub start_rad: Option<f64>,
-}
 
 /// r2(phi2) of a mate.
 #[derive(Debug, Clone)]
@@ -187,6 +175,7 @@ impl MateLaw {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gear::PitchCurveShape;
 
     fn sinusoidal(order: u32) -> PitchCurveShape {
         PitchCurveShape::SinusoidalRatio { order, mean_ratio: 1.2, ratio_amplitude: 0.2, center_distance_mm: None }

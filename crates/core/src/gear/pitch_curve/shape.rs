@@ -1,6 +1,6 @@
 //! Which kind of curve a pitch curve is, and its sizes.
 
-use crate::gear::{Driver, GearKind};
+use crate::gear::GearKind;
 
 /// Shape of the closed pitch curve r(phi). A size left out (`None`) is solved so that the curve closes: perimeter = pi
 /// m z.
@@ -60,6 +60,18 @@ pub enum PitchCurveShape {
         /// External: r2 = a - r1. Internal: r2 = a + r1.
         kind: GearKind,
     },
+}
+
+/// The gear that a mate runs with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Driver {
+    /// Its pitch curve.
+    pub curve: PitchCurveShape,
+    /// Its number of teeth.
+    pub teeth: u32,
+    /// Polar angle of the driver that meets the mate's polar angle 0, rad; `None`: the middle of the driver's first
+    /// tooth.
+    pub start_rad: Option<f64>,
 }
 
 impl PitchCurveShape {

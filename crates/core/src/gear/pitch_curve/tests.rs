@@ -124,12 +124,12 @@ proptest! {
     #[test]
     fn facts_bound_the_curve(curve in any_curve(), phi in 0.0..TAU) {
         let (facts, frame) = (curve.facts(), curve.frame(phi));
-        let slack = 1e-9 * facts.largest_curvature.curvature_per_mm.abs();
-        prop_assert!(frame.curvature_per_mm <= facts.largest_curvature.curvature_per_mm + slack);
-        prop_assert!(frame.curvature_per_mm >= facts.smallest_curvature.curvature_per_mm - slack);
+        let tolerance = 1e-9 * facts.largest_curvature.curvature_per_mm.abs();
+        prop_assert!(frame.curvature_per_mm <= facts.largest_curvature.curvature_per_mm + tolerance);
+        prop_assert!(frame.curvature_per_mm >= facts.smallest_curvature.curvature_per_mm - tolerance);
         prop_assert!(frame.radius_mm <= facts.largest_radius_mm * (1.0 + 1e-12));
         prop_assert!(frame.radius_mm >= facts.smallest_radius_mm * (1.0 - 1e-12));
         let inside = facts.concave_zones_rad.iter().any(|z| (phi - z[0]).rem_euclid(TAU) < z[1] - z[0]);
-        prop_assert!(inside == (frame.curvature_per_mm < 0.0) || frame.curvature_per_mm.abs() < slack);
+        prop_assert!(inside == (frame.curvature_per_mm < 0.0) || frame.curvature_per_mm.abs() < tolerance);
     }
 }

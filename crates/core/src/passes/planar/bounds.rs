@@ -5,7 +5,10 @@
 //! profile. With the target's curvature k_t, the edge's curvature k_e, the angle theta between ray and edge normal and
 //! the height a over the target, differentiating the entry along the profile twice gives
 //!
-//! `a'' = (1 + a k_t) / cos^2 theta [ k_e (1 + a k_t) / cos theta - k_t ] + k_t (1 + a k_t) tan^2 theta + a k_t' tan theta`
+//! ```text
+//! a'' = (1 + a k_t) / cos^2 theta [ k_e (1 + a k_t) / cos theta - k_t ]
+//!     + k_t (1 + a k_t) tan^2 theta + a k_t' tan theta
+//! ```
 //!
 //! C takes absolute values and half as much again for what varies inside the tile.
 //!
@@ -15,6 +18,7 @@
 //! must stay away by as much as any of the strokes moves the blade.
 
 use super::near::NearPass;
+use super::samples::{PassSamples, Sampling};
 use super::upper_bound::BoundHeights;
 use crate::dexel::field::Column;
 use crate::frame::Rigid2;
@@ -22,51 +26,31 @@ use crate::tool::edge::{Segment, SegmentShape};
 use arrayvec::ArrayVec;
 use glam::DVec2;
 
-/// Phases at which a pass is sampled: three, or one when frozen.
-pub const MAX_PHASES: usize = 3;
-/// Places across a tile at which a pass is sampled at most.
-pub const MAX_PLACES: usize = 5;
-/// Safety on every bound of a second derivative, for what varies between samples.
+/// Safety on every bound of a second derivative. C is taken at the samples; between them the edge's curvature, the
+/// angle of the ray and the height may raise it. No proof says that they raise it by less than half: what stands for it
+/// is the comparison with all passes, bit for bit, in `tests/suite/shaping/flank_heights.rs`.
 const CURVATURE_SAFETY: f64 = 1.5;
-/// Rays steeper than this against an edge's normal (cosine) are bounded by boxes instead of interpolation.
+/// Rays steeper than this against an edge's normal (cosine) are not interpolated: C grows with the third power of 1 /
+/// cosine, to 64 times the curvature here. A larger value is safe: what is not interpolated is undecided, and kept
+/// unless its box stays clear of the rays.
 const GRAZING_COSINE: f64 = 0.25;
-
-/// Entries between samples may lie beyond theirs along the segment by this share of their range and this length, mm;
-/// below
-/// the floor is what lies deeper by this length, mm; a ray leaves a segment if it runs out of it at more than this
-/// rate. Found
-/// by trial; proved by comparison with all passes in `tests/suite/shaping/flank_heights.rs`.
+/// How far entries between samples may lie beyond those of the samples along the segment: this share of the samples'
+/// range, and [`END_MM`]. Entries that run evenly along the edge need nothing of it; for others it was found by trial
+/// and has no proof. The comparison with all passes in `tests/suite/shaping/flank_heights.rs` stands for it.
 const END_SHARE: f64 = 0.25;
+/// The same as a length, for entries that all lie in one place, mm: a thousand times what places are computed to.
 const END_MM: f64 = 1e-6;
+/// A pass whose samples all lie deeper than this below the floor is clear of the rays, mm. Between samples that stand L
+/// apart heights rise above the highest of them by C L^2 / 8 at most: on a tile of the usual width (L = 0.04 mm) 1 um
+/// holds up to C = 5 / mm. For wider tiles there is no proof but the comparison with all passes.
 const FLOOR_MM: f64 = 1e-3;
+/// A ray leaves a segment where the edge's residual rises along it by more than this per mm. The rate is linear in the
+/// edge's slope, so that both ends of the slope's range decide for the whole segment, and it is a sine of the ray's
+/// angle: between two rays for which it is positive it is larger than at one of them. So any positive value serves
+/// where the normals turn one way between samples; this one leaves room for those that do not.
 const LEAVING_SLOPE: f64 = 0.05;
-
-/// Rays of a tile at which passes are sampled.
-pub struct Sampling<'a> {
-    /// Rays, evenly across the tile, its ends included.
-    pub places: &'a [Column],
-    /// Distance between them along the profile, mm.
-    pub cell_mm: f64,
-    /// Turn of the normals along the profile, 1/mm.
-    pub turn_per_mm: f64,
-    /// Entries at or below this height belong to the other side of the tooth; the kernel passes over them.
-    pub floor_mm: f64,
-}
-
-/// Heights of one segment's pass at the sample rays of a tile.
-#[derive(Debug, Clone)]
-pub struct Samples {
-    /// Index of the near pass.
-    pub pass: usize,
-    /// Segment of the blade.
-    pub segment: usize,
-    /// Place by place across the tile, phase by phase, mm.
-    pub heights_mm: ArrayVec<f64, { MAX_PLACES * MAX_PHASES }>,
-    /// Error of interpolation between neighbouring samples.
-    pub error_mm: f64,
-    /// All samples and all that lies between them enter the segment itself, not its continuation.
-    pub certain: bool,
-}
+/// Added to lengths that rounding may shorten, mm: coordinates of 100 mm are kept to 1e-14 mm.
+const ROUNDING_MM: f64 = 1e-9;
 
 /// What the bounds make of a segment's pass over a tile.
 #[derive(Debug)]
@@ -74,7 +58,7 @@ pub enum Verdict {
     /// It cannot lower any dexel of the tile.
     Clear,
     /// Bounded by samples.
-    Bounded(Samples),
+    Bounded(PassSamples),
     /// It may do anything that its box allows.
     Undecided,
 }
@@ -179,8 +163,9 @@ impl<'a> SegmentBounds<'a> {
     /// residual each instead of a root.
     ///
     /// A convex segment lies behind its tangent at the aimed point's y; a ray that still runs towards it there enters
-    /// it further up. Between neighbouring samples the segment can bulge by `k_e L^2 / 8` and the surface of the upper
-    /// bounds by `k_t L^2 / 8`; `motion_bound` is what the poses themselves may differ.
+    /// it further up. Between neighbouring samples the segment can bulge by `k_e L^2 / 8`, and the surface of the upper
+    /// bounds by `k_t (1 + 2 s + a k_t) L^2 / 8`, its slope s and height a over a target of curvature k_t included;
+    /// `motion_bound` is how far the poses themselves may differ.
     pub fn stays_above(
         &self,
         rays: &[BladeRay],
@@ -195,6 +180,8 @@ impl<'a> SegmentBounds<'a> {
         let turn = DVec2::new(frame.rotation.x, -frame.rotation.y);
         let curvature = self.curvatures_per_mm[segment_index];
         let reach_mm2 = sampling.cell_mm * sampling.cell_mm + travel_mm * travel_mm;
+        // Over a distance d the edge's normal turns by k_e d. Twice that is given, as the aimed point moves along the edge
+        // by more than d where ray and edge are steep to each other: a safety without proof, as that of the curvature.
         let grazing = GRAZING_COSINE + 2.0 * curvature * motion_bound.distance_mm + motion_bound.turn_rad;
         let slope = upper.climb_mm / sampling.cell_mm.max(1e-9);
         rays.iter().zip(&upper.heights_mm).all(|(ray, height_mm)| {
@@ -216,7 +203,8 @@ impl<'a> SegmentBounds<'a> {
             let length = stretch.sqrt();
             let surface = sampling.turn_per_mm * (1.0 + 2.0 * slope + height_mm.abs() * sampling.turn_per_mm);
             let bulge_mm = CURVATURE_SAFETY * (curvature * stretch + surface) * reach_mm2 / 8.0;
-            residual_mm > length * (bulge_mm + motion_bound.distance_mm + 1e-9) && -n.dot(normal) > grazing * length
+            residual_mm > length * (bulge_mm + motion_bound.distance_mm + ROUNDING_MM)
+                && -n.dot(normal) > grazing * length
         })
     }
 
@@ -247,6 +235,7 @@ impl<'a> SegmentBounds<'a> {
                 let tan2 = 1.0 / (cos * cos) - 1.0;
                 let turn = sampling.turn_per_mm;
                 let stretch = 1.0 + (hit.height_mm * turn).abs();
+                // One cell further the entry lies this far along the edge; twice that, as it may not run evenly.
                 let margin_mm = 2.0 * sampling.cell_mm * stretch / cos;
                 let edge = match &segment.shape {
                     SegmentShape::Table(table) => [-margin_mm, 0.0, margin_mm]
@@ -287,41 +276,7 @@ impl<'a> SegmentBounds<'a> {
             .map(|h| CURVATURE_SAFETY * (h[0] - 2.0 * h[1] + h[2]).abs() / 8.0)
             .fold(0.0, f64::max);
         let certain = y_low - tolerance_mm > y_start && y_high + tolerance_mm < y_end;
-        let error_mm = along_profile_mm + along_stroke_mm + 1e-9;
-        Verdict::Bounded(Samples { pass, segment: segment_index, heights_mm, error_mm, certain })
+        let error_mm = along_profile_mm + along_stroke_mm + ROUNDING_MM;
+        Verdict::Bounded(PassSamples { pass, segment: segment_index, heights_mm, error_mm, certain })
     }
-}
-
-/// Leaves out every pass that another, certain one undercuts at all corners of all cells (cell by cell).
-///
-/// A difference of two bilinear functions is extreme at corners, so comparing there, with both errors added, decides
-/// for the whole cell.
-pub fn undominated(samples: Vec<Samples>, cells: usize) -> Vec<Samples> {
-    let Some(any) = samples.first() else { return samples };
-    let per_place = any.heights_mm.len() / (cells + 1);
-    let corners = |cell: usize| cell * per_place..(cell + 2) * per_place;
-    // In each cell the certain passes that are lowest at one of its corners: at most a handful, and no other can
-    // dominate.
-    let dominating: Vec<Vec<usize>> = (0..cells)
-        .map(|cell| {
-            let mut lowest: Vec<usize> = corners(cell)
-                .filter_map(|corner| {
-                    (0..samples.len())
-                        .filter(|&k| samples[k].certain)
-                        .min_by(|&a, &b| samples[a].heights_mm[corner].total_cmp(&samples[b].heights_mm[corner]))
-                })
-                .collect();
-            lowest.sort_unstable();
-            lowest.dedup();
-            lowest
-        })
-        .collect();
-    let dominates = |other: &Samples, k: &Samples, cell: usize| {
-        corners(cell).all(|c| k.heights_mm[c] - other.heights_mm[c] > k.error_mm + other.error_mm)
-    };
-    let keep: Vec<bool> = samples
-        .iter()
-        .map(|k| !(0..cells).all(|cell| dominating[cell].iter().any(|&other| dominates(&samples[other], k, cell))))
-        .collect();
-    samples.into_iter().zip(keep).filter_map(|(sample, keep)| keep.then_some(sample)).collect()
 }

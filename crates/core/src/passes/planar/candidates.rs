@@ -10,11 +10,10 @@
 //! Road not taken: the contact moment from the meshing condition. It knows only the finishing envelope; roughing,
 //! plunges, partial turns and undercut need no special case here.
 
-use super::bounds::{
-    BladeRay, MAX_PHASES, MAX_PLACES, MotionBound, Samples, Sampling, SegmentBounds, Verdict, undominated,
-};
-use super::near::{NearPass, near_passes};
+use super::bounds::{BladeRay, MotionBound, SegmentBounds, Verdict};
+use super::near::{MAX_PHASES, NearPass, near_passes};
 use super::record::PassRecord;
+use super::samples::{MAX_PLACES, PassSamples, Sampling, undominated};
 use super::strokes::StrokeSet;
 use super::time_intervals::{Content, IntervalTree, TimeInterval};
 use super::upper_bound::UpperBound;
@@ -71,7 +70,7 @@ impl CutPlan {
         Self::build(field, set, tool, |planner, columns, seeds| planner.candidates(columns, seeds))
     }
 
-    /// Plan with every segment of every pass that can reach the field: what candidates are proved against.
+    /// Plan with every segment of every pass that can reach the field: what candidates are compared with.
     pub fn brute_force(field: &Field, set: &StrokeSet, tool: &dyn PlanarTool) -> Self {
         let segments = tool.edge().segments.len();
         Self::build(field, set, tool, |planner, _, _| {
@@ -116,7 +115,7 @@ impl CutPlan {
             }
             tiles.push(Tile { columns, origin_mm: middle.origin_mm, records: first..records.len() });
         }
-        let row_phases = field.leads_mm.iter().map(|&lead| set.law.tau(lead)).collect();
+        let row_phases = field.leads_mm.iter().map(|&z_mm| set.law.tau(z_mm)).collect();
         Self { tiles, records, row_phases }
     }
 
@@ -136,12 +135,12 @@ struct PassPlanner<'a> {
 }
 
 /// A set of the blade's segments, one bit each.
-type Segments = u64;
+type SegmentSet = u64;
 
 impl<'a> PassPlanner<'a> {
     fn new(field: &Field, set: &StrokeSet, tool: &'a dyn PlanarTool) -> Self {
         let edge = tool.edge();
-        assert!(edge.segments.len() <= Segments::BITS as usize, "a blade's segments fit into a set of bits");
+        assert!(edge.segments.len() <= SegmentSet::BITS as usize, "a blade's segments fit into a set of bits");
         let (center_mm, reach_mm) = Field::circle(&field.columns);
         let near = near_passes(set, tool, center_mm, reach_mm);
         // Rays are followed down to twice their lowest height.
@@ -155,10 +154,10 @@ impl<'a> PassPlanner<'a> {
     /// `seeds` carries the lowest passes of the neighbouring tile: good first guesses make early culling cheap.
     fn candidates(&self, rays: &[Column], seeds: &mut Vec<usize>) -> Vec<(usize, usize)> {
         let Some(phases) = self.near.first().map(|pass| pass.blade_from_work.len()) else { return Vec::new() };
-        let all_segments = Segments::MAX >> (Segments::BITS as usize - self.bounds.segments.len());
+        let all_segments = SegmentSet::MAX >> (SegmentSet::BITS as usize - self.bounds.segments.len());
         let highest_mm = rays.iter().map(|ray| ray.blank_mm).fold(0.0, f64::max);
         let coarse_places = places(rays, COARSE_CELLS);
-        let mut look = Look {
+        let mut look = CoarseLook {
             planner: self,
             middle: rays[rays.len() / 2],
             ends_mm: rays[0].origin_mm.distance(rays[rays.len() - 1].origin_mm),
@@ -170,7 +169,7 @@ impl<'a> PassPlanner<'a> {
         for &pass in seeds.iter() {
             look.at_pass(pass, all_segments, false);
         }
-        let mut intervals: Vec<(usize, Segments)> =
+        let mut intervals: Vec<(usize, SegmentSet)> =
             self.intervals.roots.iter().map(|&root| (root, all_segments)).collect();
         while let Some((index, segments)) = intervals.pop() {
             let interval = &self.intervals.intervals[index];
@@ -181,7 +180,7 @@ impl<'a> PassPlanner<'a> {
                 Content::Pass(pass) => look.at_pass(pass, segments, true),
             }
         }
-        let Look { middle, ends_mm, upper, bounded, mut undecided, .. } = look;
+        let CoarseLook { middle, ends_mm, upper, bounded, mut undecided, .. } = look;
         let fine_places = places(rays, CELLS);
         let fine = sampling(&fine_places);
         let mut finely_bounded = Vec::new();
@@ -210,19 +209,19 @@ impl<'a> PassPlanner<'a> {
 }
 
 /// The coarse look at one tile: what is certain so far, and who is left.
-struct Look<'a> {
+struct CoarseLook<'a> {
     planner: &'a PassPlanner<'a>,
     middle: Column,
     ends_mm: f64,
     coarse: Sampling<'a>,
     upper: UpperBound,
-    bounded: Vec<Samples>,
+    bounded: Vec<PassSamples>,
     undecided: Vec<(usize, usize)>,
 }
 
-impl Look<'_> {
+impl CoarseLook<'_> {
     /// The segments of a time interval that some pass of it may lower the tile with.
-    fn at_interval(&self, interval: &TimeInterval, mut segments: Segments) -> Segments {
+    fn at_interval(&self, interval: &TimeInterval, mut segments: SegmentSet) -> SegmentSet {
         let PassPlanner { edge, bounds, .. } = self.planner;
         let rays: ArrayVec<BladeRay, MAX_PLACES> =
             self.coarse.places.iter().map(|ray| BladeRay::of_pose(&interval.blade_from_work, ray)).collect();
@@ -243,7 +242,7 @@ impl Look<'_> {
     }
 
     /// Samples the segments of a pass that are not culled at once; with `keep` unset it only lowers what is certain.
-    fn at_pass(&mut self, index: usize, segments: Segments, keep: bool) {
+    fn at_pass(&mut self, index: usize, segments: SegmentSet, keep: bool) {
         let PassPlanner { edge, bounds, near, .. } = self.planner;
         let pass = &near[index];
         let travel_mm = travel_mm(pass, &self.middle);
@@ -281,7 +280,7 @@ impl Look<'_> {
 }
 
 /// Numbers of the segments in a set.
-fn members(mut segments: Segments) -> impl Iterator<Item = usize> {
+fn members(mut segments: SegmentSet) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let first = (segments != 0).then(|| segments.trailing_zeros() as usize)?;
         segments &= segments - 1;

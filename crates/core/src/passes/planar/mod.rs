@@ -6,6 +6,7 @@ pub mod bounds;
 pub mod candidates;
 pub mod near;
 pub mod record;
+pub mod samples;
 pub mod strokes;
 pub mod time_intervals;
 pub mod upper_bound;

@@ -36,23 +36,23 @@ pub enum StrokeLaw {
 }
 
 impl StrokeLaw {
-    /// Crank law for a face of `face_width_mm` entered at its upper end (positive lead).
+    /// Crank law for a face of `face_width_mm` entered at its upper end (positive z).
     pub fn crank(face_width_mm: f64, approach_mm: f64, overrun_mm: f64) -> Self {
         let length_mm = approach_mm + face_width_mm + overrun_mm;
         let middle_mm = 0.5 * (approach_mm - overrun_mm);
-        let angle = |lead_mm: f64| (2.0 * (lead_mm - middle_mm) / length_mm).clamp(-1.0, 1.0).acos();
-        let at = |lead_mm: f64| (angle(lead_mm) - angle(0.0)) / std::f64::consts::TAU;
+        let angle = |z_mm: f64| (2.0 * (z_mm - middle_mm) / length_mm).clamp(-1.0, 1.0).acos();
+        let at = |z_mm: f64| (angle(z_mm) - angle(0.0)) / std::f64::consts::TAU;
         let half_share = at(-0.5 * face_width_mm).abs().max(at(0.5 * face_width_mm).abs());
         Self::Crank { length_mm, middle_mm, half_share }
     }
 
     /// Phase tau in [-1, 1] at a place along the tooth.
-    pub fn tau(&self, lead_mm: f64) -> f64 {
+    pub fn tau(&self, z_mm: f64) -> f64 {
         match *self {
             Self::Frozen => 0.0,
             Self::Crank { length_mm, middle_mm, half_share } => {
-                let angle = |lead: f64| (2.0 * (lead - middle_mm) / length_mm).clamp(-1.0, 1.0).acos();
-                (angle(lead_mm) - angle(0.0)) / std::f64::consts::TAU / half_share
+                let angle = |z_mm: f64| (2.0 * (z_mm - middle_mm) / length_mm).clamp(-1.0, 1.0).acos();
+                (angle(z_mm) - angle(0.0)) / std::f64::consts::TAU / half_share
             }
         }
     }

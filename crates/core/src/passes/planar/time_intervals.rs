@@ -1,10 +1,10 @@
 //! Near passes as trees over time, so that one look culls a whole time interval of strokes.
 //!
 //! A time interval is a run of near passes of one blade, one after the other in time. It is looked at in one pose, with
-//! the distance that any of its strokes, in any phase, moves a point of the field
-//! in the blade's frame away from that pose: measured, so nothing is assumed about the motion, but strokes that follow
-//! each other move little. Halves of a time interval are time intervals again, down to
-//! single passes. Of N passes near a flank a tile looks at a few times log N instead of all N.
+//! the distance that any of its strokes, in any phase, moves a point of the field in the blade's frame away from that
+//! pose: measured, so nothing is assumed about the motion, but strokes that follow each other move little. Halves of a
+//! time interval are time intervals again, down to single passes. Of N passes near a flank a tile looks at a few times
+//! log N instead of all N.
 
 use super::bounds::MotionBound;
 use super::near::NearPass;
@@ -88,7 +88,7 @@ impl Surroundings<'_> {
                 let turn = (blade_from_work.rotation - pose.rotation).length();
                 let shift_mm = blade_from_work.point(self.center_mm).distance(center);
                 motion_bound.distance_mm = motion_bound.distance_mm.max(shift_mm + turn * self.reach_mm + bend_mm);
-                // The chord of a turn, and the turn itself: pi / 2 at most apart.
+                // `turn` is the chord 2 sin(angle / 2); up to half a turn the angle is at most pi / 2 times as large.
                 motion_bound.turn_rad = motion_bound.turn_rad.max(turn * std::f64::consts::FRAC_PI_2);
             }
         }

@@ -3,7 +3,8 @@
 //! In each cell between two places it is **one** pass with its error, not the lowest of several corner by corner:
 //! between two corners that belong to different passes both may lie high, and a third may be lowest there.
 
-use super::bounds::{MAX_PHASES, MAX_PLACES, Samples};
+use super::near::MAX_PHASES;
+use super::samples::{MAX_PLACES, PassSamples};
 use arrayvec::ArrayVec;
 
 /// Heights at the sample rays of a tile above which a pass is undercut in every cell.
@@ -44,8 +45,8 @@ impl UpperBound {
         }
     }
 
-    /// Takes a pass into account that enters its segment everywhere on the tile ([`Samples::certain`]).
-    pub fn lower(&mut self, samples: &Samples) {
+    /// Takes a pass into account that enters its segment everywhere on the tile ([`PassSamples::certain`]).
+    pub fn lower(&mut self, samples: &PassSamples) {
         let Self { phases, .. } = *self;
         self.highest_mm = self.highest_mm.min(highest(&samples.heights_mm) + samples.error_mm);
         let mut lowered = false;
@@ -84,8 +85,14 @@ fn highest(heights_mm: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    fn pass(heights_mm: &[f64]) -> Samples {
-        Samples { pass: 0, segment: 0, heights_mm: heights_mm.iter().copied().collect(), error_mm: 0.5, certain: true }
+    fn pass(heights_mm: &[f64]) -> PassSamples {
+        PassSamples {
+            pass: 0,
+            segment: 0,
+            heights_mm: heights_mm.iter().copied().collect(),
+            error_mm: 0.5,
+            certain: true,
+        }
     }
 
     #[test]

@@ -1,34 +1,35 @@
-//! One pass in neighbouring slices: its section in their middle tells well enough where those in the others are to cull
-//! it there, at a tenth of the cost of following it.
+//! One pass in neighbouring slices. Its section in the middle slice says where its sections in the others can be: well
+//! enough to cull it there, at a tenth of the cost of following it.
 //!
 //! In: a pass, a range of slices ([`SweptSections`]). Out: in each of them a polygon and how far the true section may
 //! lie from it ([`LooseOutline`]).
 //!
 //! **The law.** As the slice's place z moves, an edge point goes through it at another moment, in another place: P(z) =
 //! P + z P' + error. The blade's point stands at depth rho cos(delta) towards the work and b = rho sin(delta) along its
-//! travel, so that the depth bends with the travel by d2/db2 sqrt(rho^2 - b^2) = -1 / (rho cos^3(delta)); the work
+//! travel. The depth therefore bends with the travel by d2/db2 sqrt(rho^2 - b^2) = -1 / (rho cos^3(delta)). The work
 //! turns slower than the tool by the number of its teeth, which adds some hundredths of that. With w, the travel per mm
-//! of z, the error is w^2 z^2 / (2 rho cos^3(delta)); twice as much tolerance is given. Arrow heights of pieces, and
-//! the direction in which the section is closed, change as the third derivative does: by a tenth of that for pieces as
-//! long as they are here, which is given on top.
+//! of z, the error is w^2 z^2 / (2 rho cos^3(delta)); the tolerance is twice as large. Arrow heights of pieces, and the
+//! direction in which the section is closed, change with the third derivative: by a tenth of the error for pieces as
+//! long as they are here. The tolerance has that on top.
 //!
-//! The factor 2 is what answers for the hundredths left out: it is no bound proved for every machine, but one that true
-//! sections are compared with (`tests/suite/hobbing/blank.rs`: their points use less than half of their
-//! tolerance), as what is left is compared with all passes on all rays.
+//! The factor 2 answers for the hundredths left out. It is no bound proved for every machine: true sections are
+//! compared with it (`tests/suite/hobbing/blank.rs`: they use less than nine tenths of their tolerance), and what is
+//! left is compared with all passes on all rays.
 //!
 //! The roads not taken: sections in two slices and straight lines between their points are as good and cost another
-//! section. The second derivative itself would spare the tolerance, some micrometres; few passes
-//! miss what is left by so little.
+//! section. The second derivative itself would spare the tolerance, some micrometres; few passes miss what is left by
+//! so little.
 
 use crate::math::ray_reach::LooseOutline;
 use crate::passes::sections::swept_sections::{SweptSection, SweptSections, sagitta_mm};
 use glam::DVec2;
 
-/// How much of a piece's length counts as travel on top of the slice's distance: third derivatives.
+/// How much of a piece's length counts as travel on top of the slice's distance: third derivatives. Found by trial, no
+/// proof; true sections are compared with it in `tests/suite/hobbing/blank.rs`.
 const PIECE_WEIGHT: f64 = 0.1;
-/// Share of its arrow height that a piece may gain.
+/// Share of its arrow height that a piece may gain over the band; found and compared likewise.
 const SAGITTA_GAIN: f64 = 0.1;
-/// Places are that sure, mm.
+/// Error of places through rounding at most, mm.
 const ROUNDING_MM: f64 = 1e-9;
 
 /// A pass near a slice.

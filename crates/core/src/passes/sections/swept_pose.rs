@@ -25,7 +25,9 @@ const MOST_STEPS: u32 = 20;
 const LAST_STEP_RAD: f64 = 1e-6;
 /// Half the shortest piece of a sweep that is fitted, rad.
 const SHORTEST_RAD: f64 = 0.25;
-/// Moments are looked for a little beyond the ends of the sweep, by this angle, rad: the outline is closed there.
+/// Moments are looked for beyond the ends of the sweep by this angle, rad, because the outline is closed there: a hob's
+/// 60 degrees become 1.25 rad. No derivation: a pass is dropped from a slice where an end of a piece has no moment
+/// within it. What is left is compared with the flank kernel in `tests/suite/hobbing/blank.rs`.
 const BEYOND_SWEEP_RAD: f64 = 0.2028;
 
 /// A pass with its pose as polynomials of the swept angle.
@@ -165,10 +167,8 @@ impl Sweeping {
     }
 
     /// Moment at which an edge point goes through a slice, from a guess. `None`: at no moment of the sweep, nor a
-    /// little
-    /// beyond its ends. Where Newton's method leaves that range or does not settle in it, the range is halved if the
-    /// point
-    /// is on different sides of the slice at its ends.
+    /// little beyond its ends. Where Newton's method leaves that range or does not settle in it, the range is halved if
+    /// the point is on different sides of the slice at its ends.
     pub fn moment(&self, guess: f64, node: DVec2, twist_rad_per_mm: f64, z_mm: f64) -> Option<f64> {
         let value_and_rate = |swept: f64| {
             let [[x, y, z, shift], rates] = self.entries::<ROW>(swept);

@@ -17,9 +17,8 @@
 //! (tested against the equations of [`crate::passes::spatial::sweep`]).
 //!
 //! **Behind the blank.** Edge points that go through the slice nearer to the tool's axis, seen from the work, than the
-//! end of a sweep (a hob: half the tip radius) are left out, as everywhere
-//! ([`TurningPasses::half_sweep_rad`]); the curve is closed
-//! there through the tool's body.
+//! end of a sweep (a hob: half the tip radius) are left out, as everywhere ([`TurningPasses::half_sweep_rad`]); the
+//! curve is closed there through the tool's body.
 //!
 //! The road not taken: rays against segments with two unknowns each, as flanks are cut. Rays of a slice lie side by
 //! side, and one walk along the outline finds the crossings of all of them.
@@ -39,7 +38,11 @@ const PIECE_SHARE: f64 = 0.03;
 const PIECE_TURN_RAD: f64 = 0.1;
 /// Height of slices that one section tells about, as a share of the distance of the edge's tip from the axis.
 const BAND_SHARE: f64 = 0.03;
-/// Distance of the places along the face at which passes are culled beforehand, mm.
+/// Distance of the places along the face at which passes are culled beforehand, mm. Every slice is within half of it of
+/// such a place. A hob that is not tilted goes through a slice at 60 degrees to its own middle at most
+/// ([`TurningPasses::half_sweep_rad`]), so that its section moves aside by tan 60 degrees = 1.73 mm per mm: 4.3 mm,
+/// less than the whole distance, which is what the cull allows for. For tilted hobs there is no proof; what is left is
+/// compared with all passes in `tests/suite/hobbing/blank.rs`.
 const CULLED_EVERY_MM: f64 = 5.0;
 
 /// The passes of an operation, ready to be cut at any height.
@@ -59,7 +62,7 @@ pub struct SweptSections {
     /// Longest piece of the edge, mm.
     pub(super) longest_mm: f64,
     /// Whether passes are compared with what is left before they are followed to a slice; otherwise every pass visits
-    /// every ray: what culling is proved against.
+    /// every ray: what culling is compared with.
     culls: bool,
     /// Share of the tolerance that outlines get when they are compared with what is left: 1. Less culls passes that
     /// matter; tests plant it.
@@ -128,7 +131,8 @@ impl SweptSections {
                 .filter(|pass| {
                     (0..=places as u32).any(|i| {
                         let z_mm = face_width_mm * (f64::from(i) / places - 0.5);
-                        // Between the places the section moves aside by less than they are apart.
+                        // Between the places the section moves aside by less than they are apart; the tip stands for
+                        // its whole tooth.
                         let reach_mm = reach_mm + tooth_mm + CULLED_EVERY_MM;
                         sections.tip_at(pass, z_mm, CULLED_EVERY_MM).is_some_and(|tip| tip.length() <= reach_mm)
                     })
@@ -313,8 +317,8 @@ impl ClosedCurve for SweptSection {
     }
 }
 
-/// Ends of the pieces of an edge in the blade frame, and the directions at both ends of each over a parameter from 0
-/// to 1.
+/// Ends of the pieces of an edge in the blade frame, and the directions at both ends of each over a parameter from 0 to
+/// 1.
 fn edge_pieces(edge: &Edge, longest_mm: f64) -> (Vec<DVec2>, Vec<[DVec2; 2]>) {
     let (mut nodes_mm, mut rates_mm) = (Vec::new(), Vec::new());
     for segment in &edge.segments {

@@ -3,9 +3,11 @@
 pub mod motion;
 pub mod sweep;
 mod sweep_bounds;
+mod sweep_near;
 pub mod sweep_plan;
 mod sweep_regions;
 pub mod sweep_roots;
 mod sweep_samples;
 mod sweep_starts;
+pub mod sweep_tile;
 pub mod turning_passes;

@@ -25,14 +25,14 @@ const PANELS_PER_TURN: f64 = 8.0;
 /// Entries of a pose: nine of the rotation, column by column, and three of the translation.
 const ENTRIES: usize = 12;
 
-type Panel = [[f64; ENTRIES]; TERMS];
+type PosePanel = [[f64; ENTRIES]; TERMS];
 
 /// `head_from_work` over a range of tool angles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionTable {
     /// Ends of the panels, one more than there are panels.
     ends_rad: Vec<f64>,
-    panels: Vec<Panel>,
+    panels: Vec<PosePanel>,
     /// First panel of every stretch, and the number of panels.
     stretches: Vec<usize>,
 }
@@ -143,7 +143,7 @@ fn entries(pose: &Rigid3) -> [f64; ENTRIES] {
 }
 
 /// Polynomials through the values at Chebyshev nodes, in powers of u.
-fn panel(values: impl Fn(f64) -> [f64; ENTRIES]) -> Panel {
+fn panel(values: impl Fn(f64) -> [f64; ENTRIES]) -> PosePanel {
     // T_k in powers: T_k = 2 u T_(k-1) - T_(k-2).
     let mut powers = [[0.0; TERMS]; TERMS];
     powers[0][0] = 1.0;

@@ -22,7 +22,6 @@
 //! Road not taken: eliminating t beforehand by a polynomial in the tile's three coordinates. It needs order four in one
 //! of them, and long rays leave its range.
 
-use super::sweep_roots::LARGEST_T;
 use crate::math::convergence::{Step, iterate};
 use crate::math::roots::bisect;
 use crate::passes::planar::strokes::{NODES, cubic_through};
@@ -32,16 +31,20 @@ use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+/// Largest |t|: a quarter turn of the tool to either side of the moment at which the rake face holds the tile's origin.
+/// Entries further round do not count, with candidates and with brute force alike; both are compared with an
+/// independent solver in `tests/suite/hobbing/spatial.rs`.
+pub const LARGEST_T: f64 = 1.0;
 /// Steps at most towards the moment at which a rake face holds a point, and the last one (in t): the work turns some
 /// hundredths as fast as the tool, so that each gains more than a digit.
 const MAX_STEPS: u32 = 24;
 const LAST_T: f64 = 1e-12;
-/// Moments asked for, as a share of reach / distance: t is half the angle under which the reach is seen from the tool's
-/// axis,
-/// and a fifth more is for what the work moves meanwhile.
+/// Moments asked for, as a share of reach / (distance - reach). From the axis a reach x (in shares of the distance) is
+/// seen under the angle asin x, so that t = tan(asin(x) / 2) is at most 0.5 x / (1 - x). A fifth more is left for the
+/// work's own motion; for it there is no proof but the comparison with an independent solver.
 const REACH_SHARE: f64 = 0.6;
-/// A tile that reaches further than the rest of its origin's distance from the axis counts as this share of it away: it
-/// asks for more than [`LARGEST_T`] in any case, and gets that.
+/// Distance less reach counts as this share of the distance at least. Where it is less, the moments asked for are 0.6 x
+/// 0.7 / 0.3 = 1.4 or more, beyond [`LARGEST_T`], so that the tile gets all moments.
 const LEAST_DISTANCE: f64 = 0.3;
 /// Secants at most towards the moment at which a rake face holds a tile's origin, and the angle that may be missing,
 /// rad.
@@ -85,7 +88,7 @@ pub struct SweepRecord {
     /// Index of the segment in the blade's edge.
     pub segment: u32,
     /// Cells of the tile in which it can leave the lowest surface, as bits (see
-    /// [`super::sweep_plan::SweepTile::cell`]).
+    /// [`super::sweep_tile::SweepTile::cell`]).
     pub cells: u16,
     /// Where Newton's method starts.
     pub start: SweepStart,

@@ -1,46 +1,56 @@
 //! Which sweeps can leave the lowest surface on a region of a spatial field.
 //!
 //! Every candidate's heights on nine rays are known (`sweep_samples`): where its segment, or the continuation of it,
-//! enters them. In each of the four cells between them the difference of two sweeps' heights lies above its lowest
-//! corner less an eighth of its second differences along both sides; all sweeps of one tool bend nearly alike, so these
-//! are small where the heights' own are not. In a cell a sweep goes when another one, certain to enter through the
-//! segment itself there, is lower by this measure with half as much again for what second differences cannot show; or
-//! when its own entries lie beyond the segment's ends by the same measure.
+//! enters them. In each of the four cells between the rays the difference of two sweeps' heights lies above its lowest
+//! corner less an eighth of its second differences along both sides. All sweeps of one tool bend nearly alike, so these
+//! differences are small where those of the heights are not. A sweep is culled from a cell when another one, certain to
+//! enter through the segment itself there, is lower by this measure and half as much again for what second differences
+//! cannot show. It is culled as well when its own entries lie beyond the segment's ends by the same measure.
 //!
-//! This is no proof: second differences of nine values bound what is smooth between them, and sweeps are; a function
-//! that turned within a cell would be missed by more than the safety holds. What stands for it is the comparison with
-//! all passes, bit for bit, on regions of all sizes (`tests/suite/hobbing/spatial.rs`).
+//! This is no proof. Second differences of nine values bound a function that is smooth between them, as sweeps are; one
+//! that turned within a cell would be missed by more than the safety holds. The comparison with all passes, bit for
+//! bit, on regions of all sizes stands for it (`tests/suite/hobbing/spatial.rs`).
 //!
-//! What the samples cannot decide (no root on one of the rays, a sweep that ends at a corner of the motion) is kept
-//! unless the segment stays clear of all that the rays pass below the lowest certain surface.
+//! A sweep is undecided where one of the rays has no root, or where it ends at a corner of the motion. It is kept
+//! unless its segment stays clear of all that the rays pass below the lowest certain surface.
 
 #![expect(
     clippy::inline_always,
     reason = "the instruction set of the dispatching function holds only for what is inlined into it"
 )]
 
-use super::sweep_plan::Candidate;
+use super::sweep::LARGEST_T;
 use super::sweep_regions::{ALL, RAYS, Region, SIDE};
-use super::sweep_roots::{LANES, LARGEST_T, Rays};
-use super::sweep_samples::{Frame, Sampled};
+use super::sweep_roots::{LANES, Rays};
+use super::sweep_samples::{Sampled, SweepCandidate, SweepFrame};
 use crate::dexel::SpatialField;
 use crate::tool::edge::Segment;
 use pulp::Arch;
 
-/// Safety on second differences, for what varies inside a cell.
+/// Safety on second differences, for what varies inside a cell. No proof: see the head of this file.
 const BEND_SAFETY: f64 = 1.5;
-/// Added to every bound: what sampling and the backends' roots may err, mm.
+/// Added to every bound: what the roots of samples and of the native kernel may err, mm. Both end after a step below
+/// 1e-5 mm, which leaves picometres; 0.2 nm is a hundred times as much.
 const ROUNDING_MM: f64 = 2e-7;
-/// Added to places along a segment, mm.
+/// Added to places along a segment, mm: a thousand times what they are computed to.
 const END_MARGIN_MM: f64 = 1e-6;
-/// Below the floor is what lies deeper than it by this share of the range of nine heights and this length, mm: between
-/// the rays
-/// heights may pass the highest of them. Found by trial; proved by comparison with all passes in
-/// `tests/suite/hobbing/spatial.rs`.
+/// A candidate is clear of the rays where all nine heights lie below the floor by this share of their range, and by
+/// [`FLOOR_MM`]: between the rays heights may pass the highest of them. The share is that of a function whose second
+/// differences are 1.6 times its range; for others it was found by trial and has no proof. The comparison with all
+/// passes in `tests/suite/hobbing/spatial.rs` stands for it.
 const FLOOR_SHARE: f64 = 0.2;
+/// The same as a length, for heights that are all alike, mm.
 const FLOOR_MM: f64 = 1e-3;
 /// Steps towards the moment at which a rake face holds a point: each gains more than a digit.
 const MOMENT_STEPS: usize = 5;
+/// Radius of curvature of a path through the rake face at least, as a share of the distance from the tool's axis: seen
+/// from the rake face a point of the work goes on a circle about that axis, but for the work's own motion, which is
+/// given half. No proof for that half; candidates are compared with all passes in `tests/suite/hobbing/spatial.rs`.
+const PATH_RADIUS_SHARE: f64 = 0.5;
+/// Smallest distance from the tool's axis that counts there, mm: no path bends with a smaller radius than half of it.
+const LEAST_RADIUS_MM: f64 = 1.0;
+/// Added to boxes in the rake face, mm.
+const BOX_MARGIN_MM: f64 = 1e-3;
 /// Cells between the rays: index of the first corner; the others follow at 1, 3 and 4.
 const CELLS: [usize; 4] = [0, 1, 3, 4];
 /// All cells, as bits.
@@ -55,7 +65,7 @@ pub struct RegionBounds<'a> {
     /// The region.
     pub region: &'a Region<'a>,
     /// Where the candidates are seen from.
-    pub frame: &'a Frame,
+    pub frame: &'a SweepFrame,
 }
 
 /// A candidate whose entries into all nine rays are known.
@@ -69,8 +79,8 @@ struct Bounded<'a> {
 
 impl RegionBounds<'_> {
     /// Candidates that may leave the lowest surface in some cells of the region, in their order, with these cells as
-    /// bits; and a height that the surface left is certainly below: `upper_bound_mm` is such a
-    /// height of a region around this one.
+    /// bits; and a height that the surface left is certainly below: `upper_bound_mm` is such a height of a region
+    /// around this one.
     pub fn keep(&self, candidates: &[Sampled], upper_bound_mm: f64) -> (Vec<(Sampled, u8)>, f64) {
         let (mut bounded, mut undecided) = (Vec::new(), Vec::new());
         for sampled in candidates {
@@ -185,7 +195,7 @@ impl RegionBounds<'_> {
     }
 
     /// Candidates of the frame that can come near the region below an upper bound at all.
-    pub fn near(&self, upper_bound_mm: f64) -> Vec<Candidate> {
+    pub fn near(&self, upper_bound_mm: f64) -> Vec<SweepCandidate> {
         let candidates = &self.frame.candidates;
         let indices: Vec<u32> = (0..candidates.len() as u32).collect();
         self.meeting(indices, upper_bound_mm).into_iter().map(|index| candidates[index as usize]).collect()
@@ -250,8 +260,9 @@ impl pulp::NullaryFnOnce for RakeFaceBoxes<'_, '_> {
                     }
                 }
             }
-            // Between the samples the path through the rake face bends by no more than the tool's radius makes it.
-            let margin_mm = cell_mm * cell_mm / (8.0 * 0.5 * low[0].max(1.0)) + 1e-3;
+            // An arc of radius R leaves its chord of length L by L^2 / 8 R.
+            let radius_mm = PATH_RADIUS_SHARE * low[0].max(LEAST_RADIUS_MM);
+            let margin_mm = cell_mm * cell_mm / (8.0 * radius_mm) + BOX_MARGIN_MM;
             self.boxes.push(if known {
                 RakeFaceBox { low: low.map(|v| v - margin_mm), high: high.map(|v| v + margin_mm) }
             } else {

@@ -1,102 +1,37 @@
 //! Tiles of a spatial field and the sweeps that can leave the lowest surface on them.
 //!
 //! A field is halved in both directions again and again, down to tiles of 16 by 32 dexels and then to their cells of 4
-//! by 8; at every level the sweeps that the level above has kept for the region are sampled on nine rays, and those go
-//! that another one surely undercuts (see `sweep_samples`, `sweep_bounds`). The search begins with the passes whose
-//! blades pass the field in its place along the tool's axis. On S2's gear these are some thousands of 84,800; a
-//! sixteenth of the flank keeps some hundreds, a tile half a dozen, a cell between one and two.
+//! by 8. At every level the sweeps that the level above has kept for the region are sampled on nine rays, and those
+//! that another one surely undercuts are culled (see `sweep_samples`, `sweep_bounds`). The search begins with the
+//! passes whose blades pass the field in its place along the tool's axis (`sweep_near`). On a third-order gear of 50 mm
+//! face these are some thousands of 84,800; a sixteenth of the flank keeps some hundreds, a tile half a dozen, a cell
+//! between one and two.
 //!
 //! Equality with brute force over all passes is tested bit for bit.
 
 use super::sweep::SweepRecord;
 use super::sweep_bounds::RegionBounds;
+use super::sweep_near::{near_passes, passes_beside};
 use super::sweep_regions::{RAYS, Region, SIDE};
-use super::sweep_samples::{Frame, Sampled};
+use super::sweep_samples::{Sampled, SweepCandidate, SweepFrame};
 use super::sweep_starts::find_starts;
+use super::sweep_tile::{CELLS, SweepTile};
+use super::turning_passes::TurningPasses;
 use crate::dexel::{Ray, SpatialField};
-use crate::passes::spatial::turning_passes::{BladePass, TurningPasses};
 use crate::tool::edge::Edge;
 use glam::DVec3;
 use std::ops::Range;
 
-/// Columns of a tile at most.
-pub const TILE_COLUMNS: usize = 16;
-/// Rows of a tile at most: whole chunks of every backend.
-pub const TILE_ROWS: usize = 32;
-/// Cells of a tile along each side: a record is told in which it can be lowest.
-pub const CELLS: usize = 4;
 /// All cells of a tile.
 const ALL_CELLS: u16 = u16::MAX;
-/// What profiles and paths bend between the places that are looked at, along the tool's axis, mm.
-const AXIAL_MARGIN_MM: f64 = 1.0;
-/// While a blade sweeps through the work, a point of it moves in the head by at most this, mm: rolling moves the pitch
-/// curve
-/// by half of module x starts per radian of the tool, so that over 60 degrees this holds up to module x starts = 38 mm.
-/// Planning with all passes begins with the same ones: the bound rests on this derivation alone.
-const ROLLED_MM: f64 = 20.0;
-/// What is within reach turns in the head meanwhile: it comes nearer to the tool by at most this share of the reach. A
-/// gear
-/// with z teeth per start turns by 1.05 / z rad in 60 degrees of the tool: the share holds from six teeth per start on.
-const TURNED_SHARE: f64 = 0.2;
-/// Share of the reach, and length in mm, that a pass may be further away than the reach when it is looked at in one
-/// pose.
-/// Found by trial; the bound is kept wide, as planning with all passes begins with the same ones.
-const NEAR_SHARE: f64 = 1.1;
-const NEAR_MM: f64 = 1.0;
-/// A region that holds the tool's axis is seen from this share of the tip's radius: it limits the angle at which a
-/// blade meets
-/// it to four times what is within reach of the tip. Found by trial.
-const LEAST_DISTANCE: f64 = 0.25;
-/// Surroundings reach this much further than the ends of nine rays, for what bulges between them. Found by trial;
-/// proved by
-/// comparison with all passes in `tests/suite/hobbing/spatial.rs`.
+/// Surroundings reach this much further than the ends of nine rays, for what bulges between them: a surface of radius
+/// rho bulges by a / (2 rho) of the reach over a region that reaches a, so that 5 % holds up to a = rho / 10. For
+/// larger regions it was found by trial; the comparison with all passes in `tests/suite/hobbing/spatial.rs` stands for
+/// it.
 const BULGE: f64 = 1.05;
-/// A region whose surroundings are smaller than this share of its frame's gets a frame of its own.
+/// A region whose surroundings are smaller than this share of its frame's gets a frame of its own. It decides about
+/// time alone: a frame holds for all that is within its reach.
 const NEW_FRAME: f64 = 0.7;
-
-/// A blade's sweep by one of its segments, as far as one stretch of the motion goes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Candidate {
-    /// The pass.
-    pub pass: BladePass,
-    /// Stretch of the motion.
-    pub stretch: u32,
-    /// Index of the segment in the blade's edge.
-    pub segment: usize,
-}
-
-/// Some dexels and the sweeps that they visit.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SweepTile {
-    /// Columns of the field.
-    pub columns: Range<usize>,
-    /// Rows of the field.
-    pub rows: Range<usize>,
-    /// Origin of the tile's frame, gear frame, mm; axes are parallel to the gear's.
-    pub origin_mm: DVec3,
-    /// Records in [`SweepPlan::records`], in order of pass id.
-    pub records: Range<usize>,
-}
-
-impl Candidate {
-    /// Pass and stretch: one smooth sweep.
-    pub fn sweep(&self) -> (u32, u32) {
-        (self.pass.pass, self.stretch)
-    }
-}
-
-impl SweepTile {
-    /// Cell of a dexel: bit of [`SweepRecord::cells`].
-    pub fn cell(&self, column: usize, row: usize) -> usize {
-        let (columns, rows) = (TILE_COLUMNS / CELLS, TILE_ROWS / CELLS);
-        CELLS * ((column - self.columns.start) / columns) + (row - self.rows.start) / rows
-    }
-
-    /// Column and row of the middle ray.
-    pub fn middle(&self) -> [usize; 2] {
-        [&self.columns, &self.rows].map(|lines| usize::midpoint(lines.start, lines.end - 1))
-    }
-}
 
 /// Everything a backend needs to run one operation over one field.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -113,7 +48,7 @@ impl SweepPlan {
         SweepPlanner { field, set, edge, prune: true }.plan()
     }
 
-    /// Plan with every segment of every pass that can reach the field at all: what candidates are proved against.
+    /// Plan with every segment of every pass that can reach the field at all: what candidates are compared with.
     pub fn brute_force(field: &SpatialField, set: &TurningPasses, edge: &Edge) -> Self {
         SweepPlanner { field, set, edge, prune: false }.plan()
     }
@@ -159,11 +94,11 @@ impl SweepPlanner<'_> {
             let points_mm = self.ends_mm(&whole.dexels(), origin_mm);
             near.retain(|pass| passes_beside(self.set, self.edge, pass, &points_mm, reach_mm));
         }
-        let near: Vec<Candidate> = near
+        let near: Vec<SweepCandidate> = near
             .into_iter()
             .flat_map(|pass| self.set.stretches(&pass).map(move |stretch| (pass, stretch)))
             .flat_map(|(pass, stretch)| {
-                (0..self.edge.segments.len()).map(move |segment| Candidate { pass, stretch, segment })
+                (0..self.edge.segments.len()).map(move |segment| SweepCandidate { pass, stretch, segment })
             })
             .collect();
         if self.prune {
@@ -183,7 +118,14 @@ impl SweepPlanner<'_> {
         plan
     }
 
-    fn halve(&self, region: &Region, frame: &Frame, sampled: &[Sampled], upper_bound_mm: f64, plan: &mut SweepPlan) {
+    fn halve(
+        &self,
+        region: &Region,
+        frame: &SweepFrame,
+        sampled: &[Sampled],
+        upper_bound_mm: f64,
+        plan: &mut SweepPlan,
+    ) {
         let (alive, upper_bound_mm) = self.bounds(region, frame).keep(sampled, upper_bound_mm);
         let parts = region.parts(frame, self.edge, &alive);
         if region.is_tile() {
@@ -196,7 +138,7 @@ impl SweepPlanner<'_> {
                 self.halve(&part, frame, &sampled, upper_bound_mm, plan);
                 continue;
             }
-            let candidates: Vec<Candidate> = sampled.iter().map(|s| frame.candidates[s.index as usize]).collect();
+            let candidates: Vec<SweepCandidate> = sampled.iter().map(|s| frame.candidates[s.index as usize]).collect();
             let (frame, index_of) = self.frame(origin_mm, reach_mm, &candidates);
             let mut places = index_of.into_iter();
             sampled.retain_mut(|s| {
@@ -231,12 +173,12 @@ impl SweepPlanner<'_> {
         [middle_mm].into_iter().chain(ends).collect()
     }
 
-    fn bounds<'a>(&'a self, region: &'a Region, frame: &'a Frame) -> RegionBounds<'a> {
+    fn bounds<'a>(&'a self, region: &'a Region, frame: &'a SweepFrame) -> RegionBounds<'a> {
         RegionBounds { field: self.field, segments: &self.edge.segments, region, frame }
     }
 
-    fn frame(&self, origin_mm: DVec3, reach_mm: f64, candidates: &[Candidate]) -> (Frame, Vec<Option<u32>>) {
-        Frame::new(self.set, self.edge, origin_mm, reach_mm, candidates)
+    fn frame(&self, origin_mm: DVec3, reach_mm: f64, candidates: &[SweepCandidate]) -> (SweepFrame, Vec<Option<u32>>) {
+        SweepFrame::new(self.set, self.edge, origin_mm, reach_mm, candidates)
     }
 
     /// Bounds the parts of a tile: a record costs more in the kernel than here, and it is told in which cells it can be
@@ -244,7 +186,7 @@ impl SweepPlanner<'_> {
     fn bounded_tile(
         &self,
         region: &Region,
-        frame: &Frame,
+        frame: &SweepFrame,
         parts: &[(Region, Vec<Sampled>)],
         upper_bound_mm: f64,
         plan: &mut SweepPlan,
@@ -264,12 +206,19 @@ impl SweepPlanner<'_> {
             }
         }
         kept.sort_unstable();
-        let candidates: Vec<Candidate> = kept.iter().map(|&index| frame.candidates[index as usize]).collect();
+        let candidates: Vec<SweepCandidate> = kept.iter().map(|&index| frame.candidates[index as usize]).collect();
         let cells: Vec<u16> = kept.iter().map(|&index| cells[index as usize]).collect();
         self.tile(region.columns.dexels(), region.rows.dexels(), &candidates, &cells, plan);
     }
 
-    fn tile(&self, columns: Range<usize>, rows: Range<usize>, kept: &[Candidate], cells: &[u16], plan: &mut SweepPlan) {
+    fn tile(
+        &self,
+        columns: Range<usize>,
+        rows: Range<usize>,
+        kept: &[SweepCandidate],
+        cells: &[u16],
+        plan: &mut SweepPlan,
+    ) {
         let dexels = {
             let lines =
                 |range: &Range<usize>| [range.start, usize::midpoint(range.start, range.end - 1), range.end - 1];
@@ -289,60 +238,4 @@ impl SweepPlanner<'_> {
         find_starts(self.field, &tile, self.edge, &mut plan.records[first..]);
         plan.tiles.push(tile);
     }
-}
-
-/// Passes whose blade comes within `reach_mm` of a place of the work, in time order.
-///
-/// While the rake face goes through the neighbourhood the place itself moves in the head, and with it everything within
-/// reach turns a little: some per cent of the sweep. The bound takes a tenth of the reach for that, and a millimetre
-/// more.
-fn near_passes(set: &TurningPasses, edge: &Edge, center_mm: DVec3, reach_mm: f64) -> Vec<BladePass> {
-    let margin_mm = NEAR_SHARE * reach_mm + NEAR_MM;
-    let y_reach_mm = edge.center_mm.y.abs() + edge.reach_mm;
-    let tip_mm = edge.center_mm.x + edge.reach_mm;
-    (0..set.count())
-        .map(|index| set.pass(index))
-        .filter(|pass| {
-            let place = set.place(pass);
-            // Where the place stands when the blade points to it, to the first order of the motion in between.
-            let at = |swept: f64| set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).point(center_mm);
-            let first = at(0.0);
-            if first.x.hypot(first.y) - margin_mm > tip_mm + ROLLED_MM + TURNED_SHARE * reach_mm {
-                return false;
-            }
-            let swept = first.y.atan2(first.x);
-            let second = at(swept);
-            let spread = reach_mm / (second.x.hypot(second.y) - reach_mm).max(LEAST_DISTANCE * tip_mm);
-            let moved_mm = (at(swept + spread.min(1.0)) - at(swept - spread.min(1.0))).length();
-            let margin_mm = margin_mm + moved_mm;
-            second.x.hypot(second.y) <= tip_mm + margin_mm
-                && (second.z - place.axial_mm).abs() <= y_reach_mm + margin_mm
-                && swept.abs() <= set.half_sweep_rad + spread
-        })
-        .collect()
-}
-
-/// Whether a pass's blade passes some points of the work (the first one in their middle, none further than `reach_mm`
-/// from it) in their own place along the tool's axis.
-///
-/// While the rake face goes through the neighbourhood the points move a little along the axis, nearly evenly: their
-/// places are taken at the moment when the rake face holds the middle, and when it holds what is furthest before and
-/// behind.
-fn passes_beside(set: &TurningPasses, edge: &Edge, pass: &BladePass, points_mm: &[DVec3], reach_mm: f64) -> bool {
-    let place = set.place(pass);
-    let pose = |swept: f64| set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept);
-    let first = pose(0.0).point(points_mm[0]);
-    let swept = first.y.atan2(first.x);
-    let middle = pose(swept);
-    let distance_mm = middle.point(points_mm[0]).truncate().length();
-    let spread = reach_mm / (distance_mm - reach_mm).max(LEAST_DISTANCE * (edge.center_mm.x + edge.reach_mm));
-    let (mut low_mm, mut high_mm) = (f64::INFINITY, f64::NEG_INFINITY);
-    for pose in [pose(swept - spread.min(1.0)), middle, pose(swept + spread.min(1.0))] {
-        for &point_mm in points_mm {
-            let y_mm = place.y_sign * (pose.point(point_mm).z - place.axial_mm) - edge.center_mm.y;
-            (low_mm, high_mm) = (low_mm.min(y_mm), high_mm.max(y_mm));
-        }
-    }
-    let y_reach_mm = edge.reach_mm + AXIAL_MARGIN_MM;
-    low_mm <= y_reach_mm && high_mm >= -y_reach_mm
 }

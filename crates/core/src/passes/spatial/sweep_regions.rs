@@ -10,7 +10,7 @@
     reason = "the instruction set of the dispatching function holds only for what is inlined into it"
 )]
 
-use super::sweep_plan::{TILE_COLUMNS, TILE_ROWS};
+use super::sweep_tile::{TILE_COLUMNS, TILE_ROWS};
 use crate::dexel::SpatialField;
 use std::ops::Range;
 
@@ -23,7 +23,7 @@ pub const ALL: u32 = (1 << RAYS) - 1;
 
 /// Lines of dexels in one direction.
 #[derive(Debug, Clone, Copy)]
-pub struct Span {
+pub struct LineSpan {
     /// First, middle and last line; all dexels lie between first and last.
     pub at: [usize; SIDE],
     /// Number of tiles.
@@ -32,7 +32,7 @@ pub struct Span {
     last: usize,
 }
 
-impl Span {
+impl LineSpan {
     fn new(from: usize, count: usize, tile: usize, last: usize) -> Self {
         let to = (from + count * tile).min(last);
         let middle = from + if count > 1 { count / 2 * tile } else { tile / 2 };
@@ -61,8 +61,10 @@ impl Span {
         [Self::new(from, counts[0], tile, self.last), Self::new(middle, counts[1], tile, self.last)]
     }
 
-    /// Weights of three values whose sum is as far as the smooth function behind them leaves straight lines between
-    /// them, by its second differences. Nothing if it cannot be told.
+    /// Weights of three values whose sum is how far a function of second degree through them leaves straight lines
+    /// between them. With spacings a and b the second derivative is 2 ((f2 - f1) / b - (f1 - f0) / a) / (a + b), and
+    /// the line is left by an eighth of it times the square of the larger spacing. Nothing where two of the values are
+    /// one.
     fn bend(&self) -> Option<[f64; SIDE]> {
         let [from, middle, to] = self.at;
         let [a, b] = [middle - from, to - middle].map(|lines| lines as f64);
@@ -81,9 +83,9 @@ pub struct Region<'a> {
     /// The field.
     pub field: &'a SpatialField,
     /// Columns.
-    pub columns: Span,
+    pub columns: LineSpan,
     /// Rows.
-    pub rows: Span,
+    pub rows: LineSpan,
     bends: Option<[[f64; SIDE]; 2]>,
     /// Height of the blank along each of the nine rays, column by column.
     pub blank_mm: [f64; RAYS],
@@ -92,11 +94,11 @@ pub struct Region<'a> {
 impl<'a> Region<'a> {
     /// All of a field.
     pub fn whole(field: &'a SpatialField) -> Self {
-        let span = |lines: usize, tile: usize| Span::new(0, lines.div_ceil(tile), tile, lines - 1);
+        let span = |lines: usize, tile: usize| LineSpan::new(0, lines.div_ceil(tile), tile, lines - 1);
         Self::new(field, span(field.columns(), TILE_COLUMNS), span(field.rows(), TILE_ROWS))
     }
 
-    pub fn new(field: &'a SpatialField, columns: Span, rows: Span) -> Self {
+    pub fn new(field: &'a SpatialField, columns: LineSpan, rows: LineSpan) -> Self {
         let bends = columns.bend().zip(rows.bend()).map(|(c, r)| [c, r]);
         let blank_mm =
             std::array::from_fn(|i| f64::from(field.blank_mm[field.index(columns.at[i / SIDE], rows.at[i % SIDE])]));

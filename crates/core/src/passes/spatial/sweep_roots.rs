@@ -12,7 +12,7 @@
     reason = "the instruction set of the dispatching function holds only for what is inlined into it"
 )]
 
-use super::sweep::{SweepRecord, half_angle};
+use super::sweep::{LARGEST_T, SweepRecord, half_angle};
 use crate::dexel::SpatialField;
 use crate::tool::edge::{Segment, SegmentShape};
 use crate::tool::edge_table::EdgeTable;
@@ -23,8 +23,6 @@ use glam::DVec3;
 pub const LANES: usize = 8;
 /// Newton steps at most: two or three suffice; a ray that grazes a round halves what is missing with every step.
 const MAX_STEPS: usize = 32;
-/// Largest |t|: a sweep's whole range from one of its ends.
-pub const LARGEST_T: f64 = 1.0;
 
 /// One quantity of eight rays.
 pub type Lanes = [f64; LANES];

@@ -10,41 +10,61 @@
     reason = "the instruction set of the dispatching function holds only for what is inlined into it"
 )]
 
-use super::sweep::{Sweep, SweepRecord};
-use super::sweep_plan::Candidate;
+use super::sweep::{LARGEST_T, Sweep, SweepRecord};
 use super::sweep_regions::{RAYS, Region, SIDE};
-use super::sweep_roots::{LANES, LARGEST_T, Lanes, Rays, Roots};
+use super::sweep_roots::{LANES, Lanes, Rays, Roots};
+use super::turning_passes::{BladePass, TurningPasses};
 use crate::dexel::SpatialField;
-use crate::passes::spatial::turning_passes::TurningPasses;
 use crate::tool::edge::Edge;
 use glam::DVec3;
 use pulp::Arch;
 
 /// Rays along each side of a region with its parts.
 const FINE: usize = 2 * SIDE - 1;
-/// Rays steeper than this against an edge's normal (cosine) prove nothing.
+/// Rays steeper than this against an edge's normal (cosine) prove nothing. A larger value is safe: candidates that such
+/// a ray meets are undecided, and kept unless their box stays clear of the rays.
 const GRAZING_COSINE: f64 = 0.1;
-/// Rays that run out of a segment at more than this cosine do not enter it.
+/// A candidate goes where all nine rays run out of its segment at more than this cosine. Between the rays the cosine
+/// changes by less, on regions of the sizes in use; no proof. The comparison with all passes in
+/// `tests/suite/hobbing/spatial.rs` stands for it.
 const LEAVING_COSINE: f64 = 0.05;
 /// Newton steps below this, in mm and in t, are the last: the error after them, of the order of their squares, is some
 /// picometres.
 pub(super) const LAST_STEP: f64 = 1e-5;
-/// No root further away is one, mm.
+/// No root further away is one, mm: what a ray of a flank may keep is some millimetres long.
 const FARTHEST_MM: f64 = 1e3;
 
+/// A blade's sweep by one of its segments, as far as one stretch of the motion goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SweepCandidate {
+    /// The pass.
+    pub pass: BladePass,
+    /// Stretch of the motion.
+    pub stretch: u32,
+    /// Index of the segment in the blade's edge.
+    pub segment: usize,
+}
+
+impl SweepCandidate {
+    /// Pass and stretch: one smooth sweep.
+    pub fn sweep(&self) -> (u32, u32) {
+        (self.pass.pass, self.stretch)
+    }
+}
+
 /// Sweeps as seen from one origin.
-pub struct Frame {
+pub struct SweepFrame {
     /// Gear frame, mm.
     pub origin_mm: DVec3,
     /// Nothing that is looked at is further from it, mm.
     pub reach_mm: f64,
     /// What the records are.
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<SweepCandidate>,
     /// Records.
     pub records: Vec<SweepRecord>,
 }
 
-impl Frame {
+impl SweepFrame {
     /// Sweeps of candidates, in their order; those whose blades hold the origin at no moment are left out. `index_of`
     /// gives the place of every candidate.
     pub fn new(
@@ -52,7 +72,7 @@ impl Frame {
         edge: &Edge,
         origin_mm: DVec3,
         reach_mm: f64,
-        candidates: &[Candidate],
+        candidates: &[SweepCandidate],
     ) -> (Self, Vec<Option<u32>>) {
         let mut frame = Self { origin_mm, reach_mm, candidates: Vec::new(), records: Vec::new() };
         let mut index_of = Vec::with_capacity(candidates.len());
@@ -123,7 +143,7 @@ impl Fine {
 
 /// A ray to be searched.
 #[derive(Clone, Copy)]
-struct Place {
+struct SearchedRay {
     /// On the fine grid.
     fine: usize,
     /// In the field.
@@ -134,11 +154,11 @@ struct Place {
 
 /// Samples candidates on new rays of a region.
 struct SampledRays<'a> {
-    frame: &'a Frame,
+    frame: &'a SweepFrame,
     edge: &'a Edge,
     lowest_mm: f64,
     field: &'a SpatialField,
-    places: &'a [Place],
+    places: &'a [SearchedRay],
     indices: &'a [u32],
     fine: &'a mut [Fine],
 }
@@ -150,7 +170,7 @@ impl pulp::NullaryFnOnce for SampledRays<'_> {
     fn call(self) {
         for places in self.places.chunks(LANES) {
             // Lanes beyond the last place repeat it.
-            let lane: [Place; LANES] = std::array::from_fn(|l| places[l.min(places.len() - 1)]);
+            let lane: [SearchedRay; LANES] = std::array::from_fn(|l| places[l.min(places.len() - 1)]);
             let rays = Rays::new(self.field, self.frame.origin_mm, lane.map(|place| place.dexel));
             for (&index, fine) in self.indices.iter().zip(self.fine.iter_mut()) {
                 let record = &self.frame.records[index as usize];
@@ -186,13 +206,13 @@ impl Fine {
 
 impl Region<'_> {
     /// Candidates of a frame on the nine rays, searched from the target.
-    pub fn sample(&self, frame: &Frame, edge: &Edge) -> Vec<Sampled> {
+    pub fn sample(&self, frame: &SweepFrame, edge: &Edge) -> Vec<Sampled> {
         let even = [0, 2, 4];
         let dexels = self.dexels();
-        let places: Vec<Place> = (0..RAYS)
+        let places: Vec<SearchedRay> = (0..RAYS)
             .map(|ray| {
                 let fine = even[ray / SIDE] * FINE + even[ray % SIDE];
-                Place { fine, dexel: dexels[ray], neighbours: [fine; 4] }
+                SearchedRay { fine, dexel: dexels[ray], neighbours: [fine; 4] }
             })
             .collect();
         let indices: Vec<u32> = (0..frame.records.len() as u32).collect();
@@ -204,7 +224,7 @@ impl Region<'_> {
 
     /// Parts of the region with what is sampled on each; a candidate goes to the parts whose cells are set in its mask
     /// (cells in the order of columns, then rows).
-    pub fn parts(&self, frame: &Frame, edge: &Edge, alive: &[(Sampled, u8)]) -> Vec<(Self, Vec<Sampled>)> {
+    pub fn parts(&self, frame: &SweepFrame, edge: &Edge, alive: &[(Sampled, u8)]) -> Vec<(Self, Vec<Sampled>)> {
         let split = self.split();
         let halves = [self.columns.halves(), self.rows.halves()];
         // Dexel lines of the fine grid; a direction that stays whole has its even ones alone.
@@ -225,7 +245,7 @@ impl Region<'_> {
                     let ([left, right], [below, above]) = ([i - i % 2, i + i % 2], [j - j % 2, j + j % 2]);
                     let neighbours = [(left, below), (left, above), (right, below), (right, above)];
                     let neighbours = neighbours.map(|(i, j)| i * FINE + j);
-                    places.push(Place { fine: i * FINE + j, dexel: self.field.index(*column, *row), neighbours });
+                    places.push(SearchedRay { fine: i * FINE + j, dexel: self.field.index(*column, *row), neighbours });
                 }
             }
         }
@@ -253,7 +273,7 @@ impl Region<'_> {
         parts
     }
 
-    fn search(&self, frame: &Frame, edge: &Edge, places: &[Place], indices: &[u32], fine: &mut [Fine]) {
+    fn search(&self, frame: &SweepFrame, edge: &Edge, places: &[SearchedRay], indices: &[u32], fine: &mut [Fine]) {
         let lowest_mm = 2.0 * self.field.low_mm;
         Arch::new().dispatch(SampledRays { frame, edge, lowest_mm, field: self.field, places, indices, fine });
     }

@@ -9,9 +9,9 @@
 )]
 
 use super::sweep::{SweepRecord, SweepStart};
-use super::sweep_plan::SweepTile;
 use super::sweep_roots::{LANES, Lanes, Rays};
 use super::sweep_samples::{LAST_STEP, entered};
+use super::sweep_tile::SweepTile;
 use crate::dexel::SpatialField;
 use crate::tool::edge::Edge;
 use pulp::Arch;

@@ -5,7 +5,7 @@
 //! of the infeed takes the same depth; the offset runs along the direction of the linkage.
 
 use crate::math::Jet;
-use crate::scene::model::Infeed;
+use crate::process::shaping::scene::model::Infeed;
 
 /// Offset against stroke.
 #[derive(Debug, Clone, Copy)]

@@ -16,7 +16,7 @@ use crate::math::periodic_integral::PeriodicIntegral;
 use crate::math::roots::{bisect, sample_angle_rad};
 use crate::process::shaping::linkage::Axes;
 use crate::process::shaping::linkage::ShapingLinkage;
-use crate::scene::model::{AxisLimits, StrokeSpacing};
+use crate::process::shaping::scene::model::{AxisLimits, StrokeSpacing};
 use crate::units::TURN_RAD;
 
 /// Progress along the path.

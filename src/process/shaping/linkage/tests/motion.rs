@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::super::dynamics::{MachineMotion, motion, peaks};
 use super::super::relief::{ReliefFlank, ReliefVerdict, relief_ratio, smallest_relief};
 use super::*;
-use crate::scene::model::{Infeed, StrokeSpacing};
+use crate::process::shaping::scene::model::{Infeed, StrokeSpacing};
 
 #[test]
 fn motions_match_differences_and_peaks_bound_them() {

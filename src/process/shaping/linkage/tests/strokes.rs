@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::super::dynamics::motion;
 use super::*;
-use crate::scene::model::{AxisLimits, Feed, Infeed, StrokeSpacing};
+use crate::process::shaping::scene::model::{AxisLimits, Feed, Infeed, StrokeSpacing};
 
 #[test]
 fn counts_windows_and_seams() {

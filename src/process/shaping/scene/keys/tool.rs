@@ -1,16 +1,9 @@
 //! Keys of the shaper cutter.
 
-use super::{Default, Key, Kind, Range, Role, Section};
+use crate::scene::keys::{Default, Key, Kind, Range, Role, Section};
 
-/// `[tool]` and what is inside it.
+/// `[tool.shaper_cutter]` and what is inside it.
 pub(super) static SECTIONS: &[Section] = &[
-    Section {
-        path: "tool",
-        role: Role::Choice { default: None, what: "tool" },
-        keys: &[],
-        groups: &[],
-        teach: "What cuts.",
-    },
     Section {
         path: "tool.shaper_cutter",
         role: Role::Variant,

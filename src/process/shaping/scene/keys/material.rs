@@ -1,7 +1,7 @@
 //! Keys of the work's material: what the cutting forces follow from.
 
-use super::{Default, Key, Kind, Range, Role, Section};
 use crate::material::{MATERIAL_NAMES, MATERIALS};
+use crate::scene::keys::{Default, Key, Kind, Range, Role, Section};
 
 /// A coefficient of the force law.
 const fn coefficient(name: &'static str, unit: &'static str, example: &'static str, teach: &'static str) -> Key {

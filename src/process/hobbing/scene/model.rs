@@ -1,6 +1,25 @@
-//! Checked values of hobbing scenes: the hob.
+//! Checked values of hobbing scenes: hob, limits of the machine, operations; mm, rad, s.
 
+use crate::scene::Scene;
 use crate::terms::Hand;
+
+/// Hobbing: tool, machine and operations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hobbing {
+    /// The hob.
+    pub tool: Hob,
+    /// Limits of the axes, where known.
+    pub limits: HobbingAxisLimits,
+    /// Operations in the order they are cut; at least one. The last one defines the target flank.
+    pub operations: Vec<HobbingOperation>,
+}
+
+impl Hobbing {
+    /// The hobbing part of a scene, if it hobs.
+    pub fn of(scene: &Scene) -> Option<&Self> {
+        scene.process.get()
+    }
+}
 
 /// A hob; module and pressure angle are the gear's, both normal.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,17 +117,6 @@ pub enum LinkageForm {
     /// As printed: extra rotation v_z tan(beta) / r of the work alone. Wrong on curves that are no circles; kept to
     /// show what it does.
     AsPrinted,
-}
-
-/// Hobbing: tool, machine and operations.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Hobbing {
-    /// The hob.
-    pub tool: Hob,
-    /// Limits of the axes, where known.
-    pub limits: HobbingAxisLimits,
-    /// Operations in the order they are cut; at least one. The last one defines the target flank.
-    pub operations: Vec<HobbingOperation>,
 }
 
 /// Largest speeds and accelerations of a hobbing machine's axes in the order hob, work, tangential (X), radial (Y),

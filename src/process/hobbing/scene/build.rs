@@ -1,44 +1,36 @@
 //! Checked values of a hobbing scene to the model.
 
-use super::{mm_from_um, rad, stock_or_offset};
-use crate::scene::model::{
+use super::model::{
     Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, Hob, HobSize, Hobbing, HobbingAxisLimits,
-    HobbingKind, HobbingOperation, LinkageForm, Process, Protuberance, ShiftDirection, ShiftStrategy, Worm,
+    HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
 };
+use crate::scene::Part;
+use crate::scene::build::stock_or_offset_mm;
 use crate::scene::values::{Values, View};
-use crate::terms::Hand;
 use crate::units::TURN_RAD;
 use std::path::Path;
 
 /// Hobbing: hob, limits and operations.
-pub(in crate::scene) fn hobbing(values: &Values, _base_dir: &Path) -> Option<Process> {
-    let pressure_angle_rad = rad(values.view("gear"), "pressure_angle_deg")?;
+pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<Part> {
+    let pressure_angle_rad = values.view("gear").rad("pressure_angle_deg")?;
     let operations: Option<Vec<HobbingOperation>> = (0..values.count("operation"))
         .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
         .collect();
     let tool = hob(values.view("tool.hob"))?;
-    Some(Process::Hobbing(Hobbing { tool, limits: limits(values), operations: operations? }))
-}
-
-pub(super) fn hand(word: &str) -> Option<Hand> {
-    match word {
-        "right" => Some(Hand::Right),
-        "left" => Some(Hand::Left),
-        _ => None,
-    }
+    Some(Part::new(Hobbing { tool, limits: limits(values), operations: operations? }))
 }
 
 fn hob(hob: View<'_>) -> Option<Hob> {
     Some(Hob {
         starts: hob.whole("starts")?,
-        hand: hand(hob.text("hand")?)?,
+        hand: hob.hand("hand")?,
         gashes: hob.whole("gashes")?,
         gash_form: match hob.text("gash_form")? {
             "axial" => GashForm::Axial,
             "helical" => GashForm::Helical,
             _ => return None,
         },
-        size: match (rad(hob, "lead_angle_deg"), hob.number("reference_diameter_mm")) {
+        size: match (hob.rad("lead_angle_deg"), hob.number("reference_diameter_mm")) {
             (Some(angle), _) => HobSize::LeadAngle(angle),
             (None, diameter_mm) => HobSize::ReferenceDiameter(diameter_mm?),
         },
@@ -52,7 +44,7 @@ fn hob(hob: View<'_>) -> Option<Hob> {
         },
         tip_radius_mm: hob.number("tip_radius_mm")?,
         protuberance: match hob.number("protuberance_height_mm") {
-            Some(height_mm) => Some(Protuberance { height_mm, angle_rad: rad(hob, "protuberance_angle_deg")? }),
+            Some(height_mm) => Some(Protuberance { height_mm, angle_rad: hob.rad("protuberance_angle_deg")? }),
             None => None,
         },
         thinning_mm: hob.number("thinning_mm")?,
@@ -64,16 +56,16 @@ fn limits(values: &Values) -> HobbingAxisLimits {
     let limits = values.view("machine.hobbing_limits");
     HobbingAxisLimits {
         speeds: [
-            rad(limits, "hob_speed_deg_per_s"),
-            rad(limits, "work_speed_deg_per_s"),
+            limits.rad("hob_speed_deg_per_s"),
+            limits.rad("work_speed_deg_per_s"),
             limits.number("tangential_speed_mm_per_s"),
             limits.number("radial_speed_mm_per_s"),
             limits.number("slide_speed_mm_per_s"),
             limits.number("shift_speed_mm_per_s"),
         ],
         accelerations: [
-            rad(limits, "hob_acceleration_deg_per_s2"),
-            rad(limits, "work_acceleration_deg_per_s2"),
+            limits.rad("hob_acceleration_deg_per_s2"),
+            limits.rad("work_acceleration_deg_per_s2"),
             limits.number("tangential_acceleration_mm_per_s2"),
             limits.number("radial_acceleration_mm_per_s2"),
             None,
@@ -86,7 +78,7 @@ fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<Hob
     let operation = values.view(path);
     Some(HobbingOperation {
         name: operation.text("name")?.to_owned(),
-        offset_mm: stock_or_offset(operation, pressure_angle_rad)?,
+        offset_mm: stock_or_offset_mm(operation, pressure_angle_rad)?,
         kind: kind(values, path, operation.variant("linkage")?)?,
         hob_speed_rad_per_s: operation.number("hob_speed_per_minute")? * TURN_RAD / 60.0,
         axial_feed_mm_per_revolution: operation.number("axial_feed_mm_per_revolution")?,
@@ -102,9 +94,9 @@ fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<Hob
         },
         approach_mm: operation.number("approach_mm"),
         overrun_mm: operation.number("overrun_mm"),
-        head_angle_rad: rad(operation, "head_angle_deg"),
+        head_angle_rad: operation.rad("head_angle_deg"),
         shift_start_mm: operation.number("shift_start_mm"),
-        ridge_tolerance_mm: mm_from_um(operation, "ridge_tolerance_um")?,
+        ridge_tolerance_mm: operation.mm_from_um("ridge_tolerance_um")?,
     })
 }
 

@@ -1,0 +1,37 @@
+//! Tiles of a spatial field and their cells: the dexels that visit the same sweeps.
+
+use glam::DVec3;
+use std::ops::Range;
+
+/// Columns of a tile at most.
+pub const TILE_COLUMNS: usize = 16;
+/// Rows of a tile at most: whole chunks of every backend.
+pub const TILE_ROWS: usize = 32;
+/// Cells of a tile along each side: a record is told in which it can be lowest.
+pub const CELLS: usize = 4;
+
+/// Some dexels and the sweeps that they visit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepTile {
+    /// Columns of the field.
+    pub columns: Range<usize>,
+    /// Rows of the field.
+    pub rows: Range<usize>,
+    /// Origin of the tile's frame, gear frame, mm; axes are parallel to the gear's.
+    pub origin_mm: DVec3,
+    /// Records in [`super::sweep_plan::SweepPlan::records`], in order of pass id.
+    pub records: Range<usize>,
+}
+
+impl SweepTile {
+    /// Cell of a dexel: bit of [`super::sweep::SweepRecord::cells`].
+    pub fn cell(&self, column: usize, row: usize) -> usize {
+        let (columns, rows) = (TILE_COLUMNS / CELLS, TILE_ROWS / CELLS);
+        CELLS * ((column - self.columns.start) / columns) + (row - self.rows.start) / rows
+    }
+
+    /// Column and row of the middle ray.
+    pub fn middle(&self) -> [usize; 2] {
+        [&self.columns, &self.rows].map(|lines| usize::midpoint(lines.start, lines.end - 1))
+    }
+}

@@ -1,0 +1,13 @@
+//! Keys that scenes of hobbing add to the shared ones.
+
+mod machine;
+mod operation;
+mod tool;
+
+use crate::scene::keys::{Addition, Section};
+
+/// Sections of its own.
+pub(super) static SECTIONS: &[&[Section]] = &[tool::SECTIONS, machine::SECTIONS, operation::SECTIONS];
+
+/// Keys in shared sections.
+pub(super) static ADDED: &[&Addition] = &[&operation::ADDED];

@@ -1,0 +1,155 @@
+//! Checked values of a shaping scene to the model.
+
+use super::model::{
+    AxisLimits, Feed, Infeed, Linkage, Machine, Measure, NormalReading, Operation, ShaperCutter, Shaping,
+    StrokeSpacing, Tip, TraditionalDirection,
+};
+use crate::material::EdgeForce;
+use crate::scene::Part;
+use crate::scene::build::stock_or_offset_mm;
+use crate::scene::values::Values;
+use crate::units::UM_PER_MM;
+use std::path::Path;
+
+/// Shaping: cutter, machine and operations.
+pub(super) fn build(values: &Values, base_dir: &Path) -> Option<Part> {
+    let pressure_angle_rad = values.view("gear").rad("pressure_angle_deg")?;
+    let operations: Option<Vec<Operation>> = (0..values.count("operation"))
+        .map(|index| operation(values, &format!("operation.{index}"), base_dir, pressure_angle_rad))
+        .collect();
+    let measure = values.view("measure");
+    Some(Part::new(Shaping {
+        tool: shaper_cutter(values)?,
+        machine: machine(values)?,
+        operations: operations?,
+        material: material(values)?,
+        chip_spacing_mm: values.view("fields.chips").number("spacing_mm")?,
+        measure: Measure {
+            profile_start_height_mm: measure.number("profile_start_height_mm"),
+            profile_end_height_mm: measure.number("profile_end_height_mm"),
+        },
+    }))
+}
+
+fn material(values: &Values) -> Option<EdgeForce> {
+    let material = values.view("material");
+    Some(EdgeForce {
+        cutting_n_per_mm2: material.number("cutting_force_n_per_mm2")?,
+        cutting_edge_n_per_mm: material.number("cutting_edge_force_n_per_mm")?,
+        normal_n_per_mm2: material.number("normal_force_n_per_mm2")?,
+        normal_edge_n_per_mm: material.number("normal_edge_force_n_per_mm")?,
+    })
+}
+
+fn shaper_cutter(values: &Values) -> Option<ShaperCutter> {
+    let cutter = values.view("tool.shaper_cutter");
+    let round = values.view("tool.shaper_cutter.tip.round");
+    let chamfer = values.view("tool.shaper_cutter.tip.chamfer");
+    Some(ShaperCutter {
+        teeth: cutter.whole("teeth")?,
+        addendum_coefficient: cutter.number("addendum_coefficient")?,
+        dedendum_coefficient: cutter.number("dedendum_coefficient")?,
+        profile_shift_coefficient: cutter.number("profile_shift_coefficient")?,
+        thinning_mm: cutter.number("thinning_mm")?,
+        tip: match cutter.variant("tip")? {
+            "sharp" => Tip::Sharp,
+            "round" => Tip::Round { radius_mm: round.number("radius_mm")? },
+            "chamfer" => Tip::Chamfer { height_mm: chamfer.number("height_mm")?, angle_rad: chamfer.rad("angle_deg")? },
+            _ => return None,
+        },
+        rake_angle_rad: cutter.rad("rake_angle_deg")?,
+        runout_mm: cutter.mm_from_um("runout_um")?,
+        runout_angle_rad: cutter.rad("runout_angle_deg")?,
+        pitch_errors_mm: cutter.numbers("pitch_errors_um")?.iter().map(|um| um / UM_PER_MM).collect(),
+    })
+}
+
+fn machine(values: &Values) -> Option<Machine> {
+    let machine = values.view("machine");
+    let limits = values.view("machine.limits");
+    Some(Machine {
+        double_strokes_per_minute: machine.number("double_strokes_per_minute")?,
+        approach_mm: machine.number("approach_mm")?,
+        overrun_mm: machine.number("overrun_mm")?,
+        back_off_mm: machine.number("back_off_mm")?,
+        work_eccentricity_mm: machine.mm_from_um("work_eccentricity_um")?,
+        work_eccentricity_angle_rad: machine.rad("work_eccentricity_angle_deg")?,
+        limits: AxisLimits {
+            work_speed_rad_per_s: limits.rad("work_speed_deg_per_s"),
+            cutter_speed_rad_per_s: limits.rad("cutter_speed_deg_per_s"),
+            center_distance_speed_mm_per_s: limits.number("center_distance_speed_mm_per_s"),
+            work_acceleration_rad_per_s2: limits.rad("work_acceleration_deg_per_s2"),
+            cutter_acceleration_rad_per_s2: limits.rad("cutter_acceleration_deg_per_s2"),
+            center_distance_acceleration_mm_per_s2: limits.number("center_distance_acceleration_mm_per_s2"),
+        },
+    })
+}
+
+fn operation(values: &Values, path: &str, base_dir: &Path, pressure_angle_rad: f64) -> Option<Operation> {
+    let operation = values.view(path);
+    let feed = match operation.number("circular_feed_mm_per_stroke") {
+        Some(feed_mm) => Feed::CircularMmPerStroke(feed_mm),
+        None => Feed::StrokesPerRevolution(operation.whole("strokes_per_revolution")?),
+    };
+    let window_rad = match operation.numbers("window_deg") {
+        Some([start, end]) => Some([start.to_radians(), end.to_radians()]),
+        _ => None,
+    };
+    Some(Operation {
+        name: operation.text("name")?.to_owned(),
+        offset_mm: stock_or_offset_mm(operation, pressure_angle_rad)?,
+        linkage: linkage(values, path, operation.variant("linkage")?)?,
+        feed,
+        spacing: match operation.text("stroke_spacing")? {
+            "work_angle" => StrokeSpacing::WorkAngle,
+            "arc" => StrokeSpacing::Arc,
+            "time" => StrokeSpacing::Time,
+            _ => return None,
+        },
+        window_rad,
+        revolutions: operation.whole("revolutions")?,
+        overlap_rad: operation.rad("overlap_deg")?,
+        infeed: infeed(values, path, operation.variant("infeed")?)?,
+        feed_during_stroke: operation.boolean("feed_during_stroke")?,
+        program: operation.text("program").map(|name| base_dir.join(name)),
+    })
+}
+
+fn linkage(values: &Values, path: &str, law: &str) -> Option<Linkage> {
+    let path = format!("{path}.linkage.{law}");
+    let linkage = values.view(&path);
+    Some(match law {
+        "shaping_traditional" => Linkage::ShapingTraditional {
+            direction: match linkage.text("direction")? {
+                "center_line" => TraditionalDirection::CenterLine,
+                "polar_radius" => TraditionalDirection::PolarRadius,
+                _ => return None,
+            },
+        },
+        "shaping_normal" => Linkage::ShapingNormal {
+            reading: match linkage.text("reading")? {
+                "corrected" => NormalReading::Corrected,
+                "as_printed" => NormalReading::AsPrinted,
+                _ => return None,
+            },
+        },
+        _ => return None,
+    })
+}
+
+fn infeed(values: &Values, path: &str, way: &str) -> Option<Infeed> {
+    let path = format!("{path}.infeed.{way}");
+    let infeed = values.view(&path);
+    Some(match way {
+        "none" => Infeed::None,
+        "plunge" => Infeed::Plunge { depth_mm: infeed.number("depth_mm")?, strokes: infeed.whole("strokes")? },
+        "spiral" => Infeed::Spiral { depth_mm: infeed.number("depth_mm")?, angle_rad: infeed.rad("angle_deg")? },
+        "plunge_and_roll" => Infeed::PlungeAndRoll {
+            plunge_depth_mm: infeed.number("plunge_depth_mm")?,
+            strokes: infeed.whole("strokes")?,
+            roll_depth_mm: infeed.number("roll_depth_mm")?,
+            angle_rad: infeed.rad("angle_deg")?,
+        },
+        _ => return None,
+    })
+}

@@ -1,0 +1,198 @@
+//! Values of a shaping scene held against each other.
+
+use crate::scene::keys::join;
+use crate::scene::problems::Found;
+use std::f64::consts::PI;
+
+/// Most strokes of one operation; ten thousand per tooth of a hundred-tooth gear are already beyond any machine.
+const MOST_STROKES: f64 = 1e7;
+
+/// Finest spacing of the rays on which chips are followed, per module: ten times finer than usual, maps take some
+/// hundred megabytes.
+const MOST_CHIP_SPACINGS_PER_MODULE: f64 = 600.0;
+
+/// Adds a problem for every contradiction.
+pub(super) fn check(found: &mut Found<'_, '_, '_>) {
+    // A missing value ends only the check that asks for it.
+    let _: [Option<()>; 5] =
+        [cutter_core(found), cutter_thinning(found), pitch_errors(found), chips(found), profile(found)];
+    tip(found);
+    for index in 0..found.values.count("operation") {
+        let path = format!("operation.{index}");
+        let _: [Option<()>; 6] = [
+            window(found, &path),
+            offset(found, &path),
+            strokes(found, &path),
+            feed(found, &path),
+            time_spacing(found, &path),
+            infeed(found, &path),
+        ];
+    }
+}
+
+fn cutter_core(found: &mut Found) -> Option<()> {
+    let path = "tool.shaper_cutter";
+    let cutter = found.view(path);
+    let teeth = f64::from(cutter.whole("teeth")?);
+    let (dedendum, shift) = (cutter.number("dedendum_coefficient")?, cutter.number("profile_shift_coefficient")?);
+    let root_modules = teeth / 2.0 - dedendum + shift;
+    let message = || format!("`{path}.teeth`: {teeth} teeth leave a cutter root radius of {root_modules:.3} modules");
+    found.blame(root_modules < 0.5, &join(path, "teeth"), message, "take more teeth or a smaller dedendum_coefficient");
+    Some(())
+}
+
+fn cutter_thinning(found: &mut Found) -> Option<()> {
+    let path = "tool.shaper_cutter";
+    let module_mm = found.view("gear").number("module_mm")?;
+    let thinning_mm = found.view(path).number("thinning_mm")?;
+    let allowance_mm = found.view("gear").number("tooth_thickness_allowance_mm")?;
+    let half_pitch_mm = PI * module_mm / 2.0;
+    let key = join(path, "thinning_mm");
+    let message = || format!("`{key}`: {thinning_mm} takes the whole tooth thickness of {half_pitch_mm:.3} mm away");
+    found.blame(thinning_mm.abs() >= half_pitch_mm, &key, message, "thin by a small part of the module");
+    let key = "gear.tooth_thickness_allowance_mm";
+    let message =
+        || format!("`{key}`: {allowance_mm} is as much as the whole tooth thickness of {half_pitch_mm:.3} mm");
+    found.blame(allowance_mm.abs() >= half_pitch_mm, key, message, "take a small part of the module");
+    Some(())
+}
+
+fn pitch_errors(found: &mut Found) -> Option<()> {
+    let path = "tool.shaper_cutter";
+    let cutter = found.view(path);
+    let (teeth, errors) = (cutter.whole("teeth")? as usize, cutter.numbers("pitch_errors_um")?.len());
+    let message = || format!("`{path}.pitch_errors_um`: {errors} values for {teeth} cutter teeth");
+    let key = join(path, "pitch_errors_um");
+    found.blame(errors != 0 && errors != teeth, &key, message, "give one value per cutter tooth, or none");
+    Some(())
+}
+
+fn tip(found: &mut Found) {
+    for (path, name) in [("tool.shaper_cutter.tip.round", "radius_mm"), ("tool.shaper_cutter.tip.chamfer", "height_mm")]
+    {
+        let size_mm = found.view(path).number(name);
+        let addendum = found.view("tool.shaper_cutter").number("addendum_coefficient");
+        let module_mm = found.view("gear").number("module_mm");
+        if let (Some(size_mm), Some(addendum), Some(module_mm)) = (size_mm, addendum, module_mm) {
+            let addendum_mm = addendum * module_mm;
+            let key = join(path, name);
+            let message =
+                || format!("`{key}`: {size_mm} is not smaller than the cutter's addendum of {addendum_mm:.3} mm");
+            found.blame(size_mm >= addendum_mm, &key, message, "take about 0.2 modules");
+        }
+    }
+}
+
+fn chips(found: &mut Found) -> Option<()> {
+    let path = "fields.chips.spacing_mm";
+    let spacing_mm = found.view("fields.chips").number("spacing_mm")?;
+    let least_mm = found.view("gear").number("module_mm")? / MOST_CHIP_SPACINGS_PER_MODULE;
+    let message =
+        || format!("`{path}`: {spacing_mm} is finer than the maps of chips can hold for this module: {least_mm:.4} mm");
+    found.blame(spacing_mm < least_mm, path, message, "use module_mm / 600 or more; module_mm / 60 is the default");
+    Some(())
+}
+
+fn profile(found: &mut Found) -> Option<()> {
+    let measure = found.view("measure");
+    let (start_mm, end_mm) = (measure.number("profile_start_height_mm")?, measure.number("profile_end_height_mm")?);
+    let message = || format!("the evaluated profile ends at {end_mm} mm, not above its start at {start_mm} mm");
+    let way_out = "make profile_end_height_mm larger than profile_start_height_mm";
+    found.blame(start_mm >= end_mm, "measure.profile_end_height_mm", message, way_out);
+    Some(())
+}
+
+fn window(found: &mut Found, path: &str) -> Option<()> {
+    let operation = found.view(path);
+    let window = operation.numbers("window_deg")?;
+    let (start, end) = (*window.first()?, *window.get(1)?);
+    let (revolutions, overlap_deg) = (operation.whole("revolutions"), operation.number("overlap_deg"));
+    let key = join(path, "window_deg");
+    let message = || format!("the window [{start}, {end}] deg ends before it begins");
+    found.blame(start >= end, &key, message, "write the smaller work angle first");
+    let message = || format!("the window [{start}, {end}] deg is wider than a turn");
+    found.blame(end - start > 360.0, &key, message, "leave window_deg out, and use revolutions and overlap_deg");
+    let message = || "a window cuts part of one turn, so more revolutions or an overlap contradict it".to_owned();
+    let contradicted = revolutions.is_some_and(|turns| turns > 1) || overlap_deg.is_some_and(|overlap| overlap > 0.0);
+    found.blame(contradicted, &key, message, "keep either window_deg or revolutions and overlap_deg");
+    Some(())
+}
+
+fn offset(found: &mut Found, path: &str) -> Option<()> {
+    let (gear, cutter) = (found.view("gear"), found.view("tool.shaper_cutter"));
+    let shift = cutter.number("profile_shift_coefficient")?.max(0.0);
+    let reach = gear.number("addendum_coefficient")? + cutter.number("addendum_coefficient")? + shift;
+    let reach_mm = reach * gear.number("module_mm")?;
+    let operation = found.view(path);
+    let (name, offset_mm) = if let Some(stock_mm) = operation.number("stock_per_flank_mm") {
+        ("stock_per_flank_mm", stock_mm / gear.number("pressure_angle_deg")?.to_radians().sin())
+    } else {
+        ("offset_mm", operation.number("offset_mm")?)
+    };
+    let message = || {
+        format!(
+            "an offset of {offset_mm:.3} mm keeps the cutter out of the blank: it reaches {reach_mm:.3} mm deep at \
+            offset 0"
+        )
+    };
+    found.blame(offset_mm >= reach_mm, &join(path, name), message, "take a smaller offset or stock");
+    Some(())
+}
+
+fn strokes(found: &mut Found, path: &str) -> Option<()> {
+    let operation = found.view(path);
+    let per_turn = f64::from(operation.whole("strokes_per_revolution")?);
+    let turns = f64::from(operation.whole("revolutions")?) + operation.number("overlap_deg")? / 360.0;
+    let strokes = per_turn * turns;
+    let message = || format!("{strokes:.2e} strokes in one operation; at most {MOST_STROKES:.0e} are taken");
+    let key = join(path, "strokes_per_revolution");
+    found.blame(strokes > MOST_STROKES, &key, message, "take fewer strokes or revolutions");
+    Some(())
+}
+
+fn feed(found: &mut Found, path: &str) -> Option<()> {
+    let gear = found.view("gear");
+    let perimeter_mm = PI * gear.number("module_mm")? * f64::from(gear.whole("teeth")?);
+    let operation = found.view(path);
+    let feed_mm = operation.number("circular_feed_mm_per_stroke")?;
+    let strokes = perimeter_mm / feed_mm;
+    let key = join(path, "circular_feed_mm_per_stroke");
+    let message = || {
+        format!(
+            "a feed of {feed_mm} mm gives {strokes:.1} strokes on a pitch curve of {perimeter_mm:.3} mm; 8 are the \
+            fewest"
+        )
+    };
+    found.blame(strokes < 8.0, &key, message, "take a smaller feed");
+    let turns = f64::from(operation.whole("revolutions")?) + operation.number("overlap_deg")? / 360.0;
+    let all = strokes * turns;
+    let message = || format!("{all:.2e} strokes in one operation; at most {MOST_STROKES:.0e} are taken");
+    found.blame(all > MOST_STROKES, &key, message, "take a larger feed or fewer revolutions");
+    Some(())
+}
+
+fn time_spacing(found: &mut Found, path: &str) -> Option<()> {
+    let by_time = found.view(path).text("stroke_spacing")? == "time";
+    let limits = found.view("machine.limits");
+    let names = ["work_speed_deg_per_s", "cutter_speed_deg_per_s", "center_distance_speed_mm_per_s"];
+    let limited = names.iter().any(|name| limits.number(name).is_some());
+    let message =
+        || "stroke_spacing = \"time\" lets the slowest axis run at its limit, but no axis speed is limited".to_owned();
+    let way_out = "write a speed under [machine.limits], or take \"work_angle\" or \"arc\"";
+    found.blame(by_time && !limited, &join(path, "stroke_spacing"), message, way_out);
+    Some(())
+}
+
+fn infeed(found: &mut Found, path: &str) -> Option<()> {
+    let operation = found.view(path);
+    let inside = format!("{path}.infeed.{}", operation.variant("infeed")?);
+    let angle_deg = found.view(&inside).number("angle_deg")?;
+    let turn_deg = match operation.numbers("window_deg") {
+        Some([start, end]) => end - start,
+        _ => 360.0 * f64::from(operation.whole("revolutions")?) + operation.number("overlap_deg")?,
+    };
+    let message = || format!("the infeed takes {angle_deg} deg, but the operation rolls over only {turn_deg} deg");
+    let way_out = "feed over a smaller angle, or roll over more: revolutions, overlap_deg";
+    found.blame(angle_deg >= turn_deg, &join(&inside, "angle_deg"), message, way_out);
+    Some(())
+}

@@ -1,0 +1,85 @@
+//! Keys of the machine around the cut: ram, mounting errors, limits of the axes.
+
+use crate::scene::keys::{Addition, Default, Key, Kind, Range, Role, Section};
+
+/// Keys of `[machine]`.
+pub(super) static ADDED: Addition = Addition {
+    path: "machine",
+    keys: &[
+        Key {
+            name: "double_strokes_per_minute",
+            kind: Kind::Number(Range::above(0.0, 5000.0)),
+            unit: "1/min",
+            default: Default::Number(400.0),
+            example: "400.0",
+            teach: "Speed of the ram: one double stroke is a cutting stroke and its return.",
+        },
+        Key {
+            name: "approach_mm",
+            kind: Kind::Number(Range::closed(0.0, 100.0)),
+            unit: "mm",
+            default: Default::Number(3.0),
+            example: "3.0",
+            teach: "Travel of the ram above the face before the cut.",
+        },
+        Key {
+            name: "overrun_mm",
+            kind: Kind::Number(Range::closed(0.0, 100.0)),
+            unit: "mm",
+            default: Default::Number(3.0),
+            example: "3.0",
+            teach: "Travel of the ram below the face after the cut.",
+        },
+        Key {
+            name: "back_off_mm",
+            kind: Kind::Number(Range::closed(0.0, 20.0)),
+            unit: "mm",
+            default: Default::Number(0.5),
+            example: "0.5",
+            teach: "How far the cutter is lifted off along the line of centres during the return stroke.",
+        },
+        Key {
+            name: "work_eccentricity_um",
+            kind: Kind::Number(Range::closed(0.0, 1000.0)),
+            unit: "um",
+            default: Default::Number(0.0),
+            example: "10.0",
+            teach: "Mounting error: distance of the gear axis from the axis of the work spindle.",
+        },
+        Key {
+            name: "work_eccentricity_angle_deg",
+            kind: Kind::Number(Range::closed(-360.0, 360.0)),
+            unit: "deg",
+            default: Default::Number(0.0),
+            example: "0.0",
+            teach: "Direction of that error in the gear, counted from phi = 0.",
+        },
+    ],
+    groups: &[],
+};
+
+/// What is inside `[machine]`.
+pub(super) static SECTIONS: &[Section] = &[Section {
+    path: "machine.limits",
+    role: Role::Plain,
+    keys: &[
+        Key::limit("work_speed_deg_per_s", "deg/s", "60.0", "Largest speed of the work spindle; 1 rpm is 6 deg/s."),
+        Key::limit("cutter_speed_deg_per_s", "deg/s", "120.0", "Largest speed of the cutter spindle."),
+        Key::limit("center_distance_speed_mm_per_s", "mm/s", "50.0", "Largest speed of the radial axis."),
+        Key::limit("work_acceleration_deg_per_s2", "deg/s^2", "600.0", "Largest acceleration of the work spindle."),
+        Key::limit(
+            "cutter_acceleration_deg_per_s2",
+            "deg/s^2",
+            "1200.0",
+            "Largest acceleration of the cutter spindle.",
+        ),
+        Key::limit(
+            "center_distance_acceleration_mm_per_s2",
+            "mm/s^2",
+            "500.0",
+            "Largest acceleration of the radial axis.",
+        ),
+    ],
+    groups: &[],
+    teach: "Largest speeds and accelerations of the axes; the peaks of every operation are held against them.",
+}];

@@ -1,0 +1,185 @@
+//! Keys of the operations: feed, linkage and infeed.
+
+use crate::scene::keys::{Addition, Default, Group, Key, Kind, Range, Role, Section};
+
+/// A depth of an infeed.
+const fn depth(name: &'static str, example: &'static str, teach: &'static str) -> Key {
+    Key { name, kind: Kind::Number(Range::above(0.0, 100.0)), unit: "mm", default: Default::Required, example, teach }
+}
+
+/// Work angle over which an infeed takes place.
+const ANGLE: Key = Key {
+    name: "angle_deg",
+    kind: Kind::Number(Range::above(0.0, 3600.0)),
+    unit: "deg",
+    default: Default::Required,
+    example: "90.0",
+    teach: "Work angle over which the depth is fed.",
+};
+
+/// Strokes of a plunge.
+const STROKES: Key = Key {
+    name: "strokes",
+    kind: Kind::Whole { min: 1, max: 100_000 },
+    unit: "",
+    default: Default::Required,
+    example: "60",
+    teach: "Number of strokes over which the cutter plunges.",
+};
+
+/// Keys of `[[operation]]`.
+pub(super) static ADDED: Addition = Addition {
+    path: "operation[]",
+    keys: &[
+        Key {
+            name: "strokes_per_revolution",
+            kind: Kind::Whole { min: 8, max: 1_000_000 },
+            unit: "",
+            default: Default::Derived("100 x teeth of the gear"),
+            example: "4200",
+            teach: "Double strokes in one turn of the work; 100 per tooth is a fine finishing cut, 20 a rough one.",
+        },
+        Key {
+            name: "circular_feed_mm_per_stroke",
+            kind: Kind::Number(Range::above(0.0, 20.0)),
+            unit: "mm per stroke",
+            default: Default::LeftOut("strokes_per_revolution holds"),
+            example: "0.3",
+            teach: "Mean arc of pitch curve per double stroke, as shops set it.",
+        },
+        Key {
+            name: "stroke_spacing",
+            kind: Kind::Word(&["work_angle", "arc", "time"]),
+            unit: "",
+            default: Default::Word("work_angle"),
+            example: "\"work_angle\"",
+            teach: "What advances equally from stroke to stroke: the work angle, the arc of pitch curve, or time \
+                with the slowest axis at its limit.",
+        },
+        Key {
+            name: "window_deg",
+            kind: Kind::Pair(Range::closed(-360.0, 720.0)),
+            unit: "deg",
+            default: Default::LeftOut("the whole turn"),
+            example: "[0.0, 120.0]",
+            teach: "First and last work angle, when only part of the turn is cut.",
+        },
+        Key {
+            name: "revolutions",
+            kind: Kind::Whole { min: 1, max: 100 },
+            unit: "",
+            default: Default::Whole(1),
+            example: "1",
+            teach: "Turns of the work.",
+        },
+        Key {
+            name: "overlap_deg",
+            kind: Kind::Number(Range::closed(0.0, 360.0)),
+            unit: "deg",
+            default: Default::Number(0.0),
+            example: "5.0",
+            teach: "Work angle cut beyond the whole turns, so that the end runs over the start.",
+        },
+        Key {
+            name: "feed_during_stroke",
+            kind: Kind::Boolean,
+            unit: "",
+            default: Default::Boolean(false),
+            example: "false",
+            teach: "true: the rotary feed goes on while the cutter is in the work, as on a crank machine; false: \
+                the axes rest during each stroke.",
+        },
+        Key {
+            name: "program",
+            kind: Kind::Path,
+            unit: "",
+            default: Default::LeftOut("the linkage moves the axes"),
+            example: "\"finish.ngc\"",
+            teach: "Axis program (G-code, relative to the scene file) that is cut instead of the linkage's own \
+                positions; the linkage remains the target, so that maps show what the program does wrong.",
+        },
+    ],
+    groups: &[Group { names: &["strokes_per_revolution", "circular_feed_mm_per_stroke"], required: false }],
+};
+
+/// What is inside `[[operation]]`.
+pub(super) static SECTIONS: &[Section] = &[
+    Section {
+        path: "operation[].linkage",
+        role: Role::Choice { default: Some("shaping_normal"), what: "linkage" },
+        keys: &[],
+        groups: &[],
+        teach: "Law that moves the axes. With an offset of 0 both linkages of shaping cut the same gear.",
+    },
+    Section {
+        path: "operation[].linkage.shaping_traditional",
+        role: Role::Variant,
+        keys: &[Key {
+            name: "direction",
+            kind: Kind::Word(&["center_line", "polar_radius"]),
+            unit: "",
+            default: Default::Word("center_line"),
+            example: "\"center_line\"",
+            teach: "Direction of the offset: the machine's radial axis, or the polar radius of the pitch point (kept \
+                for comparison).",
+        }],
+        groups: &[],
+        teach: "The angles of the finishing cut, the offset added to the centre distance: simple, and it leaves uneven \
+            stock where the curvature changes.",
+    },
+    Section {
+        path: "operation[].linkage.shaping_normal",
+        role: Role::Variant,
+        keys: &[Key {
+            name: "reading",
+            kind: Kind::Word(&["corrected", "as_printed"]),
+            unit: "",
+            default: Default::Word("corrected"),
+            example: "\"corrected\"",
+            teach: "Reading of the paper's Eq. 12: with the offset in the cutter's angle, or without it as printed \
+                (wrong, kept to show what it does).",
+        }],
+        groups: &[],
+        teach: "The offset along the normal of the pitch curve, so that both flanks keep even stock.",
+    },
+    Section {
+        path: "operation[].infeed",
+        role: Role::Choice { default: Some("none"), what: "infeed" },
+        keys: &[],
+        groups: &[],
+        teach: "How the cutter gets to depth.",
+    },
+    Section {
+        path: "operation[].infeed.none",
+        role: Role::Variant,
+        keys: &[],
+        groups: &[],
+        teach: "At depth from the first stroke on.",
+    },
+    Section {
+        path: "operation[].infeed.plunge",
+        role: Role::Variant,
+        keys: &[depth("depth_mm", "6.75", "Depth to feed; the whole tooth depth is 2.25 modules."), STROKES],
+        groups: &[],
+        teach: "Radially at the start angle, without rolling.",
+    },
+    Section {
+        path: "operation[].infeed.spiral",
+        role: Role::Variant,
+        keys: &[depth("depth_mm", "6.75", "Depth to feed; the whole tooth depth is 2.25 modules."), ANGLE],
+        groups: &[],
+        teach: "Evenly while rolling over the first part of the turn. Cut as much overlap, or the start stays shallow.",
+    },
+    Section {
+        path: "operation[].infeed.plunge_and_roll",
+        role: Role::Variant,
+        keys: &[
+            depth("plunge_depth_mm", "4.0", "Depth plunged at the start angle."),
+            STROKES,
+            depth("roll_depth_mm", "2.75", "Depth fed afterwards while rolling."),
+            ANGLE,
+        ],
+        groups: &[],
+        teach: "Part by plunging, the rest while rolling.",
+    },
+];

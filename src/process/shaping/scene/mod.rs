@@ -1,0 +1,66 @@
+//! What scenes of shaping may say, and what becomes of it.
+
+mod build;
+mod checks;
+mod keys;
+pub mod model;
+
+use crate::material::Kienzle;
+use crate::scene::values::{Checked, Values};
+use crate::scene::{ProcessPart, SceneProcess};
+use model::Shaping;
+
+/// Shaping with a pinion cutter.
+pub static SCENE: SceneProcess = SceneProcess {
+    name: "shaping",
+    tool: "shaper_cutter",
+    tool_words: "a shaper cutter",
+    needed: "the module and the numbers of teeth",
+    scenes: include_str!("scenes.md"),
+    sections: keys::SECTIONS,
+    added: keys::ADDED,
+    derive,
+    check: checks::check,
+    build: build::build,
+};
+
+impl ProcessPart for Shaping {
+    fn process(&self) -> &'static SceneProcess {
+        &SCENE
+    }
+
+    fn operation_names(&self) -> Vec<&str> {
+        self.operations.iter().map(|operation| operation.name.as_str()).collect()
+    }
+
+    fn ray_spacings(&self) -> Vec<(&'static str, [f64; 2])> {
+        vec![("fields.chips.spacing_mm", [self.chip_spacing_mm, keys::LARGEST_CHIP_SPACING_MM])]
+    }
+}
+
+/// Spacing of the chips' rays, force coefficients of a named material, strokes per revolution.
+fn derive(values: &mut Values) {
+    let gear = values.view("gear");
+    let (module_mm, teeth) = (gear.number("module_mm"), gear.whole("teeth"));
+    if let Some(module_mm) = module_mm {
+        values.put_default("fields.chips", "spacing_mm", Checked::Number((module_mm / 60.0).max(0.002)));
+    }
+    if let Some(material) = values.view("material").text("name").and_then(Kienzle::named) {
+        let force = material.edge_force();
+        for (name, value) in [
+            ("cutting_force_n_per_mm2", force.cutting_n_per_mm2),
+            ("cutting_edge_force_n_per_mm", force.cutting_edge_n_per_mm),
+            ("normal_force_n_per_mm2", force.normal_n_per_mm2),
+            ("normal_edge_force_n_per_mm", force.normal_edge_n_per_mm),
+        ] {
+            values.put_default("material", name, Checked::Number(value));
+        }
+    }
+    let Some(teeth) = teeth else { return };
+    for index in 0..values.count("operation") {
+        let path = format!("operation.{index}");
+        if !values.is_written(&path, "circular_feed_mm_per_stroke") {
+            values.put_default(&path, "strokes_per_revolution", Checked::Whole(100 * teeth));
+        }
+    }
+}

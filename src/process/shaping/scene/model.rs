@@ -1,0 +1,238 @@
+//! Checked values of shaping scenes: cutter, machine, operations; mm, rad, s.
+
+use crate::material::EdgeForce;
+use crate::scene::Scene;
+use std::path::PathBuf;
+
+/// Shaping: tool, machine and operations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shaping {
+    /// The shaper cutter.
+    pub tool: ShaperCutter,
+    /// The machine: stroke, clearances, mounting errors, axis limits.
+    pub machine: Machine,
+    /// Operations in the order they are cut; at least one. The last one defines the target flank.
+    pub operations: Vec<Operation>,
+    /// Force coefficients of the work's material.
+    pub material: EdgeForce,
+    /// Distance of the rays on which chips are followed, mm.
+    pub chip_spacing_mm: f64,
+    /// Where profiles are evaluated.
+    pub measure: Measure,
+}
+
+impl Shaping {
+    /// The shaping part of a scene, if it shapes.
+    pub fn of(scene: &Scene) -> Option<&Self> {
+        scene.process.get()
+    }
+
+    /// The same, to try other values.
+    pub fn of_mut(scene: &mut Scene) -> Option<&mut Self> {
+        scene.process.get_mut()
+    }
+}
+
+/// Shaper cutter by its projected transverse profile.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShaperCutter {
+    /// z0.
+    pub teeth: u32,
+    /// Addendum in modules (1.25 cuts the gear's root clearance).
+    pub addendum_coefficient: f64,
+    /// Dedendum in modules.
+    pub dedendum_coefficient: f64,
+    /// Profile shift x0 in modules.
+    pub profile_shift_coefficient: f64,
+    /// Tooth thickness taken off on the pitch circle.
+    pub thinning_mm: f64,
+    /// Shape of the tip corners.
+    pub tip: Tip,
+    /// Top rake of its conical rake face, rad; for forces alone.
+    pub rake_angle_rad: f64,
+    /// Distance of the cutter's profile axis from its spindle axis.
+    pub runout_mm: f64,
+    /// Direction of the runout in the cutter frame, from cutter tooth 0.
+    pub runout_angle_rad: f64,
+    /// Cumulative pitch error of each cutter tooth on the pitch circle, mm, positive counter-clockwise; empty or one
+    /// value per tooth.
+    pub pitch_errors_mm: Vec<f64>,
+}
+
+/// Tip corners of the cutter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tip {
+    /// Sharp corners.
+    Sharp,
+    /// Round of this radius, tangent to flank and tip circle.
+    Round {
+        /// Radius of the round.
+        radius_mm: f64,
+    },
+    /// Straight chamfer between flank and tip circle.
+    Chamfer {
+        /// Radial height below the tip circle where the chamfer leaves the flank.
+        height_mm: f64,
+        /// Angle of the chamfer against the tooth centre line.
+        angle_rad: f64,
+    },
+}
+
+/// The machine around the cut.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Machine {
+    /// Ram speed: double strokes per minute.
+    pub double_strokes_per_minute: f64,
+    /// Ram travel above the face before the cut.
+    pub approach_mm: f64,
+    /// Ram travel below the face after the cut.
+    pub overrun_mm: f64,
+    /// Back-off along the centre line during the return stroke.
+    pub back_off_mm: f64,
+    /// Distance of the gear axis from the work spindle axis.
+    pub work_eccentricity_mm: f64,
+    /// Direction of the eccentricity in the gear frame.
+    pub work_eccentricity_angle_rad: f64,
+    /// Limits of the axes, where known.
+    pub limits: AxisLimits,
+}
+
+/// Largest speeds and accelerations the axes allow; `None`: not limited.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct AxisLimits {
+    /// Work spindle, rad/s.
+    pub work_speed_rad_per_s: Option<f64>,
+    /// Cutter spindle, rad/s.
+    pub cutter_speed_rad_per_s: Option<f64>,
+    /// Centre distance, mm/s.
+    pub center_distance_speed_mm_per_s: Option<f64>,
+    /// Work spindle, rad/s^2.
+    pub work_acceleration_rad_per_s2: Option<f64>,
+    /// Cutter spindle, rad/s^2.
+    pub cutter_acceleration_rad_per_s2: Option<f64>,
+    /// Centre distance, mm/s^2.
+    pub center_distance_acceleration_mm_per_s2: Option<f64>,
+}
+
+/// One run of a linkage over the work.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Operation {
+    /// Name, unique in the scene; folders are named after it.
+    pub name: String,
+    /// delta_d: how far the cutter stays back, along the direction the linkage gives.
+    pub offset_mm: f64,
+    /// Which linkage moves the axes.
+    pub linkage: Linkage,
+    /// How many strokes.
+    pub feed: Feed,
+    /// What advances equally from stroke to stroke.
+    pub spacing: StrokeSpacing,
+    /// First and last work angle psi_c, when only part of the turn is cut.
+    pub window_rad: Option<[f64; 2]>,
+    /// Turns of the work.
+    pub revolutions: u32,
+    /// Work angle beyond the whole turns, so that the end overlaps the start.
+    pub overlap_rad: f64,
+    /// How the cutter gets to depth.
+    pub infeed: Infeed,
+    /// The rotary feed goes on while the cutter is in the work (crank law); otherwise the pose is frozen during a
+    /// stroke.
+    pub feed_during_stroke: bool,
+    /// Axis program (G-code) that is cut instead of the linkage's own positions; the linkage remains the target.
+    pub program: Option<PathBuf>,
+}
+
+/// Linkage models of external shaping; Gao et al. 2017.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Linkage {
+    /// Finish angles, the offset added to the centre distance.
+    ShapingTraditional {
+        /// Direction in which the offset moves the cutter.
+        direction: TraditionalDirection,
+    },
+    /// Offset along the normal of the pitch curve.
+    ShapingNormal {
+        /// Which reading of Eq. 12.
+        reading: NormalReading,
+    },
+}
+
+/// Direction of the traditional linkage's offset.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TraditionalDirection {
+    /// Along the line of centres (the machine's radial axis): what the paper's Eq. 5 to 8 describe.
+    CenterLine,
+    /// Along the polar radius of the pitch point: a reading that does not fit the paper's numbers, kept for comparison.
+    PolarRadius,
+}
+
+/// Reading of Eq. 12 of the normal linkage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NormalReading {
+    /// beta' in psi_b: the cutter keeps its phase along the normal.
+    Corrected,
+    /// beta without the offset in psi_b, as printed: wrong, kept to show what it does.
+    AsPrinted,
+}
+
+/// Number of strokes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Feed {
+    /// N double strokes per work revolution.
+    StrokesPerRevolution(u32),
+    /// Mean arc of pitch curve per double stroke.
+    CircularMmPerStroke(f64),
+}
+
+/// What advances equally from stroke to stroke.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StrokeSpacing {
+    /// Work angle psi_c (the paper's choice).
+    WorkAngle,
+    /// Arc of the pitch curve.
+    Arc,
+    /// Time, while the slowest axis runs at its speed limit; needs `machine.limits`.
+    Time,
+}
+
+/// How the cutter gets to depth before the rolling.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Infeed {
+    /// Already at depth at the first stroke.
+    None,
+    /// Radially at the start angle, without rolling.
+    Plunge {
+        /// Depth to feed.
+        depth_mm: f64,
+        /// Number of strokes.
+        strokes: u32,
+    },
+    /// Evenly while rolling over the first part of the turn.
+    Spiral {
+        /// Depth to feed.
+        depth_mm: f64,
+        /// Work angle over which it is fed.
+        angle_rad: f64,
+    },
+    /// Part by plunging, the rest while rolling.
+    PlungeAndRoll {
+        /// Depth plunged.
+        plunge_depth_mm: f64,
+        /// Strokes of the plunge.
+        strokes: u32,
+        /// Depth fed while rolling.
+        roll_depth_mm: f64,
+        /// Work angle over which it is fed.
+        angle_rad: f64,
+    },
+}
+
+/// Where profiles are evaluated, as heights over the pitch curve along its normal; `None`: from the form point to the
+/// tip, 5 % left out at each end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measure {
+    /// Lower end.
+    pub profile_start_height_mm: Option<f64>,
+    /// Upper end.
+    pub profile_end_height_mm: Option<f64>,
+}

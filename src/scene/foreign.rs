@@ -1,0 +1,59 @@
+//! Keys that mean something to another process only.
+//!
+//! They are refused when they are written and left out when they are not: a key that does nothing would be read as one
+//! that does.
+
+use super::problems::Problems;
+use super::process::SceneProcess;
+use super::table::Table;
+use super::values::Values;
+
+/// Reports written keys that are not in the scene's `own` table, and drops what was filled in for others.
+pub(super) fn refuse_foreign(
+    values: &mut Values,
+    process: &SceneProcess,
+    own: &Table,
+    table: &Table,
+    problems: &mut Problems<'_>,
+) {
+    let foreign = |path: &str| !own.knows(&general(path));
+    let mut sections: Vec<&String> = values.sections.keys().filter(|path| foreign(path)).collect();
+    // A foreign section is reported once, not with everything inside it.
+    let all = sections.clone();
+    sections.retain(|path| !all.iter().any(|outer| path.starts_with(&format!("{outer}."))));
+    let keys = values.written.iter().filter(|path| foreign(path));
+    let keys = keys.filter(|path| !sections.iter().any(|outer| path.starts_with(&format!("{outer}."))));
+    let blamed: Vec<String> = sections.iter().copied().chain(keys).cloned().collect();
+    for path in blamed {
+        let path_in_table = general(&path);
+        let others = table.processes().iter().filter(|other| other.name != process.name);
+        for owner in others.filter(|other| Table::new(&[other]).knows(&path_in_table)).take(1) {
+            problems.add(
+                &values.place_of(&path),
+                format!(
+                    "`{}` belongs to {}; this scene is for {}",
+                    path_in_table.replace("[]", ""),
+                    owner.name,
+                    process.name
+                ),
+                format!("remove it, or write {} instead of {}", owner.tool_header(), process.tool_header()),
+            );
+        }
+    }
+    values.held.retain(|path, _| !foreign(path));
+    values.variants.retain(|path, _| !foreign(path));
+}
+
+/// `operation.0.infeed` as the table of keys has it: `operation[].infeed`.
+fn general(path: &str) -> String {
+    let mut out = String::new();
+    for name in path.split('.') {
+        if !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_digit()) {
+            out.push_str("[]");
+        } else {
+            out.push_str(if out.is_empty() { "" } else { "." });
+            out.push_str(name);
+        }
+    }
+    out
+}

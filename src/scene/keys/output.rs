@@ -1,0 +1,115 @@
+//! Keys of the dexel fields and of what is written.
+
+use super::{Default, Key, Kind, Range, Role, Section};
+
+/// `[fields]` and `[output]`.
+pub(super) static SECTIONS: &[Section] = &[
+    Section {
+        path: "fields",
+        role: Role::Plain,
+        keys: &[],
+        groups: &[],
+        teach: "The dexel fields on which the cut is computed.",
+    },
+    Section {
+        path: "fields.flank",
+        role: Role::Plain,
+        keys: &[
+            Key {
+                name: "profile_spacing_um",
+                kind: Kind::Number(Range::closed(0.1, 1000.0)),
+                unit: "um",
+                default: Default::Number(5.0),
+                example: "5.0",
+                teach: "Distance of dexels along the profile; a feed mark at 4200 strokes is about 45 um wide.",
+            },
+            Key {
+                name: "lead_spacing_um",
+                kind: Kind::Number(Range::closed(0.1, 10000.0)),
+                unit: "um",
+                default: Default::Number(50.0),
+                example: "50.0",
+                teach: "Distance of dexels along the tooth.",
+            },
+        ],
+        groups: &[],
+        teach: "Rays along the normals of the target flanks: half the spacing along the profile doubles time and \
+            memory.",
+    },
+    Section {
+        path: "fields.blank",
+        role: Role::Plain,
+        keys: &[
+            Key {
+                name: "spacing_mm",
+                kind: Kind::Number(Range::closed(0.001, 10.0)),
+                unit: "mm",
+                default: Default::Number(0.1),
+                example: "0.1",
+                teach: "Distance of the rays in both directions; meshes and pictures resolve as much.",
+            },
+            Key {
+                name: "slice_spacing_mm",
+                kind: Kind::Number(Range::closed(0.01, 1000.0)),
+                unit: "mm",
+                default: Default::Number(2.5),
+                example: "2.5",
+                teach: "Largest distance of transverse slices of hobbed gears, and of shaped ones where the feed goes \
+                    on during a stroke; with the axes at rest all sections are equal and one slice stands for the \
+                    face.",
+            },
+        ],
+        groups: &[],
+        teach: "Rays through the whole blank: material removed, gouges, interference, meshes.",
+    },
+    Section {
+        path: "output",
+        role: Role::Plain,
+        keys: &[
+            Key {
+                name: "map_spacing_mm",
+                kind: Kind::Number(Range::closed(0.001, 10.0)),
+                unit: "mm",
+                default: Default::Number(0.1),
+                example: "0.1",
+                teach: "Spacing of written maps; the fields keep their own.",
+            },
+            Key {
+                name: "mesh_spacing_mm",
+                kind: Kind::Number(Range::closed(0.001, 10.0)),
+                unit: "mm",
+                default: Default::Number(0.1),
+                example: "0.1",
+                teach: "Spacing of vertices on meshes; rows along the tooth are left out where the surface is straight \
+                    to 0.1 um.",
+            },
+            Key {
+                name: "folder",
+                kind: Kind::Path,
+                unit: "",
+                default: Default::LeftOut("out/ and the name of the scene"),
+                example: "\"out/my_gear\"",
+                teach: "Where results are written; --out on the command line wins.",
+            },
+            Key {
+                name: "gcode",
+                kind: Kind::Word(&["linear", "paper_g84", "none"]),
+                unit: "",
+                default: Default::Word("linear"),
+                example: "\"linear\"",
+                teach: "Form of the axis programs: straight lines in inverse time, the one-block form of Gao et al. \
+                    2017 (not to be run: G84 taps on most machines), or none.",
+            },
+            Key {
+                name: "gcode_contour_error_um",
+                kind: Kind::Number(Range::closed(0.0001, 1000.0)),
+                unit: "um",
+                default: Default::Number(1.0),
+                example: "1.0",
+                teach: "Largest displacement on the cutter's flanks that the straight lines of a program may cause.",
+            },
+        ],
+        groups: &[],
+        teach: "What is written.",
+    },
+];

@@ -1,0 +1,49 @@
+//! Sections that every process fills with its own: what cuts, the machine around the cut, and the operations.
+
+use super::{Default, Group, Key, Kind, Range, Role, Section};
+
+/// `[tool]`, `[machine]` and `[[operation]]`, with what all processes read of them.
+pub(super) static SECTIONS: &[Section] = &[
+    Section {
+        path: "tool",
+        role: Role::Choice { default: None, what: "tool" },
+        keys: &[],
+        groups: &[],
+        teach: "What cuts.",
+    },
+    Section { path: "machine", role: Role::Plain, keys: &[], groups: &[], teach: "The machine around the cut." },
+    Section {
+        path: "operation[]",
+        role: Role::List { fewest: 1 },
+        keys: &[
+            Key {
+                name: "name",
+                kind: Kind::Name,
+                unit: "",
+                default: Default::Derived("operation_1, operation_2, ..."),
+                example: "\"finish\"",
+                teach: "Name of the operation, unique in the scene; folders of the output carry it.",
+            },
+            Key {
+                name: "offset_mm",
+                kind: Kind::Number(Range::closed(-5.0, 100.0)),
+                unit: "mm",
+                default: Default::Number(0.0),
+                example: "0.0",
+                teach: "delta_d: how far the tool stays back, along the direction the linkage gives (radially in \
+                    hobbing); 0 cuts to depth.",
+            },
+            Key::optional(
+                "stock_per_flank_mm",
+                "mm",
+                Range::closed(-2.0, 30.0),
+                "offset_mm holds",
+                "0.2",
+                "Stock to leave on each flank, normal to it; the offset is stock / sin(pressure angle).",
+            ),
+        ],
+        groups: &[Group { names: &["offset_mm", "stock_per_flank_mm"], required: false }],
+        teach: "One run of the cutter over the work. Operations are cut in the order written; the last one is the \
+            finishing cut and defines the target flanks. Without any, a single one named finish is cut.",
+    },
+];
