@@ -5,13 +5,14 @@
 //! it is complete; what Ctrl-C leaves of it, the flanks that are finished and what follows from them, goes to a folder
 //! beside it.
 //!
-//! Nothing here knows a process by name: [`crate::process::Job`] cuts itself with the shared [`crate::steps`].
+//! Nothing here knows a process by name: [`crate::process::ProcessJob`] cuts itself with the shared [`crate::steps`].
 
-use crate::cut::Backend;
+use crate::backend::Choice;
 use crate::error::Result;
+use crate::findings::Findings;
 use crate::interrupt::Interrupt;
-use crate::output::folder::OutputFolder;
-use crate::output::progress::Progress;
+use crate::output::folder::{OutputFolder, RUN_RECORD};
+use crate::output::progress::{Progress, ProgressMode};
 use crate::process::{self, CutDone};
 use crate::scene::LoadedScene;
 use crate::steps::parts::Parts;
@@ -25,55 +26,92 @@ pub struct Done {
     pub folder: PathBuf,
     /// Summary for the terminal.
     pub summary: String,
-    /// `results.json`.
-    pub results: serde_json::Value,
+    /// What was found; `results.json` is the same tree.
+    pub findings: Findings,
     /// Whether Ctrl-C ended it early.
     pub interrupted: bool,
 }
 
-/// What a run writes.
-#[derive(Debug, Clone, Copy)]
-pub struct Outputs {
-    /// Beyond the numbers.
-    pub parts: Parts,
-    /// Pictures of the cut as it happens, if any.
-    pub frames: Option<u32>,
+/// A run to be made: a scene, what cuts it, and what differs from the defaults (silent, not to be stopped, everything
+/// written, no frames).
+pub struct Run<'a> {
+    scene: &'a LoadedScene,
+    choice: &'a Choice,
+    progress: Option<&'a Progress>,
+    interrupt: Interrupt,
+    parts: Parts,
+    frames: Option<u32>,
 }
 
-/// Cuts a scene and writes everything into `out`.
-///
-/// `backend_why` says why this backend was taken. The output folder is opened before the work begins, so that a bad
-/// path fails at once.
-///
-/// # Errors
-/// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
-pub fn cut(
-    scene: &LoadedScene,
-    out: &Path,
-    backend: &dyn Backend,
-    backend_why: &str,
-    progress: &Progress,
-    interrupt: &Interrupt,
-    outputs: Outputs,
-) -> Result<Done> {
-    let Outputs { parts, frames } = outputs;
-    let folder = OutputFolder::create(out)?;
-    let resolved = scene.resolved_toml();
-    // Times and threads stand in the run record alone: the same scene gives the same bytes.
-    let run = serde_json::json!({"program": "gearcut", "version": env!("CARGO_PKG_VERSION"), "backend": backend.name_in_files()});
-    let notes = [("run".to_owned(), run.to_string()), ("scene".to_owned(), resolved.clone())];
-    let tools =
-        Tools { resolved: &resolved, backend, backend_why, progress, interrupt, folder: &folder, parts, notes: &notes };
-    let written = || -> Result<CutDone> {
-        let done = process::prepare(&scene.scene)?.cut(&tools, frames)?;
-        let record = record::run_record(&tools, &done.work)?;
-        folder.write_json(crate::output::folder::RUN_RECORD, &record)?;
-        Ok(done)
-    };
-    let CutDone { results, summary, work } = written().map_err(|error| folder.explain(error))?;
-    for incident in backend.incidents() {
-        progress.note(&incident);
+impl<'a> Run<'a> {
+    /// A run of a scene on a backend: [`crate::backend::choose`].
+    pub fn new(scene: &'a LoadedScene, choice: &'a Choice) -> Self {
+        Self { scene, choice, progress: None, interrupt: Interrupt::default(), parts: Parts::all(), frames: None }
     }
-    let folder = if work.interrupted { folder.finish_partial()? } else { folder.finish()? };
-    Ok(Done { folder, summary, results, interrupted: work.interrupted })
+
+    /// Shows steps, time left and notes.
+    #[must_use]
+    pub fn show(self, progress: &'a Progress) -> Self {
+        Self { progress: Some(progress), ..self }
+    }
+
+    /// Ends early, and keeps what is finished, once the flag is raised.
+    #[must_use]
+    pub fn until(self, interrupt: &Interrupt) -> Self {
+        Self { interrupt: interrupt.clone(), ..self }
+    }
+
+    /// Writes the numbers and these parts, and leaves out what they do not need.
+    #[must_use]
+    pub fn only(self, parts: Parts) -> Self {
+        Self { parts, ..self }
+    }
+
+    /// Draws so many pictures of the cut as it happens.
+    #[must_use]
+    pub fn frames(self, frames: Option<u32>) -> Self {
+        Self { frames, ..self }
+    }
+
+    /// Cuts and writes everything into `out`, which is opened before the work begins, so that a bad path fails at once.
+    ///
+    /// # Errors
+    /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
+    pub fn into_folder(self, out: &Path) -> Result<Done> {
+        let Self { scene, choice, progress, interrupt, parts, frames } = self;
+        let quiet = Progress::new(ProgressMode::Quiet);
+        let progress = progress.unwrap_or(&quiet);
+        let backend = choice.backend.as_ref();
+        let folder = OutputFolder::create(out)?;
+        let resolved = scene.resolved_toml();
+        // Times and threads stand in the run record alone: the same scene gives the same bytes.
+        let run = serde_json::json!({
+            "program": "gearcut",
+            "version": env!("CARGO_PKG_VERSION"),
+            "backend": backend.name_in_files(),
+        });
+        let notes = [("run".to_owned(), run.to_string()), ("scene".to_owned(), resolved.clone())];
+        let tools = Tools {
+            resolved: &resolved,
+            backend,
+            backend_why: &choice.why,
+            progress,
+            interrupt: &interrupt,
+            folder: &folder,
+            parts,
+            notes: &notes,
+        };
+        let written = || -> Result<CutDone> {
+            let done = process::prepare(&scene.scene)?.cut(&tools, frames)?;
+            let record = record::run_record(&tools, &done.work)?;
+            folder.write_json(RUN_RECORD, &record)?;
+            Ok(done)
+        };
+        let CutDone { findings, summary, work } = written().map_err(|error| folder.explain(error))?;
+        for incident in backend.incidents() {
+            progress.note(&incident);
+        }
+        let folder = if work.interrupted { folder.finish_partial()? } else { folder.finish()? };
+        Ok(Done { folder, summary, findings, interrupted: work.interrupted })
+    }
 }
