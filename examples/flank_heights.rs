@@ -58,7 +58,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     for flank in &flanks {
         let profile = flank.profile(flank.operations.len() - 1, middle(flank));
         let largest = profile.iter().map(|(_, deviation_um)| deviation_um.abs()).fold(0.0, f64::max);
-        println!("tooth {tooth} {}: {} places, at most {largest:.4} um off the target", flank.side.name(), profile.len());
+        println!(
+            "tooth {tooth} {}: {} places, at most {largest:.4} um off the target",
+            flank.side.name(),
+            profile.len()
+        );
     }
     println!("written: {}", folder.display());
     Ok(())

@@ -1,6 +1,64 @@
 //! gearcut moves a machine's axes by its linkage model, sweeps every real cutting edge stroke by stroke through dexels
 //! of the blank, and measures what is left.
 //!
+//! As a library it is a few items: a [`LoadedScene`] from [`load`] or [`parse`], a [`Job`] made of it, a [`Flank`] that
+//! the job cuts, a [`run::Run`] of the whole job with all its files, and the [`Findings`] of that run. Errors name the
+//! key, its value and a way out.
+//!
+//! # Example
+//!
+//! A round gear of 24 teeth, shaped with 2,400 strokes a turn. Strokes leave scallops: near the pitch point they are
+//! f^2 sin(alpha) (1 / r_c + 1 / r) / 8 high, with the circular feed f and the radii of curvature of both involutes
+//! there, r_c sin(alpha) and r sin(alpha).
+//!
+//! ```
+//! use gearcut::terms::Side;
+//! use std::path::Path;
+//!
+//! let text = "
+//!     [gear]
+//!     module_mm = 3.0
+//!     teeth = 24
+//!     face_width_mm = 10.0
+//!     [tool.shaper_cutter]
+//!     teeth = 20
+//! ";
+//! let scene = gearcut::parse(text, "round.toml", Path::new(""), &[])?;
+//! let job = gearcut::Job::new(&scene)?;
+//! let flank = job.cut_flank(7, Side::Left)?;
+//!
+//! let finish = flank.operation("finish").expect("the operation of a scene that lists none");
+//! let profile = flank.profile(finish, flank.face_mm.len() / 2);
+//! let middle = &profile[profile.len() / 3..2 * profile.len() / 3];
+//! let highest_um = middle.iter().map(|(_, deviation_um)| *deviation_um).fold(0.0, f64::max);
+//!
+//! let feed_mm = std::f64::consts::PI * 3.0 * 24.0 / 2400.0;
+//! let scallop_um = 1e3 * feed_mm.powi(2) * 20_f64.to_radians().sin() * (1.0 / 30.0 + 1.0 / 36.0) / 8.0;
+//! assert!((highest_um / scallop_um - 1.0).abs() < 0.1, "{highest_um} um, {scallop_um} um expected");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The whole gear, with the files that `gearcut cut` writes:
+//!
+//! ```no_run
+//! # use std::path::Path;
+//! use gearcut::steps::parts::{Part, Parts};
+//!
+//! let scene = gearcut::load(Path::new("scenes/shaping/elliptical_normal.toml"), &["gear.teeth=45".to_owned()])?;
+//! let job = gearcut::Job::new(&scene)?;
+//! let done = job.run().only(Parts::of([Part::Maps, Part::Report])).into_folder(Path::new("out/mine"))?;
+//! for entry in &done.findings.headline {
+//!     let quantity = &entry.quantity;
+//!     println!("{}: {:?} {}", entry.title, quantity.value(), quantity.unit().unwrap_or_default());
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Three worked programs: `examples/flank_heights.rs` cuts one flank and plots its heights,
+//! `examples/roughness_against_feed.rs` sweeps a parameter, and `examples/read_x3p.rs` of `gearcut-texture` evaluates a
+//! measured surface. The modules below are the parts of the program; they are public for its tests and for those who
+//! build on a part, and change as the program does.
+//!
 //! The modules, from the ground up; each uses only those above it in this list:
 //!
 //! - [`gearcut_core`]: gears, tools, dexels, passes and the native backend; its modules are re-exported here
@@ -22,6 +80,7 @@
 //! - [`process`]: a folder for each process: tool, linkage, target, passes, and what only it measures
 //! - [`pair`]: two gears rolling on each other
 //! - [`run`]: the order of a whole run
+//! - [`library`]: the few items that other programs need
 //! - [`compare`]: results side by side
 
 pub mod backend;
@@ -31,6 +90,7 @@ pub mod findings;
 pub mod gcode;
 pub mod interrupt;
 pub mod job;
+pub mod library;
 pub mod machine;
 pub mod material;
 pub mod measure;
@@ -42,6 +102,11 @@ pub mod scene;
 pub mod steps;
 pub mod surface;
 pub mod texture;
+
+pub use findings::Findings;
+pub use library::{Flank, Job};
+pub use process::{load, parse};
+pub use scene::{LoadedScene, Scene};
 
 pub use gearcut_core::{Error, Refusal, Result, cut, dexel, error, frame, gear, math, passes, terms, tool, units};
 #[cfg(feature = "gpu")]

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
-use gearcut::run::Outputs;
+use gearcut::run::Run;
 use gearcut::scene::Scene;
 use gearcut::steps::parts::{Part, Parts};
 use gearcut::units::UM_PER_MM;
-use gearcut::{Error, process, run};
+use gearcut::{Error, process};
 
 use super::args::{BackendChoice, CutArguments, GpuFailureChoice, SceneArguments};
 use super::failure::Failure;
@@ -53,11 +53,15 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
     if arguments.draft {
         progress.note("draft: dexels 8 and rays 4 times as far apart; deviations, chips and texture are rough");
     }
-    let outputs = Outputs { parts, frames: arguments.frames };
-    let done = run::cut(&scene, &out, choice.backend.as_ref(), &choice.why, &progress, &interrupt, outputs)
+    let done = Run::new(&scene, &choice)
+        .show(&progress)
+        .until(&interrupt)
+        .only(parts)
+        .frames(arguments.frames)
+        .into_folder(&out)
         .map_err(|error| Failure::of_scene(&scene, error))?;
     if arguments.json {
-        let text = serde_json::to_string_pretty(&done.results)
+        let text = serde_json::to_string_pretty(&done.findings.to_json())
             .map_err(|reason| Error::Output { path: done.folder.clone(), reason: reason.to_string() })?;
         print::to_stdout(&format!("{text}\n"))?;
     } else if !arguments.quiet {

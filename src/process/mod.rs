@@ -2,9 +2,9 @@
 //! them.
 //!
 //! A process is what [`PROCESSES`] lists: what its scenes may say, and how one is made ready. The reader of scenes and
-//! the commands that cut, check and move axes go through [`Process`] and [`Job`] and know no process by name.
+//! the commands that cut, check and move axes go through [`Process`] and [`ProcessJob`] and know no process by name.
 //!
-//! Two traits, not one: a [`Job`] runs whole commands in the process's own order, from the shared steps; a
+//! Two traits, not one: a [`ProcessJob`] runs whole commands in the process's own order, from the shared steps; a
 //! [`crate::job::GearJob`] answers what those steps ask (target profiles, surfaces of flanks, roots and tips). The road
 //! not taken is one trait with a method for every measure: each new measure of one process would have to be thought of
 //! in all.
@@ -13,20 +13,21 @@ pub mod hobbing;
 pub mod shaping;
 
 use crate::error::Result;
+use crate::findings::Findings;
 use crate::interrupt::Interrupt;
+use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use crate::scene::{self, LoadedScene, Scene, SceneErrors, SceneProcess, Table};
 use crate::steps::{Tools, Work};
-use serde_json::Value;
 use std::path::Path;
 use std::sync::LazyLock;
 
 /// What came of a cut.
 #[derive(Debug)]
 pub struct CutDone {
-    /// `results.json`.
-    pub results: Value,
+    /// What was found; `results.json` is the same tree.
+    pub findings: Findings,
     /// Summary for the terminal.
     pub summary: String,
     /// How much work it was.
@@ -39,11 +40,11 @@ pub struct Process {
     /// What its scenes may say.
     pub scene: &'static SceneProcess,
     /// Makes a scene ready to cut; it refuses geometry that cannot be cut, and scenes of other processes.
-    pub prepare: fn(&Scene) -> Result<Box<dyn Job>>,
+    pub prepare: fn(&Scene) -> Result<Box<dyn ProcessJob>>,
 }
 
 /// A scene made ready to cut.
-pub trait Job: Sync {
+pub trait ProcessJob: Sync {
     /// Cuts and measures, and writes everything but the run record; `frames` is how many pictures of the cut as it
     /// happens are drawn.
     ///
@@ -56,6 +57,12 @@ pub trait Job: Sync {
     /// # Errors
     /// Geometry that cannot be cut.
     fn check(&self, sheet: &mut Sheet) -> Result<Vec<String>>;
+
+    /// Shows the gear to `visit`, with which single flanks can be cut.
+    ///
+    /// # Errors
+    /// Those of `visit`; more passes than can be numbered.
+    fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()>;
 
     /// Writes axis tables, charts and programs, and says what the axes do; gives what must be known before they are
     /// used.
@@ -94,7 +101,7 @@ pub fn parse(text: &str, file_name: &str, base_dir: &Path, settings: &[String]) 
 ///
 /// # Errors
 /// Geometry that cannot be cut: see the parts.
-pub fn prepare(scene: &Scene) -> Result<Box<dyn Job>> {
+pub fn prepare(scene: &Scene) -> Result<Box<dyn ProcessJob>> {
     let process = PROCESSES.iter().find(|process| process.scene.name == scene.process_name());
     (process.expect("scenes are read for the processes of the table").prepare)(scene)
 }

@@ -21,6 +21,7 @@ mod surfaces;
 use super::{CutDone, Process};
 use crate::error::Result;
 use crate::interrupt::Interrupt;
+use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use crate::steps::{Tools, axes};
@@ -35,7 +36,7 @@ pub use job::HobbingJob;
 /// The process.
 pub static PROCESS: Process = Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(HobbingJob::new(scene)?)) };
 
-impl super::Job for HobbingJob {
+impl super::ProcessJob for HobbingJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
         if frames.is_some() {
             tools.progress.note("no frames are drawn: pictures of the cut as it happens exist for shaping only");
@@ -45,6 +46,10 @@ impl super::Job for HobbingJob {
 
     fn check(&self, sheet: &mut Sheet) -> Result<Vec<String>> {
         check::print(sheet, self)
+    }
+
+    fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()> {
+        visit(&HobCutter::new(self)?)
     }
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<String>> {

@@ -58,8 +58,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
         load::write(job, &loads, &load_charts, folder, parts)?;
         blank::write(&cutter, whole, folder, parts)?;
     }
-    let results = found.to_json();
-    files::write(&cutter, &gear, &results, tools)?;
+    files::write(&cutter, &gear, &found, tools)?;
     marks::write(&lattices, folder)?;
     points::write(&gear, points_chart.as_ref(), folder, parts)?;
     if parts.has(Part::Texture) {
@@ -91,7 +90,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     let out = folder.results_path(!gear.work.interrupted);
     let flanks = gear.flanks.len();
     let summary = summary::text(&job.scene.gear, &found, flanks, &gear.work, &out, &backend.name());
-    Ok(CutDone { results, summary, work: gear.work })
+    Ok(CutDone { findings: found, summary, work: gear.work })
 }
 
 /// Surfaces of all roots, space by space. Meshes alone show them: hobbing measures nothing there.

@@ -23,6 +23,7 @@ pub mod tooth_target;
 use super::{CutDone, Process};
 use crate::error::Result;
 use crate::interrupt::Interrupt;
+use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use crate::steps::{Tools, axes};
@@ -35,13 +36,17 @@ pub use job::{Job, PreparedOperation};
 /// The process.
 pub static PROCESS: Process = Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(Job::new(scene.clone())?)) };
 
-impl super::Job for Job {
+impl super::ProcessJob for Job {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
         run::run(self, tools, frames)
     }
 
     fn check(&self, sheet: &mut Sheet) -> Result<Vec<String>> {
         check::print(sheet, self)
+    }
+
+    fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()> {
+        visit(self)
     }
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<String>> {

@@ -59,8 +59,7 @@ pub(super) fn run(job: &Job, tools: &Tools, frames: Option<u32>) -> Result<CutDo
         warnings: findings::warnings(&gear.report, &gear.work.stats, gear.work.interrupted, &motion),
         sections,
     };
-    let results = found.to_json();
-    files::write(job, &gear, &motion, &results, tools)?;
+    files::write(job, &gear, &motion, &found, tools)?;
     if parts.has(Part::Texture) {
         texture::write(job, &textures, folder, notes)?;
     }
@@ -89,5 +88,5 @@ pub(super) fn run(job: &Job, tools: &Tools, frames: Option<u32>) -> Result<CutDo
     let work = Work { interrupted, ..gear.work };
     let flanks = gear.report.flanks.len();
     let summary = summary::text(&job.scene.gear, &found, flanks, &work, &out, &backend.name());
-    Ok(CutDone { results, summary, work })
+    Ok(CutDone { findings: found, summary, work })
 }

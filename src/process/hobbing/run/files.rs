@@ -1,24 +1,24 @@
 //! Tables, contact sheets and results of a hobbed gear.
 
 use crate::error::Result;
+use crate::findings::Findings;
 use crate::findings::RESULTS_FILE;
 use crate::output::table::{Cell, write_table};
 use crate::process::hobbing::measure::flank_report::Heights;
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
 use crate::steps::{Tools, sheets};
 use crate::units::UM_PER_MM;
-use serde_json::Value;
 use std::path::Path;
 
 /// Writes what belongs to the gear as a whole.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(cutter: &HobCutter, gear: &HobbedGear, results: &Value, tools: &Tools) -> Result<()> {
+pub fn write(cutter: &HobCutter, gear: &HobbedGear, found: &Findings, tools: &Tools) -> Result<()> {
     let (job, folder) = (cutter.job, tools.folder);
     write_flank_table(job, gear, &folder.path("tables/flanks.csv")?)?;
     sheets::write_sheets_and_deviations(cutter, &gear.maps, tools)?;
-    folder.write_json(RESULTS_FILE, results)
+    folder.write_json(RESULTS_FILE, &found.to_json())
 }
 
 fn write_flank_table(job: &HobbingJob, gear: &HobbedGear, path: &Path) -> Result<()> {

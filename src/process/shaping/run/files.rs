@@ -4,6 +4,7 @@
 
 use super::chip_files;
 use crate::error::Result;
+use crate::findings::Findings;
 use crate::findings::RESULTS_FILE;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::table::{Cell, write_table};
@@ -15,14 +16,13 @@ use crate::steps::parts::Part;
 use crate::steps::sheets::write_sheets_and_deviations;
 use crate::steps::{Tools, axes};
 use crate::units::UM_PER_MM;
-use serde_json::Value;
 use std::path::Path;
 
 /// Writes everything but the run record.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(job: &Job, cut: &CutGear, motion: &[OperationAxes], results: &Value, tools: &Tools) -> Result<()> {
+pub fn write(job: &Job, cut: &CutGear, motion: &[OperationAxes], found: &Findings, tools: &Tools) -> Result<()> {
     let Tools { folder, notes, progress, parts, .. } = *tools;
     let step = progress.step("tables and charts", 3 + cut.report.allowances.len() as u64, "parts");
     write_flank_table(cut, &folder.path("tables/flanks.csv")?, job)?;
@@ -51,7 +51,7 @@ pub fn write(job: &Job, cut: &CutGear, motion: &[OperationAxes], results: &Value
     step.advance(1);
     step.finish();
     write_sheets_and_deviations(job, &cut.maps, tools)?;
-    folder.write_json(RESULTS_FILE, results)
+    folder.write_json(RESULTS_FILE, &found.to_json())
 }
 
 fn write_flank_table(cut: &CutGear, path: &Path, job: &Job) -> Result<()> {
