@@ -19,7 +19,7 @@ use gearcut::gpu::adapter::AdapterWish;
 use gearcut::gpu::{Gpu, GpuOptions};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::steps::planar::blank_report;
 use gearcut::surface::BlankMesh;
@@ -67,7 +67,7 @@ fn main() {
         for operation in &mut Shaping::of_mut(&mut scene).expect("shaping").operations {
             operation.feed_during_stroke = feed_during_stroke;
         }
-        let job = Job::new(scene).expect("the paper's gear");
+        let job = ShapingJob::new(scene).expect("the paper's gear");
         let mut fastest = f64::INFINITY;
         let mut last = None;
         for _ in 0..ROUNDS {

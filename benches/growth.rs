@@ -21,7 +21,7 @@ use gearcut::cut::Backend;
 use gearcut::gpu::adapter::adapters;
 use gearcut::gpu::{Gpu, GpuOptions};
 use gearcut::passes::CutPlan;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use std::time::Instant;
@@ -55,7 +55,7 @@ fn take(case: Case, backends: &[(String, Box<dyn Backend>)]) -> Taken {
     scene.gear.face_width_mm = case.width_mm;
     scene.fields.profile_spacing_mm = 1e-3 * case.profile_um;
     scene.fields.lead_spacing_mm = 1e-3 * case.lead_um;
-    let job = Job::new(scene).expect("the paper's gear");
+    let job = ShapingJob::new(scene).expect("the paper's gear");
     let field = job.flank_field(job.target_flank(5, Side::Left));
     let fastest_ms = |run: &mut dyn FnMut()| {
         let time = |()| {

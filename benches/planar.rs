@@ -18,7 +18,7 @@ use gearcut::gpu::adapter::adapters;
 use gearcut::gpu::{Gpu, GpuOptions};
 use gearcut::passes::{CutPlan, Tile};
 use gearcut::process::load;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
@@ -36,7 +36,7 @@ fn planar(criterion: &mut Criterion) {
         for operation in &mut Shaping::of_mut(&mut scene).expect("shaping").operations {
             operation.feed_during_stroke = feed_during_stroke;
         }
-        let job = Job::new(scene).expect("the shipped gear");
+        let job = ShapingJob::new(scene).expect("the shipped gear");
         let field = job.flank_field(job.target_flank(5, Side::Left));
         let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
         let kind = if feed_during_stroke { "moving" } else { "frozen" };
@@ -59,7 +59,7 @@ fn repeated(plan: &CutPlan, times: usize) -> CutPlan {
     CutPlan { tiles: tiles.collect(), records, row_phases: plan.row_phases.clone() }
 }
 
-fn compare(criterion: &mut Criterion, group: &str, job: &Job, field: &Field, plan: &CutPlan) {
+fn compare(criterion: &mut Criterion, group: &str, job: &ShapingJob, field: &Field, plan: &CutPlan) {
     // Opened anew, so that stage times are this group's.
     let mut backends: Vec<(String, Box<dyn Backend>)> = vec![("native".into(), Box::new(Cpu::default()))];
     for adapter in adapters() {

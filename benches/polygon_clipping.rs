@@ -30,8 +30,8 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::Field;
 use gearcut::frame::Rigid2;
 use gearcut::gear::PitchCurveShape;
-use gearcut::process::shaping::Job;
 use gearcut::process::shaping::ShaperCutter;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::scene::Scene;
 use gearcut::scene::model::Fields;
 use gearcut::terms::Side;
@@ -85,10 +85,10 @@ struct Cut {
 /// Everything gearcut does, from the scene to the heights of all flanks and roots, in so many sections.
 fn gearcut_flanks(backend: Cpu, rows: usize) -> Cut {
     let started = Instant::now();
-    let job = Job::new(scene()).expect("a round gear");
+    let job = ShapingJob::new(scene()).expect("a round gear");
     let prepared = started.elapsed();
-    let leads_mm: Vec<f64> = (0..rows).map(|row| 0.05 * (row as f64 - (rows / 2) as f64)).collect();
-    let section = |field: Field| Field { leads_mm: leads_mm.clone(), ..field };
+    let rows_z_mm: Vec<f64> = (0..rows).map(|row| 0.05 * (row as f64 - (rows / 2) as f64)).collect();
+    let section = |field: Field| Field { rows_z_mm: rows_z_mm.clone(), ..field };
     let places: Vec<(u32, Side)> = flanks().collect();
     let on_flanks = places.par_iter().map(|&(tooth, side)| section(job.flank_field(job.target_flank(tooth, side))));
     let on_roots = (1..=TEETH).into_par_iter().map(|space| section(job.root_field(space)));
@@ -158,7 +158,7 @@ fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [DVec2; 2] {
 }
 
 /// Clips stroke by stroke; gives the edges of the outline that is left.
-fn clip_strokes(job: &Job, chords: usize, sectors: u32) -> Vec<[DVec2; 2]> {
+fn clip_strokes(job: &ShapingJob, chords: usize, sectors: u32) -> Vec<[DVec2; 2]> {
     let tooth = tooth_polygon(&job.cutter, chords);
     let blades: Vec<Rigid2> = (0..job.cutter.blade_count()).map(|blade| job.cutter.tool_from_blade(blade)).collect();
     let radius_mm = 0.5 * 3.0 * f64::from(TEETH) + job.blank.addendum_mm;
@@ -245,7 +245,7 @@ struct Station {
     strokes_mm: f64,
 }
 
-fn stations(job: &Job) -> Vec<Station> {
+fn stations(job: &ShapingJob) -> Vec<Station> {
     let strokes = &job.finishing().strokes;
     let mut stations = Vec::new();
     for (index, (tooth, side)) in flanks().enumerate() {
@@ -308,7 +308,7 @@ struct Outcome {
 fn main() {
     println!("{}", common::machine());
     println!("m 3, z 24, z0 20, {STROKES} strokes; fastest of {ROUNDS} runs\n");
-    let job = Job::new(scene()).expect("a round gear");
+    let job = ShapingJob::new(scene()).expect("a round gear");
     let stations = stations(&job);
     let [scallops, highest] = rms_and_largest_um(stations.iter().map(|s| s.strokes_mm));
     println!(

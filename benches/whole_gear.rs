@@ -24,7 +24,7 @@ use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::passes::CutPlan;
 use gearcut::process::shaping;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::measure::flank_report;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
@@ -35,15 +35,16 @@ const STROKES: u32 = 4200;
 
 /// With frozen strokes all rows are alike and one is cut for all; when the feed goes on during the stroke every dexel
 /// is cut.
-fn job(feed_during_stroke: bool) -> Job {
+fn job(feed_during_stroke: bool) -> ShapingJob {
     let operation = |name, offset_mm| shaping::scene::model::Operation {
         feed_during_stroke,
         ..scenes::operation(name, scenes::NORMAL, offset_mm, STROKES)
     };
-    Job::new(scenes::paper_scene(vec![operation("rough", 2.0), operation("finish", 0.0)])).expect("the paper's gear")
+    ShapingJob::new(scenes::paper_scene(vec![operation("rough", 2.0), operation("finish", 0.0)]))
+        .expect("the paper's gear")
 }
 
-fn one_flank(criterion: &mut Criterion, job: &Job) {
+fn one_flank(criterion: &mut Criterion, job: &ShapingJob) {
     let flank = job.target_flank(7, Side::Left);
     let field = job.flank_field(flank);
     let finishing = job.finishing();
@@ -71,7 +72,7 @@ fn one_flank(criterion: &mut Criterion, job: &Job) {
     group.finish();
 }
 
-fn whole_gear(job: &Job, strokes: &str) {
+fn whole_gear(job: &ShapingJob, strokes: &str) {
     for cpu in common::backends() {
         let quiet = Progress::new(ProgressMode::Quiet);
         let gear = shaping::cut_gear(job, &cpu, &quiet, &Interrupt::default(), None).expect("native");

@@ -11,7 +11,7 @@ use gearcut::measure::topography::Form;
 use gearcut::output::line_chart::{LineChart, LineSeries, Panel};
 use gearcut::output::table::{Cell, write_table};
 use gearcut::process::load;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::{Feed, Shaping};
 use gearcut::scene::model::{TextureWindow, WindowSides};
 use gearcut::terms::Side;
@@ -52,7 +52,7 @@ fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn 
         lead_spacing_mm: Some(0.1),
         form: Form::Poly2,
     };
-    let probe = Job::new(scene.clone())?;
+    let probe = ShapingJob::new(scene.clone())?;
     let mut about_pitch_curve = Vec::new();
     let mut whole = Vec::new();
     for (side, sides) in [(Side::Left, WindowSides::Left), (Side::Right, WindowSides::Right)] {
@@ -62,7 +62,7 @@ fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn 
         whole.push(window(sides, Some(0.5 * flank.length_mm()), Some(flank.length_mm())));
     }
     scene.textures = [vec![window(WindowSides::Both, None, Some(LENGTHS_MM[0]))], about_pitch_curve, whole].concat();
-    let job = Job::new(scene)?;
+    let job = ShapingJob::new(scene)?;
     for (index, window) in windows(&job)?.into_iter().enumerate() {
         for texture in cut_window(&job, &Cpu::default(), &window)? {
             let operation = &job.operations[texture.operation];

@@ -58,10 +58,10 @@ pub trait GearJob: Sync {
 
     /// Places along the tooth at which the target's sections say all of its shape: both ends of the face where it is
     /// straight.
-    fn view_leads_mm(&self) -> Vec<f64>;
+    fn view_rows_z_mm(&self) -> Vec<f64>;
 
     /// Arcs from the form point about `spacing_mm` apart, and the target flank's profile there in every section of
-    /// `leads_mm`.
+    /// `rows_z_mm`.
     ///
     /// # Errors
     /// The tool generates no flank there.
@@ -70,15 +70,15 @@ pub trait GearJob: Sync {
         tooth: u32,
         side: Side,
         spacing_mm: f64,
-        leads_mm: &[f64],
+        rows_z_mm: &[f64],
     ) -> Result<(Vec<f64>, Vec<Profile>)>;
 
-    /// Root of the space after tooth `space` in every section of `leads_mm`, equally many points about `spacing_mm`
+    /// Root of the space after tooth `space` in every section of `rows_z_mm`, equally many points about `spacing_mm`
     /// apart, between the ends of its flanks.
     ///
     /// # Errors
     /// The tool generates no flank there.
-    fn target_roots(&self, space: u32, spacing_mm: f64, leads_mm: &[f64]) -> Result<Vec<Profile>>;
+    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<Profile>>;
 
     /// What every operation left on a part of a flank: arcs from the form point times places along the tooth, mm.
     ///
@@ -90,7 +90,7 @@ pub trait GearJob: Sync {
         tooth: u32,
         side: Side,
         arcs_mm: &[f64],
-        leads_mm: &[f64],
+        rows_z_mm: &[f64],
     ) -> Result<Vec<Layer>>;
 
     /// Surface of a flank after all operations with all the dexels of the scene's spacing, no further than `reach_mm`
@@ -108,15 +108,15 @@ pub trait GearJob: Sync {
 }
 
 /// Places evenly over a face of `width_mm` about `spacing_mm` apart, both ends included.
-pub fn leads_mm(width_mm: f64, spacing_mm: f64) -> Vec<f64> {
+pub fn rows_z_mm(width_mm: f64, spacing_mm: f64) -> Vec<f64> {
     let intervals = (width_mm / spacing_mm).round().max(1.0) as usize;
     (0..=intervals).map(|i| width_mm * (i as f64 / intervals as f64 - 0.5)).collect()
 }
 
-/// Rows of `leads_mm` nearer to the middle of the face than `reach_mm`, and one at either side of that band.
-pub fn band_mm(mut leads_mm: Vec<f64>, reach_mm: f64) -> Vec<f64> {
-    leads_mm.retain(|lead| lead.abs() < reach_mm);
-    leads_mm.insert(0, -reach_mm);
-    leads_mm.push(reach_mm);
-    leads_mm
+/// Rows of `rows_z_mm` nearer to the middle of the face than `reach_mm`, and one at either side of that band.
+pub fn band_mm(mut rows_z_mm: Vec<f64>, reach_mm: f64) -> Vec<f64> {
+    rows_z_mm.retain(|z_mm| z_mm.abs() < reach_mm);
+    rows_z_mm.insert(0, -reach_mm);
+    rows_z_mm.push(reach_mm);
+    rows_z_mm
 }

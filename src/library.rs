@@ -9,7 +9,7 @@
 use crate::backend::{self, BackendWish, Choice, OnFailure};
 use crate::dexel::{Layer, NO_PASS};
 use crate::error::{Refusal, Result};
-use crate::job::{GearJob, leads_mm};
+use crate::job::{GearJob, rows_z_mm};
 use crate::process::{self, ProcessJob};
 use crate::run::Run;
 use crate::scene::LoadedScene;
@@ -87,7 +87,7 @@ impl Flank {
             let problem = format!("tooth {tooth} is asked for, the gear has {teeth}");
             return Err(Refusal::new("gear.teeth", problem, "ask for a tooth from 1 to the number of teeth").into());
         }
-        let face_mm = leads_mm(scene.gear.face_width_mm, scene.fields.lead_spacing_mm);
+        let face_mm = rows_z_mm(scene.gear.face_width_mm, scene.fields.lead_spacing_mm);
         let (arcs_mm, target) = gear.target_profiles(tooth, side, scene.fields.profile_spacing_mm, &face_mm)?;
         let layers = gear.cut_flank(choice.backend.as_ref(), tooth, side, &arcs_mm, &face_mm)?;
         let operations = gear.operations().into_iter().map(|(name, _)| name.to_owned()).collect();
@@ -112,7 +112,8 @@ impl Flank {
         Some(self.layers[operation].passes[self.dexel(column, row)]).filter(|&pass| pass != NO_PASS)
     }
 
-    /// Normal deviation after an operation, um; `None` where no pass came, so that the blank's own surface stands there.
+    /// Normal deviation after an operation, um; `None` where no pass came, so that the blank's own surface stands
+    /// there.
     ///
     /// # Panics
     /// Indices beyond the flank's.

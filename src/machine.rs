@@ -2,7 +2,7 @@
 //!
 //! In: the axes of a machine ([`Axis`]), where they stand and how they move at any value of one coordinate, time or
 //! stroke ([`Motion`]), and what each is allowed ([`Limits`]). Out: units and names of columns, which follow from the
-//! kind of an axis ([`Kind`]), and the largest speeds and accelerations against the limits ([`peaks`]).
+//! kind of an axis ([`AxisKind`]), and the largest speeds and accelerations against the limits ([`peaks`]).
 //!
 //! How a table, a chart or a sentence is made from that is said once for all processes in [`crate::steps::axes`].
 //!
@@ -14,7 +14,7 @@ mod peak;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use axis::{Axis, Kind, Order};
+pub use axis::{Axis, AxisKind, Order};
 pub use peak::{Limits, Peak, peaks, smallest_margin};
 
 use crate::math::Jet;
@@ -32,7 +32,7 @@ pub struct AxisMotion {
 
 /// A part of a motion without corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Piece {
+pub struct MotionPiece {
     /// Coordinate at which it begins.
     pub from: f64,
     /// Coordinate at which it ends, just before a corner: what holds there belongs to the next piece.
@@ -50,7 +50,7 @@ pub trait Motion<const N: usize> {
     fn at(&self, coordinate: f64) -> [AxisMotion; N];
 
     /// Pieces without corners that show all of the motion.
-    fn pieces(&self) -> Vec<Piece>;
+    fn pieces(&self) -> Vec<MotionPiece>;
 }
 
 impl AxisMotion {

@@ -130,9 +130,9 @@ pub fn measure(
 /// # Errors
 /// Geometry and the backend.
 pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
-    let (arcs_mm, leads_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.leads_mm());
-    let (columns, rows) = (arcs_mm.len(), leads_mm.len());
-    let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &leads_mm)?;
+    let (arcs_mm, rows_z_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.rows_z_mm());
+    let (columns, rows) = (arcs_mm.len(), rows_z_mm.len());
+    let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &rows_z_mm)?;
     Ok(layers
         .iter()
         .enumerate()

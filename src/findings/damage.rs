@@ -22,7 +22,7 @@ pub fn damage(
             .and("flank", d.place.side.name())
             .and("zone", d.place.zone.name())
             .and("height_mm", d.place.height_mm)
-            .and("lead_mm", d.lead_mm);
+            .and("lead_mm", d.z_mm);
         Quantity::number(d.depth_mm, "mm", depth).at(made_by(place, d))
     });
     let count = places.len() as u64;

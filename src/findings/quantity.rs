@@ -194,7 +194,10 @@ mod tests {
         let stock = Quantity::number(0.1, "mm", "smallest normal stock").at(place);
         assert_eq!(
             json(&stock),
-            r#"{"value":0.1,"unit":"mm","definition":"smallest normal stock","place":{"tooth":7,"flank":"left","u_mm":1.5,"v_mm":12.0}}"#
+            concat!(
+                r#"{"value":0.1,"unit":"mm","definition":"smallest normal stock","#,
+                r#""place":{"tooth":7,"flank":"left","u_mm":1.5,"v_mm":12.0}}"#
+            )
         );
         assert_eq!(stock.value(), Some(0.1));
     }

@@ -1,6 +1,6 @@
 //! How many digits a program needs.
 
-use crate::machine::Kind;
+use crate::machine::AxisKind;
 
 /// Share of the contour error that rounding of the written digits may take, for each axis.
 const ROUNDING_SHARE: f64 = 0.05;
@@ -23,15 +23,15 @@ impl Digits {
     }
 
     /// Of positions of an axis.
-    pub fn of(self, kind: Kind) -> usize {
+    pub fn of(self, kind: AxisKind) -> usize {
         match kind {
-            Kind::Rotary => self.angle,
-            Kind::Linear => self.length,
+            AxisKind::Rotary => self.angle,
+            AxisKind::Linear => self.length,
         }
     }
 
     /// A position, rad or mm, as a reader of its digits takes it back.
-    pub fn rounded(self, kind: Kind, position: f64) -> f64 {
+    pub fn rounded(self, kind: AxisKind, position: f64) -> f64 {
         kind.from_shown(Self::round(kind.shown(position), self.of(kind)))
     }
 

@@ -1,12 +1,12 @@
 //! An axis by its name and kind: units and names of columns follow from the kind alone.
 //!
-//! Inside gearcut angles are rad and lengths mm; people, files and controls read deg and mm. [`Kind`] is the only place
-//! that turns the one into the other. Road not taken: a unit as text beside each number, or a rule by the axis's place
-//! in a list; both let a new axis pass in the wrong unit.
+//! Inside gearcut angles are rad and lengths mm; people, files and controls read deg and mm. [`AxisKind`] is the only
+//! place that turns the one into the other. Road not taken: a unit as text beside each number, or a rule by the axis's
+//! place in a list; both let a new axis pass in the wrong unit.
 
 /// How an axis moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum AxisKind {
     /// It turns: rad inside, deg where it is read.
     Rotary,
     /// It slides: mm everywhere.
@@ -38,12 +38,12 @@ pub struct Axis {
     /// Its word in programs.
     pub letter: char,
     /// How it moves.
-    pub kind: Kind,
+    pub kind: AxisKind,
     /// It moves at constant feeds with corners between them: there is no acceleration to state.
     pub constant_feed: bool,
 }
 
-impl Kind {
+impl AxisKind {
     /// A value of any order, from rad or mm to the unit in which it is read.
     pub fn shown(self, value: f64) -> f64 {
         match self {
@@ -110,7 +110,7 @@ impl Order {
 
 impl Axis {
     /// An axis whose sentences and columns of positions use its name and stem.
-    pub const fn new(name: &'static str, stem: &'static str, letter: char, kind: Kind) -> Self {
+    pub const fn new(name: &'static str, stem: &'static str, letter: char, kind: AxisKind) -> Self {
         Self { name, noun: name, stem, position_stem: stem, letter, kind, constant_feed: false }
     }
 

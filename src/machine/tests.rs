@@ -1,21 +1,21 @@
 //! A made-up machine of ten axes, turning and sliding in turn: columns, units, peaks, limits, margins.
 
-use super::{Axis, AxisMotion, Kind, Limits, Motion, Order, Piece, peaks, smallest_margin};
+use super::{Axis, AxisKind, AxisMotion, Limits, Motion, MotionPiece, Order, peaks, smallest_margin};
 
 /// Ten axes that swing, axis k by `amplitude(k)` at `omega_per_s(k)`; the last one moves at constant feeds.
 pub(crate) struct Swinging;
 
 pub(crate) const AXES: [Axis; 10] = [
-    Axis::new("work spindle", "work", 'C', Kind::Rotary).at("psi"),
-    Axis::new("X", "x", 'X', Kind::Linear).called("tangential axis"),
-    Axis::new("tool spindle", "tool", 'B', Kind::Rotary),
-    Axis::new("Y", "y", 'Y', Kind::Linear),
-    Axis::new("cradle", "cradle", 'Q', Kind::Rotary),
-    Axis::new("Z", "z", 'Z', Kind::Linear),
-    Axis::new("root angle", "root", 'A', Kind::Rotary),
-    Axis::new("sliding base", "base", 'U', Kind::Linear),
-    Axis::new("tilt", "tilt", 'D', Kind::Rotary),
-    Axis::new("shift", "shift", 'W', Kind::Linear).at_constant_feed(),
+    Axis::new("work spindle", "work", 'C', AxisKind::Rotary).at("psi"),
+    Axis::new("X", "x", 'X', AxisKind::Linear).called("tangential axis"),
+    Axis::new("tool spindle", "tool", 'B', AxisKind::Rotary),
+    Axis::new("Y", "y", 'Y', AxisKind::Linear),
+    Axis::new("cradle", "cradle", 'Q', AxisKind::Rotary),
+    Axis::new("Z", "z", 'Z', AxisKind::Linear),
+    Axis::new("root angle", "root", 'A', AxisKind::Rotary),
+    Axis::new("sliding base", "base", 'U', AxisKind::Linear),
+    Axis::new("tilt", "tilt", 'D', AxisKind::Rotary),
+    Axis::new("shift", "shift", 'W', AxisKind::Linear).at_constant_feed(),
 ];
 
 /// rad or mm.
@@ -43,8 +43,8 @@ impl Motion<10> for Swinging {
     }
 
     /// In two pieces; the first one is too short for the slow axes to reach their peaks.
-    fn pieces(&self) -> Vec<Piece> {
-        vec![Piece { from: 0.0, to: 0.5, cells: 16 }, Piece { from: 0.5, to: 20.0, cells: 512 }]
+    fn pieces(&self) -> Vec<MotionPiece> {
+        vec![MotionPiece { from: 0.0, to: 0.5, cells: 16 }, MotionPiece { from: 0.5, to: 20.0, cells: 512 }]
     }
 }
 
@@ -54,7 +54,7 @@ fn columns_and_units_follow_from_the_kind() {
     assert_eq!(names(0), ["psi_deg", "work_speed_deg_per_s", "work_acceleration_deg_per_s2"]);
     assert_eq!(names(1), ["x_mm", "x_speed_mm_per_s", "x_acceleration_mm_per_s2"]);
     for axis in AXES {
-        let base = if axis.kind == Kind::Rotary { ["deg", "°"] } else { ["mm", "mm"] };
+        let base = if axis.kind == AxisKind::Rotary { ["deg", "°"] } else { ["mm", "mm"] };
         for (order, ends) in
             [(Order::Position, ["", ""]), (Order::Speed, ["/s", "/s"]), (Order::Acceleration, ["/s^2", "/s²"])]
         {
@@ -79,7 +79,7 @@ fn peaks_of_sinusoids_are_amplitude_times_omega() {
             assert!((peak.value / expected - 1.0).abs() < 1e-12, "{}: {} not {expected}", peak.name(), peak.value);
             let there = Swinging.at(peak.at)[index].of(order).abs();
             assert!((there / expected - 1.0).abs() < 1e-12, "{} at {}", peak.name(), peak.at);
-            let shown = if axis.kind == Kind::Rotary { expected * 180.0 / std::f64::consts::PI } else { expected };
+            let shown = if axis.kind == AxisKind::Rotary { expected * 180.0 / std::f64::consts::PI } else { expected };
             assert!((peak.shown() / shown - 1.0).abs() < 1e-12, "{} {}", peak.shown(), peak.unit());
         }
     }

@@ -30,7 +30,7 @@ pub struct Damage {
     /// That place in the gear frame, mm.
     pub point_mm: DVec2,
     /// And along the tooth from the middle of the face, mm.
-    pub lead_mm: f64,
+    pub z_mm: f64,
     /// Largest depth along the normal, mm.
     pub depth_mm: f64,
     /// Volume, mm3: mean of both families. For rubbing the sum over strokes.
@@ -96,7 +96,7 @@ pub struct Finding {
     /// Deepest place on the ray, gear frame, mm.
     pub point_mm: DVec2,
     /// Its place along the tooth from the middle of the face, mm.
-    pub lead_mm: f64,
+    pub z_mm: f64,
     /// Depth along the normal, mm.
     pub depth_mm: f64,
     /// The ray's share of the volume, half of it for each family, mm3.
@@ -122,7 +122,7 @@ pub fn collect(
             operation: finding.operation,
             place,
             point_mm: finding.point_mm,
-            lead_mm: finding.lead_mm,
+            z_mm: finding.z_mm,
             depth_mm: finding.depth_mm,
             volume_mm3: 0.0,
             stroke,
@@ -130,8 +130,8 @@ pub fn collect(
         });
         let volume_mm3 = damage.volume_mm3 + finding.volume_mm3;
         if finding.depth_mm > damage.depth_mm {
-            let (point_mm, lead_mm, depth_mm) = (finding.point_mm, finding.lead_mm, finding.depth_mm);
-            *damage = Damage { place, point_mm, lead_mm, depth_mm, stroke, blade, ..*damage };
+            let (point_mm, z_mm, depth_mm) = (finding.point_mm, finding.z_mm, finding.depth_mm);
+            *damage = Damage { place, point_mm, z_mm, depth_mm, stroke, blade, ..*damage };
         }
         damage.volume_mm3 = volume_mm3;
     }
@@ -148,7 +148,7 @@ pub fn missing_in_slice(
     operation_of: impl Fn(u32) -> Option<usize>,
 ) -> Vec<Finding> {
     let grid = &field.grid;
-    let (width_mm, lead_mm) = (grid.slice_widths_mm()[slice], grid.leads_mm[slice]);
+    let (width_mm, z_mm) = (grid.slice_widths_mm()[slice], grid.slices_z_mm[slice]);
     let mut findings = Vec::new();
     for (f, family) in FAMILIES.into_iter().enumerate() {
         let row = &grid.rows[f];
@@ -169,7 +169,7 @@ pub fn missing_in_slice(
                     operation,
                     stays: true,
                     point_mm: deepest.1,
-                    lead_mm,
+                    z_mm,
                     depth_mm: deepest.0,
                     volume_mm3: 0.5 * (high - low) * row.spacing_mm * width_mm,
                     pass,

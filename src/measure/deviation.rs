@@ -48,7 +48,7 @@ impl Trace {
     pub fn along_tooth(field: &Field, layer: &Layer, column: usize) -> Self {
         let rows = field.rows();
         Self {
-            places_mm: field.leads_mm.clone(),
+            places_mm: field.rows_z_mm.clone(),
             heights_mm: (0..rows).map(|row| height_mm(layer, column * rows + row)).collect(),
         }
     }

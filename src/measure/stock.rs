@@ -13,7 +13,7 @@ pub struct Extreme {
     /// Arc along the profile, mm.
     pub arc_mm: f64,
     /// Place along the tooth, mm.
-    pub lead_mm: f64,
+    pub z_mm: f64,
 }
 
 /// Stock over one field.
@@ -53,7 +53,7 @@ pub fn extremes(
     let place = |(value, index): (f32, usize)| Extreme {
         value_mm: f64::from(value),
         arc_mm: field.columns[index / rows].arc_mm,
-        lead_mm: field.leads_mm[index % rows],
+        z_mm: field.rows_z_mm[index % rows],
     };
     (low.0 <= high.0).then(|| [place(low), place(high)])
 }

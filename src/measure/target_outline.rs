@@ -67,11 +67,12 @@ impl TargetOutline {
         0.5 * (0..self.points_mm.len()).map(|i| self.segment(i)).map(|[a, b]| a.perp_dot(b)).sum::<f64>()
     }
 
-    /// How far the area by rays of a family may be off, mm2: half a spacing times the way of the outline along the
+    /// How far the area by rays of a family may be off, mm2: half a spacing times the length of the outline along the
     /// rays. The midpoint rule errs by no more than that times the total variation of the length that it sums.
     pub fn area_bound_mm2(&self, family: Family, spacing_mm: f64) -> f64 {
-        let way: f64 = (0..self.points_mm.len()).map(|i| self.segment(i)).map(|[a, b]| family.along(b - a).abs()).sum();
-        0.5 * spacing_mm * way
+        let length_mm: f64 =
+            (0..self.points_mm.len()).map(|i| self.segment(i)).map(|[a, b]| family.along(b - a).abs()).sum();
+        0.5 * spacing_mm * length_mm
     }
 
     /// Material on the rays of a family, less the bore.

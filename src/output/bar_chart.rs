@@ -11,8 +11,8 @@ use maud::html;
 
 use crate::Result;
 use crate::output::axis::{round_range, value_text, widened};
-use crate::output::figure::{Entry, Figure, MOST_SERIES, Name, Plot, Sample};
-use crate::output::plot::{Frame, LABELS_PX, Slots, WIDTH_PX, px};
+use crate::output::figure::{Figure, LegendEntry, MOST_SERIES, Name, Plot, Sample};
+use crate::output::plot::{LABELS_PX, PlotFrame, Slots, WIDTH_PX, px};
 
 /// A bar chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,18 +83,18 @@ impl BarChart {
         widened(range, self.least_division)
     }
 
-    fn entry(&self, index: usize, extent: f64) -> Entry {
+    fn entry(&self, index: usize, extent: f64) -> LegendEntry {
         let series = &self.series[index];
         let mean = series.mean().map_or_else(
             || ": no values".to_owned(),
             |mean| format!(", mean {} {}", value_text(without_rounding(mean, extent)), self.unit),
         );
-        Entry { sample: Sample::Block(index), words: format!("{}{mean}", series.name) }
+        LegendEntry { sample: Sample::Block(index), words: format!("{}{mean}", series.name) }
     }
 
     /// The chart laid out.
     pub(super) fn figure(&self) -> Figure<'_> {
-        let frame = Frame::new(236.0, self.range());
+        let frame = PlotFrame::new(236.0, self.range());
         let slots = Slots { frame: &frame, categories: &self.categories, series: self.series.len() };
         let width = slots.bar_px();
         let drawing = html! {

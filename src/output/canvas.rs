@@ -25,7 +25,7 @@ pub(super) type Drawn = Result<(), String>;
 
 /// Where a text lies relative to its point, in reading direction; across it the capitals' middle is on the point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum Align {
     /// The text begins at the point.
     Start,
     /// The text is centred on the point.
@@ -76,12 +76,12 @@ impl Canvas<'_> {
     }
 
     /// Horizontal text.
-    pub(super) fn text(&mut self, words: &str, at: Point, em_px: f64, side: Side) -> Drawn {
+    pub(super) fn text(&mut self, words: &str, at: Point, em_px: f64, side: Align) -> Drawn {
         self.letters(words, at, em_px, side, |x, y| (x, y))
     }
 
     /// Text that reads upward.
-    pub(super) fn text_upward(&mut self, words: &str, at: Point, em_px: f64, side: Side) -> Drawn {
+    pub(super) fn text_upward(&mut self, words: &str, at: Point, em_px: f64, side: Align) -> Drawn {
         self.letters(words, at, em_px, side, |x, y| (y, -x))
     }
 
@@ -91,7 +91,7 @@ impl Canvas<'_> {
         words: &str,
         at: Point,
         em_px: f64,
-        side: Side,
+        side: Align,
         turned: impl Fn(i32, i32) -> (i32, i32),
     ) -> Drawn {
         /// Fine pixels per pixel.
@@ -101,9 +101,9 @@ impl Canvas<'_> {
         let up_px = em_px * (0.5 * font::LINE_HEIGHT_EM - 0.5 * font::CAPITAL_HEIGHT_EM);
         let width_px = text_width_px(words, em_px)?;
         let back_px = match side {
-            Side::Start => 0.0,
-            Side::Middle => 0.5 * width_px,
-            Side::End => width_px,
+            Align::Start => 0.0,
+            Align::Middle => 0.5 * width_px,
+            Align::End => width_px,
         };
         let [fine_left, fine_top] = [-back_px, -up_px].map(|offset| (offset * finer).round() as i32);
         // Pixels that the letters can touch: the text's width, a line, and a line more for accents and descenders.
@@ -168,7 +168,7 @@ mod tests {
         let mut raster = white();
         let mut canvas = Canvas(&mut raster);
         canvas.frame((-10.0, -10.0), (70.0, 50.0), INK);
-        canvas.text("words far to the left", (-400.0, 20.0), 15.0, Side::Start).expect("the embedded font");
+        canvas.text("words far to the left", (-400.0, 20.0), 15.0, Align::Start).expect("the embedded font");
         assert_eq!(ink(&raster), 0.0);
         Canvas(&mut raster).fill((50.0, 30.0), (500.0, 300.0), INK);
         assert_eq!(ink(&raster), 10.0 * 10.0);
@@ -185,9 +185,9 @@ mod tests {
         };
         let off = |raster: &Raster| [middle(raster, |i| i % 60) - 30.0, middle(raster, |i| i / 60) - 20.0];
         let mut level = white();
-        Canvas(&mut level).text("HIH", (30.0, 20.0), 15.0, Side::Middle).expect("the embedded font");
+        Canvas(&mut level).text("HIH", (30.0, 20.0), 15.0, Align::Middle).expect("the embedded font");
         let mut upright = white();
-        Canvas(&mut upright).text_upward("HIH", (30.0, 20.0), 15.0, Side::Middle).expect("the embedded font");
+        Canvas(&mut upright).text_upward("HIH", (30.0, 20.0), 15.0, Align::Middle).expect("the embedded font");
         for (found, expected) in [(off(&level), [-BEARING_PX, 0.0]), (off(&upright), [0.0, BEARING_PX])] {
             let apart = [found[0] - expected[0], found[1] - expected[1]];
             assert!(apart.iter().all(|distance| distance.abs() <= 1.0), "{found:?} for {expected:?}");

@@ -10,7 +10,7 @@ use std::path::Path;
 
 use crate::colormap::{ColourScale, NO_VALUE};
 use crate::output::atomic::write_bytes_atomically;
-use crate::output::canvas::{Canvas, INK, Side};
+use crate::output::canvas::{Align, Canvas, INK};
 use crate::output::grid::MapGrid;
 use crate::output::heat::{ColourBar, PixelBox, paint_cells, scale_problem, shown_range};
 use crate::output::letters::fitting_em_px;
@@ -116,11 +116,11 @@ fn draw(sheet: &ContactSheet) -> std::result::Result<Vec<u8>, String> {
     let mut canvas = Canvas(&mut raster);
     let left = f64::from(MARGIN_PX);
     let title_em_px = fitting_em_px(sheet.title, 20.0, f64::from(width_px) - 2.0 * left)?;
-    canvas.text(sheet.title, (left, 28.0), title_em_px, Side::Start)?;
+    canvas.text(sheet.title, (left, 28.0), title_em_px, Align::Start)?;
     for (area, map) in areas.iter().zip(sheet.maps) {
         let (upper_left, lower_right) = area.corners();
         canvas.frame(upper_left, lower_right, INK);
-        canvas.text(map.label, (upper_left.0, upper_left.1 - 10.0), EM_PX, Side::Start)?;
+        canvas.text(map.label, (upper_left.0, upper_left.1 - 10.0), EM_PX, Align::Start)?;
     }
     bar.annotate(&mut canvas, f64::from(bar_height_px + TOP_PX))?;
 
@@ -130,15 +130,15 @@ fn draw(sheet: &ContactSheet) -> std::result::Result<Vec<u8>, String> {
     let v_end = left + v_bar_mm * v_px_per_mm;
     canvas.fill((left, y - 1.0), (v_end, y + 1.0), INK);
     let axes = &sheet.maps[0].grid;
-    canvas.text(&format!("{}: {v_bar_mm} mm", axes.v.name), (v_end + 10.0, y), EM_PX, Side::Start)?;
+    canvas.text(&format!("{}: {v_bar_mm} mm", axes.v.name), (v_end + 10.0, y), EM_PX, Align::Start)?;
     let u_x = v_end + 120.0;
     let u_half = 0.5 * u_bar_mm * u_px_per_mm;
     canvas.fill((u_x - 1.0, y - u_half), (u_x + 1.0, y + u_half), INK);
-    canvas.text(&format!("{}: {u_bar_mm} mm", axes.u.name), (u_x + 10.0, y), EM_PX, Side::Start)?;
+    canvas.text(&format!("{}: {u_bar_mm} mm", axes.u.name), (u_x + 10.0, y), EM_PX, Align::Start)?;
     if sheet.maps.iter().flat_map(|map| map.values).any(|value| value.is_nan()) {
         let x = u_x + 120.0;
         canvas.fill((x, y - 7.0), (x + 14.0, y + 7.0), NO_VALUE);
-        canvas.text(sheet.missing, (x + 22.0, y), EM_PX, Side::Start)?;
+        canvas.text(sheet.missing, (x + 22.0, y), EM_PX, Align::Start)?;
     }
     raster.png()
 }

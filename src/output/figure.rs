@@ -37,7 +37,7 @@ pub(super) struct Plot {
     /// What the values are.
     pub name: Name,
     /// What the colours mean.
-    pub legend: Vec<Entry>,
+    pub legend: Vec<LegendEntry>,
     /// Width and height of the drawing, pixels.
     pub size_px: (f64, f64),
     /// The drawing.
@@ -70,7 +70,7 @@ impl Name {
 }
 
 /// One entry of a legend.
-pub(super) struct Entry {
+pub(super) struct LegendEntry {
     pub sample: Sample,
     pub words: String,
 }

@@ -5,10 +5,12 @@
 //! | what | where |
 //! | --- | --- |
 //! | height over the target after each operation | `maps/<operation>/tooth_07_left.{png,exr}` |
-//! | pass that left the finished surface (a channel of every EXR above) | `maps/<last operation>/tooth_07_left_pass.png` |
-//! | uncut chip thickness with which the surface was cut last, and the part of the edge (channels of every EXR above) | `maps/<last operation>/tooth_07_left_chip.png` |
+//! | pass that left the finished surface | `maps/<last operation>/tooth_07_left_pass.png` |
+//! | uncut chip thickness of the last cut, part of the edge | `maps/<last operation>/tooth_07_left_chip.png` |
 //! | stock of each earlier operation over the finished surface | `allowance/tooth_07_left.{png,exr}` |
 //! | deviation of the finished flank | `deviation/tooth_07_left.{png,exr}` |
+//!
+//! Pass, chip thickness and part of the edge are channels of every EXR under `maps/`.
 //!
 //! Maps have a spacing of their own (the scene's `output.map_spacing_mm`), wider than facets. In EXR files stock,
 //! height, pass id and chip are those of the dexel nearest to the map's place. Pictures show values of whole cells,
@@ -88,17 +90,23 @@ pub struct FlankMaps {
 
 impl FlankMaps {
     /// Takes the dexels nearest to the places of a map with `spacing_mm`; dexels stand at `arcs_mm` along the profile
-    /// and `leads_mm` along the tooth.
-    pub fn sample(tooth: u32, side: Side, [arcs_mm, leads_mm]: [&[f64]; 2], layers: &[Layer], spacing_mm: f64) -> Self {
-        let rows = leads_mm.len();
-        let lengths = [arcs_mm.last().copied().unwrap_or(0.0), leads_mm[rows - 1] - leads_mm[0]];
+    /// and `rows_z_mm` along the tooth.
+    pub fn sample(
+        tooth: u32,
+        side: Side,
+        [arcs_mm, rows_z_mm]: [&[f64]; 2],
+        layers: &[Layer],
+        spacing_mm: f64,
+    ) -> Self {
+        let rows = rows_z_mm.len();
+        let lengths = [arcs_mm.last().copied().unwrap_or(0.0), rows_z_mm[rows - 1] - rows_z_mm[0]];
         let axis = |name: &str, meaning: &str, start_mm: f64, length_mm: f64| {
             let count = (length_mm / spacing_mm).floor() as usize + 1;
             MapAxis { name: name.into(), meaning: meaning.into(), start_mm, step_mm: spacing_mm, count }
         };
         let grid = MapGrid {
             u: axis("u", "along the profile from the form point", 0.0, lengths[0]),
-            v: axis("v", "along the tooth from the middle of the face", leads_mm[0], lengths[1]),
+            v: axis("v", "along the tooth from the middle of the face", rows_z_mm[0], lengths[1]),
         };
         // Dexels of each cell of an axis: those nearer to its place than to the next one, at least the nearest.
         let cells = |axis: &MapAxis, places: &[f64]| -> Vec<(usize, std::ops::Range<usize>)> {
@@ -116,16 +124,18 @@ impl FlankMaps {
                 })
                 .collect()
         };
-        let (columns, leads) = (cells(&grid.u, arcs_mm), cells(&grid.v, leads_mm));
-        let dexels: Vec<usize> =
-            columns.iter().flat_map(|(column, _)| leads.iter().map(move |(row, _)| column * rows + row)).collect();
+        let (columns, rows_of_cells) = (cells(&grid.u, arcs_mm), cells(&grid.v, rows_z_mm));
+        let dexels: Vec<usize> = columns
+            .iter()
+            .flat_map(|(column, _)| rows_of_cells.iter().map(move |(row, _)| column * rows + row))
+            .collect();
         // One value for all dexels of a cell that a pass has touched.
         let over_cells = |layer: &Layer, value: fn(&Layer, &mut dyn Iterator<Item = usize>) -> f32| -> Vec<f32> {
             columns
                 .iter()
                 .flat_map(|(_, columns)| {
-                    leads.iter().map(move |(_, leads)| {
-                        let cell = columns.clone().flat_map(|column| leads.clone().map(move |row| column * rows + row));
+                    rows_of_cells.iter().map(move |(_, along)| {
+                        let cell = columns.clone().flat_map(|column| along.clone().map(move |row| column * rows + row));
                         value(layer, &mut cell.filter(|&i| layer.passes[i] != NO_PASS))
                     })
                 })
@@ -142,7 +152,7 @@ impl FlankMaps {
             mean_mm,
             latest_pass: layers.last().map_or_else(Vec::new, |layer| over_cells(layer, latest)),
             passes: layers.iter().map(|layer| dexels.iter().map(|&i| layer.passes[i]).collect()).collect(),
-            dexels: [&columns, &leads].map(|cells| cells.iter().map(|(nearest, _)| *nearest).collect()),
+            dexels: [&columns, &rows_of_cells].map(|cells| cells.iter().map(|(nearest, _)| *nearest).collect()),
             chips: Vec::new(),
             grid,
         }
@@ -343,14 +353,14 @@ mod tests {
             low_mm: -1.0,
             blank_mm: 1.0,
         };
-        let field = Field { columns: (0..4).map(column).collect(), leads_mm: vec![-0.05, 0.0, 0.05, 0.1] };
+        let field = Field { columns: (0..4).map(column).collect(), rows_z_mm: vec![-0.05, 0.0, 0.05, 0.1] };
         let mut layer = field.blank_layer();
         for index in 0..16 {
             (layer.heights_mm[index], layer.passes[index]) = (index as f32, 7);
         }
         layer.passes[5] = NO_PASS;
         layer.passes[9] = 8;
-        let maps = FlankMaps::sample(1, Side::Left, [&field.arcs_mm(), &field.leads_mm], &[layer], 0.1);
+        let maps = FlankMaps::sample(1, Side::Left, [&field.arcs_mm(), &field.rows_z_mm], &[layer], 0.1);
         assert_eq!((maps.grid.u.count, maps.grid.v.count), (2, 2));
         // The cell at u 0.1, v -0.05 holds the columns at 0.05 (half way, upper cell) and 0.1, and the first row:
         // dexels 4 and 8.

@@ -7,7 +7,7 @@
 
 use crate::colormap::ColourScale;
 use crate::output::axis::{Ticks, value_text};
-use crate::output::canvas::{Canvas, Drawn, INK, Side};
+use crate::output::canvas::{Align, Canvas, Drawn, INK};
 use crate::output::grid::MapGrid;
 use crate::output::letters::fitting_em_px;
 use crate::output::raster::Raster;
@@ -148,14 +148,14 @@ impl ColourBar<'_> {
             for (value, label) in ticks.values.iter().zip(&ticks.labels) {
                 let y = bottom - (value - low) / (high - low) * (bottom - top);
                 canvas.fill((right, y), (right + 5.0, y), INK);
-                canvas.text(label, (right + 9.0, y), Self::EM_PX, Side::Start)?;
+                canvas.text(label, (right + 9.0, y), Self::EM_PX, Align::Start)?;
             }
         } else {
-            canvas.text(&value_text(low.into()), (right + 9.0, 0.5 * (top + bottom)), Self::EM_PX, Side::Start)?;
+            canvas.text(&value_text(low.into()), (right + 9.0, 0.5 * (top + bottom)), Self::EM_PX, Align::Start)?;
         }
         let name = if unit == "1" { self.quantity.to_owned() } else { format!("{} [{unit}]", self.quantity) };
         let at = (right + f64::from(Self::LABEL_WIDTH_PX) - 24.0, 0.5 * (top + bottom));
-        canvas.text_upward(&name, at, fitting_em_px(&name, Self::EM_PX, room_px)?, Side::Middle)
+        canvas.text_upward(&name, at, fitting_em_px(&name, Self::EM_PX, room_px)?, Align::Middle)
     }
 }
 

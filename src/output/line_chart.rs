@@ -14,8 +14,8 @@ use maud::html;
 
 use crate::Result;
 use crate::output::axis::{Ticks, round_range, value_text, widened};
-use crate::output::figure::{Entry, Figure, MOST_SERIES, Name, Plot, Sample};
-use crate::output::plot::{Frame, LABELS_PX, WIDTH_PX, path};
+use crate::output::figure::{Figure, LegendEntry, MOST_SERIES, Name, Plot, Sample};
+use crate::output::plot::{LABELS_PX, PlotFrame, WIDTH_PX, path};
 
 /// A chart of one or more panels, one below the other.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,7 +94,7 @@ impl LineChart {
         let ticks = Ticks::over(low, high, 12);
         let height_px = if self.panels.len() > 1 { 130.0 } else { 236.0 };
         let plots = self.panels.iter().enumerate().map(|(index, panel)| {
-            let frame = Frame::new(height_px, panel.range());
+            let frame = PlotFrame::new(height_px, panel.range());
             let x = |value: f64| frame.left + (value - low) / (high - low) * (frame.right - frame.left);
             let last = index + 1 == self.panels.len();
             let drawing = html! {
@@ -130,7 +130,7 @@ impl LineChart {
 }
 
 /// Whether a limit lies within the values of a panel.
-fn shown(frame: &Frame, limit: &Limit) -> bool {
+fn shown(frame: &PlotFrame, limit: &Limit) -> bool {
     (frame.range.0..=frame.range.1).contains(&limit.value)
 }
 
@@ -162,13 +162,13 @@ impl Panel {
         widened(round_range(low, high), self.least_division)
     }
 
-    fn legend(&self, frame: &Frame) -> Vec<Entry> {
+    fn legend(&self, frame: &PlotFrame) -> Vec<LegendEntry> {
         let curves = self.series.iter().enumerate();
-        let curves = curves.map(|(k, series)| Entry { sample: Sample::Line(k), words: series.name.clone() });
+        let curves = curves.map(|(k, series)| LegendEntry { sample: Sample::Line(k), words: series.name.clone() });
         let limits = self.limits.iter().map(|limit| {
             let place = if shown(frame, limit) { "" } else { ", outside the panel" };
             let words = format!("{} {} {}{place}", limit.name, value_text(limit.value), self.unit);
-            Entry { sample: Sample::Limit, words }
+            LegendEntry { sample: Sample::Limit, words }
         });
         curves.chain(limits).collect()
     }

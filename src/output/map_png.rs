@@ -15,7 +15,7 @@ use std::path::Path;
 use crate::colormap::{ColourScale, NO_VALUE};
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::axis::{Ticks, number_text, value_text};
-use crate::output::canvas::{Canvas, Drawn, INK, PAPER, Point, Side};
+use crate::output::canvas::{Align, Canvas, Drawn, INK, PAPER, Point};
 use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::heat::{ColourBar, PixelBox, paint_cells, scale_problem, shade_cells, shown_range};
 use crate::output::letters::fitting_em_px;
@@ -98,13 +98,13 @@ fn draw(picture: &MapPicture, relief: Option<&Relief>) -> std::result::Result<Ve
 
     let mut canvas = Canvas(&mut raster);
     let title_em_px = fitting_em_px(picture.title, TITLE_EM_PX, f64::from(MAP_WIDTH_PX))?;
-    canvas.text(picture.title, (f64::from(LEFT_PX), 28.0), title_em_px, Side::Start)?;
+    canvas.text(picture.title, (f64::from(LEFT_PX), 28.0), title_em_px, Align::Start)?;
     draw_axes(&mut canvas, map, picture.grid)?;
     bar.annotate(&mut canvas, f64::from(height_px + TOP_PX + BELOW_PX) - 60.0)?;
     draw_notes(&mut canvas, map, picture, f64::from(height_px) / true_height_px)?;
     if let Some(relief) = relief {
         let at = (f64::from(LEFT_PX), f64::from(TOP_PX + height_px) + 100.0);
-        canvas.text(&relief.words(), at, EM_PX, Side::Start)?;
+        canvas.text(&relief.words(), at, EM_PX, Align::Start)?;
     }
     raster.png()
 }
@@ -116,19 +116,19 @@ fn draw_axes(canvas: &mut Canvas, map: PixelBox, grid: &MapGrid) -> Drawn {
     for (value, label) in v_ticks.values.iter().zip(&v_ticks.labels) {
         let x = left + (value - grid.v.low_edge_mm()) / grid.v.length_mm() * (right - left);
         canvas.fill((x, bottom), (x, bottom + 5.0), INK);
-        canvas.text(label, (x, bottom + 16.0), EM_PX, Side::Middle)?;
+        canvas.text(label, (x, bottom + 16.0), EM_PX, Align::Middle)?;
     }
     let u_ticks = axis_ticks(&grid.u, map.height / 40);
     for (value, label) in u_ticks.values.iter().zip(&u_ticks.labels) {
         let y = bottom - (value - grid.u.low_edge_mm()) / grid.u.length_mm() * (bottom - top);
         canvas.fill((left - 5.0, y), (left, y), INK);
-        canvas.text(label, (left - 9.0, y), EM_PX, Side::End)?;
+        canvas.text(label, (left - 9.0, y), EM_PX, Align::End)?;
     }
     let v_name = axis_name(&grid.v, &v_ticks);
-    canvas.text(&v_name, (0.5 * (left + right), bottom + 40.0), EM_PX, Side::Middle)?;
+    canvas.text(&v_name, (0.5 * (left + right), bottom + 40.0), EM_PX, Align::Middle)?;
     let u_name = axis_name(&grid.u, &u_ticks);
     let em_px = fitting_em_px(&u_name, EM_PX, bottom - top + 90.0)?;
-    canvas.text_upward(&u_name, (22.0, 0.5 * (top + bottom)), em_px, Side::Middle)
+    canvas.text_upward(&u_name, (22.0, 0.5 * (top + bottom)), em_px, Align::Middle)
 }
 
 fn axis_ticks(axis: &MapAxis, most: u32) -> Ticks {
@@ -160,7 +160,7 @@ fn draw_notes(canvas: &mut Canvas, map: PixelBox, picture: &MapPicture, u_stretc
         let (u, v) = (number_text(u_mm, 2), number_text(v_mm, 2));
         let words = format!("{word} {}{unit} at v {v}, u {u} mm", value_text(value.into()));
         let em_px = fitting_em_px(&words, EM_PX, column_px - 30.0)?;
-        canvas.text(&words, (column_x + 20.0, y), em_px, Side::Start)?;
+        canvas.text(&words, (column_x + 20.0, y), em_px, Align::Start)?;
         column_x += column_px;
     }
     let missing = picture.values.iter().filter(|value| value.is_nan()).count();
@@ -168,7 +168,7 @@ fn draw_notes(canvas: &mut Canvas, map: PixelBox, picture: &MapPicture, u_stretc
         canvas.fill((column_x, y - 7.0), (column_x + 14.0, y + 7.0), NO_VALUE);
         let words = format!("{}: {missing} of {} cells", picture.missing, picture.values.len());
         let em_px = fitting_em_px(&words, EM_PX, column_px - 30.0)?;
-        canvas.text(&words, (column_x + 20.0, y), em_px, Side::Start)?;
+        canvas.text(&words, (column_x + 20.0, y), em_px, Align::Start)?;
     }
     let scale_note = if (u_stretch - 1.0).abs() < 0.01 {
         "u and v to the same scale".to_owned()
@@ -177,7 +177,7 @@ fn draw_notes(canvas: &mut Canvas, map: PixelBox, picture: &MapPicture, u_stretc
     } else {
         format!("v drawn {} times as large as u", value_text(1.0 / u_stretch))
     };
-    canvas.text(&scale_note, (right, bottom + 40.0), EM_PX, Side::End)
+    canvas.text(&scale_note, (right, bottom + 40.0), EM_PX, Align::End)
 }
 
 /// Triangle around the place it marks, light around dark so that it shows on every colour.

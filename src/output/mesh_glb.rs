@@ -14,8 +14,8 @@ use crate::output::mesh_file::{FRAME, MeshFile};
 use crate::surface::mesh::{Scalar, ScalarValues};
 use crate::{Error, Result};
 use document::{
-    ARRAY_BUFFER, Accessor, Asset, Buffer, Document, ELEMENT_ARRAY_BUFFER, FLOAT, Material, Mesh, MetallicRoughness,
-    Node, Primitive, Scene, UNSIGNED_INT, UNSIGNED_SHORT, View,
+    ARRAY_BUFFER, Accessor, Asset, Buffer, Document, ELEMENT_ARRAY_BUFFER, FLOAT, GltfMesh, GltfNode, GltfScene,
+    GltfView, Material, MetallicRoughness, Primitive, UNSIGNED_INT, UNSIGNED_SHORT,
 };
 use glam::DVec3;
 use serde_json::{Map, Value, json};
@@ -136,17 +136,17 @@ fn build(file: &MeshFile) -> (Document, Vec<u8>) {
         let standard = [("POSITION", position), ("NORMAL", normal), ("COLOR_0", colour)];
         let attributes = quantities.into_iter().chain(standard.map(|(name, place)| (name.to_owned(), place)));
         let attributes = attributes.map(|(name, place)| (name, json!(place))).collect();
-        nodes.push(Node { mesh: Some(meshes.len()), name: part.name.clone(), ..Node::default() });
-        meshes.push(Mesh { name: part.name.clone(), primitives: [Primitive { attributes, indices, material: 0 }] });
+        nodes.push(GltfNode { mesh: Some(meshes.len()), name: part.name.clone(), ..GltfNode::default() });
+        meshes.push(GltfMesh { name: part.name.clone(), primitives: [Primitive { attributes, indices, material: 0 }] });
     }
     let half = std::f32::consts::FRAC_1_SQRT_2;
     let gear = nodes.len();
-    nodes.push(Node {
+    nodes.push(GltfNode {
         children: (0..gear).collect(),
         name: file.title.to_owned(),
         rotation: Some([-half, 0.0, 0.0, half]),
         scale: Some([1e-3; 3]),
-        ..Node::default()
+        ..GltfNode::default()
     });
     let Values { streams, accessors } = values;
     let (buffer_views, buffer) = join(streams);
@@ -173,7 +173,7 @@ fn build(file: &MeshFile) -> (Document, Vec<u8>) {
         }],
         meshes,
         nodes,
-        scenes: [Scene { name: file.title.to_owned(), nodes: [gear] }],
+        scenes: [GltfScene { name: file.title.to_owned(), nodes: [gear] }],
     };
     (document, buffer)
 }
@@ -195,10 +195,10 @@ impl Values {
 }
 
 /// A view of each stream, and one buffer of all of them.
-fn join(streams: [Stream; 5]) -> (Vec<View>, Vec<u8>) {
+fn join(streams: [Stream; 5]) -> (Vec<GltfView>, Vec<u8>) {
     let (mut views, mut bytes) = (Vec::new(), Vec::new());
     for stream in streams {
-        views.push(View {
+        views.push(GltfView {
             buffer: 0,
             byte_length: stream.bytes.len(),
             byte_offset: bytes.len(),

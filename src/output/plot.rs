@@ -16,7 +16,7 @@ pub(super) const LABELS_PX: f64 = 26.0;
 
 /// Rectangle of a plot with its value axis.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Frame {
+pub(super) struct PlotFrame {
     pub left: f64,
     pub right: f64,
     pub top: f64,
@@ -25,7 +25,7 @@ pub(super) struct Frame {
     pub range: (f64, f64),
 }
 
-impl Frame {
+impl PlotFrame {
     /// Frame of a chart's full width.
     pub(super) fn new(height_px: f64, range: (f64, f64)) -> Self {
         Self { left: 56.0, right: WIDTH_PX - 10.0, top: 8.0, bottom: 8.0 + height_px, range }
@@ -80,7 +80,7 @@ impl Frame {
 
 /// Places of bars: a slot for each category, in it a bar for each series.
 pub(super) struct Slots<'a> {
-    pub frame: &'a Frame,
+    pub frame: &'a PlotFrame,
     pub categories: &'a [String],
     pub series: usize,
 }

@@ -118,14 +118,14 @@ impl Progress {
     }
 
     /// Begins a step of `total` units, such as "cut" with 84 "flanks".
-    pub fn step(&self, name: &str, total: u64, unit: &str) -> Step<'_> {
+    pub fn step(&self, name: &str, total: u64, unit: &str) -> ProgressStep<'_> {
         let bar = if self.mode == ProgressMode::Bar {
             visible_bar(name, total, unit, Arc::clone(&self.whole))
         } else {
             ProgressBar::hidden()
         };
         let started = Instant::now();
-        let step = Step {
+        let step = ProgressStep {
             progress: self,
             name: name.to_owned(),
             unit: unit.to_owned(),
@@ -158,7 +158,7 @@ impl Progress {
 }
 
 /// A step under way; it may be advanced from several threads.
-pub struct Step<'a> {
+pub struct ProgressStep<'a> {
     progress: &'a Progress,
     name: String,
     unit: String,
@@ -169,7 +169,7 @@ pub struct Step<'a> {
     bar: ProgressBar,
 }
 
-impl Step<'_> {
+impl ProgressStep<'_> {
     /// Counts `units` more as done.
     pub fn advance(&self, units: u64) {
         let done = self.done.fetch_add(units, Ordering::Relaxed) + units;
@@ -224,7 +224,7 @@ impl Step<'_> {
     }
 }
 
-impl Drop for Step<'_> {
+impl Drop for ProgressStep<'_> {
     /// A step that ends early takes its bar away, so that the error message stands alone.
     fn drop(&mut self) {
         self.bar.finish_and_clear();

@@ -5,8 +5,8 @@
 use maud::html;
 
 use crate::output::axis::{round_range, value_text};
-use crate::output::figure::{Entry, Figure, Name, Plot, Sample};
-use crate::output::plot::{Frame, LABELS_PX, Slots, WIDTH_PX, px};
+use crate::output::figure::{Figure, LegendEntry, Name, Plot, Sample};
+use crate::output::plot::{LABELS_PX, PlotFrame, Slots, WIDTH_PX, px};
 
 /// A chart of ranges.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,7 +37,7 @@ impl RangeChart {
     pub(super) fn figure(&self) -> Figure<'_> {
         let values = || self.series.iter().flat_map(|series| series.values.iter().flatten().flatten().copied());
         let range = round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max));
-        let frame = Frame::new(236.0, range);
+        let frame = PlotFrame::new(236.0, range);
         let slots = Slots { frame: &frame, categories: &self.categories, series: self.series.len() };
         // Bars of neighbouring series keep apart: both their ends are read.
         let width = 0.86 * slots.bar_px();
@@ -64,8 +64,10 @@ impl RangeChart {
             (frame.outline())
             (slots.labels())
         };
-        let entry =
-            |(index, series): (usize, &RangeSeries)| Entry { sample: Sample::Block(index), words: series.name.clone() };
+        let entry = |(index, series): (usize, &RangeSeries)| LegendEntry {
+            sample: Sample::Block(index),
+            words: series.name.clone(),
+        };
         Figure {
             title: &self.title,
             plots: vec![Plot {

@@ -9,8 +9,8 @@ use maud::{Markup, html};
 
 use crate::Result;
 use crate::output::axis::{number_text, round_range};
-use crate::output::figure::{Entry, Figure, Name, Plot, Sample};
-use crate::output::plot::{Frame, LABELS_PX, path, px};
+use crate::output::figure::{Figure, LegendEntry, Name, Plot, Sample};
+use crate::output::plot::{LABELS_PX, PlotFrame, path, px};
 
 /// A material ratio curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,17 +46,17 @@ impl SkConstruction {
         self.line_um[0] + (self.line_um[1] - self.line_um[0]) * percent / 100.0
     }
 
-    fn legend(&self) -> Vec<Entry> {
+    fn legend(&self) -> Vec<LegendEntry> {
         let um = |value: f64| format!("{} µm", number_text(value, 4));
         let percent = |value: f64| format!("{value:.2} %");
         let sk = um(self.line_um[0] - self.line_um[1]);
         vec![
-            Entry { sample: Sample::Line(1), words: format!("equivalent line, Sk {sk}, 40 % window thick") },
-            Entry {
+            LegendEntry { sample: Sample::Line(1), words: format!("equivalent line, Sk {sk}, 40 % window thick") },
+            LegendEntry {
                 sample: Sample::Area(1),
                 words: format!("Spk {} on Smr1 {}", um(self.spk_um), percent(self.smr1_percent)),
             },
-            Entry {
+            LegendEntry {
                 sample: Sample::Area(2),
                 words: format!("Svk {} on 100 % − Smr2, Smr2 {}", um(self.svk_um), percent(self.smr2_percent)),
             },
@@ -92,7 +92,7 @@ impl RatioChart {
 
     /// The chart laid out.
     pub(super) fn figure(&self) -> Figure<'_> {
-        let frame = Frame {
+        let frame = PlotFrame {
             left: LEFT_PX,
             right: LEFT_PX + FRAME_WIDTH_PX,
             top: TOP_PX,
@@ -110,7 +110,7 @@ impl RatioChart {
             path class="curve s0" d=(path(&curve)) {}
             (frame.outline())
         };
-        let mut legend = vec![Entry { sample: Sample::Line(0), words: "areal material ratio".to_owned() }];
+        let mut legend = vec![LegendEntry { sample: Sample::Line(0), words: "areal material ratio".to_owned() }];
         legend.extend(self.sk.iter().flat_map(SkConstruction::legend));
         Figure {
             title: &self.title,
@@ -130,7 +130,7 @@ fn x_px(percent: f64) -> f64 {
 }
 
 /// Lines, triangles and names of the construction.
-fn construction(sk: &SkConstruction, frame: &Frame) -> Markup {
+fn construction(sk: &SkConstruction, frame: &PlotFrame) -> Markup {
     let (x, y) = (x_px, |height: f64| frame.y(height));
     let [top, base] = sk.line_um;
     let beside = x(100.0) + 12.0;

@@ -70,11 +70,11 @@ impl Relief {
 /// 1, 2 or 5 times a power of ten, the nearest below.
 fn round_factor(factor: f64) -> f64 {
     let power = 10_f64.powf(factor.log10().floor());
-    let lead = factor / power;
+    let digit = factor / power;
     power
-        * if lead >= 5.0 {
+        * if digit >= 5.0 {
             5.0
-        } else if lead >= 2.0 {
+        } else if digit >= 2.0 {
             2.0
         } else {
             1.0
@@ -95,7 +95,7 @@ mod tests {
         let relief = Relief::of(&grid, &values, 1e-3);
         let row = &relief.brightness[7..14];
         assert!(row[1] > 1.05 && row[5] < 0.95 && (row[3] - 1.0).abs() < 1e-6, "{row:?}");
-        assert!([1.0, 2.0, 5.0].iter().any(|lead| (relief.exaggeration / lead).log10().fract() == 0.0));
+        assert!([1.0, 2.0, 5.0].iter().any(|digit| (relief.exaggeration / digit).log10().fract() == 0.0));
         assert!(Relief::of(&grid, &[1.0; 21], 1e-3).brightness.iter().all(|b| *b == 1.0));
     }
 }

@@ -4,9 +4,9 @@
 //! Colours of the bar are those of the scale; on bodies light makes them brighter or darker.
 
 use crate::colormap::ColourScale;
-use crate::output::apng::Frame;
+use crate::output::apng::AnimationFrame;
 use crate::output::atomic::write_bytes_atomically;
-use crate::output::canvas::{Canvas, INK, Side};
+use crate::output::canvas::{Align, Canvas, INK};
 use crate::output::contact_sheet::scale_bar_mm;
 use crate::output::heat::{ColourBar, PixelBox, scale_problem};
 use crate::output::letters::fitting_em_px;
@@ -65,15 +65,15 @@ pub fn write_render_png(path: &Path, picture: &RenderPicture) -> Result<()> {
 ///
 /// # Errors
 /// An empty colour scale.
-pub fn draw_frame(picture: &RenderPicture) -> Result<Frame> {
-    draw(picture).map(Frame).map_err(|reason| Error::Output { path: "frame".into(), reason })
+pub fn draw_frame(picture: &RenderPicture) -> Result<AnimationFrame> {
+    draw(picture).map(AnimationFrame).map_err(|reason| Error::Output { path: "frame".into(), reason })
 }
 
 /// Writes a frame as PNG.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write_frame(path: &Path, Frame(raster): &Frame) -> Result<()> {
+pub fn write_frame(path: &Path, AnimationFrame(raster): &AnimationFrame) -> Result<()> {
     let bytes = raster.png().map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
     write_bytes_atomically(path, &bytes)
 }
@@ -107,7 +107,7 @@ fn draw(picture: &RenderPicture) -> std::result::Result<Raster, String> {
     let mut canvas = Canvas(&mut raster);
     let left = f64::from(MARGIN_PX);
     let room_px = f64::from(total_px.0) - 2.0 * left;
-    canvas.text(picture.title, (left, 28.0), fitting_em_px(picture.title, 20.0, room_px)?, Side::Start)?;
+    canvas.text(picture.title, (left, 28.0), fitting_em_px(picture.title, 20.0, room_px)?, Align::Start)?;
     if let Some(bar) = &bar {
         bar.annotate(&mut canvas, f64::from(height))?;
     }
@@ -115,10 +115,10 @@ fn draw(picture: &RenderPicture) -> std::result::Result<Raster, String> {
     let bar_mm = scale_bar_mm(0.6 * picture.pixel_mm * f64::from(width));
     let end = left + bar_mm / picture.pixel_mm;
     canvas.fill((left, y - 1.0), (end, y + 1.0), INK);
-    canvas.text(&format!("{bar_mm} mm"), (end + 10.0, y), EM_PX, Side::Start)?;
+    canvas.text(&format!("{bar_mm} mm"), (end + 10.0, y), EM_PX, Align::Start)?;
     let note_left = end + 90.0;
     let note_em_px = fitting_em_px(picture.note, EM_PX, f64::from(total_px.0) - left - note_left)?;
-    canvas.text(picture.note, (f64::from(total_px.0) - left, y), note_em_px, Side::End)?;
+    canvas.text(picture.note, (f64::from(total_px.0) - left, y), note_em_px, Align::End)?;
     Ok(raster)
 }
 

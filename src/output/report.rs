@@ -33,7 +33,7 @@ use crate::output::atomic::write_bytes_atomically;
 use gear_frame::gear_frame;
 use viewer::Viewer;
 
-pub use blocks::{Block, Section, Table};
+pub use blocks::{Block, PageSection, PageTable};
 
 /// Name of the file in an output folder.
 pub const REPORT_FILE: &str = "report.html";
@@ -68,7 +68,7 @@ pub struct Page {
     /// The gear to turn, with its maps.
     pub viewer: Option<Viewer>,
     /// The rest, in order.
-    pub sections: Vec<Section>,
+    pub sections: Vec<PageSection>,
 }
 
 /// A number to look at first.
@@ -135,7 +135,9 @@ impl Page {
                     footer { "Written by " (self.program) ". Every number with its unit and definition: results.json \
                         beside this file." }
                     @if let Some(packed) = packed {
-                        script type="application/json" id="viewer-description" { (PreEscaped(inert_json(&packed.description))) }
+                        script type="application/json" id="viewer-description" {
+                            (PreEscaped(inert_json(&packed.description)))
+                        }
                         script type="text/plain" id="viewer-block" { (PreEscaped(packed.block)) }
                         @for script in scripts { script { (PreEscaped(script)) } }
                     }
@@ -164,8 +166,16 @@ impl Page {
                 p class="subtitle" { (self.subtitle) }
                 ol class="operations" { @for operation in &self.operations { li { (operation) } } }
                 ul class="chips" {
-                    @if self.complete { li class="good" { "all flanks cut" } } @else { li class="bad" { "stopped before all flanks were cut" } }
-                    @if self.warnings.is_empty() { li class="good" { (warned) } } @else { li class="bad" { a href="#warnings" { (warned) } } }
+                    @if self.complete {
+                        li class="good" { "all flanks cut" }
+                    } @else {
+                        li class="bad" { "stopped before all flanks were cut" }
+                    }
+                    @if self.warnings.is_empty() {
+                        li class="good" { (warned) }
+                    } @else {
+                        li class="bad" { a href="#warnings" { (warned) } }
+                    }
                 }
             }
         }
@@ -179,7 +189,9 @@ impl Page {
                     @for (index, number) in self.key_numbers.iter().enumerate() { (number.markup(index < 2)) }
                 }
                 div id="warnings" {
-                    @for warning in &self.warnings { p class="warning" role="note" { strong { "Warning. " } (warning) } }
+                    @for warning in &self.warnings {
+                        p class="warning" role="note" { strong { "Warning. " } (warning) }
+                    }
                 }
             }
         }
@@ -194,8 +206,10 @@ impl KeyNumber {
                 dd {
                     span class="value" { (self.value) } " " span class="unit" { (self.unit) }
                     @if let Some(place) = self.place.as_ref().and_then(Place::flank) {
-                        button type="button" class="place" data-tooth=(place.tooth) data-side=(place.flank) data-u=(place.u_mm) data-v=(place.v_mm) {
-                            "tooth " (place.tooth) " " (place.flank) ", u " (fixed(place.u_mm, 2)) ", v " (fixed(place.v_mm, 1)) " mm"
+                        button type="button" class="place" data-tooth=(place.tooth) data-side=(place.flank)
+                            data-u=(place.u_mm) data-v=(place.v_mm) {
+                            "tooth " (place.tooth) " " (place.flank) ", u " (fixed(place.u_mm, 2))
+                            ", v " (fixed(place.v_mm, 1)) " mm"
                         }
                     }
                     @if !self.note.is_empty() { span class="note" { (self.note) } }

@@ -8,7 +8,7 @@
 
 use glam::DVec2;
 
-use super::contact::{Stand, Touch, touch};
+use super::contact::{PairPose, Touch, touch};
 use super::flank_chain::{FlankChain, GearFlanks, PolarFlank};
 use super::pitch_pair::{PitchPair, PitchPoint};
 use crate::error::Refusal;
@@ -97,8 +97,8 @@ impl Meshing {
     }
 
     /// How the gears stand at an angle of the driver, with the driven gear where the pitch curves want it.
-    pub fn stand(&self, pitch: &PitchPoint) -> Stand {
-        Stand {
+    pub fn stand(&self, pitch: &PitchPoint) -> PairPose {
+        PairPose {
             phi_1_rad: pitch.phi_1_rad,
             axis_2_mm: self.axis_2_mm,
             phi_2_rad: pitch.phi_2_rad,
@@ -135,7 +135,7 @@ impl Meshing {
 pub fn first_touch(
     driver: &GearFlanks<FlankChain>,
     driven: &GearFlanks<PolarFlank>,
-    stand: &Stand,
+    stand: &PairPose,
     side: Side,
     at: i64,
 ) -> Result<SideTouch, Refusal> {

@@ -28,7 +28,7 @@ const END_INTERVALS: f64 = 1e-5;
 
 /// How the two gears stand to each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stand {
+pub struct PairPose {
     /// The driver is turned by minus this.
     pub phi_1_rad: f64,
     /// The driven gear's axis in the machine, mm; the driver's is the origin.
@@ -85,7 +85,7 @@ fn wrapped(angle_rad: f64) -> f64 {
 
 /// The rotation at which a flank of the driver touches one of the driven gear; none where their distances from the
 /// driven axis have nothing in common.
-pub fn touch(driver: &FlankChain, driven: &PolarFlank, stand: &Stand, side: Side) -> Option<Touch> {
+pub fn touch(driver: &FlankChain, driven: &PolarFlank, stand: &PairPose, side: Side) -> Option<Touch> {
     // The driven axis as the driver sees it: its points need not be turned one by one.
     let axis_mm = DVec2::from_angle(stand.phi_1_rad).rotate(stand.axis_2_mm);
     let [low, high] = driven.range_mm();

@@ -51,19 +51,20 @@ pub fn path_of_contact(
 ) -> Result<PathOfContact, Refusal> {
     let v = pair.line_of_action(pitch, side);
     let end = |member: Member, height_mm: f64, towards: f64| {
-        let below = |way_mm: f64| {
-            let contact = DVec2::new(pitch.radius_mm[0], 0.0) + towards * way_mm * v;
+        let below = |travel_mm: f64| {
+            let contact = DVec2::new(pitch.radius_mm[0], 0.0) + towards * travel_mm * v;
             let own = pair.gear_from_machine(pitch, member, contact - pair.axis_mm(member));
             pair.height(member, own, pitch.phi_1_rad).0 < height_mm
         };
         let step_mm = pair.pitch_mm() / 16.0;
-        let passed = (1..=32).map(|i| f64::from(i) * step_mm).find(|&way_mm| !below(way_mm)).ok_or_else(|| {
-            Refusal::new(
-                "gear.addendum_coefficient",
-                format!("the line of action does not reach a tip {height_mm} mm over the pitch curve"),
-                "use a smaller addendum_coefficient",
-            )
-        })?;
+        let passed =
+            (1..=32).map(|i| f64::from(i) * step_mm).find(|&travel_mm| !below(travel_mm)).ok_or_else(|| {
+                Refusal::new(
+                    "gear.addendum_coefficient",
+                    format!("the line of action does not reach a tip {height_mm} mm over the pitch curve"),
+                    "use a smaller addendum_coefficient",
+                )
+            })?;
         Ok::<f64, Refusal>(towards * bisect(below, passed - step_mm, passed))
     };
     Ok(PathOfContact {

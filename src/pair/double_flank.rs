@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::assembly::{Meshing, first_touch};
-use super::contact::Stand;
+use super::contact::PairPose;
 use super::flank_chain::{FlankChain, GearFlanks, PolarFlank};
 use super::pitch_pair::{Member, PitchPair};
 use crate::error::Refusal;
@@ -95,7 +95,7 @@ impl Master {
         let at = (arc_mm / (self.half_pitch_rad * 2.0 * self.pitch_radius_mm)).round() as i64;
         tight(REACH_MODULES * module_mm, |error_mm| {
             let axis_2_mm = DVec2::new(distance_mm + error_mm, 0.0);
-            let stand = Stand { phi_1_rad: work_rad, axis_2_mm, phi_2_rad, sign: 1.0 };
+            let stand = PairPose { phi_1_rad: work_rad, axis_2_mm, phi_2_rad, sign: 1.0 };
             let [right, left] = [Side::Right, Side::Left].map(|side| first_touch(gear, &self.flanks, &stand, side, at));
             Ok([right?.error_rad, left?.error_rad])
         })

@@ -279,7 +279,7 @@ impl PitchPair {
     }
 
     /// How much of the flank's radius of curvature is left at `phi_1_rad`, as a share of its value at the pitch point;
-    /// zero where the flank turns back. `depth_mm` is the way along the line of action towards the gear's root.
+    /// zero where the flank turns back. `depth_mm` is the distance along the line of action towards the gear's root.
     pub fn curvature_margin(&self, member: Member, phi_1_rad: f64, depth_mm: f64) -> f64 {
         let at = self.at(phi_1_rad);
         let curvature = match member {

@@ -22,7 +22,7 @@ const MESH_HARMONICS: usize = 4;
 
 /// A period of the pair.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rolling {
+pub struct RolledPeriod {
     /// Moments, even along the driver's pitch curve.
     pub moments: Vec<Moment>,
     /// Turns of the driver.
@@ -59,7 +59,7 @@ pub fn turns_of_period([driver, driven]: [u32; 2]) -> u32 {
 ///
 /// # Errors
 /// Too few positions for the teeth of the period; flanks out of reach.
-pub fn roll(meshing: &Meshing, positions: usize) -> Result<Rolling, Refusal> {
+pub fn roll(meshing: &Meshing, positions: usize) -> Result<RolledPeriod, Refusal> {
     let count = meshing.pitch.teeth().count;
     let turns = turns_of_period(count);
     let teeth = turns * count[0];
@@ -74,13 +74,13 @@ pub fn roll(meshing: &Meshing, positions: usize) -> Result<Rolling, Refusal> {
         ));
     }
     let curve = meshing.pitch.curve();
-    let way_mm = f64::from(turns) * curve.perimeter_mm();
-    let moment = |i: usize| meshing.at(curve.phi_at_arc(way_mm * i as f64 / positions as f64));
+    let travel_mm = f64::from(turns) * curve.perimeter_mm();
+    let moment = |i: usize| meshing.at(curve.phi_at_arc(travel_mm * i as f64 / positions as f64));
     let moments = (0..positions).into_par_iter().map(moment).collect::<Result<_, _>>()?;
-    Ok(Rolling { moments, turns, teeth: count[0] })
+    Ok(RolledPeriod { moments, turns, teeth: count[0] })
 }
 
-impl Rolling {
+impl RolledPeriod {
     /// Transmission error of a side.
     pub fn transmission_error(&self, side: Side) -> TransmissionError {
         let total_rad: Vec<f64> = self

@@ -18,7 +18,7 @@ use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
-use crate::scene::{self, LoadedScene, Scene, SceneErrors, SceneProcess, Table};
+use crate::scene::{self, KeyTable, LoadedScene, Scene, SceneErrors, SceneProcess};
 use crate::steps::{Tools, Work};
 use std::path::Path;
 use std::sync::LazyLock;
@@ -76,8 +76,8 @@ pub trait ProcessJob: Sync {
 pub static PROCESSES: [&Process; 2] = [&shaping::PROCESS, &hobbing::PROCESS];
 
 /// The keys of all scenes.
-pub fn table() -> &'static Table {
-    static TABLE: LazyLock<Table> = LazyLock::new(|| Table::new(&PROCESSES.map(|process| process.scene)));
+pub fn table() -> &'static KeyTable {
+    static TABLE: LazyLock<KeyTable> = LazyLock::new(|| KeyTable::new(&PROCESSES.map(|process| process.scene)));
     &TABLE
 }
 

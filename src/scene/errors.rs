@@ -14,7 +14,7 @@ pub(super) const MOST_PROBLEMS: usize = 100;
 
 /// Where something was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Place {
+pub enum SourcePlace {
     /// In a file.
     Line {
         /// The file, as the user named it.
@@ -44,7 +44,7 @@ pub enum Place {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
     /// Where.
-    pub place: Place,
+    pub place: SourcePlace,
     /// What, with the value and what is allowed.
     pub message: String,
     /// What to do about it.
@@ -60,7 +60,7 @@ pub struct SceneErrors {
     pub problems: Vec<Problem>,
 }
 
-impl Place {
+impl SourcePlace {
     /// The same place with nothing to underline.
     pub(super) fn without_excerpt(mut self) -> Self {
         if let Self::Line { width, .. } = &mut self {
@@ -79,7 +79,7 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for SourcePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line { file, line, column, .. } => write!(f, "{}:{line}:{column}", printable(file)),
@@ -92,7 +92,7 @@ impl fmt::Display for Place {
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "error: {}: {}", self.place, printable(&self.message))?;
-        if let Place::Line { line, column, source, width, .. } = &self.place
+        if let SourcePlace::Line { line, column, source, width, .. } = &self.place
             && *width > 0
         {
             let (shown, before, width) = excerpt(source, column.saturating_sub(1), *width);

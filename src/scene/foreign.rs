@@ -5,15 +5,15 @@
 
 use super::problems::Problems;
 use super::process::SceneProcess;
-use super::table::Table;
+use super::table::KeyTable;
 use super::values::Values;
 
 /// Reports written keys that are not in the scene's `own` table, and drops what was filled in for others.
 pub(super) fn refuse_foreign(
     values: &mut Values,
     process: &SceneProcess,
-    own: &Table,
-    table: &Table,
+    own: &KeyTable,
+    table: &KeyTable,
     problems: &mut Problems<'_>,
 ) {
     let foreign = |path: &str| !own.knows(&general(path));
@@ -27,7 +27,7 @@ pub(super) fn refuse_foreign(
     for path in blamed {
         let path_in_table = general(&path);
         let others = table.processes().iter().filter(|other| other.name != process.name);
-        for owner in others.filter(|other| Table::new(&[other]).knows(&path_in_table)).take(1) {
+        for owner in others.filter(|other| KeyTable::new(&[other]).knows(&path_in_table)).take(1) {
             problems.add(
                 &values.place_of(&path),
                 format!(

@@ -1,7 +1,7 @@
 //! Scene keys: name, kind, unit, range, default and a sentence for each; and the sections that all processes share.
 //!
 //! A section holds keys; a section may offer a choice, where the name of the table written inside it picks the variant
-//! (`[gear.pitch_curve.ellipse]`). What only some processes read stands in their folders; [`super::Table`] puts both
+//! (`[gear.pitch_curve.ellipse]`). What only some processes read stands in their folders; [`super::KeyTable`] puts both
 //! together. The reader checks files against that table, and the JSON schema, the key reference and the template are
 //! printed from it, so none of them can fall behind.
 //!
@@ -110,7 +110,7 @@ pub struct Group {
 
 /// One table of the scene file, as the shared sections or a process list it.
 #[derive(Debug)]
-pub struct Section {
+pub struct KeySection {
     /// Path with `[]` after the name of a list: `operation[].infeed.plunge`; the whole file is the empty path.
     pub path: &'static str,
     /// How it stands in the file.
@@ -156,11 +156,11 @@ pub enum Role {
 }
 
 /// The file as a whole.
-const ROOT: Section = Section { path: "", role: Role::Plain, keys: &[], groups: &[], teach: "The scene." };
+const ROOT: KeySection = KeySection { path: "", role: Role::Plain, keys: &[], groups: &[], teach: "The scene." };
 
 /// The sections that all processes share, each after the one that holds it.
-pub(super) fn shared() -> impl Iterator<Item = &'static Section> {
-    static FIRST: &[Section] = &[ROOT];
+pub(super) fn shared() -> impl Iterator<Item = &'static KeySection> {
+    static FIRST: &[KeySection] = &[ROOT];
     [FIRST, gear::SECTIONS, process::SECTIONS, texture::SECTIONS, output::SECTIONS, picture::SECTIONS]
         .into_iter()
         .flatten()

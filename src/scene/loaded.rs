@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use super::errors::{Place, Problem, SceneErrors};
+use super::errors::{Problem, SceneErrors, SourcePlace};
 use super::keys::join;
 use super::points::{read_points, read_text};
 use super::problems::{Found, Problems};
 use super::process::SceneProcess;
 use super::sources::{At, Sources};
-use super::table::Table;
+use super::table::KeyTable;
 use super::tree::{Entry, Node, Value, parse_document};
 use super::values::Values;
 use super::walk::walk;
@@ -28,7 +28,7 @@ pub struct LoadedScene {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Located {
     /// File, line and column, or the `--set` argument.
-    pub place: Place,
+    pub place: SourcePlace,
     /// The value as written.
     pub written: String,
 }
@@ -37,12 +37,12 @@ pub struct Located {
 ///
 /// # Errors
 /// All problems of the scene, each with its place and a way out.
-pub fn load(path: &Path, overrides: &[String], table: &Table) -> Result<LoadedScene, SceneErrors> {
+pub fn load(path: &Path, overrides: &[String], table: &KeyTable) -> Result<LoadedScene, SceneErrors> {
     let file = path.display().to_string();
     let first = table.processes().first().map_or("", |process| process.name);
     let text = read_text(path).map_err(|why| {
         SceneErrors::new(vec![Problem {
-            place: Place::File { file: file.clone() },
+            place: SourcePlace::File { file: file.clone() },
             message: format!("cannot read the scene: {why}"),
             way_out: format!("give the path of a scene file; `gearcut new {first}` writes one to start from"),
         }])
@@ -60,7 +60,7 @@ pub fn parse(
     file_name: &str,
     base_dir: &Path,
     overrides: &[String],
-    table: &Table,
+    table: &KeyTable,
 ) -> Result<LoadedScene, SceneErrors> {
     let sources = Sources { file: file_name.to_owned(), text: text.to_owned(), overrides: overrides.to_vec() };
     let mut problems = Problems { sources: &sources, list: Vec::new() };
@@ -84,7 +84,7 @@ pub fn parse(
         }
     }
     let process = chosen(&root, table);
-    let own = process.map(|process| Table::new(&[process]));
+    let own = process.map(|process| KeyTable::new(&[process]));
     let mut values = walk(&root, table, own.as_ref(), &mut problems);
     if let (Some(process), Some(own)) = (process, &own) {
         foreign::refuse_foreign(&mut values, process, own, table, &mut problems);
@@ -105,7 +105,7 @@ pub fn parse(
 }
 
 /// The process that the first known tool is for.
-fn chosen(root: &Node, table: &Table) -> Option<&'static SceneProcess> {
+fn chosen(root: &Node, table: &KeyTable) -> Option<&'static SceneProcess> {
     let tools = root.entry("tool")?.node.entries();
     tools.iter().find_map(|tool| table.processes().iter().copied().find(|process| process.tool == tool.name))
 }
@@ -165,7 +165,7 @@ impl LoadedScene {
 
     /// The scene as TOML with every default filled in; it reads back to an equal scene under the same file name.
     pub fn resolved_toml(&self) -> String {
-        write::resolved(&self.scene.name, &Table::new(&[self.scene.process.process()]), &self.values)
+        write::resolved(&self.scene.name, &KeyTable::new(&[self.scene.process.process()]), &self.values)
     }
 
     /// Paths among the values that `key` may mean, the likeliest first.

@@ -1,10 +1,10 @@
 //! Scene text to checked values: every key present, in range and in internal units, or a list of all problems.
 //!
-//! In: a TOML file, `--set` arguments, and the [`Table`] of the keys that processes list. Out: a [`LoadedScene`], which
-//! holds the [`Scene`] for the computation, can point at any key again when geometry refuses it, and can write the
-//! scene back with every default filled in. No process is known by name: each brings its [`SceneProcess`].
+//! In: a TOML file, `--set` arguments, and the [`KeyTable`] of the keys that processes list. Out: a [`LoadedScene`],
+//! which holds the [`Scene`] for the computation, can point at any key again when geometry refuses it, and can write
+//! the scene back with every default filled in. No process is known by name: each brings its [`SceneProcess`].
 //!
-//! The path of a text: `tree` (TOML with places) -> `overrides` (`--set`) -> `walk` (against the [`Table`]) ->
+//! The path of a text: `tree` (TOML with places) -> `overrides` (`--set`) -> `walk` (against the [`KeyTable`]) ->
 //! `foreign` (keys of other processes) -> `points` (CSV) -> `checks` (values against each other) -> `build` (the
 //! model). What was written and what it means are two types; only `build` knows both. Defaults that follow from other
 //! keys, checks and `build` have a part here for what all processes share, and one in every process.
@@ -34,9 +34,9 @@ pub(crate) mod values;
 mod walk;
 mod write;
 
-pub use errors::{Place, Problem, SceneErrors};
+pub use errors::{Problem, SceneErrors, SourcePlace};
 pub use loaded::{LoadedScene, Located, load, parse};
 pub use model::Scene;
-pub use process::{Copied, Part, ProcessPart, SceneProcess};
-pub use table::{Table, TableSection};
+pub use process::{Copied, ProcessPart, ScenePart, SceneProcess};
+pub use table::{KeyTable, TableSection};
 pub use template::template;

@@ -1,10 +1,10 @@
 //! The checked scene: every value present, in range and in internal units (mm, rad, s).
 //!
 //! Comes from [`super::load`], goes to `run`. Nothing here knows about TOML, nor what a process has for itself: its
-//! folder gets that back from [`Part`]. Keys of the scene file
+//! folder gets that back from [`ScenePart`]. Keys of the scene file
 //! are the field names with their unit (`face_width_mm`, `pressure_angle_deg`); angles are radians here.
 
-use super::process::Part;
+use super::process::ScenePart;
 use crate::gear::PitchCurveShape;
 use crate::terms::{Hand, Side};
 use gearcut_texture::Form;
@@ -18,7 +18,7 @@ pub struct Scene {
     /// The gear to cut.
     pub gear: Gear,
     /// How it is cut: tool, machine and operations of one process.
-    pub process: Part,
+    pub process: ScenePart,
     /// Texture windows; empty: those that [`crate::texture`] takes by itself.
     pub textures: Vec<TextureWindow>,
     /// Dexel spacing.

@@ -5,16 +5,16 @@
 //! feed), so that a comparison needs no second file. Two arguments that exclude each other stay an error.
 //! Operations are named by their name or by their number from 0: `operation.rough.offset_mm=2`.
 
-use super::errors::{Place, Problem};
+use super::errors::{Problem, SourcePlace};
 use super::keys::{self, Role, join};
 use super::sources::At;
-use super::table::{Table, TableSection};
+use super::table::{KeyTable, TableSection};
 use super::tree::{Entry, Node, Value, parse_value};
 
 /// Puts argument number `index` into `root`.
-pub(super) fn apply(root: &mut Node, table: &Table, index: usize, argument: &str) -> Result<(), Problem> {
+pub(super) fn apply(root: &mut Node, table: &KeyTable, index: usize, argument: &str) -> Result<(), Problem> {
     let refuse = |message: String, way_out: &str| Problem {
-        place: Place::Set { argument: argument.to_owned() },
+        place: SourcePlace::Set { argument: argument.to_owned() },
         message,
         way_out: way_out.to_owned(),
     };
@@ -38,7 +38,7 @@ pub(super) fn apply(root: &mut Node, table: &Table, index: usize, argument: &str
 }
 
 /// Goes down `names` from `root`, makes the tables that are missing, and sets `value` at the end.
-fn put(root: &mut Node, table: &Table, names: &[&str], value: Node, name_at: At) -> Result<(), String> {
+fn put(root: &mut Node, table: &KeyTable, names: &[&str], value: Node, name_at: At) -> Result<(), String> {
     let mut node = root;
     let mut pattern = String::new();
     let mut rest = names;
@@ -80,7 +80,7 @@ fn put(root: &mut Node, table: &Table, names: &[&str], value: Node, name_at: At)
 }
 
 /// Takes out of a table what the file says otherwise about the same choice as `name`.
-fn displace(entries: &mut Vec<Entry>, table: &Table, section: &TableSection, name: &str) {
+fn displace(entries: &mut Vec<Entry>, table: &KeyTable, section: &TableSection, name: &str) {
     let is_choice = matches!(section.role, Role::Choice { .. });
     let group = section.group_of(name);
     entries.retain(|entry| {

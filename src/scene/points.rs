@@ -10,7 +10,7 @@ use super::errors::Problem;
 use super::keys::{self, Kind};
 use super::problems::Problems;
 use super::sources::line_place;
-use super::table::Table;
+use super::table::KeyTable;
 use super::values::{Checked, Held, Values};
 
 /// Section that may name a file.
@@ -46,7 +46,7 @@ fn reason(error: &io::Error) -> String {
 }
 
 /// Reads the file that the scene names, if it names one, and puts its points among the values.
-pub(super) fn read_points(values: &mut Values, table: &Table, base_dir: &Path, problems: &mut Problems<'_>) {
+pub(super) fn read_points(values: &mut Values, table: &KeyTable, base_dir: &Path, problems: &mut Problems<'_>) {
     let Some(name) = values.view(SECTION).text("file").map(str::to_owned) else { return };
     let at = values.place_of(&keys::join(SECTION, "file"));
     let Some(key) = table.section(SECTION).and_then(|section| section.key("points_deg_mm")) else { return };

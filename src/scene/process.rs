@@ -4,7 +4,7 @@
 //! through them and knows no process by name. Not taken: an enum of all processes. Every new one would have to be
 //! written into it and into each `match` over it.
 
-use super::keys::{Addition, Section};
+use super::keys::{Addition, KeySection};
 use super::problems::Found;
 use super::values::Values;
 use std::any::Any;
@@ -26,7 +26,7 @@ pub struct SceneProcess {
     /// Its scenes in `scenes/`, as lines of the table in the reference.
     pub scenes: &'static str,
     /// Lists of its own sections. One that several processes list must be the same in all but the default of a choice.
-    pub sections: &'static [&'static [Section]],
+    pub sections: &'static [&'static [KeySection]],
     /// Its keys in shared sections.
     pub added: &'static [&'static Addition],
     /// Puts in defaults that follow from other keys.
@@ -35,7 +35,7 @@ pub struct SceneProcess {
     pub(crate) check: fn(&mut Found<'_, '_, '_>),
     /// From checked values to the model; the path is the folder of the files that they name. `None` where a value is
     /// missing.
-    pub(crate) build: fn(&Values, &Path) -> Option<Part>,
+    pub(crate) build: fn(&Values, &Path) -> Option<ScenePart>,
 }
 
 impl SceneProcess {
@@ -61,9 +61,9 @@ pub trait ProcessPart: Copied + Any + Debug + Send + Sync {
 
 /// Such a part whose type only its process knows.
 #[derive(Debug)]
-pub struct Part(Box<dyn ProcessPart>);
+pub struct ScenePart(Box<dyn ProcessPart>);
 
-impl Part {
+impl ScenePart {
     /// Of the process whose type it is.
     pub fn new(part: impl ProcessPart) -> Self {
         Self(Box::new(part))
@@ -82,7 +82,7 @@ impl Part {
     }
 }
 
-impl Deref for Part {
+impl Deref for ScenePart {
     type Target = dyn ProcessPart;
 
     fn deref(&self) -> &Self::Target {
@@ -90,13 +90,13 @@ impl Deref for Part {
     }
 }
 
-impl Clone for Part {
+impl Clone for ScenePart {
     fn clone(&self) -> Self {
         self.0.copied()
     }
 }
 
-impl PartialEq for Part {
+impl PartialEq for ScenePart {
     fn eq(&self, other: &Self) -> bool {
         self.0.equals(other)
     }
@@ -105,18 +105,18 @@ impl PartialEq for Part {
 /// Copying and comparing of parts whose type is not known; every part has it by itself.
 pub trait Copied {
     /// A copy.
-    fn copied(&self) -> Part;
+    fn copied(&self) -> ScenePart;
 
     /// Whether `other` is of the same type and equal.
-    fn equals(&self, other: &Part) -> bool;
+    fn equals(&self, other: &ScenePart) -> bool;
 }
 
 impl<T: ProcessPart + Clone + PartialEq> Copied for T {
-    fn copied(&self) -> Part {
-        Part::new(self.clone())
+    fn copied(&self) -> ScenePart {
+        ScenePart::new(self.clone())
     }
 
-    fn equals(&self, other: &Part) -> bool {
+    fn equals(&self, other: &ScenePart) -> bool {
         other.get() == Some(self)
     }
 }

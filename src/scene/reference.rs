@@ -3,13 +3,13 @@
 use std::fmt::Write as _;
 
 use super::keys::{self, Key, Role};
-use super::table::{Table, TableSection};
+use super::table::{KeyTable, TableSection};
 
 /// What stands before the tables, ending with the head of the list of scenes.
 const INTRODUCTION: &str = include_str!("reference_introduction.md");
 
 /// The reference as text: the content of `scenes/README.md`.
-pub fn markdown(table: &Table) -> String {
+pub fn markdown(table: &KeyTable) -> String {
     let mut out = INTRODUCTION.to_owned();
     for process in table.processes() {
         out.push_str(process.scenes);
@@ -21,7 +21,7 @@ pub fn markdown(table: &Table) -> String {
     out
 }
 
-fn write_section(out: &mut String, table: &Table, section: &TableSection) {
+fn write_section(out: &mut String, table: &KeyTable, section: &TableSection) {
     let level = if section.path.contains('.') { "####" } else { "###" };
     let _ = write!(out, "\n{level} `{}`\n\n{}\n", section.header(), section.teach);
     if let Role::Choice { default, what } = section.role {

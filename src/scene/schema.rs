@@ -6,10 +6,10 @@
 use serde_json::{Map, Value, json};
 
 use super::keys::{Default, Key, Kind, Range, Role};
-use super::table::{Table, TableSection};
+use super::table::{KeyTable, TableSection};
 
 /// The schema as text, one line break at the end: the content of `scenes/schema.json`.
-pub fn json_schema(table: &Table) -> String {
+pub fn json_schema(table: &KeyTable) -> String {
     let mut root = Map::new();
     root.insert("$schema".to_owned(), json!("https://json-schema.org/draft/2020-12/schema"));
     root.insert("title".to_owned(), json!("gearcut scene"));
@@ -22,7 +22,7 @@ pub fn json_schema(table: &Table) -> String {
 }
 
 /// Schema of one section.
-fn of_section(table: &Table, section: &TableSection) -> Map<String, Value> {
+fn of_section(table: &KeyTable, section: &TableSection) -> Map<String, Value> {
     let mut properties = Map::new();
     for key in &section.keys {
         properties.insert(key.name.to_owned(), property(key));
@@ -65,14 +65,14 @@ fn of_section(table: &Table, section: &TableSection) -> Map<String, Value> {
 }
 
 /// Keys and sections that must be there.
-fn required_names(table: &Table, section: &TableSection) -> Vec<&'static str> {
+fn required_names(table: &KeyTable, section: &TableSection) -> Vec<&'static str> {
     let keys = section.keys.iter().filter(|key| matches!(key.default, Default::Required)).map(|key| key.name);
     let sections = table.children(section).filter(|child| must_be_there(table, child)).map(TableSection::name);
     keys.chain(sections).collect()
 }
 
 /// Whether a table must be written: it asks for something, and it is not one of several to choose from.
-fn must_be_there(table: &Table, section: &TableSection) -> bool {
+fn must_be_there(table: &KeyTable, section: &TableSection) -> bool {
     match section.role {
         Role::Variant | Role::List { .. } => false,
         Role::Choice { default, .. } => default.is_none(),

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use super::errors::{Place, shorten};
+use super::errors::{SourcePlace, shorten};
 
 /// Longest value repeated in a message.
 const ECHOED_CHARS: usize = 40;
@@ -34,10 +34,10 @@ pub(super) struct Sources {
 
 impl Sources {
     /// Place to print.
-    pub fn place(&self, at: &At) -> Place {
+    pub fn place(&self, at: &At) -> SourcePlace {
         match at {
             At::Scene(span) => line_place(&self.file, &self.text, span.clone()),
-            At::Set(index, _) => Place::Set { argument: self.overrides.get(*index).cloned().unwrap_or_default() },
+            At::Set(index, _) => SourcePlace::Set { argument: self.overrides.get(*index).cloned().unwrap_or_default() },
             At::Implied => line_place(&self.file, &self.text, 0..0).without_excerpt(),
         }
     }
@@ -61,14 +61,14 @@ impl Sources {
 
 /// Line and column of a byte span of `text`; spans outside the text or inside a character are moved to its nearest
 /// start.
-pub(super) fn line_place(file: &str, text: &str, span: Range<usize>) -> Place {
+pub(super) fn line_place(file: &str, text: &str, span: Range<usize>) -> SourcePlace {
     let start = floor_boundary(text, span.start);
     let end = floor_boundary(text, span.end).max(start);
     let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
     let line_end = text[start..].find('\n').map_or(text.len(), |newline| start + newline);
     let source = text[line_start..line_end].trim_end_matches('\r');
     let underlined = &text[start..end.clamp(start, line_end)];
-    Place::Line {
+    SourcePlace::Line {
         file: file.to_owned(),
         line: text[..start].matches('\n').count() + 1,
         column: text[line_start..start].chars().count() + 1,

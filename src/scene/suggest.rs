@@ -7,7 +7,7 @@
 use strsim::normalized_damerau_levenshtein;
 
 use super::keys::{Key, join};
-use super::table::{Table, TableSection};
+use super::table::{KeyTable, TableSection};
 
 /// Likeness from which a name of the same section is worth proposing: half of the letters in common.
 const LIKE_ENOUGH_HERE: f64 = 0.5;
@@ -62,7 +62,7 @@ pub(super) fn display_path(section: &TableSection, key: &Key) -> String {
 }
 
 /// The nearest known key or section to `name`, written in `section`.
-pub(super) fn nearest<'a>(table: &'a Table, section: &'a TableSection, name: &str) -> Option<Candidate<'a>> {
+pub(super) fn nearest<'a>(table: &'a KeyTable, section: &'a TableSection, name: &str) -> Option<Candidate<'a>> {
     if name.len() > LONGEST_COMPARED {
         return None;
     }
@@ -71,7 +71,7 @@ pub(super) fn nearest<'a>(table: &'a Table, section: &'a TableSection, name: &st
     best(here, name, LIKE_ENOUGH_HERE).or_else(|| best(elsewhere, name, LIKE_ENOUGH_ELSEWHERE))
 }
 
-fn candidates<'a>(table: &'a Table, section: &'a TableSection) -> impl Iterator<Item = Candidate<'a>> {
+fn candidates<'a>(table: &'a KeyTable, section: &'a TableSection) -> impl Iterator<Item = Candidate<'a>> {
     let keys = section.keys.iter().map(move |key| Candidate::Key(section, key));
     keys.chain(table.children(section).map(Candidate::Section))
 }

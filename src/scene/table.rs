@@ -1,10 +1,10 @@
 //! The one table of scene keys: the shared sections, those of every process, and the keys that these add.
 //!
-//! In: the processes. Out: [`Table`], against which files are checked and from which schema, reference and template are
-//! printed. The order is that of a scene file: by [`ORDER`], in it the shared sections first, then process by process.
-//! The table of a single process has what its scenes may say, and so tells which keys are another's.
+//! In: the processes. Out: [`KeyTable`], against which files are checked and from which schema, reference and template
+//! are printed. The order is that of a scene file: by [`ORDER`], in it the shared sections first, then process by
+//! process. The table of a single process has what its scenes may say, and so tells which keys are another's.
 
-use super::keys::{self, Addition, Group, Key, Role, Section, join};
+use super::keys::{self, Addition, Group, Key, KeySection, Role, join};
 use super::process::SceneProcess;
 
 /// Order of the outermost tables in a scene file; a process's own ones that are not listed stand at the end.
@@ -13,7 +13,7 @@ const ORDER: [&str; 11] =
 
 /// All sections that scenes of some processes may have.
 #[derive(Debug, Clone)]
-pub struct Table {
+pub struct KeyTable {
     processes: Vec<&'static SceneProcess>,
     sections: Vec<TableSection>,
 }
@@ -33,7 +33,7 @@ pub struct TableSection {
     pub teach: String,
 }
 
-impl Table {
+impl KeyTable {
     /// The table of these processes; where a choice has different defaults, that of the first one is the table's.
     ///
     /// # Panics
@@ -95,7 +95,7 @@ impl Table {
 }
 
 impl TableSection {
-    fn new(section: &'static Section) -> Self {
+    fn new(section: &'static KeySection) -> Self {
         Self {
             path: section.path,
             role: section.role,
@@ -106,7 +106,7 @@ impl TableSection {
     }
 
     /// Takes in that a further process lists the section.
-    fn tell_default(&mut self, process: &SceneProcess, section: &Section) {
+    fn tell_default(&mut self, process: &SceneProcess, section: &KeySection) {
         if let Role::Choice { default: Some(default), .. } = section.role
             && self.default() != Some(default)
         {

@@ -6,15 +6,15 @@
 use std::fmt::Write as _;
 
 use super::keys::{self, Default, Key, Role};
-use super::table::{Table, TableSection};
+use super::table::{KeyTable, TableSection};
 
 /// Width of a comment line.
 const COMMENT_CHARS: usize = 100;
 
 /// The scene for the process of this name, or `None` if the table has none.
-pub fn template(table: &Table, process: &str) -> Option<String> {
+pub fn template(table: &KeyTable, process: &str) -> Option<String> {
     let process = table.process(process)?;
-    let own = Table::new(&[process]);
+    let own = KeyTable::new(&[process]);
     let (tool, needed) = (process.tool_words, process.needed);
     let mut out = format!(
         "# Scene for cutting a gear with {tool}.\n\
@@ -29,7 +29,7 @@ pub fn template(table: &Table, process: &str) -> Option<String> {
     Some(out)
 }
 
-fn write_section(out: &mut String, own: &Table, section: &TableSection) {
+fn write_section(out: &mut String, own: &KeyTable, section: &TableSection) {
     if section.role == Role::Plain && section.keys.is_empty() {
         return;
     }
@@ -55,7 +55,7 @@ fn write_section(out: &mut String, own: &Table, section: &TableSection) {
 }
 
 /// Whether a section stands ready: it holds by default, or there is nothing else to choose.
-fn is_active(own: &Table, section: &TableSection) -> bool {
+fn is_active(own: &KeyTable, section: &TableSection) -> bool {
     let choice = own.section(section.parent_path()).map(|parent| parent.role);
     match (section.role, choice) {
         (Role::List { fewest }, _) => fewest > 0,

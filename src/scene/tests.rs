@@ -1,8 +1,8 @@
 //! The reader with processes that it has never heard of: everything that it says of them comes from their lists.
 
-use super::keys::{Addition, Default, Key, Kind, Range, Role, Section};
+use super::keys::{Addition, Default, Key, KeySection, Kind, Range, Role};
 use super::values::{Checked, Values};
-use super::{Part, ProcessPart, SceneProcess, Table, load, parse, reference, schema, template};
+use super::{KeyTable, ProcessPart, ScenePart, SceneProcess, load, parse, reference, schema, template};
 use std::path::Path;
 
 /// Sawing: no linkage, a key in each shared section, one that is derived, one check.
@@ -13,14 +13,14 @@ static SAWING: SceneProcess = SceneProcess {
     needed: "module and teeth",
     scenes: "| `sawing/log.toml` | A log |\n",
     sections: &[&[
-        Section {
+        KeySection {
             path: "coolant",
             role: Role::Plain,
             keys: &[Key::number("flow_mm", "mm", Range::closed(0.0, 9.0), 1.0, "2.0", "How much.")],
             groups: &[],
             teach: "What cools.",
         },
-        Section { path: "tool.saw", role: Role::Variant, keys: &[], groups: &[], teach: "A saw." },
+        KeySection { path: "tool.saw", role: Role::Variant, keys: &[], groups: &[], teach: "A saw." },
     ]],
     added: &[&Addition {
         path: "operation[]",
@@ -44,7 +44,7 @@ static SAWING: SceneProcess = SceneProcess {
         let flow_mm = found.view("coolant").number("flow_mm");
         found.blame(flow_mm == Some(0.0), "coolant.flow_mm", || "the saw runs dry".to_owned(), "open the tap");
     },
-    build: |values, _| sawing(values).map(Part::new),
+    build: |values, _| sawing(values).map(ScenePart::new),
 };
 
 /// Filing: an operation has a linkage, and nothing else is its own.
@@ -55,15 +55,21 @@ static FILING: SceneProcess = SceneProcess {
     needed: "module and teeth",
     scenes: "",
     sections: &[&[
-        Section { path: "tool.file", role: Role::Variant, keys: &[], groups: &[], teach: "A file." },
-        Section {
+        KeySection { path: "tool.file", role: Role::Variant, keys: &[], groups: &[], teach: "A file." },
+        KeySection {
             path: "operation[].linkage",
             role: Role::Choice { default: Some("by_hand"), what: "linkage" },
             keys: &[],
             groups: &[],
             teach: "Who moves it.",
         },
-        Section { path: "operation[].linkage.by_hand", role: Role::Variant, keys: &[], groups: &[], teach: "A hand." },
+        KeySection {
+            path: "operation[].linkage.by_hand",
+            role: Role::Variant,
+            keys: &[],
+            groups: &[],
+            teach: "A hand.",
+        },
     ]],
     added: &[],
     derive: |_| {},
@@ -97,8 +103,8 @@ fn sawing(values: &Values) -> Option<Sawing> {
 
 const SCENE: &str = "[gear]\nmodule_mm = 3.0\nteeth = 24\n[tool.saw]\n";
 
-fn table() -> Table {
-    Table::new(&[&SAWING, &FILING])
+fn table() -> KeyTable {
+    KeyTable::new(&[&SAWING, &FILING])
 }
 
 fn problems(text: &str) -> String {
@@ -157,15 +163,15 @@ fn defaults_of_a_choice_are_each_processs_own() {
         name: "machine_filing",
         tool: "machine_file",
         sections: &[&[
-            Section { path: "tool.machine_file", role: Role::Variant, keys: &[], groups: &[], teach: "A file." },
-            Section {
+            KeySection { path: "tool.machine_file", role: Role::Variant, keys: &[], groups: &[], teach: "A file." },
+            KeySection {
                 path: "operation[].linkage",
                 role: Role::Choice { default: Some("crank"), what: "linkage" },
                 keys: &[],
                 groups: &[],
                 teach: "Who moves it.",
             },
-            Section {
+            KeySection {
                 path: "operation[].linkage.crank",
                 role: Role::Variant,
                 keys: &[],
@@ -175,11 +181,11 @@ fn defaults_of_a_choice_are_each_processs_own() {
         ]],
         ..FILING
     };
-    let both = Table::new(&[&FILING, &MACHINE_FILING]);
+    let both = KeyTable::new(&[&FILING, &MACHINE_FILING]);
     let linkage = both.section("operation[].linkage").expect("a section");
     assert_eq!(linkage.default(), Some("by_hand"));
     assert_eq!(linkage.teach, "Who moves it; with [tool.machine_file] the default is crank.");
-    let own = Table::new(&[&MACHINE_FILING]);
+    let own = KeyTable::new(&[&MACHINE_FILING]);
     assert_eq!(own.section("operation[].linkage").expect("a section").default(), Some("crank"));
 }
 
@@ -188,5 +194,5 @@ fn defaults_of_a_choice_are_each_processs_own() {
 fn keys_for_no_section_are_noticed() {
     static LOST: SceneProcess =
         SceneProcess { added: &[&Addition { path: "spoon", keys: &[], groups: &[] }], ..FILING };
-    Table::new(&[&LOST]);
+    KeyTable::new(&[&LOST]);
 }

@@ -11,12 +11,12 @@ use super::overrides::default_name;
 use super::problems::Problems;
 use super::sources::At;
 use super::suggest::{display_path, nearest};
-use super::table::{Table, TableSection};
+use super::table::{KeyTable, TableSection};
 use super::tree::{Entry, Node, Value};
 use super::values::{Checked, Held, Values};
 
 /// Checks the whole scene; `own` is the table of its process, if its tool chooses one.
-pub(super) fn walk(root: &Node, table: &Table, own: Option<&Table>, problems: &mut Problems<'_>) -> Values {
+pub(super) fn walk(root: &Node, table: &KeyTable, own: Option<&KeyTable>, problems: &mut Problems<'_>) -> Values {
     let mut walk = Walk { table, own, values: Values::default(), problems };
     if let Some(section) = table.section("") {
         walk.table(section, "", root, &At::Implied);
@@ -26,8 +26,8 @@ pub(super) fn walk(root: &Node, table: &Table, own: Option<&Table>, problems: &m
 }
 
 struct Walk<'a, 'b> {
-    table: &'a Table,
-    own: Option<&'a Table>,
+    table: &'a KeyTable,
+    own: Option<&'a KeyTable>,
     values: Values,
     problems: &'a mut Problems<'b>,
 }

@@ -6,11 +6,11 @@
 use std::fmt::Write as _;
 
 use super::keys::{Default, Role, join};
-use super::table::{Table, TableSection};
+use super::table::{KeyTable, TableSection};
 use super::values::{Checked, Values};
 
 /// The whole scene called `name`, with the keys of its process's `own` table.
-pub(super) fn resolved(name: &str, own: &Table, values: &Values) -> String {
+pub(super) fn resolved(name: &str, own: &KeyTable, values: &Values) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let mut out = format!("# Scene {name} with every default filled in, written by gearcut {version}.\n");
     // Empty lists are keys of the file itself, which come before its first table.

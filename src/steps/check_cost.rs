@@ -76,7 +76,7 @@ pub fn print(sheet: &mut Sheet, fields: &Fields, flanks: &FlankCost, blank: &Bla
         ),
     );
     let rays: usize = blank.grid.rows.iter().map(|row| row.count).sum();
-    let sections = blank.grid.leads_mm.len();
+    let sections = blank.grid.slices_z_mm.len();
     sheet.line(
         "whole blank",
         format!(

@@ -30,7 +30,7 @@ pub fn damage_cells(kind: &'static str, operation: &str, damage: &Damage) -> Vec
         damage.place.side.name().into(),
         damage.place.zone.name().into(),
         damage.place.height_mm.into(),
-        damage.lead_mm.into(),
+        damage.z_mm.into(),
         damage.point_mm.x.into(),
         damage.point_mm.y.into(),
         damage.depth_mm.into(),

@@ -1,9 +1,10 @@
 //! Pictures of a run: the gear, a tooth, a flank under raking light, as the scene lists them.
 //!
 //! Gear and teeth are drawn from the closed body that is written as mesh. A flank is cut again, at the spacing of its
-//! dexels and only as wide as the picture, whose edges lie between the rows of the flank's own field; that field is gone
-//! by then, and as large as a thousand pictures. The flank is rolled out flat, so that the height over the target is all that is left of
-//! its shape, and light from the tip grazes every feed mark alike. The factor on its heights stands in the picture.
+//! dexels and only as wide as the picture, whose edges lie between the rows of the flank's own field; that field is
+//! gone by then, and as large as a thousand pictures. The flank is rolled out flat, so that the height over the target
+//! is all that is left of its shape, and light from the tip grazes every feed mark alike. The factor on its heights
+//! stands in the picture.
 
 use super::meshes::stock_scale;
 use crate::colormap::ColourScale;
@@ -231,12 +232,12 @@ fn rolled_out(grid: &SurfaceGrid, exaggeration: f64, window_mm: f64) -> Mesh {
         }
     }
     for along in heights_mm.chunks_exact_mut(rows) {
-        let averaged = means(&grid.leads_mm, along, window_mm);
+        let averaged = means(&grid.rows_z_mm, along, window_mm);
         along.copy_from_slice(&averaged);
     }
     for (i, position_mm) in mesh.positions_mm.iter_mut().enumerate() {
         let height_mm = heights_mm[i];
-        *position_mm = DVec3::new(grid.leads_mm[i % rows], grid.arcs_mm[i / rows], exaggeration * height_mm);
+        *position_mm = DVec3::new(grid.rows_z_mm[i % rows], grid.arcs_mm[i / rows], exaggeration * height_mm);
     }
     mesh
 }

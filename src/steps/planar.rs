@@ -2,8 +2,9 @@
 //! tips, and all operations over them.
 //!
 //! In: the scene, the blank, the tool, the strokes of every operation. Out: fields, and what every operation leaves on
-//! them; in [`blank`], [`blank_report`], [`blank_findings`] and [`blank_table`] the same for rays through the whole blank. A process
-//! whose tool cuts in planes gives points of its target ([`ProfilePoint`]); how it found them is its own.
+//! them; in [`blank`], [`blank_report`], [`blank_findings`] and [`blank_table`] the same for rays through the whole
+//! blank. A process whose tool cuts in planes gives points of its target ([`ProfilePoint`]); how it found them is its
+//! own.
 //!
 //! Fields are made one flank at a time, so that memory does not grow with the number of teeth.
 
@@ -17,7 +18,7 @@ use crate::cut::{Backend, CutStats};
 use crate::dexel::{Column, Field, Layer};
 use crate::error::Result;
 use crate::gear::blank::Blank;
-use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, leads_mm};
+use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, rows_z_mm};
 use crate::passes::planar::strokes::StrokeLaw;
 use crate::passes::{CutPlan, StrokeSet};
 use crate::scene::Scene;
@@ -82,12 +83,12 @@ impl PlanarGear<'_> {
     }
 
     /// Rows along the tooth: evenly over the face, both ends included.
-    pub fn leads_mm(&self, spacing_mm: f64) -> Vec<f64> {
-        leads_mm(self.scene.gear.face_width_mm, spacing_mm)
+    pub fn rows_z_mm(&self, spacing_mm: f64) -> Vec<f64> {
+        rows_z_mm(self.scene.gear.face_width_mm, spacing_mm)
     }
 
-    /// Rays on points of a target flank, `leads_mm` along the tooth.
-    pub fn flank_field(&self, points: impl Iterator<Item = ProfilePoint>, leads_mm: Vec<f64>) -> Field {
+    /// Rays on points of a target flank, `rows_z_mm` along the tooth.
+    pub fn flank_field(&self, points: impl Iterator<Item = ProfilePoint>, rows_z_mm: Vec<f64>) -> Field {
         let limit_mm = RAY_HEIGHT_MODULES * self.scene.gear.module_mm;
         // Rays follow each other: where one leaves the blank, the next one leaves it nearby.
         let mut exit_mm = 0.0;
@@ -97,7 +98,7 @@ impl PlanarGear<'_> {
                 self.column(&point, exit_mm)
             })
             .collect();
-        Field { columns, leads_mm }
+        Field { columns, rows_z_mm }
     }
 
     /// Distance of the points of a root on which [`Self::root_field`] stands, mm.
@@ -120,7 +121,7 @@ impl PlanarGear<'_> {
                 self.column(point, self.blank.exit_mm(point.point_mm, point.normal, point.phi_rad, limit_mm, limit_mm))
             })
             .collect();
-        Field { columns, leads_mm: self.leads_mm(self.scene.fields.lead_spacing_mm.max(ROOT_SPACING_MM[1])) }
+        Field { columns, rows_z_mm: self.rows_z_mm(self.scene.fields.lead_spacing_mm.max(ROOT_SPACING_MM[1])) }
     }
 
     fn column(&self, point: &ProfilePoint, blank_mm: f64) -> Column {
@@ -152,7 +153,7 @@ impl PlanarGear<'_> {
                 self.column(&point, self.blank.addendum_mm)
             })
             .collect();
-        Some(Field { columns, leads_mm: self.leads_mm(TIP_SPACING_MM[1]) })
+        Some(Field { columns, rows_z_mm: self.rows_z_mm(TIP_SPACING_MM[1]) })
     }
 
     /// Whether every row of a field is cut alike: the tool stands still while it is in the work, so its pose is the

@@ -30,7 +30,7 @@ pub struct ViewFlank {
     /// Arcs from the form point, mm.
     pub arcs_mm: Vec<f64>,
     /// Places along the tooth, mm.
-    pub leads_mm: Vec<f64>,
+    pub rows_z_mm: Vec<f64>,
     /// Its triangles; corner i n + k belongs to arc i and section k of n.
     pub triangles: Triangles,
 }
@@ -50,24 +50,24 @@ impl ViewMesh {
     /// # Errors
     /// No flank is generated on some tooth.
     pub fn new(job: &dyn GearJob) -> Result<Self> {
-        let leads_mm = job.view_leads_mm();
-        let [bottom, top] = [0, leads_mm.len() - 1];
+        let rows_z_mm = job.view_rows_z_mm();
+        let [bottom, top] = [0, rows_z_mm.len() - 1];
         let mut flanks = Vec::new();
         let mut body = Triangles::default();
         let mut rims = Vec::new();
         for tooth in 1..=job.scene().gear.teeth {
             let [left, right] =
-                [Side::Left, Side::Right].map(|side| job.target_profiles(tooth, side, SPACING_MM, &leads_mm));
+                [Side::Left, Side::Right].map(|side| job.target_profiles(tooth, side, SPACING_MM, &rows_z_mm));
             let ((left_arcs, left), (right_arcs, right)) = (left?, right?);
             let tip: Vec<Profile> = right.iter().zip(&left).map(|(right, left)| tip_land(job, right, left)).collect();
             for (side, arcs_mm, profiles) in [(Side::Left, left_arcs, &left), (Side::Right, right_arcs, &right)] {
                 let mut triangles = Triangles::default();
-                triangles.wall(profiles, &leads_mm, side == Side::Right);
-                flanks.push(ViewFlank { tooth, side, arcs_mm, leads_mm: leads_mm.clone(), triangles });
+                triangles.wall(profiles, &rows_z_mm, side == Side::Right);
+                flanks.push(ViewFlank { tooth, side, arcs_mm, rows_z_mm: rows_z_mm.clone(), triangles });
             }
-            body.wall(&tip, &leads_mm, true);
+            body.wall(&tip, &rows_z_mm, true);
             for k in [bottom, top] {
-                body.tooth_end([&right[k], &left[k], &tip[k]], leads_mm[k], k == top);
+                body.tooth_end([&right[k], &left[k], &tip[k]], rows_z_mm[k], k == top);
             }
             let ends = |profiles: &[Profile]| -> Profile { profiles.iter().map(|profile| profile[0]).collect() };
             rims.push((ends(&right), ends(&left)));
@@ -75,14 +75,14 @@ impl ViewMesh {
         let mut rim: [Vec<DVec2>; 2] = Default::default();
         for (space, (index, (right, left))) in (1..).zip(rims.iter().enumerate()) {
             let next = &rims[(index + 1) % rims.len()].0;
-            let roots = roots(job, space, &leads_mm, left, next)?;
-            body.wall(&roots, &leads_mm, true);
+            let roots = roots(job, space, &rows_z_mm, left, next)?;
+            body.wall(&roots, &rows_z_mm, true);
             for (rim, k) in rim.iter_mut().zip([bottom, top]) {
                 rim.push(right[k].0);
                 rim.extend(roots[k][..roots[k].len() - 1].iter().map(|(point, _)| *point));
             }
         }
-        body.rings(&rim, 0.5 * job.scene().gear.bore_diameter_mm, [leads_mm[bottom], leads_mm[top]]);
+        body.rings(&rim, 0.5 * job.scene().gear.bore_diameter_mm, [rows_z_mm[bottom], rows_z_mm[top]]);
         Ok(Self { flanks, body })
     }
 }
@@ -110,8 +110,8 @@ fn tip_land(job: &dyn GearJob, right: &Profile, left: &Profile) -> Profile {
 
 /// Root of a space from the form points of the left flank before it to those of the right flank after it, in all
 /// sections.
-fn roots(job: &dyn GearJob, space: u32, leads_mm: &[f64], left: &Profile, right: &Profile) -> Result<Vec<Profile>> {
-    let roots = job.target_roots(space, SPACING_MM, leads_mm)?;
+fn roots(job: &dyn GearJob, space: u32, rows_z_mm: &[f64], left: &Profile, right: &Profile) -> Result<Vec<Profile>> {
+    let roots = job.target_roots(space, SPACING_MM, rows_z_mm)?;
     // Points nearly on the flanks' ends would make needles of triangles; what is left out in one section is left out in
     // all.
     let apart = |i: usize| {
@@ -127,7 +127,7 @@ fn roots(job: &dyn GearJob, space: u32, leads_mm: &[f64], left: &Profile, right:
         profile.push((right[k].0, normal_at(root.last(), right[k].1)));
         profile
     };
-    Ok((0..leads_mm.len()).map(whole).collect())
+    Ok((0..rows_z_mm.len()).map(whole).collect())
 }
 
 #[cfg(test)]
@@ -135,13 +135,13 @@ mod tests {
     use super::*;
     use crate::process;
     use crate::process::hobbing::{HobCutter, HobbingJob};
-    use crate::process::shaping::Job;
+    use crate::process::shaping::ShapingJob;
     use std::collections::HashMap;
     use std::path::Path;
 
-    fn mesh(scene: &str) -> (Job, ViewMesh) {
+    fn mesh(scene: &str) -> (ShapingJob, ViewMesh) {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping").join(scene);
-        let job = Job::new(process::load(&path, &[]).expect("a shipped scene").scene).expect("a gear");
+        let job = ShapingJob::new(process::load(&path, &[]).expect("a shipped scene").scene).expect("a gear");
         let mesh = ViewMesh::new(&job).expect("a mesh");
         (job, mesh)
     }

@@ -19,7 +19,7 @@
 
 use super::dual_cells::{NOT_CROSSED, edge_x, edge_y, edge_z, labels};
 use super::flanks::{height_scalar, pass_scalar};
-use super::mesh::{Mesh, Part};
+use super::mesh::{Mesh, MeshPart};
 use super::plane_area::triangles_inside;
 use crate::dexel::blank_field::{BlankField, RayMaterial};
 use crate::dexel::{NO_PASS, intervals};
@@ -83,7 +83,7 @@ impl BlankMesh {
         let low = builder.triangles.len();
         builder.end_face(&rims[1], false);
         let all = builder.triangles.len();
-        let part = |name: &str, triangles| Part { name: name.to_owned(), triangles, measured: name == "outline" };
+        let part = |name: &str, triangles| MeshPart { name: name.to_owned(), triangles, measured: name == "outline" };
         let parts =
             vec![part("outline", 0..outline), part("end_face_low", outline..low), part("end_face_high", low..all)];
         let heights = target.map(|target| {
@@ -219,11 +219,11 @@ impl<'a> Builder<'a> {
     /// slices.
     fn layer_mm(&self, layer: usize) -> f64 {
         let grid = &self.field.grid;
-        let leads = &grid.leads_mm;
+        let slices_z_mm = &grid.slices_z_mm;
         match layer {
             0 => -0.5 * grid.face_width_mm,
-            l if l == leads.len() => 0.5 * grid.face_width_mm,
-            l => 0.5 * (leads[l - 1] + leads[l]),
+            l if l == slices_z_mm.len() => 0.5 * grid.face_width_mm,
+            l => 0.5 * (slices_z_mm[l - 1] + slices_z_mm[l]),
         }
     }
 
@@ -413,9 +413,9 @@ mod tests {
             spans
         };
         let slice = |s: usize| Slice { rays: [true, false].map(|x| (0..size + 2).map(|r| ray(x, s, r)).collect()) };
-        let leads_mm = (0..slices).map(|s| s as f64 - 0.5 * (slices as f64 - 1.0)).collect();
+        let slices_z_mm = (0..slices).map(|s| s as f64 - 0.5 * (slices as f64 - 1.0)).collect();
         let face_width_mm = (slices as f64 - 1.0).max(1.0);
-        let grid = BlankGrid { rows: [row; 2], leads_mm, face_width_mm };
+        let grid = BlankGrid { rows: [row; 2], slices_z_mm, face_width_mm };
         BlankField { grid, slices: (0..slices).map(slice).collect() }
     }
 
@@ -433,7 +433,10 @@ mod tests {
     proptest! {
         /// Whatever the nodes: checkerboards, islands and holes through all slices.
         #[test]
-        fn random_nodes_give_closed_meshes(nodes in proptest::collection::vec(any::<bool>(), 192), slices in 1_usize..4) {
+        fn random_nodes_give_closed_meshes(
+            nodes in proptest::collection::vec(any::<bool>(), 192),
+            slices in 1_usize..4,
+        ) {
             let field = field(8, slices, |s, i, j| nodes[64 * s + 8 * (i - 1) + j - 1]);
             let mesh = BlankMesh::new(&field, None).mesh;
             prop_assume!(!mesh.triangles.is_empty());

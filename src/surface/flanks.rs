@@ -9,7 +9,7 @@
 //! straight along the tooth to [`STRAIGHT_MM`] the rows between are left out: strokes whose axes rest leave two rows
 //! per flank, whatever its width. Helical flanks keep all rows: they wind about the axis.
 
-use super::mesh::{Mesh, Part, Scalar, ScalarValues};
+use super::mesh::{Mesh, MeshPart, Scalar, ScalarValues};
 use crate::dexel::{Layer, NO_PASS, RayGrid};
 use crate::units::UM_PER_MM;
 use glam::{DVec2, DVec3};
@@ -24,7 +24,7 @@ pub struct SurfaceGrid {
     /// Arc length of each column along the target profile, mm.
     pub arcs_mm: Vec<f64>,
     /// Place of each row along the tooth from the middle of the face, mm, increasing.
-    pub leads_mm: Vec<f64>,
+    pub rows_z_mm: Vec<f64>,
     /// Unit normal of the target in the transverse section, out of the gear, of each column in the first row.
     pub normals: Vec<DVec2>,
     /// Points of the target's one profile, gear frame, mm; `None` where every section has a profile of its own.
@@ -49,12 +49,12 @@ impl SurfaceGrid {
     pub fn new(field: &impl RayGrid, layers: &[Layer], spacing_mm: f64) -> Self {
         let last = layers.last().expect("a job has at least one operation");
         let before = layers.len().checked_sub(2).map(|i| &layers[i]);
-        let (arcs_mm, leads_mm) = (field.arcs_mm(), field.leads_mm());
+        let (arcs_mm, rows_z_mm) = (field.arcs_mm(), field.rows_z_mm());
         let columns = spaced(&arcs_mm, spacing_mm);
-        let mut rows = spaced(leads_mm, spacing_mm);
-        let all = leads_mm.len();
+        let mut rows = spaced(rows_z_mm, spacing_mm);
+        let all = rows_z_mm.len();
         if field.is_straight() {
-            rows = straight_rows(leads_mm, &rows, |from, to, visit| {
+            rows = straight_rows(rows_z_mm, &rows, |from, to, visit| {
                 for &column in &columns {
                     for layer in [Some(last), before].into_iter().flatten() {
                         let heights_mm = layer.column(column, all);
@@ -76,7 +76,7 @@ impl SurfaceGrid {
         });
         Self {
             arcs_mm: columns.iter().map(|&c| arcs_mm[c]).collect(),
-            leads_mm: rows.iter().map(|&r| leads_mm[r]).collect(),
+            rows_z_mm: rows.iter().map(|&r| rows_z_mm[r]).collect(),
             normals: columns.iter().map(|&c| field.normal(c, rows[0])).collect(),
             straight_target_mm: field
                 .is_straight()
@@ -95,12 +95,12 @@ impl SurfaceGrid {
 
     /// Number of rows.
     pub fn rows(&self) -> usize {
-        self.leads_mm.len()
+        self.rows_z_mm.len()
     }
 
     /// Point of a column and row in space, mm.
     pub fn position_mm(&self, column: usize, row: usize) -> DVec3 {
-        self.points_mm[column * self.rows() + row].extend(self.leads_mm[row])
+        self.points_mm[column * self.rows() + row].extend(self.rows_z_mm[row])
     }
 
     /// Whether no pass came to a point, so that it lies on the blank's own surface or nowhere.
@@ -113,7 +113,7 @@ impl SurfaceGrid {
         let (columns, rows) = (self.columns(), self.rows());
         let positions_mm: Vec<DVec3> =
             (0..columns).flat_map(|c| (0..rows).map(move |r| (c, r))).map(|(c, r)| self.position_mm(c, r)).collect();
-        // The lead runs along z; which way round is outside depends on the direction of the columns.
+        // Rows run along z; which way round is outside depends on the direction of the columns.
         let along = self.points_mm[(columns - 1) * rows] - self.points_mm[0];
         let middle = self.normals[columns / 2];
         let outward = along.extend(0.0).cross(DVec3::Z).dot(middle.extend(0.0)) > 0.0;
@@ -125,7 +125,7 @@ impl SurfaceGrid {
                 if outward { [[a, b, d], [a, d, e]] } else { [[a, d, b], [a, e, d]] }
             })
             .collect();
-        let parts = vec![Part { name: name.to_owned(), triangles: 0..triangles.len(), measured: true }];
+        let parts = vec![MeshPart { name: name.to_owned(), triangles: 0..triangles.len(), measured: true }];
         Mesh { positions_mm, triangles, scalars: self.scalars(), parts }
     }
 
@@ -190,7 +190,7 @@ fn spaced(places_mm: &[f64], spacing_mm: f64) -> Vec<usize> {
 /// call, until `visit` returns false. Each height keeps the window of slopes that its rows so far allow (the cone
 /// method of Williams, 1978): one look at every dexel.
 fn straight_rows(
-    leads_mm: &[f64],
+    rows_z_mm: &[f64],
     candidates: &[usize],
     differences: impl Fn(usize, usize, &mut dyn FnMut(f64) -> bool),
 ) -> Vec<usize> {
@@ -199,10 +199,10 @@ fn straight_rows(
     let mut next = 1;
     while next < candidates.len() {
         let (from, to) = (kept[kept.len() - 1], candidates[next]);
-        let length_mm = leads_mm[to] - leads_mm[from];
+        let length_mm = rows_z_mm[to] - rows_z_mm[from];
         let mut straight = true;
         let mut index = 0;
-        let slack = STRAIGHT_MM / length_mm;
+        let tolerance = STRAIGHT_MM / length_mm;
         differences(from, to, &mut |difference_mm| {
             let slope = difference_mm / length_mm;
             if index == windows.len() {
@@ -210,8 +210,8 @@ fn straight_rows(
             }
             let [low, high] = &mut windows[index];
             straight = slope >= *low && slope <= *high;
-            *low = low.max(slope - slack);
-            *high = high.min(slope + slack);
+            *low = low.max(slope - tolerance);
+            *high = high.min(slope + tolerance);
             index += 1;
             straight
         });
@@ -241,14 +241,14 @@ mod tests {
                 Column { arc_mm, origin_mm: 50.0 * normal, normal, low_mm: -1.0, blank_mm: 3.0 }
             })
             .collect();
-        Field { columns, leads_mm: (0..=200).map(|i| 0.05 * f64::from(i) - 5.0).collect() }
+        Field { columns, rows_z_mm: (0..=200).map(|i| 0.05 * f64::from(i) - 5.0).collect() }
     }
 
     fn layer(field: &Field, height_mm: impl Fn(f64, f64) -> f64) -> Layer {
         let heights_mm = field
             .columns
             .iter()
-            .flat_map(|c| field.leads_mm.iter().map(|&v| height_mm(c.arc_mm, v) as f32).collect::<Vec<_>>())
+            .flat_map(|c| field.rows_z_mm.iter().map(|&v| height_mm(c.arc_mm, v) as f32).collect::<Vec<_>>())
             .collect();
         Layer { heights_mm, passes: vec![7; field.len()] }
     }
@@ -259,7 +259,7 @@ mod tests {
         let layers = [layer(&field, |_, _| 0.7), layer(&field, |u, v| 0.01 * u.sin() + 0.002 * v)];
         let grid = SurfaceGrid::new(&field, &layers, 0.1);
         assert_eq!((grid.rows(), grid.columns()), (2, 51));
-        assert_eq!([grid.leads_mm[0], grid.leads_mm[1]], [-5.0, 5.0]);
+        assert_eq!([grid.rows_z_mm[0], grid.rows_z_mm[1]], [-5.0, 5.0]);
         assert_eq!(grid.arcs_mm[50], 0.005 * 1002.0);
         for c in 0..51 {
             let (u, z) = (grid.arcs_mm[c], grid.position_mm(c, 1));
@@ -280,9 +280,9 @@ mod tests {
         assert!(grid.rows() > 20 && grid.rows() < 100, "{} rows", grid.rows());
         let mut worst = 0.0_f64;
         for (c, &u) in grid.arcs_mm.iter().enumerate() {
-            for &v in &field.leads_mm {
-                let r = grid.leads_mm.partition_point(|&l| l <= v).clamp(1, grid.rows() - 1);
-                let (a, b) = (grid.leads_mm[r - 1], grid.leads_mm[r]);
+            for &v in &field.rows_z_mm {
+                let r = grid.rows_z_mm.partition_point(|&l| l <= v).clamp(1, grid.rows() - 1);
+                let (a, b) = (grid.rows_z_mm[r - 1], grid.rows_z_mm[r]);
                 let h = |r: usize| f64::from(grid.height_um[c * grid.rows() + r]) * 1e-3;
                 let between = h(r - 1) + (h(r) - h(r - 1)) * (v - a) / (b - a);
                 worst = worst.max((between - height(u, v)).abs());

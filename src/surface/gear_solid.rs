@@ -1,4 +1,4 @@
-//! The cut gear as one closed body: the outline of every row sewn to the next one, two end faces, and the bore.
+//! The cut gear as one closed body: the outline of every row lofted to the next one, two end faces, and the bore.
 //!
 //! In: the outline and the bore. Out: a closed [`Mesh`] with a part per flank, tip and root, and `bore`, `face_top`,
 //! `face_bottom`; heights, stock and pass ids on the vertices of the outline.
@@ -8,7 +8,7 @@
 //! faces; whether the body is closed is checked before it is given away.
 
 use super::flanks::{height_scalar, pass_scalar, stock_scalar};
-use super::mesh::{Mesh, Part};
+use super::mesh::{Mesh, MeshPart};
 use super::outline::Outline;
 use super::plane_area::{sides_of_contours, triangles_inside};
 use crate::dexel::NO_PASS;
@@ -44,17 +44,17 @@ pub fn gear_solid(outline: &Outline, bore_diameter_mm: f64) -> Result<Mesh, Refu
         (0..bore_columns).map(|i| bore_radius_mm * DVec2::from_angle(TAU * i as f64 / bore_columns as f64)).collect();
     let at = |column: usize, row: usize| (column * rows + row) as u32;
     let bore_at = |column: usize, end: usize| (columns * rows + 2 * column + end) as u32;
-    let ends_mm = [outline.leads_mm[0], outline.leads_mm[rows - 1]];
+    let ends_mm = [outline.rows_z_mm[0], outline.rows_z_mm[rows - 1]];
 
     let mut positions_mm: Vec<DVec3> = outline
         .columns
         .iter()
-        .flat_map(|column| column.points_mm.iter().zip(&outline.leads_mm).map(|(p, &z)| p.extend(z)))
+        .flat_map(|column| column.points_mm.iter().zip(&outline.rows_z_mm).map(|(p, &z)| p.extend(z)))
         .collect();
     positions_mm.extend(bore.iter().flat_map(|p| ends_mm.map(|z| p.extend(z))));
 
     let mut mesh = Mesh { positions_mm, ..Mesh::default() };
-    let mut sewn: Vec<Vec<[u32; 3]>> = vec![Vec::new(); outline.parts.len()];
+    let mut lofted: Vec<Vec<[u32; 3]>> = vec![Vec::new(); outline.parts.len()];
     for c in 0..columns {
         let next = (c + 1) % columns;
         // Between two flanks, roots and tips own the seam: the flank ends at its own last point.
@@ -62,17 +62,17 @@ pub fn gear_solid(outline: &Outline, bore_diameter_mm: f64) -> Result<Mesh, Refu
         let part = if outline.parts[b].starts_with("tooth") { a } else { b };
         for r in 1..rows {
             let [p, q, s, t] = [at(c, r - 1), at(next, r - 1), at(next, r), at(c, r)];
-            sewn[part].extend([[p, q, s], [p, s, t]]);
+            lofted[part].extend([[p, q, s], [p, s, t]]);
         }
     }
     let mut add = |name: &str, triangles: Vec<[u32; 3]>, measured: bool| {
         if !triangles.is_empty() {
             let start = mesh.triangles.len();
             mesh.triangles.extend(triangles);
-            mesh.parts.push(Part { name: name.to_owned(), triangles: start..mesh.triangles.len(), measured });
+            mesh.parts.push(MeshPart { name: name.to_owned(), triangles: start..mesh.triangles.len(), measured });
         }
     };
-    for (name, triangles) in outline.parts.iter().zip(sewn) {
+    for (name, triangles) in outline.parts.iter().zip(lofted) {
         add(name, triangles, true);
     }
     let wall = (0..bore_columns).flat_map(|c| {

@@ -1,7 +1,8 @@
 //! Triangles with values on their corners and names on their parts.
 //!
 //! Frame: the gear frame in space, mm; x and y are those of the transverse plane (phi = 0 along x, counter-clockwise),
-//! z is the lead, counted from the middle of the face. Triangles are counter-clockwise seen from outside the material.
+//! z runs along the tooth, counted from the middle of the face. Triangles are counter-clockwise seen from outside the
+//! material.
 //!
 //! A mesh is **closed** when every edge lies between exactly two triangles that run through it in opposite directions;
 //! only then has it a volume. Positions are f64: written files are f32, whose ulp at 60 mm is 4 nm, but edges are told
@@ -37,7 +38,7 @@ pub struct Scalar {
 
 /// A named run of triangles: a flank, a root, an end face.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Part {
+pub struct MeshPart {
     /// Name, such as `tooth_07_left`.
     pub name: String,
     /// Its triangles.
@@ -57,7 +58,7 @@ pub struct Mesh {
     /// Quantities, each with one value per vertex.
     pub scalars: Vec<Scalar>,
     /// Parts, which follow each other and cover all triangles; within a part the surface is smooth.
-    pub parts: Vec<Part>,
+    pub parts: Vec<MeshPart>,
 }
 
 /// What keeps a mesh from being closed; all zero when it is.

@@ -1,7 +1,7 @@
 //! The transverse outline of the cut gear, row by row: flanks, roots and tips in one closed chain of columns.
 //!
 //! In: the grids of all flanks, roots and tips. Out: [`Outline`]: columns in the order of growing polar angle, each
-//! with one point per row, so that neighbouring rows can be sewn together.
+//! with one point per row, so that neighbouring rows can be lofted.
 //!
 //! The order follows from the gear alone: right flank of a tooth from form point to tip, its tip land, its left flank
 //! down again, the root of the space behind it, and so on. What no pass reached (tip lands, teeth outside a window) is
@@ -63,7 +63,7 @@ pub struct OutlineColumn {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
     /// Place of each row along the tooth, mm, increasing.
-    pub leads_mm: Vec<f64>,
+    pub rows_z_mm: Vec<f64>,
     /// Columns counter-clockwise; the last one is followed by the first.
     pub columns: Vec<OutlineColumn>,
     /// Names of the parts, in the order of the columns: `tooth_07_right`, `tip_07`, `tooth_07_left`, `root_07`.
@@ -87,9 +87,9 @@ struct Gap {
 impl Outline {
     /// Outline of a gear.
     pub fn new(surfaces: &GearSurfaces, blank: &Blank) -> Self {
-        let leads_mm = common_rows(surfaces);
+        let rows_z_mm = common_rows(surfaces);
         let has_stock = surfaces.teeth.iter().all(|t| t.right.stock_mm.is_some());
-        let mut outline = Self { leads_mm, columns: Vec::new(), parts: Vec::new(), has_stock };
+        let mut outline = Self { rows_z_mm, columns: Vec::new(), parts: Vec::new(), has_stock };
         let mut gap = Gap::default();
         let teeth = &surfaces.teeth;
         let count = teeth.len();
@@ -121,7 +121,7 @@ impl Outline {
 
     /// Number of rows.
     pub fn rows(&self) -> usize {
-        self.leads_mm.len()
+        self.rows_z_mm.len()
     }
 
     /// Points of one row, counter-clockwise.
@@ -188,10 +188,10 @@ impl Outline {
     fn sample(&self, grid: &SurfaceGrid, column: usize, blank: &Blank) -> OutlineColumn {
         let mut sampled = self.bare(DVec2::ZERO);
         let rows = grid.rows();
-        for (row, &lead_mm) in self.leads_mm.iter().enumerate() {
-            let after = grid.leads_mm.partition_point(|&l| l < lead_mm).clamp(1, rows - 1);
-            let (from, to) = (grid.leads_mm[after - 1], grid.leads_mm[after]);
-            let share = ((lead_mm - from) / (to - from)).clamp(0.0, 1.0);
+        for (row, &z_mm) in self.rows_z_mm.iter().enumerate() {
+            let after = grid.rows_z_mm.partition_point(|&l| l < z_mm).clamp(1, rows - 1);
+            let (from, to) = (grid.rows_z_mm[after - 1], grid.rows_z_mm[after]);
+            let share = ((z_mm - from) / (to - from)).clamp(0.0, 1.0);
             let (a, b) = (column * rows + after - 1, column * rows + after);
             let nearest = if share < 0.5 { a } else { b };
             sampled.passes[row] = grid.passes[nearest];
@@ -304,8 +304,8 @@ fn outline_angle(blank: &Blank, point_mm: DVec2) -> f64 {
 /// Rows of all grids.
 fn common_rows(surfaces: &GearSurfaces) -> Vec<f64> {
     let grids = surfaces.teeth.iter().flat_map(|t| [Some(&t.right), t.tip.as_ref(), Some(&t.left), Some(&t.root)]);
-    let mut leads_mm: Vec<f64> = grids.flatten().flat_map(|grid| grid.leads_mm.iter().copied()).collect();
-    leads_mm.sort_unstable_by(f64::total_cmp);
-    leads_mm.dedup_by(|later, kept| *later - *kept < NEAREST_MM);
-    leads_mm
+    let mut rows_z_mm: Vec<f64> = grids.flatten().flat_map(|grid| grid.rows_z_mm.iter().copied()).collect();
+    rows_z_mm.sort_unstable_by(f64::total_cmp);
+    rows_z_mm.dedup_by(|later, kept| *later - *kept < NEAREST_MM);
+    rows_z_mm
 }

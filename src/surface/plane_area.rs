@@ -2,8 +2,8 @@
 //!
 //! In: points, and the contours' sides with the area on their left: any number of contours, holes and islands, in any
 //! order. Out: triangles, counter-clockwise. Every side of a contour is a side of exactly one triangle, so that walls
-//! sewn to the same points close with the area. Law: constrained Delaunay triangulation (L. P. Chew 1989) with exact
-//! predicates; the area is what can be reached from the left of the sides without crossing one.
+//! lofted from the same points close with the area. Law: constrained Delaunay triangulation (L. P. Chew 1989) with
+//! exact predicates; the area is what can be reached from the left of the sides without crossing one.
 //!
 //! Road not taken: ear clipping. It leaves out points that lie straight between others, so that walls with such points
 //! stay open, and its predicates round.

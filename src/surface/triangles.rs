@@ -26,12 +26,12 @@ impl Triangles {
     }
 
     /// Profiles of all sections joined along the tooth; `forward`: they run counter-clockwise round the gear.
-    pub fn wall(&mut self, profiles: &[Profile], leads_mm: &[f64], forward: bool) {
-        let (first, sections) = (self.positions_mm.len() as u32, leads_mm.len() as u32);
+    pub fn wall(&mut self, profiles: &[Profile], rows_z_mm: &[f64], forward: bool) {
+        let (first, sections) = (self.positions_mm.len() as u32, rows_z_mm.len() as u32);
         for i in 0..profiles[0].len() {
-            for (profile, &lead) in profiles.iter().zip(leads_mm) {
+            for (profile, &z_mm) in profiles.iter().zip(rows_z_mm) {
                 let (point, normal) = profile[i];
-                self.corner(point, lead, normal);
+                self.corner(point, z_mm, normal);
             }
         }
         for i in 0..profiles[0].len() as u32 - 1 {
@@ -81,16 +81,16 @@ impl Triangles {
 
     /// Both end faces (bottom, top) from their closed rims (counter-clockwise) to the bore, and the bore; without a
     /// bore to the axis.
-    pub fn rings(&mut self, rims: &[Vec<DVec2>; 2], bore_radius_mm: f64, leads_mm: [f64; 2]) {
+    pub fn rings(&mut self, rims: &[Vec<DVec2>; 2], bore_radius_mm: f64, rows_z_mm: [f64; 2]) {
         let bores = [0, 1].map(|k| {
             if bore_radius_mm <= 0.0 {
-                self.fan(&rims[k], leads_mm[k], k == 1);
+                self.fan(&rims[k], rows_z_mm[k], k == 1);
                 return Profile::new();
             }
-            self.ring(&rims[k], bore_radius_mm, leads_mm[k], k == 1)
+            self.ring(&rims[k], bore_radius_mm, rows_z_mm[k], k == 1)
         });
         if bore_radius_mm > 0.0 {
-            self.wall(&bores, &leads_mm, false);
+            self.wall(&bores, &rows_z_mm, false);
         }
     }
 

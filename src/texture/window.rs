@@ -42,7 +42,7 @@ impl Window {
     }
 
     /// Places along the tooth, mm from the middle of the face.
-    pub fn leads_mm(&self) -> Vec<f64> {
+    pub fn rows_z_mm(&self) -> Vec<f64> {
         (0..self.count[0]).map(|i| self.start_mm[0] + self.step_mm[0] * i as f64).collect()
     }
 
@@ -129,7 +129,7 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
     };
     let middle_mm = spec.center_profile_mm.unwrap_or(0.5 * (form_mm + tip_mm));
     let profile = span(middle_mm, spec.length_profile_mm, form_mm, tip_mm);
-    let lead = span(spec.center_lead_mm, spec.length_lead_mm, -0.5 * face_mm, 0.5 * face_mm);
+    let along_tooth = span(spec.center_lead_mm, spec.length_lead_mm, -0.5 * face_mm, 0.5 * face_mm);
     let where_ = format!("tooth {} {}", spec.tooth, side.name());
     if profile[0] < -1e-9 || profile[1] > flank_mm + 1e-9 {
         return refuse(
@@ -141,19 +141,19 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
             "make the window shorter, or move its center_profile_mm",
         );
     }
-    if lead[0] < -0.5 * face_mm - 1e-9 || lead[1] > 0.5 * face_mm + 1e-9 {
+    if along_tooth[0] < -0.5 * face_mm - 1e-9 || along_tooth[1] > 0.5 * face_mm + 1e-9 {
         return refuse(
             "length_lead_mm",
             format!(
                 "the window from {:.3} to {:.3} mm does not lie on the face, which ends at +-{:.3} mm",
-                lead[0],
-                lead[1],
+                along_tooth[0],
+                along_tooth[1],
                 0.5 * face_mm
             ),
             "make the window shorter, or move its center_lead_mm",
         );
     }
-    let length = [lead[1] - lead[0], profile[1] - profile[0]];
+    let length = [along_tooth[1] - along_tooth[0], profile[1] - profile[0]];
     // A field coarser than the window still gives two rows of points.
     let step_mm = [
         spec.lead_spacing_mm.unwrap_or((length[0] / LEAD_POINTS).max(fields.lead_spacing_mm).min(length[0])),
@@ -180,6 +180,6 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
     }
     // What is left over of the last step is shared by both ends.
     let start = |[low, high]: [f64; 2], k: usize| low + 0.5 * ((high - low) - step_mm[k] * (count[k] - 1) as f64);
-    let start_mm = [start(lead, 0), start(profile, 1).max(0.0)];
+    let start_mm = [start(along_tooth, 0), start(profile, 1).max(0.0)];
     Ok(Window { tooth: spec.tooth, side, start_mm, step_mm, count, form: spec.form })
 }

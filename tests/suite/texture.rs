@@ -5,7 +5,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::gear::PitchCurveShape;
 use gearcut::measure::scallop::cusps;
 use gearcut::measure::topography::Form;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::{Feed, Shaping, StrokeSpacing};
 use gearcut::scene::model::{Scene, TextureWindow, WindowSides};
 use gearcut::terms::Side;
@@ -35,7 +35,7 @@ fn finishing_scene(module_mm: f64, teeth: u32, cutter_teeth: u32, shape: PitchCu
 
 /// Cusps of a flank: rolling distance from the pitch point along the pitch line (positive towards the root) and height,
 /// mm; and the feed in force.
-fn flank_cusps(job: &Job, tooth: u32, side: Side, crossing_arc_mm: f64) -> (Vec<[f64; 2]>, f64) {
+fn flank_cusps(job: &ShapingJob, tooth: u32, side: Side, crossing_arc_mm: f64) -> (Vec<[f64; 2]>, f64) {
     let flank = job.target_flank(tooth, side);
     let cut = job.cut(&Cpu::default(), job.flank_field(flank)).expect("cut");
     let rolled = |arc_mm: f64| job.curve.arc_mm(flank.at_arc(arc_mm).phi_rad) - crossing_arc_mm;
@@ -59,7 +59,7 @@ fn interpolated(table: &[[f64; 2]], x: f64) -> f64 {
 }
 
 /// Compares all cusps inside the table's range with its brute-force heights, in units of the feed's square.
-fn check_cusps(case: &str, job: &Job, tooth: u32, side: Side, crossing_arc_mm: f64) {
+fn check_cusps(case: &str, job: &ShapingJob, tooth: u32, side: Side, crossing_arc_mm: f64) {
     let text = std::fs::read_to_string(data("kinematics.json")).expect("a copy");
     let json: Value = serde_json::from_str(&text).expect("JSON");
     let cases = json["cases"].as_array().expect("cases");
@@ -84,7 +84,7 @@ fn check_cusps(case: &str, job: &Job, tooth: u32, side: Side, crossing_arc_mm: f
 
 #[test]
 fn cusps_on_a_round_gear_are_as_high_as_brute_force_says() {
-    let job = Job::new(finishing_scene(2.0, 30, 25, PitchCurveShape::Circle, 0.35)).expect("a job");
+    let job = ShapingJob::new(finishing_scene(2.0, 30, 25, PitchCurveShape::Circle, 0.35)).expect("a job");
     let pitch_mm = std::f64::consts::PI * 2.0;
     check_cusps("shape_ext_m2_z30_zc25", &job, 4, Side::Left, 3.75 * pitch_mm);
     check_cusps("shape_ext_m2_z30_zc25", &job, 4, Side::Right, 3.25 * pitch_mm);
@@ -118,7 +118,7 @@ fn cusps_on_an_ellipse_are_as_high_as_brute_force_says() {
         (0..2880).map(|i| std::f64::consts::TAU * f64::from(i) / 2880.0).map(|phi| [phi, radius(phi - turn)]).collect();
     let shape = PitchCurveShape::Table { points_rad_mm, scale_to_close: true };
     let scene = finishing_scene(pitch_mm / std::f64::consts::PI, teeth, 27, shape, 0.35);
-    let job = Job::new(scene).expect("a job");
+    let job = ShapingJob::new(scene).expect("a job");
     assert!((job.curve.perimeter_mm() - perimeter_mm).abs() < 1e-4, "{}", job.curve.perimeter_mm());
     check_cusps("shape_ellipse_sharp", &job, 1, Side::Right, 0.25 * pitch_mm);
     check_cusps("shape_ellipse_flat", &job, 10, Side::Left, 9.75 * pitch_mm);
@@ -127,7 +127,7 @@ fn cusps_on_an_ellipse_are_as_high_as_brute_force_says() {
 #[test]
 fn cusps_grow_with_the_square_of_the_feed() {
     let height_at_pitch_point = |feed_mm: f64| {
-        let job = Job::new(finishing_scene(2.0, 30, 25, PitchCurveShape::Circle, feed_mm)).expect("a job");
+        let job = ShapingJob::new(finishing_scene(2.0, 30, 25, PitchCurveShape::Circle, feed_mm)).expect("a job");
         let (mut found, feed_mm) = flank_cusps(&job, 2, Side::Left, 1.75 * std::f64::consts::PI * 2.0);
         found.sort_by(|p, q| p[0].total_cmp(&q[0]));
         interpolated(&found, 0.0) / feed_mm.powi(2)
@@ -160,14 +160,14 @@ fn window(
     }
 }
 
-fn textures(job: &Job) -> Vec<WindowTexture> {
+fn textures(job: &ShapingJob) -> Vec<WindowTexture> {
     let windows = windows(job).expect("windows");
     windows.iter().flat_map(|window| cut_window(job, &Cpu::default(), window).expect("cut")).collect()
 }
 
 #[test]
 fn without_windows_the_extreme_teeth_and_tooth_3_are_taken_whole() {
-    let job = Job::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 360)])).expect("a job");
+    let job = ShapingJob::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 360)])).expect("a job");
     let windows = windows(&job).expect("windows");
     // r is largest at 0 and smallest at 60 deg, a sixth of 42 pitches: beside tooth 1 and beside tooth 7.
     let flanks: Vec<_> = windows.iter().map(|w| (w.tooth, w.side)).collect();
@@ -195,7 +195,7 @@ fn a_window_with_too_few_marks_says_so() {
         let mut scene = finishing_scene(2.0, 30, 25, PitchCurveShape::Circle, 0.3);
         Shaping::of_mut(&mut scene).expect("shaping").operations[0].feed_during_stroke = during_stroke;
         scene.textures = vec![window(3, WindowSides::Left, None, Some(length_mm), 1e-3, Form::Plane)];
-        let textures = textures(&Job::new(scene).expect("a job"));
+        let textures = textures(&ShapingJob::new(scene).expect("a job"));
         let warnings = textures[0].warnings();
         assert_eq!(warnings.len(), directions.len(), "{during_stroke}, {length_mm} mm: {warnings:?}");
         for (warning, direction) in warnings.iter().zip(directions) {
@@ -210,7 +210,7 @@ fn a_window_too_coarse_for_its_marks_says_so() {
     for (spacing_mm, warned) in [(0.02, true), (1e-3, false)] {
         let mut scene = finishing_scene(2.0, 30, 25, PitchCurveShape::Circle, 0.3);
         scene.textures = vec![window(3, WindowSides::Left, None, Some(2.0), spacing_mm, Form::Plane)];
-        let textures = textures(&Job::new(scene).expect("a job"));
+        let textures = textures(&ShapingJob::new(scene).expect("a job"));
         let warnings = textures[0].warnings();
         assert_eq!(!warnings.is_empty(), warned, "{spacing_mm} mm: {warnings:?}");
         for warning in warnings {
@@ -227,7 +227,7 @@ fn a_window_too_coarse_for_its_marks_says_so() {
 #[test]
 fn a_cut_scallop_surface_has_the_fingerprint_of_its_shape() {
     let mut scene = finishing_scene(2.0, 1000, 300, PitchCurveShape::Circle, 0.3);
-    let probe = Job::new(scene.clone()).expect("a job");
+    let probe = ShapingJob::new(scene.clone()).expect("a job");
     let flank = probe.target_flank(7, Side::Left);
     let cut = probe.cut(&Cpu::default(), probe.flank_field(flank)).expect("cut");
     let all = cusps(&cut.field, &cut.layers[0], 0);
@@ -238,7 +238,7 @@ fn a_cut_scallop_surface_has_the_fingerprint_of_its_shape() {
     // Whole marks, from cusp to cusp.
     let (from, to) = (marks[0].arc_mm, marks[10].arc_mm);
     scene.textures = vec![window(7, WindowSides::Left, Some(0.5 * (from + to)), Some(to - from), 2e-4, Form::None)];
-    let job = Job::new(scene).expect("a job");
+    let job = ShapingJob::new(scene).expect("a job");
     let textures = textures(&job);
     assert_eq!(textures[0].marks[1], 10, "ten marks along the profile");
     assert_eq!(textures[0].marks[0], 0, "none along the tooth");
@@ -273,7 +273,7 @@ fn both_linkages_finish_to_the_same_roughness() {
         let mut scene =
             paper_scene(vec![operation("rough", linkage, 2.0, 4200), operation("finish", linkage, 0.0, 360)]);
         scene.textures = vec![window(3, WindowSides::Both, None, Some(5.0), 5e-3, Form::Poly2)];
-        let textures = textures(&Job::new(scene).expect("a job"));
+        let textures = textures(&ShapingJob::new(scene).expect("a job"));
         assert_eq!(textures.len(), 4, "two flanks, two operations");
         textures
             .iter()

@@ -50,7 +50,7 @@ impl Gpu {
         let widths_mm = grid.slice_widths_mm();
         // A ray lies in the tooth over its whole height at most.
         let mut terms = Terms::new(grid.spacing_mm(), 2.02 * operation.tooth.reach_mm, first_room);
-        for (slice, z_mm) in grid.leads_mm.iter().enumerate() {
+        for (slice, z_mm) in grid.slices_z_mm.iter().enumerate() {
             let place = |strokes: &StrokeSet| {
                 passes_at(strokes, set.law.tau(*z_mm), operation.tool, operation.tooth, operation.blank_reach_mm)
             };

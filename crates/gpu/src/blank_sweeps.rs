@@ -108,7 +108,7 @@ impl Gpu {
                 }
             }
             // Progress is told in slices, all of which are as far as the passes are.
-            while advanced < grid.leads_mm.len() * chunk.end / sections.len() {
+            while advanced < grid.slices_z_mm.len() * chunk.end / sections.len() {
                 advanced += 1;
                 if !advance() {
                     return Ok(None);
@@ -160,7 +160,7 @@ impl SliceVisits {
         sections: &SweptSections,
         passes: Range<usize>,
     ) -> Vec<Self> {
-        let leads_mm = &grid.leads_mm[first..first + slices.len()];
+        let slices_z_mm = &grid.slices_z_mm[first..first + slices.len()];
         let left: Vec<[SpanTable; 2]> =
             slices.iter().map(|slice| [0, 1].map(|f: usize| SpanTable::new(&slice.rays[f]))).collect();
         let no_tiles = |f: usize| (0..grid.rows[f].count.div_ceil(TILE_RAYS)).map(|_| Vec::new()).collect();
@@ -168,10 +168,12 @@ impl SliceVisits {
             slices.iter().map(|_| Self { headings: Vec::new(), tiles: [0, 1].map(no_tiles) }).collect();
         let mut memory = Memory::default();
         for pass in passes {
-            if sections.culls() && !memory.band.set(sections, pass, [leads_mm[0], leads_mm[leads_mm.len() - 1]]) {
+            if sections.culls()
+                && !memory.band.set(sections, pass, [slices_z_mm[0], slices_z_mm[slices_z_mm.len() - 1]])
+            {
                 continue;
             }
-            for ((visits, &z_mm), left) in visits.iter_mut().zip(leads_mm).zip(&left) {
+            for ((visits, &z_mm), left) in visits.iter_mut().zip(slices_z_mm).zip(&left) {
                 visits.add(grid, sections, pass, z_mm, left, &mut memory);
             }
         }

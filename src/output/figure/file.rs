@@ -13,7 +13,7 @@ use std::path::Path;
 
 use maud::{Markup, PreEscaped, html};
 
-use super::{Entry, Figure, Plot, Sample};
+use super::{Figure, LegendEntry, Plot, Sample};
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::font;
 use crate::output::letters::{fitting_em_px, text_width_px};
@@ -101,7 +101,7 @@ struct Head<'a> {
 
 enum Item<'a> {
     Name(String),
-    Entry(&'a Entry),
+    Entry(&'a LegendEntry),
 }
 
 impl<'a> Head<'a> {

@@ -25,13 +25,13 @@ pub struct Document {
     pub accessors: Vec<Accessor>,
     pub asset: Asset,
     pub buffers: [Buffer; 1],
-    pub buffer_views: Vec<View>,
+    pub buffer_views: Vec<GltfView>,
     /// Number of the scene that viewers show first.
     pub scene: usize,
     pub materials: [Material; 1],
-    pub meshes: Vec<Mesh>,
-    pub nodes: Vec<Node>,
-    pub scenes: [Scene; 1],
+    pub meshes: Vec<GltfMesh>,
+    pub nodes: Vec<GltfNode>,
+    pub scenes: [GltfScene; 1],
 }
 
 /// Some values of a view.
@@ -73,7 +73,7 @@ pub struct Buffer {
 /// A piece of the binary chunk.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct View {
+pub struct GltfView {
     pub buffer: usize,
     pub byte_length: usize,
     pub byte_offset: usize,
@@ -106,7 +106,7 @@ pub struct MetallicRoughness {
 
 /// One part of the gear.
 #[derive(Serialize)]
-pub struct Mesh {
+pub struct GltfMesh {
     pub name: String,
     pub primitives: [Primitive; 1],
 }
@@ -121,7 +121,7 @@ pub struct Primitive {
 
 /// A part in its place, or the gear with all its parts as children.
 #[derive(Serialize, Default)]
-pub struct Node {
+pub struct GltfNode {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub children: Vec<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -136,7 +136,7 @@ pub struct Node {
 
 /// The nodes that viewers show.
 #[derive(Serialize)]
-pub struct Scene {
+pub struct GltfScene {
     pub name: String,
     pub nodes: [usize; 1],
 }

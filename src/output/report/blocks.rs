@@ -1,6 +1,6 @@
 //! What stands on the page: sections of headings, charts, tables and notes.
 
-use super::texture::{self, TextureWindow};
+use super::texture::{self, TextureBlock};
 use super::traces::{self, TraceSheet};
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
@@ -9,7 +9,7 @@ use maud::{Markup, html};
 
 /// A part of the page with its own heading.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Section {
+pub struct PageSection {
     /// Name in links; lower-case letters.
     pub id: &'static str,
     /// Heading.
@@ -36,9 +36,9 @@ pub enum Block {
     /// The inspector's sheets, side by side.
     Traces(Vec<TraceSheet>),
     /// Rows and columns.
-    Table(Table),
+    Table(PageTable),
     /// A texture window.
-    Texture(TextureWindow),
+    Texture(TextureBlock),
     /// Blocks that are folded away until asked for.
     Folded(String, Vec<Block>),
     /// Text as it is, such as a scene.
@@ -47,7 +47,7 @@ pub enum Block {
 
 /// A table.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Table {
+pub struct PageTable {
     /// What it shows.
     pub caption: String,
     /// Heads of the columns; empty for a list of names and values.
@@ -56,7 +56,7 @@ pub struct Table {
     pub rows: Vec<Vec<String>>,
 }
 
-impl Section {
+impl PageSection {
     /// The section as HTML.
     pub(super) fn markup(&self) -> Markup {
         let title_id = format!("{}-title", self.id);
@@ -89,7 +89,7 @@ impl Block {
     }
 }
 
-impl Table {
+impl PageTable {
     /// The table as HTML.
     pub(super) fn markup(&self) -> Markup {
         // A column of numbers is set to the right.
@@ -104,13 +104,23 @@ impl Table {
                 table class=(if self.columns.is_empty() { "list" } else { "" }) {
                     caption { (self.caption) }
                     @if !self.columns.is_empty() {
-                        thead { tr { @for (index, column) in self.columns.iter().enumerate() { th scope="col" class=(class(index)) { (column) } } } }
+                        thead {
+                            tr {
+                                @for (index, column) in self.columns.iter().enumerate() {
+                                    th scope="col" class=(class(index)) { (column) }
+                                }
+                            }
+                        }
                     }
                     tbody {
                         @for row in &self.rows {
                             tr {
                                 @for (index, cell) in row.iter().enumerate() {
-                                    @if index == 0 { th scope="row" class=(class(0)) { (cell) } } @else { td class=(class(index)) { (cell) } }
+                                    @if index == 0 {
+                                        th scope="row" class=(class(0)) { (cell) }
+                                    } @else {
+                                        td class=(class(index)) { (cell) }
+                                    }
                                 }
                             }
                         }

@@ -4,7 +4,11 @@ use maud::{Markup, html};
 
 /// The 3D view, the picker and the map: empty frames that the scripts fill.
 pub fn gear_frame() -> Markup {
-    let turn = |action: &str, words: &str, label: &str| html! { button type="button" data-view=(action) title=(label) aria-label=(label) { (words) } };
+    let turn = |action: &str, words: &str, label: &str| {
+        html! {
+            button type="button" data-view=(action) title=(label) aria-label=(label) { (words) }
+        }
+    };
     html! {
         section id="gear" aria-labelledby="gear-title" {
             h2 id="gear-title" { "Gear and maps" }
@@ -12,7 +16,8 @@ pub fn gear_frame() -> Markup {
                 not." } }
             div class="viewer" {
                 div class="stage" {
-                    canvas id="gear-view" tabindex="0" role="application" aria-label="The gear in three dimensions" aria-describedby="gear-help" {}
+                    canvas id="gear-view" tabindex="0" role="application"
+                        aria-label="The gear in three dimensions" aria-describedby="gear-help" {}
                     p id="gear-failed" class="warning" hidden { "This browser gives no WebGL 2: the gear cannot be \
                         drawn. Maps and charts work without it." }
                     div class="stage-tools" role="toolbar" aria-label="View" {
@@ -30,7 +35,8 @@ pub fn gear_frame() -> Markup {
                         span id="tooth-label" { "Tooth" }
                         div class="stepper" {
                             button type="button" id="tooth-before" aria-label="Tooth before" { "‹" }
-                            input id="tooth" type="number" inputmode="numeric" min="1" step="1" aria-labelledby="tooth-label";
+                            input id="tooth" type="number" inputmode="numeric" min="1" step="1"
+                                aria-labelledby="tooth-label";
                             button type="button" id="tooth-after" aria-label="Tooth after" { "›" }
                         }
                     }
@@ -39,7 +45,10 @@ pub fn gear_frame() -> Markup {
                         label { input type="radio" name="side" value="left" checked; span { "left" } }
                         label { input type="radio" name="side" value="right"; span { "right" } }
                     }
-                    div class="field bar" { span id="bar-name" {} canvas id="bar" role="img" aria-labelledby="bar-name" {} }
+                    div class="field bar" {
+                        span id="bar-name" {}
+                        canvas id="bar" role="img" aria-labelledby="bar-name" {}
+                    }
                     p id="quantity-definition" class="note" {}
                     dl id="flank-numbers" class="flank-numbers" {}
                 }
@@ -51,7 +60,8 @@ pub fn gear_frame() -> Markup {
             }
             figure class="chart map" {
                 figcaption id="map-title" {}
-                canvas id="map" tabindex="0" role="application" aria-labelledby="map-title" aria-describedby="map-help" {}
+                canvas id="map" tabindex="0" role="application" aria-labelledby="map-title"
+                    aria-describedby="map-help" {}
                 div class="x-name" { "v: along the tooth from the middle of the face [mm]" }
                 output id="map-readout" class="readout-line" aria-live="polite" {}
                 p id="map-help" class="note" { "Point at a place, or move the cross with the arrow keys, to read its \

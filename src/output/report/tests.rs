@@ -61,7 +61,7 @@ fn page() -> Page {
             }],
             body: crate::surface::triangles::Triangles::default(),
         }),
-        sections: vec![Section {
+        sections: vec![PageSection {
             id: "all",
             title: HOSTILE.into(),
             lead: HOSTILE.into(),
@@ -69,7 +69,7 @@ fn page() -> Page {
                 Block::Heading(HOSTILE.into()),
                 Block::Note(HOSTILE.into()),
                 Block::Lines(chart(HOSTILE)),
-                Block::Table(Table {
+                Block::Table(PageTable {
                     caption: HOSTILE.into(),
                     columns: vec![HOSTILE.into()],
                     rows: vec![vec![HOSTILE.into()]],

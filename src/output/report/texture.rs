@@ -1,6 +1,6 @@
 //! Texture windows in the report: parameters, material ratio curve, and how Sk is constructed on it.
 //!
-//! In: one [`TextureWindow`] per window, plain numbers as ISO 25178-2 defines them. Out: markup.
+//! In: one [`TextureBlock`] per window, plain numbers as ISO 25178-2 defines them. Out: markup.
 
 use maud::{Markup, html};
 
@@ -8,13 +8,13 @@ use crate::output::ratio_chart::RatioChart;
 
 /// One evaluated window of a flank.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TextureWindow {
+pub struct TextureBlock {
     /// What and where, such as "tooth 3, left flank, 2 x 2 mm about u 3.0, v 0.0 mm".
     pub title: String,
     /// The chain that was applied: form removal, filters.
     pub chain: String,
     /// All parameters.
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<ParameterRow>,
     /// What limits trust in the numbers.
     pub warnings: Vec<String>,
     /// A picture of the surface as PNG, if there is one.
@@ -25,7 +25,7 @@ pub struct TextureWindow {
 
 /// A parameter as it is shown.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Parameter {
+pub struct ParameterRow {
     /// Symbol of the standard.
     pub symbol: String,
     /// Value with its unit, or why there is none.
@@ -41,7 +41,7 @@ const FIRST: [&str; 18] = [
 ];
 
 /// One window.
-pub fn window(window: &TextureWindow) -> Markup {
+pub fn window(window: &TextureBlock) -> Markup {
     html! {
         article class="texture" {
             h3 { (window.title) }
@@ -68,8 +68,8 @@ pub fn window(window: &TextureWindow) -> Markup {
 }
 
 /// The best-known parameters, and why some of them do not exist.
-fn first_parameters(window: &TextureWindow) -> Markup {
-    let first: Vec<&Parameter> =
+fn first_parameters(window: &TextureBlock) -> Markup {
+    let first: Vec<&ParameterRow> =
         FIRST.iter().filter_map(|name| window.parameters.iter().find(|p| p.symbol == *name)).collect();
     // One reason often holds for several parameters.
     let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
@@ -96,14 +96,14 @@ fn first_parameters(window: &TextureWindow) -> Markup {
 }
 
 /// Every parameter with its definition, or with the reason why it does not exist.
-fn all_parameters(window: &TextureWindow) -> super::Table {
-    let row = |parameter: &Parameter| match &parameter.value {
+fn all_parameters(window: &TextureBlock) -> super::PageTable {
+    let row = |parameter: &ParameterRow| match &parameter.value {
         Ok(value) => vec![parameter.symbol.clone(), value.clone(), parameter.definition.clone()],
         Err(why) => {
             vec![parameter.symbol.clone(), "–".to_owned(), format!("{}; none here: {why}", parameter.definition)]
         }
     };
-    super::Table {
+    super::PageTable {
         caption: "Parameters after the chain".to_owned(),
         columns: ["Symbol", "Value", "Definition"].map(str::to_owned).to_vec(),
         rows: window.parameters.iter().map(row).collect(),
@@ -114,13 +114,13 @@ fn all_parameters(window: &TextureWindow) -> super::Table {
 mod tests {
     use super::*;
     use crate::output::ratio_chart::SkConstruction;
-    use crate::output::report::{Block, Page, Section};
+    use crate::output::report::{Block, Page, PageSection};
 
     /// A row of parabolic feed marks of 1 um: the ratio curve is (1 - p)^2, its core line in closed form.
-    fn scallops() -> TextureWindow {
+    fn scallops() -> TextureBlock {
         let mean = 1.0 / 3.0;
         let height = |ratio: f64| (1.0 - ratio).powi(2) - mean;
-        TextureWindow {
+        TextureBlock {
             title: "tooth 3, <left> flank".into(),
             chain: "plane removed; no filter".into(),
             parameters: [
@@ -133,7 +133,11 @@ mod tests {
             .map(|(symbol, value)| (symbol, Ok(value.to_owned())))
             .into_iter()
             .chain([("Str", Err("as along <feed> marks".to_owned()))])
-            .map(|(symbol, value)| Parameter { symbol: symbol.into(), value, definition: "of parabolic marks".into() })
+            .map(|(symbol, value)| ParameterRow {
+                symbol: symbol.into(),
+                value,
+                definition: "of parabolic marks".into(),
+            })
             .collect(),
             warnings: vec!["fewer than five marks".into()],
             png: None,
@@ -163,7 +167,7 @@ mod tests {
         assert!(text.contains(r#"class="curve s1" d="M52 "#), "{text}");
         assert!(text.contains(r#"class="dimension""#));
         if let Some(folder) = std::env::var_os("GEARCUT_KEEP") {
-            let section = Section {
+            let section = PageSection {
                 id: "texture",
                 title: "Texture".into(),
                 lead: String::new(),

@@ -131,7 +131,9 @@ impl TraceSheet {
             @for (row, (name, value)) in trace.figures.iter().enumerate() {
                 @let at = px(bottom + 8.0 + ROW * (row as f64 + 0.75));
                 text class="figure-name" x=(px(zero - half)) y=(at) { (name) }
-                text class="figure end" x=(px(zero + half)) y=(at) { (value.map_or_else(|| "–".to_owned(), value_text)) }
+                text class="figure end" x=(px(zero + half)) y=(at) {
+                    (value.map_or_else(|| "–".to_owned(), value_text))
+                }
             }
         }
     }

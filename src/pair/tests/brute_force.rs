@@ -100,7 +100,7 @@ fn kinked_chains_touch_at_their_corners() {
     let points = vec![beside(0.43).point_mm, crest.point_mm + 1e-3 * crest.normal, beside(0.45).point_mm];
     let kinked = FlankChain::straight(points);
     let polar = PolarFlank::new(driven.get(Side::Right, 4)).expect("a flank");
-    let stand = crate::pair::contact::Stand {
+    let stand = crate::pair::contact::PairPose {
         phi_1_rad: at.phi_1_rad,
         axis_2_mm: pair.axis_mm(Member::Driven),
         phi_2_rad: at.phi_2_rad,

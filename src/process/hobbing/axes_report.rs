@@ -1,9 +1,9 @@
 //! How a hobbing machine has to move: what hobbing adds to the axes' tables, charts and peaks.
 //!
-//! In: a prepared [`HobbingJob`]. Out: [`HobbingAxesReport`] for the shared steps ([`crate::steps::axes`]): feeds, ways,
-//! times and marks for the terminal, and in `axes/` per operation `<operation>.csv` (even steps of time over the whole
-//! operation), `<operation>_velocities` over the polar angle and `<operation>_accelerations` over time, both for one
-//! cycle in the middle of the cut (as figures 4 and 5 of Liu et al. 2013 and 5 and 6 of Liu et al. 2015),
+//! In: a prepared [`HobbingJob`]. Out: [`HobbingAxesReport`] for the shared steps ([`crate::steps::axes`]): feeds,
+//! travel, times and marks for the terminal, and in `axes/` per operation `<operation>.csv` (even steps of time over
+//! the whole operation), `<operation>_velocities` over the polar angle and `<operation>_accelerations` over time, both
+//! for one cycle in the middle of the cut (as figures 4 and 5 of Liu et al. 2013 and 5 and 6 of Liu et al. 2015),
 //! `<operation>_path` with slide, shift and infeed; before anything is cut also, for the first operation,
 //! `<operation>_teeth`: how the hob's teeth share one transverse section. Once the blank is cut, the volumes of all
 //! passes say it better ([`super::measure::hob_load`]).

@@ -1,15 +1,15 @@
 //! Cutting a hobbing job: the passes of all operations, the dexel field of every flank.
 //!
 //! In: [`HobbingJob`]. Out: fields and layers, one flank at a time, so that memory does not grow with the number of
-//! teeth. Of every flank only the target stays, once somebody has asked for it: some ten kilobytes of polynomials, found
-//! by nested searches that take longer than a thousand dexels.
+//! teeth. Of every flank only the target stays, once somebody has asked for it: some ten kilobytes of polynomials,
+//! found by nested searches that take longer than a thousand dexels.
 
 use super::HobbingJob;
 use crate::cut::{Backend, CutStats};
 use crate::dexel::PlacedRays;
 use crate::dexel::{Layer, SpatialField};
 use crate::error::{Refusal, Result};
-use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, leads_mm};
+use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, rows_z_mm};
 use crate::passes::{MotionTable, SweepPlan, TurningPasses};
 use crate::process::hobbing::flank_patch::FlankPatch;
 use crate::terms::Side;
@@ -92,7 +92,7 @@ impl<'a> HobCutter<'a> {
         let length_mm = target.length_mm();
         let columns = (length_mm / fields.profile_spacing_mm).round().max(1.0) as usize;
         let arcs_mm = (0..=columns).map(|i| length_mm * i as f64 / columns as f64).collect();
-        [arcs_mm, leads_mm(self.job.scene.gear.face_width_mm, fields.lead_spacing_mm)]
+        [arcs_mm, rows_z_mm(self.job.scene.gear.face_width_mm, fields.lead_spacing_mm)]
     }
 
     /// Rays of a flank with the scene's spacing.
@@ -101,13 +101,13 @@ impl<'a> HobCutter<'a> {
     /// A flank without a target.
     pub fn rays(&self, tooth: u32, side: Side) -> Result<(&FlankPatch, PlacedRays), Refusal> {
         let target = self.target(tooth, side)?;
-        let [arcs_mm, leads_mm] = self.places_mm(target);
-        Ok((target, self.rays_over(target, arcs_mm, leads_mm)))
+        let [arcs_mm, rows_z_mm] = self.places_mm(target);
+        Ok((target, self.rays_over(target, arcs_mm, rows_z_mm)))
     }
 
     /// Rays of a part of a flank: places along the profile, arcs of the middle section from where the patch begins, and
     /// along the tooth, mm.
-    pub fn rays_over(&self, target: &FlankPatch, arcs_mm: Vec<f64>, leads_mm: Vec<f64>) -> PlacedRays {
+    pub fn rays_over(&self, target: &FlankPatch, arcs_mm: Vec<f64>, rows_z_mm: Vec<f64>) -> PlacedRays {
         let job = self.job;
         let gear = &job.scene.gear;
         let width_mm = gear.face_width_mm;
@@ -134,12 +134,12 @@ impl<'a> HobCutter<'a> {
                 + p * ((1.0 - q) * at(i + 1, j) + q * at(i + 1, j + 1))
         };
         let shares: Vec<f64> = arcs_mm.iter().map(|&arc| target.share_at(arc)).collect();
-        let sections: Vec<_> = leads_mm.iter().map(|&lead| target.section(lead)).collect();
+        let sections: Vec<_> = rows_z_mm.iter().map(|&z_mm| target.section(z_mm)).collect();
         let low_mm = -RAY_DEPTH_MODULES * gear.module_mm;
-        let field = SpatialField::new(arcs_mm.len(), leads_mm.len(), low_mm, |column, row| {
-            (sections[row].ray(shares[column]), blank_at(shares[column], leads_mm[row] / width_mm + 0.5))
+        let field = SpatialField::new(arcs_mm.len(), rows_z_mm.len(), low_mm, |column, row| {
+            (sections[row].ray(shares[column]), blank_at(shares[column], rows_z_mm[row] / width_mm + 0.5))
         });
-        PlacedRays { field, arcs_mm, leads_mm }
+        PlacedRays { field, arcs_mm, rows_z_mm }
     }
 
     /// Runs all operations over a field.

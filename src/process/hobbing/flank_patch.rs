@@ -63,7 +63,7 @@ pub struct FlankPatch {
 
 /// One section of a patch: polynomials along the profile.
 #[derive(Debug, Clone)]
-pub struct Section {
+pub struct PatchSection {
     coefficients: Vec<[f64; PARTS]>,
 }
 
@@ -150,9 +150,9 @@ impl FlankPatch {
     }
 
     /// Section at `z_mm` (from the middle of the face).
-    pub fn section(&self, z_mm: f64) -> Section {
+    pub fn section(&self, z_mm: f64) -> PatchSection {
         let y = 2.0 * z_mm / self.face_width_mm;
-        Section { coefficients: self.coefficients.iter().map(|along| clenshaw(along, y)).collect() }
+        PatchSection { coefficients: self.coefficients.iter().map(|along| clenshaw(along, y)).collect() }
     }
 }
 
@@ -186,7 +186,7 @@ impl FlankPatch {
     }
 }
 
-impl Section {
+impl PatchSection {
     /// Ray at a share of the roll, 0 at the beginning and 1 at the tip.
     pub fn ray(&self, share: f64) -> Ray {
         let [x, y, z, nx, ny, nz] = clenshaw(&self.coefficients, 2.0 * share - 1.0);

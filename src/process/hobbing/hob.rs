@@ -87,7 +87,7 @@ pub struct Hob {
     /// Teeth in blade order.
     pub teeth: Vec<HobTooth>,
     edge: Edge,
-    flank: Flank,
+    flank: RakeFlank,
     rake_twist_rad_per_mm: f64,
 }
 
@@ -120,7 +120,7 @@ impl HobTooth {
 
 /// Left flank in the rake face over its distance from the axis.
 #[derive(Debug, Clone)]
-struct Flank {
+struct RakeFlank {
     worm: Worm,
     /// Distance from the axis before regrinding at which the half thickness is `half_mm`.
     reference_radius_mm: f64,
@@ -133,7 +133,7 @@ struct Flank {
     regrind_mm: f64,
 }
 
-impl Flank {
+impl RakeFlank {
     /// Half thickness (rake face) and its derivative at a radius of the new hob.
     fn half_and_slope(&self, radius_mm: f64) -> [f64; 2] {
         let [drop, slope] = match self.worm {
@@ -154,7 +154,7 @@ impl Flank {
     }
 }
 
-impl BladeCurve for Flank {
+impl BladeCurve for RakeFlank {
     fn point_and_rate(&self, radius_mm: f64) -> [DVec2; 2] {
         let [half, slope] = self.half_and_slope(radius_mm);
         [DVec2::new(radius_mm - self.regrind_mm, half), DVec2::new(1.0, slope)]
@@ -223,7 +223,7 @@ impl Hob {
             GashForm::Axial => (1.0, 0.0),
             GashForm::Helical => (cos_lead * cos_lead, spec.hand.sign() * tan_lead / new_pitch_radius_mm),
         };
-        let flank = Flank {
+        let flank = RakeFlank {
             worm: spec.worm,
             reference_radius_mm: new_pitch_radius_mm,
             half_mm: 0.5 * (0.5 * PI * m - spec.thinning_mm) / cos_lead,
@@ -294,7 +294,7 @@ impl Hob {
 /// Segments of one tooth, right root to left root, and the radius where the flank proper ends.
 fn tooth_edge(
     spec: &model::Hob,
-    flank: &Flank,
+    flank: &RakeFlank,
     [root_mm, tip_mm]: [f64; 2],
     pitch_mm: f64,
     module_mm: f64,

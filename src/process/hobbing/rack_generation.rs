@@ -221,7 +221,7 @@ impl RackGeneration {
         let on_corner = self.corner_arc_at_height_mm(blank, space, side, height_mm, z_mm).map(|arc| corner_at(arc).1);
         match (on_flank, on_corner) {
             // The tooth of a left flank lies at the low arc: what reaches further that way has removed more.
-            (Some(flank), Some(corner)) if e * (flank.foot_arc_mm - corner.foot_arc_mm) > CORNER_SLACK_MM => {
+            (Some(flank), Some(corner)) if e * (flank.foot_arc_mm - corner.foot_arc_mm) > CORNER_TOLERANCE_MM => {
                 Some(corner)
             }
             (Some(flank), _) => Some(flank),
@@ -294,7 +294,7 @@ const CORNER_STEPS: u32 = 20;
 /// A height nearer to 0 than this is 0, mm.
 const ZERO_MM: f64 = 1e-13;
 /// Corner and flank meet tangentially where nothing is undercut; closer than this they are one.
-const CORNER_SLACK_MM: f64 = 1e-9;
+const CORNER_TOLERANCE_MM: f64 = 1e-9;
 
 /// Where a flank begins.
 #[derive(Debug, Clone, Copy, PartialEq)]

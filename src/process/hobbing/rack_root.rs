@@ -2,7 +2,7 @@
 //!
 //! In: the rack's generation, a space, the rolls at which both flanks' fields begin. Out: points of the root with their
 //! normals, from the left flank of the space (low arc) to the right one, equally many in every section, so that
-//! sections can be sewn together.
+//! sections can be lofted.
 //!
 //! **Law.** Five pieces: the left flank from where its field begins down to its own form point, the path of the left
 //! corner, the tip line, and both again for the right flank. Every piece touches its tool on a normal through the pitch

@@ -8,7 +8,7 @@ use crate::findings::{self, Findings};
 use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
-use crate::output::report::{Block, Page, Section, Table};
+use crate::output::report::{Block, Page, PageSection, PageTable};
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::{HobCutter, HobbedGear};
@@ -90,8 +90,8 @@ fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
     }
 }
 
-fn five_curves(chart: LineChart) -> Section {
-    Section {
+fn five_curves(chart: LineChart) -> PageSection {
+    PageSection {
         id: "curves",
         title: "Points on five curves".to_owned(),
         lead: "Where five curves beside the pitch curve cross every flank in the middle of the face, as cut less as \
@@ -101,7 +101,7 @@ fn five_curves(chart: LineChart) -> Section {
     }
 }
 
-fn marks_section(found: &Findings) -> Section {
+fn marks_section(found: &Findings) -> PageSection {
     let text = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(|| "–".to_owned(), text);
     let mm = |length: f64| format!("{length:.3}");
     // Rounded first, so that no zero bears a sign.
@@ -130,14 +130,14 @@ fn marks_section(found: &Findings) -> Section {
         "Apart [mm]",
         "Apart [°]",
     ];
-    Section {
+    PageSection {
         id: "marks",
         title: "Cutting marks".to_owned(),
         lead:
             "The shortest two steps from mark to mark on the flank at the pitch line: from the machine's motion, and \
             independently from the autocorrelation of the heights as cut."
                 .to_owned(),
-        blocks: vec![Block::Table(Table {
+        blocks: vec![Block::Table(PageTable {
             caption: "Lattice of cutting marks".to_owned(),
             columns: columns.map(str::to_owned).into(),
             rows: rows.collect(),
@@ -146,8 +146,8 @@ fn marks_section(found: &Findings) -> Section {
 }
 
 /// Nothing where the run was stopped before the whole blank was cut.
-fn load_section(found: &Findings, charts: Vec<(String, BarChart)>) -> Option<Section> {
-    (!charts.is_empty()).then(|| Section {
+fn load_section(found: &Findings, charts: Vec<(String, BarChart)>) -> Option<PageSection> {
+    (!charts.is_empty()).then(|| PageSection {
         id: "load",
         title: "Work of the hob's teeth".to_owned(),
         lead: format!(

@@ -12,7 +12,7 @@ use crate::dexel::{Layer, Ray, SpatialField};
 use crate::error::Result;
 use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
-use crate::job::{GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, band_mm, leads_mm};
+use crate::job::{GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, band_mm, rows_z_mm};
 use crate::process::hobbing::cutter::HobCutter;
 use crate::process::hobbing::measure::flank_report;
 use crate::process::hobbing::rack_root::RackRootPoint;
@@ -64,10 +64,10 @@ impl GearJob for HobCutter<'_> {
         Ok(flank_report::evaluated_mm([0.0, self.target(tooth, side)?.length_mm()]))
     }
 
-    fn view_leads_mm(&self) -> Vec<f64> {
+    fn view_rows_z_mm(&self) -> Vec<f64> {
         let gear = &self.job.scene.gear;
         let spacing_mm = if gear.helix_angle_rad == 0.0 { f64::INFINITY } else { VIEW_SECTION_MM };
-        leads_mm(gear.face_width_mm, spacing_mm)
+        rows_z_mm(gear.face_width_mm, spacing_mm)
     }
 
     fn target_profiles(
@@ -75,21 +75,21 @@ impl GearJob for HobCutter<'_> {
         tooth: u32,
         side: Side,
         spacing_mm: f64,
-        leads_mm: &[f64],
+        rows_z_mm: &[f64],
     ) -> Result<(Vec<f64>, Vec<Profile>)> {
         let target = self.target(tooth, side)?;
         let intervals = (target.length_mm() / spacing_mm).ceil().max(1.0);
         let arcs: Vec<f64> = (0..=intervals as usize).map(|i| target.length_mm() * i as f64 / intervals).collect();
         let shares: Vec<f64> = arcs.iter().map(|&arc| target.share_at(arc)).collect();
-        let profile = |&lead: &f64| {
-            let section = target.section(lead);
+        let profile = |&z_mm: &f64| {
+            let section = target.section(z_mm);
             shares.iter().map(|&share| section.ray(share)).map(|ray| (ray.origin_mm.truncate(), ray.normal)).collect()
         };
-        Ok((arcs, leads_mm.iter().map(profile).collect()))
+        Ok((arcs, rows_z_mm.iter().map(profile).collect()))
     }
 
-    fn target_roots(&self, space: u32, spacing_mm: f64, leads_mm: &[f64]) -> Result<Vec<Profile>> {
-        let roots = self.roots(space, spacing_mm, leads_mm)?;
+    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<Profile>> {
+        let roots = self.roots(space, spacing_mm, rows_z_mm)?;
         Ok(roots
             .into_iter()
             .map(|root| root.into_iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect())
@@ -102,29 +102,29 @@ impl GearJob for HobCutter<'_> {
         tooth: u32,
         side: Side,
         arcs_mm: &[f64],
-        leads_mm: &[f64],
+        rows_z_mm: &[f64],
     ) -> Result<Vec<Layer>> {
-        let rays = self.rays_over(self.target(tooth, side)?, arcs_mm.to_vec(), leads_mm.to_vec());
+        let rays = self.rays_over(self.target(tooth, side)?, arcs_mm.to_vec(), rows_z_mm.to_vec());
         Ok(self.cut_field(backend, &rays.field)?.0)
     }
 
     fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid> {
         let target = self.target(tooth, side)?;
-        let [arcs_mm, leads_mm] = self.places_mm(target);
-        let rays = self.rays_over(target, arcs_mm, band_mm(leads_mm, reach_mm));
+        let [arcs_mm, rows_z_mm] = self.places_mm(target);
+        let rays = self.rays_over(target, arcs_mm, band_mm(rows_z_mm, reach_mm));
         self.surface(backend, &rays, self.job.scene.fields.profile_spacing_mm)
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {
         let job = self.job;
-        let leads_mm = leads_mm(job.scene.gear.face_width_mm, TIP_SPACING_MM[1]);
+        let rows_z_mm = rows_z_mm(job.scene.gear.face_width_mm, TIP_SPACING_MM[1]);
         let flanks = [self.target(tooth, Side::Right)?, self.target(tooth, Side::Left)?];
         // Ends of the tip land in every section, as arcs of the pitch curve.
-        let ends: Vec<[f64; 2]> = leads_mm
+        let ends: Vec<[f64; 2]> = rows_z_mm
             .iter()
-            .map(|&lead| {
+            .map(|&z_mm| {
                 flanks.map(|flank| {
-                    let tip_mm = flank.section(lead).ray(1.0).origin_mm.truncate();
+                    let tip_mm = flank.section(z_mm).ray(1.0).origin_mm.truncate();
                     job.curve.arc_mm(job.blank.height(tip_mm, tip_mm.to_angle()).1)
                 })
             })
@@ -140,14 +140,14 @@ impl GearJob for HobCutter<'_> {
             return Ok(None);
         }
         let share = |column: usize| (column as f64 + 0.5) / count;
-        let field = self.field(count as usize, &leads_mm, |column, row| {
+        let field = self.field(count as usize, &rows_z_mm, |column, row| {
             let [from, to] = ends[row];
             let frame = job.curve.frame(job.curve.phi_at_arc(from + (to - from) * share(column)));
             (frame.point_mm, frame.normal, job.blank.addendum_mm)
         });
         let [from, to] = ends[ends.len() / 2];
         let arcs_mm = (0..count as usize).map(|column| (to - from) * share(column)).collect();
-        let rays = PlacedRays { field, arcs_mm, leads_mm };
+        let rays = PlacedRays { field, arcs_mm, rows_z_mm };
         let spacing_mm = job.scene.output.mesh_spacing_mm;
         if self.tops_the_gear() {
             return self.surface(backend, &rays, spacing_mm).map(Some);
@@ -163,19 +163,19 @@ impl HobCutter<'_> {
     /// The hob generates no flank there; the backend's.
     pub fn root_surface(&self, backend: &dyn Backend, space: u32) -> Result<SurfaceGrid> {
         let fields = self.job.scene.fields;
-        let leads_mm = leads_mm(self.job.scene.gear.face_width_mm, fields.lead_spacing_mm.max(ROOT_SPACING_MM[1]));
-        let roots = self.roots(space, fields.profile_spacing_mm.max(ROOT_SPACING_MM[0]), &leads_mm)?;
+        let rows_z_mm = rows_z_mm(self.job.scene.gear.face_width_mm, fields.lead_spacing_mm.max(ROOT_SPACING_MM[1]));
+        let roots = self.roots(space, fields.profile_spacing_mm.max(ROOT_SPACING_MM[0]), &rows_z_mm)?;
         let target = &self.job.target;
         // In every section a point in the middle of the space, half way down.
-        let focus: Vec<DVec2> = leads_mm
+        let focus: Vec<DVec2> = rows_z_mm
             .iter()
-            .map(|&lead| {
-                let arc_mm = target.space_arc_mm(i64::from(space), lead);
+            .map(|&z_mm| {
+                let arc_mm = target.space_arc_mm(i64::from(space), z_mm);
                 let frame = self.job.curve.frame(self.job.curve.phi_at_arc(arc_mm));
                 frame.point_mm - 0.5 * target.rack.tip_height_mm * frame.normal
             })
             .collect();
-        let field = self.field(roots[0].len(), &leads_mm, |column, row| {
+        let field = self.field(roots[0].len(), &rows_z_mm, |column, row| {
             let root = &roots[row];
             let (point, last) = (root[column], root[root.len() - 1]);
             let to_focus = focus[row] - point.point_mm;
@@ -187,7 +187,7 @@ impl HobCutter<'_> {
             (point.point_mm, direction.normalize_or(point.normal), FOCUS_SHARE * to_focus.length())
         });
         let arcs_mm = roots[roots.len() / 2].iter().map(|point| point.arc_mm).collect();
-        self.surface(backend, &PlacedRays { field, arcs_mm, leads_mm }, self.job.scene.output.mesh_spacing_mm)
+        self.surface(backend, &PlacedRays { field, arcs_mm, rows_z_mm }, self.job.scene.output.mesh_spacing_mm)
     }
 
     /// Whether the hob's roots come down to the blank's outline at full depth. If they do not, no edge reaches a tip
@@ -199,30 +199,30 @@ impl HobCutter<'_> {
     }
 
     /// Root of the space after tooth `space` in every section.
-    fn roots(&self, space: u32, spacing_mm: f64, leads_mm: &[f64]) -> Result<Vec<Vec<RackRootPoint>>> {
+    fn roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<Vec<RackRootPoint>>> {
         let job = self.job;
         let after = space % job.scene.gear.teeth + 1;
         let starts = [self.target(space, Side::Left)?.form_roll_mm, self.target(after, Side::Right)?.form_roll_mm];
-        let root = |lead: f64, count| job.target.root(&job.blank, i64::from(space), starts, lead, count);
+        let root = |z_mm: f64, count| job.target.root(&job.blank, i64::from(space), starts, z_mm, count);
         let length_mm = root(0.0, 2)[1].arc_mm;
         let count = (length_mm / spacing_mm).ceil().max(8.0) as usize + 1;
         if job.target.is_straight() {
-            return Ok(vec![root(0.0, count); leads_mm.len()]);
+            return Ok(vec![root(0.0, count); rows_z_mm.len()]);
         }
-        Ok(leads_mm.iter().map(|&lead| root(lead, count)).collect())
+        Ok(rows_z_mm.iter().map(|&z_mm| root(z_mm, count)).collect())
     }
 
     /// Rays across the gear's axis: origin, direction and height of the blank of each.
     fn field(
         &self,
         columns: usize,
-        leads_mm: &[f64],
+        rows_z_mm: &[f64],
         ray: impl Fn(usize, usize) -> (DVec2, DVec2, f64),
     ) -> SpatialField {
         let low_mm = -RAY_DEPTH_MODULES * self.job.scene.gear.module_mm;
-        SpatialField::new(columns, leads_mm.len(), low_mm, |column, row| {
+        SpatialField::new(columns, rows_z_mm.len(), low_mm, |column, row| {
             let (origin, normal, blank_mm) = ray(column, row);
-            (Ray { origin_mm: origin.extend(leads_mm[row]), normal: normal.extend(0.0) }, blank_mm)
+            (Ray { origin_mm: origin.extend(rows_z_mm[row]), normal: normal.extend(0.0) }, blank_mm)
         })
     }
 

@@ -1,8 +1,8 @@
 //! How a gear shaper has to move: what shaping adds to the axes' tables, charts and peaks.
 //!
-//! In: a prepared [`Job`]. Out: [`OperationAxes`] for the shared steps ([`crate::steps::axes`]): facts for the terminal,
-//! clearance on the return stroke as findings, and in `axes/` per operation `<operation>.csv` (one row per stroke) and
-//! the charts `_positions`, `_velocities`, `_accelerations` and `_relief`.
+//! In: a prepared [`ShapingJob`]. Out: [`OperationAxes`] for the shared steps ([`crate::steps::axes`]): facts for the
+//! terminal, clearance on the return stroke as findings, and in `axes/` per operation `<operation>.csv` (one row per
+//! stroke) and the charts `_positions`, `_velocities`, `_accelerations` and `_relief`.
 //!
 //! The laws stand in [`crate::process::shaping::linkage::dynamics`] and [`crate::process::shaping::linkage::relief`].
 
@@ -19,7 +19,7 @@ use crate::output::text::Sheet;
 use crate::process::shaping::linkage::dynamics;
 use crate::process::shaping::linkage::relief;
 use crate::process::shaping::linkage::relief::{ReliefFlank, SmallestRelief};
-use crate::process::shaping::{Job, PreparedOperation};
+use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes::{AxesOfOperation, Named, NamedChart, PeakWords};
 use crate::units::{TURN_RAD, UM_PER_MM};
 use std::path::Path;
@@ -43,7 +43,7 @@ const PEAK_WORDS: PeakWords = PeakWords {
 /// What one operation asks of the machine.
 #[derive(Debug)]
 pub struct OperationAxes<'a> {
-    job: &'a Job,
+    job: &'a ShapingJob,
     index: usize,
     peaks: Vec<Peak>,
     /// Where the return stroke has the least clearance.
@@ -60,7 +60,7 @@ pub struct OperationAxes<'a> {
 
 impl<'a> OperationAxes<'a> {
     /// Peaks and relief of operation `index` of a job.
-    pub fn new(job: &'a Job, index: usize) -> Self {
+    pub fn new(job: &'a ShapingJob, index: usize) -> Self {
         let PreparedOperation { spec, linkage, schedule, .. } = &job.operations[index];
         let beta = |phi: f64| {
             let motion = linkage.pose_motion(phi, spec.offset_mm);
@@ -83,7 +83,7 @@ impl<'a> OperationAxes<'a> {
     }
 
     /// Of all operations of a job, in order.
-    pub fn of_job(job: &'a Job) -> Vec<Self> {
+    pub fn of_job(job: &'a ShapingJob) -> Vec<Self> {
         (0..job.operations.len()).map(|index| Self::new(job, index)).collect()
     }
 

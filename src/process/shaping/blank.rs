@@ -1,6 +1,6 @@
 //! The whole stock of a shaping job: its return strokes, and the target's section that the gear is held against.
 
-use super::Job;
+use super::ShapingJob;
 use crate::cut::{Backend, CutBlank};
 use crate::dexel::BlankField;
 use crate::error::{Refusal, Result};
@@ -13,7 +13,7 @@ use crate::units::TURN_RAD;
 use glam::DVec2;
 use rayon::prelude::*;
 
-impl Job {
+impl ShapingJob {
     /// Poses of the return strokes of an operation: the cutter drawn back along the line of centres. `None` where the
     /// machine does not back off.
     pub fn return_strokes(&self, operation: usize) -> Option<StrokeSet> {

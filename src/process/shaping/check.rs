@@ -6,7 +6,7 @@ mod teeth;
 
 use crate::error::Result;
 use crate::output::text::Sheet;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
@@ -16,7 +16,7 @@ use facts::ToothFacts;
 ///
 /// # Errors
 /// Geometry that cannot be cut.
-pub fn print(sheet: &mut Sheet, job: &Job) -> Result<Vec<String>> {
+pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>> {
     let facts = ToothFacts::of_job(job);
     let operations = OperationAxes::of_job(job);
 

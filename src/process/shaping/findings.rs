@@ -15,7 +15,7 @@ use crate::findings::{Place, Quantity, Section};
 use crate::measure::deviation::{PitchDeviations, Runout};
 use crate::measure::stock::Extreme;
 use crate::output::text::significant;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::chips::ChipLedger;
 use crate::process::shaping::measure::{FlankReport, GearReport};
@@ -30,7 +30,7 @@ const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve
 const GOUGE_MM: f64 = 1e-4;
 
 /// Operations, deviations and teeth.
-pub fn sections(job: &Job, report: &GearReport, ledger: &ChipLedger, motion: &[OperationAxes]) -> Vec<Section> {
+pub fn sections(job: &ShapingJob, report: &GearReport, ledger: &ChipLedger, motion: &[OperationAxes]) -> Vec<Section> {
     let operations = (0..job.operations.len()).map(|index| operation(job, report, ledger, &motion[index], index));
     let period = "teeth after which the pitch curve repeats: the first period of tables and charts";
     let teeth = (1..=job.scene.gear.teeth).map(|tooth| teeth::finished_tooth(report, tooth));
@@ -94,7 +94,7 @@ fn deviations(report: &GearReport) -> Section {
 
 /// Place of an extreme on a flank.
 pub fn place(flank: &FlankReport, at: &Extreme) -> Place {
-    Place::on_flank(flank.tooth, flank.side.name(), at.arc_mm, at.lead_mm)
+    Place::on_flank(flank.tooth, flank.side.name(), at.arc_mm, at.z_mm)
 }
 
 /// What a reader must know before trusting the numbers.

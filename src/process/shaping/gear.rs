@@ -4,7 +4,7 @@ use crate::cut::Backend;
 use crate::error::{Error, Result};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, last_chips};
 use crate::process::shaping::measure::gear_report::{RootReport, root_stock};
 use crate::process::shaping::measure::{GearReport, flank_report, gear_report};
@@ -40,7 +40,7 @@ pub struct CutGear {
 /// # Errors
 /// Geometry, the backend, files. Ctrl-C is no error: what is finished is returned.
 pub fn cut_gear(
-    job: &Job,
+    job: &ShapingJob,
     backend: &dyn Backend,
     progress: &Progress,
     interrupt: &Interrupt,
@@ -73,7 +73,11 @@ pub fn cut_gear(
 
 /// Cuts every root once, for the stock that operations find in it and, if meshes need it, for its surface; nothing
 /// where neither is asked for.
-fn cut_roots(job: &Job, backend: &dyn Backend, surfaces: bool) -> Result<Vec<(RootReport, Option<SurfaceGrid>)>> {
+fn cut_roots(
+    job: &ShapingJob,
+    backend: &dyn Backend,
+    surfaces: bool,
+) -> Result<Vec<(RootReport, Option<SurfaceGrid>)>> {
     if job.operations.len() < 2 && !surfaces {
         return Ok(Vec::new());
     }
@@ -88,7 +92,7 @@ fn cut_roots(job: &Job, backend: &dyn Backend, surfaces: bool) -> Result<Vec<(Ro
 }
 
 /// All strokes in order of time, space by space.
-fn follow_chips(job: &Job, progress: &Progress, interrupt: &Interrupt) -> Result<ChipLedger> {
+fn follow_chips(job: &ShapingJob, progress: &Progress, interrupt: &Interrupt) -> Result<ChipLedger> {
     let step = progress.step("chips", u64::from(job.scene.gear.teeth), "tooth spaces");
     let chips = ChipLedger::new(job, &|| {
         step.advance(1);

@@ -1,9 +1,9 @@
 //! A shaping scene made ready to cut: pitch curve, cutter, blank, linkages, strokes; and the dexel fields of every
 //! flank and root.
 //!
-//! In: the checked scene. Out: [`Job`], from which fields and plans are made one flank at a time, so that memory does
-//! not grow with the number of teeth; of every tooth only the target is kept. The last operation is the finishing one:
-//! its continuous envelope is the target.
+//! In: the checked scene. Out: [`ShapingJob`], from which fields and plans are made one flank at a time, so that memory
+//! does not grow with the number of teeth; of every tooth only the target is kept. The last operation is the finishing
+//! one: its continuous envelope is the target.
 
 use crate::cut::Backend;
 use crate::dexel::Field;
@@ -59,7 +59,7 @@ fn pose(program: Option<&AxisProgram>, schedule: &StrokeSchedule, stroke: f64) -
 
 /// Everything known before the first dexel is cut.
 #[derive(Debug)]
-pub struct Job {
+pub struct ShapingJob {
     /// The scene.
     pub scene: Scene,
     /// The machine.
@@ -84,7 +84,7 @@ pub struct Job {
     targets: Vec<ToothTarget>,
 }
 
-impl Job {
+impl ShapingJob {
     /// Makes a scene ready.
     ///
     /// # Errors
@@ -207,20 +207,20 @@ impl Job {
     /// Dexel field on a target flank with the scene's spacing.
     pub fn flank_field(&self, flank: &TargetFlank) -> Field {
         let planar = self.planar();
-        let leads_mm = planar.leads_mm(self.scene.fields.lead_spacing_mm);
-        self.field_over(flank, planar.arcs_mm(flank.length_mm()), leads_mm)
+        let rows_z_mm = planar.rows_z_mm(self.scene.fields.lead_spacing_mm);
+        self.field_over(flank, planar.arcs_mm(flank.length_mm()), rows_z_mm)
     }
 
     /// Dexel field on a part of a target flank: places along the profile (arcs from the form point) and along the
     /// tooth, mm.
-    pub fn field_over(&self, flank: &TargetFlank, arcs_mm: impl Iterator<Item = f64>, leads_mm: Vec<f64>) -> Field {
+    pub fn field_over(&self, flank: &TargetFlank, arcs_mm: impl Iterator<Item = f64>, rows_z_mm: Vec<f64>) -> Field {
         let point = |arc_mm: f64| {
             // Rounding must not carry the last column beyond the tip.
             let arc_mm = arc_mm.min(flank.length_mm());
             let contact = flank.at_arc(arc_mm);
             ProfilePoint { arc_mm, point_mm: contact.point_mm, normal: contact.normal, phi_rad: contact.phi_rad }
         };
-        self.planar().flank_field(arcs_mm.map(point), leads_mm)
+        self.planar().flank_field(arcs_mm.map(point), rows_z_mm)
     }
 
     /// Dexel field on the root of a space (space j lies after tooth j).

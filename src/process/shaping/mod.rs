@@ -31,12 +31,13 @@ use axes_report::OperationAxes;
 
 pub use cutter::ShaperCutter;
 pub use gear::{CutGear, cut_gear};
-pub use job::{Job, PreparedOperation};
+pub use job::{PreparedOperation, ShapingJob};
 
 /// The process.
-pub static PROCESS: Process = Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(Job::new(scene.clone())?)) };
+pub static PROCESS: Process =
+    Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(ShapingJob::new(scene.clone())?)) };
 
-impl super::ProcessJob for Job {
+impl super::ProcessJob for ShapingJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
         run::run(self, tools, frames)
     }

@@ -12,7 +12,7 @@ use crate::output::folder::OutputFolder;
 use crate::output::report::{KeyNumber, Page};
 use crate::output::text::{plain, significant};
 use crate::process::shaping::CutGear;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::measure::GearReport;
 use crate::steps;
@@ -26,7 +26,7 @@ use std::f64::consts::PI;
 /// # Errors
 /// No flank is generated on some tooth; a picture of the folder cannot be read back.
 pub fn page(
-    job: &Job,
+    job: &ShapingJob,
     cut: &CutGear,
     found: &Findings,
     motion: &[OperationAxes],

@@ -11,7 +11,7 @@ use super::{findings, report};
 use crate::error::{Error, Result};
 use crate::findings::Findings;
 use crate::process::CutDone;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::steps::parts::Part;
 use crate::steps::planar::{blank_findings, blank_table};
@@ -26,7 +26,7 @@ use std::mem::take;
 ///
 /// # Errors
 /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
-pub(super) fn run(job: &Job, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
+pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, notes } = *tools;
     progress.plan(stages::plan(
         job,

@@ -15,9 +15,9 @@ use crate::frame::Rigid2;
 use crate::gear::blank_outline::BlankOutline;
 use crate::passes::StrokeSet;
 use crate::passes::planar::strokes::{StrokeLaw, cubic_through};
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::surface::BlankMesh;
-use crate::surface::mesh::{Mesh, Part};
+use crate::surface::mesh::{Mesh, MeshPart};
 use crate::surface::plane_area::{sides_of_contours, triangles_inside};
 use crate::tool::edge::SegmentShape;
 use crate::tool::{CuttingTool, PlanarTool};
@@ -31,20 +31,20 @@ const BORE_CORNERS: usize = 96;
 
 /// Section that grows smaller stroke by stroke.
 #[derive(Debug)]
-pub struct Section<'a> {
-    job: &'a Job,
+pub struct CutSection<'a> {
+    job: &'a ShapingJob,
     /// One slice over the whole face.
     field: BlankField,
     /// Strokes that have been cut, over all operations.
     done: usize,
 }
 
-impl<'a> Section<'a> {
+impl<'a> CutSection<'a> {
     /// The uncut blank, with rays as far apart as in the scene's blank field.
     ///
     /// # Errors
     /// A field that does not fit in memory.
-    pub fn new(job: &'a Job) -> Result<Self, Refusal> {
+    pub fn new(job: &'a ShapingJob) -> Result<Self, Refusal> {
         let outline = BlankOutline::new(&job.blank);
         let gear = &job.scene.gear;
         let spacing_mm = job.scene.fields.blank_spacing_mm;
@@ -54,12 +54,12 @@ impl<'a> Section<'a> {
     }
 
     /// Strokes of all operations together.
-    pub fn strokes(job: &Job) -> usize {
+    pub fn strokes(job: &ShapingJob) -> usize {
         job.operations.iter().map(|operation| operation.strokes.count()).sum()
     }
 
     /// Operation and stroke of a stroke counted over all operations.
-    pub fn operation_and_stroke(job: &Job, stroke: usize) -> (usize, usize) {
+    pub fn operation_and_stroke(job: &ShapingJob, stroke: usize) -> (usize, usize) {
         let mut rest = stroke;
         for (index, operation) in job.operations.iter().enumerate() {
             if rest < operation.strokes.count() {
@@ -72,7 +72,7 @@ impl<'a> Section<'a> {
     }
 
     /// Where the cutter stands in the work at a stroke, at the moment when the middle of the face is cut.
-    pub fn work_from_tool(job: &Job, stroke: usize) -> Rigid2 {
+    pub fn work_from_tool(job: &ShapingJob, stroke: usize) -> Rigid2 {
         let (operation, stroke) = Self::operation_and_stroke(job, stroke);
         let poses = job.operations[operation].strokes.poses(stroke);
         let middle = |pick: fn(&Rigid2) -> f64| cubic_through(&poses.iter().map(pick).collect::<Vec<_>>())[0];
@@ -122,7 +122,7 @@ impl<'a> Section<'a> {
 }
 
 /// The whole cutter as a body between two heights, placed in the plane.
-pub fn cutter_solid(job: &Job, [low_mm, high_mm]: [f64; 2], place: &Rigid2) -> Mesh {
+pub fn cutter_solid(job: &ShapingJob, [low_mm, high_mm]: [f64; 2], place: &Rigid2) -> Mesh {
     let tooth = tooth_edge(job);
     // Teeth one after the other round the axis.
     let mut points_mm: Vec<DVec2> = (0..job.cutter.blade_count())
@@ -142,7 +142,7 @@ pub fn cutter_solid(job: &Job, [low_mm, high_mm]: [f64; 2], place: &Rigid2) -> M
 }
 
 /// The edge of one tooth from its right root to its left one; blade frame.
-fn tooth_edge(job: &Job) -> Vec<DVec2> {
+fn tooth_edge(job: &ShapingJob) -> Vec<DVec2> {
     let mut contour = Vec::new();
     for segment in &job.cutter.edge().segments {
         let [from, to] = segment.y_range_mm;
@@ -176,7 +176,7 @@ fn prism(points_mm: &[DVec2], sides: &[[usize; 2]], ends_mm: [f64; 2]) -> Mesh {
         let [a, b, c] = triangle.map(|i| i as u32);
         triangles.extend([[a, c, b], [a + total, b + total, c + total]]);
     }
-    let part = |name: &str, triangles| Part { name: name.to_owned(), triangles, measured: false };
+    let part = |name: &str, triangles| MeshPart { name: name.to_owned(), triangles, measured: false };
     let parts = vec![part("wall", 0..walls), part("ends", walls..triangles.len())];
     Mesh { positions_mm, triangles, parts, ..Mesh::default() }
 }

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
 use crate::job::{GearJob, band_mm};
-use crate::process::shaping::job::Job;
+use crate::process::shaping::job::ShapingJob;
 use crate::process::shaping::measure::flank_report;
 use crate::process::shaping::target::target_root;
 use crate::scene::Scene;
@@ -17,7 +17,7 @@ use crate::surface::SurfaceGrid;
 use crate::surface::triangles::Profile;
 use crate::terms::Side;
 
-impl GearJob for Job {
+impl GearJob for ShapingJob {
     fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -50,7 +50,7 @@ impl GearJob for Job {
         Ok(flank_report::evaluated_profile_mm(self, self.target_flank(tooth, side)))
     }
 
-    fn view_leads_mm(&self) -> Vec<f64> {
+    fn view_rows_z_mm(&self) -> Vec<f64> {
         let half_mm = 0.5 * self.scene.gear.face_width_mm;
         vec![-half_mm, half_mm]
     }
@@ -60,7 +60,7 @@ impl GearJob for Job {
         tooth: u32,
         side: Side,
         spacing_mm: f64,
-        leads_mm: &[f64],
+        rows_z_mm: &[f64],
     ) -> Result<(Vec<f64>, Vec<Profile>)> {
         let target = self.target_flank(tooth, side);
         let intervals = (target.length_mm() / spacing_mm).ceil().max(1.0);
@@ -70,13 +70,13 @@ impl GearJob for Job {
             .map(|&arc| target.at_arc(arc))
             .map(|contact| (contact.point_mm, contact.normal.extend(0.0)))
             .collect();
-        Ok((arcs, vec![profile; leads_mm.len()]))
+        Ok((arcs, vec![profile; rows_z_mm.len()]))
     }
 
-    fn target_roots(&self, space: u32, spacing_mm: f64, leads_mm: &[f64]) -> Result<Vec<Profile>> {
+    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<Profile>> {
         let points = target_root(self.target_generation(), i64::from(space), spacing_mm);
         let profile: Profile = points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect();
-        Ok(vec![profile; leads_mm.len()])
+        Ok(vec![profile; rows_z_mm.len()])
     }
 
     fn cut_flank(
@@ -85,15 +85,15 @@ impl GearJob for Job {
         tooth: u32,
         side: Side,
         arcs_mm: &[f64],
-        leads_mm: &[f64],
+        rows_z_mm: &[f64],
     ) -> Result<Vec<Layer>> {
-        let field = self.field_over(self.target_flank(tooth, side), arcs_mm.iter().copied(), leads_mm.to_vec());
+        let field = self.field_over(self.target_flank(tooth, side), arcs_mm.iter().copied(), rows_z_mm.to_vec());
         Ok(self.cut(backend, field)?.layers)
     }
 
     fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid> {
         let mut field = self.flank_field(self.target_flank(tooth, side));
-        field.leads_mm = band_mm(field.leads_mm, reach_mm);
+        field.rows_z_mm = band_mm(field.rows_z_mm, reach_mm);
         let cut = self.cut(backend, field)?;
         Ok(SurfaceGrid::new(&cut.field, &cut.layers, self.scene.fields.profile_spacing_mm))
     }

@@ -1,6 +1,6 @@
 //! Keys of the gear and of its pitch curve.
 
-use super::{Default, Group, Key, Kind, Range, Role, Section};
+use super::{Default, Group, Key, KeySection, Kind, Range, Role};
 
 /// Order n of a curve: how many times it repeats in one turn.
 const ORDER: Key = Key {
@@ -34,8 +34,8 @@ const MEAN_RADIUS: Key = Key {
 };
 
 /// `[gear]` and what is inside it.
-pub(super) static SECTIONS: &[Section] = &[
-    Section {
+pub(super) static SECTIONS: &[KeySection] = &[
+    KeySection {
         path: "gear",
         role: Role::Plain,
         keys: &[
@@ -117,7 +117,7 @@ pub(super) static SECTIONS: &[Section] = &[
         groups: &[],
         teach: "The gear to cut and its blank.",
     },
-    Section {
+    KeySection {
         path: "gear.pitch_curve",
         role: Role::Choice { default: Some("circle"), what: "pitch curve" },
         keys: &[],
@@ -125,14 +125,14 @@ pub(super) static SECTIONS: &[Section] = &[
         teach: "Shape of the closed pitch curve r(phi) on which the tooth spaces are rolled; a space is centred on phi \
             = 0.",
     },
-    Section {
+    KeySection {
         path: "gear.pitch_curve.circle",
         role: Role::Variant,
         keys: &[],
         groups: &[],
         teach: "A round gear: r = module x teeth / 2.",
     },
-    Section {
+    KeySection {
         path: "gear.pitch_curve.ellipse",
         role: Role::Variant,
         keys: &[
@@ -150,7 +150,7 @@ pub(super) static SECTIONS: &[Section] = &[
         groups: &[],
         teach: "Ellipse of order n turning about its focus: r = a (1 - k^2) / (1 - k cos n phi).",
     },
-    Section {
+    KeySection {
         path: "gear.pitch_curve.sinusoidal_ratio",
         role: Role::Variant,
         keys: &[
@@ -184,14 +184,14 @@ pub(super) static SECTIONS: &[Section] = &[
         groups: &[],
         teach: "Driver of a pair with the ratio i(phi) = c + b sin n phi: r = C / (1 + i).",
     },
-    Section {
+    KeySection {
         path: "gear.pitch_curve.pascal",
         role: Role::Variant,
         keys: &[ORDER, ECCENTRICITY, MEAN_RADIUS],
         groups: &[],
         teach: "Pascal's limacon: r = R (1 + k cos n phi).",
     },
-    Section {
+    KeySection {
         path: "gear.pitch_curve.fourier",
         role: Role::Variant,
         keys: &[
@@ -216,7 +216,7 @@ pub(super) static SECTIONS: &[Section] = &[
         groups: &[],
         teach: "Any smooth curve by its harmonics: r = R (1 + sum of c_j cos j phi + s_j sin j phi).",
     },
-    Section {
+    KeySection {
         path: "gear.pitch_curve.table",
         role: Role::Variant,
         keys: &[

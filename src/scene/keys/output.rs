@@ -1,17 +1,17 @@
 //! Keys of the dexel fields and of what is written.
 
-use super::{Default, Key, Kind, Range, Role, Section};
+use super::{Default, Key, KeySection, Kind, Range, Role};
 
 /// `[fields]` and `[output]`.
-pub(super) static SECTIONS: &[Section] = &[
-    Section {
+pub(super) static SECTIONS: &[KeySection] = &[
+    KeySection {
         path: "fields",
         role: Role::Plain,
         keys: &[],
         groups: &[],
         teach: "The dexel fields on which the cut is computed.",
     },
-    Section {
+    KeySection {
         path: "fields.flank",
         role: Role::Plain,
         keys: &[
@@ -36,7 +36,7 @@ pub(super) static SECTIONS: &[Section] = &[
         teach: "Rays along the normals of the target flanks: half the spacing along the profile doubles time and \
             memory.",
     },
-    Section {
+    KeySection {
         path: "fields.blank",
         role: Role::Plain,
         keys: &[
@@ -62,7 +62,7 @@ pub(super) static SECTIONS: &[Section] = &[
         groups: &[],
         teach: "Rays through the whole blank: material removed, gouges, interference, meshes.",
     },
-    Section {
+    KeySection {
         path: "output",
         role: Role::Plain,
         keys: &[

@@ -1,18 +1,18 @@
 //! Sections that every process fills with its own: what cuts, the machine around the cut, and the operations.
 
-use super::{Default, Group, Key, Kind, Range, Role, Section};
+use super::{Default, Group, Key, KeySection, Kind, Range, Role};
 
 /// `[tool]`, `[machine]` and `[[operation]]`, with what all processes read of them.
-pub(super) static SECTIONS: &[Section] = &[
-    Section {
+pub(super) static SECTIONS: &[KeySection] = &[
+    KeySection {
         path: "tool",
         role: Role::Choice { default: None, what: "tool" },
         keys: &[],
         groups: &[],
         teach: "What cuts.",
     },
-    Section { path: "machine", role: Role::Plain, keys: &[], groups: &[], teach: "The machine around the cut." },
-    Section {
+    KeySection { path: "machine", role: Role::Plain, keys: &[], groups: &[], teach: "The machine around the cut." },
+    KeySection {
         path: "operation[]",
         role: Role::List { fewest: 1 },
         keys: &[

@@ -1,9 +1,9 @@
 //! Keys of the texture windows.
 
-use super::{Default, Key, Kind, Range, Role, Section};
+use super::{Default, Key, KeySection, Kind, Range, Role};
 
 /// `[[texture]]`.
-pub(super) static SECTIONS: &[Section] = &[Section {
+pub(super) static SECTIONS: &[KeySection] = &[KeySection {
     path: "texture[]",
     role: Role::List { fewest: 0 },
     keys: &[

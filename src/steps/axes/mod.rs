@@ -143,7 +143,12 @@ pub fn command<O: AxesOfOperation>(
 }
 
 /// The page's section: peaks and first chart of every operation, the other charts folded under their name.
-pub fn section<O: AxesOfOperation>(operations: &[O], found: &Findings, lead: &str, folded: &str) -> report::Section {
+pub fn section<O: AxesOfOperation>(
+    operations: &[O],
+    found: &Findings,
+    lead: &str,
+    folded: &str,
+) -> report::PageSection {
     let mut blocks = Vec::new();
     for (operation, found) in operations.iter().zip(found.parts("operations")) {
         blocks.push(report::Block::Heading(format!("{}: {}", operation.name(), operation.linkage_words())));
@@ -152,5 +157,5 @@ pub fn section<O: AxesOfOperation>(operations: &[O], found: &Findings, lead: &st
         blocks.extend(charts.next());
         blocks.push(report::Block::Folded(folded.to_owned(), charts.collect()));
     }
-    report::Section { id: "motion", title: "Axis motion".to_owned(), lead: lead.to_owned(), blocks }
+    report::PageSection { id: "motion", title: "Axis motion".to_owned(), lead: lead.to_owned(), blocks }
 }

@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::machine::tests::{AXES, Swinging, amplitude, omega_per_s};
-use crate::machine::{Axis, Kind, Limits, Motion as _, Order, peaks};
+use crate::machine::{Axis, AxisKind, Limits, Motion as _, Order, peaks};
 use crate::output::table::Cell;
 use std::f64::consts::PI;
 
@@ -102,7 +102,7 @@ fn wrong_columns(axes: &[Axis; 10], time_s: f64) -> Vec<String> {
 
 /// The ten axes as they would be if a rotary one were printed in rad.
 fn planted() -> [Axis; 10] {
-    AXES.map(|axis| Axis { kind: Kind::Linear, ..axis })
+    AXES.map(|axis| Axis { kind: AxisKind::Linear, ..axis })
 }
 
 #[test]

@@ -19,7 +19,7 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
     let area = |value: Option<f64>, definition: &'static str| Quantity::number_or(value, "mm2", definition, NO_TARGET);
     let end_face = report.end_face;
     let against_target = |key, title, places: &[Damage], what| {
-        if end_face.is_some() { damage(key, title, places, what) } else { unjudged(key, title, what) }
+        if end_face.is_some() { damage(key, title, places, what) } else { without_target(key, title, what) }
     };
     let rubbing =
         |stays: bool| -> Vec<Damage> { report.rubbing.iter().filter(|r| r.stays == stays).map(|r| r.damage).collect() };
@@ -28,7 +28,7 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
     } else {
         Quantity::undefined("strokes", STROKE_FAULTS, "no operation takes chips as large as ten cells of the grid")
     };
-    let unjudged = "gouges and interference are not judged";
+    let not_judged = "gouges and interference are not judged";
     let slices = (cut.field.slices.len(), "transverse sections; one stands for the whole face where all are equal");
     let volumes = [report.blank_mm3, report.left_mm3];
     whole_blank::findings(cut.field.grid.spacing_mm(), slices, volumes, &report.operations)
@@ -81,11 +81,11 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
             &rubbing(false),
             "material that the cutter enters on its way back, on stock that a later stroke removes",
         ))
-        .warning(end_face.is_none().then(|| format!("{unjudged}: {NO_TARGET}")))
+        .warning(end_face.is_none().then(|| format!("{not_judged}: {NO_TARGET}")))
 }
 
 /// Damage where there is no target.
-fn unjudged(key: &str, title: &str, what: &'static str) -> Section {
+fn without_target(key: &str, title: &str, what: &'static str) -> Section {
     let undefined = |unit: &'static str| Quantity::undefined(unit, what, NO_TARGET);
     Section::new(key, title)
         .shown("places", "sides of teeth", undefined("sides of teeth"))

@@ -107,7 +107,7 @@ fn end_face(gear: &PlanarGear, cut: &CutBlank, left_mm3: [f64; 2], target: &Targ
     EndFace {
         cut_mm2: left_mm3.map(|v| v / spec.face_width_mm),
         target_mm2: target.area_mm2() - std::f64::consts::PI * bore_radius_mm * bore_radius_mm,
-        // The bore adds four radii of way along the rays, half a spacing each.
+        // The bore adds four radii of length along the rays, half a spacing each.
         bound_mm2: FAMILIES.map(|f| target.area_bound_mm2(f, spacing_mm) + 2.0 * bore_radius_mm * spacing_mm),
     }
 }
@@ -142,7 +142,7 @@ fn rubbing(gear: &PlanarGear, cut: &CutBlank) -> Vec<Rubbing> {
                 operation,
                 stays: intervals::contains(spans, rub.family.along(rub.place_mm)),
                 point_mm: rub.place_mm,
-                lead_mm: grid.leads_mm[rub.slice as usize],
+                z_mm: grid.slices_z_mm[rub.slice as usize],
                 depth_mm: rub.depth_mm,
                 volume_mm3: 0.5 * rub.volume_mm3,
                 pass: rub.pass,

@@ -5,7 +5,7 @@ use crate::measure::deviation::{PitchDeviations, Runout, Trace, TraceDeviation};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::report::traces::{TraceColumn, TraceSheet};
-use crate::output::report::{Block, Section};
+use crate::output::report::{Block, PageSection};
 use crate::output::text::significant;
 use crate::terms::Side;
 use crate::units::UM_PER_MM;
@@ -49,7 +49,7 @@ pub struct Inspection<'a> {
 }
 
 /// Traces and charts.
-pub fn section(inspection: &Inspection) -> Section {
+pub fn section(inspection: &Inspection) -> PageSection {
     let mut blocks = vec![
         Block::Heading("Profile, in the middle of the face".to_owned()),
         Block::Traces(SIDES.map(|(side, name)| profile_sheet(inspection, side, name)).into()),
@@ -70,7 +70,7 @@ pub fn section(inspection: &Inspection) -> Section {
         given: the standard's classes are for round gears."
             .to_owned(),
     ));
-    Section {
+    PageSection {
         id: "deviations",
         title: "Deviations".to_owned(),
         lead: format!("The finished gear against the target: {}.", inspection.target),

@@ -2,7 +2,7 @@
 
 use crate::gear::PitchCurve;
 use crate::machine::{Axis, Limits, Order};
-use crate::output::report::{Block, Table};
+use crate::output::report::{Block, PageTable};
 use crate::output::text::plain;
 use crate::scene::model::Gear;
 use crate::units::UM_PER_MM;
@@ -25,7 +25,7 @@ pub fn gear_words(gear: &Gear) -> String {
 
 /// A table of names and values.
 pub fn table(caption: &str, rows: Vec<(&str, String)>) -> Block {
-    Block::Table(Table {
+    Block::Table(PageTable {
         caption: caption.to_owned(),
         columns: Vec::new(),
         rows: rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect(),

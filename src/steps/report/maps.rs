@@ -16,7 +16,7 @@ pub fn viewer(job: &dyn GearJob, maps: &GearMaps) -> Result<Viewer> {
     let mesh = ViewMesh::new(job)?;
     let flanks = mesh.flanks.into_iter().map(|flank| {
         let map = maps.flanks.iter().find(|map| map.tooth == flank.tooth && map.side == flank.side);
-        let leads = &flank.leads_mm;
+        let rows_z_mm = &flank.rows_z_mm;
         ViewerFlank {
             tooth: flank.tooth,
             side: flank.side.name().to_owned(),
@@ -24,7 +24,7 @@ pub fn viewer(job: &dyn GearJob, maps: &GearMaps) -> Result<Viewer> {
             places_mm: flank
                 .arcs_mm
                 .iter()
-                .flat_map(|&arc| leads.iter().map(move |&lead| [arc as f32, lead as f32]))
+                .flat_map(|&arc| rows_z_mm.iter().map(move |&z_mm| [arc as f32, z_mm as f32]))
                 .collect(),
             triangles: flank.triangles,
         }

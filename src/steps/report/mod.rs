@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::findings::{self, Findings, Quantity};
 use crate::job::GearJob;
 use crate::output::progress::duration_text;
-use crate::output::report::{Block, KeyNumber, Page, Section, Table};
+use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
 use crate::output::text::{plain, significant};
 use crate::steps::gear_maps::GearMaps;
 
@@ -35,7 +35,7 @@ pub fn page(
     maps: &GearMaps,
     operation: impl Fn(&findings::Section) -> String,
     key_numbers: Vec<KeyNumber>,
-    sections: Vec<Section>,
+    sections: Vec<PageSection>,
 ) -> Result<Page> {
     Ok(Page {
         title: job.scene().name.clone(),
@@ -91,7 +91,7 @@ fn warnings(found: &Findings) -> Vec<String> {
 }
 
 /// Peaks of an operation's axes against their limits.
-pub fn peak_table(operation: &findings::Section) -> Table {
+pub fn peak_table(operation: &findings::Section) -> PageTable {
     let number = |value: f64| significant(if value.abs() < 1e-9 { 0.0 } else { value }, 4);
     let signs = |text: &str| text.replace(" deg", "°").replace("deg", "°").replace("^2", "²");
     let dash = || "–".to_owned();
@@ -107,7 +107,7 @@ pub fn peak_table(operation: &findings::Section) -> Table {
             peak.number("margin").map_or_else(dash, |share| format!("{:.0} %", 100.0 * share)),
         ]
     });
-    Table {
+    PageTable {
         caption: "Peaks of the axes".to_owned(),
         columns: ["Axis", "Largest", "Unit", "At", "Limit", "Reserve"].map(str::to_owned).into(),
         rows: rows.collect(),
@@ -115,10 +115,10 @@ pub fn peak_table(operation: &findings::Section) -> Table {
 }
 
 /// What is needed to repeat the run.
-pub fn record(flanks: usize, stats: &CutStats, dexels: u64, run: &RunWords) -> Section {
+pub fn record(flanks: usize, stats: &CutStats, dexels: u64, run: &RunWords) -> PageSection {
     let row = |name: &str, value: String| vec![name.to_owned(), value];
     let per_dexel = stats.dexel_passes as f64 / dexels.max(1) as f64;
-    let table = Table {
+    let table = PageTable {
         caption: "Run".to_owned(),
         columns: Vec::new(),
         rows: vec![
@@ -128,7 +128,7 @@ pub fn record(flanks: usize, stats: &CutStats, dexels: u64, run: &RunWords) -> S
             row("Dexels", format!("{:.2} million, {} passes each", dexels as f64 / 1e6, significant(per_dexel, 3))),
         ],
     };
-    Section {
+    PageSection {
         id: "record",
         title: "Run record".to_owned(),
         lead:

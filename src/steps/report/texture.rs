@@ -4,15 +4,15 @@ use crate::error::{Error, Result};
 use crate::findings::{self, Findings};
 use crate::output::folder::OutputFolder;
 use crate::output::ratio_chart::{RatioChart, SkConstruction};
-use crate::output::report::texture::{Parameter, TextureWindow};
-use crate::output::report::{Block, Section, Table};
+use crate::output::report::texture::{ParameterRow, TextureBlock};
+use crate::output::report::{Block, PageSection, PageTable};
 use crate::output::text::significant;
 
 /// The section; none if no window was evaluated. Pictures are those that the folder holds.
 ///
 /// # Errors
 /// A picture cannot be read back.
-pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<Section>> {
+pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSection>> {
     let operations = found.parts("texture");
     let Some((last, earlier)) = operations.split_last() else { return Ok(None) };
     let mut blocks = vec![overview(last, earlier)];
@@ -20,7 +20,7 @@ pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<Section
     for operation in earlier {
         blocks.push(Block::Folded(operation.title.clone(), shown(operation, folder)?));
     }
-    Ok(Some(Section {
+    Ok(Some(PageSection {
         id: "texture",
         title: "Surface texture".to_owned(),
         lead: format!(
@@ -38,7 +38,7 @@ fn shown(operation: &findings::Section, folder: &OutputFolder) -> Result<Vec<Blo
     operation.sections.iter().map(|window| Ok(Block::Texture(texture_window(window, folder)?))).collect()
 }
 
-fn texture_window(window: &findings::Section, folder: &OutputFolder) -> Result<TextureWindow> {
+fn texture_window(window: &findings::Section, folder: &OutputFolder) -> Result<TextureBlock> {
     let number = |key: &str| window.number(key).map_or_else(|| "–".to_owned(), |value| digits(value, 4));
     let path = folder.path(format!("{}_relief.png", window.words("files")))?;
     // A window that could not be evaluated has no picture, nor has one whose files are left out.
@@ -50,7 +50,7 @@ fn texture_window(window: &findings::Section, folder: &OutputFolder) -> Result<T
     let parameters = window.find("parameters").map_or(&[][..], |parameters| &parameters.entries);
     let parameter = |entry: &findings::Entry| {
         let quantity = &entry.quantity;
-        Parameter {
+        ParameterRow {
             symbol: entry.key.clone(),
             value: quantity
                 .value()
@@ -82,7 +82,7 @@ fn texture_window(window: &findings::Section, folder: &OutputFolder) -> Result<T
         sk,
     });
     let material_ratio = material_ratio.filter(|chart| chart.curve.len() > 1);
-    Ok(TextureWindow {
+    Ok(TextureBlock {
         title: format!(
             "Tooth {}, {} flank: {} × {} mm about u {}, v {} mm",
             window.number("tooth").unwrap_or(f64::NAN),
@@ -123,7 +123,7 @@ fn overview(last: &findings::Section, earlier: &[findings::Section]) -> Block {
     let rows = std::iter::once(last).chain(earlier);
     let rows = rows.flat_map(|operation| operation.sections.iter().map(move |window| row(operation, window)));
     let heads = COMPARED.map(|(symbol, unit)| format!("{symbol}{unit}"));
-    Block::Table(Table {
+    Block::Table(PageTable {
         caption: "All windows".to_owned(),
         columns: std::iter::once("Window, after".to_owned()).chain(heads).collect(),
         rows: rows.collect(),

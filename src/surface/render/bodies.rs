@@ -79,7 +79,7 @@ pub struct Stage<'a> {
 
 /// What a ray finds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Found {
+pub struct RayHit {
     /// Distance along the ray, mm.
     pub distance_mm: f64,
     /// Smooth unit normal, on the side from which the ray meets the triangle; at the rim of a round body it may lean
@@ -109,7 +109,7 @@ impl<'a> Stage<'a> {
     }
 
     /// What a ray meets first.
-    pub fn first(&self, origin_mm: DVec3, direction: DVec3) -> Option<Found> {
+    pub fn first(&self, origin_mm: DVec3, direction: DVec3) -> Option<RayHit> {
         self.shape.tree.first(origin_mm, direction, f64::INFINITY).map(|hit| self.found(&hit, direction))
     }
 
@@ -118,7 +118,7 @@ impl<'a> Stage<'a> {
         self.shape.tree.is_blocked(origin_mm, direction, limit_mm)
     }
 
-    fn found(&self, hit: &Hit, direction: DVec3) -> Found {
+    fn found(&self, hit: &Hit, direction: DVec3) -> RayHit {
         let global = hit.triangle as usize;
         let shape = self.shape;
         let index = shape.starts.partition_point(|&start| start <= global) - 1;
@@ -156,7 +156,7 @@ impl<'a> Stage<'a> {
                 (colour, 0.05, value)
             }
         };
-        Found { distance_mm: hit.distance_mm, normal, flat, colour, gloss, value, pass }
+        RayHit { distance_mm: hit.distance_mm, normal, flat, colour, gloss, value, pass }
     }
 }
 

@@ -10,7 +10,7 @@
 //!
 //! Colours stand for values, so that light changes their brightness and hardly their hue.
 
-use super::bodies::{Found, Stage};
+use super::bodies::{RayHit, Stage};
 use super::camera::Camera;
 use crate::interrupt::Interrupt;
 use crate::{Error, Result};
@@ -115,14 +115,14 @@ struct Pixel {
 pub fn render(stage: &Stage, camera: &Camera, lights: &Lights, interrupt: &Interrupt) -> Result<Rendered> {
     let (width, height) = camera.size_px;
     let far_mm = 2.0 * stage.size_mm() + camera.extent_mm;
-    let rows: Vec<Vec<(Pixel, Option<Found>)>> = (0..height)
+    let rows: Vec<Vec<(Pixel, Option<RayHit>)>> = (0..height)
         .into_par_iter()
         .map(|y| {
             interrupt.check()?;
             Ok((0..width).map(|x| pixel(stage, camera, lights, far_mm, x, y)).collect())
         })
         .collect::<Result<_, Error>>()?;
-    let pixels: Vec<(Pixel, Option<Found>)> = rows.into_iter().flatten().collect();
+    let pixels: Vec<(Pixel, Option<RayHit>)> = rows.into_iter().flatten().collect();
     let open = smoothed(&pixels, camera);
     let rgb = pixels
         .par_iter()
@@ -146,7 +146,7 @@ pub fn render(stage: &Stage, camera: &Camera, lights: &Lights, interrupt: &Inter
 }
 
 /// Share of the sky that every pixel sees, averaged over neighbours on the same smooth surface.
-fn smoothed(pixels: &[(Pixel, Option<Found>)], camera: &Camera) -> Vec<f32> {
+fn smoothed(pixels: &[(Pixel, Option<RayHit>)], camera: &Camera) -> Vec<f32> {
     let (width, height) = (i64::from(camera.size_px.0), i64::from(camera.size_px.1));
     // Close together in memory: every pixel asks 98 neighbours.
     let places: Vec<(DVec3, f64)> = pixels.iter().map(|(p, _)| (p.normal, p.depth_mm)).collect();
@@ -193,7 +193,7 @@ fn smoothed(pixels: &[(Pixel, Option<Found>)], camera: &Camera) -> Vec<f32> {
     sums.iter().enumerate().map(share).collect()
 }
 
-fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y: u32) -> (Pixel, Option<Found>) {
+fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y: u32) -> (Pixel, Option<RayHit>) {
     let mut gathered = Pixel::default();
     let mut seed = hash(x, y);
     for ray in 0..SIDE * SIDE {

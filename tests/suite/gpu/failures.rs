@@ -8,18 +8,18 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::Field;
 use gearcut::gpu::{Gpu, GpuOptions, GpuProblem, OnGpuFailure};
 use gearcut::passes::CutPlan;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use std::time::Duration;
 
-fn job() -> Job {
+fn job() -> ShapingJob {
     let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 360), operation("finish", NORMAL, 0.0, 720)]);
     scene.fields.lead_spacing_mm = 1.0;
-    Job::new(scene).expect("the paper's gear")
+    ShapingJob::new(scene).expect("the paper's gear")
 }
 
-fn field(job: &Job, tooth: u32) -> Field {
+fn field(job: &ShapingJob, tooth: u32) -> Field {
     job.flank_field(job.target_flank(tooth, Side::Left))
 }
 
@@ -46,7 +46,7 @@ fn a_flank_after_the_loss_is_cut_natively_and_the_loss_is_told() {
 fn a_blank_after_the_loss_is_cut_natively_and_the_loss_is_told() {
     let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 90)]);
     scene.fields.blank_spacing_mm = 0.5;
-    let job = Job::new(scene).expect("the paper's gear");
+    let job = ShapingJob::new(scene).expect("the paper's gear");
     let cut = |backend: &dyn Backend| job.cut_blank(backend, job.planar().blank_field().expect("fits"), &|| true);
     let gpu = software_gpu(redoing(None));
     gpu.lose_device();
@@ -96,7 +96,7 @@ fn a_device_lost_in_the_middle_of_a_flank_loses_nothing() {
 }
 
 /// What a cut that must stop says; its layer must be as before.
-fn stops(gpu: &Gpu, job: &Job) -> GpuProblem {
+fn stops(gpu: &Gpu, job: &ShapingJob) -> GpuProblem {
     let field = field(job, 5);
     let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
     let before = field.blank_layer();

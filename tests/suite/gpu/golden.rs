@@ -6,7 +6,7 @@ use gearcut::dexel::{Field, Layer};
 use gearcut::gpu::Gpu;
 use gearcut::passes::CutPlan;
 use gearcut::process::load;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
 use std::path::Path;
@@ -14,19 +14,19 @@ use std::path::Path;
 /// [`fingerprint`] of the flanks below: llvmpipe rounds alike in all its versions, widths and thread counts.
 const GOLDEN: u64 = 0x95f2_78c8_524e_98a1;
 
-fn job() -> Job {
+fn job() -> ShapingJob {
     let mut scene = load(Path::new("scenes/shaping/elliptical_finishing_stock.toml"), &[]).expect("loads").scene;
     scene.fields.lead_spacing_mm = 0.5;
-    Job::new(scene).expect("a gear")
+    ShapingJob::new(scene).expect("a gear")
 }
 
-fn fields(job: &Job) -> Vec<Field> {
+fn fields(job: &ShapingJob) -> Vec<Field> {
     let flank = |(tooth, side)| job.flank_field(job.target_flank(tooth, side));
     [(1, Side::Left), (15, Side::Right)].map(flank).into()
 }
 
 /// What all operations leave on both flanks, each plan of the last operation changed before it is cut.
-fn cut_with(job: &Job, gpu: &Gpu, change: impl Fn(&mut CutPlan)) -> Vec<Layer> {
+fn cut_with(job: &ShapingJob, gpu: &Gpu, change: impl Fn(&mut CutPlan)) -> Vec<Layer> {
     let mut layers = Vec::new();
     for field in fields(job) {
         let mut layer = field.blank_layer();

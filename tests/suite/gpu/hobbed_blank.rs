@@ -134,8 +134,8 @@ fn the_gpu_leaves_the_same_spans_volumes_and_chips() {
                 ours.teeth.iter().zip(&theirs.teeth).map(|(a, b)| 1e3 * (a.thickness_mm - b.thickness_mm).abs());
             let (apart_um, largest) = (apart_um.fold(0.0, f64::max), thickest_mm(&ours));
             println!(
-                "operation {index}: {} and {} chips, way {:.1} and {:.1} mm, thickest {largest:.4} mm, teeth at most \
-                {apart_um:.4} um apart",
+                "operation {index}: {} and {} chips, travel {:.1} and {:.1} mm, thickest {largest:.4} mm, teeth at \
+                most {apart_um:.4} um apart",
                 native.chips[index].len(),
                 got.chips[index].len(),
                 sum(&ours),

@@ -6,7 +6,7 @@ use gearcut::cut::Backend;
 use gearcut::dexel::{Column, Field};
 use gearcut::passes::planar::strokes::{NODES, cubic_through};
 use gearcut::passes::{CutPlan, PassRecord, Tile};
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::{Shaping, Tip};
 use gearcut::terms::Side;
 use gearcut::tool::CuttingTool;
@@ -34,7 +34,7 @@ impl Random {
 fn edge() -> Edge {
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 100)]);
     Shaping::of_mut(&mut scene).expect("shaping").tool.tip = Tip::Round { radius_mm: 0.4 };
-    Job::new(scene).expect("the paper's gear").cutter.edge().clone()
+    ShapingJob::new(scene).expect("the paper's gear").cutter.edge().clone()
 }
 
 /// A tile of rays that look at one segment, and a pass that moves during its stroke.
@@ -110,7 +110,7 @@ fn random_field(tiles: u32, edge: &Edge, seed: u64) -> (Field, CutPlan) {
         all.push(Tile { columns: first..columns.len(), origin_mm, records: first_record..records.len() });
     }
     let row_phases: Vec<f64> = (0..13).map(|row| f64::from(row) / 6.0 - 1.0).collect();
-    let field = Field { columns, leads_mm: row_phases.clone() };
+    let field = Field { columns, rows_z_mm: row_phases.clone() };
     (field, CutPlan { tiles: all, records, row_phases })
 }
 
@@ -136,7 +136,7 @@ fn edge_inputs_are_cut_alike() {
         for columns in [1, 2, 15, 16, 17] {
             let (mut field, mut plan) = random_field(6, &edge, rows * 100 + columns);
             plan.row_phases = (0..rows).map(|row| row as f64 / rows as f64 * 2.0 - 1.0).collect();
-            field.leads_mm.clone_from(&plan.row_phases);
+            field.rows_z_mm.clone_from(&plan.row_phases);
             // Tiles of another width, and one that no pass visits.
             let width = columns as usize;
             let own = field.columns.chunks_exact(7).flat_map(|rays| rays.iter().cycle().take(width));
@@ -161,9 +161,9 @@ fn edge_inputs_are_cut_alike() {
 
 #[test]
 fn small_batches_give_the_same_bytes() {
-    let job = Job::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 720)])).expect("the paper's gear");
+    let job = ShapingJob::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 720)])).expect("the paper's gear");
     let mut field = job.flank_field(job.target_flank(5, Side::Left));
-    field.leads_mm.truncate(200);
+    field.rows_z_mm.truncate(200);
     let plan = CutPlan::brute_force(&field, &job.finishing().strokes, &job.cutter);
     let cut = |memory_limit_bytes: Option<u64>| {
         let gpu = software_gpu(gearcut::gpu::GpuOptions { memory_limit_bytes, ..strict() });

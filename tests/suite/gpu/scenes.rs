@@ -6,7 +6,7 @@ use gearcut::dexel::Field;
 use gearcut::passes::{CutPlan, SweepPlan};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::scene::model::Scene;
 use gearcut::terms::Side;
@@ -31,7 +31,7 @@ fn scenes(process: &str, fewest: usize) -> Vec<Scene> {
 }
 
 /// Three flanks and a root of a scene.
-fn fields(job: &Job) -> Vec<(String, Field)> {
+fn fields(job: &ShapingJob) -> Vec<(String, Field)> {
     let teeth = job.scene.gear.teeth;
     let flanks = [(1, Side::Left), (teeth / 3 + 1, Side::Right), (teeth - 1, Side::Left)];
     let mut fields: Vec<(String, Field)> = flanks
@@ -51,7 +51,7 @@ fn compare(gpu: &dyn Backend, mut scene: Scene, feed_during_stroke: bool) -> Par
         operation.feed_during_stroke = feed_during_stroke;
     }
     let name = scene.name.clone();
-    let job = Job::new(scene).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let job = ShapingJob::new(scene).unwrap_or_else(|error| panic!("{name}: {error}"));
     let mut all = Parity::default();
     for (what, field) in fields(&job) {
         let blank = field.blank_layer();

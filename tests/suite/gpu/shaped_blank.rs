@@ -11,10 +11,10 @@ use gearcut::frame::Rigid2;
 use gearcut::gear::blank_outline::BlankOutline;
 use gearcut::measure::damage::LEAST_DEPTH_MM;
 use gearcut::passes::StrokeSet;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::Shaping;
 
-fn cut(job: &Job) -> CutBlank {
+fn cut(job: &ShapingJob) -> CutBlank {
     job.cut_blank(&Cpu::default(), job.planar().blank_field().expect("fits in memory"), &|| true)
         .expect("the native backend")
         .expect("not stopped")
@@ -31,7 +31,7 @@ fn the_gpu_leaves_the_same_spans_and_volumes() {
     Shaping::of_mut(&mut scene).expect("shaping").operations[1].feed_during_stroke = true;
     scene.fields.blank_spacing_mm = 0.5;
     scene.fields.blank_slice_spacing_mm = 30.0;
-    let job = Job::new(scene).expect("a scene that cuts");
+    let job = ShapingJob::new(scene).expect("a scene that cuts");
     let native = cut(&job);
     let gpu = software_gpu(strict());
     let reach_mm = BlankOutline::new(&job.blank).reach_mm();

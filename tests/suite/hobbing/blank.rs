@@ -129,8 +129,8 @@ fn neighbouring_slices_are_known_from_the_one_in_their_middle() {
                 if !band.set(&sections, index, [at_mm - half_mm, at_mm + half_mm]) {
                     continue;
                 }
-                for way in [-1.0, -0.9, -0.4, 0.0, 0.7, 1.0] {
-                    let z_mm = at_mm + way * half_mm;
+                for share in [-1.0, -0.9, -0.4, 0.0, 0.7, 1.0] {
+                    let z_mm = at_mm + share * half_mm;
                     let known = band.outline(&sections, z_mm, &mut outline);
                     let there = sections.section(index, z_mm, &mut section);
                     assert!(there == (known == InSlice::Within) || known == InSlice::Followed, "{scene}: {known:?}");
@@ -141,7 +141,7 @@ fn neighbouring_slices_are_known_from_the_one_in_their_middle() {
                     assert_eq!(count, outline.corners_mm.len());
                     for (i, piece) in section.pieces().iter().enumerate() {
                         let [a, b] = [i, (i + 1) % count].map(|i| outline.corners_mm[i]);
-                        if piece.law != Piece::STRAIGHT && way != 0.0 {
+                        if piece.law != Piece::STRAIGHT && share != 0.0 {
                             let moved_mm = a.distance(section.node_mm(i));
                             worst[2] = worst[2].max(moved_mm / (outline.tolerances_mm[i] - 1.1 * piece.sagitta_mm));
                         }
@@ -252,7 +252,7 @@ fn what_is_left_is_the_target_and_its_marks() {
         let marks_um = 1e3 * (job.finishing().plan.feed_mark_mm + job.generating_mark_mm(sharpest));
         let (mut lowest_um, mut highest_um, mut ends) = (f64::INFINITY, 0.0_f64, 0);
         let grid = &blank.cut.field.grid;
-        for (slice, &z_mm) in blank.cut.field.slices.iter().zip(&grid.leads_mm) {
+        for (slice, &z_mm) in blank.cut.field.slices.iter().zip(&grid.slices_z_mm) {
             let target = job.target_outline(z_mm, 0.03);
             for (f, family) in FAMILIES.into_iter().enumerate() {
                 for (ray, spans) in slice.rays[f].iter().enumerate() {
@@ -291,7 +291,7 @@ fn ends_of_spans_are_the_flank_kernels_heights() {
         let cutter = HobCutter::new(&job).expect("passes");
         let blank = cut_blank(&cutter);
         let grid = &blank.cut.field.grid;
-        let slice = grid.leads_mm.len() / 2;
+        let slice = grid.slices_z_mm.len() / 2;
         let near = job.blank.outline_mm(0.7);
         let mut rays = Vec::new();
         for (f, family) in FAMILIES.into_iter().enumerate() {
@@ -302,7 +302,7 @@ fn ends_of_spans_are_the_flank_kernels_heights() {
                     let last = cutter.operations.last().expect("one").first_pass;
                     if place.distance(near) < 9.0 && end.pass != NO_PASS && end.pass >= last && across > 0.3 {
                         let normal = family.point(sign, 0.0).extend(0.0);
-                        rays.push((Ray { origin_mm: place.extend(grid.leads_mm[slice]), normal }, end.pass));
+                        rays.push((Ray { origin_mm: place.extend(grid.slices_z_mm[slice]), normal }, end.pass));
                     }
                 }
             }
@@ -364,7 +364,7 @@ fn the_mesh_is_closed_and_loads_are_those_of_the_ledger() {
         }
     }
     println!(
-        "worst share {worst:.4}, thickest chips {thickest:?} mm, way {:.1} m",
+        "worst share {worst:.4}, thickest chips {thickest:?} mm, travel {:.1} m",
         1e-3 * load.teeth.iter().map(|t| t.travel_mm).sum::<f64>()
     );
     assert!(worst < 0.004);

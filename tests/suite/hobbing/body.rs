@@ -1,4 +1,4 @@
-//! The sewn body of hobbed gears, undercut ones among them: closed, and in the place where the rays through the blank
+//! The lofted body of hobbed gears, undercut ones among them: closed, and in the place where the rays through the blank
 //! and the target's polygon have it, on every tooth.
 //!
 //! The blank field knows neither flanks nor roots: its rays run through the whole stock, and its kernel cuts sections
@@ -102,8 +102,9 @@ fn check(name: &str, settings: &[&str]) {
     let infinite = [f64::INFINITY, f64::NEG_INFINITY];
     let (mut of_blank, mut of_body, mut of_chords) = (infinite, infinite, infinite);
     let (mut farthest_mm, mut mean_mm) = (0.0_f64, 0.0_f64);
-    for (slice, &z_mm) in grid.leads_mm.iter().enumerate() {
-        let row = outline.leads_mm.iter().position(|lead| (lead - z_mm).abs() < 1e-9).expect("a row in every slice");
+    for (slice, &z_mm) in grid.slices_z_mm.iter().enumerate() {
+        let row =
+            outline.rows_z_mm.iter().position(|row_z_mm| (row_z_mm - z_mm).abs() < 1e-9).expect("a row in every slice");
         let contour = outline.row_mm(row);
         assert_eq!(crossings(&contour), 0, "{name} at {z_mm} mm");
         let section = TargetOutline::new(contour.clone());
@@ -125,7 +126,7 @@ fn check(name: &str, settings: &[&str]) {
     }
     for pair in 1..outline.rows() {
         let [below, above] = [pair - 1, pair].map(|row| outline.row_mm(row));
-        let target = job.target_outline(0.5 * (outline.leads_mm[pair - 1] + outline.leads_mm[pair]), 0.02);
+        let target = job.target_outline(0.5 * (outline.rows_z_mm[pair - 1] + outline.rows_z_mm[pair]), 0.02);
         let middles = (0..below.len()).map(|i| 0.5 * (below[i] + above[(i + 1) % above.len()]));
         let [low, high] = over_target_mm(&target, middles);
         of_chords = [of_chords[0].min(low), of_chords[1].max(high)];

@@ -103,9 +103,9 @@ fn a_wrong_differential_is_a_helix_slope() {
     let linkage = &job.finishing().linkage;
     let ahead_rad_per_mm = 2e-5;
     // The gear frame is the machine's turned over: its z runs against the slide.
-    let lead_mm = |hob_rad: f64| -linkage.axes::<1>(linkage.time_at_hob_angle(hob_rad)).slide_mm.value();
+    let z_mm = |hob_rad: f64| -linkage.axes::<1>(linkage.time_at_hob_angle(hob_rad)).slide_mm.value();
     let error = |hob_rad: f64| Rigid3 {
-        rotation: DMat3::from_rotation_z(ahead_rad_per_mm * lead_mm(hob_rad)),
+        rotation: DMat3::from_rotation_z(ahead_rad_per_mm * z_mm(hob_rad)),
         translation_mm: DVec3::ZERO,
     };
     let (clean, bad) = (HobCutter::new(&job).expect("passes"), with_work_error(&job, error));

@@ -123,7 +123,7 @@ mod slow {
                 let flank = cutter.cut(&Cpu::default(), tooth, side).expect("a flank");
                 let (field, heights) = (&flank.rays.field, &flank.layers[flank.layers.len() - 1].heights_mm);
                 let highest = |near_face: bool| {
-                    let rows = (0..field.rows()).filter(|&row| (flank.rays.leads_mm[row].abs() > 6.0) == near_face);
+                    let rows = (0..field.rows()).filter(|&row| (flank.rays.rows_z_mm[row].abs() > 6.0) == near_face);
                     rows.flat_map(|row| (0..field.columns()).map(move |column| heights[field.index(column, row)]))
                         .fold(0.0, f32::max)
                 };

@@ -132,7 +132,7 @@ mod slow {
             let job = HobbingJob::new(&scene).expect("a scene that cuts");
             let cutter = HobCutter::new(&job).expect("passes");
             let field = job.blank_field().expect("fits");
-            let slices = field.grid.leads_mm.clone();
+            let slices = field.grid.slices_z_mm.clone();
             let blank = cutter.cut_blank(&Cpu::default(), field, &|| true).expect("cuts").expect("not stopped");
             let wanted = wanted.get_or_insert_with(|| {
                 let places: Vec<(f64, i64)> =

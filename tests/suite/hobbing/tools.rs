@@ -136,7 +136,7 @@ fn every_start_cuts_every_tooth_unless_they_share_a_divisor() {
         // Starts whose passes left the flanks of each space near the pitch curve.
         let count = job.scene.gear.teeth as usize;
         let mut starts = vec![BTreeSet::new(); count];
-        for (slice, &z_mm) in blank.cut.field.slices.iter().zip(&grid.leads_mm) {
+        for (slice, &z_mm) in blank.cut.field.slices.iter().zip(&grid.slices_z_mm) {
             for (f, family) in FAMILIES.into_iter().enumerate() {
                 for (ray, spans) in slice.rays[f].iter().enumerate() {
                     for end in spans.iter().flat_map(|span| [span.low, span.high]) {

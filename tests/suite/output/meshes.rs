@@ -4,8 +4,8 @@ use crate::fixtures::clipping::clipped;
 use crate::fixtures::contour::crossings;
 use gearcut::cut::cpu::Cpu;
 use gearcut::process;
-use gearcut::process::shaping::Job;
-use gearcut::process::shaping::section::{Section, cutter_solid};
+use gearcut::process::shaping::ShapingJob;
+use gearcut::process::shaping::section::{CutSection, cutter_solid};
 use gearcut::steps::gear_surfaces::complete;
 use gearcut::surface::gear_solid::gear_solid;
 use gearcut::surface::outline::Outline;
@@ -17,12 +17,12 @@ use std::path::{Path, PathBuf};
 
 const COARSE: [&str; 2] = ["fields.flank.profile_spacing_um=20", "fields.flank.lead_spacing_um=2000"];
 
-fn load(path: &Path, settings: &[&str]) -> Job {
+fn load(path: &Path, settings: &[&str]) -> ShapingJob {
     let settings: Vec<String> = COARSE.iter().chain(settings).map(|&s| s.to_owned()).collect();
-    Job::new(process::load(path, &settings).expect("a shipped scene").scene).expect("can be cut")
+    ShapingJob::new(process::load(path, &settings).expect("a shipped scene").scene).expect("can be cut")
 }
 
-fn outline_and_solid(job: &Job) -> (Outline, Mesh) {
+fn outline_and_solid(job: &ShapingJob) -> (Outline, Mesh) {
     let backend = Cpu::default();
     let flanks = (1..=job.scene.gear.teeth)
         .flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)])
@@ -75,7 +75,7 @@ fn every_shipped_scene_gives_a_closed_body() {
     }
 }
 
-/// Ways that share nothing but the scene: dexels on the flanks sewn together, rays through the blank as the pictures of
+/// Ways that share nothing but the scene: dexels on the flanks lofted, rays through the blank as the pictures of
 /// the cut draw them, and polygons of every stroke clipped off. Chords of the clipped polygons over some 500 mm of
 /// outline may leave 0.7 mm^2; a single stroke left out where the cutter plunges is far more.
 #[test]
@@ -90,8 +90,8 @@ fn the_body_is_as_large_as_clipping_says() {
     println!("{from_dexels_mm2:.4} mm^2 from dexels, {clipped_mm2:.4} mm^2 clipped");
     assert!((from_dexels_mm2 - clipped_mm2).abs() < 0.7);
 
-    let mut section = Section::new(&job).expect("fits in memory");
-    let strokes = Section::strokes(&job);
+    let mut section = CutSection::new(&job).expect("fits in memory");
+    let strokes = CutSection::strokes(&job);
     // In two steps, as pictures do.
     section.advance(strokes / 3);
     let half_way_mm2 = section.area_mm2();
@@ -101,7 +101,7 @@ fn the_body_is_as_large_as_clipping_says() {
     assert!((section.area_mm2() - clipped_mm2).abs() < 0.7 && half_way_mm2 > section.area_mm2() + 10.0);
     assert!(drawn.is_closed(), "{:?}", drawn.edge_faults());
     assert!((drawn.volume_mm3() / job.scene.gear.face_width_mm - clipped_mm2).abs() < 0.7);
-    let cutter = cutter_solid(&job, [1.0, 3.0], &Section::work_from_tool(&job, 7));
+    let cutter = cutter_solid(&job, [1.0, 3.0], &CutSection::work_from_tool(&job, 7));
     assert!(cutter.is_closed() && cutter.volume_mm3() > 0.0, "{:?}", cutter.edge_faults());
 }
 

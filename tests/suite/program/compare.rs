@@ -181,7 +181,7 @@ fn hobbed(volumes: [f64; 3], idle_s: f64) -> Value {
     };
     let mut columns = vec![json!({ "key": "tooth", "unit": null, "definition": "hob tooth" })];
     columns.extend(
-        [("volume", "mm3"), ("thickness", "mm"), ("way", "mm")]
+        [("volume", "mm3"), ("thickness", "mm"), ("travel", "mm")]
             .map(|(key, unit)| json!({ "key": key, "unit": unit, "definition": "made by hand", "chart": "bars" })),
     );
     let headline = |mut quantity: Value| {
@@ -247,7 +247,7 @@ fn hobbed_gears_stand_side_by_side_with_the_load_of_every_hob_tooth() {
     ] {
         assert!(lines.iter().any(|line| line.starts_with(start)), "{start}\n{csv}");
     }
-    for stem in ["volume", "thickness", "way"] {
+    for stem in ["volume", "thickness", "travel"] {
         let svg = std::fs::read_to_string(written.join(format!("hob_load_operations_finish_teeth_{stem}.svg")))
             .expect("written");
         assert!(["plain", "reciprocating", "repeating"].iter().all(|name| svg.contains(name)), "all are in the legend");

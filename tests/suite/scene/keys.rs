@@ -3,18 +3,18 @@
 use std::collections::BTreeSet;
 
 use gearcut::process::table;
-use gearcut::scene::Table;
-use gearcut::scene::keys::{Default, Kind, Role, Section};
+use gearcut::scene::KeyTable;
+use gearcut::scene::keys::{Default, KeySection, Kind, Role};
 
 #[test]
 fn sections_stand_inside_sections_and_choices_have_their_default() {
     agrees(table());
     for process in table().processes() {
-        agrees(&Table::new(&[process]));
+        agrees(&KeyTable::new(&[process]));
     }
 }
 
-fn agrees(table: &Table) {
+fn agrees(table: &KeyTable) {
     let mut seen = BTreeSet::new();
     for section in table.sections() {
         assert!(
@@ -42,9 +42,10 @@ fn processes_do_not_contradict_each_other() {
     assert_eq!([tools.len(), names.len()], [processes.len(); 2], "{tools:?}, {names:?}");
     for (i, process) in processes.iter().enumerate() {
         let tool = format!("tool.{}", process.tool);
-        assert!(Table::new(&[process]).section(&tool).is_some(), "{tool}");
+        assert!(KeyTable::new(&[process]).section(&tool).is_some(), "{tool}");
         for other in &processes[..i] {
-            let lists = |section: &&Section| other.sections.iter().copied().flatten().find(|o| o.path == section.path);
+            let lists =
+                |section: &&KeySection| other.sections.iter().copied().flatten().find(|o| o.path == section.path);
             for section in process.sections.iter().copied().flatten() {
                 let Some(twin) = lists(&section) else { continue };
                 let keys = [section, twin].map(|section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>());

@@ -10,7 +10,7 @@ use gearcut::process::shaping::scene::model::{
 use gearcut::process::{PROCESSES, load, parse, table};
 use gearcut::scene::keys::Role;
 use gearcut::scene::model::Scene;
-use gearcut::scene::{LoadedScene, SceneProcess, Table, TableSection, reference, schema, template};
+use gearcut::scene::{KeyTable, LoadedScene, SceneProcess, TableSection, reference, schema, template};
 
 const SHORTEST: &str = "[gear]\nmodule_mm = 3.0\nteeth = 24\n[tool.shaper_cutter]\nteeth = 20\n";
 
@@ -267,13 +267,13 @@ fn everything_in_the_template_can_be_switched_on() {
             }
         }
         println!("{}: {variants} variants and {keys} keys switched on", process.name);
-        assert_eq!(variants, switched_off(&Table::new(&[process])), "{}", process.name);
+        assert_eq!(variants, switched_off(&KeyTable::new(&[process])), "{}", process.name);
         assert!(keys >= 12, "{}: {keys} keys", process.name);
     }
 }
 
 /// Sections of a process's table that do not hold unless they are written.
-fn switched_off(own: &Table) -> usize {
+fn switched_off(own: &KeyTable) -> usize {
     let off = own.sections().iter().filter(|section| match section.role {
         Role::List { fewest } => fewest == 0,
         Role::Variant => {

@@ -9,7 +9,7 @@ use gearcut::process::shaping::scene::model::{
 };
 use gearcut::process::{load, parse};
 use gearcut::scene::model::Scene;
-use gearcut::scene::{LoadedScene, Place};
+use gearcut::scene::{LoadedScene, SourcePlace};
 
 const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
 
@@ -79,7 +79,10 @@ fn written_keys_are_located() {
     }
     assert_eq!(loaded.locate("operation.offset_mm").expect("written").written, "2.0");
     let teeth = loaded.locate("gear.teeth").expect("set");
-    assert_eq!((teeth.written.as_str(), teeth.place), ("43", Place::Set { argument: "gear.teeth=43".to_owned() }));
+    assert_eq!(
+        (teeth.written.as_str(), teeth.place),
+        ("43", SourcePlace::Set { argument: "gear.teeth=43".to_owned() })
+    );
     assert!(loaded.locate("gear.bore_diameter_mm").is_none(), "a default stands nowhere");
     for key in ["", "operation", "operation.7.offset_mm", "no.such.key", "..", "operation.."] {
         assert!(loaded.locate(key).is_none(), "{key}");

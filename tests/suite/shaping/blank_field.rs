@@ -15,7 +15,7 @@ use gearcut::math::planar_rays::FAMILIES;
 use gearcut::measure::target_outline::TargetOutline;
 use gearcut::passes::StrokeSet;
 use gearcut::process::load;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::scene::model::Scene;
 use gearcut::steps::planar::blank_report;
@@ -29,21 +29,21 @@ use std::path::PathBuf;
 /// that is reported.
 const TARGET_SPACING_MM: f64 = 0.04;
 
-fn job(scene: Scene) -> Job {
-    Job::new(scene).expect("a scene that cuts")
+fn job(scene: Scene) -> ShapingJob {
+    ShapingJob::new(scene).expect("a scene that cuts")
 }
 
-fn cut(job: &Job) -> CutBlank {
+fn cut(job: &ShapingJob) -> CutBlank {
     job.cut_blank(&Cpu::default(), job.planar().blank_field().expect("fits in memory"), &|| true)
         .expect("the native backend")
         .expect("not stopped")
 }
 
-fn target(job: &Job) -> TargetOutline {
+fn target(job: &ShapingJob) -> TargetOutline {
     job.target_outline(TARGET_SPACING_MM).expect("ordinary teeth")
 }
 
-fn report(job: &Job, cut: &CutBlank) -> BlankReport {
+fn report(job: &ShapingJob, cut: &CutBlank) -> BlankReport {
     blank_report::measure(&job.planar(), cut, Some(&target(job)))
 }
 
@@ -122,7 +122,7 @@ struct Stroke {
 }
 
 /// Gives an operation other strokes; later ones are counted on from them.
-fn replace_strokes(job: &mut Job, operation: usize, strokes: &[Stroke]) {
+fn replace_strokes(job: &mut ShapingJob, operation: usize, strokes: &[Stroke]) {
     let mut first_pass = job.operations[operation].strokes.first_pass;
     for index in operation..job.operations.len() {
         let prepared = &job.operations[index];
@@ -238,7 +238,7 @@ fn machine_scene() -> Scene {
 }
 
 /// How many teeth lie between the pitch point of a stroke and a tooth.
-fn teeth_away(job: &Job, operation: usize, at: f64, tooth: u32) -> f64 {
+fn teeth_away(job: &ShapingJob, operation: usize, at: f64, tooth: u32) -> f64 {
     let phi = job.operations[operation].schedule.state(at).phi_rad;
     let pitch_point = job.curve.arc_mm(phi) / job.curve.perimeter_mm() * 42.0;
     let away = (pitch_point - f64::from(tooth) + 0.5).rem_euclid(42.0);

@@ -12,28 +12,28 @@ use gearcut::process::shaping::chips::ChipLedger;
 use gearcut::process::shaping::chips::edge_polygon::EdgeSide;
 use gearcut::process::shaping::linkage::{CutterPose, StrokeSchedule};
 use gearcut::process::shaping::scene::model::{Infeed, Shaping};
-use gearcut::process::shaping::{Job, PreparedOperation};
+use gearcut::process::shaping::{PreparedOperation, ShapingJob};
 use gearcut::tool::{CuttingTool, PlanarTool};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
 use std::f64::consts::TAU;
 
-fn ledger(job: &Job) -> ChipLedger {
+fn ledger(job: &ShapingJob) -> ChipLedger {
     ChipLedger::new(job, &|| true).expect("not stopped")
 }
 
-fn cut_blank(job: &Job) -> CutBlank {
+fn cut_blank(job: &ShapingJob) -> CutBlank {
     job.cut_blank(&Cpu::default(), job.planar().blank_field().expect("fits in memory"), &|| true)
         .expect("the native backend")
         .expect("not stopped")
 }
 
-fn round_job(strokes: u32) -> Job {
+fn round_job(strokes: u32) -> ShapingJob {
     let mut scene = paper_scene(vec![operation("cut", NORMAL, 0.0, strokes)]);
     scene.gear.teeth = 24;
     scene.gear.pitch_curve = PitchCurveShape::Circle;
-    Job::new(scene).expect("an ordinary gear")
+    ShapingJob::new(scene).expect("an ordinary gear")
 }
 
 /// Twice the signed area of a polygon, halved.
@@ -43,7 +43,7 @@ fn area(contour: &[[f64; 2]]) -> f64 {
 }
 
 /// Area that each stroke takes from the blank, by clipping polygons with chords of some hundred nanometres.
-fn clipped_areas(job: &Job) -> Vec<f64> {
+fn clipped_areas(job: &ShapingJob) -> Vec<f64> {
     let mut blank: Vec<Vec<[f64; 2]>> = vec![
         (0..20_000)
             .map(|i| {
@@ -85,7 +85,7 @@ fn sections(chips: &ChipLedger) -> Vec<f64> {
 }
 
 /// A job whose machine has its cutter elsewhere: pose by stroke coordinate.
-fn moved(mut job: Job, pose: impl Fn(&StrokeSchedule, f64) -> CutterPose) -> Job {
+fn moved(mut job: ShapingJob, pose: impl Fn(&StrokeSchedule, f64) -> CutterPose) -> ShapingJob {
     let PreparedOperation { strokes, schedule, .. } = &job.operations[0];
     let strokes = StrokeSet::new(0, &job.cutter, strokes.law, strokes.count(), |lambda| {
         let pose = pose(schedule, lambda);
@@ -96,7 +96,7 @@ fn moved(mut job: Job, pose: impl Fn(&StrokeSchedule, f64) -> CutterPose) -> Job
 }
 
 /// A stroke is not made: the cutter stands where the one before stood.
-fn without_stroke(job: Job, stroke: u32) -> Job {
+fn without_stroke(job: ShapingJob, stroke: u32) -> ShapingJob {
     let missing = f64::from(stroke);
     moved(job, |schedule, lambda| {
         schedule.state(if (lambda - missing).abs() < 0.5 { missing - 1.0 } else { lambda }).pose
@@ -104,7 +104,7 @@ fn without_stroke(job: Job, stroke: u32) -> Job {
 }
 
 /// The cutter stands too far from the work by so much.
-fn drawn_back(job: Job, by_mm: f64) -> Job {
+fn drawn_back(job: ShapingJob, by_mm: f64) -> ShapingJob {
     moved(job, |schedule, lambda| {
         let pose = schedule.state(lambda).pose;
         CutterPose { center_mm: pose.center_mm + by_mm * pose.center_mm.normalize(), ..pose }
@@ -149,7 +149,7 @@ fn sections_are_those_of_exact_polygons_stroke_by_stroke() {
 #[test]
 fn the_ledger_and_the_blank_field_take_the_same_volume() {
     let scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 420), operation("finish", NORMAL, 0.0, 420)]);
-    let job = Job::new(scene).expect("the paper's gear");
+    let job = ShapingJob::new(scene).expect("the paper's gear");
     let blank = cut_blank(&job);
     let chips = ledger(&job);
     for (index, cut) in blank.cuts.iter().enumerate() {
@@ -169,7 +169,7 @@ fn a_plunging_tooth_takes_chips_of_known_thickness() {
     scene.gear.pitch_curve = PitchCurveShape::Circle;
     Shaping::of_mut(&mut scene).expect("shaping").operations[0].infeed = Infeed::Plunge { depth_mm: 6.0, strokes: 300 };
     Shaping::of_mut(&mut scene).expect("shaping").operations[0].window_rad = Some([0.0, 0.01]);
-    let job = Job::new(scene).expect("an ordinary gear");
+    let job = ShapingJob::new(scene).expect("an ordinary gear");
     let chips = ledger(&job);
     let operation = &chips.operations[0];
     let stations = chips.stations.len();
@@ -317,7 +317,7 @@ fn a_first_stroke_at_depth_stands_apart() {
     let mut scene = job.scene.clone();
     Shaping::of_mut(&mut scene).expect("shaping").operations[0].infeed =
         Infeed::Spiral { depth_mm: 6.0, angle_rad: 1.0 };
-    let fed = &ledger(&Job::new(scene).expect("an ordinary gear")).operations[0];
+    let fed = &ledger(&ShapingJob::new(scene).expect("an ordinary gear")).operations[0];
     assert!(fed.entry().is_none());
     assert!(fed.largest(|s| s.cutting_n).expect("it cuts").1.cutting_n < 0.2 * entry.cutting_n);
 }
@@ -328,7 +328,7 @@ fn runs_past_the_first_turn_are_idle() {
     scene.gear.teeth = 24;
     scene.gear.pitch_curve = PitchCurveShape::Circle;
     Shaping::of_mut(&mut scene).expect("shaping").operations[0].revolutions = 2;
-    let job = Job::new(scene).expect("an ordinary gear");
+    let job = ShapingJob::new(scene).expect("an ordinary gear");
     let operation = &ledger(&job).operations[0];
     // The second turn repeats the first: whole pitches apart, the same cutter angles come back.
     assert!(operation.idle() >= 200, "{} idle", operation.idle());

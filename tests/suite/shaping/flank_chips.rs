@@ -5,7 +5,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::{Field, NO_PASS};
 use gearcut::gear::PitchCurveShape;
 use gearcut::passes::StrokeSet;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::chips::edge_polygon::EdgeSide;
 use gearcut::process::shaping::chips::flank::side_code;
 use gearcut::process::shaping::chips::last_chips;
@@ -13,7 +13,7 @@ use gearcut::terms::Side;
 use std::f64::consts::TAU;
 
 /// Rays of a flank at so many places of its profile.
-fn field(job: &Job, tooth: u32, side: Side, count: u32) -> (Field, Vec<f64>) {
+fn field(job: &ShapingJob, tooth: u32, side: Side, count: u32) -> (Field, Vec<f64>) {
     let flank = job.target_flank(tooth, side);
     let arcs = (0..count).map(|i| flank.length_mm() * f64::from(i) / f64::from(count - 1));
     let rolls = arcs.clone().map(|arc_mm| flank.at_arc(arc_mm).roll).collect();
@@ -22,7 +22,7 @@ fn field(job: &Job, tooth: u32, side: Side, count: u32) -> (Field, Vec<f64>) {
 
 /// What each pass of the cutter's involute leaves of a ray on its own, by the closed form: stroke, tooth, height and
 /// cosine, in order of time.
-fn exact_heights(job: &Job, side: Side, field: &Field, column: usize) -> Vec<(usize, u32, [f64; 2])> {
+fn exact_heights(job: &ShapingJob, side: Side, field: &Field, column: usize) -> Vec<(usize, u32, [f64; 2])> {
     let ray = field.columns[column];
     let near =
         |stroke: &usize| job.finishing().schedule.state(*stroke as f64).pose.center_mm.distance(ray.origin_mm) < 34.0;
@@ -38,7 +38,7 @@ fn exact_heights(job: &Job, side: Side, field: &Field, column: usize) -> Vec<(us
 
 #[test]
 fn thickness_on_a_flank_is_that_of_the_closed_form() {
-    let job = Job::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 720)])).expect("the paper's gear");
+    let job = ShapingJob::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 720)])).expect("the paper's gear");
     let (mut worst_nm, mut compared) = (0.0_f64, 0);
     for (tooth, side) in [(2, Side::Left), (5, Side::Right), (9, Side::Left)] {
         let (field, rolls) = field(&job, tooth, side, 200);
@@ -80,7 +80,7 @@ fn chips_on_a_round_gear_are_four_scallops_thick() {
     let strokes = 2400;
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, strokes)]);
     (scene.gear.pitch_curve, scene.gear.teeth) = (PitchCurveShape::Circle, 24);
-    let job = Job::new(scene).expect("a round gear");
+    let job = ShapingJob::new(scene).expect("a round gear");
     let ds_mm = TAU * 36.0 / f64::from(strokes);
     let scallop_mm = 20_f64.to_radians().sin() / 8.0 * (1.0 / 36.0 + 1.0 / 30.0) * ds_mm * ds_mm;
     let (field, _) = field(&job, 3, Side::Left, 6000);
@@ -108,7 +108,7 @@ fn the_last_chips_passes_are_those_of_the_heights() {
         for op in &mut operations {
             op.feed_during_stroke = feed_during_stroke;
         }
-        let job = Job::new(paper_scene(operations)).expect("the paper's gear");
+        let job = ShapingJob::new(paper_scene(operations)).expect("the paper's gear");
         let (mut other, mut all) = (0, 0);
         for (tooth, side) in [(1, Side::Left), (1, Side::Right), (7, Side::Left), (14, Side::Right)] {
             let (field, _) = field(&job, tooth, side, 80);
@@ -133,7 +133,7 @@ fn the_last_chips_passes_are_those_of_the_heights() {
 #[test]
 fn the_stroke_after_a_missing_one_takes_the_chips_of_both() {
     let scene = || paper_scene(vec![operation("finish", NORMAL, 0.0, 720)]);
-    let mut job = Job::new(scene()).expect("the paper's gear");
+    let mut job = ShapingJob::new(scene()).expect("the paper's gear");
     let (field, _) = field(&job, 5, Side::Left, 400);
     let clean = last_chips(&job, &field);
     let set = &job.finishing().strokes;

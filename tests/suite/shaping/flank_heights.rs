@@ -5,7 +5,7 @@ use gearcut::cut::Backend;
 use gearcut::cut::cpu::{Cpu, Vectors};
 use gearcut::dexel::Field;
 use gearcut::passes::CutPlan;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::scene::model::*;
 use gearcut::terms::Side;
 
@@ -19,7 +19,7 @@ fn heights_are_within_a_fiftieth_of_a_nanometre_of_the_closed_form() {
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 720)]);
     scene.fields.lead_spacing_mm = 30.0;
     scene.fields.profile_spacing_mm = 0.02;
-    let job = Job::new(scene).expect("the paper's gear");
+    let job = ShapingJob::new(scene).expect("the paper's gear");
     let (mut worst_nm, mut compared) = (0.0_f64, 0);
     for (tooth, side) in [(2, Side::Left), (5, Side::Right), (8, Side::Left), (9, Side::Right)] {
         let flank = job.target_flank(tooth, side);
@@ -54,7 +54,7 @@ fn heights_are_within_a_fiftieth_of_a_nanometre_of_the_closed_form() {
 }
 
 /// Cuts a field by one operation's plan and gives heights (as bits) and passes.
-fn cut_bits(job: &Job, field: &Field, plan: &CutPlan, backend: Cpu) -> (Vec<u32>, Vec<u32>) {
+fn cut_bits(job: &ShapingJob, field: &Field, plan: &CutPlan, backend: Cpu) -> (Vec<u32>, Vec<u32>) {
     let mut layer = field.blank_layer();
     backend.cut(field, gearcut::tool::CuttingTool::edge(&job.cutter), plan, &mut layer).expect("native");
     (layer.heights_mm.iter().map(|h| h.to_bits()).collect(), layer.passes)
@@ -69,7 +69,7 @@ fn candidates_equal_brute_force_bit_for_bit() {
             for op in &mut operations {
                 op.feed_during_stroke = feed_during_stroke;
             }
-            let job = Job::new(coarse_rows(paper_scene(operations))).expect("the paper's gear");
+            let job = ShapingJob::new(coarse_rows(paper_scene(operations))).expect("the paper's gear");
             for (tooth, side) in
                 [(1, Side::Left), (1, Side::Right), (7, Side::Left), (8, Side::Right), (14, Side::Left)]
             {
@@ -98,7 +98,7 @@ fn candidates_equal_brute_force_where_facets_are_wide_and_shaved() {
         for op in &mut operations {
             op.feed_during_stroke = feed_during_stroke;
         }
-        let job = Job::new(coarse_rows(paper_scene(operations.clone()))).expect("the paper's gear");
+        let job = ShapingJob::new(coarse_rows(paper_scene(operations.clone()))).expect("the paper's gear");
         for (tooth, side) in [(3, Side::Left), (9, Side::Right)] {
             let flank = job.target_flank(tooth, side);
             let field = job.flank_field(flank);
@@ -110,7 +110,7 @@ fn candidates_equal_brute_force_where_facets_are_wide_and_shaved() {
 }
 
 /// Compares a whole field with brute force.
-fn compare_whole_field(job: &Job, field: &Field, op: &gearcut::process::shaping::PreparedOperation) {
+fn compare_whole_field(job: &ShapingJob, field: &Field, op: &gearcut::process::shaping::PreparedOperation) {
     let plan = CutPlan::new(field, &op.strokes, &job.cutter);
     let brute = CutPlan::brute_force(field, &op.strokes, &job.cutter);
     assert!(brute.records.len() > 2 * plan.records.len());
@@ -123,7 +123,7 @@ fn compare_whole_field(job: &Job, field: &Field, op: &gearcut::process::shaping:
 #[test]
 fn rows_that_are_alike_are_what_cutting_each_of_them_gives() {
     let operations = vec![operation("rough", TRADITIONAL, 2.0, 360), operation("finish", NORMAL, 0.0, 360)];
-    let job = Job::new(coarse_rows(paper_scene(operations))).expect("the paper's gear");
+    let job = ShapingJob::new(coarse_rows(paper_scene(operations))).expect("the paper's gear");
     let field = job.flank_field(job.target_flank(5, Side::Left));
     let (layers, stats) = job.planar().cut_rows(&Cpu::default(), &field).expect("native");
     let once = job.cut(&Cpu::default(), field).expect("native");
@@ -132,7 +132,11 @@ fn rows_that_are_alike_are_what_cutting_each_of_them_gives() {
 }
 
 /// Compares some tiles of a field (evenly spread, and those with the longest lists); gives how many.
-fn compare_with_brute_force(job: &Job, field: &Field, op: &gearcut::process::shaping::PreparedOperation) -> usize {
+fn compare_with_brute_force(
+    job: &ShapingJob,
+    field: &Field,
+    op: &gearcut::process::shaping::PreparedOperation,
+) -> usize {
     let plan = CutPlan::new(field, &op.strokes, &job.cutter);
     let mut tiles: Vec<usize> = (0..plan.tiles.len()).step_by(plan.tiles.len().div_ceil(3)).collect();
     tiles.extend((0..plan.tiles.len()).max_by_key(|&t| plan.tiles[t].records.len()));
@@ -161,7 +165,8 @@ fn compare_with_brute_force(job: &Job, field: &Field, op: &gearcut::process::sha
 
 #[test]
 fn a_missing_pass_is_noticed() {
-    let job = Job::new(coarse_rows(paper_scene(vec![operation("finish", NORMAL, 0.0, 4200)]))).expect("the gear");
+    let job =
+        ShapingJob::new(coarse_rows(paper_scene(vec![operation("finish", NORMAL, 0.0, 4200)]))).expect("the gear");
     let flank = job.target_flank(7, Side::Left);
     let field = job.flank_field(flank);
     let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
@@ -185,7 +190,7 @@ fn all_instruction_sets_give_the_same_bytes() {
     op.feed_during_stroke = true;
     let mut scene = paper_scene(vec![op]);
     scene.fields = Fields { profile_spacing_mm: 0.02, lead_spacing_mm: 0.5, ..scene.fields };
-    let job = Job::new(scene).expect("the gear");
+    let job = ShapingJob::new(scene).expect("the gear");
     let field = job.flank_field(job.target_flank(3, Side::Right));
     let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
     let widest = cut_bits(&job, &field, &plan, Cpu::default());

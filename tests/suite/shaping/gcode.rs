@@ -2,26 +2,26 @@
 
 use crate::fixtures::paper::*;
 use gearcut::cut::cpu::Cpu;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::gcode;
 use gearcut::process::shaping::gcode::{AxisProgram, read};
 use gearcut::process::shaping::scene::model::*;
 use gearcut::scene::model::*;
 use gearcut::terms::Side;
 
-fn job(operation: Operation) -> Job {
+fn job(operation: Operation) -> ShapingJob {
     let mut scene = paper_scene(vec![operation]);
     scene.fields.profile_spacing_mm = 0.05;
     scene.fields.lead_spacing_mm = 15.0;
-    Job::new(scene).expect("the paper's gear")
+    ShapingJob::new(scene).expect("the paper's gear")
 }
 
-fn text(job: &Job) -> String {
+fn text(job: &ShapingJob) -> String {
     gcode::text(job, &job.operations[0]).expect("wanted").expect("written")
 }
 
 /// Heights of some flanks after the cut, mm.
-fn heights(job: &Job) -> Vec<f32> {
+fn heights(job: &ShapingJob) -> Vec<f32> {
     let mut heights = Vec::new();
     for (tooth, side) in [(1, Side::Right), (7, Side::Left), (8, Side::Right), (21, Side::Left), (42, Side::Left)] {
         let target = job.target_flank(tooth, side);
@@ -32,7 +32,7 @@ fn heights(job: &Job) -> Vec<f32> {
 }
 
 /// The same job, cut by a program file.
-fn cut_by(mut operation: Operation, program: &str) -> Job {
+fn cut_by(mut operation: Operation, program: &str) -> ShapingJob {
     let file = tempfile::NamedTempFile::new().expect("a file");
     std::fs::write(file.path(), program).expect("written");
     operation.program = Some(file.path().to_owned());
@@ -130,7 +130,7 @@ fn a_program_of_another_length_is_refused() {
     std::fs::write(file.path(), program).expect("written");
     let mut operation = operation("cut", NORMAL, 0.0, 1200);
     operation.program = Some(file.path().to_owned());
-    let refused = Job::new(paper_scene(vec![operation])).expect_err("600 strokes are not 1200").to_string();
+    let refused = ShapingJob::new(paper_scene(vec![operation])).expect_err("600 strokes are not 1200").to_string();
     assert!(
         refused.contains("operation.cut.program") && refused.contains("600 strokes") && refused.contains("1200"),
         "{refused}"

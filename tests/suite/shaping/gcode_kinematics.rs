@@ -9,7 +9,7 @@
 
 use crate::fixtures::paper::*;
 use gearcut::gear::PitchCurveShape;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::gcode;
 use gearcut::process::shaping::scene::model::Linkage;
 use gearcut::scene::model::Scene;
@@ -51,7 +51,7 @@ fn positions(program: &str) -> Vec<Position> {
 
 fn program(mut scene: Scene) -> Vec<Position> {
     scene.output.gcode_contour_error_mm = 1e-4;
-    let job = Job::new(scene).expect("a gear");
+    let job = ShapingJob::new(scene).expect("a gear");
     let text = gcode::text(&job, &job.operations[0]).expect("wanted").expect("written");
     let positions = positions(&text);
     let last = positions.last().expect("positions").stroke;

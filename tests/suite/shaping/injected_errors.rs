@@ -4,7 +4,7 @@
 use crate::fixtures::paper::*;
 use gearcut::cut::cpu::Cpu;
 use gearcut::gear::PitchCurveShape;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::*;
 use gearcut::scene::Scene;
 use gearcut::scene::model::*;
@@ -21,8 +21,8 @@ fn fine_scene() -> Scene {
 }
 
 /// Cuts the same flank with and without an error; gives columns with both heights, away from form point and tip.
-fn heights(sound: &Job, faulty: &Job, tooth: u32, side: Side) -> Vec<(DVec2, DVec2, f64, f64)> {
-    let cut = |job: &Job| -> CutField {
+fn heights(sound: &ShapingJob, faulty: &ShapingJob, tooth: u32, side: Side) -> Vec<(DVec2, DVec2, f64, f64)> {
+    let cut = |job: &ShapingJob| -> CutField {
         let flank = sound.target_flank(tooth, side);
         job.cut(&Cpu::default(), sound.flank_field(flank)).expect("native")
     };
@@ -38,12 +38,12 @@ fn heights(sound: &Job, faulty: &Job, tooth: u32, side: Side) -> Vec<(DVec2, DVe
 
 #[test]
 fn cutter_runout_moves_flanks_by_its_part_along_the_normal() {
-    let sound = Job::new(fine_scene()).expect("the gear");
+    let sound = ShapingJob::new(fine_scene()).expect("the gear");
     let (runout_mm, angle_rad) = (0.01, 0.6);
     let mut scene = fine_scene();
     let cutter = &mut Shaping::of_mut(&mut scene).expect("shaping").tool;
     (cutter.runout_mm, cutter.runout_angle_rad) = (runout_mm, angle_rad);
-    let faulty = Job::new(scene).expect("the gear");
+    let faulty = ShapingJob::new(scene).expect("the gear");
     let mut worst_um = 0.0_f64;
     for (tooth, side) in FLANKS {
         let flank = sound.target_flank(tooth, side);
@@ -65,13 +65,13 @@ fn cutter_runout_moves_flanks_by_its_part_along_the_normal() {
 
 #[test]
 fn a_cutter_pitch_error_appears_on_the_spaces_of_its_tooth() {
-    let sound = Job::new(fine_scene()).expect("the gear");
+    let sound = ShapingJob::new(fine_scene()).expect("the gear");
     let mut scene = fine_scene();
     let error_mm = 0.01;
     // Space 2 is cut by cutter tooth -2, that is 18 of 20.
     Shaping::of_mut(&mut scene).expect("shaping").tool.pitch_errors_mm =
         (0..20).map(|j| if j == 18 { error_mm } else { 0.0 }).collect();
-    let faulty = Job::new(scene).expect("the gear");
+    let faulty = ShapingJob::new(scene).expect("the gear");
     let cos = 20_f64.to_radians().cos();
     let shift = |tooth, side| -> (f64, f64) {
         let difference: Vec<f64> = heights(&sound, &faulty, tooth, side).iter().map(|h| (h.3 - h.2) * 1e3).collect();
@@ -90,12 +90,12 @@ fn a_cutter_pitch_error_appears_on_the_spaces_of_its_tooth() {
 
 #[test]
 fn work_eccentricity_shifts_the_whole_gear() {
-    let sound = Job::new(fine_scene()).expect("the gear");
+    let sound = ShapingJob::new(fine_scene()).expect("the gear");
     let mut scene = fine_scene();
     let shift = 0.01 * DVec2::from_angle(2.0);
     let machine = &mut Shaping::of_mut(&mut scene).expect("shaping").machine;
     (machine.work_eccentricity_mm, machine.work_eccentricity_angle_rad) = (0.01, 2.0);
-    let faulty = Job::new(scene).expect("the gear");
+    let faulty = ShapingJob::new(scene).expect("the gear");
     let mut worst_um = 0.0_f64;
     for (tooth, side) in FLANKS {
         for (_, normal, before, after) in heights(&sound, &faulty, tooth, side) {
@@ -111,7 +111,7 @@ fn a_round_gear_is_an_exact_involute_gear() {
     let mut scene = fine_scene();
     scene.gear.pitch_curve = PitchCurveShape::Circle;
     scene.gear.teeth = 24;
-    let job = Job::new(scene).expect("a round gear");
+    let job = ShapingJob::new(scene).expect("a round gear");
     let alpha = 20_f64.to_radians();
     let (r, r_b) = (36.0, 36.0 * alpha.cos());
     let psi_b = std::f64::consts::PI / 48.0 + alpha.tan() - alpha;

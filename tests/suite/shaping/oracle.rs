@@ -9,8 +9,8 @@ use gearcut::gear::PitchCurveShape;
 use gearcut::measure::scallop::cusps;
 use gearcut::passes::planar::strokes::StrokeLaw;
 use gearcut::passes::{CutPlan, StrokeSet};
-use gearcut::process::shaping::Job;
-use gearcut::process::shaping::measure::unevenness::{Surface, ToothAllowance, summarise};
+use gearcut::process::shaping::ShapingJob;
+use gearcut::process::shaping::measure::unevenness::{CrossedSurface, ToothAllowance, summarise};
 use gearcut::process::shaping::scene::model::*;
 use gearcut::scene::model::*;
 use gearcut::terms::Side;
@@ -32,16 +32,19 @@ fn point(value: &Value) -> DVec2 {
     DVec2::new(number(&value[0]), number(&value[1]))
 }
 
-fn rough_and_finish(linkage: Linkage, strokes: u32) -> Job {
-    Job::new(paper_scene(vec![operation("rough", linkage, 2.0, strokes), operation("finish", NORMAL, 0.0, strokes)]))
-        .expect("the paper's gear")
+fn rough_and_finish(linkage: Linkage, strokes: u32) -> ShapingJob {
+    ShapingJob::new(paper_scene(vec![
+        operation("rough", linkage, 2.0, strokes),
+        operation("finish", NORMAL, 0.0, strokes),
+    ]))
+    .expect("the paper's gear")
 }
 
-fn circle(strokes: u32) -> Job {
+fn circle(strokes: u32) -> ShapingJob {
     let mut scene =
         paper_scene(vec![operation("rough", NORMAL, 2.0, strokes), operation("finish", NORMAL, 0.0, strokes)]);
     scene.gear.pitch_curve = PitchCurveShape::Circle;
-    Job::new(scene).expect("a round gear")
+    ShapingJob::new(scene).expect("a round gear")
 }
 
 const READINGS: [(&str, Linkage); 3] = [
@@ -95,11 +98,11 @@ fn check_exact(expected: &Value, got: &[ToothAllowance], tolerance: &Value) {
 fn envelope_allowances_are_the_oracles() {
     let data = oracle("external_s0_allowances");
     for (name, linkage) in READINGS {
-        let got = paper_allowances(&rough_and_finish(linkage, 360), Surface::Envelope);
+        let got = paper_allowances(&rough_and_finish(linkage, 360), CrossedSurface::Envelope);
         check_exact(&data["exact_envelope"][name], &got, &data["tolerance"]);
     }
     let data = oracle("external_circle");
-    let got = paper_allowances(&circle(360), Surface::Envelope);
+    let got = paper_allowances(&circle(360), CrossedSurface::Envelope);
     check_exact(&data["allowances"]["exact_envelope"]["normal"], &got, &data["allowances"]["tolerance"]);
 }
 
@@ -109,7 +112,7 @@ fn stroke_allowances_are_the_oracles() {
     for strokes in [120, 360, 720, 4000, 20000] {
         for (name, linkage) in &READINGS[..2] {
             let expected = &data["discrete"][strokes.to_string()][name];
-            let got = paper_allowances(&rough_and_finish(*linkage, strokes), Surface::Strokes);
+            let got = paper_allowances(&rough_and_finish(*linkage, strokes), CrossedSurface::Strokes);
             let mut worst = 0.0_f64;
             for tooth in &got {
                 let i = tooth.tooth as usize - 1;
@@ -141,7 +144,7 @@ fn check_facets(data: &Value, shape: &PitchCurveShape) {
         let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, strokes)]);
         scene.gear.pitch_curve = shape.clone();
         scene.fields = Fields { profile_spacing_mm: 0.72 / f64::from(strokes), lead_spacing_mm: 30.0, ..scene.fields };
-        let job = Job::new(scene).expect("the gear");
+        let job = ShapingJob::new(scene).expect("the gear");
         let flank = job.target_flank(tooth, side);
         let field = job.flank_field(flank);
         // Two strokes, half a step before and after the contact that the row names: one crest.

@@ -5,9 +5,9 @@
 //! Expected values come from an independent implementation in another language; nothing here is fitted to the paper.
 
 use crate::fixtures::paper::*;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::measure::unevenness::{
-    Surface, ToothAllowance, Unevenness, rack_allowance_mm, summarise,
+    CrossedSurface, ToothAllowance, Unevenness, rack_allowance_mm, summarise,
 };
 use gearcut::process::shaping::scene::model::*;
 
@@ -72,12 +72,17 @@ const RUNS: [Run; 4] = [
 
 /// Allowances of the first lobe and the rack allowance; roughing 2 mm off by `linkage`, then finishing, both with N
 /// strokes per revolution in a window of work angles.
-fn lobe(linkage: Linkage, strokes: u32, window_deg: Option<[f64; 2]>, surface: Surface) -> (Vec<ToothAllowance>, f64) {
+fn lobe(
+    linkage: Linkage,
+    strokes: u32,
+    window_deg: Option<[f64; 2]>,
+    surface: CrossedSurface,
+) -> (Vec<ToothAllowance>, f64) {
     let mut operations = vec![operation("rough", linkage, 2.0, strokes), operation("finish", NORMAL, 0.0, strokes)];
     for operation in &mut operations {
         operation.window_rad = window_deg.map(|ends| ends.map(f64::to_radians));
     }
-    let job = Job::new(paper_scene(operations)).expect("the paper's gear");
+    let job = ShapingJob::new(paper_scene(operations)).expect("the paper's gear");
     let mut teeth = paper_allowances(&job, surface);
     teeth.truncate(LOBE_TEETH);
     (teeth, rack_allowance_mm(&job, 0))
@@ -117,7 +122,7 @@ fn a_closed_turn_and_the_runs_that_explain_the_paper() {
     let [[t_max, t_mean], [n_max, n_mean]] = PRINTED;
     println!("| printed in the paper | {t_max} / {t_mean} | {n_max} / {n_mean} |");
     let [traditional, normal] =
-        [TRADITIONAL, NORMAL].map(|linkage| both_denominators(&lobe(linkage, 360, None, Surface::Envelope)));
+        [TRADITIONAL, NORMAL].map(|linkage| both_denominators(&lobe(linkage, 360, None, CrossedSurface::Envelope)));
     row("closed turn, envelope; mean of AB and CD", traditional[0], normal[0]);
     row("closed turn, envelope; rack allowance", traditional[1], normal[1]);
     agrees("envelope, traditional, mean", traditional[0], [129.52, 85.58], TWO_DECIMALS);
@@ -128,7 +133,7 @@ fn a_closed_turn_and_the_runs_that_explain_the_paper() {
     for Run { strokes, first_stroke, last_stroke, mean, rack, traditional_tolerance } in RUNS {
         let ends_deg = [first_stroke, last_stroke].map(|stroke| 360.0 * f64::from(stroke) / f64::from(strokes));
         let [traditional, normal] = [TRADITIONAL, NORMAL]
-            .map(|linkage| both_denominators(&lobe(linkage, strokes, Some(ends_deg), Surface::Strokes)));
+            .map(|linkage| both_denominators(&lobe(linkage, strokes, Some(ends_deg), CrossedSurface::Strokes)));
         let what = format!("N = {strokes}, {:.1} to {:.1} deg", ends_deg[0], ends_deg[1]);
         row(&format!("{what}; mean of AB and CD"), traditional[0], normal[0]);
         row(&format!("{what}; rack allowance"), traditional[1], normal[1]);
@@ -142,7 +147,7 @@ fn a_closed_turn_and_the_runs_that_explain_the_paper() {
 
 #[test]
 fn two_readings_that_do_not_fit() {
-    let of = |linkage| both_denominators(&lobe(linkage, 360, None, Surface::Envelope))[0];
+    let of = |linkage| both_denominators(&lobe(linkage, 360, None, CrossedSurface::Envelope))[0];
     let (polar, as_printed) = (of(POLAR), of(AS_PRINTED));
     row("closed turn, envelope: offset along the polar radius; Eq. 12 as printed", polar, as_printed);
     agrees("offset along the polar radius", polar, [199.97, 131.85], TWO_DECIMALS);

@@ -5,21 +5,21 @@ use gearcut::cut::Rub;
 use gearcut::cut::cpu::Cpu;
 use gearcut::gear::PitchCurveShape;
 use gearcut::measure::damage::LEAST_DEPTH_MM;
-use gearcut::process::shaping::Job;
+use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::chips::edge_polygon::{EdgePolygon, Station};
 use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::steps::planar::blank_report;
 use gearcut::tool::{CuttingTool, PlanarTool};
 use std::collections::BTreeMap;
 
-fn round_job(back_off_mm: f64) -> Job {
+fn round_job(back_off_mm: f64) -> ShapingJob {
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 480)]);
     (scene.gear.pitch_curve, scene.gear.teeth) = (PitchCurveShape::Circle, 24);
     Shaping::of_mut(&mut scene).expect("shaping").machine.back_off_mm = back_off_mm;
-    Job::new(scene).expect("a round gear")
+    ShapingJob::new(scene).expect("a round gear")
 }
 
-fn rubs(job: &Job) -> Vec<Rub> {
+fn rubs(job: &ShapingJob) -> Vec<Rub> {
     let cut = job.cut_blank(&Cpu::default(), job.planar().blank_field().expect("fits"), &|| true).expect("native");
     cut.expect("not stopped").cuts.remove(0).rubs
 }
@@ -35,7 +35,7 @@ struct Deepest {
     base_mm: Option<f64>,
 }
 
-fn deepest(job: &Job) -> Vec<Deepest> {
+fn deepest(job: &ShapingJob) -> Vec<Deepest> {
     let back_off_mm = job.machine.back_off_mm;
     let polygon = EdgePolygon::new(job.cutter.edge(), 0.02);
     let set = &job.operations[0].strokes;
@@ -101,7 +101,7 @@ fn return_strokes_enter_the_stock_as_deep_as_the_back_off_presses_the_edge_into_
 fn no_edge_enters_deeper_than_it_has_moved_along_its_normal() {
     // On the elliptical gear cutter teeth enter at all angles, and rays run along slivers: length alone would say a
     // millimetre at half a millimetre of back-off.
-    let job = Job::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 1440)])).expect("the paper's gear");
+    let job = ShapingJob::new(paper_scene(vec![operation("finish", NORMAL, 0.0, 1440)])).expect("the paper's gear");
     let found = deepest(&job);
     let exact = found.iter().filter(|d| (d.rub.depth_mm - d.own_mm).abs() < 1e-6).count();
     let largest = found.iter().map(|d| d.rub.depth_mm).fold(0.0, f64::max);

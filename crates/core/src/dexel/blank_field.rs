@@ -32,7 +32,7 @@ pub struct BlankGrid {
     pub rows: [RayRow; 2],
     /// Places of the slices along the tooth from the middle of the face, mm, increasing; a single one stands for the
     /// whole face.
-    pub leads_mm: Vec<f64>,
+    pub slices_z_mm: Vec<f64>,
     /// Face width, mm.
     pub face_width_mm: f64,
 }
@@ -49,7 +49,7 @@ pub struct Slice {
 pub struct BlankField {
     /// Where the rays stand.
     pub grid: BlankGrid,
-    /// Slices in the order of [`BlankGrid::leads_mm`].
+    /// Slices in the order of [`BlankGrid::slices_z_mm`].
     pub slices: Vec<Slice>,
 }
 
@@ -97,11 +97,11 @@ impl BlankGrid {
             let last = (to / spacing_mm - 0.5).ceil() + 1.0;
             RayRow { first_mm: (first + 0.5) * spacing_mm, spacing_mm, count: (last - first) as usize + 1 }
         };
-        let leads_mm = match intervals {
+        let slices_z_mm = match intervals {
             None => vec![0.0],
             Some(n) => (0..=n as usize).map(|i| face_width_mm * (i as f64 / n - 0.5)).collect(),
         };
-        Ok(Self { rows: [row(low.y, high.y), row(low.x, high.x)], leads_mm, face_width_mm })
+        Ok(Self { rows: [row(low.y, high.y), row(low.x, high.x)], slices_z_mm, face_width_mm })
     }
 
     /// Distance of neighbouring rays, mm.
@@ -111,22 +111,22 @@ impl BlankGrid {
 
     /// Distance of neighbouring slices, mm; the face's width where a single one stands for it.
     pub fn slice_spacing_mm(&self) -> f64 {
-        self.leads_mm.get(1).map_or(self.face_width_mm, |second| second - self.leads_mm[0])
+        self.slices_z_mm.get(1).map_or(self.face_width_mm, |second| second - self.slices_z_mm[0])
     }
 
     /// What all its slices are estimated to need once teeth are cut, bytes.
     pub fn estimated_bytes(&self, blank: &Blank) -> f64 {
         let [x, y] = [1, 0].map(|f: usize| self.rows[f].spacing_mm * self.rows[f].count as f64);
-        self.leads_mm.len() as f64 * section_bytes(blank, DVec2::new(x, y), self.spacing_mm())
+        self.slices_z_mm.len() as f64 * section_bytes(blank, DVec2::new(x, y), self.spacing_mm())
     }
 
     /// Share of the face that each slice stands for, mm: the trapezoidal rule.
     pub fn slice_widths_mm(&self) -> Vec<f64> {
-        let leads = &self.leads_mm;
-        if leads.len() == 1 {
+        let z_mm = &self.slices_z_mm;
+        if z_mm.len() == 1 {
             return vec![self.face_width_mm];
         }
-        (0..leads.len()).map(|i| 0.5 * (leads[(i + 1).min(leads.len() - 1)] - leads[i.saturating_sub(1)])).collect()
+        (0..z_mm.len()).map(|i| 0.5 * (z_mm[(i + 1).min(z_mm.len() - 1)] - z_mm[i.saturating_sub(1)])).collect()
     }
 }
 
@@ -145,7 +145,7 @@ impl BlankField {
     /// The uncut blank.
     pub fn new(grid: BlankGrid, outline: &BlankOutline, bore_radius_mm: f64) -> Self {
         let rays = [0, 1].map(|f| blank_rays(outline, FAMILIES[f], &grid.rows[f], bore_radius_mm));
-        let slices = vec![Slice { rays }; grid.leads_mm.len()];
+        let slices = vec![Slice { rays }; grid.slices_z_mm.len()];
         Self { grid, slices }
     }
 

@@ -31,7 +31,7 @@ pub struct Field {
     /// Rays along the profile.
     pub columns: Vec<Column>,
     /// Places along the tooth, from the middle of the face, mm, increasing.
-    pub leads_mm: Vec<f64>,
+    pub rows_z_mm: Vec<f64>,
 }
 
 /// Heights and pass ids, column by column (rows contiguous).
@@ -46,7 +46,7 @@ pub struct Layer {
 impl Field {
     /// Number of rows.
     pub fn rows(&self) -> usize {
-        self.leads_mm.len()
+        self.rows_z_mm.len()
     }
 
     /// Places of the columns along the profile, mm.
@@ -75,7 +75,7 @@ impl Field {
     /// tooth.
     #[must_use]
     pub fn section(&self) -> Self {
-        Self { columns: self.columns.clone(), leads_mm: vec![0.0] }
+        Self { columns: self.columns.clone(), rows_z_mm: vec![0.0] }
     }
 
     /// The same rays at some columns and rows alone.
@@ -83,7 +83,7 @@ impl Field {
     pub fn at(&self, [columns, rows]: [&[usize]; 2]) -> Self {
         Self {
             columns: columns.iter().map(|&column| self.columns[column]).collect(),
-            leads_mm: rows.iter().map(|&row| self.leads_mm[row]).collect(),
+            rows_z_mm: rows.iter().map(|&row| self.rows_z_mm[row]).collect(),
         }
     }
 

@@ -10,7 +10,7 @@ pub trait RayGrid {
     fn arcs_mm(&self) -> Vec<f64>;
 
     /// Place of each row along the tooth from the middle of the face, mm, increasing.
-    fn leads_mm(&self) -> &[f64];
+    fn rows_z_mm(&self) -> &[f64];
 
     /// Point of the row's transverse section where the surface stands `height_mm` over the target, gear frame, mm.
     fn point_mm(&self, column: usize, row: usize, height_mm: f64) -> DVec2;
@@ -27,8 +27,8 @@ impl RayGrid for Field {
         self.arcs_mm()
     }
 
-    fn leads_mm(&self) -> &[f64] {
-        &self.leads_mm
+    fn rows_z_mm(&self) -> &[f64] {
+        &self.rows_z_mm
     }
 
     fn point_mm(&self, column: usize, _: usize, height_mm: f64) -> DVec2 {
@@ -53,7 +53,7 @@ pub struct PlacedRays {
     /// Places of the columns along the profile, mm.
     pub arcs_mm: Vec<f64>,
     /// Places of the rows along the tooth, mm.
-    pub leads_mm: Vec<f64>,
+    pub rows_z_mm: Vec<f64>,
 }
 
 impl RayGrid for PlacedRays {
@@ -61,8 +61,8 @@ impl RayGrid for PlacedRays {
         self.arcs_mm.clone()
     }
 
-    fn leads_mm(&self) -> &[f64] {
-        &self.leads_mm
+    fn rows_z_mm(&self) -> &[f64] {
+        &self.rows_z_mm
     }
 
     /// A normal that leans along the axis by nz leaves the section; a surface `height_mm` along it cuts the section

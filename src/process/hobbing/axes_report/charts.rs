@@ -30,7 +30,7 @@ pub(super) fn all(job: &HobbingJob, operation: &PreparedHobbing) -> [NamedChart<
         HobbingKind::Diagonal { .. } => AXES.len(),
         HobbingKind::Plain { .. } => AXES.len() - 1,
     };
-    let over = |x: &dyn Fn(&Place) -> f64, order: Order| {
+    let over = |x: &dyn Fn(&CycleMoment) -> f64, order: Order| {
         let points: Vec<_> = cycle.iter().map(|place| (x(place), place.motion)).collect();
         panels(&AXES, 0..moving, &limits, order, &points)
     };
@@ -47,14 +47,14 @@ pub(super) fn all(job: &HobbingJob, operation: &PreparedHobbing) -> [NamedChart<
 }
 
 /// One moment of a cycle.
-struct Place {
+struct CycleMoment {
     time_s: f64,
     polar_rad: f64,
     motion: [AxisMotion; 6],
 }
 
 /// One cycle in the middle of the longest stretch.
-fn cycle(operation: &PreparedHobbing) -> Vec<Place> {
+fn cycle(operation: &PreparedHobbing) -> Vec<CycleMoment> {
     let linkage = &operation.linkage;
     let corners = linkage.corners_s();
     let longest = corners.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
@@ -67,7 +67,7 @@ fn cycle(operation: &PreparedHobbing) -> Vec<Place> {
     let place = |i: u32| {
         let time_s = start + (end - start) * f64::from(i) / f64::from(CHART_POINTS);
         let axes = linkage.axes(time_s);
-        Place { time_s, polar_rad: axes.polar_rad.value(), motion: dynamics::motion(&axes) }
+        CycleMoment { time_s, polar_rad: axes.polar_rad.value(), motion: dynamics::motion(&axes) }
     };
     (0..=CHART_POINTS).map(place).collect()
 }

@@ -1,4 +1,4 @@
-//! What a gear engineer reads on the terminal about feeds, ways, times and marks of an operation.
+//! What a gear engineer reads on the terminal about feeds, travel, times and marks of an operation.
 
 use super::HobbingAxesReport;
 use crate::output::progress::duration_text;
@@ -8,7 +8,7 @@ use crate::process::hobbing::scene::model::HobbingKind;
 use crate::steps::axes::AxesOfOperation;
 use crate::units::{TURN_RAD, UM_PER_MM};
 
-/// Feeds, ways, times, marks.
+/// Feeds, travel, times, marks.
 pub(super) fn print(axes: &HobbingAxesReport, sheet: &mut Sheet) {
     let (job, operation) = (axes.job, axes.operation());
     let PreparedHobbing { spec, plan, linkage, .. } = operation;

@@ -59,8 +59,8 @@ fn plan(cutter: &HobCutter, tooth: u32, side: Side) -> Result<Planned> {
     let fields = &cutter.job.scene.fields;
     let [arcs_mm, _] = cutter.places_mm(target);
     let rows = ((cutter.job.scene.gear.face_width_mm / fields.lead_spacing_mm).round() as usize + 1).min(PLANNED_ROWS);
-    let leads_mm = (0..rows).map(|i| fields.lead_spacing_mm * (i as f64 - 0.5 * (rows - 1) as f64)).collect();
-    let field = cutter.rays_over(target, arcs_mm, leads_mm).field;
+    let rows_z_mm = (0..rows).map(|i| fields.lead_spacing_mm * (i as f64 - 0.5 * (rows - 1) as f64)).collect();
+    let field = cutter.rays_over(target, arcs_mm, rows_z_mm).field;
     let mut sum = Planned { dexels: field.len() as f64, tiles: 0.0, records: 0.0, evaluations: 0.0 };
     for passes in &cutter.operations {
         let plan = SweepPlan::new(&field, passes, cutter.job.hob.edge());
@@ -114,21 +114,21 @@ fn flank_cost(cutter: &HobCutter) -> Result<FlankCost> {
 /// Rays through the blank and the sweeps that cross them.
 fn blank_cost(cutter: &HobCutter) -> Result<BlankCost> {
     let grid = cutter.job.blank_grid()?;
-    let slices = grid.leads_mm.len();
+    let slices = grid.slices_z_mm.len();
     let every_slice = slices.div_ceil(SLICES);
     let (mut sections, mut ray_passes) = (0.0, 0.0);
     for operation in 0..cutter.operations.len() {
         let passes = cutter.sections(operation, true);
         let every = passes.len().div_ceil(PASSES).max(1);
         let found: Vec<[f64; 2]> = grid
-            .leads_mm
+            .slices_z_mm
             .par_iter()
             .skip(every_slice / 2)
             .step_by(every_slice)
-            .map_init(SweptSection::default, |section, &lead_mm| {
+            .map_init(SweptSection::default, |section, &z_mm| {
                 let mut found = [0.0; 2];
                 for pass in (0..passes.len()).step_by(every) {
-                    if !passes.section(pass, lead_mm, section) {
+                    if !passes.section(pass, z_mm, section) {
                         continue;
                     }
                     found[0] += 1.0;

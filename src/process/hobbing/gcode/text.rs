@@ -29,12 +29,31 @@ pub fn text(
         right-hand frame; C counter-clockwise seen against Z; B in the cutting direction".to_owned(),
         "ZERO X0 Y0: the pitch point of the hob on the axis of the work; Z0: the axis of the hob crosses the middle of \
         the face; C0: polar angle 0 of the gear points along +Y; B0: a gash looks at the work".to_owned(),
-        format!("SET UP hob {} start, {}-hand, module {} mm, {} gashes, lead angle {:.6} deg, pitch radius {:.6} mm: \
-            the axis of the hob stands at Y + pitch radius", g.starts, hand(g.hob_hand), plain(g.module_mm), job.hob.gashes, g.lead_angle_rad.to_degrees(), g.pitch_radius_mm),
+        format!(
+            "SET UP hob {} start, {}-hand, module {} mm, {} gashes, lead angle {:.6} deg, pitch radius {:.6} mm: \
+            the axis of the hob stands at Y + pitch radius",
+            g.starts,
+            hand(g.hob_hand),
+            plain(g.module_mm),
+            job.hob.gashes,
+            g.lead_angle_rad.to_degrees(),
+            g.pitch_radius_mm
+        ),
         format!("SET UP head swivelled so that the axis of the hob stands at {:.6} deg against X, positive from +X \
             towards +Z", g.head_angle_rad.to_degrees()),
-        format!("GEAR z {} normal module {} mm, helix {:.6} deg {}-hand, face {} mm", spec.teeth, plain(spec.module_mm), spec.helix_angle_rad.to_degrees(), hand(g.gear_hand), plain(spec.face_width_mm)),
-        format!("CONTOUR at most {} um at the hob in the work asked, {} um reached at {time_s:.3} s", plain(output.gcode_contour_error_mm * UM_PER_MM), significant(reached_mm * UM_PER_MM, 6)),
+        format!(
+            "GEAR z {} normal module {} mm, helix {:.6} deg {}-hand, face {} mm",
+            spec.teeth,
+            plain(spec.module_mm),
+            spec.helix_angle_rad.to_degrees(),
+            hand(g.gear_hand),
+            plain(spec.face_width_mm)
+        ),
+        format!(
+            "CONTOUR at most {} um at the hob in the work asked, {} um reached at {time_s:.3} s",
+            plain(output.gcode_contour_error_mm * UM_PER_MM),
+            significant(reached_mm * UM_PER_MM, 6)
+        ),
     ];
     if diagonal {
         head.push(

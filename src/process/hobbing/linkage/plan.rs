@@ -50,10 +50,10 @@ pub struct FeedPlan {
 }
 
 /// What a diagonal path has to cover.
-struct Way {
+struct Stretch {
     /// +1 if the slide feeds along +z.
     direction: f64,
-    /// Way of the slide, mm.
+    /// Travel of the slide, mm.
     travel_mm: f64,
     /// How far the hob's middle may stand from the pitch point, mm.
     room_mm: f64,
@@ -103,7 +103,8 @@ impl FeedPlan {
                 "use a longer hob",
             ));
         }
-        let (approach_mm, overrun_mm) = Self::ways(operation, hob, curve, gear, [depth_mm, gear_addendum_mm], tilt);
+        let (approach_mm, overrun_mm) =
+            Self::approach_and_overrun_mm(operation, hob, curve, gear, [depth_mm, gear_addendum_mm], tilt);
         // A left-hand hob's teeth go up through the work (+z of the machine), so that climb feeds down.
         let climb = geometry.hob_hand;
         let direction = match operation.feed_direction {
@@ -159,8 +160,8 @@ impl FeedPlan {
                 });
             }
             HobbingKind::Diagonal { .. } => {
-                let way = Way { direction, travel_mm, room_mm, depth_mm, tilt, cycle_s };
-                plan.diagonal(operation, &way)?;
+                let stretch = Stretch { direction, travel_mm, room_mm, depth_mm, tilt, cycle_s };
+                plan.diagonal(operation, &stretch)?;
             }
         }
         let largest_mm = plan.slide_feeds_mm[0].max(plan.slide_feeds_mm[1]);
@@ -169,8 +170,8 @@ impl FeedPlan {
         Ok(plan)
     }
 
-    /// Ways before and beyond the faces.
-    fn ways(
+    /// Travel of the slide before and beyond the faces.
+    fn approach_and_overrun_mm(
         operation: &HobbingOperation,
         hob: &Hob,
         curve: &PitchCurve,
@@ -208,8 +209,8 @@ impl FeedPlan {
         ))
     }
 
-    fn diagonal(&mut self, operation: &HobbingOperation, way: &Way) -> Result<(), Refusal> {
-        let Way { direction, travel_mm, room_mm, depth_mm, tilt, cycle_s } = *way;
+    fn diagonal(&mut self, operation: &HobbingOperation, stretch: &Stretch) -> Result<(), Refusal> {
+        let Stretch { direction, travel_mm, room_mm, depth_mm, tilt, cycle_s } = *stretch;
         let HobbingKind::Diagonal { shift_mm_per_revolution, direction: first, strategy, stroke_mm, feed_of, .. } =
             operation.kind
         else {
@@ -253,9 +254,9 @@ impl FeedPlan {
         self.shift_range_mm = range;
         let mut left_mm = travel_mm;
         while left_mm > 1e-9 {
-            let way_mm = if toward > 0.0 { range[1] - place_mm } else { place_mm - range[0] };
+            let shift_left_mm = if toward > 0.0 { range[1] - place_mm } else { place_mm - range[0] };
             let slide_mm_per_s = slide_rate(toward);
-            let duration_s = (way_mm / shift_rate).min(left_mm / slide_mm_per_s.abs());
+            let duration_s = (shift_left_mm / shift_rate).min(left_mm / slide_mm_per_s.abs());
             self.path.phases.push(FeedPhase {
                 duration_s,
                 slide_mm_per_s,
@@ -282,8 +283,8 @@ impl FeedPlan {
                 ShiftStrategy::Reciprocating => toward = -toward,
                 ShiftStrategy::Repeating { return_mm_per_s } => {
                     let lift_mm = depth_mm + CLEARANCE_MM;
-                    let idle = |shift: f64, radial: f64, way_mm: f64| FeedPhase {
-                        duration_s: way_mm / return_mm_per_s,
+                    let idle = |shift: f64, radial: f64, travel_mm: f64| FeedPhase {
+                        duration_s: travel_mm / return_mm_per_s,
                         slide_mm_per_s: 0.0,
                         shift_mm_per_s: shift * return_mm_per_s,
                         radial_mm_per_s: radial * return_mm_per_s,

@@ -1,9 +1,8 @@
 //! What the blank field says about a hobbed gear: volumes by two ways, sections against the target's, damage to the
 //! target.
 //!
-//! In: the job and its cut blank. Out: [`HobbedBlankReport`]. As in
-//! [`crate::steps::planar::blank_report`]; where the teeth wind, the target's section differs from slice to slice and is
-//! made anew for each.
+//! In: the job and its cut blank. Out: [`HobbedBlankReport`]. As in [`crate::steps::planar::blank_report`]; where the
+//! teeth wind, the target's section differs from slice to slice and is made anew for each.
 //!
 //! A hob that cuts where it should not, the far side of a lobe or a neighbouring tooth, is found here: the flanks' own
 //! rays end before.
@@ -53,7 +52,7 @@ pub fn measure(cutter: &HobCutter, cut: &CutBlank) -> HobbedBlankReport {
     let slices: Vec<_> = (0..cut.field.slices.len())
         .into_par_iter()
         .map(|slice| {
-            let own = || Cow::Owned(job.target_outline(grid.leads_mm[slice], TARGET_SPACING_MM));
+            let own = || Cow::Owned(job.target_outline(grid.slices_z_mm[slice], TARGET_SPACING_MM));
             let target: Cow<TargetOutline> = straight.as_ref().map_or_else(own, Cow::Borrowed);
             let bounds_mm2 = FAMILIES.map(|f| target.area_bound_mm2(f, grid.spacing_mm()));
             (target.area_mm2(), bounds_mm2, damage::missing_in_slice(&cut.field, slice, &target, gear, operation_of))
@@ -75,7 +74,7 @@ pub fn measure(cutter: &HobCutter, cut: &CutBlank) -> HobbedBlankReport {
     let damage = damage::collect(
         slices.into_iter().flat_map(|(_, _, findings)| findings),
         |finding| {
-            let turned_mm = job.target.space_arc_mm(0, finding.lead_mm);
+            let turned_mm = job.target.space_arc_mm(0, finding.z_mm);
             GearPlace::in_section(&job.blank, gear, finding.point_mm, turned_mm)
         },
         |operation, pass| {

@@ -160,10 +160,10 @@ impl Pass {
     /// flanks by more than the work moves meanwhile.
     fn reaches(&self, hob: &Hob, point: DVec3, around_mm: f64) -> bool {
         let middle = self.head_from_work[2].point(point);
-        let slack_mm = self.drift_mm + around_mm;
-        (middle.z - self.axial_mm).abs() <= 0.5 * hob.axial_pitch_mm + slack_mm
-            && middle.x > -slack_mm
-            && middle.truncate().length() <= hob.tip_radius_mm + slack_mm
+        let margin_mm = self.drift_mm + around_mm;
+        (middle.z - self.axial_mm).abs() <= 0.5 * hob.axial_pitch_mm + margin_mm
+            && middle.x > -margin_mm
+            && middle.truncate().length() <= hob.tip_radius_mm + margin_mm
     }
 
     /// Whether the edge holds a point of the work when its rake face goes through it.

@@ -20,7 +20,7 @@ const MARGIN: f64 = 0.05;
 
 /// Heights over many dexels, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Heights {
+pub struct HeightSummary {
     /// Lowest.
     pub lowest_mm: f64,
     /// Highest.
@@ -48,9 +48,9 @@ pub struct HobbedReport {
     /// Length of the profile in the middle of the face, mm.
     pub length_mm: f64,
     /// Finished surface over the target; `None` where a dexel of the evaluated part was not reached.
-    pub finished: Option<Heights>,
+    pub finished: Option<HeightSummary>,
     /// What each earlier operation left over the finished surface.
-    pub stock: Vec<Option<Heights>>,
+    pub stock: Vec<Option<HeightSummary>>,
     /// Heights along the profile in the middle of the face, over the place on the line of action
     /// ([`crate::process::hobbing::flank_patch::FlankPatch::on_line_of_action_mm`]).
     pub profile_trace: Trace,
@@ -66,8 +66,8 @@ pub struct HobbedReport {
 
 /// Measures a cut flank.
 pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
-    let (arcs_mm, leads_mm) = (&flank.rays.arcs_mm, &flank.rays.leads_mm);
-    let [columns, rows] = [arcs_mm.len(), leads_mm.len()].map(inner);
+    let (arcs_mm, rows_z_mm) = (&flank.rays.arcs_mm, &flank.rays.rows_z_mm);
+    let [columns, rows] = [arcs_mm.len(), rows_z_mm.len()].map(inner);
     let finished = flank.layers.last().expect("at least one operation");
     let dexels = || {
         let rows = rows.clone();
@@ -76,7 +76,7 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
     let over = |height: &dyn Fn(usize) -> Option<f64>| {
         let values: Option<Vec<f64>> = dexels().map(height).collect();
         values.filter(|v| !v.is_empty()).map(|v| {
-            let at = |k: usize| [arcs_mm[columns.start + k / rows.len()], leads_mm[rows.start + k % rows.len()]];
+            let at = |k: usize| [arcs_mm[columns.start + k / rows.len()], rows_z_mm[rows.start + k % rows.len()]];
             heights(&v, at)
         })
     };
@@ -89,10 +89,10 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
         places_mm: places_mm.to_vec(),
         heights_mm: (0..places_mm.len()).map(|i| at(last, index(i)).unwrap_or(f64::NAN)).collect(),
     };
-    let (middle_column, middle_row) = (arcs_mm.len() / 2, leads_mm.len() / 2);
+    let (middle_column, middle_row) = (arcs_mm.len() / 2, rows_z_mm.len() / 2);
     let rolls_mm: Vec<f64> = arcs_mm.iter().map(|&arc| flank.target.on_line_of_action_mm(arc)).collect();
     let profile_trace = trace(&rolls_mm, &|column| flank.rays.field.index(column, middle_row));
-    let helix_trace = trace(leads_mm, &|row| flank.rays.field.index(middle_column, row));
+    let helix_trace = trace(rows_z_mm, &|row| flank.rays.field.index(middle_column, row));
     // The places of the inner dexels themselves, so that rounding takes none of them away.
     let between = |places_mm: &[f64], inner: Range<usize>| [places_mm[inner.start], places_mm[inner.end - 1]];
     let deviation = |trace: &Trace, inner: Range<usize>| {
@@ -127,13 +127,13 @@ fn inner(count: usize) -> Range<usize> {
 }
 
 /// Of values that are not none; `at` gives the place of each.
-fn heights(values: &[f64], at: impl Fn(usize) -> [f64; 2]) -> Heights {
+fn heights(values: &[f64], at: impl Fn(usize) -> [f64; 2]) -> HeightSummary {
     let count = values.len() as f64;
     let mean_mm = values.iter().sum::<f64>() / count;
     let [low, high] = (1..values.len()).fold([0, 0], |[low, high], k| {
         [if values[k] < values[low] { k } else { low }, if values[k] > values[high] { k } else { high }]
     });
-    Heights {
+    HeightSummary {
         lowest_mm: values[low],
         highest_mm: values[high],
         extremes_at_mm: [at(low), at(high)],

@@ -1,6 +1,6 @@
 //! What was hobbed, with what, on which machine.
 
-use crate::output::report::Section;
+use crate::output::report::PageSection;
 use crate::output::text::plain;
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::linkage::dynamics::{self, AXES};
@@ -8,7 +8,7 @@ use crate::process::hobbing::scene::model::{GashForm, Worm};
 use crate::steps::report::facts::{gear_table, mm, speed_limits, table};
 
 /// Tables of gear, hob and machine.
-pub fn section(job: &HobbingJob) -> Section {
+pub fn section(job: &HobbingJob) -> PageSection {
     let (hob, tool, limits) = (&job.hob, &job.hob_spec, &job.limits);
     let worm = match tool.worm {
         Worm::Involute => "involute worm (ZI)",
@@ -45,5 +45,5 @@ pub fn section(job: &HobbingJob) -> Section {
         ),
         table("Machine", vec![("Speed limits", speeds)]),
     ];
-    Section { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
+    PageSection { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
 }

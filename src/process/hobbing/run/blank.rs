@@ -85,7 +85,7 @@ pub fn findings(cutter: &HobCutter, whole: &WholeBlank) -> Section {
             place.and("hob_turn", d.stroke as u64).and("hob_tooth", hob_tooth(cutter, d))
         })
     };
-    let slices = (grid.leads_mm.len(), "transverse sections, both end faces among them");
+    let slices = (grid.slices_z_mm.len(), "transverse sections, both end faces among them");
     let names = cutter.job.operations.iter().map(|operation| operation.spec.name.as_str());
     whole_blank::findings(grid.spacing_mm(), slices, [report.blank_mm3, report.left_mm3], &report.operations)
         .with(

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::findings::Findings;
 use crate::findings::RESULTS_FILE;
 use crate::output::table::{Cell, write_table};
-use crate::process::hobbing::measure::flank_report::Heights;
+use crate::process::hobbing::measure::flank_report::HeightSummary;
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
 use crate::steps::{Tools, sheets};
 use crate::units::UM_PER_MM;
@@ -50,10 +50,10 @@ fn write_flank_table(job: &HobbingJob, gear: &HobbedGear, path: &Path) -> Result
             f.length_mm.into(),
         ];
         for stock in &f.stock {
-            let part = |value: fn(&Heights) -> f64| Cell::from(stock.as_ref().map(value));
+            let part = |value: fn(&HeightSummary) -> f64| Cell::from(stock.as_ref().map(value));
             row.extend([part(|s| s.lowest_mm), part(|s| s.highest_mm), part(|s| s.mean_mm)]);
         }
-        let height = |value: fn(&Heights) -> f64| um(f.finished.as_ref().map(value));
+        let height = |value: fn(&HeightSummary) -> f64| um(f.finished.as_ref().map(value));
         row.extend([height(|h| h.lowest_mm), height(|h| h.highest_mm), height(|h| h.mean_mm), height(|h| h.rms_mm)]);
         for deviation in [&f.profile, &f.helix] {
             row.extend([

@@ -19,7 +19,7 @@ type Chart = (&'static str, &'static str, &'static str, fn(&ToothLoad) -> f64);
 const CHARTS: [Chart; 3] = [
     ("volume", "volume taken", "mm³", |load| load.volume_mm3),
     ("thickness", "largest uncut chip thickness", "mm", |load| load.thickness_mm),
-    ("way", "way cut", "m", |load| load.travel_mm * 1e-3),
+    ("travel", "travel in the cut", "m", |load| load.travel_mm * 1e-3),
 ];
 
 /// Loads of all operations.
@@ -83,7 +83,7 @@ fn write_load_table(job: &HobbingJob, loads: &[OperationLoad], folder: &OutputFo
         "volume_mm3",
         "volume_share",
         "largest_thickness_mm",
-        "way_mm",
+        "travel_mm",
         "passes",
     ];
     let labels = labels(job);
@@ -146,7 +146,7 @@ fn of_operation(job: &HobbingJob, of: &OperationLoad, index: usize) -> Section {
         Column::words("tooth", "hob tooth along the thread, from the entering end"),
         bars("volume", "mm3", "volume that it takes"),
         bars("thickness", "mm", "its largest uncut chip thickness"),
-        bars("way", "mm", "way of its tip through the work while any part of its edge takes material"),
+        bars("travel", "mm", "travel of its tip through the work while any part of its edge takes material"),
     ];
     let rows = of.teeth.iter().zip(&labels).map(|(load, label)| {
         vec![Datum::from(label.as_str()), load.volume_mm3.into(), load.thickness_mm.into(), load.travel_mm.into()]
@@ -189,11 +189,11 @@ fn of_operation(job: &HobbingJob, of: &OperationLoad, index: usize) -> Section {
         )
         .with("thickest_chip_of_tooth", tooth(thickest, "hob tooth that takes the thickest chip"))
         .with(
-            "way_cut",
+            "travel",
             Quantity::number(
                 travel_mm,
                 "mm",
-                "way of the tips through the work while any part of their edge takes material, all teeth together",
+                "travel of the tips through the work while any part of their edge takes material, all teeth together",
             ),
         )
         .table(Table::new("teeth", "Load by hob tooth", columns).with_rows(rows))

@@ -4,20 +4,20 @@ use super::model::{
     Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, Hob, HobSize, Hobbing, HobbingAxisLimits,
     HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
 };
-use crate::scene::Part;
+use crate::scene::ScenePart;
 use crate::scene::build::stock_or_offset_mm;
 use crate::scene::values::{Values, View};
 use crate::units::TURN_RAD;
 use std::path::Path;
 
 /// Hobbing: hob, limits and operations.
-pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<Part> {
+pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
     let pressure_angle_rad = values.view("gear").rad("pressure_angle_deg")?;
     let operations: Option<Vec<HobbingOperation>> = (0..values.count("operation"))
         .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
         .collect();
     let tool = hob(values.view("tool.hob"))?;
-    Some(Part::new(Hobbing { tool, limits: limits(values), operations: operations? }))
+    Some(ScenePart::new(Hobbing { tool, limits: limits(values), operations: operations? }))
 }
 
 fn hob(hob: View<'_>) -> Option<Hob> {

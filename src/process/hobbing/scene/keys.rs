@@ -4,10 +4,10 @@ mod machine;
 mod operation;
 mod tool;
 
-use crate::scene::keys::{Addition, Section};
+use crate::scene::keys::{Addition, KeySection};
 
 /// Sections of its own.
-pub(super) static SECTIONS: &[&[Section]] = &[tool::SECTIONS, machine::SECTIONS, operation::SECTIONS];
+pub(super) static SECTIONS: &[&[KeySection]] = &[tool::SECTIONS, machine::SECTIONS, operation::SECTIONS];
 
 /// Keys in shared sections.
 pub(super) static ADDED: &[&Addition] = &[&operation::ADDED];

@@ -7,13 +7,13 @@ use super::strokes::StrokeRow;
 use crate::machine::{AxisMotion, Order};
 use crate::output::line_chart::{LineChart, Panel};
 use crate::process::shaping::linkage::dynamics::{self, AXES};
-use crate::process::shaping::{Job, PreparedOperation};
+use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes::NamedChart;
 use crate::steps::axes::charts::{chart, panel, panels};
 use crate::units::UM_PER_MM;
 
 /// All charts of an operation.
-pub(super) fn all(job: &Job, operation: &PreparedOperation, rows: &[StrokeRow]) -> [NamedChart<LineChart>; 4] {
+pub(super) fn all(job: &ShapingJob, operation: &PreparedOperation, rows: &[StrokeRow]) -> [NamedChart<LineChart>; 4] {
     let limits = dynamics::limits(&job.machine.limits);
     let points: Vec<(f64, [AxisMotion; 3])> = rows.iter().map(|row| (work_angle_deg(row), row.motion)).collect();
     let moving = |order: Order| panels(&AXES, 0..AXES.len(), &limits, order, &points);
@@ -31,7 +31,7 @@ fn work_angle_deg(row: &StrokeRow) -> f64 {
     row.motion[0].position.to_degrees()
 }
 
-fn positions(job: &Job, rows: &[StrokeRow]) -> Vec<Panel> {
+fn positions(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
     let ratio = f64::from(job.scene.gear.teeth) / f64::from(job.cutter.teeth);
     let one = |value_name: &str, unit: &str, name: &str, value: &dyn Fn(f64, &StrokeRow) -> f64| {
         let points = rows.iter().map(|row| (work_angle_deg(row), value(row.motion[0].position, row))).collect();
@@ -49,7 +49,7 @@ fn positions(job: &Job, rows: &[StrokeRow]) -> Vec<Panel> {
     ]
 }
 
-fn relief(job: &Job, rows: &[StrokeRow]) -> Vec<Panel> {
+fn relief(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
     let circular_um = UM_PER_MM * job.machine.back_off_mm * job.scene.gear.pressure_angle_rad.sin();
     let curve = |value: &dyn Fn(&StrokeRow) -> f64| rows.iter().map(|row| (work_angle_deg(row), value(row))).collect();
     let flanks = |scale: f64| {

@@ -5,7 +5,7 @@ use crate::machine::{AxisMotion, Motion as _};
 use crate::output::table::Cell;
 use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::linkage::relief::{self, ReliefRatio};
-use crate::process::shaping::{Job, PreparedOperation};
+use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes;
 use std::path::Path;
 
@@ -24,7 +24,7 @@ pub(super) struct StrokeRow {
 }
 
 /// All strokes of an operation.
-pub(super) fn rows(job: &Job, operation: &PreparedOperation) -> Vec<StrokeRow> {
+pub(super) fn rows(job: &ShapingJob, operation: &PreparedOperation) -> Vec<StrokeRow> {
     let PreparedOperation { linkage, schedule, .. } = operation;
     let row = |stroke: usize| {
         let coordinate = stroke as f64;

@@ -12,7 +12,7 @@ use crate::output::text::{Sheet, significant};
 use crate::passes::planar::blank_candidates::passes_at;
 use crate::passes::planar::candidates::TILE_COLUMNS;
 use crate::passes::{CutPlan, PassRecord};
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::terms::Side;
 use crate::tool::closed_tooth::PlacedScratch;
 
@@ -45,7 +45,7 @@ const CHIP_SPACING_MM: f64 = 0.05;
 ///
 /// # Errors
 /// A blank field that does not fit in memory.
-pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) -> Result<(), Refusal> {
+pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Result<(), Refusal> {
     let surfaces = job.operations.len();
     let (mut rows, mut planned_columns, mut records) = (0, 0.0, 0.0);
     let (mut evaluations, mut tiles) = (0.0, 0.0);
@@ -98,7 +98,7 @@ pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) -> Result<(), R
 }
 
 /// Rays through the blank and the cutter teeth that cross them.
-fn blank_cost(job: &Job) -> Result<BlankCost, Refusal> {
+fn blank_cost(job: &ShapingJob) -> Result<BlankCost, Refusal> {
     let grid = job.planar().blank_grid()?;
     let reach_mm = BlankOutline::new(&job.blank).reach_mm();
     let (mut passes, mut ray_passes) = (0.0, 0.0);
@@ -124,7 +124,7 @@ fn blank_cost(job: &Job) -> Result<BlankCost, Refusal> {
         }
         ray_passes += all.len() as f64 * f64::from(crossed as u32) / f64::from(strokes.max(1));
     }
-    ray_passes *= grid.leads_mm.len() as f64;
+    ray_passes *= grid.slices_z_mm.len() as f64;
     let seconds = ray_passes * BLANK_S_PER_RAY_PASS + passes * CHIPS_S_PER_PASS * CHIP_SPACING_MM / job.chip_spacing_mm;
     let crossings = format!(
         "{} thousand cutter teeth reach it and cross {} million of them",

@@ -1,12 +1,12 @@
 //! The teeth as finishing would leave them in the limit of many strokes: where flanks begin and end, how wide the tips
 //! are.
 //!
-//! In: a prepared [`Job`]. Out: [`ToothFacts`] of every tooth. Nothing is cut for this.
+//! In: a prepared [`ShapingJob`]. Out: [`ToothFacts`] of every tooth. Nothing is cut for this.
 //!
 //! Heights are measured over the pitch curve along its normal, so that they mean the same on every tooth of a
 //! non-circular gear.
 
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use crate::terms::Side;
 
@@ -40,7 +40,7 @@ pub struct ToothFacts {
 
 impl ToothFacts {
     /// Of all teeth of a job.
-    pub fn of_job(job: &Job) -> Vec<Self> {
+    pub fn of_job(job: &ShapingJob) -> Vec<Self> {
         let facts = |tooth| {
             let target = job.target(tooth);
             let [left, right] = [Side::Left, Side::Right].map(|side| FlankFacts::new(job, target.flank(side)));
@@ -61,7 +61,7 @@ impl ToothFacts {
 }
 
 impl FlankFacts {
-    fn new(job: &Job, flank: &TargetFlank) -> Self {
+    fn new(job: &ShapingJob, flank: &TargetFlank) -> Self {
         let height_mm = |arc_mm: f64| {
             let contact = flank.at_arc(arc_mm);
             job.blank.height(contact.point_mm, contact.phi_rad).0

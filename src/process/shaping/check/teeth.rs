@@ -1,7 +1,7 @@
 //! Cutter and teeth: what the finishing operation generates in the limit of many strokes.
 
 use crate::output::text::Sheet;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::FlankEnd;
 
 use super::facts::{FlankFacts, ToothFacts};
@@ -12,7 +12,7 @@ const NARROW_LAND_MODULES: f64 = 0.25;
 /// Values closer than this print alike, mm.
 const SAME_MM: f64 = 5e-4;
 
-pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) {
+pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) {
     let cutter = &job.cutter;
     sheet.heading("Cutter");
     sheet.line("teeth", cutter.teeth.to_string());
@@ -47,7 +47,7 @@ pub fn print(sheet: &mut Sheet, job: &Job, facts: &[ToothFacts]) {
     );
 }
 
-pub fn warnings(job: &Job, facts: &[ToothFacts]) -> Vec<String> {
+pub fn warnings(job: &ShapingJob, facts: &[ToothFacts]) -> Vec<String> {
     let mut warnings = Vec::new();
     let undercut = flanks_with(facts, FlankFacts::is_undercut);
     if undercut != NONE {

@@ -23,7 +23,7 @@ use crate::dexel::field::{Column, Field, NO_PASS};
 use crate::frame::Rigid2;
 use crate::measure::LastChips;
 use crate::passes::planar::near::{MAX_PHASES, NearPass, near_passes};
-use crate::process::shaping::{Job, PreparedOperation};
+use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::tool::edge::{Edge, Segment, SegmentShape};
 use crate::tool::{CuttingTool, PlanarTool};
 use arrayvec::ArrayVec;
@@ -33,7 +33,7 @@ use glam::DVec2;
 const END_OVERLAP_MM: f64 = 1e-9;
 
 /// What the bounds of a pass's heights are widened by, mm.
-const SLACK_MM: f64 = 1e-6;
+const TOLERANCE_MM: f64 = 1e-6;
 
 /// Part of the edge as maps have it: 0 for none.
 pub fn side_code(side: Option<EdgeSide>) -> u32 {
@@ -42,7 +42,7 @@ pub fn side_code(side: Option<EdgeSide>) -> u32 {
 
 /// What a ray knows at some moment.
 #[derive(Debug, Clone, Copy)]
-struct Surface {
+struct RaySurface {
     height_mm: f64,
     thickness_mm: f64,
     side: Option<EdgeSide>,
@@ -54,7 +54,8 @@ struct Near {
     operation: usize,
     stroke: usize,
     blade: u32,
-    /// Poses of the work in the blade frame at both ends and in the middle of its way along the face, or the only one.
+    /// Poses of the work in the blade frame at both ends and in the middle of its travel along the face, or the only
+    /// one.
     blade_from_work: ArrayVec<Rigid2, MAX_PHASES>,
     /// How far the blade moves meanwhile, mm.
     travel_mm: f64,
@@ -96,17 +97,21 @@ struct Segments<'a> {
 }
 
 /// Chips that left the surface after each operation, in their order.
-pub fn last_chips(job: &Job, field: &Field) -> Vec<LastChips> {
+pub fn last_chips(job: &ShapingJob, field: &Field) -> Vec<LastChips> {
     last_chips_of(job, field, counting)
 }
 
 /// The same of those passes that `choose` leaves of all that reach a column whose blank is so high.
-fn last_chips_of(job: &Job, field: &Field, choose: impl Fn(&[Reaching], f64) -> Vec<Reaching>) -> Vec<LastChips> {
-    let leads_mm: &[f64] = if job.planar().rows_are_alike() { &[0.0] } else { &field.leads_mm };
+fn last_chips_of(
+    job: &ShapingJob,
+    field: &Field,
+    choose: impl Fn(&[Reaching], f64) -> Vec<Reaching>,
+) -> Vec<LastChips> {
+    let rows_z_mm: &[f64] = if job.planar().rows_are_alike() { &[0.0] } else { &field.rows_z_mm };
     let segments = Segments::new(job.cutter.edge());
     let blades: Vec<Rigid2> = (0..job.cutter.blade_count()).map(|b| job.cutter.tool_from_blade(b).inverse()).collect();
     let near = passes_near(job, field);
-    let mut after: Vec<Vec<Surface>> = vec![Vec::new(); job.operations.len()];
+    let mut after: Vec<Vec<RaySurface>> = vec![Vec::new(); job.operations.len()];
     for ray in &field.columns {
         // Passes whose edge can meet the column's rays, in order of time.
         let reaching: Vec<Reaching> =
@@ -114,13 +119,13 @@ fn last_chips_of(job: &Job, field: &Field, choose: impl Fn(&[Reaching], f64) -> 
         for (operation, after) in after.iter_mut().enumerate() {
             let so_far = reaching.partition_point(|pass| near[pass.near].operation <= operation);
             let counting = choose(&reaching[..so_far], ray.blank_mm);
-            for &lead_mm in leads_mm {
+            for &z_mm in rows_z_mm {
                 let mut surface =
-                    Surface { height_mm: ray.blank_mm, thickness_mm: f64::NAN, side: None, pass: NO_PASS };
+                    RaySurface { height_mm: ray.blank_mm, thickness_mm: f64::NAN, side: None, pass: NO_PASS };
                 for reaching in &counting {
                     let pass = &near[reaching.near];
                     let set = &job.operations[pass.operation].strokes;
-                    let work_from_tool = set.pose_at(pass.stroke, set.law.tau(lead_mm));
+                    let work_from_tool = set.pose_at(pass.stroke, set.law.tau(z_mm));
                     let blade_from_work = blades[pass.blade as usize].after(&work_from_tool.inverse());
                     let id = set.pass_id(pass.stroke, pass.blade);
                     segments.lower(&mut surface, &blade_from_work, ray, id, reaching.segments);
@@ -129,12 +134,12 @@ fn last_chips_of(job: &Job, field: &Field, choose: impl Fn(&[Reaching], f64) -> 
             }
         }
     }
-    let copies = field.rows() / leads_mm.len();
+    let copies = field.rows() / rows_z_mm.len();
     after.into_iter().map(|surfaces| last_chips_on(&surfaces, copies)).collect()
 }
 
 /// What the surfaces of a section say, repeated on as many rows.
-fn last_chips_on(surfaces: &[Surface], copies: usize) -> LastChips {
+fn last_chips_on(surfaces: &[RaySurface], copies: usize) -> LastChips {
     let all = || surfaces.iter().flat_map(|surface| std::iter::repeat_n(surface, copies));
     LastChips {
         thickness_mm: all().map(|s| s.thickness_mm as f32).collect(),
@@ -154,7 +159,7 @@ impl<'a> Segments<'a> {
         self.parts.iter().enumerate().filter(move |(index, _)| set & (1 << index) != 0).map(|(_, part)| part)
     }
 
-    /// Segments whose places across a column's rays lie in their range somewhere on the way of a pass.
+    /// Segments whose places across a column's rays lie in their range somewhere along a pass.
     fn meeting(&self, pass: &Near, ray: &Column) -> SegmentSet {
         let mut set = 0;
         for blade_from_work in &pass.blade_from_work {
@@ -197,8 +202,8 @@ impl<'a> Segments<'a> {
             [a, b, c] if [a, b, c].iter().all(|s| s[bound].is_finite()) => (a[bound] - 2.0 * b[bound] + c[bound]).abs(),
             _ => 0.0,
         };
-        let low_mm = samples.iter().map(|s| s[0]).fold(f64::INFINITY, f64::min) - 0.5 * bend(0) - SLACK_MM;
-        let high_mm = samples.iter().map(|s| s[1]).fold(f64::NEG_INFINITY, f64::max) + 0.5 * bend(1) + SLACK_MM;
+        let low_mm = samples.iter().map(|s| s[0]).fold(f64::INFINITY, f64::min) - 0.5 * bend(0) - TOLERANCE_MM;
+        let high_mm = samples.iter().map(|s| s[1]).fold(f64::NEG_INFINITY, f64::max) + 0.5 * bend(1) + TOLERANCE_MM;
         Some(Reaching { near, segments, heights_mm: [low_mm, high_mm].map(|h| h.max(ray.low_mm)) })
     }
 
@@ -225,7 +230,7 @@ impl<'a> Segments<'a> {
     }
 
     /// Takes one pass from a ray.
-    fn lower(&self, surface: &mut Surface, blade_from_work: &Rigid2, ray: &Column, pass: u32, set: SegmentSet) {
+    fn lower(&self, surface: &mut RaySurface, blade_from_work: &Rigid2, ray: &Column, pass: u32, set: SegmentSet) {
         let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
         // Kernels follow rays down to twice their lowest height and record the lowest one there.
         let below_mm = 2.0 * ray.low_mm;
@@ -245,23 +250,23 @@ impl<'a> Segments<'a> {
         let height_mm = height_mm.max(ray.low_mm);
         if height_mm < surface.height_mm {
             let thickness_mm = (surface.height_mm - height_mm) * cosine;
-            *surface = Surface { height_mm, thickness_mm, side: Some(side), pass };
+            *surface = RaySurface { height_mm, thickness_mm, side: Some(side), pass };
         }
     }
 }
 
 /// All passes of all operations near a field, in order of time.
-fn passes_near(job: &Job, field: &Field) -> Vec<Near> {
+fn passes_near(job: &ShapingJob, field: &Field) -> Vec<Near> {
     let (center_mm, reach_mm) = Field::circle(&field.columns);
     let of_operation = |(operation, prepared): (usize, &PreparedOperation)| {
         let near = near_passes(&prepared.strokes, &job.cutter, center_mm, reach_mm);
         near.into_iter().map(move |pass| {
             let middle = *pass.middle();
-            let strays = |pose: &Rigid2| {
+            let motion_mm = |pose: &Rigid2| {
                 let turn = (pose.rotation - middle.rotation).length();
                 pose.point(center_mm).distance(middle.point(center_mm)) + turn * reach_mm
             };
-            let travel_mm = pass.blade_from_work.iter().map(strays).fold(0.0, f64::max);
+            let travel_mm = pass.blade_from_work.iter().map(motion_mm).fold(0.0, f64::max);
             let NearPass { stroke, blade, blade_from_work } = pass;
             Near { operation, stroke, blade, blade_from_work, travel_mm }
         })
@@ -291,7 +296,7 @@ mod tests {
         for operation in &mut Shaping::of_mut(&mut scene).expect("shaping").operations {
             operation.feed_during_stroke = true;
         }
-        let job = Job::new(scene).expect("the shipped gear");
+        let job = ShapingJob::new(scene).expect("the shipped gear");
         let (mut all, mut kept) = (0, 0);
         for (tooth, side) in [(1, Side::Left), (8, Side::Right)] {
             let field = job.flank_field(job.target_flank(tooth, side));

@@ -2,10 +2,10 @@
 
 use super::edge_polygon::{EdgePolygon, Station};
 use super::oblique::{ElementForce, RakeFace};
-use super::section::Section;
-use super::stroke::{LEAST_CHIP_MM, Stand, StrokeChips, ToothChip};
+use super::section::SpaceSection;
+use super::stroke::{LEAST_CHIP_MM, StrokeChips, StrokePose, ToothChip};
 use crate::frame::Rigid2;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::scene::model::Infeed;
 use crate::tool::{CuttingTool, PlanarTool};
 use crate::units::TURN_RAD;
@@ -18,7 +18,7 @@ const LEAST_AREA_MM2: f64 = 1e-7;
 const MOST_ROWS: usize = 2000;
 /// Every so many corners of the tooth stand for it when a window is laid out.
 const COARSE_CORNERS: usize = 16;
-/// Half of the way along the pitch curve, in pitches, over which the outline can matter to a space.
+/// Half of the length along the pitch curve, in pitches, over which the outline can matter to a space.
 const NEIGHBOURHOOD_PITCHES: f64 = 1.6;
 
 /// How far the rays of a section are turned against the space. Rays that run along the blank's outline would meet the
@@ -82,7 +82,7 @@ struct SpaceChips {
 
 impl ChipLedger {
     /// Follows all strokes of a job; `advance` is called after every space and says whether to go on. `None`: stopped.
-    pub fn new(job: &Job, advance: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+    pub fn new(job: &ShapingJob, advance: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let spacing_mm = job.chip_spacing_mm;
         let polygon = EdgePolygon::new(job.cutter.edge(), spacing_mm);
         let rake_rad = job.cutter_spec.rake_angle_rad;
@@ -168,13 +168,13 @@ fn raise(map: &mut [f32], values: &[f32]) {
 }
 
 /// Pose of the tool when a stroke is in the middle of the face.
-fn middle_pose(job: &Job, operation: usize, stroke: usize) -> Rigid2 {
+fn middle_pose(job: &ShapingJob, operation: usize, stroke: usize) -> Rigid2 {
     let set = &job.operations[operation].strokes;
     set.pose_at(stroke, set.law.tau(0.0))
 }
 
 /// The blank's outline as a closed polygon, gear frame.
-fn outline(job: &Job) -> Vec<DVec2> {
+fn outline(job: &ShapingJob) -> Vec<DVec2> {
     let count = job.curve.samples_per_turn().clamp(8192, 1 << 15);
     (0..count)
         .map(|i| {
@@ -186,7 +186,7 @@ fn outline(job: &Job) -> Vec<DVec2> {
 
 /// One tooth space with the passes that touch its neighbourhood.
 struct Space<'a> {
-    job: &'a Job,
+    job: &'a ShapingJob,
     polygon: &'a EdgePolygon,
     number: u32,
     work_from_section: Rigid2,
@@ -197,7 +197,7 @@ struct Space<'a> {
 
 impl<'a> Space<'a> {
     /// Space `number` (1 to z): the one after tooth `number`.
-    fn new(job: &'a Job, polygon: &'a EdgePolygon, outline_mm: &[DVec2], number: u32) -> Self {
+    fn new(job: &'a ShapingJob, polygon: &'a EdgePolygon, outline_mm: &[DVec2], number: u32) -> Self {
         let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
         let at = |pitches: f64| job.curve.phi_at_arc((f64::from(number) + pitches) * pitch_mm);
         let middle = job.curve.frame(at(0.0));
@@ -266,17 +266,17 @@ impl<'a> Space<'a> {
         let coarse: Vec<DVec2> =
             self.polygon.corners_mm[..=self.polygon.edge_chords()].iter().step_by(COARSE_CORNERS).copied().collect();
         // Between two of them the tooth stays within their distance of both.
-        let slack_mm = coarse.windows(2).map(|c| c[0].distance(c[1])).fold(0.0, f64::max);
+        let margin_mm = coarse.windows(2).map(|c| c[0].distance(c[1])).fold(0.0, f64::max);
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         self.each_pass(|_, section_from_blade| {
             if !self.owns(section_from_blade, limits_rad) {
                 return;
             }
-            for p in coarse.iter().map(|&p| section_from_blade.point(p)).filter(|p| p.dot(out) < top_mm + slack_mm) {
+            for p in coarse.iter().map(|&p| section_from_blade.point(p)).filter(|p| p.dot(out) < top_mm + margin_mm) {
                 (low, high) = (low.min(p), high.max(p));
             }
         });
-        self.window_mm = [low - slack_mm, high + slack_mm];
+        self.window_mm = [low - margin_mm, high + margin_mm];
     }
 
     /// The passes that reach into the window.
@@ -302,7 +302,7 @@ impl<'a> Space<'a> {
         if self.passes.is_empty() {
             return SpaceChips { chips, rows };
         }
-        let mut section = Section::new(self.polygon, spacing_mm, &self.outline_mm, self.window_mm);
+        let mut section = SpaceSection::new(self.polygon, spacing_mm, &self.outline_mm, self.window_mm);
         let mut thickness_mm = Vec::new();
         for pass in &self.passes {
             let area_mm2 = section.cut(&pass.section_from_blade);
@@ -324,7 +324,7 @@ impl<'a> Space<'a> {
                 work_torque_nmm: 0.0,
                 cutter_torque_nmm: 0.0,
             };
-            let stand = Stand {
+            let stand = StrokePose {
                 work_from_blade: self.work_from_section.after(&pass.section_from_blade),
                 cutter_axis_mm: middle_pose(self.job, operation, pass.stroke as usize).translation_mm,
                 work_axis_mm: -self.job.eccentricity_mm(),

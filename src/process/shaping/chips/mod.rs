@@ -1,7 +1,7 @@
 //! The chip ledger: what every stroke takes away, how thick, and with what force.
 //!
-//! In: a [`crate::process::shaping::Job`]. Out: [`ChipLedger`] with one [`StrokeChips`] per stroke and maps of uncut
-//! chip thickness over stroke and edge, and over tooth space and edge.
+//! In: a [`crate::process::shaping::ShapingJob`]. Out: [`ChipLedger`] with one [`StrokeChips`] per stroke and maps of
+//! uncut chip thickness over stroke and edge, and over tooth space and edge.
 //!
 //! Every tooth space is a [`section::Section`] of its own, in the transverse plane in the middle of the face, and sees
 //! **all** passes that touch it in strict order of time: nothing is left out because it does not shape the final

@@ -27,7 +27,7 @@ const JOINED_SPACINGS: f64 = 4.0;
 
 /// A place where a ray crosses the edge of the pass just cut, section frame.
 #[derive(Debug, Clone, Copy)]
-struct Crossing {
+struct EdgeCrossing {
     ray: u32,
     along_mm: f64,
     /// Parameter of the edge polygon.
@@ -46,12 +46,12 @@ struct Crossing {
 
 /// Rays of one family with the crossings of the last pass.
 #[derive(Debug)]
-struct Side {
+struct FamilyRays {
     family: Family,
     row: RayRow,
     rays: Vec<Vec<Span>>,
     /// In the order of the edge.
-    crossings: Vec<Crossing>,
+    crossings: Vec<EdgeCrossing>,
     by_ray: Vec<Vec<u32>>,
     zone: Vec<Vec<f64>>,
     touched: std::ops::Range<usize>,
@@ -59,16 +59,16 @@ struct Side {
 
 /// The material of one space and its neighbourhood. Frame: x mostly outwards, y mostly to larger arcs.
 #[derive(Debug)]
-pub struct Section<'a> {
+pub struct SpaceSection<'a> {
     polygon: &'a EdgePolygon,
     spacing_mm: f64,
-    sides: [Side; 2],
+    sides: [FamilyRays; 2],
     corners_mm: Vec<DVec2>,
     /// Longest run of material from the edge to the old surface that the last pass met, mm.
     deepest_mm: f64,
 }
 
-impl<'a> Section<'a> {
+impl<'a> SpaceSection<'a> {
     /// Uncut material inside `outline_mm` (closed, section frame), on rays through the window between two corners.
     pub fn new(polygon: &'a EdgePolygon, spacing_mm: f64, outline_mm: &[DVec2], window_mm: [DVec2; 2]) -> Self {
         let [low, high] = window_mm;
@@ -79,7 +79,7 @@ impl<'a> Section<'a> {
             let mut ends = vec![Vec::new(); count];
             lay(outline_mm, family, &row, |ray, along_mm, _, _| ends[ray].push(along_mm));
             let rays = ends.into_iter().map(blank_spans).collect();
-            Side {
+            FamilyRays {
                 family,
                 row,
                 rays,
@@ -141,20 +141,22 @@ impl<'a> Section<'a> {
         let met = neighbours
             .filter_map(|i| side.crossings.get(i))
             .filter(|c| c.near_mm.distance_squared(point) < joined_mm * joined_mm && c.cuts);
-        // The way through the chip along the normal, as the rays beside the station have it.
-        let through = |c: &Crossing| (c.far_mm - c.near_mm).dot(normal).abs();
-        let shorter = |way_mm: Option<f64>, c: &Crossing| Some(way_mm.map_or(through(c), |w: f64| w.min(through(c))));
+        // The length through the chip along the normal, as the rays beside the station have it.
+        let through = |c: &EdgeCrossing| (c.far_mm - c.near_mm).dot(normal).abs();
+        let shorter =
+            |length_mm: Option<f64>, c: &EdgeCrossing| Some(length_mm.map_or(through(c), |w: f64| w.min(through(c))));
         let Some(through_mm) = met.clone().fold(None, shorter) else { return 0.0 };
         let to_surface_mm = met.filter(|c| c.surface).fold(None, shorter).unwrap_or(f64::INFINITY);
         let nearest_mm = self.sides.iter().zip(after).fold(to_surface_mm, |best_mm, (side, after)| {
             side.distance_mm(point, after, best_mm, self.deepest_mm, joined_mm)
         });
-        // A chip that is all between edges of the same tooth meets no old surface; it is as thick as the way through.
+        // A chip that is all between edges of the same tooth meets no old surface; it is as thick as the length through
+        // it.
         if nearest_mm.is_finite() { nearest_mm } else { through_mm }
     }
 }
 
-impl Side {
+impl FamilyRays {
     /// Takes the tooth away; gives the length removed in this family's zone and the longest run from edge to old
     /// surface, mm.
     fn cut(&mut self, corners_mm: &[DVec2], zone_mm: &[DVec2; 3], edge_chords: f64) -> (f64, f64) {
@@ -174,7 +176,7 @@ impl Side {
             let near_mm = family.point(along_mm, row.at_mm(ray));
             let square = square && parameter < edge_chords;
             let (ray, cuts, surface) = (ray as u32, false, false);
-            crossings.push(Crossing { ray, along_mm, parameter, near_mm, far_mm: near_mm, cuts, surface, square });
+            crossings.push(EdgeCrossing { ray, along_mm, parameter, near_mm, far_mm: near_mm, cuts, surface, square });
         });
         let zone = &mut self.zone;
         lay(zone_mm, family, &row, |ray, along_mm, _, _| {
@@ -233,8 +235,8 @@ impl Side {
     fn distance_mm(&self, point: DVec2, after: usize, best_mm: f64, deepest_mm: f64, joined_mm: f64) -> f64 {
         let mut best_mm = best_mm;
         let crossings = &self.crossings;
-        let mut look = |a: &Crossing, b: &Crossing| {
-            let on_surface = |c: &Crossing| c.surface || !c.cuts;
+        let mut look = |a: &EdgeCrossing, b: &EdgeCrossing| {
+            let on_surface = |c: &EdgeCrossing| c.surface || !c.cuts;
             let joined = a.near_mm.distance_squared(b.near_mm) < joined_mm * joined_mm;
             if joined && (a.surface || b.surface) && on_surface(a) && on_surface(b) {
                 best_mm = best_mm.min(distance_to_chord_mm(point, a.far_mm, b.far_mm));
@@ -258,7 +260,7 @@ impl Side {
     }
 }
 
-fn meet(crossing: &mut Crossing, family: Family, row: &RayRow, far_mm: f64, surface: bool, deepest_mm: &mut f64) {
+fn meet(crossing: &mut EdgeCrossing, family: Family, row: &RayRow, far_mm: f64, surface: bool, deepest_mm: &mut f64) {
     crossing.far_mm = family.point(far_mm, row.at_mm(crossing.ray as usize));
     crossing.cuts = true;
     crossing.surface = surface;

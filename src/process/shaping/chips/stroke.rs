@@ -74,7 +74,7 @@ pub struct StrokeChips {
 
 /// Where a tooth stands when it cuts.
 #[derive(Debug, Clone, Copy)]
-pub struct Stand {
+pub struct StrokePose {
     /// Pose of the blade in the gear frame, mounting errors of the work included.
     pub work_from_blade: Rigid2,
     /// Cutter axis in the same frame, mm.
@@ -85,7 +85,7 @@ pub struct Stand {
 
 impl ToothChip {
     /// Adds up the edge elements of a pass.
-    pub fn measure(&mut self, stations: &[Station], forces: &[ElementForce], thickness_mm: &[f64], stand: &Stand) {
+    pub fn measure(&mut self, stations: &[Station], forces: &[ElementForce], thickness_mm: &[f64], stand: &StrokePose) {
         for ((station, force), &thickness_mm) in stations.iter().zip(forces).zip(thickness_mm) {
             if thickness_mm < LEAST_CHIP_MM {
                 continue;

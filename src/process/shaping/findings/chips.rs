@@ -1,7 +1,7 @@
 //! Chips and cutting forces of an operation, from the chip ledger.
 
 use crate::findings::{Place, Quantity, Section};
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips};
 use crate::units::UM_PER_MM;
 use std::f64::consts::PI;
@@ -17,7 +17,7 @@ const NO_ENTRY: &str = "the cutter is fed in, or its first stroke meets nothing"
 const NMM_PER_NM: f64 = 1e3;
 
 /// Chips and forces of one operation.
-pub fn chips(job: &Job, ledger: &ChipLedger, operation: usize) -> Section {
+pub fn chips(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Section {
     let chips = &ledger.operations[operation];
     let schedule = &job.operations[operation].schedule;
     let peak = |what: &'static str, unit: &'static str, value: &dyn Fn(&StrokeChips) -> f64| {
@@ -105,7 +105,7 @@ pub fn entry(value: Option<f64>, unit: &'static str, definition: &'static str) -
 }
 
 /// Largest speed of the ram on its crank, mm/s.
-pub fn ram_speed_mm_per_s(job: &Job) -> f64 {
+pub fn ram_speed_mm_per_s(job: &ShapingJob) -> f64 {
     let machine = &job.machine;
     let stroke_mm = machine.approach_mm + job.scene.gear.face_width_mm + machine.overrun_mm;
     PI * stroke_mm * machine.double_strokes_per_minute / 60.0
@@ -114,7 +114,7 @@ pub fn ram_speed_mm_per_s(job: &Job) -> f64 {
 /// Where `value` is largest: with its stroke (counted from 0), time and work angle, the space of the stroke's largest
 /// chip (space j lies after tooth j) and the cutter tooth that takes it (counted from 0).
 pub fn peak(
-    job: &Job,
+    job: &ShapingJob,
     ledger: &ChipLedger,
     operation: usize,
     what: &'static str,

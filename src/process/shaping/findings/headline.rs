@@ -4,7 +4,7 @@ use super::chips::{ENTRY_FORCE, entry, peak};
 use super::place;
 use crate::findings::{Entry, Quantity};
 use crate::measure::stock::Extreme;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips};
 use crate::process::shaping::measure::unevenness::{ToothAllowance, summarise};
@@ -43,15 +43,15 @@ fn quantity_at(
 }
 
 /// What to look at first.
-pub fn headline(job: &Job, report: &GearReport, chips: &ChipLedger, motion: &[OperationAxes]) -> Vec<Entry> {
+pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motion: &[OperationAxes]) -> Vec<Entry> {
     let flanks = &report.flanks;
     let last_stock = job.operations.len().checked_sub(2);
     let stock = |flank: &FlankReport| last_stock.and_then(|index| flank.stock[index]);
     let why = if last_stock.is_none() { SINGLE } else { "no flank was cut" };
     let none = "no flank was cut";
-    let form = |flank: &FlankReport| Some(Extreme { value_mm: flank.form.height_mm, arc_mm: 0.0, lead_mm: 0.0 });
+    let form = |flank: &FlankReport| Some(Extreme { value_mm: flank.form.height_mm, arc_mm: 0.0, z_mm: 0.0 });
     let scallop = |flank: &FlankReport| {
-        flank.scallops.map(|s| Extreme { value_mm: s.largest.height_mm, arc_mm: s.largest.arc_mm, lead_mm: 0.0 })
+        flank.scallops.map(|s| Extreme { value_mm: s.largest.height_mm, arc_mm: s.largest.arc_mm, z_mm: 0.0 })
     };
     let undercut =
         flanks.iter().filter(|f| f.form.end == FlankEnd::Undercut || f.tip.end == FlankEnd::Undercut).count();

@@ -3,7 +3,7 @@
 use super::{chips, teeth};
 use crate::findings::{Quantity, Section};
 use crate::measure::stock::Stock;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::chips::ChipLedger;
 use crate::process::shaping::measure::unevenness::{ToothAllowance, Unevenness as Percent, summarise};
@@ -12,7 +12,13 @@ use crate::steps::axes;
 use teeth::stock_range;
 
 /// Everything that was found on an operation.
-pub fn operation(job: &Job, report: &GearReport, ledger: &ChipLedger, motion: &OperationAxes, index: usize) -> Section {
+pub fn operation(
+    job: &ShapingJob,
+    report: &GearReport,
+    ledger: &ChipLedger,
+    motion: &OperationAxes,
+    index: usize,
+) -> Section {
     let operation = &job.operations[index];
     let allowance = report.allowances.iter().find(|a| a.operation == index);
     let last = index + 1 == job.operations.len();

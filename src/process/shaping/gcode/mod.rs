@@ -28,12 +28,12 @@ pub use program::{AxisProgram, Knot};
 
 use crate::output::text::{plain, significant};
 use crate::process::shaping::scene::model::{Linkage, NormalReading};
-use crate::process::shaping::{Job, PreparedOperation};
+use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::scene::model::GcodeDialect;
 use crate::units::UM_PER_MM;
 
 /// The program of an operation; an error is the reason why there is none, `None`: none is wanted.
-pub fn text(job: &Job, operation: &PreparedOperation) -> Option<Result<String, String>> {
+pub fn text(job: &ShapingJob, operation: &PreparedOperation) -> Option<Result<String, String>> {
     let output = &job.scene.output;
     if output.gcode == GcodeDialect::None {
         return None;
@@ -48,7 +48,7 @@ pub fn text(job: &Job, operation: &PreparedOperation) -> Option<Result<String, S
 }
 
 /// The program in straight lines, or what keeps it from being written.
-fn linear(job: &Job, operation: &PreparedOperation) -> Result<String, String> {
+fn linear(job: &ShapingJob, operation: &PreparedOperation) -> Result<String, String> {
     let asked_mm = job.scene.output.gcode_contour_error_mm;
     let (schedule, tip_radius_mm) = (&operation.schedule, job.cutter.tip_radius_mm);
     let continuous = operation.spec.feed_during_stroke;

@@ -8,13 +8,13 @@
 use crate::gear::PitchCurveShape;
 use crate::output::text::plain;
 use crate::process::shaping::scene::model::Linkage;
-use crate::process::shaping::{Job, PreparedOperation};
+use crate::process::shaping::{PreparedOperation, ShapingJob};
 
 /// The program.
 ///
 /// # Errors
 /// Why this form cannot say it.
-pub fn text(job: &Job, operation: &PreparedOperation) -> Result<String, String> {
+pub fn text(job: &ShapingJob, operation: &PreparedOperation) -> Result<String, String> {
     let PitchCurveShape::Ellipse { order, eccentricity, .. } = job.scene.gear.pitch_curve else {
         return Err("the one-block form knows elliptical pitch curves only; use gcode = \"linear\"".to_owned());
     };

@@ -166,8 +166,8 @@ impl AxisProgram {
                 .windows(2)
                 .filter(|pair| pair[1].stroke > pair[0].stroke)
                 .map(|pair| {
-                    let way = pair[1].axes()[index] - pair[0].axes()[index];
-                    way / ((pair[1].stroke - pair[0].stroke) * stroke_s)
+                    let travel = pair[1].axes()[index] - pair[0].axes()[index];
+                    travel / ((pair[1].stroke - pair[0].stroke) * stroke_s)
                 })
                 .collect();
             let largest = speeds.iter().fold(0.0_f64, |most, v| most.max(v.abs()));

@@ -5,10 +5,10 @@ use crate::gcode::{Digits, ProgramText, axis_word};
 use crate::machine::Axis;
 use crate::output::text::plain;
 use crate::process::shaping::linkage::dynamics::AXES;
-use crate::process::shaping::{Job, PreparedOperation};
+use crate::process::shaping::{PreparedOperation, ShapingJob};
 
 /// A program in the linear dialect, for an operation of a job.
-pub fn text(job: &Job, operation: &PreparedOperation, program: &AxisProgram) -> String {
+pub fn text(job: &ShapingJob, operation: &PreparedOperation, program: &AxisProgram) -> String {
     let output = &job.scene.output;
     let tip_radius_mm = job.cutter.tip_radius_mm;
     let (error_mm, worst) =

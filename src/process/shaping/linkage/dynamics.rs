@@ -3,21 +3,21 @@
 //! In: a stroke schedule and the axis limits. Out: the schedule as a [`Motion`] of three axes along the stroke
 //! coordinate. Law: the axes are series in that coordinate (chain rule, no differences), and d lambda/dt = double
 //! strokes per minute / 60. The rotary feed is taken as continuous; a machine that stands still while the cutter is in
-//! the work has to cover the same way in the return stroke alone.
+//! the work has to make the same travel in the return stroke alone.
 //!
 //! Speeds jump where an infeed begins or ends. The infinite acceleration there is left out, because every control
 //! rounds such a corner; both sides of it are counted in the peaks.
 
 use super::axes::Axes;
 use super::schedule::StrokeSchedule;
-use crate::machine::{Axis, AxisMotion, Kind, Limits, Motion, Piece};
+use crate::machine::{Axis, AxisKind, AxisMotion, Limits, Motion, MotionPiece};
 use crate::process::shaping::scene::model::AxisLimits;
 
 /// The axes: work angle psi_c, cutter angle psi_b, centre distance l.
 pub const AXES: [Axis; 3] = [
-    Axis::new("work spindle", "work", 'C', Kind::Rotary).at("psi_c"),
-    Axis::new("cutter spindle", "cutter", 'B', Kind::Rotary).at("psi_b"),
-    Axis::new("centre distance", "center_distance", 'X', Kind::Linear),
+    Axis::new("work spindle", "work", 'C', AxisKind::Rotary).at("psi_c"),
+    Axis::new("cutter spindle", "cutter", 'B', AxisKind::Rotary).at("psi_b"),
+    Axis::new("centre distance", "center_distance", 'X', AxisKind::Linear),
 ];
 
 /// A scene's limits in the order of [`AXES`].
@@ -40,12 +40,12 @@ impl Motion<3> for StrokeSchedule {
     }
 
     /// Between the corners of the infeed, in cells enough to see every lobe of the pitch curve.
-    fn pieces(&self) -> Vec<Piece> {
+    fn pieces(&self) -> Vec<MotionPiece> {
         let last = (self.count() - 1) as f64;
         let piece = |from: f64, to: f64| {
             let per_turn = self.linkage().curve().samples_per_turn() as f64;
             let turns = (to - from) / f64::from(self.strokes_per_revolution());
-            Piece { from, to, cells: (per_turn * turns).ceil().max(16.0) as usize }
+            MotionPiece { from, to, cells: (per_turn * turns).ceil().max(16.0) as usize }
         };
         let mut pieces = Vec::new();
         let mut from = 0.0;

@@ -23,16 +23,16 @@ use crate::math::Jet;
 use crate::process::shaping::scene::model::{Feed, Machine, Operation, StrokeSpacing};
 use crate::units::TURN_RAD;
 use infeed::InfeedPlan;
-use progress::Progress;
+use progress::PathProgress;
 
 /// Stroke counts are rounded after this much, in strokes: rounding of angles must not add a stroke.
-const COUNT_SLACK: f64 = 1e-9;
+const COUNT_TOLERANCE: f64 = 1e-9;
 
 /// All strokes of an operation.
 #[derive(Debug, Clone)]
 pub struct StrokeSchedule {
     linkage: ShapingLinkage,
-    progress: Progress,
+    progress: PathProgress,
     infeed: InfeedPlan,
     start: f64,
     first_index: f64,
@@ -88,7 +88,7 @@ impl StrokeSchedule {
         let offset_mm = operation.offset_mm;
         linkage.check(offset_mm)?;
         let limits = machine.limits;
-        let progress = Progress::new(operation.spacing, linkage, limits, offset_mm, &key("stroke_spacing"))?;
+        let progress = PathProgress::new(operation.spacing, linkage, limits, offset_mm, &key("stroke_spacing"))?;
         let per_stroke = progress.per_turn(linkage) / f64::from(strokes_per_revolution);
         let whole_rad = f64::from(operation.revolutions) * TURN_RAD + operation.overlap_rad;
         let [from_rad, to_rad] = operation.window_rad.unwrap_or([0.0, whole_rad]);
@@ -103,13 +103,13 @@ impl StrokeSchedule {
         };
         let (start, first_index) = match operation.spacing {
             // the grid of psi_c begins at 0
-            StrokeSpacing::WorkAngle => (0.0, (from_rad / per_stroke - COUNT_SLACK).ceil()),
+            StrokeSpacing::WorkAngle => (0.0, (from_rad / per_stroke - COUNT_TOLERANCE).ceil()),
             _ => (sigma(from_rad), 0.0),
         };
         let reach = (sigma(to_rad) - start) / per_stroke - first_index;
         let rolling = match operation.window_rad {
-            Some(_) => (reach + COUNT_SLACK).floor() + 1.0,
-            None => (reach - COUNT_SLACK).ceil(),
+            Some(_) => (reach + COUNT_TOLERANCE).floor() + 1.0,
+            None => (reach - COUNT_TOLERANCE).ceil(),
         };
         if rolling.is_nan() || rolling < 1.0 {
             let problem = format!("no stroke falls between {} and {} deg", from_rad.to_degrees(), to_rad.to_degrees());
@@ -255,7 +255,7 @@ fn strokes_per_revolution(feed: Feed, perimeter_mm: f64, key: impl Fn(&str) -> S
             Err(Refusal::new(&key("strokes_per_revolution"), "no strokes", "give at least 1"))
         }
         Feed::CircularMmPerStroke(feed_mm) => {
-            let strokes = (perimeter_mm / feed_mm - COUNT_SLACK).ceil();
+            let strokes = (perimeter_mm / feed_mm - COUNT_TOLERANCE).ceil();
             if (1.0..=f64::from(u32::MAX)).contains(&strokes) {
                 return Ok(strokes as u32);
             }

@@ -157,10 +157,10 @@ proptest! {
                 let psi_c = axes.psi_c_rad.value();
                 let back = linkage.phi_at_work_angle(psi_c, offset_mm);
                 // One bit of psi_c is worth more of phi where the work hardly turns.
-                let slack = 1e-12 + 1e-14 / axes.psi_c_rad.derivative(1);
-                prop_assert!((back - phi).abs() < slack, "{} away at {phi}", back - phi);
+                let tolerance = 1e-12 + 1e-14 / axes.psi_c_rad.derivative(1);
+                prop_assert!((back - phi).abs() < tolerance, "{} away at {phi}", back - phi);
                 let turned = linkage.phi_at_work_angle(psi_c + TAU, offset_mm);
-                prop_assert!((turned - phi - TAU).abs() < 2.0 * slack);
+                prop_assert!((turned - phi - TAU).abs() < 2.0 * tolerance);
             }
         }
     }

@@ -4,7 +4,7 @@ use crate::error::NotConverged;
 use crate::math::convergence::{Step, iterate};
 use crate::measure::crossing::Crossing;
 use crate::passes::planar::near::{lowest_entry, near_passes};
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::TargetFlank;
 use crate::terms::Side;
 use crate::tool::CuttingTool;
@@ -18,7 +18,7 @@ const LAST_MOVE_MM: f64 = 1e-10;
 
 /// Crossing of the envelope of one operation with the pitch curve on one flank; `None` where its involute does not
 /// reach the curve.
-pub fn envelope_crossing(job: &Job, operation: usize, tooth: u32, side: Side) -> Option<Crossing> {
+pub fn envelope_crossing(job: &ShapingJob, operation: usize, tooth: u32, side: Side) -> Option<Crossing> {
     if operation + 1 == job.operations.len() {
         return job.target(tooth).pitch_crossing(side);
     }
@@ -33,7 +33,7 @@ pub fn envelope_crossing(job: &Job, operation: usize, tooth: u32, side: Side) ->
 /// # Errors
 /// The rays go on moving along the pitch curve: the surface jumps where they meet it.
 pub fn stroke_crossing(
-    job: &Job,
+    job: &ShapingJob,
     last_operation: usize,
     side: Side,
     start: Crossing,

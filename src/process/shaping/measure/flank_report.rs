@@ -8,7 +8,7 @@ use crate::dexel::NO_PASS;
 use crate::measure::deviation::{Trace, TraceDeviation};
 use crate::measure::scallop::{Cusp, cusps};
 use crate::measure::stock::{Extreme, Stock, extremes, stock};
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use crate::steps::planar::CutField;
 use crate::terms::Side;
@@ -85,7 +85,7 @@ pub const RESOLUTION_MM: f64 = 1e-6;
 
 /// Arcs between which profiles and textures are evaluated, mm from the form point: as the scene says, else without 5 %
 /// of the flank at either end.
-pub fn evaluated_profile_mm(job: &Job, flank: &TargetFlank) -> [f64; 2] {
+pub fn evaluated_profile_mm(job: &ShapingJob, flank: &TargetFlank) -> [f64; 2] {
     let arc_at = |height: Option<f64>| height.and_then(|h| flank.at_height(&job.blank, h)).map(|(arc, _)| arc);
     let length_mm = flank.length_mm();
     [
@@ -95,7 +95,7 @@ pub fn evaluated_profile_mm(job: &Job, flank: &TargetFlank) -> [f64; 2] {
 }
 
 /// Measures a flank.
-pub fn measure(job: &Job, flank: &TargetFlank, cut: &CutField) -> FlankReport {
+pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankReport {
     let CutField { field, layers, .. } = cut;
     let finished = layers.last().expect("at least one operation");
     let limit = |arc_mm: f64, end| {
@@ -156,7 +156,7 @@ pub fn measure(job: &Job, flank: &TargetFlank, cut: &CutField) -> FlankReport {
         })
         .unwrap_or(0);
     let lead_trace = Trace::along_tooth(field, finished, lead_column);
-    let (v_first, v_last) = (field.leads_mm[0], field.leads_mm[rows - 1]);
+    let (v_first, v_last) = (field.rows_z_mm[0], field.rows_z_mm[rows - 1]);
     let v_margin = DEFAULT_MARGIN * (v_last - v_first);
     let below_range = (0..field.columns.len())
         .map(|column| {

@@ -3,14 +3,14 @@
 //! In: the job, the flank reports. Out: [`GearReport`].
 
 use super::flank_report::FlankReport;
-use super::unevenness::{Surface, ToothAllowance, allowances, crossings, rack_allowance_mm};
+use super::unevenness::{CrossedSurface, ToothAllowance, allowances, crossings, rack_allowance_mm};
 use crate::error::Result;
 use crate::gear::PitchCurveShape;
 use crate::measure::crossing::Crossing;
 use crate::measure::deviation::{PitchDeviations, Runout, pitch, runout};
 use crate::measure::stock::{Stock, stock};
 use crate::measure::thickness::Thickness;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::steps::planar::CutField;
 
 /// Allowances of one operation over the finished gear.
@@ -60,19 +60,19 @@ pub struct GearReport {
 ///
 /// # Errors
 /// What the strokes leave on some flank is not found.
-pub fn measure(job: &Job, flanks: Vec<FlankReport>, roots: Vec<RootReport>) -> Result<GearReport> {
+pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport>) -> Result<GearReport> {
     let teeth = job.scene.gear.teeth;
     let last = job.operations.len() - 1;
-    let envelope = crossings(job, last, Surface::Envelope)?;
+    let envelope = crossings(job, last, CrossedSurface::Envelope)?;
     // B and C of every operation.
-    let finished = crossings(job, last, Surface::Strokes)?;
+    let finished = crossings(job, last, CrossedSurface::Strokes)?;
     let allowances = (0..last)
         .map(|operation| {
             Ok(OperationAllowance {
                 operation,
                 rack_mm: rack_allowance_mm(job, operation),
-                envelope: allowances(&crossings(job, operation, Surface::Envelope)?, &envelope),
-                strokes: allowances(&crossings(job, operation, Surface::Strokes)?, &finished),
+                envelope: allowances(&crossings(job, operation, CrossedSurface::Envelope)?, &envelope),
+                strokes: allowances(&crossings(job, operation, CrossedSurface::Strokes)?, &finished),
             })
         })
         .collect::<Result<_>>()?;
@@ -127,8 +127,8 @@ mod tests {
         let mut scene = process::load(&path, &[]).expect("a shipped scene").scene;
         let eccentricity_mm = 0.02;
         Shaping::of_mut(&mut scene).expect("shaping").machine.work_eccentricity_mm = eccentricity_mm;
-        let job = Job::new(scene).expect("a gear");
-        let cut = crossings(&job, job.operations.len() - 1, Surface::Strokes).expect("all flanks");
+        let job = ShapingJob::new(scene).expect("a gear");
+        let cut = crossings(&job, job.operations.len() - 1, CrossedSurface::Strokes).expect("all flanks");
         let [left, right] = [0, 1].map(|side| cut.iter().map(|tooth| tooth[side]).collect::<Vec<_>>());
         let alpha = job.scene.gear.pressure_angle_rad;
         let runout = runout(&job.curve, &left, &right, alpha).expect("all cross");

@@ -7,7 +7,7 @@
 use super::crossing::{envelope_crossing, stroke_crossing};
 use crate::error::Result;
 use crate::measure::crossing::Crossing;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::terms::Side;
 use rayon::prelude::*;
 
@@ -37,7 +37,7 @@ pub struct Unevenness {
 
 /// Which surface is asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Surface {
+pub enum CrossedSurface {
     /// The limit of infinitely many strokes.
     Envelope,
     /// What the strokes leave in the middle of the face.
@@ -74,15 +74,15 @@ pub type ToothCrossings = [Option<Crossing>; 2];
 ///
 /// # Errors
 /// What the strokes leave on some flank is not found.
-pub fn crossings(job: &Job, operation: usize, surface: Surface) -> Result<Vec<ToothCrossings>> {
+pub fn crossings(job: &ShapingJob, operation: usize, surface: CrossedSurface) -> Result<Vec<ToothCrossings>> {
     let finishing = job.operations.len() - 1;
     (1..=job.scene.gear.teeth)
         .into_par_iter()
         .map(|tooth| {
             let on = |side: Side| -> Result<_> {
                 match surface {
-                    Surface::Envelope => Ok(envelope_crossing(job, operation, tooth, side)),
-                    Surface::Strokes => match envelope_crossing(job, finishing, tooth, side) {
+                    CrossedSurface::Envelope => Ok(envelope_crossing(job, operation, tooth, side)),
+                    CrossedSurface::Strokes => match envelope_crossing(job, finishing, tooth, side) {
                         Some(start) => Ok(stroke_crossing(job, operation, side, start)?),
                         None => Ok(None),
                     },
@@ -101,7 +101,7 @@ pub fn allowances(operation: &[ToothCrossings], finished: &[ToothCrossings]) -> 
 
 /// delta_d tan(alpha): what the offset between an operation and finishing leaves on a straight rack along the pitch
 /// line, mm.
-pub fn rack_allowance_mm(job: &Job, operation: usize) -> f64 {
+pub fn rack_allowance_mm(job: &ShapingJob, operation: usize) -> f64 {
     (job.operations[operation].spec.offset_mm - job.finishing().spec.offset_mm)
         * job.scene.gear.pressure_angle_rad.tan()
 }

@@ -1,15 +1,15 @@
 //! What was shaped, with what, on which machine.
 
-use crate::output::report::Section;
+use crate::output::report::PageSection;
 use crate::output::text::plain;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::scene::model::Tip;
 use crate::steps::report::facts::{gear_table, mm, speed_limits, table};
 use crate::units::UM_PER_MM;
 
 /// Tables of gear, cutter and machine.
-pub fn section(job: &Job) -> Section {
+pub fn section(job: &ShapingJob) -> PageSection {
     let (tool, machine) = (&job.cutter_spec, &job.machine);
     let tip = match tool.tip {
         Tip::Sharp => "sharp corners".to_owned(),
@@ -53,5 +53,5 @@ pub fn section(job: &Job) -> Section {
             ],
         ),
     ];
-    Section { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
+    PageSection { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
 }

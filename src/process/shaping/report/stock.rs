@@ -3,12 +3,12 @@
 use crate::findings::{self, Findings};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::range_chart::{RangeChart, RangeSeries};
-use crate::output::report::{Block, Section, Table};
+use crate::output::report::{Block, PageSection, PageTable};
 use crate::output::text::significant;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 
 /// The section; none if the scene has a single operation.
-pub fn section(job: &Job, found: &Findings) -> Option<Section> {
+pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
     let finishing = &job.finishing().spec.name;
     let earlier: Vec<&findings::Section> =
         found.parts("operations").iter().filter(|operation| !stock_of_teeth(operation).is_empty()).collect();
@@ -19,7 +19,7 @@ pub fn section(job: &Job, found: &Findings) -> Option<Section> {
         }
         blocks.extend(operation_blocks(operation, finishing));
     }
-    (!blocks.is_empty()).then(|| Section {
+    (!blocks.is_empty()).then(|| PageSection {
         id: "stock",
         title: "Stock and allowance".to_owned(),
         lead: format!(
@@ -103,12 +103,12 @@ fn percent(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), |value| significant(if value < 1e-9 { 0.0 } else { value }, 4))
 }
 
-fn spread_table(operation: &findings::Section) -> Table {
+fn spread_table(operation: &findings::Section) -> PageTable {
     let row = |name: &str, key: &str| {
         let number = |of: &str| percent(operation.number(&format!("unevenness.{key}.{of}")));
         vec![name.to_owned(), number("max"), number("mean")]
     };
-    Table {
+    PageTable {
         caption: "Unevenness by both definitions".to_owned(),
         columns: ["Definition", "Largest [%]", "Mean [%]"].map(str::to_owned).into(),
         rows: vec![
@@ -120,7 +120,7 @@ fn spread_table(operation: &findings::Section) -> Table {
     }
 }
 
-fn tooth_table(operation: &findings::Section) -> Table {
+fn tooth_table(operation: &findings::Section) -> PageTable {
     let mm = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.4}"));
     let [ab, cd, unevenness] = ["AB", "CD", "unevenness_mean_denominator"].map(|column| allowance(operation, column));
     let rows = stock_of_teeth(operation).iter().enumerate().map(|(row, tooth)| {
@@ -146,7 +146,7 @@ fn tooth_table(operation: &findings::Section) -> Table {
         "CD [mm]",
         "Unevenness [%]",
     ];
-    Table {
+    PageTable {
         caption: "Stock and allowance of each tooth".to_owned(),
         columns: columns.map(str::to_owned).into(),
         rows: rows.collect(),

@@ -6,7 +6,7 @@ use crate::cut::cpu::blank;
 use crate::error::Result;
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::steps::planar::blank_report::{self, BlankReport};
 
 /// Distance of the target outline's points: chords of a fillet then miss about 60 nm, a fifteenth of the least depth
@@ -18,7 +18,7 @@ const TARGET_SPACING_MM: f64 = 0.02;
 /// # Errors
 /// A field that does not fit in memory; the backend's.
 pub(super) fn cut(
-    job: &Job,
+    job: &ShapingJob,
     backend: &dyn Backend,
     progress: &Progress,
     interrupt: &Interrupt,

@@ -14,7 +14,7 @@ use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::map_png::{MapPicture, write_map_png};
 use crate::output::table::{Cell, write_table};
 use crate::output::text::significant;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::edge_polygon::EdgeSide;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips, ThicknessMap};
 use crate::units::UM_PER_MM;
@@ -30,7 +30,7 @@ type Curve<'a> = (&'a str, &'a dyn Fn(&StrokeChips) -> f64);
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write_tables(job: &Job, ledger: &ChipLedger, folder: &OutputFolder) -> Result<()> {
+pub fn write_tables(job: &ShapingJob, ledger: &ChipLedger, folder: &OutputFolder) -> Result<()> {
     job.operations.iter().enumerate().try_for_each(|(index, operation)| {
         let path = folder.path(format!("tables/chips_{}.csv", operation.spec.name))?;
         write_chip_table(job, ledger, index, &path)
@@ -42,7 +42,7 @@ pub fn write_tables(job: &Job, ledger: &ChipLedger, folder: &OutputFolder) -> Re
 /// # Errors
 /// Files that cannot be written.
 pub fn write_charts_and_maps(
-    job: &Job,
+    job: &ShapingJob,
     ledger: &ChipLedger,
     folder: &OutputFolder,
     notes: &[(String, String)],
@@ -79,7 +79,7 @@ pub fn write_charts_and_maps(
     Ok(())
 }
 
-fn write_chip_table(job: &Job, ledger: &ChipLedger, operation: usize, path: &std::path::Path) -> Result<()> {
+fn write_chip_table(job: &ShapingJob, ledger: &ChipLedger, operation: usize, path: &std::path::Path) -> Result<()> {
     let columns = [
         "stroke",
         "time_s",
@@ -139,7 +139,7 @@ fn write_chip_table(job: &Job, ledger: &ChipLedger, operation: usize, path: &std
     write_table(path, &columns, rows)
 }
 
-fn charts(job: &Job, ledger: &ChipLedger, operation: usize) -> [(&'static str, LineChart); 2] {
+fn charts(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> [(&'static str, LineChart); 2] {
     let strokes = &ledger.operations[operation].strokes;
     let schedule = &job.operations[operation].schedule;
     let angles_deg: Vec<f64> =

@@ -9,7 +9,7 @@ use crate::findings::RESULTS_FILE;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::table::{Cell, write_table};
 use crate::process::shaping::CutGear;
-use crate::process::shaping::Job;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::measure::unevenness::ToothAllowance;
 use crate::steps::parts::Part;
@@ -22,7 +22,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(job: &Job, cut: &CutGear, motion: &[OperationAxes], found: &Findings, tools: &Tools) -> Result<()> {
+pub fn write(job: &ShapingJob, cut: &CutGear, motion: &[OperationAxes], found: &Findings, tools: &Tools) -> Result<()> {
     let Tools { folder, notes, progress, parts, .. } = *tools;
     let step = progress.step("tables and charts", 3 + cut.report.allowances.len() as u64, "parts");
     write_flank_table(cut, &folder.path("tables/flanks.csv")?, job)?;
@@ -54,7 +54,7 @@ pub fn write(job: &Job, cut: &CutGear, motion: &[OperationAxes], found: &Finding
     folder.write_json(RESULTS_FILE, &found.to_json())
 }
 
-fn write_flank_table(cut: &CutGear, path: &Path, job: &Job) -> Result<()> {
+fn write_flank_table(cut: &CutGear, path: &Path, job: &ShapingJob) -> Result<()> {
     let mut columns: Vec<String> =
         ["tooth", "flank", "start_of_involute_mm", "tip_height_mm", "profile_length_mm"].map(str::to_owned).into();
     for operation in &job.operations[..job.operations.len() - 1] {
@@ -177,7 +177,7 @@ fn write_allowance_table(
     write_table(path, &columns, rows)
 }
 
-fn unevenness_chart(job: &Job, teeth: &[ToothAllowance], operation: &str) -> BarChart {
+fn unevenness_chart(job: &ShapingJob, teeth: &[ToothAllowance], operation: &str) -> BarChart {
     BarChart {
         least_division: 0.0,
         title: format!("{}: unevenness of the allowance after {operation}", job.scene.name),

@@ -1,19 +1,19 @@
 //! The cut as it happens: frames of the work and the cutter, evenly spread over all strokes of all operations.
 //!
 //! Every frame shows the work after exactly the strokes before it, none left out: the section in the middle of the face
-//! (see [`Section`]), drawn as a body over the whole face. Work and cutter stand as on the machine: the line of centres
-//! stays, the gear and the cutter turn. The cutter is drawn at the upper end of its stroke, above the face, where it
-//! hides nothing; its height is a drawing's, not the tool's.
+//! (see [`CutSection`]), drawn as a body over the whole face. Work and cutter stand as on the machine: the line of
+//! centres stays, the gear and the cutter turn. The cutter is drawn at the upper end of its stroke, above the face,
+//! where it hides nothing; its height is a drawing's, not the tool's.
 
 use crate::error::{Error, Result};
 use crate::frame::Rigid2;
 use crate::interrupt::Interrupt;
-use crate::output::apng::{Frame, write_apng};
+use crate::output::apng::{AnimationFrame, write_apng};
 use crate::output::folder::OutputFolder;
 use crate::output::progress::Progress;
 use crate::output::render_png::{RenderPicture, draw_frame, write_frame};
-use crate::process::shaping::Job;
-use crate::process::shaping::section::{Section, cutter_solid};
+use crate::process::shaping::ShapingJob;
+use crate::process::shaping::section::{CutSection, cutter_solid};
 use crate::surface::Mesh;
 use crate::surface::render::{CLAY, Camera, Lights, STEEL, Shape, Stage, render};
 use glam::{DVec2, DVec3};
@@ -29,12 +29,18 @@ const HOLD_MS: u16 = 2000;
 ///
 /// # Errors
 /// Files that cannot be written; a blank field that does not fit in memory.
-pub fn draw(job: &Job, count: u32, progress: &Progress, interrupt: &Interrupt, folder: &OutputFolder) -> Result<u32> {
+pub fn draw(
+    job: &ShapingJob,
+    count: u32,
+    progress: &Progress,
+    interrupt: &Interrupt,
+    folder: &OutputFolder,
+) -> Result<u32> {
     let step = progress.step("frames", u64::from(count), "frames");
-    let strokes = Section::strokes(job);
+    let strokes = CutSection::strokes(job);
     let camera = camera(job);
-    let mut section = Section::new(job)?;
-    let mut frames: Vec<Frame> = Vec::new();
+    let mut section = CutSection::new(job)?;
+    let mut frames: Vec<AnimationFrame> = Vec::new();
     for index in 0..count {
         // The first frame is the blank, the last one the finished gear.
         let until = (strokes as u64 * u64::from(index) / u64::from(count.max(2) - 1)) as usize;
@@ -47,7 +53,7 @@ pub fn draw(job: &Job, count: u32, progress: &Progress, interrupt: &Interrupt, f
             Err(Error::Interrupted) => break,
             Err(other) => return Err(other),
         };
-        let (operation, stroke) = Section::operation_and_stroke(job, until.saturating_sub(1));
+        let (operation, stroke) = CutSection::operation_and_stroke(job, until.saturating_sub(1));
         let operation = &job.operations[operation];
         let after = if until == 0 { 0 } else { stroke + 1 };
         let title =
@@ -72,8 +78,8 @@ pub fn draw(job: &Job, count: u32, progress: &Progress, interrupt: &Interrupt, f
 }
 
 /// Work and cutter before stroke `stroke`, in the machine: the gear's axis at the origin, the cutter's at positive x.
-fn work(job: &Job, section: &Section, stroke: usize) -> (Mesh, Mesh) {
-    let pose = Section::work_from_tool(job, stroke);
+fn work(job: &ShapingJob, section: &CutSection, stroke: usize) -> (Mesh, Mesh) {
+    let pose = CutSection::work_from_tool(job, stroke);
     let along = pose.translation_mm.normalize_or(DVec2::X);
     let machine_from_work = Rigid2 { rotation: DVec2::new(along.x, -along.y), translation_mm: DVec2::ZERO };
     let half_mm = 0.5 * job.scene.gear.face_width_mm;
@@ -85,12 +91,12 @@ fn work(job: &Job, section: &Section, stroke: usize) -> (Mesh, Mesh) {
 }
 
 /// A camera that holds work and cutter through all strokes.
-fn camera(job: &Job) -> Camera {
+fn camera(job: &ShapingJob) -> Camera {
     let half_mm = 0.5 * job.scene.gear.face_width_mm;
     let radius_mm = (0..360).map(|i| job.blank.outline_mm(f64::from(i).to_radians()).length()).fold(0.0, f64::max);
-    let strokes = Section::strokes(job);
+    let strokes = CutSection::strokes(job);
     let far_mm = (0..=200)
-        .map(|i| Section::work_from_tool(job, (strokes - 1) * i / 200).translation_mm.length())
+        .map(|i| CutSection::work_from_tool(job, (strokes - 1) * i / 200).translation_mm.length())
         .fold(0.0, f64::max);
     let cutter_mm = job.cutter.tip_radius_mm;
     let top_mm = half_mm + job.machine.approach_mm + 0.6 * half_mm;

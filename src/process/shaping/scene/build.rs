@@ -5,20 +5,20 @@ use super::model::{
     StrokeSpacing, Tip, TraditionalDirection,
 };
 use crate::material::EdgeForce;
-use crate::scene::Part;
+use crate::scene::ScenePart;
 use crate::scene::build::stock_or_offset_mm;
 use crate::scene::values::Values;
 use crate::units::UM_PER_MM;
 use std::path::Path;
 
 /// Shaping: cutter, machine and operations.
-pub(super) fn build(values: &Values, base_dir: &Path) -> Option<Part> {
+pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
     let pressure_angle_rad = values.view("gear").rad("pressure_angle_deg")?;
     let operations: Option<Vec<Operation>> = (0..values.count("operation"))
         .map(|index| operation(values, &format!("operation.{index}"), base_dir, pressure_angle_rad))
         .collect();
     let measure = values.view("measure");
-    Some(Part::new(Shaping {
+    Some(ScenePart::new(Shaping {
         tool: shaper_cutter(values)?,
         machine: machine(values)?,
         operations: operations?,

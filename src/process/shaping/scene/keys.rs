@@ -6,12 +6,12 @@ mod measure;
 mod operation;
 mod tool;
 
-use crate::scene::keys::{Addition, Section};
+use crate::scene::keys::{Addition, KeySection};
 
 pub(super) use measure::LARGEST_CHIP_SPACING_MM;
 
 /// Sections of its own.
-pub(super) static SECTIONS: &[&[Section]] =
+pub(super) static SECTIONS: &[&[KeySection]] =
     &[material::SECTIONS, tool::SECTIONS, machine::SECTIONS, operation::SECTIONS, measure::SECTIONS];
 
 /// Keys in shared sections.

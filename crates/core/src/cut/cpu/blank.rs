@@ -52,7 +52,7 @@ pub fn cut(
     let mut result =
         BlankCut { removed_mm3: vec![[0.0; 2]; (set.end_pass() - set.first_pass) as usize], ..BlankCut::default() };
     for ((index, slice), width_mm) in field.slices.iter_mut().enumerate().zip(grid.slice_widths_mm()) {
-        let tau = set.law.tau(grid.leads_mm[index]);
+        let tau = set.law.tau(grid.slices_z_mm[index]);
         let reach_mm = if operation.cull { operation.blank_reach_mm } else { f64::INFINITY };
         let place = |set| passes_at(set, tau, operation.tool, operation.tooth, reach_mm);
         let passes = place(set);

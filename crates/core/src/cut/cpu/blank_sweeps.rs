@@ -44,7 +44,7 @@ pub fn cut(
         .map(|(place, slices)| {
             let cuts = slices.iter_mut().enumerate().map(|(i, slice)| SliceCut {
                 index: (place * block + i) as u32,
-                z_mm: grid.leads_mm[place * block + i],
+                z_mm: grid.slices_z_mm[place * block + i],
                 width_mm: widths_mm[place * block + i],
                 left: [0, 1].map(|f: usize| SpanTable::new(&slice.rays[f])),
                 slice,

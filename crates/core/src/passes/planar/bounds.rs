@@ -180,8 +180,9 @@ impl<'a> SegmentBounds<'a> {
         let turn = DVec2::new(frame.rotation.x, -frame.rotation.y);
         let curvature = self.curvatures_per_mm[segment_index];
         let reach_mm2 = sampling.cell_mm * sampling.cell_mm + travel_mm * travel_mm;
-        // Over a distance d the edge's normal turns by k_e d. Twice that is given, as the aimed point moves along the edge
-        // by more than d where ray and edge are steep to each other: a safety without proof, as that of the curvature.
+        // Over a distance d the edge's normal turns by k_e d. Twice that is given, as the aimed point moves along the
+        // edge by more than d where ray and edge are steep to each other: a safety without proof, as that of the
+        // curvature.
         let grazing = GRAZING_COSINE + 2.0 * curvature * motion_bound.distance_mm + motion_bound.turn_rad;
         let slope = upper.climb_mm / sampling.cell_mm.max(1e-9);
         rays.iter().zip(&upper.heights_mm).all(|(ray, height_mm)| {

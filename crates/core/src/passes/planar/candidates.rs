@@ -115,7 +115,7 @@ impl CutPlan {
             }
             tiles.push(Tile { columns, origin_mm: middle.origin_mm, records: first..records.len() });
         }
-        let row_phases = field.leads_mm.iter().map(|&z_mm| set.law.tau(z_mm)).collect();
+        let row_phases = field.rows_z_mm.iter().map(|&z_mm| set.law.tau(z_mm)).collect();
         Self { tiles, records, row_phases }
     }
 

@@ -1,9 +1,9 @@
 //! Keys of the hobbing machine: limits of its axes.
 
-use crate::scene::keys::{Key, Role, Section};
+use crate::scene::keys::{Key, KeySection, Role};
 
 /// `[machine.hobbing_limits]`.
-pub(super) static SECTIONS: &[Section] = &[Section {
+pub(super) static SECTIONS: &[KeySection] = &[KeySection {
     path: "machine.hobbing_limits",
     role: Role::Plain,
     keys: &[

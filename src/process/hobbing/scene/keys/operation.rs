@@ -1,6 +1,6 @@
 //! Keys of the operations: speed, feed, approach and linkage.
 
-use crate::scene::keys::{Addition, Key, Range, Role, Section};
+use crate::scene::keys::{Addition, Key, KeySection, Range, Role};
 
 /// Reading of the papers' formulas.
 const FORM: Key = Key::word(
@@ -100,15 +100,15 @@ pub(super) static ADDED: Addition = Addition {
 };
 
 /// What is inside `[[operation]]`.
-pub(super) static SECTIONS: &[Section] = &[
-    Section {
+pub(super) static SECTIONS: &[KeySection] = &[
+    KeySection {
         path: "operation[].linkage",
         role: Role::Choice { default: Some("hobbing"), what: "linkage" },
         keys: &[],
         groups: &[],
         teach: "Law that moves the axes.",
     },
-    Section {
+    KeySection {
         path: "operation[].linkage.hobbing",
         role: Role::Variant,
         keys: &[
@@ -133,7 +133,7 @@ pub(super) static SECTIONS: &[Section] = &[
         teach: "Five axes: hob, work, two slides in the transverse plane and the axial slide. The papers' schemes I, \
             III and V are even arc, work angle and polar angle with work; II, IV and VI the same with hob.",
     },
-    Section {
+    KeySection {
         path: "operation[].linkage.hobbing_diagonal",
         role: Role::Variant,
         keys: &[

@@ -1,9 +1,9 @@
 //! Keys of the hob.
 
-use crate::scene::keys::{Default, Group, Key, Kind, Range, Role, Section};
+use crate::scene::keys::{Default, Group, Key, KeySection, Kind, Range, Role};
 
 /// `[tool.hob]`.
-pub(super) static SECTIONS: &[Section] = &[Section {
+pub(super) static SECTIONS: &[KeySection] = &[KeySection {
     path: "tool.hob",
     role: Role::Variant,
     keys: &[

@@ -21,7 +21,7 @@ use crate::units::TURN_RAD;
 
 /// Progress along the path.
 #[derive(Debug, Clone)]
-pub(super) enum Progress {
+pub(super) enum PathProgress {
     /// psi_c, rad.
     WorkAngle,
     /// S, mm.
@@ -38,7 +38,7 @@ pub(super) struct TimeLaw {
     offset_mm: f64,
 }
 
-impl Progress {
+impl PathProgress {
     /// The law for a spacing; `key` is the scene key of the spacing.
     pub(super) fn new(
         spacing: StrokeSpacing,

@@ -1,6 +1,6 @@
 //! Keys of the machine around the cut: ram, mounting errors, limits of the axes.
 
-use crate::scene::keys::{Addition, Default, Key, Kind, Range, Role, Section};
+use crate::scene::keys::{Addition, Default, Key, KeySection, Kind, Range, Role};
 
 /// Keys of `[machine]`.
 pub(super) static ADDED: Addition = Addition {
@@ -59,7 +59,7 @@ pub(super) static ADDED: Addition = Addition {
 };
 
 /// What is inside `[machine]`.
-pub(super) static SECTIONS: &[Section] = &[Section {
+pub(super) static SECTIONS: &[KeySection] = &[KeySection {
     path: "machine.limits",
     role: Role::Plain,
     keys: &[

@@ -1,7 +1,7 @@
 //! Keys of the work's material: what the cutting forces follow from.
 
 use crate::material::{MATERIAL_NAMES, MATERIALS};
-use crate::scene::keys::{Default, Key, Kind, Range, Role, Section};
+use crate::scene::keys::{Default, Key, KeySection, Kind, Range, Role};
 
 /// A coefficient of the force law.
 const fn coefficient(name: &'static str, unit: &'static str, example: &'static str, teach: &'static str) -> Key {
@@ -16,7 +16,7 @@ const fn coefficient(name: &'static str, unit: &'static str, example: &'static s
 }
 
 /// `[material]`.
-pub(super) static SECTIONS: &[Section] = &[Section {
+pub(super) static SECTIONS: &[KeySection] = &[KeySection {
     path: "material",
     role: Role::Plain,
     keys: &[

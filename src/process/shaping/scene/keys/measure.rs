@@ -1,13 +1,13 @@
 //! Keys of what only shaping measures: chips and the evaluated profile.
 
-use crate::scene::keys::{Default, Key, Kind, Range, Role, Section};
+use crate::scene::keys::{Default, Key, KeySection, Kind, Range, Role};
 
 /// Largest distance of the rays on which chips are followed, mm.
 pub const LARGEST_CHIP_SPACING_MM: f64 = 2.0;
 
 /// `[fields.chips]` and `[measure]`.
-pub(super) static SECTIONS: &[Section] = &[
-    Section {
+pub(super) static SECTIONS: &[KeySection] = &[
+    KeySection {
         path: "fields.chips",
         role: Role::Plain,
         keys: &[Key {
@@ -21,7 +21,7 @@ pub(super) static SECTIONS: &[Section] = &[
         groups: &[],
         teach: "The rays on which chips are followed from stroke to stroke; half the spacing doubles the time.",
     },
-    Section {
+    KeySection {
         path: "measure",
         role: Role::Plain,
         keys: &[

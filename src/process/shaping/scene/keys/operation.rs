@@ -1,6 +1,6 @@
 //! Keys of the operations: feed, linkage and infeed.
 
-use crate::scene::keys::{Addition, Default, Group, Key, Kind, Range, Role, Section};
+use crate::scene::keys::{Addition, Default, Group, Key, KeySection, Kind, Range, Role};
 
 /// A depth of an infeed.
 const fn depth(name: &'static str, example: &'static str, teach: &'static str) -> Key {
@@ -103,15 +103,15 @@ pub(super) static ADDED: Addition = Addition {
 };
 
 /// What is inside `[[operation]]`.
-pub(super) static SECTIONS: &[Section] = &[
-    Section {
+pub(super) static SECTIONS: &[KeySection] = &[
+    KeySection {
         path: "operation[].linkage",
         role: Role::Choice { default: Some("shaping_normal"), what: "linkage" },
         keys: &[],
         groups: &[],
         teach: "Law that moves the axes. With an offset of 0 both linkages of shaping cut the same gear.",
     },
-    Section {
+    KeySection {
         path: "operation[].linkage.shaping_traditional",
         role: Role::Variant,
         keys: &[Key {
@@ -127,7 +127,7 @@ pub(super) static SECTIONS: &[Section] = &[
         teach: "The angles of the finishing cut, the offset added to the centre distance: simple, and it leaves uneven \
             stock where the curvature changes.",
     },
-    Section {
+    KeySection {
         path: "operation[].linkage.shaping_normal",
         role: Role::Variant,
         keys: &[Key {
@@ -142,35 +142,35 @@ pub(super) static SECTIONS: &[Section] = &[
         groups: &[],
         teach: "The offset along the normal of the pitch curve, so that both flanks keep even stock.",
     },
-    Section {
+    KeySection {
         path: "operation[].infeed",
         role: Role::Choice { default: Some("none"), what: "infeed" },
         keys: &[],
         groups: &[],
         teach: "How the cutter gets to depth.",
     },
-    Section {
+    KeySection {
         path: "operation[].infeed.none",
         role: Role::Variant,
         keys: &[],
         groups: &[],
         teach: "At depth from the first stroke on.",
     },
-    Section {
+    KeySection {
         path: "operation[].infeed.plunge",
         role: Role::Variant,
         keys: &[depth("depth_mm", "6.75", "Depth to feed; the whole tooth depth is 2.25 modules."), STROKES],
         groups: &[],
         teach: "Radially at the start angle, without rolling.",
     },
-    Section {
+    KeySection {
         path: "operation[].infeed.spiral",
         role: Role::Variant,
         keys: &[depth("depth_mm", "6.75", "Depth to feed; the whole tooth depth is 2.25 modules."), ANGLE],
         groups: &[],
         teach: "Evenly while rolling over the first part of the turn. Cut as much overlap, or the start stays shallow.",
     },
-    Section {
+    KeySection {
         path: "operation[].infeed.plunge_and_roll",
         role: Role::Variant,
         keys: &[

@@ -1,10 +1,10 @@
 //! Keys of the shaper cutter.
 
-use crate::scene::keys::{Default, Key, Kind, Range, Role, Section};
+use crate::scene::keys::{Default, Key, KeySection, Kind, Range, Role};
 
 /// `[tool.shaper_cutter]` and what is inside it.
-pub(super) static SECTIONS: &[Section] = &[
-    Section {
+pub(super) static SECTIONS: &[KeySection] = &[
+    KeySection {
         path: "tool.shaper_cutter",
         role: Role::Variant,
         keys: &[
@@ -89,21 +89,21 @@ pub(super) static SECTIONS: &[Section] = &[
         groups: &[],
         teach: "Shaper cutter by its profile projected on the transverse plane.",
     },
-    Section {
+    KeySection {
         path: "tool.shaper_cutter.tip",
         role: Role::Choice { default: Some("sharp"), what: "tip" },
         keys: &[],
         groups: &[],
         teach: "Shape of the cutter's tip corners, which form the gear's root fillets.",
     },
-    Section {
+    KeySection {
         path: "tool.shaper_cutter.tip.sharp",
         role: Role::Variant,
         keys: &[],
         groups: &[],
         teach: "Sharp corners.",
     },
-    Section {
+    KeySection {
         path: "tool.shaper_cutter.tip.round",
         role: Role::Variant,
         keys: &[Key {
@@ -117,7 +117,7 @@ pub(super) static SECTIONS: &[Section] = &[
         groups: &[],
         teach: "Round tangent to flank and tip circle.",
     },
-    Section {
+    KeySection {
         path: "tool.shaper_cutter.tip.chamfer",
         role: Role::Variant,
         keys: &[
