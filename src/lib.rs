@@ -71,7 +71,7 @@
 //! - [`scene`]: the scene file as checked values
 //! - [`measure`]: what is left, in numbers
 //! - [`surface`]: what is left, as triangles and pictures
-//! - [`gcode`]: how programs are spelled and read
+//! - [`gcode`]: how programs are written and read
 //! - [`findings`]: what a run found, as one tree of quantities and tables
 //! - [`output`]: files, charts, tables, reports
 //! - [`job`]: what the shared steps ask of a job, whatever its process

@@ -1,6 +1,6 @@
 //! The command line: one file per command.
 //!
-//! Results and reports go to standard output and into files, talk goes to standard error.
+//! Results and reports go to standard output and into files, messages go to standard error.
 
 pub mod args;
 mod axes;

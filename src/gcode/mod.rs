@@ -1,6 +1,6 @@
 //! G-code: the words, blocks and straight lines of programs, whatever the machine's axes are.
 //!
-//! What a program says of a machine belongs to the process; here is only how programs are spelled and read. Letters
+//! What a program says of a machine belongs to the process; here is only how programs are written and read. Letters
 //! and units of positions follow from the axes ([`crate::machine`]).
 
 mod axes;

@@ -60,7 +60,7 @@ impl AxisKind {
         }
     }
 
-    /// Unit in which a value is read, as files and the terminal spell it.
+    /// Unit in which a value is read, as files and the terminal write it.
     pub fn unit(self, order: Order) -> &'static str {
         match (self, order) {
             (Self::Rotary, Order::Position) => "deg",

@@ -1,9 +1,7 @@
 //! Where a surface crosses the pitch curve: the points A, B, C, D of Gao et al. (2017, Fig. 9).
 //!
-//! A and D lie on the surface that an operation leaves (left and right flank), B and C on the finished one. Two
-//! surfaces are asked: the **envelope**, the limit of infinitely many strokes, from the meshing condition; and the
-//! surface that the **strokes** leave, by a dexel bent along the pitch curve: a ray along the curve's tangent is cut by
-//! all passes near it, moved to the foot of the hit, and cut again until it stays, which takes three or four rounds.
+//! A and D lie on the surface that an operation leaves (left and right flank), B and C on the finished one. How such a
+//! point is found belongs to the processes.
 
 use glam::DVec2;
 

@@ -1,4 +1,4 @@
-//! What the blank field says about any gear: volumes by two ways, and damage to the target.
+//! What the blank field says about any gear: volumes counted twice, and damage to the target.
 //!
 //! In: the cut blank, the target's section in a slice. Out: [`Damage`] by tooth, side and zone, deepest place and
 //! volume.
@@ -51,7 +51,7 @@ pub struct OperationVolume {
 }
 
 impl OperationVolume {
-    /// Largest difference of the two ways, relative to the volume.
+    /// Largest difference of the two counts, relative to the volume.
     pub fn imbalance(&self) -> f64 {
         let off = |f: usize| {
             let scale = self.by_rays_mm3[f].abs().max(f64::MIN_POSITIVE);

@@ -1,8 +1,8 @@
 //! What is left, in numbers: stock between operations, crossings with the pitch curve and unevenness, deviations,
 //! scallops, thickness.
 //!
-//! In: cut fields and the job. Out: plain values in mm and percent; `run` gives them names, units and definitions in
-//! the results.
+//! In: cut fields and the job. Out: plain values in mm and percent; the findings of each process give them names,
+//! units and definitions.
 
 pub mod crossing;
 pub mod damage;

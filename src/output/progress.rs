@@ -3,8 +3,8 @@
 //! In: steps ("cut flanks", 84 of them) and their advance, from any thread. Out, on standard error: a bar with the time
 //! left on a terminal, a plain line every few seconds elsewhere, one JSON object per line for programs, or nothing.
 //!
-//! The rule: results go to files and standard output, talk goes to standard error; and a time left is named only after
-//! two seconds, because before that it is a guess.
+//! The rule: results go to files and standard output, messages go to standard error; and a time left is named only
+//! after two seconds, because before that it is a guess.
 //!
 //! A command that knows its steps beforehand gives a plan: their names with expected seconds, right in proportion. The
 //! time left of the whole command is then what is expected of the rest, at the pace of what is done. Without a plan, a

@@ -1,8 +1,8 @@
 //! The checked scene: every value present, in range and in internal units (mm, rad, s).
 //!
-//! Comes from [`super::load`], goes to `run`. Nothing here knows about TOML, nor what a process has for itself: its
-//! folder gets that back from [`ScenePart`]. Keys of the scene file
-//! are the field names with their unit (`face_width_mm`, `pressure_angle_deg`); angles are radians here.
+//! Comes from [`super::load`], goes to the processes. Nothing here knows about TOML, nor what a process has for itself:
+//! its folder gets that back from [`ScenePart`]. Keys of the scene file are the field names with their unit
+//! (`face_width_mm`, `pressure_angle_deg`); angles are radians here.
 
 use super::process::ScenePart;
 use crate::gear::PitchCurveShape;

@@ -1,8 +1,10 @@
 //! What the reader must know of a process, and what a scene holds of it.
 //!
-//! In: nothing; the folders of the processes fill [`SceneProcess`] and implement [`ProcessPart`]. The reader asks
-//! through them and knows no process by name. Not taken: an enum of all processes. Every new one would have to be
-//! written into it and into each `match` over it.
+//! The folders of the processes fill [`SceneProcess`] and implement [`ProcessPart`]. The reader asks through them and
+//! knows no process by name.
+//!
+//! Road not taken: an enum of all processes. Every new one would have to be written into it and into each `match` over
+//! it.
 
 use super::keys::{Addition, KeySection};
 use super::problems::Found;

@@ -1,8 +1,8 @@
 //! Goes through the tree, holds every key against the table, and fills in the defaults.
 //!
 //! In: the tree of a scene with its `--set` arguments, the table of all processes and that of the scene's own, which
-//! says what holds by default. Out: checked values, and a problem for every key or
-//! section that is unknown, missing, given beside its rival, of the wrong type or out of range.
+//! says what holds by default. Out: checked values, and a problem for every key or section that is unknown, missing,
+//! given beside its rival, of the wrong type or out of range.
 
 use super::check::check;
 use super::errors::MOST_PROBLEMS;

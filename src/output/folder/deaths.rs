@@ -1,6 +1,6 @@
 //! Runs that die at every step on the disk, and disks that fail once at every step.
 //!
-//! A killed process does nothing more, neither its clean-up; so from the chosen step on, every step is refused. What a
+//! A killed process does nothing more, not even its clean-up; so from the chosen step on, every step is refused. What a
 //! dead run leaves is then what a new run must cope with.
 
 use super::steps::{Disk, Steps};

@@ -46,8 +46,7 @@ use std::ops::ControlFlow;
 /// Largest lead angle taken: beyond it a hob is a worm gear's pinion, and tables and formulas of hobs do not hold.
 const LARGEST_LEAD_ANGLE_RAD: f64 = 0.35;
 /// A tooth is in the work only within this angle to either side of the direction towards it: at 60 degrees its tip
-/// stands
-/// at half its radius, far behind the work.
+/// stands at half its radius, far behind the work.
 const HALF_SWEEP_RAD: f64 = PI / 3.0;
 /// Share of the root radius by which relief lowers a tooth at most: with relief angles of some 10 deg and gashes 30 deg
 /// apart it is a tenth.

@@ -4,7 +4,7 @@
 //! along rays from the target's root to a point in the middle of the space: gashes are few, and what they leave in a
 //! tight fillet stands higher than its normals can go before they cross. Tips are taken along the normals of the pitch
 //! curve; they are cut only by a hob that tops the gear, and otherwise the blank's own surface stands there. The
-//! linkage as printed destroys flanks and tips alike: [`crate::run`] makes no closed body of it.
+//! linkage as printed destroys flanks and tips alike: the run makes no closed body of it.
 
 use crate::cut::Backend;
 use crate::dexel::PlacedRays;

@@ -13,7 +13,7 @@ pub const STEADY: f64 = 1e-9;
 pub struct PeakWords {
     /// Title of the places on the terminal.
     pub at: &'static str,
-    /// Name of the coordinate of a place, as findings spell it.
+    /// Name of the coordinate of a place, as findings write it.
     pub place: &'static str,
     /// Its unit on the terminal, and digits after the point.
     pub place_unit: (&'static str, usize),

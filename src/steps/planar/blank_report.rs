@@ -1,5 +1,5 @@
-//! What the blank field says about the whole gear: volumes by two ways, damage to the target, return strokes that rub,
-//! strokes that are missing.
+//! What the blank field says about the whole gear: volumes counted twice, damage to the target, return strokes that
+//! rub, strokes that are missing.
 //!
 //! In: the gear and its cut blank. Out: [`BlankReport`].
 //!

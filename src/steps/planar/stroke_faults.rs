@@ -5,11 +5,11 @@
 //! one is missing, and one that removed next to nothing was either made twice (the next one cuts as usual) or did not
 //! cut (the next one takes its chip as well).
 //!
-//! **The family that is smooth speaks for a cutter tooth.** A thin chip that lies along the rays of one family is met
-//! as a whole by one ray or by none, which makes that family's figure of that tooth jump; the other family then sees
-//! the chip squarely. So each tooth in the work is judged by the family that scatters less over the stroke and its
-//! neighbours. A fault must show in the tooth that takes most, and in all teeth together; so neither a tooth that comes
-//! into the work looks like one, nor the end of a plunge.
+//! **For each cutter tooth the family of rays that scatters less is taken.** A thin chip along the rays of one family
+//! is met as a whole by one ray or by none, so the volume that this family gives for the tooth jumps from stroke to
+//! stroke. The rays of the other family cross the chip. So each tooth in the work has the volumes of the family that
+//! scatters less over the stroke and its neighbours. A fault must show in the tooth that takes most, and in all teeth
+//! together; so neither a tooth that comes into the work looks like one, nor the end of a plunge.
 //!
 //! Chips have to be as large as some cells of the grid to be told apart. The surface alone would not do at all: at
 //! 4,200 strokes the facet of a missing stroke is narrower than the rays' distance.

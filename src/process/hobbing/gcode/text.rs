@@ -1,4 +1,4 @@
-//! A hobbing program as text: what the man at the machine must know, then the blocks.
+//! A hobbing program as text: what the operator must know, then the blocks.
 
 use super::program::{Gearbox, HobbingKnot, HobbingProgram, digits};
 use crate::gcode::{ProgramText, axis_word};
@@ -9,7 +9,7 @@ use crate::process::hobbing::linkage::dynamics::AXES;
 use crate::process::hobbing::scene::model::HobbingKind;
 use crate::units::UM_PER_MM;
 
-/// The text of a program, with everything in its head that the man at the machine must know.
+/// The text of a program, with everything in its head that the operator must know.
 pub fn text(
     job: &HobbingJob,
     operation: &PreparedHobbing,

@@ -188,8 +188,7 @@ impl Marks<'_> {
 /// gives the length of a step.
 ///
 /// Every round but the last makes the longer step shorter by a factor of `sqrt(3)` or ends the reduction: lengths of 15
-/// digits
-/// are through after 70 rounds.
+/// digits are through after 70 rounds.
 pub fn shortest([mut a, mut b]: [DVec2; 2], vector: impl Fn(DVec2) -> DVec2) -> [DVec2; 2] {
     for _ in 0..100 {
         if vector(a).length_squared() > vector(b).length_squared() {

@@ -1,11 +1,11 @@
-//! What the blank field says about a hobbed gear: volumes by two ways, sections against the target's, damage to the
+//! What the blank field says about a hobbed gear: volumes counted twice, sections against the target's, damage to the
 //! target.
 //!
 //! In: the job and its cut blank. Out: [`HobbedBlankReport`]. As in [`crate::steps::planar::blank_report`]; where the
 //! teeth wind, the target's section differs from slice to slice and is made anew for each.
 //!
-//! A hob that cuts where it should not, the far side of a lobe or a neighbouring tooth, is found here: the flanks' own
-//! rays end before.
+//! A hob that cuts where it should not, the far side of a lobe or a neighbouring tooth, is found here. The rays of the
+//! flanks end before they get there.
 
 use crate::cut::BlankStats;
 use crate::cut::CutBlank;

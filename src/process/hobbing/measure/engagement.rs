@@ -1,4 +1,4 @@
-//! Which hob teeth do the work: the area of a tooth space in one transverse section, booked on the tooth that removes
+//! Which hob teeth do the work: the area of a tooth space in one transverse section, counted for the tooth that removes
 //! it first.
 //!
 //! In: a hobbing linkage that cuts into full stock, hob, pitch curve. Out: [`Engagement`], area per hob tooth. Law: a
@@ -25,10 +25,8 @@ use std::collections::BTreeMap;
 /// Hob angles at which the pose is taken, from where the rake face looks at the gear, rad.
 const NODES_RAD: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
 /// Steps of the rake face's moment, a fixed number, as millions of points are asked: the point moves in the head with
-/// the
-/// work, some hundredths as fast as the hob turns, so that each step leaves less than a thirtieth of what was missing,
-/// and
-/// four leave a millionth of a sweep: 0.1 um at the tip.
+/// the work, some hundredths as fast as the hob turns, so that each step leaves less than a thirtieth of what was
+/// missing, and four leave a millionth of a sweep: 0.1 um at the tip.
 const STEPS: usize = 4;
 
 /// Area per tooth.
@@ -90,7 +88,7 @@ impl Engagement {
         let rows = ((depth_mm + addendum_mm) / spacing_mm).ceil() as u32;
         let (wide, high) = (2.0 * half_mm / f64::from(columns), (depth_mm + addendum_mm) / f64::from(rows));
         let column = |i: u32| {
-            let mut booked = Self::default();
+            let mut counted = Self::default();
             let frame = curve.frame(curve.phi_at_arc(middle_mm - half_mm + wide * (f64::from(i) + 0.5)));
             // Passes that can reach this column at all, still in the order of time.
             let middle = (frame.point_mm + 0.5 * (addendum_mm - depth_mm) * frame.normal).extend(z_mm);
@@ -101,16 +99,16 @@ impl Engagement {
                 let point = (frame.point_mm + height * frame.normal).extend(z_mm);
                 if let Some(pass) = near.iter().find(|pass| pass.takes(hob, linkage.geometry().hob_hand, point)) {
                     let area = wide * high * (1.0 + frame.curvature_per_mm * height);
-                    *booked.area_mm2.entry(pass.passage).or_default() += area;
+                    *counted.area_mm2.entry(pass.passage).or_default() += area;
                 }
             }
-            booked
+            counted
         };
         // Sums in the order of the columns: the same bytes on any number of threads.
         let columns: Vec<Self> = (0..columns).into_par_iter().map(column).collect();
         let mut all = Self::default();
-        for booked in &columns {
-            all.add(booked);
+        for counted in &columns {
+            all.add(counted);
         }
         all
     }

@@ -11,7 +11,7 @@
 //! reaches to the blank's surface or to the end of the ray, half a pitch out.
 //!
 //! The candidates that suffice for heights do not do here: the pass before the last one may lie above it on a whole
-//! tile, and be pruned. So passes are chosen column by column, from bounds of the height that each leaves on the
+//! tile, and be culled. So passes are chosen column by column, from bounds of the height that each leaves on the
 //! column's rays; a test holds the choice against all passes. Heights are f64 throughout: on finished flanks the edge
 //! goes through the contact, chips are thinner than a micrometre, and the ledger's sections, good to a tenth of a
 //! micrometre, would not see them. Away from the contact by t strokes, passes stand c t^2 over the target (c is four

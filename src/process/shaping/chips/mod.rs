@@ -3,8 +3,8 @@
 //! In: a [`crate::process::shaping::ShapingJob`]. Out: [`ChipLedger`] with one [`StrokeChips`] per stroke and maps of
 //! uncut chip thickness over stroke and edge, and over tooth space and edge.
 //!
-//! Every tooth space is a [`section::Section`] of its own, in the transverse plane in the middle of the face, and sees
-//! **all** passes that touch it in strict order of time: nothing is left out because it does not shape the final
+//! Every tooth space is a [`section::SpaceSection`] of its own, in the transverse plane in the middle of the face, and
+//! sees **all** passes that touch it in strict order of time: nothing is left out because it does not shape the final
 //! surface. Each cutter tooth in each stroke belongs to the space that its tip stands in; so every chip is counted
 //! once. Where the axes rest during the stroke all sections are equal and the ledger is exact for the whole face; where
 //! the feed goes on, the middle section stands for the face, the others being the same a fraction of a stroke earlier

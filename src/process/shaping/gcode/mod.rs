@@ -15,7 +15,6 @@
 //! `N S F X B C`, comments in round brackets or after `;`, `%`. Everything else is refused by line and word: a word
 //! that is passed over may be the one that matters.
 //!
-//!
 //! Road not taken: one point per stroke. It is exact, and at 4,200 strokes it starves the block buffer of older
 //! controls; straight lines within a micrometre need a tenth.
 

@@ -1,4 +1,4 @@
-//! The text of a program, with everything in its head that the man at the machine must know.
+//! The text of a program, with everything in its head that the operator must know.
 
 use super::program::{AxisProgram, Knot};
 use crate::gcode::{Digits, ProgramText, axis_word};

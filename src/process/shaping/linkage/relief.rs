@@ -5,9 +5,8 @@
 //! u. A flank in contact with unit normal v (out of the work) then clears by d (u . v).
 //!
 //! Law: all contact normals of one moment pass through the instantaneous centre Q and touch the cutter's base circle.
-//! With e the direction from Q to the cutter axis O_b, the normals stand at pi/2 -+ alpha_w from i e, where cos
-//! alpha_w = r_b /
-//! |Q O_b|. With beta the angle from e to u (the linkage's beta in finishing, positive where r' > 0):
+//! With e the direction from Q to the cutter axis O_b, the normals stand at pi/2 -+ alpha_w from i e, where cos alpha_w
+//! = r_b / |Q O_b|. With beta the angle from e to u (the linkage's beta in finishing, positive where r' > 0):
 //!
 //! ```text
 //! left  flank (larger arc):   d sin(alpha_w + beta)
@@ -16,10 +15,9 @@
 //!
 //! In finishing Q is the pitch point and alpha_w = alpha_p. A circular gear has beta = 0 and clears by d sin alpha_p on
 //! both flanks: that is the value the ratios refer to. A non-circular gear loses on one flank wherever its radius
-//! changes; at
-//! |beta| = alpha_p the cutter slides along the flank, beyond it the cutter is pressed into it. The statement is exact for a
-//! small d; with d = 2 mm, overlapping the outlines of cutter and gear shows that rubbing already begins about 1.5 deg
-//! before.
+//! changes; at |beta| = alpha_p the cutter slides along the flank, beyond it the cutter is pressed into it. The
+//! statement is exact for a small d; with d = 2 mm, overlapping the outlines of cutter and gear shows that rubbing
+//! already begins about 1.5 deg before.
 
 use std::f64::consts::TAU;
 
@@ -125,8 +123,8 @@ impl SmallestRelief {
             )),
             ReliefVerdict::Rubs => Some(format!(
                 "the return stroke rubs: backing off along the line of centres moves the cutter into {place} by \
-                 {:.1} um for {back_off_mm} mm; back off along the normal of the pitch curve, or take a larger pressure \
-                 angle or a cutter with more teeth",
+                 {:.1} um for {back_off_mm} mm; back off along the normal of the pitch curve, or take a larger \
+                 pressure angle or a cutter with more teeth",
                 -clearance_um
             )),
         }

@@ -1,4 +1,9 @@
 //! Where the envelope of an operation, and what its strokes leave, cross the pitch curve.
+//!
+//! In: the job, an operation, a flank. Out: a [`Crossing`]. The **envelope** is the limit of infinitely many strokes;
+//! its crossing follows from the meshing condition. What the **strokes** leave is found by a dexel bent along the pitch
+//! curve: a ray along the curve's tangent is cut by all passes near it, moved to the foot of the hit, and cut again
+//! until it stays, which takes three or four rounds.
 
 use crate::error::NotConverged;
 use crate::math::convergence::{Step, iterate};
@@ -11,8 +16,7 @@ use crate::tool::CuttingTool;
 use std::ops::ControlFlow;
 
 /// Rays along the pitch curve's tangent towards what the strokes leave, at most: each starts where the one before
-/// ended, and
-/// misses the curve by the square of its length. The last one moves the crossing by less than this, mm.
+/// ended, and misses the curve by the square of its length. The last one moves the crossing by less than this, mm.
 const MOST_RAYS: u32 = 12;
 const LAST_MOVE_MM: f64 = 1e-10;
 

@@ -1,4 +1,4 @@
-//! What a run writes about the gear as a whole: tables, charts, contact sheets, results and run record.
+//! What a run writes about the gear as a whole: tables, charts, contact sheets and results.
 //!
 //! Maps of single flanks are written as the flanks are finished; everything here follows when all are.
 
