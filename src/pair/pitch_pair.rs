@@ -38,7 +38,7 @@ pub enum Member {
 
 /// What both gears have in common.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Teeth {
+pub struct PairTeeth {
     /// Transverse module, mm.
     pub module_mm: f64,
     /// Transverse pressure angle.
@@ -83,7 +83,7 @@ pub struct FlankPoint {
 #[derive(Debug, Clone)]
 pub struct PitchPair {
     curve: Arc<PitchCurve>,
-    teeth: Teeth,
+    teeth: PairTeeth,
     center_distance_mm: f64,
     driven_angle: PeriodicIntegral,
 }
@@ -93,7 +93,7 @@ impl PitchPair {
     ///
     /// # Errors
     /// No centre distance at which the mate closes; a ratio law that cannot be integrated.
-    pub fn closing(curve: Arc<PitchCurve>, teeth: Teeth) -> Result<Self, Refusal> {
+    pub fn closing(curve: Arc<PitchCurve>, teeth: PairTeeth) -> Result<Self, Refusal> {
         let s = teeth.driven.tip_sign();
         let refused = |problem: String| {
             Refusal::new("gear.teeth", problem, "change the numbers of teeth or the driver's pitch curve")
@@ -139,7 +139,7 @@ impl PitchPair {
     }
 
     /// Module, pressure angle, teeth, kind.
-    pub fn teeth(&self) -> &Teeth {
+    pub fn teeth(&self) -> &PairTeeth {
         &self.teeth
     }
 

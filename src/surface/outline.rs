@@ -94,9 +94,9 @@ impl Outline {
         let teeth = &surfaces.teeth;
         let count = teeth.len();
         for (index, tooth) in teeth.iter().enumerate() {
-            let behind = Crossing::of(&tooth.right, &teeth[(index + count - 1) % count].root, true);
-            let ahead = Crossing::of(&tooth.left, &tooth.root, false);
-            let next = Crossing::of(&teeth[(index + 1) % count].right, &tooth.root, true);
+            let behind = RootCrossing::of(&tooth.right, &teeth[(index + count - 1) % count].root, true);
+            let ahead = RootCrossing::of(&tooth.left, &tooth.root, false);
+            let next = RootCrossing::of(&teeth[(index + 1) % count].right, &tooth.root, true);
             let number = index as u32 + 1;
             let all = |grid: &SurfaceGrid| (0..grid.columns()).collect::<Vec<_>>();
             let [right, left, root] = [&tooth.right, &tooth.left, &tooth.root].map(all);
@@ -255,7 +255,7 @@ impl Outline {
 }
 
 /// Where a target flank and the target root beside it cross each other.
-struct Crossing {
+struct RootCrossing {
     /// Columns of the flank, from its form point, that lie behind the crossing.
     flank_columns: usize,
     /// Columns of the root, from the flank's side, that lie behind the crossing.
@@ -264,7 +264,7 @@ struct Crossing {
     point_mm: Option<DVec2>,
 }
 
-impl Crossing {
+impl RootCrossing {
     /// Crossing of a flank with the root that begins (or, `reversed`, ends) beside it; none on an ordinary flank, where
     /// they meet at the form point.
     fn of(flank: &SurfaceGrid, root: &SurfaceGrid, reversed: bool) -> Self {

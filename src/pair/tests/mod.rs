@@ -15,7 +15,7 @@ use serde_json::Value;
 
 use super::assembly::{Meshing, Mounting};
 use super::flank_chain::{self, FlankChain, GearFlanks};
-use super::pitch_pair::{Member, PitchPair, Teeth};
+use super::pitch_pair::{Member, PairTeeth, PitchPair};
 use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
 use crate::terms::Side;
 
@@ -55,7 +55,7 @@ fn pair_of(design: &Value) -> PitchPair {
         },
         other => panic!("{other}: {curve}"),
     };
-    let teeth = Teeth {
+    let teeth = PairTeeth {
         module_mm: number(design, "m"),
         pressure_angle_rad: number(design, "alpha_deg").to_radians(),
         count: ["z1", "z2"].map(|key| number(design, key) as u32),

@@ -38,7 +38,7 @@ fn tight_centre_distances() {
         let gear = gear.map(|chain| Ok::<_, ()>(chain.moved(off))).expect("moved");
         let teeth = number(case, "master_teeth") as u32;
         let circle = PitchCurve::new(&PitchCurveShape::Circle, pair.teeth().module_mm, teeth).expect("a circle");
-        let circles = Teeth { count: [teeth; 2], driven: GearKind::External, ..*pair.teeth() };
+        let circles = PairTeeth { count: [teeth; 2], driven: GearKind::External, ..*pair.teeth() };
         let circles = PitchPair::closing(Arc::new(circle), circles).expect("a mate");
         let master = Master::new(&circles, tips[1]).expect("a master");
         let mut largest = Largest::default();

@@ -23,7 +23,7 @@ const MOST_NAMED: usize = 6;
 pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<String>> {
     let operations = HobbingAxesReport::of_job(job);
     let cutter = HobCutter::new(job)?;
-    let teeth = Teeth::of(&cutter)?;
+    let teeth = FormPoints::of(&cutter)?;
     sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
     check_curve::print(sheet, &job.curve, &job.scene.gear, None);
     print_hob(sheet, job);
@@ -123,12 +123,12 @@ fn hob_warnings(job: &HobbingJob) -> Vec<String> {
 }
 
 /// Form points of all flanks in the middle of the face.
-struct Teeth {
+struct FormPoints {
     /// Tooth, side, height over the pitch curve, undercut.
     flanks: Vec<(u32, Side, f64, bool)>,
 }
 
-impl Teeth {
+impl FormPoints {
     fn of(cutter: &HobCutter) -> Result<Self> {
         let flank = |(tooth, side): (u32, Side)| {
             let form = cutter.target(tooth, side)?.middle_form;

@@ -56,7 +56,7 @@ pub struct FlankContact {
 }
 
 /// Pose with two derivatives with respect to phi.
-struct Motion {
+struct CutterMotion {
     center: DVec2,
     center_rate: DVec2,
     center_rate_2: DVec2,
@@ -75,14 +75,14 @@ pub enum TipPart {
 }
 
 impl Generation {
-    fn motion(&self, phi_rad: f64) -> Motion {
+    fn motion(&self, phi_rad: f64) -> CutterMotion {
         let axes = self.linkage.axes(phi_rad, self.offset_mm);
         let d = |jet: &Jet<3>| [jet.value(), jet.derivative(1), jet.derivative(2)];
         let [psi, psi1, psi2] = d(&axes.psi_c_rad);
         let [turn, turn1, turn2] = d(&axes.psi_b_rad);
         let [l, l1, l2] = d(&axes.center_distance_mm);
         let out = DVec2::from_angle(psi);
-        Motion {
+        CutterMotion {
             center: out * l,
             center_rate: out * l1 + out.perp() * (l * psi1),
             center_rate_2: out * (l2 - l * psi1 * psi1) + out.perp() * (2.0 * l1 * psi1 + l * psi2),

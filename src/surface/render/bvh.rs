@@ -18,7 +18,7 @@ const SIDE_BY_SIDE: usize = 4096;
 /// Tree over the triangles of a scene.
 #[derive(Debug, Default)]
 pub struct Bvh {
-    nodes: Vec<Node>,
+    nodes: Vec<BvhNode>,
     /// Corner and the two edges from it, in the order of the leaves.
     triangles: Vec<[DVec3; 3]>,
     /// Number of the triangle as it was given.
@@ -26,7 +26,7 @@ pub struct Bvh {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Node {
+struct BvhNode {
     low: DVec3,
     high: DVec3,
     /// First triangle of a leaf, or the right child (the left one follows its parent).
@@ -164,13 +164,13 @@ impl Bvh {
 
 /// Adds the nodes over `order[..]`, whose first place in the whole is `first`, in the order of a walk from the left.
 /// Large halves are built side by side and joined, which gives the same nodes.
-fn build(bounds: &[Bounds], order: &mut [u32], first: u32, nodes: &mut Vec<Node>) {
+fn build(bounds: &[Bounds], order: &mut [u32], first: u32, nodes: &mut Vec<BvhNode>) {
     let (whole, centers) = order.iter().fold((Bounds::EMPTY, Bounds::EMPTY), |(whole, centers), &i| {
         let (all, center) = (bounds[i as usize], bounds[i as usize].center());
         (whole.with(all), centers.with(Bounds { low: center, high: center }))
     });
     let index = nodes.len();
-    nodes.push(Node { low: whole.low, high: whole.high, link: first, count: order.len() as u32 });
+    nodes.push(BvhNode { low: whole.low, high: whole.high, link: first, count: order.len() as u32 });
     // Depth stays below the walker's stack: splits by the median are taken where the heuristic finds none.
     if order.len() <= LEAF {
         return;
@@ -219,10 +219,11 @@ fn build(bounds: &[Bounds], order: &mut [u32], first: u32, nodes: &mut Vec<Node>
 }
 
 /// Puts a tree of its own behind other nodes; its inner nodes count from there.
-fn append(nodes: &mut Vec<Node>, tree: Vec<Node>) {
+fn append(nodes: &mut Vec<BvhNode>, tree: Vec<BvhNode>) {
     let start = nodes.len() as u32;
     nodes.extend(
-        tree.into_iter().map(|node| Node { link: if node.count == 0 { node.link + start } else { node.link }, ..node }),
+        tree.into_iter()
+            .map(|node| BvhNode { link: if node.count == 0 { node.link + start } else { node.link }, ..node }),
     );
 }
 
@@ -256,7 +257,7 @@ fn best_split(bounds: &[Bounds], order: &[u32], centers: Bounds) -> Option<(usiz
 
 /// Distance at which a ray enters a box; `None` if it misses it or enters behind the limit.
 #[inline]
-fn entry(node: &Node, origin_mm: DVec3, inverse: DVec3, limit_mm: f64) -> Option<f64> {
+fn entry(node: &BvhNode, origin_mm: DVec3, inverse: DVec3, limit_mm: f64) -> Option<f64> {
     let (a, b) = ((node.low - origin_mm) * inverse, (node.high - origin_mm) * inverse);
     let near = a.min(b).max_element().max(0.0);
     // A little further, so that rays in the plane of a flat box do not slip through by rounding.

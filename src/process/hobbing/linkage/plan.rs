@@ -50,7 +50,7 @@ pub struct FeedPlan {
 }
 
 /// What a diagonal path has to cover.
-struct Stretch {
+struct DiagonalCut {
     /// +1 if the slide feeds along +z.
     direction: f64,
     /// Travel of the slide, mm.
@@ -160,8 +160,8 @@ impl FeedPlan {
                 });
             }
             HobbingKind::Diagonal { .. } => {
-                let stretch = Stretch { direction, travel_mm, room_mm, depth_mm, tilt, cycle_s };
-                plan.diagonal(operation, &stretch)?;
+                let cut = DiagonalCut { direction, travel_mm, room_mm, depth_mm, tilt, cycle_s };
+                plan.diagonal(operation, &cut)?;
             }
         }
         let largest_mm = plan.slide_feeds_mm[0].max(plan.slide_feeds_mm[1]);
@@ -209,8 +209,8 @@ impl FeedPlan {
         ))
     }
 
-    fn diagonal(&mut self, operation: &HobbingOperation, stretch: &Stretch) -> Result<(), Refusal> {
-        let Stretch { direction, travel_mm, room_mm, depth_mm, tilt, cycle_s } = *stretch;
+    fn diagonal(&mut self, operation: &HobbingOperation, cut: &DiagonalCut) -> Result<(), Refusal> {
+        let DiagonalCut { direction, travel_mm, room_mm, depth_mm, tilt, cycle_s } = *cut;
         let HobbingKind::Diagonal { shift_mm_per_revolution, direction: first, strategy, stroke_mm, feed_of, .. } =
             operation.kind
         else {
