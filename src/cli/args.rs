@@ -35,11 +35,12 @@ pub enum Command {
         gearcut cut scenes/shaping/elliptical_normal.toml --set operation.rough.offset_mm=1.5\n  \
         gearcut cut scenes/shaping/elliptical_normal.toml --draft\n  \
         gearcut cut scenes/shaping/elliptical_normal.toml --only numbers,report\n\n\
-        Writes a folder (out/<scene> unless --out or the scene says otherwise): results.json with every number,\n\
-        its unit and its definition; run.json to repeat the run; tables as CSV (mm, um, deg in the column names);\n\
-        maps of every flank as EXR and PNG (um); the gear as a closed mesh in STL, PLY and glTF (mm); pictures;\n\
-        axis tables and charts. An existing folder is replaced only if gearcut wrote it, and only after the new\n\
-        one is complete. The summary goes to standard output, progress to standard error.")]
+        Writes a folder (out/<scene> unless --out or the scene says otherwise): results.json with every\n\
+        number, its unit and its definition; run.json to repeat the run; tables as CSV (mm, um, deg in\n\
+        the column names); maps of every flank as EXR and PNG (um); the gear as a closed mesh in STL,\n\
+        PLY and glTF (mm); pictures; axis tables and charts. An existing folder is replaced only if\n\
+        gearcut wrote it, and only after the new one is complete. The summary goes to standard output,\n\
+        progress to standard error.")]
     Cut(CutArguments),
     /// Say what a scene means: pitch curve, teeth, axes, relief, warnings, cost. Cuts nothing.
     #[command(after_help = "Example:\n  \
@@ -49,10 +50,10 @@ pub enum Command {
     /// Write the axis positions of every stroke, with charts.
     #[command(after_help = "Example:\n  \
         gearcut axes scenes/shaping/elliptical_normal.toml --out out/axes_of_my_gear\n\n\
-        Writes a folder (out/<scene>_axes unless --out is given): axes/<operation>.csv with one row per stroke\n\
-        (s, deg, mm, deg/s, mm/s, deg/s^2, mm/s^2), <operation>.ngc (G-code in straight lines, see\n\
-        docs/gcode.md), and charts of positions, velocities, accelerations and relief clearance over the work\n\
-        angle as SVG. Prints the peaks against the machine's limits.")]
+        Writes a folder (out/<scene>_axes unless --out is given): axes/<operation>.csv with one row per\n\
+        stroke (s, deg, mm, deg/s, mm/s, deg/s^2, mm/s^2), <operation>.ngc (G-code in straight lines,\n\
+        see docs/gcode.md), and charts of positions, velocities, accelerations and relief clearance\n\
+        over the work angle as SVG. Prints the peaks against the machine's limits.")]
     Axes(AxesArguments),
     /// Put results side by side.
     #[command(after_help = "Example:\n  \
@@ -74,14 +75,14 @@ pub enum Command {
         gearcut texture measured.sdf --form poly2 --s-filter-um 8 --l-filter-um 800 --crop-um 400\n  \
         gearcut texture heights.npy --spacing-um 2 5 --line y=500 --json\n  \
         gearcut texture measured.sur --save measured.x3p\n\n\
-        Reads X3P, SDF (binary and ASCII), SUR, NPY, CSV and gearcut's EXR maps; heights become um whatever the file\n\
-        counts in (m in X3P and SDF, the unit of the axis in SUR, mm or um in the channels of EXR maps); NPY and CSV\n\
-        name no unit, their heights are um.\n\
-        The chain is applied in this order and printed beside the numbers: form, S-filter, L-filter, crop. Holes\n\
-        are left out where a parameter allows it. A value that does not exist is printed as none with the reason\n\
-        (null in JSON).\n\
-        Angles count counter-clockwise from +x (along a row) towards +y (from row to row). Writes no files but those\n\
-        named by --save.")]
+        Reads X3P, SDF (binary and ASCII), SUR, NPY, CSV and gearcut's EXR maps; heights become um\n\
+        whatever the file counts in (m in X3P and SDF, the unit of the axis in SUR, mm or um in the\n\
+        channels of EXR maps); NPY and CSV name no unit, their heights are um.\n\
+        The chain is applied in this order and printed beside the numbers: form, S-filter, L-filter,\n\
+        crop. Holes are left out where a parameter allows it. A value that does not exist is printed as\n\
+        none with the reason (null in JSON).\n\
+        Angles count counter-clockwise from +x (along a row) towards +y (from row to row). Writes no\n\
+        files but those named by --save.")]
     Texture(TextureArguments),
     /// List what can compute here.
     #[command(after_help = "Example:\n  gearcut devices")]
