@@ -2,8 +2,8 @@
 //! tips, and all operations over them.
 //!
 //! In: the scene, the blank, the tool, the strokes of every operation. Out: fields, and what every operation leaves on
-//! them; in [`blank`], [`blank_report`] and [`blank_findings`] the same for rays through the whole blank. A process whose
-//! tool cuts in planes gives points of its target ([`ProfilePoint`]); how it found them is its own.
+//! them; in [`blank`], [`blank_report`] and [`blank_findings`] the same for rays through the whole blank. A process
+//! whose tool cuts in planes gives points of its target ([`ProfilePoint`]); how it found them is its own.
 //!
 //! Fields are made one flank at a time, so that memory does not grow with the number of teeth.
 
