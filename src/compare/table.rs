@@ -5,8 +5,8 @@ use std::path::Path;
 use super::lines::Line;
 use super::{Comparison, letters};
 use crate::Result;
-use crate::findings::{Level, Quantity};
-use crate::output::table::{Cell, write_table};
+use crate::findings::{Datum, Level, Quantity};
+use crate::output::table::write_table;
 use crate::output::text::significant;
 
 /// Longest words that stand in a column of the terminal, characters.
@@ -21,9 +21,9 @@ impl Comparison {
         let mut columns = vec!["quantity", "unit"];
         columns.extend(values.iter().chain(&differences).chain(&ratios).map(String::as_str));
         columns.push("definition");
-        let mut names = vec![Cell::from("name"), Cell::Empty];
-        names.extend(self.results.iter().map(|one| Cell::from(one.name.as_str())));
-        names.extend(differences.iter().chain(&ratios).map(|_| Cell::Empty));
+        let mut names = vec![Datum::from("name"), Datum::Undefined];
+        names.extend(self.results.iter().map(|one| Datum::from(one.name.as_str())));
+        names.extend(differences.iter().chain(&ratios).map(|_| Datum::Undefined));
         names.push("name under which the result is shown".into());
         write_table(path, &columns, [names].into_iter().chain(self.lines.iter().map(cells)))
     }
@@ -55,15 +55,15 @@ impl Comparison {
     }
 }
 
-fn cells(line: &Line) -> Vec<Cell> {
+fn cells(line: &Line) -> Vec<Datum> {
     let of = line.either();
-    let mut cells = vec![line.name.as_str().into(), of.and_then(Quantity::unit).map_or(Cell::Empty, Cell::from)];
+    let mut cells = vec![line.name.as_str().into(), of.and_then(Quantity::unit).map_or(Datum::Undefined, Datum::from)];
     cells.extend(line.quantities.iter().map(|quantity| match quantity {
-        Some(quantity) => quantity.words().map_or_else(|| quantity.value().into(), Cell::from),
-        None => Cell::Empty,
+        Some(quantity) => quantity.words().map_or_else(|| quantity.value().into(), Datum::from),
+        None => Datum::Undefined,
     }));
-    cells.extend(line.differences().chain(line.ratios()).map(Cell::from));
-    cells.push(of.map_or(Cell::Empty, |quantity| quantity.definition().into()));
+    cells.extend(line.differences().chain(line.ratios()).map(Datum::from));
+    cells.push(of.map_or(Datum::Undefined, |quantity| quantity.definition().into()));
     cells
 }
 

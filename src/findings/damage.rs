@@ -1,9 +1,9 @@
 //! Damage to the target, and the work of cutting a whole blank, as findings of any process.
 
-use super::{Place, Quantity, Section};
+use super::{Column, Datum, Place, Quantity, Section, Table};
 use crate::measure::damage::{Damage, LEAST_DEPTH_MM};
 
-/// All places of one kind of damage together; each of them is a row of `tables/damage.csv`.
+/// All places of one kind of damage together; each of them is a row of [`damage_table`].
 ///
 /// `what` says which material it is; `made_by` adds to the deepest place what made it.
 pub fn damage(
@@ -42,6 +42,44 @@ pub fn damage(
                 "volume, all places together",
             ),
         )
+}
+
+/// Every place of damage of the whole blank; `pass` names what did it, which differs between processes.
+pub fn damage_table(pass: [Column; 2], rows: impl IntoIterator<Item = Vec<Datum>>) -> Table {
+    let none = "a stroke has no place on the gear";
+    let number = |key, unit, definition| Column::new(key, unit, definition).or(none);
+    let mut columns = vec![
+        Column::words("kind", "what is wrong: a gouge, interference, rubbing on the way back, a faulty stroke"),
+        Column::words("operation", "operation that did it"),
+        Column::new("tooth", "1", "tooth, from 1"),
+        Column::words("side", "side of the tooth: left or right"),
+        Column::words("zone", "part of the side"),
+        number("height", "mm", "height over the pitch curve along its normal, deepest place"),
+        number("lead", "mm", "distance from the middle of the face, deepest place"),
+        number("x", "mm", "x of the gear frame, deepest place"),
+        number("y", "mm", "y of the gear frame, deepest place"),
+        number("depth", "mm", "largest depth along the normal"),
+        number("volume", "mm3", "volume"),
+    ];
+    columns.extend(pass);
+    Table::new("damage", "Places of damage", columns).with_rows(rows).in_file("damage")
+}
+
+/// A row of it but for the pass.
+pub fn damage_row(kind: &str, operation: &str, damage: &Damage) -> Vec<Datum> {
+    vec![
+        kind.into(),
+        operation.into(),
+        damage.place.tooth.into(),
+        damage.place.side.name().into(),
+        damage.place.zone.name().into(),
+        damage.place.height_mm.into(),
+        damage.z_mm.into(),
+        damage.point_mm.x.into(),
+        damage.point_mm.y.into(),
+        damage.depth_mm.into(),
+        damage.volume_mm3.into(),
+    ]
 }
 
 /// Pairs of ray and pass that the native backend counts.

@@ -96,7 +96,8 @@ fn of_section(section: &Section) -> Value {
 }
 
 fn of_table(table: &Table) -> Value {
-    let rows = table.rows.iter().map(|row| row.iter().map(of_cell).collect::<Vec<_>>());
+    let rows: &[Vec<Datum>] = if table.rows_in_file { &[] } else { &table.rows };
+    let rows = rows.iter().map(|row| row.iter().map(of_cell).collect::<Vec<_>>());
     let mut value = json!({
         "title": table.title,
         "columns": table.columns.iter().map(of_column).collect::<Vec<_>>(),
@@ -104,6 +105,12 @@ fn of_table(table: &Table) -> Value {
     });
     if let Some(rows) = table.period_rows {
         value["period_rows"] = json!(rows);
+    }
+    if let Some(file) = &table.file {
+        value["file"] = json!(file);
+    }
+    if table.rows_in_file {
+        value["rows_in_file"] = json!(true);
     }
     value
 }

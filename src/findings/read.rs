@@ -94,6 +94,8 @@ fn table(key: &str, value: &Value) -> Read<Table> {
     let rows = rows.collect::<Read<Vec<_>>>()?;
     let mut table = Table::new(key, title, columns).with_rows(rows);
     table.period_rows = all.get("period_rows").and_then(Value::as_u64).and_then(|rows| rows.try_into().ok());
+    table.file = all.get("file").and_then(Value::as_str).map(str::to_owned);
+    table.rows_in_file = all.get("rows_in_file").and_then(Value::as_bool).unwrap_or(false);
     Ok(table)
 }
 
@@ -136,10 +138,13 @@ mod tests {
         let mut table = Table::new("teeth", "Hob teeth", columns)
             .with_rows([vec!["B7".into(), 0.25.into()], vec!["8".into(), f64::NAN.into()]]);
         table.period_rows = Some(1);
+        let table = table.in_file("teeth");
+        let many = Table::new("chips", "Chips", vec![Column::new("stroke", "1", "stroke")]).rows_in_file("chips_rough");
         let rough = Section::new("rough", "Rough")
             .with("strokes", Quantity::count(4200, "strokes", "strokes made"))
             .shown("idle_time", "time without a cut", Quantity::number(2.5, "s", "time"))
             .table(table)
+            .table(many)
             .part(Section::new("relief", "Relief").with("ratio", Quantity::undefined("1", "share", "no stroke")))
             .warning(["few strokes".to_owned()]);
         Findings {

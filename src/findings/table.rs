@@ -2,7 +2,11 @@
 //!
 //! A table holds what is the same for every row, such as the allowances of all teeth; a value with a place or a reason
 //! of its own is an entry of a section instead.
+//!
+//! A table may have a CSV file of its own. Where it would swell `results.json`, its rows stand in that file alone:
+//! thousands of strokes and points, and rows whose values stand in the tree already, one section each.
 
+use super::quantity::Quantity;
 use std::borrow::Cow;
 
 /// Columns and rows.
@@ -18,6 +22,10 @@ pub struct Table {
     pub rows: Vec<Vec<Datum>>,
     /// Rows after which the gear's shape repeats, if it does.
     pub period_rows: Option<u32>,
+    /// Its CSV file in the output folder, such as `tables/flanks.csv`; none where `results.json` is enough.
+    pub file: Option<String>,
+    /// Whether the rows stand in the file alone: tables read from `results.json` have none then.
+    pub rows_in_file: bool,
 }
 
 /// One column.
@@ -51,7 +59,47 @@ pub enum Datum {
 impl Table {
     /// An empty table.
     pub fn new(key: &str, title: &str, columns: Vec<Column>) -> Self {
-        Self { key: key.to_owned(), title: title.to_owned(), columns, rows: Vec::new(), period_rows: None }
+        Self {
+            key: key.to_owned(),
+            title: title.to_owned(),
+            columns,
+            rows: Vec::new(),
+            period_rows: None,
+            file: None,
+            rows_in_file: false,
+        }
+    }
+
+    /// Values of the tree side by side. A row is its name's cells, one for each of `names`, and keyed quantities, the
+    /// same in every row; the columns take unit and definition from the first row.
+    pub fn of_quantities<'a>(
+        key: &str,
+        title: &str,
+        names: Vec<Column>,
+        rows: impl IntoIterator<Item = (Vec<Datum>, Vec<(String, &'a Quantity)>)>,
+    ) -> Self {
+        let mut table = Self::new(key, title, names);
+        for (mut row, quantities) in rows {
+            if table.rows.is_empty() {
+                table.columns.extend(quantities.iter().map(|(key, of)| Column::of(key.clone(), of)));
+            }
+            row.extend(quantities.into_iter().map(|(_, quantity)| Datum::from(quantity)));
+            table = table.with_rows([row]);
+        }
+        table
+    }
+
+    /// The table, in `tables/<name>.csv` as well.
+    #[must_use]
+    pub fn in_file(mut self, name: &str) -> Self {
+        self.file = Some(format!("tables/{name}.csv"));
+        self
+    }
+
+    /// The table, its rows in `tables/<name>.csv` alone.
+    #[must_use]
+    pub fn rows_in_file(self, name: &str) -> Self {
+        Self { rows_in_file: true, ..self.in_file(name) }
     }
 
     /// The table with these rows.
@@ -76,8 +124,30 @@ impl Table {
 
 impl Column {
     /// A column of numbers or counts.
-    pub fn new(key: &'static str, unit: &'static str, definition: &'static str) -> Self {
+    pub fn new(key: impl Into<Cow<'static, str>>, unit: &'static str, definition: &'static str) -> Self {
         Self { key: key.into(), unit: Some(unit.into()), definition: definition.into(), why: None, bars: false }
+    }
+
+    /// A column of quantities like this one.
+    fn of(key: String, quantity: &Quantity) -> Self {
+        Self {
+            key: key.into(),
+            unit: quantity.unit().map(|unit| unit.to_owned().into()),
+            definition: quantity.definition().to_owned().into(),
+            why: Some("the quantity of this row in its section tells why".into()),
+            bars: false,
+        }
+    }
+
+    /// Key and unit as one word for the head of a file: `AB_mm`, `removal_rate_cm3_per_min`. Pure numbers have no unit
+    /// there, nor what counts the things that its key names.
+    pub fn head(&self) -> String {
+        match self.unit.as_deref() {
+            None | Some("1") => self.key.to_string(),
+            Some(unit) if self.key.ends_with(unit) => self.key.to_string(),
+            Some("%") => format!("{}_percent", self.key),
+            Some(unit) => format!("{}_{}", self.key, unit.replace(['^', ' '], "").replace('/', "_per_")),
+        }
     }
 
     /// A column of words.
@@ -134,6 +204,16 @@ impl From<Option<f64>> for Datum {
     }
 }
 
+impl From<&Quantity> for Datum {
+    fn from(quantity: &Quantity) -> Self {
+        match (quantity.value(), quantity.words()) {
+            (Some(value), _) if quantity.is_count() => Self::Count(value as u64),
+            (Some(value), _) => Self::Number(value),
+            (None, words) => words.map_or(Self::Undefined, Self::from),
+        }
+    }
+}
+
 impl From<u64> for Datum {
     fn from(count: u64) -> Self {
         Self::Count(count)
@@ -149,5 +229,62 @@ impl From<u32> for Datum {
 impl From<&str> for Datum {
     fn from(word: &str) -> Self {
         Self::Word(word.to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heads_of_files_end_with_the_unit() {
+        let head = |key: &'static str, unit: &'static str| Column::new(key, unit, "").head();
+        assert_eq!(head("AB", "mm"), "AB_mm");
+        assert_eq!(head("unevenness", "%"), "unevenness_percent");
+        assert_eq!(head("removal_rate", "cm^3/min"), "removal_rate_cm3_per_min");
+        assert_eq!(head("work_torque", "N m"), "work_torque_Nm");
+        assert_eq!([head("tooth", "1"), head("two_flank_chips", "chips")], ["tooth", "two_flank_chips"]);
+        assert_eq!(Column::words("flank", "").head(), "flank");
+    }
+
+    #[test]
+    fn quantities_of_sections_become_rows() {
+        let known = [Quantity::number(0.5, "um", "range"), Quantity::count(3, "strokes", "strokes made")];
+        let unknown = [Quantity::undefined("um", "range", "not cut"), Quantity::text("none", "strokes made")];
+        let row = |tooth: u32, of| {
+            let keyed = ["F_alpha", "strokes"].map(str::to_owned).into_iter().zip(of).collect();
+            (vec![Datum::from(tooth)], keyed)
+        };
+        let rows = [row(1, &known), row(2, &unknown)];
+        let table = Table::of_quantities("flanks", "Flanks", vec![Column::new("tooth", "1", "number")], rows);
+        let heads: Vec<String> = table.columns.iter().map(Column::head).collect();
+        assert_eq!(heads, ["tooth", "F_alpha_um", "strokes"]);
+        assert_eq!(table.columns[1].definition, "range");
+        assert_eq!(table.rows[0], [Datum::Count(1), Datum::Number(0.5), Datum::Count(3)]);
+        assert_eq!(table.rows[1], [Datum::Count(2), Datum::Undefined, Datum::Word("none".to_owned())]);
+    }
+
+    #[test]
+    fn rows_in_a_file_are_not_in_the_results_as_well() {
+        let strokes = Table::new("strokes", "Strokes", vec![Column::new("stroke", "1", "stroke")])
+            .with_rows([vec![Datum::Count(0)]]);
+        let rows = |table: Table| {
+            let section = crate::findings::Section::new("chips", "Chips").table(table);
+            let findings = crate::findings::Findings {
+                program_version: String::new(),
+                process: String::new(),
+                scene: String::new(),
+                complete: true,
+                headline: Vec::new(),
+                warnings: Vec::new(),
+                sections: vec![section],
+            };
+            let table = findings.to_json()["sections"]["chips"]["strokes"].clone();
+            (table["rows"].as_array().map(Vec::len), table["file"].as_str().map(str::to_owned))
+        };
+        let file = Some("tables/chips.csv".to_owned());
+        assert_eq!(rows(strokes.clone()), (Some(1), None));
+        assert_eq!(rows(strokes.clone().in_file("chips")), (Some(1), file.clone()));
+        assert_eq!(rows(strokes.rows_in_file("chips")), (Some(0), file));
     }
 }

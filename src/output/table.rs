@@ -1,7 +1,7 @@
 //! Tables as plain CSV, for spreadsheets and scripts.
 //!
-//! In: column names that carry their units (`tooth`, `left_AB_mm`), and rows. Out: an RFC 4180 file with one header
-//! line.
+//! In: the tree of findings, or column names that carry their units (`tooth`, `left_AB_mm`) and rows. Out: RFC 4180
+//! files with one header line each.
 //!
 //! Numbers are written with the fewest digits that read back to the same f64; a number that is not finite becomes an
 //! empty cell, which spreadsheets and data frames both take as missing.
@@ -9,58 +9,38 @@
 //! Road not taken: comment lines with units and run record above the header. Spreadsheets show them as broken rows,
 //! and the run record lies beside the table in `run.json`.
 
+use std::borrow::Borrow;
 use std::io;
 use std::path::Path;
 
 use crate::Result;
+use crate::findings::{Column, Datum, Findings};
 use crate::output::atomic::write_atomically;
+use crate::output::folder::OutputFolder;
 
-/// One cell of a table.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Cell {
-    /// A number, in the unit of its column.
-    Number(f64),
-    /// A whole number: an index or a count.
-    Whole(i64),
-    /// A word.
-    Text(String),
-    /// Nothing here.
-    Empty,
-}
-
-impl From<f64> for Cell {
-    fn from(value: f64) -> Self {
-        Self::Number(value)
+/// Writes every table of the tree that has a file.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_tables(findings: &Findings, folder: &OutputFolder) -> Result<()> {
+    let mut tables = Vec::new();
+    findings.walk(&mut |_, section| tables.extend(&section.tables));
+    for table in tables {
+        let Some(file) = &table.file else { continue };
+        let columns: Vec<String> = table.columns.iter().map(Column::head).collect();
+        let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+        write_table(&folder.path(file)?, &columns, &table.rows)?;
     }
+    Ok(())
 }
 
-impl From<Option<f64>> for Cell {
-    fn from(value: Option<f64>) -> Self {
-        value.map_or(Self::Empty, Self::Number)
-    }
-}
-
-impl From<u32> for Cell {
-    fn from(value: u32) -> Self {
-        Self::Whole(value.into())
-    }
-}
-
-impl From<&str> for Cell {
-    fn from(value: &str) -> Self {
-        Self::Text(value.to_owned())
-    }
-}
-
-impl Cell {
-    fn text(&self) -> String {
-        match self {
-            // Debug, not Display: it uses an exponent where that is shorter, and marks whole values as 1.0.
-            Self::Number(value) if value.is_finite() => format!("{value:?}"),
-            Self::Whole(value) => value.to_string(),
-            Self::Text(value) => value.clone(),
-            Self::Number(_) | Self::Empty => String::new(),
-        }
+fn text(cell: &Datum) -> String {
+    match cell {
+        // Debug, not Display: it uses an exponent where that is shorter, and marks whole values as 1.0.
+        Datum::Number(value) if value.is_finite() => format!("{value:?}"),
+        Datum::Count(count) => count.to_string(),
+        Datum::Word(word) => word.clone(),
+        Datum::Number(_) | Datum::Undefined => String::new(),
     }
 }
 
@@ -70,13 +50,14 @@ impl Cell {
 /// A row with more or fewer cells than there are columns, and files that cannot be written.
 pub fn write_table<Row>(path: &Path, columns: &[&str], rows: impl IntoIterator<Item = Row>) -> Result<()>
 where
-    Row: IntoIterator<Item = Cell>,
+    Row: IntoIterator,
+    Row::Item: Borrow<Datum>,
 {
     write_atomically(path, |sink| {
         let mut table = csv::Writer::from_writer(sink);
         table.write_record(columns).map_err(reason)?;
         for row in rows {
-            table.write_record(row.into_iter().map(|cell| cell.text())).map_err(reason)?;
+            table.write_record(row.into_iter().map(|cell| text(cell.borrow()))).map_err(reason)?;
         }
         table.flush()
     })
@@ -91,7 +72,7 @@ fn reason(failed: csv::Error) -> io::Error {
 mod tests {
     use super::*;
 
-    fn written(columns: &[&str], rows: Vec<Vec<Cell>>) -> Result<String> {
+    fn written(columns: &[&str], rows: Vec<Vec<Datum>>) -> Result<String> {
         let folder = tempfile::tempdir().expect("a folder for the test");
         let path = folder.path().join("table.csv");
         write_table(&path, columns, rows)?;
@@ -102,7 +83,7 @@ mod tests {
     fn header_and_cells_are_plain_csv() {
         let rows = vec![
             vec![7_u32.into(), 0.1.into(), "left, upper".into()],
-            vec![8_u32.into(), f64::NAN.into(), Cell::Empty],
+            vec![8_u32.into(), f64::NAN.into(), Datum::Undefined],
         ];
         let text = written(&["tooth", "left_AB_mm", "note"], rows).expect("a good table");
         assert_eq!(text, "tooth,left_AB_mm,note\n7,0.1,\"left, upper\"\n8,,\n");

@@ -8,7 +8,6 @@ pub mod axes;
 pub mod check_cost;
 pub mod check_curve;
 pub mod cut_flanks;
-pub mod damage_table;
 pub mod gear_maps;
 pub mod gear_surfaces;
 pub mod meshes;

@@ -2,16 +2,14 @@
 //! tips, and all operations over them.
 //!
 //! In: the scene, the blank, the tool, the strokes of every operation. Out: fields, and what every operation leaves on
-//! them; in [`blank`], [`blank_report`], [`blank_findings`] and [`blank_table`] the same for rays through the whole
-//! blank. A process whose tool cuts in planes gives points of its target ([`ProfilePoint`]); how it found them is its
-//! own.
+//! them; in [`blank`], [`blank_report`] and [`blank_findings`] the same for rays through the whole blank. A process
+//! whose tool cuts in planes gives points of its target ([`ProfilePoint`]); how it found them is its own.
 //!
 //! Fields are made one flank at a time, so that memory does not grow with the number of teeth.
 
 pub mod blank;
 pub mod blank_findings;
 pub mod blank_report;
-pub mod blank_table;
 pub mod stroke_faults;
 
 use crate::cut::{Backend, CutStats};

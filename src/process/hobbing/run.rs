@@ -1,8 +1,8 @@
 //! The order of a hobbing run: flanks cut and measured, the whole blank, and what is written about the gear.
 
 pub mod blank;
-mod files;
 mod findings;
+mod flank_table;
 pub mod load;
 mod marks;
 mod points;
@@ -10,13 +10,16 @@ mod points;
 use super::gear::cut_gear;
 use super::report;
 use crate::error::Result;
+use crate::findings::RESULTS_FILE;
+use crate::output::table::write_tables;
 use crate::process::CutDone;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::{HobCutter, HobbingJob};
 use crate::steps::parts::Part;
 use crate::steps::report::RunWords;
 use crate::steps::{
-    Tools, axes, needs_surfaces, stages, summary, write_meshes_and_pictures, write_programs, write_report,
+    Tools, axes, meshes, needs_surfaces, sheets, stages, summary, write_meshes_and_pictures, write_programs,
+    write_report,
 };
 use crate::surface::SurfaceGrid;
 use crate::texture;
@@ -55,12 +58,21 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     let load_charts = load::charts(job, &loads);
     let points_chart = points::chart(&job.scene.name, &gear);
     if let Some(whole) = &whole {
-        load::write(job, &loads, &load_charts, folder, parts)?;
-        blank::write(&cutter, whole, folder, parts)?;
+        if parts.has(Part::Meshes) {
+            meshes::write_blank(&cutter, &whole.blank.cut, folder)?;
+        }
     }
-    files::write(&cutter, &gear, &found, tools)?;
-    marks::write(&lattices, folder)?;
-    points::write(&gear, points_chart.as_ref(), folder, parts)?;
+    if parts.has(Part::Chips) {
+        for (stem, chart) in &load_charts {
+            chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
+        }
+    }
+    if let Some(chart) = points_chart.as_ref().filter(|_| parts.has(Part::Pictures)) {
+        chart.write_svg(&folder.path("pictures/offset_curves.svg")?)?;
+    }
+    sheets::write_sheets_and_deviations(&cutter, &gear.maps, tools)?;
+    write_tables(&found, folder)?;
+    folder.write_json(RESULTS_FILE, &found.to_json())?;
     if parts.has(Part::Texture) {
         texture::write(&cutter, &textures, folder, notes)?;
     }

@@ -6,6 +6,8 @@
 mod chips;
 mod headline;
 mod operation;
+mod strokes;
+mod tables;
 mod teeth;
 
 pub use headline::headline;
@@ -31,14 +33,18 @@ const GOUGE_MM: f64 = 1e-4;
 
 /// Operations, deviations and teeth.
 pub fn sections(job: &ShapingJob, report: &GearReport, ledger: &ChipLedger, motion: &[OperationAxes]) -> Vec<Section> {
-    let operations = (0..job.operations.len()).map(|index| operation(job, report, ledger, &motion[index], index));
+    let operations: Vec<Section> =
+        (0..job.operations.len()).map(|index| operation(job, report, ledger, &motion[index], index)).collect();
     let period = "teeth after which the pitch curve repeats: the first period of tables and charts";
-    let teeth = (1..=job.scene.gear.teeth).map(|tooth| teeth::finished_tooth(report, tooth));
+    let teeth: Vec<Section> = (1..=job.scene.gear.teeth).map(|tooth| teeth::finished_tooth(report, tooth)).collect();
+    let flank_table = tables::flanks(&report.flanks, &operations[..operations.len() - 1], &teeth);
     vec![
         Section::new("operations", "Operations").parts(operations),
         deviations(report),
         Section::new("teeth", "Finished teeth")
             .with("period_teeth", Quantity::count(report.period_teeth.into(), "teeth", period))
+            .table(flank_table)
+            .table(tables::teeth(&teeth))
             .parts(teeth),
     ]
 }

@@ -14,7 +14,7 @@ use crate::process::CutDone;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::steps::parts::Part;
-use crate::steps::planar::{blank_findings, blank_table};
+use crate::steps::planar::blank_findings;
 use crate::steps::report::RunWords;
 use crate::steps::{
     Tools, Work, axes, meshes, stages, summary, write_meshes_and_pictures, write_programs, write_report,
@@ -43,9 +43,6 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     }
     let textures = texture::measure(job, &windows, backend, progress, interrupt)?;
     let whole = if gear.work.interrupted { None } else { blank::cut(job, backend, progress, interrupt)? };
-    if let Some((_, report)) = &whole {
-        blank_table::write(&job.planar(), report, folder)?;
-    }
     let motion = OperationAxes::of_job(job);
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion);
     sections.extend(whole.as_ref().map(|(cut, report)| blank_findings::findings(&job.planar(), cut, report)));

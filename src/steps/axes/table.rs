@@ -1,8 +1,9 @@
 //! The axis table: positions, speeds and accelerations of all axes, for controllers, spreadsheets and scripts.
 
 use crate::error::Result;
+use crate::findings::Datum;
 use crate::machine::{Axis, AxisMotion, Order};
-use crate::output::table::{self, Cell};
+use crate::output::table;
 use std::path::Path;
 
 /// What a process adds to a row or to the names of the columns: before the positions, after them, at the end.
@@ -16,7 +17,7 @@ pub fn write_table<const N: usize>(
     path: &Path,
     axes: &[Axis; N],
     own: Own<&str>,
-    rows: impl IntoIterator<Item = (Own<Cell>, [AxisMotion; N])>,
+    rows: impl IntoIterator<Item = (Own<Datum>, [AxisMotion; N])>,
 ) -> Result<()> {
     let columns = columns(axes, own);
     let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
@@ -32,11 +33,11 @@ pub(super) fn columns<const N: usize>(axes: &[Axis; N], own: Own<&str>) -> Vec<S
 }
 
 /// A row in the units of the columns.
-pub(super) fn cells<const N: usize>(axes: &[Axis; N], own: Own<Cell>, motion: &[AxisMotion; N]) -> Vec<Cell> {
+pub(super) fn cells<const N: usize>(axes: &[Axis; N], own: Own<Datum>, motion: &[AxisMotion; N]) -> Vec<Datum> {
     let [before, between, after] = own;
     let of = |order: Order| {
         let axes = axes.iter().zip(motion).filter(move |(axis, _)| axis.has(order));
-        axes.map(move |(axis, motion)| Cell::Number(axis.kind.shown(motion.of(order))))
+        axes.map(move |(axis, motion)| Datum::Number(axis.kind.shown(motion.of(order))))
     };
     let rates = of(Order::Speed).chain(of(Order::Acceleration));
     before.into_iter().chain(of(Order::Position)).chain(between).chain(rates).chain(after).collect()

@@ -2,9 +2,9 @@
 //! for linear ones must be noticed.
 
 use super::*;
+use crate::findings::Datum;
 use crate::machine::tests::{AXES, Swinging, amplitude, omega_per_s};
 use crate::machine::{Axis, AxisKind, Limits, Motion as _, Order, peaks};
-use crate::output::table::Cell;
 use std::f64::consts::PI;
 
 struct Made {
@@ -56,7 +56,7 @@ impl AxesOfOperation for Made {
     }
 
     fn write_table(&self, path: &Path) -> Result<()> {
-        let rows = [0.0, 0.7].map(|time_s| ([vec![Cell::from(time_s)], vec![], vec![]], Swinging.at(time_s)));
+        let rows = [0.0, 0.7].map(|time_s| ([vec![Datum::from(time_s)], vec![], vec![]], Swinging.at(time_s)));
         write_table(path, &AXES, [vec!["time_s"], vec![], vec![]], rows)
     }
 
@@ -77,7 +77,7 @@ fn made(limits: &[Limits; 10]) -> Made {
 /// end with.
 fn wrong_columns(axes: &[Axis; 10], time_s: f64) -> Vec<String> {
     let names = table::columns(axes, [vec!["time_s"], vec![], vec!["note"]]);
-    let own = [vec![Cell::from(time_s)], vec![], vec![Cell::Empty]];
+    let own = [vec![Datum::from(time_s)], vec![], vec![Datum::Undefined]];
     let cells = table::cells(axes, own, &Swinging.at(time_s));
     assert_eq!((names.len(), cells.len()), (1 + 10 + 10 + 9 + 1, 31));
     let closed = [Order::Position, Order::Speed, Order::Acceleration].into_iter().flat_map(|order| {
@@ -95,7 +95,7 @@ fn wrong_columns(axes: &[Axis; 10], time_s: f64) -> Vec<String> {
     });
     let numbers = names.into_iter().zip(cells).skip(1).zip(closed);
     let wrong = numbers.filter(
-        |((_, cell), closed)| !matches!(cell, Cell::Number(value) if (value - closed).abs() <= 1e-12 * closed.abs()),
+        |((_, cell), closed)| !matches!(cell, Datum::Number(value) if (value - closed).abs() <= 1e-12 * closed.abs()),
     );
     wrong.map(|((name, _), _)| name).collect()
 }

@@ -3,10 +3,11 @@
 use super::PlanarGear;
 use super::blank_report::BlankReport;
 use crate::cut::CutBlank;
-use crate::findings::damage::pairs;
-use crate::findings::{Quantity, Section};
+use crate::findings::damage::{damage_row, damage_table, pairs};
+use crate::findings::{Column, Datum, Quantity, Section, Table};
 use crate::measure::damage::Damage;
 use crate::steps::whole_blank::{self, mean};
+use crate::terms::Side;
 
 /// What is counted.
 const STROKE_FAULTS: &str = "strokes that are missing, did not cut or were made twice, told from what each stroke \
@@ -61,6 +62,7 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
             pairs(report.stats.visited, "pairs of ray and pass in which the ray crosses the cutter tooth"),
         )
         .with("ray_passes_removing", pairs(report.stats.removing, "those of them that removed material"))
+        .table(all_damage(gear, report))
         .part(whole_blank::removed(gear.operations.iter().map(|operation| operation.name), &report.operations))
         .part(against_target("gouges", "gouges", &report.gouges, "target material that the last operation took"))
         .part(against_target(
@@ -82,6 +84,36 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
             "material that the cutter enters on its way back, on stock that a later stroke removes",
         ))
         .warning(end_face.is_none().then(|| format!("{not_judged}: {NO_TARGET}")))
+}
+
+/// Every place of damage, rubbing and every fault of a stroke.
+fn all_damage(gear: &PlanarGear, report: &BlankReport) -> Table {
+    let row = |kind: &str, d: &Damage| {
+        let mut row = damage_row(kind, gear.operations[d.operation].name, d);
+        row.extend([Datum::from(d.stroke as u64), d.blade.into()]);
+        row
+    };
+    let gouges = report.gouges.iter().map(|d| row("gouge", d));
+    let interference = report.interference.iter().map(|d| row("interference", d));
+    let rubbing =
+        report.rubbing.iter().map(|r| row(if r.stays { "rubbing_on_gear" } else { "rubbing_on_stock" }, &r.damage));
+    let strokes = report.stroke_faults.iter().map(|f| {
+        let mut row: Vec<Datum> = vec![
+            f.fault.kind.name().into(),
+            gear.operations[f.operation].name.into(),
+            f.space.into(),
+            Side::Left.name().into(),
+            "space behind the tooth".into(),
+        ];
+        row.extend([const { Datum::Undefined }; 6]);
+        row.extend([Datum::from(f.fault.stroke as u64), Datum::Undefined]);
+        row
+    });
+    let pass = [
+        Column::new("stroke", "1", "stroke, from 0"),
+        Column::new("cutter_tooth", "1", "cutter tooth, from 0").or("the fault is the whole stroke's"),
+    ];
+    damage_table(pass, gouges.chain(interference).chain(rubbing).chain(strokes))
 }
 
 /// Damage where there is no target.

@@ -1,21 +1,16 @@
-//! The blank field's part of a hobbing run: cut, report, findings, table of damage, mesh.
+//! The blank field's part of a hobbing run: cut, report, findings.
 
 use crate::cut::Backend;
 use crate::error::Result;
-use crate::findings::damage::{damage, pairs};
-use crate::findings::{Quantity, Section};
+use crate::findings::damage::{damage, damage_row, damage_table, pairs};
+use crate::findings::{Column, Datum, Quantity, Section, Table};
 use crate::measure::damage::Damage;
 use crate::process::hobbing::{HobCutter, HobbedBlank};
 
 use crate::interrupt::Interrupt;
-use crate::output::folder::OutputFolder;
 use crate::output::progress::Progress;
-use crate::output::table::{Cell, write_table};
 use crate::process::hobbing::measure::blank_report;
 use crate::process::hobbing::measure::blank_report::HobbedBlankReport;
-use crate::steps::damage_table::{damage_cells, damage_columns};
-use crate::steps::meshes;
-use crate::steps::parts::{Part, Parts};
 use crate::steps::whole_blank::{self, mean};
 
 /// The cut blank and what it says.
@@ -50,23 +45,17 @@ pub fn cut(
     Ok(Some(WholeBlank { blank, report }))
 }
 
-/// Writes `tables/damage.csv` and `mesh/blank.ply`.
-///
-/// # Errors
-/// Files that cannot be written.
-pub fn write(cutter: &HobCutter, whole: &WholeBlank, folder: &OutputFolder, parts: Parts) -> Result<()> {
-    let row = |kind: &'static str, d: &Damage| -> Vec<Cell> {
-        let mut cells = damage_cells(kind, &cutter.job.operations[d.operation].spec.name, d);
-        cells.extend([(d.stroke as u32).into(), hob_tooth(cutter, d).as_str().into()]);
-        cells
+/// Every place of damage.
+fn all_damage(cutter: &HobCutter, report: &HobbedBlankReport) -> Table {
+    let row = |kind: &str, d: &Damage| {
+        let mut row = damage_row(kind, &cutter.job.operations[d.operation].spec.name, d);
+        row.extend([Datum::from(d.stroke as u64), hob_tooth(cutter, d).as_str().into()]);
+        row
     };
-    let gouges = whole.report.gouges.iter().map(|d| row("gouge", d));
-    let rows: Vec<Vec<Cell>> = gouges.chain(whole.report.interference.iter().map(|d| row("interference", d))).collect();
-    write_table(&folder.path("tables/damage.csv")?, &damage_columns(["hob_turn", "hob_tooth"]), rows)?;
-    if !parts.has(Part::Meshes) {
-        return Ok(());
-    }
-    meshes::write_blank(cutter, &whole.blank.cut, folder)
+    let gouges = report.gouges.iter().map(|d| row("gouge", d));
+    let interference = report.interference.iter().map(|d| row("interference", d));
+    let pass = [Column::new("hob_turn", "1", "turn of the hob"), Column::words("hob_tooth", "hob tooth")];
+    damage_table(pass, gouges.chain(interference))
 }
 
 fn hob_tooth(cutter: &HobCutter, damage: &Damage) -> String {
@@ -114,6 +103,7 @@ pub fn findings(cutter: &HobCutter, whole: &WholeBlank) -> Section {
             pairs(report.stats.visited, "pairs of ray and pass in which the ray crosses the sweep of the hob tooth"),
         )
         .with("ray_passes_removing", pairs(report.stats.removing, "those of them that removed material"))
+        .table(all_damage(cutter, report))
         .part(whole_blank::removed(names, &report.operations))
         .part(damage("gouges", "gouges", &report.gouges, "target material that the last operation took"))
         .part(damage(

@@ -1,6 +1,6 @@
 //! What a run finds on a hobbed gear: names, units, definitions, places.
 
-use super::{blank, load, marks, points};
+use super::{blank, flank_table, load, marks, points};
 use crate::findings::{Entry, Findings, Place, Quantity, Section};
 use crate::job::RAY_DEPTH_MODULES;
 use crate::measure::deviation::PitchDeviations;
@@ -34,12 +34,15 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
     let job = cutter.job;
     let work = &gear.work;
     let operations = job.operations.iter().zip(measured.motion).zip(&gear.passes);
+    let earlier = &job.operations[..job.operations.len() - 1];
     let mut sections = vec![
         Section::new("operations", "Operations")
             .parts(operations.map(|((of, motion), &passes)| operation(of, motion, passes))),
         points::findings(gear),
         marks::findings(measured.lattices),
-        Section::new("teeth", "Finished teeth").parts((1..=job.scene.gear.teeth).map(|number| tooth(gear, number))),
+        Section::new("teeth", "Finished teeth")
+            .table(flank_table::flanks(&gear.flanks, earlier.iter().map(|operation| operation.spec.name.as_str())))
+            .parts((1..=job.scene.gear.teeth).map(|number| tooth(gear, number))),
         texture::findings(cutter, measured.textures),
         Section::new("work", "Work of cutting").with(
             "candidates",

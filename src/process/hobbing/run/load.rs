@@ -1,13 +1,9 @@
-//! The hob's load in a run: `tables/hob_load.csv`, bar charts by tooth, and its findings.
+//! The hob's load in a run: bar charts by tooth, and its findings with `tables/hob_load.csv`.
 
-use crate::error::Result;
 use crate::findings::{Column, Datum, Quantity, Section, Table};
 use crate::output::bar_chart::{BarChart, BarSeries};
-use crate::output::folder::OutputFolder;
-use crate::output::table::{Cell, write_table};
 use crate::process::hobbing::measure::hob_load::{OperationLoad, ToothLoad};
 use crate::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
-use crate::steps::parts::{Part, Parts};
 
 /// What the load rests on.
 const ASSUMPTION: &str = "volume that a tooth takes, as a measure of the work that it does with the specific \
@@ -25,27 +21,6 @@ const CHARTS: [Chart; 3] = [
 /// Loads of all operations.
 pub fn measure(cutter: &HobCutter, blank: &HobbedBlank) -> Vec<OperationLoad> {
     cutter.operations.iter().zip(&blank.chips).map(|(passes, chips)| OperationLoad::of_blank(passes, chips)).collect()
-}
-
-/// Writes table and charts.
-///
-/// # Errors
-/// Files that cannot be written.
-pub fn write(
-    job: &HobbingJob,
-    loads: &[OperationLoad],
-    charts: &[(String, BarChart)],
-    folder: &OutputFolder,
-    parts: Parts,
-) -> Result<()> {
-    write_load_table(job, loads, folder)?;
-    if !parts.has(Part::Chips) {
-        return Ok(());
-    }
-    for (stem, chart) in charts {
-        chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
-    }
-    Ok(())
 }
 
 /// Bars by hob tooth with the names of their files, operation by operation.
@@ -75,16 +50,19 @@ fn labels(job: &HobbingJob) -> Vec<String> {
     job.hob.teeth.iter().map(|tooth| tooth.label(job.hob.starts)).collect()
 }
 
-fn write_load_table(job: &HobbingJob, loads: &[OperationLoad], folder: &OutputFolder) -> Result<()> {
-    let columns = [
-        "operation",
-        "hob_tooth",
-        "axial_mm",
-        "volume_mm3",
-        "volume_share",
-        "largest_thickness_mm",
-        "travel_mm",
-        "passes",
+/// All operations in one table, its rows in the file alone: the operations' own tables have most of it.
+fn table(job: &HobbingJob, loads: &[OperationLoad]) -> Table {
+    let missing = "no finite number was computed";
+    let columns = vec![
+        Column::words("operation", "operation"),
+        Column::words("hob_tooth", "hob tooth along the thread, from the entering end"),
+        Column::new("axial", "mm", "its place along the hob's axis"),
+        Column::new("volume", "mm3", "volume that it takes").or(missing),
+        Column::new("volume_share", "1", "its share of the operation's volume").or("the operation takes nothing"),
+        Column::new("largest_thickness", "mm", "its largest uncut chip thickness").or(missing),
+        Column::new("travel", "mm", "travel of its tip through the work while any part of its edge takes material")
+            .or(missing),
+        Column::new("passes", "passes", "passes that took anything"),
     ];
     let labels = labels(job);
     let rows = job.operations.iter().zip(loads).flat_map(|(operation, of_operation)| {
@@ -92,18 +70,18 @@ fn write_load_table(job: &HobbingJob, loads: &[OperationLoad], folder: &OutputFo
         let labels = &labels;
         of_operation.teeth.iter().enumerate().map(move |(index, tooth)| {
             vec![
-                Cell::from(operation.spec.name.as_str()),
+                Datum::from(operation.spec.name.as_str()),
                 labels[index].as_str().into(),
                 job.hob.teeth[index].axial_mm.into(),
                 tooth.volume_mm3.into(),
                 (tooth.volume_mm3 / whole_mm3).into(),
                 tooth.thickness_mm.into(),
                 tooth.travel_mm.into(),
-                (tooth.passes as u32).into(),
+                tooth.passes.into(),
             ]
         })
     });
-    write_table(&folder.path("tables/hob_load.csv")?, &columns, rows)
+    Table::new("all_teeth", "Load by operation and hob tooth", columns).with_rows(rows).rows_in_file("hob_load")
 }
 
 /// What the hob's teeth did over the whole process.
@@ -122,6 +100,7 @@ pub fn findings(job: &HobbingJob, loads: &[OperationLoad]) -> Section {
                  al. 2015, Eq. 22, for one gear)",
             ),
         )
+        .table(table(job, loads))
         .part(Section::new("operations", "By operation").parts(operations))
 }
 

@@ -1,9 +1,7 @@
-//! The lattice of cutting marks of the texture windows' flanks: table, findings.
+//! The lattice of cutting marks of the texture windows' flanks, and all its steps side by side in `tables/marks.csv`.
 
 use crate::error::Result;
-use crate::findings::{Quantity, Section};
-use crate::output::folder::OutputFolder;
-use crate::output::table::{Cell, write_table};
+use crate::findings::{Column, Datum, Quantity, Section, Table};
 use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::linkage::marks::MarkStep;
 use crate::process::hobbing::measure::marks;
@@ -32,56 +30,6 @@ pub fn measure(cutter: &HobCutter, windows: &[Window], tools: &Tools) -> Result<
     Ok(lattices.into_iter().flatten().collect())
 }
 
-/// Columns of the table.
-const COLUMNS: [&str; 14] = [
-    "tooth",
-    "flank",
-    "step",
-    "kinematic_roll_mm",
-    "kinematic_axial_mm",
-    "kinematic_length_mm",
-    "kinematic_to_trace_deg",
-    "kinematic_to_axis_deg",
-    "surface_length_mm",
-    "surface_to_trace_deg",
-    "surface_to_axis_deg",
-    "length_difference_mm",
-    "trace_difference_deg",
-    "axis_difference_deg",
-];
-
-/// Writes `tables/marks.csv`.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn write(lattices: &[MarkLattice], folder: &OutputFolder) -> Result<()> {
-    let rows = lattices.iter().flat_map(|lattice| {
-        (0..2).map(move |i| {
-            let known = lattice.kinematic[i];
-            let seen = lattice.surface.as_ref().ok().map(|steps| steps[i]);
-            let number = |value: fn(&MarkStep) -> f64| Cell::from(seen.as_ref().map(value));
-            let apart = seen.map(|seen| difference(&seen, &known));
-            vec![
-                lattice.tooth.into(),
-                lattice.side.name().into(),
-                (i as u32 + 1).into(),
-                known.step_mm.x.into(),
-                known.step_mm.y.into(),
-                known.length_mm().into(),
-                known.to_trace_rad().to_degrees().into(),
-                known.to_axis_rad.to_degrees().into(),
-                number(MarkStep::length_mm),
-                number(|step| step.to_trace_rad().to_degrees()),
-                number(|step| step.to_axis_rad.to_degrees()),
-                apart.map(|d| d[0]).into(),
-                apart.map(|d| d[1]).into(),
-                apart.map(|d| d[2]).into(),
-            ]
-        })
-    });
-    write_table(&folder.path("tables/marks.csv")?, &COLUMNS, rows)
-}
-
 /// Length (mm), angle to the tooth trace and to the gear's axis (deg) on the surface less those of the kinematics; the
 /// angle to the trace without its sign.
 fn difference(seen: &MarkStep, known: &MarkStep) -> [f64; 3] {
@@ -95,10 +43,46 @@ fn difference(seen: &MarkStep, known: &MarkStep) -> [f64; 3] {
 /// The lattices, flank by flank.
 pub fn findings(lattices: &[MarkLattice]) -> Section {
     let all = Section::new("marks", "Cutting marks: steps from mark to mark");
-    lattices.iter().map(lattice).fold(all, |all, flank| {
+    let all = lattices.iter().map(lattice).fold(all, |all, flank| {
         // Windows may return to a flank; its marks are the same.
         if all.is_free(&flank.key) { all.part(flank) } else { all }
-    })
+    });
+    let steps = steps(&all.sections);
+    all.table(steps)
+}
+
+/// Columns of the table of all steps, and where their values stand in the section of a step.
+const COLUMNS: [(&str, &str, &str); 11] = [
+    ("kinematic_roll", "mm", "kinematic.roll"),
+    ("kinematic_axial", "mm", "kinematic.axial"),
+    ("kinematic_length", "mm", "kinematic.length"),
+    ("kinematic_to_trace", "deg", "kinematic.angle_to_trace"),
+    ("kinematic_to_axis", "deg", "kinematic.angle_to_axis"),
+    ("surface_length", "mm", "surface.length"),
+    ("surface_to_trace", "deg", "surface.angle_to_trace"),
+    ("surface_to_axis", "deg", "surface.angle_to_axis"),
+    ("length_difference", "mm", "difference.length"),
+    ("trace_difference", "deg", "difference.angle_to_trace"),
+    ("axis_difference", "deg", "difference.angle_to_axis"),
+];
+
+/// All steps side by side; the rows stand in the file alone, since their values have sections.
+fn steps(flanks: &[Section]) -> Table {
+    let mut columns = vec![
+        Column::new("tooth", "1", "number of the tooth, from 1"),
+        Column::words("flank", "flank: left or right"),
+        Column::new("step", "1", "shortest step, then the next one"),
+    ];
+    columns
+        .extend(COLUMNS.map(|(key, unit, path)| Column::new(key, unit, path).or("the section of its step tells why")));
+    let rows = flanks.iter().flat_map(|flank| {
+        let name = |key: &str| flank.quantity(key).map_or(Datum::Undefined, Datum::from);
+        (1_u32..).zip(&flank.sections).map(move |(number, step)| {
+            let values = COLUMNS.map(|(.., path)| Datum::from(step.number(path)));
+            [name("tooth"), name("flank"), number.into()].into_iter().chain(values).collect()
+        })
+    });
+    Table::new("steps", "Steps of all flanks", columns).with_rows(rows).rows_in_file("marks")
 }
 
 fn lattice(lattice: &MarkLattice) -> Section {
@@ -123,7 +107,21 @@ fn lattice(lattice: &MarkLattice) -> Section {
                 less(2, "deg", "angle to the gear's axis on the surface less that of the kinematics"),
             );
         Section::new(format!("step_{}", i + 1), format!("step {}", i + 1))
-            .part(step("kinematic", Some(&known), "from the machine's motion", ""))
+            .part(
+                step("kinematic", Some(&known), "from the machine's motion", "")
+                    .with(
+                        "roll",
+                        Quantity::number(known.step_mm.x, "mm", "roll of the step, from the machine's motion"),
+                    )
+                    .with(
+                        "axial",
+                        Quantity::number(
+                            known.step_mm.y,
+                            "mm",
+                            "the step along the gear's axis, from the machine's motion",
+                        ),
+                    ),
+            )
             .part(step("surface", seen.as_ref(), "from the autocorrelation of the heights as cut", why))
             .part(difference)
     });

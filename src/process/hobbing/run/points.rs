@@ -1,13 +1,10 @@
-//! Points on five curves beside the pitch curve, as cut against as meant: table, histogram, findings.
+//! Points on five curves beside the pitch curve, as cut against as meant: histogram, findings, and
+//! `tables/offset_curves.csv`, which alone has its rows: five or more for every flank.
 
-use crate::error::Result;
 use crate::findings::{Column, Datum, Quantity, Section, Table};
-use crate::output::folder::OutputFolder;
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
-use crate::output::table::{Cell, write_table};
 use crate::process::hobbing::HobbedGear;
 use crate::process::hobbing::measure::offset_curves::{CurvePoint, ErrorSpread};
-use crate::steps::parts::{Part, Parts};
 use crate::units::UM_PER_MM;
 
 /// Points of the curve of a normal distribution.
@@ -58,47 +55,6 @@ fn points(gear: &HobbedGear) -> impl Iterator<Item = (u32, &'static str, &CurveP
         .iter()
         .zip(&gear.points)
         .flat_map(|(flank, points)| points.iter().map(|point| (flank.tooth, flank.side.name(), point)))
-}
-
-/// Writes `tables/offset_curves.csv` and `pictures/offset_curves.svg`.
-///
-/// # Errors
-/// Files that cannot be written.
-pub fn write(gear: &HobbedGear, chart: Option<&LineChart>, folder: &OutputFolder, parts: Parts) -> Result<()> {
-    let columns = [
-        "tooth",
-        "flank",
-        "curve_offset_mm",
-        "target",
-        "target_x_mm",
-        "target_y_mm",
-        "x_mm",
-        "y_mm",
-        "error_x_um",
-        "error_y_um",
-        "error_along_curve_um",
-    ];
-    let um = |value: Option<f64>| Cell::from(value.map(|mm| mm * UM_PER_MM));
-    let rows = points(gear).map(|(tooth, side, point)| {
-        vec![
-            tooth.into(),
-            side.into(),
-            point.offset_mm.into(),
-            if point.on_fillet() { "fillet" } else { "flank" }.into(),
-            point.target.point_mm.x.into(),
-            point.target.point_mm.y.into(),
-            point.cut_mm.map(|p| p.x).into(),
-            point.cut_mm.map(|p| p.y).into(),
-            um(point.error_mm().map(|e| e.x)),
-            um(point.error_mm().map(|e| e.y)),
-            um(point.along_mm),
-        ]
-    });
-    write_table(&folder.path("tables/offset_curves.csv")?, &columns, rows)?;
-    if let Some(chart) = chart.filter(|_| parts.has(Part::Pictures)) {
-        chart.write_svg(&folder.path("pictures/offset_curves.svg")?)?;
-    }
-    Ok(())
 }
 
 /// Frequencies of the errors with the fitted normal distribution; none where nothing spreads.
@@ -158,7 +114,43 @@ pub fn findings(gear: &HobbedGear) -> Section {
             "points_on_fillets",
             Quantity::count(fillets, "points", "those whose target the hob's tip corner has left"),
         )
+        .table(all_points(gear))
         .parts(errors(gear).iter().map(spread))
+}
+
+fn all_points(gear: &HobbedGear) -> Table {
+    let not_cut = "the flank was not cut there";
+    let new = |key, unit, definition| Column::new(key, unit, definition);
+    let columns = vec![
+        new("tooth", "1", "number of the tooth, from 1"),
+        Column::words("flank", "flank: left or right"),
+        new("curve_offset", "mm", "distance of the curve from the pitch curve, positive outwards"),
+        Column::words("target", "what the curve crosses there: flank or fillet"),
+        new("target_x", "mm", "x of the gear frame, as meant"),
+        new("target_y", "mm", "y of the gear frame, as meant"),
+        new("x", "mm", "x of the gear frame, as cut").or(not_cut),
+        new("y", "mm", "y of the gear frame, as cut").or(not_cut),
+        new("error_x", "um", "x as cut less as meant").or(not_cut),
+        new("error_y", "um", "y as cut less as meant").or(not_cut),
+        new("error_along_curve", "um", "distance along the offset curve, positive where material is left").or(not_cut),
+    ];
+    let um = |value: Option<f64>| Datum::from(value.map(|mm| mm * UM_PER_MM));
+    let rows = points(gear).map(|(tooth, side, point)| {
+        vec![
+            tooth.into(),
+            side.into(),
+            point.offset_mm.into(),
+            if point.on_fillet() { "fillet" } else { "flank" }.into(),
+            point.target.point_mm.x.into(),
+            point.target.point_mm.y.into(),
+            point.cut_mm.map(|p| p.x).into(),
+            point.cut_mm.map(|p| p.y).into(),
+            um(point.error_mm().map(|e| e.x)),
+            um(point.error_mm().map(|e| e.y)),
+            um(point.along_mm),
+        ]
+    });
+    Table::new("all_points", "Points as meant and as cut", columns).with_rows(rows).rows_in_file("offset_curves")
 }
 
 fn spread(errors: &Errors) -> Section {

@@ -1,8 +1,8 @@
 //! All strokes of an operation, and what they add to the axis table: one row per stroke.
 
 use crate::Result;
+use crate::findings::Datum;
 use crate::machine::{AxisMotion, Motion as _};
-use crate::output::table::Cell;
 use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::linkage::relief::{self, ReliefRatio};
 use crate::process::shaping::{PreparedOperation, ShapingJob};
@@ -49,7 +49,7 @@ pub(super) fn write_table(path: &Path, rows: &[StrokeRow]) -> Result<()> {
         vec!["left_relief_share_of_circular", "right_relief_share_of_circular"],
     ];
     let row = |row: &StrokeRow| {
-        let stroke = Cell::Whole(i64::try_from(row.stroke).unwrap_or(i64::MAX));
+        let stroke = Datum::from(row.stroke as u64);
         let own = [
             vec![stroke, row.time_s.into()],
             vec![row.offset_mm.into(), row.phi_rad.to_degrees().into()],

@@ -1,6 +1,6 @@
 //! One operation on a shaped gear: strokes, axes, chips, and the stock that it leaves.
 
-use super::{chips, teeth};
+use super::{chips, strokes, teeth};
 use crate::findings::{Quantity, Section};
 use crate::measure::stock::Stock;
 use crate::process::shaping::ShapingJob;
@@ -85,10 +85,10 @@ pub fn operation(
             "cycle_time",
             Quantity::number(schedule.time_s(strokes as f64), "s", "time of the operation's double strokes"),
         )
-        .table(teeth::allowance(report, allowance))
+        .table(teeth::allowance(report, allowance, &spec.name))
         .part(axes::findings(motion))
         .part(motion.relief_findings())
-        .part(chips::chips(job, ledger, index))
+        .part(chips::chips(job, ledger, index).table(strokes::strokes(job, ledger, index)))
         .part(stock_range("flank_stock", "Stock on all active flanks", &over_flanks, "on all active flanks", why))
         .part(stock_range(
             "root_stock",

@@ -63,12 +63,21 @@ pub fn tooth_stock(report: &GearReport, operation: usize, tooth: u32) -> Section
         .part(range(Side::Right, "right flank (smaller arc)"))
 }
 
-/// Allowances that an operation left, tooth by tooth; empty where it is the last one.
-pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>) -> Table {
+/// Allowances that an operation left, tooth by tooth, in `tables/allowance_<operation>.csv`; empty and without a file
+/// where it is the last one.
+pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, operation: &str) -> Table {
     let missing = "a surface does not cross the pitch curve with its involute";
     let mm = |key, definition| Column::new(key, "mm", definition).or(missing);
     let columns = vec![
         Column::new("tooth", "1", "number of the tooth, from 1"),
+        mm("A_x", "x of A in the gear frame: left flank as this operation leaves it, on the pitch curve"),
+        mm("A_y", "y of A"),
+        mm("B_x", "x of B in the gear frame: finished left flank on the pitch curve"),
+        mm("B_y", "y of B"),
+        mm("C_x", "x of C in the gear frame: finished right flank on the pitch curve"),
+        mm("C_y", "y of C"),
+        mm("D_x", "x of D in the gear frame: right flank as this operation leaves it, on the pitch curve"),
+        mm("D_y", "y of D"),
         mm("AB", "chord from A (this operation) to B (finished), left flank, on the pitch curve"),
         mm("CD", "chord from C (finished) to D (this operation), right flank, on the pitch curve"),
         Column::new("unevenness_mean_denominator", "%", "|AB - CD| over the mean of AB and CD").or(missing).as_bars(),
@@ -76,23 +85,37 @@ pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>) ->
             .or("a surface does not cross the pitch curve, or the operation has no offset over the last one"),
         mm("envelope_AB", "AB in the limit of many strokes"),
         mm("envelope_CD", "CD in the limit of many strokes"),
+        Column::new(
+            "envelope_unevenness_mean_denominator",
+            "%",
+            "|AB - CD| over the mean of AB and CD in the limit of many strokes",
+        )
+        .or(missing),
     ];
     let rows = allowance.into_iter().flat_map(|of| {
         of.strokes.iter().zip(&of.envelope).map(|(cut, envelope)| {
-            vec![
-                Datum::from(cut.tooth),
-                cut.ab_mm().into(),
-                cut.cd_mm().into(),
-                cut.unevenness_mean_percent().into(),
-                cut.unevenness_rack_percent(of.rack_mm).into(),
-                envelope.ab_mm().into(),
-                envelope.cd_mm().into(),
-            ]
+            let mut row = vec![Datum::from(cut.tooth)];
+            for crossing in [cut.a, cut.b, cut.c, cut.d] {
+                row.extend([crossing.map(|c| c.point_mm.x), crossing.map(|c| c.point_mm.y)].map(Datum::from));
+            }
+            row.extend(
+                [
+                    cut.ab_mm(),
+                    cut.cd_mm(),
+                    cut.unevenness_mean_percent(),
+                    cut.unevenness_rack_percent(of.rack_mm),
+                    envelope.ab_mm(),
+                    envelope.cd_mm(),
+                    envelope.unevenness_mean_percent(),
+                ]
+                .map(Datum::from),
+            );
+            row
         })
     });
     let mut table = Table::new("allowance", "Allowance on the pitch curve, tooth by tooth", columns).with_rows(rows);
     table.period_rows = Some(report.period_teeth.max(1));
-    table
+    if allowance.is_some() { table.in_file(&format!("allowance_{operation}")) } else { table }
 }
 
 /// One finished tooth.
@@ -113,6 +136,15 @@ pub fn finished_tooth(report: &GearReport, tooth: u32) -> Section {
         .with(
             "thickness_chord",
             mm(thickness.map(|t| t.chord_mm), "tooth thickness straight from C to B on the pitch curve", crossing),
+        )
+        .with(
+            "runout_of_space_after",
+            Quantity::number_or(
+                report.runout.as_ref().map(|r| r.radial_mm[row] * 1e3),
+                "um",
+                "place of a probe in the space after the tooth along the pitch curve's normal, positive outwards",
+                "a flank was not cut or does not cross the pitch curve",
+            ),
         )
         .part(finished_flank(report, tooth, Side::Left))
         .part(finished_flank(report, tooth, Side::Right))
@@ -157,6 +189,10 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
     let profile = flank.and_then(|f| f.profile);
     let um = |value: Option<f64>, definition: &'static str| {
         number(value.map(|v| v * 1e3), "um", definition, "the evaluated profile was not cut completely")
+    };
+    let lead = flank.and_then(|f| f.lead);
+    let lead_um = |value: Option<f64>, definition: &'static str| {
+        number(value.map(|v| v * 1e3), "um", definition, "the line along the tooth was not cut completely")
     };
     let side_index = usize::from(side == Side::Right);
     let pitch = report.pitch[side_index].as_ref();
@@ -230,6 +266,12 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
                     "slope",
                     um(profile.map(|p| p.slope_mm), "f_H_alpha: rise of the mean line, positive towards the tip"),
                 ),
+        )
+        .part(
+            Section::new("lead", "lead deviations at the pitch curve, as ISO 1328-1 has them")
+                .with("total", lead_um(lead.map(|d| d.total_mm), "F_beta: range of heights along the tooth"))
+                .with("form", lead_um(lead.map(|d| d.form_mm), "f_f_beta: range about the mean line"))
+                .with("slope", lead_um(lead.map(|d| d.slope_mm), "f_H_beta: rise of the mean line over the face")),
         )
         .with(
             "largest_scallop",

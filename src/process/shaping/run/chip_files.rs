@@ -1,8 +1,7 @@
-//! Chip tables, charts over the work angle, and maps of uncut chip thickness.
+//! Charts of chips over the work angle, and maps of uncut chip thickness.
 //!
-//! Out, per operation: `tables/chips_<operation>.csv` (one row per stroke), `chips/<operation>_load.svg` and
-//! `_chips.svg` (line charts), `chips/<operation>_thickness_by_stroke.{png,exr}` and
-//! `_thickness_by_space.{png,exr}`.
+//! Out, per operation: `chips/<operation>_load.svg` and `_chips.svg` (line charts),
+//! `chips/<operation>_thickness_by_stroke.{png,exr}` and `_thickness_by_space.{png,exr}`.
 
 use crate::colormap::ColourScale;
 use crate::error::Result;
@@ -12,7 +11,6 @@ use crate::output::folder::OutputFolder;
 use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::map_png::{MapPicture, write_map_png};
-use crate::output::table::{Cell, write_table};
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::edge_polygon::EdgeSide;
@@ -26,27 +24,11 @@ const SHOWN_OVER_Q90: f64 = 2.0;
 /// A curve of a chart: its name and its value at a stroke.
 type Curve<'a> = (&'a str, &'a dyn Fn(&StrokeChips) -> f64);
 
-/// Writes the tables of all operations.
-///
-/// # Errors
-/// Files that cannot be written.
-pub fn write_tables(job: &ShapingJob, ledger: &ChipLedger, folder: &OutputFolder) -> Result<()> {
-    job.operations.iter().enumerate().try_for_each(|(index, operation)| {
-        let path = folder.path(format!("tables/chips_{}.csv", operation.spec.name))?;
-        write_chip_table(job, ledger, index, &path)
-    })
-}
-
 /// Writes charts and maps of all operations; `notes` go into the EXR headers.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write_charts_and_maps(
-    job: &ShapingJob,
-    ledger: &ChipLedger,
-    folder: &OutputFolder,
-    notes: &[(String, String)],
-) -> Result<()> {
+pub fn write(job: &ShapingJob, ledger: &ChipLedger, folder: &OutputFolder, notes: &[(String, String)]) -> Result<()> {
     for (index, operation) in job.operations.iter().enumerate() {
         let name = &operation.spec.name;
         for (what, chart) in charts(job, ledger, index) {
@@ -77,66 +59,6 @@ pub fn write_charts_and_maps(
         }
     }
     Ok(())
-}
-
-fn write_chip_table(job: &ShapingJob, ledger: &ChipLedger, operation: usize, path: &std::path::Path) -> Result<()> {
-    let columns = [
-        "stroke",
-        "time_s",
-        "work_angle_deg",
-        "chips",
-        "two_flank_chips",
-        "three_flank_chips",
-        "space",
-        "cutter_tooth",
-        "section_mm2",
-        "volume_mm3",
-        "largest_chip_section_mm2",
-        "contact_right_mm",
-        "contact_tip_mm",
-        "contact_left_mm",
-        "mean_thickness_um",
-        "largest_thickness_right_um",
-        "largest_thickness_tip_um",
-        "largest_thickness_left_um",
-        "cutting_force_N",
-        "radial_force_N",
-        "tangential_force_N",
-        "work_torque_Nm",
-        "cutter_torque_Nm",
-        "removal_rate_cm3_per_min",
-    ];
-    let schedule = &job.operations[operation].schedule;
-    let width_mm = job.scene.gear.face_width_mm;
-    let per_minute = job.machine.double_strokes_per_minute;
-    let rows = ledger.operations[operation].strokes.iter().enumerate().map(|(index, s)| {
-        let whole = |value: u32| Cell::from(value);
-        let of_busy = |value: u32| if s.is_idle() { Cell::Empty } else { Cell::from(value) };
-        let contact_mm = s.contact_length_mm();
-        let mut row = vec![
-            Cell::Whole(i64::try_from(index).unwrap_or(i64::MAX)),
-            schedule.time_s(index as f64).into(),
-            schedule.state(index as f64).psi_c_rad.to_degrees().into(),
-            whole(s.chips),
-            whole(s.two_flank),
-            whole(s.three_flank),
-            of_busy(s.space),
-            of_busy(s.blade),
-            s.area_mm2.into(),
-            (s.area_mm2 * width_mm).into(),
-            s.largest_mm2.into(),
-        ];
-        row.extend(s.contact_mm.map(Cell::from));
-        row.push((contact_mm > 0.0).then(|| s.area_mm2 / contact_mm * UM_PER_MM).into());
-        row.extend(s.thickest_mm.map(|h| Cell::from(h * UM_PER_MM)));
-        row.extend(
-            [s.cutting_n, s.radial_n, s.tangential_n, s.work_torque_nmm / 1e3, s.cutter_torque_nmm / 1e3]
-                .map(Cell::from),
-        );
-        row.push((s.area_mm2 * width_mm * per_minute / 1e3).into());
-        row
-    });
-    write_table(path, &columns, rows)
 }
 
 fn charts(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> [(&'static str, LineChart); 2] {
