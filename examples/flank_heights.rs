@@ -4,8 +4,9 @@
 //! FOLDER (default `out/flank_heights`) and prints the largest deviation of the finishing operation. SCENE is
 //! `scenes/shaping/elliptical_normal.toml` by default, TOOTH is 4.
 
+use gearcut::findings::Datum;
 use gearcut::output::line_chart::{LineChart, LineSeries, Panel};
-use gearcut::output::table::{Cell, write_table};
+use gearcut::output::table::write_table;
 use gearcut::terms::Side;
 use gearcut::{Flank, Job};
 use std::error::Error;
@@ -25,8 +26,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let middle = |flank: &Flank| flank.face_mm.len() / 2;
     let rows = flanks.iter().flat_map(|flank| {
         flank.operations.iter().enumerate().flat_map(move |(operation, name)| {
-            let cells = move |(arc_mm, deviation_um)| -> Vec<Cell> {
-                vec![flank.side.name().into(), name.as_str().into(), Cell::Number(arc_mm), Cell::Number(deviation_um)]
+            let cells = move |(arc_mm, deviation_um)| -> Vec<Datum> {
+                vec![flank.side.name().into(), name.as_str().into(), Datum::Number(arc_mm), Datum::Number(deviation_um)]
             };
             flank.profile(operation, middle(flank)).into_iter().map(cells)
         })

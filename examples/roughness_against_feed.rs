@@ -7,9 +7,10 @@
 //! flank, 2 mm about the pitch curve, and the whole flank, on which the cusps' height itself changes.
 
 use gearcut::cut::cpu::Cpu;
+use gearcut::findings::Datum;
 use gearcut::measure::topography::Form;
 use gearcut::output::line_chart::{LineChart, LineSeries, Panel};
-use gearcut::output::table::{Cell, write_table};
+use gearcut::output::table::write_table;
 use gearcut::process::load;
 use gearcut::process::shaping::Job;
 use gearcut::process::shaping::scene::model::{Feed, Shaping};
@@ -122,7 +123,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         &folder.join("roughness_against_feed.csv"),
         &columns,
         rows.iter().map(|row| {
-            let mut cells: Vec<Cell> = vec![
+            let mut cells: Vec<Datum> = vec![
                 row.window.into(),
                 row.surface.as_str().into(),
                 row.side.name().into(),
@@ -130,7 +131,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 (row.strokes as u32).into(),
                 (row.marks as u32).into(),
             ];
-            cells.extend(row.values_um.map(Cell::from));
+            cells.extend(row.values_um.map(Datum::from));
             cells
         }),
     )?;
