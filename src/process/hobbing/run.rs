@@ -57,10 +57,8 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     let found = findings::findings(&cutter, &gear, &measured);
     let load_charts = load::charts(job, &loads);
     let points_chart = points::chart(&job.scene.name, &gear);
-    if let Some(whole) = &whole {
-        if parts.has(Part::Meshes) {
-            meshes::write_blank(&cutter, &whole.blank.cut, folder)?;
-        }
+    if let Some(whole) = whole.as_ref().filter(|_| parts.has(Part::Meshes)) {
+        meshes::write_blank(&cutter, &whole.blank.cut, folder)?;
     }
     if parts.has(Part::Chips) {
         for (stem, chart) in &load_charts {
