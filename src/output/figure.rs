@@ -5,7 +5,7 @@
 //!
 //! - On the page of the report title, names and legends are HTML beside the SVG: they wrap on narrow screens, readers
 //!   can select them, and the page gives the colours, light and dark.
-//! - As a file ([`file`]) everything is inside one SVG with fixed colours on white.
+//! - As a file ([`mod@file`]) everything is inside one SVG with fixed colours on white.
 //!
 //! Both take their rules from `assets/report/chart.css`. The colours of series are those of M. Okabe and K. Ito (2008),
 //! darkened for thin lines, the dark ones first and without the yellow that vanishes on white.
