@@ -8,8 +8,8 @@
 //! # Example
 //!
 //! A round gear of 24 teeth, shaped with 2,400 strokes a turn. Strokes leave scallops: near the pitch point they are
-//! f^2 sin(alpha) (1 / r_c + 1 / r) / 8 high, with the circular feed f and the radii of curvature of both involutes
-//! there, r_c sin(alpha) and r sin(alpha).
+//! f^2 sin(alpha) (1 / r_c + 1 / r) / 8 high, with the circular feed f and the pitch radii r_c of the cutter and r of
+//! the gear.
 //!
 //! ```
 //! use gearcut::terms::Side;
@@ -28,9 +28,15 @@
 //! let flank = job.cut_flank(7, Side::Left)?;
 //!
 //! let finish = flank.operation("finish").expect("the operation of a scene that lists none");
-//! let profile = flank.profile(finish, flank.face_mm.len() / 2);
-//! let middle = &profile[profile.len() / 3..2 * profile.len() / 3];
-//! let highest_um = middle.iter().map(|(_, deviation_um)| *deviation_um).fold(0.0, f64::max);
+//! let row = flank.face_mm.len() / 2;
+//! let mut highest_um = 0.0_f64;
+//! for column in 0..flank.arcs_mm.len() {
+//!     // None where no stroke came, and the blank's own surface stands.
+//!     let Some(point_mm) = flank.point_mm(finish, column, row) else { continue };
+//!     if (point_mm.truncate().length() - 36.0).abs() < 0.2 {
+//!         highest_um = highest_um.max(flank.deviation_um(finish, column, row).unwrap_or_default());
+//!     }
+//! }
 //!
 //! let feed_mm = std::f64::consts::PI * 3.0 * 24.0 / 2400.0;
 //! let scallop_um = 1e3 * feed_mm.powi(2) * 20_f64.to_radians().sin() * (1.0 / 30.0 + 1.0 / 36.0) / 8.0;

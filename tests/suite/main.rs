@@ -10,6 +10,7 @@ mod floors;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod hobbing;
+mod library;
 mod output;
 mod program;
 mod scene;
