@@ -3,8 +3,9 @@
 //! A tool gives its edge as a chain of named segments in the **blade frame** (x along the blade's centre line towards
 //! its tip, y across it so that the blade's left flank has y > 0) and the place of every blade in the tool. What cuts
 //! is the rake face's outline: a tool whose rake faces stay in transverse planes of the work ([`PlanarTool`]: shaper
-//! cutters, by the profile projected along the stroke) gives plane motions, any other one ([`SpatialTool`]: hobs;
-//! skiving cutters and face-mill heads fit as well) gives places in space.
+//! cutters, by the profile projected along the stroke) gives plane motions, any other one ([`SpatialTool`]: hobs)
+//! gives places in space. All blades share one edge, and a blade in space looks away from the tool's axis: heads whose
+//! blades lie along their axis do not fit.
 
 pub mod closed_tooth;
 pub mod edge;
