@@ -57,7 +57,7 @@ impl<'a> Job<'a> {
 
     /// A run of the whole job: all flanks, the blank, and every file that `gearcut cut` writes.
     pub fn run(&self) -> Run<'_> {
-        Run::new(self.scene, &self.choice)
+        Run::new(self.scene, self.prepared.as_ref(), &self.choice)
     }
 }
 

@@ -13,7 +13,7 @@ use crate::findings::Findings;
 use crate::interrupt::Interrupt;
 use crate::output::folder::{OutputFolder, RUN_RECORD};
 use crate::output::progress::{Progress, ProgressMode};
-use crate::process::{self, CutDone};
+use crate::process::{CutDone, ProcessJob};
 use crate::scene::LoadedScene;
 use crate::steps::parts::Parts;
 use crate::steps::{Tools, record};
@@ -36,6 +36,7 @@ pub struct Done {
 /// written, no frames).
 pub struct Run<'a> {
     scene: &'a LoadedScene,
+    prepared: &'a dyn ProcessJob,
     choice: &'a Choice,
     progress: Option<&'a Progress>,
     interrupt: Interrupt,
@@ -44,9 +45,10 @@ pub struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// A run of a scene on a backend: [`crate::backend::choose`].
-    pub fn new(scene: &'a LoadedScene, choice: &'a Choice) -> Self {
-        Self { scene, choice, progress: None, interrupt: Interrupt::default(), parts: Parts::all(), frames: None }
+    /// A run of a scene that was made ready, on a backend; [`crate::Job::run`] has all three.
+    pub fn new(scene: &'a LoadedScene, prepared: &'a dyn ProcessJob, choice: &'a Choice) -> Self {
+        let (interrupt, parts) = (Interrupt::default(), Parts::all());
+        Self { scene, prepared, choice, progress: None, interrupt, parts, frames: None }
     }
 
     /// Shows steps, time left and notes.
@@ -78,7 +80,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
     pub fn into_folder(self, out: &Path) -> Result<Done> {
-        let Self { scene, choice, progress, interrupt, parts, frames } = self;
+        let Self { scene, prepared, choice, progress, interrupt, parts, frames } = self;
         let quiet = Progress::new(ProgressMode::Quiet);
         let progress = progress.unwrap_or(&quiet);
         let backend = choice.backend.as_ref();
@@ -102,7 +104,7 @@ impl<'a> Run<'a> {
             notes: &notes,
         };
         let written = || -> Result<CutDone> {
-            let done = process::prepare(&scene.scene)?.cut(&tools, frames)?;
+            let done = prepared.cut(&tools, frames)?;
             let record = record::run_record(&tools, &done.work)?;
             folder.write_json(RUN_RECORD, &record)?;
             Ok(done)

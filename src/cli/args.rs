@@ -177,7 +177,7 @@ pub struct AxesArguments {
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
 pub struct CompareArguments {
-    /// Output folders of the runs (or their results.json), first the one to hold the others against.
+    /// Output folders of the runs (or their results.json), first the one that the others are compared with.
     #[arg(required = true, num_args = 2..=gearcut::compare::MOST_RESULTS, value_name = "RESULTS")]
     pub results: Vec<PathBuf>,
     /// Folder to write [default: compare_<A>_<B>... beside the last one].

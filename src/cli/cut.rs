@@ -5,11 +5,10 @@ use std::path::PathBuf;
 use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
-use gearcut::run::Run;
 use gearcut::scene::Scene;
 use gearcut::steps::parts::{Part, Parts};
 use gearcut::units::UM_PER_MM;
-use gearcut::{Error, process};
+use gearcut::{Error, Job, process};
 
 use super::args::{BackendChoice, CutArguments, GpuFailureChoice, SceneArguments};
 use super::failure::Failure;
@@ -53,13 +52,16 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
     if arguments.draft {
         progress.note("draft: dexels 8 and rays 4 times as far apart; deviations, chips and texture are rough");
     }
-    let done = Run::new(&scene, &choice)
+    let explained = |error| Failure::of_scene(&scene, error);
+    let job = Job::new(&scene).map_err(explained)?.on(choice);
+    let done = job
+        .run()
         .show(&progress)
         .until(&interrupt)
         .only(parts)
         .frames(arguments.frames)
         .into_folder(&out)
-        .map_err(|error| Failure::of_scene(&scene, error))?;
+        .map_err(explained)?;
     if arguments.json {
         let text = serde_json::to_string_pretty(&done.findings.to_json())
             .map_err(|reason| Error::Output { path: done.folder.clone(), reason: reason.to_string() })?;

@@ -1,4 +1,4 @@
-//! Values held against each other: contradictions that no single key shows, and sizes that no memory holds.
+//! Values compared with each other: contradictions that no single key shows, and sizes that no memory holds.
 //!
 //! Here for the keys that all processes share; each process checks its own. What needs the pitch curve itself
 //! (curvature, undercut, closing) is refused later, where the curve is known.

@@ -247,7 +247,7 @@ impl Source<'_> {
         Some((0..terms).map(|k| chebyshev(&rows.iter().map(|row| row[k]).collect::<Vec<_>>())).collect())
     }
 
-    /// Places between the nodes at which patches are held against the flank; none in a section without a tip.
+    /// Places between the nodes at which patches are compared with the flank; none in a section without a tip.
     fn checks(&self) -> Vec<Option<Check>> {
         let section = |z: f64| {
             let z_mm = 0.5 * self.face_width_mm * z;

@@ -1,4 +1,4 @@
-//! The whole stock of a shaping job: its return strokes, and the target's section that the gear is held against.
+//! The whole stock of a shaping job: its return strokes, and the target's section, with which the gear is compared.
 
 use super::ShapingJob;
 use crate::cut::{Backend, CutBlank};

@@ -1,4 +1,4 @@
-//! What is said of a made-up machine of ten axes, held against its closed form; a machine whose rotary axes are taken
+//! What is said of a made-up machine of ten axes, compared with its closed form; a machine whose rotary axes are taken
 //! for linear ones must be noticed.
 
 use super::*;

@@ -44,7 +44,7 @@ pub struct Inspection<'a> {
     pub lead_place: &'static str,
     /// What deviations along the tooth are called.
     pub lead_name: &'static str,
-    /// What the finished gear is held against.
+    /// What the finished gear is compared with.
     pub target: &'static str,
 }
 

@@ -32,7 +32,7 @@ const BYTES_PER_RAY: usize = 52;
 /// Slices and passes of an operation that are looked at, at most.
 const SLICES: usize = 5;
 const PASSES: usize = 400;
-/// What it takes to hold a sweep against a slice, s.
+/// What it takes to find whether a sweep reaches a slice, s.
 const BLANK_S_PER_SECTION: f64 = 1.2e-6;
 /// What a ray that a sweep reaches takes, s.
 const BLANK_S_PER_RAY_PASS: f64 = 4.2e-8;

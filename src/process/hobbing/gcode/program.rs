@@ -19,7 +19,7 @@ use rayon::prelude::*;
 const SHORTEST_S: f64 = 1e-3;
 /// Blocks in a cycle along the pitch curve are no shorter than this share of it.
 const SHARE_OF_CYCLE: f64 = 1.0 / 1440.0;
-/// Places within the shortest block at which a program is held against its linkage.
+/// Places within the shortest block at which a program is compared with its linkage.
 const SAMPLES: usize = 2;
 /// Share of the contour error that the samples may show, so that what lies between them stays below all of it.
 const SAMPLED_SHARE: f64 = 0.95;

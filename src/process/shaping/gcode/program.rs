@@ -35,7 +35,7 @@ pub struct AxisProgram {
     pub knots: Vec<Knot>,
 }
 
-/// Places per stroke at which a program is held against the schedule.
+/// Places per stroke at which a program is compared with the schedule.
 fn samples_per_stroke(continuous: bool) -> usize {
     if continuous { SAMPLES_PER_STROKE } else { 1 }
 }

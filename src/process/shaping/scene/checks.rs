@@ -1,4 +1,4 @@
-//! Values of a shaping scene held against each other.
+//! Values of a shaping scene compared with each other.
 
 use crate::scene::keys::join;
 use crate::scene::problems::Found;

@@ -168,7 +168,7 @@ impl SliceCut<'_> {
                 surfaces.add(family, across_mm, spans, cut);
             });
             if sections.culls() {
-                // Counted above, when they were held against what is left.
+                // Counted above, when they were compared with what is left.
                 met.visited = 0;
             }
             self.stats += met;

@@ -81,5 +81,5 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
         ),
     ],
     groups: &[],
-    teach: "Largest speeds and accelerations of the axes; the peaks of every operation are held against them.",
+    teach: "Largest speeds and accelerations of the axes; the peaks of every operation are compared with them.",
 }];
