@@ -13,6 +13,7 @@ pub mod job;
 pub mod linkage;
 pub mod measure;
 mod report;
+pub mod returns;
 mod run;
 pub mod scene;
 pub mod section;

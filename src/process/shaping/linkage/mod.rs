@@ -16,6 +16,7 @@ mod external;
 mod inverse;
 mod normal;
 pub mod relief;
+pub mod retraction;
 pub mod schedule;
 #[cfg(test)]
 mod tests;
