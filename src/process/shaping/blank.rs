@@ -14,16 +14,17 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 impl ShapingJob {
-    /// Poses of the return strokes of an operation: the cutter drawn back along the line of centres. `None` where the
-    /// machine does not back off.
+    /// Poses of the return strokes of an operation: the cutter drawn back along the line of centres, out of the gear. `None`
+    /// where the machine does not back off.
     pub fn return_strokes(&self, operation: usize) -> Option<StrokeSet> {
         let operation = &self.operations[operation];
         let back_off_mm = self.machine.back_off_mm;
+        let out = self.blank.kind().tip_sign();
         let set = &operation.strokes;
         let eccentricity_mm = self.eccentricity_mm();
         let pose = |lambda: f64| {
             let pose = operation.pose(lambda);
-            let back = pose.center_mm.normalize_or_zero() * back_off_mm;
+            let back = pose.center_mm.normalize_or_zero() * (out * back_off_mm);
             Rigid2::new(pose.angle_rad, pose.center_mm + back - eccentricity_mm)
         };
         (back_off_mm > 0.0).then(|| StrokeSet::returning(set.first_pass, &self.cutter, set.law, set.count(), pose))
@@ -53,7 +54,7 @@ impl ShapingJob {
             .into_par_iter()
             .map(|tooth| self.tooth_outline(tooth, spacing_mm))
             .collect::<Result<_, _>>()?;
-        Ok(TargetOutline::new(teeth.concat()))
+        Ok(TargetOutline::new(teeth.concat(), self.blank.back))
     }
 
     /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise.
@@ -84,10 +85,7 @@ impl ShapingJob {
             let (from, to) = (foot(right), foot(left));
             // Tips lie within a tooth of each other, but contact angles may be a turn apart.
             let to = from + (to - from).rem_euclid(TURN_RAD);
-            let land = |phi: f64| {
-                let frame = self.curve.frame(phi);
-                frame.point_mm + self.blank.addendum_mm * frame.normal
-            };
+            let land = |phi: f64| self.blank.outline_mm(phi);
             let count = (land(from).distance(land(to)) / spacing_mm).ceil().max(1.0) as usize;
             points.extend((1..count).map(|i| land(from + (to - from) * i as f64 / count as f64)));
         }

@@ -261,6 +261,7 @@ pub(crate) mod tests {
     /// The paper's cutter: 20 teeth of module 3.
     pub(crate) fn paper_cutter(tip: model::Tip) -> ShaperCutter {
         let gear = Gear {
+            kind: crate::gear::GearKind::External,
             module_mm: 3.0,
             teeth: 42,
             pressure_angle_rad: 20_f64.to_radians(),
@@ -269,6 +270,7 @@ pub(crate) mod tests {
             face_width_mm: 30.0,
             addendum_coefficient: 1.0,
             bore_diameter_mm: 20.0,
+            rim_mm: 0.0,
             tooth_thickness_allowance_mm: 0.0,
             pitch_curve: crate::gear::PitchCurveShape::Circle,
         };

@@ -1,5 +1,6 @@
 //! The blank field's part of a hobbing run: cut, report, findings.
 
+use crate::gear::GearKind;
 use crate::cut::Backend;
 use crate::error::Result;
 use crate::findings::damage::{damage, damage_row, damage_table, pairs};
@@ -76,7 +77,7 @@ pub fn findings(cutter: &HobCutter, whole: &WholeBlank) -> Section {
     };
     let slices = (grid.slices_z_mm.len(), "transverse sections, both end faces among them");
     let names = cutter.job.operations.iter().map(|operation| operation.spec.name.as_str());
-    whole_blank::findings(grid.spacing_mm(), slices, [report.blank_mm3, report.left_mm3], &report.operations)
+    whole_blank::findings(GearKind::External, grid.spacing_mm(), slices, [report.blank_mm3, report.left_mm3], &report.operations)
         .with(
             "section_area",
             number(mean(section.cut_mm2), "mm2", "transverse section that is left, mean over the face"),
