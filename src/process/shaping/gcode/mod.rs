@@ -15,16 +15,21 @@
 //! `N S F X B C`, comments in round brackets or after `;`, `%`. Everything else is refused by line and word: a word
 //! that is passed over may be the one that matters.
 //!
+//! Where the axes draw the cutter back for the return strokes (`machine.retraction`), that is in the program as well, in
+//! four blocks to a double stroke ([`retracting`]), and a program that is read back says where the cutter returns.
+//!
 //! Road not taken: one point per stroke. It is exact, and at 4,200 strokes it starves the block buffer of older
 //! controls; straight lines within a micrometre need a tenth.
 
 pub mod paper;
 pub mod program;
 pub mod read;
+pub mod retracting;
 pub mod write;
 
 pub use program::{AxisProgram, Knot};
 
+use crate::gcode::Digits;
 use crate::output::text::{plain, significant};
 use crate::process::shaping::scene::model::{Linkage, NormalReading};
 use crate::process::shaping::{PreparedOperation, ShapingJob};
@@ -51,8 +56,23 @@ fn linear(job: &ShapingJob, operation: &PreparedOperation) -> Result<String, Str
     let asked_mm = job.scene.output.gcode_contour_error_mm;
     let (schedule, tip_radius_mm) = (&operation.schedule, job.cutter.tip_radius_mm);
     let continuous = operation.spec.feed_during_stroke;
-    let program = AxisProgram::fit(schedule, tip_radius_mm, asked_mm, continuous);
-    let (reached_mm, stroke) = program.contour_error_mm(schedule, tip_radius_mm, continuous);
+    let (program, (reached_mm, stroke)) = if operation.retraction.is_in_axes() {
+        let ram = job.ram_times();
+        if ram.shortest_stay() <= 0.0 {
+            return Err("the ram does not leave the face at both ends, and the axes have no time to draw the cutter \
+                        back: give machine.approach_mm and machine.overrun_mm above zero"
+                .to_owned());
+        }
+        let reach_mm = (0..schedule.count()).map(|stroke| schedule.state(stroke as f64).center_distance_mm);
+        let digits = Digits::new(asked_mm, reach_mm.fold(0.0, f64::max) + operation.retraction.back_off_mm() + tip_radius_mm);
+        let program = AxisProgram::retracting(schedule, &operation.retraction, &ram, digits, continuous);
+        let error = program.cut_error_mm(schedule, tip_radius_mm, &ram, continuous);
+        (program, error)
+    } else {
+        let program = AxisProgram::fit(schedule, tip_radius_mm, asked_mm, continuous);
+        let error = program.contour_error_mm(schedule, tip_radius_mm, continuous);
+        (program, error)
+    };
     if reached_mm > asked_mm {
         return Err(format!(
             "blocks of one double stroke leave a contour error of {} um at stroke {stroke}, {} um are asked; ask for \
@@ -63,6 +83,6 @@ fn linear(job: &ShapingJob, operation: &PreparedOperation) -> Result<String, Str
     }
     match program.exceeded(&job.machine.limits).first() {
         Some(first) => Err(format!("{first}; take more strokes per revolution or fewer double strokes per minute")),
-        None => Ok(write::text(job, operation, &program)),
+        None => Ok(write::text(job, operation, &program, [reached_mm, stroke])),
     }
 }

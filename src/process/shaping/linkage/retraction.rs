@@ -28,6 +28,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec2;
 
+use super::ShapingLinkage;
 use super::axes::CutterPose;
 use crate::error::NotConverged;
 use crate::gear::{GearKind, PitchCurve};
@@ -53,7 +54,7 @@ pub enum RetractionLaw {
 
 /// The rolling of a cutter on a pitch curve, as far as retraction needs it.
 #[derive(Debug, Clone, Copy)]
-pub struct Retraction<'a> {
+pub struct RetractingCutter<'a> {
     /// The pitch curve.
     pub curve: &'a PitchCurve,
     /// On which side of it the material lies.
@@ -73,7 +74,16 @@ pub struct Retracted {
     pub clearance_mm: f64,
 }
 
-impl Retraction<'_> {
+impl<'a> RetractingCutter<'a> {
+    /// The cutter that a linkage rolls.
+    pub fn of(linkage: &'a ShapingLinkage) -> Self {
+        Self {
+            curve: linkage.curve(),
+            kind: linkage.gear(),
+            cutter_pitch_radius_mm: linkage.cutter_pitch_radius_mm(),
+        }
+    }
+
     /// The cutter after it has been drawn back by `back_off_mm` from the pose of a stroke near `phi_rad`.
     ///
     /// # Errors

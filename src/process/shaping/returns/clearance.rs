@@ -102,7 +102,7 @@ impl ReturnRoom {
                 let pose = pose((index as f64 - before) * TURN_RAD / poses_per_turn as f64);
                 Rigid2::new(pose.angle_rad, pose.center_mm)
             };
-            Way { poses: (0..=poses_per_turn + 2 * REACH_PITCHES * POSES_PER_PITCH).map(at).collect() }
+            Way { poses: (0..poses_per_turn + 2 * REACH_PITCHES * POSES_PER_PITCH).map(at).collect() }
         };
         Self {
             cutter_teeth: cutter.teeth,
@@ -137,7 +137,9 @@ impl ReturnRoom {
                     before = None;
                     continue;
                 }
-                let [surface_mm, material_mm] = self.covered_mm(place, &tool_from_blade, p);
+                // Deeper than the smallest clearance so far, a point says nothing new.
+                let enough = [found.surface, found.material].map(|room| room.smallest_mm.max(0.0));
+                let [surface_mm, material_mm] = self.covered_mm(place, &tool_from_blade, p, enough);
                 found.surface.add(surface_mm, p);
                 found.material.add(material_mm, p);
                 let depths = [surface_mm, material_mm].map(|c| (-c).max(0.0));
@@ -154,7 +156,12 @@ impl ReturnRoom {
 
     /// Angles, relative to a direction, of the edge's normals where the stroke at a place has made surface that still
     /// stands: smallest and largest. Moving the cutter off along `-n` of these alone clears everything.
-    pub fn contact_normals_rad(&self, place: usize, into_work: DVec2, stock: impl Fn(DVec2) -> bool) -> Option<[f64; 2]> {
+    pub fn contact_normals_rad(
+        &self,
+        place: usize,
+        into_work: DVec2,
+        stock: impl Fn(DVec2) -> bool,
+    ) -> Option<[f64; 2]> {
         let pose = &self.ways[0].poses[self.index(place)];
         let mut range: Option<[f64; 2]> = None;
         for blade in 0..self.cutter_teeth {
@@ -181,36 +188,55 @@ impl ReturnRoom {
         place + REACH_PITCHES * POSES_PER_PITCH
     }
 
-    /// How deep a point stands in the pose that covers it deepest: over all poses, and over those up to the stroke.
-    fn covered_mm(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2) -> [f64; 2] {
+    /// How deep a point stands in the pose that covers it deepest: over all poses, and over those up to the stroke. A
+    /// depth that is `enough` ends the search.
+    fn covered_mm(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2, enough: [f64; 2]) -> [f64; 2] {
         let here = self.index(place);
-        let reach = REACH_PITCHES * POSES_PER_PITCH;
-        let earlier = self.ways[1..].iter().map(|way| self.deepest_mm(way, here - reach, here + reach, tool_from_blade, p));
-        let earlier_mm = earlier.fold(f64::NEG_INFINITY, f64::max);
-        let past_mm = self.deepest_mm(&self.ways[0], here - reach, here, tool_from_blade, p).max(earlier_mm);
-        let all_mm = self.deepest_mm(&self.ways[0], here - reach, here + reach, tool_from_blade, p).max(earlier_mm);
-        [all_mm, past_mm]
+        let mut past_mm = self.deepest_mm(&self.ways[0], Span::Past(here), tool_from_blade, p, enough[1]);
+        past_mm = past_mm.max(self.earlier_mm(here, tool_from_blade, p, enough[1], past_mm));
+        if past_mm >= enough[0] {
+            return [past_mm; 2];
+        }
+        let next_mm = self.deepest_mm(&self.ways[0], Span::All(here), tool_from_blade, p, enough[0]);
+        [past_mm.max(next_mm), past_mm]
     }
 
     /// The same over the poses before the stroke, without it.
     fn covered_before_mm(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2) -> f64 {
         let here = self.index(place);
-        let reach = REACH_PITCHES * POSES_PER_PITCH;
-        let earlier = self.ways[1..].iter().map(|way| self.deepest_mm(way, here - reach, here + reach, tool_from_blade, p));
-        let past_mm = self.deepest_mm(&self.ways[0], here - reach, here - 1, tool_from_blade, p);
-        earlier.fold(past_mm, f64::max)
+        let past_mm = self.deepest_mm(&self.ways[0], Span::Past(here - 1), tool_from_blade, p, CONTACT_MM);
+        past_mm.max(self.earlier_mm(here, tool_from_blade, p, CONTACT_MM, past_mm))
     }
 
-    /// Depth in the deepest of the poses `from` to `to`, ends included.
-    fn deepest_mm(&self, way: &Way, from: usize, to: usize, tool_from_blade: &Rigid2, p: DVec2) -> f64 {
+    /// The same over all poses of the earlier operations, unless `so_far_mm` is enough.
+    fn earlier_mm(&self, here: usize, tool_from_blade: &Rigid2, p: DVec2, enough_mm: f64, so_far_mm: f64) -> f64 {
+        let mut deepest_mm = so_far_mm;
+        for way in &self.ways[1..] {
+            if deepest_mm >= enough_mm {
+                break;
+            }
+            deepest_mm = deepest_mm.max(self.deepest_mm(way, Span::All(here), tool_from_blade, p, enough_mm));
+        }
+        deepest_mm
+    }
+
+    /// Depth in the deepest pose of a span; the search ends at a depth of `enough_mm`.
+    fn deepest_mm(&self, way: &Way, span: Span, tool_from_blade: &Rigid2, p: DVec2, enough_mm: f64) -> f64 {
         let depth = |pose: &Rigid2| {
             let away = p - pose.translation_mm;
             let blade = pose.rotation.rotate(tool_from_blade.rotation);
             -self.distance.at_mm(DVec2::new(blade.x, -blade.y).rotate(away))
         };
         let tip_mm = self.distance.tip_radius_mm;
-        let (mut deepest_mm, mut at) = (f64::NEG_INFINITY, from);
-        for index in from..=to {
+        let reach = REACH_PITCHES * POSES_PER_PITCH;
+        let (here, last) = match span {
+            Span::Past(here) => (here, here),
+            Span::All(here) => (here, here + reach),
+        };
+        let (mut deepest_mm, mut at) = (f64::NEG_INFINITY, here);
+        // From the stroke outwards: what it has cut itself is found first.
+        let order = (here + 1 - reach..=here).rev().chain(here + 1..=last);
+        for index in order {
             // No pose covers a point deeper than its tip circle does.
             if tip_mm - p.distance(way.poses[index].translation_mm) <= deepest_mm {
                 continue;
@@ -218,9 +244,12 @@ impl ReturnRoom {
             let here_mm = depth(&way.poses[index]);
             if here_mm > deepest_mm {
                 (deepest_mm, at) = (here_mm, index);
+                if deepest_mm >= enough_mm {
+                    return deepest_mm;
+                }
             }
         }
-        if at == from || at == to {
+        if at == last || at + reach == here + 1 {
             return deepest_mm;
         }
         let around = [&way.poses[at - 1], &way.poses[at], &way.poses[at + 1]];
@@ -231,6 +260,15 @@ impl ReturnRoom {
         }
         depth(&between(around, 0.5 * (after_mm - before_mm) / bend_mm)).max(deepest_mm)
     }
+}
+
+/// Poses to look at, round the index of a stroke.
+#[derive(Clone, Copy)]
+enum Span {
+    /// Up to this one.
+    Past(usize),
+    /// Before and after.
+    All(usize),
 }
 
 /// The pose a share of a step after the middle one of three, by the parabola through them: 15 nm off at the cutter's
