@@ -71,12 +71,7 @@ pub struct SpaceSection<'a> {
 impl<'a> SpaceSection<'a> {
     /// Uncut material between `contours_mm` (closed, section frame): inside one of them, or between two, on rays through
     /// the window between two corners.
-    pub fn new(
-        polygon: &'a EdgePolygon,
-        spacing_mm: f64,
-        contours_mm: &[Vec<DVec2>],
-        window_mm: [DVec2; 2],
-    ) -> Self {
+    pub fn new(polygon: &'a EdgePolygon, spacing_mm: f64, contours_mm: &[Vec<DVec2>], window_mm: [DVec2; 2]) -> Self {
         let [low, high] = window_mm;
         let sides = FAMILIES.map(|family| {
             let (from, to) = (family.across(low), family.across(high));

@@ -135,7 +135,8 @@ fn a_cutter_too_large_for_the_hollow_is_refused() {
     let curve = Arc::new(PitchCurve::new(&shape, 3.0, 42).unwrap());
     let hollow_mm = -1.0 / curve.facts().smallest_curvature.curvature_per_mm;
     assert!(ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm - 0.1, 0.0).is_ok());
-    let refusal = ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm + 0.1, 0.0).unwrap_err();
+    let refusal =
+        ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm + 0.1, 0.0).unwrap_err();
     assert_eq!(refusal.key, "tool.shaper_cutter.teeth");
     assert!(ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm - 0.1, 0.2).is_err());
     assert!(ShapingLinkage::new(GearKind::External, NORMAL, curve, f64::NAN, 0.0).is_err());
