@@ -44,7 +44,8 @@ fn gear_kind(found: &mut Found) -> Option<()> {
     let gear = found.view("gear");
     let internal = gear.text("kind")? == "internal";
     let bore_mm = gear.number("bore_diameter_mm")?;
-    let message = || format!("`gear.bore_diameter_mm`: {bore_mm} on an internal gear, whose teeth stand where a bore is");
+    let message =
+        || format!("`gear.bore_diameter_mm`: {bore_mm} on an internal gear, whose teeth stand where a bore is");
     let way_out = "leave the bore out; rim_mm says how much material lies outside the pitch curve";
     found.blame(internal && bore_mm > 0.0, "gear.bore_diameter_mm", message, way_out);
     let written = found.values.is_written("gear", "rim_mm");

@@ -50,11 +50,7 @@ pub fn findings(
     Section::new("blank", "The whole gear")
         .with("spacing", Quantity::number(spacing_mm, "mm", "distance of the rays through the blank"))
         .with("slices", Quantity::count(slices.0 as u64, "slices", slices.1))
-        .shown(
-            "blank_volume",
-            "blank",
-            volume(blank_mm3, uncut),
-        )
+        .shown("blank_volume", "blank", volume(blank_mm3, uncut))
         .shown("left_volume", "left", volume(left_mm3, "volume that is left after the last operation"))
         .with(
             "imbalance",

@@ -82,8 +82,7 @@ pub fn gear_solid(outline: &Outline, back: &Back) -> Result<Mesh, Refusal> {
         order[usize::from(back.kind == GearKind::External)].reverse();
         let row_mm = outline.row_mm(row);
         let [teeth, round] = &order;
-        let points_mm: Vec<DVec2> =
-            teeth.iter().map(|&c| row_mm[c]).chain(round.iter().map(|&c| circle[c])).collect();
+        let points_mm: Vec<DVec2> = teeth.iter().map(|&c| row_mm[c]).chain(round.iter().map(|&c| circle[c])).collect();
         let vertex = |i: usize| if i < columns { at(teeth[i], row) } else { back_at(round[i - columns], end) };
         let inside = triangles_inside(&points_mm, &contours).unwrap_or_default();
         let triangles = inside.into_iter().map(|[a, b, c]| if end == 1 { [a, b, c] } else { [a, c, b] }.map(vertex));

@@ -124,7 +124,8 @@ impl Generation {
         let cos = (1.0 - x * x).sqrt();
         // The branch on which the left flank of the gear touches ahead of the line of centres and the right flank behind
         // it.
-        let (delta, delta_rate) = if side == Side::Left { (x.asin(), x_rate / cos) } else { (-PI - x.asin(), -x_rate / cos) };
+        let (delta, delta_rate) =
+            if side == Side::Left { (x.asin(), x_rate / cos) } else { (-PI - x.asin(), -x_rate / cos) };
         let eta = m.center_rate.to_angle() - delta;
         let eta_rate = path_turn - delta_rate;
         let chi = self.tooth_angle(m.angle, space);
@@ -139,6 +140,19 @@ impl Generation {
             roll_rate: -sigma * (eta_rate - m.angle_rate),
             speed_mm_per_rad: m.center_rate.dot(e) - sigma * r_b * roll * eta_rate,
         })
+    }
+
+    /// Contact of the straight base below the involute that cuts side `side` of `space`: point (gear frame, mm) and normal
+    /// out of the gear; `None` where it touches nothing.
+    pub fn base_contact(&self, phi_rad: f64, space: i64, side: Side) -> Option<[DVec2; 2]> {
+        let m = self.motion(phi_rad);
+        let turn = DVec2::from_angle(self.tooth_angle(m.angle, space));
+        let flank = self.cutter.flank(self.gear().tip_sign() * side.sign());
+        let start_roll = self.cutter.roll_range[0];
+        let (start, normal) = (turn.rotate(flank.point(start_roll)), turn.rotate(flank.normal(start_roll)));
+        let inwards = flank.side * normal.perp();
+        let w = -normal.dot(m.center_rate + m.angle_rate * start.perp()) / (m.angle_rate * normal.dot(inwards.perp()));
+        (0.0..=self.cutter.base_length_mm).contains(&w).then(|| [m.center + start + w * inwards, -normal])
     }
 
     /// Contact of a tip part of the tooth that cuts `space`: point (gear frame, mm) and normal out of the gear, where

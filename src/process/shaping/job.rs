@@ -9,8 +9,8 @@ use crate::cut::Backend;
 use crate::dexel::Field;
 use crate::error::{Refusal, Result};
 use crate::frame::Rigid2;
-use crate::gear::{GearKind, PitchCurve};
 use crate::gear::blank::Blank;
+use crate::gear::{GearKind, PitchCurve};
 use crate::material::EdgeForce;
 use crate::math::roots::sample_angle_rad;
 use crate::passes::StrokeSet;
@@ -124,7 +124,8 @@ impl ShapingJob {
         for spec in &shaping.operations {
             let mut spec = spec.clone();
             spec.offset_mm += allowance_mm;
-            let linkage = ShapingLinkage::new(gear.kind, spec.linkage, curve.clone(), cutter.pitch_radius_mm, spec.offset_mm)?;
+            let linkage =
+                ShapingLinkage::new(gear.kind, spec.linkage, curve.clone(), cutter.pitch_radius_mm, spec.offset_mm)?;
             let schedule = StrokeSchedule::new(&spec, &linkage, &machine)?;
             let count = schedule.count();
             let ids = count as f64 * f64::from(cutter.teeth) * passes;
@@ -270,7 +271,8 @@ fn rim_holds(
     let GearKind::Internal = blank.kind() else { return Ok(()) };
     let samples = blank.curve().samples_per_turn();
     let reach = |operation: &PreparedOperation| {
-        let centers = (0..samples).map(|i| operation.linkage.pose(sample_angle_rad(i, samples), operation.spec.offset_mm));
+        let centers =
+            (0..samples).map(|i| operation.linkage.pose(sample_angle_rad(i, samples), operation.spec.offset_mm));
         centers.map(|pose| pose.center_mm.length() + cutter.tip_radius_mm).fold(0.0, f64::max)
     };
     let reach_mm = operations.iter().map(reach).fold(0.0, f64::max);

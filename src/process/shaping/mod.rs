@@ -5,6 +5,7 @@ pub mod blank;
 pub mod check;
 pub mod chips;
 pub mod cutter;
+pub mod edge_polygon;
 pub mod findings;
 pub mod gcode;
 pub mod gear;
@@ -19,6 +20,7 @@ pub mod scene;
 pub mod section;
 mod surfaces;
 pub mod target;
+pub mod tip_relief;
 pub mod tooth_target;
 
 use super::{CutDone, Process};

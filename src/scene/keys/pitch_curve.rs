@@ -38,13 +38,7 @@ const MEAN_RADIUS: Key = Key {
 /// A round curve, under the given path.
 const fn circle(path: &'static str) -> KeySection {
     const KEYS: &[Key] = &[];
-    KeySection {
-        path,
-        role: Role::Variant,
-        keys: KEYS,
-        groups: &[],
-        teach: "A round gear: r = module x teeth / 2.",
-    }
+    KeySection { path, role: Role::Variant, keys: KEYS, groups: &[], teach: "A round gear: r = module x teeth / 2." }
 }
 
 /// An ellipse of order n, under the given path.

@@ -190,9 +190,8 @@ fn blank_rays(outline: &BlankOutline, family: Family, row: &RayRow) -> Vec<RayMa
             let enclosed = found.as_chunks::<2>().0.iter();
             let half_mm = back.half_chord_mm(at_mm);
             // A bore's surface faces the axis, a rim's looks away from it.
-            let on_back = |along: f64| {
-                End::of_blank(along, -back.kind.tip_sign() * family.point(along, at_mm) / back.radius_mm)
-            };
+            let on_back =
+                |along: f64| End::of_blank(along, -back.kind.tip_sign() * family.point(along, at_mm) / back.radius_mm);
             match back.kind {
                 GearKind::External => {
                     let mut spans: RayMaterial = enclosed

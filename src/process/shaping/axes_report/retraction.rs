@@ -1,52 +1,22 @@
-//! What the axes have to do where they draw the cutter back themselves: findings, terminal, chart, columns of the table.
+//! What the axes have to do where they draw the cutter back themselves: findings, terminal, chart.
 //!
 //! In: an operation whose retraction is in the axes, its motion. Nothing of this is said where the machine's own relief
 //! draws back: then the axes have nothing to do with it.
 
 use super::OperationAxes;
 use super::strokes::StrokeRow;
-use crate::findings::{Datum, Place, Quantity, Section};
+use crate::findings::{Place, Quantity, Section};
 use crate::machine::Order;
 use crate::output::line_chart::Panel;
 use crate::output::text::{Sheet, significant};
-use crate::process::shaping::linkage::StrokeState;
 use crate::process::shaping::linkage::dynamics::AXES;
-use crate::process::shaping::linkage::retraction::RetractionLaw;
-use crate::process::shaping::returns::RetractionPlan;
-use crate::process::shaping::returns::motion::{RetractionMotion, axes_of};
+use crate::process::shaping::returns::motion::RetractionMotion;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes::charts::panel;
 
 /// Why there is no cost.
 const NO_LIMITS: &str = "machine.limits says nothing of the axes' speeds and accelerations";
 const NO_TIME: &str = "the ram does not leave the face at both ends: machine.approach_mm or machine.overrun_mm is zero";
-
-/// Where the axes stand on the way back after a stroke, rad, rad, mm.
-pub(super) fn return_axes(operation: &PreparedOperation, state: &StrokeState) -> [f64; 3] {
-    let back = operation.retraction.retracted(operation.schedule.linkage(), &state.pose, state.phi_rad);
-    axes_of(state, &back)
-}
-
-/// Names of the columns of the way back.
-pub(super) const COLUMNS: [&str; 4] =
-    ["retraction", "return_psi_c_deg", "return_psi_b_deg", "return_center_distance_mm"];
-
-/// Cells of the way back.
-pub(super) fn cells(plan: &RetractionPlan, row: &StrokeRow) -> Vec<Datum> {
-    let Some(axes) = row.returning else { return Vec::new() };
-    let shown = AXES.iter().zip(axes).map(|(axis, position)| Datum::Number(axis.kind.shown(position)));
-    std::iter::once(law_word(plan.law(row.phi_rad)).into()).chain(shown).collect()
-}
-
-/// The key's word for a law.
-fn law_word(law: RetractionLaw) -> &'static str {
-    match law {
-        RetractionLaw::CenterLine => "center_line",
-        RetractionLaw::Normal => "normal",
-        RetractionLaw::Tilted(_) => "tilted",
-        RetractionLaw::Turned => "turned",
-    }
-}
 
 /// Travel of every axis over the strokes.
 pub(super) fn panels(rows: &[StrokeRow]) -> Vec<Panel> {

@@ -4,9 +4,10 @@
 //! In: a prepared [`ShapingJob`]. Out: lines and warnings for each operation, from the survey of ideal strokes
 //! ([`crate::process::shaping::returns::survey`]); the blank field of a run says what the strokes of the scene meet.
 
+use crate::error::Refusal;
 use crate::output::text::Sheet;
-use crate::process::shaping::returns::plan::CLEAR_MM;
-use crate::process::shaping::returns::survey::{PlacedRoom, tightest};
+use crate::process::shaping::returns::plan::{CLEAR_MM, no_pose};
+use crate::process::shaping::returns::survey::{PlacedRoom, Survey, tightest};
 use crate::process::shaping::scene::model::Retraction;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::units::UM_PER_MM;
@@ -16,22 +17,24 @@ const CHART_ROWS: usize = 24;
 const CHART_WIDTH: f64 = 24.0;
 
 /// Adds the lines; gives the warnings.
-pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Vec<String> {
+///
+/// # Errors
+/// A back-off so large that the retraction leads to no pose.
+pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>, Refusal> {
     if job.machine.back_off_mm <= 0.0 {
-        return vec!["machine.back_off_mm = 0: the cutter returns through the surfaces that it has cut".to_owned()];
+        return Ok(vec!["machine.back_off_mm = 0: the cutter returns along the surfaces that it has cut".to_owned()]);
     }
     let mut warnings = Vec::new();
     for (index, operation) in job.operations.iter().enumerate() {
         let plan = &operation.retraction;
-        let Ok(rooms) = job.survey(index).rooms(plan.back_off_mm(), |phi| plan.law(phi)) else {
-            continue;
-        };
+        let survey = job.survey(index);
+        let rooms = survey.rooms(plan.back_off_mm(), |phi| plan.law(phi)).map_err(|_| no_pose(plan.back_off_mm()))?;
         sheet.heading(&format!("Return strokes of {}: {}", operation.spec.name, plan.asked().words()));
         angles(sheet, &rooms);
-        surface(sheet, operation, &rooms, &mut warnings);
-        stock(sheet, operation, &rooms, &mut warnings);
+        warnings.extend(surface(sheet, operation, &survey, &rooms));
+        stock(sheet, operation, &rooms);
     }
-    warnings
+    Ok(warnings)
 }
 
 /// Angle between the line of centres and the normal along the curve.
@@ -59,41 +62,51 @@ fn angles(sheet: &mut Sheet, rooms: &[PlacedRoom]) {
     sheet.table(&rows.collect::<Vec<_>>());
 }
 
-fn surface(sheet: &mut Sheet, operation: &PreparedOperation, rooms: &[PlacedRoom], warnings: &mut Vec<String>) {
+/// Room to the surfaces that stay.
+fn surface(
+    sheet: &mut Sheet,
+    operation: &PreparedOperation,
+    survey: &Survey,
+    rooms: &[PlacedRoom],
+) -> Option<String> {
     let name = &operation.spec.name;
-    let Some(least) = tightest(rooms, |room| room.clearance.surface.smallest_mm) else { return };
+    let least = tightest(rooms, |room| room.clearance.surface.smallest_mm)?;
     let (clearance_um, phi_deg) = (UM_PER_MM * least.clearance.surface.smallest_mm, least.phi_rad.to_degrees());
     sheet.line("smallest clearance", format!("{clearance_um:.1} um from what is left, at polar angle {phi_deg:.2} deg"));
     if least.clearance.surface.smallest_mm >= CLEAR_MM {
-        return;
+        return None;
     }
-    let overlap = tightest(rooms, |room| -room.clearance.surface.overlap_mm2);
-    let overlap_mm2 = overlap.map_or(0.0, |room| room.clearance.surface.overlap_mm2);
+    if clearance_um >= 0.0 {
+        return Some(format!(
+            "operation {name}: the returning cutter clears the teeth near polar angle {phi_deg:.2} deg by {clearance_um:.2} \
+             um only: set a larger machine.back_off_mm, or machine.retraction = \"auto\""
+        ));
+    }
+    let overlap_mm2 = survey.overlap_mm2(least);
     let way_out = match operation.retraction.asked() {
         Retraction::CenterLine => "set machine.retraction = \"auto\", which turns the cutter there",
         Retraction::Tilted => "set machine.retraction = \"turned\", or leave less stock to this operation",
         Retraction::Normal | Retraction::Turned | Retraction::Auto => "set another machine.back_off_mm",
     };
-    warnings.push(format!(
+    Some(format!(
         "operation {name}: the returning cutter stands {:.1} um deep in the teeth near polar angle {phi_deg:.2} deg, over \
-         up to {overlap_mm2:.4} mm2 of their section: {way_out}",
+         {overlap_mm2:.4} mm2 of their section: {way_out}",
         -clearance_um
-    ));
+    ))
 }
 
-fn stock(sheet: &mut Sheet, operation: &PreparedOperation, rooms: &[PlacedRoom], warnings: &mut Vec<String>) {
-    let name = &operation.spec.name;
+/// Room to all material, stock included. That return strokes rub on stock is ordinary and costs the edge, not the gear:
+/// a line, and no warning.
+fn stock(sheet: &mut Sheet, operation: &PreparedOperation, rooms: &[PlacedRoom]) {
     let Some(least) = tightest(rooms, |room| room.clearance.material.smallest_mm) else { return };
     let (depth_mm, phi_deg) = (-least.clearance.material.smallest_mm, least.phi_rad.to_degrees());
     if depth_mm < CLEAR_MM {
         sheet.line("stock", "clear of all material");
         return;
     }
-    sheet.line("stock", format!("rubs up to {depth_mm:.3} mm deep on stock that later strokes take, at {phi_deg:.2} deg"));
-    if operation.retraction.asked() != Retraction::Tilted {
-        warnings.push(format!(
-            "operation {name}: the returning cutter rubs up to {depth_mm:.3} mm deep on stock near polar angle \
-             {phi_deg:.2} deg, which wears its edge: set machine.retraction = \"tilted\", which draws it away from there"
-        ));
-    }
+    let way_out = match operation.retraction.asked() {
+        Retraction::Tilted => "leave less of it to this operation",
+        _ => "machine.retraction = \"tilted\" draws the edge away from it",
+    };
+    sheet.line("stock", format!("rubs up to {depth_mm:.3} mm deep on it, at polar angle {phi_deg:.2} deg; {way_out}"));
 }

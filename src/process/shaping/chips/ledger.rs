@@ -1,13 +1,13 @@
 //! The ledger of a whole job: spaces in parallel, strokes in order of time within each of them.
 
-use super::edge_polygon::{EdgePolygon, Station};
+use crate::process::shaping::edge_polygon::{EdgePolygon, Station};
 use super::oblique::{ElementForce, RakeFace};
 use super::section::SpaceSection;
 use super::stroke::{LEAST_CHIP_MM, StrokeChips, StrokePose, ToothChip};
 use crate::frame::Rigid2;
+use crate::gear::{Back, GearKind};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::scene::model::Infeed;
-use crate::gear::{Back, GearKind};
 use crate::tool::{CuttingTool, PlanarTool};
 use crate::units::TURN_RAD;
 use glam::DVec2;

@@ -15,7 +15,7 @@
 //! radius), 30 nm at 0.05 mm on a radius of 10 mm; lengths of contact and areas end within half a spacing at each end
 //! of a chip.
 
-use super::edge_polygon::{EdgePolygon, Station};
+use crate::process::shaping::edge_polygon::{EdgePolygon, Station};
 use crate::dexel::NO_PASS;
 use crate::dexel::intervals::{self, End, LEAST_SPAN_MM, Span};
 use crate::frame::Rigid2;
@@ -71,12 +71,7 @@ pub struct SpaceSection<'a> {
 impl<'a> SpaceSection<'a> {
     /// Uncut material between `contours_mm` (closed, section frame): inside one of them, or between two, on rays through
     /// the window between two corners.
-    pub fn new(
-        polygon: &'a EdgePolygon,
-        spacing_mm: f64,
-        contours_mm: &[Vec<DVec2>],
-        window_mm: [DVec2; 2],
-    ) -> Self {
+    pub fn new(polygon: &'a EdgePolygon, spacing_mm: f64, contours_mm: &[Vec<DVec2>], window_mm: [DVec2; 2]) -> Self {
         let [low, high] = window_mm;
         let sides = FAMILIES.map(|family| {
             let (from, to) = (family.across(low), family.across(high));

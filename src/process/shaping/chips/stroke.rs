@@ -1,6 +1,6 @@
 //! What one stroke takes away: the sum over the cutter teeth that cut in it.
 
-use super::edge_polygon::{EdgeSide, Station};
+use crate::process::shaping::edge_polygon::{EdgeSide, Station};
 use super::oblique::ElementForce;
 use crate::frame::Rigid2;
 use glam::DVec2;

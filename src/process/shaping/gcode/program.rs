@@ -1,7 +1,7 @@
 //! Axis positions as straight lines between knots, in the stroke coordinate.
 
-use crate::gear::GearKind;
 use crate::gcode::{Digits, beyond_limits, longest_lines};
+use crate::gear::GearKind;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
 use crate::process::shaping::scene::model::AxisLimits;
@@ -114,9 +114,9 @@ impl AxisProgram {
         let digits = Digits::new(contour_error_mm, reach_mm);
         let fits = |from: usize, to: usize| {
             let (a, b) = (exact[from * per_stroke].rounded(digits), exact[to * per_stroke].rounded(digits));
-            exact[from * per_stroke..=to * per_stroke]
-                .iter()
-                .all(|knot| Knot::between(&a, &b, knot.stroke).displacement_mm(knot, gear, tip_radius_mm) <= contour_error_mm)
+            exact[from * per_stroke..=to * per_stroke].iter().all(|knot| {
+                Knot::between(&a, &b, knot.stroke).displacement_mm(knot, gear, tip_radius_mm) <= contour_error_mm
+            })
         };
         let mut knots = vec![exact[0].rounded(digits)];
         knots.extend(longest_lines(last, fits).into_iter().map(|end| exact[end * per_stroke].rounded(digits)));

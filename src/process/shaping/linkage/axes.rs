@@ -69,10 +69,7 @@ impl CutterPose {
             GearKind::External => psi_c_rad + PI,
             GearKind::Internal => psi_c_rad,
         };
-        Self {
-            center_mm: DVec2::from_angle(psi_c_rad) * center_distance_mm,
-            angle_rad: towards_work_rad + psi_b_rad,
-        }
+        Self { center_mm: DVec2::from_angle(psi_c_rad) * center_distance_mm, angle_rad: towards_work_rad + psi_b_rad }
     }
 }
 

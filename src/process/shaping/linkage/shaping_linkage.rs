@@ -7,9 +7,10 @@
 //!
 //! In a ring the cutter stands inside the pitch curve. The laws then hold with -r_c and -delta_d for r_c and delta_d:
 //! the centre P + d n moves to the other side of the curve, S / r_c runs the other way, an offset draws the cutter
-//! inwards. Three-axis linkage of internal gears: Liu et al. print the same centre distance a = |P - r_0 n|, but give the
-//! work angle as phi - arg(o_1), which is 0 on a circle (right is arg(o_1)), and lose the sign of the angle between
-//! normal and line of centres in an arccos, which is wrong wherever r' > 0. The signed law has neither fault.
+//! inwards. The published three-axis linkage ("Advanced Shaping Technology for Non-Circular Internal Gears", a text
+//! without author and year) has the same centre distance a = |P - r_0 n|, but gives the work angle as phi - arg(o_1),
+//! which is 0 on a circle (right is arg(o_1)), and loses the sign of the angle between normal and line of centres in an
+//! arccos, which is wrong wherever r' > 0. The signed law has neither fault.
 //!
 //! Road not taken: a second set of laws for rings. Every formula would stand here twice, with signs to be kept apart.
 

@@ -14,7 +14,8 @@ use super::*;
 use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
 use crate::math::Jet;
 use crate::process::shaping::scene::model::{
-    AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, StrokeSpacing, TraditionalDirection,
+    AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, Retraction, StrokeSpacing,
+    TraditionalDirection,
 };
 use pitch_curves::{any_curve, examples};
 
@@ -41,6 +42,7 @@ fn machine() -> Machine {
         approach_mm: 5.0,
         overrun_mm: 5.0,
         back_off_mm: 0.5,
+        retraction: Retraction::CenterLine,
         work_eccentricity_mm: 0.0,
         work_eccentricity_angle_rad: 0.0,
         limits: AxisLimits {
@@ -135,7 +137,8 @@ fn a_cutter_too_large_for_the_hollow_is_refused() {
     let curve = Arc::new(PitchCurve::new(&shape, 3.0, 42).unwrap());
     let hollow_mm = -1.0 / curve.facts().smallest_curvature.curvature_per_mm;
     assert!(ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm - 0.1, 0.0).is_ok());
-    let refusal = ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm + 0.1, 0.0).unwrap_err();
+    let refusal =
+        ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm + 0.1, 0.0).unwrap_err();
     assert_eq!(refusal.key, "tool.shaper_cutter.teeth");
     assert!(ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm - 0.1, 0.2).is_err());
     assert!(ShapingLinkage::new(GearKind::External, NORMAL, curve, f64::NAN, 0.0).is_err());

@@ -24,7 +24,7 @@
 use super::tooth_distance::ToothDistance;
 use crate::frame::Rigid2;
 use crate::process::shaping::ShaperCutter;
-use crate::process::shaping::chips::edge_polygon::EdgePolygon;
+use crate::process::shaping::edge_polygon::EdgePolygon;
 use crate::process::shaping::linkage::CutterPose;
 use crate::tool::CuttingTool;
 use crate::units::TURN_RAD;
@@ -37,6 +37,10 @@ pub const POSES_PER_PITCH: usize = 48;
 const REACH_PITCHES: usize = 6;
 /// Places of the edge are at most this far apart, in modules: 0.06 mm for module 3.
 const EDGE_SPACING_MODULES: f64 = 0.02;
+
+/// Distance of the lines on which an overlap is measured, in modules, and the least step along them, mm.
+const LINE_SPACING_MODULES: f64 = 0.005;
+const LEAST_STEP_MM: f64 = 2e-5;
 
 /// The cutter's way over one turn and a little before and after, for one operation.
 #[derive(Debug)]
@@ -53,19 +57,17 @@ pub struct Clearance {
     pub material: Room,
 }
 
-/// Smallest distance and overlap.
+/// Smallest distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Room {
     /// Smallest clearance, mm; negative: the edge stands in the material by so much.
     pub smallest_mm: f64,
     /// Where, gear frame.
     pub place_mm: DVec2,
-    /// Area of the overlap, mm2.
-    pub overlap_mm2: f64,
 }
 
 impl Room {
-    const WIDE: Self = Self { smallest_mm: f64::INFINITY, place_mm: DVec2::ZERO, overlap_mm2: 0.0 };
+    const WIDE: Self = Self { smallest_mm: f64::INFINITY, place_mm: DVec2::ZERO };
 
     fn add(&mut self, clearance_mm: f64, place_mm: DVec2) {
         if clearance_mm < self.smallest_mm {
@@ -83,6 +85,7 @@ pub struct ReturnRoom {
     distance: ToothDistance,
     polygon: EdgePolygon,
     poses_per_turn: usize,
+    module_mm: f64,
 }
 
 impl ReturnRoom {
@@ -110,6 +113,7 @@ impl ReturnRoom {
             distance: ToothDistance::new(cutter),
             polygon: EdgePolygon::new(cutter.edge(), EDGE_SPACING_MODULES * module_mm),
             poses_per_turn,
+            module_mm,
         }
     }
 
@@ -123,35 +127,59 @@ impl ReturnRoom {
         place as f64 * TURN_RAD / self.poses_per_turn as f64
     }
 
-    /// Room round the cutter that has gone back from the stroke at a place to `retracted` (gear from cutter); `stock`
-    /// says whether a point lies in the uncut blank.
-    pub fn at(&self, place: usize, retracted: &Rigid2, stock: impl Fn(DVec2) -> bool) -> Clearance {
+    /// Room round the cutter that has gone back from the stroke at a place to `retracted` (gear from cutter);
+    /// `beyond_mm` says how far a point lies outside the uncut blank, negative inside.
+    pub fn at(&self, place: usize, retracted: &Rigid2, beyond_mm: impl Fn(DVec2) -> f64) -> Clearance {
         let mut found = Clearance { surface: Room::WIDE, material: Room::WIDE };
         for blade in 0..self.cutter_teeth {
             let tool_from_blade = self.tool_from_blade(blade);
             let work_from_blade = retracted.after(&tool_from_blade);
-            let mut before: Option<(DVec2, [f64; 2])> = None;
             for &corner_mm in &self.polygon.corners_mm[..=self.polygon.edge_chords()] {
                 let p = work_from_blade.point(corner_mm);
-                if !stock(p) {
-                    before = None;
+                if beyond_mm(p) > 0.0 {
                     continue;
                 }
                 // Deeper than the smallest clearance so far, a point says nothing new.
-                let enough = [found.surface, found.material].map(|room| room.smallest_mm.max(0.0));
+                let enough = [found.surface, found.material].map(|room| room.smallest_mm);
                 let [surface_mm, material_mm] = self.covered_mm(place, &tool_from_blade, p, enough);
                 found.surface.add(surface_mm, p);
                 found.material.add(material_mm, p);
-                let depths = [surface_mm, material_mm].map(|c| (-c).max(0.0));
-                if let Some((last_mm, last)) = before {
-                    let step_mm = last_mm.distance(p);
-                    found.surface.overlap_mm2 += 0.5 * step_mm * (last[0] + depths[0]);
-                    found.material.overlap_mm2 += 0.5 * step_mm * (last[1] + depths[1]);
-                }
-                before = Some((p, depths));
             }
         }
         found
+    }
+
+    /// Area that the retracted cutter has in common with what the operation leaves, mm2.
+    ///
+    /// Lines across each cutter tooth, `LINE_SPACING_MODULES` apart, are followed in steps of the distance from the
+    /// nearest surface, which no step can pass; what lies in material is added up. Thin slivers along a flank are as
+    /// exact as thick ones.
+    pub fn overlap_mm2(&self, place: usize, retracted: &Rigid2, beyond_mm: impl Fn(DVec2) -> f64) -> f64 {
+        let edge = &self.polygon.corners_mm[..=self.polygon.edge_chords()];
+        let spacing_mm = LINE_SPACING_MODULES * self.module_mm;
+        let (low_mm, high_mm) = edge.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), p| (a.min(p.x), b.max(p.x)));
+        let lines = ((high_mm - low_mm) / spacing_mm) as usize;
+        (0..self.cutter_teeth)
+            .map(|blade| {
+                let tool_from_blade = self.tool_from_blade(blade);
+                let work_from_blade = retracted.after(&tool_from_blade);
+                // Positive outside the material, by at most the distance from it.
+                let outside_mm = |x_mm: f64, y_mm: f64| {
+                    let p = work_from_blade.point(DVec2::new(x_mm, y_mm));
+                    let beyond_mm = beyond_mm(p);
+                    if beyond_mm > 0.0 {
+                        return beyond_mm;
+                    }
+                    self.covered_mm(place, &tool_from_blade, p, [f64::INFINITY; 2])[0].max(beyond_mm)
+                };
+                let length_mm = |line: usize| {
+                    let x_mm = high_mm - (line as f64 + 0.5) * spacing_mm;
+                    let half_mm = half_width_mm(edge, x_mm);
+                    length_inside_mm(|y_mm| outside_mm(x_mm, y_mm), [-half_mm, half_mm])
+                };
+                (0..lines).map(length_mm).sum::<f64>() * spacing_mm
+            })
+            .sum()
     }
 
     /// Angles, relative to a direction, of the edge's normals where the stroke at a place has made surface that still
@@ -160,7 +188,7 @@ impl ReturnRoom {
         &self,
         place: usize,
         into_work: DVec2,
-        stock: impl Fn(DVec2) -> bool,
+        beyond_mm: impl Fn(DVec2) -> f64,
     ) -> Option<[f64; 2]> {
         let pose = &self.ways[0].poses[self.index(place)];
         let mut range: Option<[f64; 2]> = None;
@@ -169,7 +197,7 @@ impl ReturnRoom {
             let work_from_blade = pose.after(&tool_from_blade);
             for station in &self.polygon.stations {
                 let p = work_from_blade.point(station.point_mm);
-                if !stock(p) || self.covered_before_mm(place, &tool_from_blade, p) > CONTACT_MM {
+                if beyond_mm(p) > 0.0 || self.covered_before_mm(place, &tool_from_blade, p) > CONTACT_MM {
                     continue;
                 }
                 let angle_rad = into_work.angle_to(work_from_blade.direction(station.normal));
@@ -269,6 +297,35 @@ enum Span {
     Past(usize),
     /// Before and after.
     All(usize),
+}
+
+/// Half of the width of a tooth at a place of its centre line, mm.
+fn half_width_mm(edge: &[DVec2], x_mm: f64) -> f64 {
+    let crossing = |pair: &[DVec2]| {
+        let [a, b] = [pair[0], pair[1]];
+        let within = (a.x - x_mm) * (b.x - x_mm) <= 0.0 && a.x != b.x;
+        within.then(|| (a.y + (b.y - a.y) * (x_mm - a.x) / (b.x - a.x)).abs())
+    };
+    edge.windows(2).filter_map(crossing).fold(0.0, f64::max)
+}
+
+/// Length of a line on which a distance is negative, mm; steps are as long as the distance.
+fn length_inside_mm(distance_mm: impl Fn(f64) -> f64, [from_mm, to_mm]: [f64; 2]) -> f64 {
+    let (mut at_mm, mut here_mm) = (from_mm, distance_mm(from_mm));
+    let mut length_mm = 0.0;
+    while at_mm < to_mm {
+        let next_at_mm = (at_mm + here_mm.abs().max(LEAST_STEP_MM)).min(to_mm);
+        let next_mm = distance_mm(next_at_mm);
+        let step_mm = next_at_mm - at_mm;
+        length_mm += match (here_mm < 0.0, next_mm < 0.0) {
+            (true, true) => step_mm,
+            (false, false) => 0.0,
+            (true, false) => step_mm * here_mm / (here_mm - next_mm),
+            (false, true) => step_mm * next_mm / (next_mm - here_mm),
+        };
+        (at_mm, here_mm) = (next_at_mm, next_mm);
+    }
+    length_mm
 }
 
 /// The pose a share of a step after the middle one of three, by the parabola through them: 15 nm off at the cutter's

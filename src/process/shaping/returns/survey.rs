@@ -42,10 +42,13 @@ pub struct Survey<'a> {
 /// Room at one place of the turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlacedRoom {
+    /// Place of the survey.
+    place: usize,
+    /// Gear from cutter on the way back.
+    returning: Rigid2,
     /// Polar angle of the pitch point at the stroke, rad.
     pub phi_rad: f64,
-    /// Angle from the normal of the pitch curve to the line of centres, rad, positive where the radius grows with phi
-    /// on an external gear.
+    /// Angle from the normal of the pitch curve to the line of centres, rad, positive where the radius grows with phi.
     pub from_normal_rad: f64,
     /// Room round the cutter.
     pub clearance: Clearance,
@@ -80,12 +83,17 @@ impl<'a> Survey<'a> {
                 let Generation { linkage, offset_mm, .. } = self.generation;
                 let pose = linkage.pose(phi_rad, *offset_mm);
                 let back = RetractingCutter::of(linkage).retracted(law(phi_rad), &pose, phi_rad, back_off_mm)?.pose;
-                let retracted = Rigid2::new(back.angle_rad, back.center_mm);
-                let clearance = self.room.at(place, &retracted, |p| self.in_blank(p, phi_rad));
+                let returning = Rigid2::new(back.angle_rad, back.center_mm);
+                let clearance = self.room.at(place, &returning, |p| self.beyond_mm(p, phi_rad));
                 let from_normal_rad = self.out_of_work(phi_rad).angle_to(self.sign() * pose.center_mm);
-                Ok(PlacedRoom { phi_rad, from_normal_rad, clearance })
+                Ok(PlacedRoom { place, phi_rad, from_normal_rad, returning, clearance })
             })
             .collect()
+    }
+
+    /// Area that the returning cutter has in common with what the operation leaves, mm2.
+    pub fn overlap_mm2(&self, at: &PlacedRoom) -> f64 {
+        self.room.overlap_mm2(at.place, &at.returning, |p| self.beyond_mm(p, at.phi_rad))
     }
 
     /// Smallest and largest tilt out of the normal that clears everywhere, rad; the first is the larger one where none
@@ -94,7 +102,7 @@ impl<'a> Survey<'a> {
         let bounds = self.places().filter_map(|place| {
             let phi_rad = self.room.phi_rad(place);
             let into_work = -self.out_of_work(phi_rad);
-            let normals = self.room.contact_normals_rad(place, into_work, |p| self.in_blank(p, phi_rad));
+            let normals = self.room.contact_normals_rad(place, into_work, |p| self.beyond_mm(p, phi_rad));
             normals.map(|[low, high]| [high - FRAC_PI_2, low + FRAC_PI_2])
         });
         bounds.reduce_with(|a, b| [a[0].max(b[0]), a[1].min(b[1])])
@@ -114,15 +122,18 @@ impl<'a> Survey<'a> {
         self.blank.towards_tip(&self.blank.curve().frame(phi_rad))
     }
 
-    /// Whether a point lies in the uncut blank, on its toothed side.
-    fn in_blank(&self, p: DVec2, phi_rad: f64) -> bool {
+    /// How far a point lies outside the uncut blank on its toothed side, mm; negative inside.
+    fn beyond_mm(&self, p: DVec2, phi_rad: f64) -> f64 {
         let (facts, radius_mm) = (self.blank.curve().facts(), p.length());
-        let beyond = match self.blank.kind() {
-            GearKind::External => radius_mm > facts.largest_radius_mm + self.blank.addendum_mm,
-            GearKind::Internal => radius_mm < facts.smallest_radius_mm - self.blank.addendum_mm,
+        let beyond_mm = match self.blank.kind() {
+            GearKind::External => radius_mm - facts.largest_radius_mm - self.blank.addendum_mm,
+            GearKind::Internal => facts.smallest_radius_mm - self.blank.addendum_mm - radius_mm,
         };
+        if beyond_mm > 0.0 {
+            return beyond_mm;
+        }
         let near_rad = phi_rad + DVec2::from_angle(phi_rad).angle_to(p);
-        !beyond && self.blank.height(p, near_rad).0 <= self.blank.addendum_mm
+        self.blank.height(p, near_rad).0 - self.blank.addendum_mm
     }
 }
 

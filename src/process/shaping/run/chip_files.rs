@@ -13,7 +13,7 @@ use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::map_png::{MapPicture, write_map_png};
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::chips::edge_polygon::EdgeSide;
+use crate::process::shaping::edge_polygon::EdgeSide;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips, ThicknessMap};
 use crate::units::UM_PER_MM;
 
