@@ -13,6 +13,7 @@ pub mod generation;
 pub mod job;
 pub mod linkage;
 pub mod measure;
+pub mod programs;
 mod report;
 pub mod returns;
 mod run;

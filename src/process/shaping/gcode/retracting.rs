@@ -18,13 +18,14 @@ use crate::process::shaping::returns::motion::{RamTimes, axes_of};
 const CUT_SHARES: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
 
 impl AxisProgram {
-    /// The strokes of a schedule with their return strokes, rounded as they will be written; with `continuous` the feed
-    /// goes on during the strokes.
+    /// The strokes of a schedule with their return strokes, rounded as they will be written for `contour_error_mm`; with
+    /// `continuous` the feed goes on during the strokes.
     pub fn retracting(
         schedule: &StrokeSchedule,
         plan: &RetractionPlan,
         ram: &RamTimes,
-        digits: Digits,
+        tip_radius_mm: f64,
+        contour_error_mm: f64,
         continuous: bool,
     ) -> Self {
         let cut = |stroke: usize, moment: f64| {
@@ -50,6 +51,8 @@ impl AxisProgram {
                 knots.push(cut(stroke + 1, at(ram.next_begins)));
             }
         }
+        let reach_mm = knots.iter().map(|knot| knot.center_distance_mm).fold(0.0, f64::max) + tip_radius_mm;
+        let digits = Digits::new(contour_error_mm, reach_mm);
         let knots = knots.iter().map(|knot| knot.rounded(digits)).collect();
         Self { double_strokes_per_minute: 60.0 / schedule.time_s(1.0), knots }
     }

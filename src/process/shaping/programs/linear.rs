@@ -1,11 +1,11 @@
 //! The text of a program, with everything in its head that the operator must know.
 
-use super::program::{AxisProgram, Knot};
 use crate::gcode::{Digits, ProgramText, axis_word};
 use crate::machine::Axis;
 use crate::output::text::plain;
+use crate::process::shaping::gcode::{AxisProgram, Knot};
+use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::linkage::dynamics::AXES;
-use crate::process::shaping::{PreparedOperation, ShapingJob};
 
 /// A program in the linear dialect, for an operation of a job, and its largest contour error (mm) with the stroke that
 /// has it.
@@ -13,7 +13,7 @@ pub fn text(
     job: &ShapingJob,
     operation: &PreparedOperation,
     program: &AxisProgram,
-    [error_mm, worst]: [f64; 2],
+    (error_mm, worst): (f64, f64),
 ) -> String {
     let output = &job.scene.output;
     let tip_radius_mm = job.cutter.tip_radius_mm;
