@@ -169,7 +169,10 @@ fn overlaps_of_the_returning_cutter_agree() {
                     if depth_mm > 0.0 { (room.overlap_mm2(place, &back, beyond_mm), depth_mm) } else { (0.0, depth_mm) }
                 };
                 let found = (0..6).map(at).max_by(|a, b| a.0.total_cmp(&b.0)).expect("phases");
-                println!("b {b} da {} {law:?}: {:.3e} mm2, {:.4} mm deep; {expected_mm2:.3e}", row[0], found.0, found.1);
+                println!(
+                    "b {b} da {} {law:?}: {:.3e} mm2, {:.4} mm deep; {expected_mm2:.3e}",
+                    row[0], found.0, found.1
+                );
                 let within_mm2 = if *expected_mm2 == 0.0 { 1e-6 } else { (0.05 * expected_mm2).max(1e-3) };
                 assert!((found.0 - expected_mm2).abs() <= within_mm2, "{row:?} {law:?}: {found:?}");
                 rows_seen += 1;
@@ -185,7 +188,10 @@ fn the_printed_example_never_reaches_the_angle_at_which_it_is_said_to_interfere(
         let job = ring_job(b, z0, shaping::Retraction::CenterLine, 0.5, 1020);
         let rooms = job.survey(0).rooms(0.5, |_| RetractionLaw::CenterLine).expect("poses");
         let angle = rooms.iter().map(|room| room.from_normal_rad.abs()).fold(0.0, f64::max).to_degrees();
-        (angle, tightest(&rooms, |room| room.clearance.surface.smallest_mm).expect("rooms").clearance.surface.smallest_mm)
+        (
+            angle,
+            tightest(&rooms, |room| room.clearance.surface.smallest_mm).expect("rooms").clearance.surface.smallest_mm,
+        )
     };
     let (angle, smallest_mm) = steepest(0.3, 13);
     println!("printed design: {angle:.4} deg, {smallest_mm:.4} mm");
@@ -334,10 +340,8 @@ fn the_time_that_the_axes_need_is_that_of_half_speeding_up_and_half_slowing_down
     let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 480)]);
     let part = shaping::Shaping::of_mut(&mut scene).expect("shaping");
     part.machine.retraction = shaping::Retraction::Normal;
-    part.machine.limits = shaping::AxisLimits {
-        center_distance_acceleration_mm_per_s2: Some(500.0),
-        ..shaping::AxisLimits::default()
-    };
+    part.machine.limits =
+        shaping::AxisLimits { center_distance_acceleration_mm_per_s2: Some(500.0), ..shaping::AxisLimits::default() };
     let job = ShapingJob::new(scene).expect("a gear");
     let operation = job.finishing();
     let limits = dynamics::limits(&job.machine.limits);

@@ -27,7 +27,8 @@ pub(super) fn all(job: &ShapingJob, operation: &PreparedOperation, rows: &[Strok
         ("relief", over_work_angle("clearance when the cutter backs off", relief(job, rows))),
     ];
     if operation.retraction.is_in_axes() {
-        charts.push(("retraction", over_work_angle("travel of the axes to the return stroke", retraction::panels(rows))));
+        charts
+            .push(("retraction", over_work_angle("travel of the axes to the return stroke", retraction::panels(rows))));
     }
     charts
 }

@@ -39,7 +39,11 @@ pub(super) fn findings(job: &ShapingJob, operation: &PreparedOperation, motion: 
         .with("back_off", Quantity::number(plan.back_off_mm(), "mm", "how far the cutter's axis is drawn back"))
         .with(
             "turned_strokes",
-            Quantity::count(motion.turned_strokes as u64, "strokes", "strokes after which the cutter is turned as well"),
+            Quantity::count(
+                motion.turned_strokes as u64,
+                "strokes",
+                "strokes after which the cutter is turned as well",
+            ),
         );
     if let Some([low, high]) = plan.tilts_rad() {
         let tilt = "angle from the normal of the pitch curve to the retraction, in the direction of growing phi";
@@ -70,7 +74,10 @@ pub(super) fn findings(job: &ShapingJob, operation: &PreparedOperation, motion: 
     let total_s = schedule.time_s(schedule.count() as f64);
     let per_minute = slowdown.map(|factor| job.machine.double_strokes_per_minute / factor);
     section
-        .with("time_outside_face", Quantity::number(motion.time_s, "s", "time of the ram outside the face, shorter end"))
+        .with(
+            "time_outside_face",
+            Quantity::number(motion.time_s, "s", "time of the ram outside the face, shorter end"),
+        )
         .with("slowdown", Quantity::number_or(slowdown, "1", definition, why))
         .with("strokes_per_minute", Quantity::number_or(per_minute, "1/min", "double strokes that leave the time", why))
         .with("added_time", Quantity::number_or(slowdown.map(|factor| (factor - 1.0) * total_s), "s", lost, why))
@@ -89,12 +96,7 @@ pub(super) fn print(axes: &OperationAxes, motion: &RetractionMotion, sheet: &mut
     }
     sheet.line("retraction", words);
     let travel = AXES.iter().zip(&motion.axes).map(|(axis, added)| {
-        format!(
-            "{} {} {}",
-            axis.letter,
-            significant(axis.kind.shown(added.travel), 3),
-            axis.kind.unit(Order::Position)
-        )
+        format!("{} {} {}", axis.letter, significant(axis.kind.shown(added.travel), 3), axis.kind.unit(Order::Position))
     });
     let time = format!("in {} ms", significant(1e3 * motion.time_s, 3));
     sheet.line("axes travel", format!("{} {time}", travel.collect::<Vec<_>>().join(", ")));

@@ -43,10 +43,7 @@ pub(super) fn rows(job: &ShapingJob, operation: &PreparedOperation) -> Vec<Strok
             phi_rad,
             offset_mm,
             relief: relief::relief_ratio(linkage, phi_rad, offset_mm, job.scene.gear.pressure_angle_rad),
-            returning: operation
-                .retraction
-                .is_in_axes()
-                .then(|| return_axes(operation, &schedule.state(coordinate))),
+            returning: operation.retraction.is_in_axes().then(|| return_axes(operation, &schedule.state(coordinate))),
         }
     };
     (0..schedule.count()).map(row).collect()
@@ -76,8 +73,7 @@ fn return_axes(operation: &PreparedOperation, state: &StrokeState) -> [f64; 3] {
 }
 
 /// Names of the columns of the way back.
-const COLUMNS: [&str; 4] =
-    ["retraction", "return_psi_c_deg", "return_psi_b_deg", "return_center_distance_mm"];
+const COLUMNS: [&str; 4] = ["retraction", "return_psi_c_deg", "return_psi_b_deg", "return_center_distance_mm"];
 
 /// Cells of the way back.
 fn cells(plan: &RetractionPlan, row: &StrokeRow) -> Vec<Datum> {

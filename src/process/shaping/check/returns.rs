@@ -63,16 +63,12 @@ fn angles(sheet: &mut Sheet, rooms: &[PlacedRoom]) {
 }
 
 /// Room to the surfaces that stay.
-fn surface(
-    sheet: &mut Sheet,
-    operation: &PreparedOperation,
-    survey: &Survey,
-    rooms: &[PlacedRoom],
-) -> Option<String> {
+fn surface(sheet: &mut Sheet, operation: &PreparedOperation, survey: &Survey, rooms: &[PlacedRoom]) -> Option<String> {
     let name = &operation.spec.name;
     let least = tightest(rooms, |room| room.clearance.surface.smallest_mm)?;
     let (clearance_um, phi_deg) = (UM_PER_MM * least.clearance.surface.smallest_mm, least.phi_rad.to_degrees());
-    sheet.line("smallest clearance", format!("{clearance_um:.1} um from what is left, at polar angle {phi_deg:.2} deg"));
+    sheet
+        .line("smallest clearance", format!("{clearance_um:.1} um from what is left, at polar angle {phi_deg:.2} deg"));
     if least.clearance.surface.smallest_mm >= CLEAR_MM {
         return None;
     }

@@ -1,12 +1,12 @@
 //! The ledger of a whole job: spaces in parallel, strokes in order of time within each of them.
 
-use crate::process::shaping::edge_polygon::{EdgePolygon, Station};
 use super::oblique::{ElementForce, RakeFace};
 use super::section::SpaceSection;
 use super::stroke::{LEAST_CHIP_MM, StrokeChips, StrokePose, ToothChip};
 use crate::frame::Rigid2;
 use crate::gear::{Back, GearKind};
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::edge_polygon::{EdgePolygon, Station};
 use crate::process::shaping::scene::model::Infeed;
 use crate::tool::{CuttingTool, PlanarTool};
 use crate::units::TURN_RAD;

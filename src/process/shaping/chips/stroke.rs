@@ -1,8 +1,8 @@
 //! What one stroke takes away: the sum over the cutter teeth that cut in it.
 
-use crate::process::shaping::edge_polygon::{EdgeSide, Station};
 use super::oblique::ElementForce;
 use crate::frame::Rigid2;
+use crate::process::shaping::edge_polygon::{EdgeSide, Station};
 use glam::DVec2;
 
 /// Thinner than this the edge rubs and makes no chip: it counts neither as contact nor for forces. A tenth of a

@@ -74,9 +74,7 @@ impl AxisProgram {
                 let moment = move |share: f64| stroke as f64 + share * if share < 0.0 { before } else { after };
                 shares.iter().map(move |&share| moment(share).clamp(0.0, last))
             })
-            .map(|moment| {
-                (Knot::of(schedule, moment).displacement_mm(&self.at(moment), gear, tip_radius_mm), moment)
-            })
+            .map(|moment| (Knot::of(schedule, moment).displacement_mm(&self.at(moment), gear, tip_radius_mm), moment))
             .fold((0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst })
     }
 }

@@ -77,11 +77,7 @@ pub struct Retracted {
 impl<'a> RetractingCutter<'a> {
     /// The cutter that a linkage rolls.
     pub fn of(linkage: &'a ShapingLinkage) -> Self {
-        Self {
-            curve: linkage.curve(),
-            kind: linkage.gear(),
-            cutter_pitch_radius_mm: linkage.cutter_pitch_radius_mm(),
-        }
+        Self { curve: linkage.curve(), kind: linkage.gear(), cutter_pitch_radius_mm: linkage.cutter_pitch_radius_mm() }
     }
 
     /// The cutter after it has been drawn back by `back_off_mm` from the pose of a stroke near `phi_rad`.

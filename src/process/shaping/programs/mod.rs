@@ -39,7 +39,8 @@ fn straight_lines(job: &ShapingJob, operation: &PreparedOperation) -> Result<Str
                         back; give machine.approach_mm and machine.overrun_mm above zero"
                 .to_owned());
         }
-        let program = AxisProgram::retracting(schedule, &operation.retraction, &ram, tip_radius_mm, asked_mm, continuous);
+        let program =
+            AxisProgram::retracting(schedule, &operation.retraction, &ram, tip_radius_mm, asked_mm, continuous);
         let error = program.cut_error_mm(schedule, tip_radius_mm, &ram, continuous);
         (program, error)
     } else {

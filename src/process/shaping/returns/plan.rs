@@ -45,7 +45,8 @@ impl RetractionPlan {
             Retraction::CenterLine | Retraction::Normal | Retraction::Turned => {}
             Retraction::Tilted => plan.tilts_rad = Some(survey().tilts().unwrap_or_default()),
             Retraction::Auto => {
-                let rooms = survey().rooms(back_off_mm, |_| RetractionLaw::CenterLine).map_err(|_| no_pose(back_off_mm))?;
+                let rooms =
+                    survey().rooms(back_off_mm, |_| RetractionLaw::CenterLine).map_err(|_| no_pose(back_off_mm))?;
                 plan.turned_rad = zones(&rooms);
             }
         }

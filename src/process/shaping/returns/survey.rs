@@ -63,7 +63,8 @@ impl<'a> Survey<'a> {
         let (generation, earlier) = operations.split_last().expect("an operation whose return strokes are looked at");
         let pose_of = |of: &'a Generation| move |phi: f64| of.linkage.pose(phi, of.offset_mm);
         let earlier: Vec<_> = earlier.iter().map(|of| pose_of(of)).collect();
-        let earlier: Vec<&dyn Fn(f64) -> CutterPose> = earlier.iter().map(|pose| pose as &dyn Fn(f64) -> CutterPose).collect();
+        let earlier: Vec<&dyn Fn(f64) -> CutterPose> =
+            earlier.iter().map(|pose| pose as &dyn Fn(f64) -> CutterPose).collect();
         let room = ReturnRoom::new(&generation.cutter, teeth, module_mm, &pose_of(generation), &earlier);
         Self { room, generation, blank }
     }

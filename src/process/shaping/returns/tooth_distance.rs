@@ -77,8 +77,8 @@ impl ToothDistance {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::process::shaping::edge_polygon::EdgePolygon;
     use crate::process::shaping::cutter::tests::paper_cutter;
+    use crate::process::shaping::edge_polygon::EdgePolygon;
     use crate::process::shaping::scene::model::Tip;
     use crate::tool::CuttingTool;
 

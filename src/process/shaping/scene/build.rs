@@ -1,8 +1,8 @@
 //! Checked values of a shaping scene to the model.
 
 use super::model::{
-    AxisLimits, Feed, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Retraction, ShaperCutter,
-    Shaping, StrokeSpacing, Tip, TraditionalDirection,
+    AxisLimits, Feed, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Retraction, ShaperCutter, Shaping,
+    StrokeSpacing, Tip, TraditionalDirection,
 };
 use crate::material::EdgeForce;
 use crate::scene::ScenePart;
