@@ -61,7 +61,7 @@ impl HobbingJob {
                 self.tooth_outline(tooth, right_forms, z_mm, spacing_mm)
             })
             .collect();
-        TargetOutline::new(teeth.concat())
+        TargetOutline::new(teeth.concat(), self.blank.back)
     }
 
     /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise. Flanks begin where the fillet

@@ -39,6 +39,8 @@ pub struct ShaperCutter {
     pub half_angle_rad: f64,
     /// Rolls where the involute starts (near the base circle) and ends (at the tip corner).
     pub roll_range: [f64; 2],
+    /// Length of the straight base between the involute and the root circle; 0 where the involute reaches it.
+    pub base_length_mm: f64,
     /// What lies between the left flank and the tip circle, from the flank on; the right side mirrors it.
     pub corner: Vec<CornerPart>,
     edge: Edge,
@@ -184,12 +186,14 @@ impl ShaperCutter {
             left_half.push(Segment::involute(SegmentName::FlankLeft, left, [rolls[1], rolls[0]]).map_err(no_fit)?);
         }
         let mut root_from_rad = start.to_angle();
+        let mut base_length_mm = 0.0;
         if start_radius_mm > root_radius_mm + 1e-6 {
             let inwards = left.normal(start_roll).perp();
             let b = start.dot(inwards);
             let run =
                 -b - (b * b - start_radius_mm * start_radius_mm + root_radius_mm * root_radius_mm).max(0.0).sqrt();
             let end = start + run * inwards;
+            base_length_mm = run;
             root_from_rad = end.to_angle();
             left_half.push(Segment::straight(SegmentName::BaseLeft, start, end));
         }
@@ -224,6 +228,7 @@ impl ShaperCutter {
             tip_radius_mm,
             half_angle_rad,
             roll_range: [start_roll, end_roll],
+            base_length_mm,
             corner,
             edge: Edge::new(segments),
             runout_mm: spec.runout_mm * DVec2::from_angle(spec.runout_angle_rad),
@@ -261,6 +266,7 @@ pub(crate) mod tests {
     /// The paper's cutter: 20 teeth of module 3.
     pub(crate) fn paper_cutter(tip: model::Tip) -> ShaperCutter {
         let gear = Gear {
+            kind: crate::gear::GearKind::External,
             module_mm: 3.0,
             teeth: 42,
             pressure_angle_rad: 20_f64.to_radians(),
@@ -269,6 +275,7 @@ pub(crate) mod tests {
             face_width_mm: 30.0,
             addendum_coefficient: 1.0,
             bore_diameter_mm: 20.0,
+            rim_mm: 0.0,
             tooth_thickness_allowance_mm: 0.0,
             pitch_curve: crate::gear::PitchCurveShape::Circle,
         };

@@ -19,6 +19,7 @@ pub mod scene;
 pub mod section;
 mod surfaces;
 pub mod target;
+pub mod tip_relief;
 pub mod tooth_target;
 
 use super::{CutDone, Process};
