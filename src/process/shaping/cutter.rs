@@ -10,6 +10,7 @@ use crate::error::Refusal;
 use crate::frame::Rigid2;
 use crate::process::shaping::scene::model;
 use crate::scene::model::Gear;
+use crate::tool::blade_edges::BladeEdges;
 use crate::tool::edge::{Edge, Segment, SegmentName};
 use crate::tool::edge_table::TableError;
 use crate::tool::involute::{Involute, inv};
@@ -41,7 +42,7 @@ pub struct ShaperCutter {
     pub roll_range: [f64; 2],
     /// What lies between the left flank and the tip circle, from the flank on; the right side mirrors it.
     pub corner: Vec<CornerPart>,
-    edge: Edge,
+    edges: BladeEdges,
     runout_mm: DVec2,
     tooth_angles_rad: Vec<f64>,
 }
@@ -225,10 +226,15 @@ impl ShaperCutter {
             half_angle_rad,
             roll_range: [start_roll, end_roll],
             corner,
-            edge: Edge::new(segments),
+            edges: BladeEdges::shared(Edge::new(segments)),
             runout_mm: spec.runout_mm * DVec2::from_angle(spec.runout_angle_rad),
             tooth_angles_rad,
         })
+    }
+
+    /// The edge that all teeth share.
+    pub fn edge(&self) -> &Edge {
+        &self.edges.edges()[0]
     }
 
     /// One flank of a tooth; `side` +1: left (counter-clockwise), -1: right.
@@ -242,8 +248,8 @@ impl CuttingTool for ShaperCutter {
         self.teeth
     }
 
-    fn edge(&self) -> &Edge {
-        &self.edge
+    fn edges(&self) -> &BladeEdges {
+        &self.edges
     }
 }
 
