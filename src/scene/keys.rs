@@ -9,6 +9,8 @@
 //! a value inside a choice, and keep ranges, units and sentences somewhere else.
 
 mod gear;
+mod material;
+mod measure;
 mod output;
 mod picture;
 mod process;
@@ -161,9 +163,18 @@ const ROOT: KeySection = KeySection { path: "", role: Role::Plain, keys: &[], gr
 /// The sections that all processes share, each after the one that holds it.
 pub(super) fn shared() -> impl Iterator<Item = &'static KeySection> {
     static FIRST: &[KeySection] = &[ROOT];
-    [FIRST, gear::SECTIONS, process::SECTIONS, texture::SECTIONS, output::SECTIONS, picture::SECTIONS]
-        .into_iter()
-        .flatten()
+    [
+        FIRST,
+        gear::SECTIONS,
+        material::SECTIONS,
+        process::SECTIONS,
+        texture::SECTIONS,
+        output::SECTIONS,
+        measure::SECTIONS,
+        picture::SECTIONS,
+    ]
+    .into_iter()
+    .flatten()
 }
 
 /// `name` inside `path`.

@@ -37,6 +37,8 @@ pub struct HobbedFlank<'a> {
     pub target: &'a FlankPatch,
     /// Rays; columns stand at arcs of the middle section.
     pub rays: PlacedRays,
+    /// Arcs between which the scene has it measured, where it names them ([`HobCutter::measured_ends_mm`]), mm.
+    pub measured_ends_mm: [Option<f64>; 2],
     /// What each operation left, in order.
     pub layers: Vec<Layer>,
     /// What the backend met.
@@ -84,6 +86,12 @@ impl<'a> HobCutter<'a> {
         let place = 2 * (tooth as usize - 1) + usize::from(side == Side::Right);
         let find = || FlankPatch::new(&job.target, &job.blank, tooth, side, job.scene.gear.face_width_mm);
         self.targets[place].get_or_init(find).as_ref().map_err(Clone::clone)
+    }
+
+    /// Arcs of a target's profile, in the middle of the face, at the heights between which the scene evaluates it, mm;
+    /// `None` where the scene names no height, or the flank does not reach it.
+    pub fn measured_ends_mm(&self, target: &FlankPatch) -> [Option<f64>; 2] {
+        self.job.scene.measure.ends_mm(|height_mm| target.arc_at_height_mm(&self.job.blank, height_mm))
     }
 
     /// Places of the rays of a flank with the scene's spacing: along its profile and along the tooth, mm.
@@ -165,6 +173,6 @@ impl<'a> HobCutter<'a> {
     pub fn cut(&self, backend: &dyn Backend, tooth: u32, side: Side) -> Result<HobbedFlank<'_>> {
         let (target, rays) = self.rays(tooth, side)?;
         let (layers, stats) = self.cut_field(backend, &rays.field)?;
-        Ok(HobbedFlank { target, rays, layers, stats })
+        Ok(HobbedFlank { target, rays, measured_ends_mm: self.measured_ends_mm(target), layers, stats })
     }
 }

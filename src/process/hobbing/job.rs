@@ -7,6 +7,7 @@
 use crate::error::{Refusal, Result};
 use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
+use crate::material::CuttingForce;
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::linkage::{FeedPlan, HobbingGeometry, HobbingLaw, HobbingLinkage};
 use crate::process::hobbing::rack_generation::{Rack, RackGeneration};
@@ -46,6 +47,8 @@ pub struct HobbingJob {
     pub hob_spec: model::Hob,
     /// Limits of the axes.
     pub limits: HobbingAxisLimits,
+    /// Cutting force of the work's material, where the scene names it.
+    pub material: Option<CuttingForce>,
     /// The pitch curve.
     pub curve: Arc<PitchCurve>,
     /// The hob.
@@ -75,7 +78,7 @@ impl HobbingJob {
     /// Geometry that cannot be cut.
     pub fn past_hollows(scene: &Scene) -> Result<Self> {
         let gear = &scene.gear;
-        let Some(Hobbing { tool, limits, operations: specs }) = Hobbing::of(scene) else {
+        let Some(Hobbing { tool, limits, operations: specs, material }) = Hobbing::of(scene) else {
             return Err(Refusal::new("tool", "this tool does not hob gears", "write [tool.hob] for hobbing").into());
         };
         let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
@@ -101,6 +104,7 @@ impl HobbingJob {
             scene: scene.clone(),
             hob_spec: tool.clone(),
             limits: *limits,
+            material: *material,
             curve,
             hob,
             blank,

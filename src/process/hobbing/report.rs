@@ -23,6 +23,8 @@ use std::f64::consts::PI;
 pub struct Charts {
     /// Bars by hob tooth, with the names of their files; none where the run was stopped before the whole blank was cut.
     pub loads: Vec<(String, BarChart)>,
+    /// Cutting force over time, with the names of their files; none where the scene does not name the material.
+    pub forces: Vec<(String, LineChart)>,
     /// Frequencies of errors of the points on five curves; none where nothing spreads.
     pub points: Option<LineChart>,
 }
@@ -46,7 +48,7 @@ pub fn page(
     sections.extend(charts.points.map(five_curves));
     sections.push(marks_section(found));
     sections.extend(texture::section(found, folder)?);
-    sections.extend(load_section(found, charts.loads));
+    sections.extend(load_section(found, charts.loads, charts.forces));
     sections.push(axes::section(
         motion,
         found,
@@ -146,14 +148,30 @@ fn marks_section(found: &Findings) -> PageSection {
 }
 
 /// Nothing where the run was stopped before the whole blank was cut.
-fn load_section(found: &Findings, charts: Vec<(String, BarChart)>) -> Option<PageSection> {
-    (!charts.is_empty()).then(|| PageSection {
+fn load_section(
+    found: &Findings,
+    loads: Vec<(String, BarChart)>,
+    forces: Vec<(String, LineChart)>,
+) -> Option<PageSection> {
+    if loads.is_empty() {
+        return None;
+    }
+    let mut blocks: Vec<Block> = loads.into_iter().map(|(_, chart)| Block::Bars(chart)).collect();
+    blocks.extend(forces.into_iter().map(|(_, chart)| Block::Lines(chart)));
+    if let Some(force) = found.find("hob_force") {
+        blocks.push(Block::Note(format!(
+            "Cutting force: {}. Accuracy {}.",
+            force.words("law"),
+            force.words("accuracy")
+        )));
+    }
+    Some(PageSection {
         id: "load",
         title: "Work of the hob's teeth".to_owned(),
         lead: format!(
             "What each tooth of the hob does in the whole process, approach and overrun included. The load is the {}.",
             found.find("hob_load").map_or("", |load| load.words("assumption"))
         ),
-        blocks: charts.into_iter().map(|(_, chart)| Block::Bars(chart)).collect(),
+        blocks,
     })
 }

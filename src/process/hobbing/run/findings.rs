@@ -1,12 +1,13 @@
 //! What a run finds on a hobbed gear: names, units, definitions, places.
 
-use super::{blank, flank_table, load, marks, points};
+use super::{blank, flank_table, force, load, marks, points};
 use crate::findings::{Entry, Findings, Place, Quantity, Section};
 use crate::job::RAY_DEPTH_MODULES;
 use crate::measure::deviation::PitchDeviations;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::measure::flank_report::HobbedReport;
+use crate::process::hobbing::measure::hob_force::OperationForce;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::measure::marks::MarkLattice;
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
@@ -17,6 +18,12 @@ use crate::units::UM_PER_MM;
 /// Why a pitch is not known.
 const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve";
 
+/// What the ends of the evaluated profile are.
+const START: &str = "lower end of the evaluated profile, as height over the pitch curve along its normal in the middle \
+    of the face; heights and profile deviations are those inside of it";
+const END: &str = "upper end of the evaluated profile, as height over the pitch curve along its normal in the middle \
+    of the face; heights and profile deviations are those inside of it";
+
 /// What was measured beside the flanks.
 pub struct Measured<'a> {
     /// What every operation asks of the machine.
@@ -25,8 +32,8 @@ pub struct Measured<'a> {
     pub textures: &'a [WindowTexture],
     /// Lattices of cutting marks.
     pub lattices: &'a [MarkLattice],
-    /// The whole blank with the hob's load; none after Ctrl-C.
-    pub whole: Option<(&'a blank::WholeBlank, &'a [OperationLoad])>,
+    /// The whole blank with the hob's load and its forces; none after Ctrl-C.
+    pub whole: Option<(&'a blank::WholeBlank, &'a [OperationLoad], &'a [OperationForce])>,
 }
 
 /// Everything that was found.
@@ -41,7 +48,11 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
         points::findings(gear),
         marks::findings(measured.lattices),
         Section::new("teeth", "Finished teeth")
-            .table(flank_table::flanks(&gear.flanks, earlier.iter().map(|operation| operation.spec.name.as_str())))
+            .table(flank_table::flanks(
+                &gear.flanks,
+                earlier.iter().map(|operation| operation.spec.name.as_str()),
+                job.scene.measure.heights_mm().iter().any(Option::is_some),
+            ))
             .parts((1..=job.scene.gear.teeth).map(|number| tooth(gear, number))),
         texture::findings(cutter, measured.textures),
         Section::new("work", "Work of cutting").with(
@@ -53,11 +64,13 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
             ),
         ),
     ];
-    if let Some((whole, loads)) = measured.whole {
+    sections.extend(evaluated(job));
+    if let Some((whole, loads, forces)) = measured.whole {
         sections.push(load::findings(job, loads));
+        sections.extend(force::findings(job, forces));
         sections.push(blank::findings(cutter, whole));
     }
-    let mut warnings = warnings(job, gear);
+    let mut warnings = warnings(cutter, gear);
     warnings.extend(axes::warnings(measured.motion));
     Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -68,6 +81,19 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
         warnings,
         sections,
     }
+}
+
+/// Where the scene has profiles evaluated, if it names it.
+fn evaluated(job: &HobbingJob) -> Option<Section> {
+    let heights_mm = job.scene.measure.heights_mm();
+    let end = |height_mm: Option<f64>, definition: &'static str| {
+        Quantity::number_or(height_mm, "mm", definition, "not named: 5 % of the profile are left out")
+    };
+    heights_mm.iter().any(Option::is_some).then(|| {
+        Section::new("measure", "Evaluated profile")
+            .with("profile_start_height", end(heights_mm[0], START))
+            .with("profile_end_height", end(heights_mm[1], END))
+    })
 }
 
 /// Largest value over all flanks with its flank.
@@ -252,8 +278,21 @@ fn tooth(gear: &HobbedGear, number: u32) -> Section {
 }
 
 /// What a reader must know before trusting the numbers.
-fn warnings(job: &HobbingJob, gear: &HobbedGear) -> Vec<String> {
+fn warnings(cutter: &HobCutter, gear: &HobbedGear) -> Vec<String> {
+    let job = cutter.job;
     let mut warnings = Vec::new();
+    let unreached = gear.flanks.iter().filter(|flank| {
+        let target = cutter.target(flank.tooth, flank.side).ok();
+        let ends_mm = target.map(|target| cutter.measured_ends_mm(target));
+        let named = job.scene.measure.heights_mm();
+        ends_mm.is_some_and(|ends_mm| named.iter().zip(ends_mm).any(|(named, end)| named.is_some() && end.is_none()))
+    });
+    let unreached = unreached.count();
+    if unreached > 0 {
+        warnings.push(format!(
+            "{unreached} flanks do not reach an end of [measure]: there 5 % of the profile are left out instead"
+        ));
+    }
     if job.hob_spec.protuberance.is_some() {
         warnings.push(
             "the target knows no protuberance: the relief that it leaves at the roots is reported as a cut below the \

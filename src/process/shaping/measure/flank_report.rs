@@ -86,12 +86,10 @@ pub const RESOLUTION_MM: f64 = 1e-6;
 /// Arcs between which profiles and textures are evaluated, mm from the form point: as the scene says, else without 5 %
 /// of the flank at either end.
 pub fn evaluated_profile_mm(job: &ShapingJob, flank: &TargetFlank) -> [f64; 2] {
-    let arc_at = |height: Option<f64>| height.and_then(|h| flank.at_height(&job.blank, h)).map(|(arc, _)| arc);
+    let arc_at = |height_mm: f64| flank.at_height(&job.blank, height_mm).map(|(arc, _)| arc);
+    let [from_mm, to_mm] = job.scene.measure.ends_mm(arc_at);
     let length_mm = flank.length_mm();
-    [
-        arc_at(job.measure.profile_start_height_mm).unwrap_or(DEFAULT_MARGIN * length_mm),
-        arc_at(job.measure.profile_end_height_mm).unwrap_or((1.0 - DEFAULT_MARGIN) * length_mm),
-    ]
+    [from_mm.unwrap_or(DEFAULT_MARGIN * length_mm), to_mm.unwrap_or((1.0 - DEFAULT_MARGIN) * length_mm)]
 }
 
 /// Measures a flank.
