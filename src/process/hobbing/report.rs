@@ -15,7 +15,7 @@ use crate::process::hobbing::{HobCutter, HobbedGear};
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations;
-use crate::steps::report::deviations::{Inspected, Inspection};
+use crate::steps::report::deviations::{Inspection, InspectionWords};
 use crate::steps::report::{RunWords, key_number, record, texture};
 use std::f64::consts::PI;
 
@@ -43,8 +43,7 @@ pub fn page(
     folder: &OutputFolder,
 ) -> Result<Page> {
     let job = cutter.job;
-    let inspection = inspection(cutter, gear);
-    let mut sections = vec![deviations::section(&inspection)];
+    let mut sections = vec![deviations::section(&inspection(cutter, gear))];
     sections.extend(charts.points.map(five_curves));
     sections.push(marks_section(found));
     sections.extend(texture::section(found, folder)?);
@@ -73,23 +72,14 @@ pub fn page(
 
 fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
     let standard_mm = 0.5 * PI * cutter.job.scene.gear.transverse_module_mm();
-    let flanks = gear.flanks.iter().map(|flank| Inspected {
-        tooth: flank.tooth,
-        side: flank.side,
-        profile: (&flank.profile_trace, flank.profile),
-        lead: (&flank.helix_trace, flank.helix),
-    });
-    Inspection {
-        flanks: flanks.collect(),
-        pitch: &gear.pitch,
-        runout: gear.runout.as_ref(),
-        thickness_mm: gear.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect(),
+    let words = InspectionWords {
         profile_place: "roll from the pitch point, up to the tip",
         lead_place: "in the middle of the profile",
         lead_name: "Helix",
         target: "the surface that the last operation would leave with infinitely many gashes and an infinitely fine \
             feed",
-    }
+    };
+    Inspection::new(&gear.flanks, &gear.inspection, standard_mm, words)
 }
 
 fn five_curves(chart: LineChart) -> PageSection {

@@ -43,11 +43,11 @@ fn heights_of_the_scene_bound_what_is_evaluated() {
         "{from} {to} {low} {high}"
     );
     // Heights are those inside: their extremes stand there, and they reach no further than the whole flank's.
-    let [inside, all] = [part.finished, whole.finished].map(|heights| heights.expect("complete"));
+    let [inside, all] = [part.own.finished, whole.own.finished].map(|heights| heights.expect("complete"));
     assert!(inside.extremes_at_mm.iter().all(|at| at[0] >= arcs_mm[0] - 1e-9 && at[0] <= arcs_mm[1] + 1e-9));
     assert!(inside.highest_mm <= all.highest_mm && inside.lowest_mm >= all.lowest_mm);
     // The helix is traced over the same face.
-    assert_eq!(part.helix, whole.helix);
+    assert_eq!(part.lead, whole.lead);
 }
 
 #[test]

@@ -66,7 +66,7 @@ fn by_points(cutter: &HobCutter, space: i64, z_mm: f64, reach_mm: f64) -> BTreeM
         for point in &polygon.of_edge {
             // A little inside the tool: not on a border that both sections share.
             let inside = point.place + 1e-4 * point.inward;
-            if in_blank(inside) && !before.iter().any(|polygon| polygon.holds(inside)) {
+            if in_blank(inside) && !before.iter().rev().any(|polygon| polygon.holds(inside)) {
                 swept_mm += point.length_mm / section.heading.upright(-point.inward);
             }
         }

@@ -11,7 +11,8 @@
 //! Profiles stand over the roll, as the standard's do: over the place of the contact on the line of action.
 
 use crate::dexel::NO_PASS;
-use crate::measure::deviation::{Trace, TraceDeviation};
+use crate::measure::deviation::Trace;
+use crate::measure::inspection::InspectedFlank;
 use crate::process::hobbing::HobbedFlank;
 use crate::terms::Side;
 use std::ops::Range;
@@ -38,36 +39,23 @@ pub struct HeightSummary {
     pub rms_mm: f64,
 }
 
-/// One hobbed flank, measured.
+/// One hobbed flank, measured: profiles stand over the place on the line of action
+/// ([`crate::process::hobbing::flank_patch::FlankPatch::on_line_of_action_mm`]), the line along the tooth runs in the
+/// middle of the profile, and dexels of the evaluated part count as untouched. (On the tip's own edge the blank ends
+/// where the target does.)
+pub type HobbedReport = InspectedFlank<HobbedSurface>;
+
+/// What is measured on hobbed flanks alone.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HobbedReport {
-    /// Tooth, from 1.
-    pub tooth: u32,
-    /// Flank.
-    pub side: Side,
+pub struct HobbedSurface {
     /// Where the field begins: height over the pitch curve of the highest start of the involute in any section, mm.
     pub form_height_mm: f64,
     /// Whether the hob's tip corner has undercut the flank in any section.
     pub undercut: bool,
-    /// Length of the profile in the middle of the face, mm.
-    pub length_mm: f64,
-    /// Arcs between which the profile is evaluated, mm.
-    pub evaluated_mm: [f64; 2],
     /// Finished surface over the target; `None` where a dexel of the evaluated part was not reached.
     pub finished: Option<HeightSummary>,
     /// What each earlier operation left over the finished surface.
     pub stock: Vec<Option<HeightSummary>>,
-    /// Heights along the profile in the middle of the face, over the place on the line of action
-    /// ([`crate::process::hobbing::flank_patch::FlankPatch::on_line_of_action_mm`]).
-    pub profile_trace: Trace,
-    /// Its deviations.
-    pub profile: Option<TraceDeviation>,
-    /// Heights along the tooth in the middle of the profile.
-    pub helix_trace: Trace,
-    /// Its deviations.
-    pub helix: Option<TraceDeviation>,
-    /// Dexels of the evaluated part that no pass reached. (On the tip's own edge the blank ends where the target does.)
-    pub untouched: u64,
 }
 
 /// Measures a cut flank.
@@ -105,20 +93,22 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
     let deviation = |trace: &Trace, inner: Range<usize>| {
         if inner.is_empty() { None } else { trace.deviation(ends(&trace.places_mm, inner)) }
     };
-    HobbedReport {
+    InspectedFlank {
         tooth,
         side,
-        form_height_mm: flank.target.form_height_mm,
-        undercut: flank.target.undercut,
         length_mm: arcs_mm.last().copied().unwrap_or(0.0),
         evaluated_mm: evaluated_mm(flank.target.length_mm(), flank.measured_ends_mm),
-        finished: over(&|i| at(last, i)),
-        stock: (0..last).map(|layer| over(&|i| Some(at(layer, i)? - at(last, i)?))).collect(),
         profile: deviation(&profile_trace, columns.clone()),
         profile_trace,
-        helix: deviation(&helix_trace, rows.clone()),
-        helix_trace,
+        lead: deviation(&helix_trace, rows.clone()),
+        lead_trace: helix_trace,
         untouched: dexels().filter(|&i| finished.passes[i] == NO_PASS).count() as u64,
+        own: HobbedSurface {
+            form_height_mm: flank.target.form_height_mm,
+            undercut: flank.target.undercut,
+            finished: over(&|i| at(last, i)),
+            stock: (0..last).map(|layer| over(&|i| Some(at(layer, i)? - at(last, i)?))).collect(),
+        },
     }
 }
 

@@ -125,7 +125,7 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
         extreme_at(value, &|_| None, definition)
     };
     let of_pitch = |pick: fn(&PitchDeviations) -> f64, definition: &'static str| {
-        let largest = gear.pitch.iter().flatten().map(pick).reduce(f64::max);
+        let largest = gear.inspection.pitch.iter().flatten().map(pick).reduce(f64::max);
         Quantity::number_or(largest.map(|mm| mm * UM_PER_MM), "um", definition, NOT_CROSSED)
     };
     let sharpest = job.curve.facts().largest_curvature.curvature_per_mm;
@@ -134,8 +134,8 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
             "highest_mark",
             "highest mark",
             extreme_at(
-                &|f| f.finished.map(|h| h.highest_mm),
-                &|f| f.finished.map(|h| h.extremes_at_mm[1]),
+                &|f| f.own.finished.map(|h| h.highest_mm),
+                &|f| f.own.finished.map(|h| h.extremes_at_mm[1]),
                 "highest place of the finished surface over the target on the evaluated part of any flank: feed and \
                 generating marks together",
             ),
@@ -144,8 +144,8 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
             "deepest_cut",
             "deepest cut",
             extreme_at(
-                &|f| f.finished.map(|h| -h.lowest_mm),
-                &|f| f.finished.map(|h| h.extremes_at_mm[0]),
+                &|f| f.own.finished.map(|h| -h.lowest_mm),
+                &|f| f.own.finished.map(|h| h.extremes_at_mm[0]),
                 "deepest place of the finished surface below the target, positive inwards; an exact linkage leaves \
                 none",
             ),
@@ -177,7 +177,7 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
         Entry::headline(
             "helix_deviation",
             "helix deviation",
-            extreme(&|f| f.helix.map(|d| d.total_mm), "largest F_beta in the middle of the profile"),
+            extreme(&|f| f.lead.map(|d| d.total_mm), "largest F_beta in the middle of the profile"),
         ),
         Entry::headline(
             "single_pitch_deviation",
@@ -193,7 +193,7 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
             "runout",
             "runout",
             Quantity::number_or(
-                gear.runout.as_ref().map(|r| r.total_mm() * UM_PER_MM),
+                gear.inspection.runout.as_ref().map(|r| r.total_mm() * UM_PER_MM),
                 "um",
                 "F_r, range of a probe's place along the pitch curve's normal over all spaces",
                 NOT_CROSSED,
@@ -203,7 +203,7 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
             "undercut_flanks",
             "undercut flanks",
             Quantity::count(
-                gear.flanks.iter().filter(|f| f.undercut).count() as u64,
+                gear.flanks.iter().filter(|f| f.own.undercut).count() as u64,
                 "flanks",
                 "flanks whose involute the hob's tip corner has cut away in some section",
             ),
@@ -251,7 +251,7 @@ fn operation(operation: &PreparedHobbing, motion: &HobbingAxesReport, passes: u3
 fn tooth(gear: &HobbedGear, number: u32) -> Section {
     let row = number as usize - 1;
     let side = |key: &str, index: usize| {
-        let pitch = gear.pitch[index].as_ref();
+        let pitch = gear.inspection.pitch[index].as_ref();
         let um = |value: Option<f64>, definition: &'static str| {
             Quantity::number_or(value.map(|mm| mm * UM_PER_MM), "um", definition, NOT_CROSSED)
         };
@@ -265,7 +265,7 @@ fn tooth(gear: &HobbedGear, number: u32) -> Section {
                 um(pitch.map(|p| p.cumulative_mm[row]), "arc of the pitch curve from tooth 1, less its pitches"),
             )
     };
-    let thickness = gear.thickness.get(row).copied().flatten();
+    let thickness = gear.inspection.thickness.get(row).copied().flatten();
     let mm = |value: Option<f64>, definition: &'static str| Quantity::number_or(value, "mm", definition, NOT_CROSSED);
     Section::new(format!("tooth_{number:02}"), format!("tooth {number}"))
         .with("thickness_arc", mm(thickness.map(|t| t.arc_mm), "tooth thickness along the pitch curve"))
@@ -301,7 +301,7 @@ fn warnings(cutter: &HobCutter, gear: &HobbedGear) -> Vec<String> {
         );
     }
     let reach_mm = RAY_DEPTH_MODULES * job.scene.gear.module_mm;
-    let lowest_mm = gear.flanks.iter().filter_map(|f| f.finished).map(|h| h.lowest_mm).fold(0.0, f64::min);
+    let lowest_mm = gear.flanks.iter().filter_map(|f| f.own.finished).map(|h| h.lowest_mm).fold(0.0, f64::min);
     if lowest_mm < -0.999 * reach_mm {
         warnings
             .push(format!("cuts go deeper than rays record: {reach_mm} mm under the target stands for that and more"));

@@ -13,19 +13,24 @@ const TRACE: &str = "a dexel of the trace was reached by no pass";
 pub fn flanks<'a>(cut: &[HobbedReport], earlier: impl IntoIterator<Item = &'a str>, named: bool) -> Table {
     let um = |value: Option<f64>| Datum::from(value.map(|v| v * UM_PER_MM));
     let rows = cut.iter().map(|f| {
-        let undercut = if f.undercut { "yes" } else { "no" };
-        let mut row: Vec<Datum> =
-            vec![f.tooth.into(), f.side.name().into(), f.form_height_mm.into(), undercut.into(), f.length_mm.into()];
+        let undercut = if f.own.undercut { "yes" } else { "no" };
+        let mut row: Vec<Datum> = vec![
+            f.tooth.into(),
+            f.side.name().into(),
+            f.own.form_height_mm.into(),
+            undercut.into(),
+            f.length_mm.into(),
+        ];
         if named {
             row.extend(f.evaluated_mm.map(Datum::from));
         }
-        for stock in &f.stock {
+        for stock in &f.own.stock {
             let part = |value: fn(&HeightSummary) -> f64| Datum::from(stock.as_ref().map(value));
             row.extend([part(|s| s.lowest_mm), part(|s| s.highest_mm), part(|s| s.mean_mm)]);
         }
-        let height = |value: fn(&HeightSummary) -> f64| um(f.finished.as_ref().map(value));
+        let height = |value: fn(&HeightSummary) -> f64| um(f.own.finished.as_ref().map(value));
         row.extend([height(|h| h.lowest_mm), height(|h| h.highest_mm), height(|h| h.mean_mm), height(|h| h.rms_mm)]);
-        for deviation in [&f.profile, &f.helix] {
+        for deviation in [&f.profile, &f.lead] {
             row.extend([
                 um(deviation.as_ref().map(|d| d.total_mm)),
                 um(deviation.as_ref().map(|d| d.form_mm)),
