@@ -26,7 +26,6 @@ use crate::frame::Rigid2;
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::edge_polygon::EdgePolygon;
 use crate::process::shaping::linkage::CutterPose;
-use crate::tool::CuttingTool;
 use crate::units::TURN_RAD;
 use glam::DVec2;
 

@@ -80,7 +80,6 @@ mod tests {
     use crate::process::shaping::cutter::tests::paper_cutter;
     use crate::process::shaping::edge_polygon::EdgePolygon;
     use crate::process::shaping::scene::model::Tip;
-    use crate::tool::CuttingTool;
 
     #[test]
     fn points_beside_the_edge_lie_as_far_as_they_were_moved() {
