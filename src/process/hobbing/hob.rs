@@ -48,7 +48,7 @@ use std::ops::ControlFlow;
 const LARGEST_LEAD_ANGLE_RAD: f64 = 0.35;
 /// A tooth is in the work only within this angle to either side of the direction towards it: at 60 degrees its tip
 /// stands at half its radius, far behind the work.
-const HALF_SWEEP_RAD: f64 = PI / 3.0;
+const HALF_WINDOW_RAD: f64 = PI / 3.0;
 /// Share of the root radius by which relief lowers a tooth at most: with relief angles of some 10 deg and gashes 30 deg
 /// apart it is a tenth.
 const DEEPEST_RELIEF: f64 = 0.25;
@@ -414,8 +414,8 @@ impl SpatialTool for Hob {
         self.rake_twist_rad_per_mm
     }
 
-    fn half_sweep_rad(&self) -> f64 {
-        HALF_SWEEP_RAD
+    fn half_window_rad(&self) -> f64 {
+        HALF_WINDOW_RAD
     }
 }
 

@@ -1,0 +1,5 @@
+//! Tools of any kind, without a process: blades that differ, and blades that stand along their axis.
+
+mod face_mill;
+mod planar_edges;
+pub mod spatial_edges;
