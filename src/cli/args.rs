@@ -21,7 +21,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
         gearcut new shaping --out my_gear.toml                a commented scene of your own\n\n\
         Exit codes: 0 done; 1 refused or failed, with the reason; 2 wrong usage; 130 stopped by Ctrl-C."
 )]
-pub struct Arguments {
+pub struct CommandLine {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,

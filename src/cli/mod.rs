@@ -17,11 +17,11 @@ mod texture;
 
 use std::process::ExitCode;
 
-use args::{Arguments, Command};
+use args::{Command, CommandLine};
 use failure::Failure;
 
 /// Runs the command and reports what went wrong.
-pub fn run(arguments: Arguments) -> ExitCode {
+pub fn run(arguments: CommandLine) -> ExitCode {
     let done = match arguments.command {
         Command::Cut(arguments) => cut::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

@@ -128,7 +128,8 @@ pub struct KeySection {
 pub struct Addition {
     /// Path of the section.
     pub path: &'static str,
-    /// The keys, printed after those of the section.
+    /// The keys, printed after those of the section. One that the section has already, a key of words, takes its place:
+    /// the process knows more words.
     pub keys: &'static [Key],
     /// Which of them exclude each other.
     pub groups: &'static [Group],

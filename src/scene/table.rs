@@ -116,7 +116,12 @@ impl TableSection {
     }
 
     fn add(&mut self, addition: &'static Addition) {
-        self.keys.extend(addition.keys);
+        for key in addition.keys {
+            match self.keys.iter_mut().find(|known| known.name == key.name) {
+                Some(known) => *known = key,
+                None => self.keys.push(key),
+            }
+        }
         self.groups.extend(addition.groups);
     }
 

@@ -4,7 +4,7 @@ use crate::units::TURN_RAD;
 use glam::{DVec2, DVec3};
 
 /// Points of the target in one transverse section, gear frame, mm, each with the target's unit normal out of the gear.
-pub type Profile = Vec<(DVec2, DVec3)>;
+pub type SectionProfile = Vec<(DVec2, DVec3)>;
 
 /// Triangles with a normal at every corner; counter-clockwise seen from outside.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -26,7 +26,7 @@ impl Triangles {
     }
 
     /// Profiles of all sections joined along the tooth; `forward`: they run counter-clockwise round the gear.
-    pub fn wall(&mut self, profiles: &[Profile], rows_z_mm: &[f64], forward: bool) {
+    pub fn wall(&mut self, profiles: &[SectionProfile], rows_z_mm: &[f64], forward: bool) {
         let (first, sections) = (self.positions_mm.len() as u32, rows_z_mm.len() as u32);
         for i in 0..profiles[0].len() {
             for (profile, &z_mm) in profiles.iter().zip(rows_z_mm) {
@@ -56,7 +56,7 @@ impl Triangles {
     }
 
     /// One end of one tooth: a ladder between its right and its left flank, a fan under its tip land.
-    pub fn tooth_end(&mut self, [right, left, tip]: [&Profile; 3], z_mm: f64, top: bool) {
+    pub fn tooth_end(&mut self, [right, left, tip]: [&SectionProfile; 3], z_mm: f64, top: bool) {
         let points: Vec<DVec2> =
             right.iter().chain(left).chain(&tip[1..tip.len() - 1]).map(|&(point, _)| point).collect();
         let (r_last, l_first) = (right.len() - 1, right.len());
@@ -85,7 +85,7 @@ impl Triangles {
         let bores = [0, 1].map(|k| {
             if bore_radius_mm <= 0.0 {
                 self.fan(&rims[k], rows_z_mm[k], k == 1);
-                return Profile::new();
+                return SectionProfile::new();
             }
             self.ring(&rims[k], bore_radius_mm, rows_z_mm[k], k == 1)
         });
@@ -103,7 +103,7 @@ impl Triangles {
     }
 
     /// An end face round a bore; gives the bore's closed outline with its normals.
-    pub fn ring(&mut self, rim: &[DVec2], bore_radius_mm: f64, z_mm: f64, top: bool) -> Profile {
+    pub fn ring(&mut self, rim: &[DVec2], bore_radius_mm: f64, z_mm: f64, top: bool) -> SectionProfile {
         let count = rim.len();
         let bore: Vec<DVec2> = (0..count)
             .map(|i| bore_radius_mm * DVec2::from_angle(rim[0].to_angle() + TURN_RAD * i as f64 / count as f64))

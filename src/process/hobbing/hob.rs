@@ -165,7 +165,7 @@ impl Hob {
     ///
     /// # Errors
     /// An impossible lead, pointed teeth, a tip round or protuberance that does not fit, a hob too short for one tooth.
-    pub fn new(spec: &model::Hob, module_mm: f64, pressure_angle_rad: f64) -> Result<Self, Refusal> {
+    pub fn new(spec: &model::HobSpec, module_mm: f64, pressure_angle_rad: f64) -> Result<Self, Refusal> {
         let (m, alpha) = (module_mm, pressure_angle_rad);
         let starts = f64::from(spec.starts);
         let (new_pitch_radius_mm, lead_angle_rad, size_key) = match spec.size {
@@ -292,7 +292,7 @@ impl Hob {
 
 /// Segments of one tooth, right root to left root, and the radius where the flank proper ends.
 fn tooth_edge(
-    spec: &model::Hob,
+    spec: &model::HobSpec,
     flank: &RakeFlank,
     [root_mm, tip_mm]: [f64; 2],
     pitch_mm: f64,

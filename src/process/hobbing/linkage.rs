@@ -20,7 +20,8 @@
 //! work (the whole rolling speeds up, ds/dt = v_b - h v_z tan beta) or by the hob.
 //!
 //! **As printed.** The papers add v_z tan(beta) / r to the work's speed and leave the carriage alone (Liu et al. 2013,
-//! Eq. 14 and 15). That is right for a circle only: on other curves work and carriage part. Kept to show what it does.
+//! Eq. 14 and 15). That is right for a circle only: on other curves work and carriage part. It is kept to show what it
+//! does.
 //!
 //! Velocities and accelerations are the series' coefficients, no differences.
 

@@ -19,7 +19,7 @@ use crate::process::shaping::gcode;
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::generation::Generation;
 use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule};
-use crate::process::shaping::scene::model::{self, Machine, Measure, Operation, Shaping};
+use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Measure, Operation, Shaping};
 use crate::process::shaping::target::{TargetFlank, target_root};
 use crate::process::shaping::tooth_target::ToothTarget;
 use crate::scene::Scene;
@@ -70,8 +70,10 @@ pub struct ShapingJob {
     pub chip_spacing_mm: f64,
     /// Where profiles are evaluated.
     pub measure: Measure,
+    /// Form of the axis programs.
+    pub gcode: GcodeDialect,
     /// The cutter as the scene describes it.
-    pub cutter_spec: model::ShaperCutter,
+    pub cutter_spec: model::CutterSpec,
     /// The pitch curve.
     pub curve: Arc<PitchCurve>,
     /// The cutter.
@@ -97,6 +99,7 @@ impl ShapingJob {
         };
         let machine = shaping.machine.clone();
         let (material, chip_spacing_mm, measure) = (shaping.material, shaping.chip_spacing_mm, shaping.measure);
+        let gcode = shaping.gcode;
         if gear.helix_angle_rad != 0.0 {
             return Err(Refusal::new(
                 "gear.helix_angle_deg",
@@ -153,6 +156,7 @@ impl ShapingJob {
             material,
             chip_spacing_mm,
             measure,
+            gcode,
             cutter_spec: shaping.tool.clone(),
             curve,
             cutter,

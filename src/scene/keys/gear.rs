@@ -70,7 +70,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 default: Default::Number(0.0),
                 example: "10.5",
                 teach: "Helix angle on the pitch curve; 0 is a spur gear. Module and pressure angle are those of the \
-                    normal section. Only hobbing cuts helical gears so far.",
+                    normal section. Not every process cuts helical gears; one that does not refuses them.",
             },
             Key {
                 name: "hand",

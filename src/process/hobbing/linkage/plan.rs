@@ -29,9 +29,9 @@ const MOST_PHASES: usize = 10_000;
 pub struct FeedPlan {
     /// The path.
     pub path: FeedPath,
-    /// Way of the slide before the face, mm.
+    /// Travel of the slide before the face, mm.
     pub approach_mm: f64,
-    /// Way of the slide beyond the face, mm.
+    /// Travel of the slide beyond the face, mm.
     pub overrun_mm: f64,
     /// Distance from the pitch point, along the hob, that contact needs on both sides, mm.
     pub contact_half_length_mm: f64,

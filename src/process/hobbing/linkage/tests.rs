@@ -3,7 +3,7 @@
 use super::*;
 use crate::frame::RigidMotion3;
 use crate::gear::PitchCurveShape;
-use crate::process::hobbing::scene::model::{GashForm, Hob as HobSpec, HobSize, Worm};
+use crate::process::hobbing::scene::model::{GashForm, HobSize, HobSpec, Worm};
 use crate::terms::Hand;
 
 fn hob(hand: Hand) -> Hob {

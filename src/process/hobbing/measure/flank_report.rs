@@ -1,6 +1,6 @@
 //! Everything measured on one hobbed flank after all operations.
 //!
-//! In: the cut flank. Out: [`HobbedReport`]: where the flank begins, heights over the target on the evaluated part,
+//! In: the cut flank. Out: [`HobbedReport`]: where the flank begins, normal deviations on the evaluated part,
 //! stock of earlier operations, profile and helix deviations.
 //!
 //! The evaluated part leaves out a twentieth at both ends of profile and face. Profile deviations are those of the
@@ -47,7 +47,7 @@ pub struct HobbedReport {
     pub undercut: bool,
     /// Length of the profile in the middle of the face, mm.
     pub length_mm: f64,
-    /// Finished surface over the target; `None` where a dexel of the evaluated part was not reached.
+    /// Normal deviations of the finished surface; `None` where a dexel of the evaluated part was not reached.
     pub finished: Option<HeightSummary>,
     /// What each earlier operation left over the finished surface.
     pub stock: Vec<Option<HeightSummary>>,

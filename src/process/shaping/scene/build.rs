@@ -1,7 +1,7 @@
 //! Checked values of a shaping scene to the model.
 
 use super::model::{
-    AxisLimits, Feed, Infeed, Linkage, Machine, Measure, NormalReading, Operation, ShaperCutter, Shaping,
+    AxisLimits, CutterSpec, Feed, GcodeDialect, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Shaping,
     StrokeSpacing, Tip, TraditionalDirection,
 };
 use crate::material::EdgeForce;
@@ -28,6 +28,12 @@ pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
             profile_start_height_mm: measure.number("profile_start_height_mm"),
             profile_end_height_mm: measure.number("profile_end_height_mm"),
         },
+        gcode: match values.view("output").text("gcode")? {
+            "linear" => GcodeDialect::Linear,
+            "paper_g84" => GcodeDialect::PaperG84,
+            "none" => GcodeDialect::None,
+            _ => return None,
+        },
     }))
 }
 
@@ -41,11 +47,11 @@ fn material(values: &Values) -> Option<EdgeForce> {
     })
 }
 
-fn shaper_cutter(values: &Values) -> Option<ShaperCutter> {
+fn shaper_cutter(values: &Values) -> Option<CutterSpec> {
     let cutter = values.view("tool.shaper_cutter");
     let round = values.view("tool.shaper_cutter.tip.round");
     let chamfer = values.view("tool.shaper_cutter.tip.chamfer");
-    Some(ShaperCutter {
+    Some(CutterSpec {
         teeth: cutter.whole("teeth")?,
         addendum_coefficient: cutter.number("addendum_coefficient")?,
         dedendum_coefficient: cutter.number("dedendum_coefficient")?,

@@ -4,6 +4,7 @@ mod machine;
 mod material;
 mod measure;
 mod operation;
+mod output;
 mod tool;
 
 use crate::scene::keys::{Addition, KeySection};
@@ -15,4 +16,4 @@ pub(super) static SECTIONS: &[&[KeySection]] =
     &[material::SECTIONS, tool::SECTIONS, machine::SECTIONS, operation::SECTIONS, measure::SECTIONS];
 
 /// Keys in shared sections.
-pub(super) static ADDED: &[&Addition] = &[&machine::ADDED, &operation::ADDED];
+pub(super) static ADDED: &[&Addition] = &[&machine::ADDED, &operation::ADDED, &output::ADDED];
