@@ -259,15 +259,17 @@ mod slow {
     use super::*;
 
     /// So coarse, and a face so narrow, that a scene takes some seconds.
-    const COARSEST: [&str; 10] = [
+    const COARSEST: [&str; 12] = [
         "--set",
-        "gear.face_width_mm=4",
+        "gear.face_width_mm=2",
         "--set",
-        "fields.flank.profile_spacing_um=500",
+        "operation.finish.axial_feed_mm_per_revolution=6",
+        "--set",
+        "fields.flank.profile_spacing_um=1000",
         "--set",
         "fields.flank.lead_spacing_um=2000",
         "--set",
-        "fields.blank.spacing_mm=2",
+        "fields.blank.spacing_mm=3",
         "--set",
         "output.map_spacing_mm=0.5",
     ];
