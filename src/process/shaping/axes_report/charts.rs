@@ -38,7 +38,8 @@ fn position_sign(axis: &Axis) -> &'static str {
 }
 
 fn positions(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
-    let ratio = f64::from(job.scene.gear.teeth) / f64::from(job.cutter.teeth);
+    // In a ring the cutter turns the other way.
+    let ratio = job.blank.kind().tip_sign() * f64::from(job.scene.gear.teeth) / f64::from(job.cutter.teeth);
     // A value from the positions of the axes and the polar angle of the pitch point, read as positions of `axis` are.
     let one = |value_name: &str, axis: &Axis, name: &str, value: &dyn Fn([f64; 3], f64) -> f64| {
         let shown = |row: &StrokeRow| axis.kind.shown(value(row.motion.map(|axis| axis.position), row.phi_rad));
