@@ -9,6 +9,8 @@
 //! a value inside a choice, and keep ranges, units and sentences somewhere else.
 
 mod gear;
+mod material;
+mod measure;
 mod output;
 mod picture;
 mod pitch_curve;
@@ -167,9 +169,11 @@ pub(super) fn shared() -> impl Iterator<Item = &'static KeySection> {
         FIRST,
         gear::SECTIONS,
         pitch_curve::SECTIONS,
+        material::SECTIONS,
         process::SECTIONS,
         texture::SECTIONS,
         output::SECTIONS,
+        measure::SECTIONS,
         picture::SECTIONS,
     ]
     .into_iter()
@@ -220,6 +224,14 @@ impl Key {
     /// A limit of an axis, where known.
     pub const fn limit(name: &'static str, unit: &'static str, example: &'static str, teach: &'static str) -> Self {
         Self::optional(name, unit, Range::above(0.0, 1e7), "not limited", example, teach)
+    }
+
+    /// Whether it is the key `other` with more words.
+    pub fn widens(&self, other: &Self) -> bool {
+        match (self.kind, other.kind) {
+            (Kind::Word(more), Kind::Word(words)) => words.iter().all(|word| more.contains(word)),
+            _ => false,
+        }
     }
 
     /// Unit and range in brackets, as messages print it: `(mm, 0.1 to 50)`.

@@ -20,7 +20,7 @@ use crate::process::shaping::gcode;
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::generation::Generation;
 use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule};
-use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Measure, Operation, Shaping};
+use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Operation, Shaping};
 use crate::process::shaping::target::{TargetFlank, target_root};
 use crate::process::shaping::tooth_target::ToothTarget;
 use crate::scene::Scene;
@@ -69,8 +69,6 @@ pub struct ShapingJob {
     pub material: EdgeForce,
     /// Distance of the rays on which chips are followed, mm.
     pub chip_spacing_mm: f64,
-    /// Where profiles are evaluated.
-    pub measure: Measure,
     /// Form of the axis programs.
     pub gcode: GcodeDialect,
     /// The cutter as the scene describes it.
@@ -99,7 +97,7 @@ impl ShapingJob {
             return Err(Refusal::new("tool", "this tool does not shape gears", way_out).into());
         };
         let machine = shaping.machine.clone();
-        let (material, chip_spacing_mm, measure) = (shaping.material, shaping.chip_spacing_mm, shaping.measure);
+        let (material, chip_spacing_mm) = (shaping.material, shaping.chip_spacing_mm);
         let gcode = shaping.gcode;
         if gear.helix_angle_rad != 0.0 {
             return Err(Refusal::new(
@@ -158,7 +156,6 @@ impl ShapingJob {
             machine,
             material,
             chip_spacing_mm,
-            measure,
             gcode,
             cutter_spec: shaping.tool.clone(),
             curve,

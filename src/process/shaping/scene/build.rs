@@ -1,7 +1,7 @@
 //! Checked values of a shaping scene to the model.
 
 use super::model::{
-    AxisLimits, CutterSpec, Feed, GcodeDialect, Infeed, Linkage, Machine, Measure, NormalReading, Operation, Shaping,
+    AxisLimits, CutterSpec, Feed, GcodeDialect, Infeed, Linkage, Machine, NormalReading, Operation, Shaping,
     StrokeSpacing, Tip, TraditionalDirection,
 };
 use crate::material::EdgeForce;
@@ -17,17 +17,12 @@ pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
     let operations: Option<Vec<Operation>> = (0..values.count("operation"))
         .map(|index| operation(values, &format!("operation.{index}"), base_dir, pressure_angle_rad))
         .collect();
-    let measure = values.view("measure");
     Some(ScenePart::new(Shaping {
         tool: shaper_cutter(values)?,
         machine: machine(values)?,
         operations: operations?,
         material: material(values)?,
         chip_spacing_mm: values.view("fields.chips").number("spacing_mm")?,
-        measure: Measure {
-            profile_start_height_mm: measure.number("profile_start_height_mm"),
-            profile_end_height_mm: measure.number("profile_end_height_mm"),
-        },
         gcode: match values.view("output").text("gcode")? {
             "linear" => GcodeDialect::Linear,
             "paper_g84" => GcodeDialect::PaperG84,
