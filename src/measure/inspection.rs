@@ -6,7 +6,7 @@
 use super::crossing::Crossing;
 use super::deviation::{self, PitchDeviations, Runout, Trace, TraceDeviation};
 use super::thickness::Thickness;
-use crate::gear::PitchCurve;
+use crate::gear::blank::Blank;
 use crate::terms::Side;
 
 /// One flank after all operations, measured.
@@ -49,14 +49,14 @@ impl GearInspection {
     /// From where left and right flanks, in order of teeth, cross the pitch curve; `pitch_mm` is its arc from tooth to
     /// tooth, `pressure_angle_rad` that of the transverse section.
     pub fn of_crossings(
-        curve: &PitchCurve,
+        blank: &Blank,
         [left, right]: [&[Option<Crossing>]; 2],
         pitch_mm: f64,
         pressure_angle_rad: f64,
     ) -> Self {
         Self {
-            pitch: [left, right].map(|side| deviation::pitch(side, pitch_mm, curve.perimeter_mm())),
-            runout: deviation::runout(curve, left, right, pressure_angle_rad),
+            pitch: [left, right].map(|side| deviation::pitch(side, pitch_mm, blank.curve().perimeter_mm())),
+            runout: deviation::runout(blank, left, right, pressure_angle_rad),
             thickness: left
                 .iter()
                 .zip(right)

@@ -13,6 +13,7 @@ mod material;
 mod measure;
 mod output;
 mod picture;
+mod pitch_curve;
 mod process;
 mod range;
 mod texture;
@@ -166,6 +167,7 @@ pub(super) fn shared() -> impl Iterator<Item = &'static KeySection> {
     [
         FIRST,
         gear::SECTIONS,
+        pitch_curve::SECTIONS,
         material::SECTIONS,
         process::SECTIONS,
         texture::SECTIONS,

@@ -240,6 +240,9 @@ impl<'a> Walk<'a, '_> {
     fn derive(&mut self) {
         if let Some(module_mm) = self.values.view("gear").number("module_mm") {
             self.values.put_default("gear", "face_width_mm", Checked::Number((10.0 * module_mm).min(1000.0)));
+            if self.values.view("gear").text("kind") == Some("internal") {
+                self.values.put_default("gear", "rim_mm", Checked::Number(5.0 * module_mm));
+            }
         }
         if let Some(material) = self.values.view("material").text("name").and_then(Kienzle::named) {
             let force = material.edge_force();

@@ -13,7 +13,6 @@ use crate::passes::{SweepPlan, TurningPasses};
 use crate::process::hobbing::flank_patch::FlankPatch;
 use crate::process::hobbing::kept::Kept;
 use crate::terms::Side;
-use crate::tool::CuttingTool;
 use std::borrow::Cow;
 
 /// Places along profile and tooth at which the blank's height over the flank is taken; between them it is bilinear: it
@@ -134,9 +133,9 @@ impl<'a> HobCutter<'a> {
         let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
         let mut stats = CutStats::default();
         for passes in self.operations.iter() {
-            let plan = SweepPlan::new(field, passes, self.job.hob.edge());
+            let plan = SweepPlan::new(field, passes);
             let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
-            stats += backend.cut_spatial(field, self.job.hob.edge(), &plan, &mut layer)?;
+            stats += backend.cut_spatial(field, &plan, &mut layer)?;
             layers.push(layer);
         }
         Ok((layers, stats))

@@ -91,5 +91,5 @@ fn inspection(cutter: &HobCutter, flanks: &[HobbedReport], points: &[Vec<CurvePo
     let [left, right] = [Side::Left, Side::Right].map(crossings);
     let pitch_mm = PI * spec.transverse_module_mm();
     let pressure_angle_rad = spec.transverse_pressure_angle_rad();
-    GearInspection::of_crossings(&cutter.job.curve, [&left, &right], pitch_mm, pressure_angle_rad)
+    GearInspection::of_crossings(&cutter.job.blank, [&left, &right], pitch_mm, pressure_angle_rad)
 }

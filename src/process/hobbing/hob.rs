@@ -36,6 +36,7 @@ use crate::error::Refusal;
 use crate::frame::Rigid3;
 use crate::process::hobbing::scene::model;
 use crate::process::hobbing::scene::model::{GashForm, HobSize};
+use crate::tool::blade_edges::BladeEdges;
 use crate::tool::edge::Edge;
 use crate::tool::{CuttingTool, SpatialTool};
 use edge::{RakeFlank, tooth_edge};
@@ -78,7 +79,7 @@ pub struct Hob {
     pub flank_end_radius_mm: f64,
     /// Teeth in blade order.
     pub teeth: Vec<HobTooth>,
-    edge: Edge,
+    edges: BladeEdges,
     flank: RakeFlank,
     rake_twist_rad_per_mm: f64,
 }
@@ -220,7 +221,7 @@ impl Hob {
             length_mm: spec.length_mm,
             flank_end_radius_mm,
             teeth,
-            edge: Edge::new(segments),
+            edges: BladeEdges::shared(Edge::new(segments)),
             flank,
             rake_twist_rad_per_mm,
         })
@@ -245,8 +246,8 @@ impl CuttingTool for Hob {
         self.teeth.len() as u32
     }
 
-    fn edge(&self) -> &Edge {
-        &self.edge
+    fn edges(&self) -> &BladeEdges {
+        &self.edges
     }
 }
 
