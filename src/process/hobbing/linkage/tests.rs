@@ -3,8 +3,10 @@
 use super::*;
 use crate::frame::RigidMotion3;
 use crate::gear::PitchCurveShape;
+use crate::process::hobbing::Hob;
 use crate::process::hobbing::scene::model::{GashForm, HobSize, HobSpec, Worm};
 use crate::terms::Hand;
+use glam::DVec3;
 
 fn hob(hand: Hand) -> Hob {
     let spec = HobSpec {
