@@ -230,7 +230,7 @@ fn a_peak_behind_many_equal_stretches_is_found() {
     let found = peaks(&linkage, &[Limits::default(); 6]);
     let of = |peaks: &[Peak], name: &str| peaks.iter().find(|peak| peak.name() == name).copied().unwrap();
     let shift = of(&found, "shift speed");
-    assert!((shift.value - 2.5).abs() < 1e-12 && shift.at > 65.0 * 0.9, "{shift:?}");
+    assert!((shift.value - 2.5).abs() < 1e-12 && shift.at > 64.9 * 0.9, "{shift:?}");
     let pieces = Motion::pieces(&linkage).len();
     assert!((3..66).contains(&pieces), "{pieces} pieces");
     // Without the fast stretch every axis's peaks are those of a search through all stretches.
