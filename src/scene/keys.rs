@@ -11,6 +11,7 @@
 mod gear;
 mod output;
 mod picture;
+mod pitch_curve;
 mod process;
 mod range;
 mod texture;
@@ -161,9 +162,17 @@ const ROOT: KeySection = KeySection { path: "", role: Role::Plain, keys: &[], gr
 /// The sections that all processes share, each after the one that holds it.
 pub(super) fn shared() -> impl Iterator<Item = &'static KeySection> {
     static FIRST: &[KeySection] = &[ROOT];
-    [FIRST, gear::SECTIONS, process::SECTIONS, texture::SECTIONS, output::SECTIONS, picture::SECTIONS]
-        .into_iter()
-        .flatten()
+    [
+        FIRST,
+        gear::SECTIONS,
+        pitch_curve::SECTIONS,
+        process::SECTIONS,
+        texture::SECTIONS,
+        output::SECTIONS,
+        picture::SECTIONS,
+    ]
+    .into_iter()
+    .flatten()
 }
 
 /// `name` inside `path`.

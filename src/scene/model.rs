@@ -5,10 +5,13 @@
 //! (`face_width_mm`, `pressure_angle_deg`); angles are radians here.
 
 use super::process::ScenePart;
-use crate::gear::PitchCurveShape;
+use crate::error::Refusal;
+use crate::gear::blank::Blank;
+use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
 use crate::terms::{Hand, Side};
 use gearcut_texture::Form;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// One job: what is cut, with what, how, and what is measured.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +42,18 @@ impl Gear {
     pub fn transverse_pressure_angle_rad(&self) -> f64 {
         (self.pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
     }
+
+    /// The stock round its pitch curve.
+    ///
+    /// # Errors
+    /// A pitch curve that is curved more sharply than the addendum allows.
+    pub fn blank(&self, curve: Arc<PitchCurve>) -> Result<Blank, Refusal> {
+        let addendum_mm = self.addendum_coefficient * self.module_mm;
+        match self.kind {
+            GearKind::External => Ok(Blank::new(curve, addendum_mm)?.with_bore(0.5 * self.bore_diameter_mm)),
+            GearKind::Internal => Blank::ring(curve, addendum_mm, self.rim_mm),
+        }
+    }
 }
 
 impl Scene {
@@ -51,6 +66,8 @@ impl Scene {
 /// The gear: pitch curve, teeth and blank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gear {
+    /// External, or a ring with internal teeth.
+    pub kind: GearKind,
     /// Module m in mm; on a helical gear the normal module, the tool's own.
     pub module_mm: f64,
     /// Number of teeth z on the closed pitch curve.
@@ -65,8 +82,10 @@ pub struct Gear {
     pub face_width_mm: f64,
     /// Addendum of the blank over the pitch curve, in modules.
     pub addendum_coefficient: f64,
-    /// Diameter of the bore; pictures and meshes use it.
+    /// Diameter of an external gear's bore; 0 for none.
     pub bore_diameter_mm: f64,
+    /// Material of a ring outside the largest radius of its pitch curve; means nothing on external gears.
+    pub rim_mm: f64,
     /// Change of tooth thickness on the pitch curve that every operation gets (negative: thinner teeth, backlash).
     pub tooth_thickness_allowance_mm: f64,
     /// Shape of the pitch curve.

@@ -239,6 +239,9 @@ impl<'a> Walk<'a, '_> {
     fn derive(&mut self) {
         if let Some(module_mm) = self.values.view("gear").number("module_mm") {
             self.values.put_default("gear", "face_width_mm", Checked::Number((10.0 * module_mm).min(1000.0)));
+            if self.values.view("gear").text("kind") == Some("internal") {
+                self.values.put_default("gear", "rim_mm", Checked::Number(5.0 * module_mm));
+            }
         }
         for (list, count) in self.values.counts.clone() {
             let section = self.table.section(&format!("{list}[]"));

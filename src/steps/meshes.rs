@@ -55,7 +55,7 @@ pub fn write_flank(
 /// The gear as a closed body; tips are cut here.
 ///
 /// # Errors
-/// The backend's; a bore that reaches the teeth.
+/// The backend's; a bore or a rim that reaches the teeth.
 pub fn gear(
     job: &dyn GearJob,
     backend: &dyn Backend,
@@ -66,7 +66,7 @@ pub fn gear(
     let step = progress.step("tips", u64::from(job.scene().gear.teeth), "teeth");
     let surfaces = gear_surfaces::complete(job, backend, flanks, roots, &|| step.advance(1))?;
     let outline = Outline::new(&surfaces, job.blank());
-    let solid = gear_solid(&outline, job.scene().gear.bore_diameter_mm)?;
+    let solid = gear_solid(&outline, &job.blank().back)?;
     step.finish();
     Ok(solid)
 }

@@ -6,7 +6,7 @@
 //! by the shape.
 //!
 //! End faces need no general triangulation: every tooth is a ladder from its right to its left flank, and the ring
-//! below the teeth a strip from root to bore. All parts meet in the same points, so the mesh is closed (a test counts
+//! below the teeth a strip from root to bore or rim. All parts meet in the same points, so the mesh is closed (a test counts
 //! its edges).
 
 use crate::error::Result;
@@ -40,7 +40,7 @@ pub struct ViewFlank {
 pub struct ViewMesh {
     /// Flanks in order of teeth, left before right.
     pub flanks: Vec<ViewFlank>,
-    /// Roots, tip lands, end faces and bore.
+    /// Roots, tip lands, end faces, bore or rim.
     pub body: Triangles,
 }
 
@@ -53,7 +53,8 @@ impl ViewMesh {
         let rows_z_mm = job.view_rows_z_mm();
         let [bottom, top] = [0, rows_z_mm.len() - 1];
         let mut flanks = Vec::new();
-        let mut body = Triangles::default();
+        let gear = job.blank().kind();
+        let mut body = Triangles::of(gear);
         let mut rims = Vec::new();
         for tooth in 1..=job.scene().gear.teeth {
             let [left, right] =
@@ -61,7 +62,7 @@ impl ViewMesh {
             let ((left_arcs, left), (right_arcs, right)) = (left?, right?);
             let tip: Vec<Profile> = right.iter().zip(&left).map(|(right, left)| tip_land(job, right, left)).collect();
             for (side, arcs_mm, profiles) in [(Side::Left, left_arcs, &left), (Side::Right, right_arcs, &right)] {
-                let mut triangles = Triangles::default();
+                let mut triangles = Triangles::of(gear);
                 triangles.wall(profiles, &rows_z_mm, side == Side::Right);
                 flanks.push(ViewFlank { tooth, side, arcs_mm, rows_z_mm: rows_z_mm.clone(), triangles });
             }
@@ -82,7 +83,7 @@ impl ViewMesh {
                 rim.extend(roots[k][..roots[k].len() - 1].iter().map(|(point, _)| *point));
             }
         }
-        body.rings(&rim, 0.5 * job.scene().gear.bore_diameter_mm, [rows_z_mm[bottom], rows_z_mm[top]]);
+        body.rings(&rim, job.blank().back.radius_mm, [rows_z_mm[bottom], rows_z_mm[top]]);
         Ok(Self { flanks, body })
     }
 }
@@ -95,15 +96,15 @@ fn tip_land(job: &dyn GearJob, right: &Profile, left: &Profile) -> Profile {
     (0..=TIP_INTERVALS)
         .map(|i| {
             let share = i as f64 / TIP_INTERVALS as f64;
-            let frame = job.curve().frame(foot(ends[0].lerp(ends[1], share)).1);
+            let foot_rad = foot(ends[0].lerp(ends[1], share)).1;
             let height_mm = heights[0] + share * (heights[1] - heights[0]);
             // The ends are the flanks' own points, to the last digit.
             let point = match i {
                 0 => ends[0],
                 TIP_INTERVALS => ends[1],
-                _ => frame.point_mm + height_mm * frame.normal,
+                _ => job.blank().at_height_mm(foot_rad, height_mm),
             };
-            (point, frame.normal.extend(0.0))
+            (point, job.blank().towards_tip(&job.curve().frame(foot_rad)).extend(0.0))
         })
         .collect()
 }

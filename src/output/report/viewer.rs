@@ -275,6 +275,7 @@ mod tests {
                 positions_mm: vec![[1.0, 2.0, 3.0]; 3],
                 normals: vec![[0.0; 3]; 3],
                 indices: vec![0, 1, 2],
+                ..Triangles::default()
             },
             places_mm: vec![[0.0; 2]; 3],
         };

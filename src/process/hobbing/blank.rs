@@ -14,7 +14,6 @@ use crate::passes::sections::swept_sections::SweptSections;
 use crate::process::hobbing::rack_generation::FormPoint;
 use crate::steps::whole_blank;
 use crate::terms::Side;
-use crate::tool::CuttingTool;
 use crate::units::TURN_RAD;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -61,7 +60,7 @@ impl HobbingJob {
                 self.tooth_outline(tooth, right_forms, z_mm, spacing_mm)
             })
             .collect();
-        TargetOutline::new(teeth.concat())
+        TargetOutline::new(teeth.concat(), self.blank.back)
     }
 
     /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise. Flanks begin where the fillet
@@ -122,7 +121,7 @@ impl HobCutter<'_> {
     pub fn sections(&self, operation: usize, cull: bool) -> SweptSections {
         let reach_mm = BlankOutline::new(&self.job.blank).reach_mm();
         let passes = &self.operations[operation];
-        SweptSections::new(passes, self.job.hob.edge(), reach_mm, self.job.scene.gear.face_width_mm, cull)
+        SweptSections::new(passes, reach_mm, self.job.scene.gear.face_width_mm, cull)
     }
 
     /// Runs all operations over the uncut blank; `advance` is called as often as there are slices, in every operation,

@@ -13,7 +13,7 @@ use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, rows_z_mm};
 use crate::passes::{MotionTable, SweepPlan, TurningPasses};
 use crate::process::hobbing::flank_patch::FlankPatch;
 use crate::terms::Side;
-use crate::tool::{CuttingTool, SpatialTool};
+use crate::tool::SpatialTool;
 use std::sync::OnceLock;
 
 /// Places along profile and tooth at which the blank's height over the flank is taken; between them it is bilinear: it
@@ -150,9 +150,9 @@ impl<'a> HobCutter<'a> {
         let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
         let mut stats = CutStats::default();
         for passes in &self.operations {
-            let plan = SweepPlan::new(field, passes, self.job.hob.edge());
+            let plan = SweepPlan::new(field, passes);
             let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
-            stats += backend.cut_spatial(field, self.job.hob.edge(), &plan, &mut layer)?;
+            stats += backend.cut_spatial(field, &plan, &mut layer)?;
             layers.push(layer);
         }
         Ok((layers, stats))

@@ -100,7 +100,7 @@ fn measure_teeth(cutter: &HobCutter, gear: &mut HobbedGear) {
     let [left, right] = [Side::Left, Side::Right].map(crossings);
     let (curve, pitch_mm) = (&cutter.job.curve, PI * spec.transverse_module_mm());
     gear.pitch = [&left, &right].map(|side| deviation::pitch(side, pitch_mm, curve.perimeter_mm()));
-    gear.runout = deviation::runout(curve, &left, &right, spec.transverse_pressure_angle_rad());
+    gear.runout = deviation::runout(&cutter.job.blank, &left, &right, spec.transverse_pressure_angle_rad());
     gear.thickness =
         left.iter().zip(&right).map(|(left, right)| Some(Thickness::between((*left)?, (*right)?))).collect();
 }

@@ -10,7 +10,7 @@ mod charts;
 mod facts;
 mod strokes;
 
-use super::gcode;
+use super::programs;
 use crate::Result;
 use crate::findings::{Place, Quantity, Section};
 use crate::machine::{Peak, peaks};
@@ -65,7 +65,8 @@ impl<'a> OperationAxes<'a> {
         let beta = |phi: f64| {
             let motion = linkage.pose_motion(phi, spec.offset_mm);
             let out = motion.pose.center_mm - motion.instantaneous_center_mm();
-            out.perp_dot(motion.pose.center_mm).atan2(out.dot(motion.pose.center_mm)).abs()
+            let back = linkage.gear().tip_sign() * motion.pose.center_mm;
+            out.perp_dot(back).atan2(out.dot(back)).abs()
         };
         let places = (0..BETA_PLACES).map(|i| TURN_RAD * f64::from(i) / f64::from(BETA_PLACES));
         let (largest_beta_phi_rad, largest_beta_rad) =
@@ -155,7 +156,7 @@ impl AxesOfOperation for OperationAxes<'_> {
     }
 
     fn programs(&self) -> Option<Result<Vec<(&'static str, String)>, String>> {
-        Some(gcode::text(self.job, self.operation())?.map(|text| vec![("", text)]))
+        Some(programs::text(self.job, self.operation())?.map(|text| vec![("", text)]))
     }
 }
 

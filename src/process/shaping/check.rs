@@ -2,15 +2,18 @@
 
 mod cost;
 mod facts;
+pub mod ring;
 mod teeth;
 
 use crate::error::Result;
+use crate::gear::GearKind;
 use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use facts::ToothFacts;
+use ring::RingFacts;
 
 /// Prints everything; what must be known before cutting.
 ///
@@ -23,12 +26,17 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>> {
     sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
     check_curve::print(sheet, &job.curve, &job.scene.gear, Some(job.cutter.pitch_radius_mm));
     teeth::print(sheet, job, &facts);
+    let ring = (job.blank.kind() == GearKind::Internal).then(|| RingFacts::new(job));
+    if let Some(ring) = &ring {
+        ring::print(sheet, job, ring);
+    }
     for operation in &operations {
         axes::print(operation, sheet);
     }
     cost::print(sheet, job, &facts)?;
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
     warnings.extend(teeth::warnings(job, &facts));
+    warnings.extend(ring.iter().flat_map(ring::warnings));
     warnings.extend(axes::warnings(&operations));
     Ok(warnings)
 }

@@ -10,6 +10,7 @@ use crate::error::Refusal;
 use crate::frame::Rigid2;
 use crate::process::shaping::scene::model;
 use crate::scene::model::Gear;
+use crate::tool::blade_edges::BladeEdges;
 use crate::tool::edge::{Edge, Segment, SegmentName};
 use crate::tool::edge_table::TableError;
 use crate::tool::involute::{Involute, inv};
@@ -42,9 +43,11 @@ pub struct ShaperCutter {
     pub half_angle_rad: f64,
     /// Rolls where the involute starts (near the base circle) and ends (at the tip corner).
     pub roll_range: [f64; 2],
+    /// Length of the straight base between the involute and the root circle; 0 where the involute reaches it.
+    pub base_length_mm: f64,
     /// What lies between the left flank and the tip circle, from the flank on; the right side mirrors it.
     pub corner: Vec<CornerPart>,
-    edge: Edge,
+    edges: BladeEdges,
     runout_mm: DVec2,
     tooth_angles_rad: Vec<f64>,
 }
@@ -187,12 +190,14 @@ impl ShaperCutter {
             left_half.push(Segment::involute(SegmentName::FlankLeft, left, [rolls[1], rolls[0]]).map_err(no_fit)?);
         }
         let mut root_from_rad = start.to_angle();
+        let mut base_length_mm = 0.0;
         if start_radius_mm > root_radius_mm + 1e-6 {
             let inwards = left.normal(start_roll).perp();
             let b = start.dot(inwards);
             let run =
                 -b - (b * b - start_radius_mm * start_radius_mm + root_radius_mm * root_radius_mm).max(0.0).sqrt();
             let end = start + run * inwards;
+            base_length_mm = run;
             root_from_rad = end.to_angle();
             left_half.push(Segment::straight(SegmentName::BaseLeft, start, end));
         }
@@ -227,11 +232,17 @@ impl ShaperCutter {
             tip_radius_mm,
             half_angle_rad,
             roll_range: [start_roll, end_roll],
+            base_length_mm,
             corner,
-            edge: Edge::new(segments),
+            edges: BladeEdges::shared(Edge::new(segments)),
             runout_mm: spec.runout_mm * DVec2::from_angle(spec.runout_angle_rad),
             tooth_angles_rad,
         })
+    }
+
+    /// The edge that all teeth share.
+    pub fn edge(&self) -> &Edge {
+        &self.edges.edges()[0]
     }
 
     /// One flank of a tooth; `side` +1: left (counter-clockwise), -1: right.
@@ -245,8 +256,8 @@ impl CuttingTool for ShaperCutter {
         self.teeth
     }
 
-    fn edge(&self) -> &Edge {
-        &self.edge
+    fn edges(&self) -> &BladeEdges {
+        &self.edges
     }
 }
 
@@ -264,6 +275,7 @@ pub(crate) mod tests {
     /// The paper's cutter: 20 teeth of module 3.
     pub(crate) fn paper_cutter(tip: model::Tip) -> ShaperCutter {
         let gear = Gear {
+            kind: crate::gear::GearKind::External,
             module_mm: 3.0,
             teeth: 42,
             pressure_angle_rad: 20_f64.to_radians(),
@@ -272,6 +284,7 @@ pub(crate) mod tests {
             face_width_mm: 30.0,
             addendum_coefficient: 1.0,
             bore_diameter_mm: 20.0,
+            rim_mm: 0.0,
             tooth_thickness_allowance_mm: 0.0,
             pitch_curve: crate::gear::PitchCurveShape::Circle,
         };

@@ -9,9 +9,10 @@ use crate::cut::Backend;
 use crate::dexel::Field;
 use crate::error::{Refusal, Result};
 use crate::frame::Rigid2;
-use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
+use crate::gear::{GearKind, PitchCurve};
 use crate::material::EdgeForce;
+use crate::math::roots::sample_angle_rad;
 use crate::passes::StrokeSet;
 use crate::passes::planar::strokes::StrokeLaw;
 use crate::process::shaping::ShaperCutter;
@@ -54,7 +55,7 @@ impl PreparedOperation {
 }
 
 fn pose(program: Option<&AxisProgram>, schedule: &StrokeSchedule, stroke: f64) -> CutterPose {
-    program.map_or_else(|| schedule.state(stroke).pose, |program| program.at(stroke).pose())
+    program.map_or_else(|| schedule.state(stroke).pose, |program| program.at(stroke).pose(schedule.linkage().gear()))
 }
 
 /// Everything known before the first dexel is cut.
@@ -107,7 +108,7 @@ impl ShapingJob {
         }
         let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.module_mm, gear.teeth)?);
         let cutter = ShaperCutter::new(&shaping.tool, gear)?;
-        let blank = Blank::new(curve.clone(), gear.addendum_coefficient * gear.module_mm)?;
+        let blank = gear.blank(curve.clone())?;
         // Flanks refer to the cutter for as long as they are kept.
         let shared_cutter = Arc::new(cutter.clone());
         let passes: f64 = shaping.operations.len() as f64;
@@ -118,7 +119,8 @@ impl ShapingJob {
         for spec in &shaping.operations {
             let mut spec = spec.clone();
             spec.offset_mm += allowance_mm;
-            let linkage = ShapingLinkage::new(spec.linkage, curve.clone(), cutter.pitch_radius_mm, spec.offset_mm)?;
+            let linkage =
+                ShapingLinkage::new(gear.kind, spec.linkage, curve.clone(), cutter.pitch_radius_mm, spec.offset_mm)?;
             let schedule = StrokeSchedule::new(&spec, &linkage, &machine)?;
             let count = schedule.count();
             let ids = count as f64 * f64::from(cutter.teeth) * passes;
@@ -146,6 +148,7 @@ impl ShapingJob {
             let generation = Arc::new(Generation { linkage: linkage_of_flanks, cutter, offset_mm: spec.offset_mm });
             operations.push(PreparedOperation { spec, linkage, generation, schedule, program, strokes });
         }
+        rim_holds(gear.rim_mm, &blank, &cutter, &operations)?;
         let finishing = operations.last().expect("a checked scene has at least one operation");
         let targets = ToothTarget::of_all(&finishing.generation, &blank, gear.teeth)?;
         Ok(Self {
@@ -236,6 +239,36 @@ impl ShapingJob {
     pub fn cut(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
         self.planar().cut(backend, field)
     }
+}
+
+/// Refuses a ring that the cutter cuts through.
+fn rim_holds(
+    rim_mm: f64,
+    blank: &Blank,
+    cutter: &ShaperCutter,
+    operations: &[PreparedOperation],
+) -> Result<(), Refusal> {
+    let GearKind::Internal = blank.kind() else { return Ok(()) };
+    let samples = blank.curve().samples_per_turn();
+    let reach = |operation: &PreparedOperation| {
+        let centers =
+            (0..samples).map(|i| operation.linkage.pose(sample_angle_rad(i, samples), operation.spec.offset_mm));
+        centers.map(|pose| pose.center_mm.length() + cutter.tip_radius_mm).fold(0.0, f64::max)
+    };
+    let reach_mm = operations.iter().map(reach).fold(0.0, f64::max);
+    let missing_mm = reach_mm - blank.back.radius_mm;
+    if missing_mm < 0.0 {
+        return Ok(());
+    }
+    Err(Refusal::new(
+        "gear.rim_mm",
+        format!(
+            "the rim of {rim_mm} mm is thinner than the teeth are deep: the cutter reaches {reach_mm:.3} mm from the gear \
+            axis, the ring {:.3} mm",
+            blank.back.radius_mm
+        ),
+        format!("make it thicker than {:.3} mm; 5 modules are usual", rim_mm + missing_mm),
+    ))
 }
 
 /// The program that an operation is cut with.

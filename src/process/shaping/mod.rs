@@ -12,12 +12,14 @@ pub mod generation;
 pub mod job;
 pub mod linkage;
 pub mod measure;
+pub mod programs;
 mod report;
 mod run;
 pub mod scene;
 pub mod section;
 mod surfaces;
 pub mod target;
+pub mod tip_relief;
 pub mod tooth_target;
 
 use super::{CutDone, Process};

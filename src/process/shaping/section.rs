@@ -49,7 +49,7 @@ impl<'a> CutSection<'a> {
         let gear = &job.scene.gear;
         let spacing_mm = job.scene.fields.blank_spacing_mm;
         let grid = BlankGrid::new(&job.blank, &outline, gear.face_width_mm, spacing_mm, None)?;
-        let field = BlankField::new(grid, &outline, 0.5 * gear.bore_diameter_mm);
+        let field = BlankField::new(grid, &outline);
         Ok(Self { job, field, done: 0 })
     }
 
@@ -91,12 +91,12 @@ impl<'a> CutSection<'a> {
         let strokes = StrokeSet::new(first_pass, cutter, StrokeLaw::Frozen, count, |stroke| {
             Self::work_from_tool(self.job, first + stroke as usize)
         });
-        let tooth = self.job.planar().closed_tooth(&strokes, reach_mm);
+        let teeth = self.job.planar().closed_teeth(&strokes, reach_mm);
         let operation = BlankOperation {
             strokes: &strokes,
             returns: None,
             tool: cutter,
-            tooth: &tooth,
+            teeth: &teeth,
             blank_reach_mm: reach_mm,
             cull: true,
         };

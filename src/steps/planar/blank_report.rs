@@ -101,14 +101,11 @@ pub fn measure(gear: &PlanarGear, cut: &CutBlank, target: Option<&TargetOutline>
 }
 
 fn end_face(gear: &PlanarGear, cut: &CutBlank, left_mm3: [f64; 2], target: &TargetOutline) -> EndFace {
-    let spec = &gear.scene.gear;
     let spacing_mm = cut.field.grid.spacing_mm();
-    let bore_radius_mm = 0.5 * spec.bore_diameter_mm;
     EndFace {
-        cut_mm2: left_mm3.map(|v| v / spec.face_width_mm),
-        target_mm2: target.area_mm2() - std::f64::consts::PI * bore_radius_mm * bore_radius_mm,
-        // The bore adds four radii of length along the rays, half a spacing each.
-        bound_mm2: FAMILIES.map(|f| target.area_bound_mm2(f, spacing_mm) + 2.0 * bore_radius_mm * spacing_mm),
+        cut_mm2: left_mm3.map(|v| v / gear.scene.gear.face_width_mm),
+        target_mm2: target.section_mm2(),
+        bound_mm2: FAMILIES.map(|f| target.section_bound_mm2(f, spacing_mm)),
     }
 }
 
@@ -189,7 +186,7 @@ fn busiest_space(gear: &PlanarGear, set: &StrokeSet, removed_mm3: &[[f64; 2]], s
     let taken = |blade: usize| near.clone().map(|s| removed_mm3[s * blades + blade].iter().sum::<f64>()).sum::<f64>();
     let busiest = (0..blades).max_by(|&a, &b| taken(a).total_cmp(&taken(b))).unwrap_or(0);
     let work_from_blade = set.poses(stroke)[0].after(&gear.tool.tool_from_blade(busiest as u32));
-    let place = place_of(gear, work_from_blade.point(gear.tool.edge().center_mm));
+    let place = place_of(gear, work_from_blade.point(gear.tool.edge_of(busiest as u32).center_mm));
     // The middle of a cutter tooth stands in a space: behind a tooth on its left side, else behind the tooth before.
     match place.side {
         Side::Left => place.tooth,

@@ -160,7 +160,7 @@ mod slow {
             assert!(worst_mm < 0.02 * off_mm);
             assert!((found.total_mm() / (2.0 * off_mm / alpha_t.cos()) - 1.0).abs() < 0.02);
         }
-        let runout = deviation::runout(&job.curve, &left, &right, alpha_t).expect("all spaces");
+        let runout = deviation::runout(&job.blank, &left, &right, alpha_t).expect("all spaces");
         println!("F_r {:.6} mm", runout.total_mm());
         assert!((runout.total_mm() / (2.0 * off_mm) - 1.0).abs() < 0.02);
     }

@@ -5,7 +5,6 @@ use gearcut::passes::SweepPlan;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::{PROCESSES, load};
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use std::path::Path;
 
 const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
@@ -88,7 +87,7 @@ mod slow {
         let (mut dexels, mut records, mut evaluations) = (0, 0, 0);
         for (tooth, side) in (1..=35).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]) {
             let field = cutter.rays(tooth, side).expect("a flank").1.field;
-            let plan = SweepPlan::new(&field, &cutter.operations[0], job.hob.edge());
+            let plan = SweepPlan::new(&field, &cutter.operations[0]);
             dexels += field.len();
             records += plan.records.len();
             evaluations += plan.dexel_passes();

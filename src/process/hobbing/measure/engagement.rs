@@ -217,7 +217,7 @@ impl Pass {
 
 /// Smallest distance of the edge from the axis, mm: the root.
 fn innermost_mm(hob: &Hob) -> f64 {
-    let ends = hob.edge().segments.iter().flat_map(|segment| {
+    let ends = hob.edges().segments().iter().flat_map(|segment| {
         let place = |y_mm: f64| segment.blade_from_segment.point(DVec2::new(segment.x_and_slope(y_mm)[0], y_mm));
         segment.y_range_mm.map(|y_mm| place(y_mm).x)
     });

@@ -4,6 +4,7 @@ mod build;
 mod keys;
 pub mod model;
 
+use crate::scene::problems::Found;
 use crate::scene::{ProcessPart, SceneProcess};
 use model::Hobbing;
 
@@ -17,9 +18,17 @@ pub static SCENE: SceneProcess = SceneProcess {
     sections: keys::SECTIONS,
     added: keys::ADDED,
     derive: |_| {},
-    check: |_| {},
+    check: external,
     build: build::build,
 };
+
+/// Refuses what no hob reaches.
+fn external(found: &mut Found<'_, '_, '_>) {
+    let internal = found.view("gear").text("kind") == Some("internal");
+    let message = || "`gear.kind`: a hob cuts external gears; it does not fit into a ring".to_owned();
+    let way_out = "write kind = \"external\", or shape the ring with [tool.shaper_cutter]";
+    found.blame(internal, "gear.kind", message, way_out);
+}
 
 impl ProcessPart for Hobbing {
     fn process(&self) -> &'static SceneProcess {

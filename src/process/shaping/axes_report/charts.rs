@@ -32,7 +32,8 @@ fn work_angle_deg(row: &StrokeRow) -> f64 {
 }
 
 fn positions(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
-    let ratio = f64::from(job.scene.gear.teeth) / f64::from(job.cutter.teeth);
+    // In a ring the cutter turns the other way.
+    let ratio = job.blank.kind().tip_sign() * f64::from(job.scene.gear.teeth) / f64::from(job.cutter.teeth);
     let one = |value_name: &str, unit: &str, name: &str, value: &dyn Fn(f64, &StrokeRow) -> f64| {
         let points = rows.iter().map(|row| (work_angle_deg(row), value(row.motion[0].position, row))).collect();
         panel([value_name, unit], vec![(name, points)], [])

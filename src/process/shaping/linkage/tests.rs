@@ -11,8 +11,7 @@ use std::sync::Arc;
 use proptest::prelude::*;
 
 use super::*;
-use crate::gear::PitchCurve;
-use crate::gear::PitchCurveShape;
+use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
 use crate::math::Jet;
 use crate::process::shaping::scene::model::{
     AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, StrokeSpacing, TraditionalDirection,
@@ -33,7 +32,7 @@ fn paper_curve() -> Arc<PitchCurve> {
 }
 
 fn paper_linkage(kind: Linkage) -> ShapingLinkage {
-    ShapingLinkage::new(kind, paper_curve(), 30.0, 2.0).unwrap()
+    ShapingLinkage::new(GearKind::External, kind, paper_curve(), 30.0, 2.0).unwrap()
 }
 
 fn machine() -> Machine {
@@ -78,7 +77,7 @@ fn derivatives_match_differences_for_every_linkage() {
     let h = 1e-4;
     for curve in examples().into_iter().filter(|curve| curve.breaks_rad().is_empty()).map(Arc::new) {
         for kind in KINDS {
-            let linkage = ShapingLinkage::new(kind, Arc::clone(&curve), 15.0, 1.0).unwrap();
+            let linkage = ShapingLinkage::new(GearKind::External, kind, Arc::clone(&curve), 15.0, 1.0).unwrap();
             for i in 0..50 {
                 let phi = f64::from(i) * 0.1731 - 1.0;
                 let axes = |phi| linkage.axes(phi, 0.7);
@@ -135,11 +134,12 @@ fn a_cutter_too_large_for_the_hollow_is_refused() {
     let shape = PitchCurveShape::Pascal { order: 2, eccentricity: 0.5, mean_radius_mm: None };
     let curve = Arc::new(PitchCurve::new(&shape, 3.0, 42).unwrap());
     let hollow_mm = -1.0 / curve.facts().smallest_curvature.curvature_per_mm;
-    assert!(ShapingLinkage::new(NORMAL, Arc::clone(&curve), hollow_mm - 0.1, 0.0).is_ok());
-    let refusal = ShapingLinkage::new(NORMAL, Arc::clone(&curve), hollow_mm + 0.1, 0.0).unwrap_err();
+    assert!(ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm - 0.1, 0.0).is_ok());
+    let refusal =
+        ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm + 0.1, 0.0).unwrap_err();
     assert_eq!(refusal.key, "tool.shaper_cutter.teeth");
-    assert!(ShapingLinkage::new(NORMAL, Arc::clone(&curve), hollow_mm - 0.1, 0.2).is_err());
-    assert!(ShapingLinkage::new(NORMAL, curve, f64::NAN, 0.0).is_err());
+    assert!(ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm - 0.1, 0.2).is_err());
+    assert!(ShapingLinkage::new(GearKind::External, NORMAL, curve, f64::NAN, 0.0).is_err());
 }
 
 proptest! {
@@ -151,7 +151,7 @@ proptest! {
         phis in prop::collection::vec(-20.0..20.0f64, 20),
     ) {
         let (r_c, curve) = (share * curve.size_mm(), Arc::new(curve));
-        if let Ok(linkage) = ShapingLinkage::new(KINDS[kind], Arc::clone(&curve), r_c, offset * r_c) {
+        if let Ok(linkage) = ShapingLinkage::new(GearKind::External, KINDS[kind], Arc::clone(&curve), r_c, offset * r_c) {
             for (phi, offset_mm) in phis.into_iter().zip([0.0, offset * r_c].into_iter().cycle()) {
                 let axes = linkage.axes(phi, offset_mm);
                 let psi_c = axes.psi_c_rad.value();

@@ -87,7 +87,7 @@ pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport
         allowances,
         thickness,
         pitch: [deviations(&left), deviations(&right)],
-        runout: runout(&job.curve, &left, &right, job.scene.gear.pressure_angle_rad),
+        runout: runout(&job.blank, &left, &right, job.scene.gear.pressure_angle_rad),
         period_teeth: period_teeth(&job.scene.gear.pitch_curve, teeth),
     })
 }
@@ -131,7 +131,7 @@ mod tests {
         let cut = crossings(&job, job.operations.len() - 1, CrossedSurface::Strokes).expect("all flanks");
         let [left, right] = [0, 1].map(|side| cut.iter().map(|tooth| tooth[side]).collect::<Vec<_>>());
         let alpha = job.scene.gear.pressure_angle_rad;
-        let runout = runout(&job.curve, &left, &right, alpha).expect("all cross");
+        let runout = runout(&job.blank, &left, &right, alpha).expect("all cross");
         // The space after the last tooth is centred on phi = 0, the side that the gear was shifted to, towards the
         // cutter: it is cut deepest, and the probe lies deepest.
         let innermost = runout.radial_mm.iter().copied().fold(f64::INFINITY, f64::min);

@@ -93,7 +93,8 @@ fn work(job: &ShapingJob, section: &CutSection, stroke: usize) -> (Mesh, Mesh) {
 /// A camera that holds work and cutter through all strokes.
 fn camera(job: &ShapingJob) -> Camera {
     let half_mm = 0.5 * job.scene.gear.face_width_mm;
-    let radius_mm = (0..360).map(|i| job.blank.outline_mm(f64::from(i).to_radians()).length()).fold(0.0, f64::max);
+    let outline_mm = (0..360).map(|i| job.blank.outline_mm(f64::from(i).to_radians()).length());
+    let radius_mm = outline_mm.fold(job.blank.back.radius_mm, f64::max);
     let strokes = CutSection::strokes(job);
     let far_mm = (0..=200)
         .map(|i| CutSection::work_from_tool(job, (strokes - 1) * i / 200).translation_mm.length())

@@ -18,7 +18,6 @@
 
 use super::sweep::LARGEST_T;
 use super::turning_passes::{BladePass, TurningPasses};
-use crate::tool::edge::Edge;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -53,22 +52,21 @@ impl Ball {
 }
 
 /// Passes whose blade may hold a point of `whole` and of one of its parts (each within `whole`), in time order.
-pub fn near_passes(set: &TurningPasses, edge: &Edge, whole: &Ball, parts: &[Ball]) -> Vec<BladePass> {
+pub fn near_passes(set: &TurningPasses, whole: &Ball, parts: &[Ball]) -> Vec<BladePass> {
     let [speed_mm, turn_rad] = set.motion.largest_rates(whole.center_mm);
     let speed_of = |ball: &Ball| speed_mm + turn_rad * ball.center_mm.distance(whole.center_mm);
     (0..set.count())
         .map(|index| set.pass(index))
         .filter(|pass| {
-            may_hold(set, edge, pass, whole, speed_mm)
-                && parts.iter().any(|part| may_hold(set, edge, pass, part, speed_of(part)))
+            may_hold(set, pass, whole, speed_mm) && parts.iter().any(|part| may_hold(set, pass, part, speed_of(part)))
         })
         .collect()
 }
 
 /// Whether a pass's blade may hold a point of a ball whose centre moves in the head by at most `speed_mm` per radian of
 /// the tool.
-fn may_hold(set: &TurningPasses, edge: &Edge, pass: &BladePass, ball: &Ball, speed_mm: f64) -> bool {
-    let place = set.place(pass);
+fn may_hold(set: &TurningPasses, pass: &BladePass, ball: &Ball, speed_mm: f64) -> bool {
+    let (place, edge) = (set.place(pass), set.edge(pass));
     let [innermost_mm, tip_mm] = [edge.center_mm.x - edge.reach_mm, edge.center_mm.x + edge.reach_mm];
     // A tile's middle is held within half a sweep, what a tile holds at most a quarter turn from there.
     let most_rad = set.half_sweep_rad + 2.0 * LARGEST_T.atan();
@@ -108,13 +106,14 @@ mod tests {
     use super::*;
     use crate::frame::Rigid3;
     use crate::passes::spatial::motion::MotionTable;
-    use crate::tool::edge::{Segment, SegmentName};
+    use crate::tool::blade_edges::BladeEdges;
+    use crate::tool::edge::{Edge, Segment, SegmentName};
     use crate::tool::{CuttingTool, SpatialTool};
     use glam::{DMat3, DVec2};
 
     /// A hob of axial gashes: module, starts, gashes, pitch radius; straight edges.
     struct StraightHob {
-        edge: Edge,
+        edges: BladeEdges,
         places: Vec<Rigid3>,
     }
 
@@ -146,7 +145,7 @@ mod tests {
                         })
                 })
                 .collect();
-            Self { edge: Edge::new(segments.collect()), places }
+            Self { edges: BladeEdges::shared(Edge::new(segments.collect())), places }
         }
     }
 
@@ -154,8 +153,8 @@ mod tests {
         fn blade_count(&self) -> u32 {
             self.places.len() as u32
         }
-        fn edge(&self) -> &Edge {
-            &self.edge
+        fn edges(&self) -> &BladeEdges {
+            &self.edges
         }
     }
 
@@ -172,8 +171,8 @@ mod tests {
     }
 
     /// Swept angle at which a pass holds a point within its edge's circle: the sweep gone through in small steps.
-    fn held_at(set: &TurningPasses, edge: &Edge, pass: &BladePass, point_mm: DVec3) -> Option<f64> {
-        let place = set.place(pass);
+    fn held_at(set: &TurningPasses, pass: &BladePass, point_mm: DVec3) -> Option<f64> {
+        let (place, edge) = (set.place(pass), set.edge(pass));
         let steps = 100;
         let at = |i: i32| {
             let swept = set.half_sweep_rad * f64::from(i) / f64::from(steps);
@@ -212,7 +211,7 @@ mod tests {
                     center_mm: DVec3::new(radius_mm * about.cos(), radius_mm * about.sin(), beside_mm),
                     radius_mm: 0.8 * module_mm,
                 };
-                let near = near_passes(&set, hob.edge(), &ball, &[ball]);
+                let near = near_passes(&set, &ball, &[ball]);
                 assert!((near.len() as u32) < set.count() / 4 * 3, "{} of {}", near.len(), set.count());
                 for pass in (0..set.count()).map(|index| set.pass(index)) {
                     let inside = |i: i32| {
@@ -221,7 +220,7 @@ mod tests {
                         let across = DVec3::new(turned.cos(), turned.sin(), (5.0 * turned).sin()).normalize();
                         ball.center_mm + share * ball.radius_mm * across
                     };
-                    let Some(swept) = (0..=12).find_map(|i| held_at(&set, hob.edge(), &pass, inside(i))) else {
+                    let Some(swept) = (0..=12).find_map(|i| held_at(&set, &pass, inside(i))) else {
                         continue;
                     };
                     held += 1;
