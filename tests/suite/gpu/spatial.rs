@@ -103,7 +103,7 @@ mod slow {
         let mut all = Parity::default();
         for (tooth, side) in [(1, Side::Left), (1, Side::Right), (23, Side::Left)] {
             let (_, rays) = cutter.rays(tooth, side).expect("a flank");
-            for (operation, passes) in job.operations.iter().zip(&cutter.operations) {
+            for (operation, passes) in job.operations.iter().zip(cutter.operations.iter()) {
                 let plan = SweepPlan::new(&rays.field, passes);
                 // The rake face turns by this much over the height of a tooth.
                 let twist_rad_per_mm =

@@ -288,7 +288,7 @@ mod slow {
             ];
             for (number, field) in fields.iter().enumerate() {
                 let mut layer = field.blank_layer();
-                for passes in &cutter.operations {
+                for passes in cutter.operations.iter() {
                     let name = format!("{path}, field {number}");
                     layer = same_as_brute_force(&name, passes, field, &layer);
                 }

@@ -21,6 +21,10 @@ pub use blank::{BlankCut, BlankOperation, BlankStats, CutBlank, Rub};
 /// Heights below this are the kernels' own error and shown as zero, µm.
 pub const KERNEL_UM: f64 = 1e-4;
 
+/// Thinner than this an edge rubs and takes no chip, mm: it counts neither as engaged nor for forces. A tenth of a
+/// micrometre is far below the radius of any cutting edge.
+pub const LEAST_CHIP_MM: f64 = 1e-4;
+
 /// What a backend met besides heights.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct CutStats {
