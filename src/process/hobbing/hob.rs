@@ -48,6 +48,10 @@ const LARGEST_LEAD_ANGLE_RAD: f64 = 0.35;
 /// A tooth is in the work only within this angle to either side of the direction towards it: at 60 degrees its tip
 /// stands at half its radius, far behind the work.
 const HALF_SWEEP_RAD: f64 = PI / 3.0;
+/// Smallest root radius over that of the base cylinder. At the base cylinder the flank's slope in the axial section is
+/// 0, and its curvature without bound: u / rho with u^2 = (rho / r_b)^2 - 1. At a twentieth above it u is 0.32, and the
+/// edge's tables hold.
+const LEAST_ROOT_OVER_BASE: f64 = 1.05;
 /// Share of the root radius by which relief lowers a tooth at most: with relief angles of some 10 deg and gashes 30 deg
 /// apart it is a tenth.
 const DEEPEST_RELIEF: f64 = 0.25;
@@ -146,7 +150,7 @@ impl Hob {
         let base_radius_mm = parameter / (cos_lead * alpha.cos()).acos().tan();
         let new_tip_radius_mm = new_pitch_radius_mm + spec.addendum_coefficient * m;
         let root_radius_mm = new_pitch_radius_mm - spec.dedendum_coefficient * m;
-        if root_radius_mm <= 1.05 * base_radius_mm {
+        if root_radius_mm <= LEAST_ROOT_OVER_BASE * base_radius_mm {
             return Err(Refusal::new(
                 size_key,
                 format!(

@@ -68,11 +68,13 @@ impl HobbingLinkage {
             ExtraRotation::Work => from_shift + from_slide,
         };
         let rate = |theta: f64| self.polar_rate(theta, extra_mm_per_s).value();
-        let backwards = || {
+        let backwards = |why: String| {
             Refusal::new(
                 "operation.axial_feed_mm_per_revolution",
-                "the feeds' share of the rolling is faster than the rolling itself, or the pitch curve is not convex \
-                where the law needs it",
+                format!(
+                    "the feeds' share of the rolling is faster than the rolling itself, or the pitch curve is not \
+convex where the law needs it: {why}"
+                ),
                 "use smaller feeds; on a pitch curve with hollows keep the arc even (basis = \"arc_length\")",
             )
         };
@@ -80,19 +82,19 @@ impl HobbingLinkage {
             EvenMotion::ArcLength => {
                 let arc_rate = self.curve.perimeter_mm() / self.cycle_s + extra_mm_per_s;
                 if arc_rate <= 0.0 {
-                    return Err(backwards());
+                    return Err(backwards(format!("the arc would grow by {arc_rate} mm/s")));
                 }
                 Clock::Arc(arc_rate)
             }
             EvenMotion::RotationAngle | EvenMotion::PolarAngle => {
-                let integral = self.integral(|theta| 1.0 / rate(theta)).ok_or_else(backwards)?;
+                let integral = self.integral(|theta| 1.0 / rate(theta)).map_err(backwards)?;
                 let start = integral.at(self.curve.phi_at_arc(arc_mm));
                 Clock::Polar(Arc::new(integral), start)
             }
         };
         let drift = if printed {
             let integral =
-                self.integral(|theta| 1.0 / (rate(theta) * self.curve.radius(theta).value())).ok_or_else(backwards)?;
+                self.integral(|theta| 1.0 / (rate(theta) * self.curve.radius(theta).value())).map_err(backwards)?;
             let resultant = slide_rate + shift_rate * g.head_angle_rad.sin();
             Some(Drift {
                 start_rad: drift_rad,
@@ -114,9 +116,9 @@ impl HobbingLinkage {
         })
     }
 
-    fn integral(&self, f: impl Fn(f64) -> f64) -> Option<PeriodicIntegral> {
+    fn integral(&self, f: impl Fn(f64) -> f64) -> Result<PeriodicIntegral, String> {
         let panels = (self.curve.samples_per_turn() / 8).max(16);
-        PeriodicIntegral::new(f, &self.curve.breaks_rad(), panels, TIME_ACCURACY_S)
+        PeriodicIntegral::new(f, &self.curve.breaks_rad(), panels, TIME_ACCURACY_S).map_err(|why| why.to_string())
     }
 
     /// Whether the printed form differs from the exact one: it does where the work carries the extra rotation.

@@ -115,6 +115,25 @@ impl MotionTable {
         Rigid3 { rotation: DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]), translation_mm: DVec3::new(x, y, z) }
     }
 
+    /// How far a point of the work moves in the head at most per radian of the tool, mm, and how far the work turns, rad:
+    /// bounds from the polynomials' coefficients over all panels, whatever gear and feeds they stand for.
+    pub fn largest_rates(&self, point_mm: DVec3) -> [f64; 2] {
+        let of_panel = |(panel, ends): (&PosePanel, &[f64])| {
+            let mut rates = [0.0; 2];
+            // |d/du of the sum of c_k u^k| is at most the sum of k |c_k| for |u| up to 1.
+            for (k, term) in panel.iter().enumerate().skip(1) {
+                let [a, b, c, d, e, f, g, h, i, x, y, z] = *term;
+                let turn = DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]);
+                let squares: f64 = term[..9].iter().map(|entry| entry * entry).sum();
+                rates[0] += k as f64 * (turn * point_mm + DVec3::new(x, y, z)).length();
+                rates[1] += k as f64 * squares.sqrt();
+            }
+            rates.map(|rate| 2.0 * rate / (ends[1] - ends[0]))
+        };
+        let largest = |a: [f64; 2], b: [f64; 2]| [a[0].max(b[0]), a[1].max(b[1])];
+        self.panels.par_iter().zip(self.ends_rad.par_windows(2)).map(of_panel).reduce(|| [0.0; 2], largest)
+    }
+
     /// Largest distance from the exact motion of a point `reach_mm` away from the work's origin, at the places where
     /// the polynomials err most.
     pub fn error_mm(&self, reach_mm: f64, head_from_work: impl Fn(f64) -> Rigid3 + Sync) -> f64 {
