@@ -34,6 +34,8 @@ static SAWING: SceneProcess = SceneProcess {
         }],
         groups: &[],
     }],
+    per_revolution: &["cuts"],
+    of_one_gear: &[],
     derive: |values| {
         let Some(teeth) = values.view("gear").whole("teeth") else { return };
         for index in 0..values.count("operation") {
@@ -72,6 +74,8 @@ static FILING: SceneProcess = SceneProcess {
         },
     ]],
     added: &[],
+    per_revolution: &[],
+    of_one_gear: &[],
     derive: |_| {},
     check: |_| {},
     build: |_, _| None,

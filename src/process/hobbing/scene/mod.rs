@@ -17,6 +17,8 @@ pub static SCENE: SceneProcess = SceneProcess {
     scenes: include_str!("scenes.md"),
     sections: keys::SECTIONS,
     added: keys::ADDED,
+    per_revolution: &[],
+    of_one_gear: &[],
     derive: |_| {},
     check: external,
     build: build::build,
