@@ -23,7 +23,6 @@ use gearcut::gpu::{Gpu, GpuOptions};
 use gearcut::passes::CutPlan;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use std::time::Instant;
 
 /// Runs of which the fastest counts.
@@ -76,7 +75,7 @@ fn take(case: Case, backends: &[(String, Box<dyn Backend>)]) -> Taken {
             let mut layers = vec![field.blank_layer(); RUNS];
             fastest_ms(&mut || {
                 let mut layer = layers.pop().expect("one for each run");
-                backend.cut(&field, job.cutter.edge(), &plan, &mut layer).expect("cuts");
+                backend.cut(&field, &plan, &mut layer).expect("cuts");
             })
         })
         .collect();

@@ -38,7 +38,6 @@ use gearcut::process::hobbing::measure::flank_report;
 use gearcut::process::hobbing::{HobCutter, HobbedFlank, HobbingJob};
 use gearcut::process::load;
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use oracle_cases::{Case, data, heights, number, numbers};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -90,14 +89,13 @@ fn indispensable(field: &SpatialField, plan: &SweepPlan, layer: &Layer) -> usize
     pairs
 }
 
-fn one_flank(job: &HobbingJob, cutter: &HobCutter, tooth: u32, side: Side) {
+fn one_flank(cutter: &HobCutter, tooth: u32, side: Side) {
     let cpu = Cpu::default();
     let (rays_time, (target, rays)) = timed(|| cutter.rays(tooth, side).expect("a flank"));
     let field = &rays.field;
-    let edge = job.hob.edge();
-    let (plan_time, plan) = timed(|| SweepPlan::new(field, &cutter.operations[0], edge));
+    let (plan_time, plan) = timed(|| SweepPlan::new(field, &cutter.operations[0]));
     let mut layer = field.blank_layer();
-    let (cut_time, stats) = timed(|| cpu.cut_spatial(field, edge, &plan, &mut layer).expect("native"));
+    let (cut_time, stats) = timed(|| cpu.cut_spatial(field, &plan, &mut layer).expect("native"));
     assert_eq!(stats.unconverged, 0, "every root was found");
     let per_dexel = |pairs: f64| pairs / field.len() as f64;
     println!(
@@ -189,25 +187,24 @@ fn peer() {
         (0..=count).map(|i| from + (to - from) * i as f64 / count as f64).collect()
     };
     let cpu = Cpu::default();
-    let edge = case.hob.edge();
     let (time, dexels) = timed(|| {
         let passes = case.passes([-5.5 * cycle, 5.5 * cycle]);
         let flanks = [-1.0, 1.0].map(|side: f64| {
             // Nearly the whole flank; 0.05 mm of roll are 9 to 25 um along the profile.
             let sigmas = even(-22.0, 22.0, 0.05);
             let field = case.patch(0, side, &sigmas, &even(-3.2, 3.2, 0.05));
-            let plan = SweepPlan::new(&field, &passes, edge);
+            let plan = SweepPlan::new(&field, &passes);
             let mut layer = field.blank_layer();
-            cpu.cut_spatial(&field, edge, &plan, &mut layer).expect("native");
+            cpu.cut_spatial(&field, &plan, &mut layer).expect("native");
             field.len()
         });
         flanks.iter().sum::<usize>()
     });
     let passes = case.passes([-5.5 * cycle, 5.5 * cycle]);
     let field = case.patch(0, number(&file, "flank"), &numbers(&file["sigma"]), &numbers(&file["z"]));
-    let plan = SweepPlan::new(&field, &passes, edge);
+    let plan = SweepPlan::new(&field, &passes);
     let mut layer = field.blank_layer();
-    cpu.cut_spatial(&field, edge, &plan, &mut layer).expect("native");
+    cpu.cut_spatial(&field, &plan, &mut layer).expect("native");
     let off_mm = heights("p12_patch_spur", &file).into_iter().enumerate().flat_map(|(row, line)| {
         let (field, layer) = (&field, &layer);
         line.into_iter()
@@ -244,7 +241,7 @@ fn main() {
     let (passes_time, cutter) = timed(|| HobCutter::new(&job).expect("passes"));
     println!("{} passes, tabulated in {:.1} ms (all threads)", cutter.operations[0].count(), passes_time.wall);
     for (tooth, side) in [(1, Side::Left), (5, Side::Left), (6, Side::Right), (12, Side::Left)] {
-        one_flank(&job, &cutter, tooth, side);
+        one_flank(&cutter, tooth, side);
     }
     if !flank_only && !only("--test") {
         whole_gear(&cutter);

@@ -21,7 +21,6 @@ use gearcut::process::load;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use std::path::Path;
 
 fn planar(criterion: &mut Criterion) {
@@ -43,7 +42,7 @@ fn planar(criterion: &mut Criterion) {
         for (name, plan) in
             [(kind.to_owned(), plan.clone()), (format!("{kind}, records 20 times over"), repeated(&plan, 20))]
         {
-            compare(criterion, &name, &job, &field, &plan);
+            compare(criterion, &name, &field, &plan);
         }
     }
 }
@@ -56,10 +55,10 @@ fn repeated(plan: &CutPlan, times: usize) -> CutPlan {
         records.extend(std::iter::repeat_n(&plan.records[tile.records.clone()], times).flatten().copied());
         Tile { records: first..records.len(), ..tile.clone() }
     });
-    CutPlan { tiles: tiles.collect(), records, row_phases: plan.row_phases.clone() }
+    CutPlan { tiles: tiles.collect(), records, row_phases: plan.row_phases.clone(), segments: plan.segments.clone() }
 }
 
-fn compare(criterion: &mut Criterion, group: &str, job: &ShapingJob, field: &Field, plan: &CutPlan) {
+fn compare(criterion: &mut Criterion, group: &str, field: &Field, plan: &CutPlan) {
     // Opened anew, so that stage times are this group's.
     let mut backends: Vec<(String, Box<dyn Backend>)> = vec![("native".into(), Box::new(Cpu::default()))];
     for adapter in adapters() {
@@ -75,7 +74,7 @@ fn compare(criterion: &mut Criterion, group: &str, job: &ShapingJob, field: &Fie
         group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
             bencher.iter(|| {
                 let mut layer = field.blank_layer();
-                backend.cut(field, job.cutter.edge(), plan, &mut layer).expect("cuts");
+                backend.cut(field, plan, &mut layer).expect("cuts");
                 layer
             });
         });

@@ -12,7 +12,6 @@ use gearcut::passes::SweepPlan;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use std::path::Path;
 
 fn spatial(criterion: &mut Criterion) {
@@ -28,19 +27,19 @@ fn spatial(criterion: &mut Criterion) {
     let job = HobbingJob::new(&scene).expect("the gear");
     let cutter = HobCutter::new(&job).expect("passes");
     let field = cutter.rays(5, Side::Left).expect("a flank").1.field;
-    let plan = SweepPlan::new(&field, &cutter.operations[0], job.hob.edge());
+    let plan = SweepPlan::new(&field, &cutter.operations[0]);
     println!("{} dexels, {} dexel-passes, {} records", field.len(), plan.dexel_passes(), plan.records.len());
     let mut group = criterion.benchmark_group("spatial");
     group.sample_size(10);
     group.bench_function("plan", |bencher| {
-        bencher.iter(|| SweepPlan::new(&field, &cutter.operations[0], job.hob.edge()));
+        bencher.iter(|| SweepPlan::new(&field, &cutter.operations[0]));
     });
     group.throughput(Throughput::Elements(plan.dexel_passes()));
     for (name, backend) in &backends {
         group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
             bencher.iter(|| {
                 let mut layer = field.blank_layer();
-                backend.cut_spatial(&field, job.hob.edge(), &plan, &mut layer).expect("cuts");
+                backend.cut_spatial(&field, &plan, &mut layer).expect("cuts");
                 layer
             });
         });

@@ -27,7 +27,6 @@ use gearcut::process::shaping;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::measure::flank_report;
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -62,7 +61,7 @@ fn one_flank(criterion: &mut Criterion, job: &ShapingJob) {
     group.throughput(Throughput::Elements(plan.dexel_passes()));
     for cpu in common::backends() {
         group.bench_function(format!("cut, {}", cpu.instruction_set()), |b| {
-            let cut = |mut layer| cpu.cut(&field, job.cutter.edge(), &plan, &mut layer).map(|stats| (stats, layer));
+            let cut = |mut layer| cpu.cut(&field, &plan, &mut layer).map(|stats| (stats, layer));
             b.iter_batched(|| field.blank_layer(), cut, BatchSize::LargeInput);
         });
     }

@@ -269,7 +269,7 @@ pub struct MateArguments {
 #[derive(Debug, Args)]
 pub struct NewArguments {
     /// What the scene is for.
-    #[arg(value_parser = PossibleValuesParser::new(PROCESSES.map(|process| process.scene.name)))]
+    #[arg(value_parser = PossibleValuesParser::new(PROCESSES.iter().map(|process| process.scene.name)))]
     pub process: String,
     /// File to write [default: standard output].
     #[arg(long, value_name = "FILE")]

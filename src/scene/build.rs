@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use super::model::{
-    Fields, GcodeDialect, Gear, Output, Picture, PictureColour, PictureView, Scene, TextureWindow, WindowSides,
+    Fields, GcodeDialect, Gear, Measure, Output, Picture, PictureColour, PictureView, Scene, TextureWindow, WindowSides,
 };
 use super::process::SceneProcess;
 use super::values::{Values, View};
@@ -22,10 +22,15 @@ pub(super) fn build(name: &str, process: &SceneProcess, base_dir: &Path, values:
     let flank = values.view("fields.flank");
     let blank = values.view("fields.blank");
     let output = values.view("output");
+    let measure = values.view("measure");
     Some(Scene {
         name: name.to_owned(),
         gear: gear(values)?,
         process: (process.build)(values, base_dir)?,
+        measure: Measure {
+            profile_start_height_mm: measure.number("profile_start_height_mm"),
+            profile_end_height_mm: measure.number("profile_end_height_mm"),
+        },
         textures: (0..values.count("texture"))
             .map(|index| texture(values.view(&format!("texture.{index}"))))
             .collect::<Option<_>>()?,

@@ -14,7 +14,7 @@ const MOST_DEXELS: f64 = 1e8;
 /// Adds a problem for every contradiction between shared keys.
 pub(super) fn cross_check(found: &mut Found<'_, '_, '_>) {
     // A missing value ends only the check that asks for it.
-    let _: [Option<()>; 4] = [gear_bore(found), gear_kind(found), mate_teeth(found), dexels(found)];
+    let _: [Option<()>; 5] = [gear_bore(found), gear_kind(found), mate_teeth(found), profile(found), dexels(found)];
     for curve in ["gear.pitch_curve", "gear.pitch_curve.mate.driver"] {
         let _: [Option<()>; 2] = [sinusoidal(found, curve), fourier(found, curve)];
     }
@@ -79,6 +79,15 @@ fn sinusoidal(found: &mut Found, curve: &str) -> Option<()> {
     };
     let key = join(path, "ratio_amplitude");
     found.blame(amplitude.abs() >= mean, &key, message, "make ratio_amplitude smaller than mean_ratio");
+    Some(())
+}
+
+fn profile(found: &mut Found) -> Option<()> {
+    let measure = found.view("measure");
+    let (start_mm, end_mm) = (measure.number("profile_start_height_mm")?, measure.number("profile_end_height_mm")?);
+    let message = || format!("the evaluated profile ends at {end_mm} mm, not above its start at {start_mm} mm");
+    let way_out = "make profile_end_height_mm larger than profile_start_height_mm";
+    found.blame(start_mm >= end_mm, "measure.profile_end_height_mm", message, way_out);
     Some(())
 }
 

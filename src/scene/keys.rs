@@ -9,6 +9,8 @@
 //! a value inside a choice, and keep ranges, units and sentences somewhere else.
 
 mod gear;
+mod material;
+mod measure;
 mod output;
 mod picture;
 mod pitch_curve;
@@ -166,9 +168,11 @@ pub(super) fn shared() -> impl Iterator<Item = &'static KeySection> {
         FIRST,
         gear::SECTIONS,
         pitch_curve::SECTIONS,
+        material::SECTIONS,
         process::SECTIONS,
         texture::SECTIONS,
         output::SECTIONS,
+        measure::SECTIONS,
         picture::SECTIONS,
     ]
     .into_iter()

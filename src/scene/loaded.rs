@@ -88,6 +88,11 @@ pub fn parse(
     let mut values = walk(&root, table, own.as_ref(), &mut problems);
     if let (Some(process), Some(own)) = (process, &own) {
         foreign::refuse_foreign(&mut values, process, own, table, &mut problems);
+        for section in process.on_demand {
+            if !values.has_section(section) {
+                values.leave_out(section);
+            }
+        }
         (process.derive)(&mut values);
     }
     read_points(&mut values, table, base_dir, &mut problems);

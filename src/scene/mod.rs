@@ -39,6 +39,6 @@ pub use errors::{Problem, SceneErrors, SourcePlace};
 pub use loaded::{LoadedScene, Located, load, parse};
 pub use mate::{Mate, MateScene};
 pub use model::Scene;
-pub use process::{Copied, ProcessPart, ScenePart, SceneProcess};
+pub use process::{Copied, ProcessPart, ScenePart, SceneProcess, Senseless};
 pub use table::{KeyTable, TableSection};
 pub use template::template;

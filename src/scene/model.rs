@@ -22,6 +22,8 @@ pub struct Scene {
     pub gear: Gear,
     /// How it is cut: tool, machine and operations of one process.
     pub process: ScenePart,
+    /// Where profiles are evaluated.
+    pub measure: Measure,
     /// Texture windows; empty: those that [`crate::texture`] takes by itself.
     pub textures: Vec<TextureWindow>,
     /// Dexel spacing.
@@ -90,6 +92,29 @@ pub struct Gear {
     pub tooth_thickness_allowance_mm: f64,
     /// Shape of the pitch curve.
     pub pitch_curve: PitchCurveShape,
+}
+
+/// Where profiles are evaluated, as heights over the pitch curve along its normal; `None`: from the form point to the
+/// tip, 5 % left out at each end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measure {
+    /// Lower end.
+    pub profile_start_height_mm: Option<f64>,
+    /// Upper end.
+    pub profile_end_height_mm: Option<f64>,
+}
+
+impl Measure {
+    /// Arcs of a flank's profile at both ends, mm, where `arc_at` finds a height; `None` where the scene names no
+    /// height, or the flank does not reach it.
+    pub fn ends_mm(&self, arc_at: impl Fn(f64) -> Option<f64>) -> [Option<f64>; 2] {
+        self.heights_mm().map(|height_mm| height_mm.and_then(&arc_at))
+    }
+
+    /// Heights of both ends, mm.
+    pub fn heights_mm(&self) -> [Option<f64>; 2] {
+        [self.profile_start_height_mm, self.profile_end_height_mm]
+    }
 }
 
 /// A window on the flanks of one tooth whose texture is evaluated.

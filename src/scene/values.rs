@@ -77,6 +77,16 @@ impl Values {
         }
     }
 
+    /// Whether a section is written.
+    pub fn has_section(&self, path: &str) -> bool {
+        self.sections.contains_key(path)
+    }
+
+    /// Takes the defaults of a section away.
+    pub(super) fn leave_out(&mut self, section: &str) {
+        self.held.retain(|path, _| path.rsplit_once('.').is_none_or(|(holder, _)| holder != section));
+    }
+
     /// Whether a key is written, right or wrong.
     pub fn is_written(&self, path: &str, name: &str) -> bool {
         self.written.contains(&join(path, name))

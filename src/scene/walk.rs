@@ -14,6 +14,7 @@ use super::suggest::{display_path, nearest};
 use super::table::{KeyTable, TableSection};
 use super::tree::{Entry, Node, Value};
 use super::values::{Checked, Held, Values};
+use crate::material::Kienzle;
 
 /// Checks the whole scene; `own` is the table of its process, if its tool chooses one.
 pub(super) fn walk(root: &Node, table: &KeyTable, own: Option<&KeyTable>, problems: &mut Problems<'_>) -> Values {
@@ -241,6 +242,17 @@ impl<'a> Walk<'a, '_> {
             self.values.put_default("gear", "face_width_mm", Checked::Number((10.0 * module_mm).min(1000.0)));
             if self.values.view("gear").text("kind") == Some("internal") {
                 self.values.put_default("gear", "rim_mm", Checked::Number(5.0 * module_mm));
+            }
+        }
+        if let Some(material) = self.values.view("material").text("name").and_then(Kienzle::named) {
+            let force = material.edge_force();
+            for (name, value) in [
+                ("cutting_force_n_per_mm2", force.cutting_n_per_mm2),
+                ("cutting_edge_force_n_per_mm", force.cutting_edge_n_per_mm),
+                ("normal_force_n_per_mm2", force.normal_n_per_mm2),
+                ("normal_edge_force_n_per_mm", force.normal_edge_n_per_mm),
+            ] {
+                self.values.put_default("material", name, Checked::Number(value));
             }
         }
         for (list, count) in self.values.counts.clone() {

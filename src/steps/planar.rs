@@ -186,7 +186,7 @@ impl PlanarGear<'_> {
         for operation in &self.operations {
             let plan = CutPlan::new(field, operation.strokes, self.tool);
             let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
-            stats += backend.cut(field, self.tool.edge(), &plan, &mut layer)?;
+            stats += backend.cut(field, &plan, &mut layer)?;
             layers.push(layer);
         }
         Ok((layers, stats))

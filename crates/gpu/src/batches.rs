@@ -8,7 +8,6 @@ use super::problem::GpuProblem;
 use super::{compose, pipeline, records};
 use gearcut_core::dexel::Field;
 use gearcut_core::passes::CutPlan;
-use gearcut_core::tool::edge::Edge;
 use std::ops::Range;
 
 /// Dexels of a batch at most: 32 MB of heights and ids; the next batch is composed while one is cut.
@@ -132,7 +131,7 @@ pub struct Round {
 impl Round {
     /// Composes the rounds of `batch`; tiles that meet arcs go into rounds of their own, because a shader that knows no
     /// arcs is quicker.
-    pub fn compose(batch: &Batch, plan: &CutPlan, field: &Field, edge: &Edge) -> Vec<Self> {
+    pub fn compose(batch: &Batch, plan: &CutPlan, field: &Field) -> Vec<Self> {
         let rows = field.rows();
         let mut of_kind = [Self::default(), Self::default()].map(|round| vec![round]);
         let mut composed = Vec::new();
@@ -141,7 +140,7 @@ impl Round {
             let columns = &field.columns[tile.columns.clone()];
             composed.clear();
             for record in &plan.records[tile.records.clone()] {
-                let segment = &edge.segments[record.segment as usize];
+                let segment = &plan.segments[record.segment as usize];
                 compose::records(record, segment, columns, tile.origin_mm, &mut composed);
             }
             let dexels = (piece.columns.len() * rows) as u64;

@@ -49,10 +49,11 @@ impl Gpu {
         let mut after = field.clone();
         let widths_mm = grid.slice_widths_mm();
         // A ray lies in the tooth over its whole height at most.
-        let mut terms = Terms::new(grid.spacing_mm(), 2.02 * operation.tooth.reach_mm, first_room);
+        let reach_mm = operation.teeth.iter().map(|tooth| tooth.reach_mm).fold(0.0, f64::max);
+        let mut terms = Terms::new(grid.spacing_mm(), 2.02 * reach_mm, first_room);
         for (slice, z_mm) in grid.slices_z_mm.iter().enumerate() {
             let place = |strokes: &StrokeSet| {
-                passes_at(strokes, set.law.tau(*z_mm), operation.tool, operation.tooth, operation.blank_reach_mm)
+                passes_at(strokes, set.law.tau(*z_mm), operation.tool, operation.teeth, operation.blank_reach_mm)
             };
             let (passes, returns) = (place(set), operation.returns.map(place).unwrap_or_default());
             let volume_per_length = grid.spacing_mm() * widths_mm[slice];
@@ -104,7 +105,7 @@ fn compose(
     let strip = [row.at_mm(rays.start), row.at_mm(rays.end - 1)];
     let (mut placed, mut crossings) = (PlacedScratch::default(), RayCrossings::default());
     let reaching = |passes, returning| {
-        reaching_strip(passes, operation.tooth, family, strip).map(move |pass| (pass.stroke, returning, pass))
+        reaching_strip(passes, operation.teeth, family, strip).map(move |pass| (pass.stroke, returning, pass))
     };
     let mut order: Vec<(u32, bool, &PlacedPass)> = reaching(passes, false).chain(reaching(returns, true)).collect();
     // Stable: cutter teeth stay in their order; a stroke goes back before the next one comes.
@@ -112,7 +113,7 @@ fn compose(
     order
         .into_iter()
         .filter_map(|(stroke, returns, pass)| {
-            let tooth = operation.tooth.placed(&pass.work_from_blade, &mut placed);
+            let tooth = operation.teeth[pass.edge].placed(&pass.work_from_blade, &mut placed);
             let parts = parts(&mut crossings, &tooth, family, row, rays.clone());
             let id = operation.strokes.pass_id(stroke as usize, pass.blade);
             (!parts.is_empty()).then_some(PassWork { id, returns, parts })

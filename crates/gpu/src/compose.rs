@@ -1,6 +1,6 @@
 //! From the plan's f64 records to f32 records that lose nothing.
 //!
-//! In: tiles, their rays, edge, plan. Out: [`records::PassRecord`] and [`records::Column`].
+//! In: tiles, their rays, plan. Out: [`records::PassRecord`] and [`records::Column`].
 //!
 //! A record of the plan maps the tile's frame to the segment's: millimetres on both sides, where f32 resolves half a
 //! nanometre and a Newton step on differences of such numbers loses several. So the last subtraction is done here, in

@@ -1,15 +1,15 @@
-//! The tables of an edge as the spatial shader reads them, and the point from which a record counts.
+//! The tables of a tool's edges as the spatial shader reads them, and the point from which a record counts.
 //!
-//! In: an edge, a place near which a tile's rays meet a segment. Out: one table of all segments' cells; the **base
+//! In: the segments of all edges of a tool, a place near which a tile's rays meet a segment. Out: one table of all segments' cells; the **base
 //! point** of the segment near that place, the start of the table cell over which it stands or the point of the arc, to
 //! which what f32 sees is referred. Base x and base point are rounded to f32 *before* they are subtracted, so that the
 //! shader's own subtraction of the same numbers is exact.
 
 use super::compose::{ArcBase, END_OVERLAP_MM};
-use gearcut_core::tool::edge::{Edge, Segment, SegmentShape};
+use gearcut_core::tool::edge::{Segment, SegmentShape};
 use glam::DVec2;
 
-/// The cells of an edge's tables after each other.
+/// The cells of all segments' tables after each other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EdgeCells {
     /// Coefficients of all cells; a single zero if no segment has a table, since no binding may be empty.
@@ -19,10 +19,10 @@ pub struct EdgeCells {
 }
 
 impl EdgeCells {
-    /// Cells of an edge.
-    pub fn new(edge: &Edge) -> Self {
+    /// Cells of the segments that a plan's records name.
+    pub fn new(segments: &[Segment]) -> Self {
         let (mut cells, mut first) = (Vec::new(), Vec::new());
-        for segment in &edge.segments {
+        for segment in segments {
             first.push(cells.len() as u32);
             if let SegmentShape::Table(table) = &segment.shape {
                 cells.extend(table.cells.iter().map(|cell| cell.map(|c| c as f32)));

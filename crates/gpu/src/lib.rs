@@ -1,6 +1,6 @@
 //! The GPU backend: f32 in local frames through wgpu, on any Vulkan, Metal or DirectX 12 adapter, without a window.
 //!
-//! In: field, edge, plan, layer, as every backend. Out: heights within a nanometre of the native ones wherever these
+//! In: field, plan, layer, as every backend. Out: heights within a nanometre of the native ones wherever these
 //! are stable, and the passes that left them. Everything far away is subtracted in f64 on the host ([`compose`]);
 //! fields of any size go through in [`batches`]; the host composes one batch while the device works on the one before.
 //! Nothing is written to the layer before all batches are back, so a device that fails loses nothing: the flank is cut
@@ -51,7 +51,6 @@ use gearcut_core::dexel::{BlankField, Field, Layer, SpatialField};
 use gearcut_core::error::Error;
 use gearcut_core::passes::sections::swept_sections::SweptSections;
 use gearcut_core::passes::{CutPlan, SweepPlan};
-use gearcut_core::tool::edge::Edge;
 use readback::{InFlight, Input, Returned, Shipment, StageLaunch};
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -196,15 +195,9 @@ impl Gpu {
     }
 
     /// Heights and passes of the whole field, the layer untouched.
-    fn cut_on_device(
-        &self,
-        field: &Field,
-        edge: &Edge,
-        plan: &CutPlan,
-        layer: &Layer,
-    ) -> Result<(Layer, u64), GpuProblem> {
+    fn cut_on_device(&self, field: &Field, plan: &CutPlan, layer: &Layer) -> Result<(Layer, u64), GpuProblem> {
         self.device.alive()?;
-        let work = CutInputs { gpu: self, field, edge, plan, layer, row_phases: padded_phases(&plan.row_phases) };
+        let work = CutInputs { gpu: self, field, plan, layer, row_phases: padded_phases(&plan.row_phases) };
         let (rows, padded) = (field.rows(), batches::padded(field.rows()));
         let mut result = layer.clone();
         let mut unconverged = 0;
@@ -253,7 +246,6 @@ fn padded_columns<T: Copy>(values: &[T], rows: usize) -> Vec<T> {
 struct CutInputs<'a> {
     gpu: &'a Gpu,
     field: &'a Field,
-    edge: &'a Edge,
     plan: &'a CutPlan,
     layer: &'a Layer,
     row_phases: Vec<f32>,
@@ -261,7 +253,7 @@ struct CutInputs<'a> {
 
 impl CutInputs<'_> {
     fn send(&self, batch: &Batch) -> Result<InFlight, GpuProblem> {
-        let Self { gpu, field, edge, plan, layer, row_phases } = self;
+        let Self { gpu, field, plan, layer, row_phases } = self;
         let rows = field.rows();
         let columns = batch.pieces.iter().flat_map(|piece| {
             let tile = &plan.tiles[piece.tile];
@@ -270,7 +262,7 @@ impl CutInputs<'_> {
         });
         let dexels = batch.columns.start * rows..batch.columns.end * rows;
         let columns: Vec<records::Column> = columns.collect();
-        let rounds = Round::compose(batch, plan, field, edge);
+        let rounds = Round::compose(batch, plan, field);
         let launch = records::Launch {
             rows: rows as u32,
             quads: (row_phases.len() / pipeline::QUAD_ROWS) as u32,
@@ -322,12 +314,12 @@ impl Backend for Gpu {
         format!("gpu ({name}, {interface}, {driver})")
     }
 
-    fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error> {
+    fn cut(&self, field: &Field, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error> {
         self.cut_or_redo(
             layer,
             [field.len() as u64, plan.dexel_passes()],
-            |layer| self.cut_on_device(field, edge, plan, layer),
-            |layer| self.native.cut(field, edge, plan, layer),
+            |layer| self.cut_on_device(field, plan, layer),
+            |layer| self.native.cut(field, plan, layer),
         )
     }
 
@@ -352,18 +344,12 @@ impl Backend for Gpu {
         self.blank_or_redo(cut, |native| native.cut_blank_sweeps(field, sections, passes, advance))
     }
 
-    fn cut_spatial(
-        &self,
-        field: &SpatialField,
-        edge: &Edge,
-        plan: &SweepPlan,
-        layer: &mut Layer,
-    ) -> Result<CutStats, Error> {
+    fn cut_spatial(&self, field: &SpatialField, plan: &SweepPlan, layer: &mut Layer) -> Result<CutStats, Error> {
         self.cut_or_redo(
             layer,
             [field.len() as u64, plan.tile_passes()],
-            |layer| spatial::cut_on_device(self, field, edge, plan, layer),
-            |layer| self.native.cut_spatial(field, edge, plan, layer),
+            |layer| spatial::cut_on_device(self, field, plan, layer),
+            |layer| self.native.cut_spatial(field, plan, layer),
         )
     }
 

@@ -1,6 +1,6 @@
 //! Rays in space on the device: composed tile by tile, sent in batches, brought back.
 //!
-//! In: field, edge, plan of sweeps, layer. Out: the layer lowered. Four rows of a column make a **group**, the lanes of
+//! In: field, plan of sweeps, layer. Out: the layer lowered. Four rows of a column make a **group**, the lanes of
 //! one thread; the groups of a tile follow each other, so that a batch is a run of tiles. As in [`super::compose`],
 //! everything large is subtracted here in f64: a record counts from the tile's middle ray at its start height on one
 //! side, from a base point of the segment near it on the other.
@@ -18,7 +18,7 @@ use gearcut_core::dexel::{Layer, SpatialField};
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::passes::spatial::sweep;
 use gearcut_core::passes::spatial::sweep_tile::SweepTile as PlanTile;
-use gearcut_core::tool::edge::{Edge, Segment, SegmentShape};
+use gearcut_core::tool::edge::{Segment, SegmentShape};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
 
@@ -38,12 +38,11 @@ const ROUND_RECORDS: usize = 1024;
 pub fn cut_on_device(
     gpu: &Gpu,
     field: &SpatialField,
-    edge: &Edge,
     plan: &SweepPlan,
     layer: &Layer,
 ) -> Result<(Layer, u64), GpuProblem> {
     gpu.device.alive()?;
-    let cells = EdgeCells::new(edge);
+    let cells = EdgeCells::new(&plan.segments);
     let mut result = layer.clone();
     let mut unconverged = 0;
     let mut waiting: Vec<(Range<usize>, InFlight)> = Vec::new();
@@ -62,7 +61,7 @@ pub fn cut_on_device(
         if waiting.len() == IN_FLIGHT {
             collect(waiting.remove(0))?;
         }
-        let in_flight = send(gpu, field, edge, plan, layer, &cells, tiles.clone())?;
+        let in_flight = send(gpu, field, plan, layer, &cells, tiles.clone())?;
         waiting.push((tiles, in_flight));
     }
     waiting.into_iter().try_for_each(collect)?;
@@ -144,7 +143,6 @@ impl SweepRound {
 fn send(
     gpu: &Gpu,
     field: &SpatialField,
-    edge: &Edge,
     plan: &SweepPlan,
     layer: &Layer,
     cells: &EdgeCells,
@@ -168,7 +166,7 @@ fn send(
                 first_record: composed.len() as u32,
                 record_count: records.len() as u32,
             });
-            let segment = |record: &sweep::SweepRecord| &edge.segments[record.segment as usize];
+            let segment = |record: &sweep::SweepRecord| &plan.segments[record.segment as usize];
             composed.extend(records.iter().map(|r| compose(cells, r, segment(r), middle.as_dvec3())));
         }
         first_group += groups(tile) as u32;

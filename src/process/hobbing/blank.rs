@@ -14,7 +14,6 @@ use crate::passes::sections::swept_sections::SweptSections;
 use crate::process::hobbing::rack_generation::FormPoint;
 use crate::steps::whole_blank;
 use crate::terms::Side;
-use crate::tool::CuttingTool;
 use crate::units::TURN_RAD;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -26,6 +25,8 @@ pub struct HobbedBlank {
     pub cut: CutBlank,
     /// What the passes of each operation took.
     pub chips: Vec<Vec<PassChip>>,
+    /// The same slice by slice; empty where the scene does not name the material, and no force is computed.
+    pub in_slices: Vec<Vec<PassChip>>,
 }
 
 impl HobbingJob {
@@ -122,7 +123,7 @@ impl HobCutter<'_> {
     pub fn sections(&self, operation: usize, cull: bool) -> SweptSections {
         let reach_mm = BlankOutline::new(&self.job.blank).reach_mm();
         let passes = &self.operations[operation];
-        SweptSections::new(passes, self.job.hob.edge(), reach_mm, self.job.scene.gear.face_width_mm, cull)
+        SweptSections::new(passes, reach_mm, self.job.scene.gear.face_width_mm, cull)
     }
 
     /// Runs all operations over the uncut blank; `advance` is called as often as there are slices, in every operation,
@@ -137,7 +138,7 @@ impl HobCutter<'_> {
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<HobbedBlank>> {
         let mut cut = CutBlank { blank_mm3: field.volumes_mm3(), field, left_mm3: Vec::new(), cuts: Vec::new() };
-        let mut chips = Vec::new();
+        let (mut chips, mut in_slices) = (Vec::new(), Vec::new());
         for (index, passes) in self.operations.iter().enumerate() {
             let sections = self.sections(index, true);
             let ids = passes.first_pass..passes.end_pass();
@@ -146,8 +147,11 @@ impl HobCutter<'_> {
             };
             cut.cuts.push(done.cut);
             chips.push(done.chips);
+            if self.job.material.is_some() {
+                in_slices.push(done.in_slices);
+            }
             cut.left_mm3.push(cut.field.volumes_mm3());
         }
-        Ok(Some(HobbedBlank { cut, chips }))
+        Ok(Some(HobbedBlank { cut, chips, in_slices }))
     }
 }

@@ -14,7 +14,7 @@ use super::rack_generation::{FormPoint, RackGeneration};
 use crate::dexel::Ray;
 use crate::error::Refusal;
 use crate::gear::blank::Blank;
-use crate::math::roots::halve;
+use crate::math::roots::{halve, regula_falsi};
 use crate::terms::Side;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -33,6 +33,8 @@ const GAUSS: [(f64, f64); 4] = [
 
 /// Sections to either side of the middle of the face in which the beginning of the flank is found.
 const MIDDLE_SECTION: usize = 4;
+/// Rounding of heights over the pitch curve, mm.
+const HEIGHT_MM: f64 = 1e-12;
 /// Components: point and normal.
 const PARTS: usize = 6;
 /// Panels of the profile's length.
@@ -168,6 +170,18 @@ impl FlankPatch {
     pub fn on_line_of_action_mm(&self, length_mm: f64) -> f64 {
         let [form_mm, tip_mm] = self.on_line_of_action_mm;
         form_mm + self.share_at(length_mm) * (tip_mm - form_mm)
+    }
+
+    /// Arc of the middle section's profile at which it stands at this height over the pitch curve, both in mm; `None`
+    /// where it does not.
+    pub fn arc_at_height_mm(&self, blank: &Blank, height_mm: f64) -> Option<f64> {
+        let section = self.section(0.0);
+        let over_mm = |arc_mm: f64| {
+            let point = section.ray(self.share_at(arc_mm)).origin_mm.truncate();
+            blank.height(point, point.to_angle()).0 - height_mm
+        };
+        // Heights climb steadily along a flank.
+        regula_falsi(over_mm, 0.0, self.length_mm(), HEIGHT_MM)
     }
 
     /// Share of the roll at which the profile of the middle section has a length, mm. Between panels the length is a

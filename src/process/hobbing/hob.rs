@@ -35,6 +35,7 @@ use crate::frame::Rigid3;
 use crate::math::convergence::{Step, iterate};
 use crate::process::hobbing::scene::model;
 use crate::process::hobbing::scene::model::{GashForm, HobSize, Worm};
+use crate::tool::blade_edges::BladeEdges;
 use crate::tool::edge::{Edge, Segment, SegmentName};
 use crate::tool::edge_profile::BladeCurve;
 use crate::tool::edge_table::TableError;
@@ -85,7 +86,7 @@ pub struct Hob {
     pub flank_end_radius_mm: f64,
     /// Teeth in blade order.
     pub teeth: Vec<HobTooth>,
-    edge: Edge,
+    edges: BladeEdges,
     flank: RakeFlank,
     rake_twist_rad_per_mm: f64,
 }
@@ -270,7 +271,7 @@ impl Hob {
             length_mm: spec.length_mm,
             flank_end_radius_mm,
             teeth,
-            edge: Edge::new(segments),
+            edges: BladeEdges::shared(Edge::new(segments)),
             flank,
             rake_twist_rad_per_mm,
         })
@@ -392,8 +393,8 @@ impl CuttingTool for Hob {
         self.teeth.len() as u32
     }
 
-    fn edge(&self) -> &Edge {
-        &self.edge
+    fn edges(&self) -> &BladeEdges {
+        &self.edges
     }
 }
 

@@ -61,7 +61,8 @@ impl GearJob for HobCutter<'_> {
     }
 
     fn evaluated_profile_mm(&self, tooth: u32, side: Side) -> Result<[f64; 2]> {
-        Ok(flank_report::evaluated_mm([0.0, self.target(tooth, side)?.length_mm()]))
+        let target = self.target(tooth, side)?;
+        Ok(flank_report::evaluated_mm(target.length_mm(), self.measured_ends_mm(target)))
     }
 
     fn view_rows_z_mm(&self) -> Vec<f64> {

@@ -10,7 +10,7 @@ mod charts;
 mod facts;
 mod strokes;
 
-use super::gcode;
+use super::programs;
 use crate::Result;
 use crate::findings::{Place, Quantity, Section};
 use crate::machine::{Peak, peaks};
@@ -156,7 +156,7 @@ impl AxesOfOperation for OperationAxes<'_> {
     }
 
     fn programs(&self) -> Option<Result<Vec<(&'static str, String)>, String>> {
-        Some(gcode::text(self.job, self.operation())?.map(|text| vec![("", text)]))
+        Some(programs::text(self.job, self.operation())?.map(|text| vec![("", text)]))
     }
 }
 

@@ -10,6 +10,7 @@ use crate::error::Refusal;
 use crate::frame::Rigid2;
 use crate::process::shaping::scene::model;
 use crate::scene::model::Gear;
+use crate::tool::blade_edges::BladeEdges;
 use crate::tool::edge::{Edge, Segment, SegmentName};
 use crate::tool::edge_table::TableError;
 use crate::tool::involute::{Involute, inv};
@@ -43,7 +44,7 @@ pub struct ShaperCutter {
     pub base_length_mm: f64,
     /// What lies between the left flank and the tip circle, from the flank on; the right side mirrors it.
     pub corner: Vec<CornerPart>,
-    edge: Edge,
+    edges: BladeEdges,
     runout_mm: DVec2,
     tooth_angles_rad: Vec<f64>,
 }
@@ -230,10 +231,15 @@ impl ShaperCutter {
             roll_range: [start_roll, end_roll],
             base_length_mm,
             corner,
-            edge: Edge::new(segments),
+            edges: BladeEdges::shared(Edge::new(segments)),
             runout_mm: spec.runout_mm * DVec2::from_angle(spec.runout_angle_rad),
             tooth_angles_rad,
         })
+    }
+
+    /// The edge that all teeth share.
+    pub fn edge(&self) -> &Edge {
+        &self.edges.edges()[0]
     }
 
     /// One flank of a tooth; `side` +1: left (counter-clockwise), -1: right.
@@ -247,8 +253,8 @@ impl CuttingTool for ShaperCutter {
         self.teeth
     }
 
-    fn edge(&self) -> &Edge {
-        &self.edge
+    fn edges(&self) -> &BladeEdges {
+        &self.edges
     }
 }
 

@@ -20,7 +20,7 @@ use crate::process::shaping::gcode;
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::generation::Generation;
 use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule};
-use crate::process::shaping::scene::model::{self, Machine, Measure, Operation, Shaping};
+use crate::process::shaping::scene::model::{self, Machine, Operation, Shaping};
 use crate::process::shaping::target::{TargetFlank, target_root};
 use crate::process::shaping::tooth_target::ToothTarget;
 use crate::scene::Scene;
@@ -69,8 +69,6 @@ pub struct ShapingJob {
     pub material: EdgeForce,
     /// Distance of the rays on which chips are followed, mm.
     pub chip_spacing_mm: f64,
-    /// Where profiles are evaluated.
-    pub measure: Measure,
     /// The cutter as the scene describes it.
     pub cutter_spec: model::ShaperCutter,
     /// The pitch curve.
@@ -97,7 +95,7 @@ impl ShapingJob {
             return Err(Refusal::new("tool", "this tool does not shape gears", way_out).into());
         };
         let machine = shaping.machine.clone();
-        let (material, chip_spacing_mm, measure) = (shaping.material, shaping.chip_spacing_mm, shaping.measure);
+        let (material, chip_spacing_mm) = (shaping.material, shaping.chip_spacing_mm);
         if gear.helix_angle_rad != 0.0 {
             return Err(Refusal::new(
                 "gear.helix_angle_deg",
@@ -155,7 +153,6 @@ impl ShapingJob {
             machine,
             material,
             chip_spacing_mm,
-            measure,
             cutter_spec: shaping.tool.clone(),
             curve,
             cutter,

@@ -12,6 +12,7 @@ pub mod generation;
 pub mod job;
 pub mod linkage;
 pub mod measure;
+pub mod programs;
 mod report;
 mod run;
 pub mod scene;

@@ -91,12 +91,12 @@ impl<'a> CutSection<'a> {
         let strokes = StrokeSet::new(first_pass, cutter, StrokeLaw::Frozen, count, |stroke| {
             Self::work_from_tool(self.job, first + stroke as usize)
         });
-        let tooth = self.job.planar().closed_tooth(&strokes, reach_mm);
+        let teeth = self.job.planar().closed_teeth(&strokes, reach_mm);
         let operation = BlankOperation {
             strokes: &strokes,
             returns: None,
             tool: cutter,
-            tooth: &tooth,
+            teeth: &teeth,
             blank_reach_mm: reach_mm,
             cull: true,
         };

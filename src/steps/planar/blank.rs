@@ -27,8 +27,9 @@ impl PlanarGear<'_> {
         whole_blank::grid(self.scene, self.blank, self.rows_are_alike())
     }
 
-    /// The tool's tooth closed through its body, down to where no stroke of an operation brings the blank.
-    pub fn closed_tooth(&self, strokes: &StrokeSet, blank_reach_mm: f64) -> ClosedTooth {
+    /// The tool's teeth, one for each of its edges, closed through its body down to where no stroke of an operation
+    /// brings the blank.
+    pub fn closed_teeth(&self, strokes: &StrokeSet, blank_reach_mm: f64) -> Vec<ClosedTooth> {
         let mount_mm = self.tool.tool_from_blade(0).translation_mm;
         let axes_mm = (0..strokes.count()).flat_map(|stroke| strokes.poses(stroke)).map(|pose| pose.point(mount_mm));
         let smallest = |distances_mm: &mut dyn Iterator<Item = f64>| distances_mm.fold(f64::INFINITY, f64::min);
@@ -40,7 +41,8 @@ impl PlanarGear<'_> {
             }
         };
         // Between the nodes of a moving stroke the tool comes no nearer than this by far.
-        ClosedTooth::new(self.tool.edge(), (nearest_mm - 1.0).max(0.0))
+        let closing_radius_mm = (nearest_mm - 1.0).max(0.0);
+        self.tool.edges().edges().iter().map(|edge| ClosedTooth::new(edge, closing_radius_mm)).collect()
     }
 
     /// Runs all operations over the uncut blank; `returns` gives the poses of an operation's return strokes where they
@@ -58,13 +60,13 @@ impl PlanarGear<'_> {
         let mut cut = CutBlank { blank_mm3: field.volumes_mm3(), field, left_mm3: Vec::new(), cuts: Vec::new() };
         let reach_mm = BlankOutline::new(self.blank).reach_mm();
         for (index, operation) in self.operations.iter().enumerate() {
-            let tooth = self.closed_tooth(operation.strokes, reach_mm);
+            let teeth = self.closed_teeth(operation.strokes, reach_mm);
             let returns = returns(index);
             let operation = BlankOperation {
                 strokes: operation.strokes,
                 returns: returns.as_ref(),
                 tool: self.tool,
-                tooth: &tooth,
+                teeth: &teeth,
                 blank_reach_mm: reach_mm,
                 cull: true,
             };

@@ -186,7 +186,7 @@ fn busiest_space(gear: &PlanarGear, set: &StrokeSet, removed_mm3: &[[f64; 2]], s
     let taken = |blade: usize| near.clone().map(|s| removed_mm3[s * blades + blade].iter().sum::<f64>()).sum::<f64>();
     let busiest = (0..blades).max_by(|&a, &b| taken(a).total_cmp(&taken(b))).unwrap_or(0);
     let work_from_blade = set.poses(stroke)[0].after(&gear.tool.tool_from_blade(busiest as u32));
-    let place = place_of(gear, work_from_blade.point(gear.tool.edge().center_mm));
+    let place = place_of(gear, work_from_blade.point(gear.tool.edge_of(busiest as u32).center_mm));
     // The middle of a cutter tooth stands in a space: behind a tooth on its left side, else behind the tooth before.
     match place.side {
         Side::Left => place.tooth,

@@ -10,7 +10,6 @@ use gearcut::gpu::{Gpu, GpuOptions, GpuProblem, OnGpuFailure};
 use gearcut::passes::CutPlan;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use std::time::Duration;
 
 fn job() -> ShapingJob {
@@ -69,7 +68,7 @@ fn a_device_lost_in_the_middle_of_a_flank_loses_nothing() {
     let plan = CutPlan::brute_force(&field, &job.finishing().strokes, &job.cutter);
     let native = {
         let mut layer = field.blank_layer();
-        Cpu::default().cut(&field, job.cutter.edge(), &plan, &mut layer).expect("the native backend");
+        Cpu::default().cut(&field, &plan, &mut layer).expect("the native backend");
         layer
     };
     let mut lost = 0;
@@ -82,7 +81,7 @@ fn a_device_lost_in_the_middle_of_a_flank_loses_nothing() {
                 std::thread::sleep(Duration::from_millis(delay_ms));
                 gpu.lose_device();
             });
-            gpu.cut(&field, job.cutter.edge(), &plan, &mut layer).expect("cut in any case");
+            gpu.cut(&field, &plan, &mut layer).expect("cut in any case");
         });
         if gpu.incidents().is_empty() {
             continue;
@@ -101,9 +100,7 @@ fn stops(gpu: &Gpu, job: &ShapingJob) -> GpuProblem {
     let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
     let before = field.blank_layer();
     let mut layer = before.clone();
-    let Err(Error::Device(problem)) = gpu.cut(&field, job.cutter.edge(), &plan, &mut layer) else {
-        panic!("the cut did not stop")
-    };
+    let Err(Error::Device(problem)) = gpu.cut(&field, &plan, &mut layer) else { panic!("the cut did not stop") };
     assert!(layer == before, "a failed cut left something");
     *problem.downcast().expect("a problem of the device")
 }

@@ -8,7 +8,6 @@ use gearcut::passes::CutPlan;
 use gearcut::process::load;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use std::path::Path;
 
 /// [`fingerprint`] of the flanks below: llvmpipe rounds alike in all its versions, widths and thread counts.
@@ -35,7 +34,7 @@ fn cut_with(job: &ShapingJob, gpu: &Gpu, change: impl Fn(&mut CutPlan)) -> Vec<L
             if index + 1 == job.operations.len() {
                 change(&mut plan);
             }
-            gpu.cut(&field, job.cutter.edge(), &plan, &mut layer).expect("cuts");
+            gpu.cut(&field, &plan, &mut layer).expect("cuts");
             layers.push(layer.clone());
         }
     }

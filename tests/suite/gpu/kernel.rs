@@ -9,7 +9,6 @@ use gearcut::passes::{CutPlan, PassRecord, Tile};
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::{Shaping, Tip};
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use gearcut::tool::edge::{Edge, Segment, SegmentShape};
 use glam::DVec2;
 
@@ -111,7 +110,8 @@ fn random_field(tiles: u32, edge: &Edge, seed: u64) -> (Field, CutPlan) {
     }
     let row_phases: Vec<f64> = (0..13).map(|row| f64::from(row) / 6.0 - 1.0).collect();
     let field = Field { columns, rows_z_mm: row_phases.clone() };
-    (field, CutPlan { tiles: all, records, row_phases })
+    let segments = edge.segments.as_slice().into();
+    (field, CutPlan { tiles: all, records, row_phases, segments })
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn random_rays_are_cut_alike_and_ties_go_to_the_lowest_pass() {
     let edge = edge();
     let (field, plan) = random_field(4000, &edge, 7);
     let blank = field.blank_layer();
-    let (parity, layers) = cut_both(&gpu, "random", &field, &edge, &plan, [&blank; 4]);
+    let (parity, layers) = cut_both(&gpu, "random", &field, &plan, [&blank; 4]);
     println!("random: {parity}");
     assert_eq!(parity.verdict(), Ok(()));
     assert!(parity.cut > field.len() / 2, "{} of {} rays met something", parity.cut, field.len());
@@ -147,7 +147,7 @@ fn edge_inputs_are_cut_alike() {
             plan.tiles[2].records = 0..0;
             let blank = field.blank_layer();
             let place = format!("{rows} rows, {columns} columns");
-            let (parity, _) = cut_both(&gpu, &place, &field, &edge, &plan, [&blank; 4]);
+            let (parity, _) = cut_both(&gpu, &place, &field, &plan, [&blank; 4]);
             let verdict = parity.verdict();
             assert!(verdict.is_ok() || parity.cut == 0, "{verdict:?}");
         }
@@ -155,7 +155,7 @@ fn edge_inputs_are_cut_alike() {
     let (mut field, mut plan) = random_field(1, &edge, 1);
     (field.columns, plan.tiles) = (Vec::new(), Vec::new());
     let mut nothing = field.blank_layer();
-    let stats = gpu.cut(&field, &edge, &plan, &mut nothing).expect("nothing to do");
+    let stats = gpu.cut(&field, &plan, &mut nothing).expect("nothing to do");
     assert_eq!(stats.dexel_passes, 0);
 }
 
@@ -168,7 +168,7 @@ fn small_batches_give_the_same_bytes() {
     let cut = |memory_limit_bytes: Option<u64>| {
         let gpu = software_gpu(gearcut::gpu::GpuOptions { memory_limit_bytes, ..strict() });
         let mut layer = field.blank_layer();
-        gpu.cut(&field, job.cutter.edge(), &plan, &mut layer).expect("fits");
+        gpu.cut(&field, &plan, &mut layer).expect("fits");
         (layer, gpu.stage_times())
     };
     let (whole, one) = cut(None);
@@ -185,7 +185,7 @@ fn a_planted_difference_is_noticed() {
     let edge = edge();
     let (field, plan) = random_field(100, &edge, 3);
     let blank = field.blank_layer();
-    let (honest, layers) = cut_both(&gpu, "honest", &field, &edge, &plan, [&blank; 4]);
+    let (honest, layers) = cut_both(&gpu, "honest", &field, &plan, [&blank; 4]);
     assert_eq!(honest.verdict(), Ok(()));
     let compare = |plant: &dyn Fn(&mut gearcut::dexel::Layer)| {
         let mut planted = layers[3].clone();
@@ -204,6 +204,6 @@ fn a_planted_difference_is_noticed() {
         record.x_mm[0] += 5e-5;
     }
     let mut layer = field.blank_layer();
-    gpu.cut(&field, &edge, &lifted, &mut layer).expect("cuts");
+    gpu.cut(&field, &lifted, &mut layer).expect("cuts");
     assert!(compare(&|planted| planted.clone_from(&layer)).is_err(), "passes 50 nm off");
 }

@@ -10,7 +10,6 @@ use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::scene::model::Scene;
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use std::path::PathBuf;
 
 /// Rows of a test: two whole threads and one row more.
@@ -60,7 +59,7 @@ fn compare(gpu: &dyn Backend, mut scene: Scene, feed_during_stroke: bool) -> Par
             let plan = CutPlan::new(&field, &operation.strokes, &job.cutter);
             let place = format!("{name}, {what}, {}", operation.spec.name);
             let before = layers.each_ref();
-            let (parity, after) = cut_both(gpu, &place, &field, job.cutter.edge(), &plan, before);
+            let (parity, after) = cut_both(gpu, &place, &field, &plan, before);
             all.merge(parity);
             layers = after;
         }
@@ -90,14 +89,13 @@ fn compare_hobbed(gpu: &dyn Backend, mut scene: Scene) -> Parity {
     let name = scene.name.clone();
     let job = HobbingJob::new(&scene).unwrap_or_else(|error| panic!("{name}: {error}"));
     let cutter = HobCutter::new(&job).expect("passes");
-    let edge = job.hob.edge();
     let mut all = Parity::default();
     for (tooth, side) in [(1, Side::Left), (scene.gear.teeth / 3 + 1, Side::Right)] {
         let (_, rays) = cutter.rays(tooth, side).expect("a flank");
-        for (operation, passes) in job.operations.iter().zip(&cutter.operations) {
-            let plan = SweepPlan::new(&rays.field, passes, edge);
+        for (operation, passes) in job.operations.iter().zip(cutter.operations.iter()) {
+            let plan = SweepPlan::new(&rays.field, passes);
             let place = format!("{name}, tooth {tooth} {}, {}", side.name(), operation.spec.name);
-            all.merge(cut_both_in_space(gpu, &place, &rays.field, edge, &plan).0);
+            all.merge(cut_both_in_space(gpu, &place, &rays.field, &plan).0);
         }
     }
     println!("{name}: {all}");

@@ -40,13 +40,13 @@ fn the_gpu_leaves_the_same_spans_and_volumes() {
         let mut cuts = Vec::new();
         for (index, prepared) in job.operations.iter().enumerate() {
             let strokes = strokes.filter(|_| index == 1).unwrap_or(&prepared.strokes);
-            let tooth = job.planar().closed_tooth(strokes, reach_mm);
+            let teeth = job.planar().closed_teeth(strokes, reach_mm);
             let returns = job.return_strokes(index);
             let operation = BlankOperation {
                 strokes,
                 returns: returns.as_ref(),
                 tool: &job.cutter,
-                tooth: &tooth,
+                teeth: &teeth,
                 blank_reach_mm: reach_mm,
                 cull: true,
             };

@@ -10,7 +10,6 @@ use gearcut::passes::{SweepPlan, TurningPasses};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -22,14 +21,14 @@ fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
 }
 
 /// A coarse flank from below the tip corner's trochoid to the gear's tip: one tile wide patches at all places of it.
-fn case(name: &str) -> (Case, TurningPasses, SpatialField) {
+fn case(name: &str) -> (TurningPasses, SpatialField) {
     let file = data(name);
     let case = Case::new(&file["setup"]);
     let cycle = TAU * f64::from(case.teeth) / number(&file["setup"], "K");
     let passes = case.passes([-3.5 * cycle, 4.5 * cycle]);
     let (space, flank) = (file["space"].as_i64().expect("space"), number(&file, "flank"));
     let field = case.patch(space, flank, &even(-26.0, 24.0, 120), &even(-5.0, 5.0, 131));
-    (case, passes, field)
+    (passes, field)
 }
 
 #[test]
@@ -39,9 +38,9 @@ fn hobbed_flanks_are_cut_alike() {
     for name in
         ["p09_patch_s2_axial", "p10_patch_s2_diag_VL", "p11_patch_circle", "p12_patch_spur", "p13_patch_s4_ellipse"]
     {
-        let (case, passes, field) = case(name);
-        let plan = SweepPlan::new(&field, &passes, case.hob.edge());
-        let (parity, native, shifted, got) = cut_both_in_space(&gpu, name, &field, case.hob.edge(), &plan);
+        let (passes, field) = case(name);
+        let plan = SweepPlan::new(&field, &passes);
+        let (parity, native, shifted, got) = cut_both_in_space(&gpu, name, &field, &plan);
         println!("{parity}");
         assert_eq!(parity.verdict(), Ok(()), "{name}");
         all.merge(parity);
@@ -61,7 +60,7 @@ fn hobbed_flanks_are_cut_alike() {
             let mut lifted = plan.clone();
             lifted.records.iter_mut().for_each(|record| record.place_mm[0][0] += 5e-5);
             let mut layer = field.blank_layer();
-            gpu.cut_spatial(&field, case.hob.edge(), &lifted, &mut layer).expect("cuts");
+            gpu.cut_spatial(&field, &lifted, &mut layer).expect("cuts");
             let mut parity = Parity::default();
             parity.add("lifted", field.rows(), &native, &shifted, &layer);
             assert!(parity.verdict().is_err());
@@ -72,12 +71,12 @@ fn hobbed_flanks_are_cut_alike() {
 
 #[test]
 fn small_batches_give_the_same_bytes() {
-    let (case, passes, field) = case("p11_patch_circle");
-    let plan = SweepPlan::new(&field, &passes, case.hob.edge());
+    let (passes, field) = case("p11_patch_circle");
+    let plan = SweepPlan::new(&field, &passes);
     let cut = |memory_limit_bytes: Option<u64>| {
         let gpu = software_gpu(GpuOptions { memory_limit_bytes, ..strict() });
         let mut layer = field.blank_layer();
-        gpu.cut_spatial(&field, case.hob.edge(), &plan, &mut layer).expect("fits");
+        gpu.cut_spatial(&field, &plan, &mut layer).expect("fits");
         (layer, gpu.stage_times())
     };
     let (whole, one) = cut(None);
@@ -87,7 +86,7 @@ fn small_batches_give_the_same_bytes() {
     assert!(whole == parts, "batches change the result");
     // A tile that does not fit is a problem with a reason, not a wrong result.
     let gpu = software_gpu(GpuOptions { memory_limit_bytes: Some(20_000), ..strict() });
-    let refused = gpu.cut_spatial(&field, case.hob.edge(), &plan, &mut field.blank_layer());
+    let refused = gpu.cut_spatial(&field, &plan, &mut field.blank_layer());
     assert!(refused.is_err_and(|error| error.to_string().contains("groups")));
 }
 
@@ -101,18 +100,17 @@ mod slow {
         let loaded = load(Path::new("scenes/hobbing/circular_helical.toml"), &sets).unwrap_or_else(|e| panic!("{e}"));
         let job = HobbingJob::new(&loaded.scene).expect("a scene that cuts");
         let cutter = HobCutter::new(&job).expect("passes");
-        let edge = job.hob.edge();
         let mut all = Parity::default();
         for (tooth, side) in [(1, Side::Left), (1, Side::Right), (23, Side::Left)] {
             let (_, rays) = cutter.rays(tooth, side).expect("a flank");
-            for (operation, passes) in job.operations.iter().zip(&cutter.operations) {
-                let plan = SweepPlan::new(&rays.field, passes, edge);
+            for (operation, passes) in job.operations.iter().zip(cutter.operations.iter()) {
+                let plan = SweepPlan::new(&rays.field, passes);
                 // The rake face turns by this much over the height of a tooth.
                 let twist_rad_per_mm =
                     plan.records.iter().map(|record| record.twist_rad_per_mm.abs()).fold(f64::INFINITY, f64::min);
                 assert!(twist_rad_per_mm > 1e-4, "the rake faces are planes");
                 let place = format!("tooth {tooth} {}, {}", side.name(), operation.spec.name);
-                let (parity, native, shifted, got) = cut_both_in_space(&gpu, &place, &rays.field, edge, &plan);
+                let (parity, native, shifted, got) = cut_both_in_space(&gpu, &place, &rays.field, &plan);
                 let heights = native.heights_mm.iter().map(|&h| 1e3 * f64::from(h));
                 let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], h| [a.min(h), b.max(h)]);
                 println!(
@@ -125,7 +123,7 @@ mod slow {
                 let mut plane = plan.clone();
                 plane.records.iter_mut().for_each(|record| record.twist_rad_per_mm = 0.0);
                 let mut layer = rays.field.blank_layer();
-                gpu.cut_spatial(&rays.field, edge, &plane, &mut layer).expect("cuts");
+                gpu.cut_spatial(&rays.field, &plane, &mut layer).expect("cuts");
                 assert!(layer != got);
                 let mut parity = Parity::default();
                 parity.add("plane", rays.field.rows(), &native, &shifted, &layer);
@@ -138,24 +136,24 @@ mod slow {
     #[test]
     fn long_lists_go_through_in_rounds() {
         // All passes that can reach the flank at all, on a few of its dexels.
-        let (case, passes, field) = case("p12_patch_spur");
+        let (passes, field) = case("p12_patch_spur");
         let few = SpatialField::new(20, 9, field.low_mm, |column, row| {
             let [column, row] = [6 * column, 14 * row];
             (field.ray(column, row), f64::from(field.blank_mm[field.index(column, row)]))
         });
-        let plan = SweepPlan::brute_force(&few, &passes, case.hob.edge());
+        let plan = SweepPlan::brute_force(&few, &passes);
         let longest = plan.tiles.iter().map(|tile| tile.records.len()).max().expect("tiles");
         println!("{longest} records in a tile");
         assert!(longest > 10 * 1024, "these lists fit one launch or two");
         let gpu = software_gpu(strict());
-        let (parity, _, _, whole) = cut_both_in_space(&gpu, "all passes", &few, case.hob.edge(), &plan);
+        let (parity, _, _, whole) = cut_both_in_space(&gpu, "all passes", &few, &plan);
         println!("{parity}");
         assert_eq!(parity.verdict(), Ok(()));
         // Rounds of other lengths leave the same bytes.
         let cut = |memory_limit_bytes: Option<u64>, plan: &SweepPlan| {
             let gpu = software_gpu(GpuOptions { memory_limit_bytes, ..strict() });
             let mut layer = few.blank_layer();
-            gpu.cut_spatial(&few, case.hob.edge(), plan, &mut layer).expect("no list is too long");
+            gpu.cut_spatial(&few, plan, &mut layer).expect("no list is too long");
             layer
         };
         assert!(cut(Some(300_000), &plan) == whole, "rounds change the result");

@@ -88,7 +88,7 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
                             rounded += 1;
                             continue;
                         };
-                        worst_nm = worst_nm.max(1e6 * off_edge_mm(job.hob.edge(), DVec2::new(radius, y)));
+                        worst_nm = worst_nm.max(1e6 * off_edge_mm(job.hob.edge_of(0), DVec2::new(radius, y)));
                         points += 1;
                     }
                 }
@@ -310,9 +310,9 @@ fn ends_of_spans_are_the_flank_kernels_heights() {
         assert!(rays.len() >= 20, "{}", rays.len());
         let field = SpatialField::new(rays.len(), 1, -0.3, |column, _| (rays[column].0, 0.3));
         let passes = cutter.operations.last().expect("one");
-        let plan = SweepPlan::brute_force(&field, passes, job.hob.edge());
+        let plan = SweepPlan::brute_force(&field, passes);
         let mut layer = field.blank_layer();
-        Cpu::default().cut_spatial(&field, job.hob.edge(), &plan, &mut layer).expect("cuts");
+        Cpu::default().cut_spatial(&field, &plan, &mut layer).expect("cuts");
         let worst_nm = layer.heights_mm.iter().map(|h| 1e6 * f64::from(h.abs())).fold(0.0, f64::max);
         let same = rays.iter().zip(&layer.passes).filter(|((_, pass), other)| pass == *other).count();
         println!("{scene}: {} ends, {worst_nm:.2} nm from the flank kernel, {same} by the same pass", rays.len());
@@ -346,7 +346,7 @@ fn the_mesh_is_closed_and_loads_are_those_of_the_ledger() {
         heights_mm: [-root_mm - 0.5, job.blank.addendum_mm],
     };
     let mut ledger = SpaceLedger::new(&job.curve, &grid, pitch_mm, |z| job.target.space_arc_mm(0, z));
-    let (teeth, _) = ledger.cut(&cutter.operations[0], &job.hob);
+    let (teeth, _) = ledger.cut(&cutter.operations[0]);
     let spaces = f64::from(job.scene.gear.teeth);
     let of_ledger: f64 = teeth.iter().map(|tooth| spaces * tooth.volume_mm3).sum();
     println!("{of_ledger} mm3 by the ledger, {} by the blank", load.volume_mm3());

@@ -8,8 +8,6 @@ use gearcut::passes::{SweepPlan, TurningPasses};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
-use gearcut::tool::edge::Edge;
 use serde_json::Value;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -34,11 +32,11 @@ fn patches_agree_with_the_independent_solver() {
     for name in
         ["p09_patch_s2_axial", "p10_patch_s2_diag_VL", "p11_patch_circle", "p12_patch_spur", "p13_patch_s4_ellipse"]
     {
-        let (case, passes, field, file) = patch(name);
+        let (_, passes, field, file) = patch(name);
         let wanted = heights(name, &file);
-        let plan = SweepPlan::new(&field, &passes, case.hob.edge());
+        let plan = SweepPlan::new(&field, &passes);
         let mut layer = field.blank_layer();
-        let stats = Cpu::default().cut_spatial(&field, case.hob.edge(), &plan, &mut layer).expect("cuts");
+        let stats = Cpu::default().cut_spatial(&field, &plan, &mut layer).expect("cuts");
         let mut worst = (0.0, 0, 0);
         for (row, heights) in wanted.iter().enumerate() {
             for (column, wanted) in heights.iter().enumerate() {
@@ -66,15 +64,15 @@ fn patches_agree_with_the_independent_solver() {
 
 #[test]
 fn all_instruction_sets_give_the_same_bytes() {
-    let (case, passes, field, _) = patch("p12_patch_spur");
+    let (_, passes, field, _) = patch("p12_patch_spur");
     let few = SpatialField::new(field.columns() / 4, field.rows() / 4, field.low_mm, |column, row| {
         let [column, row] = [4 * column, 4 * row];
         (field.ray(column, row), f64::from(field.blank_mm[field.index(column, row)]))
     });
-    let plan = SweepPlan::new(&few, &passes, case.hob.edge());
+    let plan = SweepPlan::new(&few, &passes);
     let cut = |cpu: Cpu| {
         let mut layer = few.blank_layer();
-        cpu.cut_spatial(&few, case.hob.edge(), &plan, &mut layer).expect("cuts");
+        cpu.cut_spatial(&few, &plan, &mut layer).expect("cuts");
         layer
     };
     let widest = cut(Cpu::default());
@@ -103,16 +101,16 @@ fn target_rays_are_those_of_the_independent_implementation() {
 }
 
 /// Two plans of one field leave the same bytes.
-fn same_as_brute_force(name: &str, edge: &Edge, passes: &TurningPasses, field: &SpatialField, start: &Layer) -> Layer {
+fn same_as_brute_force(name: &str, passes: &TurningPasses, field: &SpatialField, start: &Layer) -> Layer {
     let run = |plan: &SweepPlan, every_root: bool| {
         let mut layer = start.clone();
-        let stats = Cpu::default().cut_spatial(field, edge, plan, &mut layer).expect("cuts");
+        let stats = Cpu::default().cut_spatial(field, plan, &mut layer).expect("cuts");
         // Of a hundred million pairs a few are rays that graze a round tip far above what is left in the end.
         assert!(stats.unconverged == 0 || (!every_root && stats.unconverged < 10), "{name}: {}", stats.unconverged);
         assert_eq!(stats.dexel_passes, plan.dexel_passes(), "{name}");
         layer
     };
-    let [plan, all] = [SweepPlan::new, SweepPlan::brute_force].map(|make| make(field, passes, edge));
+    let [plan, all] = [SweepPlan::new, SweepPlan::brute_force].map(|make| make(field, passes));
     let (few, brute) = (run(&plan, true), run(&all, false));
     let differ =
         (0..field.len()).filter(|&i| few.heights_mm[i] != brute.heights_mm[i] || few.passes[i] != brute.passes[i]);
@@ -144,9 +142,9 @@ fn marks_are_left_by_the_gashes_of_the_independent_implementation() {
         for event in events {
             let mark = &event["mark"];
             let field = case.patch(space, flank, &[number(mark, "sigma")], &[number(mark, "z")]);
-            let plan = SweepPlan::new(&field, &passes, case.hob.edge());
+            let plan = SweepPlan::new(&field, &passes);
             let mut layer = field.blank_layer();
-            Cpu::default().cut_spatial(&field, case.hob.edge(), &plan, &mut layer).expect("cuts");
+            Cpu::default().cut_spatial(&field, &plan, &mut layer).expect("cuts");
             let pass = passes.pass(layer.passes[0] - passes.first_pass);
             let gash = (pass.tool_angle_rad / gash_rad).round() as i64;
             assert_eq!(gash, event["g"].as_i64().expect("g"), "{name} at {mark}");
@@ -176,17 +174,11 @@ mod slow {
             let (space, flank) = (file["space"].as_i64().expect("space"), number(&file, "flank"));
             for &[sigma, z] in places {
                 let field = case.patch(space, flank, &even(sigma, sigma + 0.8, 16), &even(z, z + 1.55, 32));
-                same_as_brute_force(
-                    &format!("{name} at {sigma}, {z}"),
-                    case.hob.edge(),
-                    &passes,
-                    &field,
-                    &field.blank_layer(),
-                );
+                same_as_brute_force(&format!("{name} at {sigma}, {z}"), &passes, &field, &field.blank_layer());
             }
             // A whole flank, coarse: regions as large as the first halvings.
             let field = case.patch(space, flank, &even(-26.0, 24.0, 20), &even(-12.0, 12.0, 34));
-            same_as_brute_force(&format!("{name}, whole"), case.hob.edge(), &passes, &field, &field.blank_layer());
+            same_as_brute_force(&format!("{name}, whole"), &passes, &field, &field.blank_layer());
         }
     }
 
@@ -231,9 +223,9 @@ mod slow {
             ];
             for (number, field) in fields.iter().enumerate() {
                 let mut layer = field.blank_layer();
-                for passes in &cutter.operations {
+                for passes in cutter.operations.iter() {
                     let name = format!("{path}, field {number}");
-                    layer = same_as_brute_force(&name, job.hob.edge(), passes, field, &layer);
+                    layer = same_as_brute_force(&name, passes, field, &layer);
                 }
                 assert!(layer.passes.iter().any(|&pass| pass != u32::MAX));
             }

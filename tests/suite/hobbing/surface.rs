@@ -12,7 +12,6 @@ use gearcut::process::hobbing::measure::marks::{autocorrelation_steps, between_r
 use gearcut::process::hobbing::rack_generation::RackGeneration;
 use gearcut::process::hobbing::scene::model::GashForm;
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use glam::DVec2;
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
@@ -25,9 +24,9 @@ fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
 fn simulated(case: &Case, field: &SpatialField, cycles: [f64; 2]) -> Vec<f64> {
     let cycle = TAU * f64::from(case.teeth) / number(&case.setup, "K");
     let passes = case.passes(cycles.map(|c| c * cycle));
-    let plan = SweepPlan::new(field, &passes, case.hob.edge());
+    let plan = SweepPlan::new(field, &passes);
     let mut layer = field.blank_layer();
-    let stats = Cpu::default().cut_spatial(field, case.hob.edge(), &plan, &mut layer).expect("cuts");
+    let stats = Cpu::default().cut_spatial(field, &plan, &mut layer).expect("cuts");
     assert_eq!(stats.unconverged, 0);
     assert!(layer.passes.iter().all(|&pass| pass != u32::MAX));
     layer.heights_mm.iter().map(|&h| f64::from(h)).collect()
@@ -194,7 +193,7 @@ fn teeth_take_their_shares() {
         let mut loads = vec![ToothLoad::default(); case.hob.teeth.len()];
         for &space in &spaces {
             let arc = |z: f64| f64::from(space) * PI * module + case.gear_hand * case.helix_angle_rad.tan() * z;
-            let (of, stats) = SpaceLedger::new(&case.curve, &grid, PI * module, arc).cut(&passes, &case.hob);
+            let (of, stats) = SpaceLedger::new(&case.curve, &grid, PI * module, arc).cut(&passes);
             assert_eq!(stats.unconverged, 0);
             for (sum, load) in loads.iter_mut().zip(&of) {
                 sum.volume_mm3 += load.volume_mm3;

@@ -8,7 +8,6 @@ use gearcut::math::planar_rays::FAMILIES;
 use gearcut::passes::SweepPlan;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
-use gearcut::tool::CuttingTool;
 use gearcut::units::TURN_RAD;
 use glam::DVec2;
 use std::collections::BTreeSet;
@@ -27,9 +26,9 @@ fn job(scene: &str, sets: &[&str]) -> HobbingJob {
 fn heights(job: &HobbingJob, rays: &[Ray]) -> Vec<f64> {
     let cutter = HobCutter::new(job).expect("passes");
     let field = SpatialField::new(rays.len(), 1, -0.5, |column, _| (rays[column], 0.5));
-    let plan = SweepPlan::brute_force(&field, cutter.operations.last().expect("one"), job.hob.edge());
+    let plan = SweepPlan::brute_force(&field, cutter.operations.last().expect("one"));
     let mut layer = field.blank_layer();
-    Cpu::default().cut_spatial(&field, job.hob.edge(), &plan, &mut layer).expect("cuts");
+    Cpu::default().cut_spatial(&field, &plan, &mut layer).expect("cuts");
     layer.heights_mm.iter().map(|&h| f64::from(h)).collect()
 }
 

@@ -82,7 +82,7 @@ fn candidates_leave_the_same_bits_as_all_passes() {
         let mut fields = [job.planar().blank_field().expect("fits"), job.planar().blank_field().expect("fits")];
         for index in 0..2 {
             let strokes = &job.operations[index].strokes;
-            let tooth = job.planar().closed_tooth(strokes, reach_mm);
+            let teeth = job.planar().closed_teeth(strokes, reach_mm);
             let returns = job.return_strokes(index);
             let done: Vec<BlankCut> = [true, false]
                 .into_iter()
@@ -92,7 +92,7 @@ fn candidates_leave_the_same_bits_as_all_passes() {
                         strokes,
                         returns: returns.as_ref(),
                         tool: &job.cutter,
-                        tooth: &tooth,
+                        teeth: &teeth,
                         blank_reach_mm: reach_mm,
                         cull,
                     };

@@ -54,9 +54,9 @@ fn heights_are_within_a_fiftieth_of_a_nanometre_of_the_closed_form() {
 }
 
 /// Cuts a field by one operation's plan and gives heights (as bits) and passes.
-fn cut_bits(job: &ShapingJob, field: &Field, plan: &CutPlan, backend: Cpu) -> (Vec<u32>, Vec<u32>) {
+fn cut_bits(field: &Field, plan: &CutPlan, backend: Cpu) -> (Vec<u32>, Vec<u32>) {
     let mut layer = field.blank_layer();
-    backend.cut(field, gearcut::tool::CuttingTool::edge(&job.cutter), plan, &mut layer).expect("native");
+    backend.cut(field, plan, &mut layer).expect("native");
     (layer.heights_mm.iter().map(|h| h.to_bits()).collect(), layer.passes)
 }
 
@@ -114,7 +114,7 @@ fn compare_whole_field(job: &ShapingJob, field: &Field, op: &gearcut::process::s
     let plan = CutPlan::new(field, &op.strokes, &job.cutter);
     let brute = CutPlan::brute_force(field, &op.strokes, &job.cutter);
     assert!(brute.records.len() > 2 * plan.records.len());
-    let (expected, got) = (cut_bits(job, field, &brute, Cpu::default()), cut_bits(job, field, &plan, Cpu::default()));
+    let (expected, got) = (cut_bits(field, &brute, Cpu::default()), cut_bits(field, &plan, Cpu::default()));
     let differing = expected.0.iter().zip(&got.0).filter(|(a, b)| a != b).count();
     assert_eq!(differing, 0, "{differing} heights differ");
     assert_eq!(expected.1, got.1, "passes differ");
@@ -154,8 +154,8 @@ fn compare_with_brute_force(
         };
         let cpu = Cpu::default();
         assert!(brute.records.len() > chosen.tiles[0].records.len());
-        let (expected, expected_passes) = cut_bits(job, &part, &brute, cpu);
-        let (got, passes) = cut_bits(job, &part, &chosen, cpu);
+        let (expected, expected_passes) = cut_bits(&part, &brute, cpu);
+        let (got, passes) = cut_bits(&part, &chosen, cpu);
         let differing = expected.iter().zip(&got).filter(|(a, b)| a != b).count();
         assert_eq!(differing, 0, "tile {tile} of {}: {differing} heights differ", plan.tiles.len());
         assert_eq!(expected_passes, passes, "tile {tile}: passes differ");
@@ -171,7 +171,7 @@ fn a_missing_pass_is_noticed() {
     let field = job.flank_field(flank);
     let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
     let cpu = Cpu::default();
-    let (all, passes) = cut_bits(&job, &field, &plan, cpu);
+    let (all, passes) = cut_bits(&field, &plan, cpu);
     let lost = passes[passes.len() / 2];
     let mut without = plan.clone();
     for record in &mut without.records {
@@ -180,7 +180,7 @@ fn a_missing_pass_is_noticed() {
             record.x_mm[0] += 1e-3;
         }
     }
-    let (lifted, _) = cut_bits(&job, &field, &without, cpu);
+    let (lifted, _) = cut_bits(&field, &without, cpu);
     assert_ne!(all, lifted);
 }
 
@@ -193,9 +193,9 @@ fn all_instruction_sets_give_the_same_bytes() {
     let job = ShapingJob::new(scene).expect("the gear");
     let field = job.flank_field(job.target_flank(3, Side::Right));
     let plan = CutPlan::new(&field, &job.finishing().strokes, &job.cutter);
-    let widest = cut_bits(&job, &field, &plan, Cpu::default());
+    let widest = cut_bits(&field, &plan, Cpu::default());
     for vectors in [Vectors::Baseline, Vectors::Avx2] {
         let Some(cpu) = Cpu::with_vectors(vectors) else { continue };
-        assert!(cut_bits(&job, &field, &plan, cpu) == widest, "{} differs from the widest", cpu.instruction_set());
+        assert!(cut_bits(&field, &plan, cpu) == widest, "{} differs from the widest", cpu.instruction_set());
     }
 }

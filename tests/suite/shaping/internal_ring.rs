@@ -17,7 +17,8 @@ use gearcut::measure::target_outline::TargetOutline;
 use gearcut::passes::planar::strokes::StrokeLaw;
 use gearcut::passes::{CutPlan, StrokeSet};
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::gcode::{self, read};
+use gearcut::process::shaping::gcode::read;
+use gearcut::process::shaping::programs;
 use gearcut::process::shaping::scene::model::{Operation, Shaping};
 use gearcut::scene::model::{Fields, Scene};
 use gearcut::steps::gear_surfaces::complete;
@@ -27,7 +28,6 @@ use gearcut::surface::gear_solid::gear_solid;
 use gearcut::surface::outline::Outline;
 use gearcut::surface::{BlankMesh, SurfaceGrid};
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use gearcut::tool::involute::{Involute, inv};
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
@@ -103,7 +103,7 @@ fn scallops_follow_the_law_of_internal_gearing() {
         let field = job.field_over(flank, arcs, vec![-10.0, 10.0]);
         let mut layer = field.blank_layer();
         let plan = CutPlan::new(&field, &strokes_around, &job.cutter);
-        Cpu::default().cut(&field, job.cutter.edge(), &plan, &mut layer).expect("native");
+        Cpu::default().cut(&field, &plan, &mut layer).expect("native");
         let found = cusps(&field, &layer, 0).iter().map(|c| c.height_mm).fold(f64::INFINITY, f64::min);
         let feed_mm = 60.0 * TAU / f64::from(strokes);
         let law = feed_mm * feed_mm * ALPHA_RAD.sin() / 8.0 * (1.0 / 20.0 - 1.0 / 60.0);
@@ -132,7 +132,7 @@ fn candidates_equal_brute_force_in_a_ring() {
             for operation in &job.operations {
                 let cut = |plan: &CutPlan| {
                     let mut layer = field.blank_layer();
-                    Cpu::default().cut(field, job.cutter.edge(), plan, &mut layer).expect("native");
+                    Cpu::default().cut(field, plan, &mut layer).expect("native");
                     (layer.heights_mm.iter().map(|h| h.to_bits()).collect::<Vec<_>>(), layer.passes)
                 };
                 let plan = CutPlan::new(field, &operation.strokes, &job.cutter);
@@ -219,7 +219,7 @@ fn blank_candidates_leave_the_same_bits_as_all_passes_in_a_ring() {
     let job = job(scene);
     let reach_mm = BlankOutline::new(&job.blank).reach_mm();
     let strokes = &job.operations[0].strokes;
-    let tooth = job.planar().closed_tooth(strokes, reach_mm);
+    let teeth = job.planar().closed_teeth(strokes, reach_mm);
     let returns = job.return_strokes(0);
     let cut = |cull| {
         let mut field = job.planar().blank_field().expect("fits");
@@ -227,7 +227,7 @@ fn blank_candidates_leave_the_same_bits_as_all_passes_in_a_ring() {
             strokes,
             returns: returns.as_ref(),
             tool: &job.cutter,
-            tooth: &tooth,
+            teeth: &teeth,
             blank_reach_mm: reach_mm,
             cull,
         };
@@ -314,7 +314,7 @@ fn a_program_of_a_ring_reads_back_and_cuts_the_same_gear() {
     let mut scene = oval_ring(vec![finish]);
     scene.fields = Fields { profile_spacing_mm: 0.05, lead_spacing_mm: 10.0, ..scene.fields };
     let direct = job(scene.clone());
-    let text = gcode::text(&direct, &direct.operations[0]).expect("wanted").expect("written");
+    let text = programs::text(&direct, &direct.operations[0]).expect("wanted").expect("written");
     let program = read::program(&text).expect("its own program");
     // X runs inside the ring, C against the work angle, B against the rolling of an external cutter.
     let [first, last] = [&program.knots[0], program.knots.last().expect("knots")];

@@ -14,7 +14,6 @@ use gearcut::process::shaping::measure::unevenness::{CrossedSurface, ToothAllowa
 use gearcut::process::shaping::scene::model::*;
 use gearcut::scene::model::*;
 use gearcut::terms::Side;
-use gearcut::tool::CuttingTool;
 use glam::DVec2;
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -157,7 +156,7 @@ fn check_facets(data: &Value, shape: &PitchCurveShape) {
         });
         let mut layer = field.blank_layer();
         let plan = CutPlan::new(&field, &strokes_around, &job.cutter);
-        Cpu::default().cut(&field, job.cutter.edge(), &plan, &mut layer).expect("native");
+        Cpu::default().cut(&field, &plan, &mut layer).expect("native");
         let found = cusps(&field, &layer, 0);
         let height = found.iter().map(|c| c.height_mm).fold(f64::INFINITY, f64::min);
         let (closed, crest) = (number(&row["closed_form_mm"]), number(&row["crest_simulated_mm"]));

@@ -9,7 +9,7 @@ use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::chips::edge_polygon::{EdgePolygon, Station};
 use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::steps::planar::blank_report;
-use gearcut::tool::{CuttingTool, PlanarTool};
+use gearcut::tool::PlanarTool;
 use std::collections::BTreeMap;
 
 fn round_job(back_off_mm: f64) -> ShapingJob {

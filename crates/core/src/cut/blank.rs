@@ -15,8 +15,8 @@ pub struct BlankOperation<'a> {
     pub returns: Option<&'a StrokeSet>,
     /// The cutter.
     pub tool: &'a dyn PlanarTool,
-    /// Its tooth as a closed region.
-    pub tooth: &'a ClosedTooth,
+    /// Its teeth as closed regions, one for each of its edges.
+    pub teeth: &'a [ClosedTooth],
     /// Largest distance of the blank from the gear axis, mm.
     pub blank_reach_mm: f64,
     /// Whether candidates are chosen; otherwise every pass visits every ray: what candidates are compared with.

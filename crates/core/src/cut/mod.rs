@@ -2,8 +2,8 @@
 //!
 //! One law, several machines: [`cpu::Cpu`] (f64, vectorised at run time) always works, the GPU backend (f32 in local
 //! frames, within nanometres) runs on any Vulkan, Metal or DirectX 12 adapter; the program takes one of them. A backend
-//! reads the plan's records and the tool's edge tables and lowers the heights of a [`Layer`]; among passes that leave
-//! the same height the lowest id wins, so the result does not depend on any order of work.
+//! reads a plan's records with the edge tables that they name and lowers the heights of a [`Layer`]; among passes that
+//! leave the same height the lowest id wins, so the result does not depend on any order of work.
 
 pub mod blank;
 pub mod cpu;
@@ -13,7 +13,6 @@ use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
 use crate::passes::sections::swept_sections::SweptSections;
 use crate::passes::{CutPlan, SweepPlan};
-use crate::tool::edge::Edge;
 use std::ops::Range;
 use sweep_chips::SweepsCut;
 
@@ -21,6 +20,10 @@ pub use blank::{BlankCut, BlankOperation, BlankStats, CutBlank, Rub};
 
 /// Heights below this are the kernels' own error and shown as zero, µm.
 pub const KERNEL_UM: f64 = 1e-4;
+
+/// Thinner than this an edge rubs and takes no chip, mm: it counts neither as engaged nor for forces. A tenth of a
+/// micrometre is far below the radius of any cutting edge.
+pub const LEAST_CHIP_MM: f64 = 1e-4;
 
 /// What a backend met besides heights.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -67,7 +70,7 @@ pub trait Backend: Sync {
     ///
     /// # Errors
     /// Whatever keeps the backend from finishing; the layer is then unusable.
-    fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error>;
+    fn cut(&self, field: &Field, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error>;
 
     /// Takes all strokes of an operation from the blank and checks its return strokes; `advance` is called after every
     /// tile and says whether to go on. `None`: stopped, the field is then as it was or partly cut.
@@ -99,13 +102,7 @@ pub trait Backend: Sync {
     ///
     /// # Errors
     /// As [`Self::cut`].
-    fn cut_spatial(
-        &self,
-        field: &SpatialField,
-        edge: &Edge,
-        plan: &SweepPlan,
-        layer: &mut Layer,
-    ) -> Result<CutStats, Error>;
+    fn cut_spatial(&self, field: &SpatialField, plan: &SweepPlan, layer: &mut Layer) -> Result<CutStats, Error>;
 
     /// What went wrong so far and was made good: one line each, for the run record.
     fn incidents(&self) -> Vec<String> {

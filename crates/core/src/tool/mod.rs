@@ -4,9 +4,9 @@
 //! its tip, y across it so that the blade's left flank has y > 0) and the place of every blade in the tool. What cuts
 //! is the rake face's outline: a tool whose rake faces stay in transverse planes of the work ([`PlanarTool`]: shaper
 //! cutters, by the profile projected along the stroke) gives plane motions, any other one ([`SpatialTool`]: hobs)
-//! gives places in space. All blades share one edge, and a blade in space looks away from the tool's axis: heads whose
-//! blades lie along their axis do not fit.
+//! gives places in space. All blades share one edge, or they have several in turn ([`BladeEdges`]).
 
+pub mod blade_edges;
 pub mod closed_tooth;
 pub mod edge;
 pub mod edge_profile;
@@ -14,14 +14,19 @@ pub mod edge_table;
 pub mod involute;
 
 use crate::frame::{Rigid2, Rigid3};
+use blade_edges::BladeEdges;
 use edge::Edge;
 
-/// A tool with equal blades.
+/// A tool with blades.
 pub trait CuttingTool: Sync {
     /// Number of blades (teeth of a shaper cutter or hob).
     fn blade_count(&self) -> u32;
+    /// The cutting edges of its blades, each in its blade's frame.
+    fn edges(&self) -> &BladeEdges;
     /// The cutting edge of one blade, in the blade frame.
-    fn edge(&self) -> &Edge;
+    fn edge_of(&self, blade: u32) -> &Edge {
+        self.edges().edge_of(blade)
+    }
 }
 
 /// A tool that cuts in transverse planes of the work.

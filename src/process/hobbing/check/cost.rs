@@ -11,7 +11,6 @@ use crate::passes::sections::swept_sections::SweptSection;
 use crate::passes::spatial::sweep::SweepRecord;
 use crate::process::hobbing::HobCutter;
 use crate::terms::Side;
-use crate::tool::CuttingTool;
 use rayon::prelude::*;
 
 use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FLANKS};
@@ -62,8 +61,8 @@ fn plan(cutter: &HobCutter, tooth: u32, side: Side) -> Result<Planned> {
     let rows_z_mm = (0..rows).map(|i| fields.lead_spacing_mm * (i as f64 - 0.5 * (rows - 1) as f64)).collect();
     let field = cutter.rays_over(target, arcs_mm, rows_z_mm).field;
     let mut sum = Planned { dexels: field.len() as f64, tiles: 0.0, records: 0.0, evaluations: 0.0 };
-    for passes in &cutter.operations {
-        let plan = SweepPlan::new(&field, passes, cutter.job.hob.edge());
+    for passes in cutter.operations.iter() {
+        let plan = SweepPlan::new(&field, passes);
         sum.tiles += plan.tiles.len() as f64;
         sum.records += plan.records.len() as f64;
         sum.evaluations += plan.dexel_passes() as f64;

@@ -102,17 +102,17 @@ fn the_chain_is_closed_whatever_the_tip() {
                 let spec = model::Hob { worm, tip_radius_mm, protuberance, regrind_mm, ..spec() };
                 let hob = hob(&spec).unwrap();
                 let ends: Vec<[DVec2; 2]> =
-                    hob.edge().segments.iter().map(points).map(|p| [p[0], p[p.len() - 1]]).collect();
+                    hob.edge_of(0).segments.iter().map(points).map(|p| [p[0], p[p.len() - 1]]).collect();
                 for pair in ends.windows(2) {
                     assert!(pair[0][1].distance(pair[1][0]) < 2e-7, "{spec:?}: gap at {}", pair[0][1]);
                 }
-                let top = hob.edge().segments.iter().flat_map(points).map(|p| p.x).fold(0.0, f64::max);
+                let top = hob.edge_of(0).segments.iter().flat_map(points).map(|p| p.x).fold(0.0, f64::max);
                 assert!((top - hob.tip_radius_mm).abs() < 1e-12);
                 // Regrinding sinks everything by one amount.
                 let pitch = hob.pitch_radius_mm + regrind_mm;
                 assert!((pitch - 8.0 / (2.0 * 3.3_f64.to_radians().sin())).abs() < 1e-12);
                 if protuberance.is_some() {
-                    let full = hob.edge().segments.iter().flat_map(points).filter(|p| p.y > 0.0);
+                    let full = hob.edge_of(0).segments.iter().flat_map(points).filter(|p| p.y > 0.0);
                     let beyond = full.clone().filter(|p| p.x > hob.flank_end_radius_mm + 0.1 && p.x < top - 2.0);
                     let mut count = 0;
                     for p in beyond {

@@ -8,20 +8,29 @@ const STOCK: &str = "the flank was not cut completely";
 const HEIGHTS: &str = "a dexel of the evaluated part was reached by no pass";
 const TRACE: &str = "a dexel of the trace was reached by no pass";
 
-/// All flanks that were cut; `earlier` are the names of the operations before the last one.
-pub fn flanks<'a>(cut: &[HobbedReport], earlier: impl IntoIterator<Item = &'a str>) -> Table {
+/// All flanks that were cut; `earlier` are the names of the operations before the last one, `named` whether the scene
+/// names where profiles are evaluated.
+pub fn flanks<'a>(cut: &[HobbedReport], earlier: impl IntoIterator<Item = &'a str>, named: bool) -> Table {
     let um = |value: Option<f64>| Datum::from(value.map(|v| v * UM_PER_MM));
     let rows = cut.iter().map(|f| {
-        let undercut = if f.undercut { "yes" } else { "no" };
-        let mut row: Vec<Datum> =
-            vec![f.tooth.into(), f.side.name().into(), f.form_height_mm.into(), undercut.into(), f.length_mm.into()];
-        for stock in &f.stock {
+        let undercut = if f.own.undercut { "yes" } else { "no" };
+        let mut row: Vec<Datum> = vec![
+            f.tooth.into(),
+            f.side.name().into(),
+            f.own.form_height_mm.into(),
+            undercut.into(),
+            f.length_mm.into(),
+        ];
+        if named {
+            row.extend(f.evaluated_mm.map(Datum::from));
+        }
+        for stock in &f.own.stock {
             let part = |value: fn(&HeightSummary) -> f64| Datum::from(stock.as_ref().map(value));
             row.extend([part(|s| s.lowest_mm), part(|s| s.highest_mm), part(|s| s.mean_mm)]);
         }
-        let height = |value: fn(&HeightSummary) -> f64| um(f.finished.as_ref().map(value));
+        let height = |value: fn(&HeightSummary) -> f64| um(f.own.finished.as_ref().map(value));
         row.extend([height(|h| h.lowest_mm), height(|h| h.highest_mm), height(|h| h.mean_mm), height(|h| h.rms_mm)]);
-        for deviation in [&f.profile, &f.helix] {
+        for deviation in [&f.profile, &f.lead] {
             row.extend([
                 um(deviation.as_ref().map(|d| d.total_mm)),
                 um(deviation.as_ref().map(|d| d.form_mm)),
@@ -30,10 +39,10 @@ pub fn flanks<'a>(cut: &[HobbedReport], earlier: impl IntoIterator<Item = &'a st
         }
         row
     });
-    Table::new("flanks", "Finished flanks", columns(earlier)).with_rows(rows).in_file("flanks")
+    Table::new("flanks", "Finished flanks", columns(earlier, named)).with_rows(rows).in_file("flanks")
 }
 
-fn columns<'a>(earlier: impl IntoIterator<Item = &'a str>) -> Vec<Column> {
+fn columns<'a>(earlier: impl IntoIterator<Item = &'a str>, named: bool) -> Vec<Column> {
     let mut columns = vec![
         Column::new("tooth", "1", "number of the tooth, from 1"),
         Column::words("flank", "flank: left or right"),
@@ -41,6 +50,12 @@ fn columns<'a>(earlier: impl IntoIterator<Item = &'a str>) -> Vec<Column> {
         Column::words("undercut", "whether the hob's tip corner has undercut the flank in any section: yes or no"),
         Column::new("profile_length", "mm", "length of the profile in the middle of the face"),
     ];
+    if named {
+        columns.extend([
+            Column::new("evaluated_from", "mm", "arc from the start of the profile at which its evaluated part begins"),
+            Column::new("evaluated_to", "mm", "arc from the start of the profile at which its evaluated part ends"),
+        ]);
+    }
     for operation in earlier {
         let stock =
             |what: &str, definition| Column::new(format!("{operation}_{what}_stock"), "mm", definition).or(STOCK);

@@ -46,7 +46,8 @@ pub fn charts(job: &HobbingJob, loads: &[OperationLoad]) -> Vec<(String, BarChar
         .collect()
 }
 
-fn labels(job: &HobbingJob) -> Vec<String> {
+/// Numbers of the hob's teeth.
+pub fn labels(job: &HobbingJob) -> Vec<String> {
     job.hob.teeth.iter().map(|tooth| tooth.label(job.hob.starts)).collect()
 }
 

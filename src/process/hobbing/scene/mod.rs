@@ -5,8 +5,11 @@ mod keys;
 pub mod model;
 
 use crate::scene::problems::Found;
-use crate::scene::{ProcessPart, SceneProcess};
+use crate::scene::{ProcessPart, SceneProcess, Senseless};
 use model::Hobbing;
+
+/// Why coefficients of the force normal to the edge have no sense.
+const NO_NORMAL_FORCE: &str = "only the force against the edge's motion is computed";
 
 /// Hobbing with five and six axes.
 pub static SCENE: SceneProcess = SceneProcess {
@@ -19,6 +22,24 @@ pub static SCENE: SceneProcess = SceneProcess {
     added: keys::ADDED,
     per_revolution: &[],
     of_one_gear: &[],
+    on_demand: &["material", "measure"],
+    senseless: &[
+        Senseless {
+            path: "material.normal_force_n_per_mm2",
+            why: NO_NORMAL_FORCE,
+            instead: "remove it; cutting_force_n_per_mm2 and cutting_edge_force_n_per_mm give the cutting force",
+        },
+        Senseless {
+            path: "material.normal_edge_force_n_per_mm",
+            why: NO_NORMAL_FORCE,
+            instead: "remove it; cutting_force_n_per_mm2 and cutting_edge_force_n_per_mm give the cutting force",
+        },
+        Senseless {
+            path: "fields.chips",
+            why: "chips are counted on the rays of the blank",
+            instead: "set spacing_mm and slice_spacing_mm in [fields.blank]",
+        },
+    ],
     derive: |_| {},
     check: external,
     build: build::build,

@@ -1,5 +1,6 @@
 //! Checked values of hobbing scenes: hob, limits of the machine, operations; mm, rad, s.
 
+use crate::material::CuttingForce;
 use crate::scene::Scene;
 use crate::terms::Hand;
 
@@ -12,6 +13,8 @@ pub struct Hobbing {
     pub limits: HobbingAxisLimits,
     /// Operations in the order they are cut; at least one. The last one defines the target flank.
     pub operations: Vec<HobbingOperation>,
+    /// Cutting force of the work's material; `None` where the scene does not name it, and no force is computed.
+    pub material: Option<CuttingForce>,
 }
 
 impl Hobbing {

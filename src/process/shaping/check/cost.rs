@@ -105,12 +105,13 @@ fn blank_cost(job: &ShapingJob) -> Result<BlankCost, Refusal> {
     let (mut placed, mut crossings) = (PlacedScratch::default(), RayCrossings::default());
     for operation in &job.operations {
         let set = &operation.strokes;
-        let tooth = job.planar().closed_tooth(set, reach_mm);
+        let teeth = job.planar().closed_teeth(set, reach_mm);
         let every = set.count().div_ceil(PLACED_STROKES).max(1);
-        let all = passes_at(set, set.law.tau(0.0), &job.cutter, &tooth, reach_mm);
+        let all = passes_at(set, set.law.tau(0.0), &job.cutter, &teeth, reach_mm);
         passes += all.len() as f64;
         let (mut strokes, mut crossed) = (0, 0);
         for pass in all.iter().filter(|pass| (pass.stroke as usize).is_multiple_of(every)) {
+            let tooth = &teeth[pass.edge];
             let outline = tooth.placed(&pass.work_from_blade, &mut placed);
             strokes += 1;
             for (family, row) in FAMILIES.into_iter().zip(&grid.rows) {

@@ -190,7 +190,6 @@ mod tests {
     use super::*;
     use crate::process::shaping::cutter::tests::paper_cutter;
     use crate::process::shaping::scene::model::Tip;
-    use crate::tool::CuttingTool;
 
     fn polygon(tip: Tip) -> EdgePolygon {
         EdgePolygon::new(paper_cutter(tip).edge(), 0.05)

@@ -3,7 +3,8 @@
 use super::edge_polygon::{EdgePolygon, Station};
 use super::oblique::{ElementForce, RakeFace};
 use super::section::SpaceSection;
-use super::stroke::{LEAST_CHIP_MM, StrokeChips, StrokePose, ToothChip};
+use super::stroke::{StrokeChips, StrokePose, ToothChip};
+use crate::cut::LEAST_CHIP_MM;
 use crate::frame::Rigid2;
 use crate::gear::{Back, GearKind};
 use crate::process::shaping::ShapingJob;

@@ -54,7 +54,7 @@ fn flank_of(report: &GearReport, tooth: u32, side: Side) -> Option<&FlankReport>
 /// Stock that an operation left on the flanks of a tooth.
 pub fn tooth_stock(report: &GearReport, operation: usize, tooth: u32) -> Section {
     let range = |side: Side, title: &str| {
-        let stock = flank_of(report, tooth, side).and_then(|f| Some((Some(f), (*f.stock.get(operation)?)?)));
+        let stock = flank_of(report, tooth, side).and_then(|f| Some((Some(f), (*f.own.stock.get(operation)?)?)));
         let why = "the flank was not cut or not reached";
         stock_range(side.name(), title, &stock.into_iter().collect::<Vec<_>>(), "on the flank", why)
     };
@@ -121,7 +121,7 @@ pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, op
 /// One finished tooth.
 pub fn finished_tooth(report: &GearReport, tooth: u32) -> Section {
     let row = tooth as usize - 1;
-    let thickness = report.thickness.get(row).copied().flatten();
+    let thickness = report.inspection.thickness.get(row).copied().flatten();
     let mm = |value: Option<f64>, definition: &'static str, why| Quantity::number_or(value, "mm", definition, why);
     let crossing = "a flank does not cross the pitch curve";
     Section::new(format!("tooth_{tooth:02}"), format!("tooth {tooth}"))
@@ -140,7 +140,7 @@ pub fn finished_tooth(report: &GearReport, tooth: u32) -> Section {
         .with(
             "runout_of_space_after",
             Quantity::number_or(
-                report.runout.as_ref().map(|r| r.radial_mm[row] * 1e3),
+                report.inspection.runout.as_ref().map(|r| r.radial_mm[row] * 1e3),
                 "um",
                 "place of a probe in the space after the tooth along the pitch curve's normal, positive outwards",
                 "a flank was not cut or does not cross the pitch curve",
@@ -195,23 +195,28 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         number(value.map(|v| v * 1e3), "um", definition, "the line along the tooth was not cut completely")
     };
     let side_index = usize::from(side == Side::Right);
-    let pitch = report.pitch[side_index].as_ref();
+    let pitch = report.inspection.pitch[side_index].as_ref();
     let row = tooth as usize - 1;
     let pitch_um = |value: Option<f64>, definition: &'static str| {
         Quantity::number_or(value.map(|v| v * 1e3), "um", definition, "a flank does not cross the pitch curve")
     };
-    let finished = flank.and_then(|f| f.finished);
+    let finished = flank.and_then(|f| f.own.finished);
     Section::new(side.name(), format!("{} flank", side.name()))
         .with(
             "start_of_involute",
-            number(flank.map(|f| f.form.height_mm), "mm", "start of the involute as height over the pitch curve", ""),
+            number(
+                flank.map(|f| f.own.form.height_mm),
+                "mm",
+                "start of the involute as height over the pitch curve",
+                "",
+            ),
         )
-        .with("start", word(flank.map(|f| f.form.end), "what begins the flank"))
+        .with("start", word(flank.map(|f| f.own.form.end), "what begins the flank"))
         .with(
             "tip",
-            number(flank.map(|f| f.tip.height_mm), "mm", "end of the flank as height over the pitch curve", ""),
+            number(flank.map(|f| f.own.tip.height_mm), "mm", "end of the flank as height over the pitch curve", ""),
         )
-        .with("end", word(flank.map(|f| f.tip.end), "what ends the flank"))
+        .with("end", word(flank.map(|f| f.own.tip.end), "what ends the flank"))
         .with("length", number(flank.map(|f| f.length_mm), "mm", "length of the profile from start to tip", ""))
         .with(
             "evaluated_from",
@@ -250,7 +255,7 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         .with(
             "deepest_cut",
             at(
-                flank.and_then(|f| f.undercut),
+                flank.and_then(|f| f.own.undercut),
                 "deepest cut below the target anywhere on the flank",
                 "nothing is cut more than a nanometre below the target",
             ),
@@ -275,19 +280,22 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         )
         .with(
             "largest_scallop",
-            cusp(flank.and_then(|f| f.scallops).map(|s| s.largest), "highest cusp on the evaluated profile, mid-face"),
+            cusp(
+                flank.and_then(|f| f.own.scallops).map(|s| s.largest),
+                "highest cusp on the evaluated profile, mid-face",
+            ),
         )
         .with(
             "scallop_at_pitch_curve",
             cusp(
-                flank.and_then(|f| f.scallops).and_then(|s| s.at_pitch_curve),
+                flank.and_then(|f| f.own.scallops).and_then(|s| s.at_pitch_curve),
                 "cusp nearest to the pitch curve, mid-face",
             ),
         )
         .with(
             "witness_mark",
             at(
-                flank.and_then(|f| f.witness),
+                flank.and_then(|f| f.own.witness),
                 "how far what the first and last strokes left stands above the rest of the flank",
                 "the first and last strokes left nothing on the evaluated profile",
             ),
@@ -302,7 +310,11 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         )
         .with(
             "below_range_dexels",
-            Quantity::count(flank.map_or(0, |f| f.below_range), "dexels", "dexels cut deeper than their rays record"),
+            Quantity::count(
+                flank.map_or(0, |f| f.own.below_range),
+                "dexels",
+                "dexels cut deeper than their rays record",
+            ),
         )
         .with(
             "untouched_dexels",

@@ -54,7 +54,7 @@ pub fn stroke_crossing(
         let direction = side.sign() * frame.tangent;
         let height_mm = passes
             .iter()
-            .filter_map(|near| lowest_entry(near, job.cutter.edge(), frame.point_mm, direction, -0.5 * module_mm))
+            .filter_map(|near| lowest_entry(near, job.cutter.edges(), frame.point_mm, direction, -0.5 * module_mm))
             .fold(reach_mm, f64::min);
         if height_mm >= reach_mm {
             return ControlFlow::Break(None);

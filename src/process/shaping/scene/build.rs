@@ -1,8 +1,8 @@
 //! Checked values of a shaping scene to the model.
 
 use super::model::{
-    AxisLimits, Feed, Infeed, Linkage, Machine, Measure, NormalReading, Operation, ShaperCutter, Shaping,
-    StrokeSpacing, Tip, TraditionalDirection,
+    AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, ShaperCutter, Shaping, StrokeSpacing, Tip,
+    TraditionalDirection,
 };
 use crate::material::EdgeForce;
 use crate::scene::ScenePart;
@@ -17,17 +17,12 @@ pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
     let operations: Option<Vec<Operation>> = (0..values.count("operation"))
         .map(|index| operation(values, &format!("operation.{index}"), base_dir, pressure_angle_rad))
         .collect();
-    let measure = values.view("measure");
     Some(ScenePart::new(Shaping {
         tool: shaper_cutter(values)?,
         machine: machine(values)?,
         operations: operations?,
         material: material(values)?,
         chip_spacing_mm: values.view("fields.chips").number("spacing_mm")?,
-        measure: Measure {
-            profile_start_height_mm: measure.number("profile_start_height_mm"),
-            profile_end_height_mm: measure.number("profile_end_height_mm"),
-        },
     }))
 }
 

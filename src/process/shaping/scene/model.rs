@@ -17,8 +17,6 @@ pub struct Shaping {
     pub material: EdgeForce,
     /// Distance of the rays on which chips are followed, mm.
     pub chip_spacing_mm: f64,
-    /// Where profiles are evaluated.
-    pub measure: Measure,
 }
 
 impl Shaping {
@@ -225,14 +223,4 @@ pub enum Infeed {
         /// Work angle over which it is fed.
         angle_rad: f64,
     },
-}
-
-/// Where profiles are evaluated, as heights over the pitch curve along its normal; `None`: from the form point to the
-/// tip, 5 % left out at each end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measure {
-    /// Lower end.
-    pub profile_start_height_mm: Option<f64>,
-    /// Upper end.
-    pub profile_end_height_mm: Option<f64>,
 }

@@ -1,6 +1,6 @@
 //! The blank kernel: strokes of an operation taken from the blank field in order of time.
 //!
-//! In: a [`BlankField`], the strokes, the closed tooth of the cutter. Out: the field after the operation, the volume
+//! In: a [`BlankField`], the strokes, the closed teeth of the cutter. Out: the field after the operation, the volume
 //! that every pass removed, and where the return strokes rub.
 //!
 //! A tile is some neighbouring rays of one family in one slice. It takes its candidate passes in order of time: the
@@ -54,7 +54,7 @@ pub fn cut(
     for ((index, slice), width_mm) in field.slices.iter_mut().enumerate().zip(grid.slice_widths_mm()) {
         let tau = set.law.tau(grid.slices_z_mm[index]);
         let reach_mm = if operation.cull { operation.blank_reach_mm } else { f64::INFINITY };
-        let place = |set| passes_at(set, tau, operation.tool, operation.tooth, reach_mm);
+        let place = |set| passes_at(set, tau, operation.tool, operation.teeth, reach_mm);
         let passes = place(set);
         let returns = operation.returns.map(place).unwrap_or_default();
         let tiles = slice.rays.iter_mut().zip(FAMILIES).zip(&grid.rows).flat_map(|((rays, family), row)| {
@@ -132,20 +132,20 @@ impl RayTile<'_> {
         };
         let (mut scratch, mut placed) = (Scratch::default(), PlacedScratch::default());
         let mut done = RayTileCut::default();
-        let mut returns = reaching_strip(returns, operation.tooth, self.family, strip).peekable();
+        let mut returns = reaching_strip(returns, operation.teeth, self.family, strip).peekable();
         // The stroke that a return stroke follows, with the same cutter tooth.
         let stroke_of = |back: &PlacedPass| {
             let found = passes.binary_search_by_key(&(back.stroke, back.blade), |pass| (pass.stroke, pass.blade));
             found.ok().map(|index| &passes[index])
         };
-        for pass in reaching_strip(passes, operation.tooth, self.family, strip) {
+        for pass in reaching_strip(passes, operation.teeth, self.family, strip) {
             while let Some(back) = returns.next_if(|back| back.stroke < pass.stroke) {
-                let tooth = operation.tooth.placed(&back.work_from_blade, &mut placed);
+                let tooth = operation.teeth[back.edge].placed(&back.work_from_blade, &mut placed);
                 let id = operation.strokes.pass_id(back.stroke as usize, back.blade);
                 let motion = (&back.work_from_blade, stroke_of(back).map(|stroke| &stroke.work_from_blade));
                 self.check_return(&tooth, id, motion, volume_per_length, &mut scratch, &mut done);
             }
-            let tooth = operation.tooth.placed(&pass.work_from_blade, &mut placed);
+            let tooth = operation.teeth[pass.edge].placed(&pass.work_from_blade, &mut placed);
             let id = operation.strokes.pass_id(pass.stroke as usize, pass.blade);
             let removed_mm = self.take(&tooth, id, &mut scratch, &mut done.stats, |_| true, |_, _, _| {});
             if removed_mm > 0.0 {
@@ -153,7 +153,7 @@ impl RayTile<'_> {
             }
         }
         for back in returns {
-            let tooth = operation.tooth.placed(&back.work_from_blade, &mut placed);
+            let tooth = operation.teeth[back.edge].placed(&back.work_from_blade, &mut placed);
             let id = operation.strokes.pass_id(back.stroke as usize, back.blade);
             let motion = (&back.work_from_blade, stroke_of(back).map(|stroke| &stroke.work_from_blade));
             self.check_return(&tooth, id, motion, volume_per_length, &mut scratch, &mut done);

@@ -19,7 +19,6 @@ use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
 use crate::passes::sections::swept_sections::SweptSections;
 use crate::passes::{CutPlan, SweepPlan};
-use crate::tool::edge::Edge;
 use pulp::Arch;
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
@@ -80,7 +79,6 @@ impl Cpu {
     pub fn cut_with_ledger(
         self,
         field: &SpatialField,
-        edge: &Edge,
         plan: &SweepPlan,
         spread_per_mm: &[f64],
         layer: &mut Layer,
@@ -93,7 +91,7 @@ impl Cpu {
                     field,
                     tile,
                     records: &plan.records[tile.records.clone()],
-                    segments: &edge.segments,
+                    segments: &plan.segments,
                     heights_mm: &mut layer.heights_mm,
                     passes: &mut layer.passes,
                 },
@@ -129,7 +127,7 @@ impl Backend for Cpu {
         "cpu".to_owned()
     }
 
-    fn cut(&self, field: &Field, edge: &Edge, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error> {
+    fn cut(&self, field: &Field, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error> {
         let rows = field.rows();
         let mut stats = CutStats { dexels: field.len() as u64, ..CutStats::default() };
         for tile in &plan.tiles {
@@ -138,7 +136,7 @@ impl Backend for Cpu {
                 columns: &field.columns[tile.columns.clone()],
                 origin_mm: tile.origin_mm,
                 records: &plan.records[tile.records.clone()],
-                segments: &edge.segments,
+                segments: &plan.segments,
                 row_phases: &plan.row_phases,
                 heights_mm: &mut layer.heights_mm[dexels.clone()],
                 passes: &mut layer.passes[dexels],
@@ -166,20 +164,14 @@ impl Backend for Cpu {
         Ok(blank_sweeps::cut(field, sections, passes, advance))
     }
 
-    fn cut_spatial(
-        &self,
-        field: &SpatialField,
-        edge: &Edge,
-        plan: &SweepPlan,
-        layer: &mut Layer,
-    ) -> Result<CutStats, Error> {
+    fn cut_spatial(&self, field: &SpatialField, plan: &SweepPlan, layer: &mut Layer) -> Result<CutStats, Error> {
         let mut stats = CutStats { dexels: field.len() as u64, ..CutStats::default() };
         for tile in &plan.tiles {
             stats += self.dispatch(spatial::SpatialTileCut {
                 field,
                 tile,
                 records: &plan.records[tile.records.clone()],
-                segments: &edge.segments,
+                segments: &plan.segments,
                 heights_mm: &mut layer.heights_mm,
                 passes: &mut layer.passes,
             });

@@ -18,29 +18,39 @@ pub struct PlacedPass {
     pub stroke: u32,
     /// Blade of the tool.
     pub blade: u32,
+    /// Number of its edge, and of its tooth.
+    pub edge: usize,
     /// Pose of the blade.
     pub work_from_blade: Rigid2,
     /// Centre of the circle round the edge, gear frame.
     pub center_mm: DVec2,
 }
 
-/// Passes at phase `tau` whose edges come within `blank_reach_mm` of the gear axis, in order of time.
+/// Passes at phase `tau` whose edges come within `blank_reach_mm` of the gear axis, in order of time; `teeth` has one
+/// for each edge of the tool.
 pub fn passes_at(
     set: &StrokeSet,
     tau: f64,
     tool: &dyn PlanarTool,
-    tooth: &ClosedTooth,
+    teeth: &[ClosedTooth],
     blank_reach_mm: f64,
 ) -> Vec<PlacedPass> {
-    let blades: Vec<Rigid2> = (0..tool.blade_count()).map(|blade| tool.tool_from_blade(blade)).collect();
+    let blades: Vec<(usize, Rigid2)> =
+        (0..tool.blade_count()).map(|blade| (tool.edges().index_of(blade), tool.tool_from_blade(blade))).collect();
     let mut passes = Vec::new();
     for stroke in 0..set.count() {
         let pose = set.pose_at(stroke, tau);
-        for (blade, tool_from_blade) in blades.iter().enumerate() {
-            let work_from_blade = pose.after(tool_from_blade);
+        for (blade, (edge, tool_from_blade)) in blades.iter().enumerate() {
+            let (tooth, work_from_blade) = (&teeth[*edge], pose.after(tool_from_blade));
             let center_mm = work_from_blade.point(tooth.center_mm);
             if center_mm.length() <= blank_reach_mm + tooth.reach_mm {
-                passes.push(PlacedPass { stroke: stroke as u32, blade: blade as u32, work_from_blade, center_mm });
+                passes.push(PlacedPass {
+                    stroke: stroke as u32,
+                    blade: blade as u32,
+                    edge: *edge,
+                    work_from_blade,
+                    center_mm,
+                });
             }
         }
     }
@@ -50,12 +60,12 @@ pub fn passes_at(
 /// Indices of the passes that reach the strip between two rays of a family.
 pub fn reaching_strip<'a>(
     passes: &'a [PlacedPass],
-    tooth: &ClosedTooth,
+    teeth: &'a [ClosedTooth],
     family: Family,
     [low_mm, high_mm]: [f64; 2],
 ) -> impl Iterator<Item = &'a PlacedPass> {
-    let reach_mm = tooth.reach_mm;
     passes.iter().filter(move |pass| {
+        let reach_mm = teeth[pass.edge].reach_mm;
         let across = family.across(pass.center_mm);
         across + reach_mm >= low_mm && across - reach_mm <= high_mm
     })

@@ -97,7 +97,7 @@ pub struct MotionBound {
 
 /// Segments with what the bounds need of them.
 pub struct SegmentBounds<'a> {
-    /// The segments of the blade.
+    /// Segments of all edges, one edge after another.
     pub segments: &'a [Segment],
     /// Largest curvature of each, 1/mm.
     curvatures_per_mm: Vec<f64>,
@@ -106,7 +106,7 @@ pub struct SegmentBounds<'a> {
 }
 
 impl<'a> SegmentBounds<'a> {
-    /// Bounds for a blade's segments.
+    /// Bounds for the segments of a tool's edges.
     pub fn new(segments: &'a [Segment]) -> Self {
         let curvature = |s: &Segment| match &s.shape {
             SegmentShape::Arc { radius_mm } => 1.0 / radius_mm,

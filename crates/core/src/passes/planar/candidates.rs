@@ -20,10 +20,12 @@ use super::upper_bound::UpperBound;
 use crate::dexel::field::{Column, Field};
 use crate::frame::Rigid2;
 use crate::tool::PlanarTool;
-use crate::tool::edge::Edge;
+use crate::tool::blade_edges::BladeEdges;
+use crate::tool::edge::{Edge, Segment};
 use arrayvec::ArrayVec;
 use glam::DVec2;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Most columns of a tile; narrower tiles carry fewer passes per dexel but more records.
 pub const TILE_COLUMNS: usize = 16;
@@ -58,6 +60,8 @@ pub struct CutPlan {
     pub records: Vec<PassRecord>,
     /// Phase tau of every row.
     pub row_phases: Vec<f64>,
+    /// Segments that the records name: those of all edges of the tool, one edge after another.
+    pub segments: Arc<[Segment]>,
 }
 
 impl CutPlan {
@@ -72,9 +76,9 @@ impl CutPlan {
 
     /// Plan with every segment of every pass that can reach the field: what candidates are compared with.
     pub fn brute_force(field: &Field, set: &StrokeSet, tool: &dyn PlanarTool) -> Self {
-        let segments = tool.edge().segments.len();
         Self::build(field, set, tool, |planner, _, _| {
-            (0..planner.near.len()).flat_map(|pass| (0..segments).map(move |segment| (pass, segment))).collect()
+            let segments_of = |pass: usize| planner.edges.segments_of(planner.near[pass].blade);
+            (0..planner.near.len()).flat_map(|pass| segments_of(pass).map(move |segment| (pass, segment))).collect()
         })
     }
 
@@ -116,7 +120,7 @@ impl CutPlan {
             tiles.push(Tile { columns, origin_mm: middle.origin_mm, records: first..records.len() });
         }
         let row_phases = field.rows_z_mm.iter().map(|&z_mm| set.law.tau(z_mm)).collect();
-        Self { tiles, records, row_phases }
+        Self { tiles, records, row_phases, segments: tool.edges().segments().clone() }
     }
 
     /// (Dexel, pass) pairs that the plan visits.
@@ -128,25 +132,26 @@ impl CutPlan {
 
 /// Chooses candidates for tiles of one field.
 struct PassPlanner<'a> {
-    edge: &'a Edge,
+    edges: &'a BladeEdges,
     bounds: SegmentBounds<'a>,
     near: Vec<NearPass>,
     intervals: IntervalTree,
 }
 
-/// A set of the blade's segments, one bit each.
+/// A set of the segments of one blade's edge, one bit each.
 type SegmentSet = u64;
 
 impl<'a> PassPlanner<'a> {
     fn new(field: &Field, set: &StrokeSet, tool: &'a dyn PlanarTool) -> Self {
-        let edge = tool.edge();
-        assert!(edge.segments.len() <= SegmentSet::BITS as usize, "a blade's segments fit into a set of bits");
+        let edges = tool.edges();
+        let most = edges.edges().iter().map(|edge| edge.segments.len()).max().unwrap_or(0);
+        assert!(most <= SegmentSet::BITS as usize, "a blade's segments fit into a set of bits");
         let (center_mm, reach_mm) = Field::circle(&field.columns);
         let near = near_passes(set, tool, center_mm, reach_mm);
         // Rays are followed down to twice their lowest height.
         let below_mm = field.columns.iter().map(|column| -column.low_mm).fold(0.0, f64::max);
         let intervals = IntervalTree::new(&near, center_mm, reach_mm + below_mm);
-        Self { edge, bounds: SegmentBounds::new(&edge.segments), near, intervals }
+        Self { edges, bounds: SegmentBounds::new(edges.segments()), near, intervals }
     }
 
     /// (Index of near pass, segment) pairs that may leave the lowest surface somewhere on the tile, in time order.
@@ -154,7 +159,10 @@ impl<'a> PassPlanner<'a> {
     /// `seeds` carries the lowest passes of the neighbouring tile: good first guesses make early culling cheap.
     fn candidates(&self, rays: &[Column], seeds: &mut Vec<usize>) -> Vec<(usize, usize)> {
         let Some(phases) = self.near.first().map(|pass| pass.blade_from_work.len()) else { return Vec::new() };
-        let all_segments = SegmentSet::MAX >> (SegmentSet::BITS as usize - self.bounds.segments.len());
+        let all_segments = |blade: u32| {
+            let count = self.edges.edge_of(blade).segments.len();
+            SegmentSet::MAX >> (SegmentSet::BITS as usize - count)
+        };
         let highest_mm = rays.iter().map(|ray| ray.blank_mm).fold(0.0, f64::max);
         let coarse_places = places(rays, COARSE_CELLS);
         let mut look = CoarseLook {
@@ -167,10 +175,10 @@ impl<'a> PassPlanner<'a> {
             undecided: Vec::new(),
         };
         for &pass in seeds.iter() {
-            look.at_pass(pass, all_segments, false);
+            look.at_pass(pass, all_segments(self.near[pass].blade), false);
         }
-        let mut intervals: Vec<(usize, SegmentSet)> =
-            self.intervals.roots.iter().map(|&root| (root, all_segments)).collect();
+        let whole = |&root: &usize| (root, all_segments(self.intervals.intervals[root].blade));
+        let mut intervals: Vec<(usize, SegmentSet)> = self.intervals.roots.iter().map(whole).collect();
         while let Some((index, segments)) = intervals.pop() {
             let interval = &self.intervals.intervals[index];
             let segments = look.at_interval(interval, segments);
@@ -222,7 +230,8 @@ struct CoarseLook<'a> {
 impl CoarseLook<'_> {
     /// The segments of a time interval that some pass of it may lower the tile with.
     fn at_interval(&self, interval: &TimeInterval, mut segments: SegmentSet) -> SegmentSet {
-        let PassPlanner { edge, bounds, .. } = self.planner;
+        let PassPlanner { edges, bounds, .. } = self.planner;
+        let (edge, first) = (edges.edge_of(interval.blade), edges.segments_of(interval.blade).start);
         let rays: ArrayVec<BladeRay, MAX_PLACES> =
             self.coarse.places.iter().map(|ray| BladeRay::of_pose(&interval.blade_from_work, ray)).collect();
         let middle = BladeRay::of_pose(&interval.blade_from_work, &self.middle);
@@ -231,9 +240,9 @@ impl CoarseLook<'_> {
             return 0;
         }
         for segment in members(segments) {
-            let heights_mm = [self.coarse.floor_mm, self.upper.highest_mm];
-            if !bounds.box_meets(&[middle], segment, heights_mm, margin_mm)
-                || bounds.stays_above(&rays, segment, &self.coarse, &self.upper.all_phases, 0.0, interval.motion_bound)
+            let (heights_mm, place) = ([self.coarse.floor_mm, self.upper.highest_mm], first + segment);
+            if !bounds.box_meets(&[middle], place, heights_mm, margin_mm)
+                || bounds.stays_above(&rays, place, &self.coarse, &self.upper.all_phases, 0.0, interval.motion_bound)
             {
                 segments &= !(1 << segment);
             }
@@ -243,8 +252,9 @@ impl CoarseLook<'_> {
 
     /// Samples the segments of a pass that are not culled at once; with `keep` unset it only lowers what is certain.
     fn at_pass(&mut self, index: usize, segments: SegmentSet, keep: bool) {
-        let PassPlanner { edge, bounds, near, .. } = self.planner;
+        let PassPlanner { edges, bounds, near, .. } = self.planner;
         let pass = &near[index];
+        let (edge, first) = (edges.edge_of(pass.blade), edges.segments_of(pass.blade).start);
         let travel_mm = travel_mm(pass, &self.middle);
         let margin_mm = self.ends_mm + travel_mm;
         let middle: ArrayVec<BladeRay, MAX_PHASES> = BladeRay::of_pass(pass, &[self.middle]).collect();
@@ -256,7 +266,7 @@ impl CoarseLook<'_> {
             BladeRay::of_pass(pass, self.coarse.places).collect();
         let reach_mm = self.ends_mm - self.coarse.floor_mm + self.upper.highest_mm;
         let motion_bound = MotionBound { distance_mm: pass.bend_mm(self.middle.origin_mm, reach_mm), turn_rad: 0.0 };
-        for segment in members(segments) {
+        for segment in members(segments).map(|segment| first + segment) {
             let heights_mm = [self.coarse.floor_mm, self.upper.highest_mm];
             if !bounds.box_meets(&middle, segment, heights_mm, margin_mm)
                 || bounds.stays_above(&rays, segment, &self.coarse, &self.upper.by_phase, travel_mm, motion_bound)
@@ -279,7 +289,7 @@ impl CoarseLook<'_> {
     }
 }
 
-/// Numbers of the segments in a set.
+/// Numbers of the segments in a set, from the first one of the blade's edge.
 fn members(mut segments: SegmentSet) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let first = (segments != 0).then(|| segments.trailing_zeros() as usize)?;

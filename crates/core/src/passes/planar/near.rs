@@ -7,7 +7,7 @@
 use super::strokes::StrokeSet;
 use crate::frame::Rigid2;
 use crate::tool::PlanarTool;
-use crate::tool::edge::Edge;
+use crate::tool::blade_edges::BladeEdges;
 use arrayvec::ArrayVec;
 use glam::DVec2;
 
@@ -54,10 +54,13 @@ impl NearPass {
 /// All passes whose blade comes within `reach_mm` of `center_mm` (gear frame), in time order.
 pub fn near_passes(set: &StrokeSet, tool: &dyn PlanarTool, center_mm: DVec2, reach_mm: f64) -> Vec<NearPass> {
     let blades: Vec<Rigid2> = (0..tool.blade_count()).map(|blade| tool.tool_from_blade(blade)).collect();
-    let edge = tool.edge();
-    let limit_mm = reach_mm + edge.reach_mm;
+    let edges = tool.edges();
+    let centers_mm: Vec<DVec2> =
+        (0..).zip(&blades).map(|(blade, place)| place.point(edges.edge_of(blade).center_mm)).collect();
+    let edge_reach_mm = edges.largest_reach_mm();
+    let limit_mm = reach_mm + edge_reach_mm;
     // No blade reaches further from the tool's axis than this.
-    let tool_reach_mm = blades.iter().map(|b| b.point(edge.center_mm).length()).fold(0.0, f64::max);
+    let tool_reach_mm = centers_mm.iter().map(|center| center.length()).fold(0.0, f64::max);
     let mut near = Vec::new();
     for stroke in 0..set.count() {
         let poses = set.poses(stroke);
@@ -67,7 +70,7 @@ pub fn near_passes(set: &StrokeSet, tool: &dyn PlanarTool, center_mm: DVec2, rea
             .iter()
             .map(|pose| {
                 pose.translation_mm.distance(middle.translation_mm)
-                    + (pose.rotation - middle.rotation).length() * (tool_reach_mm + edge.reach_mm)
+                    + (pose.rotation - middle.rotation).length() * (tool_reach_mm + edge_reach_mm)
             })
             .fold(0.0, f64::max);
         let limit_mm = limit_mm + BETWEEN_NODES * travel_mm;
@@ -76,7 +79,7 @@ pub fn near_passes(set: &StrokeSet, tool: &dyn PlanarTool, center_mm: DVec2, rea
         }
         let bounds = bound_poses(poses);
         for (blade, tool_from_blade) in blades.iter().enumerate() {
-            if middle.point(tool_from_blade.point(edge.center_mm)).distance(center_mm) > limit_mm {
+            if middle.point(centers_mm[blade]).distance(center_mm) > limit_mm {
                 continue;
             }
             let blade_from_work = bounds.iter().map(|pose| pose.after(tool_from_blade).inverse()).collect();
@@ -96,10 +99,16 @@ fn bound_poses(poses: &[Rigid2]) -> ArrayVec<Rigid2, MAX_PHASES> {
 
 /// Height at which the lowest of some passes meets a ray of the gear frame at the middle of the stroke, above `low_mm`;
 /// exact, without tables' neighbours or tiles.
-pub fn lowest_entry(near: &[NearPass], edge: &Edge, origin_mm: DVec2, direction: DVec2, low_mm: f64) -> Option<f64> {
+pub fn lowest_entry(
+    near: &[NearPass],
+    edges: &BladeEdges,
+    origin_mm: DVec2,
+    direction: DVec2,
+    low_mm: f64,
+) -> Option<f64> {
     let mut lowest: Option<f64> = None;
     for pass in near {
-        let blade_from_work = pass.middle();
+        let (blade_from_work, edge) = (pass.middle(), edges.edge_of(pass.blade));
         let (o, n) = (blade_from_work.point(origin_mm), blade_from_work.direction(direction));
         // The blade's circle against the ray's line.
         if n.perp_dot(edge.center_mm - o).abs() > edge.reach_mm {

@@ -14,7 +14,7 @@ use glam::DVec2;
 pub struct PassRecord {
     /// Pass id.
     pub pass: u32,
-    /// Index of the segment in the blade's edge.
+    /// Index of the segment in the plan's list.
     pub segment: u32,
     /// Where Newton's method starts: the height at which the tile's middle ray enters the segment or its continuation,
     /// mm; below all rays if it does not.

@@ -26,7 +26,7 @@ pub struct Sampling<'a> {
 pub struct PassSamples {
     /// Index of the near pass.
     pub pass: usize,
-    /// Segment of the blade.
+    /// Segment, among those of all edges.
     pub segment: usize,
     /// Place by place across the tile, phase by phase, mm.
     pub heights_mm: ArrayVec<f64, { MAX_PLACES * MAX_PHASES }>,

@@ -15,6 +15,8 @@ use std::ops::Range;
 /// A run of near passes of one blade.
 #[derive(Debug, Clone)]
 pub struct TimeInterval {
+    /// The blade.
+    pub blade: u32,
     /// The pose looked at: the work in the blade's frame.
     pub blade_from_work: Rigid2,
     /// What the poses of the run differ from it.
@@ -59,9 +61,10 @@ impl IntervalTree {
     fn grow(&mut self, region: &Surroundings, run: &[usize], part: Range<usize>) -> usize {
         let index = self.intervals.len();
         let middle = part.start + part.len() / 2;
+        let NearPass { blade, .. } = region.near[run[middle]];
         let blade_from_work = *region.near[run[middle]].middle();
         let motion_bound = region.motion_bound(&blade_from_work, &run[part.clone()]);
-        self.intervals.push(TimeInterval { blade_from_work, motion_bound, content: Content::Pass(run[middle]) });
+        self.intervals.push(TimeInterval { blade, blade_from_work, motion_bound, content: Content::Pass(run[middle]) });
         if part.len() > 1 {
             let halves = [part.start..middle, middle..part.end].map(|half| self.grow(region, run, half));
             self.intervals[index].content = Content::Halves(halves);

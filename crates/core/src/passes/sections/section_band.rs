@@ -72,6 +72,7 @@ impl SectionBand {
     /// the blank may be.
     pub fn set(&mut self, sections: &SweptSections, index: usize, z_range_mm: [f64; 2]) -> bool {
         let pass = &sections.passes[index];
+        let outline = sections.outline_of(pass);
         let ends_mm = z_range_mm.map(|z_mm| pass.behind_mm(z_mm));
         let nearest_mm = if ends_mm[0] * ends_mm[1] <= 0.0 { 0.0 } else { ends_mm[0].abs().min(ends_mm[1].abs()) };
         let Some(reached) = sections.reached(pass, nearest_mm) else { return false };
@@ -89,10 +90,10 @@ impl SectionBand {
         let behind_mm = pass.behind_mm(self.z_mm);
         let found = sections.walk(pass, self.z_mm, behind_mm, reached.nodes, |index, node, crossing| {
             if let Some(before) = self.nodes.last() {
-                let end_rate_mm = crossing.rate(sections.rates_mm[index - 1][1]);
+                let end_rate_mm = crossing.rate(outline.rates_mm[index - 1][1]);
                 self.sagittas_mm.push(sagitta_mm([before.place_mm, crossing.place_mm], &[rate_mm, end_rate_mm]));
             }
-            rate_mm = sections.rates_mm.get(index).map_or(DVec2::ZERO, |rates| crossing.rate(rates[0]));
+            rate_mm = outline.rates_mm.get(index).map_or(DVec2::ZERO, |rates| crossing.rate(rates[0]));
             self.nodes.push(BandNode {
                 radius_mm: node.x,
                 place_mm: crossing.place_mm,
@@ -137,9 +138,9 @@ impl SectionBand {
         }
         let z_mm = z_mm - self.z_mm;
         let travel_mm = (self.travel_per_mm * z_mm).abs();
-        let share = sections.tolerance_share;
+        let (share, longest_mm) = (sections.tolerance_share, sections.outline_of(pass).longest_mm);
         let tolerance_mm =
-            |node: &BandNode| share * travel_mm * (travel_mm + PIECE_WEIGHT * sections.longest_mm) * node.bend_per_mm;
+            |node: &BandNode| share * travel_mm * (travel_mm + PIECE_WEIGHT * longest_mm) * node.bend_per_mm;
         let place_mm = |node: &BandNode| node.place_mm + z_mm * node.over_z;
         let (first, last) = (reached.nodes.start() - self.first, reached.nodes.end() - self.first);
         let nodes = &self.nodes[first..=last];

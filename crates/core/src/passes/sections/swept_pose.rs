@@ -33,6 +33,8 @@ const BEYOND_SWEEP_RAD: f64 = 0.2028;
 /// A pass with its pose as polynomials of the swept angle.
 pub(super) struct Sweeping {
     pub pass: u32,
+    /// Number of the blade's edge.
+    pub edge: usize,
     axial_mm: f64,
     y_sign: f64,
     half_sweep_rad: f64,
@@ -85,6 +87,7 @@ impl Sweeping {
         let pose = beside.swap_remove(middle).1;
         Self {
             pass: pass.pass,
+            edge: set.edges.index_of(place.blade),
             axial_mm: place.axial_mm,
             y_sign: place.y_sign,
             half_sweep_rad: set.half_sweep_rad,

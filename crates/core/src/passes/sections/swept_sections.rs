@@ -1,7 +1,7 @@
 //! A turning tool's sweep where it crosses a transverse slice of the work: a closed curve, as a cutter tooth's outline
 //! is in shaping.
 //!
-//! In: the passes of an operation, the blade's edge, a slice. Out: for each pass a [`SweptSection`] that rays along x
+//! In: the passes of an operation with the edges of their blades, a slice. Out: for each pass a [`SweptSection`] that rays along x
 //! and y are laid on.
 //!
 //! **The law.** A point of the work is removed when it lies inside the blade's edge at the moment at which the rake
@@ -47,26 +47,52 @@ const CULLED_EVERY_MM: f64 = 5.0;
 
 /// The passes of an operation, ready to be cut at any height.
 pub struct SweptSections {
-    /// Ends of the pieces in the rake face: distance from the axis and y.
-    pub(super) nodes_mm: Vec<DVec2>,
-    /// Directions at both ends of every piece, per piece.
-    pub(super) rates_mm: Vec<[DVec2; 2]>,
+    /// Outlines of the edges.
+    outlines: Vec<EdgeOutline>,
     /// Passes that may reach the blank, in order of time.
     pub(super) passes: Vec<Sweeping>,
-    /// Radius of the tip, mm.
-    pub(super) tip_mm: f64,
-    /// Largest distance of an edge point from the middle of its blade, mm.
-    widest_mm: f64,
     twist_rad_per_mm: f64,
     half_sweep_rad: f64,
-    /// Longest piece of the edge, mm.
-    pub(super) longest_mm: f64,
     /// Whether passes are compared with what is left before they are followed to a slice; otherwise every pass visits
     /// every ray: what culling is compared with.
     culls: bool,
     /// Share of the tolerance that outlines get when they are compared with what is left: 1. Less culls passes that
     /// matter; tests plant it.
     pub tolerance_share: f64,
+}
+
+/// An edge in its rake face as a chain of pieces.
+pub(super) struct EdgeOutline {
+    /// Ends of the pieces: distance from the axis and y.
+    nodes_mm: Vec<DVec2>,
+    /// Directions at both ends of every piece, per piece.
+    pub rates_mm: Vec<[DVec2; 2]>,
+    /// Radius of the tip, mm.
+    tip_mm: f64,
+    /// Largest distance of an edge point from the middle of its blade, mm.
+    widest_mm: f64,
+    /// Longest piece, mm.
+    pub longest_mm: f64,
+}
+
+impl EdgeOutline {
+    fn new(edge: &Edge) -> Self {
+        let tip_mm = edge.segments.iter().flat_map(|s| s.y_range_mm.map(|y| place(s, y)[0].x)).fold(0.0, f64::max);
+        let longest_mm = PIECE_SHARE * tip_mm;
+        let (nodes_mm, rates_mm) = edge_pieces(edge, longest_mm);
+        let widest_mm = nodes_mm.iter().map(|node| node.y.abs()).fold(0.0, f64::max);
+        Self { nodes_mm, rates_mm, tip_mm, widest_mm, longest_mm }
+    }
+
+    /// The same chain the other way round.
+    fn reversed(mut self) -> Self {
+        self.nodes_mm.reverse();
+        self.rates_mm.reverse();
+        for rates in &mut self.rates_mm {
+            *rates = [-rates[1], -rates[0]];
+        }
+        self
+    }
 }
 
 /// What the edge leaves of one sweep in one slice.
@@ -88,42 +114,31 @@ pub struct SweepHeading {
     /// Travel of the tip per mm along the gear's axis.
     pub travel_per_mm: f64,
     /// Directions of the tool's axis and of the tip out of it, gear frame.
-    axis_and_out: [DVec3; 2],
+    pub(crate) axis_and_out: [DVec3; 2],
 }
 
 impl SweptSections {
     /// Passes of an operation for a blank within `reach_mm` of the gear axis, over the face; all of them, wherever they
     /// are, if not `cull`.
-    pub fn new(set: &TurningPasses, edge: &Edge, reach_mm: f64, face_width_mm: f64, cull: bool) -> Self {
-        let tip_mm = edge.segments.iter().flat_map(|s| s.y_range_mm.map(|y| place(s, y)[0].x)).fold(0.0, f64::max);
-        let longest_mm = PIECE_SHARE * tip_mm;
-        let (mut nodes_mm, mut rates_mm) = edge_pieces(edge, longest_mm);
+    pub fn new(set: &TurningPasses, reach_mm: f64, face_width_mm: f64, cull: bool) -> Self {
+        let mut outlines: Vec<EdgeOutline> = set.edges.edges().iter().map(EdgeOutline::new).collect();
         let passes: Vec<Sweeping> =
             (0..set.count()).into_par_iter().map(|i| Sweeping::new(set, &set.pass(i))).collect();
         // Seen along the gear axis the rake face may show its other side: inside is on the left there too.
         if passes.first().is_some_and(Sweeping::is_turned_over) {
-            nodes_mm.reverse();
-            rates_mm.reverse();
-            for rates in &mut rates_mm {
-                *rates = [-rates[1], -rates[0]];
-            }
+            outlines = outlines.into_iter().map(EdgeOutline::reversed).collect();
         }
-        let widest_mm = nodes_mm.iter().map(|node| node.y.abs()).fold(0.0, f64::max);
         let twist_rad_per_mm = set.rake_twist_rad_per_mm;
         let mut sections = Self {
-            nodes_mm,
-            rates_mm,
+            outlines,
             passes,
-            tip_mm,
-            widest_mm,
             twist_rad_per_mm,
             half_sweep_rad: set.half_sweep_rad,
-            longest_mm,
             culls: cull,
             tolerance_share: 1.0,
         };
         if cull {
-            let tooth_mm = 2.0 * edge.reach_mm;
+            let tooth_mm = 2.0 * set.edges.largest_reach_mm();
             let places = (face_width_mm / CULLED_EVERY_MM).ceil().max(1.0);
             let passes = std::mem::take(&mut sections.passes);
             sections.passes = passes
@@ -160,25 +175,30 @@ impl SweptSections {
     /// Height of slices that one section tells enough about, mm: outlines get some hundredths of a millimetre of
     /// tolerance at most, a few micrometres in the middle of a sweep.
     pub fn band_mm(&self) -> f64 {
-        BAND_SHARE * self.tip_mm
+        BAND_SHARE * self.outlines.iter().map(|outline| outline.tip_mm).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Outline of the edge of a pass's blade.
+    pub(super) fn outline_of(&self, pass: &Sweeping) -> &EdgeOutline {
+        &self.outlines[pass.edge]
     }
 
     /// Half the travel along the tool's circumference direction that the tip goes through before it is behind the
     /// blank, mm.
-    fn half_travel_mm(&self) -> f64 {
-        self.tip_mm * self.half_sweep_rad.sin()
+    fn half_travel_mm(&self, outline: &EdgeOutline) -> f64 {
+        outline.tip_mm * self.half_sweep_rad.sin()
     }
 
     /// Where the middle of the tip crosses a slice, or would at the end of its sweep if it comes within `tolerance_mm`
     /// of it.
     fn tip_at(&self, pass: &Sweeping, z_mm: f64, tolerance_mm: f64) -> Option<DVec2> {
-        let behind = pass.behind_mm(z_mm);
-        if behind.abs() > self.half_travel_mm() + tolerance_mm {
+        let (outline, behind) = (self.outline_of(pass), pass.behind_mm(z_mm));
+        if behind.abs() > self.half_travel_mm(outline) + tolerance_mm {
             return None;
         }
         let farthest = self.half_sweep_rad.sin();
-        let swept = (behind / self.tip_mm).clamp(-farthest, farthest).asin();
-        Some(pass.place_mm(swept, DVec2::new(self.tip_mm, 0.0), self.twist_rad_per_mm).truncate())
+        let swept = (behind / outline.tip_mm).clamp(-farthest, farthest).asin();
+        Some(pass.place_mm(swept, DVec2::new(outline.tip_mm, 0.0), self.twist_rad_per_mm).truncate())
     }
 
     /// Section of pass `index` at a place along the face, into memory that is reused. `false`: the pass does not cross
@@ -187,7 +207,8 @@ impl SweptSections {
         let pass = &self.passes[index];
         let behind_mm = pass.behind_mm(z_mm);
         let Some(reached) = self.reached(pass, behind_mm) else { return false };
-        let tip = (behind_mm / self.tip_mm).asin();
+        let outline = self.outline_of(pass);
+        let tip = (behind_mm / outline.tip_mm).asin();
         into.pass = pass.pass;
         into.heading =
             SweepHeading { travel_per_mm: pass.travel_per_mm() / tip.cos(), axis_and_out: pass.axis_and_out(tip) };
@@ -198,13 +219,13 @@ impl SweptSections {
         let mut inner_mm = [DVec2::ZERO; 2];
         let found = self.walk(pass, z_mm, behind_mm, reached.nodes.clone(), |index, node, crossing| {
             if index > first {
-                let end = crossing.rate(self.rates_mm[index - 1][1]);
+                let end = crossing.rate(outline.rates_mm[index - 1][1]);
                 if let Some(rates) = into.rates_mm.last_mut() {
                     rates[1] = end;
                 }
             }
             if index < last {
-                into.rates_mm.push([crossing.rate(self.rates_mm[index][0]), DVec2::ZERO]);
+                into.rates_mm.push([crossing.rate(outline.rates_mm[index][0]), DVec2::ZERO]);
             }
             if index == first || index == last {
                 inner_mm[usize::from(index == last)] = crossing.inner_mm(node, reached.least_mm);
@@ -227,14 +248,16 @@ impl SweptSections {
     /// Which part of the edge may meet the blank in a slice that lies so far behind the middle of a sweep. `None`: no
     /// part.
     pub(super) fn reached(&self, pass: &Sweeping, behind_mm: f64) -> Option<ReachedEdge> {
-        if behind_mm.abs() >= self.half_travel_mm() {
+        let outline = self.outline_of(pass);
+        if behind_mm.abs() >= self.half_travel_mm(outline) {
             return None;
         }
         // Nearer to the axis than this the edge is behind the blank, or never in this slice.
-        let least_mm = (behind_mm.abs() + pass.lean() * self.widest_mm).hypot(self.half_sweep_rad.cos() * self.tip_mm);
+        let least_mm =
+            (behind_mm.abs() + pass.lean() * outline.widest_mm).hypot(self.half_sweep_rad.cos() * outline.tip_mm);
         let reaches = |node: &DVec2| node.x >= least_mm;
-        let first = self.nodes_mm.iter().position(reaches)?;
-        let last = self.nodes_mm.iter().rposition(reaches)?;
+        let first = outline.nodes_mm.iter().position(reaches)?;
+        let last = outline.nodes_mm.iter().rposition(reaches)?;
         (first < last).then_some(ReachedEdge { nodes: first..=last, least_mm })
     }
 
@@ -248,9 +271,10 @@ impl SweptSections {
         nodes: RangeInclusive<usize>,
         mut visit: impl FnMut(usize, DVec2, &SliceCrossing),
     ) -> bool {
-        let mut swept = (behind_mm / self.nodes_mm[*nodes.start()].x).clamp(-1.0, 1.0).asin();
+        let nodes_mm = &self.outline_of(pass).nodes_mm;
+        let mut swept = (behind_mm / nodes_mm[*nodes.start()].x).clamp(-1.0, 1.0).asin();
         for index in nodes {
-            let node = self.nodes_mm[index];
+            let node = nodes_mm[index];
             let Some(at) = pass.moment(swept, node, self.twist_rad_per_mm, z_mm) else { return false };
             swept = at;
             visit(index, node, &pass.crossing(swept, node, self.twist_rad_per_mm));

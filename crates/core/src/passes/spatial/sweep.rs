@@ -85,7 +85,7 @@ pub struct Sweep {
 pub struct SweepRecord {
     /// Pass id.
     pub pass: u32,
-    /// Index of the segment in the blade's edge.
+    /// Index of the segment in the plan's list.
     pub segment: u32,
     /// Cells of the tile in which it can leave the lowest surface, as bits (see
     /// [`super::sweep_tile::SweepTile::cell`]).

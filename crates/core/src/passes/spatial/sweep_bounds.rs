@@ -60,7 +60,7 @@ const ALL_CELLS: u8 = (1 << CELLS.len()) - 1;
 pub struct RegionBounds<'a> {
     /// The field.
     pub field: &'a SpatialField,
-    /// Segments of the blades' edge.
+    /// Segments of all edges, one edge after another.
     pub segments: &'a [Segment],
     /// The region.
     pub region: &'a Region<'a>,

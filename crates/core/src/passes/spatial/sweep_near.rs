@@ -6,7 +6,6 @@
 //! [`passes_beside`] serves candidates alone; that comparison stands for its numbers.
 
 use super::turning_passes::{BladePass, TurningPasses};
-use crate::tool::edge::Edge;
 use glam::DVec3;
 
 /// What profiles and paths bend between the places that are looked at, along the tool's axis, mm. Found by trial, no
@@ -34,14 +33,14 @@ const LEAST_DISTANCE: f64 = 0.25;
 ///
 /// While the rake face goes through the neighbourhood the place itself moves in the head, and everything within reach
 /// turns with it a little. The first look takes both by their bounds, the second one by what three poses show.
-pub fn near_passes(set: &TurningPasses, edge: &Edge, center_mm: DVec3, reach_mm: f64) -> Vec<BladePass> {
+pub fn near_passes(set: &TurningPasses, center_mm: DVec3, reach_mm: f64) -> Vec<BladePass> {
     let margin_mm = NEAR_SHARE * reach_mm + NEAR_MM;
-    let y_reach_mm = edge.center_mm.y.abs() + edge.reach_mm;
-    let tip_mm = edge.center_mm.x + edge.reach_mm;
     (0..set.count())
         .map(|index| set.pass(index))
         .filter(|pass| {
-            let place = set.place(pass);
+            let (place, edge) = (set.place(pass), set.edge(pass));
+            let y_reach_mm = edge.center_mm.y.abs() + edge.reach_mm;
+            let tip_mm = edge.center_mm.x + edge.reach_mm;
             // Where the place stands when the blade points to it, to the first order of the motion in between.
             let at = |swept: f64| set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).point(center_mm);
             let first = at(0.0);
@@ -66,8 +65,8 @@ pub fn near_passes(set: &TurningPasses, edge: &Edge, center_mm: DVec3, reach_mm:
 /// While the rake face goes through the neighbourhood the points move a little along the axis, nearly evenly: their
 /// places are taken at the moment when the rake face holds the middle, and when it holds what is furthest before and
 /// behind.
-pub fn passes_beside(set: &TurningPasses, edge: &Edge, pass: &BladePass, points_mm: &[DVec3], reach_mm: f64) -> bool {
-    let place = set.place(pass);
+pub fn passes_beside(set: &TurningPasses, pass: &BladePass, points_mm: &[DVec3], reach_mm: f64) -> bool {
+    let (place, edge) = (set.place(pass), set.edge(pass));
     let pose = |swept: f64| set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept);
     let first = pose(0.0).point(points_mm[0]);
     let swept = first.y.atan2(first.x);

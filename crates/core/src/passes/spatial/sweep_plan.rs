@@ -18,9 +18,10 @@ use super::sweep_starts::find_starts;
 use super::sweep_tile::{CELLS, SweepTile};
 use super::turning_passes::TurningPasses;
 use crate::dexel::{Ray, SpatialField};
-use crate::tool::edge::Edge;
+use crate::tool::edge::Segment;
 use glam::DVec3;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// All cells of a tile.
 const ALL_CELLS: u16 = u16::MAX;
@@ -40,17 +41,19 @@ pub struct SweepPlan {
     pub tiles: Vec<SweepTile>,
     /// Records of all tiles.
     pub records: Vec<SweepRecord>,
+    /// Segments that the records name: those of all edges of the tool, one edge after another.
+    pub segments: Arc<[Segment]>,
 }
 
 impl SweepPlan {
     /// Plan with candidate passes only.
-    pub fn new(field: &SpatialField, set: &TurningPasses, edge: &Edge) -> Self {
-        SweepPlanner { field, set, edge, prune: true }.plan()
+    pub fn new(field: &SpatialField, set: &TurningPasses) -> Self {
+        SweepPlanner { field, set, prune: true }.plan()
     }
 
     /// Plan with every segment of every pass that can reach the field at all: what candidates are compared with.
-    pub fn brute_force(field: &SpatialField, set: &TurningPasses, edge: &Edge) -> Self {
-        SweepPlanner { field, set, edge, prune: false }.plan()
+    pub fn brute_force(field: &SpatialField, set: &TurningPasses) -> Self {
+        SweepPlanner { field, set, prune: false }.plan()
     }
 
     /// (Dexel, pass) pairs of whole tiles: what a backend visits that does not look at cells.
@@ -77,28 +80,28 @@ impl SweepPlan {
 struct SweepPlanner<'a> {
     field: &'a SpatialField,
     set: &'a TurningPasses,
-    edge: &'a Edge,
     prune: bool,
 }
 
 impl SweepPlanner<'_> {
     fn plan(&self) -> SweepPlan {
-        let mut plan = SweepPlan::default();
+        let mut plan = SweepPlan { segments: self.segments().clone(), ..SweepPlan::default() };
         if self.field.is_empty() {
             return plan;
         }
         let whole = Region::whole(self.field);
         let (origin_mm, reach_mm) = self.surroundings(&whole.dexels());
-        let mut near = near_passes(self.set, self.edge, origin_mm, reach_mm);
+        let mut near = near_passes(self.set, origin_mm, reach_mm);
         if self.prune {
             let points_mm = self.ends_mm(&whole.dexels(), origin_mm);
-            near.retain(|pass| passes_beside(self.set, self.edge, pass, &points_mm, reach_mm));
+            near.retain(|pass| passes_beside(self.set, pass, &points_mm, reach_mm));
         }
         let near: Vec<SweepCandidate> = near
             .into_iter()
             .flat_map(|pass| self.set.stretches(&pass).map(move |stretch| (pass, stretch)))
             .flat_map(|(pass, stretch)| {
-                (0..self.edge.segments.len()).map(move |segment| SweepCandidate { pass, stretch, segment })
+                let segments = self.set.edges.segments_of(self.set.place(&pass).blade);
+                segments.map(move |segment| SweepCandidate { pass, stretch, segment })
             })
             .collect();
         if self.prune {
@@ -106,7 +109,7 @@ impl SweepPlanner<'_> {
             let frame = self.frame(origin_mm, reach_mm, &near).0;
             let near = self.bounds(&whole, &frame).near(highest_mm);
             let frame = self.frame(origin_mm, reach_mm, &near).0;
-            let sampled = whole.sample(&frame, self.edge);
+            let sampled = whole.sample(&frame, self.segments());
             self.halve(&whole, &frame, &sampled, highest_mm, &mut plan);
         } else {
             for columns in whole.columns.tiles() {
@@ -127,7 +130,7 @@ impl SweepPlanner<'_> {
         plan: &mut SweepPlan,
     ) {
         let (alive, upper_bound_mm) = self.bounds(region, frame).keep(sampled, upper_bound_mm);
-        let parts = region.parts(frame, self.edge, &alive);
+        let parts = region.parts(frame, self.segments(), &alive);
         if region.is_tile() {
             self.bounded_tile(region, frame, &parts, upper_bound_mm, plan);
             return;
@@ -173,12 +176,16 @@ impl SweepPlanner<'_> {
         [middle_mm].into_iter().chain(ends).collect()
     }
 
+    fn segments(&self) -> &Arc<[Segment]> {
+        self.set.edges.segments()
+    }
+
     fn bounds<'a>(&'a self, region: &'a Region, frame: &'a SweepFrame) -> RegionBounds<'a> {
-        RegionBounds { field: self.field, segments: &self.edge.segments, region, frame }
+        RegionBounds { field: self.field, segments: self.segments(), region, frame }
     }
 
     fn frame(&self, origin_mm: DVec3, reach_mm: f64, candidates: &[SweepCandidate]) -> (SweepFrame, Vec<Option<u32>>) {
-        SweepFrame::new(self.set, self.edge, origin_mm, reach_mm, candidates)
+        SweepFrame::new(self.set, origin_mm, reach_mm, candidates)
     }
 
     /// Bounds the parts of a tile: a record costs more in the kernel than here, and it is told in which cells it can be
@@ -235,7 +242,7 @@ impl SweepPlanner<'_> {
             }
         }
         let tile = SweepTile { columns, rows, origin_mm, records: first..plan.records.len() };
-        find_starts(self.field, &tile, self.edge, &mut plan.records[first..]);
+        find_starts(self.field, &tile, self.segments(), &mut plan.records[first..]);
         plan.tiles.push(tile);
     }
 }

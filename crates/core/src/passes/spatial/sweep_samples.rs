@@ -15,7 +15,7 @@ use super::sweep_regions::{RAYS, Region, SIDE};
 use super::sweep_roots::{LANES, Lanes, Rays, Roots};
 use super::turning_passes::{BladePass, TurningPasses};
 use crate::dexel::SpatialField;
-use crate::tool::edge::Edge;
+use crate::tool::edge::Segment;
 use glam::DVec3;
 use pulp::Arch;
 
@@ -41,7 +41,7 @@ pub struct SweepCandidate {
     pub pass: BladePass,
     /// Stretch of the motion.
     pub stretch: u32,
-    /// Index of the segment in the blade's edge.
+    /// Index of the segment among those of all edges.
     pub segment: usize,
 }
 
@@ -69,7 +69,6 @@ impl SweepFrame {
     /// gives the place of every candidate.
     pub fn new(
         set: &TurningPasses,
-        edge: &Edge,
         origin_mm: DVec3,
         reach_mm: f64,
         candidates: &[SweepCandidate],
@@ -81,7 +80,7 @@ impl SweepFrame {
             for candidate in of_sweep {
                 index_of.push(sweep.is_some().then_some(frame.records.len() as u32));
                 if let Some(sweep) = &sweep {
-                    let segment = &edge.segments[candidate.segment];
+                    let segment = &set.edges.segments()[candidate.segment];
                     frame.records.push(sweep.record(candidate.pass.pass, candidate.segment, segment));
                     frame.candidates.push(*candidate);
                 }
@@ -155,7 +154,7 @@ struct SearchedRay {
 /// Samples candidates on new rays of a region.
 struct SampledRays<'a> {
     frame: &'a SweepFrame,
-    edge: &'a Edge,
+    segments: &'a [Segment],
     lowest_mm: f64,
     field: &'a SpatialField,
     places: &'a [SearchedRay],
@@ -174,7 +173,7 @@ impl pulp::NullaryFnOnce for SampledRays<'_> {
             let rays = Rays::new(self.field, self.frame.origin_mm, lane.map(|place| place.dexel));
             for (&index, fine) in self.indices.iter().zip(self.fine.iter_mut()) {
                 let record = &self.frame.records[index as usize];
-                let segment = &self.edge.segments[record.segment as usize];
+                let segment = &self.segments[record.segment as usize];
                 let start_mm: Lanes = std::array::from_fn(|l| fine.start_mm(&lane[l].neighbours));
                 let start_t = record.places(&rays, &start_mm, 1)[0];
                 let roots = record.roots(segment, &rays, [&start_mm, &start_t], self.lowest_mm, LAST_STEP);
@@ -206,7 +205,7 @@ impl Fine {
 
 impl Region<'_> {
     /// Candidates of a frame on the nine rays, searched from the target.
-    pub fn sample(&self, frame: &SweepFrame, edge: &Edge) -> Vec<Sampled> {
+    pub fn sample(&self, frame: &SweepFrame, segments: &[Segment]) -> Vec<Sampled> {
         let even = [0, 2, 4];
         let dexels = self.dexels();
         let places: Vec<SearchedRay> = (0..RAYS)
@@ -218,13 +217,18 @@ impl Region<'_> {
         let indices: Vec<u32> = (0..frame.records.len() as u32).collect();
         let nothing = Sampled { index: 0, entered: 0, left: 0, height_mm: [0.0; RAYS], y_mm: [0.0; RAYS] };
         let mut fine: Vec<Fine> = indices.iter().map(|_| Fine::of(&nothing)).collect();
-        self.search(frame, edge, &places, &indices, &mut fine);
+        self.search(frame, segments, &places, &indices, &mut fine);
         indices.iter().zip(&fine).map(|(&index, fine)| fine.part(index, [even, even])).collect()
     }
 
     /// Parts of the region with what is sampled on each; a candidate goes to the parts whose cells are set in its mask
     /// (cells in the order of columns, then rows).
-    pub fn parts(&self, frame: &SweepFrame, edge: &Edge, alive: &[(Sampled, u8)]) -> Vec<(Self, Vec<Sampled>)> {
+    pub fn parts(
+        &self,
+        frame: &SweepFrame,
+        segments: &[Segment],
+        alive: &[(Sampled, u8)],
+    ) -> Vec<(Self, Vec<Sampled>)> {
         let split = self.split();
         let halves = [self.columns.halves(), self.rows.halves()];
         // Dexel lines of the fine grid; a direction that stays whole has its even ones alone.
@@ -251,7 +255,7 @@ impl Region<'_> {
         }
         let indices: Vec<u32> = alive.iter().map(|(sampled, _)| sampled.index).collect();
         let mut fine: Vec<Fine> = alive.iter().map(|(sampled, _)| Fine::of(sampled)).collect();
-        self.search(frame, edge, &places, &indices, &mut fine);
+        self.search(frame, segments, &places, &indices, &mut fine);
         let mut parts = Vec::with_capacity(4);
         for i in 0..=usize::from(split[0]) {
             for j in 0..=usize::from(split[1]) {
@@ -273,9 +277,16 @@ impl Region<'_> {
         parts
     }
 
-    fn search(&self, frame: &SweepFrame, edge: &Edge, places: &[SearchedRay], indices: &[u32], fine: &mut [Fine]) {
+    fn search(
+        &self,
+        frame: &SweepFrame,
+        segments: &[Segment],
+        places: &[SearchedRay],
+        indices: &[u32],
+        fine: &mut [Fine],
+    ) {
         let lowest_mm = 2.0 * self.field.low_mm;
-        Arch::new().dispatch(SampledRays { frame, edge, lowest_mm, field: self.field, places, indices, fine });
+        Arch::new().dispatch(SampledRays { frame, segments, lowest_mm, field: self.field, places, indices, fine });
     }
 }
 

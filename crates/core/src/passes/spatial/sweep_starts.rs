@@ -13,20 +13,20 @@ use super::sweep_roots::{LANES, Lanes, Rays};
 use super::sweep_samples::{LAST_STEP, entered};
 use super::sweep_tile::SweepTile;
 use crate::dexel::SpatialField;
-use crate::tool::edge::Edge;
+use crate::tool::edge::Segment;
 use pulp::Arch;
 
 /// Gives the records of a tile the polynomials that Newton's method starts from: through the middle ray, the ends of
 /// the middle column and row, and two corners. Where one of them does not meet the segment or its continuation, only
 /// the middle ray counts; where that one does not, the lowest height.
-pub fn find_starts(field: &SpatialField, tile: &SweepTile, edge: &Edge, records: &mut [SweepRecord]) {
-    Arch::new().dispatch(Starting { field, tile, edge, records });
+pub fn find_starts(field: &SpatialField, tile: &SweepTile, segments: &[Segment], records: &mut [SweepRecord]) {
+    Arch::new().dispatch(Starting { field, tile, segments, records });
 }
 
 struct Starting<'a> {
     field: &'a SpatialField,
     tile: &'a SweepTile,
-    edge: &'a Edge,
+    segments: &'a [Segment],
     records: &'a mut [SweepRecord],
 }
 
@@ -51,7 +51,7 @@ impl pulp::NullaryFnOnce for Starting<'_> {
         let rays = Rays::new(self.field, self.tile.origin_mm, places.map(|[c, r]| self.field.index(c, r)));
         let lowest_mm = 2.0 * self.field.low_mm;
         for record in self.records {
-            let segment = &self.edge.segments[record.segment as usize];
+            let segment = &self.segments[record.segment as usize];
             let start_t = record.places(&rays, &[0.0; LANES], 1)[0];
             let roots = record.roots(segment, &rays, [&[0.0; LANES], &start_t], lowest_mm, LAST_STEP);
             record.start = if (0..LANES).all(|l| entered(&roots, l)) {

@@ -10,6 +10,8 @@
 
 use super::motion::MotionTable;
 use crate::tool::SpatialTool;
+use crate::tool::blade_edges::BladeEdges;
+use crate::tool::edge::Edge;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -46,6 +48,8 @@ pub struct TurningPasses {
     pub first_pass: u32,
     /// Blades in the order of their passing.
     pub places: Vec<BladePlace>,
+    /// Edges of the blades.
+    pub edges: BladeEdges,
     /// The machine.
     pub motion: MotionTable,
     /// +1: the tool turns counter-clockwise about its z axis as its angle grows; -1: clockwise.
@@ -83,6 +87,7 @@ impl TurningPasses {
         Self {
             first_pass,
             places,
+            edges: tool.edges().clone(),
             motion,
             turn,
             rake_twist_rad_per_mm: tool.rake_twist_rad_per_mm(),
@@ -117,6 +122,11 @@ impl TurningPasses {
     /// Place of a pass's blade.
     pub fn place(&self, pass: &BladePass) -> &BladePlace {
         &self.places[pass.rank as usize]
+    }
+
+    /// Edge of a pass's blade.
+    pub fn edge(&self, pass: &BladePass) -> &Edge {
+        self.edges.edge_of(self.place(pass).blade)
     }
 
     /// Turn of the tool (counted from tool angle 0) and number of the tooth behind a pass id of this set.

@@ -1,11 +1,11 @@
 //! The text of a program, with everything in its head that the operator must know.
 
-use super::program::{AxisProgram, Knot};
 use crate::gcode::{Digits, ProgramText, axis_word};
 use crate::machine::Axis;
 use crate::output::text::plain;
+use crate::process::shaping::gcode::{AxisProgram, Knot};
+use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::linkage::dynamics::AXES;
-use crate::process::shaping::{PreparedOperation, ShapingJob};
 
 /// A program in the linear dialect, for an operation of a job.
 pub fn text(job: &ShapingJob, operation: &PreparedOperation, program: &AxisProgram) -> String {
