@@ -13,7 +13,7 @@ use crate::gear::blank::Blank;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
 use crate::surface::SurfaceGrid;
-use crate::surface::triangles::Profile;
+use crate::surface::triangles::SectionProfile;
 use crate::terms::Side;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -118,14 +118,14 @@ pub trait CylindricalGear: GearJob {
         side: Side,
         spacing_mm: f64,
         rows_z_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Profile>)>;
+    ) -> Result<(Vec<f64>, Vec<SectionProfile>)>;
 
     /// Root of the space after tooth `space` in every section of `rows_z_mm`, equally many points about `spacing_mm`
     /// apart, between the ends of its flanks.
     ///
     /// # Errors
     /// The tool generates no flank there.
-    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<Profile>>;
+    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>>;
 
     /// Surface of the tip land of a tooth after all operations; `None` on a pointed tooth.
     ///
@@ -139,7 +139,7 @@ pub trait CylindricalGear: GearJob {
 pub struct ToothFrame {
     /// Its middle on the pitch surface, mm.
     pub place_mm: DVec3,
-    /// Unit direction out of the gear.
+    /// Unit direction from root to tip.
     pub front: DVec3,
     /// Unit direction to its left flank.
     pub left: DVec3,
@@ -149,12 +149,13 @@ pub struct ToothFrame {
 
 impl ToothFrame {
     /// Frame of a tooth of a cylindrical gear.
-    pub fn of_cylinder(curve: &PitchCurve, gear: &Gear, tooth: u32) -> Self {
+    pub fn of_cylinder(blank: &Blank, gear: &Gear, tooth: u32) -> Self {
         let pitch_mm = PI * gear.transverse_module_mm();
+        let curve = blank.curve();
         let frame = curve.frame(curve.phi_at_arc(pitch_mm * (f64::from(tooth) - 0.5)));
         Self {
             place_mm: frame.point_mm.extend(0.0),
-            front: frame.normal.extend(0.0),
+            front: blank.towards_tip(&frame).extend(0.0),
             left: frame.tangent.extend(0.0),
             along: DVec3::Z,
         }

@@ -87,6 +87,23 @@ impl Kienzle {
     }
 }
 
+/// The cutting force alone: the law of an edge element, summed over the edge of a chip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CuttingForce {
+    /// K_c, N/mm^2.
+    pub per_area_n_per_mm2: f64,
+    /// K_ce, N/mm.
+    pub per_length_n_per_mm: f64,
+}
+
+impl CuttingForce {
+    /// Cutting force on a chip of this section, over this length of edge, N. With mm3 and mm2 instead, what both sweep
+    /// on a travel, it is the work, N mm.
+    pub fn on_chip(&self, section_mm2: f64, edge_mm: f64) -> f64 {
+        self.per_area_n_per_mm2 * section_mm2 + self.per_length_n_per_mm * edge_mm
+    }
+}
+
 impl EdgeForce {
     /// Cutting and normal force of an edge element, N.
     pub fn on_element(&self, thickness_mm: f64, length_mm: f64) -> [f64; 2] {
@@ -119,6 +136,20 @@ mod tests {
                 assert!((ours / printed - 1.0).abs() < share, "{name} at {feed}: {ours} against {printed}");
             }
         }
+    }
+
+    /// A wedge of chip, thickness 0 to 0.2 mm over 3 mm of edge: the sum over elements is the law of the whole section.
+    #[test]
+    fn the_force_on_a_chip_is_the_sum_over_its_edge() {
+        let line = MATERIALS[1].edge_force();
+        let element_mm = 3.0 / 300.0;
+        let thickness_mm = |i: u32| 0.2 * (f64::from(i) + 0.5) / 300.0;
+        let sum: f64 = (0..300).map(|i| line.on_element(thickness_mm(i), element_mm)[0]).sum();
+        let force = CuttingForce {
+            per_area_n_per_mm2: line.cutting_n_per_mm2,
+            per_length_n_per_mm: line.cutting_edge_n_per_mm,
+        };
+        assert!((force.on_chip(0.5 * 0.2 * 3.0, 3.0) / sum - 1.0).abs() < 1e-12);
     }
 
     #[test]

@@ -66,7 +66,7 @@ impl OperationVolume {
 pub struct EndFace {
     /// Mean section by rays of both families, mm2.
     pub cut_mm2: [f64; 2],
-    /// Area of the target's outline less the bore, mm2.
+    /// Area of the target's section, mm2.
     pub target_mm2: f64,
     /// How far rays at this spacing may be off, mm2, by both families.
     pub bound_mm2: [f64; 2],
@@ -152,7 +152,7 @@ pub fn missing_in_slice(
     let mut findings = Vec::new();
     for (f, family) in FAMILIES.into_iter().enumerate() {
         let row = &grid.rows[f];
-        let wanted = target.spans(family, row, 0.5 * gear.bore_diameter_mm);
+        let wanted = target.spans(family, row);
         for (ray, spans) in field.slices[slice].rays[f].iter().enumerate() {
             let gaps = intervals::missing(&wanted[ray], spans);
             for [low, high] in gaps.into_iter().filter(|[low, high]| high - low > LEAST_DEPTH_MM) {

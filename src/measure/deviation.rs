@@ -1,20 +1,20 @@
 //! Profile, lead, pitch and runout deviations in the style of ISO 1328:2013, for gears that are not round.
 //!
-//! Profile and lead: heights over the target along its local normals, over a stated range of a line: total deviation
-//! F_alpha or F_beta (range), slope deviation f_H (the mean line's rise over the range) and form deviation f_f (range
-//! about the mean line). Pitch: places where the flanks cross the pitch curve, as arcs of that curve, against one pitch
-//! pi m each: single f_p and cumulative F_p. No tolerance class is given: the standard's classes are for round gears.
+//! Profile and lead: normal deviations over a stated range of a line: total deviation F_alpha or F_beta (range), slope
+//! deviation f_H (the mean line's rise over the range) and form deviation f_f (range about the mean line). Pitch:
+//! places where the flanks cross the pitch curve, as arcs of that curve, against one pitch pi m each: single f_p and
+//! cumulative F_p. No tolerance class is given: the standard's classes are for round gears.
 
 use super::crossing::Crossing;
 use crate::dexel::{Field, Layer, NO_PASS};
-use crate::gear::PitchCurve;
+use crate::gear::blank::Blank;
 
 /// Finished heights along one line of a flank, as a measuring machine traces it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
     /// Places of the dexels, mm, increasing: arc from the form point, or place along the tooth.
     pub places_mm: Vec<f64>,
-    /// Heights over the target, mm; NaN where no pass came.
+    /// Normal deviations, mm; NaN where no pass came.
     pub heights_mm: Vec<f64>,
 }
 
@@ -147,23 +147,25 @@ impl Runout {
     }
 }
 
-/// Runout from the crossings of all flanks with the pitch curve, in order of teeth; `None` if one is missing.
+/// Runout from the crossings of all flanks with the blank's pitch curve, in order of teeth; `None` if one is missing.
 ///
 /// The probe touches both flanks of a space at the pitch curve, as a ball of fitting size does. Between the flanks the
 /// curve's normal turns by 2 gamma; a probe that moves by d along the normal in the middle then moves each contact by d
 /// (tan(alpha) cos(gamma) + sin(gamma)) along the curve, so in a space that is wider by w it lies w / (2 (tan(alpha)
 /// cos(gamma) + sin(gamma))) deeper. The range is F_r of ISO 1328-2:1997 on a round gear, for small deviations; on
-/// other gears no axis is common to all spaces, and the figure says how evenly they were cut to depth.
+/// other gears no axis is common to all spaces, and the figure says how evenly they were cut to depth. In a ring the
+/// probe moves outwards into its space, where the curve's normals open: sin(gamma) is taken off.
 ///
 /// Road not taken: w / (2 tan(alpha)), the law of a rack. On 24 teeth it is 18 % too large.
 pub fn runout(
-    curve: &PitchCurve,
+    blank: &Blank,
     left: &[Option<Crossing>],
     right: &[Option<Crossing>],
     pressure_angle_rad: f64,
 ) -> Option<Runout> {
     let all = |side: &[Option<Crossing>]| side.iter().copied().collect::<Option<Vec<Crossing>>>();
     let (left, right) = (all(left)?, all(right)?);
+    let (curve, sign) = (blank.curve(), blank.kind().tip_sign());
     let first = right.first()?;
     let after_turn = Crossing { arc_mm: first.arc_mm + curve.perimeter_mm(), ..*first };
     // The space after a tooth lies between its left flank and the next tooth's right one.
@@ -174,9 +176,9 @@ pub fn runout(
     let depth = |(left, right): &(Crossing, Crossing)| {
         let [from, to] = [left, right].map(|crossing| curve.frame(crossing.phi_rad).tangent);
         let (sin, cos) = (0.5 * from.perp_dot(to).atan2(from.dot(to))).sin_cos();
-        2.0 * (pressure_angle_rad.tan() * cos + sin)
+        2.0 * (pressure_angle_rad.tan() * cos + sign * sin)
     };
-    Some(Runout { radial_mm: spaces.iter().map(|space| (mean_mm - width_mm(space)) / depth(space)).collect() })
+    Some(Runout { radial_mm: spaces.iter().map(|space| sign * (mean_mm - width_mm(space)) / depth(space)).collect() })
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ pub mod crossing;
 pub mod damage;
 pub mod deviation;
 pub mod gear_place;
+pub mod inspection;
 pub mod last_chips;
 pub mod scallop;
 pub mod stock;

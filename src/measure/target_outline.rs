@@ -1,14 +1,15 @@
 //! The target's transverse section as one closed polygon: flanks, roots and tip lands as finishing leaves them in the
 //! limit of many strokes.
 //!
-//! In: points of the chain, counter-clockwise. Out: area, material on rays, signed distances; what the blank field is
-//! judged against, by formulas that share nothing with it.
+//! In: points of the chain, counter-clockwise, and the stock's back. Out: area, material on rays, signed distances; what
+//! the blank field is judged against, by formulas that share nothing with it.
 //!
 //! Where the fillet has cut into a flank (undercut), the envelopes of flank and fillet run on past their crossing; the
-//! little loop that they form runs clockwise. Material is therefore where the winding number is positive, and nothing
-//! has to be trimmed.
+//! little loop that they form runs clockwise round air, on a ring counter-clockwise. Material of an external gear is
+//! therefore where the winding number is positive, that of a ring where it is not, and nothing has to be trimmed.
 
 use crate::dexel::intervals;
+use crate::gear::{Back, GearKind};
 use crate::math::planar_rays::{Family, RayRow};
 use glam::DVec2;
 
@@ -19,22 +20,23 @@ const BUCKET_MM: f64 = 0.5;
 #[derive(Debug, Clone)]
 pub struct TargetOutline {
     points_mm: Vec<DVec2>,
+    back: Back,
     low_mm: DVec2,
     columns: usize,
     buckets: Vec<Vec<u32>>,
 }
 
 impl TargetOutline {
-    /// Polygon through points, counter-clockwise; the last one is joined to the first.
+    /// Polygon through points, counter-clockwise, and the stock's other side; the last point is joined to the first.
     ///
     /// # Panics
     /// Fewer than three points.
-    pub fn new(points_mm: Vec<DVec2>) -> Self {
+    pub fn new(points_mm: Vec<DVec2>, back: Back) -> Self {
         assert!(points_mm.len() >= 3, "an outline encloses something");
         let low = points_mm.iter().copied().reduce(DVec2::min).unwrap_or_default() - BUCKET_MM;
         let high = points_mm.iter().copied().reduce(DVec2::max).unwrap_or_default() + BUCKET_MM;
         let [columns, rows] = ((high - low) / BUCKET_MM).ceil().to_array().map(|n| n as usize + 1);
-        let mut outline = Self { points_mm, low_mm: low, columns, buckets: vec![Vec::new(); columns * rows] };
+        let mut outline = Self { points_mm, back, low_mm: low, columns, buckets: vec![Vec::new(); columns * rows] };
         for index in 0..outline.points_mm.len() {
             let [a, b] = outline.segment(index);
             let [from, to] = [a.min(b), a.max(b)].map(|p| outline.bucket(p));
@@ -62,7 +64,7 @@ impl TargetOutline {
         [(cell.x as usize).min(self.columns - 1), (cell.y as usize).min(rows - 1)]
     }
 
-    /// Area in mm2, loops of undercut taken off.
+    /// Area that the polygon encloses, mm2, loops of undercut taken off.
     pub fn area_mm2(&self) -> f64 {
         0.5 * (0..self.points_mm.len()).map(|i| self.segment(i)).map(|[a, b]| a.perp_dot(b)).sum::<f64>()
     }
@@ -75,8 +77,18 @@ impl TargetOutline {
         0.5 * spacing_mm * length_mm
     }
 
-    /// Material on the rays of a family, less the bore.
-    pub fn spans(&self, family: Family, row: &RayRow, bore_radius_mm: f64) -> Vec<Vec<[f64; 2]>> {
+    /// Area of the target's section, between the polygon and the back, mm2.
+    pub fn section_mm2(&self) -> f64 {
+        self.back.section_mm2(self.area_mm2())
+    }
+
+    /// How far the section by rays of a family may be off, mm2: the back adds four radii of length along the rays.
+    pub fn section_bound_mm2(&self, family: Family, spacing_mm: f64) -> f64 {
+        self.area_bound_mm2(family, spacing_mm) + 2.0 * self.back.radius_mm * spacing_mm
+    }
+
+    /// Material on the rays of a family, between the polygon and the back.
+    pub fn spans(&self, family: Family, row: &RayRow) -> Vec<Vec<[f64; 2]>> {
         let mut crossings: Vec<Vec<(f64, i32)>> = vec![Vec::new(); row.count];
         for index in 0..self.points_mm.len() {
             let [a, b] = self.segment(index);
@@ -107,9 +119,28 @@ impl TargetOutline {
                         _ => {}
                     }
                 }
-                without_bore(spans, bore_radius_mm, row.at_mm(ray))
+                self.material(spans, row.at_mm(ray))
             })
             .collect()
+    }
+
+    /// What of a ray is material, from what of it the polygon encloses.
+    fn material(&self, enclosed: Vec<[f64; 2]>, at_mm: f64) -> Vec<[f64; 2]> {
+        let half_mm = self.back.half_chord_mm(at_mm);
+        let long = |[low, high]: &[f64; 2]| high - low > intervals::LEAST_SPAN_MM;
+        match self.back.kind {
+            GearKind::External if half_mm == 0.0 => enclosed,
+            GearKind::External => {
+                let keep = |[low, high]: [f64; 2]| [[low, high.min(-half_mm)], [low.max(half_mm), high]];
+                enclosed.into_iter().flat_map(keep).filter(long).collect()
+            }
+            // Between the ends of the chord and of the holes in it.
+            GearKind::Internal => {
+                let starts = [-half_mm].into_iter().chain(enclosed.iter().map(|hole| hole[1].min(half_mm)));
+                let ends = enclosed.iter().map(|hole| hole[0].max(-half_mm)).chain([half_mm]);
+                starts.zip(ends).map(|(low, high)| [low, high]).filter(long).collect()
+            }
+        }
     }
 
     /// Distance of a point from the outline, mm: positive outside the target, negative inside; at most `limit_mm` is
@@ -138,7 +169,8 @@ impl TargetOutline {
                 }
             }
         }
-        best.filter(|(distance, _)| *distance <= limit_mm).map(|(distance, side)| distance * side.signum())
+        let sign = self.back.kind.tip_sign();
+        best.filter(|(distance, _)| *distance <= limit_mm).map(|(distance, side)| sign * distance * side.signum())
     }
 }
 
@@ -149,15 +181,6 @@ fn signed_distance([a, b]: [DVec2; 2], p: DVec2) -> (f64, f64) {
     let share = ((p - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     let distance = p.distance(a + share * along);
     (distance, -along.normalize_or_zero().perp_dot(p - a))
-}
-
-fn without_bore(spans: Vec<[f64; 2]>, bore_radius_mm: f64, at_mm: f64) -> Vec<[f64; 2]> {
-    let half_mm = (bore_radius_mm * bore_radius_mm - at_mm * at_mm).max(0.0).sqrt();
-    if half_mm == 0.0 {
-        return spans;
-    }
-    let keep = |[low, high]: [f64; 2]| [[low, high.min(-half_mm)], [low.max(half_mm), high]];
-    spans.into_iter().flat_map(keep).filter(|[low, high]| high - low > intervals::LEAST_SPAN_MM).collect()
 }
 
 #[cfg(test)]
@@ -177,7 +200,7 @@ mod tests {
             (10.0, 10.0),
             (0.0, 10.0),
         ];
-        TargetOutline::new(points.map(|(x, y)| DVec2::new(x, y)).to_vec())
+        TargetOutline::new(points.map(|(x, y)| DVec2::new(x, y)).to_vec(), Back::bore(0.0))
     }
 
     #[test]
@@ -186,7 +209,7 @@ mod tests {
         assert_eq!(outline.area_mm2(), 99.0);
         let row = RayRow { first_mm: 0.5, spacing_mm: 1.0, count: 11 };
         for family in FAMILIES {
-            let spans = outline.spans(family, &row, 0.0);
+            let spans = outline.spans(family, &row);
             assert!(spans[..10].iter().all(|s| *s == [[0.0, 10.0]]), "{family:?}: {spans:?}");
             assert!(spans[10].is_empty());
         }
@@ -195,11 +218,29 @@ mod tests {
     #[test]
     fn distances_are_signed_and_found_across_buckets() {
         let points = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(x, y)| DVec2::new(x, y));
-        let outline = TargetOutline::new(points.to_vec());
+        let outline = TargetOutline::new(points.to_vec(), Back::bore(0.0));
         let at = |x, y| outline.distance_mm(DVec2::new(x, y), 20.0).expect("near");
         assert!((at(5.0, 3.0) + 3.0).abs() < 1e-12 && (at(5.0, -2.0) - 2.0).abs() < 1e-12);
         assert!((at(13.0, 14.0) - 5.0).abs() < 1e-12, "from the corner");
         assert!((at(9.9, 9.9) + 0.1).abs() < 1e-12);
         assert_eq!(outline.distance_mm(DVec2::new(5.0, 5.0), 1.0), None);
+    }
+
+    /// A square hole of 10 mm in a disc of 20 mm: material and air change places.
+    #[test]
+    fn a_ring_is_what_its_hole_leaves_of_the_disc() {
+        let points = [(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)].map(|(x, y)| DVec2::new(x, y));
+        let outline = TargetOutline::new(points.to_vec(), Back::ring(10.0));
+        assert!((outline.section_mm2() - (100.0 * std::f64::consts::PI - 100.0)).abs() < 1e-12);
+        let row = RayRow { first_mm: 3.0, spacing_mm: 3.0, count: 3 };
+        for family in FAMILIES {
+            let spans = outline.spans(family, &row);
+            let half = |at: f64| (100.0 - at * at).sqrt();
+            assert_eq!(spans[0], [[-half(3.0), -5.0], [5.0, half(3.0)]]);
+            assert_eq!(spans[1], [[-half(6.0), half(6.0)]], "beside the hole");
+            assert_eq!(spans[2], [[-half(9.0), half(9.0)]]);
+        }
+        let at = |x| outline.distance_mm(DVec2::new(x, 0.0), 20.0).expect("near");
+        assert!((at(3.0) - 2.0).abs() < 1e-12 && (at(6.0) + 1.0).abs() < 1e-12);
     }
 }

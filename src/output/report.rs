@@ -16,6 +16,7 @@
 
 mod blocks;
 mod gear_frame;
+mod table;
 pub mod texture;
 pub mod traces;
 pub mod viewer;
@@ -33,7 +34,8 @@ use crate::output::atomic::write_bytes_atomically;
 use gear_frame::gear_frame;
 use viewer::Viewer;
 
-pub use blocks::{Block, PageSection, PageTable};
+pub use blocks::{Block, PageSection};
+pub use table::PageTable;
 
 /// Name of the file in an output folder.
 pub const REPORT_FILE: &str = "report.html";

@@ -73,11 +73,12 @@ pub trait ProcessJob: Sync {
 }
 
 /// All processes; a new one adds its line here.
-pub static PROCESSES: [&Process; 2] = [&shaping::PROCESS, &hobbing::PROCESS];
+pub static PROCESSES: &[&Process] = &[&shaping::PROCESS, &hobbing::PROCESS];
 
 /// The keys of all scenes.
 pub fn table() -> &'static KeyTable {
-    static TABLE: LazyLock<KeyTable> = LazyLock::new(|| KeyTable::new(&PROCESSES.map(|process| process.scene)));
+    static TABLE: LazyLock<KeyTable> =
+        LazyLock::new(|| KeyTable::new(&PROCESSES.iter().map(|process| process.scene).collect::<Vec<_>>()));
     &TABLE
 }
 

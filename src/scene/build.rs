@@ -6,11 +6,11 @@
 use std::path::{Path, PathBuf};
 
 use super::model::{
-    Fields, GcodeDialect, Gear, Output, Picture, PictureColour, PictureView, Scene, TextureWindow, WindowSides,
+    Fields, Gear, Measure, Output, Picture, PictureColour, PictureView, Scene, TextureWindow, WindowSides,
 };
 use super::process::SceneProcess;
 use super::values::{Values, View};
-use crate::gear::PitchCurveShape;
+use crate::gear::{Driver, GearKind, PitchCurveShape};
 use crate::terms::Side;
 use gearcut_texture::Form;
 
@@ -22,10 +22,15 @@ pub(super) fn build(name: &str, process: &SceneProcess, base_dir: &Path, values:
     let flank = values.view("fields.flank");
     let blank = values.view("fields.blank");
     let output = values.view("output");
+    let measure = values.view("measure");
     Some(Scene {
         name: name.to_owned(),
         gear: gear(values)?,
         process: (process.build)(values, base_dir)?,
+        measure: Measure {
+            profile_start_height_mm: measure.number("profile_start_height_mm"),
+            profile_end_height_mm: measure.number("profile_end_height_mm"),
+        },
         textures: (0..values.count("texture"))
             .map(|index| texture(values.view(&format!("texture.{index}"))))
             .collect::<Option<_>>()?,
@@ -39,12 +44,6 @@ pub(super) fn build(name: &str, process: &SceneProcess, base_dir: &Path, values:
             map_spacing_mm: output.number("map_spacing_mm")?,
             mesh_spacing_mm: output.number("mesh_spacing_mm")?,
             folder: output.text("folder").map(PathBuf::from),
-            gcode: match output.text("gcode")? {
-                "linear" => GcodeDialect::Linear,
-                "paper_g84" => GcodeDialect::PaperG84,
-                "none" => GcodeDialect::None,
-                _ => return None,
-            },
             gcode_contour_error_mm: output.mm_from_um("gcode_contour_error_um")?,
         },
         pictures: pictures?,
@@ -61,7 +60,13 @@ pub(crate) fn stock_or_offset_mm(operation: View<'_>, pressure_angle_rad: f64) -
 
 fn gear(values: &Values) -> Option<Gear> {
     let gear = values.view("gear");
+    let kind = match gear.text("kind")? {
+        "external" => GearKind::External,
+        "internal" => GearKind::Internal,
+        _ => return None,
+    };
     Some(Gear {
+        kind,
         module_mm: gear.number("module_mm")?,
         teeth: gear.whole("teeth")?,
         pressure_angle_rad: gear.rad("pressure_angle_deg")?,
@@ -70,13 +75,17 @@ fn gear(values: &Values) -> Option<Gear> {
         face_width_mm: gear.number("face_width_mm")?,
         addendum_coefficient: gear.number("addendum_coefficient")?,
         bore_diameter_mm: gear.number("bore_diameter_mm")?,
+        rim_mm: gear.number("rim_mm").unwrap_or(0.0),
         tooth_thickness_allowance_mm: gear.number("tooth_thickness_allowance_mm")?,
-        pitch_curve: pitch_curve(values, gear.variant("pitch_curve")?)?,
+        pitch_curve: pitch_curve(values, "gear.pitch_curve", kind)?,
     })
 }
 
-fn pitch_curve(values: &Values, shape: &str) -> Option<PitchCurveShape> {
-    let path = format!("gear.pitch_curve.{shape}");
+/// The curve that a table chooses: `[gear.pitch_curve]`, or that of a mate's driver.
+fn pitch_curve(values: &Values, choice: &str, kind: GearKind) -> Option<PitchCurveShape> {
+    let (holder, name) = choice.rsplit_once('.')?;
+    let shape = values.view(holder).variant(name)?;
+    let path = format!("{choice}.{shape}");
     let curve = values.view(&path);
     Some(match shape {
         "circle" => PitchCurveShape::Circle,
@@ -105,6 +114,14 @@ fn pitch_curve(values: &Values, shape: &str) -> Option<PitchCurveShape> {
             points_rad_mm: curve.points("points_deg_mm")?.iter().map(|&[deg, mm]| [deg.to_radians(), mm]).collect(),
             scale_to_close: curve.boolean("scale_to_close")?,
         },
+        "mate" => {
+            let driver = Driver {
+                curve: pitch_curve(values, &format!("{path}.driver"), kind)?,
+                teeth: curve.whole("driver_teeth")?,
+                start_rad: curve.rad("start_deg"),
+            };
+            PitchCurveShape::Mate { driver: Box::new(driver), kind }
+        }
         _ => return None,
     })
 }

@@ -14,7 +14,10 @@ const MOST_DEXELS: f64 = 1e8;
 /// Adds a problem for every contradiction between shared keys.
 pub(super) fn cross_check(found: &mut Found<'_, '_, '_>) {
     // A missing value ends only the check that asks for it.
-    let _: [Option<()>; 4] = [gear_bore(found), sinusoidal(found), fourier(found), dexels(found)];
+    let _: [Option<()>; 5] = [gear_bore(found), gear_kind(found), mate_teeth(found), profile(found), dexels(found)];
+    for curve in ["gear.pitch_curve", "gear.pitch_curve.mate.driver"] {
+        let _: [Option<()>; 2] = [sinusoidal(found, curve), fourier(found, curve)];
+    }
     names(found);
     for index in 0..found.values.count("picture") {
         let _: Option<()> = picture_tooth(found, &format!("picture.{index}"));
@@ -23,6 +26,9 @@ pub(super) fn cross_check(found: &mut Found<'_, '_, '_>) {
 
 fn gear_bore(found: &mut Found) -> Option<()> {
     let gear = found.view("gear");
+    if gear.text("kind")? == "internal" {
+        return None;
+    }
     let (module_mm, teeth) = (gear.number("module_mm")?, f64::from(gear.whole("teeth")?));
     let bore_mm = gear.number("bore_diameter_mm")?;
     let root_mm = module_mm * (teeth - 2.5);
@@ -33,8 +39,37 @@ fn gear_bore(found: &mut Found) -> Option<()> {
     Some(())
 }
 
-fn sinusoidal(found: &mut Found) -> Option<()> {
-    let path = "gear.pitch_curve.sinusoidal_ratio";
+/// A ring has no bore, and only a ring has a rim.
+fn gear_kind(found: &mut Found) -> Option<()> {
+    let gear = found.view("gear");
+    let internal = gear.text("kind")? == "internal";
+    let bore_mm = gear.number("bore_diameter_mm")?;
+    let message =
+        || format!("`gear.bore_diameter_mm`: {bore_mm} on an internal gear, whose teeth stand where a bore is");
+    let way_out = "leave the bore out; rim_mm says how much material lies outside the pitch curve";
+    found.blame(internal && bore_mm > 0.0, "gear.bore_diameter_mm", message, way_out);
+    let written = found.values.is_written("gear", "rim_mm");
+    let message = || "`gear.rim_mm`: an external gear has no rim; it is the ring of an internal one".to_owned();
+    found.blame(!internal && written, "gear.rim_mm", message, "leave rim_mm out, or write kind = \"internal\"");
+    Some(())
+}
+
+/// A driver runs inside an internal gear, which has more teeth.
+fn mate_teeth(found: &mut Found) -> Option<()> {
+    let gear = found.view("gear");
+    let driver = found.view("gear.pitch_curve.mate").whole("driver_teeth")?;
+    let teeth = gear.whole("teeth")?;
+    let message = || {
+        format!("`gear.pitch_curve.mate.driver_teeth`: a driver of {driver} teeth does not fit into a ring of {teeth}")
+    };
+    let full = gear.text("kind")? == "internal" && driver >= teeth;
+    let way_out = "give the driver fewer teeth than gear.teeth";
+    found.blame(full, "gear.pitch_curve.mate.driver_teeth", message, way_out);
+    Some(())
+}
+
+fn sinusoidal(found: &mut Found, curve: &str) -> Option<()> {
+    let path = &join(curve, "sinusoidal_ratio");
     let curve = found.view(path);
     let (mean, amplitude) = (curve.number("mean_ratio")?, curve.number("ratio_amplitude")?);
     let message = || {
@@ -43,12 +78,21 @@ fn sinusoidal(found: &mut Found) -> Option<()> {
         )
     };
     let key = join(path, "ratio_amplitude");
-    found.blame(amplitude >= mean, &key, message, "make ratio_amplitude smaller than mean_ratio");
+    found.blame(amplitude.abs() >= mean, &key, message, "make ratio_amplitude smaller than mean_ratio");
     Some(())
 }
 
-fn fourier(found: &mut Found) -> Option<()> {
-    let path = "gear.pitch_curve.fourier";
+fn profile(found: &mut Found) -> Option<()> {
+    let measure = found.view("measure");
+    let (start_mm, end_mm) = (measure.number("profile_start_height_mm")?, measure.number("profile_end_height_mm")?);
+    let message = || format!("the evaluated profile ends at {end_mm} mm, not above its start at {start_mm} mm");
+    let way_out = "make profile_end_height_mm larger than profile_start_height_mm";
+    found.blame(start_mm >= end_mm, "measure.profile_end_height_mm", message, way_out);
+    Some(())
+}
+
+fn fourier(found: &mut Found, curve: &str) -> Option<()> {
+    let path = &join(curve, "fourier");
     let curve = found.view(path);
     let empty = curve.numbers("cosine")?.is_empty() && curve.numbers("sine")?.is_empty();
     let message = || "the Fourier curve has no harmonics: neither `cosine` nor `sine` has an entry".to_owned();

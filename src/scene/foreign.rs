@@ -28,20 +28,32 @@ pub(super) fn refuse_foreign(
         let path_in_table = general(&path);
         let others = table.processes().iter().filter(|other| other.name != process.name);
         for owner in others.filter(|other| KeyTable::new(&[other]).knows(&path_in_table)).take(1) {
+            let senseless = process.senseless.iter().find(|senseless| is_within(&path_in_table, senseless.path));
             problems.add(
                 &values.place_of(&path),
                 format!(
-                    "`{}` belongs to {}; this scene is for {}",
+                    "`{}` belongs to {}; this scene is for {}{}",
                     path_in_table.replace("[]", ""),
                     owner.name,
-                    process.name
+                    process.name,
+                    senseless.map_or(String::new(), |senseless| format!(", where {}", senseless.why))
                 ),
-                format!("remove it, or write {} instead of {}", owner.tool_header(), process.tool_header()),
+                format!(
+                    "{}, or write {} instead of {}",
+                    senseless.map_or("remove it", |senseless| senseless.instead),
+                    owner.tool_header(),
+                    process.tool_header()
+                ),
             );
         }
     }
     values.held.retain(|path, _| !foreign(path));
     values.variants.retain(|path, _| !foreign(path));
+}
+
+/// Whether a path is a key or section, or inside of it.
+fn is_within(path: &str, outer: &str) -> bool {
+    path.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 /// `operation.0.infeed` as the table of keys has it: `operation[].infeed`.

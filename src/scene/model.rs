@@ -5,10 +5,13 @@
 //! (`face_width_mm`, `pressure_angle_deg`); angles are radians here.
 
 use super::process::ScenePart;
-use crate::gear::PitchCurveShape;
+use crate::error::Refusal;
+use crate::gear::blank::Blank;
+use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
 use crate::terms::{Hand, Side};
 use gearcut_texture::Form;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// One job: what is cut, with what, how, and what is measured.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +22,8 @@ pub struct Scene {
     pub gear: Gear,
     /// How it is cut: tool, machine and operations of one process.
     pub process: ScenePart,
+    /// Where profiles are evaluated.
+    pub measure: Measure,
     /// Texture windows; empty: those that [`crate::texture`] takes by itself.
     pub textures: Vec<TextureWindow>,
     /// Dexel spacing.
@@ -39,6 +44,18 @@ impl Gear {
     pub fn transverse_pressure_angle_rad(&self) -> f64 {
         (self.pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
     }
+
+    /// The stock round its pitch curve.
+    ///
+    /// # Errors
+    /// A pitch curve that is curved more sharply than the addendum allows.
+    pub fn blank(&self, curve: Arc<PitchCurve>) -> Result<Blank, Refusal> {
+        let addendum_mm = self.addendum_coefficient * self.module_mm;
+        match self.kind {
+            GearKind::External => Ok(Blank::new(curve, addendum_mm)?.with_bore(0.5 * self.bore_diameter_mm)),
+            GearKind::Internal => Blank::ring(curve, addendum_mm, self.rim_mm),
+        }
+    }
 }
 
 impl Scene {
@@ -51,6 +68,8 @@ impl Scene {
 /// The gear: pitch curve, teeth and blank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gear {
+    /// External, or a ring with internal teeth.
+    pub kind: GearKind,
     /// Module m in mm; on a helical gear the normal module, the tool's own.
     pub module_mm: f64,
     /// Number of teeth z on the closed pitch curve.
@@ -65,12 +84,37 @@ pub struct Gear {
     pub face_width_mm: f64,
     /// Addendum of the blank over the pitch curve, in modules.
     pub addendum_coefficient: f64,
-    /// Diameter of the bore; pictures and meshes use it.
+    /// Diameter of an external gear's bore; 0 for none.
     pub bore_diameter_mm: f64,
+    /// Material of a ring outside the largest radius of its pitch curve; means nothing on external gears.
+    pub rim_mm: f64,
     /// Change of tooth thickness on the pitch curve that every operation gets (negative: thinner teeth, backlash).
     pub tooth_thickness_allowance_mm: f64,
     /// Shape of the pitch curve.
     pub pitch_curve: PitchCurveShape,
+}
+
+/// Where profiles are evaluated, as heights over the pitch curve along its normal; `None`: from the form point to the
+/// tip, 5 % left out at each end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measure {
+    /// Lower end.
+    pub profile_start_height_mm: Option<f64>,
+    /// Upper end.
+    pub profile_end_height_mm: Option<f64>,
+}
+
+impl Measure {
+    /// Arcs of a flank's profile at both ends, mm, where `arc_at` finds a height; `None` where the scene names no
+    /// height, or the flank does not reach it.
+    pub fn ends_mm(&self, arc_at: impl Fn(f64) -> Option<f64>) -> [Option<f64>; 2] {
+        self.heights_mm().map(|height_mm| height_mm.and_then(&arc_at))
+    }
+
+    /// Heights of both ends, mm.
+    pub fn heights_mm(&self) -> [Option<f64>; 2] {
+        [self.profile_start_height_mm, self.profile_end_height_mm]
+    }
 }
 
 /// A window on the flanks of one tooth whose texture is evaluated.
@@ -129,21 +173,8 @@ pub struct Output {
     pub mesh_spacing_mm: f64,
     /// Folder given in the scene, if any; the command line wins.
     pub folder: Option<PathBuf>,
-    /// Form of the axis programs.
-    pub gcode: GcodeDialect,
-    /// Largest displacement on the flanks that their straight lines may cause.
+    /// Largest displacement on the flanks that straight lines of axis programs may cause.
     pub gcode_contour_error_mm: f64,
-}
-
-/// Form of axis programs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum GcodeDialect {
-    /// Straight lines in inverse time.
-    Linear,
-    /// The one-block form of Gao et al. 2017, marked as not to be run.
-    PaperG84,
-    /// None.
-    None,
 }
 
 /// One picture of the cut gear.
@@ -190,7 +221,7 @@ pub enum PictureView {
 pub enum PictureColour {
     /// Normal stock that the last operation found.
     Stock,
-    /// Height over the target.
+    /// Normal deviation from the target.
     Height,
     /// Pass that left the surface.
     Pass,

@@ -13,8 +13,8 @@ use super::sources::line_place;
 use super::table::KeyTable;
 use super::values::{Checked, Held, Values};
 
-/// Section that may name a file.
-const SECTION: &str = "gear.pitch_curve.table";
+/// Sections that may name a file.
+const SECTIONS: [&str; 2] = ["gear.pitch_curve.table", "gear.pitch_curve.mate.driver.table"];
 /// First line of the table that is no comment.
 const HEADER: &str = "phi_deg,radius_mm";
 /// Largest text read, for scenes and tables: a hundred thousand points take 4 MB.
@@ -47,22 +47,24 @@ fn reason(error: &io::Error) -> String {
 
 /// Reads the file that the scene names, if it names one, and puts its points among the values.
 pub(super) fn read_points(values: &mut Values, table: &KeyTable, base_dir: &Path, problems: &mut Problems<'_>) {
-    let Some(name) = values.view(SECTION).text("file").map(str::to_owned) else { return };
-    let at = values.place_of(&keys::join(SECTION, "file"));
-    let Some(key) = table.section(SECTION).and_then(|section| section.key("points_deg_mm")) else { return };
-    match read_text(&base_dir.join(&name)) {
-        Err(why) => problems.add(
-            &at,
-            format!("cannot read the points file {name}: {why}"),
-            "the path is relative to the scene file; the file has the header phi_deg,radius_mm".to_owned(),
-        ),
-        Ok(text) => match parse(&shown(base_dir, &name), &text, key.kind) {
-            Ok(points) => {
-                let held = Held { value: Checked::Points(points), at: Some(at) };
-                values.held.insert(keys::join(SECTION, "points_deg_mm"), held);
-            }
-            Err(problem) => problems.list.push(*problem),
-        },
+    for section in SECTIONS {
+        let Some(name) = values.view(section).text("file").map(str::to_owned) else { continue };
+        let at = values.place_of(&keys::join(section, "file"));
+        let Some(key) = table.section(section).and_then(|section| section.key("points_deg_mm")) else { continue };
+        match read_text(&base_dir.join(&name)) {
+            Err(why) => problems.add(
+                &at,
+                format!("cannot read the points file {name}: {why}"),
+                "the path is relative to the scene file; the file has the header phi_deg,radius_mm".to_owned(),
+            ),
+            Ok(text) => match parse(&shown(base_dir, &name), &text, key.kind) {
+                Ok(points) => {
+                    let held = Held { value: Checked::Points(points), at: Some(at) };
+                    values.held.insert(keys::join(section, "points_deg_mm"), held);
+                }
+                Err(problem) => problems.list.push(*problem),
+            },
+        }
     }
 }
 

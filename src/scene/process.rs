@@ -31,6 +31,14 @@ pub struct SceneProcess {
     pub sections: &'static [&'static [KeySection]],
     /// Its keys in shared sections.
     pub added: &'static [&'static Addition],
+    /// Its keys that count per turn of the work: a mate with twice the teeth gets twice as many.
+    pub per_revolution: &'static [&'static str],
+    /// Its keys that belong to one gear and do not pass to its mate: windows, programs.
+    pub of_one_gear: &'static [&'static str],
+    /// Shared sections that hold only where they are written: no default stands in for them.
+    pub on_demand: &'static [&'static str],
+    /// Keys and sections of others that readers may well look for, and why they have no sense here.
+    pub senseless: &'static [Senseless],
     /// Puts in defaults that follow from other keys.
     pub(crate) derive: fn(&mut Values),
     /// Holds its values against each other.
@@ -38,6 +46,17 @@ pub struct SceneProcess {
     /// From checked values to the model; the path is the folder of the files that they name. `None` where a value is
     /// missing.
     pub(crate) build: fn(&Values, &Path) -> Option<ScenePart>,
+}
+
+/// A key or section of other processes that has no sense in one.
+#[derive(Debug)]
+pub struct Senseless {
+    /// Its path, `[]` after the name of a list.
+    pub path: &'static str,
+    /// Why: what this process does, as the rest of a sentence.
+    pub why: &'static str,
+    /// What to do instead.
+    pub instead: &'static str,
 }
 
 impl SceneProcess {

@@ -37,7 +37,7 @@ impl KeyTable {
     /// The table of these processes; where a choice has different defaults, that of the first one is the table's.
     ///
     /// # Panics
-    /// A process adds keys to a section that is in no list.
+    /// A process adds keys to a section that is in no list, or a key that the section has already.
     pub fn new(processes: &[&'static SceneProcess]) -> Self {
         let mut sections: Vec<TableSection> = keys::shared().map(TableSection::new).collect();
         for process in processes {
@@ -116,7 +116,15 @@ impl TableSection {
     }
 
     fn add(&mut self, addition: &'static Addition) {
-        self.keys.extend(addition.keys);
+        for key in addition.keys {
+            match self.keys.iter_mut().find(|known| known.name == key.name) {
+                Some(known) => {
+                    assert!(key.widens(known), "the key {} of {} is listed twice", key.name, self.path);
+                    *known = key;
+                }
+                None => self.keys.push(key),
+            }
+        }
         self.groups.extend(addition.groups);
     }
 

@@ -54,14 +54,18 @@ fn write_section(out: &mut String, own: &KeyTable, section: &TableSection) {
     }
 }
 
-/// Whether a section stands ready: it holds by default, or there is nothing else to choose.
+/// Whether a section stands ready: it holds by default, or there is nothing else to choose, and so do all that hold it.
 fn is_active(own: &KeyTable, section: &TableSection) -> bool {
-    let choice = own.section(section.parent_path()).map(|parent| parent.role);
-    match (section.role, choice) {
-        (Role::List { fewest }, _) => fewest > 0,
-        (Role::Variant, Some(Role::Choice { default, .. })) => default.is_none_or(|name| name == section.name()),
-        _ => true,
+    if section.path.is_empty() {
+        return true;
     }
+    let Some(holder) = own.section(section.parent_path()) else { return true };
+    let ready = match (section.role, holder.role) {
+        (Role::List { fewest }, _) => fewest > 0,
+        (Role::Variant, Role::Choice { default, .. }) => default.is_none_or(|name| name == section.name()),
+        _ => true,
+    };
+    ready && is_active(own, holder)
 }
 
 /// Whether a key stands ready, with the value that holds without it, or with its example if it must be written.

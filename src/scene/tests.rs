@@ -2,10 +2,10 @@
 
 use super::keys::{Addition, Default, Key, KeySection, Kind, Range, Role};
 use super::values::{Checked, Values};
-use super::{KeyTable, ProcessPart, ScenePart, SceneProcess, load, parse, reference, schema, template};
+use super::{KeyTable, ProcessPart, ScenePart, SceneProcess, Senseless, load, parse, reference, schema, template};
 use std::path::Path;
 
-/// Sawing: no linkage, a key in each shared section, one that is derived, one check.
+/// Sawing: no linkage, keys in shared sections, one that is derived, one with a word more, one check.
 static SAWING: SceneProcess = SceneProcess {
     name: "sawing",
     tool: "saw",
@@ -22,18 +22,29 @@ static SAWING: SceneProcess = SceneProcess {
         },
         KeySection { path: "tool.saw", role: Role::Variant, keys: &[], groups: &[], teach: "A saw." },
     ]],
-    added: &[&Addition {
-        path: "operation[]",
-        keys: &[Key {
-            name: "cuts",
-            kind: Kind::Whole { min: 1, max: 1000 },
-            unit: "",
-            default: Default::Derived("one for each tooth"),
-            example: "7",
-            teach: "Number of cuts.",
-        }],
-        groups: &[],
-    }],
+    added: &[
+        &Addition {
+            path: "operation[]",
+            keys: &[Key {
+                name: "cuts",
+                kind: Kind::Whole { min: 1, max: 1000 },
+                unit: "",
+                default: Default::Derived("one for each tooth"),
+                example: "7",
+                teach: "Number of cuts.",
+            }],
+            groups: &[],
+        },
+        &Addition {
+            path: "output",
+            keys: &[Key::word("gcode", &["linear", "jigsaw", "none"], "linear", "\"linear\"", "Form of programs.")],
+            groups: &[],
+        },
+    ],
+    per_revolution: &["cuts"],
+    of_one_gear: &[],
+    on_demand: &["measure"],
+    senseless: &[Senseless { path: "operation[].linkage", why: "an arm moves the saw", instead: "remove it and push" }],
     derive: |values| {
         let Some(teeth) = values.view("gear").whole("teeth") else { return };
         for index in 0..values.count("operation") {
@@ -72,6 +83,10 @@ static FILING: SceneProcess = SceneProcess {
         },
     ]],
     added: &[],
+    per_revolution: &[],
+    of_one_gear: &[],
+    on_demand: &[],
+    senseless: &[],
     derive: |_| {},
     check: |_| {},
     build: |_, _| None,
@@ -130,8 +145,9 @@ fn a_scene_gives_the_process_its_own_part_back() {
 #[test]
 fn keys_of_other_processes_and_contradictions_are_refused() {
     let foreign = problems(&format!("{SCENE}[[operation]]\n[operation.linkage.by_hand]\n"));
-    assert!(foreign.contains("`operation.linkage` belongs to filing; this scene is for sawing"), "{foreign}");
-    assert!(foreign.contains("write [tool.file] instead of [tool.saw]"), "{foreign}");
+    let why = "`operation.linkage` belongs to filing; this scene is for sawing, where an arm moves the saw";
+    assert!(foreign.contains(why), "{foreign}");
+    assert!(foreign.contains("remove it and push, or write [tool.file] instead of [tool.saw]"), "{foreign}");
     let foreign = problems(&format!("{}[[operation]]\ncuts = 3\n", SCENE.replace("saw", "file")));
     assert!(foreign.contains("`operation.cuts` belongs to sawing; this scene is for filing"), "{foreign}");
     assert!(problems(&format!("{SCENE}[coolant]\nflow_mm = 0\n")).contains("the saw runs dry"));
@@ -143,6 +159,16 @@ fn keys_of_other_processes_and_contradictions_are_refused() {
     assert!(missing.contains("`gearcut new sawing`"), "{missing}");
 }
 
+/// A section on demand holds where it is written, and is not written back where it is not.
+#[test]
+fn sections_on_demand_hold_where_they_are_written() {
+    let resolved = |text: &str| parse(text, "log.toml", Path::new(""), &[], &table()).expect("loads").resolved_toml();
+    assert!(!resolved(SCENE).contains("[measure]"));
+    let written = resolved(&format!("{SCENE}[measure]\nprofile_end_height_mm = 1.5\n"));
+    assert!(written.contains("[measure]") && written.contains("profile_end_height_mm = 1.5"), "{written}");
+    assert!(resolved(SCENE).contains("[material]"), "a section that is not on demand has its defaults");
+}
+
 #[test]
 fn what_is_printed_comes_from_the_table() {
     let template = template(&table(), "sawing").expect("a template");
@@ -152,8 +178,21 @@ fn what_is_printed_comes_from_the_table() {
     assert!(reference.contains("| `sawing/log.toml` | A log |\n\n## Keys\n"), "{reference}");
     // Its table stands at the end; its key comes after those of all operations.
     assert!(reference.find("### `[[picture]]`") < reference.find("### `[coolant]`"));
-    assert!(reference.find("| `stock_per_flank_mm`") < reference.find("| `cuts`"));
+    assert!(reference.find("- `stock_per_flank_mm`") < reference.find("- `cuts`"));
     assert!(schema::json_schema(&table()).contains("\"cuts\""));
+}
+
+#[test]
+fn a_word_that_one_process_knows_is_refused_to_others() {
+    let with_jigsaw = format!("{SCENE}[output]\ngcode = \"jigsaw\"\n");
+    parse(&with_jigsaw, "log.toml", Path::new(""), &[], &table()).expect("a word of sawing");
+    let refused = problems(&with_jigsaw.replace("[tool.saw]", "[tool.file]"));
+    assert!(refused.contains("log.toml:6:9") && refused.contains("\"linear\" or \"none\""), "{refused}");
+    // Schema and reference have it, in the place of the shared key and once.
+    let reference = reference::markdown(&table());
+    assert_eq!(reference.matches("- `gcode` (\"linear\", \"jigsaw\" or \"none\"").count(), 1, "{reference}");
+    assert!(reference.find("- `gcode`") < reference.find("- `gcode_contour_error_um`"));
+    assert!(schema::json_schema(&table()).contains("\"jigsaw\""));
 }
 
 /// The table's default is that of the first process with the choice; the others' are told.
@@ -195,4 +234,25 @@ fn keys_for_no_section_are_noticed() {
     static LOST: SceneProcess =
         SceneProcess { added: &[&Addition { path: "spoon", keys: &[], groups: &[] }], ..FILING };
     KeyTable::new(&[&LOST]);
+}
+
+#[test]
+#[should_panic(expected = "the key cuts of operation[] is listed twice")]
+fn a_key_that_two_processes_add_is_noticed() {
+    static SAWING_TOO: SceneProcess = SceneProcess { name: "sawing_too", added: SAWING.added, ..FILING };
+    KeyTable::new(&[&SAWING, &SAWING_TOO]);
+}
+
+#[test]
+#[should_panic(expected = "the key module_mm of gear is listed twice")]
+fn a_key_that_is_shared_already_is_noticed() {
+    static MODULE: SceneProcess = SceneProcess {
+        added: &[&Addition {
+            path: "gear",
+            keys: &[Key::number("module_mm", "mm", Range::closed(0.0, 9.0), 1.0, "2.0", "Again.")],
+            groups: &[],
+        }],
+        ..FILING
+    };
+    KeyTable::new(&[&MODULE]);
 }

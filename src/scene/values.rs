@@ -29,6 +29,13 @@ pub(super) struct Held {
     pub at: Option<At>,
 }
 
+impl Held {
+    /// Whether somebody wrote it, in the file or as `--set`.
+    pub fn is_written(&self) -> bool {
+        self.at.as_ref().is_some_and(|at| *at != At::Implied)
+    }
+}
+
 /// All values of a scene.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Values {
@@ -68,6 +75,16 @@ impl Values {
         if !self.written.contains(&full) {
             self.held.insert(full, Held { value, at: None });
         }
+    }
+
+    /// Whether a section is written.
+    pub fn has_section(&self, path: &str) -> bool {
+        self.sections.contains_key(path)
+    }
+
+    /// Takes the defaults of a section away.
+    pub(super) fn leave_out(&mut self, section: &str) {
+        self.held.retain(|path, _| path.rsplit_once('.').is_none_or(|(holder, _)| holder != section));
     }
 
     /// Whether a key is written, right or wrong.

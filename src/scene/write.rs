@@ -19,7 +19,9 @@ pub(super) fn resolved(name: &str, own: &KeyTable, values: &Values) -> String {
             let _ = writeln!(out, "{} = []", section.name());
         }
     }
-    let mut sections = own.sections().iter().peekable();
+    let on_demand = |path: &str| own.processes().iter().any(|process| process.on_demand.contains(&path));
+    let stands = |section: &&TableSection| !on_demand(section.path) || values.has_section(section.path);
+    let mut sections = own.sections().iter().filter(stands).peekable();
     while let Some(section) = sections.next() {
         let Some((list, _)) = section.path.split_once("[]") else {
             write_section(&mut out, section, section.path, values);

@@ -1,7 +1,6 @@
 //! The pitch curve: size, closure, curvature.
 
-use crate::gear::PitchCurve;
-use crate::gear::PitchCurveShape;
+use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
 use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Gear;
 use crate::units::UM_PER_MM;
@@ -108,8 +107,9 @@ pub fn gear_words(gear: &Gear) -> String {
         0.0 => String::new(),
         angle => format!(", helix angle {} deg {}-hand", plain(angle.to_degrees()), gear.hand.name()),
     };
+    let internal = if gear.kind == GearKind::Internal { "internal gear, " } else { "" };
     format!(
-        "{} teeth, module {} mm, pressure angle {} deg{helix}, face width {} mm",
+        "{internal}{} teeth, module {} mm, pressure angle {} deg{helix}, face width {} mm",
         gear.teeth,
         plain(gear.module_mm),
         plain(gear.pressure_angle_rad.to_degrees()),

@@ -17,7 +17,7 @@ use crate::surface::outline::{Outline, flank_name};
 use crate::surface::{BlankMesh, Mesh, SurfaceGrid};
 use crate::terms::Side;
 
-/// Heights shown beside each other on meshes of gears that were cut in one operation, µm: what good shaping leaves.
+/// Heights shown beside each other on meshes of gears that were cut in one operation, µm: what a good cut leaves.
 const HEIGHT_COLOURS_UM: f32 = 5.0;
 
 /// Colours of the stock that the last operation found, the same on maps, meshes and pictures.
@@ -26,7 +26,7 @@ pub fn stock_scale(job: &dyn GearJob) -> ColourScale {
     before_last.unwrap_or(ColourScale::Sequential { low: 0.0, high: 1.0 })
 }
 
-/// Quantity that vertices are coloured by: the stock where there is one, else the height over the target.
+/// Quantity that vertices are coloured by: the stock where there is one, else the normal deviation.
 fn colour(job: &dyn GearJob) -> (&'static str, ColourScale) {
     if job.operations().len() > 1 {
         ("stock_mm", stock_scale(job))
@@ -55,7 +55,7 @@ pub fn write_flank(
 /// A cylindrical gear as a closed body; tips are cut here.
 ///
 /// # Errors
-/// The backend's; a bore that reaches the teeth.
+/// The backend's; a bore or a rim that reaches the teeth.
 pub fn gear(
     job: &dyn CylindricalGear,
     backend: &dyn Backend,
@@ -66,7 +66,7 @@ pub fn gear(
     let step = progress.step("tips", u64::from(job.scene().gear.teeth), "teeth");
     let surfaces = gear_surfaces::complete(job, backend, flanks, roots, &|| step.advance(1))?;
     let outline = Outline::new(&surfaces, job.blank());
-    let solid = gear_solid(&outline, job.scene().gear.bore_diameter_mm)?;
+    let solid = gear_solid(&outline, &job.blank().back)?;
     step.finish();
     Ok(solid)
 }

@@ -132,7 +132,7 @@ impl PlanarGear<'_> {
         }
     }
 
-    /// Rays over a tip land, along the normals of the pitch curve and from it up, between the polar angles of the feet
+    /// Rays over a tip land, along the normals of the pitch curve and from it towards the tips, between the polar angles of the feet
     /// of both its ends; `None` where there is hardly any land. A ray that no pass reached says that the blank's own
     /// surface stands there; where a tool has cut the tips down, or a window left a tooth alone, it says that too.
     pub fn tip_field(&self, feet_rad: [f64; 2]) -> Option<Field> {
@@ -147,7 +147,8 @@ impl PlanarGear<'_> {
                 let arc_mm = (to_mm - from_mm) * (f64::from(i) + 0.5) / count;
                 let phi_rad = curve.phi_at_arc(from_mm + arc_mm);
                 let frame = curve.frame(phi_rad);
-                let point = ProfilePoint { arc_mm, point_mm: frame.point_mm, normal: frame.normal, phi_rad };
+                let normal = self.blank.towards_tip(&frame);
+                let point = ProfilePoint { arc_mm, point_mm: frame.point_mm, normal, phi_rad };
                 self.column(&point, self.blank.addendum_mm)
             })
             .collect();

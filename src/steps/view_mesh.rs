@@ -6,12 +6,12 @@
 //! by the shape.
 //!
 //! End faces need no general triangulation: every tooth is a ladder from its right to its left flank, and the ring
-//! below the teeth a strip from root to bore. All parts meet in the same points, so the mesh is closed (a test counts
+//! below the teeth a strip from root to bore or rim. All parts meet in the same points, so the mesh is closed (a test counts
 //! its edges).
 
 use crate::error::Result;
 use crate::job::{CylindricalGear, GearJob};
-use crate::surface::triangles::{Profile, Triangles};
+use crate::surface::triangles::{SectionProfile, Triangles};
 use crate::terms::Side;
 use glam::{DVec2, DVec3};
 
@@ -40,7 +40,7 @@ pub struct ViewFlank {
 pub struct ViewMesh {
     /// Flanks in order of teeth, left before right.
     pub flanks: Vec<ViewFlank>,
-    /// Roots, tip lands, end faces and bore.
+    /// Roots, tip lands, end faces, bore or rim.
     pub body: Triangles,
 }
 
@@ -69,15 +69,17 @@ impl ViewMesh {
         let rows_z_mm = job.view_rows_z_mm();
         let [bottom, top] = [0, rows_z_mm.len() - 1];
         let mut flanks = Vec::new();
-        let mut body = Triangles::default();
+        let gear = job.blank().kind();
+        let mut body = Triangles::of(gear);
         let mut rims = Vec::new();
         for tooth in 1..=job.scene().gear.teeth {
             let [left, right] =
                 [Side::Left, Side::Right].map(|side| job.target_profiles(tooth, side, SPACING_MM, &rows_z_mm));
             let ((left_arcs, left), (right_arcs, right)) = (left?, right?);
-            let tip: Vec<Profile> = right.iter().zip(&left).map(|(right, left)| tip_land(job, right, left)).collect();
+            let tip: Vec<SectionProfile> =
+                right.iter().zip(&left).map(|(right, left)| tip_land(job, right, left)).collect();
             for (side, arcs_mm, profiles) in [(Side::Left, left_arcs, &left), (Side::Right, right_arcs, &right)] {
-                let mut triangles = Triangles::default();
+                let mut triangles = Triangles::of(gear);
                 triangles.wall(profiles, &rows_z_mm, side == Side::Right);
                 flanks.push(ViewFlank { tooth, side, arcs_mm, rows_mm: rows_z_mm.clone(), triangles });
             }
@@ -85,7 +87,8 @@ impl ViewMesh {
             for k in [bottom, top] {
                 body.tooth_end([&right[k], &left[k], &tip[k]], rows_z_mm[k], k == top);
             }
-            let ends = |profiles: &[Profile]| -> Profile { profiles.iter().map(|profile| profile[0]).collect() };
+            let ends =
+                |profiles: &[SectionProfile]| -> SectionProfile { profiles.iter().map(|profile| profile[0]).collect() };
             rims.push((ends(&right), ends(&left)));
         }
         let mut rim: [Vec<DVec2>; 2] = Default::default();
@@ -98,28 +101,28 @@ impl ViewMesh {
                 rim.extend(roots[k][..roots[k].len() - 1].iter().map(|(point, _)| *point));
             }
         }
-        body.rings(&rim, 0.5 * job.scene().gear.bore_diameter_mm, [rows_z_mm[bottom], rows_z_mm[top]]);
+        body.rings(&rim, job.blank().back.radius_mm, [rows_z_mm[bottom], rows_z_mm[top]]);
         Ok(Self { flanks, body })
     }
 }
 
 /// Tip land from the right flank's tip to the left one's, as high over the pitch curve as they are.
-fn tip_land(job: &dyn CylindricalGear, right: &Profile, left: &Profile) -> Profile {
+fn tip_land(job: &dyn CylindricalGear, right: &SectionProfile, left: &SectionProfile) -> SectionProfile {
     let ends = [right[right.len() - 1].0, left[left.len() - 1].0];
     let foot = |point: DVec2| job.blank().height(point, point.to_angle());
     let heights = ends.map(|end| foot(end).0);
     (0..=TIP_INTERVALS)
         .map(|i| {
             let share = i as f64 / TIP_INTERVALS as f64;
-            let frame = job.curve().frame(foot(ends[0].lerp(ends[1], share)).1);
+            let foot_rad = foot(ends[0].lerp(ends[1], share)).1;
             let height_mm = heights[0] + share * (heights[1] - heights[0]);
             // The ends are the flanks' own points, to the last digit.
             let point = match i {
                 0 => ends[0],
                 TIP_INTERVALS => ends[1],
-                _ => frame.point_mm + height_mm * frame.normal,
+                _ => job.blank().at_height_mm(foot_rad, height_mm),
             };
-            (point, frame.normal.extend(0.0))
+            (point, job.blank().towards_tip(&job.curve().frame(foot_rad)).extend(0.0))
         })
         .collect()
 }
@@ -130,9 +133,9 @@ fn roots(
     job: &dyn CylindricalGear,
     space: u32,
     rows_z_mm: &[f64],
-    left: &Profile,
-    right: &Profile,
-) -> Result<Vec<Profile>> {
+    left: &SectionProfile,
+    right: &SectionProfile,
+) -> Result<Vec<SectionProfile>> {
     let roots = job.target_roots(space, SPACING_MM, rows_z_mm)?;
     // Points nearly on the flanks' ends would make needles of triangles; what is left out in one section is left out in
     // all.

@@ -3,6 +3,7 @@
 use crate::dexel::{BlankField, BlankGrid};
 use crate::error::Refusal;
 use crate::findings::{Quantity, Section};
+use crate::gear::GearKind;
 use crate::gear::blank::Blank;
 use crate::gear::blank_outline::BlankOutline;
 use crate::measure::damage::OperationVolume;
@@ -23,7 +24,7 @@ pub fn grid(scene: &Scene, blank: &Blank, alike: bool) -> Result<BlankGrid, Refu
 pub fn field(scene: &Scene, blank: &Blank, alike: bool) -> Result<BlankField, Refusal> {
     let outline = BlankOutline::new(blank);
     let grid = grid_within(scene, blank, &outline, alike)?;
-    Ok(BlankField::new(grid, &outline, 0.5 * scene.gear.bore_diameter_mm))
+    Ok(BlankField::new(grid, &outline))
 }
 
 fn grid_within(scene: &Scene, blank: &Blank, outline: &BlankOutline, alike: bool) -> Result<BlankGrid, Refusal> {
@@ -34,21 +35,22 @@ fn grid_within(scene: &Scene, blank: &Blank, outline: &BlankOutline, alike: bool
 
 /// What begins the section of the whole gear: rays, volumes by both families of rays (mm3), and how well they agree.
 pub fn findings(
+    kind: GearKind,
     spacing_mm: f64,
     slices: (usize, &'static str),
     [blank_mm3, left_mm3]: [[f64; 2]; 2],
     operations: &[OperationVolume],
 ) -> Section {
+    let uncut = match kind {
+        GearKind::External => "volume of the uncut blank less its bore; mean of both families of rays",
+        GearKind::Internal => "volume of the uncut ring; mean of both families of rays",
+    };
     let volume = |families, definition: &'static str| Quantity::number(mean(families), "mm3", definition);
     let imbalance = operations.iter().map(OperationVolume::imbalance).fold(0.0, f64::max);
     Section::new("blank", "The whole gear")
         .with("spacing", Quantity::number(spacing_mm, "mm", "distance of the rays through the blank"))
         .with("slices", Quantity::count(slices.0 as u64, "slices", slices.1))
-        .shown(
-            "blank_volume",
-            "blank",
-            volume(blank_mm3, "volume of the uncut blank less its bore; mean of both families of rays"),
-        )
+        .shown("blank_volume", "blank", volume(blank_mm3, uncut))
         .shown("left_volume", "left", volume(left_mm3, "volume that is left after the last operation"))
         .with(
             "imbalance",

@@ -31,7 +31,7 @@ pub struct SurfaceGrid {
     pub straight_target_mm: Option<Vec<DVec2>>,
     /// Points on the surface, gear frame, mm.
     pub points_mm: Vec<DVec3>,
-    /// Height over the target, µm.
+    /// Normal deviation, µm.
     pub height_um: Vec<f32>,
     /// Normal stock that the last operation found: the surface before it less the surface after it, mm; NaN where one
     /// of them is the blank's own, `None` if there was one operation only.
@@ -135,12 +135,12 @@ impl SurfaceGrid {
     }
 }
 
-/// Height over the target as a quantity.
+/// Normal deviation as a quantity.
 pub fn height_scalar(values: Vec<f32>) -> Scalar {
     Scalar {
         name: "height_um",
         unit: "um",
-        definition: "height over the target along its normal after the last operation".to_owned(),
+        definition: "normal deviation from the target after the last operation".to_owned(),
         values: ScalarValues::F32(values),
     }
 }

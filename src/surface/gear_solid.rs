@@ -1,7 +1,7 @@
-//! The cut gear as one closed body: the outline of every row lofted to the next one, two end faces, and the bore.
+//! The cut gear as one closed body: the outline of every row lofted to the next one, two end faces, and the back.
 //!
-//! In: the outline and the bore. Out: a closed [`Mesh`] with a part per flank, tip and root, and `bore`, `face_top`,
-//! `face_bottom`; heights, stock and pass ids on the vertices of the outline.
+//! In: the outline and the back. Out: a closed [`Mesh`] with a part per flank, tip and root, and `bore` (or, of a ring,
+//! `rim`), `face_top`, `face_bottom`; heights, stock and pass ids on the vertices of the outline.
 //!
 //! Every column of the outline has the same neighbours in every row, so that edges have two triangles by construction;
 //! the end faces use the outline's own vertices and add none (`plane_area`). An outline that crosses itself has no end
@@ -13,37 +13,37 @@ use super::outline::Outline;
 use super::plane_area::{sides_of_contours, triangles_inside};
 use crate::dexel::NO_PASS;
 use crate::error::Refusal;
+use crate::gear::{Back, GearKind};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// Columns of the bore: a chord error below 0.1 % of its radius.
+/// Columns of a bore: a chord error below 0.1 % of its radius.
 const BORE_COLUMNS: usize = 192;
+/// Columns of a rim, which is the largest surface of a ring: its section is short of 0.002 %.
+const RIM_COLUMNS: usize = 720;
 
 /// Closed body of a gear.
 ///
 /// # Errors
-/// A bore that reaches the tooth roots; an outline that crosses itself.
-pub fn gear_solid(outline: &Outline, bore_diameter_mm: f64) -> Result<Mesh, Refusal> {
+/// A bore or rim that reaches the tooth roots; an outline that crosses itself.
+pub fn gear_solid(outline: &Outline, back: &Back) -> Result<Mesh, Refusal> {
     let rows = outline.rows();
     let columns = outline.columns.len();
-    let bore_radius_mm = 0.5 * bore_diameter_mm;
-    let thinnest_mm =
-        outline.columns.iter().flat_map(|c| &c.points_mm).map(|p| p.length()).fold(f64::INFINITY, f64::min);
-    if bore_radius_mm >= 0.999 * thinnest_mm {
-        return Err(Refusal::new(
-            "gear.bore_diameter_mm",
-            format!(
-                "the bore of {bore_diameter_mm} mm reaches the tooth roots, which come down to {:.3} mm",
-                2.0 * thinnest_mm
-            ),
-            "use a smaller bore",
-        ));
-    }
-    let bore_columns = if bore_radius_mm > 0.0 { BORE_COLUMNS } else { 0 };
-    let bore: Vec<DVec2> =
-        (0..bore_columns).map(|i| bore_radius_mm * DVec2::from_angle(TAU * i as f64 / bore_columns as f64)).collect();
+    clear_of_roots(outline, back)?;
+    let back_columns = match back.kind {
+        GearKind::External if back.radius_mm == 0.0 => 0,
+        GearKind::External => BORE_COLUMNS,
+        GearKind::Internal => RIM_COLUMNS,
+    };
+    let circle: Vec<DVec2> =
+        (0..back_columns).map(|i| back.radius_mm * DVec2::from_angle(TAU * i as f64 / back_columns as f64)).collect();
     let at = |column: usize, row: usize| (column * rows + row) as u32;
-    let bore_at = |column: usize, end: usize| (columns * rows + 2 * column + end) as u32;
+    let back_at = |column: usize, end: usize| (columns * rows + 2 * column + end) as u32;
+    // Counter-clockwise seen from outside: the outline of a ring is gone round the other way.
+    let facing = |triangle: [u32; 3]| match back.kind {
+        GearKind::External => triangle,
+        GearKind::Internal => [triangle[0], triangle[2], triangle[1]],
+    };
     let ends_mm = [outline.rows_z_mm[0], outline.rows_z_mm[rows - 1]];
 
     let mut positions_mm: Vec<DVec3> = outline
@@ -51,7 +51,7 @@ pub fn gear_solid(outline: &Outline, bore_diameter_mm: f64) -> Result<Mesh, Refu
         .iter()
         .flat_map(|column| column.points_mm.iter().zip(&outline.rows_z_mm).map(|(p, &z)| p.extend(z)))
         .collect();
-    positions_mm.extend(bore.iter().flat_map(|p| ends_mm.map(|z| p.extend(z))));
+    positions_mm.extend(circle.iter().flat_map(|p| ends_mm.map(|z| p.extend(z))));
 
     let mut mesh = Mesh { positions_mm, ..Mesh::default() };
     let mut lofted: Vec<Vec<[u32; 3]>> = vec![Vec::new(); outline.parts.len()];
@@ -62,7 +62,7 @@ pub fn gear_solid(outline: &Outline, bore_diameter_mm: f64) -> Result<Mesh, Refu
         let part = if outline.parts[b].starts_with("tooth") { a } else { b };
         for r in 1..rows {
             let [p, q, s, t] = [at(c, r - 1), at(next, r - 1), at(next, r), at(c, r)];
-            lofted[part].extend([[p, q, s], [p, s, t]]);
+            lofted[part].extend([[p, q, s], [p, s, t]].map(facing));
         }
     }
     let mut add = |name: &str, triangles: Vec<[u32; 3]>, measured: bool| {
@@ -75,28 +75,32 @@ pub fn gear_solid(outline: &Outline, bore_diameter_mm: f64) -> Result<Mesh, Refu
     for (name, triangles) in outline.parts.iter().zip(lofted) {
         add(name, triangles, true);
     }
-    let wall = (0..bore_columns).flat_map(|c| {
-        let next = (c + 1) % bore_columns;
-        let [p, q, s, t] = [bore_at(c, 0), bore_at(next, 0), bore_at(next, 1), bore_at(c, 1)];
-        [[p, s, q], [p, t, s]]
+    let wall = (0..back_columns).flat_map(|c| {
+        let next = (c + 1) % back_columns;
+        let [p, q, s, t] = [back_at(c, 0), back_at(next, 0), back_at(next, 1), back_at(c, 1)];
+        [[p, s, q], [p, t, s]].map(facing)
     });
-    add("bore", wall.collect(), false);
-    let contours = sides_of_contours(&[columns, bore_columns]);
+    add(back.name(), wall.collect(), false);
+    let contours = sides_of_contours(&[columns, back_columns]);
     for (end, row, name) in [(0, 0, "face_bottom"), (1, rows - 1, "face_top")] {
-        let points_mm: Vec<DVec2> = outline.row_mm(row).into_iter().chain(bore.iter().rev().copied()).collect();
-        // The bore is a hole: it runs clockwise.
-        let vertex = |i: usize| if i < columns { at(i, row) } else { bore_at(columns + bore_columns - 1 - i, end) };
+        // What is a hole runs clockwise: the bore, or the outline of a ring.
+        let mut order: [Vec<usize>; 2] = [(0..columns).collect(), (0..back_columns).collect()];
+        order[usize::from(back.kind == GearKind::External)].reverse();
+        let row_mm = outline.row_mm(row);
+        let [teeth, round] = &order;
+        let points_mm: Vec<DVec2> = teeth.iter().map(|&c| row_mm[c]).chain(round.iter().map(|&c| circle[c])).collect();
+        let vertex = |i: usize| if i < columns { at(teeth[i], row) } else { back_at(round[i - columns], end) };
         let inside = triangles_inside(&points_mm, &contours).unwrap_or_default();
         let triangles = inside.into_iter().map(|[a, b, c]| if end == 1 { [a, b, c] } else { [a, c, b] }.map(vertex));
         add(name, triangles.collect(), false);
     }
-    let bore_vertices = 2 * bore_columns;
+    let back_vertices = 2 * back_columns;
     let values = |pick: fn(&super::outline::OutlineColumn) -> &Vec<f32>| -> Vec<f32> {
         outline
             .columns
             .iter()
             .flat_map(|c| pick(c).iter().copied())
-            .chain(std::iter::repeat_n(f32::NAN, bore_vertices))
+            .chain(std::iter::repeat_n(f32::NAN, back_vertices))
             .collect()
     };
     let passes = outline.columns.iter().flat_map(|c| c.passes.iter().copied());
@@ -104,7 +108,7 @@ pub fn gear_solid(outline: &Outline, bore_diameter_mm: f64) -> Result<Mesh, Refu
     if outline.has_stock {
         mesh.scalars.push(stock_scalar(values(|c| &c.stock_mm)));
     }
-    mesh.scalars.push(pass_scalar(passes.chain(std::iter::repeat_n(NO_PASS, bore_vertices)).collect()));
+    mesh.scalars.push(pass_scalar(passes.chain(std::iter::repeat_n(NO_PASS, back_vertices)).collect()));
     if !mesh.is_closed() {
         return Err(Refusal::new(
             "output.mesh_spacing_mm",
@@ -116,4 +120,40 @@ pub fn gear_solid(outline: &Outline, bore_diameter_mm: f64) -> Result<Mesh, Refu
         ));
     }
     Ok(mesh)
+}
+
+/// Refuses a bore or a rim that the tooth roots reach.
+fn clear_of_roots(outline: &Outline, back: &Back) -> Result<(), Refusal> {
+    let radii_mm = outline.columns.iter().flat_map(|c| &c.points_mm).map(|p| p.length());
+    match back.kind {
+        GearKind::External => {
+            let thinnest_mm = radii_mm.fold(f64::INFINITY, f64::min);
+            if back.radius_mm >= 0.999 * thinnest_mm {
+                return Err(Refusal::new(
+                    "gear.bore_diameter_mm",
+                    format!(
+                        "the bore of {} mm reaches the tooth roots, which come down to {:.3} mm",
+                        2.0 * back.radius_mm,
+                        2.0 * thinnest_mm
+                    ),
+                    "use a smaller bore",
+                ));
+            }
+        }
+        GearKind::Internal => {
+            let deepest_mm = radii_mm.fold(0.0, f64::max);
+            if back.radius_mm <= deepest_mm / 0.999 {
+                return Err(Refusal::new(
+                    "gear.rim_mm",
+                    format!(
+                        "the ring of {:.3} mm diameter is reached by the tooth roots, which come up to {:.3} mm",
+                        2.0 * back.radius_mm,
+                        2.0 * deepest_mm
+                    ),
+                    "use a thicker rim",
+                ));
+            }
+        }
+    }
+    Ok(())
 }

@@ -1,15 +1,19 @@
-//! Triangles with normals for a viewer: walls between sections, end faces, bores.
+//! Triangles with normals for a viewer: walls between sections, end faces, bores and rims.
+//!
+//! Profiles run counter-clockwise round the gear axis. The material of an external gear lies on their left, that of a
+//! ring on their right, where all triangles turn over.
 
 use crate::dexel::Ray;
+use crate::gear::GearKind;
 use crate::units::TURN_RAD;
 use glam::{DVec2, DVec3};
 
 /// Points of the target in one transverse section, gear frame, mm, each with the target's unit normal out of the gear.
-pub type Profile = Vec<(DVec2, DVec3)>;
+pub type SectionProfile = Vec<(DVec2, DVec3)>;
 
 /// Profiles of transverse sections as points and normals in space.
-pub fn in_space(profiles: &[Profile], rows_z_mm: &[f64]) -> Vec<Vec<Ray>> {
-    let row = |(profile, &z_mm): (&Profile, &f64)| {
+pub fn in_space(profiles: &[SectionProfile], rows_z_mm: &[f64]) -> Vec<Vec<Ray>> {
+    let row = |(profile, &z_mm): (&SectionProfile, &f64)| {
         profile.iter().map(|&(point, normal)| Ray { origin_mm: point.extend(z_mm), normal }).collect()
     };
     profiles.iter().zip(rows_z_mm).map(row).collect()
@@ -18,6 +22,8 @@ pub fn in_space(profiles: &[Profile], rows_z_mm: &[f64]) -> Vec<Vec<Ray>> {
 /// Triangles with a normal at every corner; counter-clockwise seen from outside.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Triangles {
+    /// Of an external gear or of a ring.
+    pub gear: GearKind,
     /// Corners, mm.
     pub positions_mm: Vec<[f32; 3]>,
     /// Unit normals at the corners.
@@ -27,6 +33,11 @@ pub struct Triangles {
 }
 
 impl Triangles {
+    /// None yet, of an external gear or of a ring.
+    pub fn of(gear: GearKind) -> Self {
+        Self { gear, ..Self::default() }
+    }
+
     /// One more corner; its index.
     pub fn corner(&mut self, point_mm: DVec3, normal: DVec3) -> u32 {
         self.positions_mm.push(point_mm.as_vec3().to_array());
@@ -34,9 +45,10 @@ impl Triangles {
         self.positions_mm.len() as u32 - 1
     }
 
-    /// Profiles of all sections joined along the tooth; `forward`: they run counter-clockwise round the gear.
-    pub fn wall(&mut self, profiles: &[Profile], rows_z_mm: &[f64], forward: bool) {
-        self.surface(&in_space(profiles, rows_z_mm), forward);
+    /// Profiles of all sections joined along the tooth; `forward`: they run counter-clockwise round the gear axis with the
+    /// teeth, clockwise with its back.
+    pub fn wall(&mut self, profiles: &[SectionProfile], rows_z_mm: &[f64], forward: bool) {
+        self.surface(&in_space(profiles, rows_z_mm), forward == (self.gear == GearKind::External));
     }
 
     /// A surface of points and normals in space, row after row along the tooth, each along the profile; `forward`: the
@@ -58,19 +70,20 @@ impl Triangles {
         }
     }
 
-    /// Flat polygons at one end of the face from triangles that are counter-clockwise seen from +z.
+    /// Flat polygons at one end of the face from triangles that, on an external gear, are counter-clockwise seen from +z.
     pub fn end(&mut self, points: &[DVec2], triangles: &[[usize; 3]], z_mm: f64, top: bool) {
         let first = self.positions_mm.len() as u32;
         for &point in points {
             self.corner(point.extend(z_mm), if top { DVec3::Z } else { DVec3::NEG_Z });
         }
         for [a, b, c] in triangles.iter().map(|triangle| triangle.map(|corner| first + corner as u32)) {
-            self.indices.extend(if top { [a, b, c] } else { [a, c, b] });
+            let as_given = top == (self.gear == GearKind::External);
+            self.indices.extend(if as_given { [a, b, c] } else { [a, c, b] });
         }
     }
 
     /// One end of one tooth: a ladder between its right and its left flank, a fan under its tip land.
-    pub fn tooth_end(&mut self, [right, left, tip]: [&Profile; 3], z_mm: f64, top: bool) {
+    pub fn tooth_end(&mut self, [right, left, tip]: [&SectionProfile; 3], z_mm: f64, top: bool) {
         let points: Vec<DVec2> =
             right.iter().chain(left).chain(&tip[1..tip.len() - 1]).map(|&(point, _)| point).collect();
         let (r_last, l_first) = (right.len() - 1, right.len());
@@ -93,18 +106,18 @@ impl Triangles {
         self.end(&points, &triangles, z_mm, top);
     }
 
-    /// Both end faces (bottom, top) from their closed rims (counter-clockwise) to the bore, and the bore; without a
-    /// bore to the axis.
-    pub fn rings(&mut self, rims: &[Vec<DVec2>; 2], bore_radius_mm: f64, rows_z_mm: [f64; 2]) {
-        let bores = [0, 1].map(|k| {
-            if bore_radius_mm <= 0.0 {
-                self.fan(&rims[k], rows_z_mm[k], k == 1);
-                return Profile::new();
+    /// Both end faces (bottom, top) from their closed root lines (counter-clockwise) to the back, and the back; without
+    /// a bore to the axis.
+    pub fn rings(&mut self, roots: &[Vec<DVec2>; 2], back_radius_mm: f64, rows_z_mm: [f64; 2]) {
+        let backs = [0, 1].map(|k| {
+            if back_radius_mm <= 0.0 {
+                self.fan(&roots[k], rows_z_mm[k], k == 1);
+                return SectionProfile::new();
             }
-            self.ring(&rims[k], bore_radius_mm, rows_z_mm[k], k == 1)
+            self.ring(&roots[k], back_radius_mm, rows_z_mm[k], k == 1)
         });
-        if bore_radius_mm > 0.0 {
-            self.wall(&bores, &rows_z_mm, false);
+        if back_radius_mm > 0.0 {
+            self.wall(&backs, &rows_z_mm, false);
         }
     }
 
@@ -116,30 +129,31 @@ impl Triangles {
         self.end(&points, &fan, z_mm, top);
     }
 
-    /// An end face round a bore; gives the bore's closed outline with its normals.
-    pub fn ring(&mut self, rim: &[DVec2], bore_radius_mm: f64, z_mm: f64, top: bool) -> Profile {
-        let count = rim.len();
-        let bore: Vec<DVec2> = (0..count)
-            .map(|i| bore_radius_mm * DVec2::from_angle(rim[0].to_angle() + TURN_RAD * i as f64 / count as f64))
+    /// An end face between the root line and the back; gives the back's closed outline with its normals.
+    pub fn ring(&mut self, roots: &[DVec2], back_radius_mm: f64, z_mm: f64, top: bool) -> SectionProfile {
+        let count = roots.len();
+        let back: Vec<DVec2> = (0..count)
+            .map(|i| back_radius_mm * DVec2::from_angle(roots[0].to_angle() + TURN_RAD * i as f64 / count as f64))
             .collect();
-        // Rim and bore have equally many points; each rim point looks for the bore point in its own direction.
-        let points: Vec<DVec2> = rim.iter().copied().chain(bore.iter().copied()).collect();
-        let turns = |point: DVec2| (point.to_angle() - rim[0].to_angle()).rem_euclid(TURN_RAD) / TURN_RAD;
-        let (mut outer, mut inner) = (0, 0);
+        // Both have equally many points; each root point looks for the back's point in its own direction.
+        let points: Vec<DVec2> = roots.iter().copied().chain(back.iter().copied()).collect();
+        let turns = |point: DVec2| (point.to_angle() - roots[0].to_angle()).rem_euclid(TURN_RAD) / TURN_RAD;
+        let (mut at_roots, mut at_back) = (0, 0);
         let mut triangles = Vec::new();
-        while outer < count || inner < count {
-            let place = |i: usize| if i >= count { 1.0 } else { turns(rim[i]) };
+        while at_roots < count || at_back < count {
+            let place = |i: usize| if i >= count { 1.0 } else { turns(roots[i]) };
             let ahead = |i: usize| i as f64 / count as f64;
-            let (o, i) = (outer % count, count + inner % count);
-            if outer < count && (inner == count || place(outer + 1) <= ahead(inner + 1)) {
-                triangles.push([o, (outer + 1) % count, i]);
-                outer += 1;
+            let (o, i) = (at_roots % count, count + at_back % count);
+            if at_roots < count && (at_back == count || place(at_roots + 1) <= ahead(at_back + 1)) {
+                triangles.push([o, (at_roots + 1) % count, i]);
+                at_roots += 1;
             } else {
-                triangles.push([o, count + (inner + 1) % count, i]);
-                inner += 1;
+                triangles.push([o, count + (at_back + 1) % count, i]);
+                at_back += 1;
             }
         }
         self.end(&points, &triangles, z_mm, top);
-        bore.iter().chain([&bore[0]]).map(|&point| (point, (-point.normalize_or_zero()).extend(0.0))).collect()
+        let normal = |point: DVec2| (-self.gear.tip_sign() * point.normalize_or_zero()).extend(0.0);
+        back.iter().chain([&back[0]]).map(|&point| (point, normal(point))).collect()
     }
 }

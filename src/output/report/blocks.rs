@@ -1,5 +1,6 @@
 //! What stands on the page: sections of headings, charts, tables and notes.
 
+use super::table::PageTable;
 use super::texture::{self, TextureBlock};
 use super::traces::{self, TraceSheet};
 use crate::output::bar_chart::BarChart;
@@ -45,17 +46,6 @@ pub enum Block {
     Verbatim(String),
 }
 
-/// A table.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PageTable {
-    /// What it shows.
-    pub caption: String,
-    /// Heads of the columns; empty for a list of names and values.
-    pub columns: Vec<String>,
-    /// Rows; the first cell names the row.
-    pub rows: Vec<Vec<String>>,
-}
-
 impl PageSection {
     /// The section as HTML.
     pub(super) fn markup(&self) -> Markup {
@@ -85,48 +75,6 @@ impl Block {
                 details { summary { (summary) } @for block in blocks { (block.markup()) } }
             },
             Self::Verbatim(text) => html! { pre tabindex="0" { (text) } },
-        }
-    }
-}
-
-impl PageTable {
-    /// The table as HTML.
-    pub(super) fn markup(&self) -> Markup {
-        // A column of numbers is set to the right.
-        let number = |column: usize| {
-            let cells = || self.rows.iter().filter_map(|row| row.get(column));
-            !self.columns.is_empty()
-                && cells().all(|cell| cell.starts_with(|c: char| c.is_ascii_digit() || "−-–+".contains(c)))
-        };
-        let class = |column: usize| if number(column) { "number" } else { "" };
-        html! {
-            div class="table" tabindex="0" role="group" aria-label=(self.caption) {
-                table class=(if self.columns.is_empty() { "list" } else { "" }) {
-                    caption { (self.caption) }
-                    @if !self.columns.is_empty() {
-                        thead {
-                            tr {
-                                @for (index, column) in self.columns.iter().enumerate() {
-                                    th scope="col" class=(class(index)) { (column) }
-                                }
-                            }
-                        }
-                    }
-                    tbody {
-                        @for row in &self.rows {
-                            tr {
-                                @for (index, cell) in row.iter().enumerate() {
-                                    @if index == 0 {
-                                        th scope="row" class=(class(0)) { (cell) }
-                                    } @else {
-                                        td class=(class(index)) { (cell) }
-                                    }
-                                }
-                            }
-                        }
-                    }
-                }
-            }
         }
     }
 }

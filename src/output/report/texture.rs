@@ -2,6 +2,7 @@
 //!
 //! In: one [`TextureBlock`] per window, plain numbers as ISO 25178-2 defines them. Out: markup.
 
+use super::table::PageTable;
 use maud::{Markup, html};
 
 use crate::output::ratio_chart::RatioChart;
@@ -96,14 +97,14 @@ fn first_parameters(window: &TextureBlock) -> Markup {
 }
 
 /// Every parameter with its definition, or with the reason why it does not exist.
-fn all_parameters(window: &TextureBlock) -> super::PageTable {
+fn all_parameters(window: &TextureBlock) -> PageTable {
     let row = |parameter: &ParameterRow| match &parameter.value {
         Ok(value) => vec![parameter.symbol.clone(), value.clone(), parameter.definition.clone()],
         Err(why) => {
             vec![parameter.symbol.clone(), "–".to_owned(), format!("{}; none here: {why}", parameter.definition)]
         }
     };
-    super::PageTable {
+    PageTable {
         caption: "Parameters after the chain".to_owned(),
         columns: ["Symbol", "Value", "Definition"].map(str::to_owned).to_vec(),
         rows: window.parameters.iter().map(row).collect(),

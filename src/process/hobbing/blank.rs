@@ -25,6 +25,8 @@ pub struct HobbedBlank {
     pub cut: CutBlank,
     /// What the passes of each operation took.
     pub chips: Vec<Vec<PassChip>>,
+    /// The same slice by slice; empty where the scene does not name the material, and no force is computed.
+    pub in_slices: Vec<Vec<PassChip>>,
 }
 
 impl HobbingJob {
@@ -60,7 +62,7 @@ impl HobbingJob {
                 self.tooth_outline(tooth, right_forms, z_mm, spacing_mm)
             })
             .collect();
-        TargetOutline::new(teeth.concat())
+        TargetOutline::new(teeth.concat(), self.blank.back)
     }
 
     /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise. Flanks begin where the fillet
@@ -139,7 +141,7 @@ impl HobCutter<'_> {
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<HobbedBlank>> {
         let mut cut = CutBlank { blank_mm3: field.volumes_mm3(), field, left_mm3: Vec::new(), cuts: Vec::new() };
-        let mut chips = Vec::new();
+        let (mut chips, mut in_slices) = (Vec::new(), Vec::new());
         for (index, passes) in self.operations.iter().enumerate() {
             let sections = self.sections(index, true)?;
             let ids = passes.first_pass..passes.end_pass();
@@ -148,8 +150,11 @@ impl HobCutter<'_> {
             };
             cut.cuts.push(done.cut);
             chips.push(done.chips);
+            if self.job.material.is_some() {
+                in_slices.push(done.in_slices);
+            }
             cut.left_mm3.push(cut.field.volumes_mm3());
         }
-        Ok(Some(HobbedBlank { cut, chips }))
+        Ok(Some(HobbedBlank { cut, chips, in_slices }))
     }
 }

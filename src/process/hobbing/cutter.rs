@@ -1,8 +1,7 @@
 //! Cutting a hobbing job: the passes of all operations, the dexel field of every flank.
 //!
 //! In: [`HobbingJob`]. Out: fields and layers, one flank at a time, so that memory does not grow with the number of
-//! teeth. Of every flank only the target stays, once somebody has asked for it: some ten kilobytes of polynomials,
-//! found by nested searches that take longer than a thousand dexels.
+//! teeth. Passes and the targets that somebody has asked for stay with the job, which makes them once.
 
 use super::HobbingJob;
 use crate::cut::{Backend, CutStats};
@@ -10,11 +9,11 @@ use crate::dexel::PlacedRays;
 use crate::dexel::{Layer, SpatialField};
 use crate::error::{Refusal, Result};
 use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, rows_z_mm};
-use crate::passes::{MotionTable, SweepPlan, TurningPasses};
+use crate::passes::{SweepPlan, TurningPasses};
 use crate::process::hobbing::flank_patch::FlankPatch;
+use crate::process::hobbing::kept::Kept;
 use crate::terms::Side;
-use crate::tool::SpatialTool;
-use std::sync::OnceLock;
+use std::borrow::Cow;
 
 /// Places along profile and tooth at which the blank's height over the flank is taken; between them it is bilinear: it
 /// matters only where nothing cuts.
@@ -25,9 +24,8 @@ pub struct HobCutter<'a> {
     /// The job.
     pub job: &'a HobbingJob,
     /// Passes of every operation, numbered on from one to the next.
-    pub operations: Vec<TurningPasses>,
-    /// Targets that were asked for: left and right flank of tooth 1, then of tooth 2 and so on.
-    targets: Vec<OnceLock<Result<FlankPatch, Refusal>>>,
+    pub operations: Cow<'a, [TurningPasses]>,
+    kept: &'a Kept,
 }
 
 /// One flank after all operations.
@@ -37,6 +35,8 @@ pub struct HobbedFlank<'a> {
     pub target: &'a FlankPatch,
     /// Rays; columns stand at arcs of the middle section.
     pub rays: PlacedRays,
+    /// Arcs between which the scene has it measured, where it names them ([`HobCutter::measured_ends_mm`]), mm.
+    pub measured_ends_mm: [Option<f64>; 2],
     /// What each operation left, in order.
     pub layers: Vec<Layer>,
     /// What the backend met.
@@ -44,35 +44,13 @@ pub struct HobbedFlank<'a> {
 }
 
 impl<'a> HobCutter<'a> {
-    /// Passes of all operations.
+    /// The cutter of a job; the job makes the passes when the first one asks for them.
     ///
     /// # Errors
     /// More passes than can be numbered.
     pub fn new(job: &'a HobbingJob) -> Result<Self> {
-        let mut operations = Vec::new();
-        let mut first_pass = 0;
-        for operation in &job.operations {
-            let linkage = &operation.linkage;
-            let hob_at = |time_s: f64| linkage.axes::<1>(time_s).hob_rad.value();
-            // Sweeps reach a little further than the moments at which their blades point to the work.
-            let beyond_rad = job.hob.half_window_rad();
-            let range_rad = [hob_at(0.0) - beyond_rad, hob_at(linkage.end_s()) + beyond_rad];
-            if f64::from(first_pass) + job.passes(operation) >= f64::from(u32::MAX) {
-                return Err(Refusal::new(
-                    "operation.axial_feed_mm_per_revolution",
-                    format!("operation {} has more passes than can be numbered", operation.spec.name),
-                    "use a larger feed or fewer gashes",
-                )
-                .into());
-            }
-            let corners: Vec<f64> = linkage.corners_s().iter().map(|&time_s| hob_at(time_s)).collect();
-            let motion = MotionTable::new(range_rad, &corners, |angle| linkage.head_from_work(angle));
-            let passes = TurningPasses::new(first_pass, &job.hob, job.hob.hand, motion)?;
-            first_pass = passes.end_pass();
-            operations.push(passes);
-        }
-        let targets = (0..2 * job.scene.gear.teeth).map(|_| OnceLock::new()).collect();
-        Ok(Self { job, operations, targets })
+        let kept = job.kept()?;
+        Ok(Self { job, operations: Cow::Borrowed(&kept.operations), kept })
     }
 
     /// Target flank of a tooth.
@@ -81,9 +59,14 @@ impl<'a> HobCutter<'a> {
     /// The hob generates no flank there.
     pub fn target(&self, tooth: u32, side: Side) -> Result<&FlankPatch, Refusal> {
         let job = self.job;
-        let place = 2 * (tooth as usize - 1) + usize::from(side == Side::Right);
         let find = || FlankPatch::new(&job.target, &job.blank, tooth, side, job.scene.gear.face_width_mm);
-        self.targets[place].get_or_init(find).as_ref().map_err(Clone::clone)
+        self.kept.target(tooth, side, find)
+    }
+
+    /// Arcs of a target's profile, in the middle of the face, at the heights between which the scene evaluates it, mm;
+    /// `None` where the scene names no height, or the flank does not reach it.
+    pub fn measured_ends_mm(&self, target: &FlankPatch) -> [Option<f64>; 2] {
+        self.job.scene.measure.ends_mm(|height_mm| target.arc_at_height_mm(&self.job.blank, height_mm))
     }
 
     /// Places of the rays of a flank with the scene's spacing: along its profile and along the tooth, mm.
@@ -149,7 +132,7 @@ impl<'a> HobCutter<'a> {
     pub fn cut_field(&self, backend: &dyn Backend, field: &SpatialField) -> Result<(Vec<Layer>, CutStats)> {
         let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
         let mut stats = CutStats::default();
-        for passes in &self.operations {
+        for passes in self.operations.iter() {
             let plan = SweepPlan::new(field, passes);
             let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
             stats += backend.cut_spatial(field, &plan, &mut layer)?;
@@ -165,6 +148,6 @@ impl<'a> HobCutter<'a> {
     pub fn cut(&self, backend: &dyn Backend, tooth: u32, side: Side) -> Result<HobbedFlank<'_>> {
         let (target, rays) = self.rays(tooth, side)?;
         let (layers, stats) = self.cut_field(backend, &rays.field)?;
-        Ok(HobbedFlank { target, rays, layers, stats })
+        Ok(HobbedFlank { target, rays, measured_ends_mm: self.measured_ends_mm(target), layers, stats })
     }
 }

@@ -4,8 +4,7 @@ use crate::cut::Backend;
 use crate::error::{Error, Result};
 use crate::interrupt::Interrupt;
 use crate::measure::crossing::Crossing;
-use crate::measure::deviation::{self, PitchDeviations, Runout};
-use crate::measure::thickness::Thickness;
+use crate::measure::inspection::GearInspection;
 use crate::output::progress::Progress;
 use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::cutter::HobbedFlank;
@@ -25,12 +24,8 @@ pub struct HobbedGear {
     pub flanks: Vec<HobbedReport>,
     /// Where five curves beside the pitch curve cross them.
     pub points: Vec<Vec<CurvePoint>>,
-    /// Pitch deviations of left and right flanks.
-    pub pitch: [Option<PitchDeviations>; 2],
-    /// Places of a probe in the space after each tooth.
-    pub runout: Option<Runout>,
-    /// Thickness of each tooth on the pitch curve.
-    pub thickness: Vec<Option<Thickness>>,
+    /// Pitch, runout and thickness in the middle of the face.
+    pub inspection: GearInspection,
     /// Maps of all finished flanks at map spacing.
     pub maps: GearMaps,
     /// Their surfaces at mesh spacing; empty where nothing that is written needs them.
@@ -70,37 +65,31 @@ pub fn cut_gear(
     if cut.reports.is_empty() {
         return Err(Error::Interrupted);
     }
-    let (flanks, points) = cut.reports.into_iter().unzip();
-    let mut gear = HobbedGear {
+    let (flanks, points): (Vec<HobbedReport>, Vec<Vec<CurvePoint>>) = cut.reports.into_iter().unzip();
+    Ok(HobbedGear {
+        inspection: inspection(cutter, &flanks, &points),
         flanks,
         points,
-        pitch: [None, None],
-        runout: None,
-        thickness: Vec::new(),
         maps: cut.maps,
         surfaces: cut.surfaces,
         passes: cutter.operations.iter().map(crate::passes::TurningPasses::count).collect(),
         work: cut.work,
-    };
-    measure_teeth(cutter, &mut gear);
-    Ok(gear)
+    })
 }
 
 /// Pitch, runout and thickness from where the flanks cross the pitch curve in the middle of the face.
-fn measure_teeth(cutter: &HobCutter, gear: &mut HobbedGear) {
+fn inspection(cutter: &HobCutter, flanks: &[HobbedReport], points: &[Vec<CurvePoint>]) -> GearInspection {
     let spec = &cutter.job.scene.gear;
     let crossings = |side: Side| -> Vec<Option<Crossing>> {
         (1..=spec.teeth)
             .map(|tooth| {
-                let at = gear.flanks.iter().position(|flank| flank.tooth == tooth && flank.side == side)?;
-                offset_curves::pitch_crossing(&gear.points[at], cutter)
+                let at = flanks.iter().position(|flank| flank.tooth == tooth && flank.side == side)?;
+                offset_curves::pitch_crossing(&points[at], cutter)
             })
             .collect()
     };
     let [left, right] = [Side::Left, Side::Right].map(crossings);
-    let (curve, pitch_mm) = (&cutter.job.curve, PI * spec.transverse_module_mm());
-    gear.pitch = [&left, &right].map(|side| deviation::pitch(side, pitch_mm, curve.perimeter_mm()));
-    gear.runout = deviation::runout(curve, &left, &right, spec.transverse_pressure_angle_rad());
-    gear.thickness =
-        left.iter().zip(&right).map(|(left, right)| Some(Thickness::between((*left)?, (*right)?))).collect();
+    let pitch_mm = PI * spec.transverse_module_mm();
+    let pressure_angle_rad = spec.transverse_pressure_angle_rad();
+    GearInspection::of_crossings(&cutter.job.blank, [&left, &right], pitch_mm, pressure_angle_rad)
 }

@@ -7,7 +7,9 @@
 use crate::error::{Refusal, Result};
 use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
+use crate::material::CuttingForce;
 use crate::process::hobbing::Hob;
+use crate::process::hobbing::kept::{self, Kept};
 use crate::process::hobbing::linkage::{FeedPlan, HobbingGeometry, HobbingLaw, HobbingLinkage};
 use crate::process::hobbing::rack_generation::{Rack, RackGeneration};
 use crate::process::hobbing::scene::model::{
@@ -17,7 +19,7 @@ use crate::scene::Scene;
 use crate::scene::model::Gear;
 use crate::units::TURN_RAD;
 use std::f64::consts::PI;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// How far the hob's tips may come under the gear's root curve in a hollow of the pitch curve, mm.
 const GOUGE_TOLERANCE_MM: f64 = 1e-3;
@@ -43,9 +45,13 @@ pub struct HobbingJob {
     /// The scene.
     pub scene: Scene,
     /// The hob as the scene describes it.
-    pub hob_spec: model::Hob,
+    pub hob_spec: model::HobSpec,
     /// Limits of the axes.
     pub limits: HobbingAxisLimits,
+    /// Whether axis programs are written.
+    pub programs: bool,
+    /// Cutting force of the work's material, where the scene names it.
+    pub material: Option<CuttingForce>,
     /// The pitch curve.
     pub curve: Arc<PitchCurve>,
     /// The hob.
@@ -56,6 +62,7 @@ pub struct HobbingJob {
     pub operations: Vec<PreparedHobbing>,
     /// What the finishing operation leaves in the limit of many gashes and a fine feed.
     pub target: RackGeneration,
+    kept: OnceLock<Result<Kept, Refusal>>,
 }
 
 impl HobbingJob {
@@ -75,12 +82,12 @@ impl HobbingJob {
     /// Geometry that cannot be cut.
     pub fn past_hollows(scene: &Scene) -> Result<Self> {
         let gear = &scene.gear;
-        let Some(Hobbing { tool, limits, operations: specs }) = Hobbing::of(scene) else {
+        let Some(Hobbing { tool, limits, operations: specs, material, programs }) = Hobbing::of(scene) else {
             return Err(Refusal::new("tool", "this tool does not hob gears", "write [tool.hob] for hobbing").into());
         };
         let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
         let hob = Hob::new(tool, gear.module_mm, gear.pressure_angle_rad)?;
-        let blank = Blank::new(curve.clone(), gear.addendum_coefficient * gear.module_mm)?;
+        let blank = gear.blank(curve.clone())?;
         // A hob pulled back by d leaves teeth 2 d tan(alpha_t) thicker on the pitch curve.
         let allowance_mm = gear.tooth_thickness_allowance_mm / (2.0 * gear.transverse_pressure_angle_rad().tan());
         let mut operations = Vec::new();
@@ -101,11 +108,14 @@ impl HobbingJob {
             scene: scene.clone(),
             hob_spec: tool.clone(),
             limits: *limits,
+            programs: *programs,
+            material: *material,
             curve,
             hob,
             blank,
             operations,
             target,
+            kept: OnceLock::new(),
         })
     }
 
@@ -116,8 +126,17 @@ impl HobbingJob {
 
     /// Passes of an operation: every tooth in every turn of the hob.
     pub fn passes(&self, operation: &PreparedHobbing) -> f64 {
-        let turns = operation.linkage.axes::<1>(operation.linkage.end_s()).hob_rad.value() / TURN_RAD;
-        turns * self.hob.teeth.len() as f64
+        kept::passes(&self.hob, &operation.linkage)
+    }
+
+    /// Passes and targets, made when somebody asks first and the same ever after.
+    ///
+    /// # Errors
+    /// More passes than can be numbered.
+    pub(super) fn kept(&self) -> Result<&Kept, Refusal> {
+        let linkages = || self.operations.iter().map(|operation| (operation.spec.name.as_str(), &operation.linkage));
+        let make = || Kept::new(&self.hob, linkages(), self.scene.gear.teeth);
+        self.kept.get_or_init(make).as_ref().map_err(Clone::clone)
     }
 
     /// Height of the generating marks at the pitch line where the curve bends by `curvature_per_mm`: consecutive gashes

@@ -9,6 +9,7 @@ pub mod gcode;
 pub mod gear;
 pub mod hob;
 pub mod job;
+mod kept;
 pub mod linkage;
 pub mod measure;
 pub mod rack_generation;

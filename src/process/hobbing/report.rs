@@ -15,7 +15,7 @@ use crate::process::hobbing::{HobCutter, HobbedGear};
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations;
-use crate::steps::report::deviations::{Inspected, Inspection};
+use crate::steps::report::deviations::{Inspection, InspectionWords};
 use crate::steps::report::{PageGear, RunWords, key_number, record, texture};
 use crate::steps::view_mesh::ViewMesh;
 use std::f64::consts::PI;
@@ -24,6 +24,8 @@ use std::f64::consts::PI;
 pub struct Charts {
     /// Bars by hob tooth, with the names of their files; none where the run was stopped before the whole blank was cut.
     pub loads: Vec<(String, BarChart)>,
+    /// Cutting force over time, with the names of their files; none where the scene does not name the material.
+    pub forces: Vec<(String, LineChart)>,
     /// Frequencies of errors of the points on five curves; none where nothing spreads.
     pub points: Option<LineChart>,
 }
@@ -42,12 +44,11 @@ pub fn page(
     folder: &OutputFolder,
 ) -> Result<Page> {
     let job = cutter.job;
-    let inspection = inspection(cutter, gear);
-    let mut sections = vec![deviations::section(&inspection)];
+    let mut sections = vec![deviations::section(&inspection(cutter, gear))];
     sections.extend(charts.points.map(five_curves));
     sections.push(marks_section(found));
     sections.extend(texture::section(found, folder)?);
-    sections.extend(load_section(found, charts.loads));
+    sections.extend(load_section(found, charts.loads, charts.forces));
     sections.push(axes::section(
         motion,
         found,
@@ -74,23 +75,14 @@ pub fn page(
 
 fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
     let standard_mm = 0.5 * PI * cutter.job.scene.gear.transverse_module_mm();
-    let flanks = gear.flanks.iter().map(|flank| Inspected {
-        tooth: flank.tooth,
-        side: flank.side,
-        profile: (&flank.profile_trace, flank.profile),
-        lead: (&flank.helix_trace, flank.helix),
-    });
-    Inspection {
-        flanks: flanks.collect(),
-        pitch: &gear.pitch,
-        runout: gear.runout.as_ref(),
-        thickness_mm: gear.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect(),
+    let words = InspectionWords {
         profile_place: "roll from the pitch point, up to the tip",
         lead_place: "in the middle of the profile",
         lead_name: "Helix",
         target: "the surface that the last operation would leave with infinitely many gashes and an infinitely fine \
             feed",
-    }
+    };
+    Inspection::new(&gear.flanks, &gear.inspection, standard_mm, words)
 }
 
 fn five_curves(chart: LineChart) -> PageSection {
@@ -149,14 +141,30 @@ fn marks_section(found: &Findings) -> PageSection {
 }
 
 /// Nothing where the run was stopped before the whole blank was cut.
-fn load_section(found: &Findings, charts: Vec<(String, BarChart)>) -> Option<PageSection> {
-    (!charts.is_empty()).then(|| PageSection {
+fn load_section(
+    found: &Findings,
+    loads: Vec<(String, BarChart)>,
+    forces: Vec<(String, LineChart)>,
+) -> Option<PageSection> {
+    if loads.is_empty() {
+        return None;
+    }
+    let mut blocks: Vec<Block> = loads.into_iter().map(|(_, chart)| Block::Bars(chart)).collect();
+    blocks.extend(forces.into_iter().map(|(_, chart)| Block::Lines(chart)));
+    if let Some(force) = found.find("hob_force") {
+        blocks.push(Block::Note(format!(
+            "Cutting force: {}. Accuracy {}.",
+            force.words("law"),
+            force.words("accuracy")
+        )));
+    }
+    Some(PageSection {
         id: "load",
         title: "Work of the hob's teeth".to_owned(),
         lead: format!(
             "What each tooth of the hob does in the whole process, approach and overrun included. The load is the {}.",
             found.find("hob_load").map_or("", |load| load.words("assumption"))
         ),
-        blocks: charts.into_iter().map(|(_, chart)| Block::Bars(chart)).collect(),
+        blocks,
     })
 }

@@ -3,6 +3,7 @@
 pub mod blank;
 mod findings;
 mod flank_table;
+pub mod force;
 pub mod load;
 mod marks;
 mod points;
@@ -47,21 +48,27 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     let whole = if gear.work.interrupted { None } else { blank::cut(&cutter, backend, progress, interrupt)? };
     gear.work.interrupted |= whole.is_none();
     let loads = whole.as_ref().map_or_else(Vec::new, |whole| load::measure(&cutter, &whole.blank));
+    let forces = whole.as_ref().map_or_else(Vec::new, |whole| force::measure(&cutter, &whole.blank));
     let motion = HobbingAxesReport::of_job(job);
     let measured = findings::Measured {
         motion: &motion,
         textures: &textures,
         lattices: &lattices,
-        whole: whole.as_ref().map(|whole| (whole, loads.as_slice())),
+        whole: whole.as_ref().map(|whole| (whole, loads.as_slice(), forces.as_slice())),
     };
     let found = findings::findings(&cutter, &gear, &measured);
-    let load_charts = load::charts(job, &loads);
+    let mut load_charts = load::charts(job, &loads);
+    load_charts.extend(force::bars(job, &forces));
+    let force_charts = force::over_time(job, &forces);
     let points_chart = points::chart(&job.scene.name, &gear);
     if let Some(whole) = whole.as_ref().filter(|_| parts.has(Part::Meshes)) {
         meshes::write_blank(&cutter, &whole.blank.cut, folder)?;
     }
     if parts.has(Part::Chips) {
         for (stem, chart) in &load_charts {
+            chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
+        }
+        for (stem, chart) in &force_charts {
             chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
         }
     }
@@ -96,7 +103,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     }
     if parts.has(Part::Report) {
         let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
-        let charts = report::Charts { loads: load_charts, points: points_chart };
+        let charts = report::Charts { loads: load_charts, forces: force_charts, points: points_chart };
         write_report(tools, || report::page(&cutter, &gear, &found, charts, &motion, &words, folder))?;
     }
     let out = folder.results_path(!gear.work.interrupted);

@@ -21,7 +21,7 @@ use crate::process::hobbing::measure::flank_report;
 use crate::process::hobbing::rack_root::RackRootPoint;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
-use crate::surface::triangles::{Profile, in_space};
+use crate::surface::triangles::{SectionProfile, in_space};
 use crate::terms::Side;
 use glam::DVec2;
 
@@ -56,7 +56,8 @@ impl GearJob for HobCutter<'_> {
     }
 
     fn evaluated_profile_mm(&self, tooth: u32, side: Side) -> Result<[f64; 2]> {
-        Ok(flank_report::evaluated_mm([0.0, self.target(tooth, side)?.length_mm()]))
+        let target = self.target(tooth, side)?;
+        Ok(flank_report::evaluated_mm(target.length_mm(), self.measured_ends_mm(target)))
     }
 
     fn teeth_that_differ_most(&self) -> Vec<u32> {
@@ -64,7 +65,7 @@ impl GearJob for HobCutter<'_> {
     }
 
     fn tooth_frame(&self, tooth: u32) -> ToothFrame {
-        ToothFrame::of_cylinder(&self.job.curve, &self.job.scene.gear, tooth)
+        ToothFrame::of_cylinder(&self.job.blank, &self.job.scene.gear, tooth)
     }
 
     fn target_points(
@@ -119,7 +120,7 @@ impl CylindricalGear for HobCutter<'_> {
         side: Side,
         spacing_mm: f64,
         rows_z_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Profile>)> {
+    ) -> Result<(Vec<f64>, Vec<SectionProfile>)> {
         let target = self.target(tooth, side)?;
         let intervals = (target.length_mm() / spacing_mm).ceil().max(1.0);
         let arcs: Vec<f64> = (0..=intervals as usize).map(|i| target.length_mm() * i as f64 / intervals).collect();
@@ -131,7 +132,7 @@ impl CylindricalGear for HobCutter<'_> {
         Ok((arcs, rows_z_mm.iter().map(profile).collect()))
     }
 
-    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<Profile>> {
+    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>> {
         let roots = self.roots(space, spacing_mm, rows_z_mm)?;
         Ok(roots
             .into_iter()

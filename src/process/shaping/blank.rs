@@ -7,24 +7,40 @@ use crate::error::{Refusal, Result};
 use crate::frame::Rigid2;
 use crate::measure::target_outline::TargetOutline;
 use crate::passes::StrokeSet;
+use crate::passes::planar::strokes::StrokeLaw;
+use crate::process::shaping::linkage::CutterPose;
 use crate::process::shaping::target::{FlankEnd, TargetFlank, target_root};
+use crate::process::shaping::tip_relief::TipRelief;
 use crate::terms::Side;
 use crate::units::TURN_RAD;
 use glam::DVec2;
 use rayon::prelude::*;
 
 impl ShapingJob {
-    /// Poses of the return strokes of an operation: the cutter drawn back along the line of centres. `None` where the
-    /// machine does not back off.
+    /// Poses of the return strokes of an operation: the cutter drawn back out of the gear as its retraction says. `None`
+    /// where the machine does not back off.
+    ///
+    /// An axis program moves the axes for the retraction itself, unless the machine's own relief does.
     pub fn return_strokes(&self, operation: usize) -> Option<StrokeSet> {
         let operation = &self.operations[operation];
         let back_off_mm = self.machine.back_off_mm;
+        let out = self.blank.kind().tip_sign();
         let set = &operation.strokes;
         let eccentricity_mm = self.eccentricity_mm();
+        let (retraction, schedule) = (&operation.retraction, &operation.schedule);
+        let resting = set.law == StrokeLaw::Frozen;
+        let return_middle = self.ram_times().return_middle;
         let pose = |lambda: f64| {
             let pose = operation.pose(lambda);
-            let back = pose.center_mm.normalize_or_zero() * back_off_mm;
-            Rigid2::new(pose.angle_rad, pose.center_mm + back - eccentricity_mm)
+            let pose = if !retraction.is_in_axes() {
+                let back = pose.center_mm.normalize_or_zero() * (out * back_off_mm);
+                CutterPose { center_mm: pose.center_mm + back, ..pose }
+            } else if operation.program.is_some() {
+                operation.pose(if resting { lambda + return_middle } else { lambda })
+            } else {
+                retraction.retracted(schedule.linkage(), &pose, schedule.phi_rad(lambda))
+            };
+            Rigid2::new(pose.angle_rad, pose.center_mm - eccentricity_mm)
         };
         (back_off_mm > 0.0).then(|| StrokeSet::returning(set.first_pass, &self.cutter, set.law, set.count(), pose))
     }
@@ -53,14 +69,19 @@ impl ShapingJob {
             .into_par_iter()
             .map(|tooth| self.tooth_outline(tooth, spacing_mm))
             .collect::<Result<_, _>>()?;
-        Ok(TargetOutline::new(teeth.concat()))
+        Ok(TargetOutline::new(teeth.concat(), self.blank.back))
     }
 
     /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise.
     fn tooth_outline(&self, tooth: u32, spacing_mm: f64) -> Result<Vec<DVec2>, Refusal> {
         let [right, left] = [Side::Right, Side::Left].map(|side| self.target_flank(tooth, side));
-        for flank in [right, left] {
-            if matches!(flank.tip_end, FlankEnd::CutterBase | FlankEnd::Undercut) {
+        let reliefs = [right, left].map(|flank| TipRelief::new(flank, &self.blank));
+        for (flank, relief) in [right, left].into_iter().zip(&reliefs) {
+            let known = match flank.tip_end {
+                FlankEnd::CutterBase => relief.is_some(),
+                end => end != FlankEnd::Undercut,
+            };
+            if !known {
                 return Err(Refusal::new(
                     "tool.shaper_cutter",
                     format!(
@@ -75,22 +96,23 @@ impl ShapingJob {
             let count = (flank.length_mm() / spacing_mm).ceil().max(1.0) as usize;
             (0..=count).map(|i| flank.at_arc(flank.length_mm() * i as f64 / count as f64).point_mm).collect()
         };
+        let relieved = |relief: &Option<TipRelief>| relief.as_ref().map_or(Vec::new(), |r| r.points_mm(spacing_mm));
+        let [right_tip, left_tip] = reliefs.each_ref().map(relieved);
         let mut points = along(right);
-        if left.tip_end == FlankEnd::BlankOutline && right.tip_end == FlankEnd::BlankOutline {
-            let foot = |flank: &TargetFlank| {
+        points.extend(&right_tip);
+        if left.tip_end != FlankEnd::PointedTip && right.tip_end != FlankEnd::PointedTip {
+            let foot = |flank: &TargetFlank, tip_mm: &[DVec2]| {
                 let tip = flank.at_arc(flank.length_mm());
-                self.blank.height(tip.point_mm, tip.phi_rad).1
+                self.blank.height(tip_mm.last().copied().unwrap_or(tip.point_mm), tip.phi_rad).1
             };
-            let (from, to) = (foot(right), foot(left));
+            let (from, to) = (foot(right, &right_tip), foot(left, &left_tip));
             // Tips lie within a tooth of each other, but contact angles may be a turn apart.
             let to = from + (to - from).rem_euclid(TURN_RAD);
-            let land = |phi: f64| {
-                let frame = self.curve.frame(phi);
-                frame.point_mm + self.blank.addendum_mm * frame.normal
-            };
+            let land = |phi: f64| self.blank.outline_mm(phi);
             let count = (land(from).distance(land(to)) / spacing_mm).ceil().max(1.0) as usize;
             points.extend((1..count).map(|i| land(from + (to - from) * i as f64 / count as f64)));
         }
+        points.extend(left_tip.into_iter().rev());
         points.extend(along(left).into_iter().rev());
         points.extend(target_root(self.target_generation(), i64::from(tooth), spacing_mm).iter().map(|p| p.point_mm));
         Ok(points)

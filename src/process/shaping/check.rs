@@ -1,16 +1,20 @@
-//! What a shaping scene means: teeth, axes, cost.
+//! What a shaping scene means: teeth, axes, return strokes, cost.
 
 mod cost;
 mod facts;
+mod returns;
+pub mod ring;
 mod teeth;
 
 use crate::error::Result;
+use crate::gear::GearKind;
 use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use facts::ToothFacts;
+use ring::RingFacts;
 
 /// Prints everything; what must be known before cutting.
 ///
@@ -23,12 +27,19 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>> {
     sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
     check_curve::print(sheet, &job.curve, &job.scene.gear, Some(job.cutter.pitch_radius_mm));
     teeth::print(sheet, job, &facts);
+    let ring = (job.blank.kind() == GearKind::Internal).then(|| RingFacts::new(job));
+    if let Some(ring) = &ring {
+        ring::print(sheet, job, ring);
+    }
     for operation in &operations {
         axes::print(operation, sheet);
     }
+    let of_returns = returns::print(sheet, job)?;
     cost::print(sheet, job, &facts)?;
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
     warnings.extend(teeth::warnings(job, &facts));
+    warnings.extend(ring.iter().flat_map(ring::warnings));
     warnings.extend(axes::warnings(&operations));
+    warnings.extend(of_returns);
     Ok(warnings)
 }

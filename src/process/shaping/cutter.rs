@@ -18,6 +18,9 @@ use crate::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 
+/// Smallest root circle, as a share of the pitch radius: a choice, no limit of the method. The teeth need a body with a
+/// bore; with usual dedenda of 1.25 modules it refuses cutters of three teeth and fewer.
+const LEAST_ROOT_SHARE: f64 = 0.2;
 /// The involute is followed down to the roll where its tangent leaves it by this much at the base circle: half the edge
 /// tables' tolerance.
 const BASE_CIRCLE_TOLERANCE_MM: f64 = 2.5e-8;
@@ -40,6 +43,8 @@ pub struct ShaperCutter {
     pub half_angle_rad: f64,
     /// Rolls where the involute starts (near the base circle) and ends (at the tip corner).
     pub roll_range: [f64; 2],
+    /// Length of the straight base between the involute and the root circle; 0 where the involute reaches it.
+    pub base_length_mm: f64,
     /// What lies between the left flank and the tip circle, from the flank on; the right side mirrors it.
     pub corner: Vec<CornerPart>,
     edges: BladeEdges,
@@ -74,7 +79,7 @@ impl ShaperCutter {
     ///
     /// # Errors
     /// Pointed teeth, a tip round that does not fit, a pitch error list of the wrong length.
-    pub fn new(spec: &model::ShaperCutter, gear: &Gear) -> Result<Self, Refusal> {
+    pub fn new(spec: &model::CutterSpec, gear: &Gear) -> Result<Self, Refusal> {
         let (m, alpha) = (gear.module_mm, gear.pressure_angle_rad);
         let pitch_radius_mm = 0.5 * m * f64::from(spec.teeth);
         let base_radius_mm = pitch_radius_mm * alpha.cos();
@@ -84,7 +89,7 @@ impl ShaperCutter {
         let thickness_mm = 0.5 * PI * m + 2.0 * x0 * m * alpha.tan() - spec.thinning_mm;
         let half_angle_rad = 0.5 * thickness_mm / pitch_radius_mm + inv(alpha);
         let left = Involute { base_radius_mm, half_angle_rad, side: 1.0 };
-        if root_radius_mm <= 0.2 * pitch_radius_mm {
+        if root_radius_mm <= LEAST_ROOT_SHARE * pitch_radius_mm {
             return Err(Refusal::new(
                 "tool.shaper_cutter.dedendum_coefficient",
                 format!("the cutter's root circle has radius {root_radius_mm:.3} mm; nothing is left of its body"),
@@ -185,12 +190,14 @@ impl ShaperCutter {
             left_half.push(Segment::involute(SegmentName::FlankLeft, left, [rolls[1], rolls[0]]).map_err(no_fit)?);
         }
         let mut root_from_rad = start.to_angle();
+        let mut base_length_mm = 0.0;
         if start_radius_mm > root_radius_mm + 1e-6 {
             let inwards = left.normal(start_roll).perp();
             let b = start.dot(inwards);
             let run =
                 -b - (b * b - start_radius_mm * start_radius_mm + root_radius_mm * root_radius_mm).max(0.0).sqrt();
             let end = start + run * inwards;
+            base_length_mm = run;
             root_from_rad = end.to_angle();
             left_half.push(Segment::straight(SegmentName::BaseLeft, start, end));
         }
@@ -225,6 +232,7 @@ impl ShaperCutter {
             tip_radius_mm,
             half_angle_rad,
             roll_range: [start_roll, end_roll],
+            base_length_mm,
             corner,
             edges: BladeEdges::shared(Edge::new(segments)),
             runout_mm: spec.runout_mm * DVec2::from_angle(spec.runout_angle_rad),
@@ -267,6 +275,7 @@ pub(crate) mod tests {
     /// The paper's cutter: 20 teeth of module 3.
     pub(crate) fn paper_cutter(tip: model::Tip) -> ShaperCutter {
         let gear = Gear {
+            kind: crate::gear::GearKind::External,
             module_mm: 3.0,
             teeth: 42,
             pressure_angle_rad: 20_f64.to_radians(),
@@ -275,10 +284,11 @@ pub(crate) mod tests {
             face_width_mm: 30.0,
             addendum_coefficient: 1.0,
             bore_diameter_mm: 20.0,
+            rim_mm: 0.0,
             tooth_thickness_allowance_mm: 0.0,
             pitch_curve: crate::gear::PitchCurveShape::Circle,
         };
-        let spec = model::ShaperCutter {
+        let spec = model::CutterSpec {
             teeth: 20,
             addendum_coefficient: 1.25,
             dedendum_coefficient: 1.25,

@@ -61,7 +61,7 @@ fn deviations(report: &GearReport) -> Section {
         .reduce(|best, next| if next.1.total_mm > best.1.total_mm { next } else { best });
     let profile = um(
         worst.map(|(_, profile)| profile.total_mm),
-        "largest range of heights over the target along an evaluated profile, middle of the face",
+        "largest range of normal deviations along an evaluated profile, middle of the face",
     );
     let profile = match worst {
         Some((flank, of)) => {
@@ -71,7 +71,7 @@ fn deviations(report: &GearReport) -> Section {
         None => profile,
     };
     let pitch = |pick: fn(&PitchDeviations) -> f64, definition: &'static str| {
-        um(report.pitch.iter().flatten().map(pick).reduce(f64::max), definition)
+        um(report.inspection.pitch.iter().flatten().map(pick).reduce(f64::max), definition)
     };
     Section::new("deviations", "Deviations of the finished gear")
         .shown("profile_deviation", "profile deviation F_alpha", profile)
@@ -92,7 +92,7 @@ fn deviations(report: &GearReport) -> Section {
             "runout",
             "runout F_r",
             um(
-                report.runout.as_ref().map(Runout::total_mm),
+                report.inspection.runout.as_ref().map(Runout::total_mm),
                 "range of a probe's place along the pitch curve's normal over all spaces",
             ),
         )
@@ -106,7 +106,7 @@ pub fn place(flank: &FlankReport, at: &Extreme) -> Place {
 /// What a reader must know before trusting the numbers.
 pub fn warnings(report: &GearReport, stats: &CutStats, interrupted: bool, motion: &[OperationAxes]) -> Vec<String> {
     let mut warnings = Vec::new();
-    let below: u64 = report.flanks.iter().map(|f| f.below_range).sum();
+    let below: u64 = report.flanks.iter().map(|f| f.own.below_range).sum();
     if below > 0 {
         warnings.push(format!("{below} dexels were cut deeper than their rays record: heights there are upper bounds"));
     }
@@ -117,11 +117,11 @@ pub fn warnings(report: &GearReport, stats: &CutStats, interrupted: bool, motion
     let deepest = report
         .flanks
         .iter()
-        .filter_map(|flank| Some((flank, flank.undercut?)))
+        .filter_map(|flank| Some((flank, flank.own.undercut?)))
         .min_by(|a, b| a.1.value_mm.total_cmp(&b.1.value_mm))
         .filter(|(_, deepest)| deepest.value_mm < -GOUGE_MM);
     if let Some((flank, deepest)) = deepest {
-        let count = report.flanks.iter().filter(|f| f.undercut.is_some_and(|u| u.value_mm < -GOUGE_MM)).count();
+        let count = report.flanks.iter().filter(|f| f.own.undercut.is_some_and(|u| u.value_mm < -GOUGE_MM)).count();
         warnings.push(format!(
             "{count} flanks are cut below the target, tooth {} {} by {} um, {:.2} mm above the start of the involute",
             flank.tooth,

@@ -15,9 +15,14 @@
 //! at `eta' / lambda`. Where lambda changes its sign the envelope turns back: undercut. A circle of the tool (tip
 //! round, sharp corner with radius 0, tip circle) touches along the normal of its centre's path.
 //!
+//! Here sigma is +1 on the cutter flank that cuts the left gear flank of an external gear, the cutter's own left one. In
+//! a ring the cutter's teeth point the other way and its right flank cuts the left gear flank; chi' changes its sign as
+//! well, so that the same branch of the arcsine belongs to the same **gear** flank.
+//!
 //! For the finishing linkages this equals `q = P + (S_e - S) cos(a) (cos(a) t + sigma sin(a) n)`, independent of the
 //! cutter (checked against the oracle).
 
+use crate::gear::GearKind;
 use crate::math::jet::Jet;
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::cutter::CornerPart;
@@ -79,28 +84,33 @@ impl Generation {
         let axes = self.linkage.axes(phi_rad, self.offset_mm);
         let d = |jet: &Jet<3>| [jet.value(), jet.derivative(1), jet.derivative(2)];
         let [psi, psi1, psi2] = d(&axes.psi_c_rad);
-        let [turn, turn1, turn2] = d(&axes.psi_b_rad);
+        let [_, turn1, turn2] = d(&axes.psi_b_rad);
         let [l, l1, l2] = d(&axes.center_distance_mm);
         let out = DVec2::from_angle(psi);
         CutterMotion {
             center: out * l,
             center_rate: out * l1 + out.perp() * (l * psi1),
             center_rate_2: out * (l2 - l * psi1 * psi1) + out.perp() * (2.0 * l1 * psi1 + l * psi2),
-            angle: psi + PI + turn,
+            angle: axes.pose(self.gear()).angle_rad,
             angle_rate: psi1 + turn1,
             angle_rate_2: psi2 + turn2,
         }
     }
 
+    /// The gear that is generated.
+    pub fn gear(&self) -> GearKind {
+        self.linkage.gear()
+    }
+
     /// Cutter orientation for the tooth that cuts space `space` (any integer, counted along the arc without wrapping).
     fn tooth_angle(&self, cutter_angle: f64, space: i64) -> f64 {
-        cutter_angle - TAU * space as f64 / f64::from(self.cutter.teeth)
+        cutter_angle - self.gear().tip_sign() * TAU * space as f64 / f64::from(self.cutter.teeth)
     }
 
     /// Contact of the cutter flank that cuts side `side` of space `space` at `phi_rad`; `None` where the flank touches
     /// nothing.
     pub fn flank_contact(&self, phi_rad: f64, space: i64, side: Side) -> Option<FlankContact> {
-        let sigma = side.sign();
+        let sigma = self.gear().tip_sign() * side.sign();
         let m = self.motion(phi_rad);
         let r_b = self.cutter.base_radius_mm;
         let speed = m.center_rate.length();
@@ -112,8 +122,10 @@ impl Generation {
         let path_turn = m.center_rate.perp_dot(m.center_rate_2) / (speed * speed);
         let x_rate = -r_b * (m.angle_rate_2 - m.angle_rate * along / speed) / speed;
         let cos = (1.0 - x * x).sqrt();
-        // The branch on which the left flank touches ahead of the line of centres and the right flank behind it.
-        let (delta, delta_rate) = if sigma > 0.0 { (x.asin(), x_rate / cos) } else { (-PI - x.asin(), -x_rate / cos) };
+        // The branch on which the left flank of the gear touches ahead of the line of centres and the right flank behind
+        // it.
+        let (delta, delta_rate) =
+            if side == Side::Left { (x.asin(), x_rate / cos) } else { (-PI - x.asin(), -x_rate / cos) };
         let eta = m.center_rate.to_angle() - delta;
         let eta_rate = path_turn - delta_rate;
         let chi = self.tooth_angle(m.angle, space);
@@ -128,6 +140,19 @@ impl Generation {
             roll_rate: -sigma * (eta_rate - m.angle_rate),
             speed_mm_per_rad: m.center_rate.dot(e) - sigma * r_b * roll * eta_rate,
         })
+    }
+
+    /// Contact of the straight base below the involute that cuts side `side` of `space`: point (gear frame, mm) and normal
+    /// out of the gear; `None` where it touches nothing.
+    pub fn base_contact(&self, phi_rad: f64, space: i64, side: Side) -> Option<[DVec2; 2]> {
+        let m = self.motion(phi_rad);
+        let turn = DVec2::from_angle(self.tooth_angle(m.angle, space));
+        let flank = self.cutter.flank(self.gear().tip_sign() * side.sign());
+        let start_roll = self.cutter.roll_range[0];
+        let (start, normal) = (turn.rotate(flank.point(start_roll)), turn.rotate(flank.normal(start_roll)));
+        let inwards = flank.side * normal.perp();
+        let w = -normal.dot(m.center_rate + m.angle_rate * start.perp()) / (m.angle_rate * normal.dot(inwards.perp()));
+        (0.0..=self.cutter.base_length_mm).contains(&w).then(|| [m.center + start + w * inwards, -normal])
     }
 
     /// Contact of a tip part of the tooth that cuts `space`: point (gear frame, mm) and normal out of the gear, where
@@ -178,8 +203,9 @@ impl Generation {
 
     /// Tip parts in the order in which they follow each other from the left flank of the space to its right flank.
     pub fn tip_parts(&self) -> Vec<TipPart> {
-        let left = self.cutter.corner.iter().map(|&part| TipPart::Corner(part, 1.0));
-        let right = self.cutter.corner.iter().rev().map(|&part| TipPart::Corner(part, -1.0));
+        let sign = self.gear().tip_sign();
+        let left = self.cutter.corner.iter().map(|&part| TipPart::Corner(part, sign));
+        let right = self.cutter.corner.iter().rev().map(|&part| TipPart::Corner(part, -sign));
         left.chain([TipPart::Circle]).chain(right).collect()
     }
 }

@@ -9,9 +9,10 @@ use crate::cut::Backend;
 use crate::dexel::Field;
 use crate::error::{Refusal, Result};
 use crate::frame::Rigid2;
-use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
+use crate::gear::{GearKind, PitchCurve};
 use crate::material::EdgeForce;
+use crate::math::roots::sample_angle_rad;
 use crate::passes::StrokeSet;
 use crate::passes::planar::strokes::StrokeLaw;
 use crate::process::shaping::ShaperCutter;
@@ -19,7 +20,10 @@ use crate::process::shaping::gcode;
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::generation::Generation;
 use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule};
-use crate::process::shaping::scene::model::{self, Machine, Measure, Operation, Shaping};
+use crate::process::shaping::returns::RetractionPlan;
+use crate::process::shaping::returns::motion::RamTimes;
+use crate::process::shaping::returns::survey::Survey;
+use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Operation, Shaping};
 use crate::process::shaping::target::{TargetFlank, target_root};
 use crate::process::shaping::tooth_target::ToothTarget;
 use crate::scene::Scene;
@@ -44,6 +48,8 @@ pub struct PreparedOperation {
     pub program: Option<AxisProgram>,
     /// Poses for the dexels.
     pub strokes: StrokeSet,
+    /// Which way the cutter is drawn back for the return strokes.
+    pub retraction: RetractionPlan,
 }
 
 impl PreparedOperation {
@@ -54,7 +60,7 @@ impl PreparedOperation {
 }
 
 fn pose(program: Option<&AxisProgram>, schedule: &StrokeSchedule, stroke: f64) -> CutterPose {
-    program.map_or_else(|| schedule.state(stroke).pose, |program| program.at(stroke).pose())
+    program.map_or_else(|| schedule.state(stroke).pose, |program| program.at(stroke).pose(schedule.linkage().gear()))
 }
 
 /// Everything known before the first dexel is cut.
@@ -68,10 +74,10 @@ pub struct ShapingJob {
     pub material: EdgeForce,
     /// Distance of the rays on which chips are followed, mm.
     pub chip_spacing_mm: f64,
-    /// Where profiles are evaluated.
-    pub measure: Measure,
+    /// Form of the axis programs.
+    pub gcode: GcodeDialect,
     /// The cutter as the scene describes it.
-    pub cutter_spec: model::ShaperCutter,
+    pub cutter_spec: model::CutterSpec,
     /// The pitch curve.
     pub curve: Arc<PitchCurve>,
     /// The cutter.
@@ -96,7 +102,8 @@ impl ShapingJob {
             return Err(Refusal::new("tool", "this tool does not shape gears", way_out).into());
         };
         let machine = shaping.machine.clone();
-        let (material, chip_spacing_mm, measure) = (shaping.material, shaping.chip_spacing_mm, shaping.measure);
+        let (material, chip_spacing_mm) = (shaping.material, shaping.chip_spacing_mm);
+        let gcode = shaping.gcode;
         if gear.helix_angle_rad != 0.0 {
             return Err(Refusal::new(
                 "gear.helix_angle_deg",
@@ -107,18 +114,19 @@ impl ShapingJob {
         }
         let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.module_mm, gear.teeth)?);
         let cutter = ShaperCutter::new(&shaping.tool, gear)?;
-        let blank = Blank::new(curve.clone(), gear.addendum_coefficient * gear.module_mm)?;
+        let blank = gear.blank(curve.clone())?;
         // Flanks refer to the cutter for as long as they are kept.
         let shared_cutter = Arc::new(cutter.clone());
         let passes: f64 = shaping.operations.len() as f64;
-        let mut operations = Vec::new();
+        let mut operations: Vec<PreparedOperation> = Vec::new();
         let mut first_pass = 0;
         // A cutter pulled back by d leaves teeth 2 d tan(alpha) thicker on the pitch curve.
         let allowance_mm = gear.tooth_thickness_allowance_mm / (2.0 * gear.pressure_angle_rad.tan());
         for spec in &shaping.operations {
             let mut spec = spec.clone();
             spec.offset_mm += allowance_mm;
-            let linkage = ShapingLinkage::new(spec.linkage, curve.clone(), cutter.pitch_radius_mm, spec.offset_mm)?;
+            let linkage =
+                ShapingLinkage::new(gear.kind, spec.linkage, curve.clone(), cutter.pitch_radius_mm, spec.offset_mm)?;
             let schedule = StrokeSchedule::new(&spec, &linkage, &machine)?;
             let count = schedule.count();
             let ids = count as f64 * f64::from(cutter.teeth) * passes;
@@ -144,15 +152,20 @@ impl ShapingJob {
             first_pass = strokes.end_pass();
             let (linkage_of_flanks, cutter) = (linkage.clone(), shared_cutter.clone());
             let generation = Arc::new(Generation { linkage: linkage_of_flanks, cutter, offset_mm: spec.offset_mm });
-            operations.push(PreparedOperation { spec, linkage, generation, schedule, program, strokes });
+            let before: Vec<&Generation> = operations.iter().map(|before| &*before.generation).collect();
+            let retraction = RetractionPlan::new(&machine, &schedule, || {
+                Survey::new(&[&before[..], &[&generation]].concat(), &blank, gear.teeth, gear.module_mm)
+            })?;
+            operations.push(PreparedOperation { spec, linkage, generation, schedule, program, strokes, retraction });
         }
+        rim_holds(gear.rim_mm, &blank, &cutter, &operations)?;
         let finishing = operations.last().expect("a checked scene has at least one operation");
         let targets = ToothTarget::of_all(&finishing.generation, &blank, gear.teeth)?;
         Ok(Self {
             machine,
             material,
             chip_spacing_mm,
-            measure,
+            gcode,
             cutter_spec: shaping.tool.clone(),
             curve,
             cutter,
@@ -181,6 +194,17 @@ impl ShapingJob {
     /// Continuous generation by the finishing operation: the target.
     pub fn target_generation(&self) -> &Arc<Generation> {
         &self.finishing().generation
+    }
+
+    /// Return strokes of an operation over a turn, of ideal work and cutter.
+    pub fn survey(&self, operation: usize) -> Survey<'_> {
+        let generations: Vec<&Generation> = self.operations[..=operation].iter().map(|o| &*o.generation).collect();
+        Survey::new(&generations, &self.blank, self.scene.gear.teeth, self.scene.gear.module_mm)
+    }
+
+    /// When the ram passes the ends of the face.
+    pub fn ram_times(&self) -> RamTimes {
+        RamTimes::new(self.scene.gear.face_width_mm, self.machine.approach_mm, self.machine.overrun_mm)
     }
 
     /// Target of a tooth (1 to z).
@@ -236,6 +260,36 @@ impl ShapingJob {
     pub fn cut(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
         self.planar().cut(backend, field)
     }
+}
+
+/// Refuses a ring that the cutter cuts through.
+fn rim_holds(
+    rim_mm: f64,
+    blank: &Blank,
+    cutter: &ShaperCutter,
+    operations: &[PreparedOperation],
+) -> Result<(), Refusal> {
+    let GearKind::Internal = blank.kind() else { return Ok(()) };
+    let samples = blank.curve().samples_per_turn();
+    let reach = |operation: &PreparedOperation| {
+        let centers =
+            (0..samples).map(|i| operation.linkage.pose(sample_angle_rad(i, samples), operation.spec.offset_mm));
+        centers.map(|pose| pose.center_mm.length() + cutter.tip_radius_mm).fold(0.0, f64::max)
+    };
+    let reach_mm = operations.iter().map(reach).fold(0.0, f64::max);
+    let missing_mm = reach_mm - blank.back.radius_mm;
+    if missing_mm < 0.0 {
+        return Ok(());
+    }
+    Err(Refusal::new(
+        "gear.rim_mm",
+        format!(
+            "the rim of {rim_mm} mm is thinner than the teeth are deep: the cutter reaches {reach_mm:.3} mm from the gear \
+            axis, the ring {:.3} mm",
+            blank.back.radius_mm
+        ),
+        format!("make it thicker than {:.3} mm; 5 modules are usual", rim_mm + missing_mm),
+    ))
 }
 
 /// The program that an operation is cut with.

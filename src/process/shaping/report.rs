@@ -17,7 +17,7 @@ use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::measure::GearReport;
 use crate::steps;
 use crate::steps::axes;
-use crate::steps::report::deviations::{Inspected, Inspection};
+use crate::steps::report::deviations::{Inspection, InspectionWords};
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::{PageGear, RunWords, deviations, key_number, record, texture, value_and_unit};
 use crate::steps::view_mesh::ViewMesh;
@@ -36,8 +36,7 @@ pub fn page(
     folder: &OutputFolder,
 ) -> Result<Page> {
     let mut sections = stock::section(job, found).into_iter().collect::<Vec<_>>();
-    let inspection = inspection(&cut.report, job.scene.gear.module_mm);
-    sections.push(deviations::section(&inspection));
+    sections.push(deviations::section(&inspection(&cut.report, job.scene.gear.module_mm)));
     sections.extend(texture::section(found, folder)?);
     sections.push(axes::section(
         motion,
@@ -118,21 +117,11 @@ fn key_numbers(found: &Findings) -> Vec<KeyNumber> {
 
 /// What a gear inspector would find on a shaped gear of module `module_mm`.
 fn inspection(report: &GearReport, module_mm: f64) -> Inspection<'_> {
-    let standard_mm = 0.5 * PI * module_mm;
-    let flanks = report.flanks.iter().map(|flank| Inspected {
-        tooth: flank.tooth,
-        side: flank.side,
-        profile: (&flank.profile_trace, flank.profile),
-        lead: (&flank.lead_trace, flank.lead),
-    });
-    Inspection {
-        flanks: flanks.collect(),
-        pitch: &report.pitch,
-        runout: report.runout.as_ref(),
-        thickness_mm: report.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect(),
+    let words = InspectionWords {
         profile_place: "u from the form point (below) to the tip",
         lead_place: "at the pitch curve",
         lead_name: "Lead",
         target: "the surface that the last operation would leave with infinitely many strokes and no error",
-    }
+    };
+    Inspection::new(&report.flanks, &report.inspection, 0.5 * PI * module_mm, words)
 }

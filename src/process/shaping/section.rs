@@ -49,7 +49,7 @@ impl<'a> CutSection<'a> {
         let gear = &job.scene.gear;
         let spacing_mm = job.scene.fields.blank_spacing_mm;
         let grid = BlankGrid::new(&job.blank, &outline, gear.face_width_mm, spacing_mm, None)?;
-        let field = BlankField::new(grid, &outline, 0.5 * gear.bore_diameter_mm);
+        let field = BlankField::new(grid, &outline);
         Ok(Self { job, field, done: 0 })
     }
 

@@ -202,6 +202,16 @@ impl TargetFlank {
         Ok(flank)
     }
 
+    /// What generates it.
+    pub fn generation(&self) -> &Generation {
+        &self.generation
+    }
+
+    /// Space that it belongs to, counted along the arc without wrapping.
+    pub fn space(&self) -> i64 {
+        self.space
+    }
+
     /// Length from form point to tip, mm.
     pub fn length_mm(&self) -> f64 {
         self.arcs_mm[PANELS]

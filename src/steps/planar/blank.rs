@@ -4,6 +4,7 @@ use super::PlanarGear;
 use crate::cut::{Backend, BlankOperation, CutBlank};
 use crate::dexel::{BlankField, BlankGrid};
 use crate::error::{Refusal, Result};
+use crate::gear::GearKind;
 use crate::gear::blank_outline::BlankOutline;
 use crate::passes::StrokeSet;
 use crate::steps::whole_blank;
@@ -30,10 +31,17 @@ impl PlanarGear<'_> {
     /// brings the blank.
     pub fn closed_teeth(&self, strokes: &StrokeSet, blank_reach_mm: f64) -> Vec<ClosedTooth> {
         let mount_mm = self.tool.tool_from_blade(0).translation_mm;
-        let poses = (0..strokes.count()).flat_map(|stroke| strokes.poses(stroke));
-        let nearest_mm = poses.map(|pose| pose.point(mount_mm).length()).fold(f64::INFINITY, f64::min);
+        let axes_mm = (0..strokes.count()).flat_map(|stroke| strokes.poses(stroke)).map(|pose| pose.point(mount_mm));
+        let smallest = |distances_mm: &mut dyn Iterator<Item = f64>| distances_mm.fold(f64::INFINITY, f64::min);
+        let nearest_mm = match self.blank.kind() {
+            GearKind::External => smallest(&mut axes_mm.map(|axis_mm| axis_mm.length())) - blank_reach_mm,
+            GearKind::Internal => {
+                let outline = BlankOutline::new(self.blank);
+                smallest(&mut axes_mm.map(|axis_mm| outline.clearance_mm(axis_mm)))
+            }
+        };
         // Between the nodes of a moving stroke the tool comes no nearer than this by far.
-        let closing_radius_mm = (nearest_mm - blank_reach_mm - 1.0).max(0.0);
+        let closing_radius_mm = (nearest_mm - 1.0).max(0.0);
         self.tool.edges().edges().iter().map(|edge| ClosedTooth::new(edge, closing_radius_mm)).collect()
     }
 

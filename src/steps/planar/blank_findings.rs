@@ -4,7 +4,8 @@ use super::PlanarGear;
 use super::blank_report::BlankReport;
 use crate::cut::CutBlank;
 use crate::findings::damage::{damage_row, damage_table, pairs};
-use crate::findings::{Column, Datum, Quantity, Section, Table};
+use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
+use crate::gear::GearKind;
 use crate::measure::damage::Damage;
 use crate::steps::whole_blank::{self, mean};
 use crate::terms::Side;
@@ -32,7 +33,7 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
     let not_judged = "gouges and interference are not judged";
     let slices = (cut.field.slices.len(), "transverse sections; one stands for the whole face where all are equal");
     let volumes = [report.blank_mm3, report.left_mm3];
-    whole_blank::findings(cut.field.grid.spacing_mm(), slices, volumes, &report.operations)
+    whole_blank::findings(gear.blank.kind(), cut.field.grid.spacing_mm(), slices, volumes, &report.operations)
         .with(
             "end_face_area",
             Quantity::number(
@@ -45,7 +46,10 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
             "target_end_face_area",
             area(
                 end_face.map(|e| e.target_mm2),
-                "area of the target's outline less the bore, from the meshing condition",
+                match gear.blank.kind() {
+                    GearKind::External => "area of the target's outline less the bore, from the meshing condition",
+                    GearKind::Internal => "area of the ring outside the target's outline, from the meshing condition",
+                },
             ),
         )
         .with(
@@ -110,8 +114,8 @@ fn all_damage(gear: &PlanarGear, report: &BlankReport) -> Table {
         row
     });
     let pass = [
-        Column::new("stroke", "1", "stroke, from 0"),
-        Column::new("cutter_tooth", "1", "cutter tooth, from 0").or("the fault is the whole stroke's"),
+        TableColumn::new("stroke", "1", "stroke, from 0"),
+        TableColumn::new("cutter_tooth", "1", "cutter tooth, from 0").or("the fault is the whole stroke's"),
     ];
     damage_table(pass, gouges.chain(interference).chain(rubbing).chain(strokes))
 }

@@ -101,14 +101,11 @@ pub fn measure(gear: &PlanarGear, cut: &CutBlank, target: Option<&TargetOutline>
 }
 
 fn end_face(gear: &PlanarGear, cut: &CutBlank, left_mm3: [f64; 2], target: &TargetOutline) -> EndFace {
-    let spec = &gear.scene.gear;
     let spacing_mm = cut.field.grid.spacing_mm();
-    let bore_radius_mm = 0.5 * spec.bore_diameter_mm;
     EndFace {
-        cut_mm2: left_mm3.map(|v| v / spec.face_width_mm),
-        target_mm2: target.area_mm2() - std::f64::consts::PI * bore_radius_mm * bore_radius_mm,
-        // The bore adds four radii of length along the rays, half a spacing each.
-        bound_mm2: FAMILIES.map(|f| target.area_bound_mm2(f, spacing_mm) + 2.0 * bore_radius_mm * spacing_mm),
+        cut_mm2: left_mm3.map(|v| v / gear.scene.gear.face_width_mm),
+        target_mm2: target.section_mm2(),
+        bound_mm2: FAMILIES.map(|f| target.section_bound_mm2(f, spacing_mm)),
     }
 }
 

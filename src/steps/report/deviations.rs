@@ -1,7 +1,8 @@
 //! Deviations of the finished gear as a gear inspector knows them: profile and lead traces, pitch, runout, tooth
 //! thickness.
 
-use crate::measure::deviation::{PitchDeviations, Runout, Trace, TraceDeviation};
+use crate::measure::deviation::{Trace, TraceDeviation};
+use crate::measure::inspection::{GearInspection, InspectedFlank};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::report::traces::{TraceColumn, TraceSheet};
@@ -17,27 +18,27 @@ const LEAST_DIVISION_UM: f64 = 1.0;
 const SIDES: [(Side, &str); 2] = [(Side::Left, "left flanks"), (Side::Right, "right flanks")];
 
 /// A flank with its traces.
-pub struct Inspected<'a> {
-    /// Tooth, from 1.
-    pub tooth: u32,
-    /// Flank.
-    pub side: Side,
+struct Inspected<'a> {
+    tooth: u32,
+    side: Side,
     /// Profile in the middle of the face, and its deviations.
-    pub profile: (&'a Trace, Option<TraceDeviation>),
+    profile: (&'a Trace, Option<TraceDeviation>),
     /// Line along the tooth, and its deviations.
-    pub lead: (&'a Trace, Option<TraceDeviation>),
+    lead: (&'a Trace, Option<TraceDeviation>),
 }
 
 /// What a gear inspector has found on a gear.
 pub struct Inspection<'a> {
     /// Flanks in order of teeth.
-    pub flanks: Vec<Inspected<'a>>,
-    /// Pitch deviations of left and right flanks.
-    pub pitch: &'a [Option<PitchDeviations>; 2],
-    /// Places of a probe in the spaces.
-    pub runout: Option<&'a Runout>,
+    flanks: Vec<Inspected<'a>>,
+    gear: &'a GearInspection,
     /// Thickness of each tooth less half a pitch, arcs of the pitch curve, mm.
-    pub thickness_mm: Vec<Option<f64>>,
+    thickness_mm: Vec<Option<f64>>,
+    words: InspectionWords,
+}
+
+/// What a process says of its traces.
+pub struct InspectionWords {
     /// What profiles stand over.
     pub profile_place: &'static str,
     /// Where the lines along the tooth run.
@@ -48,16 +49,35 @@ pub struct Inspection<'a> {
     pub target: &'static str,
 }
 
+impl<'a> Inspection<'a> {
+    /// Of flanks in order of teeth; `standard_mm` is half a pitch, arc of the pitch curve.
+    pub fn new<Own>(
+        flanks: &'a [InspectedFlank<Own>],
+        gear: &'a GearInspection,
+        standard_mm: f64,
+        words: InspectionWords,
+    ) -> Self {
+        let inspected = |flank: &'a InspectedFlank<Own>| Inspected {
+            tooth: flank.tooth,
+            side: flank.side,
+            profile: (&flank.profile_trace, flank.profile),
+            lead: (&flank.lead_trace, flank.lead),
+        };
+        let thickness_mm = gear.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect();
+        Self { flanks: flanks.iter().map(inspected).collect(), gear, thickness_mm, words }
+    }
+}
+
 /// Traces and charts.
 pub fn section(inspection: &Inspection) -> PageSection {
     let mut blocks = vec![
         Block::Heading("Profile, in the middle of the face".to_owned()),
         Block::Traces(SIDES.map(|(side, name)| profile_sheet(inspection, side, name)).into()),
-        Block::Heading(format!("{}, {}", inspection.lead_name, inspection.lead_place)),
+        Block::Heading(format!("{}, {}", inspection.words.lead_name, inspection.words.lead_place)),
         Block::Traces(SIDES.map(|(side, name)| lead_sheet(inspection, side, name)).into()),
         Block::Note(
-            "Four teeth evenly around the gear and those with the largest total deviation of either flank. Heights \
-            over the target along its normal; dashed lines bound the evaluated part, the straight line is its mean \
+            "Four teeth evenly around the gear and those with the largest total deviation of either flank. Normal \
+            deviations; dashed lines bound the evaluated part, the straight line is its mean \
             line. F total, ff form, fH slope deviation, µm."
                 .to_owned(),
         ),
@@ -73,7 +93,7 @@ pub fn section(inspection: &Inspection) -> PageSection {
     PageSection {
         id: "deviations",
         title: "Deviations".to_owned(),
-        lead: format!("The finished gear against the target: {}.", inspection.target),
+        lead: format!("The finished gear against the target: {}.", inspection.words.target),
         blocks,
     }
 }
@@ -121,7 +141,7 @@ fn profile_sheet(inspection: &Inspection, side: Side, name: &str) -> TraceSheet 
     let flanks = traced(inspection, side, |flank| flank.profile.1.map(|p| p.total_mm));
     TraceSheet {
         title: format!("Profile, {name}"),
-        place_name: inspection.profile_place.to_owned(),
+        place_name: inspection.words.profile_place.to_owned(),
         place_unit: "mm".to_owned(),
         unit: "µm".to_owned(),
         mirrored: side == Side::Left,
@@ -132,7 +152,7 @@ fn profile_sheet(inspection: &Inspection, side: Side, name: &str) -> TraceSheet 
 fn lead_sheet(inspection: &Inspection, side: Side, name: &str) -> TraceSheet {
     let flanks = traced(inspection, side, |flank| flank.lead.1.map(|l| l.total_mm));
     TraceSheet {
-        title: format!("{}, {name}", inspection.lead_name),
+        title: format!("{}, {name}", inspection.words.lead_name),
         place_name: "v along the tooth".to_owned(),
         place_unit: "mm".to_owned(),
         unit: "µm".to_owned(),
@@ -157,7 +177,7 @@ fn pitch_charts(inspection: &Inspection) -> Vec<Block> {
     };
     let missing = || vec![None; teeth];
     let single = |index: usize| {
-        let values = inspection.pitch[index]
+        let values = inspection.gear.pitch[index]
             .as_ref()
             .map_or_else(missing, |p| p.single_mm.iter().map(|&f| Some(shown_um(f))).collect());
         BarSeries { name: SIDES[index].1.to_owned(), values }
@@ -183,6 +203,7 @@ fn pitch_charts(inspection: &Inspection) -> Vec<Block> {
         })
     };
     let cumulative: Vec<LineSeries> = inspection
+        .gear
         .pitch
         .iter()
         .zip(SIDES)
@@ -195,6 +216,7 @@ fn pitch_charts(inspection: &Inspection) -> Vec<Block> {
         })
         .collect();
     let runout: Vec<LineSeries> = inspection
+        .gear
         .runout
         .iter()
         .map(|r| {

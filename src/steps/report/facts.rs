@@ -1,6 +1,6 @@
 //! What was cut: the gear in words and as a table.
 
-use crate::gear::PitchCurve;
+use crate::gear::{GearKind, PitchCurve};
 use crate::machine::{Axis, Limits, Order};
 use crate::output::report::{Block, PageTable};
 use crate::output::text::plain;
@@ -9,9 +9,13 @@ use crate::units::UM_PER_MM;
 
 /// The gear in a line.
 pub fn gear_words(gear: &Gear) -> String {
+    let kind = match gear.kind {
+        GearKind::External => "External",
+        GearKind::Internal => "Internal",
+    };
     let kind = match gear.helix_angle_rad {
-        0.0 => "External spur gear".to_owned(),
-        beta => format!("External helical gear, {:.4}° {}-hand", beta.to_degrees(), gear.hand.name()),
+        0.0 => format!("{kind} spur gear"),
+        beta => format!("{kind} helical gear, {:.4}° {}-hand", beta.to_degrees(), gear.hand.name()),
     };
     format!(
         "{kind}, {} teeth, module {} mm, pressure angle {}°, face width {} mm; pitch curve: {}",
@@ -65,7 +69,11 @@ pub fn gear_table(gear: &Gear, curve: &PitchCurve) -> Block {
             ("Module, teeth", format!("{}, {}", mm(gear.module_mm), gear.teeth)),
             ("Pressure angle", format!("{}°", plain(gear.pressure_angle_rad.to_degrees()))),
             ("Face width", mm(gear.face_width_mm)),
-            ("Bore", if gear.bore_diameter_mm > 0.0 { mm(gear.bore_diameter_mm) } else { "none".to_owned() }),
+            match gear.kind {
+                GearKind::Internal => ("Rim outside the pitch curve", mm(gear.rim_mm)),
+                GearKind::External if gear.bore_diameter_mm > 0.0 => ("Bore", mm(gear.bore_diameter_mm)),
+                GearKind::External => ("Bore", "none".to_owned()),
+            },
             ("Addendum", format!("{} m", plain(gear.addendum_coefficient))),
             ("Thickness allowance", format!("{} µm", plain(UM_PER_MM * gear.tooth_thickness_allowance_mm))),
         ],

@@ -39,7 +39,7 @@ fn shifted_field(job: &HobbingJob, by_mm: f64) -> BlankField {
     for row in &mut grid.rows {
         row.first_mm += by_mm;
     }
-    BlankField::new(grid, &BlankOutline::new(&job.blank), 0.5 * job.scene.gear.bore_diameter_mm)
+    BlankField::new(grid, &BlankOutline::new(&job.blank))
 }
 
 fn cut(cutter: &HobCutter, backend: &dyn Backend, field: BlankField) -> Result<HobbedBlank, Error> {

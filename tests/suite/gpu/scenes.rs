@@ -92,7 +92,7 @@ fn compare_hobbed(gpu: &dyn Backend, mut scene: Scene) -> Parity {
     let mut all = Parity::default();
     for (tooth, side) in [(1, Side::Left), (scene.gear.teeth / 3 + 1, Side::Right)] {
         let (_, rays) = cutter.rays(tooth, side).expect("a flank");
-        for (operation, passes) in job.operations.iter().zip(&cutter.operations) {
+        for (operation, passes) in job.operations.iter().zip(cutter.operations.iter()) {
             let plan = SweepPlan::new(&rays.field, passes);
             let place = format!("{name}, tooth {tooth} {}, {}", side.name(), operation.spec.name);
             all.merge(cut_both_in_space(gpu, &place, &rays.field, &plan).0);

@@ -88,7 +88,7 @@ fn check(name: &str, settings: &[&str]) {
     let job = job(name, settings);
     let cutter = HobCutter::new(&job).expect("passes");
     let outline = outline(&cutter);
-    let solid = gear_solid(&outline, job.scene.gear.bore_diameter_mm).expect("a body");
+    let solid = gear_solid(&outline, &job.blank.back).expect("a body");
     assert!(solid.is_closed(), "{name}: {:?}", solid.edge_faults());
 
     let cut = cutter
@@ -107,7 +107,7 @@ fn check(name: &str, settings: &[&str]) {
             outline.rows_z_mm.iter().position(|row_z_mm| (row_z_mm - z_mm).abs() < 1e-9).expect("a row in every slice");
         let contour = outline.row_mm(row);
         assert_eq!(crossings(&contour), 0, "{name} at {z_mm} mm");
-        let section = TargetOutline::new(contour.clone());
+        let section = TargetOutline::new(contour.clone(), job.blank.back);
         let target = job.target_outline(z_mm, 0.02);
         let ends = ends_mm(&cut, slice, bore_radius_mm);
         let off = |p: &DVec2| section.distance_mm(*p, 10.0).expect("within 10 mm of the body").abs();
@@ -119,7 +119,7 @@ fn check(name: &str, settings: &[&str]) {
         let length_mm: f64 = (0..contour.len()).map(|i| contour[i].distance(contour[(i + 1) % contour.len()])).sum();
         for ((family, rays), row) in FAMILIES.into_iter().zip(&cut.field.slices[slice].rays).zip(&grid.rows) {
             let of_blank_mm: f64 = rays.iter().flatten().map(Span::length_mm).sum();
-            let spans = section.spans(family, row, bore_radius_mm);
+            let spans = section.spans(family, row);
             let of_body_mm: f64 = spans.iter().flatten().map(|span| span[1] - span[0]).sum();
             mean_mm = mean_mm.max((of_body_mm - of_blank_mm).abs() * row.spacing_mm / length_mm);
         }

@@ -42,7 +42,7 @@ fn with_work_error(job: &HobbingJob, error: impl Fn(f64) -> Rigid3 + Sync) -> Ho
     let hob_at = |time_s: f64| linkage.axes::<1>(time_s).hob_rad.value();
     let range_rad = [hob_at(0.0) - PI, hob_at(linkage.end_s()) + PI];
     let motion = MotionTable::new(range_rad, &[], |hob_rad| linkage.head_from_work(hob_rad).after(&error(hob_rad)));
-    cutter.operations = vec![TurningPasses::new(0, &job.hob, job.hob.hand, motion).expect("a hob")];
+    cutter.operations = vec![TurningPasses::new(0, &job.hob, job.hob.hand, motion).expect("a hob")].into();
     cutter
 }
 
@@ -90,7 +90,7 @@ fn a_hobs_pressure_angle_error_is_a_straight_profile_slope_over_the_roll() {
         let [alpha_t, r_mm] = [gear.transverse_pressure_angle_rad(), 12.0 * gear.transverse_module_mm()];
         let tip_mm = ((r_mm + gear.module_mm).powi(2) - (r_mm * alpha_t.cos()).powi(2)).sqrt() - r_mm * alpha_t.sin();
         assert!((bad.profile_trace.places_mm.last().expect("a tip") - tip_mm).abs() < 1e-6);
-        let helix_mm = bad.helix.expect("evaluated").slope_mm - clean.helix.expect("evaluated").slope_mm;
+        let helix_mm = bad.lead.expect("evaluated").slope_mm - clean.lead.expect("evaluated").slope_mm;
         assert!(helix_mm.abs() < 0.02 * expected_mm.abs(), "{helix_mm} mm along the tooth");
     }
 }
@@ -113,8 +113,8 @@ fn a_wrong_differential_is_a_helix_slope() {
     let base_mm = 12.0 * gear.transverse_module_mm() * gear.transverse_pressure_angle_rad().cos();
     for side in [Side::Left, Side::Right] {
         let [clean, bad] = [&clean, &bad].map(|cutter| report(cutter, side));
-        let helix = bad.helix.expect("evaluated");
-        let slope_mm = helix.slope_mm - clean.helix.expect("evaluated").slope_mm;
+        let helix = bad.lead.expect("evaluated");
+        let slope_mm = helix.slope_mm - clean.lead.expect("evaluated").slope_mm;
         let face_mm = helix.between_mm[1] - helix.between_mm[0];
         // Work that runs ahead shows the tool its teeth too late: they are cut turned back, away from the space behind
         // a left flank's tooth.
@@ -160,7 +160,7 @@ mod slow {
             assert!(worst_mm < 0.02 * off_mm);
             assert!((found.total_mm() / (2.0 * off_mm / alpha_t.cos()) - 1.0).abs() < 0.02);
         }
-        let runout = deviation::runout(&job.curve, &left, &right, alpha_t).expect("all spaces");
+        let runout = deviation::runout(&job.blank, &left, &right, alpha_t).expect("all spaces");
         println!("F_r {:.6} mm", runout.total_mm());
         assert!((runout.total_mm() / (2.0 * off_mm) - 1.0).abs() < 0.02);
     }

@@ -5,8 +5,8 @@
 //! surface of its chip. Points of the section's border that stand in material join the cloud: the new one. The chip's
 //! thickness is the largest distance of a new point from the nearest old one.
 
+use super::section_polygon::{EdgePoint, Polygon, STEP_MM};
 use gearcut::cut::cpu::Cpu;
-use gearcut::math::planar_rays::{ClosedCurve, Piece};
 use gearcut::passes::sections::swept_sections::SweptSection;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
@@ -14,57 +14,6 @@ use glam::DVec2;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
-
-/// Distance of the front's points and of the corners of sections, mm. Both are the same, so that two sections that
-/// nearly coincide hold each other's points alike.
-const STEP_MM: f64 = 0.04;
-
-struct Polygon {
-    corners: Vec<DVec2>,
-    /// Points of the edge, with the direction into the tool.
-    of_edge: Vec<[DVec2; 2]>,
-    low: DVec2,
-    high: DVec2,
-}
-
-impl Polygon {
-    fn new(section: &SweptSection) -> Self {
-        let (mut corners, mut of_edge) = (Vec::new(), Vec::new());
-        for (index, piece) in section.pieces().iter().enumerate() {
-            let start = section.node_mm(index);
-            if piece.law == Piece::STRAIGHT {
-                corners.push(start);
-                continue;
-            }
-            let length_mm = start.distance(section.node_mm(index + 1));
-            let count = (length_mm / STEP_MM).ceil().max(2.0) as u32;
-            for i in 0..count {
-                let [place, rate] = section.place(piece.law, f64::from(i) / f64::from(count));
-                corners.push(place);
-                // Inside is on the left.
-                of_edge.push([place, rate.perp().normalize()]);
-            }
-        }
-        let low = corners.iter().fold(DVec2::INFINITY, |a, &b| a.min(b));
-        let high = corners.iter().fold(DVec2::NEG_INFINITY, |a, &b| a.max(b));
-        Self { corners, of_edge, low, high }
-    }
-
-    fn holds(&self, p: DVec2) -> bool {
-        if p.cmplt(self.low).any() || p.cmpgt(self.high).any() {
-            return false;
-        }
-        let mut inside = false;
-        let mut a = self.corners[self.corners.len() - 1];
-        for &b in &self.corners {
-            if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
-                inside = !inside;
-            }
-            a = b;
-        }
-        inside
-    }
-}
 
 /// Thickness of the chips of all passes in the slice `z_mm` within `reach_mm` of a space's middle on the pitch curve.
 fn by_points(cutter: &HobCutter, space: i64, z_mm: f64, reach_mm: f64) -> BTreeMap<u32, f64> {
@@ -91,7 +40,7 @@ fn by_points(cutter: &HobCutter, space: i64, z_mm: f64, reach_mm: f64) -> BTreeM
         let (old, kept): (Vec<DVec2>, Vec<DVec2>) = front.into_iter().partition(|&p| polygon.holds(p));
         front = kept;
         let mut thickest_mm = 0.0_f64;
-        for &[place, inward] in &polygon.of_edge {
+        for &EdgePoint { place, inward, .. } in &polygon.of_edge {
             // A little inside the tool: not on a border that both sections share.
             let inside = place + 1e-5 * inward;
             let stands = place.distance(middle) < 1.5 * reach_mm

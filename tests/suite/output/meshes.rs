@@ -39,7 +39,7 @@ fn outline_and_solid(job: &ShapingJob) -> (Outline, Mesh) {
     let roots = (1..=job.scene.gear.teeth).map(root).collect();
     let surfaces = complete(job, &backend, flanks, roots, &|| ()).expect("tips");
     let outline = Outline::new(&surfaces, &job.blank);
-    let solid = gear_solid(&outline, job.scene.gear.bore_diameter_mm).expect("a closed body");
+    let solid = gear_solid(&outline, &job.blank.back).expect("a closed body");
     (outline, solid)
 }
 

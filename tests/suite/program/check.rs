@@ -59,7 +59,7 @@ mod slow {
 
     #[test]
     fn every_committed_scene_passes() {
-        for process in PROCESSES.map(|process| process.scene) {
+        for process in PROCESSES.iter().map(|process| process.scene) {
             let scenes = std::fs::read_dir(format!("scenes/{}", process.name)).expect("the scenes are committed");
             let mut count = 0;
             for scene in

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use gearcut::gear::PitchCurveShape;
+use gearcut::process::hobbing::scene::model::Hobbing;
 use gearcut::process::shaping::scene::model::{
     Feed, Infeed, Linkage, NormalReading, Shaping, Tip, TraditionalDirection,
 };
@@ -41,7 +42,7 @@ fn shipped_of(process: &SceneProcess) -> Vec<PathBuf> {
 #[test]
 fn shipped_scenes_load_and_are_listed_in_the_reference() {
     let reference = reference::markdown(table());
-    for process in PROCESSES.map(|process| process.scene) {
+    for process in PROCESSES.iter().map(|process| process.scene) {
         for path in shipped_of(process) {
             let loaded = load(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
             assert_eq!(Some(loaded.scene.name.as_str()), path.file_stem().and_then(|stem| stem.to_str()));
@@ -222,18 +223,24 @@ fn every_variant_of_hobbing_reads_back_from_its_resolved_text() {
         "hobbing_diagonal]\nshift_mm_per_revolution = 3.1\nshift_direction = \"adds\"\nfeed_of = \"resultant\"",
         "hobbing_diagonal]\nstrategy = \"repeating\"\nstroke_mm = 33.3\nreturn_mm_per_s = 7.7",
     ];
-    for hob in hobs {
+    // With material and evaluated profile, each written and not.
+    let more = ["[material]\nname = \"C45\"\n", "[measure]\nprofile_end_height_mm = 2.1\n"];
+    for (i, hob) in hobs.into_iter().enumerate() {
         for linkage in linkages {
+            let more = more[i];
             let text = format!(
                 "[gear]\nmodule_mm = 3.0\nteeth = 24\nhelix_angle_deg = 12.3\nhand = \"left\"\n[tool.hob]\nlength_mm = \
                 90\n{hob}\n\
                  [machine.hobbing_limits]\nhob_speed_deg_per_s = 1234.5\n[[operation]]\napproach = \"radial\"\n\
                  stock_per_flank_mm = 0.1\n[[operation]]\nfeed_direction = \"conventional\"\noverrun_mm = 7.1\n\
-                 head_angle_deg = 8.8\n[operation.linkage.{linkage}\n"
+                 head_angle_deg = 8.8\n[operation.linkage.{linkage}\n{more}"
             );
             let first = read(&text);
             let second = read(&first.resolved_toml());
             assert_eq!(first.scene, second.scene, "{}", first.resolved_toml());
+            let material = Hobbing::of(&second.scene).expect("a hobbing scene").material;
+            assert_eq!(material.is_some(), more.contains("C45"), "{}", first.resolved_toml());
+            assert_eq!(second.scene.measure.profile_end_height_mm.is_some(), material.is_none());
             // Nothing of the other process stands in the resolved text.
             assert!(!first.resolved_toml().contains("strokes"), "{}", first.resolved_toml());
         }
@@ -252,12 +259,26 @@ fn everything_in_the_template_can_be_switched_on() {
             if block.lines().any(|line| line.starts_with("#[")) {
                 let on =
                     block.lines().filter(|line| !line.contains("file = ")).map(|line| switch(line).unwrap_or(line));
-                let operation = if block.contains("#[operation") { "[[operation]]\n" } else { "" };
-                read(&format!("{shortest}{operation}{}\n", on.collect::<Vec<_>>().join("\n")));
+                // What holds the section is off as well.
+                let holder = if block.contains("#[operation") {
+                    "[[operation]]\n"
+                } else if block.contains("#[gear.pitch_curve.mate.driver") {
+                    "[gear.pitch_curve.mate]\ndriver_teeth = 12\n"
+                } else {
+                    ""
+                };
+                read(&format!("{shortest}{holder}{}\n", on.collect::<Vec<_>>().join("\n")));
                 variants += 1;
             } else {
                 for key in block.lines().filter_map(switch) {
                     let mut one = block.replacen(&format!("#{key}"), key, 1);
+                    if name(key) == "rim_mm" {
+                        // Of rings alone, which hobs do not cut.
+                        one = one.replacen("kind = \"external\"", "kind = \"internal\"", 1);
+                        if process.name == "hobbing" {
+                            continue;
+                        }
+                    }
                     for rival in rivals(name(key)) {
                         one = one.replacen(&format!("\n{rival} = "), &format!("\n#{rival} = "), 1);
                     }
@@ -274,15 +295,20 @@ fn everything_in_the_template_can_be_switched_on() {
 
 /// Sections of a process's table that do not hold unless they are written.
 fn switched_off(own: &KeyTable) -> usize {
-    let off = own.sections().iter().filter(|section| match section.role {
+    own.sections().iter().filter(|section| is_off(own, section)).count()
+}
+
+/// Whether a section with a header does not hold unless it is written.
+fn is_off(own: &KeyTable, section: &TableSection) -> bool {
+    match section.role {
         Role::List { fewest } => fewest == 0,
         Role::Variant => {
-            let default = own.section(section.parent_path()).and_then(TableSection::default);
-            default.is_some_and(|default| default != section.name())
+            let choice = own.section(section.parent_path()).expect("a variant is chosen somewhere");
+            let other = choice.default().is_some_and(|default| default != section.name());
+            other || own.section(choice.parent_path()).is_some_and(|holder| is_off(own, holder))
         }
         _ => false,
-    });
-    off.count()
+    }
 }
 
 /// A line of the template switched on, if it is off.

@@ -3,10 +3,9 @@
 use crate::fixtures::paper::*;
 use gearcut::cut::cpu::Cpu;
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::gcode;
 use gearcut::process::shaping::gcode::{AxisProgram, read};
+use gearcut::process::shaping::programs;
 use gearcut::process::shaping::scene::model::*;
-use gearcut::scene::model::*;
 use gearcut::terms::Side;
 
 fn job(operation: Operation) -> ShapingJob {
@@ -17,7 +16,7 @@ fn job(operation: Operation) -> ShapingJob {
 }
 
 fn text(job: &ShapingJob) -> String {
-    gcode::text(job, &job.operations[0]).expect("wanted").expect("written")
+    programs::text(job, &job.operations[0]).expect("wanted").expect("written")
 }
 
 /// Heights of some flanks after the cut, mm.
@@ -96,7 +95,8 @@ fn cutting_the_written_program_gives_the_same_gear() {
         }
         if continuous {
             job.scene.output.gcode_contour_error_mm = 1e-6;
-            let why = gcode::text(&job, &job.operations[0]).expect("wanted").expect_err("a nanometre between strokes");
+            let why =
+                programs::text(&job, &job.operations[0]).expect("wanted").expect_err("a nanometre between strokes");
             assert!(why.contains("blocks of one double stroke") && why.contains("0.001 um are asked"), "{why}");
         }
     }
@@ -141,26 +141,26 @@ fn a_program_of_another_length_is_refused() {
 fn limits_are_checked_and_as_printed_is_never_written() {
     let as_printed = Linkage::ShapingNormal { reading: NormalReading::AsPrinted };
     let printed = job(operation("cut", as_printed, 2.0, 600));
-    let why = gcode::text(&printed, &printed.operations[0]).expect("wanted").expect_err("never written");
+    let why = programs::text(&printed, &printed.operations[0]).expect("wanted").expect_err("never written");
     assert!(why.contains("as printed"), "{why}");
 
     let mut fast = job(operation("cut", NORMAL, 0.0, 600));
     fast.machine.limits.work_speed_rad_per_s = Some(0.001);
-    let why = gcode::text(&fast, &fast.operations[0]).expect("wanted").expect_err("too fast");
+    let why = programs::text(&fast, &fast.operations[0]).expect("wanted").expect_err("too fast");
     assert!(why.contains("work spindle") && why.contains("deg/s"), "{why}");
 }
 
 #[test]
 fn the_papers_form_is_marked_and_reads_as_refused() {
     let mut job = job(operation("cut", NORMAL, 2.0, 600));
-    job.scene.output.gcode = GcodeDialect::PaperG84;
+    job.gcode = GcodeDialect::PaperG84;
     let text = text(&job);
     assert!(text.lines().take(2).all(|line| line.starts_with("(DO NOT RUN")), "{text}");
     assert!(text.contains("\nG84 A61.11 N3 K0.1348 R30 D0 S2\n"), "{text}");
     let refused = read::program(&text).expect_err("G84 is not read");
     assert!(refused.contains("line 5") && refused.contains("`G84`") && refused.contains("tapping"), "{refused}");
-    job.scene.output.gcode = GcodeDialect::None;
-    assert!(gcode::text(&job, &job.operations[0]).is_none());
+    job.gcode = GcodeDialect::None;
+    assert!(programs::text(&job, &job.operations[0]).is_none());
 }
 
 #[test]

@@ -8,8 +8,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
 
-use gearcut::gear::PitchCurve;
-use gearcut::gear::PitchCurveShape;
+use gearcut::gear::{GearKind, PitchCurve, PitchCurveShape};
 use gearcut::process::shaping::linkage::ShapingLinkage;
 use gearcut::process::shaping::scene::model::{Linkage, NormalReading, TraditionalDirection};
 use glam::DVec2;
@@ -71,7 +70,7 @@ fn points(linkage: &ShapingLinkage, tooth: u32) -> [DVec2; 4] {
 fn linkage(kind: Linkage) -> ShapingLinkage {
     let shape = PitchCurveShape::Ellipse { order: 3, eccentricity: 0.1348, semi_major_axis_mm: Some(61.11) };
     let curve = Arc::new(PitchCurve::new(&shape, MODULE_MM, 42).unwrap());
-    ShapingLinkage::new(kind, curve, MODULE_MM * CUTTER_TEETH / 2.0, 2.0).unwrap()
+    ShapingLinkage::new(GearKind::External, kind, curve, MODULE_MM * CUTTER_TEETH / 2.0, 2.0).unwrap()
 }
 
 /// Largest and mean unevenness of the allowance, |AB - CD| / ((AB + CD) / 2), over one lobe, in percent.

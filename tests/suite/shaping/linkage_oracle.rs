@@ -8,8 +8,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::fixtures::paper::{NORMAL, TRADITIONAL, operation, paper_scene};
-use gearcut::gear::PitchCurve;
-use gearcut::gear::PitchCurveShape;
+use gearcut::gear::{GearKind, PitchCurve, PitchCurveShape};
 use gearcut::process::shaping::linkage::{ShapingLinkage, StrokeSchedule};
 use gearcut::process::shaping::scene::model::{Linkage, NormalReading, Shaping};
 use serde_json::Value;
@@ -129,7 +128,7 @@ fn axes_agree_for_every_linkage() {
             ("normal_as_printed", AS_PRINTED, delta_d),
         ];
         for (block, kind, offset_mm) in runs {
-            let linkage = ShapingLinkage::new(kind, Arc::clone(&curve), r_c, offset_mm).unwrap();
+            let linkage = ShapingLinkage::new(GearKind::External, kind, Arc::clone(&curve), r_c, offset_mm).unwrap();
             let block = &expected[block];
             let (phi, psi_b, l) = (numbers(&block["phi"]), numbers(&block["psi_b"]), numbers(&block["l"]));
             for (i, psi_c) in numbers(&expected["psi_c"]).into_iter().enumerate() {
@@ -150,7 +149,7 @@ fn axes_agree_for_every_linkage() {
 fn velocities_and_instantaneous_centers_agree() {
     for (curve, _, expected, _) in cases() {
         let (r_c, delta_d) = (number(&expected["r_c"]), number(&expected["delta_d"]));
-        let linkage = ShapingLinkage::new(TRADITIONAL, Arc::clone(&curve), r_c, delta_d).unwrap();
+        let linkage = ShapingLinkage::new(GearKind::External, TRADITIONAL, Arc::clone(&curve), r_c, delta_d).unwrap();
         let block = &expected["velocity"];
         let within = number(&block["tolerance"]);
         let column = |key: &str| numbers(&block[key]);
@@ -180,7 +179,7 @@ fn strokes_agree() {
         let n = expected["N"].as_u64().unwrap();
         let within = number(&expected["tolerance"]);
         for (block, kind) in [("traditional", TRADITIONAL), ("normal", NORMAL)] {
-            let linkage = ShapingLinkage::new(kind, Arc::clone(&curve), r_c, delta_d).unwrap();
+            let linkage = ShapingLinkage::new(GearKind::External, kind, Arc::clone(&curve), r_c, delta_d).unwrap();
             let schedule =
                 StrokeSchedule::new(&operation("rough", kind, delta_d, u32::try_from(n).unwrap()), &linkage, machine)
                     .unwrap();

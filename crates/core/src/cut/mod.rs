@@ -21,6 +21,10 @@ pub use blank::{BlankCut, BlankOperation, BlankStats, CutBlank, Rub};
 /// Heights below this are the kernels' own error and shown as zero, µm.
 pub const KERNEL_UM: f64 = 1e-4;
 
+/// Thinner than this an edge rubs and takes no chip, mm: it counts neither as engaged nor for forces. A tenth of a
+/// micrometre is far below the radius of any cutting edge.
+pub const LEAST_CHIP_MM: f64 = 1e-4;
+
 /// What a backend met besides heights.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct CutStats {
@@ -80,7 +84,7 @@ pub trait Backend: Sync {
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<BlankCut>, Error>;
 
-    /// Takes all sweeps of a hobbing operation, whose passes have the ids `passes`, from the blank; `advance` is called
+    /// Takes all sweeps of an operation with a turning tool, whose passes have the ids `passes`, from the blank; `advance` is called
     /// as often as the field has slices and says whether to go on. `None`: stopped, the field is then as it was or
     /// partly cut.
     ///

@@ -1,10 +1,23 @@
-//! What sweeps of a turning tool take from the whole blank: volume, thickness and travel, pass by pass, whatever
-//! backend cut it.
+//! What sweeps of a turning tool take from the whole blank: volume, thickness, travel and the area that the edge
+//! sweeps, pass by pass, whatever backend cut it.
 //!
 //! In: the material that a pass takes from each ray of a slice, with the ends that it found and those that it left
-//! (`ChipSurfaces`). Out: its share in that slice, summed over slices ([`PassChip`]).
+//! (`ChipSurfaces`). Out: its share in that slice, and the sum over slices ([`PassChip`]).
+//!
+//! **Engaged edge.** A place of the edge takes material where the border of its section in a slice lies inside of what
+//! is left there: the ray that meets the border has its new end at it. The length of these parts of the border, over
+//! the cosine between slice and swept surface and times the slice's width, is the area that the edge sweeps in
+//! material; over the tip's travel it is the length of edge in engagement, measured across its motion.
+//!
+//! A ray of distance d stands for the length d / cos of border that it meets under that angle to its normal. Only rays
+//! within 45 degrees of the normal count, so that each place of the border is counted by one of the two families. The
+//! mean over all places of the grid is then the length itself, without bias (Crofton's law for parallel lines), and a
+//! stretch of border that one family counts is at most one ray, sqrt(2) d of length, off.
+//!
+//! The road not taken: parameters of the edge at both ends of each engaged stretch. Rays know places, not parameters,
+//! and on the GPU they come back as places alone.
 
-use crate::cut::{BlankCut, BlankStats};
+use crate::cut::{BlankCut, BlankStats, LEAST_CHIP_MM};
 use crate::dexel::intervals::{End, Span};
 use crate::math::planar_rays::Family;
 use crate::passes::sections::swept_sections::SweepHeading;
@@ -23,6 +36,8 @@ pub struct PassChip {
     pub thickness_mm: f64,
     /// Travel of the tip while anything was taken, mm.
     pub travel_mm: f64,
+    /// Area that the edge swept inside the material, measured across its motion, mm2.
+    pub swept_mm2: f64,
 }
 
 /// What an operation did.
@@ -32,19 +47,23 @@ pub struct SweepsCut {
     pub cut: BlankCut,
     /// Passes that took anything, in order.
     pub chips: Vec<PassChip>,
+    /// The same slice by slice, in no order of time.
+    pub in_slices: Vec<PassChip>,
 }
 
 /// Sums the chips of an operation while they come in, slice by slice.
 pub struct ChipAccumulator {
     first_pass: u32,
     chips: Vec<PassChip>,
+    in_slices: Vec<PassChip>,
 }
 
 impl ChipAccumulator {
     /// For passes with the ids `passes`.
     pub fn new(passes: Range<u32>) -> Self {
-        let nothing = |pass| PassChip { pass, removed_mm3: [0.0; 2], thickness_mm: 0.0, travel_mm: 0.0 };
-        Self { first_pass: passes.start, chips: passes.map(nothing).collect() }
+        let nothing =
+            |pass| PassChip { pass, removed_mm3: [0.0; 2], thickness_mm: 0.0, travel_mm: 0.0, swept_mm2: 0.0 };
+        Self { first_pass: passes.start, chips: passes.map(nothing).collect(), in_slices: Vec::new() }
     }
 
     /// Adds a chip of one slice.
@@ -53,13 +72,19 @@ impl ChipAccumulator {
         sum.removed_mm3 = [0, 1].map(|f| sum.removed_mm3[f] + chip.removed_mm3[f]);
         sum.thickness_mm = sum.thickness_mm.max(chip.thickness_mm);
         sum.travel_mm += chip.travel_mm;
+        sum.swept_mm2 += chip.swept_mm2;
+        self.in_slices.push(*chip);
     }
 
     /// What the operation did.
     pub fn finish(mut self, stats: BlankStats) -> SweepsCut {
         let removed_mm3 = self.chips.iter().map(|chip| chip.removed_mm3).collect();
         self.chips.retain(|chip| chip.removed_mm3 != [0.0; 2]);
-        SweepsCut { cut: BlankCut { removed_mm3, stats, ..BlankCut::default() }, chips: self.chips }
+        SweepsCut {
+            cut: BlankCut { removed_mm3, stats, ..BlankCut::default() },
+            chips: self.chips,
+            in_slices: self.in_slices,
+        }
     }
 }
 
@@ -77,7 +102,9 @@ impl PassChip {
         // apart to meet the old surface beside them.
         let area_mm2 = removed_mm3[0].min(removed_mm3[1]) / width_mm;
         let thickness_mm = surfaces.thickness_mm(heading, spacing_mm).min((4.0 * area_mm2 / PI).sqrt());
-        Self { pass, removed_mm3, thickness_mm, travel_mm: heading.travel_per_mm * width_mm }
+        let swept_mm2 = surfaces.swept_per_mm(heading, spacing_mm) * width_mm;
+        let travel_mm = heading.travel_per_mm * width_mm;
+        Self { pass, removed_mm3, thickness_mm, travel_mm, swept_mm2 }
     }
 }
 
@@ -94,6 +121,8 @@ pub struct ChipSurfaces {
 struct NewPlace {
     at: DVec2,
     normal: DVec2,
+    /// Cosine between its ray and its normal.
+    facing: f64,
     /// How far the old surface at the other end of the chip on the same ray lies from it; where this pass left that end
     /// as well, how wide the tool is there, mm.
     across_mm: f64,
@@ -129,19 +158,27 @@ impl ChipSurfaces {
         let length_mm = piece.high.at_mm - piece.low.at_mm;
         let ends = [&piece.low, &piece.high];
         let normals = ends.map(|end| DVec2::from_array(end.normal.map(f64::from)));
+        let facing = normals.map(|normal| family.along(normal).abs());
         for side in 0..2 {
             let (at, normal) = (family.point(ends[side].at_mm, across_mm), normals[side]);
             if ends[side].pass != pass {
                 self.old.push([at, normal]);
-            } else if family.along(normal).abs() >= FRAC_1_SQRT_2 {
+            } else if facing[side] >= FRAC_1_SQRT_2 {
                 let across_mm = if ends[1 - side].pass == pass {
                     length_mm
                 } else {
                     between_mm(family, length_mm, [normal, normals[1 - side]])
                 };
-                self.new.push(NewPlace { at, normal, across_mm });
+                self.new.push(NewPlace { at, normal, facing: facing[side], across_mm });
             }
         }
+    }
+
+    /// Area that the edge sweeps in the material per mm along the gear's axis, mm2 per mm.
+    fn swept_per_mm(&self, heading: &SweepHeading, spacing_mm: f64) -> f64 {
+        let places = self.new.iter().map(|place| (place, heading.upright(place.normal)));
+        let engaged = places.filter(|(place, upright)| place.across_mm * upright >= LEAST_CHIP_MM);
+        engaged.map(|(place, upright)| spacing_mm / (place.facing * upright)).sum()
     }
 
     /// Largest distance of a place of the new surface from the old one, across the swept surface; the old one between
@@ -160,5 +197,113 @@ impl ChipSurfaces {
             });
             bound_mm.min(squared.fold(f64::INFINITY, f64::min).sqrt() * upright).max(largest_mm)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dexel::NO_PASS;
+    use crate::math::planar_rays::FAMILIES;
+    use glam::DVec3;
+
+    const PASS: u32 = 7;
+
+    /// A straight slot of this width and depth, turned by an angle, as rays of both families meet it; `at` shifts the
+    /// grid, in rays. With the area that both families take in the mean, mm2.
+    fn slot([width_mm, depth_mm]: [f64; 2], angle_rad: f64, spacing_mm: f64, at: DVec2) -> (ChipSurfaces, f64) {
+        let along = DVec2::from_angle(angle_rad);
+        let up = along.perp();
+        // Half planes that the slot is the intersection of: normal, distance, whether the tool leaves that side.
+        let sides =
+            [(along, 0.5 * width_mm, true), (-along, 0.5 * width_mm, true), (-up, depth_mm, true), (up, 0.0, false)];
+        let (mut surfaces, mut area_mm2) = (ChipSurfaces::default(), 0.0);
+        for family in FAMILIES {
+            let rays = (4.0 * width_mm.max(depth_mm) / spacing_mm) as i32;
+            for ray in -rays..=rays {
+                let across_mm = (f64::from(ray) + family.across(at)) * spacing_mm;
+                let (mut low, mut high) = ((f64::NEG_INFINITY, 0), (f64::INFINITY, 0));
+                for (index, (normal, distance_mm, _)) in sides.iter().enumerate() {
+                    let (slope, origin) = (family.along(*normal), family.point(0.0, across_mm).dot(*normal));
+                    let crossing = (distance_mm - origin) / slope;
+                    if slope < 0.0 && crossing > low.0 {
+                        low = (crossing, index);
+                    } else if slope > 0.0 && crossing < high.0 {
+                        high = (crossing, index);
+                    }
+                }
+                if low.0 < high.0 {
+                    let [low, high] = [low, high].map(|(at_mm, side)| {
+                        let (normal, _, left) = sides[side];
+                        // Ends that the tool leaves bear the normal of what is left: into the slot.
+                        End {
+                            at_mm,
+                            pass: if left { PASS } else { NO_PASS },
+                            normal: if left { -normal } else { normal }.as_vec2().to_array(),
+                        }
+                    });
+                    surfaces.add_piece(family, across_mm, &Span { low, high }, PASS);
+                    area_mm2 += 0.5 * spacing_mm * (high.at_mm - low.at_mm);
+                }
+            }
+        }
+        (surfaces, area_mm2)
+    }
+
+    /// A blade that moves along the gear's axis: every surface stands upright.
+    fn upright() -> SweepHeading {
+        SweepHeading { travel_per_mm: 1.0, axis_and_out: [DVec3::X, DVec3::Y] }
+    }
+
+    /// Grids shifted against the slot, and the slot turned, over the unit square by the golden ratio.
+    fn places() -> impl Iterator<Item = (f64, DVec2)> {
+        (1..=400).map(|i| {
+            let at = |step: f64| (f64::from(i) * step).fract();
+            (std::f64::consts::TAU * at(0.618_034), DVec2::new(at(0.754_878), at(0.569_840)))
+        })
+    }
+
+    /// The edge is engaged at the bottom and on both sides: w + 2 h.
+    #[test]
+    fn engaged_edge_of_a_straight_slot_is_its_width_and_both_sides() {
+        let (slot_mm, length_mm) = ([2.0, 1.3], 2.0 + 2.0 * 1.3);
+        for spacing_mm in [0.3, 0.15, 0.075] {
+            let found: Vec<f64> = places()
+                .map(|(angle, at)| slot(slot_mm, angle, spacing_mm, at).0.swept_per_mm(&upright(), spacing_mm))
+                .collect();
+            let worst = found.iter().map(|mm| (mm - length_mm).abs()).fold(0.0, f64::max);
+            let mean = found.iter().sum::<f64>() / found.len() as f64;
+            println!(
+                "rays {spacing_mm} mm apart: {mean:.4} mm in the mean, worst {worst:.4} mm off, of {length_mm} mm"
+            );
+            // Three stretches, each a ray off at most; the mean has no bias.
+            assert!(worst <= 3.0 * std::f64::consts::SQRT_2 * spacing_mm, "{worst} at {spacing_mm}");
+            assert!((mean / length_mm - 1.0).abs() < 0.004, "{mean} at {spacing_mm}");
+        }
+    }
+
+    /// Rays along a thin chip meet it by chance: its area spreads, by less the nearer they stand, about w h.
+    #[test]
+    fn section_of_a_thin_slot_spreads_about_its_area() {
+        let slot_mm = [3.0, 0.1];
+        let spread = |spacing_mm: f64| {
+            let found: Vec<f64> = places()
+                .map(|(angle, at)| slot(slot_mm, angle, spacing_mm, at).1 / (slot_mm[0] * slot_mm[1]) - 1.0)
+                .collect();
+            let mean = found.iter().sum::<f64>() / found.len() as f64;
+            let square = found.iter().map(|off| off * off).sum::<f64>() / found.len() as f64;
+            println!("rays {spacing_mm} mm apart: {mean:.4} off in the mean, {:.4} root mean square", square.sqrt());
+            assert!(mean.abs() < 0.02);
+            square.sqrt()
+        };
+        let [coarse, fine] = [0.3, 0.15].map(spread);
+        assert!(coarse < 0.2 && fine < 0.5 * coarse, "{coarse}, {fine}");
+    }
+
+    #[test]
+    fn what_is_thinner_than_a_chip_engages_nothing() {
+        let of = |depth_mm: f64| slot([2.0, depth_mm], 0.3, 0.1, DVec2::ZERO).0.swept_per_mm(&upright(), 0.1);
+        assert_eq!(of(0.5 * LEAST_CHIP_MM), 0.0);
+        assert!(of(2.0 * LEAST_CHIP_MM) > 1.5);
     }
 }

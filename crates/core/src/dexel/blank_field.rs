@@ -1,6 +1,6 @@
 //! The blank field: two families of rays through the whole blank, in transverse slices.
 //!
-//! In: the blank, its bore and face width, a spacing. Out: for every ray the spans of material. Rays of family X run
+//! In: the blank, its face width, a spacing. Out: for every ray the spans of material. Rays of family X run
 //! along x and stand side by side in y, those of family Y the other way round; the rays of both families meet in the
 //! nodes of one square grid, the same in all slices. Family X decides what is inside; family Y supplies crossings in
 //! its own direction, so that no face of the work is seen only by rays that graze it.
@@ -15,6 +15,7 @@
 
 use super::intervals::{self, End, Span};
 use crate::error::Refusal;
+use crate::gear::GearKind;
 use crate::gear::blank::Blank;
 use crate::gear::blank_outline::BlankOutline;
 use crate::math::planar_rays::{FAMILIES, Family, RayCrossings, RayRow};
@@ -143,8 +144,8 @@ fn section_bytes(blank: &Blank, size: DVec2, spacing_mm: f64) -> f64 {
 
 impl BlankField {
     /// The uncut blank.
-    pub fn new(grid: BlankGrid, outline: &BlankOutline, bore_radius_mm: f64) -> Self {
-        let rays = [0, 1].map(|f| blank_rays(outline, FAMILIES[f], &grid.rows[f], bore_radius_mm));
+    pub fn new(grid: BlankGrid, outline: &BlankOutline) -> Self {
+        let rays = [0, 1].map(|f| blank_rays(outline, FAMILIES[f], &grid.rows[f]));
         let slices = vec![Slice { rays }; grid.slices_z_mm.len()];
         Self { grid, slices }
     }
@@ -175,30 +176,45 @@ impl BlankField {
     }
 }
 
-fn blank_rays(outline: &BlankOutline, family: Family, row: &RayRow, bore_radius_mm: f64) -> Vec<RayMaterial> {
+/// Material of the uncut stock: what the outline encloses less the bore, or the ring's disc less what the outline
+/// encloses.
+fn blank_rays(outline: &BlankOutline, family: Family, row: &RayRow) -> Vec<RayMaterial> {
     let mut crossings = RayCrossings::default();
     crossings.lay(outline, family, row, 0..row.count);
+    let back = outline.back();
     let mut found = Vec::new();
     (0..row.count)
         .map(|ray| {
             let at_mm = row.at_mm(ray);
             crossings.solve(outline, family, ray, at_mm, &mut found);
-            let mut spans: RayMaterial = found
-                .as_chunks::<2>()
-                .0
-                .iter()
-                .map(|[a, b]| Span {
-                    low: End::of_blank(a.at_mm, a.outward()),
-                    high: End::of_blank(b.at_mm, b.outward()),
-                })
-                .collect();
-            let half_mm = (bore_radius_mm * bore_radius_mm - at_mm * at_mm).max(0.0).sqrt();
-            if half_mm > 0.0 {
-                // The bore's surface faces the axis.
-                let end = |along: f64| End::of_blank(along, -family.point(along, at_mm) / bore_radius_mm);
-                intervals::subtract(&mut spans, end(-half_mm), end(half_mm));
+            let enclosed = found.as_chunks::<2>().0.iter();
+            let half_mm = back.half_chord_mm(at_mm);
+            // A bore's surface faces the axis, a rim's looks away from it.
+            let on_back =
+                |along: f64| End::of_blank(along, -back.kind.tip_sign() * family.point(along, at_mm) / back.radius_mm);
+            match back.kind {
+                GearKind::External => {
+                    let mut spans: RayMaterial = enclosed
+                        .map(|[a, b]| Span {
+                            low: End::of_blank(a.at_mm, a.outward()),
+                            high: End::of_blank(b.at_mm, b.outward()),
+                        })
+                        .collect();
+                    if half_mm > 0.0 {
+                        intervals::subtract(&mut spans, on_back(-half_mm), on_back(half_mm));
+                    }
+                    spans
+                }
+                GearKind::Internal if half_mm > 0.0 => {
+                    let mut spans = vec![Span { low: on_back(-half_mm), high: on_back(half_mm) }];
+                    for [a, b] in enclosed {
+                        let [from, to] = [a, b].map(|crossing| End::of_blank(crossing.at_mm, -crossing.outward()));
+                        intervals::subtract(&mut spans, from, to);
+                    }
+                    spans
+                }
+                GearKind::Internal => Vec::new(),
             }
-            spans
         })
         .collect()
 }

@@ -1,10 +1,13 @@
-//! The blank: the stock before cutting. Its outline is the pitch curve moved outwards along its normals by the
-//! addendum.
+//! The blank: the stock before cutting. Its outline, on the toothed side, is the pitch curve moved along its normals by
+//! the addendum: outwards on an external gear, inwards on a ring with internal teeth. Its other side is round
+//! ([`Back`]).
 //!
-//! Heights over the pitch curve are measured along its normal; they decide where flanks end at the tip and where a ray
-//! leaves the stock.
+//! Heights over the pitch curve are measured along its normal **towards the tips**, outwards on an external gear and
+//! inwards on an internal one; they decide where flanks end at the tip and where a ray leaves the stock. With the sign s
+//! of [`GearKind::tip_sign`] the foot of a height h is P + s h n, and d/ds of the distance beside it is -(1 + s h
+//! kappa).
 
-use super::PitchCurve;
+use super::{Back, GearKind, PitchCurve, PitchFrame};
 use crate::error::Refusal;
 use crate::math::convergence::{Step, iterate};
 use crate::math::newton::{LastStep, newton};
@@ -29,10 +32,12 @@ pub struct Blank {
     curve: Arc<PitchCurve>,
     /// Distance of the outline from the pitch curve, mm.
     pub addendum_mm: f64,
+    /// The side without teeth; its kind is the gear's.
+    pub back: Back,
 }
 
 impl Blank {
-    /// Blank with the outline `addendum_mm` outside the pitch curve.
+    /// Blank of an external gear without a bore, its outline `addendum_mm` outside the pitch curve.
     ///
     /// # Errors
     /// A hollow of the pitch curve that is tighter than the addendum: the outline would cross itself.
@@ -49,7 +54,37 @@ impl Blank {
                 "use a smaller addendum_coefficient or module_mm, or a pitch curve with a wider hollow",
             ));
         }
-        Ok(Self { curve, addendum_mm })
+        Ok(Self { curve, addendum_mm, back: Back::bore(0.0) })
+    }
+
+    /// The same with a bore.
+    #[must_use]
+    pub fn with_bore(self, radius_mm: f64) -> Self {
+        Self { back: Back::bore(radius_mm), ..self }
+    }
+
+    /// Blank of a ring for internal teeth: its outline lies `addendum_mm` inside the pitch curve, and it is round
+    /// outside, `rim_mm` beyond the curve's largest radius.
+    ///
+    /// # Errors
+    /// A pitch curve that is curved more sharply than the addendum: the outline would cross itself.
+    pub fn ring(curve: Arc<PitchCurve>, addendum_mm: f64, rim_mm: f64) -> Result<Self, Refusal> {
+        let facts = curve.facts();
+        let sharpest = facts.largest_curvature;
+        if sharpest.curvature_per_mm * addendum_mm >= 1.0 {
+            return Err(Refusal::new(
+                "gear.addendum_coefficient",
+                format!(
+                    "the blank's outline, {addendum_mm} mm inside the pitch curve, crosses itself where the curve has \
+                    the radius {:.3} mm, at polar angle {:.3} deg",
+                    1.0 / sharpest.curvature_per_mm,
+                    sharpest.phi_rad.to_degrees()
+                ),
+                "use a smaller addendum_coefficient or module_mm, or a pitch curve that is nowhere curved so sharply",
+            ));
+        }
+        let back = Back::ring(facts.largest_radius_mm + rim_mm);
+        Ok(Self { curve, addendum_mm, back })
     }
 
     /// The pitch curve.
@@ -57,14 +92,29 @@ impl Blank {
         &self.curve
     }
 
-    /// Point of the outline over the place of the pitch curve at `phi_rad`, gear frame, mm.
-    pub fn outline_mm(&self, phi_rad: f64) -> DVec2 {
-        let frame = self.curve.frame(phi_rad);
-        frame.point_mm + self.addendum_mm * frame.normal
+    /// External or internal.
+    pub fn kind(&self) -> GearKind {
+        self.back.kind
     }
 
-    /// Height of a point over the pitch curve along the curve's normal, and the polar angle of the foot: the foot that
-    /// Newton's method runs to from `phi_guess_rad`, or that of the nearest place of the curve where it runs to none (a
+    /// Unit normal of the pitch curve towards the tips, out of the stock.
+    pub fn towards_tip(&self, frame: &PitchFrame) -> DVec2 {
+        self.kind().tip_sign() * frame.normal
+    }
+
+    /// Point over the place of the pitch curve at `phi_rad`, gear frame, mm.
+    pub fn at_height_mm(&self, phi_rad: f64, height_mm: f64) -> DVec2 {
+        let frame = self.curve.frame(phi_rad);
+        frame.point_mm + height_mm * self.towards_tip(&frame)
+    }
+
+    /// Point of the outline over the place of the pitch curve at `phi_rad`, gear frame, mm.
+    pub fn outline_mm(&self, phi_rad: f64) -> DVec2 {
+        self.at_height_mm(phi_rad, self.addendum_mm)
+    }
+
+    /// Height of a point over the pitch curve along the curve's normal, positive towards the tips, and the polar angle
+    /// of the foot: the foot that Newton's method runs to from `phi_guess_rad`, or that of the nearest place of the curve where it runs to none (a
     /// point near the curve's centres of curvature).
     pub fn height(&self, point_mm: DVec2, phi_guess_rad: f64) -> (f64, f64) {
         let phi = newton("the foot of a normal", phi_guess_rad, LastStep::absolute(FOOT_RAD), FOOT_STEPS, |phi| {
@@ -77,7 +127,7 @@ impl Blank {
         });
         let phi = phi.unwrap_or_else(|_| self.nearest_foot_rad(point_mm, phi_guess_rad));
         let frame = self.curve.frame(phi);
-        ((point_mm - frame.point_mm).dot(frame.normal), phi)
+        (self.kind().tip_sign() * (point_mm - frame.point_mm).dot(frame.normal), phi)
     }
 
     /// Foot of a point on the nearest place of the curve, in the turn nearest to `phi_guess_rad`. It cannot fail: the
@@ -101,7 +151,7 @@ impl Blank {
         let height_and_foot = |t: f64| self.height(point_mm + t * direction, phi_guess_rad);
         let found = iterate("the way out of the blank", start_mm.clamp(0.0, limit_mm), EXIT_STEPS, |t| {
             let (height, phi) = height_and_foot(t);
-            let climb = direction.dot(self.curve.frame(phi).normal);
+            let climb = direction.dot(self.towards_tip(&self.curve.frame(phi)));
             if climb <= 0.0 && height < self.addendum_mm {
                 return ControlFlow::Break(limit_mm);
             }
@@ -124,16 +174,20 @@ mod tests {
     #[test]
     fn points_find_their_feet_with_and_without_newton() {
         for curve in examples() {
-            let blank = Blank { curve: Arc::new(curve), addendum_mm: 2.0 };
-            for i in 0..40 {
-                let phi = 0.3 + 0.39 * f64::from(i);
-                let frame = blank.curve.frame(phi);
-                for height_mm in [-2.0, 0.0, 2.0] {
-                    let point_mm = frame.point_mm + height_mm * frame.normal;
-                    let (height, foot) = blank.height(point_mm, phi + 1e-3);
-                    assert!((height - height_mm).abs() < 1e-12 && (foot - phi).abs() < 1e-12);
-                    let nearest = blank.nearest_foot_rad(point_mm, phi + 1.0);
-                    assert!((nearest - phi).abs() < 1e-12, "{nearest} for {phi}");
+            let curve = Arc::new(curve);
+            for blank in [Blank::new(curve.clone(), 2.0).unwrap(), Blank::ring(curve.clone(), 2.0, 10.0).unwrap()] {
+                for i in 0..40 {
+                    let phi = 0.3 + 0.39 * f64::from(i);
+                    let frame = curve.frame(phi);
+                    for outwards_mm in [-2.0, 0.0, 2.0] {
+                        let point_mm = frame.point_mm + outwards_mm * frame.normal;
+                        let height_mm = if blank.kind() == GearKind::External { outwards_mm } else { -outwards_mm };
+                        let (height, foot) = blank.height(point_mm, phi + 1e-3);
+                        assert!((height - height_mm).abs() < 1e-12 && (foot - phi).abs() < 1e-12);
+                        let nearest = blank.nearest_foot_rad(point_mm, phi + 1.0);
+                        assert!((nearest - phi).abs() < 1e-12, "{nearest} for {phi}");
+                        assert!(blank.at_height_mm(phi, height_mm).distance(point_mm) < 1e-12);
+                    }
                 }
             }
         }
@@ -144,7 +198,7 @@ mod tests {
     fn a_point_without_a_foot_of_its_own_gets_the_nearest() {
         let circle = examples().swap_remove(0);
         let radius_mm = circle.facts().largest_radius_mm;
-        let blank = Blank { curve: Arc::new(circle), addendum_mm: 2.0 };
+        let blank = Blank::new(Arc::new(circle), 2.0).unwrap();
         let (height, foot) = blank.height(DVec2::new(1e-14, 0.0), 1.0);
         assert!((height + radius_mm).abs() < 1e-9 && foot.is_finite(), "{height} at {foot}");
     }
@@ -153,7 +207,7 @@ mod tests {
     fn rays_leave_a_round_blank_where_its_circle_says() {
         let circle = examples().swap_remove(0);
         let outside_mm = circle.facts().largest_radius_mm + 2.0;
-        let blank = Blank { curve: Arc::new(circle), addendum_mm: 2.0 };
+        let blank = Blank::new(Arc::new(circle), 2.0).unwrap();
         for angle in [0.0_f64, 0.4, 1.2, 1.5] {
             let point = DVec2::new(outside_mm - 3.0, 0.0);
             let direction = DVec2::from_angle(angle);
@@ -162,5 +216,32 @@ mod tests {
             let found = blank.exit_mm(point, direction, 0.0, 0.0, 100.0);
             assert!((found - exact).abs() < 1e-9, "{found} for {exact} at {angle}");
         }
+    }
+
+    /// Rays out of a ring run inwards, and leave it where they meet the circle of its tips.
+    #[test]
+    fn rays_leave_a_ring_where_the_circle_of_its_tips_says() {
+        let circle = examples().swap_remove(0);
+        let tips_mm = circle.facts().largest_radius_mm - 2.0;
+        let blank = Blank::ring(Arc::new(circle), 2.0, 10.0).unwrap();
+        assert!((blank.back.radius_mm - tips_mm - 12.0).abs() < 1e-12);
+        for angle in [0.0_f64, 0.4, 1.2] {
+            let point = DVec2::new(tips_mm + 3.0, 0.0);
+            let direction = -DVec2::from_angle(angle);
+            let b = point.dot(direction);
+            let root = b * b + tips_mm * tips_mm - point.length_squared();
+            let exact = if root > 0.0 { -b - root.sqrt() } else { 20.0 };
+            let found = blank.exit_mm(point, direction, 0.0, 0.0, 20.0);
+            assert!((found - exact).abs() < 1e-9, "{found} for {exact} at {angle}");
+        }
+    }
+
+    #[test]
+    fn a_ring_whose_tips_would_cross_is_refused() {
+        let ellipse = Arc::new(examples().swap_remove(2));
+        let sharpest_mm = ellipse.facts().smallest_curvature_radius_mm;
+        assert!(Blank::ring(ellipse.clone(), 0.99 * sharpest_mm, 10.0).is_ok());
+        let refusal = Blank::ring(ellipse, 1.01 * sharpest_mm, 10.0).unwrap_err();
+        assert_eq!(refusal.key, "gear.addendum_coefficient");
     }
 }

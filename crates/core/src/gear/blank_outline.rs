@@ -1,9 +1,12 @@
-//! The blank's outline as a closed curve on rays: the pitch curve moved outwards along its normals.
+//! The blank's outline as a closed curve on rays: the pitch curve moved along its normals towards the tips, and the
+//! extent of the stock between it and its back.
 //!
-//! Parameter: polar angle phi of the foot on the pitch curve. With the distance a, the outline is P + a n and its
-//! derivative (1 + a kappa) s' t; the blank refuses hollows tighter than a, so it never turns back.
+//! Parameter: polar angle phi of the foot on the pitch curve. With the distance a and the sign s of the tips' direction,
+//! the outline is P + s a n and its derivative (1 + s a kappa) s' t; the blank refuses curvatures at which it would turn
+//! back.
 
 use super::blank::Blank;
+use super::{Back, GearKind};
 use crate::math::planar_rays::{ClosedCurve, Piece};
 use glam::DVec2;
 use std::f64::consts::TAU;
@@ -11,7 +14,17 @@ use std::f64::consts::TAU;
 /// Pieces per turn at least: each turns by half a degree on a circle.
 const LEAST_PIECES: usize = 720;
 
-/// Closed outline of the stock, counter-clockwise.
+/// A piece stays within this many arrow heights at its middle of its chord: 32/27 for a cubic that bends one way (its
+/// distance from the chord is t (1 - t) ((1 - t) a + t b) with the slopes a and b at its ends), the rest for what half a
+/// degree of a pitch curve has beyond a cubic, and no proof. Too small, a ray that only just meets a bulge misses it,
+/// and the blank loses what lies beyond its chord there: `tests/suite/shaping/blank_field.rs` compares volumes with the
+/// outline's own.
+const SAGITTA_SAFETY: f64 = 2.0;
+/// Added to arrow heights, mm: rounding.
+const ROUNDING_MM: f64 = 1e-9;
+
+/// Closed outline of the stock on its toothed side, counter-clockwise: round the material of an external gear, round the
+/// hole of a ring.
 #[derive(Debug)]
 pub struct BlankOutline<'a> {
     blank: &'a Blank,
@@ -30,21 +43,41 @@ impl<'a> BlankOutline<'a> {
                 let (start, end) = (nodes[i][0], nodes[(i + 1) % count][0]);
                 let middle = place(blank, 0.5 * (at(i) + at(i + 1)))[0];
                 let sagitta = (end - start).normalize_or_zero().perp_dot(middle - start).abs();
-                Piece { law: 0, range: [at(i), at(i + 1)], sagitta_mm: 2.0 * sagitta + 1e-9 }
+                Piece { law: 0, range: [at(i), at(i + 1)], sagitta_mm: SAGITTA_SAFETY * sagitta + ROUNDING_MM }
             })
             .collect();
         Self { blank, pieces, nodes }
     }
 
-    /// Largest distance of the outline from the gear axis, mm, with what lies between the nodes.
-    pub fn reach_mm(&self) -> f64 {
-        let sagitta = self.pieces.iter().map(|p| p.sagitta_mm).fold(0.0, f64::max);
-        self.nodes.iter().map(|n| n[0].length()).fold(0.0, f64::max) + sagitta
+    /// The side of the stock without teeth.
+    pub fn back(&self) -> Back {
+        self.blank.back
     }
 
-    /// Box round the outline: lowest and highest corner, mm.
+    /// Largest distance of the stock from the gear axis, mm, with what lies between the nodes.
+    pub fn reach_mm(&self) -> f64 {
+        match self.back() {
+            Back { kind: GearKind::Internal, radius_mm } => radius_mm,
+            _ => self.nodes.iter().map(|n| n[0].length()).fold(0.0, f64::max) + self.sagitta_mm(),
+        }
+    }
+
+    /// How near the stock comes to a point in the hole of a ring, or in front of an external gear, mm, at most by what
+    /// lies between the nodes too small.
+    pub fn clearance_mm(&self, point_mm: DVec2) -> f64 {
+        self.nodes.iter().map(|n| n[0].distance(point_mm)).fold(f64::INFINITY, f64::min) - self.sagitta_mm()
+    }
+
+    fn sagitta_mm(&self) -> f64 {
+        self.pieces.iter().map(|p| p.sagitta_mm).fold(0.0, f64::max)
+    }
+
+    /// Box round the stock: lowest and highest corner, mm.
     pub fn bounds_mm(&self) -> [DVec2; 2] {
-        let sagitta = DVec2::splat(self.pieces.iter().map(|p| p.sagitta_mm).fold(0.0, f64::max));
+        if let Back { kind: GearKind::Internal, radius_mm } = self.back() {
+            return [DVec2::splat(-radius_mm), DVec2::splat(radius_mm)];
+        }
+        let sagitta = DVec2::splat(self.sagitta_mm());
         let points = self.nodes.iter().map(|n| n[0]);
         let low = points.clone().reduce(DVec2::min).unwrap_or_default();
         [low - sagitta, points.reduce(DVec2::max).unwrap_or_default() + sagitta]
@@ -71,6 +104,7 @@ impl ClosedCurve for BlankOutline<'_> {
 
 fn place(blank: &Blank, phi_rad: f64) -> [DVec2; 2] {
     let frame = blank.curve().frame(phi_rad);
-    let stretch = 1.0 + blank.addendum_mm * frame.curvature_per_mm;
-    [frame.point_mm + blank.addendum_mm * frame.normal, stretch * frame.arc_rate_mm_per_rad * frame.tangent]
+    let outwards_mm = blank.kind().tip_sign() * blank.addendum_mm;
+    let stretch = 1.0 + outwards_mm * frame.curvature_per_mm;
+    [frame.point_mm + outwards_mm * frame.normal, stretch * frame.arc_rate_mm_per_rad * frame.tangent]
 }

@@ -2,6 +2,7 @@
 //! share one transverse section.
 
 use super::linkage_words;
+use crate::error::NotConverged;
 use crate::machine::{AxisMotion, Motion as _, Order};
 use crate::math::newton::{EVERYWHERE, LastStep, newton_within};
 use crate::output::bar_chart::{BarChart, BarSeries};
@@ -93,15 +94,18 @@ fn path(operation: &PreparedHobbing) -> Vec<Panel> {
 }
 
 /// Share of an operation's work on every hob tooth: one space in the middle of the face stands for all.
-pub(super) fn work_of_teeth(job: &HobbingJob, operation: &PreparedHobbing) -> BarChart {
+///
+/// # Errors
+/// A work that turns nearly as fast as its hob.
+pub(super) fn work_of_teeth(job: &HobbingJob, operation: &PreparedHobbing) -> Result<BarChart, NotConverged> {
     let module_mm = job.scene.gear.module_mm;
     let depth_mm = job.hob.tip_radius_mm - job.hob.pitch_radius_mm;
     let grid = [depth_mm, job.blank.addendum_mm, ENGAGEMENT_MODULES * module_mm];
-    let work = Engagement::of_space(&operation.linkage, &job.target, &job.hob, 0, 0.0, grid);
+    let work = Engagement::of_space(&operation.linkage, &job.target, &job.hob, 0, 0.0, grid)?;
     let numbered = job.hob.teeth.iter().filter(|tooth| tooth.start == 0);
     let (categories, values) =
         numbered.map(|tooth| (tooth.number.to_string(), Some(100.0 * work.share(tooth.passage)))).unzip();
-    BarChart {
+    Ok(BarChart {
         least_division: 0.0,
         title: format!(
             "{} of {}: area that each hob tooth takes, space 0 ({})",
@@ -114,5 +118,5 @@ pub(super) fn work_of_teeth(job: &HobbingJob, operation: &PreparedHobbing) -> Ba
         value_name: "share of the space".to_owned(),
         unit: "%".to_owned(),
         series: vec![BarSeries { name: "all starts".to_owned(), values }],
-    }
+    })
 }

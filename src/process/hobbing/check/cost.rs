@@ -61,7 +61,7 @@ fn plan(cutter: &HobCutter, tooth: u32, side: Side) -> Result<Planned> {
     let rows_z_mm = (0..rows).map(|i| fields.lead_spacing_mm * (i as f64 - 0.5 * (rows - 1) as f64)).collect();
     let field = cutter.rays_over(target, arcs_mm, rows_z_mm).field;
     let mut sum = Planned { dexels: field.len() as f64, tiles: 0.0, records: 0.0, evaluations: 0.0 };
-    for passes in &cutter.operations {
+    for passes in cutter.operations.iter() {
         let plan = SweepPlan::new(&field, passes);
         sum.tiles += plan.tiles.len() as f64;
         sum.records += plan.records.len() as f64;

@@ -3,6 +3,7 @@
 pub mod blank_report;
 pub mod engagement;
 pub mod flank_report;
+pub mod hob_force;
 pub mod hob_load;
 pub mod marks;
 pub mod offset_curves;

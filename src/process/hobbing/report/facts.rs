@@ -20,7 +20,7 @@ pub fn section(job: &HobbingJob) -> PageSection {
     };
     let names = ["hob", "work", "X", "Y", "slide", "shift"];
     let speeds = speed_limits(names, &AXES, &dynamics::limits(limits));
-    let blocks = vec![
+    let mut blocks = vec![
         gear_table(&job.scene.gear, &job.curve),
         table(
             "Hob",
@@ -45,5 +45,16 @@ pub fn section(job: &HobbingJob) -> PageSection {
         ),
         table("Machine", vec![("Speed limits", speeds)]),
     ];
+    let [from, to] = job.scene.measure.heights_mm();
+    if from.is_some() || to.is_some() {
+        let from = from.map_or_else(|| "the form point, 5 % left out".to_owned(), mm);
+        let to = to.map_or_else(|| "the tip, 5 % left out".to_owned(), mm);
+        blocks.push(table("Measured", vec![("Evaluated profile over the pitch curve", format!("{from} to {to}"))]));
+    }
+    if let Some(force) = job.material {
+        let coefficients =
+            format!("K_c {} N/mm², K_ce {} N/mm", plain(force.per_area_n_per_mm2), plain(force.per_length_n_per_mm));
+        blocks.push(table("Material", vec![("Cutting force", coefficients)]));
+    }
     PageSection { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
 }

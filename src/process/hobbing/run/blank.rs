@@ -3,7 +3,8 @@
 use crate::cut::Backend;
 use crate::error::Result;
 use crate::findings::damage::{damage, damage_row, damage_table, pairs};
-use crate::findings::{Column, Datum, Quantity, Section, Table};
+use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
+use crate::gear::GearKind;
 use crate::measure::damage::Damage;
 use crate::process::hobbing::{HobCutter, HobbedBlank};
 
@@ -54,7 +55,7 @@ fn all_damage(cutter: &HobCutter, report: &HobbedBlankReport) -> Table {
     };
     let gouges = report.gouges.iter().map(|d| row("gouge", d));
     let interference = report.interference.iter().map(|d| row("interference", d));
-    let pass = [Column::new("hob_turn", "1", "turn of the hob"), Column::words("hob_tooth", "hob tooth")];
+    let pass = [TableColumn::new("hob_turn", "1", "turn of the hob"), TableColumn::words("hob_tooth", "hob tooth")];
     damage_table(pass, gouges.chain(interference))
 }
 
@@ -76,40 +77,43 @@ pub fn findings(cutter: &HobCutter, whole: &WholeBlank) -> Section {
     };
     let slices = (grid.slices_z_mm.len(), "transverse sections, both end faces among them");
     let names = cutter.job.operations.iter().map(|operation| operation.spec.name.as_str());
-    whole_blank::findings(grid.spacing_mm(), slices, [report.blank_mm3, report.left_mm3], &report.operations)
-        .with(
-            "section_area",
-            number(mean(section.cut_mm2), "mm2", "transverse section that is left, mean over the face"),
-        )
-        .with(
-            "target_section_area",
-            number(
-                section.target_mm2,
-                "mm2",
-                "area of the target's section less the bore, from the rack's meshing condition, mean over the slices",
-            ),
-        )
-        .with(
-            "section_area_bound",
-            number(
-                section.bound_mm2[0].max(section.bound_mm2[1]),
-                "mm2",
-                "how far the section may be off because of the rays' distance: half of it times the travel of the \
+    whole_blank::findings(
+        GearKind::External,
+        grid.spacing_mm(),
+        slices,
+        [report.blank_mm3, report.left_mm3],
+        &report.operations,
+    )
+    .with("section_area", number(mean(section.cut_mm2), "mm2", "transverse section that is left, mean over the face"))
+    .with(
+        "target_section_area",
+        number(
+            section.target_mm2,
+            "mm2",
+            "area of the target's section less the bore, from the rack's meshing condition, mean over the slices",
+        ),
+    )
+    .with(
+        "section_area_bound",
+        number(
+            section.bound_mm2[0].max(section.bound_mm2[1]),
+            "mm2",
+            "how far the section may be off because of the rays' distance: half of it times the travel of the \
                  outline along the rays",
-            ),
-        )
-        .with(
-            "ray_passes_visited",
-            pairs(report.stats.visited, "pairs of ray and pass in which the ray crosses the sweep of the hob tooth"),
-        )
-        .with("ray_passes_removing", pairs(report.stats.removing, "those of them that removed material"))
-        .table(all_damage(cutter, report))
-        .part(whole_blank::removed(names, &report.operations))
-        .part(damage("gouges", "gouges", &report.gouges, "target material that the last operation took"))
-        .part(damage(
-            "interference",
-            "interference",
-            &report.interference,
-            "target material that an earlier operation took",
-        ))
+        ),
+    )
+    .with(
+        "ray_passes_visited",
+        pairs(report.stats.visited, "pairs of ray and pass in which the ray crosses the sweep of the hob tooth"),
+    )
+    .with("ray_passes_removing", pairs(report.stats.removing, "those of them that removed material"))
+    .table(all_damage(cutter, report))
+    .part(whole_blank::removed(names, &report.operations))
+    .part(damage("gouges", "gouges", &report.gouges, "target material that the last operation took"))
+    .part(damage(
+        "interference",
+        "interference",
+        &report.interference,
+        "target material that an earlier operation took",
+    ))
 }

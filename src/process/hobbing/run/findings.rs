@@ -1,12 +1,13 @@
 //! What a run finds on a hobbed gear: names, units, definitions, places.
 
-use super::{blank, flank_table, load, marks, points};
+use super::{blank, flank_table, force, load, marks, points};
 use crate::findings::{Entry, Findings, Place, Quantity, Section};
 use crate::job::RAY_DEPTH_MODULES;
 use crate::measure::deviation::PitchDeviations;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::measure::flank_report::HobbedReport;
+use crate::process::hobbing::measure::hob_force::OperationForce;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::measure::marks::MarkLattice;
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
@@ -17,6 +18,12 @@ use crate::units::UM_PER_MM;
 /// Why a pitch is not known.
 const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve";
 
+/// What the ends of the evaluated profile are.
+const START: &str = "lower end of the evaluated profile, as height over the pitch curve along its normal in the middle \
+    of the face; heights and profile deviations are those inside of it";
+const END: &str = "upper end of the evaluated profile, as height over the pitch curve along its normal in the middle \
+    of the face; heights and profile deviations are those inside of it";
+
 /// What was measured beside the flanks.
 pub struct Measured<'a> {
     /// What every operation asks of the machine.
@@ -25,8 +32,8 @@ pub struct Measured<'a> {
     pub textures: &'a [WindowTexture],
     /// Lattices of cutting marks.
     pub lattices: &'a [MarkLattice],
-    /// The whole blank with the hob's load; none after Ctrl-C.
-    pub whole: Option<(&'a blank::WholeBlank, &'a [OperationLoad])>,
+    /// The whole blank with the hob's load and its forces; none after Ctrl-C.
+    pub whole: Option<(&'a blank::WholeBlank, &'a [OperationLoad], &'a [OperationForce])>,
 }
 
 /// Everything that was found.
@@ -41,7 +48,11 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
         points::findings(gear),
         marks::findings(measured.lattices),
         Section::new("teeth", "Finished teeth")
-            .table(flank_table::flanks(&gear.flanks, earlier.iter().map(|operation| operation.spec.name.as_str())))
+            .table(flank_table::flanks(
+                &gear.flanks,
+                earlier.iter().map(|operation| operation.spec.name.as_str()),
+                job.scene.measure.heights_mm().iter().any(Option::is_some),
+            ))
             .parts((1..=job.scene.gear.teeth).map(|number| tooth(gear, number))),
         texture::findings(cutter, measured.textures),
         Section::new("work", "Work of cutting").with(
@@ -53,11 +64,13 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
             ),
         ),
     ];
-    if let Some((whole, loads)) = measured.whole {
+    sections.extend(evaluated(job));
+    if let Some((whole, loads, forces)) = measured.whole {
         sections.push(load::findings(job, loads));
+        sections.extend(force::findings(job, forces));
         sections.push(blank::findings(cutter, whole));
     }
-    let mut warnings = warnings(job, gear);
+    let mut warnings = warnings(cutter, gear);
     warnings.extend(axes::warnings(measured.motion));
     Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -68,6 +81,19 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
         warnings,
         sections,
     }
+}
+
+/// Where the scene has profiles evaluated, if it names it.
+fn evaluated(job: &HobbingJob) -> Option<Section> {
+    let heights_mm = job.scene.measure.heights_mm();
+    let end = |height_mm: Option<f64>, definition: &'static str| {
+        Quantity::number_or(height_mm, "mm", definition, "not named: 5 % of the profile are left out")
+    };
+    heights_mm.iter().any(Option::is_some).then(|| {
+        Section::new("measure", "Evaluated profile")
+            .with("profile_start_height", end(heights_mm[0], START))
+            .with("profile_end_height", end(heights_mm[1], END))
+    })
 }
 
 /// Largest value over all flanks with its flank.
@@ -99,7 +125,7 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
         extreme_at(value, &|_| None, definition)
     };
     let of_pitch = |pick: fn(&PitchDeviations) -> f64, definition: &'static str| {
-        let largest = gear.pitch.iter().flatten().map(pick).reduce(f64::max);
+        let largest = gear.inspection.pitch.iter().flatten().map(pick).reduce(f64::max);
         Quantity::number_or(largest.map(|mm| mm * UM_PER_MM), "um", definition, NOT_CROSSED)
     };
     let sharpest = job.curve.facts().largest_curvature.curvature_per_mm;
@@ -108,9 +134,9 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
             "highest_mark",
             "highest mark",
             extreme_at(
-                &|f| f.finished.map(|h| h.highest_mm),
-                &|f| f.finished.map(|h| h.extremes_at_mm[1]),
-                "highest place of the finished surface over the target on the evaluated part of any flank: feed and \
+                &|f| f.own.finished.map(|h| h.highest_mm),
+                &|f| f.own.finished.map(|h| h.extremes_at_mm[1]),
+                "largest normal deviation of the finished surface on the evaluated part of any flank: feed and \
                 generating marks together",
             ),
         ),
@@ -118,8 +144,8 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
             "deepest_cut",
             "deepest cut",
             extreme_at(
-                &|f| f.finished.map(|h| -h.lowest_mm),
-                &|f| f.finished.map(|h| h.extremes_at_mm[0]),
+                &|f| f.own.finished.map(|h| -h.lowest_mm),
+                &|f| f.own.finished.map(|h| h.extremes_at_mm[0]),
                 "deepest place of the finished surface below the target, positive inwards; an exact linkage leaves \
                 none",
             ),
@@ -151,7 +177,7 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
         Entry::headline(
             "helix_deviation",
             "helix deviation",
-            extreme(&|f| f.helix.map(|d| d.total_mm), "largest F_beta in the middle of the profile"),
+            extreme(&|f| f.lead.map(|d| d.total_mm), "largest F_beta in the middle of the profile"),
         ),
         Entry::headline(
             "single_pitch_deviation",
@@ -167,7 +193,7 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
             "runout",
             "runout",
             Quantity::number_or(
-                gear.runout.as_ref().map(|r| r.total_mm() * UM_PER_MM),
+                gear.inspection.runout.as_ref().map(|r| r.total_mm() * UM_PER_MM),
                 "um",
                 "F_r, range of a probe's place along the pitch curve's normal over all spaces",
                 NOT_CROSSED,
@@ -177,7 +203,7 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
             "undercut_flanks",
             "undercut flanks",
             Quantity::count(
-                gear.flanks.iter().filter(|f| f.undercut).count() as u64,
+                gear.flanks.iter().filter(|f| f.own.undercut).count() as u64,
                 "flanks",
                 "flanks whose involute the hob's tip corner has cut away in some section",
             ),
@@ -225,7 +251,7 @@ fn operation(operation: &PreparedHobbing, motion: &HobbingAxesReport, passes: u3
 fn tooth(gear: &HobbedGear, number: u32) -> Section {
     let row = number as usize - 1;
     let side = |key: &str, index: usize| {
-        let pitch = gear.pitch[index].as_ref();
+        let pitch = gear.inspection.pitch[index].as_ref();
         let um = |value: Option<f64>, definition: &'static str| {
             Quantity::number_or(value.map(|mm| mm * UM_PER_MM), "um", definition, NOT_CROSSED)
         };
@@ -239,7 +265,7 @@ fn tooth(gear: &HobbedGear, number: u32) -> Section {
                 um(pitch.map(|p| p.cumulative_mm[row]), "arc of the pitch curve from tooth 1, less its pitches"),
             )
     };
-    let thickness = gear.thickness.get(row).copied().flatten();
+    let thickness = gear.inspection.thickness.get(row).copied().flatten();
     let mm = |value: Option<f64>, definition: &'static str| Quantity::number_or(value, "mm", definition, NOT_CROSSED);
     Section::new(format!("tooth_{number:02}"), format!("tooth {number}"))
         .with("thickness_arc", mm(thickness.map(|t| t.arc_mm), "tooth thickness along the pitch curve"))
@@ -252,8 +278,21 @@ fn tooth(gear: &HobbedGear, number: u32) -> Section {
 }
 
 /// What a reader must know before trusting the numbers.
-fn warnings(job: &HobbingJob, gear: &HobbedGear) -> Vec<String> {
+fn warnings(cutter: &HobCutter, gear: &HobbedGear) -> Vec<String> {
+    let job = cutter.job;
     let mut warnings = Vec::new();
+    let unreached = gear.flanks.iter().filter(|flank| {
+        let target = cutter.target(flank.tooth, flank.side).ok();
+        let ends_mm = target.map(|target| cutter.measured_ends_mm(target));
+        let named = job.scene.measure.heights_mm();
+        ends_mm.is_some_and(|ends_mm| named.iter().zip(ends_mm).any(|(named, end)| named.is_some() && end.is_none()))
+    });
+    let unreached = unreached.count();
+    if unreached > 0 {
+        warnings.push(format!(
+            "{unreached} flanks do not reach an end of [measure]: there 5 % of the profile are left out instead"
+        ));
+    }
     if job.hob_spec.protuberance.is_some() {
         warnings.push(
             "the target knows no protuberance: the relief that it leaves at the roots is reported as a cut below the \
@@ -262,7 +301,7 @@ fn warnings(job: &HobbingJob, gear: &HobbedGear) -> Vec<String> {
         );
     }
     let reach_mm = RAY_DEPTH_MODULES * job.scene.gear.module_mm;
-    let lowest_mm = gear.flanks.iter().filter_map(|f| f.finished).map(|h| h.lowest_mm).fold(0.0, f64::min);
+    let lowest_mm = gear.flanks.iter().filter_map(|f| f.own.finished).map(|h| h.lowest_mm).fold(0.0, f64::min);
     if lowest_mm < -0.999 * reach_mm {
         warnings
             .push(format!("cuts go deeper than rays record: {reach_mm} mm under the target stands for that and more"));

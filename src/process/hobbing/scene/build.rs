@@ -1,9 +1,10 @@
 //! Checked values of a hobbing scene to the model.
 
 use super::model::{
-    Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, Hob, HobSize, Hobbing, HobbingAxisLimits,
+    Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, HobSize, HobSpec, Hobbing, HobbingAxisLimits,
     HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
 };
+use crate::material::CuttingForce;
 use crate::scene::ScenePart;
 use crate::scene::build::stock_or_offset_mm;
 use crate::scene::values::{Values, View};
@@ -17,11 +18,24 @@ pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
         .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
         .collect();
     let tool = hob(values.view("tool.hob"))?;
-    Some(ScenePart::new(Hobbing { tool, limits: limits(values), operations: operations? }))
+    let material = values.view("material");
+    let material = match material.text("name") {
+        Some(_) => Some(CuttingForce {
+            per_area_n_per_mm2: material.number("cutting_force_n_per_mm2")?,
+            per_length_n_per_mm: material.number("cutting_edge_force_n_per_mm")?,
+        }),
+        None => None,
+    };
+    let programs = match values.view("output").text("gcode")? {
+        "linear" => true,
+        "none" => false,
+        _ => return None,
+    };
+    Some(ScenePart::new(Hobbing { tool, limits: limits(values), operations: operations?, material, programs }))
 }
 
-fn hob(hob: View<'_>) -> Option<Hob> {
-    Some(Hob {
+fn hob(hob: View<'_>) -> Option<HobSpec> {
+    Some(HobSpec {
         starts: hob.whole("starts")?,
         hand: hob.hand("hand")?,
         gashes: hob.whole("gashes")?,

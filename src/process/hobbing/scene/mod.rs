@@ -4,8 +4,12 @@ mod build;
 mod keys;
 pub mod model;
 
-use crate::scene::{ProcessPart, SceneProcess};
+use crate::scene::problems::Found;
+use crate::scene::{ProcessPart, SceneProcess, Senseless};
 use model::Hobbing;
+
+/// Why coefficients of the force normal to the edge have no sense.
+const NO_NORMAL_FORCE: &str = "only the force against the edge's motion is computed";
 
 /// Hobbing with five and six axes.
 pub static SCENE: SceneProcess = SceneProcess {
@@ -16,10 +20,38 @@ pub static SCENE: SceneProcess = SceneProcess {
     scenes: include_str!("scenes.md"),
     sections: keys::SECTIONS,
     added: keys::ADDED,
+    per_revolution: &[],
+    of_one_gear: &[],
+    on_demand: &["material", "measure"],
+    senseless: &[
+        Senseless {
+            path: "material.normal_force_n_per_mm2",
+            why: NO_NORMAL_FORCE,
+            instead: "remove it; cutting_force_n_per_mm2 and cutting_edge_force_n_per_mm give the cutting force",
+        },
+        Senseless {
+            path: "material.normal_edge_force_n_per_mm",
+            why: NO_NORMAL_FORCE,
+            instead: "remove it; cutting_force_n_per_mm2 and cutting_edge_force_n_per_mm give the cutting force",
+        },
+        Senseless {
+            path: "fields.chips",
+            why: "chips are counted on the rays of the blank",
+            instead: "set spacing_mm and slice_spacing_mm in [fields.blank]",
+        },
+    ],
     derive: |_| {},
-    check: |_| {},
+    check: external,
     build: build::build,
 };
+
+/// Refuses what no hob reaches.
+fn external(found: &mut Found<'_, '_, '_>) {
+    let internal = found.view("gear").text("kind") == Some("internal");
+    let message = || "`gear.kind`: a hob cuts external gears; it does not fit into a ring".to_owned();
+    let way_out = "write kind = \"external\", or shape the ring with [tool.shaper_cutter]";
+    found.blame(internal, "gear.kind", message, way_out);
+}
 
 impl ProcessPart for Hobbing {
     fn process(&self) -> &'static SceneProcess {

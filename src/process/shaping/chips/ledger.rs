@@ -1,11 +1,13 @@
 //! The ledger of a whole job: spaces in parallel, strokes in order of time within each of them.
 
-use super::edge_polygon::{EdgePolygon, Station};
 use super::oblique::{ElementForce, RakeFace};
 use super::section::SpaceSection;
-use super::stroke::{LEAST_CHIP_MM, StrokeChips, StrokePose, ToothChip};
+use super::stroke::{StrokeChips, StrokePose, ToothChip};
+use crate::cut::LEAST_CHIP_MM;
 use crate::frame::Rigid2;
+use crate::gear::{Back, GearKind};
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::edge_polygon::{EdgePolygon, Station};
 use crate::process::shaping::scene::model::Infeed;
 use crate::tool::{CuttingTool, PlanarTool};
 use crate::units::TURN_RAD;
@@ -91,11 +93,11 @@ impl ChipLedger {
             ElementForce::new(&job.material, rake_rad, face)
         };
         let forces: Vec<ElementForce> = polygon.stations.iter().map(force).collect();
-        let outline_mm = outline(job);
+        let contours_mm = contours(job);
         let spaces: Vec<Option<SpaceChips>> = (1..=job.scene.gear.teeth)
             .into_par_iter()
             .map(|space| {
-                let chips = Space::new(job, &polygon, &outline_mm, space).cut(&forces, spacing_mm);
+                let chips = Space::new(job, &polygon, &contours_mm, space).cut(&forces, spacing_mm);
                 advance().then_some(chips)
             })
             .collect();
@@ -173,15 +175,16 @@ fn middle_pose(job: &ShapingJob, operation: usize, stroke: usize) -> Rigid2 {
     set.pose_at(stroke, set.law.tau(0.0))
 }
 
-/// The blank's outline as a closed polygon, gear frame.
-fn outline(job: &ShapingJob) -> Vec<DVec2> {
+/// The blank as closed polygons, gear frame: its outline on the toothed side, and the circle round a ring. Between an odd
+/// and the next even crossing of a ray is material. A bore is left out: no chip reaches it.
+fn contours(job: &ShapingJob) -> Vec<Vec<DVec2>> {
     let count = job.curve.samples_per_turn().clamp(8192, 1 << 15);
-    (0..count)
-        .map(|i| {
-            let frame = job.curve.frame(TURN_RAD * i as f64 / count as f64);
-            frame.point_mm + job.blank.addendum_mm * frame.normal
-        })
-        .collect()
+    let closed = |at: &dyn Fn(f64) -> DVec2| (0..count).map(|i| at(TURN_RAD * i as f64 / count as f64)).collect();
+    let outline = closed(&|phi| job.blank.outline_mm(phi));
+    match job.blank.back {
+        Back { kind: GearKind::Internal, radius_mm } => vec![outline, closed(&|a| radius_mm * DVec2::from_angle(a))],
+        _ => vec![outline],
+    }
 }
 
 /// One tooth space with the passes that touch its neighbourhood.
@@ -190,31 +193,38 @@ struct Space<'a> {
     polygon: &'a EdgePolygon,
     number: u32,
     work_from_section: Rigid2,
-    outline_mm: Vec<DVec2>,
+    contours_mm: Vec<Vec<DVec2>>,
     window_mm: [DVec2; 2],
     passes: Vec<SpacePass>,
 }
 
 impl<'a> Space<'a> {
     /// Space `number` (1 to z): the one after tooth `number`.
-    fn new(job: &'a ShapingJob, polygon: &'a EdgePolygon, outline_mm: &[DVec2], number: u32) -> Self {
+    fn new(job: &'a ShapingJob, polygon: &'a EdgePolygon, contours_mm: &[Vec<DVec2>], number: u32) -> Self {
         let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
         let at = |pitches: f64| job.curve.phi_at_arc((f64::from(number) + pitches) * pitch_mm);
         let middle = job.curve.frame(at(0.0));
-        let rotation = DVec2::from_angle(SKEW_RAD).rotate(middle.normal);
+        let out = job.blank.towards_tip(&middle);
+        let rotation = DVec2::from_angle(SKEW_RAD).rotate(out);
         let work_from_section = Rigid2 { rotation, translation_mm: middle.point_mm };
         let section_from_work = work_from_section.inverse();
-        let outline_mm: Vec<DVec2> = outline_mm.iter().map(|&p| section_from_work.point(p)).collect();
+        let placed = |contour: &Vec<DVec2>| contour.iter().map(|&p| section_from_work.point(p)).collect();
+        let contours_mm: Vec<Vec<DVec2>> = contours_mm.iter().map(placed).collect();
         let near_mm = NEIGHBOURHOOD_PITCHES * pitch_mm;
-        let out = section_from_work.direction(middle.normal);
-        let top_mm =
-            outline_mm.iter().filter(|p| p.perp_dot(out).abs() < near_mm).map(|p| p.dot(out)).fold(0.0, f64::max);
+        let out = section_from_work.direction(out);
+        // Across a ring lies its other side.
+        let far_mm = match job.blank.kind() {
+            GearKind::External => f64::INFINITY,
+            GearKind::Internal => job.curve.facts().smallest_radius_mm,
+        };
+        let heights_mm = contours_mm[0].iter().filter(|p| p.perp_dot(out).abs() < near_mm).map(|p| p.dot(out));
+        let top_mm = heights_mm.filter(|&height_mm| height_mm < far_mm).fold(0.0, f64::max);
         let mut space = Self {
             job,
             polygon,
             number,
             work_from_section,
-            outline_mm,
+            contours_mm,
             window_mm: [DVec2::INFINITY, DVec2::NEG_INFINITY],
             passes: Vec::new(),
         };
@@ -302,7 +312,7 @@ impl<'a> Space<'a> {
         if self.passes.is_empty() {
             return SpaceChips { chips, rows };
         }
-        let mut section = SpaceSection::new(self.polygon, spacing_mm, &self.outline_mm, self.window_mm);
+        let mut section = SpaceSection::new(self.polygon, spacing_mm, &self.contours_mm, self.window_mm);
         let mut thickness_mm = Vec::new();
         for pass in &self.passes {
             let area_mm2 = section.cut(&pass.section_from_blade);

@@ -1,7 +1,7 @@
 //! One tooth space in the transverse plane, cut stroke by stroke: what every stroke takes away, and how thick it is
 //! along the edge.
 //!
-//! In: the blank's outline, a window round the space, then the poses of the cutter's teeth **in order of time**. Out,
+//! In: the blank's contours, a window round the space, then the poses of the cutter's teeth **in order of time**. Out,
 //! per pass: chip area and uncut chip thickness at the edge's stations.
 //!
 //! The material is held by two families of rays, along and across the space. A pass crosses a ray at two places of the
@@ -15,11 +15,11 @@
 //! radius), 30 nm at 0.05 mm on a radius of 10 mm; lengths of contact and areas end within half a spacing at each end
 //! of a chip.
 
-use super::edge_polygon::{EdgePolygon, Station};
 use crate::dexel::NO_PASS;
 use crate::dexel::intervals::{self, End, LEAST_SPAN_MM, Span};
 use crate::frame::Rigid2;
 use crate::math::planar_rays::{FAMILIES, Family, RayRow};
+use crate::process::shaping::edge_polygon::{EdgePolygon, Station};
 use glam::DVec2;
 
 /// Crossings further apart than this many spacings are not joined: a corner of the edge lies between them.
@@ -69,15 +69,18 @@ pub struct SpaceSection<'a> {
 }
 
 impl<'a> SpaceSection<'a> {
-    /// Uncut material inside `outline_mm` (closed, section frame), on rays through the window between two corners.
-    pub fn new(polygon: &'a EdgePolygon, spacing_mm: f64, outline_mm: &[DVec2], window_mm: [DVec2; 2]) -> Self {
+    /// Uncut material between `contours_mm` (closed, section frame): inside one of them, or between two, on rays through
+    /// the window between two corners.
+    pub fn new(polygon: &'a EdgePolygon, spacing_mm: f64, contours_mm: &[Vec<DVec2>], window_mm: [DVec2; 2]) -> Self {
         let [low, high] = window_mm;
         let sides = FAMILIES.map(|family| {
             let (from, to) = (family.across(low), family.across(high));
             let count = ((to - from) / spacing_mm).ceil().max(1.0) as usize + 1;
             let row = RayRow { first_mm: from, spacing_mm, count };
             let mut ends = vec![Vec::new(); count];
-            lay(outline_mm, family, &row, |ray, along_mm, _, _| ends[ray].push(along_mm));
+            for contour_mm in contours_mm {
+                lay(contour_mm, family, &row, |ray, along_mm, _, _| ends[ray].push(along_mm));
+            }
             let rays = ends.into_iter().map(blank_spans).collect();
             FamilyRays {
                 family,

@@ -1,13 +1,11 @@
 //! What one stroke takes away: the sum over the cutter teeth that cut in it.
 
-use super::edge_polygon::{EdgeSide, Station};
 use super::oblique::ElementForce;
+use crate::cut::LEAST_CHIP_MM;
 use crate::frame::Rigid2;
+use crate::process::shaping::edge_polygon::{EdgeSide, Station};
 use glam::DVec2;
 
-/// Thinner than this the edge rubs and makes no chip: it counts neither as contact nor for forces. A tenth of a
-/// micrometre is far below the radius of any cutting edge.
-pub const LEAST_CHIP_MM: f64 = 1e-4;
 /// A side of the edge takes part in a chip when it is in contact over at least this share of the module.
 const SIDE_CONTACT_MODULES: f64 = 0.02;
 

@@ -46,17 +46,17 @@ fn quantity_at(
 pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motion: &[OperationAxes]) -> Vec<Entry> {
     let flanks = &report.flanks;
     let last_stock = job.operations.len().checked_sub(2);
-    let stock = |flank: &FlankReport| last_stock.and_then(|index| flank.stock[index]);
+    let stock = |flank: &FlankReport| last_stock.and_then(|index| flank.own.stock[index]);
     let why = if last_stock.is_none() { SINGLE } else { "no flank was cut" };
     let none = "no flank was cut";
-    let form = |flank: &FlankReport| Some(Extreme { value_mm: flank.form.height_mm, arc_mm: 0.0, z_mm: 0.0 });
+    let form = |flank: &FlankReport| Some(Extreme { value_mm: flank.own.form.height_mm, arc_mm: 0.0, z_mm: 0.0 });
     let scallop = |flank: &FlankReport| {
-        flank.scallops.map(|s| Extreme { value_mm: s.largest.height_mm, arc_mm: s.largest.arc_mm, z_mm: 0.0 })
+        flank.own.scallops.map(|s| Extreme { value_mm: s.largest.height_mm, arc_mm: s.largest.arc_mm, z_mm: 0.0 })
     };
     let undercut =
-        flanks.iter().filter(|f| f.form.end == FlankEnd::Undercut || f.tip.end == FlankEnd::Undercut).count();
-    let pointed = flanks.iter().filter(|f| f.tip.end == FlankEnd::PointedTip).count().div_ceil(2);
-    let thickness: Vec<f64> = report.thickness.iter().flatten().map(|t| t.arc_mm).collect();
+        flanks.iter().filter(|f| f.own.form.end == FlankEnd::Undercut || f.own.tip.end == FlankEnd::Undercut).count();
+    let pointed = flanks.iter().filter(|f| f.own.tip.end == FlankEnd::PointedTip).count().div_ceil(2);
+    let thickness: Vec<f64> = report.inspection.thickness.iter().flatten().map(|t| t.arc_mm).collect();
     let narrowest = report.tip_lands_mm.iter().copied().reduce(f64::min);
     let unevenness =
         report.allowances.last().and_then(|a| summarise(a.strokes.iter().map(ToothAllowance::unevenness_mean_percent)));
@@ -126,7 +126,7 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
                 extreme_over(flanks, scallop, |a, b| a > b),
                 1e3,
                 "um",
-                "highest cusp between two strokes' facets on the evaluated profiles, over the target",
+                "normal deviation of the highest cusp between two strokes' facets on the evaluated profiles",
                 "no cusp between facets of three dexels and more was met: the dexels are too coarse for the feed",
             ),
         ),
@@ -154,7 +154,7 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
             "witness_mark",
             "witness mark",
             quantity_at(
-                extreme_over(flanks, |f| f.witness, |a, b| a > b),
+                extreme_over(flanks, |f| f.own.witness, |a, b| a > b),
                 1e3,
                 "um",
                 "how far what the first and last strokes left stands above the rest of its flank",

@@ -24,7 +24,7 @@ pub fn operation(
     let last = index + 1 == job.operations.len();
     let why = if last { "the last operation leaves no stock to itself" } else { "no flank was reached" };
     let over_flanks: Vec<(Option<&FlankReport>, Stock)> =
-        report.flanks.iter().filter_map(|f| Some((Some(f), (*f.stock.get(index)?)?))).collect();
+        report.flanks.iter().filter_map(|f| Some((Some(f), (*f.own.stock.get(index)?)?))).collect();
     let over_roots: Vec<(Option<&FlankReport>, Stock)> =
         report.roots.iter().filter_map(|r| Some((None, (*r.stock.get(index)?)?))).collect();
     let by_mean = |teeth: &[ToothAllowance]| summarise(teeth.iter().map(ToothAllowance::unevenness_mean_percent));
@@ -88,6 +88,7 @@ pub fn operation(
         .table(teeth::allowance(report, allowance, &spec.name))
         .part(axes::findings(motion))
         .part(motion.relief_findings())
+        .parts(motion.retraction_findings())
         .part(chips::chips(job, ledger, index).table(strokes::strokes(job, ledger, index)))
         .part(stock_range("flank_stock", "Stock on all active flanks", &over_flanks, "on all active flanks", why))
         .part(stock_range(

@@ -1,7 +1,7 @@
 //! Single teeth: the stock and the allowances that an operation left, and the tooth as it is finished.
 
 use super::place;
-use crate::findings::{Column, Datum, Place, Quantity, Section, Table};
+use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn};
 use crate::measure::stock::{Extreme, Stock};
 use crate::process::shaping::measure::gear_report::OperationAllowance;
 use crate::process::shaping::measure::{FlankReport, GearReport};
@@ -54,7 +54,7 @@ fn flank_of(report: &GearReport, tooth: u32, side: Side) -> Option<&FlankReport>
 /// Stock that an operation left on the flanks of a tooth.
 pub fn tooth_stock(report: &GearReport, operation: usize, tooth: u32) -> Section {
     let range = |side: Side, title: &str| {
-        let stock = flank_of(report, tooth, side).and_then(|f| Some((Some(f), (*f.stock.get(operation)?)?)));
+        let stock = flank_of(report, tooth, side).and_then(|f| Some((Some(f), (*f.own.stock.get(operation)?)?)));
         let why = "the flank was not cut or not reached";
         stock_range(side.name(), title, &stock.into_iter().collect::<Vec<_>>(), "on the flank", why)
     };
@@ -67,9 +67,9 @@ pub fn tooth_stock(report: &GearReport, operation: usize, tooth: u32) -> Section
 /// where it is the last one.
 pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, operation: &str) -> Table {
     let missing = "a surface does not cross the pitch curve with its involute";
-    let mm = |key, definition| Column::new(key, "mm", definition).or(missing);
+    let mm = |key, definition| TableColumn::new(key, "mm", definition).or(missing);
     let columns = vec![
-        Column::new("tooth", "1", "number of the tooth, from 1"),
+        TableColumn::new("tooth", "1", "number of the tooth, from 1"),
         mm("A_x", "x of A in the gear frame: left flank as this operation leaves it, on the pitch curve"),
         mm("A_y", "y of A"),
         mm("B_x", "x of B in the gear frame: finished left flank on the pitch curve"),
@@ -80,12 +80,14 @@ pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, op
         mm("D_y", "y of D"),
         mm("AB", "chord from A (this operation) to B (finished), left flank, on the pitch curve"),
         mm("CD", "chord from C (finished) to D (this operation), right flank, on the pitch curve"),
-        Column::new("unevenness_mean_denominator", "%", "|AB - CD| over the mean of AB and CD").or(missing).as_bars(),
-        Column::new("unevenness_rack_denominator", "%", "|AB - CD| over delta_d tan(alpha)")
+        TableColumn::new("unevenness_mean_denominator", "%", "|AB - CD| over the mean of AB and CD")
+            .or(missing)
+            .as_bars(),
+        TableColumn::new("unevenness_rack_denominator", "%", "|AB - CD| over delta_d tan(alpha)")
             .or("a surface does not cross the pitch curve, or the operation has no offset over the last one"),
         mm("envelope_AB", "AB in the limit of many strokes"),
         mm("envelope_CD", "CD in the limit of many strokes"),
-        Column::new(
+        TableColumn::new(
             "envelope_unevenness_mean_denominator",
             "%",
             "|AB - CD| over the mean of AB and CD in the limit of many strokes",
@@ -121,7 +123,7 @@ pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, op
 /// One finished tooth.
 pub fn finished_tooth(report: &GearReport, tooth: u32) -> Section {
     let row = tooth as usize - 1;
-    let thickness = report.thickness.get(row).copied().flatten();
+    let thickness = report.inspection.thickness.get(row).copied().flatten();
     let mm = |value: Option<f64>, definition: &'static str, why| Quantity::number_or(value, "mm", definition, why);
     let crossing = "a flank does not cross the pitch curve";
     Section::new(format!("tooth_{tooth:02}"), format!("tooth {tooth}"))
@@ -140,7 +142,7 @@ pub fn finished_tooth(report: &GearReport, tooth: u32) -> Section {
         .with(
             "runout_of_space_after",
             Quantity::number_or(
-                report.runout.as_ref().map(|r| r.radial_mm[row] * 1e3),
+                report.inspection.runout.as_ref().map(|r| r.radial_mm[row] * 1e3),
                 "um",
                 "place of a probe in the space after the tooth along the pitch curve's normal, positive outwards",
                 "a flank was not cut or does not cross the pitch curve",
@@ -195,23 +197,28 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         number(value.map(|v| v * 1e3), "um", definition, "the line along the tooth was not cut completely")
     };
     let side_index = usize::from(side == Side::Right);
-    let pitch = report.pitch[side_index].as_ref();
+    let pitch = report.inspection.pitch[side_index].as_ref();
     let row = tooth as usize - 1;
     let pitch_um = |value: Option<f64>, definition: &'static str| {
         Quantity::number_or(value.map(|v| v * 1e3), "um", definition, "a flank does not cross the pitch curve")
     };
-    let finished = flank.and_then(|f| f.finished);
+    let finished = flank.and_then(|f| f.own.finished);
     Section::new(side.name(), format!("{} flank", side.name()))
         .with(
             "start_of_involute",
-            number(flank.map(|f| f.form.height_mm), "mm", "start of the involute as height over the pitch curve", ""),
+            number(
+                flank.map(|f| f.own.form.height_mm),
+                "mm",
+                "start of the involute as height over the pitch curve",
+                "",
+            ),
         )
-        .with("start", word(flank.map(|f| f.form.end), "what begins the flank"))
+        .with("start", word(flank.map(|f| f.own.form.end), "what begins the flank"))
         .with(
             "tip",
-            number(flank.map(|f| f.tip.height_mm), "mm", "end of the flank as height over the pitch curve", ""),
+            number(flank.map(|f| f.own.tip.height_mm), "mm", "end of the flank as height over the pitch curve", ""),
         )
-        .with("end", word(flank.map(|f| f.tip.end), "what ends the flank"))
+        .with("end", word(flank.map(|f| f.own.tip.end), "what ends the flank"))
         .with("length", number(flank.map(|f| f.length_mm), "mm", "length of the profile from start to tip", ""))
         .with(
             "evaluated_from",
@@ -235,7 +242,7 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
             "smallest_height",
             at(
                 finished.map(|h| h[0]),
-                "lowest finished surface over the target on the evaluated profile",
+                "smallest normal deviation of the finished surface on the evaluated profile",
                 "no dexel of the evaluated profile was reached",
             ),
         )
@@ -243,14 +250,14 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
             "largest_height",
             at(
                 finished.map(|h| h[1]),
-                "highest finished surface over the target on the evaluated profile",
+                "largest normal deviation of the finished surface on the evaluated profile",
                 "no dexel of the evaluated profile was reached",
             ),
         )
         .with(
             "deepest_cut",
             at(
-                flank.and_then(|f| f.undercut),
+                flank.and_then(|f| f.own.undercut),
                 "deepest cut below the target anywhere on the flank",
                 "nothing is cut more than a nanometre below the target",
             ),
@@ -275,19 +282,22 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         )
         .with(
             "largest_scallop",
-            cusp(flank.and_then(|f| f.scallops).map(|s| s.largest), "highest cusp on the evaluated profile, mid-face"),
+            cusp(
+                flank.and_then(|f| f.own.scallops).map(|s| s.largest),
+                "highest cusp on the evaluated profile, mid-face",
+            ),
         )
         .with(
             "scallop_at_pitch_curve",
             cusp(
-                flank.and_then(|f| f.scallops).and_then(|s| s.at_pitch_curve),
+                flank.and_then(|f| f.own.scallops).and_then(|s| s.at_pitch_curve),
                 "cusp nearest to the pitch curve, mid-face",
             ),
         )
         .with(
             "witness_mark",
             at(
-                flank.and_then(|f| f.witness),
+                flank.and_then(|f| f.own.witness),
                 "how far what the first and last strokes left stands above the rest of the flank",
                 "the first and last strokes left nothing on the evaluated profile",
             ),
@@ -302,7 +312,11 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         )
         .with(
             "below_range_dexels",
-            Quantity::count(flank.map_or(0, |f| f.below_range), "dexels", "dexels cut deeper than their rays record"),
+            Quantity::count(
+                flank.map_or(0, |f| f.own.below_range),
+                "dexels",
+                "dexels cut deeper than their rays record",
+            ),
         )
         .with(
             "untouched_dexels",

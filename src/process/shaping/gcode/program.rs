@@ -1,11 +1,11 @@
 //! Axis positions as straight lines between knots, in the stroke coordinate.
 
 use crate::gcode::{Digits, beyond_limits, longest_lines};
+use crate::gear::GearKind;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
 use crate::process::shaping::scene::model::AxisLimits;
 use glam::DVec2;
-use std::f64::consts::PI;
 
 /// Half of the arc of the cutter round the line of centres that can be in the work; a cutter of twelve teeth meets it
 /// over less.
@@ -42,7 +42,7 @@ fn samples_per_stroke(continuous: bool) -> usize {
 
 impl Knot {
     /// The knot as it will be written.
-    fn rounded(&self, digits: Digits) -> Self {
+    pub(super) fn rounded(&self, digits: Digits) -> Self {
         let axes = self.axes();
         let rounded: [f64; 3] = std::array::from_fn(|index| digits.rounded(AXES[index].kind, axes[index]));
         let [psi_c_rad, psi_b_rad, center_distance_mm] = rounded;
@@ -55,7 +55,7 @@ impl Knot {
     }
 
     /// Where a schedule has the axes.
-    fn of(schedule: &StrokeSchedule, stroke: f64) -> Self {
+    pub(super) fn of(schedule: &StrokeSchedule, stroke: f64) -> Self {
         let state = schedule.state(stroke);
         Self {
             stroke,
@@ -66,11 +66,8 @@ impl Knot {
     }
 
     /// Cutter in the gear frame.
-    pub fn pose(&self) -> CutterPose {
-        CutterPose {
-            center_mm: DVec2::from_angle(self.psi_c_rad) * self.center_distance_mm,
-            angle_rad: self.psi_c_rad + PI + self.psi_b_rad,
-        }
+    pub fn pose(&self, gear: GearKind) -> CutterPose {
+        CutterPose::new(gear, self.axes())
     }
 
     fn between(a: &Self, b: &Self, stroke: f64) -> Self {
@@ -86,11 +83,11 @@ impl Knot {
 
     /// Largest displacement of the cutter's edge in the work against another position, over the arc that can be in the
     /// work, mm.
-    pub fn displacement_mm(&self, other: &Self, tip_radius_mm: f64) -> f64 {
-        let (a, b) = (self.pose(), other.pose());
+    pub fn displacement_mm(&self, other: &Self, gear: GearKind, tip_radius_mm: f64) -> f64 {
+        let (a, b) = (self.pose(gear), other.pose(gear));
         let shift = b.center_mm - a.center_mm;
         let turn = b.angle_rad - a.angle_rad;
-        let to_work = -a.center_mm.normalize_or_zero();
+        let to_work = -gear.tip_sign() * a.center_mm.normalize_or_zero();
         [-1.0, -0.5, 0.0, 0.5, 1.0]
             .into_iter()
             .map(|share| {
@@ -109,6 +106,7 @@ impl AxisProgram {
     /// strokes and are rounded as they will be written.
     pub fn fit(schedule: &StrokeSchedule, tip_radius_mm: f64, contour_error_mm: f64, continuous: bool) -> Self {
         let per_stroke = samples_per_stroke(continuous);
+        let gear = schedule.linkage().gear();
         let last = schedule.count() - 1;
         let exact: Vec<Knot> =
             (0..=last * per_stroke).map(|sample| Knot::of(schedule, sample as f64 / per_stroke as f64)).collect();
@@ -116,9 +114,9 @@ impl AxisProgram {
         let digits = Digits::new(contour_error_mm, reach_mm);
         let fits = |from: usize, to: usize| {
             let (a, b) = (exact[from * per_stroke].rounded(digits), exact[to * per_stroke].rounded(digits));
-            exact[from * per_stroke..=to * per_stroke]
-                .iter()
-                .all(|knot| Knot::between(&a, &b, knot.stroke).displacement_mm(knot, tip_radius_mm) <= contour_error_mm)
+            exact[from * per_stroke..=to * per_stroke].iter().all(|knot| {
+                Knot::between(&a, &b, knot.stroke).displacement_mm(knot, gear, tip_radius_mm) <= contour_error_mm
+            })
         };
         let mut knots = vec![exact[0].rounded(digits)];
         knots.extend(longest_lines(last, fits).into_iter().map(|end| exact[end * per_stroke].rounded(digits)));
@@ -150,28 +148,35 @@ impl AxisProgram {
         (0..=(schedule.count() - 1) * per_stroke)
             .map(|sample| {
                 let stroke = sample as f64 / per_stroke as f64;
-                (Knot::of(schedule, stroke).displacement_mm(&self.at(stroke), tip_radius_mm), stroke)
+                let gear = schedule.linkage().gear();
+                (Knot::of(schedule, stroke).displacement_mm(&self.at(stroke), gear, tip_radius_mm), stroke)
             })
             .fold((0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst })
     }
 
     /// What the program asks beyond the machine's limits: speeds within blocks, and steps of speed between blocks taken
-    /// within one double stroke.
+    /// within one double stroke, or within the shorter of both blocks where that is less.
     pub fn exceeded(&self, limits: &AxisLimits) -> Vec<String> {
         let stroke_s = 60.0 / self.double_strokes_per_minute;
         let limits = dynamics::limits(limits);
         let beyond = AXES.iter().zip(&limits).enumerate().flat_map(|(index, (axis, limits))| {
-            let speeds: Vec<f64> = self
+            // Speed of each block, and how many double strokes it lasts.
+            let blocks: Vec<[f64; 2]> = self
                 .knots
                 .windows(2)
                 .filter(|pair| pair[1].stroke > pair[0].stroke)
                 .map(|pair| {
                     let travel = pair[1].axes()[index] - pair[0].axes()[index];
-                    travel / ((pair[1].stroke - pair[0].stroke) * stroke_s)
+                    let strokes = pair[1].stroke - pair[0].stroke;
+                    [travel / (strokes * stroke_s), strokes]
                 })
                 .collect();
-            let largest = speeds.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-            let step = speeds.windows(2).fold(0.0_f64, |most, v| most.max((v[1] - v[0]).abs())) / stroke_s;
+            let largest = blocks.iter().fold(0.0_f64, |most, [v, _]| most.max(v.abs()));
+            let rates = blocks.windows(2).map(|pair| {
+                let [[v, strokes], [next_v, next_strokes]] = [pair[0], pair[1]];
+                (next_v - v).abs() / strokes.min(next_strokes).min(1.0)
+            });
+            let step = rates.fold(0.0_f64, f64::max) / stroke_s;
             beyond_limits(axis, limits, [largest, step])
         });
         beyond.collect()

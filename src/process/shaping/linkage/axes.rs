@@ -2,7 +2,8 @@
 //!
 //! In: the pitch curve at a parameter ([`crate::gear::Rolling`]). Out: [`Axes`] (work angle, cutter angle, centre
 //! distance) as series in that parameter, and the [`CutterPose`] that they give. The law is the frame convention in the
-//! head of [`super`].
+//! head of [`super`]: tooth 0 points along the line of centres at psi_b = 0, towards the gear axis where the cutter
+//! stands outside, away from it where the cutter stands in a ring.
 //!
 //! The parameter is the polar angle phi, or time or stroke when phi itself is a series in them: derivatives then follow
 //! by the chain rule without further formulas. The number of terms N is chosen by the caller: 1 for positions, 2 for
@@ -12,6 +13,7 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
+use crate::gear::GearKind;
 use crate::math::Jet;
 
 /// Positions of the three axes as series with N terms.
@@ -55,22 +57,29 @@ impl PoseMotion {
 
 impl<const N: usize> Axes<N> {
     /// The pose at the axis positions.
-    pub fn pose(&self) -> CutterPose {
-        let psi_c = self.psi_c_rad.value();
-        CutterPose {
-            center_mm: DVec2::from_angle(psi_c) * self.center_distance_mm.value(),
-            angle_rad: psi_c + PI + self.psi_b_rad.value(),
-        }
+    pub fn pose(&self, gear: GearKind) -> CutterPose {
+        CutterPose::new(gear, [self.psi_c_rad, self.psi_b_rad, self.center_distance_mm].map(|axis| axis.value()))
+    }
+}
+
+impl CutterPose {
+    /// From the axis positions: work angle and cutter angle, rad, centre distance, mm.
+    pub fn new(gear: GearKind, [psi_c_rad, psi_b_rad, center_distance_mm]: [f64; 3]) -> Self {
+        let towards_work_rad = match gear {
+            GearKind::External => psi_c_rad + PI,
+            GearKind::Internal => psi_c_rad,
+        };
+        Self { center_mm: DVec2::from_angle(psi_c_rad) * center_distance_mm, angle_rad: towards_work_rad + psi_b_rad }
     }
 }
 
 impl Axes<2> {
     /// The pose and its derivative with respect to the parameter.
-    pub(super) fn pose_motion(&self) -> PoseMotion {
+    pub(super) fn pose_motion(&self, gear: GearKind) -> PoseMotion {
         let out = DVec2::from_angle(self.psi_c_rad.value());
         let (l, turn) = (self.center_distance_mm, self.psi_c_rad.derivative(1));
         PoseMotion {
-            pose: self.pose(),
+            pose: self.pose(gear),
             center_rate_mm_per_rad: out * l.derivative(1) + out.perp() * (l.value() * turn),
             angle_rate: turn + self.psi_b_rad.derivative(1),
         }

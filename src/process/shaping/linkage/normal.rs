@@ -1,6 +1,6 @@
 //! Normal linkage: the cutter stays back along the normal of the pitch curve.
 //!
-//! In: the rolling pitch curve, r_c and the offset delta_d. Out: axis positions. Law, with d = r_c + delta_d (Gao et
+//! In: the rolling pitch curve, r_c and the offset delta_d, both negative in a ring. Out: axis positions. Law, with d = r_c + delta_d (Gao et
 //! al. 2017, Eq. 9, 10 and 12, which all have the form of Eq. 1 with d for r_c):
 //!
 //! ```text
@@ -17,7 +17,8 @@
 //! the normal offset, up to 0.17 mm on the pitch circle of the paper's example, and the unevenness of the allowance is
 //! 43.6 % instead of 4.0 %: kept as a reading of its own, to show that.
 //!
-//! The inverse work angle is one to one while 1 + d kappa > 0, since psi_c' = s' (1 + d kappa) (r sin mu + d) / l^2.
+//! The inverse work angle is one to one while 1 + d kappa > 0, since psi_c' = s' (1 + d kappa) (r sin mu + d) / l^2; in
+//! a ring the last factor must be positive too, the cutter's centre on this side of the gear axis.
 
 use super::axes::Axes;
 use crate::gear::Rolling;

@@ -2,7 +2,7 @@
 //!
 //! In: a linkage, the offset, the pressure angle alpha_p. Out: what of the back-off becomes clearance on each flank,
 //! and where it is least. Before the return stroke the cutter is drawn back by d along the line of centres, direction
-//! u. A flank in contact with unit normal v (out of the work) then clears by d (u . v).
+//! u: away from the gear axis, in a ring towards it. A flank in contact with unit normal v (out of the work) then clears by d (u . v).
 //!
 //! Law: all contact normals of one moment pass through the instantaneous centre Q and touch the cutter's base circle.
 //! With e the direction from Q to the cutter axis O_b, the normals stand at pi/2 -+ alpha_w from i e, where cos alpha_w
@@ -12,6 +12,8 @@
 //! left  flank (larger arc):   d sin(alpha_w + beta)
 //! right flank (smaller arc):  d sin(alpha_w - beta)
 //! ```
+//!
+//! and the other way round in a ring, where the larger arc lies on the other side of the direction e.
 //!
 //! In finishing Q is the pitch point and alpha_w = alpha_p. A circular gear has beta = 0 and clears by d sin alpha_p on
 //! both flanks: that is the value the ratios refer to. A non-circular gear loses on one flank wherever its radius
@@ -76,7 +78,9 @@ pub fn relief_ratio(linkage: &ShapingLinkage, phi_rad: f64, offset_mm: f64, pres
     let from_center = motion.pose.center_mm - motion.instantaneous_center_mm();
     let (sin_p, cos_p) = pressure_angle_rad.sin_cos();
     let working_rad = (linkage.cutter_pitch_radius_mm() * cos_p / from_center.length()).min(1.0).acos();
-    let beta_rad = from_center.perp_dot(motion.pose.center_mm).atan2(from_center.dot(motion.pose.center_mm));
+    let sign = linkage.gear().tip_sign();
+    let back = sign * motion.pose.center_mm;
+    let beta_rad = sign * from_center.perp_dot(back).atan2(from_center.dot(back));
     ReliefRatio { left: (working_rad + beta_rad).sin() / sin_p, right: (working_rad - beta_rad).sin() / sin_p }
 }
 

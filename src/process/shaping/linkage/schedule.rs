@@ -204,7 +204,7 @@ impl StrokeSchedule {
             psi_c_rad: axes.psi_c_rad.value(),
             psi_b_rad: axes.psi_b_rad.value(),
             center_distance_mm: axes.center_distance_mm.value(),
-            pose: axes.pose(),
+            pose: axes.pose(self.linkage.gear()),
         }
     }
 

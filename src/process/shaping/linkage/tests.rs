@@ -11,11 +11,11 @@ use std::sync::Arc;
 use proptest::prelude::*;
 
 use super::*;
-use crate::gear::PitchCurve;
-use crate::gear::PitchCurveShape;
+use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
 use crate::math::Jet;
 use crate::process::shaping::scene::model::{
-    AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, StrokeSpacing, TraditionalDirection,
+    AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, Retraction, StrokeSpacing,
+    TraditionalDirection,
 };
 use pitch_curves::{any_curve, examples};
 
@@ -33,7 +33,7 @@ fn paper_curve() -> Arc<PitchCurve> {
 }
 
 fn paper_linkage(kind: Linkage) -> ShapingLinkage {
-    ShapingLinkage::new(kind, paper_curve(), 30.0, 2.0).unwrap()
+    ShapingLinkage::new(GearKind::External, kind, paper_curve(), 30.0, 2.0).unwrap()
 }
 
 fn machine() -> Machine {
@@ -42,6 +42,7 @@ fn machine() -> Machine {
         approach_mm: 5.0,
         overrun_mm: 5.0,
         back_off_mm: 0.5,
+        retraction: Retraction::CenterLine,
         work_eccentricity_mm: 0.0,
         work_eccentricity_angle_rad: 0.0,
         limits: AxisLimits {
@@ -78,7 +79,7 @@ fn derivatives_match_differences_for_every_linkage() {
     let h = 1e-4;
     for curve in examples().into_iter().filter(|curve| curve.breaks_rad().is_empty()).map(Arc::new) {
         for kind in KINDS {
-            let linkage = ShapingLinkage::new(kind, Arc::clone(&curve), 15.0, 1.0).unwrap();
+            let linkage = ShapingLinkage::new(GearKind::External, kind, Arc::clone(&curve), 15.0, 1.0).unwrap();
             for i in 0..50 {
                 let phi = f64::from(i) * 0.1731 - 1.0;
                 let axes = |phi| linkage.axes(phi, 0.7);
@@ -135,11 +136,12 @@ fn a_cutter_too_large_for_the_hollow_is_refused() {
     let shape = PitchCurveShape::Pascal { order: 2, eccentricity: 0.5, mean_radius_mm: None };
     let curve = Arc::new(PitchCurve::new(&shape, 3.0, 42).unwrap());
     let hollow_mm = -1.0 / curve.facts().smallest_curvature.curvature_per_mm;
-    assert!(ShapingLinkage::new(NORMAL, Arc::clone(&curve), hollow_mm - 0.1, 0.0).is_ok());
-    let refusal = ShapingLinkage::new(NORMAL, Arc::clone(&curve), hollow_mm + 0.1, 0.0).unwrap_err();
+    assert!(ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm - 0.1, 0.0).is_ok());
+    let refusal =
+        ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm + 0.1, 0.0).unwrap_err();
     assert_eq!(refusal.key, "tool.shaper_cutter.teeth");
-    assert!(ShapingLinkage::new(NORMAL, Arc::clone(&curve), hollow_mm - 0.1, 0.2).is_err());
-    assert!(ShapingLinkage::new(NORMAL, curve, f64::NAN, 0.0).is_err());
+    assert!(ShapingLinkage::new(GearKind::External, NORMAL, Arc::clone(&curve), hollow_mm - 0.1, 0.2).is_err());
+    assert!(ShapingLinkage::new(GearKind::External, NORMAL, curve, f64::NAN, 0.0).is_err());
 }
 
 proptest! {
@@ -151,7 +153,7 @@ proptest! {
         phis in prop::collection::vec(-20.0..20.0f64, 20),
     ) {
         let (r_c, curve) = (share * curve.size_mm(), Arc::new(curve));
-        if let Ok(linkage) = ShapingLinkage::new(KINDS[kind], Arc::clone(&curve), r_c, offset * r_c) {
+        if let Ok(linkage) = ShapingLinkage::new(GearKind::External, KINDS[kind], Arc::clone(&curve), r_c, offset * r_c) {
             for (phi, offset_mm) in phis.into_iter().zip([0.0, offset * r_c].into_iter().cycle()) {
                 let axes = linkage.axes(phi, offset_mm);
                 let psi_c = axes.psi_c_rad.value();

@@ -1,6 +1,6 @@
 //! Traditional linkage: the finish motion, with the cutter held back by the offset.
 //!
-//! In: the rolling pitch curve, r_c and the offset delta_d. Out: axis positions. Law (Gao et al. 2017, Eq. 1 to 8):
+//! In: the rolling pitch curve, r_c and the offset delta_d, both negative in a ring. Out: axis positions. Law (Gao et al. 2017, Eq. 1 to 8):
 //! alpha and beta of the finish position (delta_d = 0 in the formulas of [`crate::process::shaping::linkage::normal`]),
 //! and l + delta_d. The offset moves the cutter along the line of centres, which the normal of the pitch curve leaves
 //! by beta: the two flanks of a space get unequal allowances. The paper's Eq. 8, r sin alpha = r' sin alpha', holds for

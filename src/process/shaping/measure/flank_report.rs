@@ -5,13 +5,13 @@
 //! come from the dexels; begin and end from the closed form.
 
 use crate::dexel::NO_PASS;
-use crate::measure::deviation::{Trace, TraceDeviation};
+use crate::measure::deviation::Trace;
+use crate::measure::inspection::InspectedFlank;
 use crate::measure::scallop::{Cusp, cusps};
 use crate::measure::stock::{Extreme, Stock, extremes, stock};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use crate::steps::planar::CutField;
-use crate::terms::Side;
 
 /// Share of the flank left out at either end when the scene does not say where profiles are evaluated, and of the face.
 const DEFAULT_MARGIN: f64 = 0.05;
@@ -38,36 +38,24 @@ pub struct Scallops {
     pub at_pitch_curve: Option<Cusp>,
 }
 
-/// One flank, measured.
+/// One flank, measured: the line along the tooth runs at the pitch curve, or in the middle of the evaluated profile
+/// where the flank does not reach the curve, and is evaluated over the face without 5 % at either end; dexels of the
+/// whole flank count as untouched.
+pub type FlankReport = InspectedFlank<ShapedFlank>;
+
+/// What is measured on shaped flanks alone.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FlankReport {
-    /// Tooth, from 1.
-    pub tooth: u32,
-    /// Flank.
-    pub side: Side,
+pub struct ShapedFlank {
     /// Start of the involute.
     pub form: FlankLimit,
     /// Tip.
     pub tip: FlankLimit,
-    /// Length of the profile, mm.
-    pub length_mm: f64,
-    /// Arcs between which profiles are evaluated, mm.
-    pub evaluated_mm: [f64; 2],
     /// Stock of every operation but the last over the finished surface; `None` where the operation reached nothing.
     pub stock: Vec<Option<Stock>>,
-    /// Lowest and highest finished surface over the target on the evaluated profile.
+    /// Smallest and largest normal deviation of the finished surface on the evaluated profile.
     pub finished: Option<[Extreme; 2]>,
     /// Deepest cut below the target anywhere on the flank (undercut, gouge), if deeper than the dexels' resolution.
     pub undercut: Option<Extreme>,
-    /// Profile deviations in the middle of the face.
-    pub profile: Option<TraceDeviation>,
-    /// Lead deviations at the pitch curve, over the face without 5 % at either end.
-    pub lead: Option<TraceDeviation>,
-    /// The profile in the middle of the face.
-    pub profile_trace: Trace,
-    /// The line along the tooth at the pitch curve, or in the middle of the evaluated profile where the flank does not
-    /// reach the curve.
-    pub lead_trace: Trace,
     /// Scallops in the middle of the face.
     pub scallops: Option<Scallops>,
     /// What the first and last finishing strokes stand above the rest of this flank (0 if nothing), where they touched
@@ -75,8 +63,6 @@ pub struct FlankReport {
     pub witness: Option<Extreme>,
     /// Dexels that were cut deeper than their rays record.
     pub below_range: u64,
-    /// Dexels that the finishing operation and all before it never reached.
-    pub untouched: u64,
 }
 
 /// Cuts shallower than this below the target are numerical: the edge tables, f32 heights and Newton's last step
@@ -86,12 +72,10 @@ pub const RESOLUTION_MM: f64 = 1e-6;
 /// Arcs between which profiles and textures are evaluated, mm from the form point: as the scene says, else without 5 %
 /// of the flank at either end.
 pub fn evaluated_profile_mm(job: &ShapingJob, flank: &TargetFlank) -> [f64; 2] {
-    let arc_at = |height: Option<f64>| height.and_then(|h| flank.at_height(&job.blank, h)).map(|(arc, _)| arc);
+    let arc_at = |height_mm: f64| flank.at_height(&job.blank, height_mm).map(|(arc, _)| arc);
+    let [from_mm, to_mm] = job.scene.measure.ends_mm(arc_at);
     let length_mm = flank.length_mm();
-    [
-        arc_at(job.measure.profile_start_height_mm).unwrap_or(DEFAULT_MARGIN * length_mm),
-        arc_at(job.measure.profile_end_height_mm).unwrap_or((1.0 - DEFAULT_MARGIN) * length_mm),
-    ]
+    [from_mm.unwrap_or(DEFAULT_MARGIN * length_mm), to_mm.unwrap_or((1.0 - DEFAULT_MARGIN) * length_mm)]
 }
 
 /// Measures a flank.
@@ -164,23 +148,26 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
             finished.column(column, rows).iter().filter(|&&h| h <= low).count() as u64
         })
         .sum();
-    FlankReport {
-        tooth: flank.tooth,
-        side: flank.side,
+    let own = ShapedFlank {
         form: limit(0.0, flank.form_end),
         tip: limit(length_mm, flank.tip_end),
-        length_mm,
-        evaluated_mm,
         stock: layers[..layers.len() - 1].iter().map(|layer| stock(field, layer, finished)).collect(),
         finished: evaluated,
         undercut: deepest.filter(|low| low.value_mm < -RESOLUTION_MM),
+        scallops,
+        witness,
+        below_range,
+    };
+    InspectedFlank {
+        tooth: flank.tooth,
+        side: flank.side,
+        length_mm,
+        evaluated_mm,
         profile: profile_trace.deviation(evaluated_mm),
         lead: lead_trace.deviation([v_first + v_margin, v_last - v_margin]),
         profile_trace,
         lead_trace,
-        scallops,
-        witness,
-        below_range,
         untouched: finished.passes.iter().filter(|&&pass| pass == NO_PASS).count() as u64,
+        own,
     }
 }

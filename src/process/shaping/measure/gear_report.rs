@@ -6,10 +6,8 @@ use super::flank_report::FlankReport;
 use super::unevenness::{CrossedSurface, ToothAllowance, allowances, crossings, rack_allowance_mm};
 use crate::error::Result;
 use crate::gear::PitchCurveShape;
-use crate::measure::crossing::Crossing;
-use crate::measure::deviation::{PitchDeviations, Runout, pitch, runout};
+use crate::measure::inspection::GearInspection;
 use crate::measure::stock::{Stock, stock};
-use crate::measure::thickness::Thickness;
 use crate::process::shaping::ShapingJob;
 use crate::steps::planar::CutField;
 
@@ -46,12 +44,8 @@ pub struct GearReport {
     pub tip_lands_mm: Vec<f64>,
     /// Allowances of every operation but the last.
     pub allowances: Vec<OperationAllowance>,
-    /// Thickness of each tooth; `None` where a flank does not reach the pitch curve.
-    pub thickness: Vec<Option<Thickness>>,
-    /// Pitch deviations of left and right flanks.
-    pub pitch: [Option<PitchDeviations>; 2],
-    /// Radial places of a probe in the space after each tooth.
-    pub runout: Option<Runout>,
+    /// Pitch, runout and thickness of what the strokes leave.
+    pub inspection: GearInspection,
     /// Teeth after which the pitch curve repeats.
     pub period_teeth: u32,
 }
@@ -76,18 +70,19 @@ pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport
             })
         })
         .collect::<Result<_>>()?;
-    let thickness = finished.iter().map(|&[left, right]| Some(Thickness::between(left?, right?))).collect();
     let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
     let [left, right] = [0, 1].map(|side| finished.iter().map(|tooth| tooth[side]).collect::<Vec<_>>());
-    let deviations = |side: &[Option<Crossing>]| pitch(side, pitch_mm, job.curve.perimeter_mm());
     Ok(GearReport {
         flanks,
         roots,
         tip_lands_mm: (1..=teeth).map(|tooth| job.target(tooth).tip_land_mm).collect(),
         allowances,
-        thickness,
-        pitch: [deviations(&left), deviations(&right)],
-        runout: runout(&job.curve, &left, &right, job.scene.gear.pressure_angle_rad),
+        inspection: GearInspection::of_crossings(
+            &job.blank,
+            [&left, &right],
+            pitch_mm,
+            job.scene.gear.pressure_angle_rad,
+        ),
         period_teeth: period_teeth(&job.scene.gear.pitch_curve, teeth),
     })
 }
@@ -115,6 +110,7 @@ fn period_teeth(shape: &PitchCurveShape, teeth: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::deviation::runout;
     use crate::process;
     use crate::process::shaping::scene::model::Shaping;
     use std::path::Path;
@@ -131,7 +127,7 @@ mod tests {
         let cut = crossings(&job, job.operations.len() - 1, CrossedSurface::Strokes).expect("all flanks");
         let [left, right] = [0, 1].map(|side| cut.iter().map(|tooth| tooth[side]).collect::<Vec<_>>());
         let alpha = job.scene.gear.pressure_angle_rad;
-        let runout = runout(&job.curve, &left, &right, alpha).expect("all cross");
+        let runout = runout(&job.blank, &left, &right, alpha).expect("all cross");
         // The space after the last tooth is centred on phi = 0, the side that the gear was shifted to, towards the
         // cutter: it is cut deepest, and the probe lies deepest.
         let innermost = runout.radial_mm.iter().copied().fold(f64::INFINITY, f64::min);

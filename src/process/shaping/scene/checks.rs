@@ -14,8 +14,7 @@ const MOST_CHIP_SPACINGS_PER_MODULE: f64 = 600.0;
 /// Adds a problem for every contradiction.
 pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     // A missing value ends only the check that asks for it.
-    let _: [Option<()>; 5] =
-        [cutter_core(found), cutter_thinning(found), pitch_errors(found), chips(found), profile(found)];
+    let _: [Option<()>; 4] = [cutter_core(found), cutter_thinning(found), pitch_errors(found), chips(found)];
     tip(found);
     for index in 0..found.values.count("operation") {
         let path = format!("operation.{index}");
@@ -90,15 +89,6 @@ fn chips(found: &mut Found) -> Option<()> {
     let message =
         || format!("`{path}`: {spacing_mm} is finer than the maps of chips can hold for this module: {least_mm:.4} mm");
     found.blame(spacing_mm < least_mm, path, message, "use module_mm / 600 or more; module_mm / 60 is the default");
-    Some(())
-}
-
-fn profile(found: &mut Found) -> Option<()> {
-    let measure = found.view("measure");
-    let (start_mm, end_mm) = (measure.number("profile_start_height_mm")?, measure.number("profile_end_height_mm")?);
-    let message = || format!("the evaluated profile ends at {end_mm} mm, not above its start at {start_mm} mm");
-    let way_out = "make profile_end_height_mm larger than profile_start_height_mm";
-    found.blame(start_mm >= end_mm, "measure.profile_end_height_mm", message, way_out);
     Some(())
 }
 

@@ -5,7 +5,6 @@ mod checks;
 mod keys;
 pub mod model;
 
-use crate::material::Kienzle;
 use crate::scene::values::{Checked, Values};
 use crate::scene::{ProcessPart, SceneProcess};
 use model::Shaping;
@@ -19,6 +18,10 @@ pub static SCENE: SceneProcess = SceneProcess {
     scenes: include_str!("scenes.md"),
     sections: keys::SECTIONS,
     added: keys::ADDED,
+    per_revolution: &["strokes_per_revolution"],
+    of_one_gear: &["window_deg", "program"],
+    on_demand: &[],
+    senseless: &[],
     derive,
     check: checks::check,
     build: build::build,
@@ -38,23 +41,12 @@ impl ProcessPart for Shaping {
     }
 }
 
-/// Spacing of the chips' rays, force coefficients of a named material, strokes per revolution.
+/// Spacing of the chips' rays, strokes per revolution.
 fn derive(values: &mut Values) {
     let gear = values.view("gear");
     let (module_mm, teeth) = (gear.number("module_mm"), gear.whole("teeth"));
     if let Some(module_mm) = module_mm {
         values.put_default("fields.chips", "spacing_mm", Checked::Number((module_mm / 60.0).max(0.002)));
-    }
-    if let Some(material) = values.view("material").text("name").and_then(Kienzle::named) {
-        let force = material.edge_force();
-        for (name, value) in [
-            ("cutting_force_n_per_mm2", force.cutting_n_per_mm2),
-            ("cutting_edge_force_n_per_mm", force.cutting_edge_n_per_mm),
-            ("normal_force_n_per_mm2", force.normal_n_per_mm2),
-            ("normal_edge_force_n_per_mm", force.normal_edge_n_per_mm),
-        ] {
-            values.put_default("material", name, Checked::Number(value));
-        }
     }
     let Some(teeth) = teeth else { return };
     for index in 0..values.count("operation") {

@@ -115,7 +115,7 @@ pub struct SweepHeading {
     /// Travel of the tip per mm along the gear's axis.
     pub travel_per_mm: f64,
     /// Directions of the tool's axis and of the tip out of it, gear frame.
-    axis_and_out: [DVec3; 2],
+    pub(crate) axis_and_out: [DVec3; 2],
 }
 
 impl SweptSections {

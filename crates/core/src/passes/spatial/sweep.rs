@@ -22,6 +22,7 @@
 //! Road not taken: eliminating t beforehand by a polynomial in the tile's three coordinates. It needs order four in one
 //! of them, and long rays leave its range.
 
+use crate::error::NotConverged;
 use crate::math::convergence::{Step, iterate};
 use crate::math::roots::bisect;
 use crate::passes::planar::strokes::{NODES, cubic_through};
@@ -229,10 +230,13 @@ impl Sweep {
         }
     }
 
-    /// Distance from the tool's axis and place along it, from the blade's origin in the direction of w, of a point (tile frame) at the moment when the rake
-    /// face holds it. `None`: at no moment of the sweep and the stretch.
-    pub fn in_rake_face(&self, p_mm: DVec3) -> Option<[f64; 2]> {
-        let held = iterate("the moment at which a rake face holds a point", 0.0, MAX_STEPS, |t| {
+    /// Distance from the tool's axis and place along it, from the blade's origin in the direction of w, of a point (tile
+    /// frame) at the moment when the rake face holds it. `None`: at no moment of the sweep and the stretch.
+    ///
+    /// # Errors
+    /// The moment is not found: the work turns nearly as fast as the tool.
+    pub fn in_rake_face(&self, p_mm: DVec3) -> Result<Option<[f64; 2]>, NotConverged> {
+        iterate("the moment at which a rake face holds a point", 0.0, MAX_STEPS, |t| {
             let [u, _] = half_angle(t);
             let point = self.place_mm[0]
                 + u * (self.place_mm[1] + u * (self.place_mm[2] + u * self.place_mm[3]))
@@ -250,8 +254,7 @@ impl Sweep {
             } else {
                 ControlFlow::Continue(Step { to: next, residual })
             }
-        });
-        held.ok().flatten()
+        })
     }
 }
 
@@ -260,8 +263,8 @@ fn within_half_a_turn(angle_rad: f64) -> f64 {
     if angle_rad.abs() <= PI { angle_rad } else { angle_rad - TAU * (angle_rad / TAU).round() }
 }
 
-/// Inverse of [`half_angle`] at the nodes of a sweep, to rounding: a fixed number of Newton steps, tested over all of
-/// them.
+/// Inverse of [`half_angle`] at the nodes of a sweep, to rounding: a fixed number of Newton steps. It cannot fail: there
+/// are no other arguments than those between the largest t and its negative, and the test goes through them.
 fn t_at(u: f64) -> f64 {
     (0..4).fold(u.tan(), |t, _| {
         let [value, rate] = half_angle(t);

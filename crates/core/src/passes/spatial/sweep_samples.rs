@@ -25,8 +25,9 @@ const FINE: usize = 2 * SIDE - 1;
 /// a ray meets are undecided, and kept unless their box stays clear of the rays.
 const GRAZING_COSINE: f64 = 0.1;
 /// A candidate goes where all nine rays run out of its segment at more than this cosine. Between the rays the cosine
-/// changes by less, on regions of the sizes in use; no proof. The comparison with all passes in
-/// `tests/suite/hobbing/spatial.rs` stands for it.
+/// changes by less, on regions of the sizes in use; no proof. Too small, a sweep is dropped that some ray between the
+/// nine enters, and the surface stays too high there. Brute force samples nothing: the comparison with it in
+/// `tests/suite/hobbing/spatial.rs` sees such a loss on the fields it looks at, and no other.
 const LEAVING_COSINE: f64 = 0.05;
 /// Newton steps below this, in mm and in t, are the last: the error after them, of the order of their squares, is some
 /// picometres.

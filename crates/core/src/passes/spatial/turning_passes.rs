@@ -25,7 +25,7 @@ use crate::frame::Rigid3;
 use crate::tool::SpatialTool;
 use crate::tool::blade_edges::BladeEdges;
 use crate::tool::edge::Edge;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
@@ -86,9 +86,6 @@ pub struct TurningPasses {
     /// A blade sweeps through the work only within this angle to either side of the head's x axis, rad
     /// ([`SpatialTool::half_window_rad`]).
     pub half_window_rad: f64,
-    /// How far the work moves in the head while a blade crosses half the window, at most: its origin, mm, and its turn,
-    /// rad.
-    half_window_motion: [f64; 2],
     first_turn: i64,
     turns: u32,
 }
@@ -159,7 +156,6 @@ impl TurningPasses {
             first_pass,
             places,
             edges,
-            half_window_motion: motion.largest_rates().map(|rate| half_window_rad * rate),
             motion,
             turn,
             rake_twist_rad_per_mm: tool.rake_twist_rad_per_mm(),
@@ -201,13 +197,6 @@ impl TurningPasses {
         self.edges.edge_of(self.place(pass).blade)
     }
 
-    /// How far a place of the work (gear frame) moves in the head while a blade crosses half the window, at most, mm,
-    /// and how much closer to the tool what is within `reach_mm` of it may come by turning about it.
-    pub fn half_window_motion_mm(&self, place_mm: DVec3, reach_mm: f64) -> f64 {
-        let [origin_mm, turn_rad] = self.half_window_motion;
-        origin_mm + turn_rad * (place_mm.length() + reach_mm)
-    }
-
     /// Turn of the tool (counted from tool angle 0) and number of the blade behind a pass id of this set.
     pub fn blade_of(&self, pass_id: u32) -> (i64, u32) {
         let index = pass_id - self.first_pass;
@@ -243,7 +232,7 @@ mod tests {
     use super::*;
     use crate::tool::CuttingTool;
     use crate::tool::edge::{Segment, SegmentName};
-    use glam::DMat3;
+    use glam::{DMat3, DVec3};
 
     /// Blades placed one by one.
     struct Placed(Vec<Rigid3>, BladeEdges, f64);

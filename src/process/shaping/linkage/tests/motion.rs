@@ -75,7 +75,8 @@ fn relief_of_the_paper_gear() {
     assert_eq!(shallow.verdict(), ReliefVerdict::Rubs);
     assert!(shallow.clearance_mm(0.5) < 0.0 && shallow.warning(0.5).unwrap().contains("rubs"));
     let circle = Arc::new(PitchCurve::new(&PitchCurveShape::Circle, 3.0, 42).unwrap());
-    let round = smallest_relief(&ShapingLinkage::new(NORMAL, circle, 30.0, 0.0).unwrap(), 0.0, alpha);
+    let round =
+        smallest_relief(&ShapingLinkage::new(GearKind::External, NORMAL, circle, 30.0, 0.0).unwrap(), 0.0, alpha);
     assert!((round.ratio - 1.0).abs() < 1e-12, "{round:?}");
     assert!(round.warning(0.5).is_none());
 }

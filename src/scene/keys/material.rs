@@ -1,17 +1,24 @@
 //! Keys of the work's material: what the cutting forces follow from.
 
+use super::{Default, Key, KeySection, Kind, Range, Role};
 use crate::material::{MATERIAL_NAMES, MATERIALS};
-use crate::scene::keys::{Default, Key, KeySection, Kind, Range, Role};
 
-/// A coefficient of the force law.
-const fn coefficient(name: &'static str, unit: &'static str, example: &'static str, teach: &'static str) -> Key {
-    Key {
-        name,
-        kind: Kind::Number(Range::closed(0.0, 20_000.0)),
-        unit,
-        default: Default::Derived("from the material's name"),
-        example,
-        teach,
+impl Key {
+    /// A coefficient of the force law.
+    pub const fn coefficient(
+        name: &'static str,
+        unit: &'static str,
+        example: &'static str,
+        teach: &'static str,
+    ) -> Self {
+        Self {
+            name,
+            kind: Kind::Number(Range::closed(0.0, 20_000.0)),
+            unit,
+            default: Default::Derived("from the material's name"),
+            example,
+            teach,
+        }
     }
 }
 
@@ -29,22 +36,20 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             teach: "Steel whose built-in force coefficients hold: Kienzle's law after Koenig and Essel (1973), as a \
                 line from 0.01 to 0.1 mm of chip.",
         },
-        coefficient(
+        Key::coefficient(
             "cutting_force_n_per_mm2",
             "N/mm^2",
             "3000.0",
-            "K_c: cutting force per area of chip, along the stroke.",
+            "K_c: cutting force per area of chip, against the motion of the edge.",
         ),
-        coefficient(
+        Key::coefficient(
             "cutting_edge_force_n_per_mm",
             "N/mm",
             "60.0",
             "K_ce: cutting force per length of edge that a chip of no thickness would need.",
         ),
-        coefficient("normal_force_n_per_mm2", "N/mm^2", "1500.0", "K_n: force normal to the edge per area of chip."),
-        coefficient("normal_edge_force_n_per_mm", "N/mm", "30.0", "K_ne: force normal to the edge per length of edge."),
     ],
     groups: &[],
-    teach: "The work's material: cutting force = (K_c h + K_ce) b for a chip of thickness h over a length b of edge, \
-        and the same normal to the edge.",
+    teach: "The work's material: cutting force = (K_c h + K_ce) b for a chip of thickness h over a length b of edge. \
+        Shaping computes forces always, and those normal to the edge too; hobbing where this section is written.",
 }];

@@ -7,8 +7,8 @@
 
 use crate::gear::PitchCurveShape;
 use crate::output::text::plain;
+use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::scene::model::Linkage;
-use crate::process::shaping::{PreparedOperation, ShapingJob};
 
 /// The program.
 ///

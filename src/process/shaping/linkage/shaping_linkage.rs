@@ -1,17 +1,25 @@
-//! Linkages of external shaping, ready for queries.
+//! Linkages of shaping, ready for queries.
 //!
-//! In: the kind of linkage, the pitch curve, the cutter's pitch radius r_c = m z0 / 2. Out: axis positions, poses, and
-//! the polar angle that belongs to a work angle, each for any offset: infeed changes the offset from stroke to stroke.
-//! The laws stand in [`crate::process::shaping::linkage::normal`] and
+//! In: the kind of gear and of linkage, the pitch curve, the cutter's pitch radius r_c = m z0 / 2. Out: axis positions,
+//! poses, and the polar angle that belongs to a work angle, each for any offset: infeed changes the offset from stroke
+//! to stroke. The laws stand in [`crate::process::shaping::linkage::normal`] and
 //! [`crate::process::shaping::linkage::traditional`].
+//!
+//! In a ring the cutter stands inside the pitch curve. The laws then hold with -r_c and -delta_d for r_c and delta_d:
+//! the centre P + d n moves to the other side of the curve, S / r_c runs the other way, an offset draws the cutter
+//! inwards. The published three-axis linkage ("Advanced Shaping Technology for Non-Circular Internal Gears", a text
+//! without author and year) has the same centre distance a = |P - r_0 n|, but gives the work angle as phi - arg(o_1),
+//! which is 0 on a circle (right is arg(o_1)), and loses the sign of the angle between normal and line of centres in an
+//! arccos, which is wrong wherever r' > 0. The signed law has neither fault.
+//!
+//! Road not taken: a second set of laws for rings. Every formula would stand here twice, with signs to be kept apart.
 
 use std::sync::Arc;
 
 use super::axes::{Axes, CutterPose, PoseMotion};
 use super::inverse::{Starts, solve};
 use crate::error::Refusal;
-use crate::gear::PitchCurve;
-use crate::gear::Rolling;
+use crate::gear::{GearKind, PitchCurve, Rolling};
 use crate::math::Jet;
 use crate::process::shaping::linkage::{normal, traditional};
 use crate::process::shaping::scene::model::{Linkage, NormalReading, TraditionalDirection};
@@ -19,6 +27,7 @@ use crate::process::shaping::scene::model::{Linkage, NormalReading, TraditionalD
 /// One linkage on one pitch curve with one cutter.
 #[derive(Debug, Clone)]
 pub struct ShapingLinkage {
+    gear: GearKind,
     kind: Linkage,
     curve: Arc<PitchCurve>,
     cutter_pitch_radius_mm: f64,
@@ -29,9 +38,11 @@ impl ShapingLinkage {
     /// Linkage for offsets from 0 to `offset_mm` (the largest that will be used; inverse queries are fastest there).
     ///
     /// # Errors
-    /// A pitch radius or offset that is not finite, r_c <= 0 or r_c + offset <= 0, or a concave zone so tight that the
-    /// work would have to turn back: the cutter's pitch circle (with the offset) does not fit into it.
+    /// A pitch radius or offset that is not finite, r_c <= 0 or r_c + offset <= 0, or a curvature so sharp that the work
+    /// would have to turn back: the cutter's pitch circle (with the offset) does not fit into a hollow of the curve, or
+    /// into the ring.
     pub fn new(
+        gear: GearKind,
         kind: Linkage,
         curve: Arc<PitchCurve>,
         cutter_pitch_radius_mm: f64,
@@ -41,7 +52,7 @@ impl ShapingLinkage {
             let problem = format!("the cutter's pitch radius would be {cutter_pitch_radius_mm} mm");
             return Err(Refusal::new("tool.shaper_cutter.teeth", problem, "give a positive number of teeth"));
         }
-        let mut linkage = Self { kind, curve, cutter_pitch_radius_mm, starts: Arc::new(Starts::none()) };
+        let mut linkage = Self { gear, kind, curve, cutter_pitch_radius_mm, starts: Arc::new(Starts::none()) };
         linkage.check(0.0)?;
         linkage.check(offset_mm)?;
         let lag = |phi: f64| {
@@ -66,20 +77,36 @@ impl ShapingLinkage {
         let sharp = facts.curvature_extrema.iter().map(|e| e.phi_rad);
         for phi in even.chain(sharp) {
             let turn = self.axes(phi, offset_mm).psi_c_rad.derivative(1);
-            if turn.is_nan() || turn <= 0.0 {
-                let radius_mm = 1.0 / self.curve.frame(phi).curvature_per_mm;
+            let curvature_per_mm = self.curve.frame(phi).curvature_per_mm;
+            // A circle larger than a ring would turn the work forwards again, from beyond its centre of curvature.
+            let fits = self.gear == GearKind::External || self.cutter_pitch_radius_mm * curvature_per_mm < 1.0;
+            if !fits || turn.is_nan() || turn <= 0.0 {
+                let way_out = match self.gear {
+                    GearKind::External => {
+                        "take a cutter with fewer teeth, a smaller offset, or a pitch curve with a wider hollow"
+                    }
+                    GearKind::Internal => {
+                        "take a cutter with fewer teeth, a smaller offset, or a pitch curve with more room inside"
+                    }
+                };
                 return Err(Refusal::new(
                     "tool.shaper_cutter.teeth",
                     format!(
-                        "at polar angle {:.3} deg the pitch curve has the radius of curvature {radius_mm:.3} mm; the \
-                         cutter's pitch radius with the offset, {reach_mm:.3} mm, does not roll there",
-                        phi.to_degrees()
+                        "at polar angle {:.3} deg the pitch curve has the radius of curvature {:.3} mm; the cutter's \
+                        pitch radius with the offset, {reach_mm:.3} mm, does not roll there",
+                        phi.to_degrees(),
+                        1.0 / curvature_per_mm
                     ),
-                    "take a cutter with fewer teeth, a smaller offset, or a pitch curve with a wider hollow",
+                    way_out,
                 ));
             }
         }
         Ok(())
+    }
+
+    /// External gear or ring.
+    pub fn gear(&self) -> GearKind {
+        self.gear
     }
 
     /// The pitch curve.
@@ -118,7 +145,7 @@ impl ShapingLinkage {
     pub fn axes_along<const N: usize>(&self, phi_rad: Jet<N>, offset_mm: Jet<N>) -> Axes<N> {
         let rolling = Rolling::new(&self.curve, phi_rad);
         let arc = rolling.arc(&self.curve);
-        let r_c = self.cutter_pitch_radius_mm;
+        let (r_c, offset_mm) = self.signed(offset_mm);
         match self.kind {
             Linkage::ShapingNormal { reading } => normal::axes(&rolling, arc, r_c, offset_mm, reading),
             Linkage::ShapingTraditional { direction } => traditional::axes(&rolling, arc, r_c, offset_mm, direction),
@@ -130,9 +157,15 @@ impl ShapingLinkage {
         phi_rad - self.lag(&Rolling::new(&self.curve, phi_rad), offset_mm)
     }
 
+    /// Cutter radius and offset along the outward normal of the pitch curve: both negative in a ring.
+    fn signed<const N: usize>(&self, offset_mm: Jet<N>) -> (f64, Jet<N>) {
+        let sign = self.gear.tip_sign();
+        (sign * self.cutter_pitch_radius_mm, offset_mm * sign)
+    }
+
     /// phi - psi_c.
     fn lag<const N: usize>(&self, rolling: &Rolling<N>, offset_mm: Jet<N>) -> Jet<N> {
-        let r_c = self.cutter_pitch_radius_mm;
+        let (r_c, offset_mm) = self.signed(offset_mm);
         match self.kind {
             Linkage::ShapingNormal { .. } => normal::alpha(rolling, offset_mm + r_c),
             Linkage::ShapingTraditional { direction } => traditional::work_lag(rolling, r_c, offset_mm, direction),
@@ -141,12 +174,12 @@ impl ShapingLinkage {
 
     /// Pose of the cutter in the gear frame.
     pub fn pose(&self, phi_rad: f64, offset_mm: f64) -> CutterPose {
-        self.axes_along::<1>(Jet::constant(phi_rad), Jet::constant(offset_mm)).pose()
+        self.axes_along::<1>(Jet::constant(phi_rad), Jet::constant(offset_mm)).pose(self.gear)
     }
 
     /// Pose with its derivative with respect to phi at constant offset.
     pub fn pose_motion(&self, phi_rad: f64, offset_mm: f64) -> PoseMotion {
-        self.axes_along::<2>(Jet::variable(phi_rad), Jet::constant(offset_mm)).pose_motion()
+        self.axes_along::<2>(Jet::variable(phi_rad), Jet::constant(offset_mm)).pose_motion(self.gear)
     }
 
     /// Polar angle (unwrapped) at which the work angle is `psi_c_rad` (any real), to rounding.

@@ -1,0 +1,67 @@
+//! A gear as an inspector finds it, whatever process cut it: traces of its flanks, pitch, runout, thickness.
+//!
+//! In: what was traced on each flank, and where the flanks cross the pitch curve. Out: [`InspectedFlank`], which holds
+//! what only one process measures as its `own`, and [`GearInspection`].
+
+use super::crossing::Crossing;
+use super::deviation::{self, PitchDeviations, Runout, Trace, TraceDeviation};
+use super::thickness::Thickness;
+use crate::gear::blank::Blank;
+use crate::terms::Side;
+
+/// One flank after all operations, measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InspectedFlank<Own> {
+    /// Tooth, from 1.
+    pub tooth: u32,
+    /// Flank.
+    pub side: Side,
+    /// Length of the profile in the middle of the face, mm.
+    pub length_mm: f64,
+    /// Arcs between which profiles are evaluated, mm.
+    pub evaluated_mm: [f64; 2],
+    /// Heights along the profile in the middle of the face.
+    pub profile_trace: Trace,
+    /// Its deviations.
+    pub profile: Option<TraceDeviation>,
+    /// Heights along the tooth, on one line.
+    pub lead_trace: Trace,
+    /// Its deviations.
+    pub lead: Option<TraceDeviation>,
+    /// Dexels that no pass reached.
+    pub untouched: u64,
+    /// What only the process that cut it measures.
+    pub own: Own,
+}
+
+/// What is measured from tooth to tooth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearInspection {
+    /// Pitch deviations of left and right flanks.
+    pub pitch: [Option<PitchDeviations>; 2],
+    /// Places of a probe in the space after each tooth.
+    pub runout: Option<Runout>,
+    /// Thickness of each tooth on the pitch curve; `None` where a flank does not cross it.
+    pub thickness: Vec<Option<Thickness>>,
+}
+
+impl GearInspection {
+    /// From where left and right flanks, in order of teeth, cross the pitch curve; `pitch_mm` is its arc from tooth to
+    /// tooth, `pressure_angle_rad` that of the transverse section.
+    pub fn of_crossings(
+        blank: &Blank,
+        [left, right]: [&[Option<Crossing>]; 2],
+        pitch_mm: f64,
+        pressure_angle_rad: f64,
+    ) -> Self {
+        Self {
+            pitch: [left, right].map(|side| deviation::pitch(side, pitch_mm, blank.curve().perimeter_mm())),
+            runout: deviation::runout(blank, left, right, pressure_angle_rad),
+            thickness: left
+                .iter()
+                .zip(right)
+                .map(|(left, right)| Some(Thickness::between((*left)?, (*right)?)))
+                .collect(),
+        }
+    }
+}

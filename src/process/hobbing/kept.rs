@@ -1,0 +1,77 @@
+//! What a hobbing job computes once and keeps: passes of its operations, and target flanks that were asked for.
+//!
+//! Passes hold the motion as tables; a target flank is some ten kilobytes of polynomials, found by nested searches that
+//! take longer than a thousand dexels. Whoever cuts flanks one by one gets the same passes and targets each time.
+
+use crate::error::Refusal;
+use crate::passes::{MotionTable, TurningPasses};
+use crate::process::hobbing::Hob;
+use crate::process::hobbing::flank_patch::FlankPatch;
+use crate::process::hobbing::linkage::HobbingLinkage;
+use crate::terms::Side;
+use crate::tool::SpatialTool;
+use crate::units::TURN_RAD;
+use std::sync::OnceLock;
+
+/// Passes and targets of a job.
+#[derive(Debug)]
+pub struct Kept {
+    /// Passes of every operation, numbered on from one to the next.
+    pub operations: Vec<TurningPasses>,
+    /// Targets that were asked for: left and right flank of tooth 1, then of tooth 2 and so on.
+    targets: Vec<OnceLock<Result<FlankPatch, Refusal>>>,
+}
+
+impl Kept {
+    /// Passes of operations with these names and linkages, on a gear of so many teeth.
+    ///
+    /// # Errors
+    /// More passes than can be numbered.
+    pub fn new<'a>(
+        hob: &Hob,
+        linkages: impl IntoIterator<Item = (&'a str, &'a HobbingLinkage)>,
+        teeth: u32,
+    ) -> Result<Self, Refusal> {
+        let mut operations = Vec::new();
+        let mut first_pass = 0;
+        for (name, linkage) in linkages {
+            let hob_at = |time_s: f64| linkage.axes::<1>(time_s).hob_rad.value();
+            // Sweeps reach a little further than the moments at which their blades point to the work.
+            let beyond_rad = hob.half_window_rad();
+            let range_rad = [hob_at(0.0) - beyond_rad, hob_at(linkage.end_s()) + beyond_rad];
+            if f64::from(first_pass) + passes(hob, linkage) >= f64::from(u32::MAX) {
+                return Err(Refusal::new(
+                    "operation.axial_feed_mm_per_revolution",
+                    format!("operation {name} has more passes than can be numbered"),
+                    "use a larger feed or fewer gashes",
+                ));
+            }
+            let corners: Vec<f64> = linkage.corners_s().iter().map(|&time_s| hob_at(time_s)).collect();
+            let motion = MotionTable::new(range_rad, &corners, |angle| linkage.head_from_work(angle));
+            let passes = TurningPasses::new(first_pass, hob, hob.hand, motion)?;
+            first_pass = passes.end_pass();
+            operations.push(passes);
+        }
+        Ok(Self { operations, targets: (0..2 * teeth).map(|_| OnceLock::new()).collect() })
+    }
+
+    /// Target flank of a tooth, found by `find` if nobody has asked for it yet.
+    ///
+    /// # Errors
+    /// Those of `find`.
+    pub fn target(
+        &self,
+        tooth: u32,
+        side: Side,
+        find: impl FnOnce() -> Result<FlankPatch, Refusal>,
+    ) -> Result<&FlankPatch, Refusal> {
+        let place = 2 * (tooth as usize - 1) + usize::from(side == Side::Right);
+        self.targets[place].get_or_init(find).as_ref().map_err(Clone::clone)
+    }
+}
+
+/// Passes of an operation: every tooth in every turn of the hob.
+pub fn passes(hob: &Hob, linkage: &HobbingLinkage) -> f64 {
+    let turns = linkage.axes::<1>(linkage.end_s()).hob_rad.value() / TURN_RAD;
+    turns * hob.teeth.len() as f64
+}

@@ -1,0 +1,72 @@
+//! Sections of hob teeth as fine polygons: no rays, no normals of surfaces.
+
+use gearcut::math::planar_rays::{ClosedCurve, Piece};
+use gearcut::passes::sections::swept_sections::SweptSection;
+use glam::DVec2;
+
+/// Distance of the corners of sections, mm. Clouds of points that they are compared with stand as near, so that two
+/// sections that nearly coincide hold each other's points alike.
+pub const STEP_MM: f64 = 0.04;
+
+/// A section as a polygon.
+pub struct Polygon {
+    corners: Vec<DVec2>,
+    /// Points of the edge.
+    pub of_edge: Vec<EdgePoint>,
+    /// Smallest coordinates.
+    pub low: DVec2,
+    /// Largest coordinates.
+    pub high: DVec2,
+}
+
+/// A point of the edge in a section.
+pub struct EdgePoint {
+    /// Where it stands.
+    pub place: DVec2,
+    /// Direction into the tool.
+    pub inward: DVec2,
+    /// Length of the section's border that it stands for, mm.
+    pub length_mm: f64,
+}
+
+impl Polygon {
+    /// The polygon of a section.
+    pub fn new(section: &SweptSection) -> Self {
+        let (mut corners, mut of_edge) = (Vec::new(), Vec::new());
+        for (index, piece) in section.pieces().iter().enumerate() {
+            let start = section.node_mm(index);
+            if piece.law == Piece::STRAIGHT {
+                corners.push(start);
+                continue;
+            }
+            let length_mm = start.distance(section.node_mm(index + 1));
+            let count = (length_mm / STEP_MM).ceil().max(2.0) as u32;
+            for i in 0..count {
+                let [place, rate] = section.place(piece.law, f64::from(i) / f64::from(count));
+                corners.push(place);
+                // Inside is on the left.
+                let inward = rate.perp().normalize();
+                of_edge.push(EdgePoint { place, inward, length_mm: rate.length() / f64::from(count) });
+            }
+        }
+        let low = corners.iter().fold(DVec2::INFINITY, |a, &b| a.min(b));
+        let high = corners.iter().fold(DVec2::NEG_INFINITY, |a, &b| a.max(b));
+        Self { corners, of_edge, low, high }
+    }
+
+    /// Whether a point lies inside.
+    pub fn holds(&self, p: DVec2) -> bool {
+        if p.cmplt(self.low).any() || p.cmpgt(self.high).any() {
+            return false;
+        }
+        let mut inside = false;
+        let mut a = self.corners[self.corners.len() - 1];
+        for &b in &self.corners {
+            if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
+                inside = !inside;
+            }
+            a = b;
+        }
+        inside
+    }
+}
