@@ -11,6 +11,7 @@ mod devices;
 mod drivers;
 mod failure;
 mod folder;
+mod mate;
 mod new;
 mod print;
 mod texture;
@@ -33,6 +34,7 @@ pub fn run(arguments: CommandLine) -> ExitCode {
             print::to_stdout(&gearcut::scene::schema::json_schema(gearcut::process::table())).map_err(Failure::from)
         }
         Command::New(arguments) => new::run(&arguments),
+        Command::Mate(arguments) => mate::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -20,7 +20,7 @@ use crate::error::Refusal;
 pub struct LoadedScene {
     /// The checked scene.
     pub scene: Scene,
-    values: Values,
+    pub(super) values: Values,
     sources: Sources,
 }
 

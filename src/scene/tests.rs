@@ -41,6 +41,8 @@ static SAWING: SceneProcess = SceneProcess {
             groups: &[],
         },
     ],
+    per_revolution: &["cuts"],
+    of_one_gear: &[],
     on_demand: &["measure"],
     senseless: &[Senseless { path: "operation[].linkage", why: "an arm moves the saw", instead: "remove it and push" }],
     derive: |values| {
@@ -81,6 +83,8 @@ static FILING: SceneProcess = SceneProcess {
         },
     ]],
     added: &[],
+    per_revolution: &[],
+    of_one_gear: &[],
     on_demand: &[],
     senseless: &[],
     derive: |_| {},

@@ -18,6 +18,9 @@ use crate::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 
+/// Smallest root circle, as a share of the pitch radius: a choice, no limit of the method. The teeth need a body with a
+/// bore; with usual dedenda of 1.25 modules it refuses cutters of three teeth and fewer.
+const LEAST_ROOT_SHARE: f64 = 0.2;
 /// The involute is followed down to the roll where its tangent leaves it by this much at the base circle: half the edge
 /// tables' tolerance.
 const BASE_CIRCLE_TOLERANCE_MM: f64 = 2.5e-8;
@@ -86,7 +89,7 @@ impl ShaperCutter {
         let thickness_mm = 0.5 * PI * m + 2.0 * x0 * m * alpha.tan() - spec.thinning_mm;
         let half_angle_rad = 0.5 * thickness_mm / pitch_radius_mm + inv(alpha);
         let left = Involute { base_radius_mm, half_angle_rad, side: 1.0 };
-        if root_radius_mm <= 0.2 * pitch_radius_mm {
+        if root_radius_mm <= LEAST_ROOT_SHARE * pitch_radius_mm {
             return Err(Refusal::new(
                 "tool.shaper_cutter.dedendum_coefficient",
                 format!("the cutter's root circle has radius {root_radius_mm:.3} mm; nothing is left of its body"),

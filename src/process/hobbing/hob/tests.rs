@@ -1,8 +1,10 @@
 //! The edge against the helicoid it lies on, its chain, and what is refused.
 
 use super::*;
+use crate::process::hobbing::scene::model::Worm;
 use crate::terms::Hand;
-use crate::tool::edge::SegmentShape;
+use crate::tool::edge::{Segment, SegmentShape};
+use glam::DVec2;
 
 fn spec() -> model::HobSpec {
     model::HobSpec {

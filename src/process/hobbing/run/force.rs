@@ -6,7 +6,7 @@ use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn};
 use crate::material::CuttingForce;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
-use crate::process::hobbing::measure::hob_force::{OperationForce, PassForce};
+use crate::process::hobbing::measure::hob_force::{OperationForce, PassForce, ToothForce};
 use crate::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
 
 /// How the force of a tooth is defined.
@@ -52,7 +52,7 @@ pub fn bars(job: &HobbingJob, forces: &[OperationForce]) -> Vec<(String, BarChar
             },
             BarSeries {
                 name: "mean in the cut".to_owned(),
-                values: force.teeth.iter().map(|tooth| tooth.mean_n()).collect(),
+                values: force.teeth.iter().map(ToothForce::mean_n).collect(),
             },
         ],
     };

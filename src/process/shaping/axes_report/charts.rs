@@ -3,6 +3,7 @@
 //! The cutter angle itself is nearly a straight line; what a gear engineer looks for is how far it departs from even
 //! rolling, so both are shown.
 
+use super::retraction;
 use super::strokes::StrokeRow;
 use crate::machine::{Axis, AxisMotion, Order};
 use crate::output::line_chart::{LineChart, Panel};
@@ -13,19 +14,24 @@ use crate::steps::axes::charts::{chart, panel, panels};
 use crate::units::UM_PER_MM;
 
 /// All charts of an operation.
-pub(super) fn all(job: &ShapingJob, operation: &PreparedOperation, rows: &[StrokeRow]) -> [NamedChart<LineChart>; 4] {
+pub(super) fn all(job: &ShapingJob, operation: &PreparedOperation, rows: &[StrokeRow]) -> Vec<NamedChart<LineChart>> {
     let limits = dynamics::limits(&job.machine.limits);
     let points: Vec<(f64, [AxisMotion; 3])> = rows.iter().map(|row| (work_angle_deg(row), row.motion)).collect();
     let moving = |order: Order| panels(&AXES, 0..AXES.len(), &limits, order, &points);
     let words = [operation.spec.name.as_str(), &job.scene.name, operation.linkage.words()];
     let over_work_angle =
         |what: &str, panels: Vec<Panel>| chart(words, what, ["work angle ψc", position_sign(&WORK)], panels);
-    [
+    let mut charts = vec![
         ("positions", over_work_angle("axis positions", positions(job, rows))),
         ("velocities", over_work_angle("axis velocities", moving(Order::Speed))),
         ("accelerations", over_work_angle("axis accelerations", moving(Order::Acceleration))),
         ("relief", over_work_angle("clearance when the cutter backs off", relief(job, rows))),
-    ]
+    ];
+    if operation.retraction.is_in_axes() {
+        charts
+            .push(("retraction", over_work_angle("travel of the axes to the return stroke", retraction::panels(rows))));
+    }
+    charts
 }
 
 fn work_angle_deg(row: &StrokeRow) -> f64 {

@@ -20,6 +20,7 @@ pub mod dynamics;
 mod inverse;
 mod normal;
 pub mod relief;
+pub mod retraction;
 pub mod schedule;
 mod shaping_linkage;
 #[cfg(test)]

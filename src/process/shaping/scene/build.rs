@@ -1,8 +1,8 @@
 //! Checked values of a shaping scene to the model.
 
 use super::model::{
-    AxisLimits, CutterSpec, Feed, GcodeDialect, Infeed, Linkage, Machine, NormalReading, Operation, Shaping,
-    StrokeSpacing, Tip, TraditionalDirection,
+    AxisLimits, CutterSpec, Feed, GcodeDialect, Infeed, Linkage, Machine, NormalReading, Operation, Retraction,
+    Shaping, StrokeSpacing, Tip, TraditionalDirection,
 };
 use crate::material::EdgeForce;
 use crate::scene::ScenePart;
@@ -73,6 +73,14 @@ fn machine(values: &Values) -> Option<Machine> {
         approach_mm: machine.number("approach_mm")?,
         overrun_mm: machine.number("overrun_mm")?,
         back_off_mm: machine.number("back_off_mm")?,
+        retraction: match machine.text("retraction")? {
+            "center_line" => Retraction::CenterLine,
+            "normal" => Retraction::Normal,
+            "turned" => Retraction::Turned,
+            "tilted" => Retraction::Tilted,
+            "auto" => Retraction::Auto,
+            _ => return None,
+        },
         work_eccentricity_mm: machine.mm_from_um("work_eccentricity_um")?,
         work_eccentricity_angle_rad: machine.rad("work_eccentricity_angle_deg")?,
         limits: AxisLimits {

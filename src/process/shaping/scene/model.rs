@@ -98,14 +98,45 @@ pub struct Machine {
     pub approach_mm: f64,
     /// Ram travel below the face after the cut.
     pub overrun_mm: f64,
-    /// Back-off along the centre line during the return stroke.
+    /// How far the cutter is drawn back during the return stroke.
     pub back_off_mm: f64,
+    /// Which way.
+    pub retraction: Retraction,
     /// Distance of the gear axis from the work spindle axis.
     pub work_eccentricity_mm: f64,
     /// Direction of the eccentricity in the gear frame.
     pub work_eccentricity_angle_rad: f64,
     /// Limits of the axes, where known.
     pub limits: AxisLimits,
+}
+
+/// Which way the cutter is drawn back for the return stroke; the laws are in
+/// [`crate::process::shaping::linkage::retraction`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Retraction {
+    /// Along the line of centres, by the machine's own relief.
+    CenterLine,
+    /// Along the normal of the pitch curve.
+    Normal,
+    /// Along the line of centres, the cutter turned as it would roll on.
+    Turned,
+    /// Along the direction, at one angle to the normal, that clears stock as well.
+    Tilted,
+    /// Along the line of centres where that is clear, turned where it is not.
+    Auto,
+}
+
+impl Retraction {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::CenterLine => "along the line of centres",
+            Self::Normal => "along the normal of the pitch curve",
+            Self::Turned => "along the line of centres, the cutter turned",
+            Self::Tilted => "tilted out of the normal of the pitch curve",
+            Self::Auto => "along the line of centres, the cutter turned where that is not clear",
+        }
+    }
 }
 
 /// Largest speeds and accelerations the axes allow; `None`: not limited.
