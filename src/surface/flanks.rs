@@ -1,7 +1,7 @@
 //! A flank or root as a grid of surface points, thinned out to the spacing of meshes.
 //!
 //! In: a field and what the operations left on it. Out: [`SurfaceGrid`]: points on the finished surface with their
-//! outward normals, the height over the target, the stock of the operation before the last one and the pass that left
+//! outward normals, the normal deviation, the stock of the operation before the last one and the pass that left
 //! the point; and the same as a [`Mesh`].
 //!
 //! Columns are the dexels nearest to places `spacing_mm` apart, the first and the last one always among them: every

@@ -36,19 +36,19 @@ use crate::math::newton::{EVERYWHERE, LastStep, newton_within};
 use crate::process::hobbing::scene::model::{EvenMotion, ExtraRotation, LinkageForm};
 
 pub mod dynamics;
+mod feed_piece;
 mod geometry;
 pub mod marks;
 mod path;
 pub mod plan;
 mod poses;
-mod stretch;
 #[cfg(test)]
 mod tests;
 
+use feed_piece::{Clock, FeedPiece};
 pub use geometry::{HobbingAxes, HobbingGeometry, work_from_machine_at};
 pub use path::{FeedPath, FeedPhase};
 pub use plan::FeedPlan;
-use stretch::{Clock, Stretch};
 
 /// What is even in time and who carries the extra rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,7 +69,7 @@ pub struct HobbingLinkage {
     law: HobbingLaw,
     /// Time of one cycle along the pitch curve while the slide rests, s.
     cycle_s: f64,
-    stretches: Vec<Stretch>,
+    pieces: Vec<FeedPiece>,
     end_s: f64,
 }
 
@@ -88,21 +88,21 @@ impl HobbingLinkage {
         path: &FeedPath,
     ) -> Result<Self, Refusal> {
         let cycle_s = curve.perimeter_mm() / (geometry.arc_per_hob_rad_mm() * hob_speed_rad_per_s);
-        let mut linkage = Self { curve, geometry, law, cycle_s, stretches: Vec::new(), end_s: 0.0 };
+        let mut linkage = Self { curve, geometry, law, cycle_s, pieces: Vec::new(), end_s: 0.0 };
         let mut state = [path.start_slide_mm, path.start_shift_mm, path.start_radial_mm];
         let mut arc_mm = geometry.arc_per_slide() * state[0] + geometry.arc_per_shift() * state[1];
         let (mut start_s, mut drift_rad) = (0.0, 0.0);
         for phase in &path.phases {
             let rates = [phase.slide_mm_per_s, phase.shift_mm_per_s, phase.radial_mm_per_s];
-            let stretch = linkage.stretch(start_s, state, rates, arc_mm, drift_rad)?;
+            let piece = linkage.piece(start_s, state, rates, arc_mm, drift_rad)?;
             let end_s = start_s + phase.duration_s;
-            let end = linkage.polar_and_drift(&stretch, end_s);
+            let end = linkage.polar_and_drift(&piece, end_s);
             arc_mm = linkage.curve.arc_mm(end[0]);
-            if let Clock::Arc(rate) = stretch.clock {
-                arc_mm = stretch.arc_mm + rate * phase.duration_s; // without a round trip through theta
+            if let Clock::Arc(rate) = piece.clock {
+                arc_mm = piece.arc_mm + rate * phase.duration_s; // without a round trip through theta
             }
             drift_rad = end[1];
-            linkage.stretches.push(stretch);
+            linkage.pieces.push(piece);
             state = std::array::from_fn(|i| state[i] + rates[i] * phase.duration_s);
             start_s = end_s;
         }
@@ -110,9 +110,9 @@ impl HobbingLinkage {
         Ok(linkage)
     }
 
-    fn stretch_at(&self, time_s: f64) -> &Stretch {
-        let index = self.stretches.partition_point(|s| s.start_s <= time_s).max(1) - 1;
-        &self.stretches[index]
+    fn piece_at(&self, time_s: f64) -> &FeedPiece {
+        let index = self.pieces.partition_point(|s| s.start_s <= time_s).max(1) - 1;
+        &self.pieces[index]
     }
 
     /// The pitch curve.
@@ -142,23 +142,23 @@ impl HobbingLinkage {
 
     /// Times at which a feed begins, changes or ends, s: rates jump there.
     pub fn corners_s(&self) -> Vec<f64> {
-        self.stretches.iter().map(|s| s.start_s).chain([self.end_s]).collect()
+        self.pieces.iter().map(|s| s.start_s).chain([self.end_s]).collect()
     }
 
     /// Axes at a time (any; before the beginning and after the end the feeds go on), N <= 3. Where rates jump, those of
-    /// the later stretch.
+    /// the later piece.
     pub fn axes<const N: usize>(&self, time_s: f64) -> HobbingAxes<N> {
-        let stretch = self.stretch_at(time_s);
+        let piece = self.piece_at(time_s);
         let g = &self.geometry;
-        let passed = time_s - stretch.start_s;
+        let passed = time_s - piece.start_s;
         let line = |[value, rate]: [f64; 2]| Jet::<N>::linear(value + rate * passed, rate);
-        let (slide_mm, shift_mm, radial_mm) = (line(stretch.slide), line(stretch.shift), line(stretch.radial));
-        let [theta, drift] = self.polar_and_drift(stretch, time_s);
-        let printed = stretch.drift.is_some();
+        let (slide_mm, shift_mm, radial_mm) = (line(piece.slide), line(piece.shift), line(piece.radial));
+        let [theta, drift] = self.polar_and_drift(piece, time_s);
+        let printed = piece.drift.is_some();
         let extra = match self.law.extra {
             ExtraRotation::Hob => 0.0,
-            ExtraRotation::Work if printed => g.arc_per_shift() * stretch.shift[1],
-            ExtraRotation::Work => g.arc_per_shift() * stretch.shift[1] + g.arc_per_slide() * stretch.slide[1],
+            ExtraRotation::Work if printed => g.arc_per_shift() * piece.shift[1],
+            ExtraRotation::Work => g.arc_per_shift() * piece.shift[1] + g.arc_per_slide() * piece.slide[1],
         };
         // theta'' = (d theta' / d theta) theta'.
         let rate = self.polar_rate(theta, extra);
@@ -168,7 +168,7 @@ impl HobbingLinkage {
         let arc = rolling.arc(&self.curve);
         let mu = rolling.r.atan2(&rolling.dr);
         let mut work = polar + mu + -FRAC_PI_2;
-        if let Some(d) = &stretch.drift {
+        if let Some(d) = &piece.drift {
             let rate = rolling.r.recip() * d.rate_mm_per_s;
             let taylor = rate.taylor();
             let series: [f64; N] = std::array::from_fn(|k| if k == 0 { drift } else { taylor[k - 1] / k as f64 });
@@ -176,7 +176,7 @@ impl HobbingLinkage {
         }
         let per_hob = g.arc_per_hob_rad_mm();
         let rolled = if printed {
-            let start = g.arc_per_slide() * self.stretches[0].slide[0];
+            let start = g.arc_per_slide() * self.pieces[0].slide[0];
             arc + -start - shift_mm * g.arc_per_shift()
         } else {
             arc - slide_mm * g.arc_per_slide() - shift_mm * g.arc_per_shift()

@@ -160,8 +160,8 @@ fn overlaps_of_the_returning_cutter_agree() {
             let laws = [RetractionLaw::CenterLine, RetractionLaw::Normal, RetractionLaw::Turned];
             for (law, expected_mm2) in laws.into_iter().zip(&row[1..]) {
                 let at = |phase: usize| {
-                    let place = (phi / TAU * room.places() as f64).round() as usize + 8 * phase;
-                    let phi = room.phi_rad(place);
+                    let place = (phi / TAU * room.swept.places() as f64).round() as usize + 8 * phase;
+                    let phi = room.swept.phi_rad(place);
                     let back = retracting.retracted(law, &finish(phi), phi, row[0]).expect("a foot").pose;
                     let back = Rigid2::new(back.angle_rad, back.center_mm);
                     let beyond_mm = |p: DVec2| job.blank.height(p, phi + DVec2::from_angle(phi).angle_to(p)).0 - 2.0;

@@ -1,6 +1,6 @@
-//! Stretches of constant feeds: how the rolling runs in time within each of them.
+//! Pieces of constant feeds: how the rolling runs in time within each of them.
 //!
-//! In: a linkage's law, the state at the beginning of a stretch and its feeds. Out: [`Stretch`], and the polar angle and
+//! In: a linkage's law, the state at the beginning of a piece and its feeds. Out: [`FeedPiece`], and the polar angle and
 //! the extra rotation as printed at a time of it. Where the law keeps an angle even, time is an integral over the polar
 //! angle.
 
@@ -15,9 +15,9 @@ use std::sync::Arc;
 /// Accuracy of the time integrals, s: 1e-10 mm at a metre per second.
 const TIME_ACCURACY_S: f64 = 1e-13;
 
-/// One stretch of the feed path with the state at its beginning.
+/// One piece of the feed path with the state at its beginning.
 #[derive(Debug, Clone)]
-pub(super) struct Stretch {
+pub(super) struct FeedPiece {
     pub start_s: f64,
     /// Slide, shift, radial: value at the beginning and rate.
     pub slide: [f64; 2],
@@ -50,14 +50,14 @@ pub(super) struct Drift {
 }
 
 impl HobbingLinkage {
-    pub(super) fn stretch(
+    pub(super) fn piece(
         &self,
         start_s: f64,
         [slide, shift, radial]: [f64; 3],
         [slide_rate, shift_rate, radial_rate]: [f64; 3],
         arc_mm: f64,
         drift_rad: f64,
-    ) -> Result<Stretch, Refusal> {
+    ) -> Result<FeedPiece, Refusal> {
         let g = &self.geometry;
         let printed = self.is_printed();
         let from_shift = g.arc_per_shift() * shift_rate;
@@ -105,7 +105,7 @@ convex where the law needs it: {why}"
         } else {
             None
         };
-        Ok(Stretch {
+        Ok(FeedPiece {
             start_s,
             slide: [slide, slide_rate],
             shift: [shift, shift_rate],
@@ -146,14 +146,14 @@ convex where the law needs it: {why}"
         even + per_arc * extra_mm_per_s
     }
 
-    /// theta and printed extra rotation at a time of a stretch.
-    pub(super) fn polar_and_drift(&self, stretch: &Stretch, time_s: f64) -> [f64; 2] {
-        let passed = time_s - stretch.start_s;
-        let theta = match &stretch.clock {
-            Clock::Arc(rate) => self.curve.phi_at_arc(stretch.arc_mm + rate * passed),
+    /// theta and printed extra rotation at a time of a piece.
+    pub(super) fn polar_and_drift(&self, piece: &FeedPiece, time_s: f64) -> [f64; 2] {
+        let passed = time_s - piece.start_s;
+        let theta = match &piece.clock {
+            Clock::Arc(rate) => self.curve.phi_at_arc(piece.arc_mm + rate * passed),
             Clock::Polar(integral, start) => integral.angle_at(start + passed),
         };
-        let drift = stretch
+        let drift = piece
             .drift
             .as_ref()
             .map_or(0.0, |d| d.start_rad + d.rate_mm_per_s * (d.integral.at(theta) - d.start_integral));
