@@ -145,7 +145,9 @@ fn draw_solid(
             let pitch_mm = PI * job.scene().gear.transverse_module_mm();
             let phi = job.curve().phi_at_arc(pitch_mm * (f64::from(picture.tooth) - 0.5));
             let frame = job.curve().frame(phi);
-            let (front, left) = (job.blank().towards_tip(&frame).extend(0.0), frame.tangent.extend(0.0));
+            // Seen from before the tips: in a ring the larger arc is on the other hand.
+            let left = job.blank().kind().tip_sign() * frame.tangent;
+            let (front, left) = (job.blank().towards_tip(&frame).extend(0.0), left.extend(0.0));
             let towards = Camera::direction(front, left, picture.azimuth_rad, picture.elevation_rad);
             // The near end of the tooth is what the viewer looks at.
             let near_mm = 0.5 * job.scene().gear.face_width_mm * picture.elevation_rad.signum();
