@@ -13,6 +13,7 @@ use gearcut::passes::sections::section_band::{InSlice, SectionBand};
 use gearcut::passes::sections::swept_sections::SweptSection;
 use gearcut::passes::spatial::sweep::Sweep;
 use gearcut::process::hobbing::measure::blank_report;
+use gearcut::process::hobbing::measure::engagement::Engagement;
 use gearcut::process::hobbing::measure::hob_load::OperationLoad;
 use gearcut::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
 use gearcut::process::load;
@@ -82,9 +83,12 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
                         if place.truncate().length() > job.blank.outline_mm(0.0).length() + 20.0 {
                             continue;
                         }
-                        let held = |stretch| Sweep::new(set, &pass, stretch, place, 1.0)?.in_rake_face(DVec3::ZERO);
+                        let held = |piece| {
+                            let sweep = Sweep::new(set, &pass, piece, place, 1.0)?;
+                            sweep.in_rake_face(DVec3::ZERO).expect("the moment settles")
+                        };
                         // A rounded corner lies between both motions.
-                        let Some([radius, y]) = set.stretches(&pass).find_map(held) else {
+                        let Some([radius, y]) = set.pieces(&pass).find_map(held) else {
                             rounded += 1;
                             continue;
                         };
@@ -351,6 +355,21 @@ fn the_mesh_is_closed_and_loads_are_those_of_the_ledger() {
     let of_ledger: f64 = teeth.iter().map(|tooth| spaces * tooth.volume_mm3).sum();
     println!("{of_ledger} mm3 by the ledger, {} by the blank", load.volume_mm3());
     assert!((of_ledger / load.volume_mm3() - 1.0).abs() < 2e-3);
+    let forecast = {
+        let grid = [root_mm + 0.5, job.blank.addendum_mm, 0.1];
+        Engagement::of_space(&job.operations[0].linkage, &job.target, &job.hob, 0, 0.0, grid).expect("moments")
+    };
+    // The forecast counts points of one section of one space. The blank lies within it where the face is wide; the
+    // shares of entry and exit are the same, as every section meets all that the slide goes by.
+    let of_section_mm3 = spaces * forecast.total_mm2() * job.scene.gear.face_width_mm;
+    println!("{of_section_mm3} mm3 by the forecast");
+    assert!((of_section_mm3 / load.volume_mm3() - 1.0).abs() < 5e-3);
+    let mut apart = 0.0_f64;
+    for (tooth, measured) in job.hob.teeth.iter().zip(&load.teeth) {
+        apart = apart.max((forecast.share(tooth.passage) - measured.volume_mm3 / load.volume_mm3()).abs());
+    }
+    println!("shares of forecast and blank within {apart:.4}");
+    assert!(apart < 5e-3, "{apart}");
     let (mut worst, mut thickest) = (0.0_f64, [0.0_f64; 2]);
     for (index, (tooth, wanted)) in load.teeth.iter().zip(&teeth).enumerate() {
         let shares = [tooth.volume_mm3 / load.volume_mm3(), spaces * wanted.volume_mm3 / of_ledger];

@@ -22,6 +22,7 @@
 //! Road not taken: eliminating t beforehand by a polynomial in the tile's three coordinates. It needs order four in one
 //! of them, and long rays leave its range.
 
+use crate::error::NotConverged;
 use crate::math::convergence::{Step, iterate};
 use crate::math::roots::bisect;
 use crate::passes::planar::strokes::{NODES, cubic_through};
@@ -123,13 +124,13 @@ impl SweepRecord {
 }
 
 impl Sweep {
-    /// Sweep of a pass in a stretch of the motion as seen from a tile with its origin at `origin_mm` (gear frame) and
+    /// Sweep of a pass in a piece of the motion as seen from a tile with its origin at `origin_mm` (gear frame) and
     /// nothing further than `reach_mm` from it. `None`: the blade holds the origin at no moment of its sweep, or the
-    /// whole tile at no moment of the stretch.
-    pub fn new(set: &TurningPasses, pass: &BladePass, stretch: u32, origin_mm: DVec3, reach_mm: f64) -> Option<Self> {
+    /// whole tile at no moment of the piece.
+    pub fn new(set: &TurningPasses, pass: &BladePass, piece: u32, origin_mm: DVec3, reach_mm: f64) -> Option<Self> {
         let place = set.place(pass);
         let twist = set.rake_twist_rad_per_mm;
-        let head_from_work = |swept: f64| set.motion.head_from_work_on(stretch, pass.tool_angle_rad + set.turn * swept);
+        let head_from_work = |swept: f64| set.motion.head_from_work_on(piece, pass.tool_angle_rad + set.turn * swept);
         let blade_y = |z: f64| place.y_sign * (z - place.axial_mm);
         let missing_at = |swept: f64| {
             let at = head_from_work(swept).point(origin_mm);
@@ -166,7 +167,7 @@ impl Sweep {
         let from_head = axes.transpose();
         let radius_mm = at.x.hypot(at.y);
         let range = (REACH_SHARE * reach_mm / (radius_mm - reach_mm).max(LEAST_DISTANCE * radius_mm)).min(LARGEST_T);
-        let [from, to] = set.motion.stretch_rad(stretch).map(|angle| set.turn * (angle - pass.tool_angle_rad));
+        let [from, to] = set.motion.piece_rad(piece).map(|angle| set.turn * (angle - pass.tool_angle_rad));
         let t_at_swept = |angle: f64| (0.5 * (angle - swept)).clamp(-0.25 * PI, 0.25 * PI).tan();
         let [from, to] = [t_at_swept(from.min(to)) - CORNER_OVERLAP, t_at_swept(from.max(to)) + CORNER_OVERLAP];
         if from > range || to < -range {
@@ -226,9 +227,12 @@ impl Sweep {
     }
 
     /// Distance from the tool's axis and place along the blade's y of a point (tile frame) at the moment when the rake
-    /// face holds it. `None`: at no moment of the sweep and the stretch.
-    pub fn in_rake_face(&self, p_mm: DVec3) -> Option<[f64; 2]> {
-        let held = iterate("the moment at which a rake face holds a point", 0.0, MAX_STEPS, |t| {
+    /// face holds it. `None`: at no moment of the sweep and the piece.
+    ///
+    /// # Errors
+    /// The moment is not found: the work turns nearly as fast as the tool.
+    pub fn in_rake_face(&self, p_mm: DVec3) -> Result<Option<[f64; 2]>, NotConverged> {
+        iterate("the moment at which a rake face holds a point", 0.0, MAX_STEPS, |t| {
             let [u, _] = half_angle(t);
             let point = self.place_mm[0]
                 + u * (self.place_mm[1] + u * (self.place_mm[2] + u * self.place_mm[3]))
@@ -246,13 +250,12 @@ impl Sweep {
             } else {
                 ControlFlow::Continue(Step { to: next, residual })
             }
-        });
-        held.ok().flatten()
+        })
     }
 }
 
-/// Inverse of [`half_angle`] at the nodes of a sweep, to rounding: a fixed number of Newton steps, tested over all of
-/// them.
+/// Inverse of [`half_angle`] at the nodes of a sweep, to rounding: a fixed number of Newton steps. It cannot fail: there
+/// are no other arguments than those between the largest t and its negative, and the test goes through them.
 fn t_at(u: f64) -> f64 {
     (0..4).fold(u.tan(), |t, _| {
         let [value, rate] = half_angle(t);
