@@ -19,10 +19,12 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::flank_chain::{FlankChain, PolarFlank};
+use crate::math::extremum::maximum;
+use crate::math::roots::halve;
 use crate::terms::Side;
 
-/// Steps of the golden-section search: 0.618^48 of two intervals.
-const GOLDEN_STEPS: usize = 48;
+/// Halvings of an interval towards the place where the driven flank ends in it.
+const END_HALVINGS: u32 = 50;
 /// A place this near to the end of a chain counts as the end, intervals.
 const END_INTERVALS: f64 = 1e-5;
 
@@ -151,42 +153,15 @@ pub fn touch(driver: &FlankChain, driven: &PolarFlank, stand: &PairPose, side: S
 /// Goes on from an attained value to the largest one within an interval of the chain on either side.
 fn climbed(push: &dyn Fn(f64) -> Option<f64>, value: f64, place: f64, last: f64) -> (f64, f64) {
     // Where the driven flank ends within the interval, its end is the end of the search, and a candidate.
-    let end = |mut outside: f64| {
+    let end = |outside: f64| {
         if push(outside).is_some() {
             return outside;
         }
-        let mut inside = place;
-        for _ in 0..50 {
-            let middle = 0.5 * (inside + outside);
-            if push(middle).is_some() { inside = middle } else { outside = middle }
-        }
-        inside
+        halve(|at| push(at).is_some(), place, outside, END_HALVINGS)[0]
     };
-    let (mut a, mut b) = (end((place - 1.0).max(0.0)), end((place + 1.0).min(last)));
+    let ends = [end((place - 1.0).max(0.0)), end((place + 1.0).min(last))];
     let at = |place: f64| push(place).unwrap_or(f64::NEG_INFINITY);
-    let mut best = (value, place);
-    let mut keep = |candidate: (f64, f64)| {
-        if candidate.0 > best.0 {
-            best = candidate;
-        }
-    };
-    keep((at(a), a));
-    keep((at(b), b));
-    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let (mut c, mut d) = (b - golden * (b - a), a + golden * (b - a));
-    let (mut at_c, mut at_d) = (at(c), at(d));
-    for _ in 0..GOLDEN_STEPS {
-        if at_c > at_d {
-            (b, d, at_d) = (d, c, at_c);
-            c = b - golden * (b - a);
-            at_c = at(c);
-        } else {
-            (a, c, at_c) = (c, d, at_d);
-            d = a + golden * (b - a);
-            at_d = at(d);
-        }
-    }
-    keep((at_c, c));
-    keep((at_d, d));
-    best
+    // Both ends are candidates, and the middle between them; what was attained before is never left for less.
+    let (found, highest) = maximum(at, ends[0], ends[1], 2);
+    if highest > value { (highest, found) } else { (value, place) }
 }

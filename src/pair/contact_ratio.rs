@@ -10,9 +10,8 @@
 
 use glam::DVec2;
 
-use super::pitch_pair::{Member, PitchPair, PitchPoint};
+use super::pitch_pair::{Member, PitchPair, PitchPoint, passing};
 use crate::error::Refusal;
-use crate::math::roots::bisect;
 use crate::terms::Side;
 
 /// Path of contact at a moment: distances from the pitch point along v, mm.
@@ -54,18 +53,12 @@ pub fn path_of_contact(
         let below = |travel_mm: f64| {
             let contact = DVec2::new(pitch.radius_mm[0], 0.0) + towards * travel_mm * v;
             let own = pair.gear_from_machine(pitch, member, contact - pair.axis_mm(member));
-            pair.height(member, own, pitch.phi_1_rad).0 < height_mm
+            Ok(pair.height(member, own, pitch.phi_1_rad)?.0 < height_mm)
         };
-        let step_mm = pair.pitch_mm() / 16.0;
-        let passed =
-            (1..=32).map(|i| f64::from(i) * step_mm).find(|&travel_mm| !below(travel_mm)).ok_or_else(|| {
-                Refusal::new(
-                    "gear.addendum_coefficient",
-                    format!("the line of action does not reach a tip {height_mm} mm over the pitch curve"),
-                    "use a smaller addendum_coefficient",
-                )
-            })?;
-        Ok::<f64, Refusal>(towards * bisect(below, passed - step_mm, passed))
+        let travel_mm = passing(pair.pitch_mm(), below, || {
+            format!("the line of action does not reach a tip {height_mm} mm over the pitch curve")
+        })?;
+        Ok::<f64, Refusal>(towards * travel_mm)
     };
     Ok(PathOfContact {
         driver_tip_mm: end(Member::Driver, addendum_mm[0], side.sign())?,
@@ -90,13 +83,14 @@ pub fn tooth_path(pair: &PitchPair, side: Side, tooth: i64, addendum_mm: [f64; 2
     let phi_at_driven_tip_rad = pair.phi_at_tip(Member::Driven, side, crossing_mm, addendum_mm[1])?;
     let arc = |phi: f64| pair.curve().arc_mm(phi);
     let height = |member: Member, phi: f64| {
-        pair.height(member, pair.flank_point(member, side, crossing_mm, phi).point_mm, phi).0
+        let point_mm = pair.flank_point(member, side, crossing_mm, phi).point_mm;
+        pair.height(member, point_mm, phi).map(|(height_mm, _)| height_mm)
     };
     Ok(ToothPath {
         phi_at_driven_tip_rad,
         phi_at_driver_tip_rad,
         contact_ratio: (arc(phi_at_driver_tip_rad) - arc(phi_at_driven_tip_rad)).abs() / pair.pitch_mm(),
-        deepest_on_driver_mm: height(Member::Driver, phi_at_driven_tip_rad),
-        deepest_on_driven_mm: height(Member::Driven, phi_at_driver_tip_rad),
+        deepest_on_driver_mm: height(Member::Driver, phi_at_driven_tip_rad)?,
+        deepest_on_driven_mm: height(Member::Driven, phi_at_driver_tip_rad)?,
     })
 }

@@ -4,7 +4,7 @@
 //! driver.
 //!
 //! Law: play grows steadily with the distance of the axes (external; internal: falls), so the place where it is zero is
-//! enclosed and found by halving the enclosure with the regula falsi (Illinois rule). First order: delta a =
+//! enclosed and found by the regula falsi ([`regula_falsi`]). First order: delta a =
 //! s [F_R sin(mu - alpha) + F_L sin(mu + alpha)] / sin(2 alpha) with the gaps F that errors close along the normals.
 
 use std::f64::consts::TAU;
@@ -17,10 +17,13 @@ use super::flank_chain::{FlankChain, GearFlanks, PolarFlank};
 use super::pitch_pair::{Member, PitchPair};
 use crate::error::Refusal;
 use crate::gear::PitchCurve;
+use crate::math::roots::regula_falsi;
 use crate::terms::Side;
 
 /// How far from the nominal distance the tight one is looked for, modules.
 const REACH_MODULES: f64 = 0.2;
+/// Play that counts as none, rad: below a picometre at any radius.
+const LAST_PLAY_RAD: f64 = 1e-14;
 
 /// A tight mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,31 +111,26 @@ fn wrapped(angle_rad: f64) -> f64 {
 
 /// Finds the distance at which both sides ask for the same rotation.
 fn tight(reach_mm: f64, sides: impl Fn(f64) -> Result<[f64; 2], Refusal>) -> Result<TightMesh, Refusal> {
-    let play = |error_mm: f64| sides(error_mm).map(|[right, left]| left - right);
-    let (mut low, mut high) = (-reach_mm, reach_mm);
-    let (mut at_low, mut at_high) = (play(low)?, play(high)?);
-    if at_low.signum() == at_high.signum() {
-        return Err(Refusal::new(
-            "gear.tooth_thickness_allowance_mm",
-            format!("both flanks touch at once nowhere within {reach_mm} mm of the nominal centre distance"),
-            "use teeth nearer to the nominal thickness",
-        ));
-    }
-    let mut middle = 0.0;
-    for _ in 0..60 {
-        middle = (low * at_high - high * at_low) / (at_high - at_low);
-        let here = play(middle)?;
-        if here.abs() < 1e-14 || (high - low).abs() < 1e-12 {
-            break;
+    let mut failed = None;
+    let mut play = |error_mm: f64| {
+        sides(error_mm).map(|[right, left]| left - right).unwrap_or_else(|refusal| {
+            failed = Some(refusal);
+            f64::NAN
+        })
+    };
+    let rising = if play(-reach_mm) <= 0.0 { 1.0 } else { -1.0 };
+    let found = regula_falsi(play, -rising * reach_mm, rising * reach_mm, LAST_PLAY_RAD);
+    let distance_error_mm = match (found, failed) {
+        (_, Some(refusal)) => return Err(refusal),
+        (Some(found), None) => found,
+        (None, None) => {
+            return Err(Refusal::new(
+                "gear.tooth_thickness_allowance_mm",
+                format!("both flanks touch at once nowhere within {reach_mm} mm of the nominal centre distance"),
+                "use teeth nearer to the nominal thickness",
+            ));
         }
-        if here.signum() == at_low.signum() {
-            (low, at_low) = (middle, here);
-            at_high *= 0.5;
-        } else {
-            (high, at_high) = (middle, here);
-            at_low *= 0.5;
-        }
-    }
-    let [right, left] = sides(middle)?;
-    Ok(TightMesh { distance_error_mm: middle, error_rad: 0.5 * (right + left) })
+    };
+    let [right, left] = sides(distance_error_mm)?;
+    Ok(TightMesh { distance_error_mm, error_rad: 0.5 * (right + left) })
 }

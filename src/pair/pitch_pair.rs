@@ -20,12 +20,25 @@ use glam::DVec2;
 
 use crate::error::Refusal;
 use crate::gear::{GearKind, PitchCurve};
+use crate::math::newton::{LastStep, newton};
 use crate::math::periodic_integral::PeriodicIntegral;
-use crate::math::roots::bisect;
+use crate::math::roots::{bisect, try_bisect};
 use crate::terms::Side;
 
 /// Accuracy of the driven angle, rad.
 const ANGLE_ACCURACY_RAD: f64 = 1e-13;
+
+/// Last step of the centre distance, as a share of it, and steps at most: from the mean of many samples one or two
+/// suffice.
+const CLOSING_SHARE: f64 = 1e-12;
+const CLOSING_STEPS: u32 = 20;
+/// Last step to a foot, rad, and steps at most; where rounding keeps the last bits from resting, what may be left.
+const FOOT_STEP: LastStep = LastStep { absolute: 1e-14, relative: 0.0 };
+const FOOT_STEPS: u32 = 40;
+const FOOT_SETTLED_RAD: f64 = 1e-11;
+/// Steps in a pitch, and how many are gone, towards the place where a tip is passed.
+const STEPS_PER_PITCH: u32 = 16;
+const MOST_PITCH_STEPS: u32 = 32;
 
 /// One of the two gears.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,25 +125,32 @@ impl PitchPair {
                 teeth.count[1], teeth.count[0]
             )));
         }
-        let mut a = bisect(|a| turn(a) > wanted, low, high);
-        let mut integral = None;
-        for _ in 0..3 {
+        let start_mm = bisect(|a| turn(a) > wanted, low, high);
+        // The mean of samples is good to their spacing; the integral of the ratio law takes it on.
+        let driven_angle_at = |a: f64| {
             let rate = |phi: f64| {
                 let r = curve.radius(phi).value();
                 r / (a - s * r)
             };
-            let this = PeriodicIntegral::new(rate, &curve.breaks_rad(), 16, ANGLE_ACCURACY_RAD)
-                .ok_or_else(|| refused(format!("the ratio law at {a:.6} mm centre distance cannot be integrated")))?;
+            PeriodicIntegral::new(rate, &curve.breaks_rad(), 16, ANGLE_ACCURACY_RAD)
+                .map_err(|why| refused(format!("the ratio law at {a:.6} mm centre distance: {why}")))
+        };
+        let last = LastStep { absolute: 0.0, relative: CLOSING_SHARE };
+        let mut failed = None;
+        let found = newton("the centre distance at which the mate closes", start_mm, last, CLOSING_STEPS, |a| {
             let slope = TAU * radii.iter().map(|r| r / (a - s * r).powi(2)).sum::<f64>() / samples as f64;
-            let step = (this.closed() - wanted) / slope;
-            integral = Some(this);
-            if step.abs() < 1e-12 * a {
-                break;
-            }
-            a += step;
+            let missing = driven_angle_at(a).map(|angle| angle.closed() - wanted).unwrap_or_else(|refusal| {
+                failed = Some(refusal);
+                f64::NAN
+            });
+            [missing, missing / slope]
+        });
+        if let Some(refusal) = failed {
+            return Err(refusal);
         }
-        let driven_angle = integral.ok_or_else(|| refused("the ratio law does not close".to_owned()))?;
-        Ok(Self { curve, teeth, center_distance_mm: a, driven_angle })
+        let center_distance_mm = found.map_err(|lost| refused(lost.to_string()))?;
+        let driven_angle = driven_angle_at(center_distance_mm)?;
+        Ok(Self { curve, teeth, center_distance_mm, driven_angle })
     }
 
     /// The driver's pitch curve.
@@ -227,10 +247,11 @@ impl PitchPair {
 
     /// Height of a point of a gear (own frame) over its pitch curve, towards its tips, and the driver's angle at the
     /// foot; Newton's method from `guess_rad`.
-    pub fn height(&self, member: Member, point_mm: DVec2, guess_rad: f64) -> (f64, f64) {
-        let mut phi = guess_rad;
-        let mut height = 0.0;
-        for _ in 0..40 {
+    ///
+    /// # Errors
+    /// It runs to no foot: the point lies near the curve's centres of curvature.
+    pub fn height(&self, member: Member, point_mm: DVec2, guess_rad: f64) -> Result<(f64, f64), Refusal> {
+        let at_foot = |phi: f64| {
             let at = self.at(phi);
             let foot = DVec2::new(at.radius_mm[0], 0.0) - self.axis_mm(member);
             let d = point_mm - self.gear_from_machine(&at, member, foot);
@@ -240,15 +261,18 @@ impl PitchPair {
                 Member::Driver => (normal, at.curvature_per_mm[0]),
                 Member::Driven => (-normal, self.sign() * at.curvature_per_mm[1]),
             };
-            height = d.dot(out);
+            let height = d.dot(out);
             let arc_rate = at.radius_mm[0] / at.mu_rad.sin();
-            let step = d.dot(tangent) / (arc_rate * (1.0 + curvature * height));
-            phi += step;
-            if step.abs() < 1e-14 {
-                break;
-            }
-        }
-        (height, phi)
+            let beside = d.dot(tangent);
+            (height, [beside, beside / (arc_rate * (1.0 + curvature * height))])
+        };
+        let phi = newton("the foot on a pitch curve", guess_rad, FOOT_STEP, FOOT_STEPS, |phi| at_foot(phi).1)
+            .or_else(|lost| lost.settled(FOOT_SETTLED_RAD))
+            .map_err(|lost| {
+                let way_out = "use a smaller addendum_coefficient, or a pitch curve with less curvature";
+                Refusal::new("gear.addendum_coefficient", lost.to_string(), way_out)
+            })?;
+        Ok((at_foot(phi).0, phi))
     }
 
     /// Driver's angle at which a flank's contact lies on the tip curve of a gear: the pitch curve moved by `height_mm`
@@ -264,18 +288,13 @@ impl PitchPair {
         let phi_at = |rolled_mm: f64| self.curve.phi_at_arc(crossing_mm + towards * rolled_mm);
         let below = |rolled_mm: f64| {
             let phi = phi_at(rolled_mm);
-            self.height(member, self.flank_point(member, side, crossing_mm, phi).point_mm, phi).0 < height_mm
+            let point_mm = self.flank_point(member, side, crossing_mm, phi).point_mm;
+            Ok(self.height(member, point_mm, phi)?.0 < height_mm)
         };
-        let step_mm = self.pitch_mm() / 16.0;
-        let passed =
-            (1..=32).map(|i| f64::from(i) * step_mm).find(|&rolled_mm| !below(rolled_mm)).ok_or_else(|| {
-                Refusal::new(
-                    "gear.addendum_coefficient",
-                    format!("a {} flank does not reach {height_mm} mm over the pitch curve", side.name()),
-                    "use a smaller addendum_coefficient",
-                )
-            })?;
-        Ok(phi_at(bisect(below, passed - step_mm, passed)))
+        let rolled_mm = passing(self.pitch_mm(), below, || {
+            format!("a {} flank does not reach {height_mm} mm over the pitch curve", side.name())
+        })?;
+        Ok(phi_at(rolled_mm))
     }
 
     /// How much of the flank's radius of curvature is left at `phi_1_rad`, as a share of its value at the pitch point;
@@ -298,4 +317,19 @@ impl PitchPair {
         };
         (tooth as f64 - quarter) * self.pitch_mm()
     }
+}
+
+/// Distance, within two pitches, at which what holds from the beginning on ceases; `problem` says what does not.
+pub(super) fn passing(
+    pitch_mm: f64,
+    below: impl Fn(f64) -> Result<bool, Refusal>,
+    problem: impl Fn() -> String,
+) -> Result<f64, Refusal> {
+    let step_mm = pitch_mm / f64::from(STEPS_PER_PITCH);
+    for passed_mm in (1..=MOST_PITCH_STEPS).map(|i| f64::from(i) * step_mm) {
+        if !below(passed_mm)? {
+            return try_bisect(below, passed_mm - step_mm, passed_mm);
+        }
+    }
+    Err(Refusal::new("gear.addendum_coefficient", problem(), "use a smaller addendum_coefficient"))
 }

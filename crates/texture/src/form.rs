@@ -6,7 +6,7 @@
 //! Direction and curvature of the cylinder start at the polynomial's larger principal curvature and are refined by a
 //! search with shrinking steps; the polynomial is solved anew for every trial (variable projection).
 //!
-//! Road not taken: associating a nominal involute. Heights over the target flank have it taken off already.
+//! Road not taken: associating a nominal involute. Normal deviations from a target flank have it taken off already.
 
 use super::surface::Surface;
 use serde::Serialize;
@@ -172,6 +172,18 @@ fn solve(m: &mut [[f64; 7]; 6], terms: usize) -> Option<[f64; 6]> {
     Some(solution)
 }
 
+/// First step of the axis in the search for a cylinder, rad; the curvature begins with a tenth of itself, and both
+/// shrink alike.
+const FIRST_ANGLE_STEP_RAD: f64 = 0.05;
+/// What is left of the steps after a round that finds nothing better. Found by trial; it decides about time alone.
+const SHRINK: f64 = 0.4;
+/// Steps of the axis above this are not settled, rad: both unknowns are then known to a thousandth of their first steps,
+/// 1e-4 of the curvature, and the misfit near its least value to the square of that.
+const SETTLED_RAD: f64 = 5e-5;
+/// Rounds that are gone through in any case, and at most.
+const LEAST_ROUNDS: u32 = 40;
+const MOST_ROUNDS: u32 = 400;
+
 /// Circular cylinder whose axis lies along the surface.
 #[derive(Clone, Copy)]
 struct Cylinder {
@@ -198,9 +210,20 @@ impl Cylinder {
             Ok(left.sum_rows(|_, row| [row.iter().filter(|z| !z.is_nan()).map(|z| z * z).sum()])[0])
         };
         let mut least = misfit(best)?;
-        // Coordinate search with halved steps: two unknowns, each trial a linear fit.
-        let (mut curvature_step, mut angle_step) = (0.1 * best.curvature, 0.05);
-        for _ in 0..40 {
+        // Coordinate search with shrinking steps: two unknowns, each trial a linear fit. No trial is taken that fits
+        // worse, and a round without a better one shrinks both steps: it ends near a least misfit of this polynomial's
+        // valley, or with an error.
+        let (mut curvature_step, mut angle_step) = (0.1 * best.curvature, FIRST_ANGLE_STEP_RAD);
+        let mut rounds = 0;
+        while rounds < LEAST_ROUNDS || angle_step > SETTLED_RAD {
+            if rounds == MOST_ROUNDS {
+                return Err(format!(
+                    "no cylinder fits: after {MOST_ROUNDS} rounds the search still goes by {angle_step:e} rad and \
+                     {curvature_step:e} 1/um, at {} rad and {:e} 1/um; take form = \"poly2\"",
+                    best.angle, best.curvature
+                ));
+            }
+            rounds += 1;
             let trials = [
                 Self { curvature: best.curvature + curvature_step, ..best },
                 Self { curvature: best.curvature - curvature_step, ..best },
@@ -217,7 +240,7 @@ impl Cylinder {
             }
             match better {
                 Some(trial) => best = trial,
-                None => (curvature_step, angle_step) = (0.4 * curvature_step, 0.4 * angle_step),
+                None => (curvature_step, angle_step) = (SHRINK * curvature_step, SHRINK * angle_step),
             }
         }
         Ok(best)

@@ -139,8 +139,11 @@ impl AxesOfOperation for HobbingAxesReport<'_> {
     }
 
     /// How the hob's teeth share the first operation's work, as far as it can be told before anything is cut.
-    fn forecasts(&self) -> Vec<NamedChart<BarChart>> {
-        if self.index == 0 { vec![("teeth", charts::work_of_teeth(self.job, self.operation()))] } else { Vec::new() }
+    fn forecasts(&self) -> Result<Vec<NamedChart<BarChart>>> {
+        if self.index > 0 {
+            return Ok(Vec::new());
+        }
+        Ok(vec![("teeth", charts::work_of_teeth(self.job, self.operation())?)])
     }
 
     fn programs(&self) -> Option<Result<Vec<(&'static str, String)>, String>> {

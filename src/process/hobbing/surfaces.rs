@@ -12,13 +12,16 @@ use crate::dexel::{Layer, Ray, SpatialField};
 use crate::error::Result;
 use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
-use crate::job::{GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, band_mm, rows_z_mm};
+use crate::job::{
+    CylindricalGear, GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, ToothFrame, band_mm, rows_z_mm,
+    teeth_of_extreme_radius,
+};
 use crate::process::hobbing::cutter::HobCutter;
 use crate::process::hobbing::measure::flank_report;
 use crate::process::hobbing::rack_root::RackRootPoint;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
-use crate::surface::triangles::Profile;
+use crate::surface::triangles::{SectionProfile, in_space};
 use crate::terms::Side;
 use glam::DVec2;
 
@@ -34,14 +37,6 @@ const FOCUS_SHARE: f64 = 0.95;
 impl GearJob for HobCutter<'_> {
     fn scene(&self) -> &Scene {
         &self.job.scene
-    }
-
-    fn curve(&self) -> &PitchCurve {
-        &self.job.curve
-    }
-
-    fn blank(&self) -> &Blank {
-        &self.job.blank
     }
 
     fn operations(&self) -> Vec<(&str, f64)> {
@@ -65,36 +60,23 @@ impl GearJob for HobCutter<'_> {
         Ok(flank_report::evaluated_mm(target.length_mm(), self.measured_ends_mm(target)))
     }
 
-    fn view_rows_z_mm(&self) -> Vec<f64> {
-        let gear = &self.job.scene.gear;
-        let spacing_mm = if gear.helix_angle_rad == 0.0 { f64::INFINITY } else { VIEW_SECTION_MM };
-        rows_z_mm(gear.face_width_mm, spacing_mm)
+    fn teeth_that_differ_most(&self) -> Vec<u32> {
+        teeth_of_extreme_radius(&self.job.curve, self.job.scene.gear.teeth)
     }
 
-    fn target_profiles(
+    fn tooth_frame(&self, tooth: u32) -> ToothFrame {
+        ToothFrame::of_cylinder(&self.job.blank, &self.job.scene.gear, tooth)
+    }
+
+    fn target_points(
         &self,
         tooth: u32,
         side: Side,
         spacing_mm: f64,
-        rows_z_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Profile>)> {
-        let target = self.target(tooth, side)?;
-        let intervals = (target.length_mm() / spacing_mm).ceil().max(1.0);
-        let arcs: Vec<f64> = (0..=intervals as usize).map(|i| target.length_mm() * i as f64 / intervals).collect();
-        let shares: Vec<f64> = arcs.iter().map(|&arc| target.share_at(arc)).collect();
-        let profile = |&z_mm: &f64| {
-            let section = target.section(z_mm);
-            shares.iter().map(|&share| section.ray(share)).map(|ray| (ray.origin_mm.truncate(), ray.normal)).collect()
-        };
-        Ok((arcs, rows_z_mm.iter().map(profile).collect()))
-    }
-
-    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<Profile>> {
-        let roots = self.roots(space, spacing_mm, rows_z_mm)?;
-        Ok(roots
-            .into_iter()
-            .map(|root| root.into_iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect())
-            .collect())
+        rows_mm: &[f64],
+    ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
+        let (arcs_mm, profiles) = self.target_profiles(tooth, side, spacing_mm, rows_mm)?;
+        Ok((arcs_mm, in_space(&profiles, rows_mm)))
     }
 
     fn cut_flank(
@@ -114,6 +96,48 @@ impl GearJob for HobCutter<'_> {
         let [arcs_mm, rows_z_mm] = self.places_mm(target);
         let rays = self.rays_over(target, arcs_mm, band_mm(rows_z_mm, reach_mm));
         self.surface(backend, &rays, self.job.scene.fields.profile_spacing_mm)
+    }
+}
+
+impl CylindricalGear for HobCutter<'_> {
+    fn curve(&self) -> &PitchCurve {
+        &self.job.curve
+    }
+
+    fn blank(&self) -> &Blank {
+        &self.job.blank
+    }
+
+    fn view_rows_z_mm(&self) -> Vec<f64> {
+        let gear = &self.job.scene.gear;
+        let spacing_mm = if gear.helix_angle_rad == 0.0 { f64::INFINITY } else { VIEW_SECTION_MM };
+        rows_z_mm(gear.face_width_mm, spacing_mm)
+    }
+
+    fn target_profiles(
+        &self,
+        tooth: u32,
+        side: Side,
+        spacing_mm: f64,
+        rows_z_mm: &[f64],
+    ) -> Result<(Vec<f64>, Vec<SectionProfile>)> {
+        let target = self.target(tooth, side)?;
+        let intervals = (target.length_mm() / spacing_mm).ceil().max(1.0);
+        let arcs: Vec<f64> = (0..=intervals as usize).map(|i| target.length_mm() * i as f64 / intervals).collect();
+        let shares: Vec<f64> = arcs.iter().map(|&arc| target.share_at(arc)).collect();
+        let profile = |&z_mm: &f64| {
+            let section = target.section(z_mm);
+            shares.iter().map(|&share| section.ray(share)).map(|ray| (ray.origin_mm.truncate(), ray.normal)).collect()
+        };
+        Ok((arcs, rows_z_mm.iter().map(profile).collect()))
+    }
+
+    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>> {
+        let roots = self.roots(space, spacing_mm, rows_z_mm)?;
+        Ok(roots
+            .into_iter()
+            .map(|root| root.into_iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect())
+            .collect())
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {

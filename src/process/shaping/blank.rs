@@ -5,7 +5,6 @@ use crate::cut::{Backend, CutBlank};
 use crate::dexel::BlankField;
 use crate::error::{Refusal, Result};
 use crate::frame::Rigid2;
-use crate::gear::GearKind;
 use crate::measure::target_outline::TargetOutline;
 use crate::passes::StrokeSet;
 use crate::passes::planar::strokes::StrokeLaw;
@@ -73,16 +72,10 @@ impl ShapingJob {
         Ok(TargetOutline::new(teeth.concat(), self.blank.back))
     }
 
-    /// What the cutter's base makes of the tip of a ring's flank. External gears: not followed, their tips are reported
-    /// as not known.
-    fn tip_relief<'a>(&'a self, flank: &'a TargetFlank) -> Option<TipRelief<'a>> {
-        (self.blank.kind() == GearKind::Internal).then(|| TipRelief::new(flank, &self.blank)).flatten()
-    }
-
     /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise.
     fn tooth_outline(&self, tooth: u32, spacing_mm: f64) -> Result<Vec<DVec2>, Refusal> {
         let [right, left] = [Side::Right, Side::Left].map(|side| self.target_flank(tooth, side));
-        let reliefs = [right, left].map(|flank| self.tip_relief(flank));
+        let reliefs = [right, left].map(|flank| TipRelief::new(flank, &self.blank));
         for (flank, relief) in [right, left].into_iter().zip(&reliefs) {
             let known = match flank.tip_end {
                 FlankEnd::CutterBase => relief.is_some(),

@@ -18,6 +18,9 @@ use crate::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 
+/// Smallest root circle, as a share of the pitch radius: a choice, no limit of the method. The teeth need a body with a
+/// bore; with usual dedenda of 1.25 modules it refuses cutters of three teeth and fewer.
+const LEAST_ROOT_SHARE: f64 = 0.2;
 /// The involute is followed down to the roll where its tangent leaves it by this much at the base circle: half the edge
 /// tables' tolerance.
 const BASE_CIRCLE_TOLERANCE_MM: f64 = 2.5e-8;
@@ -76,7 +79,7 @@ impl ShaperCutter {
     ///
     /// # Errors
     /// Pointed teeth, a tip round that does not fit, a pitch error list of the wrong length.
-    pub fn new(spec: &model::ShaperCutter, gear: &Gear) -> Result<Self, Refusal> {
+    pub fn new(spec: &model::CutterSpec, gear: &Gear) -> Result<Self, Refusal> {
         let (m, alpha) = (gear.module_mm, gear.pressure_angle_rad);
         let pitch_radius_mm = 0.5 * m * f64::from(spec.teeth);
         let base_radius_mm = pitch_radius_mm * alpha.cos();
@@ -86,7 +89,7 @@ impl ShaperCutter {
         let thickness_mm = 0.5 * PI * m + 2.0 * x0 * m * alpha.tan() - spec.thinning_mm;
         let half_angle_rad = 0.5 * thickness_mm / pitch_radius_mm + inv(alpha);
         let left = Involute { base_radius_mm, half_angle_rad, side: 1.0 };
-        if root_radius_mm <= 0.2 * pitch_radius_mm {
+        if root_radius_mm <= LEAST_ROOT_SHARE * pitch_radius_mm {
             return Err(Refusal::new(
                 "tool.shaper_cutter.dedendum_coefficient",
                 format!("the cutter's root circle has radius {root_radius_mm:.3} mm; nothing is left of its body"),
@@ -285,7 +288,7 @@ pub(crate) mod tests {
             tooth_thickness_allowance_mm: 0.0,
             pitch_curve: crate::gear::PitchCurveShape::Circle,
         };
-        let spec = model::ShaperCutter {
+        let spec = model::CutterSpec {
             teeth: 20,
             addendum_coefficient: 1.25,
             dedendum_coefficient: 1.25,

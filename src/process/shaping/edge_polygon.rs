@@ -66,7 +66,7 @@ pub struct Station {
     pub normal: DVec2,
     /// Part of the edge.
     pub side: EdgeSide,
-    /// Way along the edge to the nearest other part, mm.
+    /// Distance along the edge to the nearest other part, mm.
     pub to_corner_mm: f64,
 }
 

@@ -23,7 +23,7 @@ use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedul
 use crate::process::shaping::returns::RetractionPlan;
 use crate::process::shaping::returns::motion::RamTimes;
 use crate::process::shaping::returns::survey::Survey;
-use crate::process::shaping::scene::model::{self, Machine, Operation, Shaping};
+use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Operation, Shaping};
 use crate::process::shaping::target::{TargetFlank, target_root};
 use crate::process::shaping::tooth_target::ToothTarget;
 use crate::scene::Scene;
@@ -74,8 +74,10 @@ pub struct ShapingJob {
     pub material: EdgeForce,
     /// Distance of the rays on which chips are followed, mm.
     pub chip_spacing_mm: f64,
+    /// Form of the axis programs.
+    pub gcode: GcodeDialect,
     /// The cutter as the scene describes it.
-    pub cutter_spec: model::ShaperCutter,
+    pub cutter_spec: model::CutterSpec,
     /// The pitch curve.
     pub curve: Arc<PitchCurve>,
     /// The cutter.
@@ -101,6 +103,7 @@ impl ShapingJob {
         };
         let machine = shaping.machine.clone();
         let (material, chip_spacing_mm) = (shaping.material, shaping.chip_spacing_mm);
+        let gcode = shaping.gcode;
         if gear.helix_angle_rad != 0.0 {
             return Err(Refusal::new(
                 "gear.helix_angle_deg",
@@ -162,6 +165,7 @@ impl ShapingJob {
             machine,
             material,
             chip_spacing_mm,
+            gcode,
             cutter_spec: shaping.tool.clone(),
             curve,
             cutter,

@@ -4,30 +4,22 @@
 //! normals of the pitch curve.
 
 use crate::cut::Backend;
-use crate::dexel::Layer;
+use crate::dexel::{Layer, Ray};
 use crate::error::Result;
 use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
-use crate::job::{GearJob, band_mm};
+use crate::job::{CylindricalGear, GearJob, ToothFrame, band_mm, teeth_of_extreme_radius};
 use crate::process::shaping::job::ShapingJob;
 use crate::process::shaping::measure::flank_report;
 use crate::process::shaping::target::target_root;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
-use crate::surface::triangles::Profile;
+use crate::surface::triangles::{SectionProfile, in_space};
 use crate::terms::Side;
 
 impl GearJob for ShapingJob {
     fn scene(&self) -> &Scene {
         &self.scene
-    }
-
-    fn curve(&self) -> &PitchCurve {
-        &self.curve
-    }
-
-    fn blank(&self) -> &Blank {
-        &self.blank
     }
 
     fn operations(&self) -> Vec<(&str, f64)> {
@@ -50,33 +42,23 @@ impl GearJob for ShapingJob {
         Ok(flank_report::evaluated_profile_mm(self, self.target_flank(tooth, side)))
     }
 
-    fn view_rows_z_mm(&self) -> Vec<f64> {
-        let half_mm = 0.5 * self.scene.gear.face_width_mm;
-        vec![-half_mm, half_mm]
+    fn teeth_that_differ_most(&self) -> Vec<u32> {
+        teeth_of_extreme_radius(&self.curve, self.scene.gear.teeth)
     }
 
-    fn target_profiles(
+    fn tooth_frame(&self, tooth: u32) -> ToothFrame {
+        ToothFrame::of_cylinder(&self.blank, &self.scene.gear, tooth)
+    }
+
+    fn target_points(
         &self,
         tooth: u32,
         side: Side,
         spacing_mm: f64,
-        rows_z_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Profile>)> {
-        let target = self.target_flank(tooth, side);
-        let intervals = (target.length_mm() / spacing_mm).ceil().max(1.0);
-        let arcs: Vec<f64> = (0..=intervals as usize).map(|i| target.length_mm() * i as f64 / intervals).collect();
-        let profile: Profile = arcs
-            .iter()
-            .map(|&arc| target.at_arc(arc))
-            .map(|contact| (contact.point_mm, contact.normal.extend(0.0)))
-            .collect();
-        Ok((arcs, vec![profile; rows_z_mm.len()]))
-    }
-
-    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<Profile>> {
-        let points = target_root(self.target_generation(), i64::from(space), spacing_mm);
-        let profile: Profile = points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect();
-        Ok(vec![profile; rows_z_mm.len()])
+        rows_mm: &[f64],
+    ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
+        let (arcs_mm, profiles) = self.target_profiles(tooth, side, spacing_mm, rows_mm)?;
+        Ok((arcs_mm, in_space(&profiles, rows_mm)))
     }
 
     fn cut_flank(
@@ -96,6 +78,45 @@ impl GearJob for ShapingJob {
         field.rows_z_mm = band_mm(field.rows_z_mm, reach_mm);
         let cut = self.cut(backend, field)?;
         Ok(SurfaceGrid::new(&cut.field, &cut.layers, self.scene.fields.profile_spacing_mm))
+    }
+}
+
+impl CylindricalGear for ShapingJob {
+    fn curve(&self) -> &PitchCurve {
+        &self.curve
+    }
+
+    fn blank(&self) -> &Blank {
+        &self.blank
+    }
+
+    fn view_rows_z_mm(&self) -> Vec<f64> {
+        let half_mm = 0.5 * self.scene.gear.face_width_mm;
+        vec![-half_mm, half_mm]
+    }
+
+    fn target_profiles(
+        &self,
+        tooth: u32,
+        side: Side,
+        spacing_mm: f64,
+        rows_z_mm: &[f64],
+    ) -> Result<(Vec<f64>, Vec<SectionProfile>)> {
+        let target = self.target_flank(tooth, side);
+        let intervals = (target.length_mm() / spacing_mm).ceil().max(1.0);
+        let arcs: Vec<f64> = (0..=intervals as usize).map(|i| target.length_mm() * i as f64 / intervals).collect();
+        let profile: SectionProfile = arcs
+            .iter()
+            .map(|&arc| target.at_arc(arc))
+            .map(|contact| (contact.point_mm, contact.normal.extend(0.0)))
+            .collect();
+        Ok((arcs, vec![profile; rows_z_mm.len()]))
+    }
+
+    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>> {
+        let points = target_root(self.target_generation(), i64::from(space), spacing_mm);
+        let profile: SectionProfile = points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect();
+        Ok(vec![profile; rows_z_mm.len()])
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {

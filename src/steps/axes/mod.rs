@@ -64,8 +64,8 @@ pub trait AxesOfOperation {
     fn charts(&self) -> &[NamedChart<LineChart>];
 
     /// Charts of what can be told before anything is cut.
-    fn forecasts(&self) -> Vec<NamedChart<BarChart>> {
-        Vec::new()
+    fn forecasts(&self) -> Result<Vec<NamedChart<BarChart>>> {
+        Ok(Vec::new())
     }
 
     /// Programs, each with the end of its file's name; an error is the reason why there are none, `None`: none are
@@ -132,7 +132,7 @@ pub fn command<O: AxesOfOperation>(
         interrupt.check()?;
         write(operation, folder)?;
         let name = operation.name();
-        for (what, chart) in operation.forecasts() {
+        for (what, chart) in operation.forecasts()? {
             chart.write_svg(&folder.path(format!("axes/{name}_{what}.svg"))?)?;
         }
         print(operation, sheet);

@@ -6,13 +6,13 @@ pub mod maps;
 pub mod texture;
 
 use crate::cut::{CutStats, KERNEL_UM};
-use crate::error::Result;
-use crate::findings::{self, Findings, Quantity};
+use crate::findings::{self, Findings, Place, Quantity, unit};
 use crate::job::GearJob;
 use crate::output::progress::duration_text;
 use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
 use crate::output::text::{plain, significant};
 use crate::steps::gear_maps::GearMaps;
+use crate::steps::view_mesh::ViewMesh;
 
 /// What the run says of itself on the page. Times are left out: the same scene gives the same page.
 #[derive(Debug, Clone, Copy)]
@@ -25,29 +25,35 @@ pub struct RunWords<'a> {
     pub backend_why: &'a str,
 }
 
+/// The gear on the page.
+pub struct PageGear {
+    /// What it is, in a line: [`facts::gear_words`] of a cylindrical one.
+    pub words: String,
+    /// Its target, on which maps are laid.
+    pub mesh: ViewMesh,
+}
+
 /// A page with the parts that are the same for all processes; `operation` puts an operation's findings into a line.
-///
-/// # Errors
-/// No flank is generated on some tooth.
 pub fn page(
     job: &dyn GearJob,
+    gear: PageGear,
     found: &Findings,
     maps: &GearMaps,
     operation: impl Fn(&findings::Section) -> String,
     key_numbers: Vec<KeyNumber>,
     sections: Vec<PageSection>,
-) -> Result<Page> {
-    Ok(Page {
+) -> Page {
+    Page {
         title: job.scene().name.clone(),
-        subtitle: facts::gear_words(&job.scene().gear),
+        subtitle: gear.words,
         operations: found.parts("operations").iter().map(operation).collect(),
         complete: found.complete,
         program: format!("gearcut {}", found.program_version),
         key_numbers: known_first(key_numbers),
         warnings: warnings(found),
-        viewer: Some(maps::viewer(job, maps)?),
+        viewer: Some(maps::viewer(job, gear.mesh, maps)),
         sections,
-    })
+    }
 }
 
 /// Number and unit as they are read best.
@@ -87,13 +93,12 @@ fn known_first(numbers: Vec<KeyNumber>) -> Vec<KeyNumber> {
 /// What a reader must know of the run, in the page's signs; windows tell their own.
 fn warnings(found: &Findings) -> Vec<String> {
     let of_blank = found.find("blank").map_or(&[][..], |blank| &blank.warnings);
-    found.warnings.iter().chain(of_blank).map(|text| text.replace(" um", " µm").replace(" deg ", "° ")).collect()
+    found.warnings.iter().chain(of_blank).map(|text| unit::sentence_with_signs(text)).collect()
 }
 
 /// Peaks of an operation's axes against their limits.
 pub fn peak_table(operation: &findings::Section) -> PageTable {
     let number = |value: f64| significant(if value.abs() < 1e-9 { 0.0 } else { value }, 4);
-    let signs = |text: &str| text.replace(" deg", "°").replace("deg", "°").replace("^2", "²");
     let dash = || "–".to_owned();
     let peaks = operation.find("axes").map_or(&[][..], |axes| &axes.sections);
     let rows = peaks.iter().map(|peak| {
@@ -101,8 +106,8 @@ pub fn peak_table(operation: &findings::Section) -> PageTable {
         vec![
             peak.title.clone(),
             largest.and_then(Quantity::value).map_or_else(dash, number),
-            signs(largest.and_then(Quantity::unit).unwrap_or("")),
-            largest.and_then(Quantity::place).map_or_else(dash, |place| signs(&place.words())),
+            unit::signs(largest.and_then(Quantity::unit).unwrap_or("")),
+            largest.and_then(Quantity::place).map_or_else(dash, Place::words_with_signs),
             peak.number("limit").map_or_else(dash, number),
             peak.number("margin").map_or_else(dash, |share| format!("{:.0} %", 100.0 * share)),
         ]

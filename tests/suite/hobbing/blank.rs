@@ -13,6 +13,7 @@ use gearcut::passes::sections::section_band::{InSlice, SectionBand};
 use gearcut::passes::sections::swept_sections::SweptSection;
 use gearcut::passes::spatial::sweep::Sweep;
 use gearcut::process::hobbing::measure::blank_report;
+use gearcut::process::hobbing::measure::engagement::Engagement;
 use gearcut::process::hobbing::measure::hob_load::OperationLoad;
 use gearcut::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
 use gearcut::process::load;
@@ -66,7 +67,7 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
         let job = job(scene, sets);
         let cutter = HobCutter::new(&job).expect("passes");
         let last = job.operations.len() - 1;
-        let (set, sections) = (&cutter.operations[last], cutter.sections(last, true));
+        let (set, sections) = (&cutter.operations[last], cutter.sections(last, true).expect("a hob"));
         let half_mm = 0.5 * job.scene.gear.face_width_mm;
         let (mut worst_nm, mut points, mut rounded, mut section) = (0.0_f64, 0, 0, SweptSection::default());
         for index in (0..sections.len()).step_by(sections.len() / 150) {
@@ -82,9 +83,12 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
                         if place.truncate().length() > job.blank.outline_mm(0.0).length() + 20.0 {
                             continue;
                         }
-                        let held = |stretch| Sweep::new(set, &pass, stretch, place, 1.0)?.in_rake_face(DVec3::ZERO);
+                        let held = |piece| {
+                            let sweep = Sweep::new(set, &pass, piece, place, 1.0)?;
+                            sweep.in_rake_face(DVec3::ZERO).expect("the moment settles")
+                        };
                         // A rounded corner lies between both motions.
-                        let Some([radius, y]) = set.stretches(&pass).find_map(held) else {
+                        let Some([radius, y]) = set.pieces(&pass).find_map(held) else {
                             rounded += 1;
                             continue;
                         };
@@ -117,7 +121,7 @@ fn neighbouring_slices_are_known_from_the_one_in_their_middle() {
     ] {
         let job = job(scene, sets);
         let cutter = HobCutter::new(&job).expect("passes");
-        let sections = cutter.sections(operation, true);
+        let sections = cutter.sections(operation, true).expect("a hob");
         let half_mm = 0.5 * sections.band_mm();
         let (mut band, mut outline, mut section) =
             (SectionBand::default(), LooseOutline::default(), SweptSection::default());
@@ -181,7 +185,7 @@ fn candidates_leave_what_all_passes_leave() {
             let chips: Vec<_> = (0..job.operations.len())
                 .map(|operation| {
                     let set = &cutter.operations[operation];
-                    let mut sections = cutter.sections(operation, cull);
+                    let mut sections = cutter.sections(operation, cull).expect("a hob");
                     sections.tolerance_share = tolerance_share;
                     let ids = set.first_pass..set.end_pass();
                     let steps = AtomicUsize::new(0);
@@ -209,8 +213,12 @@ fn candidates_leave_what_all_passes_leave() {
         assert!(all.1.iter().all(|chips| chips.len() > 1000));
         let set = &cutter.operations[0];
         let mut field = job.blank_field().expect("fits");
-        let stopped =
-            blank_sweeps::cut(&mut field, &cutter.sections(0, true), set.first_pass..set.end_pass(), &|| false);
+        let stopped = blank_sweeps::cut(
+            &mut field,
+            &cutter.sections(0, true).expect("a hob"),
+            set.first_pass..set.end_pass(),
+            &|| false,
+        );
         assert!(stopped.is_none(), "told to stop");
         // A wrong cull is noticed: outlines too narrow by some micrometres keep passes out.
         assert!(cut(true, -3.0) != all, "{scene}");
@@ -351,6 +359,21 @@ fn the_mesh_is_closed_and_loads_are_those_of_the_ledger() {
     let of_ledger: f64 = teeth.iter().map(|tooth| spaces * tooth.volume_mm3).sum();
     println!("{of_ledger} mm3 by the ledger, {} by the blank", load.volume_mm3());
     assert!((of_ledger / load.volume_mm3() - 1.0).abs() < 2e-3);
+    let forecast = {
+        let grid = [root_mm + 0.5, job.blank.addendum_mm, 0.1];
+        Engagement::of_space(&job.operations[0].linkage, &job.target, &job.hob, 0, 0.0, grid).expect("moments")
+    };
+    // The forecast counts points of one section of one space. The blank lies within it where the face is wide; the
+    // shares of entry and exit are the same, as every section meets all that the slide goes by.
+    let of_section_mm3 = spaces * forecast.total_mm2() * job.scene.gear.face_width_mm;
+    println!("{of_section_mm3} mm3 by the forecast");
+    assert!((of_section_mm3 / load.volume_mm3() - 1.0).abs() < 5e-3);
+    let mut apart = 0.0_f64;
+    for (tooth, measured) in job.hob.teeth.iter().zip(&load.teeth) {
+        apart = apart.max((forecast.share(tooth.passage) - measured.volume_mm3 / load.volume_mm3()).abs());
+    }
+    println!("shares of forecast and blank within {apart:.4}");
+    assert!(apart < 5e-3, "{apart}");
     let (mut worst, mut thickest) = (0.0_f64, [0.0_f64; 2]);
     for (index, (tooth, wanted)) in load.teeth.iter().zip(&teeth).enumerate() {
         let shares = [tooth.volume_mm3 / load.volume_mm3(), spaces * wanted.volume_mm3 / of_ledger];

@@ -464,7 +464,8 @@ mod slow {
             let target = RackGeneration { curve, rack: papers_rack(beta, -1.0) };
             let mut all = Engagement::default();
             for space in &spaces {
-                all.add(&Engagement::of_space(&linkage, &target, &long_hob, *space, 0.0, [10.0, 8.0, spacing]));
+                let grid = [10.0, 8.0, spacing];
+                all.add(&Engagement::of_space(&linkage, &target, &long_hob, *space, 0.0, grid).expect("moments"));
             }
             let area = all.total_mm2() / spaces.len() as f64;
             let wanted = number(&expected["area_per_space"]);

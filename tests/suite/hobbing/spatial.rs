@@ -182,6 +182,71 @@ mod slow {
         }
     }
 
+    /// Large modules with many starts, and few teeth per start: the work moves far while a blade sweeps. What candidates
+    /// leave is what all passes of the operation leave, taken without any look at where they are.
+    #[test]
+    fn candidates_of_coarse_gears_leave_what_every_pass_leaves() {
+        let cases = [
+            [
+                "gear.module_mm=50",
+                "gear.teeth=32",
+                "gear.face_width_mm=40",
+                "tool.hob.starts=8",
+                "tool.hob.reference_diameter_mm=1300",
+                "tool.hob.length_mm=700",
+                "tool.hob.tip_radius_mm=8",
+                "operation.finish.axial_feed_mm_per_revolution=20",
+            ],
+            [
+                "gear.module_mm=6",
+                "gear.teeth=18",
+                "gear.face_width_mm=10",
+                "tool.hob.starts=6",
+                "tool.hob.reference_diameter_mm=130",
+                "tool.hob.length_mm=110",
+                "tool.hob.tip_radius_mm=1",
+                "operation.finish.axial_feed_mm_per_revolution=4",
+            ],
+        ];
+        for sets in cases {
+            let scene = load(Path::new("scenes/hobbing/circular_spur.toml"), &sets.map(str::to_owned));
+            let scene = scene.unwrap_or_else(|problem| panic!("{problem}")).scene;
+            let job = HobbingJob::new(&scene).expect("the gear");
+            let cutter = HobCutter::new(&job).expect("passes");
+            let passes = &cutter.operations[0];
+            for (tooth, side) in [(1, Side::Left), (2, Side::Right)] {
+                let whole = cutter.rays(tooth, side).expect("a flank").1.field;
+                let [columns, rows] = [whole.columns() / 8, whole.rows() / 8];
+                for [from_column, from_row] in [[0, 0], [columns / 2, rows / 2]] {
+                    let field = SpatialField::new(8, 8, whole.low_mm, |column, row| {
+                        let (column, row) = (from_column + columns * column, from_row + rows * row);
+                        (whole.ray(column, row), f64::from(whole.blank_mm[whole.index(column, row)]))
+                    });
+                    let cut = |plan: &SweepPlan| {
+                        let mut layer = field.blank_layer();
+                        Cpu::default().cut_spatial(&field, plan, &mut layer).expect("cuts");
+                        layer
+                    };
+                    let [plan, all] = [SweepPlan::new, SweepPlan::of_all_passes].map(|make| make(&field, passes));
+                    let (few, every) = (cut(&plan), cut(&all));
+                    println!(
+                        "{}: {} of {} records of {} passes",
+                        sets[0],
+                        plan.records.len(),
+                        all.records.len(),
+                        passes.count()
+                    );
+                    assert!(every.passes.iter().filter(|&&pass| pass != u32::MAX).count() > 32);
+                    let differ: Vec<_> = (0..field.len())
+                        .filter(|&i| few.heights_mm[i] != every.heights_mm[i] || few.passes[i] != every.passes[i])
+                        .map(|i| (i, few.heights_mm[i], every.heights_mm[i], few.passes[i], every.passes[i]))
+                        .collect();
+                    assert!(differ.is_empty(), "{sets:?}, tooth {tooth}: {differ:?}");
+                }
+            }
+        }
+    }
+
     /// Whole jobs, from the approach to the overrun: candidates start from all passes of an operation, of which most
     /// work on other teeth. Two cuts with a radial approach, helical gashes and round tips; a hob that shifts; and one
     /// that turns round all the time, so that sweeps end where others go on.

@@ -14,6 +14,15 @@ use std::f64::consts::TAU;
 /// Pieces per turn at least: each turns by half a degree on a circle.
 const LEAST_PIECES: usize = 720;
 
+/// A piece stays within this many arrow heights at its middle of its chord: 32/27 for a cubic that bends one way (its
+/// distance from the chord is t (1 - t) ((1 - t) a + t b) with the slopes a and b at its ends), the rest for what half a
+/// degree of a pitch curve has beyond a cubic, and no proof. Too small, a ray that only just meets a bulge misses it,
+/// and the blank loses what lies beyond its chord there: `tests/suite/shaping/blank_field.rs` compares volumes with the
+/// outline's own.
+const SAGITTA_SAFETY: f64 = 2.0;
+/// Added to arrow heights, mm: rounding.
+const ROUNDING_MM: f64 = 1e-9;
+
 /// Closed outline of the stock on its toothed side, counter-clockwise: round the material of an external gear, round the
 /// hole of a ring.
 #[derive(Debug)]
@@ -34,7 +43,7 @@ impl<'a> BlankOutline<'a> {
                 let (start, end) = (nodes[i][0], nodes[(i + 1) % count][0]);
                 let middle = place(blank, 0.5 * (at(i) + at(i + 1)))[0];
                 let sagitta = (end - start).normalize_or_zero().perp_dot(middle - start).abs();
-                Piece { law: 0, range: [at(i), at(i + 1)], sagitta_mm: 2.0 * sagitta + 1e-9 }
+                Piece { law: 0, range: [at(i), at(i + 1)], sagitta_mm: SAGITTA_SAFETY * sagitta + ROUNDING_MM }
             })
             .collect();
         Self { blank, pieces, nodes }

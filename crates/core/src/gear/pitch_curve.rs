@@ -108,8 +108,8 @@ impl PitchCurve {
             }
         };
         let integrate = |size_mm: f64| {
-            PeriodicIntegral::new(arc_rate(size_mm), &law.breaks_rad(), 16, accuracy_mm.max(1e-13)).ok_or_else(|| {
-                let problem = format!("the arc length cannot be integrated to {accuracy_mm} mm");
+            PeriodicIntegral::new(arc_rate(size_mm), &law.breaks_rad(), 16, accuracy_mm.max(1e-13)).map_err(|why| {
+                let problem = format!("the arc length cannot be integrated to {accuracy_mm} mm: {why}");
                 Refusal::new(key, problem, "make the variation of the radius smaller, or give fewer points")
             })
         };

@@ -1,10 +1,19 @@
 //! What all iterations share: a limit on their steps, and an error with numbers where they do not end before it.
 //!
 //! The finders: [`super::roots`] (brackets: bisection, regula falsi), [`super::newton`] (Newton's method, free and
-//! within a bracket), [`super::extremum`] (golden section). What fits none of them goes through [`iterate`]. Three
-//! iterations run on several rays at once and have loops of their own: the kernels of flanks (`cut::cpu::planar`,
-//! `passes::spatial::sweep_roots`) count the rays that do not converge (`CutStats::unconverged`), and
-//! [`super::planar_rays`] stays within the ends of a part of a curve, which it can always halve.
+//! within a bracket), [`super::extremum`] (golden section). What fits none of them goes through [`iterate`].
+//!
+//! Loops of their own, each with its guarantee at its place:
+//!
+//! - the kernels of flanks (`cut::cpu::planar`, `passes::spatial::sweep_roots`) run on several rays at once and count
+//!   those that do not converge (`CutStats::unconverged`); `SweepRecord::places` gives its last step, and bounds made
+//!   with it hold only where that is small;
+//! - [`super::planar_rays`] is the inner loop of whole blanks: it stays within the ends of a part of a curve and halves
+//!   it to the last bit should Newton's method not arrive;
+//! - `passes::spatial::sweep`: a polynomial is inverted by a fixed number of steps, tested over all arguments;
+//! - outside of the core, `process::hobbing::linkage::marks` reduces a lattice (whole numbers, whose lengths shrink by a
+//!   factor), and `gearcut-texture`, which does not know this crate, has two searches that end with an error of their
+//!   own (`form`, `gaussian`).
 
 use crate::error::NotConverged;
 use std::ops::ControlFlow;

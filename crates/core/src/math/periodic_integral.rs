@@ -23,6 +23,30 @@ const MAX_PANELS: usize = 1 << 16;
 /// Newton steps of the inverse before its panel is halved; three or four suffice.
 const MOST_STEPS: u32 = 60;
 
+/// Why a function has no such integral.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum NotIntegrable {
+    /// It is not positive and finite everywhere.
+    #[error("the integrand is {value:e} at {at_rad:.6} rad, where it must be positive and finite")]
+    NotPositive {
+        /// Where.
+        at_rad: f64,
+        /// What it is there.
+        value: f64,
+    },
+    /// The finest panels miss the accuracy.
+    #[error("the integral is known to {reached:e} at best, {wanted:e} are wanted")]
+    TooRough {
+        /// Accuracy asked for, in the unit of the integral.
+        wanted: f64,
+        /// What the finest panels leave.
+        reached: f64,
+    },
+    /// The panels' own rule is not found.
+    #[error(transparent)]
+    NoRule(#[from] NotConverged),
+}
+
 /// Prepared integral of a positive 2 pi-periodic function.
 #[derive(Debug, Clone)]
 pub struct PeriodicIntegral {
@@ -40,11 +64,19 @@ pub struct PeriodicIntegral {
 
 impl PeriodicIntegral {
     /// Prepares the integral of `f` over one turn; `breaks_rad` are the places in (0, 2 pi) where `f` is not smooth, in
-    /// increasing order; `smoothness` is the number of panels per turn to begin with. `None` when the accuracy (in the
-    /// unit of the integral) cannot be reached or `f` is not positive and finite.
-    pub fn new(f: impl Fn(f64) -> f64, breaks_rad: &[f64], smoothness: usize, accuracy: f64) -> Option<Self> {
-        let basis = integrated_lagrange_basis().ok()?;
+    /// increasing order; `smoothness` is the number of panels per turn to begin with.
+    ///
+    /// # Errors
+    /// The accuracy (in the unit of the integral) cannot be reached, or `f` is not positive and finite.
+    pub fn new(
+        f: impl Fn(f64) -> f64,
+        breaks_rad: &[f64],
+        smoothness: usize,
+        accuracy: f64,
+    ) -> Result<Self, NotIntegrable> {
+        let basis = integrated_lagrange_basis()?;
         let mut split = smoothness.max(4);
+        let mut reached = f64::INFINITY;
         while split <= MAX_PANELS {
             let bounds_rad = panel_bounds(breaks_rad, split);
             let mut panels = Vec::with_capacity(bounds_rad.len() - 1);
@@ -53,8 +85,8 @@ impl PeriodicIntegral {
             for bound in bounds_rad.windows(2) {
                 let (mid, half) = (f64::midpoint(bound[0], bound[1]), 0.5 * (bound[1] - bound[0]));
                 let values = basis.nodes.map(|x| f(mid + half * x));
-                if values.iter().any(|v| !(v.is_finite() && *v > 0.0)) {
-                    return None;
+                if let Some(i) = values.iter().position(|v| !(v.is_finite() && *v > 0.0)) {
+                    return Err(NotIntegrable::NotPositive { at_rad: mid + half * basis.nodes[i], value: values[i] });
                 }
                 let tail = |k: usize| basis.legendre_coefficient(k, &values).abs();
                 worst = worst.max(half * (tail(NODES - 1) + tail(NODES - 2)));
@@ -67,11 +99,12 @@ impl PeriodicIntegral {
             if worst <= accuracy {
                 let by_angle = first_panels(&bounds_rad);
                 let by_value = first_panels(&sums);
-                return Some(Self { bounds_rad, sums, panels, by_angle, by_value });
+                return Ok(Self { bounds_rad, sums, panels, by_angle, by_value });
             }
+            reached = worst;
             split *= 2;
         }
-        None
+        Err(NotIntegrable::TooRough { wanted: accuracy, reached })
     }
 
     /// Integral over one turn.
@@ -267,7 +300,24 @@ mod tests {
 
     #[test]
     fn refuses_what_is_not_positive() {
-        assert!(PeriodicIntegral::new(f64::cos, &[], 8, 1e-10).is_none());
-        assert!(PeriodicIntegral::new(|_| f64::NAN, &[], 8, 1e-10).is_none());
+        let refused = |f: &dyn Fn(f64) -> f64| PeriodicIntegral::new(f, &[], 8, 1e-10).unwrap_err();
+        match refused(&f64::cos) {
+            NotIntegrable::NotPositive { at_rad, value } => {
+                assert!(value < 0.0 && (value - at_rad.cos()).abs() < 1e-15)
+            }
+            other => panic!("{other}"),
+        }
+        assert!(matches!(refused(&|_| f64::NAN), NotIntegrable::NotPositive { value, .. } if value.is_nan()));
+    }
+
+    #[test]
+    fn what_is_too_rough_says_how_far_it_came() {
+        let rough = |phi: f64| 1.0 + (phi - 1.0).abs().sqrt();
+        match PeriodicIntegral::new(rough, &[], 8, 1e-13).unwrap_err() {
+            NotIntegrable::TooRough { wanted, reached } => {
+                assert!(wanted == 1e-13 && reached > wanted && reached < 1e-3)
+            }
+            other => panic!("{other}"),
+        }
     }
 }

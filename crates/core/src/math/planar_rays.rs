@@ -12,11 +12,17 @@
 //! Road not taken: each ray against each segment. The rays of a pass lie side by side, and going along the curve finds
 //! all of them in the time that a handful of rays would take.
 
+use super::roots::{bisect, halve};
 use glam::DVec2;
 use std::ops::Range;
 
 /// A Newton step below this ends the iteration; the error after it is its square.
 const LAST_STEP: f64 = 1e-9;
+/// Halvings of a piece's range towards the place where it runs along the rays: its rate is smooth, and a place that is
+/// off by 2^-48 of the piece is off by nothing across the rays.
+const TURNING_HALVINGS: u32 = 48;
+/// Steps towards a crossing before what is left is only halved: two or three suffice.
+const CROSSING_STEPS: u32 = 60;
 
 /// Direction of a family of rays in the transverse plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -319,11 +325,7 @@ impl RayCrossings {
 
 /// Parameter at which the rate across the rays changes its sign.
 fn turning_point(first_rate: f64, range: [f64; 2], rate: impl Fn(f64) -> f64) -> f64 {
-    let [mut same, mut other] = range;
-    for _ in 0..48 {
-        let middle = 0.5 * (same + other);
-        if rate(middle) * first_rate > 0.0 { same = middle } else { other = middle }
-    }
+    let [same, other] = halve(|t| rate(t) * first_rate > 0.0, range[0], range[1], TURNING_HALVINGS);
     0.5 * (same + other)
 }
 
@@ -339,7 +341,8 @@ fn cross(curve: &impl ClosedCurve, family: Family, part: &MonotonePart, at_mm: f
     let [mut low, mut high] = if climbs { part.range } else { [part.range[1], part.range[0]] };
     let mut t = part.range[0] + share * (part.range[1] - part.range[0]);
     let mut place = curve.place(part.law, t);
-    for _ in 0..60 {
+    let mut arrived = false;
+    for _ in 0..CROSSING_STEPS {
         let residual = family.across(place[0]) - at_mm;
         if residual > 0.0 {
             high = t;
@@ -354,8 +357,14 @@ fn cross(curve: &impl ClosedCurve, family: Family, part: &MonotonePart, at_mm: f
         t = next;
         place = curve.place(part.law, t);
         if step < LAST_STEP {
+            arrived = true;
             break;
         }
+    }
+    if !arrived {
+        // The part is monotone across the rays: halving what is left of it cannot fail.
+        t = bisect(|t| family.across(curve.place(part.law, t)[0]) <= at_mm, low, high);
+        place = curve.place(part.law, t);
     }
     let along = family.along(place[0]);
     // The rest of the way along the tangent: none but the last bits.

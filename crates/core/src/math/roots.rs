@@ -61,6 +61,15 @@ pub fn bisect(is_low: impl FnMut(f64) -> bool, lo: f64, hi: f64) -> f64 {
     0.5 * (lo + hi)
 }
 
+/// [`bisect`] for a condition that may have no answer.
+///
+/// # Errors
+/// The condition's.
+pub fn try_bisect<E>(is_low: impl FnMut(f64) -> Result<bool, E>, lo: f64, hi: f64) -> Result<f64, E> {
+    let [lo, hi] = try_halve(is_low, lo, hi, TO_THE_LAST_BIT)?;
+    Ok(0.5 * (lo + hi))
+}
+
 /// Zero of a function that is at most 0 at `from` and at least 0 at `to`: where it is nearer to 0 than `residual`, or
 /// to some 1e-14 of the place. `None` where the function does not change its sign, or is not a number.
 ///

@@ -23,6 +23,14 @@ const PIECE_TURN_RAD: f64 = 0.05;
 /// mm from the axis.
 const CUBIC_MM: f64 = 1e-6;
 
+/// A piece stays within this many arrow heights at its middle of its chord. Pieces lie within [`CUBIC_MM`] of the cubic
+/// through their ends and end tangents, whose distance from the chord is t (1 - t) ((1 - t) a + t b) with the slopes a
+/// and b at its ends: at the middle (a + b) / 8, at most 4/27 max(a, b) anywhere. The ratio is 32/27 where one slope is
+/// 0, and below that where both turn the same way, as on a convex edge; the rest is for [`CUBIC_MM`].
+const SAGITTA_SAFETY: f64 = 1.5;
+/// Added to arrow heights, mm: rounding.
+const ROUNDING_MM: f64 = 1e-9;
+
 /// Closed outline of a cutter tooth in the blade frame.
 #[derive(Debug, Clone)]
 pub struct ClosedTooth {
@@ -46,8 +54,7 @@ impl ClosedTooth {
                 nodes_mm.push(start[0]);
                 tangents.push([start[1], end[1]]);
                 let chord = (end[0] - start[0]).normalize_or_zero();
-                // The arrow height at the middle is the largest within some percent.
-                let sagitta_mm = 1.5 * chord.perp_dot(middle[0] - start[0]).abs() + 1e-9;
+                let sagitta_mm = SAGITTA_SAFETY * chord.perp_dot(middle[0] - start[0]).abs() + ROUNDING_MM;
                 pieces.push(Piece { law: law as u32, range, sagitta_mm });
             }
         }

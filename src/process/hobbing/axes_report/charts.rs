@@ -2,6 +2,7 @@
 //! share one transverse section.
 
 use super::linkage_words;
+use crate::error::NotConverged;
 use crate::machine::{AxisMotion, Motion as _, Order};
 use crate::math::newton::{EVERYWHERE, LastStep, newton_within};
 use crate::output::bar_chart::{BarChart, BarSeries};
@@ -53,13 +54,13 @@ struct CycleMoment {
     motion: [AxisMotion; 6],
 }
 
-/// One cycle in the middle of the longest stretch.
+/// One cycle in the middle of the longest piece.
 fn cycle(operation: &PreparedHobbing) -> Vec<CycleMoment> {
     let linkage = &operation.linkage;
     let corners = linkage.corners_s();
     let longest = corners.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
     let [from, to] = longest.map_or([0.0, 1.0], |c| [c[0], c[1]]);
-    // From where a cycle begins, if the stretch holds a whole one.
+    // From where a cycle begins, if the piece holds a whole one.
     let middle = (0.5 * (from + to - linkage.cycle_s())).max(from);
     let turn = (linkage.axes::<1>(middle).polar_rad.value() / TURN_RAD).ceil();
     let start = polar_time(operation, turn * TURN_RAD, middle);
@@ -93,15 +94,18 @@ fn path(operation: &PreparedHobbing) -> Vec<Panel> {
 }
 
 /// Share of an operation's work on every hob tooth: one space in the middle of the face stands for all.
-pub(super) fn work_of_teeth(job: &HobbingJob, operation: &PreparedHobbing) -> BarChart {
+///
+/// # Errors
+/// A work that turns nearly as fast as its hob.
+pub(super) fn work_of_teeth(job: &HobbingJob, operation: &PreparedHobbing) -> Result<BarChart, NotConverged> {
     let module_mm = job.scene.gear.module_mm;
     let depth_mm = job.hob.tip_radius_mm - job.hob.pitch_radius_mm;
     let grid = [depth_mm, job.blank.addendum_mm, ENGAGEMENT_MODULES * module_mm];
-    let work = Engagement::of_space(&operation.linkage, &job.target, &job.hob, 0, 0.0, grid);
+    let work = Engagement::of_space(&operation.linkage, &job.target, &job.hob, 0, 0.0, grid)?;
     let numbered = job.hob.teeth.iter().filter(|tooth| tooth.start == 0);
     let (categories, values) =
         numbered.map(|tooth| (tooth.number.to_string(), Some(100.0 * work.share(tooth.passage)))).unzip();
-    BarChart {
+    Ok(BarChart {
         least_division: 0.0,
         title: format!(
             "{} of {}: area that each hob tooth takes, space 0 ({})",
@@ -114,5 +118,5 @@ pub(super) fn work_of_teeth(job: &HobbingJob, operation: &PreparedHobbing) -> Ba
         value_name: "share of the space".to_owned(),
         unit: "%".to_owned(),
         series: vec![BarSeries { name: "all starts".to_owned(), values }],
-    }
+    })
 }

@@ -3,8 +3,11 @@
 use super::*;
 use crate::frame::RigidMotion3;
 use crate::gear::PitchCurveShape;
-use crate::process::hobbing::scene::model::{GashForm, Hob as HobSpec, HobSize, Worm};
+use crate::machine::{Limits, Motion, Order, Peak, peaks};
+use crate::process::hobbing::Hob;
+use crate::process::hobbing::scene::model::{GashForm, HobSize, HobSpec, Worm};
 use crate::terms::Hand;
+use glam::DVec3;
 
 fn hob(hand: Hand) -> Hob {
     let spec = HobSpec {
@@ -102,7 +105,7 @@ fn velocities_and_accelerations_are_derivatives() {
 }
 
 #[test]
-fn nothing_jumps_between_stretches() {
+fn nothing_jumps_between_pieces() {
     for law in laws() {
         let linkage = linkage(law);
         for corner in [2.0, 11.0] {
@@ -205,4 +208,47 @@ fn feeds_faster_than_the_rolling_are_refused() {
     let still = FeedPath::steady(1.0, 0.0, 0.0);
     let refused = HobbingLinkage::new(curve(&hollow, beta), geometry, law(EvenMotion::RotationAngle), 25.0, &still);
     assert!(refused.unwrap_err().problem.contains("not convex"));
+}
+
+/// Sixty-five short pieces with two feeds in turn, then a fast one: its peak is found, and what repeats is searched
+/// only until the whole curve has been gone over.
+#[test]
+fn a_peak_behind_many_equal_pieces_is_found() {
+    let phase = |duration_s, slide, shift| FeedPhase {
+        duration_s,
+        slide_mm_per_s: slide,
+        shift_mm_per_s: shift,
+        radial_mm_per_s: 0.0,
+    };
+    let law = HobbingLaw { even: EvenMotion::ArcLength, extra: ExtraRotation::Work, form: LinkageForm::Exact };
+    let geometry = HobbingGeometry::new(&hob(Hand::Right), 0.3, 1.0);
+    let curve = curve(&ellipse(), 0.3);
+    let linkage_of = |phases: Vec<FeedPhase>| {
+        let path = FeedPath { phases, ..FeedPath::steady(1.0, 0.0, 0.0) };
+        HobbingLinkage::new(curve.clone(), geometry, law, 25.0, &path).unwrap()
+    };
+    let turning = |pieces: u32| (0..pieces).map(|i| phase(0.9, 1.0, if i % 2 == 0 { 0.4 } else { -0.4 }));
+    let linkage = linkage_of(turning(65).chain([phase(40.0, 1.0, 2.5), phase(1.0, 1.0, 0.4)]).collect());
+    let found = peaks(&linkage, &[Limits::default(); 6]);
+    let of = |peaks: &[Peak], name: &str| peaks.iter().find(|peak| peak.name() == name).copied().unwrap();
+    let shift = of(&found, "shift speed");
+    assert!((shift.value - 2.5).abs() < 1e-12 && shift.at > 64.9 * 0.9, "{shift:?}");
+    let pieces = Motion::pieces(&linkage).len();
+    assert!((3..66).contains(&pieces), "{pieces} pieces");
+    // Without the fast piece every axis's peaks are those of a search through all pieces.
+    let even = linkage_of(turning(65).collect());
+    let found = peaks(&even, &[Limits::default(); 6]);
+    for peak in &found {
+        let index = dynamics::AXES.iter().position(|axis| axis == peak.axis).unwrap();
+        let samples = (0..40_000).map(|i| {
+            let motion = dynamics::motion(&even.axes(even.end_s() * (f64::from(i) + 0.5) / 40_000.0))[index];
+            match peak.order {
+                Order::Speed => motion.velocity.abs(),
+                _ => motion.acceleration.abs(),
+            }
+        });
+        let sampled = samples.fold(0.0, f64::max);
+        let tolerance = 1e-3 * sampled + 1e-9;
+        assert!((peak.value - sampled).abs() < tolerance, "{}: {} {sampled}", peak.name(), peak.value);
+    }
 }

@@ -6,28 +6,39 @@
 //! it. Only the thread that runs through the space can reach it, so there is one tooth per gash passage.
 //!
 //! This is a load figure in a plane, from points: it says how the work is shared, not how thick the chips are, and
-//! nothing about tool life. It serves `gearcut axes`, before anything is cut, and takes a second; what the teeth do in
-//! the whole process is measured on the cut blank ([`super::hob_load`]).
+//! nothing about tool life. It is a forecast for `gearcut axes`, before anything is cut, and takes a second; what the
+//! teeth do in the whole process is measured on the cut blank ([`super::hob_load`]). Where both can say it, what share of
+//! a full stock's volume each tooth takes, `tests/suite/hobbing/blank.rs` compares them.
 //!
 //! The point's path in the hob's head is a polynomial in the hob angle through five poses per pass, exact to far below
 //! the grid.
 
+use crate::error::NotConverged;
 use crate::frame::Rigid3;
+use crate::math::convergence::{Step, iterate};
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::linkage::HobbingLinkage;
 use crate::process::hobbing::rack_generation::RackGeneration;
-use crate::tool::SpatialTool;
+use crate::tool::{CuttingTool, SpatialTool};
 use crate::units::TURN_RAD;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 /// Hob angles at which the pose is taken, from where the rake face looks at the gear, rad.
 const NODES_RAD: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
-/// Steps of the rake face's moment, a fixed number, as millions of points are asked: the point moves in the head with
-/// the work, some hundredths as fast as the hob turns, so that each step leaves less than a thirtieth of what was
-/// missing, and four leave a millionth of a sweep: 0.1 um at the tip.
-const STEPS: usize = 4;
+/// Steps of the rake face's moment that are always made: the point moves in the head with the work, as much slower than
+/// the hob as the gear has teeth per start, so that each step leaves so much of what was missing: with thirty, four
+/// leave a millionth of a sweep, 0.1 um at the tip.
+const STEPS: u32 = 4;
+/// Steps go on where the last one was longer, rad: few teeth per start.
+const LAST_STEP_RAD: f64 = 1e-4;
+/// Steps at most.
+const MOST_STEPS: u32 = 60;
+/// A place beyond this angle to either side is not in the work, rad: a hob tooth is in it within 60 degrees (1.05,
+/// [`SpatialTool::half_window_rad`]), and the rest is for steps that go beyond the moment and come back.
+const LARGEST_SWEPT_RAD: f64 = 1.2;
 
 /// Area per tooth.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -44,6 +55,8 @@ struct Pass {
     /// How far a point of the work can move in the head between the nodes and the middle, generously, mm.
     drift_mm: f64,
     head_from_work: [Rigid3; 5],
+    /// The hob's root, mm: nearer to the axis the tooth is taken as thick as there.
+    innermost_mm: f64,
 }
 
 impl Engagement {
@@ -72,6 +85,9 @@ impl Engagement {
 
     /// Engagement in `space` at the section `z_mm` (gear frame); points stand `spacing_mm` apart from `depth_mm` below
     /// to `addendum_mm` over the pitch curve.
+    ///
+    /// # Errors
+    /// The moment is not found at which a rake face holds a point: the work turns nearly as fast as the hob.
     pub fn of_space(
         linkage: &HobbingLinkage,
         target: &RackGeneration,
@@ -79,7 +95,7 @@ impl Engagement {
         space: u32,
         z_mm: f64,
         [depth_mm, addendum_mm, spacing_mm]: [f64; 3],
-    ) -> Self {
+    ) -> Result<Self, NotConverged> {
         let passes = passes(linkage, target, hob, space, z_mm);
         let curve = &target.curve;
         let middle_mm = target.space_arc_mm(i64::from(space), z_mm);
@@ -97,20 +113,23 @@ impl Engagement {
             for j in 0..rows {
                 let height = -depth_mm + high * (f64::from(j) + 0.5);
                 let point = (frame.point_mm + height * frame.normal).extend(z_mm);
-                if let Some(pass) = near.iter().find(|pass| pass.takes(hob, linkage.geometry().hob_hand, point)) {
-                    let area = wide * high * (1.0 + frame.curvature_per_mm * height);
-                    *counted.area_mm2.entry(pass.passage).or_default() += area;
+                for pass in &near {
+                    if pass.takes(hob, linkage.geometry().hob_hand, point)? {
+                        let area = wide * high * (1.0 + frame.curvature_per_mm * height);
+                        *counted.area_mm2.entry(pass.passage).or_default() += area;
+                        break;
+                    }
                 }
             }
-            counted
+            Ok(counted)
         };
         // Sums in the order of the columns: the same bytes on any number of threads.
-        let columns: Vec<Self> = (0..columns).into_par_iter().map(column).collect();
+        let columns: Vec<Self> = (0..columns).into_par_iter().map(column).collect::<Result<_, _>>()?;
         let mut all = Self::default();
         for counted in &columns {
             all.add(counted);
         }
-        all
+        Ok(all)
     }
 }
 
@@ -122,6 +141,7 @@ fn passes(linkage: &HobbingLinkage, target: &RackGeneration, hob: &Hob, space: u
         (target.curve.perimeter_mm() / (std::f64::consts::PI * target.rack.transverse_module_mm)).round() as i64;
     let (starts, gashes) = (i64::from(hob.starts), i64::from(hob.gashes));
     let [first, last] = [0.0, linkage.end_s()].map(|t| (linkage.axes::<1>(t).hob_rad.value() / per_gash) as i64);
+    let innermost_mm = innermost_mm(hob);
     let mut passes = Vec::new();
     for gash in first..=last {
         let t = linkage.time_at_hob_angle(gash as f64 * per_gash);
@@ -148,7 +168,7 @@ fn passes(linkage: &HobbingLinkage, target: &RackGeneration, hob: &Hob, space: u
             linkage.work_from_head(t).inverse()
         });
         let drift_mm = 2.0 * g.arc_per_hob_rad_mm();
-        passes.push(Pass { passage, axial_mm: tooth.axial_mm, drift_mm, head_from_work });
+        passes.push(Pass { passage, axial_mm: tooth.axial_mm, drift_mm, head_from_work, innermost_mm });
     }
     passes
 }
@@ -165,26 +185,43 @@ impl Pass {
     }
 
     /// Whether the edge holds a point of the work when its rake face goes through it.
-    fn takes(&self, hob: &Hob, hand: f64, point: DVec3) -> bool {
+    fn takes(&self, hob: &Hob, hand: f64, point: DVec3) -> Result<bool, NotConverged> {
         let middle = self.head_from_work[2].point(point);
         if !self.reaches(hob, point, 0.0) {
-            return false;
+            return Ok(false);
         }
         let path = divided_differences([0, 1, 2, 3, 4].map(|k| self.head_from_work[k].point(point)));
         let twist = hob.rake_twist_rad_per_mm();
         let mut q = middle;
-        for _ in 0..STEPS {
+        let mut steps = 0;
+        let moment = iterate("the moment at which a rake face holds a point", 0.0, MOST_STEPS, |before| {
             // The rake face stands at the angle hand * passed, turned by the twist of a helical gash.
             let place = q.y.atan2(q.x) + twist * (q.z - self.axial_mm);
             let passed = hand * place;
-            if passed.abs() > 1.2 {
-                return false;
+            if passed.abs() > LARGEST_SWEPT_RAD {
+                return ControlFlow::Break(false);
             }
             q = interpolated(&path, passed);
-        }
+            steps += 1;
+            let residual = passed - before;
+            if steps >= STEPS && residual.abs() < LAST_STEP_RAD {
+                ControlFlow::Break(true)
+            } else {
+                ControlFlow::Continue(Step { to: passed, residual })
+            }
+        });
         let at = DVec2::new(q.truncate().length(), (q.z - self.axial_mm).abs());
-        at.x < hob.tip_radius_mm && at.y < hob.half_thickness_mm(at.x.max(0.6 * hob.pitch_radius_mm))
+        Ok(moment? && at.x < hob.tip_radius_mm && at.y < hob.half_thickness_mm(at.x.max(self.innermost_mm)))
     }
+}
+
+/// Smallest distance of the edge from the axis, mm: the root.
+fn innermost_mm(hob: &Hob) -> f64 {
+    let ends = hob.edges().segments().iter().flat_map(|segment| {
+        let place = |y_mm: f64| segment.blade_from_segment.point(DVec2::new(segment.x_and_slope(y_mm)[0], y_mm));
+        segment.y_range_mm.map(|y_mm| place(y_mm).x)
+    });
+    ends.fold(f64::INFINITY, f64::min)
 }
 
 /// Divided differences of the path at the nodes: Newton's form of the polynomial through them.

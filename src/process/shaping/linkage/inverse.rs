@@ -2,53 +2,36 @@
 //!
 //! In: the lag alpha(phi) = phi - psi_c(phi) of a linkage whose work angle increases with phi, and a work angle. Out:
 //! phi, unwrapped, to rounding. Law: Steffensen's iteration, which Gao et al. 2017 use as well: the residual is its own
-//! step for the divided difference, so that convergence is quadratic without a derivative. Here every value also
-//! narrows a bracket, which begins as psi_c -+ pi/2 because |alpha| < pi/2; an iterate that leaves it is replaced by
-//! its middle, and after a few iterations only halving is left. The iteration therefore cannot fail.
+//! step for the divided difference, so that convergence is quadratic without a derivative. Its steps are taken within a
+//! bracket ([`newton_within`]), psi_c -+ pi/2 because |alpha| < pi/2, so that the iteration cannot fail.
 //!
 //! Starts come from a table ([`Starts`]) good to about 1e-9 rad: two or three evaluations are left.
 //!
 //! Road not taken: a table fine enough to be the answer. The offset changes during infeed, and with it the function.
 
+use crate::math::newton::{LastStep, newton_within};
 use crate::units::TURN_RAD;
 use std::f64::consts::FRAC_PI_2;
 
 /// Smallest step of the divided difference, rad: rounding in the lag (1e-15) then disturbs the slope by 1e-8 at most.
 const SMALLEST_PROBE_RAD: f64 = 1e-7;
 /// Iterations after which only halving is used.
-const PATIENCE: usize = 20;
+const PATIENCE: u32 = 20;
+/// Last step, rad.
+const LAST_STEP_RAD: f64 = 1e-9;
 
 /// The phi at which phi - `lag`(phi) = `psi_c_rad`, from a guess.
 pub(super) fn solve(lag: impl Fn(f64) -> f64, psi_c_rad: f64, start_rad: f64) -> f64 {
     let residual = |phi: f64| psi_c_rad + lag(phi) - phi;
-    let (mut lo, mut hi) = (psi_c_rad - FRAC_PI_2, psi_c_rad + FRAC_PI_2);
-    let mut phi = start_rad.clamp(lo, hi);
-    for iteration in 0..100 {
+    let bracket = [psi_c_rad - FRAC_PI_2, psi_c_rad + FRAC_PI_2];
+    let start_rad = start_rad.clamp(bracket[0], bracket[1]);
+    // The error left is about the product of the last step and the probe, below rounding.
+    newton_within(start_rad, bracket, LastStep::absolute(LAST_STEP_RAD), PATIENCE, |phi| {
         let missing = residual(phi);
-        if missing == 0.0 {
-            return phi;
-        }
-        if missing > 0.0 {
-            lo = phi;
-        } else {
-            hi = phi;
-        }
-        let mut next = f64::midpoint(lo, hi);
-        if iteration < PATIENCE {
-            let probe = missing.abs().max(SMALLEST_PROBE_RAD).copysign(missing);
-            let slope = (missing - residual(phi + probe)) / probe;
-            let newton = phi + missing / slope;
-            if newton >= lo && newton <= hi {
-                next = newton;
-            }
-        }
-        let step = next - phi;
-        phi = next;
-        if step.abs() < 1e-9 && iteration < PATIENCE || step.abs() < 1e-15 * (1.0 + phi.abs()) {
-            break; // the error left is about the product of this step and the probe, below rounding
-        }
-    }
-    phi
+        let probe = missing.abs().max(SMALLEST_PROBE_RAD).copysign(missing);
+        let slope = (missing - residual(phi + probe)) / probe;
+        [missing, missing / slope]
+    })
 }
 
 /// Table of phi - psi_c over one turn of psi_c, cubic with slopes.

@@ -8,20 +8,18 @@ mod paper;
 use crate::output::text::{plain, significant};
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
-use crate::process::shaping::scene::model::{Linkage, NormalReading};
-use crate::scene::model::GcodeDialect;
+use crate::process::shaping::scene::model::{GcodeDialect, Linkage, NormalReading};
 use crate::units::UM_PER_MM;
 
 /// The program of an operation; an error is the reason why there is none, `None`: none is wanted.
 pub fn text(job: &ShapingJob, operation: &PreparedOperation) -> Option<Result<String, String>> {
-    let output = &job.scene.output;
-    if output.gcode == GcodeDialect::None {
+    if job.gcode == GcodeDialect::None {
         return None;
     }
     if (operation.spec.linkage == Linkage::ShapingNormal { reading: NormalReading::AsPrinted }) {
         return Some(Err("Eq. 12 as printed turns the cutter wrongly; this reading is for comparison only".to_owned()));
     }
-    Some(match output.gcode {
+    Some(match job.gcode {
         GcodeDialect::PaperG84 => paper::text(job, operation),
         _ => straight_lines(job, operation),
     })

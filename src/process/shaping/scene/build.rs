@@ -1,8 +1,8 @@
 //! Checked values of a shaping scene to the model.
 
 use super::model::{
-    AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, Retraction, ShaperCutter, Shaping,
-    StrokeSpacing, Tip, TraditionalDirection,
+    AxisLimits, CutterSpec, Feed, GcodeDialect, Infeed, Linkage, Machine, NormalReading, Operation, Retraction,
+    Shaping, StrokeSpacing, Tip, TraditionalDirection,
 };
 use crate::material::EdgeForce;
 use crate::scene::ScenePart;
@@ -23,6 +23,12 @@ pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
         operations: operations?,
         material: material(values)?,
         chip_spacing_mm: values.view("fields.chips").number("spacing_mm")?,
+        gcode: match values.view("output").text("gcode")? {
+            "linear" => GcodeDialect::Linear,
+            "paper_g84" => GcodeDialect::PaperG84,
+            "none" => GcodeDialect::None,
+            _ => return None,
+        },
     }))
 }
 
@@ -36,11 +42,11 @@ fn material(values: &Values) -> Option<EdgeForce> {
     })
 }
 
-fn shaper_cutter(values: &Values) -> Option<ShaperCutter> {
+fn shaper_cutter(values: &Values) -> Option<CutterSpec> {
     let cutter = values.view("tool.shaper_cutter");
     let round = values.view("tool.shaper_cutter.tip.round");
     let chamfer = values.view("tool.shaper_cutter.tip.chamfer");
-    Some(ShaperCutter {
+    Some(CutterSpec {
         teeth: cutter.whole("teeth")?,
         addendum_coefficient: cutter.number("addendum_coefficient")?,
         dedendum_coefficient: cutter.number("dedendum_coefficient")?,

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaping {
     /// The shaper cutter.
-    pub tool: ShaperCutter,
+    pub tool: CutterSpec,
     /// The machine: stroke, clearances, mounting errors, axis limits.
     pub machine: Machine,
     /// Operations in the order they are cut; at least one. The last one defines the target flank.
@@ -17,6 +17,19 @@ pub struct Shaping {
     pub material: EdgeForce,
     /// Distance of the rays on which chips are followed, mm.
     pub chip_spacing_mm: f64,
+    /// Form of the axis programs.
+    pub gcode: GcodeDialect,
+}
+
+/// Form of axis programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GcodeDialect {
+    /// Straight lines in inverse time.
+    Linear,
+    /// The one-block form of Gao et al. 2017, marked as not to be run.
+    PaperG84,
+    /// None.
+    None,
 }
 
 impl Shaping {
@@ -33,7 +46,7 @@ impl Shaping {
 
 /// Shaper cutter by its projected transverse profile.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ShaperCutter {
+pub struct CutterSpec {
     /// z0.
     pub teeth: u32,
     /// Addendum in modules (1.25 cuts the gear's root clearance).

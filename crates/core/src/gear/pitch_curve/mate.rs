@@ -115,12 +115,13 @@ impl MateLaw {
         let circle = |r: f64| r * (turns + sign);
         let [near_mm, far_mm] = [circle(facts.smallest_radius_mm), circle(facts.largest_radius_mm)];
         let low_mm = if sign > 0.0 { near_mm.max(facts.largest_radius_mm) } else { near_mm };
-        let long = |center_mm: f64| turn_at(center_mm).is_none_or(|turn| turn.closed() > wanted_rad);
+        // Nearer than the driver's largest radius the law has no integral: the mate would turn without end.
+        let long = |center_mm: f64| turn_at(center_mm).map_or(true, |turn| turn.closed() > wanted_rad);
         let center_distance_mm = bisect(long, low_mm * (1.0 - 1e-12), far_mm * (1.0 + 1e-12));
-        let turn = turn_at(center_distance_mm).ok_or_else(|| {
+        let turn = turn_at(center_distance_mm).map_err(|why| {
             Refusal::new(
                 KEY,
-                "the mate's angle cannot be integrated over the driver's",
+                format!("the mate's angle cannot be integrated over the driver's: {why}"),
                 "make the variation of the driver's radius smaller",
             )
         })?;

@@ -5,7 +5,7 @@
 //!
 //! The pose is a polynomial of the swept angle, entry by entry, through Chebyshev nodes. The row of z comes first: the
 //! moment needs no other, and rows lie side by side so that four entries go through a processor's vector at once. Where
-//! the motion has a corner during the sweep, each stretch of it has polynomials of its own.
+//! the motion has a corner during the sweep, each piece of it has polynomials of its own.
 
 use crate::math::convergence::{Step, iterate};
 use crate::math::roots::bisect;
@@ -25,9 +25,13 @@ const MOST_STEPS: u32 = 20;
 const LAST_STEP_RAD: f64 = 1e-6;
 /// Half the shortest piece of a sweep that is fitted, rad.
 const SHORTEST_RAD: f64 = 0.25;
-/// Moments are looked for beyond the ends of the sweep by this angle, rad, because the outline is closed there: a hob's
-/// 60 degrees become 1.25 rad. No derivation: a pass is dropped from a slice where an end of a piece has no moment
-/// within it. What is left is compared with the flank kernel in `tests/suite/hobbing/blank.rs`.
+/// Moments are looked for beyond the ends of the sweep by this angle, rad: a hob's 60 degrees become 1.25 rad. A pass is
+/// dropped from a slice where an end of a piece has no moment within it. It has one: only points of the edge are asked
+/// for that stand at most as far round as the tip does at the sweep's end if the work rests (`SweptSections::reached`),
+/// and there a radian of the blade is half the tip's radius along its travel. So the angle answers for a tenth of that
+/// radius, 6 mm on a usual hob, which the work moves along the blade's travel in a sixth of a turn: its feed there is
+/// hundredths of a millimetre. Brute force over all passes shares this number; the flank kernel does not, and what is
+/// left is compared with it in `tests/suite/hobbing/blank.rs`.
 const BEYOND_SWEEP_RAD: f64 = 0.2028;
 
 /// A pass with its pose as polynomials of the swept angle.
@@ -37,14 +41,14 @@ pub(super) struct Sweeping {
     pub edge: usize,
     axial_mm: f64,
     y_sign: f64,
-    half_sweep_rad: f64,
+    half_window_rad: f64,
     /// In the middle of the sweep; everywhere, if the motion has no corner during it.
     pose: Pose,
     /// Before and after corners: swept angles at which each begins and ends.
     beside: Vec<([f64; 2], Pose)>,
 }
 
-/// `work_from_head` in powers of delta / [`TurningPasses::half_sweep_rad`].
+/// `work_from_head` in powers of delta / [`TurningPasses::half_window_rad`].
 type Pose = [[f64; ENTRIES]; TERMS];
 
 /// Where an edge point crosses a slice, with how the place follows the edge point.
@@ -73,14 +77,13 @@ impl SliceCrossing {
 
 impl Sweeping {
     pub fn new(set: &TurningPasses, pass: &BladePass) -> Self {
-        let (place, stretches) = (set.place(pass), set.stretches(pass));
-        let mut beside: Vec<([f64; 2], Pose)> = stretches
-            .map(|stretch| {
-                let [a, b] =
-                    set.motion.stretch_rad(stretch).map(|angle_rad| set.turn * (angle_rad - pass.tool_angle_rad));
+        let (place, pieces) = (set.place(pass), set.pieces(pass));
+        let mut beside: Vec<([f64; 2], Pose)> = pieces
+            .map(|piece| {
+                let [a, b] = set.motion.piece_rad(piece).map(|angle_rad| set.turn * (angle_rad - pass.tool_angle_rad));
                 let from_to = [a.min(b), a.max(b)];
-                let within = from_to.map(|swept| swept.clamp(-set.half_sweep_rad, set.half_sweep_rad));
-                (from_to, polynomials(set, pass, stretch, within))
+                let within = from_to.map(|swept| swept.clamp(-set.half_window_rad, set.half_window_rad));
+                (from_to, polynomials(set, pass, piece, within))
             })
             .collect();
         let middle = beside.iter().position(|([from, to], _)| *from <= 0.0 && 0.0 <= *to).unwrap_or(0);
@@ -90,7 +93,7 @@ impl Sweeping {
             edge: set.edges.index_of(place.blade),
             axial_mm: place.axial_mm,
             y_sign: place.y_sign,
-            half_sweep_rad: set.half_sweep_rad,
+            half_window_rad: set.half_window_rad,
             pose,
             beside,
         }
@@ -108,7 +111,7 @@ impl Sweeping {
 
     /// Values of the first entries of the pose, and their rates over the swept angle.
     fn entries<const N: usize>(&self, swept: f64) -> [[f64; N]; 2] {
-        let u = swept / self.half_sweep_rad;
+        let u = swept / self.half_window_rad;
         let mut value = [0.0; N];
         let pose = self.pose_at(swept);
         value.copy_from_slice(&pose[TERMS - 1][..N]);
@@ -119,7 +122,7 @@ impl Sweeping {
                 value[k] = value[k] * u + term[k];
             }
         }
-        [value, rate.map(|rate| rate / self.half_sweep_rad)]
+        [value, rate.map(|rate| rate / self.half_window_rad)]
     }
 
     /// Values and rates of the whole pose, column by column: head's axes x, y, z and its origin in the work.
@@ -170,8 +173,13 @@ impl Sweeping {
     }
 
     /// Moment at which an edge point goes through a slice, from a guess. `None`: at no moment of the sweep, nor a
-    /// little beyond its ends. Where Newton's method leaves that range or does not settle in it, the range is halved if
-    /// the point is on different sides of the slice at its ends.
+    /// little beyond its ends.
+    ///
+    /// Where Newton's method leaves that range or does not settle in it, the range is halved where the point is on
+    /// different sides of the slice at its ends. Where it is not, it may still go through twice, if it turns round in
+    /// between: the rates at the ends say so, and halving finds the turn, and then the crossing on the guess's side of
+    /// it. A blade's travel bends one way during a sweep, so that it turns round once at most: `None` is no failure of a
+    /// search.
     pub fn moment(&self, guess: f64, node: DVec2, twist_rad_per_mm: f64, z_mm: f64) -> Option<f64> {
         let value_and_rate = |swept: f64| {
             let [[x, y, z, shift], rates] = self.entries::<ROW>(swept);
@@ -183,7 +191,7 @@ impl Sweeping {
                 + rates[3];
             [value, rate]
         };
-        let farthest_rad = self.half_sweep_rad + BEYOND_SWEEP_RAD;
+        let farthest_rad = self.half_window_rad + BEYOND_SWEEP_RAD;
         let moment = iterate("an edge point's moment in a slice", guess, MOST_STEPS, |swept| {
             let [value, rate] = value_and_rate(swept);
             let step = value / rate;
@@ -196,11 +204,20 @@ impl Sweeping {
                 ControlFlow::Continue(Step { to, residual: value })
             }
         });
-        moment.ok().flatten().or_else(|| {
-            let ends = [-farthest_rad, farthest_rad].map(|swept| value_and_rate(swept)[0]);
-            let rising = ends[1] > 0.0;
-            (ends[0] * ends[1] < 0.0)
-                .then(|| bisect(|swept| (value_and_rate(swept)[0] < 0.0) == rising, -farthest_rad, farthest_rad))
+        if let Ok(Some(moment)) = moment {
+            return Some(moment);
+        }
+        let value = |swept: f64| value_and_rate(swept)[0];
+        let between = |from: f64, to: f64| {
+            let rising = value(to) > 0.0;
+            (value(from) * value(to) <= 0.0).then(|| bisect(|swept| (value(swept) < 0.0) == rising, from, to))
+        };
+        between(-farthest_rad, farthest_rad).or_else(|| {
+            let rate = |swept: f64| value_and_rate(swept)[1];
+            let first = rate(-farthest_rad);
+            let turns_round = first * rate(farthest_rad) < 0.0;
+            let turn = turns_round.then(|| bisect(|s| rate(s) * first > 0.0, -farthest_rad, farthest_rad))?;
+            if guess < turn { between(-farthest_rad, turn) } else { between(turn, farthest_rad) }
         })
     }
 
@@ -233,10 +250,10 @@ impl Sweeping {
     }
 }
 
-/// Through the poses of a stretch at Chebyshev nodes of swept angles from `from` to `to`: in powers of the angle over
+/// Through the poses of a piece at Chebyshev nodes of swept angles from `from` to `to`: in powers of the angle over
 /// the whole sweep.
-fn polynomials(set: &TurningPasses, pass: &BladePass, stretch: u32, [from, to]: [f64; 2]) -> Pose {
-    // A short piece would be known from too little: the stretch's law goes on beyond its ends.
+fn polynomials(set: &TurningPasses, pass: &BladePass, piece: u32, [from, to]: [f64; 2]) -> Pose {
+    // A short piece would be known from too little: the piece's law goes on beyond its ends.
     let half = (0.5 * (to - from)).max(SHORTEST_RAD);
     let middle = 0.5 * (from + to);
     let mut of_piece = [[0.0; ENTRIES]; TERMS];
@@ -244,7 +261,7 @@ fn polynomials(set: &TurningPasses, pass: &BladePass, stretch: u32, [from, to]: 
     for node in 0..TERMS {
         let angle = PI * (node as f64 + 0.5) / TERMS as f64;
         let swept = middle + half * angle.cos();
-        let work_from_head = set.motion.head_from_work_on(stretch, pass.tool_angle_rad + set.turn * swept).inverse();
+        let work_from_head = set.motion.head_from_work_on(piece, pass.tool_angle_rad + set.turn * swept).inverse();
         let (turn, shift) = (work_from_head.rotation, work_from_head.translation_mm);
         let row = |r: usize| [turn.x_axis[r], turn.y_axis[r], turn.z_axis[r], shift[r]];
         let entries = [row(2), row(0), row(1)];
@@ -257,11 +274,11 @@ fn polynomials(set: &TurningPasses, pass: &BladePass, stretch: u32, [from, to]: 
             }
         }
     }
-    if middle == 0.0 && half == set.half_sweep_rad {
+    if middle == 0.0 && half == set.half_window_rad {
         return of_piece;
     }
     // The piece's own angle is a linear function of that of the whole sweep.
-    let (scale, offset) = (set.half_sweep_rad / half, -middle / half);
+    let (scale, offset) = (set.half_window_rad / half, -middle / half);
     let mut pose = [[0.0; ENTRIES]; TERMS];
     for term in of_piece.iter().rev() {
         for k in (0..TERMS).rev() {

@@ -3,7 +3,7 @@
 //! **The law.** A point p of the work is in the rake face at one moment of the sweep; it is removed if it lies inside
 //! the blade's edge then. With the moment as t = tan(delta / 2), delta the angle of the rake face from where it holds
 //! the tile's origin, and the point in axes fixed to the head there (r out of the axis, q in the direction of rotation,
-//! y along the blade's y), the moment is the root of
+//! y along the axis, which is w of the rake face, see [`super::turning_passes`]), the moment is the root of
 //!
 //! `q (1 - t^2) = 2 t R`,  R the distance along r from the axis,
 //!
@@ -22,13 +22,14 @@
 //! Road not taken: eliminating t beforehand by a polynomial in the tile's three coordinates. It needs order four in one
 //! of them, and long rays leave its range.
 
+use crate::error::NotConverged;
 use crate::math::convergence::{Step, iterate};
 use crate::math::roots::bisect;
 use crate::passes::planar::strokes::{NODES, cubic_through};
 use crate::passes::spatial::turning_passes::{BladePass, TurningPasses};
 use crate::tool::edge::Segment;
 use glam::{DMat3, DVec3};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
 /// Largest |t|: a quarter turn of the tool to either side of the moment at which the rake face holds the tile's origin.
@@ -75,7 +76,9 @@ pub struct Sweep {
     /// Moments at which it is good.
     t_range: [f64; 2],
     /// Largest angle of the rake face from the head's x axis in the work, rad.
-    half_sweep_rad: f64,
+    half_window_rad: f64,
+    /// Distance of the blade's origin from the tool's axis, mm.
+    radial_mm: f64,
     /// Angle of the rake face from the head's x axis where it holds the tile's origin, in the direction of rotation.
     pub sweep_angle_rad: f64,
 }
@@ -123,17 +126,17 @@ impl SweepRecord {
 }
 
 impl Sweep {
-    /// Sweep of a pass in a stretch of the motion as seen from a tile with its origin at `origin_mm` (gear frame) and
+    /// Sweep of a pass in a piece of the motion as seen from a tile with its origin at `origin_mm` (gear frame) and
     /// nothing further than `reach_mm` from it. `None`: the blade holds the origin at no moment of its sweep, or the
-    /// whole tile at no moment of the stretch.
-    pub fn new(set: &TurningPasses, pass: &BladePass, stretch: u32, origin_mm: DVec3, reach_mm: f64) -> Option<Self> {
+    /// whole tile at no moment of the piece.
+    pub fn new(set: &TurningPasses, pass: &BladePass, piece: u32, origin_mm: DVec3, reach_mm: f64) -> Option<Self> {
         let place = set.place(pass);
         let twist = set.rake_twist_rad_per_mm;
-        let head_from_work = |swept: f64| set.motion.head_from_work_on(stretch, pass.tool_angle_rad + set.turn * swept);
+        let head_from_work = |swept: f64| set.motion.head_from_work_on(piece, pass.tool_angle_rad + set.turn * swept);
         let blade_y = |z: f64| place.y_sign * (z - place.axial_mm);
         let missing_at = |swept: f64| {
             let at = head_from_work(swept).point(origin_mm);
-            (at.y.atan2(at.x) - twist * blade_y(at.z) - swept, at)
+            (within_half_a_turn(at.y.atan2(at.x) - twist * blade_y(at.z) - swept), at)
         };
         // The rake face follows the point, which moves some hundredths as fast: the secant of what is missing.
         let mut at = DVec3::ZERO;
@@ -144,7 +147,7 @@ impl Sweep {
             let rate = before.map_or(-1.0, |[angle, less]| (missing - less) / (swept - angle));
             before = Some([swept, missing]);
             let to = swept - missing / rate;
-            if to.abs() > set.half_sweep_rad {
+            if to.abs() > set.half_window_rad {
                 ControlFlow::Break(None)
             } else if missing.abs() < LAST_MISSING_RAD {
                 ControlFlow::Break(Some(to))
@@ -155,7 +158,7 @@ impl Sweep {
         // What is missing falls over the whole sweep: secants that do not settle leave it to halving.
         let swept = moment.unwrap_or_else(|_| {
             let ahead = |swept: f64| missing_at(swept).0 > 0.0;
-            let ends = [-set.half_sweep_rad, set.half_sweep_rad];
+            let ends = [-set.half_window_rad, set.half_window_rad];
             let found = (ahead(ends[0]) && !ahead(ends[1])).then(|| bisect(ahead, ends[0], ends[1]))?;
             at = missing_at(found).1;
             Some(found)
@@ -166,7 +169,7 @@ impl Sweep {
         let from_head = axes.transpose();
         let radius_mm = at.x.hypot(at.y);
         let range = (REACH_SHARE * reach_mm / (radius_mm - reach_mm).max(LEAST_DISTANCE * radius_mm)).min(LARGEST_T);
-        let [from, to] = set.motion.stretch_rad(stretch).map(|angle| set.turn * (angle - pass.tool_angle_rad));
+        let [from, to] = set.motion.piece_rad(piece).map(|angle| set.turn * (angle - pass.tool_angle_rad));
         let t_at_swept = |angle: f64| (0.5 * (angle - swept)).clamp(-0.25 * PI, 0.25 * PI).tan();
         let [from, to] = [t_at_swept(from.min(to)) - CORNER_OVERLAP, t_at_swept(from.max(to)) + CORNER_OVERLAP];
         if from > range || to < -range {
@@ -199,7 +202,8 @@ impl Sweep {
             place_mm: [0, 1, 2, 3].map(|k| DVec3::from_array(places.map(|entry| entry[k]))),
             twist_rad_per_mm: twist,
             t_range,
-            half_sweep_rad: set.half_sweep_rad,
+            half_window_rad: set.half_window_rad,
+            radial_mm: place.radial_mm,
             sweep_angle_rad: swept,
         })
     }
@@ -210,14 +214,15 @@ impl Sweep {
         // Axes of the rake face at the segment's own y.
         let turned = DMat3::from_rotation_z(-self.twist_rad_per_mm * base.y);
         let mut place_mm = self.place_mm.map(|place| (turned * place).to_array());
-        place_mm[0][0] -= base.x;
+        let radius_mm = self.radial_mm + base.x;
+        place_mm[0][0] -= radius_mm;
         place_mm[0][2] -= base.y;
         SweepRecord {
             pass,
             segment: segment_index as u32,
             cells: u16::MAX,
             start: SweepStart::default(),
-            radius_mm: base.x,
+            radius_mm,
             twist_rad_per_mm: self.twist_rad_per_mm,
             t_range: self.t_range,
             turn: self.turn.map(|turn| (turned * turn).transpose().to_cols_array_2d()),
@@ -225,10 +230,13 @@ impl Sweep {
         }
     }
 
-    /// Distance from the tool's axis and place along the blade's y of a point (tile frame) at the moment when the rake
-    /// face holds it. `None`: at no moment of the sweep and the stretch.
-    pub fn in_rake_face(&self, p_mm: DVec3) -> Option<[f64; 2]> {
-        let held = iterate("the moment at which a rake face holds a point", 0.0, MAX_STEPS, |t| {
+    /// Distance from the tool's axis and place along it, from the blade's origin in the direction of w, of a point (tile
+    /// frame) at the moment when the rake face holds it. `None`: at no moment of the sweep and the piece.
+    ///
+    /// # Errors
+    /// The moment is not found: the work turns nearly as fast as the tool.
+    pub fn in_rake_face(&self, p_mm: DVec3) -> Result<Option<[f64; 2]>, NotConverged> {
+        iterate("the moment at which a rake face holds a point", 0.0, MAX_STEPS, |t| {
             let [u, _] = half_angle(t);
             let point = self.place_mm[0]
                 + u * (self.place_mm[1] + u * (self.place_mm[2] + u * self.place_mm[3]))
@@ -238,7 +246,7 @@ impl Sweep {
             let next = point.y / (point.x + point.x.hypot(point.y));
             let residual = next - t;
             if residual.abs() < LAST_T {
-                let inside = (self.sweep_angle_rad + 2.0 * next.atan()).abs() <= self.half_sweep_rad
+                let inside = (self.sweep_angle_rad + 2.0 * next.atan()).abs() <= self.half_window_rad
                     && (self.t_range[0]..=self.t_range[1]).contains(&next);
                 ControlFlow::Break(inside.then_some([point.x.hypot(point.y), point.z]))
             } else if next.abs() > LARGEST_T {
@@ -246,13 +254,17 @@ impl Sweep {
             } else {
                 ControlFlow::Continue(Step { to: next, residual })
             }
-        });
-        held.ok().flatten()
+        })
     }
 }
 
-/// Inverse of [`half_angle`] at the nodes of a sweep, to rounding: a fixed number of Newton steps, tested over all of
-/// them.
+/// The same angle between -pi and pi.
+fn within_half_a_turn(angle_rad: f64) -> f64 {
+    if angle_rad.abs() <= PI { angle_rad } else { angle_rad - TAU * (angle_rad / TAU).round() }
+}
+
+/// Inverse of [`half_angle`] at the nodes of a sweep, to rounding: a fixed number of Newton steps. It cannot fail: there
+/// are no other arguments than those between the largest t and its negative, and the test goes through them.
 fn t_at(u: f64) -> f64 {
     (0..4).fold(u.tan(), |t, _| {
         let [value, rate] = half_angle(t);

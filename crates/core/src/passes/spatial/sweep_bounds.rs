@@ -36,13 +36,17 @@ const ROUNDING_MM: f64 = 2e-7;
 const END_MARGIN_MM: f64 = 1e-6;
 /// A candidate is clear of the rays where all nine heights lie below the floor by this share of their range, and by
 /// [`FLOOR_MM`]: between the rays heights may pass the highest of them. The share is that of a function whose second
-/// differences are 1.6 times its range; for others it was found by trial and has no proof. The comparison with all
-/// passes in `tests/suite/hobbing/spatial.rs` stands for it.
+/// differences are 1.6 times its range; for others it was found by trial and has no proof. Too small, a sweep is dropped
+/// that rises over the floor between the rays, and the surface stays too high there. Brute force knows no floor: the
+/// comparison with it in `tests/suite/hobbing/spatial.rs` sees such a loss on the fields it looks at, and no other.
 const FLOOR_SHARE: f64 = 0.2;
 /// The same as a length, for heights that are all alike, mm.
 const FLOOR_MM: f64 = 1e-3;
-/// Steps towards the moment at which a rake face holds a point: each gains more than a digit.
+/// Steps towards the moment at which a rake face holds a point: each gains more than a digit on usual gears. Where the
+/// last one still moves a point by more than [`MOMENT_MM`], as with few teeth per start, the box is not known.
 const MOMENT_STEPS: usize = 5;
+/// A tenth of [`BOX_MARGIN_MM`].
+const MOMENT_MM: f64 = 1e-4;
 /// Radius of curvature of a path through the rake face at least, as a share of the distance from the tool's axis: seen
 /// from the rake face a point of the work goes on a circle about that axis, but for the work's own motion, which is
 /// given half. No proof for that half; candidates are compared with all passes in `tests/suite/hobbing/spatial.rs`.
@@ -251,17 +255,20 @@ impl pulp::NullaryFnOnce for RakeFaceBoxes<'_, '_> {
             let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
             let mut known = true;
             for height_mm in heights_mm {
-                let [t, rho, along] = record.places(&rays, &[height_mm; LANES], MOMENT_STEPS);
+                let [t, rho, along, step_t] = record.places(&rays, &[height_mm; LANES], MOMENT_STEPS);
                 for l in 0..LANES {
-                    known &= t[l].abs() < LARGEST_T;
+                    // dt is half the angle; the point moves more slowly than the rake face turns.
+                    let moved_mm = 2.0 * step_t[l].abs() * (rho[l] + record.radius_mm);
+                    known &= t[l].abs() < LARGEST_T && moved_mm < MOMENT_MM;
                     for (axis, place) in [rho[l] + base_mm.x, along[l] + base_mm.y].into_iter().enumerate() {
                         low[axis] = low[axis].min(place);
                         high[axis] = high[axis].max(place);
                     }
                 }
             }
-            // An arc of radius R leaves its chord of length L by L^2 / 8 R.
-            let radius_mm = PATH_RADIUS_SHARE * low[0].max(LEAST_RADIUS_MM);
+            // An arc of radius R leaves its chord of length L by L^2 / 8 R; boxes count from the blade's origin.
+            let nearest_mm = low[0] + (record.radius_mm - base_mm.x);
+            let radius_mm = PATH_RADIUS_SHARE * nearest_mm.max(LEAST_RADIUS_MM);
             let margin_mm = cell_mm * cell_mm / (8.0 * radius_mm) + BOX_MARGIN_MM;
             self.boxes.push(if known {
                 RakeFaceBox { low: low.map(|v| v - margin_mm), high: high.map(|v| v + margin_mm) }
@@ -272,7 +279,7 @@ impl pulp::NullaryFnOnce for RakeFaceBoxes<'_, '_> {
     }
 }
 
-/// Ranges of the distance from the tool's axis and of the blade's y, mm.
+/// Ranges of r and w in the rake face, from the blade's origin, mm.
 struct RakeFaceBox {
     low: [f64; 2],
     high: [f64; 2],

@@ -1,85 +1,258 @@
-//! Passes whose blades come near a region of the work at all: the first look, in a few poses of the work.
+//! Passes whose blades come near a region of the work at all: the first look.
 //!
-//! In: the passes of an operation, a place and a reach. Out: the passes that planning begins with. [`near_passes`]
-//! serves candidates and brute force alike, so that the comparison of both says nothing about its numbers: they rest on
-//! their derivations, and on the patches of an independent solver that `tests/suite/hobbing/spatial.rs` compares with.
-//! [`passes_beside`] serves candidates alone; that comparison stands for its numbers.
+//! In: the passes of an operation, balls that hold all that is looked at. Out: the passes that planning begins with.
+//!
+//! **The law.** A rake face holds a point of a ball at some swept angle s. At that moment the point's distance from the
+//! tool's axis and its place along it are those of the blade's edge, and its angle about the axis is s (and what a
+//! helical gash adds). Over an interval of swept angles the ball's centre stays within speed x half the interval of
+//! where it is in the middle, and every point of the ball within its radius of the centre: where even this reaches none
+//! of the three, the interval is clear. An interval that is not is halved, down to where halving shows little more; a
+//! pass is near if such an interval is left.
+//!
+//! The speed is bounded by the motion table's own polynomials ([`MotionTable::largest_rates`]), so that nothing here
+//! rests on module, starts, teeth or the pitch curve's shape: every step is a bound, for candidates and for the brute
+//! force that they are compared with. Road not taken: the rate of the pitch line, half of module x starts. It is the
+//! speed at the pitch point of a round gear, no bound elsewhere.
+//!
+//! [`MotionTable::largest_rates`]: super::motion::MotionTable::largest_rates
 
+use super::sweep::LARGEST_T;
 use super::turning_passes::{BladePass, TurningPasses};
 use glam::DVec3;
+use std::f64::consts::{PI, TAU};
 
-/// What profiles and paths bend between the places that are looked at, along the tool's axis, mm. Found by trial, no
-/// proof; candidates are compared with all passes in `tests/suite/hobbing/spatial.rs`.
-const AXIAL_MARGIN_MM: f64 = 1.0;
-/// While a blade sweeps through the work, a point of it moves in the head by at most this, mm. Rolling moves the pitch
-/// curve by half of module x starts per radian of the tool. Over a sweep's 60 degrees to either side that is 0.52 x
-/// module x starts: the bound holds up to module x starts = 38 mm.
-const ROLLED_MM: f64 = 20.0;
-/// What is within reach turns in the head meanwhile, and comes nearer to the tool by at most this share of the reach. A
-/// gear with z teeth per start turns by 1.05 / z rad in 60 degrees of the tool, and a point at distance d from the
-/// place moves by d times this angle at most: the bound holds from six teeth per start on.
-const TURNED_SHARE: f64 = 0.2;
-/// A pass looked at in one pose may be further away than the reach by a tenth of it and [`NEAR_MM`]: what is within
-/// reach turns by some per cent during the sweep. Found by trial and kept wide; no proof.
-const NEAR_SHARE: f64 = 1.1;
-/// The same as a length, mm.
-const NEAR_MM: f64 = 1.0;
-/// A region that holds the tool's axis is seen from this share of the tip's radius. The angle at which a blade meets it
-/// is taken as reach / distance and is so limited to four times what is within reach of the tip. Found by trial; no
-/// proof.
-const LEAST_DISTANCE: f64 = 0.25;
+/// What the sweeps of tiles may err against the motion table where they go on beyond their tiles, mm: within them it is
+/// picometres. A thousandth would do; this much costs nothing.
+const MARGIN_MM: f64 = 0.1;
+/// An interval is halved no further once blade and ball move by less than this share of the ball's radius in it. It
+/// decides about time alone: what is left is near.
+const SHORTEST_SHARE: f64 = 0.1;
+/// Balls smaller than this count as this large there, mm.
+const SMALLEST_MM: f64 = 1.0;
 
-/// Passes whose blade comes within `reach_mm` of a place of the work, in time order.
-///
-/// While the rake face goes through the neighbourhood the place itself moves in the head, and everything within reach
-/// turns with it a little. The first look takes both by their bounds, the second one by what three poses show.
-pub fn near_passes(set: &TurningPasses, center_mm: DVec3, reach_mm: f64) -> Vec<BladePass> {
-    let margin_mm = NEAR_SHARE * reach_mm + NEAR_MM;
+/// A ball in the work.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ball {
+    /// Centre, gear frame, mm.
+    pub center_mm: DVec3,
+    /// Radius, mm.
+    pub radius_mm: f64,
+}
+
+impl Ball {
+    /// A ball that holds some points: about the middle of their box.
+    pub fn around(points_mm: impl Iterator<Item = DVec3> + Clone) -> Self {
+        let (low, high) = points_mm
+            .clone()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)));
+        let center_mm = 0.5 * (low + high);
+        let radius_mm = points_mm.map(|point| point.distance_squared(center_mm)).fold(0.0, f64::max).sqrt();
+        Self { center_mm, radius_mm }
+    }
+}
+
+/// Passes whose blade may hold a point of `whole` and of one of its parts (each within `whole`), in time order.
+pub fn near_passes(set: &TurningPasses, whole: &Ball, parts: &[Ball]) -> Vec<BladePass> {
+    let [speed_mm, turn_rad] = set.motion.largest_rates(whole.center_mm);
+    let speed_of = |ball: &Ball| speed_mm + turn_rad * ball.center_mm.distance(whole.center_mm);
     (0..set.count())
         .map(|index| set.pass(index))
         .filter(|pass| {
-            let (place, edge) = (set.place(pass), set.edge(pass));
-            let y_reach_mm = edge.center_mm.y.abs() + edge.reach_mm;
-            let tip_mm = edge.center_mm.x + edge.reach_mm;
-            // Where the place stands when the blade points to it, to the first order of the motion in between.
-            let at = |swept: f64| set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).point(center_mm);
-            let first = at(0.0);
-            if first.x.hypot(first.y) - margin_mm > tip_mm + ROLLED_MM + TURNED_SHARE * reach_mm {
-                return false;
-            }
-            let swept = first.y.atan2(first.x);
-            let second = at(swept);
-            let spread = reach_mm / (second.x.hypot(second.y) - reach_mm).max(LEAST_DISTANCE * tip_mm);
-            let moved_mm = (at(swept + spread.min(1.0)) - at(swept - spread.min(1.0))).length();
-            let margin_mm = margin_mm + moved_mm;
-            second.x.hypot(second.y) <= tip_mm + margin_mm
-                && (second.z - place.axial_mm).abs() <= y_reach_mm + margin_mm
-                && swept.abs() <= set.half_sweep_rad + spread
+            may_hold(set, pass, whole, speed_mm) && parts.iter().any(|part| may_hold(set, pass, part, speed_of(part)))
         })
         .collect()
 }
 
-/// Whether a pass's blade passes some points of the work (the first one in their middle, none further than `reach_mm`
-/// from it) in their own place along the tool's axis.
-///
-/// While the rake face goes through the neighbourhood the points move a little along the axis, nearly evenly: their
-/// places are taken at the moment when the rake face holds the middle, and when it holds what is furthest before and
-/// behind.
-pub fn passes_beside(set: &TurningPasses, pass: &BladePass, points_mm: &[DVec3], reach_mm: f64) -> bool {
+/// Whether a pass's blade may hold a point of a ball whose centre moves in the head by at most `speed_mm` per radian of
+/// the tool.
+fn may_hold(set: &TurningPasses, pass: &BladePass, ball: &Ball, speed_mm: f64) -> bool {
     let (place, edge) = (set.place(pass), set.edge(pass));
-    let pose = |swept: f64| set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept);
-    let first = pose(0.0).point(points_mm[0]);
-    let swept = first.y.atan2(first.x);
-    let middle = pose(swept);
-    let distance_mm = middle.point(points_mm[0]).truncate().length();
-    let spread = reach_mm / (distance_mm - reach_mm).max(LEAST_DISTANCE * (edge.center_mm.x + edge.reach_mm));
-    let (mut low_mm, mut high_mm) = (f64::INFINITY, f64::NEG_INFINITY);
-    for pose in [pose(swept - spread.min(1.0)), middle, pose(swept + spread.min(1.0))] {
-        for &point_mm in points_mm {
-            let y_mm = place.y_sign * (pose.point(point_mm).z - place.axial_mm) - edge.center_mm.y;
-            (low_mm, high_mm) = (low_mm.min(y_mm), high_mm.max(y_mm));
+    let middle_mm = place.radial_mm + edge.center_mm.x;
+    let [innermost_mm, tip_mm] = [middle_mm - edge.reach_mm, middle_mm + edge.reach_mm];
+    // A tile's middle is held within half a sweep, what a tile holds at most a quarter turn from there.
+    let most_rad = set.half_window_rad + 2.0 * LARGEST_T.atan();
+    // The motion's own range; it is symmetric to the tool's direction.
+    let ends = set.motion.range_rad().map(|angle| set.turn * (angle - pass.tool_angle_rad));
+    let first = [ends[0].min(ends[1]).max(-most_rad), ends[0].max(ends[1]).min(most_rad)];
+    let finest_mm = SHORTEST_SHARE * ball.radius_mm.max(SMALLEST_MM);
+    let mut open = vec![first];
+    while let Some([from, to]) = open.pop() {
+        let (swept, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let at = set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).point(ball.center_mm);
+        let around_mm = ball.radius_mm + speed_mm * half + MARGIN_MM;
+        let distance_mm = at.x.hypot(at.y);
+        let y_mm = place.y_sign * (at.z - place.axial_mm);
+        if distance_mm - around_mm > tip_mm
+            || distance_mm + around_mm < innermost_mm
+            || (y_mm - edge.center_mm.y).abs() - around_mm > edge.reach_mm
+        {
+            continue;
+        }
+        let seen_rad = if around_mm < distance_mm { (around_mm / distance_mm).asin() } else { PI };
+        let twist = set.rake_twist_rad_per_mm;
+        let ahead = (at.y.atan2(at.x) - twist * y_mm - swept + PI).rem_euclid(TAU) - PI;
+        if ahead.abs() > seen_rad + twist.abs() * around_mm + half {
+            continue;
+        }
+        if half * (speed_mm + tip_mm) <= finest_mm {
+            return true;
+        }
+        open.extend([[swept, to], [from, swept]]);
+    }
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::Rigid3;
+    use crate::passes::spatial::motion::MotionTable;
+    use crate::tool::blade_edges::BladeEdges;
+    use crate::tool::edge::{Edge, Segment, SegmentName};
+    use crate::tool::{CuttingTool, SpatialTool};
+    use glam::{DMat3, DVec2};
+
+    /// A hob of axial gashes: module, starts, gashes, pitch radius; straight edges.
+    struct StraightHob {
+        edges: BladeEdges,
+        places: Vec<Rigid3>,
+    }
+
+    const GASHES: u32 = 12;
+    const TURNS: f64 = 8.0;
+
+    impl StraightHob {
+        fn new(module_mm: f64, starts: u32, pitch_radius_mm: f64) -> Self {
+            let flank = |height: f64, sign: f64| {
+                let half = (0.25 * PI - height * 20_f64.to_radians().tan()) * module_mm;
+                DVec2::new(pitch_radius_mm + height * module_mm, sign * half)
+            };
+            let corners = [flank(-1.25, -1.0), flank(1.25, -1.0), flank(1.25, 1.0), flank(-1.25, 1.0)];
+            let names = [SegmentName::FlankRight, SegmentName::Tip, SegmentName::FlankLeft];
+            let segments =
+                names.iter().zip(corners.windows(2)).map(|(&name, ends)| Segment::straight(name, ends[0], ends[1]));
+            let pitch_mm = PI * module_mm;
+            let places = (0..starts * GASHES)
+                .flat_map(|gash| (-1..=1).map(move |turn| (gash / GASHES, gash % GASHES, turn)))
+                .map(|(start, gash, turn)| {
+                    let angle = TAU * f64::from(gash) / f64::from(GASHES);
+                    let threads = f64::from(starts) * (f64::from(turn) + f64::from(gash) / f64::from(GASHES));
+                    let axial_mm = pitch_mm * (threads + f64::from(start));
+                    Rigid3 { rotation: DMat3::from_rotation_z(angle), translation_mm: DVec3::new(0.0, 0.0, axial_mm) }
+                        .after(&Rigid3 {
+                            // x stays, y along the axis.
+                            rotation: DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
+                            translation_mm: DVec3::ZERO,
+                        })
+                })
+                .collect();
+            Self { edges: BladeEdges::shared(Edge::new(segments.collect())), places }
         }
     }
-    let y_reach_mm = edge.reach_mm + AXIAL_MARGIN_MM;
-    low_mm <= y_reach_mm && high_mm >= -y_reach_mm
+
+    impl CuttingTool for StraightHob {
+        fn blade_count(&self) -> u32 {
+            self.places.len() as u32
+        }
+        fn edges(&self) -> &BladeEdges {
+            &self.edges
+        }
+    }
+
+    impl SpatialTool for StraightHob {
+        fn tool_from_blade(&self, index: u32) -> Rigid3 {
+            self.places[index as usize]
+        }
+        fn rake_twist_rad_per_mm(&self) -> f64 {
+            0.0
+        }
+        fn half_window_rad(&self) -> f64 {
+            PI / 3.0
+        }
+    }
+
+    /// Swept angle at which a pass holds a point within its edge's circle: the sweep gone through in small steps.
+    fn held_at(set: &TurningPasses, pass: &BladePass, point_mm: DVec3) -> Option<f64> {
+        let (place, edge) = (set.place(pass), set.edge(pass));
+        let steps = 100;
+        let at = |i: i32| {
+            let swept = set.half_window_rad * f64::from(i) / f64::from(steps);
+            let at = set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).point(point_mm);
+            (swept, at.y.atan2(at.x) - swept, DVec2::new(at.x.hypot(at.y), place.y_sign * (at.z - place.axial_mm)))
+        };
+        (-steps..steps).map(|i| (at(i), at(i + 1))).find_map(|(before, after)| {
+            let passes = before.1 * after.1 <= 0.0 && (before.1 - after.1).abs() < 1.0;
+            (passes && before.2.distance(edge.center_mm) < edge.reach_mm).then_some(before.0)
+        })
+    }
+
+    /// Gears beyond what a fixed allowance of 20 mm of rolling and a fifth of the reach in turning could hold: large
+    /// modules with many starts, and few teeth per start. Every pass that holds a point of the region at some moment,
+    /// found by going through all of every sweep, is near; and what is near is few.
+    #[test]
+    fn passes_that_hold_a_point_are_near_whatever_module_starts_and_teeth() {
+        let mut beyond = 0;
+        for (module_mm, starts, teeth, pitch_radius_mm) in
+            [(50.0, 8, 32, 600.0), (50.0, 1, 4, 300.0), (10.0, 4, 11, 90.0), (2.0, 1, 40, 30.0)]
+        {
+            let hob = StraightHob::new(module_mm, starts, pitch_radius_mm);
+            let radius_mm = 0.5 * module_mm * f64::from(teeth);
+            let ratio = f64::from(starts) / f64::from(teeth);
+            // The work's axis lies along y of the head, its pitch cylinder touches the hob's.
+            let motion = MotionTable::new([-PI, TAU * TURNS], &[], |angle| Rigid3 {
+                rotation: DMat3::from_rotation_y(ratio * angle) * DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
+                translation_mm: DVec3::new(pitch_radius_mm + radius_mm, 0.3 * angle, 0.0),
+            });
+            let set = TurningPasses::new(0, &hob, 1.0, motion).expect("a hob");
+            let mut held = 0;
+            for place in 0..3 {
+                let about = 2.0 + 1.7 * f64::from(place);
+                let beside_mm = 0.3 * pitch_radius_mm * f64::from(place - 1);
+                let ball = Ball {
+                    center_mm: DVec3::new(radius_mm * about.cos(), radius_mm * about.sin(), beside_mm),
+                    radius_mm: 0.8 * module_mm,
+                };
+                let near = near_passes(&set, &ball, &[ball]);
+                assert!((near.len() as u32) < set.count() / 4 * 3, "{} of {}", near.len(), set.count());
+                for pass in (0..set.count()).map(|index| set.pass(index)) {
+                    let inside = |i: i32| {
+                        let turned = 2.4 * f64::from(i);
+                        let share = (f64::from(i) / 12.0).sqrt();
+                        let across = DVec3::new(turned.cos(), turned.sin(), (5.0 * turned).sin()).normalize();
+                        ball.center_mm + share * ball.radius_mm * across
+                    };
+                    let Some(swept) = (0..=12).find_map(|i| held_at(&set, &pass, inside(i))) else {
+                        continue;
+                    };
+                    held += 1;
+                    assert!(near.contains(&pass), "module {module_mm}, {starts} starts, {teeth} teeth: {pass:?}");
+                    let at = |swept: f64| set.motion.head_from_work(pass.tool_angle_rad + swept).point(ball.center_mm);
+                    beyond += u32::from((at(swept) - at(0.0)).length() > 20.0);
+                }
+            }
+            println!(
+                "module {module_mm}, {starts} starts, {teeth} teeth: {held} of {} passes hold a point",
+                set.count()
+            );
+            assert!(held > 0);
+        }
+        assert!(beyond > 20, "{beyond} passes move their ball by more than the fixed allowance");
+    }
+
+    /// The rates are bounds of what differences of the motion show, and no more than a fifth above them.
+    #[test]
+    fn rates_are_those_of_the_motion() {
+        let pose = |angle: f64| Rigid3 {
+            rotation: DMat3::from_rotation_z(0.25 * angle),
+            translation_mm: DVec3::new(140.0, 0.0, 2.0 * angle),
+        };
+        let motion = MotionTable::new([-3.0, 40.0], &[17.3], pose);
+        let point = DVec3::new(80.0, 10.0, 5.0);
+        let [speed_mm, turn_rad] = motion.largest_rates(point);
+        let wanted_mm = (0.25 * point.truncate().length()).hypot(2.0);
+        assert!(speed_mm >= wanted_mm && speed_mm < 1.2 * wanted_mm, "{speed_mm} {wanted_mm}");
+        // Largest and least stretch of a rotation's rate: its entries' squares count twice.
+        let wanted_rad = 0.25 * 2_f64.sqrt();
+        assert!(turn_rad >= wanted_rad - 1e-12 && turn_rad < 1.2 * wanted_rad, "{turn_rad} {wanted_rad}");
+    }
 }

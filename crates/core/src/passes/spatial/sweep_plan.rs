@@ -3,7 +3,7 @@
 //! A field is halved in both directions again and again, down to tiles of 16 by 32 dexels and then to their cells of 4
 //! by 8. At every level the sweeps that the level above has kept for the region are sampled on nine rays, and those
 //! that another one surely undercuts are culled (see `sweep_samples`, `sweep_bounds`). The search begins with the
-//! passes whose blades pass the field in its place along the tool's axis (`sweep_near`). On a third-order gear of 50 mm
+//! passes whose blades may hold a point of the field (`sweep_near`). On a third-order gear of 50 mm
 //! face these are some thousands of 84,800; a sixteenth of the flank keeps some hundreds, a tile half a dozen, a cell
 //! between one and two.
 //!
@@ -11,7 +11,7 @@
 
 use super::sweep::SweepRecord;
 use super::sweep_bounds::RegionBounds;
-use super::sweep_near::{near_passes, passes_beside};
+use super::sweep_near::{Ball, near_passes};
 use super::sweep_regions::{RAYS, Region, SIDE};
 use super::sweep_samples::{Sampled, SweepCandidate, SweepFrame};
 use super::sweep_starts::find_starts;
@@ -25,6 +25,8 @@ use std::sync::Arc;
 
 /// All cells of a tile.
 const ALL_CELLS: u16 = u16::MAX;
+/// Parts of a field in each direction whose balls are looked at first. It decides about time alone.
+const PARTS: usize = 4;
 /// Surroundings reach this much further than the ends of nine rays, for what bulges between them: a surface of radius
 /// rho bulges by a / (2 rho) of the reach over a region that reaches a, so that 5 % holds up to a = rho / 10. For
 /// larger regions it was found by trial; the comparison with all passes in `tests/suite/hobbing/spatial.rs` stands for
@@ -48,12 +50,18 @@ pub struct SweepPlan {
 impl SweepPlan {
     /// Plan with candidate passes only.
     pub fn new(field: &SpatialField, set: &TurningPasses) -> Self {
-        SweepPlanner { field, set, prune: true }.plan()
+        SweepPlanner { field, set, passes: Considered::Candidates }.plan()
     }
 
     /// Plan with every segment of every pass that can reach the field at all: what candidates are compared with.
     pub fn brute_force(field: &SpatialField, set: &TurningPasses) -> Self {
-        SweepPlanner { field, set, prune: false }.plan()
+        SweepPlanner { field, set, passes: Considered::Near }.plan()
+    }
+
+    /// Plan with every segment of every pass of the operation, wherever it is: what the first look is compared with, on
+    /// short operations.
+    pub fn of_all_passes(field: &SpatialField, set: &TurningPasses) -> Self {
+        SweepPlanner { field, set, passes: Considered::All }.plan()
     }
 
     /// (Dexel, pass) pairs of whole tiles: what a backend visits that does not look at cells.
@@ -80,7 +88,18 @@ impl SweepPlan {
 struct SweepPlanner<'a> {
     field: &'a SpatialField,
     set: &'a TurningPasses,
-    prune: bool,
+    passes: Considered,
+}
+
+/// Which passes a plan looks at.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Considered {
+    /// Those that may leave the lowest surface.
+    Candidates,
+    /// All whose blades come near the field.
+    Near,
+    /// All.
+    All,
 }
 
 impl SweepPlanner<'_> {
@@ -91,20 +110,21 @@ impl SweepPlanner<'_> {
         }
         let whole = Region::whole(self.field);
         let (origin_mm, reach_mm) = self.surroundings(&whole.dexels());
-        let mut near = near_passes(self.set, origin_mm, reach_mm);
-        if self.prune {
-            let points_mm = self.ends_mm(&whole.dexels(), origin_mm);
-            near.retain(|pass| passes_beside(self.set, pass, &points_mm, reach_mm));
-        }
+        let ball = self.ball(0..self.field.columns(), 0..self.field.rows());
+        let near = match self.passes {
+            Considered::Candidates => near_passes(self.set, &ball, &self.parts()),
+            Considered::Near => near_passes(self.set, &ball, &[ball]),
+            Considered::All => (0..self.set.count()).map(|index| self.set.pass(index)).collect(),
+        };
         let near: Vec<SweepCandidate> = near
             .into_iter()
-            .flat_map(|pass| self.set.stretches(&pass).map(move |stretch| (pass, stretch)))
-            .flat_map(|(pass, stretch)| {
+            .flat_map(|pass| self.set.pieces(&pass).map(move |piece| (pass, piece)))
+            .flat_map(|(pass, piece)| {
                 let segments = self.set.edges.segments_of(self.set.place(&pass).blade);
-                segments.map(move |segment| SweepCandidate { pass, stretch, segment })
+                segments.map(move |segment| SweepCandidate { pass, piece, segment })
             })
             .collect();
-        if self.prune {
+        if self.passes == Considered::Candidates {
             let highest_mm = f64::from(self.field.blank_mm.iter().copied().fold(0.0, f32::max));
             let frame = self.frame(origin_mm, reach_mm, &near).0;
             let near = self.bounds(&whole, &frame).near(highest_mm);
@@ -167,13 +187,26 @@ impl SweepPlanner<'_> {
         (origin_mm, BULGE * ends.fold(0.0, f64::max))
     }
 
-    /// A point and the ends of nine rays: at the lowest height that counts, and at the blank's.
-    fn ends_mm(&self, dexels: &[usize; RAYS], middle_mm: DVec3) -> Vec<DVec3> {
-        let ends = dexels.iter().flat_map(|&dexel| {
-            let ray = self.field.ray(dexel / self.field.rows(), dexel % self.field.rows());
-            [2.0 * self.field.low_mm, f64::from(self.field.blank_mm[dexel])].map(|h| ray.at(h))
-        });
-        [middle_mm].into_iter().chain(ends).collect()
+    /// A ball that holds all that can be found on some rays: a root counts from twice the lowest height up to the
+    /// blank's.
+    fn ball(&self, columns: Range<usize>, rows: Range<usize>) -> Ball {
+        let field = self.field;
+        Ball::around(columns.flat_map(|column| rows.clone().map(move |row| (column, row))).flat_map(|(column, row)| {
+            let ray = field.ray(column, row);
+            [2.0 * field.low_mm, f64::from(field.blank_mm[field.index(column, row)])].map(|h| ray.at(h))
+        }))
+    }
+
+    /// Balls of parts of the field: together they are much slimmer than one of the whole.
+    fn parts(&self) -> Vec<Ball> {
+        let ranges = |lines: usize| {
+            let step = lines.div_ceil(PARTS);
+            (0..lines).step_by(step).map(move |from| from..(from + step).min(lines))
+        };
+        ranges(self.field.columns())
+            .flat_map(|columns| ranges(self.field.rows()).map(move |rows| (columns.clone(), rows)))
+            .map(|(columns, rows)| self.ball(columns, rows))
+            .collect()
     }
 
     fn segments(&self) -> &Arc<[Segment]> {

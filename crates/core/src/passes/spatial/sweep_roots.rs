@@ -103,12 +103,13 @@ impl SweepRecord {
 
 impl SweepRecord {
     /// Moments, distances from the tool's axis less the segment's, and places along the blade's y less the segment's,
-    /// of eight points (of the rays, at these heights), after some steps. A step gains as many digits as the tool turns
-    /// faster than the work.
+    /// of eight points (of the rays, at these heights), after some steps, and the last steps of the moments. A step gains
+    /// as many digits as the tool turns faster than the work; whoever needs the places themselves looks at the last one.
     #[inline(always)]
-    pub fn places(&self, rays: &Rays, height_mm: &Lanes, steps: usize) -> [Lanes; 3] {
+    pub fn places(&self, rays: &Rays, height_mm: &Lanes, steps: usize) -> [Lanes; 4] {
         let paths = paths(self, rays);
         let (mut t, mut rho, mut y) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let mut step_t = [0.0; LANES];
         for _ in 0..steps {
             for l in 0..LANES {
                 let (c, d) = (&paths.place, &paths.along);
@@ -123,12 +124,14 @@ impl SweepRecord {
                 let big = r + self.radius_mm;
                 let (big, q) = (big + c1 * big + s * q, q + c1 * q - s * big);
                 let distance = (big * big + q * q).sqrt();
-                t[l] = q / (big + distance);
+                let next = q / (big + distance);
+                step_t[l] = next - t[l];
+                t[l] = next;
                 rho[l] = distance - self.radius_mm;
                 y[l] = along;
             }
         }
-        [t, rho, y]
+        [t, rho, y, step_t]
     }
 }
 

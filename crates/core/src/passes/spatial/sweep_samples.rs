@@ -25,8 +25,9 @@ const FINE: usize = 2 * SIDE - 1;
 /// a ray meets are undecided, and kept unless their box stays clear of the rays.
 const GRAZING_COSINE: f64 = 0.1;
 /// A candidate goes where all nine rays run out of its segment at more than this cosine. Between the rays the cosine
-/// changes by less, on regions of the sizes in use; no proof. The comparison with all passes in
-/// `tests/suite/hobbing/spatial.rs` stands for it.
+/// changes by less, on regions of the sizes in use; no proof. Too small, a sweep is dropped that some ray between the
+/// nine enters, and the surface stays too high there. Brute force samples nothing: the comparison with it in
+/// `tests/suite/hobbing/spatial.rs` sees such a loss on the fields it looks at, and no other.
 const LEAVING_COSINE: f64 = 0.05;
 /// Newton steps below this, in mm and in t, are the last: the error after them, of the order of their squares, is some
 /// picometres.
@@ -34,21 +35,21 @@ pub(super) const LAST_STEP: f64 = 1e-5;
 /// No root further away is one, mm: what a ray of a flank may keep is some millimetres long.
 const FARTHEST_MM: f64 = 1e3;
 
-/// A blade's sweep by one of its segments, as far as one stretch of the motion goes.
+/// A blade's sweep by one of its segments, as far as one piece of the motion goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SweepCandidate {
     /// The pass.
     pub pass: BladePass,
-    /// Stretch of the motion.
-    pub stretch: u32,
+    /// Piece of the motion.
+    pub piece: u32,
     /// Index of the segment among those of all edges.
     pub segment: usize,
 }
 
 impl SweepCandidate {
-    /// Pass and stretch: one smooth sweep.
+    /// Pass and piece: one smooth sweep.
     pub fn sweep(&self) -> (u32, u32) {
-        (self.pass.pass, self.stretch)
+        (self.pass.pass, self.piece)
     }
 }
 
@@ -76,7 +77,7 @@ impl SweepFrame {
         let mut frame = Self { origin_mm, reach_mm, candidates: Vec::new(), records: Vec::new() };
         let mut index_of = Vec::with_capacity(candidates.len());
         for of_sweep in candidates.chunk_by(|a, b| a.sweep() == b.sweep()) {
-            let sweep = Sweep::new(set, &of_sweep[0].pass, of_sweep[0].stretch, origin_mm, reach_mm);
+            let sweep = Sweep::new(set, &of_sweep[0].pass, of_sweep[0].piece, origin_mm, reach_mm);
             for candidate in of_sweep {
                 index_of.push(sweep.is_some().then_some(frame.records.len() as u32));
                 if let Some(sweep) = &sweep {

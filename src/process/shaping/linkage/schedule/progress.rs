@@ -107,15 +107,15 @@ impl TimeLaw {
         let times: Vec<f64> = even.chain(breaks_rad.iter().copied()).map(seconds_per_rad).collect();
         let smallest = times.iter().copied().fold(f64::INFINITY, f64::min);
         let largest = times.iter().copied().fold(0.0, f64::max);
-        let elapsed = if smallest > 1e-6 * largest {
-            PeriodicIntegral::new(seconds_per_rad, &breaks_rad, 16, 1e-12 * largest)
-        } else {
-            None
-        };
-        let elapsed = elapsed.ok_or_else(|| {
+        let refused = |why: String| {
             let problem = "equal times need an axis with a speed limit that never stands still; the limited ones do";
-            Refusal::new(key, problem, way_out)
-        })?;
+            Refusal::new(key, format!("{problem}: {why}"), way_out)
+        };
+        if smallest <= 1e-6 * largest {
+            return Err(refused(format!("{smallest:e} s per radian at the slowest, {largest:e} at the fastest")));
+        }
+        let elapsed = PeriodicIntegral::new(seconds_per_rad, &breaks_rad, 16, 1e-12 * largest)
+            .map_err(|why| refused(why.to_string()))?;
         Ok(Self { elapsed, limits, offset_mm })
     }
 
