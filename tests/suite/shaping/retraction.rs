@@ -195,11 +195,11 @@ fn the_printed_example_never_reaches_the_angle_at_which_it_is_said_to_interfere(
     };
     let (angle, smallest_mm) = steepest(0.3, 13);
     println!("printed design: {angle:.4} deg, {smallest_mm:.4} mm");
-    // The place of the largest angle lies between places that are 5 degrees of its flat top apart.
-    assert!((angle - 9.8127).abs() < 0.005 && smallest_mm > 0.08, "{angle} {smallest_mm}");
+    // Places stand 0.59 deg apart: half of that beside its peak, the angle is some hundredths of a degree less.
+    assert!((angle - 9.8127).abs() < 0.02 && smallest_mm > 0.08, "{angle} {smallest_mm}");
     let (angle, smallest_mm) = steepest(0.6, 17);
     println!("b = 0.6: {angle:.4} deg, {smallest_mm:.4} mm");
-    assert!((angle - 20.318).abs() < 0.02 && smallest_mm < 0.0, "{angle} {smallest_mm}");
+    assert!((angle - 20.318).abs() < 0.05 && smallest_mm < 0.0, "{angle} {smallest_mm}");
 }
 
 /// What a run of the whole blank says of the return strokes from `first` on: deepest on the gear and on stock, mm, with
@@ -347,8 +347,8 @@ fn the_time_that_the_axes_need_is_that_of_half_speeding_up_and_half_slowing_down
     let limits = dynamics::limits(&job.machine.limits);
     let motion = RetractionMotion::new(&operation.schedule, &operation.retraction, &job.ram_times(), &limits);
     let motion = motion.expect("the axes draw back");
-    // At phi = 0 normal and line of centres are one: the whole 0.5 mm is travel of X. 500 mm/s2 for half of it, 0.25 mm,
-    // take sqrt(2 s / a) = 31.6 ms, and as long to stop.
+    // At phi = 0 normal and line of centres are one: the whole 0.5 mm is travel of X. 500 mm/s2 for half of it, 0.25
+    // mm, take sqrt(2 s / a) = 31.6 ms, and as long to stop.
     let travel = motion.axes[2].travel;
     assert!((travel - 0.5).abs() < 1e-6, "{motion:?}");
     let half_s = (2.0 * 0.5 * travel / 500.0_f64).sqrt();

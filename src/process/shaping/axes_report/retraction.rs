@@ -120,8 +120,8 @@ pub(super) fn warnings(axes: &OperationAxes, motion: &RetractionMotion) -> Vec<S
         warnings.push(format!("the axes cannot draw the cutter back: {NO_TIME}"));
     } else if let Some(factor) = motion.slowdown().filter(|factor| *factor > 1.0) {
         warnings.push(format!(
-            "drawing the cutter back takes the axes {} ms and the ram leaves {} ms: run at most {:.0} double strokes per \
-             minute, give more machine.approach_mm and machine.overrun_mm, or back off by less",
+            "drawing the cutter back takes the axes {} ms and the ram leaves {} ms: run at most {:.0} double strokes \
+             per minute, give more machine.approach_mm and machine.overrun_mm, or back off by less",
             significant(1e3 * motion.needed_s.unwrap_or_default(), 3),
             significant(1e3 * motion.time_s, 3),
             axes.job.machine.double_strokes_per_minute / factor

@@ -74,8 +74,8 @@ fn surface(sheet: &mut Sheet, operation: &PreparedOperation, survey: &Survey, ro
     }
     if clearance_um >= 0.0 {
         return Some(format!(
-            "operation {name}: the returning cutter clears the teeth near polar angle {phi_deg:.2} deg by {clearance_um:.2} \
-             um only: set a larger machine.back_off_mm, or machine.retraction = \"auto\""
+            "operation {name}: the returning cutter clears the teeth near polar angle {phi_deg:.2} deg by \
+             {clearance_um:.2} um only: set a larger machine.back_off_mm, or machine.retraction = \"auto\""
         ));
     }
     let overlap_mm2 = survey.overlap_mm2(least);
@@ -85,8 +85,8 @@ fn surface(sheet: &mut Sheet, operation: &PreparedOperation, survey: &Survey, ro
         Retraction::Normal | Retraction::Turned | Retraction::Auto => "set another machine.back_off_mm",
     };
     Some(format!(
-        "operation {name}: the returning cutter stands {:.1} um deep in the teeth near polar angle {phi_deg:.2} deg, over \
-         {overlap_mm2:.4} mm2 of their section: {way_out}",
+        "operation {name}: the returning cutter stands {:.1} um deep in the teeth near polar angle {phi_deg:.2} deg, \
+         over {overlap_mm2:.4} mm2 of their section: {way_out}",
         -clearance_um
     ))
 }

@@ -1,10 +1,10 @@
 //! Programs that draw the cutter back for every return stroke.
 //!
-//! In: a schedule, its retraction, the moments at which the ram passes the ends of the face. Out: knots, four to a double
-//! stroke: the cutting stroke leaves the face below, the cutter is drawn back when the return stroke enters it and still
-//! is when it leaves it above, and stands where the next stroke cuts when that one enters the face. Where the feed rests
-//! during the strokes, the axes rest between the first two and the last two of these; the feed is then made above the
-//! face. Straight lines join the knots, as everywhere in these programs.
+//! In: a schedule, its retraction, the moments at which the ram passes the ends of the face. Out: knots, four to a
+//! double stroke: the cutting stroke leaves the face below, the cutter is drawn back when the return stroke enters it
+//! and still is when it leaves it above, and stands where the next stroke cuts when that one enters the face. Where the
+//! feed rests during the strokes, the axes rest between the first two and the last two of these; the feed is then made
+//! above the face. Straight lines join the knots, as everywhere in these programs.
 //!
 //! A whole stroke coordinate is the moment at which the cutting stroke passes the middle of the face.
 
@@ -18,8 +18,8 @@ use crate::process::shaping::returns::motion::{RamTimes, axes_of};
 const CUT_SHARES: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
 
 impl AxisProgram {
-    /// The strokes of a schedule with their return strokes, rounded as they will be written for `contour_error_mm`; with
-    /// `continuous` the feed goes on during the strokes.
+    /// The strokes of a schedule with their return strokes, rounded as they will be written for `contour_error_mm`;
+    /// with `continuous` the feed goes on during the strokes.
     pub fn retracting(
         schedule: &StrokeSchedule,
         plan: &RetractionPlan,

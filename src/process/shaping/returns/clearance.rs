@@ -75,7 +75,7 @@ impl ReturnRoom {
         earlier: &[&dyn Fn(f64) -> CutterPose],
     ) -> Self {
         Self {
-            swept: Swept::new(cutter, teeth, pose, earlier),
+            swept: Swept::new(cutter, teeth, module_mm, pose, earlier),
             polygon: EdgePolygon::new(cutter.edge(), EDGE_SPACING_MODULES * module_mm),
             module_mm,
         }

@@ -1,10 +1,11 @@
 //! What retraction asks of the machine's axes: travel, speed, acceleration, and the time that it takes.
 //!
 //! In: a schedule, a retraction plan that the axes carry out, the ram's travel, the axis limits. Out:
-//! [`RetractionMotion`]. Law: the axes may move while the ram is outside the face. With the stroke length L = approach +
-//! face + overrun and the middle of the stroke z_m, the ram is at a place z at theta = arccos(2 (z - z_m) / L) and at 2
-//! pi - theta; below the face it stays for 1 - theta(-B/2) / pi of a double stroke, above it for theta(B/2) / pi. In
-//! the shorter of the two, T, an axis travels s from rest to rest, half of it speeding up evenly and half slowing down:
+//! [`RetractionMotion`]. Law: the axes may move while the ram is outside the face. With the length L of approach,
+//! face and overrun and the middle of the stroke z_m, the ram is at a place z at theta = arccos(2 (z - z_m) / L)
+//! and at 2 pi - theta; below the face it stays for 1 - theta(-B/2) / pi of a double stroke, above it for theta(B/2) /
+//! pi. In the shorter of the two, T, an axis travels s from rest to rest, half of it speeding up evenly and half
+//! slowing down:
 //!
 //! ```text
 //! speed 2 s / T        acceleration 4 s / T^2

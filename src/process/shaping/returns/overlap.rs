@@ -19,8 +19,8 @@ const LONGEST_STEP_MM: f64 = 0.1;
 
 impl ReturnRoom {
     /// Area that the retracted cutter has in common with what the operation leaves, mm2; `retracted` is its pose (gear
-    /// from cutter) after the stroke at a place, `beyond_mm` says how far a point lies outside the uncut blank, negative
-    /// inside.
+    /// from cutter) after the stroke at a place, `beyond_mm` says how far a point lies outside the uncut blank,
+    /// negative inside.
     pub fn overlap_mm2(&self, place: usize, retracted: &Rigid2, beyond_mm: impl Fn(DVec2) -> f64) -> f64 {
         let edge = &self.polygon.corners_mm[..=self.polygon.edge_chords()];
         let spacing_mm = LINE_SPACING_MODULES * self.module_mm;

@@ -13,8 +13,8 @@
 //! high - 90 deg <= tilt <= low + 90 deg
 //! ```
 //!
-//! then clears, for a small back-off. The middle between the largest lower and the smallest upper bound of a turn is one
-//! angle for the whole operation, as a machine sets it.
+//! then clears, for a small back-off. The middle between the largest lower and the smallest upper bound of a turn is
+//! one angle for the whole operation, as a machine sets it.
 
 use super::clearance::{Clearance, ReturnRoom};
 use super::swept::POSES_PER_PITCH;
@@ -30,7 +30,7 @@ use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
 /// Places to a pitch at which return strokes are looked at: the room round the cutter repeats from tooth to tooth.
-pub const PHASES_PER_PITCH: usize = 12;
+pub const PHASES_PER_PITCH: usize = 6;
 
 /// Return strokes of an operation.
 #[derive(Debug)]

@@ -20,6 +20,9 @@ pub const POSES_PER_PITCH: usize = 48;
 /// Pitches before and after a stroke whose poses can cover what the cutter meets there; a cutter tooth is in the work
 /// for less than three on external gears, and internal gears hold it longer.
 const REACH_PITCHES: usize = 6;
+/// A tooth passes a point once: the depth rises to its largest value and falls. When it has fallen by so many modules,
+/// the tooth is leaving.
+const LEAVING_MODULES: f64 = 0.5;
 /// What a place of the edge at most stands in earlier poses if it touches what they have left, mm.
 const CONTACT_MM: f64 = 1e-3;
 
@@ -37,14 +40,16 @@ pub struct Swept {
     ways: Vec<Way>,
     distance: ToothDistance,
     poses_per_turn: usize,
+    module_mm: f64,
 }
 
 impl Swept {
     /// For an operation that leads a cutter through `pose(phi)`, phi unwrapped, after the `earlier` ones; the gear has
-    /// `teeth` teeth.
+    /// `teeth` teeth of `module_mm`.
     pub fn new(
         cutter: &ShaperCutter,
         teeth: u32,
+        module_mm: f64,
         pose: &dyn Fn(f64) -> CutterPose,
         earlier: &[&dyn Fn(f64) -> CutterPose],
     ) -> Self {
@@ -62,6 +67,7 @@ impl Swept {
             ways: std::iter::once(way(pose)).chain(earlier.iter().map(|pose| way(pose))).collect(),
             distance: ToothDistance::new(cutter),
             poses_per_turn,
+            module_mm,
         }
     }
 
@@ -133,18 +139,25 @@ impl Swept {
             Span::All(here) => (here, here + reach),
         };
         let (mut deepest_mm, mut at) = (f64::NEG_INFINITY, here);
+        let leaving_mm = LEAVING_MODULES * self.module_mm;
         // From the stroke outwards: what it has cut itself is found first.
-        let order = (here + 1 - reach..=here).rev().chain(here + 1..=last);
-        for index in order {
-            // No pose covers a point deeper than its tip circle does.
-            if tip_mm - p.distance(way.poses[index].translation_mm) <= deepest_mm {
-                continue;
-            }
-            let here_mm = depth(&way.poses[index]);
-            if here_mm > deepest_mm {
-                (deepest_mm, at) = (here_mm, index);
-                if deepest_mm >= enough_mm {
-                    return deepest_mm;
+        let ways_out: [&mut dyn Iterator<Item = usize>; 2] =
+            [&mut (here + 1 - reach..=here).rev(), &mut (here + 1..=last)];
+        for poses in ways_out {
+            for index in poses {
+                // No pose covers a point deeper than its tip circle does.
+                let most_mm = tip_mm - p.distance(way.poses[index].translation_mm);
+                if most_mm <= deepest_mm - leaving_mm {
+                    break;
+                }
+                let here_mm = depth(&way.poses[index]);
+                if here_mm > deepest_mm {
+                    (deepest_mm, at) = (here_mm, index);
+                    if deepest_mm >= enough_mm {
+                        return deepest_mm;
+                    }
+                } else if here_mm < deepest_mm - leaving_mm {
+                    break;
                 }
             }
         }
