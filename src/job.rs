@@ -1,22 +1,27 @@
 //! What meshes, pictures, maps and texture ask of a job, whatever its process.
 //!
-//! In: a prepared job. Out: the target's profiles section by section, and surfaces of flanks and tips after all
-//! operations. Every process answers in its own way; nothing behind this interface knows strokes or hobs.
+//! In: a prepared job. Out: points and normals of the target in space, and surfaces of flanks after all operations
+//! ([`GearJob`]); nothing behind this interface knows a tool or a process. What only a cylindrical gear has, a pitch
+//! curve and transverse sections, is a trait of its own ([`CylindricalGear`]): its closed body and the page's mesh of
+//! its target rest on that, and a process whose gear has neither makes these two itself.
 
 use crate::cut::Backend;
-use crate::dexel::Layer;
+use crate::dexel::{Layer, Ray};
 use crate::error::Result;
 use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
 use crate::scene::Scene;
+use crate::scene::model::Gear;
 use crate::surface::SurfaceGrid;
 use crate::surface::triangles::SectionProfile;
 use crate::terms::Side;
+use glam::DVec3;
+use std::f64::consts::PI;
 
 /// How far below the target a ray records cuts, in modules: undercut and wrong linkages stay well inside.
 pub const RAY_DEPTH_MODULES: f64 = 0.5;
 /// How far above the target a ray can reach, in modules: half a pitch, where the neighbouring tooth begins.
-pub const RAY_HEIGHT_MODULES: f64 = 0.5 * std::f64::consts::PI;
+pub const RAY_HEIGHT_MODULES: f64 = 0.5 * PI;
 /// Root fields are coarser than flanks, at least so far apart along profile and tooth: roots carry no feed marks that
 /// matter.
 pub const ROOT_SPACING_MM: [f64; 2] = [0.02, 1.0];
@@ -27,12 +32,6 @@ pub const TIP_SPACING_MM: [f64; 2] = [0.02, 1.0];
 pub trait GearJob: Sync {
     /// The scene.
     fn scene(&self) -> &Scene;
-
-    /// The pitch curve.
-    fn curve(&self) -> &PitchCurve;
-
-    /// The stock.
-    fn blank(&self) -> &Blank;
 
     /// Name of every operation and how far its tool stays back from full depth, mm, in order; the last one finishes.
     fn operations(&self) -> Vec<(&str, f64)>;
@@ -55,6 +54,54 @@ pub trait GearJob: Sync {
     /// # Errors
     /// The tool generates no flank there.
     fn evaluated_profile_mm(&self, tooth: u32, side: Side) -> Result<[f64; 2]>;
+
+    /// Teeth between whose flanks marks differ most: where a scene names no window, texture is looked at there.
+    fn teeth_that_differ_most(&self) -> Vec<u32>;
+
+    /// Where a tooth stands and which way it looks.
+    fn tooth_frame(&self, tooth: u32) -> ToothFrame;
+
+    /// Arcs from the form point about `spacing_mm` apart, and points and normals of the target flank there, row after
+    /// row at the places `rows_mm` along the tooth.
+    ///
+    /// # Errors
+    /// The tool generates no flank there.
+    fn target_points(
+        &self,
+        tooth: u32,
+        side: Side,
+        spacing_mm: f64,
+        rows_mm: &[f64],
+    ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)>;
+
+    /// What every operation left on a part of a flank: arcs from the form point times places along the tooth, mm.
+    ///
+    /// # Errors
+    /// The tool generates no flank there; the backend's.
+    fn cut_flank(
+        &self,
+        backend: &dyn Backend,
+        tooth: u32,
+        side: Side,
+        arcs_mm: &[f64],
+        rows_mm: &[f64],
+    ) -> Result<Vec<Layer>>;
+
+    /// Surface of a flank after all operations with all the dexels of the scene's spacing, no further than `reach_mm`
+    /// from the middle of the face.
+    ///
+    /// # Errors
+    /// The tool generates no flank there; the backend's.
+    fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid>;
+}
+
+/// A job whose gear is cylindrical: it has a pitch curve, and every row of a flank stands in one transverse section.
+pub trait CylindricalGear: GearJob {
+    /// The pitch curve.
+    fn curve(&self) -> &PitchCurve;
+
+    /// The stock.
+    fn blank(&self) -> &Blank;
 
     /// Places along the tooth at which the target's sections say all of its shape: both ends of the face where it is
     /// straight.
@@ -80,31 +127,54 @@ pub trait GearJob: Sync {
     /// The tool generates no flank there.
     fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>>;
 
-    /// What every operation left on a part of a flank: arcs from the form point times places along the tooth, mm.
-    ///
-    /// # Errors
-    /// The tool generates no flank there; the backend's.
-    fn cut_flank(
-        &self,
-        backend: &dyn Backend,
-        tooth: u32,
-        side: Side,
-        arcs_mm: &[f64],
-        rows_z_mm: &[f64],
-    ) -> Result<Vec<Layer>>;
-
-    /// Surface of a flank after all operations with all the dexels of the scene's spacing, no further than `reach_mm`
-    /// from the middle of the face.
-    ///
-    /// # Errors
-    /// The tool generates no flank there; the backend's.
-    fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid>;
-
     /// Surface of the tip land of a tooth after all operations; `None` on a pointed tooth.
     ///
     /// # Errors
     /// The tool generates no flank there; the backend's.
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>>;
+}
+
+/// Where a tooth stands, gear frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ToothFrame {
+    /// Its middle on the pitch surface, mm.
+    pub place_mm: DVec3,
+    /// Unit direction from root to tip.
+    pub front: DVec3,
+    /// Unit direction to the left of a viewer who stands before its tip and has `along` upwards: that of its left flank on
+    /// an external gear, of its right flank in a ring.
+    pub left: DVec3,
+    /// Unit direction along the tooth.
+    pub along: DVec3,
+}
+
+impl ToothFrame {
+    /// Frame of a tooth of a cylindrical gear.
+    pub fn of_cylinder(blank: &Blank, gear: &Gear, tooth: u32) -> Self {
+        let pitch_mm = PI * gear.transverse_module_mm();
+        let curve = blank.curve();
+        let frame = curve.frame(curve.phi_at_arc(pitch_mm * (f64::from(tooth) - 0.5)));
+        Self {
+            place_mm: frame.point_mm.extend(0.0),
+            front: blank.towards_tip(&frame).extend(0.0),
+            left: (blank.kind().tip_sign() * frame.tangent).extend(0.0),
+            along: DVec3::Z,
+        }
+    }
+}
+
+/// Teeth of a cylindrical gear with the largest and with the smallest radius of the pitch curve, where its curvature and
+/// so the marks differ most.
+pub fn teeth_of_extreme_radius(curve: &PitchCurve, teeth: u32) -> Vec<u32> {
+    let pitch_mm = curve.perimeter_mm() / f64::from(teeth);
+    // Differences below a nanometre are rounding: a circular gear then takes its first tooth.
+    let radius_nm = |tooth: u32| {
+        let phi = curve.phi_at_arc((f64::from(tooth) - 0.5) * pitch_mm);
+        (curve.frame(phi).point_mm.length() * 1e6).round() as i64
+    };
+    let largest = (1..=teeth).max_by_key(|&tooth| (radius_nm(tooth), std::cmp::Reverse(tooth))).unwrap_or(1);
+    let smallest = (1..=teeth).min_by_key(|&tooth| (radius_nm(tooth), tooth)).unwrap_or(1);
+    vec![largest, smallest]
 }
 
 /// Places evenly over a face of `width_mm` about `spacing_mm` apart, both ends included.

@@ -7,7 +7,7 @@
 //! Heights are normal deviations: from the target flank along its outward normal, positive where material is left.
 
 use crate::backend::{self, BackendWish, Choice, OnFailure};
-use crate::dexel::{Layer, NO_PASS};
+use crate::dexel::{Layer, NO_PASS, Ray};
 use crate::error::{Refusal, Result};
 use crate::job::{GearJob, rows_z_mm};
 use crate::process::{self, ProcessJob};
@@ -15,7 +15,7 @@ use crate::run::Run;
 use crate::scene::LoadedScene;
 use crate::terms::Side;
 use crate::units::UM_PER_MM;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 /// A scene made ready to cut, with what cuts it.
 pub struct Job<'a> {
@@ -76,7 +76,7 @@ pub struct Flank {
     pub operations: Vec<String>,
     layers: Vec<Layer>,
     /// Target point and unit normal of each column, row after row.
-    target: Vec<Vec<(DVec2, DVec3)>>,
+    target: Vec<Vec<Ray>>,
 }
 
 impl Flank {
@@ -88,7 +88,7 @@ impl Flank {
             return Err(Refusal::new("gear.teeth", problem, "ask for a tooth from 1 to the number of teeth").into());
         }
         let face_mm = rows_z_mm(scene.gear.face_width_mm, scene.fields.lead_spacing_mm);
-        let (arcs_mm, target) = gear.target_profiles(tooth, side, scene.fields.profile_spacing_mm, &face_mm)?;
+        let (arcs_mm, target) = gear.target_points(tooth, side, scene.fields.profile_spacing_mm, &face_mm)?;
         let layers = gear.cut_flank(choice.backend.as_ref(), tooth, side, &arcs_mm, &face_mm)?;
         let operations = gear.operations().into_iter().map(|(name, _)| name.to_owned()).collect();
         Ok(Self { tooth, side, arcs_mm, face_mm, operations, layers, target })
@@ -129,8 +129,7 @@ impl Flank {
     /// Indices beyond the flank's.
     pub fn point_mm(&self, operation: usize, column: usize, row: usize) -> Option<DVec3> {
         let height_mm = self.deviation_um(operation, column, row)? / UM_PER_MM;
-        let (point, normal) = self.target[row][column];
-        Some(point.extend(self.face_mm[row]) + height_mm * normal)
+        Some(self.target[row][column].at(height_mm))
     }
 
     /// Profile in one row after an operation: arc from the form point, mm, and normal deviation, um, where a pass came.

@@ -80,7 +80,7 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
         let CutFlank { rays, layers, stats, report } = cut_one(tooth, side)?;
         let maps = needs_maps(parts).then(|| {
             let arcs_mm = rays.arcs_mm();
-            let mut maps = FlankMaps::sample(tooth, side, [&arcs_mm, rays.rows_z_mm()], &layers, output.map_spacing_mm);
+            let mut maps = FlankMaps::sample(tooth, side, [&arcs_mm, rays.rows_mm()], &layers, output.map_spacing_mm);
             maps.chips = chips(&rays, &maps);
             maps
         });

@@ -1,10 +1,10 @@
-//! Cuts what a closed gear needs beside its flanks and roots: tip lands.
+//! Cuts what a closed cylindrical gear needs beside its flanks and roots: tip lands.
 //!
 //! In: a job, its flanks and roots. Out: [`GearSurfaces`], from which the closed outline is made.
 
 use crate::cut::Backend;
 use crate::error::Result;
-use crate::job::GearJob;
+use crate::job::CylindricalGear;
 use crate::surface::flanks::SurfaceGrid;
 use crate::surface::outline::{GearSurfaces, ToothSurfaces};
 use rayon::prelude::*;
@@ -18,7 +18,7 @@ use rayon::prelude::*;
 /// # Panics
 /// A flank or a root is missing.
 pub fn complete(
-    job: &dyn GearJob,
+    job: &dyn CylindricalGear,
     backend: &dyn Backend,
     flanks: Vec<SurfaceGrid>,
     roots: Vec<SurfaceGrid>,

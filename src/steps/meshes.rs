@@ -4,7 +4,7 @@ use crate::colormap::ColourScale;
 use crate::cut::Backend;
 use crate::cut::CutBlank;
 use crate::error::Result;
-use crate::job::GearJob;
+use crate::job::{CylindricalGear, GearJob};
 use crate::output::folder::OutputFolder;
 use crate::output::mesh_file::MeshFile;
 use crate::output::mesh_glb::write_glb;
@@ -52,12 +52,12 @@ pub fn write_flank(
     write_ply(&folder.path(format!("mesh/flanks/{name}.ply"))?, &file)
 }
 
-/// The gear as a closed body; tips are cut here.
+/// A cylindrical gear as a closed body; tips are cut here.
 ///
 /// # Errors
 /// The backend's; a bore or a rim that reaches the teeth.
 pub fn gear(
-    job: &dyn GearJob,
+    job: &dyn CylindricalGear,
     backend: &dyn Backend,
     flanks: Vec<SurfaceGrid>,
     roots: Vec<SurfaceGrid>,

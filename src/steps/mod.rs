@@ -30,7 +30,7 @@ use crate::output::flank_maps::OperationMaps;
 use crate::output::folder::OutputFolder;
 use crate::output::progress::Progress;
 use crate::output::report::{Page, REPORT_FILE};
-use crate::surface::SurfaceGrid;
+use crate::surface::Mesh;
 use crate::terms::Side;
 use parts::{Part, Parts};
 use rayon::prelude::*;
@@ -155,23 +155,22 @@ pub fn write_report(tools: &Tools, page: impl FnOnce() -> Result<Page>) -> Resul
     Ok(())
 }
 
-/// Meshes of the whole gear and the scene's pictures of it, from all flanks and roots in order; whether all pictures
-/// were drawn.
+/// Meshes of the whole gear and the scene's pictures of it; whether all pictures were drawn. `body` makes the gear's
+/// closed body: [`meshes::gear`] for a cylindrical one.
 ///
 /// # Errors
-/// The backend's, files.
+/// Those of `body`, but for a refusal; the backend's, files.
 pub fn write_meshes_and_pictures(
     job: &dyn GearJob,
-    flanks: Vec<SurfaceGrid>,
-    roots: Vec<SurfaceGrid>,
     tools: &Tools,
+    body: impl FnOnce() -> Result<Mesh>,
 ) -> Result<bool> {
     let Tools { backend, progress, interrupt, folder, parts, notes, .. } = *tools;
     let asked = if parts.has(Part::Pictures) { job.scene().pictures.len() } else { 0 };
     if asked == 0 && !parts.has(Part::Meshes) {
         return Ok(true);
     }
-    match meshes::gear(job, backend, flanks, roots, progress) {
+    match body() {
         Ok(solid) => {
             if parts.has(Part::Meshes) {
                 meshes::write_gear(job, &solid, folder, notes, progress)?;

@@ -143,14 +143,12 @@ fn draw_solid(
     let (mut camera, title) = match picture.view {
         PictureView::Tooth => {
             let pitch_mm = PI * job.scene().gear.transverse_module_mm();
-            let phi = job.curve().phi_at_arc(pitch_mm * (f64::from(picture.tooth) - 0.5));
-            let frame = job.curve().frame(phi);
-            let (front, left) = (job.blank().towards_tip(&frame).extend(0.0), frame.tangent.extend(0.0));
-            let towards = Camera::direction(front, left, picture.azimuth_rad, picture.elevation_rad);
+            let frame = job.tooth_frame(picture.tooth);
+            let towards = Camera::direction(frame.front, frame.left, picture.azimuth_rad, picture.elevation_rad);
             // The near end of the tooth is what the viewer looks at.
             let near_mm = 0.5 * job.scene().gear.face_width_mm * picture.elevation_rad.signum();
-            let target_mm = frame.point_mm.extend(near_mm - pitch_mm * picture.elevation_rad.signum());
-            let camera = Camera::new(target_mm, towards, DVec3::Z, 3.5 * pitch_mm, picture.size_px);
+            let target_mm = frame.place_mm + (near_mm - pitch_mm * picture.elevation_rad.signum()) * frame.along;
+            let camera = Camera::new(target_mm, towards, frame.along, 3.5 * pitch_mm, picture.size_px);
             (camera, format!("{}: tooth {}", job.scene().name, picture.tooth))
         }
         _ => {
@@ -237,12 +235,12 @@ fn rolled_out(grid: &SurfaceGrid, exaggeration: f64, window_mm: f64) -> Mesh {
         }
     }
     for along in heights_mm.chunks_exact_mut(rows) {
-        let averaged = means(&grid.rows_z_mm, along, window_mm);
+        let averaged = means(&grid.rows_mm, along, window_mm);
         along.copy_from_slice(&averaged);
     }
     for (i, position_mm) in mesh.positions_mm.iter_mut().enumerate() {
         let height_mm = heights_mm[i];
-        *position_mm = DVec3::new(grid.rows_z_mm[i % rows], grid.arcs_mm[i / rows], exaggeration * height_mm);
+        *position_mm = DVec3::new(grid.rows_mm[i % rows], grid.arcs_mm[i / rows], exaggeration * height_mm);
     }
     mesh
 }

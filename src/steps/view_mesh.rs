@@ -10,7 +10,7 @@
 //! its edges).
 
 use crate::error::Result;
-use crate::job::GearJob;
+use crate::job::{CylindricalGear, GearJob};
 use crate::surface::triangles::{SectionProfile, Triangles};
 use crate::terms::Side;
 use glam::{DVec2, DVec3};
@@ -30,7 +30,7 @@ pub struct ViewFlank {
     /// Arcs from the form point, mm.
     pub arcs_mm: Vec<f64>,
     /// Places along the tooth, mm.
-    pub rows_z_mm: Vec<f64>,
+    pub rows_mm: Vec<f64>,
     /// Its triangles; corner i n + k belongs to arc i and section k of n.
     pub triangles: Triangles,
 }
@@ -44,12 +44,28 @@ pub struct ViewMesh {
     pub body: Triangles,
 }
 
+impl ViewFlank {
+    /// Samples the target flank of any gear, in rows at places along the tooth.
+    ///
+    /// # Errors
+    /// The tool generates no flank there.
+    pub fn of_target(job: &dyn GearJob, tooth: u32, side: Side, rows_mm: Vec<f64>) -> Result<Self> {
+        let (arcs_mm, rows) = job.target_points(tooth, side, SPACING_MM, &rows_mm)?;
+        let (first, [along_profile, along_tooth]) =
+            (rows[0][0], [rows[0][arcs_mm.len() - 1], rows[rows.len() - 1][0]].map(|corner| corner.origin_mm));
+        let across = (along_profile - first.origin_mm).cross(along_tooth - first.origin_mm);
+        let mut triangles = Triangles::default();
+        triangles.surface(&rows, across.dot(first.normal) > 0.0);
+        Ok(Self { tooth, side, arcs_mm, rows_mm, triangles })
+    }
+}
+
 impl ViewMesh {
-    /// Samples the target gear of a job.
+    /// Samples the target of a cylindrical gear.
     ///
     /// # Errors
     /// No flank is generated on some tooth.
-    pub fn new(job: &dyn GearJob) -> Result<Self> {
+    pub fn new(job: &dyn CylindricalGear) -> Result<Self> {
         let rows_z_mm = job.view_rows_z_mm();
         let [bottom, top] = [0, rows_z_mm.len() - 1];
         let mut flanks = Vec::new();
@@ -65,7 +81,7 @@ impl ViewMesh {
             for (side, arcs_mm, profiles) in [(Side::Left, left_arcs, &left), (Side::Right, right_arcs, &right)] {
                 let mut triangles = Triangles::of(gear);
                 triangles.wall(profiles, &rows_z_mm, side == Side::Right);
-                flanks.push(ViewFlank { tooth, side, arcs_mm, rows_z_mm: rows_z_mm.clone(), triangles });
+                flanks.push(ViewFlank { tooth, side, arcs_mm, rows_mm: rows_z_mm.clone(), triangles });
             }
             body.wall(&tip, &rows_z_mm, true);
             for k in [bottom, top] {
@@ -91,7 +107,7 @@ impl ViewMesh {
 }
 
 /// Tip land from the right flank's tip to the left one's, as high over the pitch curve as they are.
-fn tip_land(job: &dyn GearJob, right: &SectionProfile, left: &SectionProfile) -> SectionProfile {
+fn tip_land(job: &dyn CylindricalGear, right: &SectionProfile, left: &SectionProfile) -> SectionProfile {
     let ends = [right[right.len() - 1].0, left[left.len() - 1].0];
     let foot = |point: DVec2| job.blank().height(point, point.to_angle());
     let heights = ends.map(|end| foot(end).0);
@@ -114,7 +130,7 @@ fn tip_land(job: &dyn GearJob, right: &SectionProfile, left: &SectionProfile) ->
 /// Root of a space from the form points of the left flank before it to those of the right flank after it, in all
 /// sections.
 fn roots(
-    job: &dyn GearJob,
+    job: &dyn CylindricalGear,
     space: u32,
     rows_z_mm: &[f64],
     left: &SectionProfile,

@@ -23,14 +23,14 @@ pub const STRAIGHT_MM: f64 = 1e-4;
 pub struct SurfaceGrid {
     /// Arc length of each column along the target profile, mm.
     pub arcs_mm: Vec<f64>,
-    /// Place of each row along the tooth from the middle of the face, mm, increasing.
-    pub rows_z_mm: Vec<f64>,
-    /// Unit normal of the target in the transverse section, out of the gear, of each column in the first row.
-    pub normals: Vec<DVec2>,
+    /// Place of each row along the tooth, mm, increasing.
+    pub rows_mm: Vec<f64>,
+    /// Unit normal of the target out of the gear, of each column in the first row.
+    pub normals: Vec<DVec3>,
     /// Points of the target's one profile, gear frame, mm; `None` where every section has a profile of its own.
     pub straight_target_mm: Option<Vec<DVec2>>,
-    /// Points on the surface, gear frame.
-    pub points_mm: Vec<DVec2>,
+    /// Points on the surface, gear frame, mm.
+    pub points_mm: Vec<DVec3>,
     /// Normal deviation, µm.
     pub height_um: Vec<f32>,
     /// Normal stock that the last operation found: the surface before it less the surface after it, mm; NaN where one
@@ -49,12 +49,12 @@ impl SurfaceGrid {
     pub fn new(field: &impl RayGrid, layers: &[Layer], spacing_mm: f64) -> Self {
         let last = layers.last().expect("a job has at least one operation");
         let before = layers.len().checked_sub(2).map(|i| &layers[i]);
-        let (arcs_mm, rows_z_mm) = (field.arcs_mm(), field.rows_z_mm());
+        let (arcs_mm, rows_mm) = (field.arcs_mm(), field.rows_mm());
         let columns = spaced(&arcs_mm, spacing_mm);
-        let mut rows = spaced(rows_z_mm, spacing_mm);
-        let all = rows_z_mm.len();
+        let mut rows = spaced(rows_mm, spacing_mm);
+        let all = rows_mm.len();
         if field.is_straight() {
-            rows = straight_rows(rows_z_mm, &rows, |from, to, visit| {
+            rows = straight_rows(rows_mm, &rows, |from, to, visit| {
                 for &column in &columns {
                     for layer in [Some(last), before].into_iter().flatten() {
                         let heights_mm = layer.column(column, all);
@@ -76,11 +76,11 @@ impl SurfaceGrid {
         });
         Self {
             arcs_mm: columns.iter().map(|&c| arcs_mm[c]).collect(),
-            rows_z_mm: rows.iter().map(|&r| rows_z_mm[r]).collect(),
+            rows_mm: rows.iter().map(|&r| rows_mm[r]).collect(),
             normals: columns.iter().map(|&c| field.normal(c, rows[0])).collect(),
             straight_target_mm: field
                 .is_straight()
-                .then(|| columns.iter().map(|&c| field.point_mm(c, rows[0], 0.0)).collect()),
+                .then(|| columns.iter().map(|&c| field.point_mm(c, rows[0], 0.0).truncate()).collect()),
             points_mm: places().map(|(c, r)| field.point_mm(c, r, f64::from(last.heights_mm[c * all + r]))).collect(),
             height_um: dexels().map(|i| last.heights_mm[i] * UM_PER_MM as f32).collect(),
             stock_mm,
@@ -95,12 +95,12 @@ impl SurfaceGrid {
 
     /// Number of rows.
     pub fn rows(&self) -> usize {
-        self.rows_z_mm.len()
+        self.rows_mm.len()
     }
 
     /// Point of a column and row in space, mm.
     pub fn position_mm(&self, column: usize, row: usize) -> DVec3 {
-        self.points_mm[column * self.rows() + row].extend(self.rows_z_mm[row])
+        self.points_mm[column * self.rows() + row]
     }
 
     /// Whether no pass came to a point, so that it lies on the blank's own surface or nowhere.
@@ -111,12 +111,10 @@ impl SurfaceGrid {
     /// The grid as triangles, one part of this name, with `height_um`, `stock_mm` (if there is) and `pass_id`.
     pub fn mesh(&self, name: &str) -> Mesh {
         let (columns, rows) = (self.columns(), self.rows());
-        let positions_mm: Vec<DVec3> =
-            (0..columns).flat_map(|c| (0..rows).map(move |r| (c, r))).map(|(c, r)| self.position_mm(c, r)).collect();
-        // Rows run along z; which way round is outside depends on the direction of the columns.
-        let along = self.points_mm[(columns - 1) * rows] - self.points_mm[0];
-        let middle = self.normals[columns / 2];
-        let outward = along.extend(0.0).cross(DVec3::Z).dot(middle.extend(0.0)) > 0.0;
+        // Which way round is outside depends on the directions of columns and rows.
+        let first = self.points_mm[0];
+        let [profile, tooth] = [(columns - 1) * rows, rows - 1].map(|corner| self.points_mm[corner] - first);
+        let outward = profile.cross(tooth).dot(self.normals[columns / 2]) > 0.0;
         let at = |c: usize, r: usize| (c * rows + r) as u32;
         let triangles: Vec<[u32; 3]> = (1..columns)
             .flat_map(|c| (1..rows).map(move |r| (c, r)))
@@ -126,7 +124,7 @@ impl SurfaceGrid {
             })
             .collect();
         let parts = vec![MeshPart { name: name.to_owned(), triangles: 0..triangles.len(), measured: true }];
-        Mesh { positions_mm, triangles, scalars: self.scalars(), parts }
+        Mesh { positions_mm: self.points_mm.clone(), triangles, scalars: self.scalars(), parts }
     }
 
     /// The values as quantities of a mesh whose vertices are these points, in order.
@@ -259,7 +257,7 @@ mod tests {
         let layers = [layer(&field, |_, _| 0.7), layer(&field, |u, v| 0.01 * u.sin() + 0.002 * v)];
         let grid = SurfaceGrid::new(&field, &layers, 0.1);
         assert_eq!((grid.rows(), grid.columns()), (2, 51));
-        assert_eq!([grid.rows_z_mm[0], grid.rows_z_mm[1]], [-5.0, 5.0]);
+        assert_eq!([grid.rows_mm[0], grid.rows_mm[1]], [-5.0, 5.0]);
         assert_eq!(grid.arcs_mm[50], 0.005 * 1002.0);
         for c in 0..51 {
             let (u, z) = (grid.arcs_mm[c], grid.position_mm(c, 1));
@@ -281,8 +279,8 @@ mod tests {
         let mut worst = 0.0_f64;
         for (c, &u) in grid.arcs_mm.iter().enumerate() {
             for &v in &field.rows_z_mm {
-                let r = grid.rows_z_mm.partition_point(|&l| l <= v).clamp(1, grid.rows() - 1);
-                let (a, b) = (grid.rows_z_mm[r - 1], grid.rows_z_mm[r]);
+                let r = grid.rows_mm.partition_point(|&l| l <= v).clamp(1, grid.rows() - 1);
+                let (a, b) = (grid.rows_mm[r - 1], grid.rows_mm[r]);
                 let h = |r: usize| f64::from(grid.height_um[c * grid.rows() + r]) * 1e-3;
                 let between = h(r - 1) + (h(r) - h(r - 1)) * (v - a) / (b - a);
                 worst = worst.max((between - height(u, v)).abs());

@@ -189,15 +189,16 @@ impl Outline {
         let mut sampled = self.bare(DVec2::ZERO);
         let rows = grid.rows();
         for (row, &z_mm) in self.rows_z_mm.iter().enumerate() {
-            let after = grid.rows_z_mm.partition_point(|&l| l < z_mm).clamp(1, rows - 1);
-            let (from, to) = (grid.rows_z_mm[after - 1], grid.rows_z_mm[after]);
+            let after = grid.rows_mm.partition_point(|&l| l < z_mm).clamp(1, rows - 1);
+            let (from, to) = (grid.rows_mm[after - 1], grid.rows_mm[after]);
             let share = ((z_mm - from) / (to - from)).clamp(0.0, 1.0);
             let (a, b) = (column * rows + after - 1, column * rows + after);
             let nearest = if share < 0.5 { a } else { b };
             sampled.passes[row] = grid.passes[nearest];
             // Exactly the one value where both are equal.
+            let in_section = |at: usize| grid.points_mm[at].truncate();
             let between = |values: &[f32]| values[a] + share as f32 * (values[b] - values[a]);
-            sampled.points_mm[row] = grid.points_mm[a] + share * (grid.points_mm[b] - grid.points_mm[a]);
+            sampled.points_mm[row] = in_section(a) + share * (in_section(b) - in_section(a));
             if grid.passes[nearest] == NO_PASS {
                 sampled.points_mm[row] = blank.outline_mm(outline_angle(blank, sampled.points_mm[row]));
                 continue;
@@ -304,7 +305,7 @@ fn outline_angle(blank: &Blank, point_mm: DVec2) -> f64 {
 /// Rows of all grids.
 fn common_rows(surfaces: &GearSurfaces) -> Vec<f64> {
     let grids = surfaces.teeth.iter().flat_map(|t| [Some(&t.right), t.tip.as_ref(), Some(&t.left), Some(&t.root)]);
-    let mut rows_z_mm: Vec<f64> = grids.flatten().flat_map(|grid| grid.rows_z_mm.iter().copied()).collect();
+    let mut rows_z_mm: Vec<f64> = grids.flatten().flat_map(|grid| grid.rows_mm.iter().copied()).collect();
     rows_z_mm.sort_unstable_by(f64::total_cmp);
     rows_z_mm.dedup_by(|later, kept| *later - *kept < NEAREST_MM);
     rows_z_mm

@@ -3,12 +3,21 @@
 //! Profiles run counter-clockwise round the gear axis. The material of an external gear lies on their left, that of a
 //! ring on their right, where all triangles turn over.
 
+use crate::dexel::Ray;
 use crate::gear::GearKind;
 use crate::units::TURN_RAD;
 use glam::{DVec2, DVec3};
 
 /// Points of the target in one transverse section, gear frame, mm, each with the target's unit normal out of the gear.
 pub type SectionProfile = Vec<(DVec2, DVec3)>;
+
+/// Profiles of transverse sections as points and normals in space.
+pub fn in_space(profiles: &[SectionProfile], rows_z_mm: &[f64]) -> Vec<Vec<Ray>> {
+    let row = |(profile, &z_mm): (&SectionProfile, &f64)| {
+        profile.iter().map(|&(point, normal)| Ray { origin_mm: point.extend(z_mm), normal }).collect()
+    };
+    profiles.iter().zip(rows_z_mm).map(row).collect()
+}
 
 /// Triangles with a normal at every corner; counter-clockwise seen from outside.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -30,8 +39,8 @@ impl Triangles {
     }
 
     /// One more corner; its index.
-    pub fn corner(&mut self, point: DVec2, z_mm: f64, normal: DVec3) -> u32 {
-        self.positions_mm.push(point.extend(z_mm).as_vec3().to_array());
+    pub fn corner(&mut self, point_mm: DVec3, normal: DVec3) -> u32 {
+        self.positions_mm.push(point_mm.as_vec3().to_array());
         self.normals.push(normal.as_vec3().to_array());
         self.positions_mm.len() as u32 - 1
     }
@@ -39,19 +48,23 @@ impl Triangles {
     /// Profiles of all sections joined along the tooth; `forward`: they run counter-clockwise round the gear axis with the
     /// teeth, clockwise with its back.
     pub fn wall(&mut self, profiles: &[SectionProfile], rows_z_mm: &[f64], forward: bool) {
-        let (first, sections) = (self.positions_mm.len() as u32, rows_z_mm.len() as u32);
-        for i in 0..profiles[0].len() {
-            for (profile, &z_mm) in profiles.iter().zip(rows_z_mm) {
-                let (point, normal) = profile[i];
-                self.corner(point, z_mm, normal);
+        self.surface(&in_space(profiles, rows_z_mm), forward == (self.gear == GearKind::External));
+    }
+
+    /// A surface of points and normals in space, row after row along the tooth, each along the profile; `forward`: the
+    /// direction along the profile and the one along the tooth have the outside to their left, as x and y have z.
+    pub fn surface(&mut self, rows: &[Vec<Ray>], forward: bool) {
+        let (first, count) = (self.positions_mm.len() as u32, rows.len() as u32);
+        for i in 0..rows[0].len() {
+            for row in rows {
+                self.corner(row[i].origin_mm, row[i].normal);
             }
         }
-        for i in 0..profiles[0].len() as u32 - 1 {
-            for k in 0..sections - 1 {
-                let [a, b] = [k, k + 1].map(|k| first + sections * i + k);
-                let [c, d] = [a, b].map(|corner| corner + sections);
-                let left = forward == (self.gear == GearKind::External);
-                let quad = if left { [a, c, d, a, d, b] } else { [a, d, c, a, b, d] };
+        for i in 0..rows[0].len() as u32 - 1 {
+            for k in 0..count - 1 {
+                let [a, b] = [k, k + 1].map(|k| first + count * i + k);
+                let [c, d] = [a, b].map(|corner| corner + count);
+                let quad = if forward { [a, c, d, a, d, b] } else { [a, d, c, a, b, d] };
                 self.indices.extend(quad);
             }
         }
@@ -61,7 +74,7 @@ impl Triangles {
     pub fn end(&mut self, points: &[DVec2], triangles: &[[usize; 3]], z_mm: f64, top: bool) {
         let first = self.positions_mm.len() as u32;
         for &point in points {
-            self.corner(point, z_mm, if top { DVec3::Z } else { DVec3::NEG_Z });
+            self.corner(point.extend(z_mm), if top { DVec3::Z } else { DVec3::NEG_Z });
         }
         for [a, b, c] in triangles.iter().map(|triangle| triangle.map(|corner| first + corner as u32)) {
             let as_given = top == (self.gear == GearKind::External);

@@ -1,8 +1,8 @@
 //! Where texture is looked at: the scene's windows, or those that every gear gets.
 //!
-//! Without a `[[texture]]` in the scene, the whole active flanks (the evaluated profile over the whole face) of three
-//! teeth are taken: the one with the largest and the one with the smallest pitch-curve radius, where curvature and so
-//! the marks differ most, and tooth 3, which Gao et al. (2017, Fig. 13) measured.
+//! Without a `[[texture]]` in the scene, the whole active flanks (the evaluated profile over the whole face) of some
+//! teeth are taken: those between which the marks differ most (on a cylindrical gear the ones with the largest and the
+//! smallest radius of the pitch curve), and tooth 3, which Gao et al. (2017, Fig. 13) measured.
 
 use crate::error::{Refusal, Result};
 use crate::job::GearJob;
@@ -86,15 +86,8 @@ pub fn windows(job: &dyn GearJob) -> Result<Vec<Window>> {
 
 fn default_windows(job: &dyn GearJob) -> Vec<TextureWindow> {
     let teeth = job.scene().gear.teeth;
-    let pitch_mm = job.curve().perimeter_mm() / f64::from(teeth);
-    // Differences below a nanometre are rounding: a circular gear then takes its first tooth.
-    let radius_nm = |tooth: u32| {
-        let phi = job.curve().phi_at_arc((f64::from(tooth) - 0.5) * pitch_mm);
-        (job.curve().frame(phi).point_mm.length() * 1e6).round() as i64
-    };
-    let largest = (1..=teeth).max_by_key(|&tooth| (radius_nm(tooth), std::cmp::Reverse(tooth))).unwrap_or(1);
-    let smallest = (1..=teeth).min_by_key(|&tooth| (radius_nm(tooth), tooth)).unwrap_or(1);
-    let mut chosen = vec![largest, smallest, PAPER_TOOTH.min(teeth)];
+    let mut chosen = job.teeth_that_differ_most();
+    chosen.push(PAPER_TOOTH.min(teeth));
     chosen.sort_unstable();
     chosen.dedup();
     let window = |tooth| TextureWindow {

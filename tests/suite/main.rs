@@ -16,3 +16,4 @@ mod program;
 mod scene;
 mod shaping;
 mod texture;
+mod tools;

@@ -120,7 +120,10 @@ impl HobbingJob {
 
 impl HobCutter<'_> {
     /// Passes of an operation as sections; all of them if not `cull`.
-    pub fn sections(&self, operation: usize, cull: bool) -> SweptSections {
+    ///
+    /// # Errors
+    /// None for hobs: their teeth look away from their axis.
+    pub fn sections(&self, operation: usize, cull: bool) -> Result<SweptSections, Refusal> {
         let reach_mm = BlankOutline::new(&self.job.blank).reach_mm();
         let passes = &self.operations[operation];
         SweptSections::new(passes, reach_mm, self.job.scene.gear.face_width_mm, cull)
@@ -140,7 +143,7 @@ impl HobCutter<'_> {
         let mut cut = CutBlank { blank_mm3: field.volumes_mm3(), field, left_mm3: Vec::new(), cuts: Vec::new() };
         let (mut chips, mut in_slices) = (Vec::new(), Vec::new());
         for (index, passes) in self.operations.iter().enumerate() {
-            let sections = self.sections(index, true);
+            let sections = self.sections(index, true)?;
             let ids = passes.first_pass..passes.end_pass();
             let Some(done) = backend.cut_blank_sweeps(&mut cut.field, &sections, ids, advance)? else {
                 return Ok(None);

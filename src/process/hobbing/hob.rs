@@ -47,7 +47,7 @@ use std::f64::consts::{PI, TAU};
 const LARGEST_LEAD_ANGLE_RAD: f64 = 0.35;
 /// A tooth is in the work only within this angle to either side of the direction towards it: at 60 degrees its tip
 /// stands at half its radius, far behind the work.
-const HALF_SWEEP_RAD: f64 = PI / 3.0;
+const HALF_WINDOW_RAD: f64 = PI / 3.0;
 /// Smallest root radius over that of the base cylinder. At the base cylinder the flank's slope in the axial section is
 /// 0, and its curvature without bound: u / rho with u^2 = (rho / r_b)^2 - 1. At a twentieth above it u is 0.32, and the
 /// edge's tables hold.
@@ -271,8 +271,8 @@ impl SpatialTool for Hob {
         self.rake_twist_rad_per_mm
     }
 
-    fn half_sweep_rad(&self) -> f64 {
-        HALF_SWEEP_RAD
+    fn half_window_rad(&self) -> f64 {
+        HALF_WINDOW_RAD
     }
 }
 

@@ -37,7 +37,7 @@ impl Kept {
         for (name, linkage) in linkages {
             let hob_at = |time_s: f64| linkage.axes::<1>(time_s).hob_rad.value();
             // Sweeps reach a little further than the moments at which their blades point to the work.
-            let beyond_rad = hob.half_sweep_rad();
+            let beyond_rad = hob.half_window_rad();
             let range_rad = [hob_at(0.0) - beyond_rad, hob_at(linkage.end_s()) + beyond_rad];
             if f64::from(first_pass) + passes(hob, linkage) >= f64::from(u32::MAX) {
                 return Err(Refusal::new(
@@ -48,7 +48,7 @@ impl Kept {
             }
             let corners: Vec<f64> = linkage.corners_s().iter().map(|&time_s| hob_at(time_s)).collect();
             let motion = MotionTable::new(range_rad, &corners, |angle| linkage.head_from_work(angle));
-            let passes = TurningPasses::new(first_pass, hob, hob.hand, motion);
+            let passes = TurningPasses::new(first_pass, hob, hob.hand, motion)?;
             first_pass = passes.end_pass();
             operations.push(passes);
         }

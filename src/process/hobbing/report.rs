@@ -16,7 +16,8 @@ use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations;
 use crate::steps::report::deviations::{Inspection, InspectionWords};
-use crate::steps::report::{RunWords, key_number, record, texture};
+use crate::steps::report::{PageGear, RunWords, key_number, record, texture};
+use crate::steps::view_mesh::ViewMesh;
 use std::f64::consts::PI;
 
 /// Charts that are files of their own as well.
@@ -67,7 +68,9 @@ pub fn page(
         )
     };
     let key_numbers = found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect();
-    steps::report::page(cutter, found, &gear.maps, operation, key_numbers, sections)
+    let words = steps::report::facts::gear_words(&cutter.job.scene.gear);
+    let page_gear = PageGear { words, mesh: ViewMesh::new(cutter)? };
+    Ok(steps::report::page(cutter, page_gear, found, &gear.maps, operation, key_numbers, sections))
 }
 
 fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {

@@ -91,7 +91,9 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     } else if !gear.work.interrupted {
         let flanks = std::mem::take(&mut gear.surfaces);
         let roots = cut_roots(&cutter, tools)?;
-        gear.work.interrupted = !write_meshes_and_pictures(&cutter, flanks, roots, tools)?;
+        gear.work.interrupted = !write_meshes_and_pictures(&cutter, tools, || {
+            meshes::gear(&cutter, tools.backend, flanks, roots, progress)
+        })?;
     }
     if parts.has(Part::Axes) {
         for operation in &motion {

@@ -12,13 +12,16 @@ use crate::dexel::{Layer, Ray, SpatialField};
 use crate::error::Result;
 use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
-use crate::job::{GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, band_mm, rows_z_mm};
+use crate::job::{
+    CylindricalGear, GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, ToothFrame, band_mm, rows_z_mm,
+    teeth_of_extreme_radius,
+};
 use crate::process::hobbing::cutter::HobCutter;
 use crate::process::hobbing::measure::flank_report;
 use crate::process::hobbing::rack_root::RackRootPoint;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
-use crate::surface::triangles::SectionProfile;
+use crate::surface::triangles::{SectionProfile, in_space};
 use crate::terms::Side;
 use glam::DVec2;
 
@@ -34,14 +37,6 @@ const FOCUS_SHARE: f64 = 0.95;
 impl GearJob for HobCutter<'_> {
     fn scene(&self) -> &Scene {
         &self.job.scene
-    }
-
-    fn curve(&self) -> &PitchCurve {
-        &self.job.curve
-    }
-
-    fn blank(&self) -> &Blank {
-        &self.job.blank
     }
 
     fn operations(&self) -> Vec<(&str, f64)> {
@@ -63,6 +58,54 @@ impl GearJob for HobCutter<'_> {
     fn evaluated_profile_mm(&self, tooth: u32, side: Side) -> Result<[f64; 2]> {
         let target = self.target(tooth, side)?;
         Ok(flank_report::evaluated_mm(target.length_mm(), self.measured_ends_mm(target)))
+    }
+
+    fn teeth_that_differ_most(&self) -> Vec<u32> {
+        teeth_of_extreme_radius(&self.job.curve, self.job.scene.gear.teeth)
+    }
+
+    fn tooth_frame(&self, tooth: u32) -> ToothFrame {
+        ToothFrame::of_cylinder(&self.job.blank, &self.job.scene.gear, tooth)
+    }
+
+    fn target_points(
+        &self,
+        tooth: u32,
+        side: Side,
+        spacing_mm: f64,
+        rows_mm: &[f64],
+    ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
+        let (arcs_mm, profiles) = self.target_profiles(tooth, side, spacing_mm, rows_mm)?;
+        Ok((arcs_mm, in_space(&profiles, rows_mm)))
+    }
+
+    fn cut_flank(
+        &self,
+        backend: &dyn Backend,
+        tooth: u32,
+        side: Side,
+        arcs_mm: &[f64],
+        rows_z_mm: &[f64],
+    ) -> Result<Vec<Layer>> {
+        let rays = self.rays_over(self.target(tooth, side)?, arcs_mm.to_vec(), rows_z_mm.to_vec());
+        Ok(self.cut_field(backend, &rays.field)?.0)
+    }
+
+    fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid> {
+        let target = self.target(tooth, side)?;
+        let [arcs_mm, rows_z_mm] = self.places_mm(target);
+        let rays = self.rays_over(target, arcs_mm, band_mm(rows_z_mm, reach_mm));
+        self.surface(backend, &rays, self.job.scene.fields.profile_spacing_mm)
+    }
+}
+
+impl CylindricalGear for HobCutter<'_> {
+    fn curve(&self) -> &PitchCurve {
+        &self.job.curve
+    }
+
+    fn blank(&self) -> &Blank {
+        &self.job.blank
     }
 
     fn view_rows_z_mm(&self) -> Vec<f64> {
@@ -95,25 +138,6 @@ impl GearJob for HobCutter<'_> {
             .into_iter()
             .map(|root| root.into_iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect())
             .collect())
-    }
-
-    fn cut_flank(
-        &self,
-        backend: &dyn Backend,
-        tooth: u32,
-        side: Side,
-        arcs_mm: &[f64],
-        rows_z_mm: &[f64],
-    ) -> Result<Vec<Layer>> {
-        let rays = self.rays_over(self.target(tooth, side)?, arcs_mm.to_vec(), rows_z_mm.to_vec());
-        Ok(self.cut_field(backend, &rays.field)?.0)
-    }
-
-    fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid> {
-        let target = self.target(tooth, side)?;
-        let [arcs_mm, rows_z_mm] = self.places_mm(target);
-        let rays = self.rays_over(target, arcs_mm, band_mm(rows_z_mm, reach_mm));
-        self.surface(backend, &rays, self.job.scene.fields.profile_spacing_mm)
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {

@@ -18,7 +18,9 @@ use crate::process::shaping::measure::GearReport;
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations::{Inspection, InspectionWords};
-use crate::steps::report::{RunWords, deviations, key_number, record, texture, value_and_unit};
+use crate::steps::report::facts::gear_words;
+use crate::steps::report::{PageGear, RunWords, deviations, key_number, record, texture, value_and_unit};
+use crate::steps::view_mesh::ViewMesh;
 use std::f64::consts::PI;
 
 /// The page of a run.
@@ -45,7 +47,9 @@ pub fn page(
     sections.push(facts::section(job));
     sections.push(record(cut.report.flanks.len(), &cut.work.stats, cut.work.dexels, run));
     let operations = found.parts("operations").len();
-    steps::report::page(job, found, &cut.maps, |of| operation_words(of, operations), key_numbers(found), sections)
+    let gear = PageGear { words: gear_words(&job.scene.gear), mesh: ViewMesh::new(job)? };
+    let operation = |of: &_| operation_words(of, operations);
+    Ok(steps::report::page(job, gear, found, &cut.maps, operation, key_numbers(found), sections))
 }
 
 fn operation_words(operation: &findings::Section, count: usize) -> String {

@@ -67,7 +67,9 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
         if parts.has(Part::Meshes) {
             meshes::write_blank(job, cut, folder)?;
         }
-        interrupted |= !write_meshes_and_pictures(job, take(&mut gear.surfaces), take(&mut gear.roots), tools)?;
+        let (flanks, roots) = (take(&mut gear.surfaces), take(&mut gear.roots));
+        interrupted |=
+            !write_meshes_and_pictures(job, tools, || meshes::gear(job, tools.backend, flanks, roots, progress))?;
         if let Some(count) = frames {
             let drawn = frames::draw(job, count, progress, interrupt, folder)?;
             if drawn < count {

@@ -4,30 +4,22 @@
 //! normals of the pitch curve.
 
 use crate::cut::Backend;
-use crate::dexel::Layer;
+use crate::dexel::{Layer, Ray};
 use crate::error::Result;
 use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
-use crate::job::{GearJob, band_mm};
+use crate::job::{CylindricalGear, GearJob, ToothFrame, band_mm, teeth_of_extreme_radius};
 use crate::process::shaping::job::ShapingJob;
 use crate::process::shaping::measure::flank_report;
 use crate::process::shaping::target::target_root;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
-use crate::surface::triangles::SectionProfile;
+use crate::surface::triangles::{SectionProfile, in_space};
 use crate::terms::Side;
 
 impl GearJob for ShapingJob {
     fn scene(&self) -> &Scene {
         &self.scene
-    }
-
-    fn curve(&self) -> &PitchCurve {
-        &self.curve
-    }
-
-    fn blank(&self) -> &Blank {
-        &self.blank
     }
 
     fn operations(&self) -> Vec<(&str, f64)> {
@@ -48,6 +40,54 @@ impl GearJob for ShapingJob {
 
     fn evaluated_profile_mm(&self, tooth: u32, side: Side) -> Result<[f64; 2]> {
         Ok(flank_report::evaluated_profile_mm(self, self.target_flank(tooth, side)))
+    }
+
+    fn teeth_that_differ_most(&self) -> Vec<u32> {
+        teeth_of_extreme_radius(&self.curve, self.scene.gear.teeth)
+    }
+
+    fn tooth_frame(&self, tooth: u32) -> ToothFrame {
+        ToothFrame::of_cylinder(&self.blank, &self.scene.gear, tooth)
+    }
+
+    fn target_points(
+        &self,
+        tooth: u32,
+        side: Side,
+        spacing_mm: f64,
+        rows_mm: &[f64],
+    ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
+        let (arcs_mm, profiles) = self.target_profiles(tooth, side, spacing_mm, rows_mm)?;
+        Ok((arcs_mm, in_space(&profiles, rows_mm)))
+    }
+
+    fn cut_flank(
+        &self,
+        backend: &dyn Backend,
+        tooth: u32,
+        side: Side,
+        arcs_mm: &[f64],
+        rows_z_mm: &[f64],
+    ) -> Result<Vec<Layer>> {
+        let field = self.field_over(self.target_flank(tooth, side), arcs_mm.iter().copied(), rows_z_mm.to_vec());
+        Ok(self.cut(backend, field)?.layers)
+    }
+
+    fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid> {
+        let mut field = self.flank_field(self.target_flank(tooth, side));
+        field.rows_z_mm = band_mm(field.rows_z_mm, reach_mm);
+        let cut = self.cut(backend, field)?;
+        Ok(SurfaceGrid::new(&cut.field, &cut.layers, self.scene.fields.profile_spacing_mm))
+    }
+}
+
+impl CylindricalGear for ShapingJob {
+    fn curve(&self) -> &PitchCurve {
+        &self.curve
+    }
+
+    fn blank(&self) -> &Blank {
+        &self.blank
     }
 
     fn view_rows_z_mm(&self) -> Vec<f64> {
@@ -77,25 +117,6 @@ impl GearJob for ShapingJob {
         let points = target_root(self.target_generation(), i64::from(space), spacing_mm);
         let profile: SectionProfile = points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect();
         Ok(vec![profile; rows_z_mm.len()])
-    }
-
-    fn cut_flank(
-        &self,
-        backend: &dyn Backend,
-        tooth: u32,
-        side: Side,
-        arcs_mm: &[f64],
-        rows_z_mm: &[f64],
-    ) -> Result<Vec<Layer>> {
-        let field = self.field_over(self.target_flank(tooth, side), arcs_mm.iter().copied(), rows_z_mm.to_vec());
-        Ok(self.cut(backend, field)?.layers)
-    }
-
-    fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid> {
-        let mut field = self.flank_field(self.target_flank(tooth, side));
-        field.rows_z_mm = band_mm(field.rows_z_mm, reach_mm);
-        let cut = self.cut(backend, field)?;
-        Ok(SurfaceGrid::new(&cut.field, &cut.layers, self.scene.fields.profile_spacing_mm))
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {

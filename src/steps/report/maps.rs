@@ -1,6 +1,5 @@
 //! The gear and its maps for the page's viewer.
 
-use crate::error::Result;
 use crate::job::GearJob;
 use crate::output::flank_maps::FlankMaps;
 use crate::output::report::viewer::{Thinning, Viewer, ViewerFlank, ViewerQuantity};
@@ -9,14 +8,10 @@ use crate::steps::map_operations;
 use crate::steps::view_mesh::ViewMesh;
 
 /// Mesh of the target, and on it: stock of every earlier operation, deviation and height of the finished surface.
-///
-/// # Errors
-/// No flank is generated on some tooth.
-pub fn viewer(job: &dyn GearJob, maps: &GearMaps) -> Result<Viewer> {
-    let mesh = ViewMesh::new(job)?;
+pub fn viewer(job: &dyn GearJob, mesh: ViewMesh, maps: &GearMaps) -> Viewer {
     let flanks = mesh.flanks.into_iter().map(|flank| {
         let map = maps.flanks.iter().find(|map| map.tooth == flank.tooth && map.side == flank.side);
-        let rows_z_mm = &flank.rows_z_mm;
+        let rows_mm = &flank.rows_mm;
         ViewerFlank {
             tooth: flank.tooth,
             side: flank.side.name().to_owned(),
@@ -24,12 +19,12 @@ pub fn viewer(job: &dyn GearJob, maps: &GearMaps) -> Result<Viewer> {
             places_mm: flank
                 .arcs_mm
                 .iter()
-                .flat_map(|&arc| rows_z_mm.iter().map(move |&z_mm| [arc as f32, z_mm as f32]))
+                .flat_map(|&arc| rows_mm.iter().map(move |&row| [arc as f32, row as f32]))
                 .collect(),
             triangles: flank.triangles,
         }
     });
-    Ok(Viewer { flanks: flanks.collect(), quantities: quantities(job, maps), body: mesh.body })
+    Viewer { flanks: flanks.collect(), quantities: quantities(job, maps), body: mesh.body }
 }
 
 fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {

@@ -6,13 +6,13 @@ pub mod maps;
 pub mod texture;
 
 use crate::cut::{CutStats, KERNEL_UM};
-use crate::error::Result;
 use crate::findings::{self, Findings, Place, Quantity, unit};
 use crate::job::GearJob;
 use crate::output::progress::duration_text;
 use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
 use crate::output::text::{plain, significant};
 use crate::steps::gear_maps::GearMaps;
+use crate::steps::view_mesh::ViewMesh;
 
 /// What the run says of itself on the page. Times are left out: the same scene gives the same page.
 #[derive(Debug, Clone, Copy)]
@@ -25,29 +25,35 @@ pub struct RunWords<'a> {
     pub backend_why: &'a str,
 }
 
+/// The gear on the page.
+pub struct PageGear {
+    /// What it is, in a line: [`facts::gear_words`] of a cylindrical one.
+    pub words: String,
+    /// Its target, on which maps are laid.
+    pub mesh: ViewMesh,
+}
+
 /// A page with the parts that are the same for all processes; `operation` puts an operation's findings into a line.
-///
-/// # Errors
-/// No flank is generated on some tooth.
 pub fn page(
     job: &dyn GearJob,
+    gear: PageGear,
     found: &Findings,
     maps: &GearMaps,
     operation: impl Fn(&findings::Section) -> String,
     key_numbers: Vec<KeyNumber>,
     sections: Vec<PageSection>,
-) -> Result<Page> {
-    Ok(Page {
+) -> Page {
+    Page {
         title: job.scene().name.clone(),
-        subtitle: facts::gear_words(&job.scene().gear),
+        subtitle: gear.words,
         operations: found.parts("operations").iter().map(operation).collect(),
         complete: found.complete,
         program: format!("gearcut {}", found.program_version),
         key_numbers: known_first(key_numbers),
         warnings: warnings(found),
-        viewer: Some(maps::viewer(job, maps)?),
+        viewer: Some(maps::viewer(job, gear.mesh, maps)),
         sections,
-    })
+    }
 }
 
 /// Number and unit as they are read best.

@@ -192,7 +192,8 @@ fn lists_without_room_grow_and_end_the_same() {
         let mut field = job.blank_field().expect("fits");
         let passes = &cutter.operations[0];
         let ids = passes.first_pass..passes.end_pass();
-        let cut = gpu.cut_blank_sweeps_on_device(&mut field, &cutter.sections(0, true), ids, room, &|| true);
+        let cut =
+            gpu.cut_blank_sweeps_on_device(&mut field, &cutter.sections(0, true).expect("a hob"), ids, room, &|| true);
         (field, cut.expect("a software adapter works").expect("not stopped").chips)
     };
     assert!(run(None) == run(Some(0)));

@@ -67,7 +67,7 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
         let job = job(scene, sets);
         let cutter = HobCutter::new(&job).expect("passes");
         let last = job.operations.len() - 1;
-        let (set, sections) = (&cutter.operations[last], cutter.sections(last, true));
+        let (set, sections) = (&cutter.operations[last], cutter.sections(last, true).expect("a hob"));
         let half_mm = 0.5 * job.scene.gear.face_width_mm;
         let (mut worst_nm, mut points, mut rounded, mut section) = (0.0_f64, 0, 0, SweptSection::default());
         for index in (0..sections.len()).step_by(sections.len() / 150) {
@@ -121,7 +121,7 @@ fn neighbouring_slices_are_known_from_the_one_in_their_middle() {
     ] {
         let job = job(scene, sets);
         let cutter = HobCutter::new(&job).expect("passes");
-        let sections = cutter.sections(operation, true);
+        let sections = cutter.sections(operation, true).expect("a hob");
         let half_mm = 0.5 * sections.band_mm();
         let (mut band, mut outline, mut section) =
             (SectionBand::default(), LooseOutline::default(), SweptSection::default());
@@ -185,7 +185,7 @@ fn candidates_leave_what_all_passes_leave() {
             let chips: Vec<_> = (0..job.operations.len())
                 .map(|operation| {
                     let set = &cutter.operations[operation];
-                    let mut sections = cutter.sections(operation, cull);
+                    let mut sections = cutter.sections(operation, cull).expect("a hob");
                     sections.tolerance_share = tolerance_share;
                     let ids = set.first_pass..set.end_pass();
                     let steps = AtomicUsize::new(0);
@@ -213,8 +213,12 @@ fn candidates_leave_what_all_passes_leave() {
         assert!(all.1.iter().all(|chips| chips.len() > 1000));
         let set = &cutter.operations[0];
         let mut field = job.blank_field().expect("fits");
-        let stopped =
-            blank_sweeps::cut(&mut field, &cutter.sections(0, true), set.first_pass..set.end_pass(), &|| false);
+        let stopped = blank_sweeps::cut(
+            &mut field,
+            &cutter.sections(0, true).expect("a hob"),
+            set.first_pass..set.end_pass(),
+            &|| false,
+        );
         assert!(stopped.is_none(), "told to stop");
         // A wrong cull is noticed: outlines too narrow by some micrometres keep passes out.
         assert!(cut(true, -3.0) != all, "{scene}");

@@ -42,7 +42,7 @@ fn with_work_error(job: &HobbingJob, error: impl Fn(f64) -> Rigid3 + Sync) -> Ho
     let hob_at = |time_s: f64| linkage.axes::<1>(time_s).hob_rad.value();
     let range_rad = [hob_at(0.0) - PI, hob_at(linkage.end_s()) + PI];
     let motion = MotionTable::new(range_rad, &[], |hob_rad| linkage.head_from_work(hob_rad).after(&error(hob_rad)));
-    cutter.operations = vec![TurningPasses::new(0, &job.hob, job.hob.hand, motion)].into();
+    cutter.operations = vec![TurningPasses::new(0, &job.hob, job.hob.hand, motion).expect("a hob")].into();
     cutter
 }
 

@@ -50,7 +50,7 @@ fn by_points(cutter: &HobCutter, space: i64, z_mm: f64) -> BTreeMap<u32, Counted
         .map(|p| middle + p.x * along + p.y * along.perp())
         .filter(|&p| in_blank(p))
         .collect();
-    let sections = cutter.sections(0, true);
+    let sections = cutter.sections(0, true).expect("a hob");
     let (mut before, mut found): (Vec<Polygon>, _) = (Vec::new(), BTreeMap::new());
     let mut section = SweptSection::default();
     for index in 0..sections.len() {

@@ -26,7 +26,7 @@ fn by_points(cutter: &HobCutter, space: i64, z_mm: f64, reach_mm: f64) -> BTreeM
     };
     let half = (2.0 * reach_mm / STEP_MM) as i32;
     let mut front: Vec<DVec2> = (-half..=half).map(outline).collect();
-    let sections = cutter.sections(0, true);
+    let sections = cutter.sections(0, true).expect("a hob");
     let (mut before, mut found): (Vec<Polygon>, _) = (Vec::new(), BTreeMap::new());
     let mut section = SweptSection::default();
     for index in 0..sections.len() {

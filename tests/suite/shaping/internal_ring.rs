@@ -10,7 +10,7 @@ use gearcut::dexel::NO_PASS;
 use gearcut::frame::Rigid2;
 use gearcut::gear::PitchCurveShape;
 use gearcut::gear::blank_outline::BlankOutline;
-use gearcut::job::GearJob;
+use gearcut::job::CylindricalGear;
 use gearcut::math::planar_rays::FAMILIES;
 use gearcut::measure::scallop::cusps;
 use gearcut::measure::target_outline::TargetOutline;

@@ -160,8 +160,8 @@ fn overlaps_of_the_returning_cutter_agree() {
             let laws = [RetractionLaw::CenterLine, RetractionLaw::Normal, RetractionLaw::Turned];
             for (law, expected_mm2) in laws.into_iter().zip(&row[1..]) {
                 let at = |phase: usize| {
-                    let place = (phi / TAU * room.places() as f64).round() as usize + 8 * phase;
-                    let phi = room.phi_rad(place);
+                    let place = (phi / TAU * room.swept.places() as f64).round() as usize + 8 * phase;
+                    let phi = room.swept.phi_rad(place);
                     let back = retracting.retracted(law, &finish(phi), phi, row[0]).expect("a foot").pose;
                     let back = Rigid2::new(back.angle_rad, back.center_mm);
                     let beyond_mm = |p: DVec2| job.blank.height(p, phi + DVec2::from_angle(phi).angle_to(p)).0 - 2.0;
@@ -298,9 +298,9 @@ fn programs_draw_the_cutter_back_and_are_read_back() {
         let (gear, tip_mm) = (GearKind::External, job.cutter.tip_radius_mm);
         let cut = program.cut_error_mm(&operation.schedule, tip_mm, &ram, continuous);
         assert!(cut.0 < 0.001, "{cut:?}");
-        for stroke in (0..480).step_by(7) {
-            let moment = stroke as f64 + ram.return_middle;
-            let at = if continuous { moment } else { stroke as f64 };
+        for stroke in (0_u32..480).step_by(7) {
+            let moment = f64::from(stroke) + ram.return_middle;
+            let at = if continuous { moment } else { f64::from(stroke) };
             let state = operation.schedule.state(at);
             let expected = operation.retraction.retracted(&operation.linkage, &state.pose, state.phi_rad);
             let found = program.at(moment).pose(gear);

@@ -14,5 +14,5 @@ pub mod spatial;
 
 pub use blank_field::{BlankField, BlankGrid};
 pub use field::{Column, Field, Layer, NO_PASS};
-pub use placed_rays::{PlacedRays, RayGrid};
+pub use placed_rays::{FreeRays, PlacedRays, RayGrid};
 pub use spatial::{Ray, SpatialField};

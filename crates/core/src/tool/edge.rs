@@ -294,4 +294,16 @@ impl Edge {
             .fold(0.0, f64::max);
         Self { segments, center_mm, reach_mm }
     }
+
+    /// The same edge in axes in which its own x axis has the direction `x_axis`.
+    #[must_use]
+    pub fn turned(&self, x_axis: DVec2) -> Self {
+        let turn = Rigid2 { rotation: x_axis, translation_mm: DVec2::ZERO };
+        let segment = |segment: &Segment| {
+            let blade_from_segment = turn.after(&segment.blade_from_segment);
+            Segment { blade_from_segment, ..segment.clone() }
+        };
+        let segments = self.segments.iter().map(segment).collect();
+        Self { segments, center_mm: turn.point(self.center_mm), reach_mm: self.reach_mm }
+    }
 }

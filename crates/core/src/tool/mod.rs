@@ -16,6 +16,7 @@ pub mod involute;
 use crate::frame::{Rigid2, Rigid3};
 use blade_edges::BladeEdges;
 use edge::Edge;
+use std::f64::consts::PI;
 
 /// A tool with blades.
 pub trait CuttingTool: Sync {
@@ -37,14 +38,40 @@ pub trait PlanarTool: CuttingTool {
 
 /// A tool whose rake faces move through space.
 pub trait SpatialTool: CuttingTool {
-    /// Place of blade `index` in the tool frame. The rake face holds the blade's x and y axes; z = x cross y is its
-    /// normal.
+    /// Place of blade `index` in the tool frame, whose z axis is the tool's own. The rake face holds the blade's x and y
+    /// axes and the tool's axis; z = x cross y is its normal. A blade may look away from the axis (hobs) or along it
+    /// (face-mill heads).
     fn tool_from_blade(&self, index: u32) -> Rigid3;
-    /// How much the rake face turns about the tool's axis per mm of blade y, rad/mm, counted about the tool's +z: 0 for
-    /// a plane rake face through the axis. With a twist, blade coordinates are cylindrical: x is the distance from the
-    /// tool's axis, y runs along it.
-    fn rake_twist_rad_per_mm(&self) -> f64;
-    /// Largest angle between a blade in the work and the direction from the tool's axis towards the work, rad, below
-    /// half pi: further round, every blade is clear of the blank.
-    fn half_sweep_rad(&self) -> f64;
+    /// How much the rake face turns about the tool's axis per mm along it, in the direction of the blade's y, rad/mm,
+    /// counted about the tool's +z: 0 for a plane rake face. With a twist a blade looks away from the axis, and its
+    /// coordinates are cylindrical: x is the distance from the tool's axis, y runs along it.
+    fn rake_twist_rad_per_mm(&self) -> f64 {
+        0.0
+    }
+    /// Half of the angular window in which its blades can cut, rad, up to pi: further than this from the direction that
+    /// the head's x axis has, towards the work, every blade is clear of the blank. The tool says what follows from its
+    /// size and from the work that it is made for, such as [`half_window_of`].
+    fn half_window_rad(&self) -> f64;
+}
+
+/// Half of the window in which blades can meet a work that, seen along the tool's axis, lies within `reach_mm` of a point
+/// `distance_mm` away from that axis: the circle round that point is seen from the axis under twice this angle, rad. A
+/// work that may reach the axis is all round it.
+pub fn half_window_of(distance_mm: f64, reach_mm: f64) -> f64 {
+    if reach_mm < distance_mm { (reach_mm / distance_mm).asin() } else { PI }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    #[test]
+    fn no_point_of_the_work_is_seen_outside_the_window() {
+        let half_rad = half_window_of(100.0, 30.0);
+        let seen = (0..360).map(|i| DVec2::new(100.0, 0.0) + 30.0 * DVec2::from_angle(f64::from(i).to_radians()));
+        let widest_rad = seen.map(|point| point.to_angle().abs()).fold(0.0, f64::max);
+        assert!(widest_rad <= half_rad && widest_rad > half_rad - 1e-3, "{widest_rad} of {half_rad} rad");
+        assert!(half_window_of(100.0, 100.0) == PI && half_window_of(0.0, 1.0) == PI);
+    }
 }

@@ -117,7 +117,7 @@ fn blank_cost(cutter: &HobCutter) -> Result<BlankCost> {
     let every_slice = slices.div_ceil(SLICES);
     let (mut sections, mut ray_passes) = (0.0, 0.0);
     for operation in 0..cutter.operations.len() {
-        let passes = cutter.sections(operation, true);
+        let passes = cutter.sections(operation, true)?;
         let every = passes.len().div_ceil(PASSES).max(1);
         let found: Vec<[f64; 2]> = grid
             .slices_z_mm

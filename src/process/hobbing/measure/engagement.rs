@@ -37,7 +37,7 @@ const LAST_STEP_RAD: f64 = 1e-4;
 /// Steps at most.
 const MOST_STEPS: u32 = 60;
 /// A place beyond this angle to either side is not in the work, rad: a hob tooth is in it within 60 degrees (1.05,
-/// [`SpatialTool::half_sweep_rad`]), and the rest is for steps that go beyond the moment and come back.
+/// [`SpatialTool::half_window_rad`]), and the rest is for steps that go beyond the moment and come back.
 const LARGEST_SWEPT_RAD: f64 = 1.2;
 
 /// Area per tooth.

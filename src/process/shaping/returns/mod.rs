@@ -6,8 +6,10 @@
 
 pub mod clearance;
 pub mod motion;
+mod overlap;
 pub mod plan;
 pub mod survey;
+pub mod swept;
 pub mod tooth_distance;
 
 pub use plan::RetractionPlan;

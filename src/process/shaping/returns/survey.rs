@@ -16,7 +16,8 @@
 //! then clears, for a small back-off. The middle between the largest lower and the smallest upper bound of a turn is one
 //! angle for the whole operation, as a machine sets it.
 
-use super::clearance::{Clearance, POSES_PER_PITCH, ReturnRoom};
+use super::clearance::{Clearance, ReturnRoom};
+use super::swept::POSES_PER_PITCH;
 use crate::error::NotConverged;
 use crate::frame::Rigid2;
 use crate::gear::GearKind;
@@ -80,14 +81,14 @@ impl<'a> Survey<'a> {
     ) -> Result<Vec<PlacedRoom>, NotConverged> {
         self.places()
             .map(|place| {
-                let phi_rad = self.room.phi_rad(place);
+                let phi_rad = self.room.swept.phi_rad(place);
                 let Generation { linkage, offset_mm, .. } = self.generation;
                 let pose = linkage.pose(phi_rad, *offset_mm);
                 let back = RetractingCutter::of(linkage).retracted(law(phi_rad), &pose, phi_rad, back_off_mm)?.pose;
                 let returning = Rigid2::new(back.angle_rad, back.center_mm);
                 let clearance = self.room.at(place, &returning, |p| self.beyond_mm(p, phi_rad));
                 let from_normal_rad = self.out_of_work(phi_rad).angle_to(self.sign() * pose.center_mm);
-                Ok(PlacedRoom { place, phi_rad, from_normal_rad, returning, clearance })
+                Ok(PlacedRoom { place, returning, phi_rad, from_normal_rad, clearance })
             })
             .collect()
     }
@@ -101,7 +102,7 @@ impl<'a> Survey<'a> {
     /// does. `None` where no stroke touches the blank.
     pub fn tilts(&self) -> Option<[f64; 2]> {
         let bounds = self.places().filter_map(|place| {
-            let phi_rad = self.room.phi_rad(place);
+            let phi_rad = self.room.swept.phi_rad(place);
             let into_work = -self.out_of_work(phi_rad);
             let normals = self.room.contact_normals_rad(place, into_work, |p| self.beyond_mm(p, phi_rad));
             normals.map(|[low, high]| [high - FRAC_PI_2, low + FRAC_PI_2])
@@ -111,7 +112,7 @@ impl<'a> Survey<'a> {
 
     fn places(&self) -> impl IndexedParallelIterator<Item = usize> {
         let step = POSES_PER_PITCH / PHASES_PER_PITCH;
-        (0..self.room.places() / step).into_par_iter().map(move |index| index * step)
+        (0..self.room.swept.places() / step).into_par_iter().map(move |index| index * step)
     }
 
     fn sign(&self) -> f64 {

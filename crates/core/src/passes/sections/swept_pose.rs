@@ -41,14 +41,14 @@ pub(super) struct Sweeping {
     pub edge: usize,
     axial_mm: f64,
     y_sign: f64,
-    half_sweep_rad: f64,
+    half_window_rad: f64,
     /// In the middle of the sweep; everywhere, if the motion has no corner during it.
     pose: Pose,
     /// Before and after corners: swept angles at which each begins and ends.
     beside: Vec<([f64; 2], Pose)>,
 }
 
-/// `work_from_head` in powers of delta / [`TurningPasses::half_sweep_rad`].
+/// `work_from_head` in powers of delta / [`TurningPasses::half_window_rad`].
 type Pose = [[f64; ENTRIES]; TERMS];
 
 /// Where an edge point crosses a slice, with how the place follows the edge point.
@@ -82,7 +82,7 @@ impl Sweeping {
             .map(|piece| {
                 let [a, b] = set.motion.piece_rad(piece).map(|angle_rad| set.turn * (angle_rad - pass.tool_angle_rad));
                 let from_to = [a.min(b), a.max(b)];
-                let within = from_to.map(|swept| swept.clamp(-set.half_sweep_rad, set.half_sweep_rad));
+                let within = from_to.map(|swept| swept.clamp(-set.half_window_rad, set.half_window_rad));
                 (from_to, polynomials(set, pass, piece, within))
             })
             .collect();
@@ -93,7 +93,7 @@ impl Sweeping {
             edge: set.edges.index_of(place.blade),
             axial_mm: place.axial_mm,
             y_sign: place.y_sign,
-            half_sweep_rad: set.half_sweep_rad,
+            half_window_rad: set.half_window_rad,
             pose,
             beside,
         }
@@ -111,7 +111,7 @@ impl Sweeping {
 
     /// Values of the first entries of the pose, and their rates over the swept angle.
     fn entries<const N: usize>(&self, swept: f64) -> [[f64; N]; 2] {
-        let u = swept / self.half_sweep_rad;
+        let u = swept / self.half_window_rad;
         let mut value = [0.0; N];
         let pose = self.pose_at(swept);
         value.copy_from_slice(&pose[TERMS - 1][..N]);
@@ -122,7 +122,7 @@ impl Sweeping {
                 value[k] = value[k] * u + term[k];
             }
         }
-        [value, rate.map(|rate| rate / self.half_sweep_rad)]
+        [value, rate.map(|rate| rate / self.half_window_rad)]
     }
 
     /// Values and rates of the whole pose, column by column: head's axes x, y, z and its origin in the work.
@@ -191,7 +191,7 @@ impl Sweeping {
                 + rates[3];
             [value, rate]
         };
-        let farthest_rad = self.half_sweep_rad + BEYOND_SWEEP_RAD;
+        let farthest_rad = self.half_window_rad + BEYOND_SWEEP_RAD;
         let moment = iterate("an edge point's moment in a slice", guess, MOST_STEPS, |swept| {
             let [value, rate] = value_and_rate(swept);
             let step = value / rate;
@@ -274,11 +274,11 @@ fn polynomials(set: &TurningPasses, pass: &BladePass, piece: u32, [from, to]: [f
             }
         }
     }
-    if middle == 0.0 && half == set.half_sweep_rad {
+    if middle == 0.0 && half == set.half_window_rad {
         return of_piece;
     }
     // The piece's own angle is a linear function of that of the whole sweep.
-    let (scale, offset) = (set.half_sweep_rad / half, -middle / half);
+    let (scale, offset) = (set.half_window_rad / half, -middle / half);
     let mut pose = [[0.0; ENTRIES]; TERMS];
     for term in of_piece.iter().rev() {
         for k in (0..TERMS).rev() {

@@ -17,13 +17,14 @@
 //! (tested against the equations of [`crate::passes::spatial::sweep`]).
 //!
 //! **Behind the blank.** Edge points that go through the slice nearer to the tool's axis, seen from the work, than the
-//! end of a sweep (a hob: half the tip radius) are left out, as everywhere ([`TurningPasses::half_sweep_rad`]); the
+//! end of a sweep (a hob: half the tip radius) are left out, as everywhere ([`TurningPasses::half_window_rad`]); the
 //! curve is closed there through the tool's body.
 //!
 //! The road not taken: rays against segments with two unknowns each, as flanks are cut. Rays of a slice lie side by
 //! side, and one walk along the outline finds the crossings of all of them.
 
 use super::swept_pose::{SliceCrossing, Sweeping};
+use crate::error::Refusal;
 use crate::math::planar_rays::{ClosedCurve, Family, Piece};
 use crate::passes::spatial::turning_passes::TurningPasses;
 use crate::tool::edge::{Edge, Segment};
@@ -40,7 +41,7 @@ const PIECE_TURN_RAD: f64 = 0.1;
 const BAND_SHARE: f64 = 0.03;
 /// Distance of the places along the face at which passes are culled beforehand, mm. Every slice is within half of it of
 /// such a place. A hob that is not tilted goes through a slice at 60 degrees to its own middle at most
-/// ([`TurningPasses::half_sweep_rad`]), so that its section moves aside by tan 60 degrees = 1.73 mm per mm: 4.3 mm,
+/// ([`TurningPasses::half_window_rad`]), so that its section moves aside by tan 60 degrees = 1.73 mm per mm: 4.3 mm,
 /// less than the whole distance, which is what the cull allows for. For tilted hobs there is no proof; what is left is
 /// compared with all passes in `tests/suite/hobbing/blank.rs`.
 const CULLED_EVERY_MM: f64 = 5.0;
@@ -52,7 +53,7 @@ pub struct SweptSections {
     /// Passes that may reach the blank, in order of time.
     pub(super) passes: Vec<Sweeping>,
     twist_rad_per_mm: f64,
-    half_sweep_rad: f64,
+    half_window_rad: f64,
     /// Whether passes are compared with what is left before they are followed to a slice; otherwise every pass visits
     /// every ray: what culling is compared with.
     culls: bool,
@@ -120,7 +121,17 @@ pub struct SweepHeading {
 impl SweptSections {
     /// Passes of an operation for a blank within `reach_mm` of the gear axis, over the face; all of them, wherever they
     /// are, if not `cull`.
-    pub fn new(set: &TurningPasses, reach_mm: f64, face_width_mm: f64, cull: bool) -> Self {
+    ///
+    /// # Errors
+    /// Blades that do not look away from the tool's axis: sections are closed towards it, through the tool's body.
+    pub fn new(set: &TurningPasses, reach_mm: f64, face_width_mm: f64, cull: bool) -> Result<Self, Refusal> {
+        if let Some(place) = set.places.iter().find(|place| place.looks != DVec2::X || place.radial_mm != 0.0) {
+            return Err(Refusal::new(
+                "tool",
+                format!("blade {} does not look straight away from the tool's axis", place.blade),
+                "cut its flanks alone; rays through the whole blank take hobs",
+            ));
+        }
         let mut outlines: Vec<EdgeOutline> = set.edges.edges().iter().map(EdgeOutline::new).collect();
         let passes: Vec<Sweeping> =
             (0..set.count()).into_par_iter().map(|i| Sweeping::new(set, &set.pass(i))).collect();
@@ -133,7 +144,7 @@ impl SweptSections {
             outlines,
             passes,
             twist_rad_per_mm,
-            half_sweep_rad: set.half_sweep_rad,
+            half_window_rad: set.half_window_rad,
             culls: cull,
             tolerance_share: 1.0,
         };
@@ -154,7 +165,7 @@ impl SweptSections {
                 })
                 .collect();
         }
-        sections
+        Ok(sections)
     }
 
     /// Number of passes that are looked at.
@@ -186,7 +197,7 @@ impl SweptSections {
     /// Half the travel along the tool's circumference direction that the tip goes through before it is behind the
     /// blank, mm.
     fn half_travel_mm(&self, outline: &EdgeOutline) -> f64 {
-        outline.tip_mm * self.half_sweep_rad.sin()
+        outline.tip_mm * self.half_window_rad.sin()
     }
 
     /// Where the middle of the tip crosses a slice, or would at the end of its sweep if it comes within `tolerance_mm`
@@ -196,7 +207,7 @@ impl SweptSections {
         if behind.abs() > self.half_travel_mm(outline) + tolerance_mm {
             return None;
         }
-        let farthest = self.half_sweep_rad.sin();
+        let farthest = self.half_window_rad.sin();
         let swept = (behind / outline.tip_mm).clamp(-farthest, farthest).asin();
         Some(pass.place_mm(swept, DVec2::new(outline.tip_mm, 0.0), self.twist_rad_per_mm).truncate())
     }
@@ -254,7 +265,7 @@ impl SweptSections {
         }
         // Nearer to the axis than this the edge is behind the blank, or never in this slice.
         let least_mm =
-            (behind_mm.abs() + pass.lean() * outline.widest_mm).hypot(self.half_sweep_rad.cos() * outline.tip_mm);
+            (behind_mm.abs() + pass.lean() * outline.widest_mm).hypot(self.half_window_rad.cos() * outline.tip_mm);
         let reaches = |node: &DVec2| node.x >= least_mm;
         let first = outline.nodes_mm.iter().position(reaches)?;
         let last = outline.nodes_mm.iter().rposition(reaches)?;

@@ -3,7 +3,7 @@
 //! **The law.** A point p of the work is in the rake face at one moment of the sweep; it is removed if it lies inside
 //! the blade's edge then. With the moment as t = tan(delta / 2), delta the angle of the rake face from where it holds
 //! the tile's origin, and the point in axes fixed to the head there (r out of the axis, q in the direction of rotation,
-//! y along the blade's y), the moment is the root of
+//! y along the axis, which is w of the rake face, see [`super::turning_passes`]), the moment is the root of
 //!
 //! `q (1 - t^2) = 2 t R`,  R the distance along r from the axis,
 //!
@@ -29,7 +29,7 @@ use crate::passes::planar::strokes::{NODES, cubic_through};
 use crate::passes::spatial::turning_passes::{BladePass, TurningPasses};
 use crate::tool::edge::Segment;
 use glam::{DMat3, DVec3};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
 /// Largest |t|: a quarter turn of the tool to either side of the moment at which the rake face holds the tile's origin.
@@ -76,7 +76,9 @@ pub struct Sweep {
     /// Moments at which it is good.
     t_range: [f64; 2],
     /// Largest angle of the rake face from the head's x axis in the work, rad.
-    half_sweep_rad: f64,
+    half_window_rad: f64,
+    /// Distance of the blade's origin from the tool's axis, mm.
+    radial_mm: f64,
     /// Angle of the rake face from the head's x axis where it holds the tile's origin, in the direction of rotation.
     pub sweep_angle_rad: f64,
 }
@@ -134,7 +136,7 @@ impl Sweep {
         let blade_y = |z: f64| place.y_sign * (z - place.axial_mm);
         let missing_at = |swept: f64| {
             let at = head_from_work(swept).point(origin_mm);
-            (at.y.atan2(at.x) - twist * blade_y(at.z) - swept, at)
+            (within_half_a_turn(at.y.atan2(at.x) - twist * blade_y(at.z) - swept), at)
         };
         // The rake face follows the point, which moves some hundredths as fast: the secant of what is missing.
         let mut at = DVec3::ZERO;
@@ -145,7 +147,7 @@ impl Sweep {
             let rate = before.map_or(-1.0, |[angle, less]| (missing - less) / (swept - angle));
             before = Some([swept, missing]);
             let to = swept - missing / rate;
-            if to.abs() > set.half_sweep_rad {
+            if to.abs() > set.half_window_rad {
                 ControlFlow::Break(None)
             } else if missing.abs() < LAST_MISSING_RAD {
                 ControlFlow::Break(Some(to))
@@ -156,7 +158,7 @@ impl Sweep {
         // What is missing falls over the whole sweep: secants that do not settle leave it to halving.
         let swept = moment.unwrap_or_else(|_| {
             let ahead = |swept: f64| missing_at(swept).0 > 0.0;
-            let ends = [-set.half_sweep_rad, set.half_sweep_rad];
+            let ends = [-set.half_window_rad, set.half_window_rad];
             let found = (ahead(ends[0]) && !ahead(ends[1])).then(|| bisect(ahead, ends[0], ends[1]))?;
             at = missing_at(found).1;
             Some(found)
@@ -200,7 +202,8 @@ impl Sweep {
             place_mm: [0, 1, 2, 3].map(|k| DVec3::from_array(places.map(|entry| entry[k]))),
             twist_rad_per_mm: twist,
             t_range,
-            half_sweep_rad: set.half_sweep_rad,
+            half_window_rad: set.half_window_rad,
+            radial_mm: place.radial_mm,
             sweep_angle_rad: swept,
         })
     }
@@ -211,14 +214,15 @@ impl Sweep {
         // Axes of the rake face at the segment's own y.
         let turned = DMat3::from_rotation_z(-self.twist_rad_per_mm * base.y);
         let mut place_mm = self.place_mm.map(|place| (turned * place).to_array());
-        place_mm[0][0] -= base.x;
+        let radius_mm = self.radial_mm + base.x;
+        place_mm[0][0] -= radius_mm;
         place_mm[0][2] -= base.y;
         SweepRecord {
             pass,
             segment: segment_index as u32,
             cells: u16::MAX,
             start: SweepStart::default(),
-            radius_mm: base.x,
+            radius_mm,
             twist_rad_per_mm: self.twist_rad_per_mm,
             t_range: self.t_range,
             turn: self.turn.map(|turn| (turned * turn).transpose().to_cols_array_2d()),
@@ -226,8 +230,8 @@ impl Sweep {
         }
     }
 
-    /// Distance from the tool's axis and place along the blade's y of a point (tile frame) at the moment when the rake
-    /// face holds it. `None`: at no moment of the sweep and the piece.
+    /// Distance from the tool's axis and place along it, from the blade's origin in the direction of w, of a point (tile
+    /// frame) at the moment when the rake face holds it. `None`: at no moment of the sweep and the piece.
     ///
     /// # Errors
     /// The moment is not found: the work turns nearly as fast as the tool.
@@ -242,7 +246,7 @@ impl Sweep {
             let next = point.y / (point.x + point.x.hypot(point.y));
             let residual = next - t;
             if residual.abs() < LAST_T {
-                let inside = (self.sweep_angle_rad + 2.0 * next.atan()).abs() <= self.half_sweep_rad
+                let inside = (self.sweep_angle_rad + 2.0 * next.atan()).abs() <= self.half_window_rad
                     && (self.t_range[0]..=self.t_range[1]).contains(&next);
                 ControlFlow::Break(inside.then_some([point.x.hypot(point.y), point.z]))
             } else if next.abs() > LARGEST_T {
@@ -252,6 +256,11 @@ impl Sweep {
             }
         })
     }
+}
+
+/// The same angle between -pi and pi.
+fn within_half_a_turn(angle_rad: f64) -> f64 {
+    if angle_rad.abs() <= PI { angle_rad } else { angle_rad - TAU * (angle_rad / TAU).round() }
 }
 
 /// Inverse of [`half_angle`] at the nodes of a sweep, to rounding: a fixed number of Newton steps. It cannot fail: there

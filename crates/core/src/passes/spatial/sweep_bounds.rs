@@ -266,8 +266,9 @@ impl pulp::NullaryFnOnce for RakeFaceBoxes<'_, '_> {
                     }
                 }
             }
-            // An arc of radius R leaves its chord of length L by L^2 / 8 R.
-            let radius_mm = PATH_RADIUS_SHARE * low[0].max(LEAST_RADIUS_MM);
+            // An arc of radius R leaves its chord of length L by L^2 / 8 R; boxes count from the blade's origin.
+            let nearest_mm = low[0] + (record.radius_mm - base_mm.x);
+            let radius_mm = PATH_RADIUS_SHARE * nearest_mm.max(LEAST_RADIUS_MM);
             let margin_mm = cell_mm * cell_mm / (8.0 * radius_mm) + BOX_MARGIN_MM;
             self.boxes.push(if known {
                 RakeFaceBox { low: low.map(|v| v - margin_mm), high: high.map(|v| v + margin_mm) }
@@ -278,7 +279,7 @@ impl pulp::NullaryFnOnce for RakeFaceBoxes<'_, '_> {
     }
 }
 
-/// Ranges of the distance from the tool's axis and of the blade's y, mm.
+/// Ranges of r and w in the rake face, from the blade's origin, mm.
 struct RakeFaceBox {
     low: [f64; 2],
     high: [f64; 2],

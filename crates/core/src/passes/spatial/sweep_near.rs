@@ -67,9 +67,10 @@ pub fn near_passes(set: &TurningPasses, whole: &Ball, parts: &[Ball]) -> Vec<Bla
 /// the tool.
 fn may_hold(set: &TurningPasses, pass: &BladePass, ball: &Ball, speed_mm: f64) -> bool {
     let (place, edge) = (set.place(pass), set.edge(pass));
-    let [innermost_mm, tip_mm] = [edge.center_mm.x - edge.reach_mm, edge.center_mm.x + edge.reach_mm];
+    let middle_mm = place.radial_mm + edge.center_mm.x;
+    let [innermost_mm, tip_mm] = [middle_mm - edge.reach_mm, middle_mm + edge.reach_mm];
     // A tile's middle is held within half a sweep, what a tile holds at most a quarter turn from there.
-    let most_rad = set.half_sweep_rad + 2.0 * LARGEST_T.atan();
+    let most_rad = set.half_window_rad + 2.0 * LARGEST_T.atan();
     // The motion's own range; it is symmetric to the tool's direction.
     let ends = set.motion.range_rad().map(|angle| set.turn * (angle - pass.tool_angle_rad));
     let first = [ends[0].min(ends[1]).max(-most_rad), ends[0].max(ends[1]).min(most_rad)];
@@ -165,7 +166,7 @@ mod tests {
         fn rake_twist_rad_per_mm(&self) -> f64 {
             0.0
         }
-        fn half_sweep_rad(&self) -> f64 {
+        fn half_window_rad(&self) -> f64 {
             PI / 3.0
         }
     }
@@ -175,7 +176,7 @@ mod tests {
         let (place, edge) = (set.place(pass), set.edge(pass));
         let steps = 100;
         let at = |i: i32| {
-            let swept = set.half_sweep_rad * f64::from(i) / f64::from(steps);
+            let swept = set.half_window_rad * f64::from(i) / f64::from(steps);
             let at = set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).point(point_mm);
             (swept, at.y.atan2(at.x) - swept, DVec2::new(at.x.hypot(at.y), place.y_sign * (at.z - place.axial_mm)))
         };
@@ -202,7 +203,7 @@ mod tests {
                 rotation: DMat3::from_rotation_y(ratio * angle) * DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
                 translation_mm: DVec3::new(pitch_radius_mm + radius_mm, 0.3 * angle, 0.0),
             });
-            let set = TurningPasses::new(0, &hob, 1.0, motion);
+            let set = TurningPasses::new(0, &hob, 1.0, motion).expect("a hob");
             let mut held = 0;
             for place in 0..3 {
                 let about = 2.0 + 1.7 * f64::from(place);

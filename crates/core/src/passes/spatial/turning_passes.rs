@@ -1,31 +1,58 @@
-//! The passes of an operation with a turning tool: every tooth's sweep in every turn.
+//! The passes of an operation with a turning tool: every blade's sweep in every turn.
 //!
-//! In: the tool (blades whose rake faces hold its axis), the machine's motion over the tool's angle. Out: passes by
-//! number.
+//! In: the tool (blades whose rake faces hold its axis: hobs, face-mill heads, fly cutters), the machine's motion over
+//! the tool's angle. Out: passes by number, the place of every blade, and the blades' edges in their rake faces.
 //!
-//! **Numbering.** Pass id = first id + turn x teeth + rank, where turns count from the first one that reaches the work,
-//! and rank is the tooth's place in the order in which the tool's teeth pass the head's x axis (towards the work)
-//! within a turn; teeth of one gash follow each other by their own number. Ids therefore grow with time, gash by gash.
-//! [`TurningPasses::blade_of`] leads back from the id to the turn and the tooth.
+//! **Axes of a rake face.** r away from the tool's axis, w along it, with or against the tool's z, so that the normal of
+//! r and w is that of the blade's x and y. A blade may look any way in that plane: a hob's away from the axis, a
+//! face-mill head's along it. Kernels see an edge turned from its blade's axes into r and w; for a blade that looks away
+//! from the axis the two are the same, bit for bit.
+//!
+//! **Window.** The head's x axis points to where the work is. While a blade is further from it than the tool's half
+//! window, it is clear of the blank; what a blade meets there is none of its pass.
+//!
+//! **Numbering.** Pass id = first id + turn x blades + rank, where turns count from the first one that reaches the work,
+//! and rank is the blade's place in the order in which the tool's blades pass the head's x axis within a turn; blades of
+//! one gash follow each other by their own number. Ids therefore grow with time, gash by gash.
+//! [`TurningPasses::blade_of`] leads back from the id to the turn and the blade.
+//!
+//! The road not taken: rake faces beside the axis (hook angles). A point of the work is then held where its distance
+//! along the normal, not its angle, is the face's: another equation for the moment.
 
 use super::motion::MotionTable;
+use crate::error::Refusal;
+use crate::frame::Rigid3;
 use crate::tool::SpatialTool;
 use crate::tool::blade_edges::BladeEdges;
 use crate::tool::edge::Edge;
-use std::f64::consts::TAU;
+use glam::DVec2;
+use std::f64::consts::{PI, TAU};
 use std::ops::Range;
+
+/// Largest distance of a rake face from the tool's axis, mm, and largest cosine of its normal to it, that count as
+/// rounding: a blade 100 mm out then stands within a tenth of a nanometre of where it is taken to be.
+const ROUNDING: f64 = 1e-9;
+/// Turns of edges into the rake face that differ by less than this, rad, are one: over an edge of 100 mm a tenth of a
+/// picometre. So blades that are placed by sines and cosines share their edges.
+const SAME_TURN: f64 = 1e-12;
 
 /// Where a blade sits in the tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BladePlace {
     /// Its number in the tool.
     pub blade: u32,
-    /// Angle of its rake face about the tool's axis where blade y = 0, rad.
+    /// Its place in the tool's frame.
+    pub tool_from_blade: Rigid3,
+    /// Angle of its rake face about the tool's axis at the blade's origin, rad.
     pub angle_rad: f64,
-    /// Place of blade y = 0 along the tool's axis, mm.
+    /// Distance of the blade's origin from the tool's axis, along r, mm.
+    pub radial_mm: f64,
+    /// Place of the blade's origin along the tool's axis, mm.
     pub axial_mm: f64,
-    /// +1 if blade y runs along the tool's z axis, -1 if against it.
+    /// +1 if w runs along the tool's z axis, -1 if against it.
     pub y_sign: f64,
+    /// Direction of the blade's x axis in (r, w).
+    pub looks: DVec2,
     /// Tool angle within a turn, 0 to 2 pi, at which it points along the head's x axis.
     lag_rad: f64,
 }
@@ -48,53 +75,94 @@ pub struct TurningPasses {
     pub first_pass: u32,
     /// Blades in the order of their passing.
     pub places: Vec<BladePlace>,
-    /// Edges of the blades.
+    /// Edges of the blades, turned into (r, w) about the blades' origins.
     pub edges: BladeEdges,
     /// The machine.
     pub motion: MotionTable,
     /// +1: the tool turns counter-clockwise about its z axis as its angle grows; -1: clockwise.
     pub turn: f64,
-    /// Turn of the rake faces about the axis per mm of blade y, rad/mm, counter-clockwise about the tool's z axis.
+    /// Turn of the rake faces about the axis per mm of w, rad/mm, counter-clockwise about the tool's z axis.
     pub rake_twist_rad_per_mm: f64,
     /// A blade sweeps through the work only within this angle to either side of the head's x axis, rad
-    /// ([`SpatialTool::half_sweep_rad`]).
-    pub half_sweep_rad: f64,
+    /// ([`SpatialTool::half_window_rad`]).
+    pub half_window_rad: f64,
     first_turn: i64,
     turns: u32,
 }
 
+impl BladePlace {
+    /// Place of a blade whose edge has its middle at `middle_mm`, blade frame; `turn` as in [`TurningPasses`].
+    fn new(blade: u32, tool_from_blade: Rigid3, middle_mm: DVec2, turn: f64) -> Result<Self, Refusal> {
+        let (normal, origin_mm) = (tool_from_blade.rotation.z_axis, tool_from_blade.translation_mm);
+        let beside_mm = normal.dot(origin_mm).abs();
+        if normal.z.abs() > ROUNDING || beside_mm > ROUNDING {
+            return Err(Refusal::new(
+                "tool",
+                format!(
+                    "the rake face of blade {blade} leans by {:.3e} rad against the tool's axis and passes it at \
+                     {beside_mm:.3e} mm",
+                    normal.z.clamp(-1.0, 1.0).asin()
+                ),
+                "place blades in planes through the tool's axis: without hook and rake angles",
+            ));
+        }
+        // r x (sign z) is the normal; r points to the side of the axis on which the edge is.
+        let out = |y_sign: f64| DVec2::new(-y_sign * normal.y, y_sign * normal.x);
+        let middle = tool_from_blade.point(middle_mm.extend(0.0)).truncate();
+        let y_sign = if out(-1.0).dot(middle) > 0.0 { -1.0 } else { 1.0 };
+        let out = out(y_sign);
+        let angle_rad = out.y.atan2(out.x);
+        // A blade a rounding before the full turn belongs to its beginning.
+        let lag_rad = (-turn * angle_rad).rem_euclid(TAU);
+        let lag_rad = if lag_rad > TAU - 1e-9 { 0.0 } else { lag_rad };
+        let x_axis = tool_from_blade.rotation.x_axis;
+        Ok(Self {
+            blade,
+            tool_from_blade,
+            angle_rad,
+            radial_mm: out.dot(origin_mm.truncate()),
+            axial_mm: origin_mm.z,
+            y_sign,
+            looks: DVec2::new(out.dot(x_axis.truncate()), y_sign * x_axis.z),
+            lag_rad,
+        })
+    }
+}
+
 impl TurningPasses {
-    /// Passes whose blades point to the work at tool angles within the motion's range, half a sweep inside its ends.
-    pub fn new(first_pass: u32, tool: &dyn SpatialTool, turn: f64, motion: MotionTable) -> Self {
-        let mut places: Vec<BladePlace> = (0..tool.blade_count())
-            .map(|blade| {
-                let tool_from_blade = tool.tool_from_blade(blade);
-                let out = tool_from_blade.rotation.x_axis;
-                let angle_rad = out.y.atan2(out.x);
-                // A blade a rounding before the full turn belongs to its beginning.
-                let lag_rad = (-turn * angle_rad).rem_euclid(TAU);
-                let lag_rad = if lag_rad > TAU - 1e-9 { 0.0 } else { lag_rad };
-                let y_sign = tool_from_blade.rotation.y_axis.z.signum();
-                BladePlace { blade, angle_rad, axial_mm: tool_from_blade.translation_mm.z, y_sign, lag_rad }
-            })
-            .collect();
+    /// Passes whose blades point to the work at tool angles within the motion's range, half a window inside its ends.
+    ///
+    /// # Errors
+    /// A rake face that does not hold the tool's axis, or a window of more than a turn.
+    pub fn new(first_pass: u32, tool: &dyn SpatialTool, turn: f64, motion: MotionTable) -> Result<Self, Refusal> {
+        let half_window_rad = tool.half_window_rad();
+        if half_window_rad.is_nan() || half_window_rad <= 0.0 || half_window_rad > PI {
+            return Err(Refusal::new(
+                "tool",
+                format!("blades are said to be in the work within {half_window_rad} rad to either side of it"),
+                "use a half window above 0 and up to pi",
+            ));
+        }
+        let mut places = (0..tool.blade_count())
+            .map(|blade| BladePlace::new(blade, tool.tool_from_blade(blade), tool.edge_of(blade).center_mm, turn))
+            .collect::<Result<Vec<_>, _>>()?;
+        let edges = turned_edges(tool.edges(), &mut places);
         let gash = |place: &BladePlace| (place.lag_rad * 1e9).round() as i64;
         places.sort_by_key(|place| (gash(place), place.blade));
         let [from, to] = motion.range_rad();
-        let half_sweep_rad = tool.half_sweep_rad();
-        let first_turn = ((from + half_sweep_rad) / TAU).ceil() as i64;
-        let turns = (((to - half_sweep_rad) / TAU).floor() as i64 - first_turn).max(0) as u32;
-        Self {
+        let first_turn = ((from + half_window_rad) / TAU).ceil() as i64;
+        let turns = (((to - half_window_rad) / TAU).floor() as i64 - first_turn).max(0) as u32;
+        Ok(Self {
             first_pass,
             places,
-            edges: tool.edges().clone(),
+            edges,
             motion,
             turn,
             rake_twist_rad_per_mm: tool.rake_twist_rad_per_mm(),
-            half_sweep_rad,
+            half_window_rad,
             first_turn,
             turns,
-        }
+        })
     }
 
     /// Number of passes.
@@ -116,7 +184,7 @@ impl TurningPasses {
 
     /// Pieces of the motion that a pass's sweep has a part in: more than one where rates jump meanwhile.
     pub fn pieces(&self, pass: &BladePass) -> Range<u32> {
-        self.motion.pieces([pass.tool_angle_rad - self.half_sweep_rad, pass.tool_angle_rad + self.half_sweep_rad])
+        self.motion.pieces([pass.tool_angle_rad - self.half_window_rad, pass.tool_angle_rad + self.half_window_rad])
     }
 
     /// Place of a pass's blade.
@@ -124,15 +192,141 @@ impl TurningPasses {
         &self.places[pass.rank as usize]
     }
 
-    /// Edge of a pass's blade.
+    /// Edge of a pass's blade, turned into (r, w).
     pub fn edge(&self, pass: &BladePass) -> &Edge {
         self.edges.edge_of(self.place(pass).blade)
     }
 
-    /// Turn of the tool (counted from tool angle 0) and number of the tooth behind a pass id of this set.
+    /// Turn of the tool (counted from tool angle 0) and number of the blade behind a pass id of this set.
     pub fn blade_of(&self, pass_id: u32) -> (i64, u32) {
         let index = pass_id - self.first_pass;
-        let teeth = self.places.len() as u32;
-        (self.first_turn + i64::from(index / teeth), self.places[(index % teeth) as usize].blade)
+        let blades = self.places.len() as u32;
+        (self.first_turn + i64::from(index / blades), self.places[(index % blades) as usize].blade)
+    }
+}
+
+/// The edges of a tool's blades (in the order of `places`) in (r, w), each kept once; blades that look alike but for
+/// rounding get the same direction.
+fn turned_edges(edges: &BladeEdges, places: &mut [BladePlace]) -> BladeEdges {
+    let mut directions = vec![DVec2::X];
+    let mut kept: Vec<(usize, DVec2)> = Vec::new();
+    let mut pattern = Vec::new();
+    for place in places {
+        let near = |direction: &&DVec2| direction.distance(place.looks) < SAME_TURN;
+        match directions.iter().find(near) {
+            Some(&known) => place.looks = known,
+            None => directions.push(place.looks),
+        }
+        let own = (edges.index_of(place.blade), place.looks);
+        pattern.push(kept.iter().position(|known| *known == own).unwrap_or_else(|| {
+            kept.push(own);
+            kept.len() - 1
+        }));
+    }
+    let turned = kept.iter().map(|&(edge, looks)| edges.edges()[edge].turned(looks));
+    BladeEdges::new(turned.collect(), pattern)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tool::CuttingTool;
+    use crate::tool::edge::{Segment, SegmentName};
+    use glam::{DMat3, DVec3};
+
+    /// Blades placed one by one.
+    struct Placed(Vec<Rigid3>, BladeEdges, f64);
+
+    impl CuttingTool for Placed {
+        fn blade_count(&self) -> u32 {
+            self.0.len() as u32
+        }
+        fn edges(&self) -> &BladeEdges {
+            &self.1
+        }
+    }
+
+    impl SpatialTool for Placed {
+        fn tool_from_blade(&self, index: u32) -> Rigid3 {
+            self.0[index as usize]
+        }
+        fn half_window_rad(&self) -> f64 {
+            self.2
+        }
+    }
+
+    fn still() -> MotionTable {
+        MotionTable::new([-2.0, 20.0], &[], |_| Rigid3 { rotation: DMat3::IDENTITY, translation_mm: DVec3::ZERO })
+    }
+
+    /// A blade frame with these axes, out of the tool's axis and along it, at an angle.
+    fn frame(angle_rad: f64, x_axis: [f64; 2], y_axis: [f64; 2], [radial_mm, axial_mm]: [f64; 2]) -> Rigid3 {
+        let out = DVec3::new(angle_rad.cos(), angle_rad.sin(), 0.0);
+        let [x, y] = [x_axis, y_axis].map(|[r, z]| r * out + z * DVec3::Z);
+        Rigid3 { rotation: DMat3::from_cols(x, y, x.cross(y)), translation_mm: radial_mm * out + axial_mm * DVec3::Z }
+    }
+
+    fn edge() -> Edge {
+        let points = [[1.0, -1.5], [4.0, -0.5], [4.0, 1.0], [0.5, 1.5]].map(DVec2::from);
+        Edge::new(points.windows(2).map(|p| Segment::straight(SegmentName::Tip, p[0], p[1])).collect())
+    }
+
+    /// Whatever way a blade looks, its edge in (r, w) stands where the blade's frame puts it in the tool.
+    #[test]
+    fn edges_in_the_rake_face_stand_where_the_blades_are() {
+        let lean = 0.3_f64;
+        let frames = [
+            frame(0.7, [1.0, 0.0], [0.0, -1.0], [0.0, 3.0]),
+            frame(2.5, [0.0, 1.0], [1.0, 0.0], [95.0, -2.0]),
+            frame(-1.2, [0.0, -1.0], [1.0, 0.0], [90.0, 5.0]),
+            frame(-2.9, [-lean.sin(), lean.cos()], [lean.cos(), lean.sin()], [50.0, 1.0]),
+            frame(0.1, [0.0, -1.0], [-1.0, 0.0], [80.0, 0.0]),
+        ];
+        let set = TurningPasses::new(0, &Placed(frames.to_vec(), BladeEdges::shared(edge()), 1.0), 1.0, still())
+            .expect("planes through the axis");
+        for place in &set.places {
+            let (own, turned) = (edge(), set.edges.edge_of(place.blade));
+            for (segment, in_face) in own.segments.iter().zip(&turned.segments) {
+                for y_mm in segment.y_range_mm {
+                    let at = DVec2::new(segment.x_and_slope(y_mm)[0], y_mm);
+                    let wanted = place.tool_from_blade.point(segment.blade_from_segment.point(at).extend(0.0));
+                    let at = in_face.blade_from_segment.point(at);
+                    let radius_mm = place.radial_mm + at.x;
+                    let got = DVec3::new(
+                        radius_mm * place.angle_rad.cos(),
+                        radius_mm * place.angle_rad.sin(),
+                        place.axial_mm + place.y_sign * at.y,
+                    );
+                    assert!(radius_mm > 0.0 && got.distance(wanted) < 1e-12, "blade {}", place.blade);
+                }
+            }
+        }
+        // Blades that look away from the axis keep their edge bit for bit.
+        assert_eq!(set.edges.edge_of(0), &edge());
+    }
+
+    #[test]
+    fn blades_that_look_alike_share_their_edges() {
+        let two = BladeEdges::in_turn(vec![edge(), Edge::new(edge().segments[..2].to_vec())]);
+        let frames = (0..14).map(|i| frame(f64::from(i) * TAU / 14.0, [0.0, 1.0], [1.0, 0.0], [95.0, 0.0])).collect();
+        let set = TurningPasses::new(0, &Placed(frames, two, 0.5), 1.0, still()).expect("a head");
+        assert_eq!(set.edges.edges().len(), 2);
+        assert!((0..14).all(|blade| set.edges.index_of(blade) == blade as usize % 2));
+    }
+
+    #[test]
+    fn rake_faces_beside_the_axis_and_impossible_windows_are_refused() {
+        let tool = |frame: Rigid3, half_window_rad: f64| {
+            TurningPasses::new(0, &Placed(vec![frame], BladeEdges::shared(edge()), half_window_rad), 1.0, still())
+        };
+        let plain = frame(0.4, [0.0, 1.0], [1.0, 0.0], [95.0, 0.0]);
+        assert!(tool(plain, PI).is_ok());
+        let mut beside = plain;
+        beside.translation_mm += 1e-3 * plain.rotation.z_axis;
+        let mut leaning = plain;
+        leaning.rotation *= DMat3::from_rotation_x(1e-3);
+        for (frame, half_window_rad) in [(beside, 1.0), (leaning, 1.0), (plain, 0.0), (plain, 4.0), (plain, f64::NAN)] {
+            assert!(tool(frame, half_window_rad).is_err());
+        }
     }
 }

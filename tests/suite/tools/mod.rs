@@ -1,0 +1,6 @@
+//! Tools of any kind, without a process: blades that differ, and blades that stand along their axis.
+
+mod conical_gear;
+mod face_mill;
+mod planar_edges;
+pub mod spatial_edges;
