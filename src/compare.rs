@@ -10,8 +10,6 @@
 //! | `<path>_<column>_first_period.svg` | the rows of the pitch curve's first period (Gao et al. 2017, Fig. 10) |
 //! | `<path>_<column>_a.svg`, `_b.svg`, ... | one result each, on its own scale |
 //!
-//! Bars are the unevenness of the allowance by tooth of a shaped gear; volume, thickness and travel by tooth of a hob.
-//!
 //! Everything is read from the trees by path, whatever the process: what joins the tree joins the comparison. Results
 //! of different gears may be compared: what one of them lacks stays empty. Places are not compared.
 

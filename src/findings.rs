@@ -7,8 +7,8 @@
 //! A path names a part of the tree: keys joined by dots, such as `operations.rough.relief.largest_beta`. It is the
 //! path in `results.json` under `sections`, and the name of the line in a comparison.
 //!
-//! Two measures are told apart everywhere. A **height** is measured from the target, the envelope of the last
-//! operation. A **stock** is what an operation leaves over the finished surface. Both run along the target's normal,
+//! Two measures are told apart everywhere. A **normal deviation** is measured from the target, the envelope of
+//! the last operation. A **stock** is what an operation leaves over the finished surface. Both run along the target's normal,
 //! positive where material is.
 //!
 //! Roads not taken: a struct for each process, which every renderer had to know; headline numbers marked by a level
@@ -21,9 +21,10 @@ pub mod quantity;
 mod read;
 pub mod table;
 pub mod tree;
+pub mod unit;
 
 pub use json::{RESULTS_FILE, SCHEMA, SCHEMA_VERSION};
 pub use place::{Coordinate, Place};
 pub use quantity::Quantity;
-pub use table::{Column, Datum, Table};
+pub use table::{Datum, Table, TableColumn};
 pub use tree::{Entry, Findings, Level, Section};

@@ -1,7 +1,7 @@
 //! What meshes, pictures, maps and texture ask of a job, whatever its process.
 //!
 //! In: a prepared job. Out: the target's profiles section by section, and surfaces of flanks and tips after all
-//! operations. Shaping and hobbing answer each in their own way; nothing behind this interface knows strokes or hobs.
+//! operations. Every process answers in its own way; nothing behind this interface knows strokes or hobs.
 
 use crate::cut::Backend;
 use crate::dexel::Layer;
@@ -10,7 +10,7 @@ use crate::gear::PitchCurve;
 use crate::gear::blank::Blank;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
-use crate::surface::triangles::Profile;
+use crate::surface::triangles::SectionProfile;
 use crate::terms::Side;
 
 /// How far below the target a ray records cuts, in modules: undercut and wrong linkages stay well inside.
@@ -71,14 +71,14 @@ pub trait GearJob: Sync {
         side: Side,
         spacing_mm: f64,
         rows_z_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Profile>)>;
+    ) -> Result<(Vec<f64>, Vec<SectionProfile>)>;
 
     /// Root of the space after tooth `space` in every section of `rows_z_mm`, equally many points about `spacing_mm`
     /// apart, between the ends of its flanks.
     ///
     /// # Errors
     /// The tool generates no flank there.
-    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<Profile>>;
+    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>>;
 
     /// What every operation left on a part of a flank: arcs from the form point times places along the tooth, mm.
     ///

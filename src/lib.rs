@@ -72,6 +72,7 @@
 //! - [`backend`]: which machine cuts
 //! - [`interrupt`]: Ctrl-C as a flag
 //! - [`colormap`]: numbers as colours
+//! - [`wrap`]: texts in lines of a width
 //! - [`machine`]: the axes of a machine: kinds, units, motion, limits, peaks
 //! - [`material`]: cutting forces from chip thickness
 //! - [`scene`]: the scene file as checked values
@@ -108,6 +109,7 @@ pub mod scene;
 pub mod steps;
 pub mod surface;
 pub mod texture;
+pub mod wrap;
 
 pub use findings::Findings;
 pub use library::{Flank, Job};

@@ -9,5 +9,5 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
-    cli::run(cli::args::Arguments::parse())
+    cli::run(cli::args::CommandLine::parse())
 }

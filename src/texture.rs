@@ -5,7 +5,7 @@
 //!
 //! | file | what |
 //! | --- | --- |
-//! | `tooth_03_left.x3p`, `.sdf`, `.npy`, `.csv` | heights over the target flank, nothing removed |
+//! | `tooth_03_left.x3p`, `.sdf`, `.npy`, `.csv` | normal deviations, nothing removed |
 //! | `tooth_03_left_relief.png` | heights after the chain, lit from the side, exaggeration stated |
 //! | `tooth_03_left_abbott.svg` | material ratio curve with the construction of Sk |
 //!
@@ -48,7 +48,7 @@ pub struct WindowTexture {
     pub window: Window,
     /// Index of the operation.
     pub operation: usize,
-    /// Heights over the target flank, um; x along the tooth, y along the profile towards the tip; NaN where no pass
+    /// Normal deviations, um; x along the tooth, y along the profile towards the tip; NaN where no pass
     /// came. None where none came at all.
     pub heights: Option<Surface>,
     /// Marks that follow each other along the tooth and along the profile: `[x, y]`; 0 along the tooth where the axes

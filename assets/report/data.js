@@ -51,7 +51,8 @@ const gearcut = (() => {
   function number(value) {
     if (value === 0 || !Number.isFinite(value)) return "0";
     const size = Math.abs(value);
-    const text = size >= 1e-4 && size < 1e6 ? value.toFixed(Math.max(0, 2 - Math.floor(Math.log10(size)))) : value.toExponential(2);
+    const plain = size >= 1e-4 && size < 1e6;
+    const text = plain ? value.toFixed(Math.max(0, 2 - Math.floor(Math.log10(size)))) : value.toExponential(2);
     return text.replace("-", "−");
   }
 

@@ -26,7 +26,8 @@ gearcut.loaded.then((data) => {
     const columns = Math.max(1, Math.min(Math.floor(limit / wide), Math.ceil(Math.sqrt((maps.length * high) / wide))));
     const rows = Math.max(1, Math.ceil(maps.length / columns));
     const [width, height] = [columns * wide, rows * high];
-    const texture = new THREE.DataTexture(new Uint8Array(4 * width * height), width, height, THREE.RGBAFormat, THREE.UnsignedByteType);
+    const pixels = new Uint8Array(4 * width * height);
+    const texture = new THREE.DataTexture(pixels, width, height, THREE.RGBAFormat, THREE.UnsignedByteType);
     texture.minFilter = texture.magFilter = THREE.LinearFilter;
     let next = 0;
     const corners = flanks.map((flank) => {
@@ -114,7 +115,8 @@ gearcut.loaded.then((data) => {
   flankShape.setAttribute("whose", new THREE.BufferAttribute(whose, 1));
   flankShape.setAttribute("share", new THREE.BufferAttribute(shares, 2));
 
-  // Light comes from beside the eye, so that every side that is seen is lit; maps are shaded little, to keep their colours readable.
+  // Light comes from beside the eye, so that every side that is seen is lit; maps are shaded little, to keep their
+  // colours readable.
   const light = "float light = abs(dot(normalize(facing), normalize(vec3(0.25, 0.45, 1.0))));";
   const flankMaterial = new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
@@ -130,7 +132,8 @@ gearcut.loaded.then((data) => {
         gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
       }`,
     fragmentShader: `
-      uniform sampler2D atlas; uniform float picked; uniform vec2 size; uniform float border; uniform vec3 accent; uniform vec3 metal;
+      uniform sampler2D atlas; uniform float picked; uniform vec2 size; uniform float border; uniform vec3 accent;
+      uniform vec3 metal;
       varying vec2 place; varying vec2 at; varying vec3 facing; flat varying float mine;
       void main() {
         ${light}
@@ -146,7 +149,10 @@ gearcut.loaded.then((data) => {
     uniforms: { metal: flankMaterial.uniforms.metal },
     vertexShader: `
       varying vec3 facing;
-      void main() { facing = normalMatrix * normal; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`,
+      void main() {
+        facing = normalMatrix * normal;
+        gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+      }`,
     fragmentShader: `
       uniform vec3 metal; varying vec3 facing;
       void main() { ${light} gl_FragColor = vec4(metal * (0.45 + 0.55 * light), 1.0); }`,
@@ -156,7 +162,8 @@ gearcut.loaded.then((data) => {
   const body = new THREE.Mesh(bodyShape, bodyMaterial);
   // Thin lines where the surface bends or a flank ends; faces step back a little so that the lines lie on them.
   const edgeMaterial = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.45 });
-  const edges = [flankShape, walls(bodyShape)].map((shape) => new THREE.LineSegments(new THREE.EdgesGeometry(shape, 35), edgeMaterial));
+  const linesOf = (shape) => new THREE.LineSegments(new THREE.EdgesGeometry(shape, 35), edgeMaterial);
+  const edges = [flankShape, walls(bodyShape)].map(linesOf);
   for (const material of [flankMaterial, bodyMaterial]) {
     Object.assign(material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   }
@@ -264,9 +271,9 @@ gearcut.loaded.then((data) => {
     }
     const flank = flanks[found.index];
     const cell = (axis, place) => Math.min(axis.count - 1, Math.max(0, Math.round((place - axis.start) / axis.step)));
-    const value = flank.map
-      ? data.valuesOf(chosen.quantity)[flank.map.first + cell(flank.map.u, found.u) * flank.map.v.count + cell(flank.map.v, found.v)]
-      : NaN;
+    const valueOn = ({ first, u, v }) =>
+      data.valuesOf(chosen.quantity)[first + cell(u, found.u) * v.count + cell(v, found.v)];
+    const value = flank.map ? valueOn(flank.map) : NaN;
     const words = Number.isNaN(value) ? "no value" : `${number(value)} ${quantities[chosen.quantity].unit}`;
     readout.textContent = `${flankName(flank)}: ${words}`;
   });

@@ -56,7 +56,8 @@ gearcut.loaded.then((data) => {
     }
     const values = data.valuesOf(chosen.quantity);
     const [u, v] = [edges(flank.map.u), edges(flank.map.v)];
-    const box = { x: frame.left, y: frame.top, w: width - frame.left - frame.right, h: height - frame.top - frame.bottom };
+    const [w, h] = [width - frame.left - frame.right, height - frame.top - frame.bottom];
+    const box = { x: frame.left, y: frame.top, w, h };
     const x = (place) => box.x + ((place - v[0]) / (v[1] - v[0])) * box.w;
     const y = (place) => box.y + box.h - ((place - u[0]) / (u[1] - u[0])) * box.h;
     pen.imageSmoothingEnabled = false;
@@ -101,10 +102,12 @@ gearcut.loaded.then((data) => {
       pen.stroke();
     }
     pen.lineWidth = 1;
-    read.textContent = `${reading(cell.value)} at u ${cell.u.toFixed(2)} mm, v ${cell.v.toFixed(2).replace("-", "−")} mm`;
+    const v = cell.v.toFixed(2).replace("-", "−");
+    read.textContent = `${reading(cell.value)} at u ${cell.u.toFixed(2)} mm, v ${v} mm`;
   }
 
-  const reading = (value) => (Number.isNaN(value) ? "no value" : `${number(value)} ${quantities[chosen.quantity].unit}`);
+  const unit = () => quantities[chosen.quantity].unit;
+  const reading = (value) => (Number.isNaN(value) ? "no value" : `${number(value)} ${unit()}`);
 
   // The cell of the shown map that holds a place (u, v) in mm.
   function cellAt([u, v]) {
@@ -112,7 +115,8 @@ gearcut.loaded.then((data) => {
     const { first, u: up, v: along } = shown.flank.map;
     const index = (axis, place) => Math.min(axis.count - 1, Math.max(0, Math.round((place - axis.start) / axis.step)));
     const [i, k] = [index(up, u), index(along, v)];
-    return { u: up.start + i * up.step, v: along.start + k * along.step, value: shown.values[first + i * along.count + k] };
+    const value = shown.values[first + i * along.count + k];
+    return { u: up.start + i * up.step, v: along.start + k * along.step, value };
   }
 
   function pointed(event) {

@@ -21,7 +21,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
         gearcut new shaping --out my_gear.toml                a commented scene of your own\n\n\
         Exit codes: 0 done; 1 refused or failed, with the reason; 2 wrong usage; 130 stopped by Ctrl-C."
 )]
-pub struct Arguments {
+pub struct CommandLine {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
@@ -94,6 +94,15 @@ pub enum Command {
     #[command(after_help = "Example:\n  gearcut new shaping --out my_gear.toml\n\n\
         Every key stands in it with its unit, its range and its default. An existing file is never replaced.")]
     New(NewArguments),
+    /// Write the scene of the gear that runs with a scene's gear.
+    #[command(after_help = "Example:\n  \
+        gearcut mate scenes/shaping/internal_pair_driver.toml --teeth 102 --internal --out ring.toml\n  \
+        gearcut mate scenes/shaping/elliptical_normal.toml --teeth 47 --out mate.toml\n\n\
+        The mate's pitch curve follows from the driver's: equal arcs on both, r2 = a - r1 outside and a + r1 in a\n\
+        ring; the distance of the axes a (mm) is solved so that the curve closes. Tool, machine and operations\n\
+        are the driver's. Prints the scene, or writes it with --out and prints a; an existing file is never\n\
+        replaced.")]
+    Mate(MateArguments),
 }
 
 /// A scene and what is changed in it.
@@ -237,6 +246,23 @@ pub enum FormChoice {
     /// That polynomial together with a circular cylinder.
     #[value(name = "poly2-plus-cylinder")]
     Poly2PlusCylinder,
+}
+
+/// Arguments of `mate`.
+#[derive(Debug, Args)]
+pub struct MateArguments {
+    /// The driver's scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Number of teeth of the mate; its turn must be a whole number of the driver's repeats.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(4..=2000))]
+    pub teeth: u32,
+    /// The mate is a ring with internal teeth.
+    #[arg(long)]
+    pub internal: bool,
+    /// File to write [default: standard output].
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
 }
 
 /// Arguments of `new`.

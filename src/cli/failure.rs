@@ -25,6 +25,12 @@ impl Failure {
         }
     }
 
+    /// A refusal of something that no file says.
+    pub fn without_place(what: &str, refusal: &Refusal) -> Self {
+        let text = format!("error: {what}: {}\n  way out: {}", refusal.problem, refusal.way_out);
+        Self { text, interrupted: false }
+    }
+
     /// A run that Ctrl-C ended early: its results are in `partial`, beside what is at `out`.
     pub fn ended_early(partial: &Path, out: &Path) -> Self {
         let finished = format!("stopped by Ctrl-C: what is finished is in {}", partial.display());

@@ -11,17 +11,18 @@ mod devices;
 mod drivers;
 mod failure;
 mod folder;
+mod mate;
 mod new;
 mod print;
 mod texture;
 
 use std::process::ExitCode;
 
-use args::{Arguments, Command};
+use args::{Command, CommandLine};
 use failure::Failure;
 
 /// Runs the command and reports what went wrong.
-pub fn run(arguments: Arguments) -> ExitCode {
+pub fn run(arguments: CommandLine) -> ExitCode {
     let done = match arguments.command {
         Command::Cut(arguments) => cut::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
@@ -33,6 +34,7 @@ pub fn run(arguments: Arguments) -> ExitCode {
             print::to_stdout(&gearcut::scene::schema::json_schema(gearcut::process::table())).map_err(Failure::from)
         }
         Command::New(arguments) => new::run(&arguments),
+        Command::Mate(arguments) => mate::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

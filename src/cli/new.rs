@@ -2,6 +2,7 @@
 
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
+use std::path::Path;
 
 use gearcut::{Error, process, scene};
 
@@ -14,14 +15,19 @@ pub fn run(arguments: &NewArguments) -> Result<(), Failure> {
     // The argument parser has refused every other process.
     let text = scene::template(process::table(), &arguments.process).unwrap_or_default();
     let Some(path) = &arguments.out else { return Ok(print::to_stdout(&text)?) };
+    write_new(path, &text)?;
+    let next = format!("wrote {}; `gearcut check {}` says what it means\n", path.display(), path.display());
+    Ok(print::to_stdout(&next)?)
+}
+
+/// Writes a scene to a file that does not exist yet.
+pub fn write_new(path: &Path, text: &str) -> Result<(), Error> {
     let mut file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|failed| {
         if failed.kind() == ErrorKind::AlreadyExists {
             let reason = "the file exists, and a scene is never replaced; choose another name with --out".to_owned();
-            return Error::Output { path: path.clone(), reason };
+            return Error::Output { path: path.to_owned(), reason };
         }
         Error::writing(path)(failed)
     })?;
-    file.write_all(text.as_bytes()).map_err(Error::writing(path))?;
-    let next = format!("wrote {}; `gearcut check {}` says what it means\n", path.display(), path.display());
-    Ok(print::to_stdout(&next)?)
+    file.write_all(text.as_bytes()).map_err(Error::writing(path))
 }

@@ -17,7 +17,7 @@ use super::folder::listening;
 use super::print;
 
 /// Profile parameters along one line.
-struct Line {
+struct LineProfile {
     name: String,
     parameters: Result<Vec<Parameter>, String>,
 }
@@ -118,7 +118,7 @@ fn format_of(path: &Path) -> Result<Format, Refusal> {
     })
 }
 
-fn line(wish: &str, surface: &Surface) -> Result<Line, Refusal> {
+fn line(wish: &str, surface: &Surface) -> Result<LineProfile, Refusal> {
     let refuse = |problem: String| Refusal::new("--line", problem, "write y=UM for a row or x=UM for a column");
     let (axis, place) = wish.split_once('=').ok_or_else(|| refuse(format!("`{wish}` names no line")))?;
     let place_um: f64 = place.parse().map_err(|_| refuse(format!("`{place}` is not a number of um")))?;
@@ -139,7 +139,7 @@ fn line(wish: &str, surface: &Surface) -> Result<Line, Refusal> {
     };
     let along = if axis == "y" { "x" } else { "y" };
     let name = format!("profile along {along} at {axis} = {} um", plain(index as f64 * spacing_um));
-    Ok(Line { name, parameters: profile.map(|profile| of_profile(&profile)) })
+    Ok(LineProfile { name, parameters: profile.map(|profile| of_profile(&profile)) })
 }
 
 /// Parameters as an object.
@@ -153,7 +153,7 @@ fn document(
     surface: &Surface,
     chain: &[String],
     evaluation: &Evaluation,
-    lines: &[Line],
+    lines: &[LineProfile],
 ) -> Value {
     let lines: Vec<Value> = lines
         .iter()
@@ -190,7 +190,7 @@ fn sheet(
     surface: &Surface,
     chain: &[String],
     evaluation: &Evaluation,
-    lines: &[Line],
+    lines: &[LineProfile],
 ) -> String {
     let mut sheet = Sheet::default();
     let read = &file.surface;

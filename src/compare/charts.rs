@@ -2,7 +2,7 @@
 //! period and each result on a scale of its own, since one may be a fiftieth of the other.
 
 use super::{Compared, letters};
-use crate::findings::{Column, Findings, Table};
+use crate::findings::{Findings, Table, TableColumn};
 use crate::output::bar_chart::{BarChart, BarSeries};
 
 /// The charts with their file names; a result without such a table or row has no bars.
@@ -61,7 +61,7 @@ fn chart(
     what: &str,
     longest: &Table,
     count: usize,
-    column: &Column,
+    column: &TableColumn,
     tables: &[(&str, Option<&Table>)],
 ) -> BarChart {
     let names = |table: &Table| table.rows.iter().map(|row| row[0].name()).collect::<Vec<_>>();

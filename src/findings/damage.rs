@@ -1,6 +1,6 @@
 //! Damage to the target, and the work of cutting a whole blank, as findings of any process.
 
-use super::{Column, Datum, Place, Quantity, Section, Table};
+use super::{Datum, Place, Quantity, Section, Table, TableColumn};
 use crate::measure::damage::{Damage, LEAST_DEPTH_MM};
 
 /// All places of one kind of damage together; each of them is a row of [`damage_table`].
@@ -14,7 +14,7 @@ pub fn damage(
     made_by: impl Fn(Place, &Damage) -> Place,
 ) -> Section {
     let none = format!("there is none deeper than {LEAST_DEPTH_MM} mm");
-    let depth = "largest depth along the normal; at its place the height over the pitch curve and the distance from \
+    let depth = "largest depth along the normal; at its place the height over the pitch curve and the distance z from \
                  the middle of the face";
     let deepest = places.iter().max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm)).map(|d| {
         let place = Place::default()
@@ -22,7 +22,7 @@ pub fn damage(
             .and("flank", d.place.side.name())
             .and("zone", d.place.zone.name())
             .and("height_mm", d.place.height_mm)
-            .and("lead_mm", d.z_mm);
+            .and("z_mm", d.z_mm);
         Quantity::number(d.depth_mm, "mm", depth).at(made_by(place, d))
     });
     let count = places.len() as u64;
@@ -45,17 +45,17 @@ pub fn damage(
 }
 
 /// Every place of damage of the whole blank; `pass` names what did it, which differs between processes.
-pub fn damage_table(pass: [Column; 2], rows: impl IntoIterator<Item = Vec<Datum>>) -> Table {
+pub fn damage_table(pass: [TableColumn; 2], rows: impl IntoIterator<Item = Vec<Datum>>) -> Table {
     let none = "a stroke has no place on the gear";
-    let number = |key, unit, definition| Column::new(key, unit, definition).or(none);
+    let number = |key, unit, definition| TableColumn::new(key, unit, definition).or(none);
     let mut columns = vec![
-        Column::words("kind", "what is wrong: a gouge, interference, rubbing on the way back, a faulty stroke"),
-        Column::words("operation", "operation that did it"),
-        Column::new("tooth", "1", "tooth, from 1"),
-        Column::words("side", "side of the tooth: left or right"),
-        Column::words("zone", "part of the side"),
+        TableColumn::words("kind", "what is wrong: a gouge, interference, rubbing on the way back, a faulty stroke"),
+        TableColumn::words("operation", "operation that did it"),
+        TableColumn::new("tooth", "1", "tooth, from 1"),
+        TableColumn::words("side", "side of the tooth: left or right"),
+        TableColumn::words("zone", "part of the side"),
         number("height", "mm", "height over the pitch curve along its normal, deepest place"),
-        number("lead", "mm", "distance from the middle of the face, deepest place"),
+        number("z", "mm", "z of the gear frame, from the middle of the face, deepest place"),
         number("x", "mm", "x of the gear frame, deepest place"),
         number("y", "mm", "y of the gear frame, deepest place"),
         number("depth", "mm", "largest depth along the normal"),

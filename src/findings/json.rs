@@ -9,7 +9,7 @@ use std::path::Path;
 use serde_json::{Map, Value, json};
 
 use super::quantity::Quantity;
-use super::table::{Column, Datum, Table};
+use super::table::{Datum, Table, TableColumn};
 use super::tree::{Entry, Findings, Level, Section, title_of};
 use crate::{Error, Result};
 
@@ -115,7 +115,7 @@ fn of_table(table: &Table) -> Value {
     value
 }
 
-fn of_column(column: &Column) -> Value {
+fn of_column(column: &TableColumn) -> Value {
     let mut value = json!({"key": column.key, "unit": column.unit, "definition": column.definition});
     if let Some(why) = &column.why {
         value["why"] = json!(why);

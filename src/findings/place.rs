@@ -5,6 +5,7 @@
 //!
 //! Places tell where, not how much: comparisons leave them alone.
 
+use super::unit;
 use std::borrow::Cow;
 
 use serde::de::{Error as _, MapAccess, Visitor};
@@ -104,6 +105,15 @@ impl Place {
 
     /// In words: "tooth 7 left, u 1.50 mm, v -12.00 mm".
     pub fn words(&self) -> String {
+        self.words_by(|number, unit| format!("{number} {unit}").trim_end().to_owned())
+    }
+
+    /// The same, its units in the signs of a page.
+    pub fn words_with_signs(&self) -> String {
+        self.words_by(|number, unit| unit::with_signs(number, unit))
+    }
+
+    fn words_by(&self, with_unit: impl Fn(&str, &str) -> String) -> String {
         let mut words = String::new();
         for (name, coordinate) in &self.0 {
             // A side follows its tooth as an adjective.
@@ -116,14 +126,11 @@ impl Place {
                 ", "
             };
             words.push_str(separator);
-            let (label, unit) = ["mm", "deg", "s"]
-                .into_iter()
-                .find_map(|unit| Some((name.strip_suffix(unit)?.strip_suffix('_')?, unit)))
-                .unwrap_or((name, ""));
+            let (label, unit) = unit::of_name(name);
             let label = if side || name == "zone" { String::new() } else { format!("{} ", label.replace('_', " ")) };
             words.push_str(&label);
             words.push_str(&match coordinate {
-                Coordinate::Number(value) => format!("{value:.2} {unit}").trim_end().to_owned(),
+                Coordinate::Number(value) => with_unit(&format!("{value:.2}"), unit),
                 Coordinate::Count(count) => count.to_string(),
                 Coordinate::Word(word) => word.to_string(),
             });
@@ -187,6 +194,7 @@ mod tests {
     fn places_read_as_words_and_come_back_from_json() {
         let place = Place::on_flank(7, "left", 1.5, -12.0).and("stroke", 31_u32).and("work_angle_deg", 0.25);
         assert_eq!(place.words(), "tooth 7 left, u 1.50 mm, v -12.00 mm, stroke 31, work angle 0.25 deg");
+        assert_eq!(place.words_with_signs(), "tooth 7 left, u 1.50 mm, v -12.00 mm, stroke 31, work angle 0.25°");
         let text = serde_json::to_string(&place).expect("a place is always JSON");
         assert_eq!(text, r#"{"tooth":7,"flank":"left","u_mm":1.5,"v_mm":-12.0,"stroke":31,"work_angle_deg":0.25}"#);
         assert_eq!(serde_json::from_str::<Place>(&text).expect("its own JSON"), place);

@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 
 use super::json::LEVELS;
 use super::quantity::Quantity;
-use super::table::{Column, Datum, Table};
+use super::table::{Datum, Table, TableColumn};
 use super::tree::{Entry, Findings, Level, Section, title_of};
 
 /// What reads a part, or why it cannot.
@@ -86,7 +86,7 @@ fn table(key: &str, value: &Value) -> Read<Table> {
     let all = object(value, key)?;
     let list = |key: &str| field(all, key)?.as_array().ok_or_else(|| format!("{key} is a list"));
     let title = field(all, "title")?.as_str().ok_or("title is a text")?;
-    let columns: Vec<Column> = list("columns")?.iter().map(column).collect::<Read<_>>()?;
+    let columns: Vec<TableColumn> = list("columns")?.iter().map(column).collect::<Read<_>>()?;
     let rows = list("rows")?.iter().map(|row| {
         let cells = row.as_array().filter(|row| row.len() == columns.len()).ok_or("a row has a cell per column")?;
         cells.iter().map(cell).collect::<Read<Vec<_>>>()
@@ -99,10 +99,10 @@ fn table(key: &str, value: &Value) -> Read<Table> {
     Ok(table)
 }
 
-fn column(value: &Value) -> Read<Column> {
+fn column(value: &Value) -> Read<TableColumn> {
     let all = object(value, "a column")?;
     let text = |key: &str| all.get(key).and_then(Value::as_str).map(str::to_owned);
-    Ok(Column {
+    Ok(TableColumn {
         key: text("key").ok_or("a column has a key")?.into(),
         unit: text("unit").map(Into::into),
         definition: text("definition").ok_or("a column has a definition")?.into(),
@@ -132,14 +132,15 @@ mod tests {
     fn findings() -> Findings {
         let stock = Quantity::number(0.1 + 0.2, "mm", "smallest stock").at(Place::on_flank(7, "left", 1.5, 12.0));
         let columns = vec![
-            Column::words("tooth", "hob tooth"),
-            Column::new("volume", "mm3", "volume that it takes").or("it takes nothing").as_bars(),
+            TableColumn::words("tooth", "hob tooth"),
+            TableColumn::new("volume", "mm3", "volume that it takes").or("it takes nothing").as_bars(),
         ];
         let mut table = Table::new("teeth", "Hob teeth", columns)
             .with_rows([vec!["B7".into(), 0.25.into()], vec!["8".into(), f64::NAN.into()]]);
         table.period_rows = Some(1);
         let table = table.in_file("teeth");
-        let many = Table::new("chips", "Chips", vec![Column::new("stroke", "1", "stroke")]).rows_in_file("chips_rough");
+        let many =
+            Table::new("chips", "Chips", vec![TableColumn::new("stroke", "1", "stroke")]).rows_in_file("chips_rough");
         let rough = Section::new("rough", "Rough")
             .with("strokes", Quantity::count(4200, "strokes", "strokes made"))
             .shown("idle_time", "time without a cut", Quantity::number(2.5, "s", "time"))

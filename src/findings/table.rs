@@ -17,7 +17,7 @@ pub struct Table {
     /// What it shows.
     pub title: String,
     /// Columns; the first names the rows.
-    pub columns: Vec<Column>,
+    pub columns: Vec<TableColumn>,
     /// Rows of as many cells as there are columns.
     pub rows: Vec<Vec<Datum>>,
     /// Rows after which the gear's shape repeats, if it does.
@@ -30,7 +30,7 @@ pub struct Table {
 
 /// One column.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Column {
+pub struct TableColumn {
     /// Key.
     pub key: Cow<'static, str>,
     /// Unit; none for words.
@@ -58,7 +58,7 @@ pub enum Datum {
 
 impl Table {
     /// An empty table.
-    pub fn new(key: &str, title: &str, columns: Vec<Column>) -> Self {
+    pub fn new(key: &str, title: &str, columns: Vec<TableColumn>) -> Self {
         Self {
             key: key.to_owned(),
             title: title.to_owned(),
@@ -75,13 +75,13 @@ impl Table {
     pub fn of_quantities<'a>(
         key: &str,
         title: &str,
-        names: Vec<Column>,
+        names: Vec<TableColumn>,
         rows: impl IntoIterator<Item = (Vec<Datum>, Vec<(String, &'a Quantity)>)>,
     ) -> Self {
         let mut table = Self::new(key, title, names);
         for (mut row, quantities) in rows {
             if table.rows.is_empty() {
-                table.columns.extend(quantities.iter().map(|(key, of)| Column::of(key.clone(), of)));
+                table.columns.extend(quantities.iter().map(|(key, of)| TableColumn::of(key.clone(), of)));
             }
             row.extend(quantities.into_iter().map(|(_, quantity)| Datum::from(quantity)));
             table = table.with_rows([row]);
@@ -122,7 +122,7 @@ impl Table {
     }
 }
 
-impl Column {
+impl TableColumn {
     /// A column of numbers or counts.
     pub fn new(key: impl Into<Cow<'static, str>>, unit: &'static str, definition: &'static str) -> Self {
         Self { key: key.into(), unit: Some(unit.into()), definition: definition.into(), why: None, bars: false }
@@ -238,13 +238,13 @@ mod tests {
 
     #[test]
     fn heads_of_files_end_with_the_unit() {
-        let head = |key: &'static str, unit: &'static str| Column::new(key, unit, "").head();
+        let head = |key: &'static str, unit: &'static str| TableColumn::new(key, unit, "").head();
         assert_eq!(head("AB", "mm"), "AB_mm");
         assert_eq!(head("unevenness", "%"), "unevenness_percent");
         assert_eq!(head("removal_rate", "cm^3/min"), "removal_rate_cm3_per_min");
         assert_eq!(head("work_torque", "N m"), "work_torque_Nm");
         assert_eq!([head("tooth", "1"), head("two_flank_chips", "chips")], ["tooth", "two_flank_chips"]);
-        assert_eq!(Column::words("flank", "").head(), "flank");
+        assert_eq!(TableColumn::words("flank", "").head(), "flank");
     }
 
     #[test]
@@ -256,8 +256,8 @@ mod tests {
             (vec![Datum::from(tooth)], keyed)
         };
         let rows = [row(1, &known), row(2, &unknown)];
-        let table = Table::of_quantities("flanks", "Flanks", vec![Column::new("tooth", "1", "number")], rows);
-        let heads: Vec<String> = table.columns.iter().map(Column::head).collect();
+        let table = Table::of_quantities("flanks", "Flanks", vec![TableColumn::new("tooth", "1", "number")], rows);
+        let heads: Vec<String> = table.columns.iter().map(TableColumn::head).collect();
         assert_eq!(heads, ["tooth", "F_alpha_um", "strokes"]);
         assert_eq!(table.columns[1].definition, "range");
         assert_eq!(table.rows[0], [Datum::Count(1), Datum::Number(0.5), Datum::Count(3)]);
@@ -266,7 +266,7 @@ mod tests {
 
     #[test]
     fn rows_in_a_file_are_not_in_the_results_as_well() {
-        let strokes = Table::new("strokes", "Strokes", vec![Column::new("stroke", "1", "stroke")])
+        let strokes = Table::new("strokes", "Strokes", vec![TableColumn::new("stroke", "1", "stroke")])
             .with_rows([vec![Datum::Count(0)]]);
         let rows = |table: Table| {
             let section = crate::findings::Section::new("chips", "Chips").table(table);

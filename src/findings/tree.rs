@@ -8,7 +8,7 @@ use super::table::Table;
 pub struct Findings {
     /// Version of the program.
     pub program_version: String,
-    /// Process: `shaping`, `hobbing`.
+    /// Name of the process.
     pub process: String,
     /// Name of the scene.
     pub scene: String,

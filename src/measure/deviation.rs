@@ -1,9 +1,9 @@
 //! Profile, lead, pitch and runout deviations in the style of ISO 1328:2013, for gears that are not round.
 //!
-//! Profile and lead: heights over the target along its local normals, over a stated range of a line: total deviation
-//! F_alpha or F_beta (range), slope deviation f_H (the mean line's rise over the range) and form deviation f_f (range
-//! about the mean line). Pitch: places where the flanks cross the pitch curve, as arcs of that curve, against one pitch
-//! pi m each: single f_p and cumulative F_p. No tolerance class is given: the standard's classes are for round gears.
+//! Profile and lead: normal deviations over a stated range of a line: total deviation F_alpha or F_beta (range), slope
+//! deviation f_H (the mean line's rise over the range) and form deviation f_f (range about the mean line). Pitch:
+//! places where the flanks cross the pitch curve, as arcs of that curve, against one pitch pi m each: single f_p and
+//! cumulative F_p. No tolerance class is given: the standard's classes are for round gears.
 
 use super::crossing::Crossing;
 use crate::dexel::{Field, Layer, NO_PASS};
@@ -14,7 +14,7 @@ use crate::gear::blank::Blank;
 pub struct Trace {
     /// Places of the dexels, mm, increasing: arc from the form point, or place along the tooth.
     pub places_mm: Vec<f64>,
-    /// Heights over the target, mm; NaN where no pass came.
+    /// Normal deviations, mm; NaN where no pass came.
     pub heights_mm: Vec<f64>,
 }
 

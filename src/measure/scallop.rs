@@ -13,7 +13,7 @@ use crate::math::newton::{LastStep, newton};
 pub struct Cusp {
     /// Arc along the profile, mm.
     pub arc_mm: f64,
-    /// Height over the target, mm.
+    /// Normal deviation, mm.
     pub height_mm: f64,
 }
 

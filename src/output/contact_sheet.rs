@@ -33,7 +33,7 @@ pub struct Thumbnail<'a> {
 pub struct ContactSheet<'a> {
     /// What is shown.
     pub title: &'a str,
-    /// What the values are, such as "height over the target".
+    /// What the values are, such as "normal deviation".
     pub quantity: &'a str,
     /// Their unit, such as "µm".
     pub unit: &'a str,

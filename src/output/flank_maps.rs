@@ -4,7 +4,7 @@
 //!
 //! | what | where |
 //! | --- | --- |
-//! | height over the target after each operation | `maps/<operation>/tooth_07_left.{png,exr}` |
+//! | normal deviation after each operation | `maps/<operation>/tooth_07_left.{png,exr}` |
 //! | pass that left the finished surface | `maps/<last operation>/tooth_07_left_pass.png` |
 //! | uncut chip thickness of the last cut, part of the edge | `maps/<last operation>/tooth_07_left_chip.png` |
 //! | stock of each earlier operation over the finished surface | `allowance/tooth_07_left.{png,exr}` |
@@ -70,7 +70,7 @@ pub struct FlankMaps {
     pub side: Side,
     /// Places.
     pub grid: MapGrid,
-    /// Height over the target after each operation, mm; NaN where no pass came.
+    /// Normal deviation after each operation, mm; NaN where no pass came.
     pub heights_mm: Vec<Vec<f32>>,
     /// Height of the highest dexel of each cell, mm; NaN where no pass came.
     pub highest_mm: Vec<Vec<f32>>,
@@ -187,7 +187,7 @@ impl FlankMaps {
             let picture = MapPicture {
                 missing: NO_PASS_CAME,
                 title: &format!("{name}: {flank}"),
-                quantity: "height over the target, highest of cell",
+                quantity: "normal deviation, highest of cell",
                 unit: "µm",
                 grid: &self.grid,
                 values: &heights_um,
@@ -223,13 +223,13 @@ impl FlankMaps {
                 channel(
                     "height_mm",
                     "mm",
-                    "height over the target along its normal after this operation",
+                    "normal deviation after this operation",
                     Samples::F32(self.heights_mm[index].clone()),
                 ),
                 channel(
                     "highest_mm",
                     "mm",
-                    "height of the highest dexel of the cell over the target",
+                    "normal deviation of the highest dexel of the cell",
                     Samples::F32(self.highest_mm[index].clone()),
                 ),
                 channel(
@@ -301,14 +301,14 @@ impl FlankMaps {
         let picture = MapPicture {
             missing: NO_PASS_CAME,
             title: &format!("Deviation after {last}: tooth {}, {} flank", self.tooth, self.side.name()),
-            quantity: "mean height of cell over the target",
+            quantity: "mean normal deviation of cell",
             unit: "µm",
             grid: &self.grid,
             values: &values_um,
             scale,
         };
         write_map_png(&folder.path(format!("deviation/{stem}.png"))?, &picture)?;
-        let definition = "mean height of the cell's dexels over the target after the last operation";
+        let definition = "mean normal deviation of the cell's dexels after the last operation";
         let channel = channel("deviation_mm", "mm", definition, Samples::F32(self.deviation_mm.clone()));
         self.write_exr(&folder.path(format!("deviation/{stem}.exr"))?, vec![channel], notes)
     }

@@ -28,7 +28,7 @@ use crate::{Error, Result};
 pub struct MapPicture<'a> {
     /// What and where, such as "Finish, tooth 7, left flank".
     pub title: &'a str,
-    /// What the values are, such as "height over the target".
+    /// What the values are, such as "normal deviation".
     pub quantity: &'a str,
     /// Their unit, such as "µm".
     pub unit: &'a str,

@@ -68,7 +68,7 @@ const QUANTITY: usize = 3;
 const INDEX: usize = 4;
 
 /// Streams and the accessors into them.
-struct Values {
+struct Streams {
     streams: [Stream; 5],
     accessors: Vec<Accessor>,
 }
@@ -78,7 +78,7 @@ fn build(file: &MeshFile) -> (Document, Vec<u8>) {
     let colours = file.vertex_colours();
     let stream = |stride| Stream { bytes: Vec::new(), stride };
     let streams = [stream(Some(12)), stream(Some(12)), stream(Some(8)), stream(Some(4)), stream(None)];
-    let mut values = Values { streams, accessors: Vec::new() };
+    let mut values = Streams { streams, accessors: Vec::new() };
     let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
     let mut local = vec![u32::MAX; mesh.positions_mm.len()];
     for part in &mesh.parts {
@@ -148,7 +148,7 @@ fn build(file: &MeshFile) -> (Document, Vec<u8>) {
         scale: Some([1e-3; 3]),
         ..GltfNode::default()
     });
-    let Values { streams, accessors } = values;
+    let Streams { streams, accessors } = values;
     let (buffer_views, buffer) = join(streams);
     let document = Document {
         accessors,
@@ -178,13 +178,13 @@ fn build(file: &MeshFile) -> (Document, Vec<u8>) {
     (document, buffer)
 }
 
-/// Layout of floats; [`Values::push`] sets their place.
+/// Layout of floats; [`Streams::push`] sets their place.
 fn floats(count: usize, kind: &'static str) -> Accessor {
     let (buffer_view, byte_offset) = (0, 0);
     Accessor { buffer_view, byte_offset, count, component_type: FLOAT, kind, min: None, max: None, normalized: false }
 }
 
-impl Values {
+impl Streams {
     /// Appends values to a stream; gives the number of their accessor.
     fn push(&mut self, stream: usize, bytes: impl Iterator<Item = u8>, layout: Accessor) -> usize {
         let to = &mut self.streams[stream].bytes;

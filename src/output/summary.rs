@@ -7,6 +7,7 @@ use crate::cut::KERNEL_UM;
 use crate::findings::{Entry, Findings, Level, Quantity, Section};
 use crate::output::progress::duration_text;
 use crate::output::text::{Sheet, VALUE_COLUMN, plain, significant};
+use crate::wrap::wrapped;
 
 /// Widest line, characters.
 const WIDTH: usize = 80;
@@ -34,23 +35,6 @@ pub fn line(sheet: &mut Sheet, label: &str, value: &str) {
     for (i, part) in wrapped(value, WIDTH - VALUE_COLUMN).iter().enumerate() {
         sheet.line(if i == 0 { label } else { "" }, part);
     }
-}
-
-/// Text broken between words into lines of at most `width` characters; a longer word stays whole.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split(' ') {
-        let last = lines.last_mut().expect("one line at least");
-        if last.is_empty() {
-            last.push_str(word);
-        } else if last.chars().count() + 1 + word.chars().count() <= width {
-            last.push(' ');
-            last.push_str(word);
-        } else {
-            lines.push(word.to_owned());
-        }
-    }
-    lines
 }
 
 fn is_defined(entry: &Entry) -> bool {

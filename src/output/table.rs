@@ -14,7 +14,7 @@ use std::io;
 use std::path::Path;
 
 use crate::Result;
-use crate::findings::{Column, Datum, Findings};
+use crate::findings::{Datum, Findings, TableColumn};
 use crate::output::atomic::write_atomically;
 use crate::output::folder::OutputFolder;
 
@@ -27,7 +27,7 @@ pub fn write_tables(findings: &Findings, folder: &OutputFolder) -> Result<()> {
     findings.walk(&mut |_, section| tables.extend(&section.tables));
     for table in tables {
         let Some(file) = &table.file else { continue };
-        let columns: Vec<String> = table.columns.iter().map(Column::head).collect();
+        let columns: Vec<String> = table.columns.iter().map(TableColumn::head).collect();
         let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
         write_table(&folder.path(file)?, &columns, &table.rows)?;
     }

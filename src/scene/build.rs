@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use super::model::{
-    Fields, GcodeDialect, Gear, Measure, Output, Picture, PictureColour, PictureView, Scene, TextureWindow, WindowSides,
+    Fields, Gear, Measure, Output, Picture, PictureColour, PictureView, Scene, TextureWindow, WindowSides,
 };
 use super::process::SceneProcess;
 use super::values::{Values, View};
@@ -44,12 +44,6 @@ pub(super) fn build(name: &str, process: &SceneProcess, base_dir: &Path, values:
             map_spacing_mm: output.number("map_spacing_mm")?,
             mesh_spacing_mm: output.number("mesh_spacing_mm")?,
             folder: output.text("folder").map(PathBuf::from),
-            gcode: match output.text("gcode")? {
-                "linear" => GcodeDialect::Linear,
-                "paper_g84" => GcodeDialect::PaperG84,
-                "none" => GcodeDialect::None,
-                _ => return None,
-            },
             gcode_contour_error_mm: output.mm_from_um("gcode_contour_error_um")?,
         },
         pictures: pictures?,

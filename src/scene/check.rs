@@ -6,7 +6,7 @@
 
 use super::keys::{Key, Kind, Range};
 use super::sources::{At, Sources};
-use super::tree::{Node, Value};
+use super::tree::{Node, TomlValue};
 use super::values::Checked;
 
 /// What is wrong with a value, and where exactly.
@@ -28,7 +28,7 @@ pub(super) fn check(path: &str, key: &Key, node: &Node, sources: &Sources) -> Re
         Kind::Number(range) => one.number(node, range, "").map(Checked::Number),
         Kind::Whole { min, max } => one.whole(node, min, max).map(Checked::Whole),
         Kind::Boolean => match node.value {
-            Value::Boolean(on) => Ok(Checked::Boolean(on)),
+            TomlValue::Boolean(on) => Ok(Checked::Boolean(on)),
             _ => Err(one.wrong_type(node, "true or false")),
         },
         Kind::Word(words) => {
@@ -107,15 +107,15 @@ impl One<'_> {
     }
 
     fn text<'n>(&self, node: &'n Node) -> Result<&'n str, Fault> {
-        if let Value::Text(text) = &node.value { Ok(text) } else { Err(self.wrong_type(node, "text in quotes")) }
+        if let TomlValue::Text(text) = &node.value { Ok(text) } else { Err(self.wrong_type(node, "text in quotes")) }
     }
 
     /// A finite number in the range; `part` says which part of the value it is ("angle ").
     fn number(&self, node: &Node, range: Range, part: &str) -> Result<f64, Fault> {
         let number = match node.value {
-            Value::Number(number) => number,
-            Value::Whole(number) => number as f64,
-            Value::Unusable => {
+            TomlValue::Number(number) => number,
+            TomlValue::Whole(number) => number as f64,
+            TomlValue::Unusable => {
                 let written = self.written(node);
                 return Err(Self::fault(
                     node,
@@ -140,8 +140,8 @@ impl One<'_> {
 
     fn whole(&self, node: &Node, min: u32, max: u32) -> Result<u32, Fault> {
         let number = match node.value {
-            Value::Whole(number) => u32::try_from(number).ok(),
-            Value::Unusable => None,
+            TomlValue::Whole(number) => u32::try_from(number).ok(),
+            TomlValue::Unusable => None,
             _ => return Err(self.wrong_type(node, "a whole number")),
         };
         number.filter(|number| (min..=max).contains(number)).ok_or_else(|| {
@@ -151,7 +151,7 @@ impl One<'_> {
     }
 
     fn list<'n>(&self, node: &'n Node) -> Result<&'n [Node], Fault> {
-        if let Value::List(items) = &node.value { Ok(items) } else { Err(self.wrong_type(node, "a list")) }
+        if let TomlValue::List(items) = &node.value { Ok(items) } else { Err(self.wrong_type(node, "a list")) }
     }
 
     fn numbers(&self, node: &Node, range: Range, most: usize) -> Result<Vec<f64>, Fault> {
@@ -166,7 +166,7 @@ impl One<'_> {
     fn points(&self, node: &Node, angle: Range, radius: Range) -> Result<Vec<[f64; 2]>, Fault> {
         let mut points: Vec<[f64; 2]> = Vec::new();
         for item in self.list(node)? {
-            let Value::List(pair) = &item.value else {
+            let TomlValue::List(pair) = &item.value else {
                 return Err(self.wrong_type(item, "points [angle, radius]"));
             };
             let [first, second] = pair.as_slice() else {

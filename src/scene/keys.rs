@@ -131,7 +131,8 @@ pub struct KeySection {
 pub struct Addition {
     /// Path of the section.
     pub path: &'static str,
-    /// The keys, printed after those of the section.
+    /// The keys, printed after those of the section. One that the section has already, a key of words, takes its place:
+    /// the process knows more words.
     pub keys: &'static [Key],
     /// Which of them exclude each other.
     pub groups: &'static [Group],
@@ -223,6 +224,14 @@ impl Key {
     /// A limit of an axis, where known.
     pub const fn limit(name: &'static str, unit: &'static str, example: &'static str, teach: &'static str) -> Self {
         Self::optional(name, unit, Range::above(0.0, 1e7), "not limited", example, teach)
+    }
+
+    /// Whether it is the key `other` with more words.
+    pub fn widens(&self, other: &Self) -> bool {
+        match (self.kind, other.kind) {
+            (Kind::Word(more), Kind::Word(words)) => words.iter().all(|word| more.contains(word)),
+            _ => false,
+        }
     }
 
     /// Unit and range in brackets, as messages print it: `(mm, 0.1 to 50)`.

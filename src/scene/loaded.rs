@@ -9,7 +9,7 @@ use super::problems::{Found, Problems};
 use super::process::SceneProcess;
 use super::sources::{At, Sources};
 use super::table::KeyTable;
-use super::tree::{Entry, Node, Value, parse_document};
+use super::tree::{KeyValue, Node, TomlValue, parse_document};
 use super::values::Values;
 use super::walk::walk;
 use super::{Scene, build, checks, foreign, overrides, write};
@@ -20,7 +20,7 @@ use crate::error::Refusal;
 pub struct LoadedScene {
     /// The checked scene.
     pub scene: Scene,
-    values: Values,
+    pub(super) values: Values,
     sources: Sources,
 }
 
@@ -128,15 +128,16 @@ fn imply(root: &mut Node, list: &str, elements: &[&[(&str, &str)]]) {
     if root.entry(list).is_some() {
         return;
     }
-    let implied = |value: Value| Node { value, at: At::Implied };
-    let entry = |name: &str, value: Value| Entry { name: name.to_owned(), name_at: At::Implied, node: implied(value) };
+    let implied = |value: TomlValue| Node { value, at: At::Implied };
+    let entry =
+        |name: &str, value: TomlValue| KeyValue { name: name.to_owned(), name_at: At::Implied, node: implied(value) };
     let element = |texts: &&[(&str, &str)]| {
-        let entries = texts.iter().map(|(name, text)| entry(name, Value::Text((*text).to_owned())));
-        implied(Value::Table(entries.collect()))
+        let entries = texts.iter().map(|(name, text)| entry(name, TomlValue::Text((*text).to_owned())));
+        implied(TomlValue::Table(entries.collect()))
     };
     let elements = elements.iter().map(element).collect();
     if let Some(entries) = root.entries_mut() {
-        entries.push(entry(list, Value::List(elements)));
+        entries.push(entry(list, TomlValue::List(elements)));
     }
 }
 

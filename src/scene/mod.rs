@@ -16,6 +16,7 @@ pub mod errors;
 mod foreign;
 pub mod keys;
 mod loaded;
+mod mate;
 pub mod model;
 mod overrides;
 mod points;
@@ -36,6 +37,7 @@ mod write;
 
 pub use errors::{Problem, SceneErrors, SourcePlace};
 pub use loaded::{LoadedScene, Located, load, parse};
+pub use mate::{Mate, MateScene};
 pub use model::Scene;
 pub use process::{Copied, ProcessPart, ScenePart, SceneProcess, Senseless};
 pub use table::{KeyTable, TableSection};

@@ -173,21 +173,8 @@ pub struct Output {
     pub mesh_spacing_mm: f64,
     /// Folder given in the scene, if any; the command line wins.
     pub folder: Option<PathBuf>,
-    /// Form of the axis programs.
-    pub gcode: GcodeDialect,
-    /// Largest displacement on the flanks that their straight lines may cause.
+    /// Largest displacement on the flanks that straight lines of axis programs may cause.
     pub gcode_contour_error_mm: f64,
-}
-
-/// Form of axis programs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum GcodeDialect {
-    /// Straight lines in inverse time.
-    Linear,
-    /// The one-block form of Gao et al. 2017, marked as not to be run.
-    PaperG84,
-    /// None.
-    None,
 }
 
 /// One picture of the cut gear.
@@ -234,7 +221,7 @@ pub enum PictureView {
 pub enum PictureColour {
     /// Normal stock that the last operation found.
     Stock,
-    /// Height over the target.
+    /// Normal deviation from the target.
     Height,
     /// Pass that left the surface.
     Pass,

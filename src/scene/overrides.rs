@@ -9,7 +9,7 @@ use super::errors::{Problem, SourcePlace};
 use super::keys::{self, Role, join};
 use super::sources::At;
 use super::table::{KeyTable, TableSection};
-use super::tree::{Entry, Node, Value, parse_value};
+use super::tree::{KeyValue, Node, TomlValue, parse_value};
 
 /// Puts argument number `index` into `root`.
 pub(super) fn apply(root: &mut Node, table: &KeyTable, index: usize, argument: &str) -> Result<(), Problem> {
@@ -52,8 +52,8 @@ fn put(root: &mut Node, table: &KeyTable, names: &[&str], value: Node, name_at: 
             displace(entries, table, section, name);
         }
         let place = entries.iter().position(|entry| entry.name == name).unwrap_or_else(|| {
-            let new = Node { value: Value::Table(Vec::new()), at: name_at.clone() };
-            entries.push(Entry { name: name.to_owned(), name_at: name_at.clone(), node: new });
+            let new = Node { value: TomlValue::Table(Vec::new()), at: name_at.clone() };
+            entries.push(KeyValue { name: name.to_owned(), name_at: name_at.clone(), node: new });
             entries.len() - 1
         });
         let entry = &mut entries[place];
@@ -80,7 +80,7 @@ fn put(root: &mut Node, table: &KeyTable, names: &[&str], value: Node, name_at: 
 }
 
 /// Takes out of a table what the file says otherwise about the same choice as `name`.
-fn displace(entries: &mut Vec<Entry>, table: &KeyTable, section: &TableSection, name: &str) {
+fn displace(entries: &mut Vec<KeyValue>, table: &KeyTable, section: &TableSection, name: &str) {
     let is_choice = matches!(section.role, Role::Choice { .. });
     let group = section.group_of(name);
     entries.retain(|entry| {
@@ -95,7 +95,7 @@ fn displace(entries: &mut Vec<Entry>, table: &KeyTable, section: &TableSection, 
 
 /// The element of a list with this number or name.
 fn element<'a>(list: &'a mut Node, list_name: &str, which: &str) -> Result<&'a mut Node, String> {
-    let Value::List(items) = &mut list.value else {
+    let TomlValue::List(items) = &mut list.value else {
         return Err(format!("`{list_name}` is not a list in this scene"));
     };
     let names: Vec<String> =
@@ -109,7 +109,7 @@ fn element<'a>(list: &'a mut Node, list_name: &str, which: &str) -> Result<&'a m
 /// Name of an element: as written, or by its place.
 fn element_name(item: &Node, list_name: &str, index: usize) -> String {
     match item.entry("name").map(|entry| &entry.node.value) {
-        Some(Value::Text(name)) => name.clone(),
+        Some(TomlValue::Text(name)) => name.clone(),
         _ => default_name(list_name, index),
     }
 }

@@ -31,6 +31,10 @@ pub struct SceneProcess {
     pub sections: &'static [&'static [KeySection]],
     /// Its keys in shared sections.
     pub added: &'static [&'static Addition],
+    /// Its keys that count per turn of the work: a mate with twice the teeth gets twice as many.
+    pub per_revolution: &'static [&'static str],
+    /// Its keys that belong to one gear and do not pass to its mate: windows, programs.
+    pub of_one_gear: &'static [&'static str],
     /// Shared sections that hold only where they are written: no default stands in for them.
     pub on_demand: &'static [&'static str],
     /// Keys and sections of others that readers may well look for, and why they have no sense here.

@@ -1,7 +1,7 @@
 //! JSON Schema of the scene file, printed from the table of keys, for editors that complete and check TOML.
 //!
-//! Draft 2020-12. What one key allows and which keys exclude each other is in it; what only several values together
-//! show (names that repeat, a window that ends before it begins) is left to the reader.
+//! The draft is 2020-12. What one key allows and which keys exclude each other is in it; what only several values
+//! together show (names that repeat, a window that ends before it begins) is left to the reader.
 
 use serde_json::{Map, Value, json};
 

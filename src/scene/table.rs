@@ -117,9 +117,14 @@ impl TableSection {
 
     fn add(&mut self, addition: &'static Addition) {
         for key in addition.keys {
-            assert!(self.key(key.name).is_none(), "the key {} of {} is listed twice", key.name, self.path);
+            match self.keys.iter_mut().find(|known| known.name == key.name) {
+                Some(known) => {
+                    assert!(key.widens(known), "the key {} of {} is listed twice", key.name, self.path);
+                    *known = key;
+                }
+                None => self.keys.push(key),
+            }
         }
-        self.keys.extend(addition.keys);
         self.groups.extend(addition.groups);
     }
 

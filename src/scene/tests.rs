@@ -5,7 +5,7 @@ use super::values::{Checked, Values};
 use super::{KeyTable, ProcessPart, ScenePart, SceneProcess, Senseless, load, parse, reference, schema, template};
 use std::path::Path;
 
-/// Sawing: no linkage, a key in each shared section, one that is derived, one check.
+/// Sawing: no linkage, keys in shared sections, one that is derived, one with a word more, one check.
 static SAWING: SceneProcess = SceneProcess {
     name: "sawing",
     tool: "saw",
@@ -22,18 +22,27 @@ static SAWING: SceneProcess = SceneProcess {
         },
         KeySection { path: "tool.saw", role: Role::Variant, keys: &[], groups: &[], teach: "A saw." },
     ]],
-    added: &[&Addition {
-        path: "operation[]",
-        keys: &[Key {
-            name: "cuts",
-            kind: Kind::Whole { min: 1, max: 1000 },
-            unit: "",
-            default: Default::Derived("one for each tooth"),
-            example: "7",
-            teach: "Number of cuts.",
-        }],
-        groups: &[],
-    }],
+    added: &[
+        &Addition {
+            path: "operation[]",
+            keys: &[Key {
+                name: "cuts",
+                kind: Kind::Whole { min: 1, max: 1000 },
+                unit: "",
+                default: Default::Derived("one for each tooth"),
+                example: "7",
+                teach: "Number of cuts.",
+            }],
+            groups: &[],
+        },
+        &Addition {
+            path: "output",
+            keys: &[Key::word("gcode", &["linear", "jigsaw", "none"], "linear", "\"linear\"", "Form of programs.")],
+            groups: &[],
+        },
+    ],
+    per_revolution: &["cuts"],
+    of_one_gear: &[],
     on_demand: &["measure"],
     senseless: &[Senseless { path: "operation[].linkage", why: "an arm moves the saw", instead: "remove it and push" }],
     derive: |values| {
@@ -74,6 +83,8 @@ static FILING: SceneProcess = SceneProcess {
         },
     ]],
     added: &[],
+    per_revolution: &[],
+    of_one_gear: &[],
     on_demand: &[],
     senseless: &[],
     derive: |_| {},
@@ -167,8 +178,21 @@ fn what_is_printed_comes_from_the_table() {
     assert!(reference.contains("| `sawing/log.toml` | A log |\n\n## Keys\n"), "{reference}");
     // Its table stands at the end; its key comes after those of all operations.
     assert!(reference.find("### `[[picture]]`") < reference.find("### `[coolant]`"));
-    assert!(reference.find("| `stock_per_flank_mm`") < reference.find("| `cuts`"));
+    assert!(reference.find("- `stock_per_flank_mm`") < reference.find("- `cuts`"));
     assert!(schema::json_schema(&table()).contains("\"cuts\""));
+}
+
+#[test]
+fn a_word_that_one_process_knows_is_refused_to_others() {
+    let with_jigsaw = format!("{SCENE}[output]\ngcode = \"jigsaw\"\n");
+    parse(&with_jigsaw, "log.toml", Path::new(""), &[], &table()).expect("a word of sawing");
+    let refused = problems(&with_jigsaw.replace("[tool.saw]", "[tool.file]"));
+    assert!(refused.contains("log.toml:6:9") && refused.contains("\"linear\" or \"none\""), "{refused}");
+    // Schema and reference have it, in the place of the shared key and once.
+    let reference = reference::markdown(&table());
+    assert_eq!(reference.matches("- `gcode` (\"linear\", \"jigsaw\" or \"none\"").count(), 1, "{reference}");
+    assert!(reference.find("- `gcode`") < reference.find("- `gcode_contour_error_um`"));
+    assert!(schema::json_schema(&table()).contains("\"jigsaw\""));
 }
 
 /// The table's default is that of the first process with the choice; the others' are told.

@@ -15,14 +15,14 @@ use super::sources::At;
 #[derive(Debug, Clone)]
 pub(super) struct Node {
     /// The value.
-    pub value: Value,
+    pub value: TomlValue,
     /// Where the value stands.
     pub at: At,
 }
 
 /// What TOML can hold.
 #[derive(Debug, Clone)]
-pub(super) enum Value {
+pub(super) enum TomlValue {
     /// String.
     Text(String),
     /// Integer.
@@ -38,12 +38,12 @@ pub(super) enum Value {
     /// Array.
     List(Vec<Node>),
     /// Table, in the order of the file.
-    Table(Vec<Entry>),
+    Table(Vec<KeyValue>),
 }
 
 /// One entry of a table.
 #[derive(Debug, Clone)]
-pub(super) struct Entry {
+pub(super) struct KeyValue {
     /// The key.
     pub name: String,
     /// Where the key stands.
@@ -87,7 +87,7 @@ pub(super) fn parse_value(index: usize, argument: &str, start: usize) -> Result<
     match DeValue::parse(text) {
         Ok(value) => Ok(node(&value, &place)),
         Err(_) if is_bare_word(text) => {
-            Ok(Node { value: Value::Text(text.to_owned()), at: At::Set(index, start..start + text.len()) })
+            Ok(Node { value: TomlValue::Text(text.to_owned()), at: At::Set(index, start..start + text.len()) })
         }
         Err(error) => Err(words(error.message())),
     }
@@ -99,31 +99,31 @@ fn is_bare_word(text: &str) -> bool {
         && text.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.' | '/'))
 }
 
-fn table_value(table: &DeTable<'_>, place: &dyn Fn(Range<usize>) -> At) -> Value {
-    let mut entries: Vec<(usize, Entry)> = table
+fn table_value(table: &DeTable<'_>, place: &dyn Fn(Range<usize>) -> At) -> TomlValue {
+    let mut entries: Vec<(usize, KeyValue)> = table
         .iter()
         .map(|(key, value)| {
             let name = key.get_ref().to_string();
-            (key.span().start, Entry { name, name_at: place(key.span()), node: node(value, place) })
+            (key.span().start, KeyValue { name, name_at: place(key.span()), node: node(value, place) })
         })
         .collect();
     entries.sort_by_key(|(start, _)| *start);
-    Value::Table(entries.into_iter().map(|(_, entry)| entry).collect())
+    TomlValue::Table(entries.into_iter().map(|(_, entry)| entry).collect())
 }
 
 fn node(value: &Spanned<DeValue<'_>>, place: &dyn Fn(Range<usize>) -> At) -> Node {
     let converted = match value.get_ref() {
-        DeValue::String(text) => Value::Text(text.to_string()),
+        DeValue::String(text) => TomlValue::Text(text.to_string()),
         DeValue::Integer(digits) => {
-            i128::from_str_radix(digits.as_str(), digits.radix()).map_or(Value::Unusable, Value::Whole)
+            i128::from_str_radix(digits.as_str(), digits.radix()).map_or(TomlValue::Unusable, TomlValue::Whole)
         }
         DeValue::Float(digits) => match digits.as_str().parse::<f64>() {
-            Ok(number) if number.is_finite() => Value::Number(number),
-            _ => Value::Unusable,
+            Ok(number) if number.is_finite() => TomlValue::Number(number),
+            _ => TomlValue::Unusable,
         },
-        DeValue::Boolean(on) => Value::Boolean(*on),
-        DeValue::Datetime(_) => Value::Date,
-        DeValue::Array(items) => Value::List(items.iter().map(|item| node(item, place)).collect()),
+        DeValue::Boolean(on) => TomlValue::Boolean(*on),
+        DeValue::Datetime(_) => TomlValue::Date,
+        DeValue::Array(items) => TomlValue::List(items.iter().map(|item| node(item, place)).collect()),
         DeValue::Table(table) => table_value(table, place),
     };
     Node { value: converted, at: place(value.span()) }
@@ -132,34 +132,34 @@ fn node(value: &Spanned<DeValue<'_>>, place: &dyn Fn(Range<usize>) -> At) -> Nod
 impl Node {
     /// A table that nobody wrote.
     pub fn implied_table() -> Self {
-        Self { value: Value::Table(Vec::new()), at: At::Implied }
+        Self { value: TomlValue::Table(Vec::new()), at: At::Implied }
     }
 
     /// Entries of a table; none for other values.
-    pub fn entries(&self) -> &[Entry] {
-        if let Value::Table(entries) = &self.value { entries } else { &[] }
+    pub fn entries(&self) -> &[KeyValue] {
+        if let TomlValue::Table(entries) = &self.value { entries } else { &[] }
     }
 
     /// Entries of a table to change.
-    pub fn entries_mut(&mut self) -> Option<&mut Vec<Entry>> {
-        if let Value::Table(entries) = &mut self.value { Some(entries) } else { None }
+    pub fn entries_mut(&mut self) -> Option<&mut Vec<KeyValue>> {
+        if let TomlValue::Table(entries) = &mut self.value { Some(entries) } else { None }
     }
 
     /// The entry of this name.
-    pub fn entry(&self, name: &str) -> Option<&Entry> {
+    pub fn entry(&self, name: &str) -> Option<&KeyValue> {
         self.entries().iter().find(|entry| entry.name == name)
     }
 
     /// The kind of value, in words.
     pub fn kind(&self) -> &'static str {
         match self.value {
-            Value::Text(_) => "text",
-            Value::Whole(_) => "a whole number",
-            Value::Number(_) | Value::Unusable => "a number with a point",
-            Value::Boolean(_) => "true or false",
-            Value::Date => "a date",
-            Value::List(_) => "a list",
-            Value::Table(_) => "a table",
+            TomlValue::Text(_) => "text",
+            TomlValue::Whole(_) => "a whole number",
+            TomlValue::Number(_) | TomlValue::Unusable => "a number with a point",
+            TomlValue::Boolean(_) => "true or false",
+            TomlValue::Date => "a date",
+            TomlValue::List(_) => "a list",
+            TomlValue::Table(_) => "a table",
         }
     }
 }

@@ -29,6 +29,13 @@ pub(super) struct Held {
     pub at: Option<At>,
 }
 
+impl Held {
+    /// Whether somebody wrote it, in the file or as `--set`.
+    pub fn is_written(&self) -> bool {
+        self.at.as_ref().is_some_and(|at| *at != At::Implied)
+    }
+}
+
 /// All values of a scene.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Values {

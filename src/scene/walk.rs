@@ -12,7 +12,7 @@ use super::problems::Problems;
 use super::sources::At;
 use super::suggest::{display_path, nearest};
 use super::table::{KeyTable, TableSection};
-use super::tree::{Entry, Node, Value};
+use super::tree::{KeyValue, Node, TomlValue};
 use super::values::{Checked, Held, Values};
 use crate::material::Kienzle;
 
@@ -36,7 +36,7 @@ struct Walk<'a, 'b> {
 impl<'a> Walk<'a, '_> {
     /// Checks `table`, which stands for `section` under the concrete `path` and was named at `at`.
     fn table(&mut self, section: &'a TableSection, path: &str, table: &Node, at: &At) {
-        if !matches!(table.value, Value::Table(_)) {
+        if !matches!(table.value, TomlValue::Table(_)) {
             let written = self.problems.sources.written(&table.at);
             let headers = match section.role {
                 Role::Choice { .. } => keys::either(self.table.children(section).map(TableSection::header)),
@@ -54,7 +54,7 @@ impl<'a> Walk<'a, '_> {
         }
         for entry in table.entries() {
             if let Some(key) = section.key(&entry.name) {
-                self.key(section, key, path, entry);
+                self.key(section, self.of_own(section, key), path, entry);
             } else if !self.table.children(section).any(|child| child.name() == entry.name) {
                 self.unknown(section, entry);
             }
@@ -62,7 +62,7 @@ impl<'a> Walk<'a, '_> {
         self.groups(section, path, table);
         for key in section.keys.iter().copied() {
             if table.entry(key.name).is_none() {
-                self.not_written(section, key, path, table, at);
+                self.not_written(section, self.of_own(section, key), path, table, at);
             }
         }
         if let Role::Choice { what, .. } = section.role {
@@ -83,16 +83,21 @@ impl<'a> Walk<'a, '_> {
         }
     }
 
+    /// The key as the scene's own process has it; one that is another's stays as it is.
+    fn of_own(&self, section: &TableSection, key: &'static Key) -> &'static Key {
+        self.own.and_then(|own| own.section(section.path)?.key(key.name)).unwrap_or(key)
+    }
+
     /// Checks the elements of a list of tables.
     fn list(&mut self, section: &'a TableSection, fewest: usize, path: &str, list: &Node, at: &At) {
         let name = section.name();
         match &list.value {
-            Value::List(items) if items.len() < fewest => self.problems.add(
+            TomlValue::List(items) if items.len() < fewest => self.problems.add(
                 at,
                 format!("`{name}` is an empty list: nothing would be cut"),
                 format!("write at least one [[{name}]], or leave the list out for a single finishing cut"),
             ),
-            Value::List(items) => {
+            TomlValue::List(items) => {
                 for (index, item) in items.iter().enumerate() {
                     let item_at = if item.at == At::Implied { at } else { &item.at };
                     self.table(section, &format!("{path}.{index}"), item, item_at);
@@ -110,7 +115,7 @@ impl<'a> Walk<'a, '_> {
     /// Takes the one variant of a choice.
     fn choice(&mut self, section: &'a TableSection, path: &str, table: &Node, at: &At, what: &str) {
         let default = self.own.and_then(|own| own.section(section.path)).unwrap_or(section).default();
-        let written: Vec<(&TableSection, &Entry)> = table
+        let written: Vec<(&TableSection, &KeyValue)> = table
             .entries()
             .iter()
             .filter_map(|entry| {
@@ -144,7 +149,7 @@ impl<'a> Walk<'a, '_> {
     }
 
     /// Checks one key that was written.
-    fn key(&mut self, section: &'a TableSection, key: &'static Key, path: &str, entry: &Entry) {
+    fn key(&mut self, section: &'a TableSection, key: &'static Key, path: &str, entry: &KeyValue) {
         let full = join(path, key.name);
         self.values.written.insert(full.clone());
         match check(&display_path(section, key), key, &entry.node, self.problems.sources) {
@@ -198,7 +203,7 @@ impl<'a> Walk<'a, '_> {
     /// Rivals: at most one written, or exactly one.
     fn groups(&mut self, section: &'a TableSection, path: &str, table: &Node) {
         for group in &section.groups {
-            let written: Vec<&Entry> =
+            let written: Vec<&KeyValue> =
                 table.entries().iter().filter(|entry| group.names.contains(&entry.name.as_str())).collect();
             let names = || keys::either(group.names.iter().map(|name| format!("`{name}`")));
             if let [first, second, ..] = written.as_slice() {
@@ -218,14 +223,14 @@ impl<'a> Walk<'a, '_> {
         }
     }
 
-    fn unknown(&mut self, section: &'a TableSection, entry: &Entry) {
+    fn unknown(&mut self, section: &'a TableSection, entry: &KeyValue) {
         if self.problems.full() {
             return; // the search for the nearest name is the slowest thing here
         }
         let name = join(section.path, &entry.name).replace("[]", "");
         let what = match (&entry.node.value, section.role) {
             (_, Role::Choice { what, .. }) => what,
-            (Value::Table(_), _) => "section",
+            (TomlValue::Table(_), _) => "section",
             _ => "key",
         };
         let article = if what.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };

@@ -17,7 +17,7 @@ use crate::surface::outline::{Outline, flank_name};
 use crate::surface::{BlankMesh, Mesh, SurfaceGrid};
 use crate::terms::Side;
 
-/// Heights shown beside each other on meshes of gears that were cut in one operation, µm: what good shaping leaves.
+/// Heights shown beside each other on meshes of gears that were cut in one operation, µm: what a good cut leaves.
 const HEIGHT_COLOURS_UM: f32 = 5.0;
 
 /// Colours of the stock that the last operation found, the same on maps, meshes and pictures.
@@ -26,7 +26,7 @@ pub fn stock_scale(job: &dyn GearJob) -> ColourScale {
     before_last.unwrap_or(ColourScale::Sequential { low: 0.0, high: 1.0 })
 }
 
-/// Quantity that vertices are coloured by: the stock where there is one, else the height over the target.
+/// Quantity that vertices are coloured by: the stock where there is one, else the normal deviation.
 fn colour(job: &dyn GearJob) -> (&'static str, ColourScale) {
     if job.operations().len() > 1 {
         ("stock_mm", stock_scale(job))

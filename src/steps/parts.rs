@@ -15,7 +15,7 @@ pub enum Part {
     Meshes,
     /// `texture/`: surfaces of the texture windows.
     Texture,
-    /// `chips/` of shaping and `load/` of hobbing: charts and maps of chips.
+    /// `chips/` and `load/`, as far as the process has them: charts and maps of chips.
     Chips,
     /// `axes/`: tables, charts and programs of the axes.
     Axes,

@@ -2,7 +2,7 @@
 //!
 //! Gear and teeth are drawn from the closed body that is written as mesh. A flank is cut again, at the spacing of its
 //! dexels and only as wide as the picture, whose edges lie between the rows of the flank's own field; that field is
-//! gone by then, and as large as a thousand pictures. The flank is rolled out flat, so that the height over the target
+//! gone by then, and as large as a thousand pictures. The flank is rolled out flat, so that the normal deviation
 //! is all that is left of its shape, and light from the tip grazes every feed mark alike. The factor on its heights
 //! stands in the picture.
 
@@ -21,7 +21,7 @@ use crate::output::progress::Progress;
 use crate::output::render_png::{Legend, RenderPicture, write_render_png};
 use crate::scene::model::{Picture, PictureColour, PictureView};
 use crate::surface::mesh::ScalarValues;
-use crate::surface::render::{CLAY, Camera, Lights, Look, Rendered, Shape, Stage, render};
+use crate::surface::render::{Bodies, CLAY, Camera, Lights, Look, Rendered, Shape, render};
 use crate::surface::{Mesh, SurfaceGrid};
 use crate::terms::Side;
 use crate::units::UM_PER_MM;
@@ -86,7 +86,7 @@ pub fn draw(
 }
 
 /// A picture, drawn.
-struct Drawn {
+struct DrawnPicture {
     title: String,
     note: String,
     camera: Camera,
@@ -94,7 +94,7 @@ struct Drawn {
     legend: Option<Legend<'static>>,
 }
 
-impl Drawn {
+impl DrawnPicture {
     fn write(&self, picture: &Picture, folder: &OutputFolder, notes: &[(String, String)]) -> Result<()> {
         let pixel_mm = self.camera.pixel_mm();
         let page = RenderPicture {
@@ -118,7 +118,7 @@ fn look(job: &dyn GearJob, colour: PictureColour, mesh: &Mesh) -> (Look, Option<
     let (name, quantity, unit) = match colour {
         PictureColour::Clay => return (CLAY, None),
         PictureColour::Stock => ("stock_mm", "normal stock before the last operation", "mm"),
-        PictureColour::Height => ("height_um", "height over the target", "µm"),
+        PictureColour::Height => ("height_um", "normal deviation", "µm"),
         PictureColour::Pass => ("pass_id", "pass that left the surface, counted in time", "1"),
     };
     let scale = match (colour, mesh.scalar(name).map(|scalar| &scalar.values)) {
@@ -138,7 +138,7 @@ fn draw_solid(
     picture: &Picture,
     (solid, shape): (&Mesh, &Shape),
     interrupt: &Interrupt,
-) -> Result<Drawn> {
+) -> Result<DrawnPicture> {
     let (look, legend) = look(job, picture.colour, solid);
     let (mut camera, title) = match picture.view {
         PictureView::Tooth => {
@@ -170,12 +170,17 @@ fn draw_solid(
     if let Some(extent_mm) = picture.extent_mm {
         camera.extent_mm = extent_mm;
     }
-    let stage = Stage::new(shape, vec![look]);
-    let rendered = render(&stage, &camera, &Lights::studio(&camera), interrupt)?;
-    Ok(Drawn { title, note: String::new(), camera, rendered, legend })
+    let bodies = Bodies::new(shape, vec![look]);
+    let rendered = render(&bodies, &camera, &Lights::studio(&camera), interrupt)?;
+    Ok(DrawnPicture { title, note: String::new(), camera, rendered, legend })
 }
 
-fn draw_flank(job: &dyn GearJob, backend: &dyn Backend, picture: &Picture, interrupt: &Interrupt) -> Result<Drawn> {
+fn draw_flank(
+    job: &dyn GearJob,
+    backend: &dyn Backend,
+    picture: &Picture,
+    interrupt: &Interrupt,
+) -> Result<DrawnPicture> {
     let profile_mm = job.profile_length_mm(picture.tooth, picture.side)?;
     let extent_mm = picture.extent_mm.unwrap_or(0.6 * profile_mm);
     let reach_mm = (0.5 * extent_mm).min(0.5 * job.scene().gear.face_width_mm);
@@ -188,11 +193,11 @@ fn draw_flank(job: &dyn GearJob, backend: &dyn Backend, picture: &Picture, inter
     let middle_mm = DVec3::new(0.0, 0.5 * profile_mm, 0.0);
     let camera = Camera::new(middle_mm, towards, DVec3::Y, 1.04 * extent_mm, picture.size_px);
     let shape = Shape::new(vec![&flat]);
-    let stage = Stage::new(&shape, vec![look]);
+    let bodies = Bodies::new(&shape, vec![look]);
     let lamp = DVec3::new(0.0, RAKING_RAD.cos(), RAKING_RAD.sin());
     let gain = RAKING_LIGHT / RAKING_RAD.sin();
     let lights = Lights { lamp, lamp_share: RAKING_SHARE, sky_reach: RAKING_SKY_REACH, gain };
-    let rendered = render(&stage, &camera, &lights, interrupt)?;
+    let rendered = render(&bodies, &camera, &lights, interrupt)?;
     let side = if picture.side == Side::Left { "left" } else { "right" };
     let finishing = job.operations().last().map_or("", |(name, _)| *name);
     let title = format!("{}: tooth {}, {side} flank after {finishing}", job.scene().name, picture.tooth);
@@ -200,7 +205,7 @@ fn draw_flank(job: &dyn GearJob, backend: &dyn Backend, picture: &Picture, inter
         "profile rolled out, root below, tip above; heights \u{d7} {exaggeration}, means over two pixels; light from \
         the tip"
     );
-    Ok(Drawn { title, note, camera, rendered, legend })
+    Ok(DrawnPicture { title, note, camera, rendered, legend })
 }
 
 /// Factor (1, 2 or 5 times a power of ten) that makes the median slope along the profile at most [`MARK_SLOPE`].

@@ -62,7 +62,7 @@ fn write_contact_sheets(job: &dyn GearJob, gear: &GearMaps, folder: &OutputFolde
     write_sheet(
         &folder.path(format!("pictures/deviation_{name}.png"))?,
         &format!("{scene}: deviation after {name}, all flanks"),
-        ["mean height of cell over the target", "µm"],
+        ["mean normal deviation of cell", "µm"],
         gear.deviation_scale,
         maps,
         &maps.iter().map(|map| um(&map.deviation_mm)).collect::<Vec<_>>(),
@@ -125,7 +125,7 @@ fn write_height_sheet(scene: &str, operation: &str, maps: &GearMaps, folder: &Ou
     write_sheet(
         &folder.path(format!("pictures/heights_{operation}.png"))?,
         &format!("{scene}: finished surface after {operation}, all flanks"),
-        ["height over the target, highest of cell", "µm"],
+        ["normal deviation, highest of cell", "µm"],
         maps.height_scale,
         &maps.flanks,
         &values,

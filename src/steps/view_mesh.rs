@@ -11,7 +11,7 @@
 
 use crate::error::Result;
 use crate::job::GearJob;
-use crate::surface::triangles::{Profile, Triangles};
+use crate::surface::triangles::{SectionProfile, Triangles};
 use crate::terms::Side;
 use glam::{DVec2, DVec3};
 
@@ -60,7 +60,8 @@ impl ViewMesh {
             let [left, right] =
                 [Side::Left, Side::Right].map(|side| job.target_profiles(tooth, side, SPACING_MM, &rows_z_mm));
             let ((left_arcs, left), (right_arcs, right)) = (left?, right?);
-            let tip: Vec<Profile> = right.iter().zip(&left).map(|(right, left)| tip_land(job, right, left)).collect();
+            let tip: Vec<SectionProfile> =
+                right.iter().zip(&left).map(|(right, left)| tip_land(job, right, left)).collect();
             for (side, arcs_mm, profiles) in [(Side::Left, left_arcs, &left), (Side::Right, right_arcs, &right)] {
                 let mut triangles = Triangles::of(gear);
                 triangles.wall(profiles, &rows_z_mm, side == Side::Right);
@@ -70,7 +71,8 @@ impl ViewMesh {
             for k in [bottom, top] {
                 body.tooth_end([&right[k], &left[k], &tip[k]], rows_z_mm[k], k == top);
             }
-            let ends = |profiles: &[Profile]| -> Profile { profiles.iter().map(|profile| profile[0]).collect() };
+            let ends =
+                |profiles: &[SectionProfile]| -> SectionProfile { profiles.iter().map(|profile| profile[0]).collect() };
             rims.push((ends(&right), ends(&left)));
         }
         let mut rim: [Vec<DVec2>; 2] = Default::default();
@@ -89,7 +91,7 @@ impl ViewMesh {
 }
 
 /// Tip land from the right flank's tip to the left one's, as high over the pitch curve as they are.
-fn tip_land(job: &dyn GearJob, right: &Profile, left: &Profile) -> Profile {
+fn tip_land(job: &dyn GearJob, right: &SectionProfile, left: &SectionProfile) -> SectionProfile {
     let ends = [right[right.len() - 1].0, left[left.len() - 1].0];
     let foot = |point: DVec2| job.blank().height(point, point.to_angle());
     let heights = ends.map(|end| foot(end).0);
@@ -111,7 +113,13 @@ fn tip_land(job: &dyn GearJob, right: &Profile, left: &Profile) -> Profile {
 
 /// Root of a space from the form points of the left flank before it to those of the right flank after it, in all
 /// sections.
-fn roots(job: &dyn GearJob, space: u32, rows_z_mm: &[f64], left: &Profile, right: &Profile) -> Result<Vec<Profile>> {
+fn roots(
+    job: &dyn GearJob,
+    space: u32,
+    rows_z_mm: &[f64],
+    left: &SectionProfile,
+    right: &SectionProfile,
+) -> Result<Vec<SectionProfile>> {
     let roots = job.target_roots(space, SPACING_MM, rows_z_mm)?;
     // Points nearly on the flanks' ends would make needles of triangles; what is left out in one section is left out in
     // all.

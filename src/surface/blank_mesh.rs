@@ -1,7 +1,7 @@
 //! The whole cut gear as one closed mesh, from the blank field.
 //!
 //! In: a [`BlankField`]. Out: a [`Mesh`] in which every edge lies between exactly two triangles, whatever the shape;
-//! with the pass that left each vertex, and its height over the target.
+//! with the pass that left each vertex, and its normal deviation.
 //!
 //! **Inside** is decided by family X alone, at the nodes of the grid. An edge of the grid with one node inside is
 //! crossed by the surface; where, the rays of its direction say, with the normal there. If the other family does not

@@ -1,7 +1,7 @@
 //! A flank or root as a grid of surface points, thinned out to the spacing of meshes.
 //!
 //! In: a field and what the operations left on it. Out: [`SurfaceGrid`]: points on the finished surface with their
-//! outward normals, the height over the target, the stock of the operation before the last one and the pass that left
+//! outward normals, the normal deviation, the stock of the operation before the last one and the pass that left
 //! the point; and the same as a [`Mesh`].
 //!
 //! Columns are the dexels nearest to places `spacing_mm` apart, the first and the last one always among them: every
@@ -31,7 +31,7 @@ pub struct SurfaceGrid {
     pub straight_target_mm: Option<Vec<DVec2>>,
     /// Points on the surface, gear frame.
     pub points_mm: Vec<DVec2>,
-    /// Height over the target, µm.
+    /// Normal deviation, µm.
     pub height_um: Vec<f32>,
     /// Normal stock that the last operation found: the surface before it less the surface after it, mm; NaN where one
     /// of them is the blank's own, `None` if there was one operation only.
@@ -137,12 +137,12 @@ impl SurfaceGrid {
     }
 }
 
-/// Height over the target as a quantity.
+/// Normal deviation as a quantity.
 pub fn height_scalar(values: Vec<f32>) -> Scalar {
     Scalar {
         name: "height_um",
         unit: "um",
-        definition: "height over the target along its normal after the last operation".to_owned(),
+        definition: "normal deviation from the target after the last operation".to_owned(),
         values: ScalarValues::F32(values),
     }
 }

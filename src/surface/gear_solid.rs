@@ -17,8 +17,10 @@ use crate::gear::{Back, GearKind};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// Columns of the back: a chord error below 0.1 % of its radius.
-const BACK_COLUMNS: usize = 192;
+/// Columns of a bore: a chord error below 0.1 % of its radius.
+const BORE_COLUMNS: usize = 192;
+/// Columns of a rim, which is the largest surface of a ring: its section is short of 0.002 %.
+const RIM_COLUMNS: usize = 720;
 
 /// Closed body of a gear.
 ///
@@ -28,7 +30,11 @@ pub fn gear_solid(outline: &Outline, back: &Back) -> Result<Mesh, Refusal> {
     let rows = outline.rows();
     let columns = outline.columns.len();
     clear_of_roots(outline, back)?;
-    let back_columns = if back.radius_mm > 0.0 { BACK_COLUMNS } else { 0 };
+    let back_columns = match back.kind {
+        GearKind::External if back.radius_mm == 0.0 => 0,
+        GearKind::External => BORE_COLUMNS,
+        GearKind::Internal => RIM_COLUMNS,
+    };
     let circle: Vec<DVec2> =
         (0..back_columns).map(|i| back.radius_mm * DVec2::from_angle(TAU * i as f64 / back_columns as f64)).collect();
     let at = |column: usize, row: usize| (column * rows + row) as u32;

@@ -5,7 +5,7 @@
 //!
 //! The order follows from the gear alone: right flank of a tooth from form point to tip, its tip land, its left flank
 //! down again, the root of the space behind it, and so on. What no pass reached (tip lands, teeth outside a window) is
-//! the blank's own outline. Where the fillet has cut into a flank (undercut), the straight targets of shaping let flank
+//! the blank's own outline. Where the fillet has cut into a flank (undercut), targets that are straight along the tooth let flank
 //! and root run on past their crossing; what lies behind it is air and is left out. The roots of a gear whose sections
 //! differ end where its flanks begin, in every section at another place: nothing is sought there, for a crossing of one
 //! section is none of the others, and the common end itself would pass for one or not by the last bit.
@@ -49,7 +49,7 @@ pub struct ToothSurfaces {
 pub struct OutlineColumn {
     /// Point of every row, gear frame, mm.
     pub points_mm: Vec<DVec2>,
-    /// Height over the target, µm; NaN on the blank's own outline.
+    /// Normal deviation, µm; NaN on the blank's own outline.
     pub height_um: Vec<f32>,
     /// Stock that the last operation found, mm; NaN where there is none.
     pub stock_mm: Vec<f32>,

@@ -8,7 +8,7 @@ use crate::units::TURN_RAD;
 use glam::{DVec2, DVec3};
 
 /// Points of the target in one transverse section, gear frame, mm, each with the target's unit normal out of the gear.
-pub type Profile = Vec<(DVec2, DVec3)>;
+pub type SectionProfile = Vec<(DVec2, DVec3)>;
 
 /// Triangles with a normal at every corner; counter-clockwise seen from outside.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -38,7 +38,7 @@ impl Triangles {
 
     /// Profiles of all sections joined along the tooth; `forward`: they run counter-clockwise round the gear axis with the
     /// teeth, clockwise with its back.
-    pub fn wall(&mut self, profiles: &[Profile], rows_z_mm: &[f64], forward: bool) {
+    pub fn wall(&mut self, profiles: &[SectionProfile], rows_z_mm: &[f64], forward: bool) {
         let (first, sections) = (self.positions_mm.len() as u32, rows_z_mm.len() as u32);
         for i in 0..profiles[0].len() {
             for (profile, &z_mm) in profiles.iter().zip(rows_z_mm) {
@@ -70,7 +70,7 @@ impl Triangles {
     }
 
     /// One end of one tooth: a ladder between its right and its left flank, a fan under its tip land.
-    pub fn tooth_end(&mut self, [right, left, tip]: [&Profile; 3], z_mm: f64, top: bool) {
+    pub fn tooth_end(&mut self, [right, left, tip]: [&SectionProfile; 3], z_mm: f64, top: bool) {
         let points: Vec<DVec2> =
             right.iter().chain(left).chain(&tip[1..tip.len() - 1]).map(|&(point, _)| point).collect();
         let (r_last, l_first) = (right.len() - 1, right.len());
@@ -99,7 +99,7 @@ impl Triangles {
         let backs = [0, 1].map(|k| {
             if back_radius_mm <= 0.0 {
                 self.fan(&roots[k], rows_z_mm[k], k == 1);
-                return Profile::new();
+                return SectionProfile::new();
             }
             self.ring(&roots[k], back_radius_mm, rows_z_mm[k], k == 1)
         });
@@ -117,7 +117,7 @@ impl Triangles {
     }
 
     /// An end face between the root line and the back; gives the back's closed outline with its normals.
-    pub fn ring(&mut self, roots: &[DVec2], back_radius_mm: f64, z_mm: f64, top: bool) -> Profile {
+    pub fn ring(&mut self, roots: &[DVec2], back_radius_mm: f64, z_mm: f64, top: bool) -> SectionProfile {
         let count = roots.len();
         let back: Vec<DVec2> = (0..count)
             .map(|i| back_radius_mm * DVec2::from_angle(roots[0].to_angle() + TURN_RAD * i as f64 / count as f64))

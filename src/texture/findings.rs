@@ -2,7 +2,7 @@
 
 use super::files::stems;
 use super::{WindowTexture, chart};
-use crate::findings::{Column, Datum, Quantity, Section, Table};
+use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
 use crate::job::GearJob;
 use crate::measure::topography::{Evaluation, Parameter};
 use crate::units::UM_PER_MM;
@@ -93,8 +93,8 @@ fn parameters(evaluation: &Evaluation) -> Section {
 fn material_ratio(evaluation: &Evaluation) -> Section {
     let core = &evaluation.core;
     let columns = vec![
-        Column::new("ratio", "%", "areal material ratio"),
-        Column::new("height", "um", "height over the mean plane").or("the curve has no height there"),
+        TableColumn::new("ratio", "%", "areal material ratio"),
+        TableColumn::new("height", "um", "height over the mean plane").or("the curve has no height there"),
     ];
     let points = chart::points(&evaluation.curve, CURVE_INTERVALS).into_iter();
     let rows = points.map(|(ratio, height)| vec![Datum::from(ratio), height.into()]);

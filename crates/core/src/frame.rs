@@ -1,6 +1,6 @@
 //! Rigid motions of the transverse plane and of space: where a tool, a blade or a tile stands.
 //!
-//! A motion is named `target_from_source`; points go through it from right to left. All f64, mm and rad.
+//! A motion is named `target_from_source`; points go through it from right to left. All numbers are f64, in mm and rad.
 
 use glam::{DMat3, DVec2, DVec3};
 

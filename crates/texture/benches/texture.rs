@@ -2,7 +2,7 @@
 //!
 //! `cargo bench -p gearcut-texture` prints a table; `tests/interop/run --bench` runs surfalize on the same map in the
 //! same run and prints the ratio for every parameter. `-- --json --map FILE` is what it calls: the map goes to FILE as
-//! NPY, the times go to standard output as JSON. Best of five rounds.
+//! NPY, the times go to standard output as JSON. The best of five rounds counts.
 
 use gearcut_texture::core::Core;
 use gearcut_texture::features::Features;

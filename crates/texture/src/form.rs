@@ -6,7 +6,7 @@
 //! Direction and curvature of the cylinder start at the polynomial's larger principal curvature and are refined by a
 //! search with shrinking steps; the polynomial is solved anew for every trial (variable projection).
 //!
-//! Road not taken: associating a nominal involute. Heights over the target flank have it taken off already.
+//! Road not taken: associating a nominal involute. Normal deviations from a target flank have it taken off already.
 
 use super::surface::Surface;
 use serde::Serialize;

@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 /// What happens at the chosen step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Fault {
+enum DiskFault {
     /// The process is gone: this step and all later ones do not happen.
     Death,
     /// The same, but a removal is half done.
@@ -29,19 +29,19 @@ enum Fault {
 struct FaultyDisk {
     taken: Arc<AtomicU32>,
     fault_at: u32,
-    fault: Fault,
+    fault: DiskFault,
     /// Whether two names can be exchanged here.
     exchanges: bool,
 }
 
 impl FaultyDisk {
-    fn new(fault_at: u32, fault: Fault, exchanges: bool) -> Self {
+    fn new(fault_at: u32, fault: DiskFault, exchanges: bool) -> Self {
         Self { taken: Arc::default(), fault_at, fault, exchanges }
     }
 
     fn step(&self) -> io::Result<()> {
         let step = self.taken.fetch_add(1, Ordering::SeqCst);
-        let fails = if self.fault == Fault::Refusal { step == self.fault_at } else { step >= self.fault_at };
+        let fails = if self.fault == DiskFault::Refusal { step == self.fault_at } else { step >= self.fault_at };
         if fails { Err(io::Error::other("the disk gave up")) } else { Ok(()) }
     }
 
@@ -70,7 +70,7 @@ impl Steps for FaultyDisk {
 
     fn remove_folder(&self, path: &Path) -> io::Result<()> {
         let first_to_fail = self.taken.load(Ordering::SeqCst) == self.fault_at;
-        if first_to_fail && self.fault == Fault::DeathHalfway && path.join(RUN_RECORD).exists() {
+        if first_to_fail && self.fault == DiskFault::DeathHalfway && path.join(RUN_RECORD).exists() {
             // The worst half: what is left no longer says that gearcut wrote it.
             fs::remove_file(path.join(RUN_RECORD))?;
         }
@@ -103,11 +103,11 @@ fn names_in(folder: &Path) -> Vec<String> {
 }
 
 fn sound() -> FaultyDisk {
-    FaultyDisk::new(u32::MAX, Fault::Death, true)
+    FaultyDisk::new(u32::MAX, DiskFault::Death, true)
 }
 
 /// Calls `with_fault` with faults at step 0, 1, ... until the run gets by without meeting it; the number of steps.
-fn at_every_step(fault: Fault, exchanges: bool, with_fault: impl Fn(&FaultyDisk)) -> u32 {
+fn at_every_step(fault: DiskFault, exchanges: bool, with_fault: impl Fn(&FaultyDisk)) -> u32 {
     for step in 0..100 {
         let disk = FaultyDisk::new(step, fault, exchanges);
         with_fault(&disk);
@@ -118,8 +118,12 @@ fn at_every_step(fault: Fault, exchanges: bool, with_fault: impl Fn(&FaultyDisk)
     panic!("a run takes more than 100 steps on the disk");
 }
 
-const DEATHS: [(Fault, bool); 4] =
-    [(Fault::Death, true), (Fault::Death, false), (Fault::DeathHalfway, true), (Fault::DeathHalfway, false)];
+const DEATHS: [(DiskFault, bool); 4] = [
+    (DiskFault::Death, true),
+    (DiskFault::Death, false),
+    (DiskFault::DeathHalfway, true),
+    (DiskFault::DeathHalfway, false),
+];
 
 /// Where names can be exchanged, a whole result is under the name at every moment; elsewhere the next run, even one
 /// that does nothing, puts it back.
@@ -195,7 +199,7 @@ fn a_first_run_that_dies_at_any_step_leaves_all_or_nothing() {
 #[test]
 fn a_refused_step_loses_nothing() {
     for exchanges in [true, false] {
-        at_every_step(Fault::Refusal, exchanges, |disk| {
+        at_every_step(DiskFault::Refusal, exchanges, |disk| {
             let place = tempfile::tempdir().expect("a folder for the test");
             let path = place.path().join("gear");
             run(&path, "early", true, &sound()).expect("a sound disk");
@@ -225,7 +229,7 @@ fn a_refused_step_loses_nothing() {
 fn results_without_any_name_stay_where_they_are() {
     let place = tempfile::tempdir().expect("a folder for the test");
     let path = place.path().join("gear");
-    let disk = FaultyDisk::new(3, Fault::Death, true);
+    let disk = FaultyDisk::new(3, DiskFault::Death, true);
     let told = run(&path, "late", true, &disk).expect_err("no rename is done").to_string();
     let hidden = place.path().join(".gear.gearcut/new");
     assert!(told.contains(&hidden.display().to_string()), "{told}");

@@ -90,11 +90,11 @@ pub struct Packed {
 
 /// Arrays one after another, each on a multiple of four bytes.
 #[derive(Default)]
-struct Block {
+struct Arrays {
     bytes: Vec<u8>,
 }
 
-impl Block {
+impl Arrays {
     fn add(&mut self, bytes: impl IntoIterator<Item = u8>) -> usize {
         let at = self.bytes.len();
         self.bytes.extend(bytes);
@@ -120,7 +120,7 @@ impl Block {
 impl Viewer {
     /// Packs everything.
     pub fn packed(&self) -> Packed {
-        let mut block = Block::default();
+        let mut block = Arrays::default();
         let grids: Vec<&MapGrid> = self.flanks.iter().filter_map(|flank| flank.grid.as_ref()).collect();
         let factor = thinning_factor(&grids);
         let thin: Vec<MapGrid> = grids.iter().map(|grid| thinned_grid(grid, factor)).collect();
@@ -179,7 +179,7 @@ impl Viewer {
                 })
             })
             .collect();
-        let triangles = |block: &mut Block, mesh: &Triangles| {
+        let triangles = |block: &mut Arrays, mesh: &Triangles| {
             json!({
                 "corners": mesh.positions_mm.len(),
                 "positions": block.add_f32(mesh.positions_mm.as_flattened()),

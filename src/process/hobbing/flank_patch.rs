@@ -10,33 +10,27 @@
 //! shares of the roll between them: the profile's length is no smooth coordinate where the envelope nearly stands
 //! still.
 
+mod chebyshev;
+mod source;
+
 use super::rack_generation::{FormPoint, RackGeneration};
 use crate::dexel::Ray;
 use crate::error::Refusal;
 use crate::gear::blank::Blank;
-use crate::math::roots::{halve, regula_falsi};
+use crate::math::roots::regula_falsi;
 use crate::terms::Side;
+use chebyshev::{PARTS, clenshaw};
 use glam::DVec3;
-use std::f64::consts::PI;
+use source::{Source, error_mm};
 
 /// Largest distance of the patch from the flank, mm: a hundredth of what the dexels resolve.
 const TOLERANCE_MM: f64 = 1e-9;
 /// Terms of the first try, and the most.
 const TERMS: [usize; 2] = [10, 80];
-/// Gauss-Legendre rule on [-1, 1], eight points: half of the nodes with their weights.
-const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_5),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
-];
-
 /// Sections to either side of the middle of the face in which the beginning of the flank is found.
 const MIDDLE_SECTION: usize = 4;
 /// Rounding of heights over the pitch curve, mm.
 const HEIGHT_MM: f64 = 1e-12;
-/// Components: point and normal.
-const PARTS: usize = 6;
 /// Panels of the profile's length.
 const PANELS: usize = 64;
 
@@ -67,16 +61,6 @@ pub struct FlankPatch {
 #[derive(Debug, Clone)]
 pub struct PatchSection {
     coefficients: Vec<[f64; PARTS]>,
-}
-
-/// What a patch is made from.
-struct Source<'a> {
-    generation: &'a RackGeneration,
-    blank: &'a Blank,
-    space: i64,
-    side: Side,
-    face_width_mm: f64,
-    form_roll_mm: f64,
 }
 
 impl FlankPatch {
@@ -208,127 +192,13 @@ impl PatchSection {
     }
 }
 
-impl Source<'_> {
-    /// Lengths of the middle section's profile up to the panels' ends.
-    fn lengths_mm(&self, tip_roll_mm: f64) -> Vec<f64> {
-        let half = 0.5 * (tip_roll_mm - self.form_roll_mm) / PANELS as f64;
-        let speed = |roll: f64| self.generation.flank_contact(self.space, self.side, roll, 0.0).length_per_roll;
-        let mut lengths_mm = vec![0.0];
-        for panel in 0..PANELS {
-            let middle = self.form_roll_mm + half * (2 * panel + 1) as f64;
-            let sum: f64 = GAUSS
-                .iter()
-                .map(|&(node, weight)| weight * (speed(middle - half * node) + speed(middle + half * node)))
-                .sum();
-            lengths_mm.push(lengths_mm[panel] + (half * sum).abs());
-        }
-        lengths_mm
-    }
-
-    fn tip_roll_mm(&self, z_mm: f64) -> Option<f64> {
-        let height = |roll: f64| {
-            let contact = self.generation.flank_contact(self.space, self.side, roll, z_mm);
-            self.blank.height(contact.point_mm.truncate(), contact.phi_rad).0 - self.blank.addendum_mm
-        };
-        // Towards the tip the roll has the other sign; heights climb steadily.
-        let module_mm = self.generation.rack.transverse_module_mm;
-        let farthest = -self.side.sign() * 8.0 * module_mm;
-        if height(farthest) < 0.0 {
-            return None;
-        }
-        let [low, high] = halve(|roll| height(roll) < 0.0, 0.0, farthest, 60);
-        Some(0.5 * (low + high))
-    }
-
-    /// Point and normal at a share of the roll in a section.
-    fn at(&self, share: f64, z_mm: f64, tip_roll_mm: f64) -> [f64; PARTS] {
-        let roll = self.form_roll_mm + share * (tip_roll_mm - self.form_roll_mm);
-        let contact = self.generation.flank_contact(self.space, self.side, roll, z_mm);
-        let (p, n) = (contact.point_mm, contact.normal);
-        [p.x, p.y, p.z, n.x, n.y, n.z]
-    }
-
-    fn coefficients(&self, terms: usize) -> Option<Vec<Vec<[f64; PARTS]>>> {
-        let node = |i: usize| (PI * (i as f64 + 0.5) / terms as f64).cos();
-        let mut rows = Vec::new();
-        for j in 0..terms {
-            let z_mm = 0.5 * self.face_width_mm * node(j);
-            let tip = self.tip_roll_mm(z_mm)?;
-            let values: Vec<[f64; PARTS]> = (0..terms).map(|i| self.at(0.5 + 0.5 * node(i), z_mm, tip)).collect();
-            rows.push(chebyshev(&values));
-        }
-        // Coefficients along the profile, each expanded along the tooth.
-        Some((0..terms).map(|k| chebyshev(&rows.iter().map(|row| row[k]).collect::<Vec<_>>())).collect())
-    }
-
-    /// Places between the nodes at which patches are compared with the flank; none in a section without a tip.
-    fn checks(&self) -> Vec<Option<Check>> {
-        let section = |z: f64| {
-            let z_mm = 0.5 * self.face_width_mm * z;
-            let tip = self.tip_roll_mm(z_mm);
-            [0.0, 0.02, 0.31, 0.66, 0.98, 1.0].map(|share| {
-                let [x, y, z, nx, ny, nz] = self.at(share, z_mm, tip?);
-                Some(Check {
-                    z_mm,
-                    share,
-                    exact: Ray { origin_mm: DVec3::new(x, y, z), normal: DVec3::new(nx, ny, nz) },
-                })
-            })
-        };
-        [-1.0, -0.93, -0.41, 0.17, 0.77, 1.0].into_iter().flat_map(section).collect()
-    }
-}
-
-/// A place of the flank itself.
-struct Check {
-    z_mm: f64,
-    share: f64,
-    exact: Ray,
-}
-
-/// Largest distance of a patch from the flank at these places.
-fn error_mm(checks: &[Option<Check>], patch: &FlankPatch) -> f64 {
-    let error = |check: &Check| {
-        let ray = patch.section(check.z_mm).ray(check.share);
-        // A turn of the normal moves what stands a millimetre above the flank.
-        ray.origin_mm.distance(check.exact.origin_mm).max(ray.normal.distance(check.exact.normal))
-    };
-    checks.iter().map(|check| check.as_ref().map_or(f64::INFINITY, error)).fold(0.0, f64::max)
-}
-
-/// Coefficients of the Chebyshev polynomials through values at their nodes.
-fn chebyshev(values: &[[f64; PARTS]]) -> Vec<[f64; PARTS]> {
-    let terms = values.len();
-    (0..terms)
-        .map(|k| {
-            let mut sum = [0.0; PARTS];
-            for (i, value) in values.iter().enumerate() {
-                let weight = (PI * k as f64 * (i as f64 + 0.5) / terms as f64).cos();
-                sum.iter_mut().zip(value).for_each(|(s, v)| *s += weight * v);
-            }
-            sum.map(|s| s * if k == 0 { 1.0 } else { 2.0 } / terms as f64)
-        })
-        .collect()
-}
-
-fn clenshaw(coefficients: &[[f64; PARTS]], x: f64) -> [f64; PARTS] {
-    let (mut b1, mut b2) = ([0.0; PARTS], [0.0; PARTS]);
-    for c in coefficients[1..].iter().rev() {
-        for part in 0..PARTS {
-            let b = c[part] + 2.0 * x * b1[part] - b2[part];
-            b2[part] = b1[part];
-            b1[part] = b;
-        }
-    }
-    std::array::from_fn(|part| coefficients[0][part] + x * b1[part] - b2[part])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::gear::PitchCurve;
     use crate::gear::PitchCurveShape;
     use crate::process::hobbing::rack_generation::Rack;
+    use std::f64::consts::PI;
     use std::sync::Arc;
 
     #[test]

@@ -31,19 +31,12 @@ pub use read::read;
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
-use crate::scene::model::GcodeDialect;
 use crate::units::UM_PER_MM;
 
 /// Both programs of an operation, fully interpolated and with a gearbox; an error is the reason why there are none,
 /// `None`: none are wanted.
 pub fn texts(job: &HobbingJob, operation: &PreparedHobbing) -> Option<Result<[String; 2], String>> {
-    match job.scene.output.gcode {
-        GcodeDialect::None => None,
-        GcodeDialect::PaperG84 => {
-            Some(Err("the one-block form of the literature is for shaping; use gcode = \"linear\"".to_owned()))
-        }
-        GcodeDialect::Linear => Some(linear(job, operation)),
-    }
+    job.programs.then(|| linear(job, operation))
 }
 
 fn linear(job: &HobbingJob, operation: &PreparedHobbing) -> Result<[String; 2], String> {

@@ -45,9 +45,11 @@ pub struct HobbingJob {
     /// The scene.
     pub scene: Scene,
     /// The hob as the scene describes it.
-    pub hob_spec: model::Hob,
+    pub hob_spec: model::HobSpec,
     /// Limits of the axes.
     pub limits: HobbingAxisLimits,
+    /// Whether axis programs are written.
+    pub programs: bool,
     /// Cutting force of the work's material, where the scene names it.
     pub material: Option<CuttingForce>,
     /// The pitch curve.
@@ -80,7 +82,7 @@ impl HobbingJob {
     /// Geometry that cannot be cut.
     pub fn past_hollows(scene: &Scene) -> Result<Self> {
         let gear = &scene.gear;
-        let Some(Hobbing { tool, limits, operations: specs, material }) = Hobbing::of(scene) else {
+        let Some(Hobbing { tool, limits, operations: specs, material, programs }) = Hobbing::of(scene) else {
             return Err(Refusal::new("tool", "this tool does not hob gears", "write [tool.hob] for hobbing").into());
         };
         let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
@@ -106,6 +108,7 @@ impl HobbingJob {
             scene: scene.clone(),
             hob_spec: tool.clone(),
             limits: *limits,
+            programs: *programs,
             material: *material,
             curve,
             hob,

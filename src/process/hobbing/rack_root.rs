@@ -29,7 +29,7 @@ pub struct RackRootPoint {
 }
 
 /// A piece of the root over its own parameter from 0 to 1.
-type Piece<'a> = Box<dyn Fn(f64) -> (DVec2, DVec2) + 'a>;
+type RootPiece<'a> = Box<dyn Fn(f64) -> (DVec2, DVec2) + 'a>;
 
 impl RackGeneration {
     /// Root of a space in the section `z_mm`; `start_rolls_mm` are those at which the fields of its left and right
@@ -45,7 +45,7 @@ impl RackGeneration {
         let [left, right] = [(Side::Left, start_rolls_mm[0]), (Side::Right, start_rolls_mm[1])]
             .map(|(side, start_mm)| self.root_half(blank, space, side, start_mm, z_mm));
         let [from, to] = [left.bottom_arc_mm, right.bottom_arc_mm];
-        let bottom: Piece = Box::new(move |share| {
+        let bottom: RootPiece = Box::new(move |share| {
             let frame = self.curve.frame(self.curve.phi_at_arc(from + share * (to - from)));
             (frame.point_mm - self.rack.tip_height_mm * frame.normal, frame.normal)
         });
@@ -63,11 +63,11 @@ impl RackGeneration {
         let bottom_arc_mm = self.corner_bottom_arc_mm(space, side, z_mm);
         let top_arc_mm =
             self.corner_arc_at_height_mm(blank, space, side, form.height_mm, z_mm).unwrap_or(bottom_arc_mm);
-        let flank: Piece = Box::new(move |share| {
+        let flank: RootPiece = Box::new(move |share| {
             let contact = self.flank_contact(space, side, start_mm + share * (end_mm - start_mm), z_mm);
             (contact.point_mm.truncate(), contact.normal.truncate().normalize())
         });
-        let corner: Piece = Box::new(move |share| {
+        let corner: RootPiece = Box::new(move |share| {
             let arc_mm = top_arc_mm + share * (bottom_arc_mm - top_arc_mm);
             let point_mm = self.corner_point_mm(space, side, arc_mm, z_mm);
             let to_pitch_point = self.curve.frame(self.curve.phi_at_arc(arc_mm)).point_mm - point_mm;
@@ -79,17 +79,17 @@ impl RackGeneration {
 
 /// One side of a root: the rest of its flank, then its corner.
 struct RootHalf<'a> {
-    pieces: [Piece<'a>; 2],
+    pieces: [RootPiece<'a>; 2],
     /// Arc at which the corner is deepest and the tip line takes over.
     bottom_arc_mm: f64,
 }
 
-fn backwards(piece: Piece<'_>) -> Piece<'_> {
+fn backwards(piece: RootPiece<'_>) -> RootPiece<'_> {
     Box::new(move |share| piece(1.0 - share))
 }
 
 /// Points evenly along pieces that follow each other.
-fn evenly(pieces: &[Piece<'_>; 5], count: usize) -> Vec<RackRootPoint> {
+fn evenly(pieces: &[RootPiece<'_>; 5], count: usize) -> Vec<RackRootPoint> {
     // Length at every chord's end: piece, parameter, length so far.
     let mut ends: Vec<(usize, f64, f64)> = Vec::new();
     let mut length_mm = 0.0;

@@ -18,7 +18,7 @@ use crate::process::hobbing::measure::flank_report;
 use crate::process::hobbing::rack_root::RackRootPoint;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
-use crate::surface::triangles::Profile;
+use crate::surface::triangles::SectionProfile;
 use crate::terms::Side;
 use glam::DVec2;
 
@@ -77,7 +77,7 @@ impl GearJob for HobCutter<'_> {
         side: Side,
         spacing_mm: f64,
         rows_z_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Profile>)> {
+    ) -> Result<(Vec<f64>, Vec<SectionProfile>)> {
         let target = self.target(tooth, side)?;
         let intervals = (target.length_mm() / spacing_mm).ceil().max(1.0);
         let arcs: Vec<f64> = (0..=intervals as usize).map(|i| target.length_mm() * i as f64 / intervals).collect();
@@ -89,7 +89,7 @@ impl GearJob for HobCutter<'_> {
         Ok((arcs, rows_z_mm.iter().map(profile).collect()))
     }
 
-    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<Profile>> {
+    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>> {
         let roots = self.roots(space, spacing_mm, rows_z_mm)?;
         Ok(roots
             .into_iter()

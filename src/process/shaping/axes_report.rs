@@ -2,12 +2,14 @@
 //!
 //! In: a prepared [`ShapingJob`]. Out: [`OperationAxes`] for the shared steps ([`crate::steps::axes`]): facts for the
 //! terminal, clearance on the return stroke as findings, and in `axes/` per operation `<operation>.csv` (one row per
-//! stroke) and the charts `_positions`, `_velocities`, `_accelerations` and `_relief`.
+//! stroke) and the charts `_positions`, `_velocities`, `_accelerations`, `_relief`, and `_retraction` where the axes draw
+//! the cutter back.
 //!
 //! The laws stand in [`crate::process::shaping::linkage::dynamics`] and [`crate::process::shaping::linkage::relief`].
 
 mod charts;
 mod facts;
+mod retraction;
 mod strokes;
 
 use super::programs;
@@ -19,6 +21,7 @@ use crate::output::text::Sheet;
 use crate::process::shaping::linkage::dynamics;
 use crate::process::shaping::linkage::relief;
 use crate::process::shaping::linkage::relief::{ReliefFlank, SmallestRelief};
+use crate::process::shaping::returns::motion::RetractionMotion;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes::{AxesOfOperation, Named, NamedChart, PeakWords};
 use crate::units::{TURN_RAD, UM_PER_MM};
@@ -55,13 +58,16 @@ pub struct OperationAxes<'a> {
     /// All strokes, once a table or chart has asked for them.
     strokes: OnceLock<Vec<StrokeRow>>,
     /// Charts for folder and page, drawn once.
-    charts: OnceLock<[NamedChart<LineChart>; 4]>,
+    charts: OnceLock<Vec<NamedChart<LineChart>>>,
+    /// What the retraction asks for, where the axes carry it out.
+    retraction: Option<RetractionMotion>,
 }
 
 impl<'a> OperationAxes<'a> {
     /// Peaks and relief of operation `index` of a job.
     pub fn new(job: &'a ShapingJob, index: usize) -> Self {
-        let PreparedOperation { spec, linkage, schedule, .. } = &job.operations[index];
+        let PreparedOperation { spec, linkage, schedule, retraction, .. } = &job.operations[index];
+        let limits = dynamics::limits(&job.machine.limits);
         let beta = |phi: f64| {
             let motion = linkage.pose_motion(phi, spec.offset_mm);
             let out = motion.pose.center_mm - motion.instantaneous_center_mm();
@@ -74,12 +80,13 @@ impl<'a> OperationAxes<'a> {
         Self {
             job,
             index,
-            peaks: peaks(schedule, &dynamics::limits(&job.machine.limits)),
+            peaks: peaks(schedule, &limits),
             relief: relief::smallest_relief(linkage, spec.offset_mm, job.scene.gear.pressure_angle_rad),
             largest_beta_rad,
             largest_beta_phi_rad,
             strokes: OnceLock::new(),
             charts: OnceLock::new(),
+            retraction: RetractionMotion::new(schedule, retraction, &job.ram_times(), &limits),
         }
     }
 
@@ -94,6 +101,11 @@ impl<'a> OperationAxes<'a> {
 
     fn strokes(&self) -> &[StrokeRow] {
         self.strokes.get_or_init(|| strokes::rows(self.job, self.operation()))
+    }
+
+    /// What the retraction asks of the axes, where they carry it out.
+    pub fn retraction_findings(&self) -> Option<Section> {
+        self.retraction.map(|motion| retraction::findings(self.job, self.operation(), &motion))
     }
 
     /// Clearance on the return stroke.
@@ -139,16 +151,22 @@ impl AxesOfOperation for OperationAxes<'_> {
 
     fn print_facts(&self, sheet: &mut Sheet) {
         facts::print(self, sheet);
+        if let Some(motion) = &self.retraction {
+            retraction::print(self, motion, sheet);
+        }
     }
 
-    /// Little or no relief.
+    /// Little or no relief by the machine's own relief; axes too slow for another one.
     fn own_warnings(&self) -> Vec<String> {
-        let relief = self.relief.warning(self.job.machine.back_off_mm);
-        relief.map(|text| format!("operation {}: {text}", self.name())).into_iter().collect()
+        let warnings = match &self.retraction {
+            None => self.relief.warning(self.job.machine.back_off_mm).into_iter().collect(),
+            Some(motion) => retraction::warnings(self, motion),
+        };
+        warnings.into_iter().map(|text| format!("operation {}: {text}", self.name())).collect()
     }
 
     fn write_table(&self, path: &Path) -> Result<()> {
-        strokes::write_table(path, self.strokes())
+        strokes::write_table(path, &self.operation().retraction, self.strokes())
     }
 
     fn charts(&self) -> &[NamedChart<LineChart>] {

@@ -5,9 +5,10 @@ use crate::cut::{Backend, CutBlank};
 use crate::dexel::BlankField;
 use crate::error::{Refusal, Result};
 use crate::frame::Rigid2;
-use crate::gear::GearKind;
 use crate::measure::target_outline::TargetOutline;
 use crate::passes::StrokeSet;
+use crate::passes::planar::strokes::StrokeLaw;
+use crate::process::shaping::linkage::CutterPose;
 use crate::process::shaping::target::{FlankEnd, TargetFlank, target_root};
 use crate::process::shaping::tip_relief::TipRelief;
 use crate::terms::Side;
@@ -16,18 +17,30 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 impl ShapingJob {
-    /// Poses of the return strokes of an operation: the cutter drawn back along the line of centres, out of the gear. `None`
+    /// Poses of the return strokes of an operation: the cutter drawn back out of the gear as its retraction says. `None`
     /// where the machine does not back off.
+    ///
+    /// An axis program moves the axes for the retraction itself, unless the machine's own relief does.
     pub fn return_strokes(&self, operation: usize) -> Option<StrokeSet> {
         let operation = &self.operations[operation];
         let back_off_mm = self.machine.back_off_mm;
         let out = self.blank.kind().tip_sign();
         let set = &operation.strokes;
         let eccentricity_mm = self.eccentricity_mm();
+        let (retraction, schedule) = (&operation.retraction, &operation.schedule);
+        let resting = set.law == StrokeLaw::Frozen;
+        let return_middle = self.ram_times().return_middle;
         let pose = |lambda: f64| {
             let pose = operation.pose(lambda);
-            let back = pose.center_mm.normalize_or_zero() * (out * back_off_mm);
-            Rigid2::new(pose.angle_rad, pose.center_mm + back - eccentricity_mm)
+            let pose = if !retraction.is_in_axes() {
+                let back = pose.center_mm.normalize_or_zero() * (out * back_off_mm);
+                CutterPose { center_mm: pose.center_mm + back, ..pose }
+            } else if operation.program.is_some() {
+                operation.pose(if resting { lambda + return_middle } else { lambda })
+            } else {
+                retraction.retracted(schedule.linkage(), &pose, schedule.phi_rad(lambda))
+            };
+            Rigid2::new(pose.angle_rad, pose.center_mm - eccentricity_mm)
         };
         (back_off_mm > 0.0).then(|| StrokeSet::returning(set.first_pass, &self.cutter, set.law, set.count(), pose))
     }
@@ -59,16 +72,10 @@ impl ShapingJob {
         Ok(TargetOutline::new(teeth.concat(), self.blank.back))
     }
 
-    /// What the cutter's base makes of the tip of a ring's flank. External gears: not followed, their tips are reported
-    /// as not known.
-    fn tip_relief<'a>(&'a self, flank: &'a TargetFlank) -> Option<TipRelief<'a>> {
-        (self.blank.kind() == GearKind::Internal).then(|| TipRelief::new(flank, &self.blank)).flatten()
-    }
-
     /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise.
     fn tooth_outline(&self, tooth: u32, spacing_mm: f64) -> Result<Vec<DVec2>, Refusal> {
         let [right, left] = [Side::Right, Side::Left].map(|side| self.target_flank(tooth, side));
-        let reliefs = [right, left].map(|flank| self.tip_relief(flank));
+        let reliefs = [right, left].map(|flank| TipRelief::new(flank, &self.blank));
         for (flank, relief) in [right, left].into_iter().zip(&reliefs) {
             let known = match flank.tip_end {
                 FlankEnd::CutterBase => relief.is_some(),

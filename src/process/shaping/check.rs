@@ -1,7 +1,8 @@
-//! What a shaping scene means: teeth, axes, cost.
+//! What a shaping scene means: teeth, axes, return strokes, cost.
 
 mod cost;
 mod facts;
+mod returns;
 pub mod ring;
 mod teeth;
 
@@ -33,10 +34,12 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>> {
     for operation in &operations {
         axes::print(operation, sheet);
     }
+    let of_returns = returns::print(sheet, job)?;
     cost::print(sheet, job, &facts)?;
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
     warnings.extend(teeth::warnings(job, &facts));
     warnings.extend(ring.iter().flat_map(ring::warnings));
     warnings.extend(axes::warnings(&operations));
+    warnings.extend(of_returns);
     Ok(warnings)
 }

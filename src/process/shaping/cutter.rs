@@ -79,7 +79,7 @@ impl ShaperCutter {
     ///
     /// # Errors
     /// Pointed teeth, a tip round that does not fit, a pitch error list of the wrong length.
-    pub fn new(spec: &model::ShaperCutter, gear: &Gear) -> Result<Self, Refusal> {
+    pub fn new(spec: &model::CutterSpec, gear: &Gear) -> Result<Self, Refusal> {
         let (m, alpha) = (gear.module_mm, gear.pressure_angle_rad);
         let pitch_radius_mm = 0.5 * m * f64::from(spec.teeth);
         let base_radius_mm = pitch_radius_mm * alpha.cos();
@@ -288,7 +288,7 @@ pub(crate) mod tests {
             tooth_thickness_allowance_mm: 0.0,
             pitch_curve: crate::gear::PitchCurveShape::Circle,
         };
-        let spec = model::ShaperCutter {
+        let spec = model::CutterSpec {
             teeth: 20,
             addendum_coefficient: 1.25,
             dedendum_coefficient: 1.25,

@@ -61,7 +61,7 @@ fn deviations(report: &GearReport) -> Section {
         .reduce(|best, next| if next.1.total_mm > best.1.total_mm { next } else { best });
     let profile = um(
         worst.map(|(_, profile)| profile.total_mm),
-        "largest range of heights over the target along an evaluated profile, middle of the face",
+        "largest range of normal deviations along an evaluated profile, middle of the face",
     );
     let profile = match worst {
         Some((flank, of)) => {

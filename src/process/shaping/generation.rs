@@ -84,14 +84,14 @@ impl Generation {
         let axes = self.linkage.axes(phi_rad, self.offset_mm);
         let d = |jet: &Jet<3>| [jet.value(), jet.derivative(1), jet.derivative(2)];
         let [psi, psi1, psi2] = d(&axes.psi_c_rad);
-        let [turn, turn1, turn2] = d(&axes.psi_b_rad);
+        let [_, turn1, turn2] = d(&axes.psi_b_rad);
         let [l, l1, l2] = d(&axes.center_distance_mm);
         let out = DVec2::from_angle(psi);
         CutterMotion {
             center: out * l,
             center_rate: out * l1 + out.perp() * (l * psi1),
             center_rate_2: out * (l2 - l * psi1 * psi1) + out.perp() * (2.0 * l1 * psi1 + l * psi2),
-            angle: psi + PI + turn,
+            angle: axes.pose(self.gear()).angle_rad,
             angle_rate: psi1 + turn1,
             angle_rate_2: psi2 + turn2,
         }

@@ -20,7 +20,10 @@ use crate::process::shaping::gcode;
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::generation::Generation;
 use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule};
-use crate::process::shaping::scene::model::{self, Machine, Operation, Shaping};
+use crate::process::shaping::returns::RetractionPlan;
+use crate::process::shaping::returns::motion::RamTimes;
+use crate::process::shaping::returns::survey::Survey;
+use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Operation, Shaping};
 use crate::process::shaping::target::{TargetFlank, target_root};
 use crate::process::shaping::tooth_target::ToothTarget;
 use crate::scene::Scene;
@@ -45,6 +48,8 @@ pub struct PreparedOperation {
     pub program: Option<AxisProgram>,
     /// Poses for the dexels.
     pub strokes: StrokeSet,
+    /// Which way the cutter is drawn back for the return strokes.
+    pub retraction: RetractionPlan,
 }
 
 impl PreparedOperation {
@@ -69,8 +74,10 @@ pub struct ShapingJob {
     pub material: EdgeForce,
     /// Distance of the rays on which chips are followed, mm.
     pub chip_spacing_mm: f64,
+    /// Form of the axis programs.
+    pub gcode: GcodeDialect,
     /// The cutter as the scene describes it.
-    pub cutter_spec: model::ShaperCutter,
+    pub cutter_spec: model::CutterSpec,
     /// The pitch curve.
     pub curve: Arc<PitchCurve>,
     /// The cutter.
@@ -96,6 +103,7 @@ impl ShapingJob {
         };
         let machine = shaping.machine.clone();
         let (material, chip_spacing_mm) = (shaping.material, shaping.chip_spacing_mm);
+        let gcode = shaping.gcode;
         if gear.helix_angle_rad != 0.0 {
             return Err(Refusal::new(
                 "gear.helix_angle_deg",
@@ -110,7 +118,7 @@ impl ShapingJob {
         // Flanks refer to the cutter for as long as they are kept.
         let shared_cutter = Arc::new(cutter.clone());
         let passes: f64 = shaping.operations.len() as f64;
-        let mut operations = Vec::new();
+        let mut operations: Vec<PreparedOperation> = Vec::new();
         let mut first_pass = 0;
         // A cutter pulled back by d leaves teeth 2 d tan(alpha) thicker on the pitch curve.
         let allowance_mm = gear.tooth_thickness_allowance_mm / (2.0 * gear.pressure_angle_rad.tan());
@@ -144,7 +152,11 @@ impl ShapingJob {
             first_pass = strokes.end_pass();
             let (linkage_of_flanks, cutter) = (linkage.clone(), shared_cutter.clone());
             let generation = Arc::new(Generation { linkage: linkage_of_flanks, cutter, offset_mm: spec.offset_mm });
-            operations.push(PreparedOperation { spec, linkage, generation, schedule, program, strokes });
+            let before: Vec<&Generation> = operations.iter().map(|before| &*before.generation).collect();
+            let retraction = RetractionPlan::new(&machine, &schedule, || {
+                Survey::new(&[&before[..], &[&generation]].concat(), &blank, gear.teeth, gear.module_mm)
+            })?;
+            operations.push(PreparedOperation { spec, linkage, generation, schedule, program, strokes, retraction });
         }
         rim_holds(gear.rim_mm, &blank, &cutter, &operations)?;
         let finishing = operations.last().expect("a checked scene has at least one operation");
@@ -153,6 +165,7 @@ impl ShapingJob {
             machine,
             material,
             chip_spacing_mm,
+            gcode,
             cutter_spec: shaping.tool.clone(),
             curve,
             cutter,
@@ -181,6 +194,17 @@ impl ShapingJob {
     /// Continuous generation by the finishing operation: the target.
     pub fn target_generation(&self) -> &Arc<Generation> {
         &self.finishing().generation
+    }
+
+    /// Return strokes of an operation over a turn, of ideal work and cutter.
+    pub fn survey(&self, operation: usize) -> Survey<'_> {
+        let generations: Vec<&Generation> = self.operations[..=operation].iter().map(|o| &*o.generation).collect();
+        Survey::new(&generations, &self.blank, self.scene.gear.teeth, self.scene.gear.module_mm)
+    }
+
+    /// When the ram passes the ends of the face.
+    pub fn ram_times(&self) -> RamTimes {
+        RamTimes::new(self.scene.gear.face_width_mm, self.machine.approach_mm, self.machine.overrun_mm)
     }
 
     /// Target of a tooth (1 to z).

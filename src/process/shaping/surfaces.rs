@@ -14,7 +14,7 @@ use crate::process::shaping::measure::flank_report;
 use crate::process::shaping::target::target_root;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
-use crate::surface::triangles::Profile;
+use crate::surface::triangles::SectionProfile;
 use crate::terms::Side;
 
 impl GearJob for ShapingJob {
@@ -61,11 +61,11 @@ impl GearJob for ShapingJob {
         side: Side,
         spacing_mm: f64,
         rows_z_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Profile>)> {
+    ) -> Result<(Vec<f64>, Vec<SectionProfile>)> {
         let target = self.target_flank(tooth, side);
         let intervals = (target.length_mm() / spacing_mm).ceil().max(1.0);
         let arcs: Vec<f64> = (0..=intervals as usize).map(|i| target.length_mm() * i as f64 / intervals).collect();
-        let profile: Profile = arcs
+        let profile: SectionProfile = arcs
             .iter()
             .map(|&arc| target.at_arc(arc))
             .map(|contact| (contact.point_mm, contact.normal.extend(0.0)))
@@ -73,9 +73,9 @@ impl GearJob for ShapingJob {
         Ok((arcs, vec![profile; rows_z_mm.len()]))
     }
 
-    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<Profile>> {
+    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>> {
         let points = target_root(self.target_generation(), i64::from(space), spacing_mm);
-        let profile: Profile = points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect();
+        let profile: SectionProfile = points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect();
         Ok(vec![profile; rows_z_mm.len()])
     }
 

@@ -13,9 +13,12 @@
 //!
 //! The conjugate flank beyond the involute's end is the same formula with a negative roll: contact would go on along the
 //! line of action.
+//!
+//! Tips of external gears behind the cutter's base are not followed: their target is reported as not known.
 
 use super::generation::Generation;
 use super::target::{FlankEnd, TargetFlank};
+use crate::gear::GearKind;
 use crate::gear::blank::Blank;
 use crate::math::roots::{bisect, halve};
 use crate::terms::Side;
@@ -38,9 +41,9 @@ pub struct TipRelief<'a> {
 }
 
 impl<'a> TipRelief<'a> {
-    /// Of a flank that ends at the cutter's base; `None` for others, and where the base does not reach the outline.
+    /// Of a ring's flank that ends at the cutter's base; `None` for others, and where the base does not reach the outline.
     pub fn new(flank: &'a TargetFlank, blank: &'a Blank) -> Option<Self> {
-        if flank.tip_end != FlankEnd::CutterBase {
+        if flank.tip_end != FlankEnd::CutterBase || blank.kind() == GearKind::External {
             return None;
         }
         let (generation, space) = (flank.generation(), flank.space());

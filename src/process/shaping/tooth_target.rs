@@ -11,6 +11,7 @@
 
 use super::generation::Generation;
 use super::target::TargetFlank;
+use super::tip_relief::TipRelief;
 use crate::error::Refusal;
 use crate::gear::blank::Blank;
 use crate::math::roots::try_halve;
@@ -84,9 +85,13 @@ impl ToothTarget {
     }
 }
 
-/// Negative if the flanks have crossed.
+/// Negative if the flanks have crossed. Behind the end of a cutter's involute the tip lies where its base leaves it.
 fn tip_land_mm(blank: &Blank, left: &TargetFlank, right: &TargetFlank) -> f64 {
-    let (l, r) = (left.at_arc(left.length_mm()), right.at_arc(right.length_mm()));
-    let foot_rad = blank.height(0.5 * (l.point_mm + r.point_mm), 0.5 * (l.phi_rad + r.phi_rad)).1;
-    (l.point_mm - r.point_mm).dot(blank.curve().frame(foot_rad).tangent)
+    let tip = |flank: &TargetFlank| {
+        let end = flank.at_arc(flank.length_mm());
+        (TipRelief::new(flank, blank).map_or(end.point_mm, |relief| relief.at(1.0)), end.phi_rad)
+    };
+    let ((l, l_rad), (r, r_rad)) = (tip(left), tip(right));
+    let foot_rad = blank.height(0.5 * (l + r), 0.5 * (l_rad + r_rad)).1;
+    (l - r).dot(blank.curve().frame(foot_rad).tangent)
 }

@@ -14,7 +14,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             default: Default::Word("external"),
             example: "\"external\"",
             teach: "external: teeth outside, material inside the pitch curve; internal: a ring with its teeth inside. \
-                    Only shaping cuts internal gears.",
+                    Not every process cuts them; one that does not refuses them.",
         },
         Key {
             name: "module_mm",
@@ -47,7 +47,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             default: Default::Number(0.0),
             example: "10.5",
             teach: "Helix angle on the pitch curve; 0 is a spur gear. Module and pressure angle are those of the \
-                    normal section. Only hobbing cuts helical gears so far.",
+                    normal section. Not every process cuts helical gears; one that does not refuses them.",
         },
         Key {
             name: "hand",

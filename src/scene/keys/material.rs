@@ -51,5 +51,5 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
     ],
     groups: &[],
     teach: "The work's material: cutting force = (K_c h + K_ce) b for a chip of thickness h over a length b of edge. \
-        Shaping computes forces always, and those normal to the edge too; hobbing where this section is written.",
+        Some processes compute forces always, others only where this section is written.",
 }];

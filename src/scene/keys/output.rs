@@ -93,12 +93,11 @@ pub(super) static SECTIONS: &[KeySection] = &[
             },
             Key {
                 name: "gcode",
-                kind: Kind::Word(&["linear", "paper_g84", "none"]),
+                kind: Kind::Word(&["linear", "none"]),
                 unit: "",
                 default: Default::Word("linear"),
                 example: "\"linear\"",
-                teach: "Form of the axis programs: straight lines in inverse time, the one-block form of Gao et al. \
-                    2017 (not to be run: G84 taps on most machines), or none.",
+                teach: "Form of the axis programs: straight lines in inverse time, or none.",
             },
             Key {
                 name: "gcode_contour_error_um",

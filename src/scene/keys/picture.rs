@@ -46,8 +46,8 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             unit: "",
             default: Default::LeftOut("clay on a flank and after a single operation, else stock"),
             example: "\"stock\"",
-            teach: "What colours show: the stock that the last operation found, the height over the target, the pass \
-                that left the surface, or nothing.",
+            teach: "What colours show: the stock that the last operation found, the normal deviation from the target, \
+                the pass that left the surface, or nothing.",
         },
         Key {
             name: "azimuth_deg",

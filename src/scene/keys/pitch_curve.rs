@@ -234,7 +234,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
     },
     KeySection {
         path: "gear.pitch_curve.mate.driver",
-        role: Role::Choice { default: None, what: "pitch curve of the driver" },
+        role: Role::Choice { default: Some("circle"), what: "pitch curve of the driver" },
         keys: &[],
         groups: &[],
         teach: "Shape of the driver's pitch curve.",

@@ -30,8 +30,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 unit: "mm",
                 default: Default::Number(0.0),
                 example: "0.0",
-                teach: "delta_d: how far the tool stays back, along the direction the linkage gives (radially in \
-                    hobbing); 0 cuts to depth.",
+                teach: "delta_d: how far the tool stays back, along the direction that the linkage gives; 0 cuts to \
+                    depth.",
             },
             Key::optional(
                 "stock_per_flank_mm",

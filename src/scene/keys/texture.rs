@@ -68,7 +68,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             unit: "",
             default: Default::Word("poly2"),
             example: "\"plane\"",
-            teach: "F-operator: what is taken off the heights over the target flank before texture is evaluated.",
+            teach: "F-operator: what is taken off the normal deviations before texture is evaluated.",
         },
     ],
     groups: &[],

@@ -4,7 +4,7 @@ use super::PlanarGear;
 use super::blank_report::BlankReport;
 use crate::cut::CutBlank;
 use crate::findings::damage::{damage_row, damage_table, pairs};
-use crate::findings::{Column, Datum, Quantity, Section, Table};
+use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
 use crate::gear::GearKind;
 use crate::measure::damage::Damage;
 use crate::steps::whole_blank::{self, mean};
@@ -114,8 +114,8 @@ fn all_damage(gear: &PlanarGear, report: &BlankReport) -> Table {
         row
     });
     let pass = [
-        Column::new("stroke", "1", "stroke, from 0"),
-        Column::new("cutter_tooth", "1", "cutter tooth, from 0").or("the fault is the whole stroke's"),
+        TableColumn::new("stroke", "1", "stroke, from 0"),
+        TableColumn::new("cutter_tooth", "1", "cutter tooth, from 0").or("the fault is the whole stroke's"),
     ];
     damage_table(pass, gouges.chain(interference).chain(rubbing).chain(strokes))
 }

@@ -76,8 +76,8 @@ pub fn section(inspection: &Inspection) -> PageSection {
         Block::Heading(format!("{}, {}", inspection.words.lead_name, inspection.words.lead_place)),
         Block::Traces(SIDES.map(|(side, name)| lead_sheet(inspection, side, name)).into()),
         Block::Note(
-            "Four teeth evenly around the gear and those with the largest total deviation of either flank. Heights \
-            over the target along its normal; dashed lines bound the evaluated part, the straight line is its mean \
+            "Four teeth evenly around the gear and those with the largest total deviation of either flank. Normal \
+            deviations; dashed lines bound the evaluated part, the straight line is its mean \
             line. F total, ff form, fH slope deviation, µm."
                 .to_owned(),
         ),

@@ -53,7 +53,7 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
     quantities.reverse();
     quantities.push(ViewerQuantity {
         name: format!("Deviation after {finishing}"),
-        definition: "Mean height of each cell over the target: what remains when the feed marks are averaged. Red: \
+        definition: "Mean normal deviation of each cell: what remains when the feed marks are averaged. Red: \
             material left; blue: cut too deep."
             .to_owned(),
         unit: "µm".to_owned(),
@@ -63,7 +63,7 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
     });
     quantities.push(ViewerQuantity {
         name: format!("Height after {finishing}"),
-        definition: "Highest place of each cell over the target, feed marks included.".to_owned(),
+        definition: "Normal deviation of the highest place of each cell, feed marks included.".to_owned(),
         unit: "µm".to_owned(),
         scale: maps.height_scale,
         thinning: Thinning::Highest,

@@ -7,7 +7,7 @@ pub mod texture;
 
 use crate::cut::{CutStats, KERNEL_UM};
 use crate::error::Result;
-use crate::findings::{self, Findings, Quantity};
+use crate::findings::{self, Findings, Place, Quantity, unit};
 use crate::job::GearJob;
 use crate::output::progress::duration_text;
 use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
@@ -87,13 +87,12 @@ fn known_first(numbers: Vec<KeyNumber>) -> Vec<KeyNumber> {
 /// What a reader must know of the run, in the page's signs; windows tell their own.
 fn warnings(found: &Findings) -> Vec<String> {
     let of_blank = found.find("blank").map_or(&[][..], |blank| &blank.warnings);
-    found.warnings.iter().chain(of_blank).map(|text| text.replace(" um", " µm").replace(" deg ", "° ")).collect()
+    found.warnings.iter().chain(of_blank).map(|text| unit::sentence_with_signs(text)).collect()
 }
 
 /// Peaks of an operation's axes against their limits.
 pub fn peak_table(operation: &findings::Section) -> PageTable {
     let number = |value: f64| significant(if value.abs() < 1e-9 { 0.0 } else { value }, 4);
-    let signs = |text: &str| text.replace(" deg", "°").replace("deg", "°").replace("^2", "²");
     let dash = || "–".to_owned();
     let peaks = operation.find("axes").map_or(&[][..], |axes| &axes.sections);
     let rows = peaks.iter().map(|peak| {
@@ -101,8 +100,8 @@ pub fn peak_table(operation: &findings::Section) -> PageTable {
         vec![
             peak.title.clone(),
             largest.and_then(Quantity::value).map_or_else(dash, number),
-            signs(largest.and_then(Quantity::unit).unwrap_or("")),
-            largest.and_then(Quantity::place).map_or_else(dash, |place| signs(&place.words())),
+            unit::signs(largest.and_then(Quantity::unit).unwrap_or("")),
+            largest.and_then(Quantity::place).map_or_else(dash, Place::words_with_signs),
             peak.number("limit").map_or_else(dash, number),
             peak.number("margin").map_or_else(dash, |share| format!("{:.0} %", 100.0 * share)),
         ]

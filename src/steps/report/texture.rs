@@ -1,7 +1,7 @@
 //! Texture windows on the page: the finished surface open, what earlier operations left folded away.
 
 use crate::error::{Error, Result};
-use crate::findings::{self, Findings};
+use crate::findings::{self, Findings, unit};
 use crate::output::folder::OutputFolder;
 use crate::output::ratio_chart::{RatioChart, SkConstruction};
 use crate::output::report::texture::{ParameterRow, TextureBlock};
@@ -54,7 +54,7 @@ fn texture_window(window: &findings::Section, folder: &OutputFolder) -> Result<T
             symbol: entry.key.clone(),
             value: quantity
                 .value()
-                .map(|value| with_unit(digits(value, 4), quantity.unit().unwrap_or("1")))
+                .map(|value| unit::with_signs(&digits(value, 4), quantity.unit().unwrap_or("1")))
                 .ok_or_else(|| quantity.why().unwrap_or("not defined").to_owned()),
             definition: quantity.definition().to_owned(),
         }
@@ -146,14 +146,6 @@ fn digits(value: f64, count: u32) -> String {
     text.replace('-', "−")
 }
 
-fn with_unit(number: String, unit: &str) -> String {
-    match unit {
-        "1" => number,
-        "deg" => format!("{number}°"),
-        unit => format!("{number} {}", unit.replace("um", "µm").replace("^2", "²").replace("^3", "³")),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -162,6 +154,5 @@ mod tests {
     fn small_numbers_are_powers_of_ten() {
         let texts = [0.256_63, -0.001, 3.14e-7, -2e-12, 0.0].map(|value| digits(value, 3));
         assert_eq!(texts, ["0.257", "−0.00100", "3.14 × 10⁻⁷", "−2.00 × 10⁻¹²", "0"]);
-        assert_eq!(with_unit("2.00".into(), "um^3/um^2"), "2.00 µm³/µm²");
     }
 }

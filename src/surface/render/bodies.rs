@@ -1,7 +1,7 @@
 //! What is drawn: bodies with a look, made ready for rays.
 //!
 //! In: meshes. Out: [`Shape`], one tree over all triangles with normals at their corners; and with a look for each body
-//! [`Stage`], what a ray finds where it meets one. Pictures that colour the same bodies differently share their shape.
+//! [`Bodies`], what a ray finds where it meets one. Pictures that colour the same bodies differently share their shape.
 //!
 //! Normals at a corner are the mean, weighted by angles, of the triangles round it that lean less than `CREASE_RAD`
 //! against this one: flanks look smooth, edges stay sharp, whatever the mesh.
@@ -71,7 +71,7 @@ impl<'a> Shape<'a> {
 }
 
 /// Bodies ready to be drawn.
-pub struct Stage<'a> {
+pub struct Bodies<'a> {
     shape: &'a Shape<'a>,
     /// How each body looks.
     looks: Vec<Look>,
@@ -79,7 +79,7 @@ pub struct Stage<'a> {
 
 /// What a ray finds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RayHit {
+pub struct BodyHit {
     /// Distance along the ray, mm.
     pub distance_mm: f64,
     /// Smooth unit normal, on the side from which the ray meets the triangle; at the rim of a round body it may lean
@@ -97,7 +97,7 @@ pub struct RayHit {
     pub pass: Option<u32>,
 }
 
-impl<'a> Stage<'a> {
+impl<'a> Bodies<'a> {
     /// Bodies with a look for each.
     pub fn new(shape: &'a Shape<'a>, looks: Vec<Look>) -> Self {
         Self { shape, looks }
@@ -109,7 +109,7 @@ impl<'a> Stage<'a> {
     }
 
     /// What a ray meets first.
-    pub fn first(&self, origin_mm: DVec3, direction: DVec3) -> Option<RayHit> {
+    pub fn first(&self, origin_mm: DVec3, direction: DVec3) -> Option<BodyHit> {
         self.shape.tree.first(origin_mm, direction, f64::INFINITY).map(|hit| self.found(&hit, direction))
     }
 
@@ -118,7 +118,7 @@ impl<'a> Stage<'a> {
         self.shape.tree.is_blocked(origin_mm, direction, limit_mm)
     }
 
-    fn found(&self, hit: &Hit, direction: DVec3) -> RayHit {
+    fn found(&self, hit: &Hit, direction: DVec3) -> BodyHit {
         let global = hit.triangle as usize;
         let shape = self.shape;
         let index = shape.starts.partition_point(|&start| start <= global) - 1;
@@ -156,7 +156,7 @@ impl<'a> Stage<'a> {
                 (colour, 0.05, value)
             }
         };
-        RayHit { distance_mm: hit.distance_mm, normal, flat, colour, gloss, value, pass }
+        BodyHit { distance_mm: hit.distance_mm, normal, flat, colour, gloss, value, pass }
     }
 }
 
@@ -258,13 +258,13 @@ mod tests {
         mesh.scalars.push(crate::surface::flanks::pass_scalar((0..128).collect()));
         let scale = ColourScale::Sequential { low: 0.0, high: 10.0 };
         let shape = Shape::new(vec![&mesh]);
-        let stage = Stage::new(&shape, vec![Look::Scalar { name: "height_um", scale }]);
-        let found = stage.first(DVec3::new(30.0, 0.0, 2.0), DVec3::NEG_X).expect("meets the wall");
+        let bodies = Bodies::new(&shape, vec![Look::Scalar { name: "height_um", scale }]);
+        let found = bodies.first(DVec3::new(30.0, 0.0, 2.0), DVec3::NEG_X).expect("meets the wall");
         assert!((found.distance_mm - 20.0).abs() < 1e-9);
         assert!((found.value - 2.0).abs() < 1e-5);
         assert!(found.normal.distance(DVec3::X) < 1e-9);
         assert_eq!(found.pass, Some(0));
-        assert!(stage.is_blocked(DVec3::ZERO, DVec3::X, 10.5) && !stage.is_blocked(DVec3::ZERO, DVec3::X, 9.5));
-        assert_eq!(stage.first(DVec3::new(30.0, 0.0, 6.0), DVec3::NEG_X), None);
+        assert!(bodies.is_blocked(DVec3::ZERO, DVec3::X, 10.5) && !bodies.is_blocked(DVec3::ZERO, DVec3::X, 9.5));
+        assert_eq!(bodies.first(DVec3::new(30.0, 0.0, 6.0), DVec3::NEG_X), None);
     }
 }

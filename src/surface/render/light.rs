@@ -1,16 +1,16 @@
-//! Light on a stage, and the picture it makes.
+//! Light on bodies, and the picture it makes.
 //!
-//! In: stage, camera, lights. Out: [`Rendered`]: sRGB pixels, and at every pixel's middle depth, normal, value and pass
+//! In: bodies, camera, lights. Out: [`Rendered`]: sRGB pixels, and at every pixel's middle depth, normal, value and pass
 //! id.
 //!
 //! A point is lit by one lamp (with shadows, a little soft) and by the sky, of which it sees as much as rays over its
 //! hemisphere say (ambient occlusion), weighted by the cosine. Four rays per pixel, stratified; each asks the sky in
 //! directions of its own (a golden-ratio sequence, started by a hash of the pixel), and the share of the sky is then
-//! averaged over neighbours on the same smooth surface. Nothing is random: the same stage gives the same bytes.
+//! averaged over neighbours on the same smooth surface. Nothing is random: the same bodies give the same bytes.
 //!
 //! Colours stand for values, so that light changes their brightness and hardly their hue.
 
-use super::bodies::{RayHit, Stage};
+use super::bodies::{Bodies, BodyHit};
 use super::camera::Camera;
 use crate::interrupt::Interrupt;
 use crate::{Error, Result};
@@ -29,7 +29,7 @@ const SMOOTH_STEPS_PX: [i64; 2] = [1, 4];
 const LEAST_SKY_RAYS: f32 = 16.0;
 /// Radius of the lamp at unit distance: shadows grow soft by a fiftieth of their length.
 const LAMP_RADIUS: f64 = 0.02;
-/// Rays start this share of the stage's size off the surface, so that they do not meet it again.
+/// Rays start this share of the bodies' size off the surface, so that they do not meet it again.
 const OFF_SURFACE: f64 = 2e-6;
 
 /// Light of the open sky on a white surface that faces up, before its share: with the studio's lamp beside it, clay in
@@ -51,14 +51,14 @@ const STUDIO_LAMP_SHARE: f64 = 0.48;
 const STUDIO_SKY_REACH: f64 = 0.25;
 const STUDIO_GAIN: f64 = 1.55;
 
-/// How a stage is lit.
+/// How bodies are lit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lights {
     /// Unit direction from the object to the lamp.
     pub lamp: DVec3,
     /// Share of the lamp; the rest comes from the sky.
     pub lamp_share: f64,
-    /// How far surfaces take the sky from each other, as a share of the stage's size.
+    /// How far surfaces take the sky from each other, as a share of the bodies' size.
     pub sky_reach: f64,
     /// Brightness of a white surface that faces the lamp, before the shares: above 1 where the lamp grazes.
     pub gain: f64,
@@ -83,7 +83,7 @@ pub struct Rendered {
     /// Distance from the picture plane through the camera's target, mm, away from the viewer; infinite where nothing
     /// stands.
     pub depth_mm: Vec<f32>,
-    /// Smooth unit normal in the stage's frame; zero where nothing stands.
+    /// Smooth unit normal in the frame of the bodies; zero where nothing stands.
     pub normal: Vec<[f32; 3]>,
     /// Value that the colour shows; NaN where there is none.
     pub value: Vec<f32>,
@@ -108,21 +108,21 @@ struct Pixel {
     depth_mm: f64,
 }
 
-/// Draws a stage; rows of pixels in parallel.
+/// Draws bodies; rows of pixels in parallel.
 ///
 /// # Errors
 /// Ctrl-C.
-pub fn render(stage: &Stage, camera: &Camera, lights: &Lights, interrupt: &Interrupt) -> Result<Rendered> {
+pub fn render(bodies: &Bodies, camera: &Camera, lights: &Lights, interrupt: &Interrupt) -> Result<Rendered> {
     let (width, height) = camera.size_px;
-    let far_mm = 2.0 * stage.size_mm() + camera.extent_mm;
-    let rows: Vec<Vec<(Pixel, Option<RayHit>)>> = (0..height)
+    let far_mm = 2.0 * bodies.size_mm() + camera.extent_mm;
+    let rows: Vec<Vec<(Pixel, Option<BodyHit>)>> = (0..height)
         .into_par_iter()
         .map(|y| {
             interrupt.check()?;
-            Ok((0..width).map(|x| pixel(stage, camera, lights, far_mm, x, y)).collect())
+            Ok((0..width).map(|x| pixel(bodies, camera, lights, far_mm, x, y)).collect())
         })
         .collect::<Result<_, Error>>()?;
-    let pixels: Vec<(Pixel, Option<RayHit>)> = rows.into_iter().flatten().collect();
+    let pixels: Vec<(Pixel, Option<BodyHit>)> = rows.into_iter().flatten().collect();
     let open = smoothed(&pixels, camera);
     let rgb = pixels
         .par_iter()
@@ -146,7 +146,7 @@ pub fn render(stage: &Stage, camera: &Camera, lights: &Lights, interrupt: &Inter
 }
 
 /// Share of the sky that every pixel sees, averaged over neighbours on the same smooth surface.
-fn smoothed(pixels: &[(Pixel, Option<RayHit>)], camera: &Camera) -> Vec<f32> {
+fn smoothed(pixels: &[(Pixel, Option<BodyHit>)], camera: &Camera) -> Vec<f32> {
     let (width, height) = (i64::from(camera.size_px.0), i64::from(camera.size_px.1));
     // Close together in memory: every pixel asks 98 neighbours.
     let places: Vec<(DVec3, f64)> = pixels.iter().map(|(p, _)| (p.normal, p.depth_mm)).collect();
@@ -193,15 +193,15 @@ fn smoothed(pixels: &[(Pixel, Option<RayHit>)], camera: &Camera) -> Vec<f32> {
     sums.iter().enumerate().map(share).collect()
 }
 
-fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y: u32) -> (Pixel, Option<RayHit>) {
+fn pixel(bodies: &Bodies, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y: u32) -> (Pixel, Option<BodyHit>) {
     let mut gathered = Pixel::default();
     let mut seed = hash(x, y);
     for ray in 0..SIDE * SIDE {
         let (i, j) = (ray % SIDE, ray / SIDE);
         let place = |k: u32, of: u32| f64::from(of) + (f64::from(k) + 0.5) / f64::from(SIDE);
         let origin_mm = camera.origin_mm(place(i, x), place(j, y), far_mm);
-        let Some(found) = stage.first(origin_mm, -camera.towards) else { continue };
-        let off_mm = OFF_SURFACE * stage.size_mm();
+        let Some(found) = bodies.first(origin_mm, -camera.towards) else { continue };
+        let off_mm = OFF_SURFACE * bodies.size_mm();
         let place_mm = origin_mm - camera.towards * found.distance_mm + found.flat * off_mm;
         if gathered.met == 0 {
             (gathered.normal, gathered.depth_mm) = (found.normal, found.distance_mm);
@@ -214,7 +214,7 @@ fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y
         let offset = DVec2::from_angle(std::f64::consts::TAU * a) * (LAMP_RADIUS * b.sqrt());
         let lamp = (lights.lamp + offset.x * side + offset.y * across).normalize();
         let cosine = found.normal.dot(lamp);
-        if cosine > 0.0 && found.flat.dot(lamp) > 0.0 && !stage.is_blocked(place_mm, lamp, far_mm) {
+        if cosine > 0.0 && found.flat.dot(lamp) > 0.0 && !bodies.is_blocked(place_mm, lamp, far_mm) {
             let half = (lamp + camera.towards).normalize();
             let highlight = found.gloss * found.normal.dot(half).max(0.0).powi(HIGHLIGHT_POWER);
             gathered.lamp += lights.lamp_share * (lights.gain * cosine * colour + DVec3::splat(HIGHLIGHT * highlight));
@@ -230,12 +230,12 @@ fn pixel(stage: &Stage, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y
             let direction = disc.x * tangent + disc.y * bitangent + (1.0 - b).sqrt() * found.normal;
             gathered.asked += 1;
             let open = found.flat.dot(direction) > 0.0
-                && !stage.is_blocked(place_mm, direction, lights.sky_reach * stage.size_mm());
+                && !bodies.is_blocked(place_mm, direction, lights.sky_reach * bodies.size_mm());
             gathered.free += u32::from(open);
         }
     }
     let middle_mm = camera.origin_mm(f64::from(x) + 0.5, f64::from(y) + 0.5, far_mm);
-    (gathered, stage.first(middle_mm, -camera.towards))
+    (gathered, bodies.first(middle_mm, -camera.towards))
 }
 
 /// Two numbers in [0, 1) of the plane's golden-ratio sequence (M. Roberts, 2018).

@@ -1,8 +1,12 @@
 //! The blank of shaped gears on the GPU beside the native kernel: ends of spans, volumes of every pass, rubbing; lists
 //! that grow; and proof that the comparison can fail.
 
+use crate::fixtures::blank_parity::BlankParity;
 use crate::fixtures::paper::*;
 use crate::fixtures::parity::*;
+use crate::fixtures::rings::ring_scene;
+use gearcut::cut::Backend;
+use gearcut::gear::PitchCurveShape;
 use gearcut::cut::CutBlank;
 use gearcut::cut::cpu::Cpu;
 use gearcut::cut::{BlankOperation, Rub};
@@ -127,4 +131,31 @@ fn the_gpu_leaves_the_same_spans_and_volumes() {
         Rigid2::new(pose.angle_rad, pose.center_mm)
     });
     assert!(run(8, Some(&fewer)).0 != field);
+}
+
+/// A ring: its material lies outside the outline and inside the rim, the cutter in its hole.
+#[test]
+fn the_gpu_cuts_a_ring_alike() {
+    let shape = PitchCurveShape::Ellipse { order: 2, eccentricity: 0.08, semi_major_axis_mm: None };
+    let operations = vec![operation("rough", NORMAL, 0.5, 270), operation("finish", NORMAL, 0.0, 540)];
+    let mut scene = ring_scene(shape, 54, 16, operations);
+    scene.fields.blank_spacing_mm = 0.4;
+    let job = ShapingJob::new(scene).expect("a ring");
+    let run = |backend: &dyn Backend, by_mm: f64| {
+        let mut grid = job.planar().blank_grid().expect("fits");
+        for row in &mut grid.rows {
+            row.first_mm += by_mm;
+        }
+        let field = BlankField::new(grid, &BlankOutline::new(&job.blank));
+        job.cut_blank(backend, field, &|| true).expect("both work").expect("not stopped")
+    };
+    let native = run(&Cpu::default(), 0.0);
+    let bound_mm = BlankParity::bound_mm(&native.field);
+    let beside = [bound_mm, -bound_mm].map(|by_mm| run(&Cpu::default(), by_mm));
+    let gpu = run(&software_gpu(strict()), 0.0);
+    let parity = BlankParity::of(&native.field, [&beside[0].field, &beside[1].field], &gpu.field);
+    println!("{parity}");
+    assert_eq!(parity.verdict(), Ok(()));
+    let uncut = job.planar().blank_field().expect("fits");
+    assert!(BlankParity::of(&native.field, [&beside[0].field, &beside[1].field], &uncut).verdict().is_err());
 }

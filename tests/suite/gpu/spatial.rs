@@ -16,6 +16,9 @@ use std::path::Path;
 /// [`fingerprint`] of the first patch: llvmpipe rounds alike in all its versions.
 const GOLDEN: u64 = 0x4829_c375_1cb1_4edd;
 
+/// What the shader may add to a height, nm, as its head says; 0.95 measured.
+const ADDED_NM: f64 = 2.0;
+
 fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
     (0..count).map(|i| from + (to - from) * i as f64 / (count - 1) as f64).collect()
 }
@@ -42,7 +45,7 @@ fn hobbed_flanks_are_cut_alike() {
         let plan = SweepPlan::new(&field, &passes);
         let (parity, native, shifted, got) = cut_both_in_space(&gpu, name, &field, &plan);
         println!("{parity}");
-        assert_eq!(parity.verdict(), Ok(()), "{name}");
+        assert_eq!(parity.verdict_within(ADDED_NM), Ok(()), "{name}");
         all.merge(parity);
         if name == "p09_patch_s2_axial" {
             let hash = fingerprint(std::slice::from_ref(&got));
@@ -55,7 +58,7 @@ fn hobbed_flanks_are_cut_alike() {
                 planted.heights_mm[at] = plant;
                 let mut parity = Parity::default();
                 parity.add("planted", field.rows(), &native, &shifted, &planted);
-                assert!(parity.verdict().is_err(), "{plant}");
+                assert!(parity.verdict_within(ADDED_NM).is_err(), "{plant}");
             }
             let mut lifted = plan.clone();
             lifted.records.iter_mut().for_each(|record| record.place_mm[0][0] += 5e-5);
@@ -63,10 +66,29 @@ fn hobbed_flanks_are_cut_alike() {
             gpu.cut_spatial(&field, &lifted, &mut layer).expect("cuts");
             let mut parity = Parity::default();
             parity.add("lifted", field.rows(), &native, &shifted, &layer);
-            assert!(parity.verdict().is_err());
+            assert!(parity.verdict_within(ADDED_NM).is_err());
         }
     }
     println!("all: {all}");
+}
+
+#[test]
+fn a_fault_far_below_the_bound_changes_the_golden_bytes() {
+    let gpu = software_gpu(strict());
+    let (passes, field) = case("p09_patch_s2_axial");
+    let honest = SweepPlan::new(&field, &passes);
+    let cut = |plan: &SweepPlan| {
+        let mut layer = field.blank_layer();
+        gpu.cut_spatial(&field, plan, &mut layer).expect("cuts");
+        layer
+    };
+    let whole = cut(&honest);
+    assert_eq!(fingerprint(std::slice::from_ref(&whole)), GOLDEN, "nothing is planted");
+    // The pass that left the dexel in the middle of the patch, 2 nm off.
+    let lost = whole.passes[whole.passes.len() / 2];
+    let mut moved = honest;
+    moved.records.iter_mut().filter(|record| record.pass == lost).for_each(|record| record.place_mm[0][0] += 2e-6);
+    assert_ne!(fingerprint(&[cut(&moved)]), GOLDEN, "a pass 2 nm off");
 }
 
 #[test]
@@ -117,7 +139,7 @@ mod slow {
                     "{place}: twist {:.4} deg/mm, heights {low:.3} to {high:.3} um; {parity}",
                     twist_rad_per_mm.to_degrees()
                 );
-                assert_eq!(parity.verdict(), Ok(()), "{place}");
+                assert_eq!(parity.verdict_within(ADDED_NM), Ok(()), "{place}");
                 all.merge(parity);
                 // A rake face that is taken for a plane is seen.
                 let mut plane = plan.clone();
@@ -127,7 +149,7 @@ mod slow {
                 assert!(layer != got);
                 let mut parity = Parity::default();
                 parity.add("plane", rays.field.rows(), &native, &shifted, &layer);
-                assert!(parity.verdict().is_err());
+                assert!(parity.verdict_within(ADDED_NM).is_err());
             }
         }
         println!("all: {all}");
@@ -148,7 +170,7 @@ mod slow {
         let gpu = software_gpu(strict());
         let (parity, _, _, whole) = cut_both_in_space(&gpu, "all passes", &few, &plan);
         println!("{parity}");
-        assert_eq!(parity.verdict(), Ok(()));
+        assert_eq!(parity.verdict_within(ADDED_NM), Ok(()));
         // Rounds of other lengths leave the same bytes.
         let cut = |memory_limit_bytes: Option<u64>, plan: &SweepPlan| {
             let gpu = software_gpu(GpuOptions { memory_limit_bytes, ..strict() });

@@ -83,12 +83,12 @@ fn sections_hold_the_edge_at_the_moment_of_their_slice() {
                         if place.truncate().length() > job.blank.outline_mm(0.0).length() + 20.0 {
                             continue;
                         }
-                        let held = |stretch| {
-                            let sweep = Sweep::new(set, &pass, stretch, place, 1.0)?;
+                        let held = |piece| {
+                            let sweep = Sweep::new(set, &pass, piece, place, 1.0)?;
                             sweep.in_rake_face(DVec3::ZERO).expect("the moment settles")
                         };
                         // A rounded corner lies between both motions.
-                        let Some([radius, y]) = set.stretches(&pass).find_map(held) else {
+                        let Some([radius, y]) = set.pieces(&pass).find_map(held) else {
                             rounded += 1;
                             continue;
                         };

@@ -71,7 +71,7 @@ mod slow {
             {
                 let at = field.index(column, row);
                 let pass = set.pass(layer.passes[at] - set.first_pass);
-                let corner = set.motion.stretch_rad(set.stretches(&pass).start)[1];
+                let corner = set.motion.piece_rad(set.pieces(&pass).start)[1];
                 // The flank is cut within a tenth of a radian of where the tooth points to the work.
                 if (pass.tool_angle_rad - corner).abs() > 0.2 {
                     continue;

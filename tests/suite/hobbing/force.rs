@@ -36,10 +36,12 @@ struct Counted {
     edge_mm: f64,
 }
 
-/// Passes in the slice `z_mm` of a space, within `reach_mm` of its middle on the pitch curve.
-fn by_points(cutter: &HobCutter, space: i64, z_mm: f64, reach_mm: f64) -> BTreeMap<u32, Counted> {
+/// Passes through a space in the slice `z_mm`: those whose tip stands less than half a pitch beside its middle on the
+/// pitch curve, where alone they take material.
+fn by_points(cutter: &HobCutter, space: i64, z_mm: f64) -> BTreeMap<u32, Counted> {
     let job = cutter.job;
     let middle = job.curve.frame(job.curve.phi_at_arc(job.target.space_arc_mm(space, z_mm))).point_mm;
+    let reach_mm = 0.5 * std::f64::consts::PI * job.scene.gear.module_mm;
     let in_blank = |p: DVec2| job.blank.height(p, p.to_angle()).0 < job.blank.addendum_mm;
     let count = (2.0 * reach_mm / STEP_MM) as i32;
     let along = middle.normalize();
@@ -70,7 +72,8 @@ fn by_points(cutter: &HobCutter, space: i64, z_mm: f64, reach_mm: f64) -> BTreeM
                 swept_mm += point.length_mm / section.heading.upright(-point.inward);
             }
         }
-        if taken_mm2 > 0.0 {
+        let tip = polygon.of_edge[polygon.of_edge.len() / 2].place;
+        if taken_mm2 > 0.0 && along.perp_dot(tip - middle).abs() < reach_mm {
             let per_travel = section.heading.travel_per_mm.recip();
             let counted = Counted { section_mm2: taken_mm2 * per_travel, edge_mm: swept_mm * per_travel };
             found.insert(section.pass, counted);
@@ -83,7 +86,7 @@ fn by_points(cutter: &HobCutter, space: i64, z_mm: f64, reach_mm: f64) -> BTreeM
 /// Largest over both slices, pass by pass, of two spaces.
 fn of_two_spaces(cutter: &HobCutter, slices_z_mm: &[f64]) -> BTreeMap<u32, Counted> {
     let places: Vec<(f64, i64)> = slices_z_mm.iter().flat_map(|&z_mm| [0, 13].map(|space| (z_mm, space))).collect();
-    let found: Vec<_> = places.par_iter().map(|&(z_mm, space)| by_points(cutter, space, z_mm, 6.0)).collect();
+    let found: Vec<_> = places.par_iter().map(|&(z_mm, space)| by_points(cutter, space, z_mm)).collect();
     let mut largest: BTreeMap<u32, Counted> = BTreeMap::new();
     for (pass, counted) in found.into_iter().flatten() {
         let of_pass = largest.entry(pass).or_default();

@@ -8,6 +8,7 @@ mod evaluated;
 mod force;
 mod gcode;
 mod hollow;
+mod kept;
 mod metrology;
 mod oracle;
 mod papers;

@@ -29,7 +29,7 @@ fn sample() -> ExrMap {
     ExrMap {
         frame: "flank frame of tooth 7, left: δ_d = 0 µm".into(),
         channels: vec![
-            channel("height_mm", "mm", "height over the target, positive = material left", Samples::F32(heights)),
+            channel("height_mm", "mm", "normal deviation, positive = material left", Samples::F32(heights)),
             channel("pass_id", "1", "pass that left the point", Samples::U32(passes)),
         ],
         notes: vec![

@@ -66,7 +66,7 @@ fn picture<'a>(grid: &'a MapGrid, values: &'a [f32], scale: ColourScale) -> MapP
     MapPicture {
         missing: "no pass came here",
         title: "Finish, tooth 7, left flank",
-        quantity: "height over the target",
+        quantity: "normal deviation",
         unit: "µm",
         grid,
         values,
@@ -171,7 +171,7 @@ fn a_whole_gear_is_drawn_on_one_sheet() {
     let sheet = |maps| ContactSheet {
         missing: "no pass came here",
         title: "Finish, all flanks",
-        quantity: "height over the target",
+        quantity: "normal deviation",
         unit: "µm",
         scale,
         maps,

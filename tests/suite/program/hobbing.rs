@@ -254,3 +254,51 @@ fn the_printed_linkage_gives_no_program_and_no_closed_body() {
     }
     assert!(out.join("report.html").exists() && out.join("axes/finish.csv").exists());
 }
+
+mod slow {
+    use super::*;
+
+    /// So coarse, and a face so narrow, that a scene takes some seconds.
+    const COARSEST: [&str; 12] = [
+        "--set",
+        "gear.face_width_mm=2",
+        "--set",
+        "operation.finish.axial_feed_mm_per_revolution=6",
+        "--set",
+        "fields.flank.profile_spacing_um=1000",
+        "--set",
+        "fields.flank.lead_spacing_um=2000",
+        "--set",
+        "fields.blank.spacing_mm=3",
+        "--set",
+        "output.map_spacing_mm=0.5",
+    ];
+
+    #[test]
+    fn every_shipped_scene_gives_the_same_bytes_on_one_thread_and_on_two() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let entries = std::fs::read_dir("scenes/hobbing").expect("scenes");
+        let mut scenes: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+        scenes.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+        scenes.sort();
+        assert!(scenes.len() >= 5, "only {} scenes found", scenes.len());
+        let cut = |scene: &Path, name: &str, threads: u32, more: &[&str]| {
+            let out = folder.path().join(name);
+            let (scene, out_text) = (scene.to_str().expect("a path"), out.to_str().expect("a path"));
+            let arguments = ["cut", scene, "--out", out_text, "--backend", "cpu", "--quiet", "--only", "maps"];
+            gearcut_on_threads(threads, &[&arguments[..], &COARSEST[..], more].concat()).done();
+            files(&out)
+        };
+        for (number, scene) in scenes.iter().enumerate() {
+            let start = std::time::Instant::now();
+            let first = cut(scene, &format!("{number}_one"), 1, &[]);
+            assert_same_files(&first, &cut(scene, &format!("{number}_two"), 2, &[]));
+            println!("{}: {} files, {:.1} s", scene.display(), first.len(), start.elapsed().as_secs_f64());
+            if number == 0 {
+                // The comparison is alive: a hob 10 nm back leaves other bytes.
+                let moved = cut(scene, "moved", 2, &["--set", "operation.finish.offset_mm=0.00001"]);
+                assert!(std::panic::catch_unwind(|| assert_same_files(&first, &moved)).is_err());
+            }
+        }
+    }
+}

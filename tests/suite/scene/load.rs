@@ -259,12 +259,26 @@ fn everything_in_the_template_can_be_switched_on() {
             if block.lines().any(|line| line.starts_with("#[")) {
                 let on =
                     block.lines().filter(|line| !line.contains("file = ")).map(|line| switch(line).unwrap_or(line));
-                let operation = if block.contains("#[operation") { "[[operation]]\n" } else { "" };
-                read(&format!("{shortest}{operation}{}\n", on.collect::<Vec<_>>().join("\n")));
+                // What holds the section is off as well.
+                let holder = if block.contains("#[operation") {
+                    "[[operation]]\n"
+                } else if block.contains("#[gear.pitch_curve.mate.driver") {
+                    "[gear.pitch_curve.mate]\ndriver_teeth = 12\n"
+                } else {
+                    ""
+                };
+                read(&format!("{shortest}{holder}{}\n", on.collect::<Vec<_>>().join("\n")));
                 variants += 1;
             } else {
                 for key in block.lines().filter_map(switch) {
                     let mut one = block.replacen(&format!("#{key}"), key, 1);
+                    if name(key) == "rim_mm" {
+                        // Of rings alone, which hobs do not cut.
+                        one = one.replacen("kind = \"external\"", "kind = \"internal\"", 1);
+                        if process.name == "hobbing" {
+                            continue;
+                        }
+                    }
                     for rival in rivals(name(key)) {
                         one = one.replacen(&format!("\n{rival} = "), &format!("\n#{rival} = "), 1);
                     }
@@ -281,15 +295,20 @@ fn everything_in_the_template_can_be_switched_on() {
 
 /// Sections of a process's table that do not hold unless they are written.
 fn switched_off(own: &KeyTable) -> usize {
-    let off = own.sections().iter().filter(|section| match section.role {
+    own.sections().iter().filter(|section| is_off(own, section)).count()
+}
+
+/// Whether a section with a header does not hold unless it is written.
+fn is_off(own: &KeyTable, section: &TableSection) -> bool {
+    match section.role {
         Role::List { fewest } => fewest == 0,
         Role::Variant => {
-            let default = own.section(section.parent_path()).and_then(TableSection::default);
-            default.is_some_and(|default| default != section.name())
+            let choice = own.section(section.parent_path()).expect("a variant is chosen somewhere");
+            let other = choice.default().is_some_and(|default| default != section.name());
+            other || own.section(choice.parent_path()).is_some_and(|holder| is_off(own, holder))
         }
         _ => false,
-    });
-    off.count()
+    }
 }
 
 /// A line of the template switched on, if it is off.

@@ -4,4 +4,5 @@ mod broken;
 mod hostile;
 mod keys;
 mod load;
+mod mate;
 mod settings;

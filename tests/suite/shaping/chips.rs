@@ -9,7 +9,7 @@ use gearcut::gear::PitchCurveShape;
 use gearcut::material::EdgeForce;
 use gearcut::passes::StrokeSet;
 use gearcut::process::shaping::chips::ChipLedger;
-use gearcut::process::shaping::chips::edge_polygon::EdgeSide;
+use gearcut::process::shaping::edge_polygon::EdgeSide;
 use gearcut::process::shaping::linkage::{CutterPose, StrokeSchedule};
 use gearcut::process::shaping::scene::model::{Infeed, Shaping};
 use gearcut::process::shaping::{PreparedOperation, ShapingJob};

@@ -6,7 +6,6 @@ use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::gcode::{AxisProgram, read};
 use gearcut::process::shaping::programs;
 use gearcut::process::shaping::scene::model::*;
-use gearcut::scene::model::*;
 use gearcut::terms::Side;
 
 fn job(operation: Operation) -> ShapingJob {
@@ -154,13 +153,13 @@ fn limits_are_checked_and_as_printed_is_never_written() {
 #[test]
 fn the_papers_form_is_marked_and_reads_as_refused() {
     let mut job = job(operation("cut", NORMAL, 2.0, 600));
-    job.scene.output.gcode = GcodeDialect::PaperG84;
+    job.gcode = GcodeDialect::PaperG84;
     let text = text(&job);
     assert!(text.lines().take(2).all(|line| line.starts_with("(DO NOT RUN")), "{text}");
     assert!(text.contains("\nG84 A61.11 N3 K0.1348 R30 D0 S2\n"), "{text}");
     let refused = read::program(&text).expect_err("G84 is not read");
     assert!(refused.contains("line 5") && refused.contains("`G84`") && refused.contains("tapping"), "{refused}");
-    job.scene.output.gcode = GcodeDialect::None;
+    job.gcode = GcodeDialect::None;
     assert!(programs::text(&job, &job.operations[0]).is_none());
 }
 

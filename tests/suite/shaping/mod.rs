@@ -14,4 +14,5 @@ mod linkage_envelope;
 mod linkage_oracle;
 mod oracle;
 mod paper_figures;
+mod retraction;
 mod rubbing;

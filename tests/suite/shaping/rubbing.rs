@@ -6,7 +6,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::gear::PitchCurveShape;
 use gearcut::measure::damage::LEAST_DEPTH_MM;
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::chips::edge_polygon::{EdgePolygon, Station};
+use gearcut::process::shaping::edge_polygon::{EdgePolygon, Station};
 use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::steps::planar::blank_report;
 use gearcut::tool::PlanarTool;

@@ -84,7 +84,7 @@ pub trait Backend: Sync {
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<BlankCut>, Error>;
 
-    /// Takes all sweeps of a hobbing operation, whose passes have the ids `passes`, from the blank; `advance` is called
+    /// Takes all sweeps of an operation with a turning tool, whose passes have the ids `passes`, from the blank; `advance` is called
     /// as often as the field has slices and says whether to go on. `None`: stopped, the field is then as it was or
     /// partly cut.
     ///

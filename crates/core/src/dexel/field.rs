@@ -37,7 +37,7 @@ pub struct Field {
 /// Heights and pass ids, column by column (rows contiguous).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
-    /// Height over the target in mm.
+    /// Height: normal deviation from the target, mm.
     pub heights_mm: Vec<f32>,
     /// Pass that left it, or [`NO_PASS`].
     pub passes: Vec<u32>,

@@ -1,7 +1,7 @@
 //! SDF ASCII (ISO 25178-71): header lines `Name = value`, a star, heights, a star, trailer, a star.
 //!
 //! Heights are written in um (`Zscale` 1e-6) with the fewest digits that read back the same, one line per row; holes as
-//! `NaN`, which every reader that was tried takes, where `BAD` fails in one. Read: both.
+//! `NaN`, which every reader that was tried takes, where `BAD` fails in one. Both are read.
 
 use std::fmt::Write as _;
 

@@ -1,8 +1,8 @@
 //! SUR (Digital Surf, uncompressed): 512 bytes of header, then whole numbers of height steps.
 //!
-//! Little endian. Spacing and step are f32 here (1e-7 of the value): fine for looking at, not for archiving. Written
-//! with 32 bits, the steps spread over the range of heights, no offset (a reader loses it), the micro sign as the
-//! single byte 0xB5 (readers fail on two). Read: 16 and 32 bits, any metric unit, offset.
+//! Numbers are little endian. Spacing and step are f32 here (1e-7 of the value): fine for looking at, not for
+//! archiving. Written with 32 bits, the steps spread over the range of heights, no offset (a reader loses it), the
+//! micro sign as the single byte 0xB5 (readers fail on two). Read: 16 and 32 bits, any metric unit, offset.
 
 use super::bounds::{factor, points, side};
 use super::{Bytes, Raw, SurfaceFile};

@@ -54,13 +54,13 @@ struct CycleMoment {
     motion: [AxisMotion; 6],
 }
 
-/// One cycle in the middle of the longest stretch.
+/// One cycle in the middle of the longest piece.
 fn cycle(operation: &PreparedHobbing) -> Vec<CycleMoment> {
     let linkage = &operation.linkage;
     let corners = linkage.corners_s();
     let longest = corners.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
     let [from, to] = longest.map_or([0.0, 1.0], |c| [c[0], c[1]]);
-    // From where a cycle begins, if the stretch holds a whole one.
+    // From where a cycle begins, if the piece holds a whole one.
     let middle = (0.5 * (from + to - linkage.cycle_s())).max(from);
     let turn = (linkage.axes::<1>(middle).polar_rad.value() / TURN_RAD).ceil();
     let start = polar_time(operation, turn * TURN_RAD, middle);

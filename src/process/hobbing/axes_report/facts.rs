@@ -25,7 +25,10 @@ pub(super) fn print(axes: &HobbingAxesReport, sheet: &mut Sheet) {
     };
     sheet.line("feed of the slide", format!("{feeds} mm per revolution of the work"));
     let (approach, face, overrun) = (plan.approach_mm, job.scene.gear.face_width_mm, plan.overrun_mm);
-    sheet.line("way of the slide", format!("{approach:.3} mm before the face, {face:.3} across, {overrun:.3} beyond"));
+    sheet.line(
+        "travel of the slide",
+        format!("{approach:.3} mm before the face, {face:.3} across, {overrun:.3} beyond"),
+    );
     if let HobbingKind::Diagonal { shift_mm_per_revolution, .. } = spec.kind {
         let [from, to] = plan.shift_range_mm;
         sheet.line(

@@ -1,11 +1,13 @@
 //! The edge against the helicoid it lies on, its chain, and what is refused.
 
 use super::*;
+use crate::process::hobbing::scene::model::Worm;
 use crate::terms::Hand;
-use crate::tool::edge::SegmentShape;
+use crate::tool::edge::{Segment, SegmentShape};
+use glam::DVec2;
 
-fn spec() -> model::Hob {
-    model::Hob {
+fn spec() -> model::HobSpec {
+    model::HobSpec {
         starts: 1,
         hand: Hand::Right,
         gashes: 10,
@@ -22,7 +24,7 @@ fn spec() -> model::Hob {
     }
 }
 
-fn hob(spec: &model::Hob) -> Result<Hob, Refusal> {
+fn hob(spec: &model::HobSpec) -> Result<Hob, Refusal> {
     Hob::new(spec, 8.0, 20_f64.to_radians())
 }
 
@@ -49,7 +51,7 @@ fn edges_lie_on_an_involute_helicoid() {
         [(Hand::Right, 1, GashForm::Axial), (Hand::Left, 3, GashForm::Axial), (Hand::Left, 2, GashForm::Helical)]
     {
         let size = HobSize::ReferenceDiameter(140.0);
-        let hob = hob(&model::Hob { starts, hand, gash_form, size, ..spec() }).unwrap();
+        let hob = hob(&model::HobSpec { starts, hand, gash_form, size, ..spec() }).unwrap();
         let p = hob.lead_mm / TAU;
         let base = p / (hob.lead_angle_rad.cos() * 20_f64.to_radians().cos()).acos().tan();
         // Every edge point, brought back along the screw into one axial section, lies on one curve z(rho).
@@ -80,7 +82,7 @@ fn edges_lie_on_an_involute_helicoid() {
 #[test]
 fn tooth_and_space_fill_the_pitch() {
     for gash_form in [GashForm::Axial, GashForm::Helical] {
-        let hob = hob(&model::Hob { gash_form, ..spec() }).unwrap();
+        let hob = hob(&model::HobSpec { gash_form, ..spec() }).unwrap();
         // In the normal section a tooth is pi m / 2 thick, whatever the gashes: axial half thickness times cos(lambda),
         // and times cos(lambda) again for the section across the thread that a helical gash is.
         let normal = 2.0 * hob.half_thickness_mm(hob.pitch_radius_mm);
@@ -99,7 +101,7 @@ fn the_chain_is_closed_whatever_the_tip() {
     for (tip_radius_mm, protuberance) in [(0.0, None), (2.0, None), (1.5, protuberance), (0.0, protuberance)] {
         for worm in [Worm::Involute, Worm::StraightSided] {
             for regrind_mm in [0.0, 2.5] {
-                let spec = model::Hob { worm, tip_radius_mm, protuberance, regrind_mm, ..spec() };
+                let spec = model::HobSpec { worm, tip_radius_mm, protuberance, regrind_mm, ..spec() };
                 let hob = hob(&spec).unwrap();
                 let ends: Vec<[DVec2; 2]> =
                     hob.edge_of(0).segments.iter().map(points).map(|p| [p[0], p[p.len() - 1]]).collect();
@@ -132,7 +134,7 @@ fn teeth_stand_on_the_thread() {
         [(Hand::Right, GashForm::Axial, 1), (Hand::Left, GashForm::Axial, 2), (Hand::Right, GashForm::Helical, 3)]
     {
         let size = HobSize::ReferenceDiameter(150.0);
-        let hob = hob(&model::Hob { starts, hand, gash_form, size, ..spec() }).unwrap();
+        let hob = hob(&model::HobSpec { starts, hand, gash_form, size, ..spec() }).unwrap();
         assert_eq!(hob.teeth[0].label(1), "1");
         for tooth in &hob.teeth {
             let on_thread = hob.hand * hob.lead_mm / TAU * tooth.angle_rad;
@@ -152,14 +154,14 @@ fn teeth_stand_on_the_thread() {
 
 #[test]
 fn impossible_hobs_are_refused_by_key() {
-    let refused = |spec: model::Hob| hob(&spec).unwrap_err().key;
-    assert_eq!(refused(model::Hob { size: HobSize::LeadAngle(0.6), ..spec() }), "tool.hob.lead_angle_deg");
+    let refused = |spec: model::HobSpec| hob(&spec).unwrap_err().key;
+    assert_eq!(refused(model::HobSpec { size: HobSize::LeadAngle(0.6), ..spec() }), "tool.hob.lead_angle_deg");
     assert_eq!(
-        refused(model::Hob { size: HobSize::ReferenceDiameter(7.0), ..spec() }),
+        refused(model::HobSpec { size: HobSize::ReferenceDiameter(7.0), ..spec() }),
         "tool.hob.reference_diameter_mm"
     );
-    assert_eq!(refused(model::Hob { tip_radius_mm: 9.0, ..spec() }), "tool.hob.tip_radius_mm");
-    assert_eq!(refused(model::Hob { addendum_coefficient: 2.4, ..spec() }), "tool.hob.addendum_coefficient");
+    assert_eq!(refused(model::HobSpec { tip_radius_mm: 9.0, ..spec() }), "tool.hob.tip_radius_mm");
+    assert_eq!(refused(model::HobSpec { addendum_coefficient: 2.4, ..spec() }), "tool.hob.addendum_coefficient");
     let flat = Some(model::Protuberance { height_mm: 4.0, angle_rad: 25_f64.to_radians() });
-    assert_eq!(refused(model::Hob { protuberance: flat, ..spec() }), "tool.hob.protuberance_height_mm");
+    assert_eq!(refused(model::HobSpec { protuberance: flat, ..spec() }), "tool.hob.protuberance_height_mm");
 }

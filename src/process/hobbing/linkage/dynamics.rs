@@ -1,17 +1,17 @@
 //! A hobbing machine's six axes over time: hob, work, tangential (X), radial (Y with the infeed), slide, shift.
 //!
 //! In: a linkage and the axis limits. Out: the linkage as a [`Motion`] in time. Rates follow from the feeds and from
-//! the place on the pitch curve: within a stretch of constant feeds they repeat with every cycle along it, and two
-//! stretches with the same feeds move alike wherever they go over the same part of the curve. So each feed is searched
-//! once in every place: a stretch is left out where others with its feeds have shown all that it goes over
-//! ([`ShownArcs`]). Rates jump between stretches; the infinite acceleration there is left to the control.
+//! the place on the pitch curve: within a piece of constant feeds they repeat with every cycle along it, and two
+//! pieces with the same feeds move alike wherever they go over the same part of the curve. So each feed is searched
+//! once in every place: a piece is left out where others with its feeds have shown all that it goes over
+//! ([`ShownArcs`]). Rates jump between pieces; the infinite acceleration there is left to the control.
 
 use super::{HobbingAxes, HobbingLinkage};
 use crate::machine::{Axis, AxisKind, AxisMotion, Limits, Motion, MotionPiece};
 use crate::math::Jet;
 use crate::process::hobbing::scene::model::HobbingAxisLimits;
 
-/// A stretch shows this many cycles at most: one, and a tenth for humps that lie across its ends.
+/// A piece shows this many cycles at most: one, and a tenth for humps that lie across its ends.
 const SHOWN_CYCLES: f64 = 1.1;
 /// Arcs that differ by less are one, in perimeters: rounding, far below a cell of the search.
 const SAME_ARC: f64 = 1e-9;

@@ -1,6 +1,6 @@
-//! The feed path: how slide, shift and infeed move over time, as stretches with constant rates.
+//! The feed path: how slide, shift and infeed move over time, as pieces with constant rates.
 
-/// One stretch with constant feeds.
+/// One piece with constant feeds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedPhase {
     /// How long it lasts, s.
@@ -13,7 +13,7 @@ pub struct FeedPhase {
     pub radial_mm_per_s: f64,
 }
 
-/// Start and stretches.
+/// Start and pieces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeedPath {
     /// Slide at the beginning, mm.
@@ -22,7 +22,7 @@ pub struct FeedPath {
     pub start_shift_mm: f64,
     /// Distance from full depth at the beginning, mm.
     pub start_radial_mm: f64,
-    /// Stretches in order; at least one.
+    /// Pieces in order; at least one.
     pub phases: Vec<FeedPhase>,
 }
 

@@ -10,28 +10,28 @@
 //! the feed marks is the slide alone. Liu et al. 2015 keep v*_z = v_z + v_u sin(g) constant, slide and the shift's
 //! component together; a scene may ask for that.
 
+mod diagonal;
+#[cfg(test)]
+mod tests;
+
 use super::{FeedPath, FeedPhase, HobbingGeometry};
 use crate::error::Refusal;
 use crate::gear::PitchCurve;
 use crate::process::hobbing::Hob;
-use crate::process::hobbing::scene::model::{
-    Approach, FeedDirection, FeedOf, HobbingKind, HobbingOperation, ShiftStrategy,
-};
+use crate::process::hobbing::scene::model::{Approach, FeedDirection, HobbingKind, HobbingOperation};
 use crate::scene::model::Gear;
+use diagonal::DiagonalCut;
 
 /// Room left between hob and blank before the cut, mm.
 const CLEARANCE_MM: f64 = 1.0;
-/// More feed phases than this mean a stroke or feed that nobody wants.
-const MOST_PHASES: usize = 10_000;
-
 /// A feed path with what it was made from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeedPlan {
     /// The path.
     pub path: FeedPath,
-    /// Way of the slide before the face, mm.
+    /// Travel of the slide before the face, mm.
     pub approach_mm: f64,
-    /// Way of the slide beyond the face, mm.
+    /// Travel of the slide beyond the face, mm.
     pub overrun_mm: f64,
     /// Distance from the pitch point, along the hob, that contact needs on both sides, mm.
     pub contact_half_length_mm: f64,
@@ -47,22 +47,6 @@ pub struct FeedPlan {
     /// Height of the feed marks, largest, mm: f^2 sin(alpha_n) / (8 R) with f = feed / cos(g) and R the smallest
     /// contact radius of the hob.
     pub feed_mark_mm: f64,
-}
-
-/// What a diagonal path has to cover.
-struct DiagonalCut {
-    /// +1 if the slide feeds along +z.
-    direction: f64,
-    /// Travel of the slide, mm.
-    travel_mm: f64,
-    /// How far the hob's middle may stand from the pitch point, mm.
-    room_mm: f64,
-    /// Whole depth of cut, mm.
-    depth_mm: f64,
-    /// Tilt of the hob's axis.
-    tilt: f64,
-    /// Time of one cycle, s.
-    cycle_s: f64,
 }
 
 /// Feed mark of a cylinder of radius R: f^2 sin(alpha_n) / (8 R), normal to the flank, mm.
@@ -207,226 +191,5 @@ impl FeedPlan {
             format!("with its middle at {place_mm} mm the hob does not carry the whole contact"),
             format!("set it between {low_mm:.3} and {high_mm:.3} mm, or use a longer hob"),
         ))
-    }
-
-    fn diagonal(&mut self, operation: &HobbingOperation, cut: &DiagonalCut) -> Result<(), Refusal> {
-        let DiagonalCut { direction, travel_mm, room_mm, depth_mm, tilt, cycle_s } = *cut;
-        let HobbingKind::Diagonal { shift_mm_per_revolution, direction: first, strategy, stroke_mm, feed_of, .. } =
-            operation.kind
-        else {
-            return Ok(());
-        };
-        let stroke_mm = stroke_mm.unwrap_or(2.0 * room_mm);
-        if stroke_mm > 2.0 * room_mm + 1e-9 {
-            return Err(Refusal::new(
-                "operation.linkage.hobbing_diagonal.stroke_mm",
-                format!("{stroke_mm} mm are more than the {:.3} mm of hob that carry full contact", 2.0 * room_mm),
-                "leave stroke_mm out, or use a longer hob",
-            ));
-        }
-        let range = [-0.5 * stroke_mm, 0.5 * stroke_mm];
-        let shift_rate = shift_mm_per_revolution / cycle_s;
-        // The shift adds to the rolling when the hob moves against d0, as its thread does.
-        let mut toward = -first.sign();
-        let mut place_mm = operation.shift_start_mm.unwrap_or(-toward * 0.5 * stroke_mm);
-        Self::within(place_mm, range)?;
-        let resultant = direction * operation.axial_feed_mm_per_revolution / cycle_s;
-        let slide_rate = |toward: f64| match feed_of {
-            FeedOf::Slide => resultant,
-            FeedOf::Resultant => resultant - toward * shift_rate * tilt.sin(),
-        };
-        let used = if strategy == ShiftStrategy::Reciprocating { vec![toward, -toward] } else { vec![toward] };
-        if used.iter().any(|&toward| slide_rate(toward) * direction <= 0.0) {
-            return Err(Refusal::new(
-                "operation.linkage.hobbing_diagonal.shift_mm_per_revolution",
-                format!(
-                    "the shift alone moves {:.3} mm along the gear's axis per revolution, more than the resulting feed \
-                    of {} mm: the slide would have to go back",
-                    shift_mm_per_revolution * tilt.sin().abs(),
-                    operation.axial_feed_mm_per_revolution
-                ),
-                "use less shift, or feed_of = \"slide\"",
-            ));
-        }
-        self.slide_feeds_mm =
-            [slide_rate(toward).abs() * cycle_s, slide_rate(*used.last().unwrap_or(&toward)).abs() * cycle_s];
-        self.path.start_shift_mm = place_mm;
-        self.shift_range_mm = range;
-        let mut left_mm = travel_mm;
-        while left_mm > 1e-9 {
-            let shift_left_mm = if toward > 0.0 { range[1] - place_mm } else { place_mm - range[0] };
-            let slide_mm_per_s = slide_rate(toward);
-            let duration_s = (shift_left_mm / shift_rate).min(left_mm / slide_mm_per_s.abs());
-            self.path.phases.push(FeedPhase {
-                duration_s,
-                slide_mm_per_s,
-                shift_mm_per_s: toward * shift_rate,
-                radial_mm_per_s: 0.0,
-            });
-            left_mm -= slide_mm_per_s.abs() * duration_s;
-            place_mm += toward * shift_rate * duration_s;
-            if left_mm <= 1e-9 {
-                break;
-            }
-            match strategy {
-                ShiftStrategy::OneWay => {
-                    let needed_mm = travel_mm / (slide_mm_per_s.abs() * cycle_s) * shift_mm_per_revolution;
-                    return Err(Refusal::new(
-                        "operation.linkage.hobbing_diagonal.strategy",
-                        format!(
-                            "the cut takes {needed_mm:.1} mm of shift, the hob has {stroke_mm:.1} mm with full contact"
-                        ),
-                        "use strategy = \"reciprocating\" or \"repeating\", less shift_mm_per_revolution, or a longer \
-                        hob",
-                    ));
-                }
-                ShiftStrategy::Reciprocating => toward = -toward,
-                ShiftStrategy::Repeating { return_mm_per_s } => {
-                    let lift_mm = depth_mm + CLEARANCE_MM;
-                    let idle = |shift: f64, radial: f64, travel_mm: f64| FeedPhase {
-                        duration_s: travel_mm / return_mm_per_s,
-                        slide_mm_per_s: 0.0,
-                        shift_mm_per_s: shift * return_mm_per_s,
-                        radial_mm_per_s: radial * return_mm_per_s,
-                    };
-                    let phases = [idle(0.0, 1.0, lift_mm), idle(-toward, 0.0, stroke_mm), idle(0.0, -1.0, lift_mm)];
-                    self.idle_s += phases.iter().map(|phase| phase.duration_s).sum::<f64>();
-                    self.path.phases.extend(phases);
-                    place_mm = -toward * 0.5 * stroke_mm;
-                }
-            }
-            self.shift_strokes += 1;
-            if self.path.phases.len() > MOST_PHASES {
-                return Err(Refusal::new(
-                    "operation.linkage.hobbing_diagonal.shift_mm_per_revolution",
-                    format!("the shift would turn more than {MOST_PHASES} times"),
-                    "use less shift or a longer stroke",
-                ));
-            }
-        }
-        Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::process;
-    use crate::process::hobbing::HobbingJob;
-    use std::path::Path;
-
-    fn job(file: &str, settings: &[&str]) -> crate::Result<HobbingJob> {
-        let settings: Vec<String> = settings.iter().map(|&s| format!("operation.finish.{s}")).collect();
-        HobbingJob::new(&process::load(Path::new(&format!("scenes/hobbing/{file}.toml")), &settings)?.scene)
-    }
-
-    fn diagonal(settings: &[&str]) -> crate::Result<HobbingJob> {
-        job("third_order_diagonal", settings)
-    }
-
-    /// Key and problem of a refusal.
-    fn refused(result: crate::Result<HobbingJob>) -> (String, String) {
-        match result {
-            Err(crate::Error::Refused(refusal)) => (refusal.key, refusal.problem),
-            other => panic!("not refused: {other:?}"),
-        }
-    }
-
-    #[test]
-    fn the_slide_crosses_the_face_and_the_shift_stays_on_the_hob() {
-        for strategy in ["reciprocating", "repeating"] {
-            let strategy = format!("linkage.hobbing_diagonal.strategy={strategy}");
-            let job = diagonal(&[&strategy]).unwrap();
-            let operation = job.finishing();
-            let (plan, linkage) = (&operation.plan, &operation.linkage);
-            let [low, high] = plan.shift_range_mm;
-            assert!((high + plan.contact_half_length_mm - 0.5 * job.hob.length_mm).abs() < 1e-9);
-            let (start, end) = (linkage.axes::<1>(0.0), linkage.axes::<1>(linkage.end_s()));
-            // A left-hand hob climbs downwards, from above the face to below it.
-            assert!((start.slide_mm.value() - 25.0 - plan.approach_mm).abs() < 1e-9);
-            assert!((end.slide_mm.value() + 25.0 + plan.overrun_mm).abs() < 1e-6, "{}", end.slide_mm.value());
-            let (mut least, mut most, mut idle_s) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
-            let steps = 20_000;
-            for i in 0..=steps {
-                let axes = linkage.axes::<2>(linkage.end_s() * f64::from(i) / f64::from(steps));
-                (least, most) = (axes.shift_mm.value().min(least), axes.shift_mm.value().max(most));
-                if axes.slide_mm.derivative(1) == 0.0 {
-                    idle_s += linkage.end_s() / f64::from(steps);
-                }
-            }
-            assert!(least > low - 1e-6 && most < high + 1e-6 && most - least > 0.99 * (high - low));
-            assert!((idle_s - plan.idle_s).abs() < 0.3, "{idle_s} {}", plan.idle_s);
-            assert_eq!(plan.idle_s > 0.0, strategy.ends_with("repeating"));
-        }
-    }
-
-    #[test]
-    fn the_papers_feeds_follow_from_their_resultant() {
-        // Liu et al. 2015, Table 1, with the shift that belongs to it: v_z for v*_z = -50 / 300 mm/s.
-        for (direction, hand, expected) in [
-            ("adds", "left", 0.22976615123458155),
-            ("adds", "right", 0.046693835497048974),
-            ("subtracts", "left", 0.10356718209875178),
-            ("subtracts", "right", 0.28663949783628434),
-        ] {
-            let settings = [
-                format!("operation.finish.linkage.hobbing_diagonal.shift_direction={direction}"),
-                "operation.finish.linkage.hobbing_diagonal.feed_of=resultant".to_owned(),
-                format!("gear.hand={hand}"),
-            ];
-            let scene = process::load(Path::new("scenes/hobbing/third_order_diagonal.toml"), &settings).unwrap().scene;
-            let job = HobbingJob::new(&scene).unwrap();
-            // The scene's feeds are per revolution of nearly 15 s.
-            let found = job.finishing().plan.slide_feeds_mm[0] / 15.0;
-            assert!((found - expected).abs() < 1e-9, "{direction} {hand}: {found}");
-        }
-    }
-
-    #[test]
-    fn shifts_and_hobs_that_do_not_fit_are_refused() {
-        let (key, problem) = refused(diagonal(&[
-            "linkage.hobbing_diagonal.strategy=one_way",
-            "linkage.hobbing_diagonal.shift_mm_per_revolution=75",
-        ]));
-        assert!(key.ends_with("strategy") && problem.contains("mm of shift"), "{problem}");
-        let (key, _) = refused(diagonal(&["linkage.hobbing_diagonal.stroke_mm=90"]));
-        assert!(key.ends_with("stroke_mm"));
-        let (key, _) = refused(diagonal(&["shift_start_mm=60"]));
-        assert!(key.ends_with("shift_start_mm"));
-        let (key, _) = refused(diagonal(&[
-            "linkage.hobbing_diagonal.feed_of=resultant",
-            "linkage.hobbing_diagonal.shift_mm_per_revolution=75",
-        ]));
-        assert!(key.ends_with("shift_mm_per_revolution"));
-        let short =
-            process::load(Path::new("scenes/hobbing/third_order_plain.toml"), &["tool.hob.length_mm=40".to_owned()]);
-        let (key, problem) = refused(HobbingJob::new(&short.unwrap().scene));
-        assert!(key == "tool.hob.length_mm" && problem.contains("whole contact"), "{problem}");
-    }
-
-    #[test]
-    fn hollow_curves_are_refused_and_say_why() {
-        let settings = ["gear.pitch_curve.ellipse.eccentricity=0.2".to_owned()];
-        let scene = process::load(Path::new("scenes/hobbing/third_order_plain.toml"), &settings).unwrap().scene;
-        let (key, problem) = refused(HobbingJob::new(&scene));
-        assert!(key == "gear.pitch_curve" && problem.contains("straight line"), "{problem}");
-        // The limit of convexity, 1 / (n^2 - 1), is not refused.
-        let settings = ["gear.pitch_curve.ellipse.eccentricity=0.125".to_owned()];
-        let scene = process::load(Path::new("scenes/hobbing/third_order_plain.toml"), &settings).unwrap().scene;
-        HobbingJob::new(&scene).unwrap();
-    }
-
-    #[test]
-    fn two_cuts_keep_the_phase_and_conventional_turns_the_feed() {
-        let job = job("circular_helical", &[]).unwrap();
-        let [rough, finish] = job.operations.as_slice() else { panic!("two operations") };
-        assert!((rough.offset_mm * 20_f64.to_radians().sin() - 0.15).abs() < 1e-12);
-        let slide = |o: &process::hobbing::job::PreparedHobbing| o.linkage.axes::<2>(o.linkage.end_s()).slide_mm;
-        // Right-hand hob: climb feeds up, conventional down.
-        assert!(slide(rough).derivative(1) > 0.0 && slide(finish).derivative(1) < 0.0);
-        let start = rough.linkage.axes::<1>(0.0).radial_mm.value();
-        assert!(
-            start > 6.0
-                && (rough.linkage.axes::<1>(rough.linkage.end_s()).radial_mm.value() - rough.offset_mm).abs() < 1e-9
-        );
     }
 }

@@ -4,8 +4,10 @@ use super::*;
 use crate::frame::RigidMotion3;
 use crate::gear::PitchCurveShape;
 use crate::machine::{Limits, Motion, Order, Peak, peaks};
-use crate::process::hobbing::scene::model::{GashForm, Hob as HobSpec, HobSize, Worm};
+use crate::process::hobbing::Hob;
+use crate::process::hobbing::scene::model::{GashForm, HobSize, HobSpec, Worm};
 use crate::terms::Hand;
+use glam::DVec3;
 
 fn hob(hand: Hand) -> Hob {
     let spec = HobSpec {
@@ -103,7 +105,7 @@ fn velocities_and_accelerations_are_derivatives() {
 }
 
 #[test]
-fn nothing_jumps_between_stretches() {
+fn nothing_jumps_between_pieces() {
     for law in laws() {
         let linkage = linkage(law);
         for corner in [2.0, 11.0] {
@@ -208,10 +210,10 @@ fn feeds_faster_than_the_rolling_are_refused() {
     assert!(refused.unwrap_err().problem.contains("not convex"));
 }
 
-/// Sixty-five short stretches with two feeds in turn, then a fast one: its peak is found, and what repeats is searched
+/// Sixty-five short pieces with two feeds in turn, then a fast one: its peak is found, and what repeats is searched
 /// only until the whole curve has been gone over.
 #[test]
-fn a_peak_behind_many_equal_stretches_is_found() {
+fn a_peak_behind_many_equal_pieces_is_found() {
     let phase = |duration_s, slide, shift| FeedPhase {
         duration_s,
         slide_mm_per_s: slide,
@@ -225,7 +227,7 @@ fn a_peak_behind_many_equal_stretches_is_found() {
         let path = FeedPath { phases, ..FeedPath::steady(1.0, 0.0, 0.0) };
         HobbingLinkage::new(curve.clone(), geometry, law, 25.0, &path).unwrap()
     };
-    let turning = |stretches: u32| (0..stretches).map(|i| phase(0.9, 1.0, if i % 2 == 0 { 0.4 } else { -0.4 }));
+    let turning = |pieces: u32| (0..pieces).map(|i| phase(0.9, 1.0, if i % 2 == 0 { 0.4 } else { -0.4 }));
     let linkage = linkage_of(turning(65).chain([phase(40.0, 1.0, 2.5), phase(1.0, 1.0, 0.4)]).collect());
     let found = peaks(&linkage, &[Limits::default(); 6]);
     let of = |peaks: &[Peak], name: &str| peaks.iter().find(|peak| peak.name() == name).copied().unwrap();
@@ -233,7 +235,7 @@ fn a_peak_behind_many_equal_stretches_is_found() {
     assert!((shift.value - 2.5).abs() < 1e-12 && shift.at > 64.9 * 0.9, "{shift:?}");
     let pieces = Motion::pieces(&linkage).len();
     assert!((3..66).contains(&pieces), "{pieces} pieces");
-    // Without the fast stretch every axis's peaks are those of a search through all stretches.
+    // Without the fast piece every axis's peaks are those of a search through all pieces.
     let even = linkage_of(turning(65).collect());
     let found = peaks(&even, &[Limits::default(); 6]);
     for peak in &found {

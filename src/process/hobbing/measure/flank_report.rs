@@ -1,6 +1,6 @@
 //! Everything measured on one hobbed flank after all operations.
 //!
-//! In: the cut flank. Out: [`HobbedReport`]: where the flank begins, heights over the target on the evaluated part,
+//! In: the cut flank. Out: [`HobbedReport`]: where the flank begins, normal deviations on the evaluated part,
 //! stock of earlier operations, profile and helix deviations.
 //!
 //! The evaluated part of the profile is the scene's `[measure]`: between two heights over the pitch curve, in the middle
@@ -52,7 +52,7 @@ pub struct HobbedSurface {
     pub form_height_mm: f64,
     /// Whether the hob's tip corner has undercut the flank in any section.
     pub undercut: bool,
-    /// Finished surface over the target; `None` where a dexel of the evaluated part was not reached.
+    /// Normal deviations of the finished surface; `None` where a dexel of the evaluated part was not reached.
     pub finished: Option<HeightSummary>,
     /// What each earlier operation left over the finished surface.
     pub stock: Vec<Option<HeightSummary>>,

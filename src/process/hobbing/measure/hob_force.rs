@@ -15,7 +15,7 @@
 //! to no power.
 //!
 //! Rake faces are taken as square to the motion, as axial gashes at zero rake are; gashes across the thread lean by the
-//! lead angle, whose cosine stays within 0.3 % of one below 4.5 deg.
+//! lead angle, whose cosine is 0.997 at 4.5 deg.
 
 use crate::cut::sweep_chips::PassChip;
 use crate::material::CuttingForce;

@@ -3,7 +3,7 @@
 use crate::cut::Backend;
 use crate::error::Result;
 use crate::findings::damage::{damage, damage_row, damage_table, pairs};
-use crate::findings::{Column, Datum, Quantity, Section, Table};
+use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
 use crate::gear::GearKind;
 use crate::measure::damage::Damage;
 use crate::process::hobbing::{HobCutter, HobbedBlank};
@@ -55,7 +55,7 @@ fn all_damage(cutter: &HobCutter, report: &HobbedBlankReport) -> Table {
     };
     let gouges = report.gouges.iter().map(|d| row("gouge", d));
     let interference = report.interference.iter().map(|d| row("interference", d));
-    let pass = [Column::new("hob_turn", "1", "turn of the hob"), Column::words("hob_tooth", "hob tooth")];
+    let pass = [TableColumn::new("hob_turn", "1", "turn of the hob"), TableColumn::words("hob_tooth", "hob tooth")];
     damage_table(pass, gouges.chain(interference))
 }
 

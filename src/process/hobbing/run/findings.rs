@@ -136,7 +136,7 @@ fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -
             extreme_at(
                 &|f| f.own.finished.map(|h| h.highest_mm),
                 &|f| f.own.finished.map(|h| h.extremes_at_mm[1]),
-                "highest place of the finished surface over the target on the evaluated part of any flank: feed and \
+                "largest normal deviation of the finished surface on the evaluated part of any flank: feed and \
                 generating marks together",
             ),
         ),

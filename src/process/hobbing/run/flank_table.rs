@@ -1,6 +1,6 @@
 //! Finished flanks side by side: `tables/flanks.csv`.
 
-use crate::findings::{Column, Datum, Table};
+use crate::findings::{Datum, Table, TableColumn};
 use crate::process::hobbing::measure::flank_report::{HeightSummary, HobbedReport};
 use crate::units::UM_PER_MM;
 
@@ -42,36 +42,48 @@ pub fn flanks<'a>(cut: &[HobbedReport], earlier: impl IntoIterator<Item = &'a st
     Table::new("flanks", "Finished flanks", columns(earlier, named)).with_rows(rows).in_file("flanks")
 }
 
-fn columns<'a>(earlier: impl IntoIterator<Item = &'a str>, named: bool) -> Vec<Column> {
+fn columns<'a>(earlier: impl IntoIterator<Item = &'a str>, named: bool) -> Vec<TableColumn> {
     let mut columns = vec![
-        Column::new("tooth", "1", "number of the tooth, from 1"),
-        Column::words("flank", "flank: left or right"),
-        Column::new("start_of_involute", "mm", "highest start of the involute in any section, over the pitch curve"),
-        Column::words("undercut", "whether the hob's tip corner has undercut the flank in any section: yes or no"),
-        Column::new("profile_length", "mm", "length of the profile in the middle of the face"),
+        TableColumn::new("tooth", "1", "number of the tooth, from 1"),
+        TableColumn::words("flank", "flank: left or right"),
+        TableColumn::new(
+            "start_of_involute",
+            "mm",
+            "highest start of the involute in any section, over the pitch curve",
+        ),
+        TableColumn::words("undercut", "whether the hob's tip corner has undercut the flank in any section: yes or no"),
+        TableColumn::new("profile_length", "mm", "length of the profile in the middle of the face"),
     ];
     if named {
         columns.extend([
-            Column::new("evaluated_from", "mm", "arc from the start of the profile at which its evaluated part begins"),
-            Column::new("evaluated_to", "mm", "arc from the start of the profile at which its evaluated part ends"),
+            TableColumn::new(
+                "evaluated_from",
+                "mm",
+                "arc from the start of the profile at which its evaluated part begins",
+            ),
+            TableColumn::new(
+                "evaluated_to",
+                "mm",
+                "arc from the start of the profile at which its evaluated part ends",
+            ),
         ]);
     }
     for operation in earlier {
         let stock =
-            |what: &str, definition| Column::new(format!("{operation}_{what}_stock"), "mm", definition).or(STOCK);
+            |what: &str, definition| TableColumn::new(format!("{operation}_{what}_stock"), "mm", definition).or(STOCK);
         columns.extend([
             stock("smallest", "smallest stock that the operation left over the finished surface"),
             stock("largest", "largest stock that the operation left over the finished surface"),
             stock("mean", "mean stock that the operation left over the finished surface"),
         ]);
     }
-    let um = |key, definition, why| Column::new(key, "um", definition).or(why);
+    let um = |key, definition, why| TableColumn::new(key, "um", definition).or(why);
     columns.extend([
-        um("lowest", "lowest finished surface over the target on the evaluated part", HEIGHTS),
-        um("highest", "highest finished surface over the target on the evaluated part", HEIGHTS),
-        um("mean", "mean height of the finished surface over the target", HEIGHTS),
-        um("Sq", "root mean square of the heights about their mean", HEIGHTS),
-        um("F_alpha", "range of heights along the evaluated profile, middle of the face", TRACE),
+        um("lowest", "smallest normal deviation of the finished surface on the evaluated part", HEIGHTS),
+        um("highest", "largest normal deviation of the finished surface on the evaluated part", HEIGHTS),
+        um("mean", "mean normal deviation of the finished surface", HEIGHTS),
+        um("Sq", "root mean square of the normal deviations about their mean", HEIGHTS),
+        um("F_alpha", "range of normal deviations along the evaluated profile, middle of the face", TRACE),
         um("f_f_alpha", "range about the profile's mean line", TRACE),
         um("f_H_alpha", "rise of the profile's mean line, positive towards the tip", TRACE),
         um("F_beta", "range of heights along the tooth, middle of the profile", TRACE),

@@ -2,11 +2,11 @@
 //! `tables/hob_force_over_time.csv`.
 
 use super::load::labels;
-use crate::findings::{Column, Datum, Place, Quantity, Section, Table};
+use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn};
 use crate::material::CuttingForce;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
-use crate::process::hobbing::measure::hob_force::{OperationForce, PassForce};
+use crate::process::hobbing::measure::hob_force::{OperationForce, PassForce, ToothForce};
 use crate::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
 
 /// How the force of a tooth is defined.
@@ -16,7 +16,7 @@ const LAW: &str = "K_c times the section of the chip in the rake face plus K_ce 
 /// How far rays know it.
 const ACCURACY: &str = "of one slice: the length of edge is at most sqrt(2) ray distances off for each stretch of edge \
     that rays of one direction count, and without bias in the mean; the section of a chip 3 mm long and 0.1 mm thick is \
-    0.15 of it off, root mean square, by rays 0.3 mm apart and 0.05 by rays 0.15 mm apart; largest values of many \
+    17 % off, root mean square, by rays 0.3 mm apart and 5 % by rays 0.15 mm apart; largest values of many \
     slices are therefore too high rather than too low";
 /// Curves of single teeth on the chart over time.
 const SHOWN_TEETH: usize = 6;
@@ -52,7 +52,7 @@ pub fn bars(job: &HobbingJob, forces: &[OperationForce]) -> Vec<(String, BarChar
             },
             BarSeries {
                 name: "mean in the cut".to_owned(),
-                values: force.teeth.iter().map(|tooth| tooth.mean_n()).collect(),
+                values: force.teeth.iter().map(ToothForce::mean_n).collect(),
             },
         ],
     };
@@ -190,12 +190,12 @@ fn of_operation(job: &HobbingJob, name: &str, force: &OperationForce) -> Section
 /// All operations, tooth by tooth.
 fn by_tooth(job: &HobbingJob, forces: &[OperationForce]) -> Table {
     let missing = "no finite number was computed";
-    let number = |key, unit, definition| Column::new(key, unit, definition).or(missing);
+    let number = |key, unit, definition| TableColumn::new(key, unit, definition).or(missing);
     let columns = vec![
-        Column::words("operation", "operation"),
-        Column::words("hob_tooth", "hob tooth along the thread, from the entering end"),
+        TableColumn::words("operation", "operation"),
+        TableColumn::words("hob_tooth", "hob tooth along the thread, from the entering end"),
         number("largest_force", "N", "its largest cutting force, referred to the tip"),
-        Column::new("mean_force", "N", "its mean cutting force over its travel in the cut, referred to the tip")
+        TableColumn::new("mean_force", "N", "its mean cutting force over its travel in the cut, referred to the tip")
             .or(NOTHING),
         number("largest_section", "mm2", "its largest section of a chip"),
         number("largest_engaged_edge", "mm", "largest length of its edge that takes material at once"),
@@ -225,12 +225,12 @@ fn by_tooth(job: &HobbingJob, forces: &[OperationForce]) -> Table {
 /// All operations, pass by pass: thousands of rows, in the file alone.
 fn by_pass(job: &HobbingJob, forces: &[OperationForce]) -> Table {
     let missing = "no finite number was computed";
-    let number = |key, unit, definition| Column::new(key, unit, definition).or(missing);
+    let number = |key, unit, definition| TableColumn::new(key, unit, definition).or(missing);
     let columns = vec![
-        Column::words("operation", "operation"),
+        TableColumn::words("operation", "operation"),
         number("time", "s", "when the hob tooth points to the work"),
         number("hob_turn", "1", "turn of the hob"),
-        Column::words("hob_tooth", "hob tooth along the thread, from the entering end"),
+        TableColumn::words("hob_tooth", "hob tooth along the thread, from the entering end"),
         number("largest_force", "N", "largest cutting force in the pass, referred to the tip"),
         number("mean_force", "N", "mean cutting force over the travel in the cut, referred to the tip"),
         number("largest_section", "mm2", "largest section of the chip"),

@@ -1,6 +1,6 @@
 //! The hob's load in a run: bar charts by tooth, and its findings with `tables/hob_load.csv`.
 
-use crate::findings::{Column, Datum, Quantity, Section, Table};
+use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::process::hobbing::measure::hob_load::{OperationLoad, ToothLoad};
 use crate::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
@@ -55,15 +55,19 @@ pub fn labels(job: &HobbingJob) -> Vec<String> {
 fn table(job: &HobbingJob, loads: &[OperationLoad]) -> Table {
     let missing = "no finite number was computed";
     let columns = vec![
-        Column::words("operation", "operation"),
-        Column::words("hob_tooth", "hob tooth along the thread, from the entering end"),
-        Column::new("axial", "mm", "its place along the hob's axis"),
-        Column::new("volume", "mm3", "volume that it takes").or(missing),
-        Column::new("volume_share", "1", "its share of the operation's volume").or("the operation takes nothing"),
-        Column::new("largest_thickness", "mm", "its largest uncut chip thickness").or(missing),
-        Column::new("travel", "mm", "travel of its tip through the work while any part of its edge takes material")
-            .or(missing),
-        Column::new("passes", "passes", "passes that took anything"),
+        TableColumn::words("operation", "operation"),
+        TableColumn::words("hob_tooth", "hob tooth along the thread, from the entering end"),
+        TableColumn::new("axial", "mm", "its place along the hob's axis"),
+        TableColumn::new("volume", "mm3", "volume that it takes").or(missing),
+        TableColumn::new("volume_share", "1", "its share of the operation's volume").or("the operation takes nothing"),
+        TableColumn::new("largest_thickness", "mm", "its largest uncut chip thickness").or(missing),
+        TableColumn::new(
+            "travel",
+            "mm",
+            "travel of its tip through the work while any part of its edge takes material",
+        )
+        .or(missing),
+        TableColumn::new("passes", "passes", "passes that took anything"),
     ];
     let labels = labels(job);
     let rows = job.operations.iter().zip(loads).flat_map(|(operation, of_operation)| {
@@ -121,9 +125,9 @@ fn of_operation(job: &HobbingJob, of: &OperationLoad, index: usize) -> Section {
     let thickest = of.peak(|load| load.thickness_mm);
     let travel_mm: f64 = of.teeth.iter().map(|load| load.travel_mm).sum();
     let missing = "no finite number was computed";
-    let bars = |key, unit, definition| Column::new(key, unit, definition).or(missing).as_bars();
+    let bars = |key, unit, definition| TableColumn::new(key, unit, definition).or(missing).as_bars();
     let columns = vec![
-        Column::words("tooth", "hob tooth along the thread, from the entering end"),
+        TableColumn::words("tooth", "hob tooth along the thread, from the entering end"),
         bars("volume", "mm3", "volume that it takes"),
         bars("thickness", "mm", "its largest uncut chip thickness"),
         bars("travel", "mm", "travel of its tip through the work while any part of its edge takes material"),

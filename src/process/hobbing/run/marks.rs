@@ -1,7 +1,7 @@
 //! The lattice of cutting marks of the texture windows' flanks, and all its steps side by side in `tables/marks.csv`.
 
 use crate::error::Result;
-use crate::findings::{Column, Datum, Quantity, Section, Table};
+use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
 use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::linkage::marks::MarkStep;
 use crate::process::hobbing::measure::marks;
@@ -69,12 +69,13 @@ const COLUMNS: [(&str, &str, &str); 11] = [
 /// All steps side by side; the rows stand in the file alone, since their values have sections.
 fn steps(flanks: &[Section]) -> Table {
     let mut columns = vec![
-        Column::new("tooth", "1", "number of the tooth, from 1"),
-        Column::words("flank", "flank: left or right"),
-        Column::new("step", "1", "shortest step, then the next one"),
+        TableColumn::new("tooth", "1", "number of the tooth, from 1"),
+        TableColumn::words("flank", "flank: left or right"),
+        TableColumn::new("step", "1", "shortest step, then the next one"),
     ];
-    columns
-        .extend(COLUMNS.map(|(key, unit, path)| Column::new(key, unit, path).or("the section of its step tells why")));
+    columns.extend(
+        COLUMNS.map(|(key, unit, path)| TableColumn::new(key, unit, path).or("the section of its step tells why")),
+    );
     let rows = flanks.iter().flat_map(|flank| {
         let name = |key: &str| flank.quantity(key).map_or(Datum::Undefined, Datum::from);
         (1_u32..).zip(&flank.sections).map(move |(number, step)| {

@@ -1,7 +1,7 @@
 //! Points on five curves beside the pitch curve, as cut against as meant: histogram, findings, and
 //! `tables/offset_curves.csv`, which alone has its rows: five or more for every flank.
 
-use crate::findings::{Column, Datum, Quantity, Section, Table};
+use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::process::hobbing::HobbedGear;
 use crate::process::hobbing::measure::offset_curves::{CurvePoint, ErrorSpread};
@@ -120,12 +120,12 @@ pub fn findings(gear: &HobbedGear) -> Section {
 
 fn all_points(gear: &HobbedGear) -> Table {
     let not_cut = "the flank was not cut there";
-    let new = |key, unit, definition| Column::new(key, unit, definition);
+    let new = |key, unit, definition| TableColumn::new(key, unit, definition);
     let columns = vec![
         new("tooth", "1", "number of the tooth, from 1"),
-        Column::words("flank", "flank: left or right"),
+        TableColumn::words("flank", "flank: left or right"),
         new("curve_offset", "mm", "distance of the curve from the pitch curve, positive outwards"),
-        Column::words("target", "what the curve crosses there: flank or fillet"),
+        TableColumn::words("target", "what the curve crosses there: flank or fillet"),
         new("target_x", "mm", "x of the gear frame, as meant"),
         new("target_y", "mm", "y of the gear frame, as meant"),
         new("x", "mm", "x of the gear frame, as cut").or(not_cut),
@@ -160,8 +160,8 @@ fn spread(errors: &Errors) -> Section {
     };
     let of = errors.definition;
     let columns = vec![
-        Column::new("median", "um", "middle of an interval of the error"),
-        Column::new("frequency", "points", "points whose error lies in it"),
+        TableColumn::new("median", "um", "middle of an interval of the error"),
+        TableColumn::new("frequency", "points", "points whose error lies in it"),
     ];
     let rows = spread.into_iter().flat_map(|spread| {
         let rows = spread.medians_um().into_iter().zip(&spread.frequencies);

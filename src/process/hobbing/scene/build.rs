@@ -1,7 +1,7 @@
 //! Checked values of a hobbing scene to the model.
 
 use super::model::{
-    Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, Hob, HobSize, Hobbing, HobbingAxisLimits,
+    Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, HobSize, HobSpec, Hobbing, HobbingAxisLimits,
     HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
 };
 use crate::material::CuttingForce;
@@ -26,11 +26,16 @@ pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
         }),
         None => None,
     };
-    Some(ScenePart::new(Hobbing { tool, limits: limits(values), operations: operations?, material }))
+    let programs = match values.view("output").text("gcode")? {
+        "linear" => true,
+        "none" => false,
+        _ => return None,
+    };
+    Some(ScenePart::new(Hobbing { tool, limits: limits(values), operations: operations?, material, programs }))
 }
 
-fn hob(hob: View<'_>) -> Option<Hob> {
-    Some(Hob {
+fn hob(hob: View<'_>) -> Option<HobSpec> {
+    Some(HobSpec {
         starts: hob.whole("starts")?,
         hand: hob.hand("hand")?,
         gashes: hob.whole("gashes")?,

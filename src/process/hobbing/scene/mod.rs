@@ -20,6 +20,8 @@ pub static SCENE: SceneProcess = SceneProcess {
     scenes: include_str!("scenes.md"),
     sections: keys::SECTIONS,
     added: keys::ADDED,
+    per_revolution: &[],
+    of_one_gear: &[],
     on_demand: &["material", "measure"],
     senseless: &[
         Senseless {

@@ -8,13 +8,15 @@ use crate::terms::Hand;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hobbing {
     /// The hob.
-    pub tool: Hob,
+    pub tool: HobSpec,
     /// Limits of the axes, where known.
     pub limits: HobbingAxisLimits,
     /// Operations in the order they are cut; at least one. The last one defines the target flank.
     pub operations: Vec<HobbingOperation>,
     /// Cutting force of the work's material; `None` where the scene does not name it, and no force is computed.
     pub material: Option<CuttingForce>,
+    /// Whether axis programs are written.
+    pub programs: bool,
 }
 
 impl Hobbing {
@@ -26,7 +28,7 @@ impl Hobbing {
 
 /// A hob; module and pressure angle are the gear's, both normal.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Hob {
+pub struct HobSpec {
     /// Number of starts K.
     pub starts: u32,
     /// Hand of the thread.
@@ -149,10 +151,10 @@ pub struct HobbingOperation {
     pub feed_direction: FeedDirection,
     /// How the hob gets to depth.
     pub approach: Approach,
-    /// Way of the slide from its start to where the hob's axis passes the face; `None`: as much as the hob needs to
+    /// Travel of the slide from its start to where the hob's axis passes the face; `None`: as much as the hob needs to
     /// start clear of the blank.
     pub approach_mm: Option<f64>,
-    /// Way of the slide beyond the other face; `None`: until the last contact has left the work.
+    /// Travel of the slide beyond the other face; `None`: until the last contact has left the work.
     pub overrun_mm: Option<f64>,
     /// Tilt of the hob's axis against the transverse plane, if not h beta - h_b lambda.
     pub head_angle_rad: Option<f64>,

@@ -3,50 +3,70 @@
 //! The cutter angle itself is nearly a straight line; what a gear engineer looks for is how far it departs from even
 //! rolling, so both are shown.
 
+use super::retraction;
 use super::strokes::StrokeRow;
-use crate::machine::{AxisMotion, Order};
+use crate::machine::{Axis, AxisMotion, Order};
 use crate::output::line_chart::{LineChart, Panel};
-use crate::process::shaping::linkage::dynamics::{self, AXES};
+use crate::process::shaping::linkage::dynamics::{self, AXES, CENTER_DISTANCE, CUTTER, WORK};
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes::NamedChart;
 use crate::steps::axes::charts::{chart, panel, panels};
 use crate::units::UM_PER_MM;
 
 /// All charts of an operation.
-pub(super) fn all(job: &ShapingJob, operation: &PreparedOperation, rows: &[StrokeRow]) -> [NamedChart<LineChart>; 4] {
+pub(super) fn all(job: &ShapingJob, operation: &PreparedOperation, rows: &[StrokeRow]) -> Vec<NamedChart<LineChart>> {
     let limits = dynamics::limits(&job.machine.limits);
     let points: Vec<(f64, [AxisMotion; 3])> = rows.iter().map(|row| (work_angle_deg(row), row.motion)).collect();
     let moving = |order: Order| panels(&AXES, 0..AXES.len(), &limits, order, &points);
     let words = [operation.spec.name.as_str(), &job.scene.name, operation.linkage.words()];
-    let over_work_angle = |what: &str, panels: Vec<Panel>| chart(words, what, ["work angle ψc", "°"], panels);
-    [
+    let over_work_angle =
+        |what: &str, panels: Vec<Panel>| chart(words, what, ["work angle ψc", position_sign(&WORK)], panels);
+    let mut charts = vec![
         ("positions", over_work_angle("axis positions", positions(job, rows))),
         ("velocities", over_work_angle("axis velocities", moving(Order::Speed))),
         ("accelerations", over_work_angle("axis accelerations", moving(Order::Acceleration))),
         ("relief", over_work_angle("clearance when the cutter backs off", relief(job, rows))),
-    ]
+    ];
+    if operation.retraction.is_in_axes() {
+        charts
+            .push(("retraction", over_work_angle("travel of the axes to the return stroke", retraction::panels(rows))));
+    }
+    charts
 }
 
 fn work_angle_deg(row: &StrokeRow) -> f64 {
-    row.motion[0].position.to_degrees()
+    let [work, _, _] = row.motion;
+    WORK.kind.shown(work.position)
+}
+
+fn position_sign(axis: &Axis) -> &'static str {
+    axis.kind.sign(Order::Position)
 }
 
 fn positions(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
     // In a ring the cutter turns the other way.
     let ratio = job.blank.kind().tip_sign() * f64::from(job.scene.gear.teeth) / f64::from(job.cutter.teeth);
-    let one = |value_name: &str, unit: &str, name: &str, value: &dyn Fn(f64, &StrokeRow) -> f64| {
-        let points = rows.iter().map(|row| (work_angle_deg(row), value(row.motion[0].position, row))).collect();
-        panel([value_name, unit], vec![(name, points)], [])
+    // A value from the positions of the axes and the polar angle of the pitch point, read as positions of `axis` are.
+    let one = |value_name: &str, axis: &Axis, name: &str, value: &dyn Fn([f64; 3], f64) -> f64| {
+        let shown = |row: &StrokeRow| axis.kind.shown(value(row.motion.map(|axis| axis.position), row.phi_rad));
+        let points = rows.iter().map(|row| (work_angle_deg(row), shown(row))).collect();
+        panel([value_name, position_sign(axis)], vec![(name, points)], [])
     };
     vec![
-        one("cutter angle", "°", "ψb", &|_, row| row.motion[1].position.to_degrees()),
-        one("departure", "°", "cutter angle less even rolling, ψb − (z / z0) ψc", &|work_rad, row| {
-            (row.motion[1].position - ratio * work_rad).to_degrees()
-        }),
-        one("centre distance", "mm", "l", &|_, row| row.motion[2].position),
-        one("pitch point", "°", "polar angle of the pitch point less work angle, φ − ψc", &|work_rad, row| {
-            (row.phi_rad - work_rad).to_degrees()
-        }),
+        one("cutter angle", &CUTTER, "ψb", &|[_, cutter_rad, _], _| cutter_rad),
+        one(
+            "departure",
+            &CUTTER,
+            "cutter angle less even rolling, ψb − (z / z0) ψc",
+            &|[work_rad, cutter_rad, _], _| cutter_rad - ratio * work_rad,
+        ),
+        one("centre distance", &CENTER_DISTANCE, "l", &|[_, _, center_distance_mm], _| center_distance_mm),
+        one(
+            "pitch point",
+            &WORK,
+            "polar angle of the pitch point less work angle, φ − ψc",
+            &|[work_rad, _, _], phi_rad| phi_rad - work_rad,
+        ),
     ]
 }
 

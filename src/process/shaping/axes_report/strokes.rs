@@ -1,10 +1,15 @@
-//! All strokes of an operation, and what they add to the axis table: one row per stroke.
+//! All strokes of an operation, and what they add to the axis table: one row per stroke; where the axes draw the cutter
+//! back, with their positions on the way back.
 
 use crate::Result;
 use crate::findings::Datum;
 use crate::machine::{AxisMotion, Motion as _};
+use crate::process::shaping::linkage::StrokeState;
 use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::linkage::relief::{self, ReliefRatio};
+use crate::process::shaping::linkage::retraction::RetractionLaw;
+use crate::process::shaping::returns::RetractionPlan;
+use crate::process::shaping::returns::motion::axes_of;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes;
 use std::path::Path;
@@ -21,6 +26,8 @@ pub(super) struct StrokeRow {
     pub offset_mm: f64,
     /// Clearance as a share of a circular gear's.
     pub relief: ReliefRatio,
+    /// Where the axes stand on the way back, where they draw the cutter back.
+    pub returning: Option<[f64; 3]>,
 }
 
 /// All strokes of an operation.
@@ -36,26 +43,51 @@ pub(super) fn rows(job: &ShapingJob, operation: &PreparedOperation) -> Vec<Strok
             phi_rad,
             offset_mm,
             relief: relief::relief_ratio(linkage, phi_rad, offset_mm, job.scene.gear.pressure_angle_rad),
+            returning: operation.retraction.is_in_axes().then(|| return_axes(operation, &schedule.state(coordinate))),
         }
     };
     (0..schedule.count()).map(row).collect()
 }
 
 /// Writes the table; `stroke` counts from 0, as pass ids do, and angles run on beyond a turn.
-pub(super) fn write_table(path: &Path, rows: &[StrokeRow]) -> Result<()> {
-    let own = [
-        vec!["stroke", "time_s"],
-        vec!["offset_mm", "phi_deg"],
-        vec!["left_relief_share_of_circular", "right_relief_share_of_circular"],
-    ];
+pub(super) fn write_table(path: &Path, plan: &RetractionPlan, rows: &[StrokeRow]) -> Result<()> {
+    let relief = ["left_relief_share_of_circular", "right_relief_share_of_circular"];
+    let returning = if plan.is_in_axes() { &COLUMNS[..] } else { &[] };
+    let own = [vec!["stroke", "time_s"], vec!["offset_mm", "phi_deg"], [&relief[..], returning].concat()];
     let row = |row: &StrokeRow| {
         let stroke = Datum::from(row.stroke as u64);
         let own = [
             vec![stroke, row.time_s.into()],
             vec![row.offset_mm.into(), row.phi_rad.to_degrees().into()],
-            vec![row.relief.left.into(), row.relief.right.into()],
+            [vec![row.relief.left.into(), row.relief.right.into()], cells(plan, row)].concat(),
         ];
         (own, row.motion)
     };
     axes::write_table(path, &AXES, own, rows.iter().map(row))
+}
+
+/// Where the axes stand on the way back after a stroke, rad, rad, mm.
+fn return_axes(operation: &PreparedOperation, state: &StrokeState) -> [f64; 3] {
+    let back = operation.retraction.retracted(operation.schedule.linkage(), &state.pose, state.phi_rad);
+    axes_of(state, &back)
+}
+
+/// Names of the columns of the way back.
+const COLUMNS: [&str; 4] = ["retraction", "return_psi_c_deg", "return_psi_b_deg", "return_center_distance_mm"];
+
+/// Cells of the way back.
+fn cells(plan: &RetractionPlan, row: &StrokeRow) -> Vec<Datum> {
+    let Some(axes) = row.returning else { return Vec::new() };
+    let shown = AXES.iter().zip(axes).map(|(axis, position)| Datum::Number(axis.kind.shown(position)));
+    std::iter::once(law_word(plan.law(row.phi_rad)).into()).chain(shown).collect()
+}
+
+/// The key's word for a law.
+fn law_word(law: RetractionLaw) -> &'static str {
+    match law {
+        RetractionLaw::CenterLine => "center_line",
+        RetractionLaw::Normal => "normal",
+        RetractionLaw::Tilted(_) => "tilted",
+        RetractionLaw::Turned => "turned",
+    }
 }

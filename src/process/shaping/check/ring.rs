@@ -22,11 +22,10 @@ use glam::DVec2;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// Points of the target's outline, mm: chords of a fillet then miss a quarter of the least damage.
-const TARGET_SPACING_MM: f64 = 0.04;
-/// Places of a tip corner's path per pitch, and pitches to either side of its space over which it is in the ring.
+/// Points of the target's outline, mm: chords of the sharpest fillet, 0.2 mm, then miss a fifteenth of the least damage.
+const TARGET_SPACING_MM: f64 = 0.01;
+/// Places of a tip corner's path per pitch.
 const PLACES_PER_PITCH: i32 = 64;
-const PITCHES: i32 = 3;
 
 /// A length with the tooth and side where it is found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,7 +114,9 @@ fn interference(job: &ShapingJob) -> Option<Option<(f64, f64)>> {
     let (module_mm, curve) = (job.scene.gear.module_mm, &job.curve);
     let pitch_mm = PI * module_mm;
     let of_space = |space: u32| {
-        let places = -PITCHES * PLACES_PER_PITCH..=PITCHES * PLACES_PER_PITCH;
+        // Half a turn of the cutter to either side: where it nearly fills the ring, its teeth leave it late.
+        let most = job.cutter.teeth.div_ceil(2) as i32 * PLACES_PER_PITCH;
+        let places = -most..=most;
         let deepest = places.map(|place| {
             let arc_mm = pitch_mm * (f64::from(space) + f64::from(place) / f64::from(PLACES_PER_PITCH));
             let phi_rad = curve.phi_at_arc(arc_mm);

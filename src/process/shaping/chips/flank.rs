@@ -18,11 +18,11 @@
 //! times the height of a scallop, t at most a half on the surface that is left), so thickness runs from 0 at one end of
 //! a facet through c in its middle to 2 c at the other.
 
-use super::edge_polygon::EdgeSide;
 use crate::dexel::field::{Column, Field, NO_PASS};
 use crate::frame::Rigid2;
 use crate::measure::LastChips;
 use crate::passes::planar::near::{MAX_PHASES, NearPass, near_passes};
+use crate::process::shaping::edge_polygon::EdgeSide;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::tool::edge::{Edge, Segment, SegmentShape};
 use crate::tool::{CuttingTool, PlanarTool};

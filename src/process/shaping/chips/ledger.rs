@@ -1,6 +1,5 @@
 //! The ledger of a whole job: spaces in parallel, strokes in order of time within each of them.
 
-use super::edge_polygon::{EdgePolygon, Station};
 use super::oblique::{ElementForce, RakeFace};
 use super::section::SpaceSection;
 use super::stroke::{StrokeChips, StrokePose, ToothChip};
@@ -8,6 +7,7 @@ use crate::cut::LEAST_CHIP_MM;
 use crate::frame::Rigid2;
 use crate::gear::{Back, GearKind};
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::edge_polygon::{EdgePolygon, Station};
 use crate::process::shaping::scene::model::Infeed;
 use crate::tool::{CuttingTool, PlanarTool};
 use crate::units::TURN_RAD;

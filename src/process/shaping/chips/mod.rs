@@ -13,7 +13,6 @@
 //! Rays on a flank see only the chips that shape it, and those exactly: [`flank::last_chips`] says with how thick a
 //! chip each place of a flank was cut last.
 
-pub mod edge_polygon;
 pub mod flank;
 pub mod ledger;
 pub mod oblique;

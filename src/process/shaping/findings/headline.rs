@@ -126,7 +126,7 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
                 extreme_over(flanks, scallop, |a, b| a > b),
                 1e3,
                 "um",
-                "highest cusp between two strokes' facets on the evaluated profiles, over the target",
+                "normal deviation of the highest cusp between two strokes' facets on the evaluated profiles",
                 "no cusp between facets of three dexels and more was met: the dexels are too coarse for the feed",
             ),
         ),

@@ -88,6 +88,7 @@ pub fn operation(
         .table(teeth::allowance(report, allowance, &spec.name))
         .part(axes::findings(motion))
         .part(motion.relief_findings())
+        .parts(motion.retraction_findings())
         .part(chips::chips(job, ledger, index).table(strokes::strokes(job, ledger, index)))
         .part(stock_range("flank_stock", "Stock on all active flanks", &over_flanks, "on all active flanks", why))
         .part(stock_range(

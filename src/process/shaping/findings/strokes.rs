@@ -2,7 +2,7 @@
 //!
 //! An operation has thousands of strokes, so the rows stand in the file alone.
 
-use crate::findings::{Column, Datum, Table};
+use crate::findings::{Datum, Table, TableColumn};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips};
 use crate::units::UM_PER_MM;
@@ -25,8 +25,8 @@ pub fn strokes(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Table
         .rows_in_file(&format!("chips_{}", prepared.spec.name))
 }
 
-fn columns() -> Vec<Column> {
-    let new = |key, unit, definition| Column::new(key, unit, definition);
+fn columns() -> Vec<TableColumn> {
+    let new = |key, unit, definition| TableColumn::new(key, unit, definition);
     vec![
         new("stroke", "1", "stroke, from 0"),
         new("time", "s", "time from the operation's first stroke"),

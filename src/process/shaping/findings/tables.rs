@@ -3,7 +3,7 @@
 //! In: the sections of operations and teeth. Their quantities become rows, so that every number is made once; the rows
 //! stand in the files alone, since `results.json` has them in the sections.
 
-use crate::findings::{Column, Quantity, Section, Table};
+use crate::findings::{Quantity, Section, Table, TableColumn};
 use crate::process::shaping::measure::FlankReport;
 
 /// Keys of columns, and where their quantities stand in the section of a finished flank.
@@ -34,7 +34,7 @@ const TOOTH: [(&str, &str); 8] = [
 
 /// All flanks that were cut: what `earlier` operations left on them, and how they are finished.
 pub fn flanks(cut: &[FlankReport], earlier: &[Section], teeth: &[Section]) -> Table {
-    let names = vec![number_of_tooth(), Column::words("flank", "flank: left or right")];
+    let names = vec![number_of_tooth(), TableColumn::words("flank", "flank: left or right")];
     let rows = cut.iter().map(|flank| {
         let (tooth, side) = (&teeth[flank.tooth as usize - 1], flank.side.name());
         let of = |section, picks: &[(&str, &str)]| {
@@ -63,8 +63,8 @@ pub fn teeth(teeth: &[Section]) -> Table {
     Table::of_quantities("all_teeth", "Finished teeth", vec![number_of_tooth()], rows).rows_in_file("teeth")
 }
 
-fn number_of_tooth() -> Column {
-    Column::new("tooth", "1", "number of the tooth, from 1")
+fn number_of_tooth() -> TableColumn {
+    TableColumn::new("tooth", "1", "number of the tooth, from 1")
 }
 
 fn part<'a>(section: &'a Section, path: &str) -> &'a Section {

@@ -1,7 +1,7 @@
 //! Single teeth: the stock and the allowances that an operation left, and the tooth as it is finished.
 
 use super::place;
-use crate::findings::{Column, Datum, Place, Quantity, Section, Table};
+use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn};
 use crate::measure::stock::{Extreme, Stock};
 use crate::process::shaping::measure::gear_report::OperationAllowance;
 use crate::process::shaping::measure::{FlankReport, GearReport};
@@ -67,9 +67,9 @@ pub fn tooth_stock(report: &GearReport, operation: usize, tooth: u32) -> Section
 /// where it is the last one.
 pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, operation: &str) -> Table {
     let missing = "a surface does not cross the pitch curve with its involute";
-    let mm = |key, definition| Column::new(key, "mm", definition).or(missing);
+    let mm = |key, definition| TableColumn::new(key, "mm", definition).or(missing);
     let columns = vec![
-        Column::new("tooth", "1", "number of the tooth, from 1"),
+        TableColumn::new("tooth", "1", "number of the tooth, from 1"),
         mm("A_x", "x of A in the gear frame: left flank as this operation leaves it, on the pitch curve"),
         mm("A_y", "y of A"),
         mm("B_x", "x of B in the gear frame: finished left flank on the pitch curve"),
@@ -80,12 +80,14 @@ pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, op
         mm("D_y", "y of D"),
         mm("AB", "chord from A (this operation) to B (finished), left flank, on the pitch curve"),
         mm("CD", "chord from C (finished) to D (this operation), right flank, on the pitch curve"),
-        Column::new("unevenness_mean_denominator", "%", "|AB - CD| over the mean of AB and CD").or(missing).as_bars(),
-        Column::new("unevenness_rack_denominator", "%", "|AB - CD| over delta_d tan(alpha)")
+        TableColumn::new("unevenness_mean_denominator", "%", "|AB - CD| over the mean of AB and CD")
+            .or(missing)
+            .as_bars(),
+        TableColumn::new("unevenness_rack_denominator", "%", "|AB - CD| over delta_d tan(alpha)")
             .or("a surface does not cross the pitch curve, or the operation has no offset over the last one"),
         mm("envelope_AB", "AB in the limit of many strokes"),
         mm("envelope_CD", "CD in the limit of many strokes"),
-        Column::new(
+        TableColumn::new(
             "envelope_unevenness_mean_denominator",
             "%",
             "|AB - CD| over the mean of AB and CD in the limit of many strokes",
@@ -240,7 +242,7 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
             "smallest_height",
             at(
                 finished.map(|h| h[0]),
-                "lowest finished surface over the target on the evaluated profile",
+                "smallest normal deviation of the finished surface on the evaluated profile",
                 "no dexel of the evaluated profile was reached",
             ),
         )
@@ -248,7 +250,7 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
             "largest_height",
             at(
                 finished.map(|h| h[1]),
-                "highest finished surface over the target on the evaluated profile",
+                "largest normal deviation of the finished surface on the evaluated profile",
                 "no dexel of the evaluated profile was reached",
             ),
         )

@@ -42,7 +42,7 @@ fn samples_per_stroke(continuous: bool) -> usize {
 
 impl Knot {
     /// The knot as it will be written.
-    fn rounded(&self, digits: Digits) -> Self {
+    pub(super) fn rounded(&self, digits: Digits) -> Self {
         let axes = self.axes();
         let rounded: [f64; 3] = std::array::from_fn(|index| digits.rounded(AXES[index].kind, axes[index]));
         let [psi_c_rad, psi_b_rad, center_distance_mm] = rounded;
@@ -55,7 +55,7 @@ impl Knot {
     }
 
     /// Where a schedule has the axes.
-    fn of(schedule: &StrokeSchedule, stroke: f64) -> Self {
+    pub(super) fn of(schedule: &StrokeSchedule, stroke: f64) -> Self {
         let state = schedule.state(stroke);
         Self {
             stroke,
@@ -155,22 +155,28 @@ impl AxisProgram {
     }
 
     /// What the program asks beyond the machine's limits: speeds within blocks, and steps of speed between blocks taken
-    /// within one double stroke.
+    /// within one double stroke, or within the shorter of both blocks where that is less.
     pub fn exceeded(&self, limits: &AxisLimits) -> Vec<String> {
         let stroke_s = 60.0 / self.double_strokes_per_minute;
         let limits = dynamics::limits(limits);
         let beyond = AXES.iter().zip(&limits).enumerate().flat_map(|(index, (axis, limits))| {
-            let speeds: Vec<f64> = self
+            // Speed of each block, and how many double strokes it lasts.
+            let blocks: Vec<[f64; 2]> = self
                 .knots
                 .windows(2)
                 .filter(|pair| pair[1].stroke > pair[0].stroke)
                 .map(|pair| {
                     let travel = pair[1].axes()[index] - pair[0].axes()[index];
-                    travel / ((pair[1].stroke - pair[0].stroke) * stroke_s)
+                    let strokes = pair[1].stroke - pair[0].stroke;
+                    [travel / (strokes * stroke_s), strokes]
                 })
                 .collect();
-            let largest = speeds.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-            let step = speeds.windows(2).fold(0.0_f64, |most, v| most.max((v[1] - v[0]).abs())) / stroke_s;
+            let largest = blocks.iter().fold(0.0_f64, |most, [v, _]| most.max(v.abs()));
+            let rates = blocks.windows(2).map(|pair| {
+                let [[v, strokes], [next_v, next_strokes]] = [pair[0], pair[1]];
+                (next_v - v).abs() / strokes.min(next_strokes).min(1.0)
+            });
+            let step = rates.fold(0.0_f64, f64::max) / stroke_s;
             beyond_limits(axis, limits, [largest, step])
         });
         beyond.collect()

@@ -14,11 +14,13 @@ use crate::machine::{Axis, AxisKind, AxisMotion, Limits, Motion, MotionPiece};
 use crate::process::shaping::scene::model::AxisLimits;
 
 /// The axes: work angle psi_c, cutter angle psi_b, centre distance l.
-pub const AXES: [Axis; 3] = [
-    Axis::new("work spindle", "work", 'C', AxisKind::Rotary).at("psi_c"),
-    Axis::new("cutter spindle", "cutter", 'B', AxisKind::Rotary).at("psi_b"),
-    Axis::new("centre distance", "center_distance", 'X', AxisKind::Linear),
-];
+pub const AXES: [Axis; 3] = [WORK, CUTTER, CENTER_DISTANCE];
+/// Work angle psi_c.
+pub const WORK: Axis = Axis::new("work spindle", "work", 'C', AxisKind::Rotary).at("psi_c");
+/// Cutter angle psi_b.
+pub const CUTTER: Axis = Axis::new("cutter spindle", "cutter", 'B', AxisKind::Rotary).at("psi_b");
+/// Centre distance l.
+pub const CENTER_DISTANCE: Axis = Axis::new("centre distance", "center_distance", 'X', AxisKind::Linear);
 
 /// A scene's limits in the order of [`AXES`].
 pub fn limits(of: &AxisLimits) -> [Limits; 3] {

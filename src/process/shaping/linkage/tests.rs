@@ -14,7 +14,8 @@ use super::*;
 use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
 use crate::math::Jet;
 use crate::process::shaping::scene::model::{
-    AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, StrokeSpacing, TraditionalDirection,
+    AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, Retraction, StrokeSpacing,
+    TraditionalDirection,
 };
 use pitch_curves::{any_curve, examples};
 
@@ -41,6 +42,7 @@ fn machine() -> Machine {
         approach_mm: 5.0,
         overrun_mm: 5.0,
         back_off_mm: 0.5,
+        retraction: Retraction::CenterLine,
         work_eccentricity_mm: 0.0,
         work_eccentricity_angle_rad: 0.0,
         limits: AxisLimits {

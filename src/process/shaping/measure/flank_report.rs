@@ -52,7 +52,7 @@ pub struct ShapedFlank {
     pub tip: FlankLimit,
     /// Stock of every operation but the last over the finished surface; `None` where the operation reached nothing.
     pub stock: Vec<Option<Stock>>,
-    /// Lowest and highest finished surface over the target on the evaluated profile.
+    /// Smallest and largest normal deviation of the finished surface on the evaluated profile.
     pub finished: Option<[Extreme; 2]>,
     /// Deepest cut below the target anywhere on the flank (undercut, gouge), if deeper than the dexels' resolution.
     pub undercut: Option<Extreme>,

@@ -7,12 +7,16 @@ use crate::process::shaping::gcode::{AxisProgram, Knot};
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::linkage::dynamics::AXES;
 
-/// A program in the linear dialect, for an operation of a job.
-pub fn text(job: &ShapingJob, operation: &PreparedOperation, program: &AxisProgram) -> String {
+/// A program in the linear dialect, for an operation of a job, and its largest contour error (mm) with the stroke that
+/// has it.
+pub fn text(
+    job: &ShapingJob,
+    operation: &PreparedOperation,
+    program: &AxisProgram,
+    (error_mm, worst): (f64, f64),
+) -> String {
     let output = &job.scene.output;
     let tip_radius_mm = job.cutter.tip_radius_mm;
-    let (error_mm, worst) =
-        program.contour_error_mm(&operation.schedule, tip_radius_mm, operation.spec.feed_during_stroke);
     let reach_mm = program.knots.iter().map(|k| k.center_distance_mm).fold(0.0, f64::max) + tip_radius_mm;
     let digits = Digits::new(output.gcode_contour_error_mm, reach_mm);
     let feed = if operation.spec.feed_during_stroke {
@@ -44,9 +48,25 @@ pub fn text(job: &ShapingJob, operation: &PreparedOperation, program: &AxisProgr
             plain(output.gcode_contour_error_mm * 1e3),
             plain(error_mm * 1e3)
         ),
-        "The ram is at the top of stroke 0 when the first G93 block begins".to_owned(),
-        "Relief on the return stroke is the machine's own; approach and clamping are the operator's".to_owned(),
     ];
+    let retraction = &operation.retraction;
+    let after = if retraction.is_in_axes() {
+        vec![
+            format!(
+                "RETRACTION {} by {} mm, in X, C and B; the machine's own relief is to be switched off",
+                retraction.asked().words(),
+                plain(retraction.back_off_mm())
+            ),
+            "The ram passes the middle of the face, cutting stroke 0, when the first G93 block begins".to_owned(),
+            "Approach and clamping are the operator's".to_owned(),
+        ]
+    } else {
+        vec![
+            "The ram is at the top of stroke 0 when the first G93 block begins".to_owned(),
+            "Relief on the return stroke is the machine's own; approach and clamping are the operator's".to_owned(),
+        ]
+    };
+    let head: Vec<String> = head.into_iter().chain(after).collect();
     let position = |knot: &Knot| {
         let [work, cutter, distance] = &AXES;
         let word = |axis: &Axis, position: f64| axis_word(axis, position, digits.of(axis.kind));

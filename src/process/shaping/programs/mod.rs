@@ -8,20 +8,18 @@ mod paper;
 use crate::output::text::{plain, significant};
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
-use crate::process::shaping::scene::model::{Linkage, NormalReading};
-use crate::scene::model::GcodeDialect;
+use crate::process::shaping::scene::model::{GcodeDialect, Linkage, NormalReading};
 use crate::units::UM_PER_MM;
 
 /// The program of an operation; an error is the reason why there is none, `None`: none is wanted.
 pub fn text(job: &ShapingJob, operation: &PreparedOperation) -> Option<Result<String, String>> {
-    let output = &job.scene.output;
-    if output.gcode == GcodeDialect::None {
+    if job.gcode == GcodeDialect::None {
         return None;
     }
     if (operation.spec.linkage == Linkage::ShapingNormal { reading: NormalReading::AsPrinted }) {
         return Some(Err("Eq. 12 as printed turns the cutter wrongly; this reading is for comparison only".to_owned()));
     }
-    Some(match output.gcode {
+    Some(match job.gcode {
         GcodeDialect::PaperG84 => paper::text(job, operation),
         _ => straight_lines(job, operation),
     })
@@ -32,8 +30,22 @@ fn straight_lines(job: &ShapingJob, operation: &PreparedOperation) -> Result<Str
     let asked_mm = job.scene.output.gcode_contour_error_mm;
     let (schedule, tip_radius_mm) = (&operation.schedule, job.cutter.tip_radius_mm);
     let continuous = operation.spec.feed_during_stroke;
-    let program = AxisProgram::fit(schedule, tip_radius_mm, asked_mm, continuous);
-    let (reached_mm, stroke) = program.contour_error_mm(schedule, tip_radius_mm, continuous);
+    let (program, (reached_mm, stroke)) = if operation.retraction.is_in_axes() {
+        let ram = job.ram_times();
+        if ram.shortest_stay() <= 0.0 {
+            return Err("the ram does not leave the face at both ends, and the axes have no time to draw the cutter \
+                        back; give machine.approach_mm and machine.overrun_mm above zero"
+                .to_owned());
+        }
+        let program =
+            AxisProgram::retracting(schedule, &operation.retraction, &ram, tip_radius_mm, asked_mm, continuous);
+        let error = program.cut_error_mm(schedule, tip_radius_mm, &ram, continuous);
+        (program, error)
+    } else {
+        let program = AxisProgram::fit(schedule, tip_radius_mm, asked_mm, continuous);
+        let error = program.contour_error_mm(schedule, tip_radius_mm, continuous);
+        (program, error)
+    };
     if reached_mm > asked_mm {
         return Err(format!(
             "blocks of one double stroke leave a contour error of {} um at stroke {stroke}, {} um are asked; ask for \
@@ -44,6 +56,6 @@ fn straight_lines(job: &ShapingJob, operation: &PreparedOperation) -> Result<Str
     }
     match program.exceeded(&job.machine.limits).first() {
         Some(first) => Err(format!("{first}; take more strokes per revolution or fewer double strokes per minute")),
-        None => Ok(linear::text(job, operation, &program)),
+        None => Ok(linear::text(job, operation, &program, (reached_mm, stroke))),
     }
 }

@@ -4,7 +4,7 @@ use crate::output::report::PageSection;
 use crate::output::text::plain;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
-use crate::process::shaping::scene::model::Tip;
+use crate::process::shaping::scene::model::{Retraction, Tip};
 use crate::steps::report::facts::{gear_table, mm, speed_limits, table};
 use crate::units::UM_PER_MM;
 
@@ -17,6 +17,10 @@ pub fn section(job: &ShapingJob) -> PageSection {
         Tip::Chamfer { height_mm, angle_rad } => {
             format!("chamfers {} high at {}°", mm(height_mm), plain(angle_rad.to_degrees()))
         }
+    };
+    let back_off = match machine.retraction {
+        Retraction::CenterLine => mm(machine.back_off_mm),
+        other => format!("{} {}", mm(machine.back_off_mm), other.words()),
     };
     let blocks = vec![
         gear_table(&job.scene.gear, &job.curve),
@@ -44,7 +48,7 @@ pub fn section(job: &ShapingJob) -> PageSection {
             vec![
                 ("Double strokes", format!("{} per minute", plain(machine.double_strokes_per_minute))),
                 ("Approach, overrun", format!("{}, {}", mm(machine.approach_mm), mm(machine.overrun_mm))),
-                ("Back-off on the return stroke", mm(machine.back_off_mm)),
+                ("Back-off on the return stroke", back_off),
                 ("Work eccentricity", format!("{} µm", plain(UM_PER_MM * machine.work_eccentricity_mm))),
                 (
                     "Speed limits",

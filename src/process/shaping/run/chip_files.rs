@@ -13,8 +13,8 @@ use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::map_png::{MapPicture, write_map_png};
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::chips::edge_polygon::EdgeSide;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips, ThicknessMap};
+use crate::process::shaping::edge_polygon::EdgeSide;
 use crate::units::UM_PER_MM;
 
 /// Charts and colours end at this many times the 90th percentile: first strokes into the full blank would flatten

@@ -15,7 +15,7 @@ use crate::output::render_png::{RenderPicture, draw_frame, write_frame};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::section::{CutSection, cutter_solid};
 use crate::surface::Mesh;
-use crate::surface::render::{CLAY, Camera, Lights, STEEL, Shape, Stage, render};
+use crate::surface::render::{Bodies, CLAY, Camera, Lights, STEEL, Shape, render};
 use glam::{DVec2, DVec3};
 
 /// Size of a frame without its title.
@@ -47,8 +47,8 @@ pub fn draw(
         section.advance(until);
         let work = work(job, &section, until.min(strokes - 1));
         let shape = Shape::new(vec![&work.0, &work.1]);
-        let stage = Stage::new(&shape, vec![CLAY, STEEL]);
-        let rendered = match render(&stage, &camera, &Lights::studio(&camera), interrupt) {
+        let bodies = Bodies::new(&shape, vec![CLAY, STEEL]);
+        let rendered = match render(&bodies, &camera, &Lights::studio(&camera), interrupt) {
             Ok(rendered) => rendered,
             Err(Error::Interrupted) => break,
             Err(other) => return Err(other),

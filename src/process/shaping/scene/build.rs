@@ -1,8 +1,8 @@
 //! Checked values of a shaping scene to the model.
 
 use super::model::{
-    AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, ShaperCutter, Shaping, StrokeSpacing, Tip,
-    TraditionalDirection,
+    AxisLimits, CutterSpec, Feed, GcodeDialect, Infeed, Linkage, Machine, NormalReading, Operation, Retraction,
+    Shaping, StrokeSpacing, Tip, TraditionalDirection,
 };
 use crate::material::EdgeForce;
 use crate::scene::ScenePart;
@@ -23,6 +23,12 @@ pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
         operations: operations?,
         material: material(values)?,
         chip_spacing_mm: values.view("fields.chips").number("spacing_mm")?,
+        gcode: match values.view("output").text("gcode")? {
+            "linear" => GcodeDialect::Linear,
+            "paper_g84" => GcodeDialect::PaperG84,
+            "none" => GcodeDialect::None,
+            _ => return None,
+        },
     }))
 }
 
@@ -36,11 +42,11 @@ fn material(values: &Values) -> Option<EdgeForce> {
     })
 }
 
-fn shaper_cutter(values: &Values) -> Option<ShaperCutter> {
+fn shaper_cutter(values: &Values) -> Option<CutterSpec> {
     let cutter = values.view("tool.shaper_cutter");
     let round = values.view("tool.shaper_cutter.tip.round");
     let chamfer = values.view("tool.shaper_cutter.tip.chamfer");
-    Some(ShaperCutter {
+    Some(CutterSpec {
         teeth: cutter.whole("teeth")?,
         addendum_coefficient: cutter.number("addendum_coefficient")?,
         dedendum_coefficient: cutter.number("dedendum_coefficient")?,
@@ -67,6 +73,14 @@ fn machine(values: &Values) -> Option<Machine> {
         approach_mm: machine.number("approach_mm")?,
         overrun_mm: machine.number("overrun_mm")?,
         back_off_mm: machine.number("back_off_mm")?,
+        retraction: match machine.text("retraction")? {
+            "center_line" => Retraction::CenterLine,
+            "normal" => Retraction::Normal,
+            "turned" => Retraction::Turned,
+            "tilted" => Retraction::Tilted,
+            "auto" => Retraction::Auto,
+            _ => return None,
+        },
         work_eccentricity_mm: machine.mm_from_um("work_eccentricity_um")?,
         work_eccentricity_angle_rad: machine.rad("work_eccentricity_angle_deg")?,
         limits: AxisLimits {

@@ -3,6 +3,7 @@
 mod chips;
 mod machine;
 mod operation;
+mod output;
 mod tool;
 
 use crate::scene::keys::{Addition, KeySection};
@@ -14,4 +15,4 @@ pub(super) static SECTIONS: &[&[KeySection]] =
     &[tool::SECTIONS, machine::SECTIONS, operation::SECTIONS, chips::SECTIONS];
 
 /// Keys in shared sections.
-pub(super) static ADDED: &[&Addition] = &[&chips::ADDED, &machine::ADDED, &operation::ADDED];
+pub(super) static ADDED: &[&Addition] = &[&chips::ADDED, &machine::ADDED, &operation::ADDED, &output::ADDED];

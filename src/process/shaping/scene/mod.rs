@@ -18,6 +18,8 @@ pub static SCENE: SceneProcess = SceneProcess {
     scenes: include_str!("scenes.md"),
     sections: keys::SECTIONS,
     added: keys::ADDED,
+    per_revolution: &["strokes_per_revolution"],
+    of_one_gear: &["window_deg", "program"],
     on_demand: &[],
     senseless: &[],
     derive,

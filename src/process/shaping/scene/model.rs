@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaping {
     /// The shaper cutter.
-    pub tool: ShaperCutter,
+    pub tool: CutterSpec,
     /// The machine: stroke, clearances, mounting errors, axis limits.
     pub machine: Machine,
     /// Operations in the order they are cut; at least one. The last one defines the target flank.
@@ -17,6 +17,19 @@ pub struct Shaping {
     pub material: EdgeForce,
     /// Distance of the rays on which chips are followed, mm.
     pub chip_spacing_mm: f64,
+    /// Form of the axis programs.
+    pub gcode: GcodeDialect,
+}
+
+/// Form of axis programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GcodeDialect {
+    /// Straight lines in inverse time.
+    Linear,
+    /// The one-block form of Gao et al. 2017, marked as not to be run.
+    PaperG84,
+    /// None.
+    None,
 }
 
 impl Shaping {
@@ -33,7 +46,7 @@ impl Shaping {
 
 /// Shaper cutter by its projected transverse profile.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ShaperCutter {
+pub struct CutterSpec {
     /// z0.
     pub teeth: u32,
     /// Addendum in modules (1.25 cuts the gear's root clearance).
@@ -85,14 +98,45 @@ pub struct Machine {
     pub approach_mm: f64,
     /// Ram travel below the face after the cut.
     pub overrun_mm: f64,
-    /// Back-off along the centre line during the return stroke.
+    /// How far the cutter is drawn back during the return stroke.
     pub back_off_mm: f64,
+    /// Which way.
+    pub retraction: Retraction,
     /// Distance of the gear axis from the work spindle axis.
     pub work_eccentricity_mm: f64,
     /// Direction of the eccentricity in the gear frame.
     pub work_eccentricity_angle_rad: f64,
     /// Limits of the axes, where known.
     pub limits: AxisLimits,
+}
+
+/// Which way the cutter is drawn back for the return stroke; the laws are in
+/// [`crate::process::shaping::linkage::retraction`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Retraction {
+    /// Along the line of centres, by the machine's own relief.
+    CenterLine,
+    /// Along the normal of the pitch curve.
+    Normal,
+    /// Along the line of centres, the cutter turned as it would roll on.
+    Turned,
+    /// Along the direction, at one angle to the normal, that clears stock as well.
+    Tilted,
+    /// Along the line of centres where that is clear, turned where it is not.
+    Auto,
+}
+
+impl Retraction {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::CenterLine => "along the line of centres",
+            Self::Normal => "along the normal of the pitch curve",
+            Self::Turned => "along the line of centres, the cutter turned",
+            Self::Tilted => "tilted out of the normal of the pitch curve",
+            Self::Auto => "along the line of centres, the cutter turned where that is not clear",
+        }
+    }
 }
 
 /// Largest speeds and accelerations the axes allow; `None`: not limited.

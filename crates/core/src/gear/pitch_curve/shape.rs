@@ -83,7 +83,8 @@ impl PitchCurveShape {
                 format!("ellipse of order {order}, eccentricity {eccentricity}")
             }
             Self::SinusoidalRatio { order, mean_ratio, ratio_amplitude, .. } => {
-                format!("driver of the ratio {mean_ratio} + {ratio_amplitude} sin({order} phi)")
+                let sign = if *ratio_amplitude < 0.0 { '-' } else { '+' };
+                format!("driver of the ratio {mean_ratio} {sign} {} sin({order} phi)", ratio_amplitude.abs())
             }
             Self::Pascal { order, eccentricity, .. } => {
                 format!("Pascal's limacon of order {order}, eccentricity {eccentricity}")

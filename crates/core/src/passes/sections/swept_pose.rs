@@ -5,7 +5,7 @@
 //!
 //! The pose is a polynomial of the swept angle, entry by entry, through Chebyshev nodes. The row of z comes first: the
 //! moment needs no other, and rows lie side by side so that four entries go through a processor's vector at once. Where
-//! the motion has a corner during the sweep, each stretch of it has polynomials of its own.
+//! the motion has a corner during the sweep, each piece of it has polynomials of its own.
 
 use crate::math::convergence::{Step, iterate};
 use crate::math::roots::bisect;
@@ -77,14 +77,13 @@ impl SliceCrossing {
 
 impl Sweeping {
     pub fn new(set: &TurningPasses, pass: &BladePass) -> Self {
-        let (place, stretches) = (set.place(pass), set.stretches(pass));
-        let mut beside: Vec<([f64; 2], Pose)> = stretches
-            .map(|stretch| {
-                let [a, b] =
-                    set.motion.stretch_rad(stretch).map(|angle_rad| set.turn * (angle_rad - pass.tool_angle_rad));
+        let (place, pieces) = (set.place(pass), set.pieces(pass));
+        let mut beside: Vec<([f64; 2], Pose)> = pieces
+            .map(|piece| {
+                let [a, b] = set.motion.piece_rad(piece).map(|angle_rad| set.turn * (angle_rad - pass.tool_angle_rad));
                 let from_to = [a.min(b), a.max(b)];
                 let within = from_to.map(|swept| swept.clamp(-set.half_sweep_rad, set.half_sweep_rad));
-                (from_to, polynomials(set, pass, stretch, within))
+                (from_to, polynomials(set, pass, piece, within))
             })
             .collect();
         let middle = beside.iter().position(|([from, to], _)| *from <= 0.0 && 0.0 <= *to).unwrap_or(0);
@@ -251,10 +250,10 @@ impl Sweeping {
     }
 }
 
-/// Through the poses of a stretch at Chebyshev nodes of swept angles from `from` to `to`: in powers of the angle over
+/// Through the poses of a piece at Chebyshev nodes of swept angles from `from` to `to`: in powers of the angle over
 /// the whole sweep.
-fn polynomials(set: &TurningPasses, pass: &BladePass, stretch: u32, [from, to]: [f64; 2]) -> Pose {
-    // A short piece would be known from too little: the stretch's law goes on beyond its ends.
+fn polynomials(set: &TurningPasses, pass: &BladePass, piece: u32, [from, to]: [f64; 2]) -> Pose {
+    // A short piece would be known from too little: the piece's law goes on beyond its ends.
     let half = (0.5 * (to - from)).max(SHORTEST_RAD);
     let middle = 0.5 * (from + to);
     let mut of_piece = [[0.0; ENTRIES]; TERMS];
@@ -262,7 +261,7 @@ fn polynomials(set: &TurningPasses, pass: &BladePass, stretch: u32, [from, to]: 
     for node in 0..TERMS {
         let angle = PI * (node as f64 + 0.5) / TERMS as f64;
         let swept = middle + half * angle.cos();
-        let work_from_head = set.motion.head_from_work_on(stretch, pass.tool_angle_rad + set.turn * swept).inverse();
+        let work_from_head = set.motion.head_from_work_on(piece, pass.tool_angle_rad + set.turn * swept).inverse();
         let (turn, shift) = (work_from_head.rotation, work_from_head.translation_mm);
         let row = |r: usize| [turn.x_axis[r], turn.y_axis[r], turn.z_axis[r], shift[r]];
         let entries = [row(2), row(0), row(1)];

@@ -5,9 +5,9 @@
 //! million times, asks a table. While a hob turns by an eighth the work turns by some hundredths of a radian: the
 //! remainder of degree seven is far below 1e-10 mm on any gear; [`MotionTable::error_mm`] measures it.
 //!
-//! **Stretches** end at the corners, where rates jump (the slide starts, a shift turns round). A sweep that lasts over
-//! a corner follows one law before it and another one after it, and each is needed as a smooth motion that goes on a
-//! little beyond its end.
+//! **Smooth pieces** end at the corners, where rates jump (the slide starts, a shift turns round). A sweep that lasts
+//! over a corner follows one law before it and another one after it, and each is needed as a smooth motion that goes on
+//! a little beyond its end.
 //!
 //! The head is the frame that carries the tool without turning with it: its z axis is the tool's axis, its x axis is
 //! where a blade points at tool angle 0 and blade angle 0.
@@ -33,8 +33,8 @@ pub struct MotionTable {
     /// Ends of the panels, one more than there are panels.
     ends_rad: Vec<f64>,
     panels: Vec<PosePanel>,
-    /// First panel of every stretch, and the number of panels.
-    stretches: Vec<usize>,
+    /// First panel of every piece, and the number of panels.
+    pieces: Vec<usize>,
 }
 
 impl MotionTable {
@@ -44,11 +44,11 @@ impl MotionTable {
         let mut corners: Vec<f64> = corners_rad.iter().copied().filter(inside).chain(range_rad).collect();
         corners.sort_by(f64::total_cmp);
         corners.dedup();
-        let (mut ends_rad, mut stretches) = (vec![corners[0]], vec![0]);
+        let (mut ends_rad, mut pieces) = (vec![corners[0]], vec![0]);
         for pair in corners.windows(2) {
             let count = ((pair[1] - pair[0]) / TAU * PANELS_PER_TURN).ceil().max(1.0) as usize;
             ends_rad.extend((1..=count).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / count as f64));
-            stretches.push(ends_rad.len() - 1);
+            pieces.push(ends_rad.len() - 1);
         }
         let panels = ends_rad
             .par_windows(2)
@@ -57,7 +57,7 @@ impl MotionTable {
                 panel(|u| entries(&head_from_work(middle + half * u)))
             })
             .collect();
-        Self { ends_rad, panels, stretches }
+        Self { ends_rad, panels, pieces }
     }
 
     /// First and last tool angle of the table.
@@ -65,18 +65,18 @@ impl MotionTable {
         [self.ends_rad[0], self.ends_rad[self.panels.len()]]
     }
 
-    /// Stretches that a range of tool angles has a part in.
-    pub fn stretches(&self, [from_rad, to_rad]: [f64; 2]) -> Range<u32> {
-        let last = self.stretches.len() - 2;
+    /// Pieces that a range of tool angles has a part in.
+    pub fn pieces(&self, [from_rad, to_rad]: [f64; 2]) -> Range<u32> {
+        let last = self.pieces.len() - 2;
         // The first and the last one go on beyond the table's ends.
-        let starts = &self.stretches[1..=last];
+        let starts = &self.pieces[1..=last];
         let before = |angle: f64| starts.partition_point(|&panel| self.ends_rad[panel] <= angle) as u32;
         before(from_rad)..before(to_rad) + 1
     }
 
-    /// Tool angles at which a stretch begins and ends; without end where the table does.
-    pub fn stretch_rad(&self, stretch: u32) -> [f64; 2] {
-        let (first, end) = (self.stretches[stretch as usize], self.stretches[stretch as usize + 1]);
+    /// Tool angles at which a piece begins and ends; without end where the table does.
+    pub fn piece_rad(&self, piece: u32) -> [f64; 2] {
+        let (first, end) = (self.pieces[piece as usize], self.pieces[piece as usize + 1]);
         let from = if first == 0 { f64::NEG_INFINITY } else { self.ends_rad[first] };
         [from, if end == self.panels.len() { f64::INFINITY } else { self.ends_rad[end] }]
     }
@@ -86,9 +86,9 @@ impl MotionTable {
         self.pose(tool_angle_rad, 0..self.panels.len())
     }
 
-    /// The same by the law of one stretch, which goes on beyond its ends.
-    pub fn head_from_work_on(&self, stretch: u32, tool_angle_rad: f64) -> Rigid3 {
-        self.pose(tool_angle_rad, self.stretches[stretch as usize]..self.stretches[stretch as usize + 1])
+    /// The same by the law of one piece, which goes on beyond its ends.
+    pub fn head_from_work_on(&self, piece: u32, tool_angle_rad: f64) -> Rigid3 {
+        self.pose(tool_angle_rad, self.pieces[piece as usize]..self.pieces[piece as usize + 1])
     }
 
     fn pose(&self, tool_angle_rad: f64, panels: Range<usize>) -> Rigid3 {
@@ -206,17 +206,17 @@ mod tests {
         assert_eq!(table.range_rad(), [-3.0, 40.0]);
         let error = table.error_mm(150.0, pose);
         assert!(error < 1e-10, "{error:e} mm");
-        assert_eq!(table.stretches([-9.0, 0.9]), 0..1);
-        assert_eq!(table.stretches([0.9, 17.2]), 0..2);
-        assert_eq!(table.stretches([17.3, 90.0]), 2..3);
-        assert_eq!([0, 1].map(|stretch| table.stretch_rad(stretch)), [[f64::NEG_INFINITY, 1.0], [1.0, 17.3]]);
+        assert_eq!(table.pieces([-9.0, 0.9]), 0..1);
+        assert_eq!(table.pieces([0.9, 17.2]), 0..2);
+        assert_eq!(table.pieces([17.3, 90.0]), 2..3);
+        assert_eq!([0, 1].map(|piece| table.piece_rad(piece)), [[f64::NEG_INFINITY, 1.0], [1.0, 17.3]]);
         // The measure is alive: another motion is seen.
         assert!(table.error_mm(150.0, |angle| pose(angle + 1e-9)) > 1e-9);
     }
 
-    /// A work whose turning changes its speed at a corner: every stretch goes on smoothly beyond it.
+    /// A work whose turning changes its speed at a corner: every piece goes on smoothly beyond it.
     #[test]
-    fn stretches_go_on_beyond_their_corners() {
+    fn pieces_go_on_beyond_their_corners() {
         let table =
             MotionTable::new([-3.0, 40.0], &[17.3], |angle| pose(angle.min(17.3) + 0.5 * (angle - 17.3).max(0.0)));
         let apart = |a: Rigid3, b: Rigid3| (a.point(DVec3::X) - b.point(DVec3::X)).length();

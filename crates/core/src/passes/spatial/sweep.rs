@@ -124,13 +124,13 @@ impl SweepRecord {
 }
 
 impl Sweep {
-    /// Sweep of a pass in a stretch of the motion as seen from a tile with its origin at `origin_mm` (gear frame) and
+    /// Sweep of a pass in a piece of the motion as seen from a tile with its origin at `origin_mm` (gear frame) and
     /// nothing further than `reach_mm` from it. `None`: the blade holds the origin at no moment of its sweep, or the
-    /// whole tile at no moment of the stretch.
-    pub fn new(set: &TurningPasses, pass: &BladePass, stretch: u32, origin_mm: DVec3, reach_mm: f64) -> Option<Self> {
+    /// whole tile at no moment of the piece.
+    pub fn new(set: &TurningPasses, pass: &BladePass, piece: u32, origin_mm: DVec3, reach_mm: f64) -> Option<Self> {
         let place = set.place(pass);
         let twist = set.rake_twist_rad_per_mm;
-        let head_from_work = |swept: f64| set.motion.head_from_work_on(stretch, pass.tool_angle_rad + set.turn * swept);
+        let head_from_work = |swept: f64| set.motion.head_from_work_on(piece, pass.tool_angle_rad + set.turn * swept);
         let blade_y = |z: f64| place.y_sign * (z - place.axial_mm);
         let missing_at = |swept: f64| {
             let at = head_from_work(swept).point(origin_mm);
@@ -167,7 +167,7 @@ impl Sweep {
         let from_head = axes.transpose();
         let radius_mm = at.x.hypot(at.y);
         let range = (REACH_SHARE * reach_mm / (radius_mm - reach_mm).max(LEAST_DISTANCE * radius_mm)).min(LARGEST_T);
-        let [from, to] = set.motion.stretch_rad(stretch).map(|angle| set.turn * (angle - pass.tool_angle_rad));
+        let [from, to] = set.motion.piece_rad(piece).map(|angle| set.turn * (angle - pass.tool_angle_rad));
         let t_at_swept = |angle: f64| (0.5 * (angle - swept)).clamp(-0.25 * PI, 0.25 * PI).tan();
         let [from, to] = [t_at_swept(from.min(to)) - CORNER_OVERLAP, t_at_swept(from.max(to)) + CORNER_OVERLAP];
         if from > range || to < -range {
@@ -227,7 +227,7 @@ impl Sweep {
     }
 
     /// Distance from the tool's axis and place along the blade's y of a point (tile frame) at the moment when the rake
-    /// face holds it. `None`: at no moment of the sweep and the stretch.
+    /// face holds it. `None`: at no moment of the sweep and the piece.
     ///
     /// # Errors
     /// The moment is not found: the work turns nearly as fast as the tool.

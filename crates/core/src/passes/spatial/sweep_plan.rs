@@ -118,10 +118,10 @@ impl SweepPlanner<'_> {
         };
         let near: Vec<SweepCandidate> = near
             .into_iter()
-            .flat_map(|pass| self.set.stretches(&pass).map(move |stretch| (pass, stretch)))
-            .flat_map(|(pass, stretch)| {
+            .flat_map(|pass| self.set.pieces(&pass).map(move |piece| (pass, piece)))
+            .flat_map(|(pass, piece)| {
                 let segments = self.set.edges.segments_of(self.set.place(&pass).blade);
-                segments.map(move |segment| SweepCandidate { pass, stretch, segment })
+                segments.map(move |segment| SweepCandidate { pass, piece, segment })
             })
             .collect();
         if self.passes == Considered::Candidates {

@@ -35,21 +35,21 @@ pub(super) const LAST_STEP: f64 = 1e-5;
 /// No root further away is one, mm: what a ray of a flank may keep is some millimetres long.
 const FARTHEST_MM: f64 = 1e3;
 
-/// A blade's sweep by one of its segments, as far as one stretch of the motion goes.
+/// A blade's sweep by one of its segments, as far as one piece of the motion goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SweepCandidate {
     /// The pass.
     pub pass: BladePass,
-    /// Stretch of the motion.
-    pub stretch: u32,
+    /// Piece of the motion.
+    pub piece: u32,
     /// Index of the segment among those of all edges.
     pub segment: usize,
 }
 
 impl SweepCandidate {
-    /// Pass and stretch: one smooth sweep.
+    /// Pass and piece: one smooth sweep.
     pub fn sweep(&self) -> (u32, u32) {
-        (self.pass.pass, self.stretch)
+        (self.pass.pass, self.piece)
     }
 }
 
@@ -77,7 +77,7 @@ impl SweepFrame {
         let mut frame = Self { origin_mm, reach_mm, candidates: Vec::new(), records: Vec::new() };
         let mut index_of = Vec::with_capacity(candidates.len());
         for of_sweep in candidates.chunk_by(|a, b| a.sweep() == b.sweep()) {
-            let sweep = Sweep::new(set, &of_sweep[0].pass, of_sweep[0].stretch, origin_mm, reach_mm);
+            let sweep = Sweep::new(set, &of_sweep[0].pass, of_sweep[0].piece, origin_mm, reach_mm);
             for candidate in of_sweep {
                 index_of.push(sweep.is_some().then_some(frame.records.len() as u32));
                 if let Some(sweep) = &sweep {

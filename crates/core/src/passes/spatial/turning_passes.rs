@@ -114,9 +114,9 @@ impl TurningPasses {
         BladePass { pass: self.first_pass + index, rank, tool_angle_rad }
     }
 
-    /// Stretches of the motion that a pass's sweep has a part in: more than one where rates jump meanwhile.
-    pub fn stretches(&self, pass: &BladePass) -> Range<u32> {
-        self.motion.stretches([pass.tool_angle_rad - self.half_sweep_rad, pass.tool_angle_rad + self.half_sweep_rad])
+    /// Pieces of the motion that a pass's sweep has a part in: more than one where rates jump meanwhile.
+    pub fn pieces(&self, pass: &BladePass) -> Range<u32> {
+        self.motion.pieces([pass.tool_angle_rad - self.half_sweep_rad, pass.tool_angle_rad + self.half_sweep_rad])
     }
 
     /// Place of a pass's blade.

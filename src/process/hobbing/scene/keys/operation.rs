@@ -61,7 +61,7 @@ pub(super) static ADDED: Addition = Addition {
             Range::closed(0.0, 1000.0),
             "as much as the hob needs to start clear of the blank",
             "40.0",
-            "Way of the slide from its start to where the hob's axis passes the face.",
+            "Travel of the slide from its start to where the hob's axis passes the face.",
         ),
         Key::optional(
             "overrun_mm",
@@ -69,7 +69,7 @@ pub(super) static ADDED: Addition = Addition {
             Range::closed(0.0, 1000.0),
             "until every tooth's last contact has left the work",
             "8.0",
-            "Way of the slide beyond the other face.",
+            "Travel of the slide beyond the other face.",
         ),
         Key::optional(
             "head_angle_deg",
@@ -174,7 +174,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 &["slide", "resultant"],
                 "slide",
                 "\"slide\"",
-                "What axial_feed_mm_per_revolution counts: the slide's way, which spaces the feed marks, or slide and \
+                "What axial_feed_mm_per_revolution counts: the slide's travel, which spaces the feed marks, or slide and \
                 the shift's part along the gear's axis together, as the paper keeps constant.",
             ),
             Key::number(

@@ -36,7 +36,18 @@ pub(super) static ADDED: Addition = Addition {
             unit: "mm",
             default: Default::Number(0.5),
             example: "0.5",
-            teach: "How far the cutter is lifted off along the line of centres during the return stroke.",
+            teach: "How far the cutter is lifted off during the return stroke.",
+        },
+        Key {
+            name: "retraction",
+            kind: Kind::Word(&["center_line", "normal", "turned", "tilted", "auto"]),
+            unit: "",
+            default: Default::Word("center_line"),
+            example: "\"auto\"",
+            teach: "Which way: along the line of centres, by the machine's own relief; or moved by the axes, along \
+                the normal of the pitch curve, along the line of centres with the cutter turned as it would roll on, \
+                tilted out of the normal so that it clears stock too, or turned only where the line of centres is not \
+                clear.",
         },
         Key {
             name: "work_eccentricity_um",

@@ -1,4 +1,4 @@
-//! The cutter tooth as the chip ledger sees it: a polygon to cut with, stations to measure at, and a zone for every
+//! The cutter tooth as a polygon: corners to cut with, stations to measure at, and a zone for every
 //! family of rays.
 //!
 //! In: a blade's [`Edge`]. Out, all in the blade frame: the edge as chords that stay within `CHORD_MM` of it, closed
@@ -66,7 +66,7 @@ pub struct Station {
     pub normal: DVec2,
     /// Part of the edge.
     pub side: EdgeSide,
-    /// Way along the edge to the nearest other part, mm.
+    /// Distance along the edge to the nearest other part, mm.
     pub to_corner_mm: f64,
 }
 

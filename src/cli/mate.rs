@@ -1,0 +1,27 @@
+//! `gearcut mate`: the scene of the gear that runs with a scene's gear.
+
+use gearcut::gear::GearKind;
+use gearcut::process;
+use gearcut::scene::Mate;
+
+use super::args::MateArguments;
+use super::failure::Failure;
+use super::new::write_new;
+use super::print;
+
+/// Runs the command.
+pub fn run(arguments: &MateArguments) -> Result<(), Failure> {
+    let loaded = process::load(&arguments.scene.scene, &arguments.scene.settings)?;
+    let kind = if arguments.internal { GearKind::Internal } else { GearKind::External };
+    let wanted = Mate { teeth: arguments.teeth, kind };
+    // The refusal blames keys of the mate's scene, which does not exist yet: it is no place in the driver's file.
+    let mate = loaded.mate(wanted).map_err(|refusal| {
+        let words = if arguments.internal { "internal" } else { "external" };
+        Failure::without_place(&format!("no {words} mate with {} teeth", wanted.teeth), &refusal)
+    })?;
+    let Some(path) = &arguments.out else { return Ok(print::to_stdout(&mate.text)?) };
+    write_new(path, &mate.text)?;
+    let shown = path.display();
+    let note = format!("`gearcut check {shown}` says what it means\n");
+    Ok(print::to_stdout(&format!("wrote {shown}: distance of the axes {:.6} mm\n{note}", mate.center_distance_mm))?)
+}

@@ -1,0 +1,108 @@
+//! The return strokes, before anything is cut: room between the returning cutter and the work, the place where it is
+//! least, and what to change.
+//!
+//! In: a prepared [`ShapingJob`]. Out: lines and warnings for each operation, from the survey of ideal strokes
+//! ([`crate::process::shaping::returns::survey`]); the blank field of a run says what the strokes of the scene meet.
+
+use crate::error::Refusal;
+use crate::output::text::Sheet;
+use crate::process::shaping::returns::plan::{CLEAR_MM, no_pose};
+use crate::process::shaping::returns::survey::{PlacedRoom, Survey, tightest};
+use crate::process::shaping::scene::model::Retraction;
+use crate::process::shaping::{PreparedOperation, ShapingJob};
+use crate::units::UM_PER_MM;
+
+/// Rows of the chart of the retraction angle, and the width of its bars.
+const CHART_ROWS: usize = 24;
+const CHART_WIDTH: f64 = 24.0;
+
+/// Adds the lines; gives the warnings.
+///
+/// # Errors
+/// A back-off so large that the retraction leads to no pose.
+pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>, Refusal> {
+    if job.machine.back_off_mm <= 0.0 {
+        return Ok(vec!["machine.back_off_mm = 0: the cutter returns along the surfaces that it has cut".to_owned()]);
+    }
+    let mut warnings = Vec::new();
+    for (index, operation) in job.operations.iter().enumerate() {
+        let plan = &operation.retraction;
+        let survey = job.survey(index);
+        let rooms = survey.rooms(plan.back_off_mm(), |phi| plan.law(phi)).map_err(|_| no_pose(plan.back_off_mm()))?;
+        sheet.heading(&format!("Return strokes of {}: {}", operation.spec.name, plan.asked().words()));
+        angles(sheet, &rooms);
+        warnings.extend(surface(sheet, operation, &survey, &rooms));
+        stock(sheet, operation, &rooms);
+    }
+    Ok(warnings)
+}
+
+/// Angle between the line of centres and the normal along the curve.
+fn angles(sheet: &mut Sheet, rooms: &[PlacedRoom]) {
+    let Some(steepest) = rooms.iter().max_by(|a, b| a.from_normal_rad.abs().total_cmp(&b.from_normal_rad.abs())) else {
+        return;
+    };
+    let most_rad = steepest.from_normal_rad.abs();
+    let place = format!("{:.2} deg at polar angle {:.2} deg", most_rad.to_degrees(), steepest.phi_rad.to_degrees());
+    sheet.line("retraction angle", format!("at most {place} (line of centres against the normal)"));
+    if most_rad < 1e-6 {
+        return;
+    }
+    let rows = (0..CHART_ROWS).map(|row| {
+        let room = &rooms[row * rooms.len() / CHART_ROWS];
+        let bar = (CHART_WIDTH * room.from_normal_rad.abs() / most_rad).round() as usize;
+        let [left, right] = if room.from_normal_rad < 0.0 { [bar, 0] } else { [0, bar] };
+        let width = CHART_WIDTH as usize;
+        vec![
+            format!("{:.0} deg", room.phi_rad.to_degrees()),
+            format!("{:.2} deg", room.from_normal_rad.to_degrees()),
+            format!("{}{}|{}", " ".repeat(width - left), "#".repeat(left), "#".repeat(right)),
+        ]
+    });
+    sheet.table(&rows.collect::<Vec<_>>());
+}
+
+/// Room to the surfaces that stay.
+fn surface(sheet: &mut Sheet, operation: &PreparedOperation, survey: &Survey, rooms: &[PlacedRoom]) -> Option<String> {
+    let name = &operation.spec.name;
+    let least = tightest(rooms, |room| room.clearance.surface.smallest_mm)?;
+    let (clearance_um, phi_deg) = (UM_PER_MM * least.clearance.surface.smallest_mm, least.phi_rad.to_degrees());
+    sheet
+        .line("smallest clearance", format!("{clearance_um:.1} um from what is left, at polar angle {phi_deg:.2} deg"));
+    if least.clearance.surface.smallest_mm >= CLEAR_MM {
+        return None;
+    }
+    if clearance_um >= 0.0 {
+        return Some(format!(
+            "operation {name}: the returning cutter clears the teeth near polar angle {phi_deg:.2} deg by {clearance_um:.2} \
+             um only: set a larger machine.back_off_mm, or machine.retraction = \"auto\""
+        ));
+    }
+    let overlap_mm2 = survey.overlap_mm2(least);
+    let way_out = match operation.retraction.asked() {
+        Retraction::CenterLine => "set machine.retraction = \"auto\", which turns the cutter there",
+        Retraction::Tilted => "set machine.retraction = \"turned\", or leave less stock to this operation",
+        Retraction::Normal | Retraction::Turned | Retraction::Auto => "set another machine.back_off_mm",
+    };
+    Some(format!(
+        "operation {name}: the returning cutter stands {:.1} um deep in the teeth near polar angle {phi_deg:.2} deg, over \
+         {overlap_mm2:.4} mm2 of their section: {way_out}",
+        -clearance_um
+    ))
+}
+
+/// Room to all material, stock included. That return strokes rub on stock is ordinary and costs the edge, not the gear:
+/// a line, and no warning.
+fn stock(sheet: &mut Sheet, operation: &PreparedOperation, rooms: &[PlacedRoom]) {
+    let Some(least) = tightest(rooms, |room| room.clearance.material.smallest_mm) else { return };
+    let (depth_mm, phi_deg) = (-least.clearance.material.smallest_mm, least.phi_rad.to_degrees());
+    if depth_mm < CLEAR_MM {
+        sheet.line("stock", "clear of all material");
+        return;
+    }
+    let way_out = match operation.retraction.asked() {
+        Retraction::Tilted => "leave less of it to this operation",
+        _ => "machine.retraction = \"tilted\" draws the edge away from it",
+    };
+    sheet.line("stock", format!("rubs up to {depth_mm:.3} mm deep on it, at polar angle {phi_deg:.2} deg; {way_out}"));
+}

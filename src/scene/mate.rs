@@ -1,0 +1,178 @@
+//! The scene of the gear that runs with a scene's own.
+//!
+//! In: the driver's loaded scene, the mate's number of teeth, and whether its teeth stand outside or inside. Out: a scene
+//! as TOML. Its pitch curve is the mate of the driver's (`[gear.pitch_curve.mate]`, whose reader solves the distance of
+//! the axes); module, pressure angle, tool, machine and operations are the driver's, so that both gears are cut alike.
+//!
+//! What the driver's file writes is copied as written; what holds there by default holds here by default. Counts per
+//! turn of the work grow with the number of teeth, so that the feed per tooth stays. A helix changes its hand on an
+//! external mate and keeps it on a ring. Left out is what belongs to the driver alone: its bore on a ring, places on its
+//! teeth (`[[texture]]`, `[[picture]]`, windows), programs and the name of its folder.
+
+use std::fmt::Write as _;
+
+use super::keys::{Role, join};
+use super::table::{KeyTable, TableSection};
+use super::values::Checked;
+use super::write::value_text;
+use super::{LoadedScene, SceneProcess};
+use crate::error::Refusal;
+use crate::gear::{Driver, GearKind, PitchCurve, PitchCurveShape};
+use crate::terms::Hand;
+
+/// Keys of `[gear]` that do not pass from the driver to its mate as they are.
+const OWN_OF_GEAR: [&str; 4] = ["kind", "teeth", "hand", "rim_mm"];
+/// Outermost tables with places on the driver's teeth.
+const PLACES: [&str; 2] = ["texture[]", "picture[]"];
+
+/// The gear that is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Mate {
+    /// Its number of teeth.
+    pub teeth: u32,
+    /// External, or a ring.
+    pub kind: GearKind,
+}
+
+/// Scene of a mate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MateScene {
+    /// The scene as TOML.
+    pub text: String,
+    /// Distance of the axes of the two gears, mm.
+    pub center_distance_mm: f64,
+}
+
+impl LoadedScene {
+    /// The scene of the gear that runs with this scene's gear.
+    ///
+    /// # Errors
+    /// This gear is a ring or a mate itself; no gear with so many teeth runs with it and closes.
+    pub fn mate(&self, mate: Mate) -> Result<MateScene, Refusal> {
+        let gear = &self.scene.gear;
+        if gear.kind == GearKind::Internal {
+            return Err(Refusal::new(
+                "gear.kind",
+                "the driver of a pair is an external gear, and this scene's is internal",
+                "give the scene of the external gear, and ask for the mate with --internal",
+            ));
+        }
+        if matches!(gear.pitch_curve, PitchCurveShape::Mate { .. }) {
+            return Err(Refusal::new(
+                "gear.pitch_curve.mate",
+                "this gear is a mate itself: its curve follows from its driver",
+                "give the driver's scene",
+            ));
+        }
+        let driver = Driver { curve: gear.pitch_curve.clone(), teeth: gear.teeth, start_rad: None };
+        let shape = PitchCurveShape::Mate { driver: Box::new(driver), kind: mate.kind };
+        let curve = PitchCurve::new(&shape, gear.transverse_module_mm(), mate.teeth)?;
+        Ok(MateScene { text: Writer { driver: self, mate }.text(), center_distance_mm: curve.size_mm() })
+    }
+}
+
+struct Writer<'a> {
+    driver: &'a LoadedScene,
+    mate: Mate,
+}
+
+impl Writer<'_> {
+    fn text(&self) -> String {
+        let process = self.driver.scene.process.process();
+        let own = KeyTable::new(&[process]);
+        let mut out = format!(
+            "# The gear that runs with {}, written by gearcut {}: the distance of the axes is solved so that it closes.\n\
+             # Tool, machine and operations are the driver's; what belongs to the driver's teeth alone is left out.\n",
+            self.driver.scene.name,
+            env!("CARGO_PKG_VERSION"),
+        );
+        let sections =
+            own.sections().iter().filter(|section| !PLACES.iter().any(|list| section.path.starts_with(list)));
+        let mut sections = sections.peekable();
+        while let Some(section) = sections.next() {
+            let Some((list, _)) = section.path.split_once("[]") else {
+                self.section(&mut out, process, section, section.path);
+                continue;
+            };
+            let mut inside = vec![section];
+            while let Some(next) = sections.next_if(|next| next.path.split_once("[]").is_some_and(|(l, _)| l == list)) {
+                inside.push(next);
+            }
+            for index in 0..self.driver.values.count(list) {
+                for section in &inside {
+                    self.section(&mut out, process, section, &section.path.replacen("[]", &format!(".{index}"), 1));
+                }
+            }
+        }
+        out
+    }
+
+    /// What the driver's file writes of a section that stands at `path` there.
+    fn section(&self, out: &mut String, process: &SceneProcess, section: &TableSection, path: &str) {
+        let mut lines = self.lines(process, section, path);
+        let header = match section.path.strip_prefix("gear.pitch_curve") {
+            Some("") => {
+                let teeth = self.driver.scene.gear.teeth;
+                let _ = write!(out, "\n[gear.pitch_curve.mate]\ndriver_teeth = {teeth}\n");
+                return;
+            }
+            Some(curve) => format!("[gear.pitch_curve.mate.driver{curve}]"),
+            None => section.header(),
+        };
+        if path == "gear" {
+            let kind = if self.mate.kind == GearKind::Internal { "kind = \"internal\"\n" } else { "" };
+            lines = format!("{kind}teeth = {}\n{lines}{}", self.mate.teeth, self.hand());
+        }
+        if self.holds(section, path) && (!lines.is_empty() || section.role == Role::Variant) {
+            let _ = write!(out, "\n{header}\n{lines}");
+        }
+    }
+
+    /// Whether the section is the variant that holds, or no variant.
+    fn holds(&self, section: &TableSection, path: &str) -> bool {
+        let choice = path.rsplit_once('.').map_or("", |(choice, _)| choice);
+        section.role != Role::Variant || self.driver.values.variants.get(choice) == Some(&section.name())
+    }
+
+    /// The lines of the section's keys that are written and pass to the mate.
+    fn lines(&self, process: &SceneProcess, section: &TableSection, path: &str) -> String {
+        let values = &self.driver.values;
+        let bore = |name: &str| name == "bore_diameter_mm" && self.mate.kind == GearKind::Internal;
+        let stays = |name: &str| match section.path {
+            "gear" => OWN_OF_GEAR.contains(&name) || bore(name),
+            "output" => name == "folder",
+            _ => process.of_one_gear.contains(&name),
+        };
+        // Points that were read from a file stand for the file, which may lie in another folder.
+        let points_read = |name: &str| name == "file" && values.held.contains_key(&join(path, "points_deg_mm"));
+        let mut lines = String::new();
+        for key in section.keys.iter().filter(|key| !stays(key.name) && !points_read(key.name)) {
+            let Some(held) = values.held.get(&join(path, key.name)).filter(|held| held.is_written()) else { continue };
+            let value = match held.value {
+                Checked::Whole(count) if process.per_revolution.contains(&key.name) => {
+                    Checked::Whole(self.scaled(count))
+                }
+                ref value => value.clone(),
+            };
+            let _ = writeln!(lines, "{} = {}", key.name, value_text(&value));
+        }
+        lines
+    }
+
+    /// A count per turn of the driver for the mate.
+    fn scaled(&self, count: u32) -> u32 {
+        let per_tooth = f64::from(count) / f64::from(self.driver.scene.gear.teeth);
+        (per_tooth * f64::from(self.mate.teeth)).round() as u32
+    }
+
+    /// The hand of a helix, opposite to the driver's outside and equal inside.
+    fn hand(&self) -> String {
+        let gear = &self.driver.scene.gear;
+        if gear.helix_angle_rad == 0.0 {
+            return String::new();
+        }
+        let opposite = self.mate.kind == GearKind::External;
+        let left = (gear.hand == Hand::Left) != opposite;
+        format!("hand = \"{}\"\n", if left { "left" } else { "right" })
+    }
+}

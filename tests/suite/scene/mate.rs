@@ -1,0 +1,141 @@
+//! Scenes of mates: they read back, close, and say what their driver says.
+
+use crate::fixtures::command::gearcut;
+use gearcut::gear::{GearKind, PitchCurve, PitchCurveShape};
+use gearcut::process;
+use gearcut::process::shaping::scene::model::Shaping;
+use gearcut::scene::{LoadedScene, Mate, Scene};
+use gearcut::terms::Hand;
+use std::path::Path;
+
+fn driver(name: &str, settings: &[&str]) -> LoadedScene {
+    let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
+    process::load(Path::new(&format!("scenes/{name}.toml")), &settings).expect("a scene")
+}
+
+/// The mate's scene, read back in another folder than the driver's, and the distance of the axes, mm.
+fn mate(driver: &LoadedScene, teeth: u32, kind: GearKind) -> (Scene, f64) {
+    let mate = driver.mate(Mate { teeth, kind }).expect("a mate");
+    let read = process::parse(&mate.text, "mate.toml", Path::new("/"), &[]);
+    (read.unwrap_or_else(|errors| panic!("{errors}\n{}", mate.text)).scene, mate.center_distance_mm)
+}
+
+/// The gap after the last tooth, mm.
+fn gap_mm(scene: &Scene) -> f64 {
+    let module_mm = scene.gear.transverse_module_mm();
+    let curve = PitchCurve::new(&scene.gear.pitch_curve, module_mm, scene.gear.teeth).expect("a curve");
+    curve.closure_error_mm()
+}
+
+/// The mate closes on its teeth as well as its driver does: a driver of a written size leaves a gap, and its mate the
+/// same for every turn of the driver.
+fn closes(mate: &Scene, driver: &Scene) {
+    let turns = f64::from(mate.gear.teeth) / f64::from(driver.gear.teeth);
+    assert!((gap_mm(mate) - turns * gap_mm(driver)).abs() < 1e-9, "{} after {}", gap_mm(mate), gap_mm(driver));
+}
+
+#[test]
+fn round_gears_mate_at_half_the_sum_or_difference_of_their_diameters() {
+    let driver = driver("shaping/circular_m3_z24", &[]);
+    for (teeth, kind, sign) in [(31, GearKind::External, 1.0), (90, GearKind::Internal, -1.0)] {
+        let (scene, distance_mm) = mate(&driver, teeth, kind);
+        assert!((distance_mm - 1.5 * (f64::from(teeth) + sign * 24.0)).abs() < 1e-9, "{distance_mm}");
+        assert_eq!((scene.gear.teeth, scene.gear.kind, scene.gear.module_mm), (teeth, kind, 3.0));
+        closes(&scene, &driver.scene);
+    }
+}
+
+/// The distance of the axes is that of the closing constants of the literature's pair: a = 67.364980175 mm.
+#[test]
+fn the_pair_of_the_literature_is_the_shipped_ring() {
+    let pinion = driver("shaping/internal_pair_driver", &[]);
+    let (scene, distance_mm) = mate(&pinion, 102, GearKind::Internal);
+    assert!((distance_mm - 67.364_980_175).abs() < 1e-8, "{distance_mm}");
+    let ring = driver("shaping/internal_pair_ring", &[]).scene;
+    let shape =
+        |scene: &Scene| (scene.gear.kind, scene.gear.module_mm, scene.gear.teeth, scene.gear.pitch_curve.clone());
+    assert_eq!(shape(&scene), shape(&ring));
+    let strokes = |scene: &Scene| -> Vec<_> {
+        Shaping::of(scene)
+            .expect("shaping")
+            .operations
+            .iter()
+            .map(|operation| (operation.name.clone(), operation.feed))
+            .collect()
+    };
+    assert_eq!(strokes(&scene), strokes(&ring));
+    closes(&scene, &pinion.scene);
+}
+
+#[test]
+fn every_driver_of_the_scenes_has_a_mate_that_closes() {
+    let scenes =
+        std::fs::read_dir("scenes/shaping").expect("scenes").chain(std::fs::read_dir("scenes/hobbing").unwrap());
+    let mut mated = 0;
+    for path in scenes.map(|entry| entry.expect("an entry").path()) {
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let driver = process::load(&path, &[]).expect("a scene");
+        let gear = &driver.scene.gear;
+        if gear.kind == GearKind::Internal || matches!(gear.pitch_curve, PitchCurveShape::Mate { .. }) {
+            continue;
+        }
+        let (scene, _) = mate(&driver, gear.teeth, GearKind::External);
+        closes(&scene, &driver.scene);
+        assert_eq!(scene.process.operation_names(), driver.scene.process.operation_names());
+        mated += 1;
+    }
+    assert!(mated >= 10, "{mated}");
+}
+
+#[test]
+fn a_helix_changes_its_hand_outside_and_keeps_it_inside() {
+    let driver = driver("hobbing/circular_helical", &[]);
+    let opposite = if driver.scene.gear.hand == Hand::Left { Hand::Right } else { Hand::Left };
+    let teeth = driver.scene.gear.teeth;
+    let (scene, _) = mate(&driver, teeth, GearKind::External);
+    assert_eq!((scene.gear.hand, scene.gear.helix_angle_rad), (opposite, driver.scene.gear.helix_angle_rad));
+    // No hob reaches into a ring: the scene is written, and its reader refuses it.
+    let ring = driver.mate(Mate { teeth: 3 * teeth, kind: GearKind::Internal }).expect("a mate");
+    assert!(
+        process::parse(&ring.text, "mate.toml", Path::new("/"), &[]).unwrap_err().to_string().contains("a hob cuts")
+    );
+    let hand = if driver.scene.gear.hand == Hand::Left { "left" } else { "right" };
+    assert!(ring.text.contains(&format!("hand = \"{hand}\"")), "{}", ring.text);
+}
+
+#[test]
+fn places_on_the_driver_stay_there() {
+    let driver = driver(
+        "shaping/order_1",
+        &["operation.finish.window_deg=[0.0, 40.0]", "output.folder='out/driver'", "gear.addendum_coefficient=0.9"],
+    );
+    let text = driver.mate(Mate { teeth: 36, kind: GearKind::External }).expect("a mate").text;
+    for left_out in ["window_deg", "folder", "[[picture]]", "[[texture]]"] {
+        assert!(!text.contains(left_out), "{text}");
+    }
+    assert!(text.contains("addendum_coefficient = 0.9") && text.contains("bore_diameter_mm = 16.0"), "{text}");
+}
+
+#[test]
+fn gears_without_a_mate_are_refused_with_a_way_out() {
+    let scene = "scenes/shaping/elliptical_normal.toml";
+    gearcut(&["mate", scene, "--teeth", "40"]).failed(1, &["no external mate with 40 teeth", "way out:"]);
+    gearcut(&["mate", scene, "--teeth", "42", "--internal"]).failed(1, &["no internal mate", "fewer teeth"]);
+    gearcut(&["mate", "scenes/shaping/internal_circle.toml", "--teeth", "200"]).failed(1, &["internal", "way out:"]);
+    gearcut(&["mate", "scenes/shaping/internal_pair_ring.toml", "--teeth", "34"]).failed(1, &["way out:"]);
+    gearcut(&["mate", scene]).failed(2, &["--teeth"]);
+}
+
+#[test]
+fn the_command_writes_a_scene_that_can_be_checked_and_replaces_none() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("ring.toml");
+    let path = path.to_str().expect("a path");
+    let driver = "scenes/shaping/internal_pair_driver.toml";
+    let arguments = ["mate", driver, "--teeth", "102", "--internal", "--out", path];
+    gearcut(&arguments).done().says(&["distance of the axes 67.364980 mm", "gearcut check"]);
+    gearcut(&["check", path]).done().says(&["102"]);
+    gearcut(&arguments).failed(1, &["the file exists"]);
+}
