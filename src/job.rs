@@ -141,7 +141,8 @@ pub struct ToothFrame {
     pub place_mm: DVec3,
     /// Unit direction from root to tip.
     pub front: DVec3,
-    /// Unit direction to its left flank.
+    /// Unit direction to the left of a viewer who stands before its tip and has `along` upwards: that of its left flank on
+    /// an external gear, of its right flank in a ring.
     pub left: DVec3,
     /// Unit direction along the tooth.
     pub along: DVec3,
@@ -156,7 +157,7 @@ impl ToothFrame {
         Self {
             place_mm: frame.point_mm.extend(0.0),
             front: blank.towards_tip(&frame).extend(0.0),
-            left: frame.tangent.extend(0.0),
+            left: (blank.kind().tip_sign() * frame.tangent).extend(0.0),
             along: DVec3::Z,
         }
     }

@@ -38,7 +38,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>> {
     cost::print(sheet, job, &facts)?;
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
     warnings.extend(teeth::warnings(job, &facts));
-    warnings.extend(ring.iter().flat_map(ring::warnings));
+    warnings.extend(ring.iter().filter_map(ring::warning));
     warnings.extend(axes::warnings(&operations));
     warnings.extend(of_returns);
     Ok(warnings)

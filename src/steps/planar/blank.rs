@@ -9,6 +9,7 @@ use crate::gear::blank_outline::BlankOutline;
 use crate::passes::StrokeSet;
 use crate::steps::whole_blank;
 use crate::tool::closed_tooth::ClosedTooth;
+use glam::DVec2;
 
 impl PlanarGear<'_> {
     /// The uncut blank at the scene's spacing; one section stands for all where all axes rest during the strokes.
@@ -34,7 +35,7 @@ impl PlanarGear<'_> {
         let axes_mm = (0..strokes.count()).flat_map(|stroke| strokes.poses(stroke)).map(|pose| pose.point(mount_mm));
         let smallest = |distances_mm: &mut dyn Iterator<Item = f64>| distances_mm.fold(f64::INFINITY, f64::min);
         let nearest_mm = match self.blank.kind() {
-            GearKind::External => smallest(&mut axes_mm.map(|axis_mm| axis_mm.length())) - blank_reach_mm,
+            GearKind::External => smallest(&mut axes_mm.map(DVec2::length)) - blank_reach_mm,
             GearKind::Internal => {
                 let outline = BlankOutline::new(self.blank);
                 smallest(&mut axes_mm.map(|axis_mm| outline.clearance_mm(axis_mm)))

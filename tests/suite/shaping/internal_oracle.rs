@@ -6,7 +6,7 @@ use crate::fixtures::rings::*;
 use gearcut::cut::cpu::Cpu;
 use gearcut::gear::{GearKind, PitchCurve, PitchCurveShape};
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::check::ring::RingFacts;
+use gearcut::process::shaping::check::ring::{RingFacts, TipCorners};
 use gearcut::process::shaping::generation::Generation;
 use gearcut::process::shaping::linkage::ShapingLinkage;
 use gearcut::process::shaping::linkage::relief::relief_ratio;
@@ -358,7 +358,7 @@ fn the_facts_of_the_ring_are_the_oracles() {
     let limit = number(&case["undercut_as_printed"]["module_limit_exact_driven"]);
     close("module limit", facts.printed_module_mm, limit, 1e-8);
     assert_eq!(facts.rolling_teeth, 72, "rho_min is 72.306 mm");
-    assert_eq!(facts.interference, Some(None), "the oracle finds no gouge");
+    assert_eq!(facts.tip_corners, TipCorners::Clear, "the oracle finds no gouge");
     let facts = RingFacts::new(&ShapingJob::new(paper_ring(1020)).expect("the paper's ring"));
     let local = &case["generated_addendum_limit"];
     let short = facts.shortest_involute.expect("13 teeth are few");
@@ -386,10 +386,11 @@ fn tips_beside_the_space_are_told_before_cutting() {
         let target = job.target_outline(0.02).expect("known");
         let report = blank_report::measure(&job.planar(), &cut, Some(&target));
         let deepest_mm = report.gouges.iter().map(|gouge| gouge.depth_mm).fold(0.0, f64::max);
-        println!("{teeth} teeth: {:?} told, {deepest_mm:.4} mm found", facts.interference);
-        assert_eq!(facts.interference.expect("known").is_some(), interferes);
+        println!("{teeth} teeth: {:?} told, {deepest_mm:.4} mm found", facts.tip_corners);
+        let told = matches!(facts.tip_corners, TipCorners::Cut { .. });
+        assert_eq!(told, interferes);
         assert_eq!(deepest_mm > 0.0, interferes);
-        if let Some(Some((told_mm, _))) = facts.interference {
+        if let TipCorners::Cut { depth_mm: told_mm, .. } = facts.tip_corners {
             assert!((told_mm / deepest_mm - 1.0).abs() < 0.1, "{told_mm} told, {deepest_mm} found");
         }
     }

@@ -298,9 +298,9 @@ fn programs_draw_the_cutter_back_and_are_read_back() {
         let (gear, tip_mm) = (GearKind::External, job.cutter.tip_radius_mm);
         let cut = program.cut_error_mm(&operation.schedule, tip_mm, &ram, continuous);
         assert!(cut.0 < 0.001, "{cut:?}");
-        for stroke in (0..480).step_by(7) {
-            let moment = stroke as f64 + ram.return_middle;
-            let at = if continuous { moment } else { stroke as f64 };
+        for stroke in (0_u32..480).step_by(7) {
+            let moment = f64::from(stroke) + ram.return_middle;
+            let at = if continuous { moment } else { f64::from(stroke) };
             let state = operation.schedule.state(at);
             let expected = operation.retraction.retracted(&operation.linkage, &state.pose, state.phi_rad);
             let found = program.at(moment).pose(gear);

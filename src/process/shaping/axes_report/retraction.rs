@@ -89,10 +89,11 @@ pub(super) fn print(axes: &OperationAxes, motion: &RetractionMotion, sheet: &mut
     let mut words = plan.asked().words().to_owned();
     if let Some([low, high]) = plan.tilts_rad() {
         let [low, high] = [low, high].map(f64::to_degrees);
-        words += &format!(" by {:.1} deg; {low:.1} to {high:.1} deg clear", 0.5 * (low + high));
+        words = format!("{words} by {:.1} deg; {low:.1} to {high:.1} deg clear", 0.5 * (low + high));
     }
     if motion.turned_strokes > 0 {
-        words += &format!("; turned after {} of {} strokes", motion.turned_strokes, axes.operation().schedule.count());
+        words =
+            format!("{words}; turned after {} of {} strokes", motion.turned_strokes, axes.operation().schedule.count());
     }
     sheet.line("retraction", words);
     let travel = AXES.iter().zip(&motion.axes).map(|(axis, added)| {

@@ -38,6 +38,22 @@ pub struct ToothPlace {
     pub side: Side,
 }
 
+/// What the tip corners of the cutter do on their way past the teeth beside their space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TipCorners {
+    /// Not known, for the target's outline is not.
+    Unknown,
+    /// They come clear.
+    Clear,
+    /// They cut into the teeth.
+    Cut {
+        /// Deepest place, mm.
+        depth_mm: f64,
+        /// Polar angle of the pitch point then, rad.
+        phi_rad: f64,
+    },
+}
+
 /// What is known of cutter and ring before cutting.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RingFacts {
@@ -49,9 +65,8 @@ pub struct RingFacts {
     pub shortest_involute: Option<ToothPlace>,
     /// Largest depth of a tip behind the conjugate flank; `None` where there is none, or its shape is not known.
     pub relief: Option<ToothPlace>,
-    /// Deepest place of a tip corner's path in a tooth, and the polar angle of the pitch point then, rad; `None` where
-    /// the corners come clear. Unknown where the target's outline is.
-    pub interference: Option<Option<(f64, f64)>>,
+    /// Interference of the cutter's tip corners.
+    pub tip_corners: TipCorners,
     /// Both sides of the printed condition of undercut, mm2.
     pub printed_undercut_mm2: [f64; 2],
     /// The module up to which it holds at this radius, mm.
@@ -86,7 +101,7 @@ impl RingFacts {
             rolling_teeth: (2.0 * rho_mm / m).ceil() as u32 - 1,
             shortest_involute: short.reduce(|a, b| if b.mm < a.mm { b } else { a }),
             relief: reliefs.into_iter().reduce(|a, b| if b.mm > a.mm { b } else { a }),
-            interference: interference(job),
+            tip_corners: tip_corners(job),
             printed_undercut_mm2: [m * m * h * (z0 + h), rho_mm * (rho_mm + m * z0) * sine_2],
             // The quadratic h (z0 + h) m^2 - rho z0 sin^2 m - rho^2 sin^2 = 0.
             printed_module_mm: {
@@ -97,9 +112,9 @@ impl RingFacts {
     }
 }
 
-/// Deepest place of the tip corners' paths in the target; `None` where its outline is not known.
-fn interference(job: &ShapingJob) -> Option<Option<(f64, f64)>> {
-    let target = job.target_outline(TARGET_SPACING_MM).ok()?;
+/// Follows the tip corners through the target.
+fn tip_corners(job: &ShapingJob) -> TipCorners {
+    let Ok(target) = job.target_outline(TARGET_SPACING_MM) else { return TipCorners::Unknown };
     let rounds: Vec<(DVec2, f64)> = job
         .cutter
         .corner
@@ -133,7 +148,10 @@ fn interference(job: &ShapingJob) -> Option<Option<(f64, f64)>> {
     };
     let spaces: Vec<(f64, f64)> = (0..job.scene.gear.teeth).into_par_iter().map(of_space).collect();
     let deepest = spaces.into_iter().fold((0.0, 0.0), |a: (f64, f64), b| if b.0 > a.0 { b } else { a });
-    Some((deepest.0 >= LEAST_DEPTH_MM).then_some(deepest))
+    match deepest {
+        (depth_mm, phi_rad) if depth_mm >= LEAST_DEPTH_MM => TipCorners::Cut { depth_mm, phi_rad },
+        _ => TipCorners::Clear,
+    }
 }
 
 /// Lines for the terminal.
@@ -163,10 +181,10 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &RingFacts) {
         )
     });
     sheet.line("involute of the cutter", reach);
-    let clear = match facts.interference {
-        None => "not known, for the target's outline is not".to_owned(),
-        Some(None) => "come clear of the teeth beside their space".to_owned(),
-        Some(Some((depth_mm, phi_rad))) => {
+    let clear = match facts.tip_corners {
+        TipCorners::Unknown => "not known, for the target's outline is not".to_owned(),
+        TipCorners::Clear => "come clear of the teeth beside their space".to_owned(),
+        TipCorners::Cut { depth_mm, phi_rad } => {
             format!("cut {depth_mm:.3} mm into the teeth near polar angle {:.2} deg", phi_rad.to_degrees())
         }
     };
@@ -183,14 +201,12 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &RingFacts) {
 }
 
 /// What must be known before cutting.
-pub fn warnings(facts: &RingFacts) -> Vec<String> {
-    let text = |(depth_mm, phi_rad): (f64, f64)| {
-        format!(
-            "the tip corners of the cutter cut {depth_mm:.3} mm into teeth beside their space near polar angle {:.2} deg: \
-            use a cutter with fewer teeth or a smaller tool.shaper_cutter.addendum_coefficient, or cut the tips of the \
-            ring lower (gear.addendum_coefficient)",
-            phi_rad.to_degrees()
-        )
-    };
-    facts.interference.flatten().map(text).into_iter().collect()
+pub fn warning(facts: &RingFacts) -> Option<String> {
+    let TipCorners::Cut { depth_mm, phi_rad } = facts.tip_corners else { return None };
+    Some(format!(
+        "the tip corners of the cutter cut {depth_mm:.3} mm into teeth beside their space near polar angle {:.2} deg: use a \
+        cutter with fewer teeth or a smaller tool.shaper_cutter.addendum_coefficient, or cut the tips of the ring lower \
+        (gear.addendum_coefficient)",
+        phi_rad.to_degrees()
+    ))
 }

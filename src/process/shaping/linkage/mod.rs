@@ -2,7 +2,7 @@
 //!
 //! In: the pitch curve, the cutter's pitch radius, the operation. Out: [`ShapingLinkage`] (axes and poses at any polar
 //! angle), [`StrokeSchedule`] (axes and pose at any stroke), [`dynamics`] (speeds and accelerations), [`relief`]
-//! (clearance when the cutter backs off).
+//! (clearance when the cutter backs off), [`retraction`] (where it stands then).
 //!
 //! **Frames.** The gear frame has its origin in the work axis O_c, fixed to the work, phi counter-clockwise. The cutter
 //! centre O_b stands in it at the distance l under the polar angle psi_c, and the cutter's tooth 0 points in the

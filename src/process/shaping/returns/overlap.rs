@@ -14,11 +14,13 @@ use glam::DVec2;
 const LINE_SPACING_MODULES: f64 = 0.005;
 /// Least step along them, mm.
 const LEAST_STEP_MM: f64 = 2e-5;
+/// Depth at which the search for the deepest pose ends, mm: outside the material steps need not be longer.
+const LONGEST_STEP_MM: f64 = 0.1;
 
 impl ReturnRoom {
-    /// Area that the retracted cutter has in common with what the operation leaves, mm2;
-    /// `retracted` is the pose (gear from cutter) after the stroke at a place; `beyond_mm` says how far a point lies
-    /// outside the uncut blank, negative inside.
+    /// Area that the retracted cutter has in common with what the operation leaves, mm2; `retracted` is its pose (gear
+    /// from cutter) after the stroke at a place, `beyond_mm` says how far a point lies outside the uncut blank, negative
+    /// inside.
     pub fn overlap_mm2(&self, place: usize, retracted: &Rigid2, beyond_mm: impl Fn(DVec2) -> f64) -> f64 {
         let edge = &self.polygon.corners_mm[..=self.polygon.edge_chords()];
         let spacing_mm = LINE_SPACING_MODULES * self.module_mm;
@@ -35,8 +37,12 @@ impl ReturnRoom {
                     if beyond_mm > 0.0 {
                         return beyond_mm;
                     }
-                    self.swept.covered_mm(place, &tool_from_blade, p, [f64::INFINITY; 2])[0].max(beyond_mm)
+                    self.swept.covered_mm(place, &tool_from_blade, p, [LONGEST_STEP_MM; 2])[0].max(beyond_mm)
                 };
+                // An overlap comes in through the edge.
+                if !edge.iter().any(|corner_mm| outside_mm(corner_mm.x, corner_mm.y) < 0.0) {
+                    return 0.0;
+                }
                 let length_mm = |line: usize| {
                     let x_mm = high_mm - (line as f64 + 0.5) * spacing_mm;
                     let half_mm = half_width_mm(edge, x_mm);

@@ -88,7 +88,7 @@ impl<'a> Survey<'a> {
                 let returning = Rigid2::new(back.angle_rad, back.center_mm);
                 let clearance = self.room.at(place, &returning, |p| self.beyond_mm(p, phi_rad));
                 let from_normal_rad = self.out_of_work(phi_rad).angle_to(self.sign() * pose.center_mm);
-                Ok(PlacedRoom { place, phi_rad, from_normal_rad, returning, clearance })
+                Ok(PlacedRoom { place, returning, phi_rad, from_normal_rad, clearance })
             })
             .collect()
     }

@@ -77,7 +77,7 @@ impl Swept {
 
     /// Pose of the operation's stroke at a place, gear from cutter.
     pub fn pose(&self, place: usize) -> &Rigid2 {
-        &self.ways[0].poses[self.index(place)]
+        &self.ways[0].poses[index(place)]
     }
 
     /// Places of the cutter's teeth on the cutter.
@@ -86,14 +86,10 @@ impl Swept {
         (0..self.cutter_teeth).map(move |blade| Rigid2::new(TURN_RAD * f64::from(blade) / teeth, DVec2::ZERO))
     }
 
-    fn index(&self, place: usize) -> usize {
-        place + REACH_PITCHES * POSES_PER_PITCH
-    }
-
     /// How deep a point stands in the pose that covers it deepest: over all poses, and over those up to the stroke. A
     /// depth that is `enough` ends the search.
     pub fn covered_mm(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2, enough: [f64; 2]) -> [f64; 2] {
-        let here = self.index(place);
+        let here = index(place);
         let mut past_mm = self.deepest_mm(&self.ways[0], Span::Past(here), tool_from_blade, p, enough[1]);
         past_mm = past_mm.max(self.earlier_mm(here, tool_from_blade, p, enough[1], past_mm));
         if past_mm >= enough[0] {
@@ -106,7 +102,7 @@ impl Swept {
     /// Whether a point of the edge at its stroke touches surface that this stroke has made: no earlier pose has covered
     /// it.
     pub fn is_contact(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2) -> bool {
-        let here = self.index(place);
+        let here = index(place);
         let past_mm = self.deepest_mm(&self.ways[0], Span::Past(here - 1), tool_from_blade, p, CONTACT_MM);
         past_mm.max(self.earlier_mm(here, tool_from_blade, p, CONTACT_MM, past_mm)) <= CONTACT_MM
     }
@@ -163,6 +159,11 @@ impl Swept {
         }
         depth(&between(around, 0.5 * (after_mm - before_mm) / bend_mm)).max(deepest_mm)
     }
+}
+
+/// Index of the pose of a place.
+fn index(place: usize) -> usize {
+    place + REACH_PITCHES * POSES_PER_PITCH
 }
 
 /// Poses to look at, round the index of a stroke.
