@@ -189,10 +189,10 @@ mod slow {
         let cases = [
             [
                 "gear.module_mm=50",
-                "gear.teeth=32",
+                "gear.teeth=30",
                 "gear.face_width_mm=40",
-                "tool.hob.starts=8",
-                "tool.hob.reference_diameter_mm=1300",
+                "tool.hob.starts=6",
+                "tool.hob.reference_diameter_mm=1000",
                 "tool.hob.length_mm=700",
                 "tool.hob.tip_radius_mm=8",
                 "operation.finish.axial_feed_mm_per_revolution=20",
@@ -209,7 +209,9 @@ mod slow {
             ],
         ];
         for sets in cases {
-            let scene = load(Path::new("scenes/hobbing/circular_spur.toml"), &sets.map(str::to_owned));
+            let coarse = ["fields.flank.profile_spacing_um=200", "fields.flank.lead_spacing_um=200"];
+            let sets: Vec<String> = sets.into_iter().chain(coarse).map(str::to_owned).collect();
+            let scene = load(Path::new("scenes/hobbing/circular_spur.toml"), &sets);
             let scene = scene.unwrap_or_else(|problem| panic!("{problem}")).scene;
             let job = HobbingJob::new(&scene).expect("the gear");
             let cutter = HobCutter::new(&job).expect("passes");

@@ -287,6 +287,7 @@ fn files_pictures_page_and_texture_ask_for_no_pitch_curve() {
     }
     assert_eq!(texture::findings(&job, &textures).sections[0].sections.len(), textures.len());
 
+    folder.write_json("run.json", &serde_json::json!({"program": "gearcut"})).expect("the record");
     let written = folder.finish().expect("finished");
     for file in [
         "maps/mill/tooth_01_left.png",
