@@ -66,8 +66,8 @@ impl ConicalJob {
             exr: false,
         };
         scene.pictures = vec![picture("tooth", PictureView::Tooth), picture("flank", PictureView::Flank)];
-        let mut head = FaceMill::default();
-        head.runout_mm = [0.0, 0.0, RUNOUT_MM[0], RUNOUT_MM[1], 0.0, 0.0, 0.0, 0.0];
+        let runout_mm = [0.0, 0.0, RUNOUT_MM[0], RUNOUT_MM[1], 0.0, 0.0, 0.0, 0.0];
+        let head = FaceMill { runout_mm, ..FaceMill::default() };
         let rotation = DMat3::from_rotation_x(0.4) * DMat3::from_rotation_y(1.1);
         let gear_from_head = Rigid3 { rotation, translation_mm: DVec3::new(-30.0, 12.0, 40.0) };
         let passes = head.passes_over([-1.0, 8.0], |_| gear_from_head.inverse());

@@ -44,9 +44,8 @@ fn above_the_corner() -> Vec<f64> {
 
 #[test]
 fn a_head_at_rest_leaves_cones_of_revolution() {
-    let mut head = FaceMill::default();
     // An outside blade stands out, and an inside one inwards: each leaves all of its side.
-    head.runout_mm = [0.004, 0.0, 0.01, -0.02, 0.0, -0.007, -0.03, 0.05];
+    let head = FaceMill { runout_mm: [0.004, 0.0, 0.01, -0.02, 0.0, -0.007, -0.03, 0.05], ..FaceMill::default() };
     let passes = head.passes(0.0, [-1.0, 14.0]);
     assert_eq!(passes.count(), 2 * BLADES);
     for (side, blade) in [(1.0, 2), (-1.0, 3)] {
@@ -197,9 +196,8 @@ fn a_plunging_head_leaves_what_the_last_blade_of_each_kind_leaves() {
     for side in SIDES {
         let field = cone(side, &above_the_corner(), &angles);
         let layer = cut_as_by_all(&field, &passes);
-        let all = (0..passes.count()).map(|index| passes.pass(index));
-        let own = all.filter(|pass| passes.place(pass).blade.is_multiple_of(2) == (side > 0.0));
-        let last = own.last().expect("blades of this kind");
+        let own = |pass: &BladePass| passes.place(pass).blade.is_multiple_of(2) == (side > 0.0);
+        let last = (0..passes.count()).rev().map(|index| passes.pass(index)).find(own).expect("blades of this kind");
         for (dexel, height_mm) in layer.heights_mm.iter().enumerate() {
             let moved_mm = FEED_MM_PER_RAD * (last.tool_angle_rad + angles[dexel % angles.len()]);
             let off_mm = f64::from(*height_mm) + moved_mm * BLADE_ANGLE_RAD.sin();

@@ -53,12 +53,12 @@ fn two_edges_leave_the_lower_of_what_each_leaves_alone() {
     for field in fields(&job) {
         let (both, left_by) = cut_by(&job, &second, Blades::All, &field);
         let alone = [0, 1].map(|edge| cut_by(&job, &second, Blades::Alone(edge), &field));
-        for dexel in 0..field.len() {
+        for (dexel, left_by) in left_by.into_iter().enumerate() {
             let heights = [0, 1].map(|edge| alone[edge].0.heights_mm[dexel]);
             assert_eq!(both.heights_mm[dexel].to_bits(), heights[0].min(heights[1]).to_bits(), "dexel {dexel}");
             if heights[0] != heights[1] {
                 let edge = usize::from(heights[1] < heights[0]);
-                assert_eq!(left_by[dexel], alone[edge].1[dexel], "dexel {dexel}");
+                assert_eq!(left_by, alone[edge].1[dexel], "dexel {dexel}");
                 left[edge] += 1;
             }
         }

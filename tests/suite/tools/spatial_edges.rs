@@ -84,12 +84,12 @@ fn two_edges_leave_the_lower_of_what_each_leaves_alone() {
         });
         for (field, (left_by, both)) in both.iter().enumerate() {
             let alone = [&first[field], &second[field]];
-            for dexel in 0..both.heights_mm.len() {
+            for (dexel, left_by) in left_by.iter().enumerate() {
                 let heights = alone.map(|(_, layer)| layer.heights_mm[dexel]);
                 assert_eq!(both.heights_mm[dexel].to_bits(), heights[0].min(heights[1]).to_bits(), "{name}, {dexel}");
                 if heights[0] != heights[1] {
                     let edge = usize::from(heights[1] < heights[0]);
-                    assert_eq!(left_by[dexel], alone[edge].0[dexel], "{name}, {dexel}");
+                    assert_eq!(*left_by, alone[edge].0[dexel], "{name}, {dexel}");
                     left[edge] += 1;
                 }
             }

@@ -63,6 +63,7 @@ pub struct SweptSections {
 }
 
 /// An edge in its rake face as a chain of pieces.
+#[expect(clippy::struct_field_names, reason = "all of it is lengths, and says so")]
 pub(super) struct EdgeOutline {
     /// Ends of the pieces: distance from the axis and y.
     nodes_mm: Vec<DVec2>,
