@@ -110,7 +110,7 @@ impl Place {
 
     /// The same, its units in the signs of a page.
     pub fn words_with_signs(&self) -> String {
-        self.words_by(|number, unit| unit::with_signs(number, unit))
+        self.words_by(unit::with_signs)
     }
 
     fn words_by(&self, with_unit: impl Fn(&str, &str) -> String) -> String {

@@ -113,10 +113,13 @@ fn wrapped(angle_rad: f64) -> f64 {
 fn tight(reach_mm: f64, sides: impl Fn(f64) -> Result<[f64; 2], Refusal>) -> Result<TightMesh, Refusal> {
     let mut failed = None;
     let mut play = |error_mm: f64| {
-        sides(error_mm).map(|[right, left]| left - right).unwrap_or_else(|refusal| {
-            failed = Some(refusal);
-            f64::NAN
-        })
+        sides(error_mm).map_or_else(
+            |refusal| {
+                failed = Some(refusal);
+                f64::NAN
+            },
+            |[right, left]| left - right,
+        )
     };
     let rising = if play(-reach_mm) <= 0.0 { 1.0 } else { -1.0 };
     let found = regula_falsi(play, -rising * reach_mm, rising * reach_mm, LAST_PLAY_RAD);

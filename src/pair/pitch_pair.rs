@@ -139,10 +139,13 @@ impl PitchPair {
         let mut failed = None;
         let found = newton("the centre distance at which the mate closes", start_mm, last, CLOSING_STEPS, |a| {
             let slope = TAU * radii.iter().map(|r| r / (a - s * r).powi(2)).sum::<f64>() / samples as f64;
-            let missing = driven_angle_at(a).map(|angle| angle.closed() - wanted).unwrap_or_else(|refusal| {
-                failed = Some(refusal);
-                f64::NAN
-            });
+            let missing = driven_angle_at(a).map_or_else(
+                |refusal| {
+                    failed = Some(refusal);
+                    f64::NAN
+                },
+                |angle| angle.closed() - wanted,
+            );
             [missing, missing / slope]
         });
         if let Some(refusal) = failed {

@@ -64,6 +64,9 @@ pub trait AxesOfOperation {
     fn charts(&self) -> &[NamedChart<LineChart>];
 
     /// Charts of what can be told before anything is cut.
+    ///
+    /// # Errors
+    /// A search that finds nothing.
     fn forecasts(&self) -> Result<Vec<NamedChart<BarChart>>> {
         Ok(Vec::new())
     }

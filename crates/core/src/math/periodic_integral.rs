@@ -303,7 +303,7 @@ mod tests {
         let refused = |f: &dyn Fn(f64) -> f64| PeriodicIntegral::new(f, &[], 8, 1e-10).unwrap_err();
         match refused(&f64::cos) {
             NotIntegrable::NotPositive { at_rad, value } => {
-                assert!(value < 0.0 && (value - at_rad.cos()).abs() < 1e-15)
+                assert!(value < 0.0 && (value - at_rad.cos()).abs() < 1e-15);
             }
             other => panic!("{other}"),
         }
@@ -315,7 +315,7 @@ mod tests {
         let rough = |phi: f64| 1.0 + (phi - 1.0).abs().sqrt();
         match PeriodicIntegral::new(rough, &[], 8, 1e-13).unwrap_err() {
             NotIntegrable::TooRough { wanted, reached } => {
-                assert!(wanted == 1e-13 && reached > wanted && reached < 1e-3)
+                assert!(wanted == 1e-13 && reached > wanted && reached < 1e-3);
             }
             other => panic!("{other}"),
         }
