@@ -166,7 +166,7 @@ mod slow {
         let plan = SweepPlan::brute_force(&few, &passes);
         let longest = plan.tiles.iter().map(|tile| tile.records.len()).max().expect("tiles");
         println!("{longest} records in a tile");
-        assert!(longest > 10 * 1024, "these lists fit one launch or two");
+        assert!(longest > 8 * 1024, "these lists fit a few rounds");
         let gpu = software_gpu(strict());
         let (parity, _, _, whole) = cut_both_in_space(&gpu, "all passes", &few, &plan);
         println!("{parity}");

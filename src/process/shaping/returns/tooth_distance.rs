@@ -87,8 +87,19 @@ mod tests {
             let cutter = paper_cutter(tip);
             let distance = ToothDistance::new(&cutter);
             let stations = EdgePolygon::new(cutter.edge(), 0.05).stations;
+            // A chamfer's own ends are no corners of the stations. Within 0.04 mm of one, another side is
+            // nearer to a point that was moved inwards: 0.1 mm tan(23 deg), half the turn of the normal there.
+            let ends = cutter.corner.iter().flat_map(|part| match *part {
+                CornerPart::Chamfer { flank_end_mm, tip_end_mm } => vec![flank_end_mm, tip_end_mm],
+                CornerPart::Round { .. } => Vec::new(),
+            });
+            let ends: Vec<DVec2> = ends.collect();
+            let beside_an_end = |p: DVec2| ends.iter().any(|end| end.distance(DVec2::new(p.x, p.y.abs())) < 0.1);
             let mut looked_at = 0;
             for station in stations.iter().filter(|s| s.to_corner_mm > 0.35 && s.point_mm.length() > 27.0) {
+                if beside_an_end(station.point_mm) {
+                    continue;
+                }
                 for moved_mm in [-0.1, -0.01, 0.0, 0.01, 0.2] {
                     let found = distance.at_mm(station.point_mm + moved_mm * station.normal);
                     assert!((found - moved_mm).abs() < 1e-6, "{tip:?} {station:?} {moved_mm}: {found}");
