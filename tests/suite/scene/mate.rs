@@ -133,9 +133,10 @@ fn the_command_writes_a_scene_that_can_be_checked_and_replaces_none() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("ring.toml");
     let path = path.to_str().expect("a path");
-    let driver = "scenes/shaping/internal_pair_driver.toml";
-    let arguments = ["mate", driver, "--teeth", "102", "--internal", "--out", path];
-    gearcut(&arguments).done().says(&["distance of the axes 67.364980 mm", "gearcut check"]);
-    gearcut(&["check", path]).done().says(&["102"]);
+    let driver = "scenes/shaping/circular_m3_z24.toml";
+    let arguments = ["mate", driver, "--teeth", "90", "--internal", "--out", path];
+    gearcut(&arguments).done().says(&["distance of the axes 99.000000 mm", "gearcut check"]);
+    let text = std::fs::read_to_string(path).expect("written");
+    process::prepare(&process::parse(&text, path, Path::new("/"), &[]).expect("a scene").scene).expect("it can be cut");
     gearcut(&arguments).failed(1, &["the file exists"]);
 }

@@ -21,9 +21,34 @@ pub struct ToothDistance {
     /// Where the involute begins, and its normal there.
     start_mm: DVec2,
     start_normal: DVec2,
-    corner: Vec<CornerPart>,
+    corner: Vec<Corner>,
     /// Radius of the tip circle, mm.
     pub tip_radius_mm: f64,
+}
+
+/// A part of the corner between flank and tip.
+#[derive(Debug, Clone, Copy)]
+enum Corner {
+    /// Round, with its normals at the tip and at the flank.
+    Round { center_mm: DVec2, radius_mm: f64, at_tip: DVec2, at_flank: DVec2 },
+    /// Straight, with its end at the tip and its normal.
+    Chamfer { tip_end_mm: DVec2, out: DVec2 },
+}
+
+impl Corner {
+    fn new(part: &CornerPart) -> Self {
+        match *part {
+            CornerPart::Round { center_mm, radius_mm, normals_rad: [tip_rad, flank_rad] } => Self::Round {
+                center_mm,
+                radius_mm,
+                at_tip: DVec2::from_angle(tip_rad),
+                at_flank: DVec2::from_angle(flank_rad),
+            },
+            CornerPart::Chamfer { flank_end_mm, tip_end_mm } => {
+                Self::Chamfer { tip_end_mm, out: -(flank_end_mm - tip_end_mm).normalize_or_zero().perp() }
+            }
+        }
+    }
 }
 
 impl ToothDistance {
@@ -35,7 +60,7 @@ impl ToothDistance {
             flank,
             start_mm: flank.point(start_roll),
             start_normal: flank.normal(start_roll),
-            corner: cutter.corner.clone(),
+            corner: cutter.corner.iter().map(Corner::new).collect(),
             tip_radius_mm: cutter.tip_radius_mm,
         }
     }
@@ -46,18 +71,13 @@ impl ToothDistance {
         let mut distance_mm = self.side_mm(p).max(p.length() - self.tip_radius_mm);
         for part in &self.corner {
             match *part {
-                CornerPart::Round { center_mm, radius_mm, normals_rad: [tip_rad, flank_rad] } => {
+                Corner::Round { center_mm, radius_mm, at_tip, at_flank } => {
                     let away = p - center_mm;
-                    let beside = DVec2::from_angle(tip_rad).perp_dot(away) > 0.0
-                        && DVec2::from_angle(flank_rad).perp_dot(away) < 0.0;
-                    if beside {
+                    if at_tip.perp_dot(away) > 0.0 && at_flank.perp_dot(away) < 0.0 {
                         return away.length() - radius_mm;
                     }
                 }
-                CornerPart::Chamfer { flank_end_mm, tip_end_mm } => {
-                    let out = -(flank_end_mm - tip_end_mm).normalize_or_zero().perp();
-                    distance_mm = distance_mm.max(out.dot(p - tip_end_mm));
-                }
+                Corner::Chamfer { tip_end_mm, out } => distance_mm = distance_mm.max(out.dot(p - tip_end_mm)),
             }
         }
         distance_mm
