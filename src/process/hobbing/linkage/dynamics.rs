@@ -4,7 +4,7 @@
 //! the place on the pitch curve: within a piece of constant feeds they repeat with every cycle along it, and two
 //! pieces with the same feeds move alike wherever they go over the same part of the curve. So each feed is searched
 //! once in every place: a piece is left out where others with its feeds have shown all that it goes over
-//! ([`ShownArcs`]). Rates jump between pieces; the infinite acceleration there is left to the control.
+//! (`ShownArcs`). Rates jump between pieces; the infinite acceleration there is left to the control.
 
 use super::{HobbingAxes, HobbingLinkage};
 use crate::machine::{Axis, AxisKind, AxisMotion, Limits, Motion, MotionPiece};
