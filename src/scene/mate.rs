@@ -14,7 +14,7 @@ use std::fmt::Write as _;
 use super::keys::{Role, join};
 use super::table::{KeyTable, TableSection};
 use super::values::Checked;
-use super::write::value_text;
+use super::write::{value_text, walk_sections};
 use super::{LoadedScene, SceneProcess};
 use crate::error::Refusal;
 use crate::gear::{Driver, GearKind, PitchCurve, PitchCurveShape};
@@ -88,22 +88,7 @@ impl Writer<'_> {
         );
         let sections =
             own.sections().iter().filter(|section| !PLACES.iter().any(|list| section.path.starts_with(list)));
-        let mut sections = sections.peekable();
-        while let Some(section) = sections.next() {
-            let Some((list, _)) = section.path.split_once("[]") else {
-                self.section(&mut out, process, section, section.path);
-                continue;
-            };
-            let mut inside = vec![section];
-            while let Some(next) = sections.next_if(|next| next.path.split_once("[]").is_some_and(|(l, _)| l == list)) {
-                inside.push(next);
-            }
-            for index in 0..self.driver.values.count(list) {
-                for section in &inside {
-                    self.section(&mut out, process, section, &section.path.replacen("[]", &format!(".{index}"), 1));
-                }
-            }
-        }
+        walk_sections(sections, &self.driver.values, |section, path| self.section(&mut out, process, section, path));
         out
     }
 

@@ -21,25 +21,35 @@ pub(super) fn resolved(name: &str, own: &KeyTable, values: &Values) -> String {
     }
     let on_demand = |path: &str| own.processes().iter().any(|process| process.on_demand.contains(&path));
     let stands = |section: &&TableSection| !on_demand(section.path) || values.has_section(section.path);
-    let mut sections = own.sections().iter().filter(stands).peekable();
+    walk_sections(own.sections().iter().filter(stands), values, |section, path| {
+        write_section(&mut out, section, path, values);
+    });
+    out
+}
+
+/// Visits sections with their paths among the values, in the order of a file: a list's own sections, which follow each
+/// other, element by element.
+pub(super) fn walk_sections<'a>(
+    sections: impl Iterator<Item = &'a TableSection>,
+    values: &Values,
+    mut visit: impl FnMut(&'a TableSection, &str),
+) {
+    let mut sections = sections.peekable();
     while let Some(section) = sections.next() {
         let Some((list, _)) = section.path.split_once("[]") else {
-            write_section(&mut out, section, section.path, values);
+            visit(section, section.path);
             continue;
         };
-        // The list's own sections follow each other; they are written element by element.
         let mut inside = vec![section];
         while let Some(next) = sections.next_if(|next| next.path.split_once("[]").is_some_and(|(l, _)| l == list)) {
             inside.push(next);
         }
         for index in 0..values.count(list) {
             for section in &inside {
-                let path = section.path.replacen("[]", &format!(".{index}"), 1);
-                write_section(&mut out, section, &path, values);
+                visit(section, &section.path.replacen("[]", &format!(".{index}"), 1));
             }
         }
     }
-    out
 }
 
 /// One section, unless another variant of its choice holds.
