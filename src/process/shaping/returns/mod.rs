@@ -11,5 +11,6 @@ pub mod plan;
 pub mod survey;
 pub mod swept;
 pub mod tooth_distance;
+mod way;
 
 pub use plan::RetractionPlan;
