@@ -4,12 +4,12 @@
 
 use super::flank_report::FlankReport;
 use super::unevenness::{CrossedSurface, ToothAllowance, allowances, crossings, rack_allowance_mm};
-use crate::error::Result;
-use crate::gear::PitchCurveShape;
 use crate::measure::inspection::GearInspection;
 use crate::measure::stock::{Stock, stock};
 use crate::process::shaping::ShapingJob;
 use crate::steps::planar::CutField;
+use gearcut_core::error::Result;
+use gearcut_core::gear::PitchCurveShape;
 
 /// Allowances of one operation over the finished gear.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,10 +9,10 @@
 //! 0.4 um towards the tip.
 
 use super::tooth_distance::ToothDistance;
-use crate::frame::Rigid2;
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::linkage::CutterPose;
-use crate::units::TURN_RAD;
+use gearcut_core::frame::Rigid2;
+use gearcut_core::units::TURN_RAD;
 use glam::DVec2;
 
 /// Poses of the cutter while it rolls over one pitch.
