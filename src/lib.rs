@@ -116,6 +116,8 @@ pub use library::{Flank, Job};
 pub use process::{load, parse};
 pub use scene::{LoadedScene, Scene};
 
-pub use gearcut_core::{Error, Refusal, Result, cut, dexel, error, frame, gear, math, passes, terms, tool, units};
+pub use gearcut_core::{
+    Error, Refusal, Result, bevel, cut, dexel, error, frame, gear, math, passes, terms, tool, units,
+};
 #[cfg(feature = "gpu")]
 pub use gearcut_gpu as gpu;
