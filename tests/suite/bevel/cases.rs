@@ -1,4 +1,4 @@
-//! Bevel cases of the independent implementation: ../../tests/data/bevel/b*.json, whose tolerances stand in the files.
+//! Bevel cases of the independent implementation: tests/data/bevel/b*.json, whose tolerances stand in the files.
 
 use gearcut::bevel::blank::BevelBlank;
 use gearcut::bevel::cradle::{CradleSettings, Roll};
@@ -6,7 +6,7 @@ use gearcut::bevel::face_mill::{BladeKind, CuttingSurface};
 use serde_json::Value;
 
 pub fn data(name: &str) -> Value {
-    let path = format!("../../tests/data/bevel/{name}.json");
+    let path = format!("tests/data/bevel/{name}.json");
     serde_json::from_slice(&std::fs::read(&path).unwrap_or_else(|e| panic!("{path}: {e}"))).expect("JSON")
 }
 
