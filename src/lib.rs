@@ -141,7 +141,7 @@ pub use gearcut_core::{Error, Refusal, Result};
 
 // For the program's own tests and benchmarks.
 #[doc(hidden)]
-pub use gearcut_core::{cut, dexel, error, frame, gear, math, passes, terms, tool, units};
+pub use gearcut_core::{bevel, cut, dexel, error, frame, gear, math, passes, terms, tool, units};
 #[cfg(feature = "gpu")]
 #[doc(hidden)]
 pub use gearcut_gpu as gpu;
