@@ -144,6 +144,20 @@ impl PolarFlank {
         Ok(Self { radii_mm, angles_rad, slopes, tip_is_last })
     }
 
+    /// Number, along the chain that it was made from, of the point with the radius number `index`.
+    pub fn chain_point(&self, index: usize) -> usize {
+        if self.tip_is_last { index } else { self.radii_mm.len() - 1 - index }
+    }
+
+    /// Place along that chain at a radius, held within its ends.
+    pub fn chain_place(&self, radius_mm: f64) -> f64 {
+        let last = self.radii_mm.len() - 1;
+        let i = self.radii_mm.partition_point(|r| *r <= radius_mm).clamp(1, last) - 1;
+        let share = (radius_mm - self.radii_mm[i]) / (self.radii_mm[i + 1] - self.radii_mm[i]);
+        let place = i as f64 + share.clamp(0.0, 1.0);
+        if self.tip_is_last { place } else { last as f64 - place }
+    }
+
     /// Smallest and largest radius, mm.
     pub fn range_mm(&self) -> [f64; 2] {
         [self.radii_mm[0], self.radii_mm[self.radii_mm.len() - 1]]
@@ -195,6 +209,27 @@ impl<F> GearFlanks<F> {
         Ok(Self { right: side(Side::Right)?, left: side(Side::Left)? })
     }
 
+    /// The same, to be written to.
+    pub fn get_mut(&mut self, side: Side, label: i64) -> &mut F {
+        let flanks = match side {
+            Side::Right => &mut self.right,
+            Side::Left => &mut self.left,
+        };
+        let count = flanks.len() as i64;
+        &mut flanks[label.rem_euclid(count) as usize]
+    }
+
+    /// Something of every flank.
+    pub fn each<G>(&self, of: impl Fn(&F) -> G) -> GearFlanks<G> {
+        GearFlanks { right: self.right.iter().map(&of).collect(), left: self.left.iter().map(&of).collect() }
+    }
+
+    /// Puts the flanks of another gear with as many teeth to these, one by one.
+    pub fn combine(&mut self, other: &Self, with: impl Fn(&mut F, &F)) {
+        let both = self.right.iter_mut().zip(&other.right).chain(self.left.iter_mut().zip(&other.left));
+        both.for_each(|(own, other)| with(own, other));
+    }
+
     /// Every flank turned into something else.
     ///
     /// # Errors
@@ -219,6 +254,20 @@ pub fn nominal(
     addendum_mm: [f64; 2],
     extra_mm: impl Fn(Side, i64) -> f64,
 ) -> Result<GearFlanks<FlankChain>, Refusal> {
+    nominal_section(pair, member, addendum_mm, 0.0, extra_mm)
+}
+
+/// The same in a section of a helical pair in which all teeth stand `shift_mm` further along the driver's pitch curve.
+///
+/// # Errors
+/// Tips that the flanks do not reach.
+pub fn nominal_section(
+    pair: &PitchPair,
+    member: Member,
+    addendum_mm: [f64; 2],
+    shift_mm: f64,
+    extra_mm: impl Fn(Side, i64) -> f64,
+) -> Result<GearFlanks<FlankChain>, Refusal> {
     let (own, other, mate) = match member {
         Member::Driver => (addendum_mm[0], addendum_mm[1], Member::Driven),
         Member::Driven => (addendum_mm[1], addendum_mm[0], Member::Driver),
@@ -229,7 +278,7 @@ pub fn nominal(
     };
     let cos = pair.teeth().pressure_angle_rad.cos();
     GearFlanks::build(teeth, |side, label| {
-        let crossing_mm = pair.crossing_mm(side, label);
+        let crossing_mm = pair.crossing_mm(side, label) + shift_mm;
         let extra_mm = extra_mm(side, label);
         let arc = |phi: f64| pair.curve().arc_mm(phi);
         let tip_mm = arc(pair.phi_at_tip(member, side, crossing_mm, own)?);
