@@ -29,7 +29,8 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
         interrupt.check()?;
         let found = findings::findings(&name, scenes, &options, &rolled);
         write::write(scenes, &options, &rolled, &found, folder)?;
-        let record = [("arguments", json!(words)), ("scene_A", json!(a.resolved_toml())), ("scene_B", json!(b.resolved_toml()))];
+        let record =
+            [("arguments", json!(words)), ("scene_A", json!(a.resolved_toml())), ("scene_B", json!(b.resolved_toml()))];
         Ok((record.to_vec(), (found, Sheet::default())))
     })
     .map_err(|error| in_place(&a, error))?;
@@ -86,8 +87,16 @@ fn options(arguments: &PairArguments) -> Result<PairOptions, Failure> {
         ("--parallelism-out-of-plane-um", arguments.parallelism_out_of_plane_um, f64::NEG_INFINITY),
         ("--marking-um", arguments.marking_um, f64::MIN_POSITIVE),
     ];
-    if let Some((name, value, least)) = finite.into_iter().find(|(_, value, least)| !(value.is_finite() && value >= least)) {
-        let allowed = if least > 0.0 { "a number above 0" } else if least == 0.0 { "0 or more" } else { "a finite number" };
+    if let Some((name, value, least)) =
+        finite.into_iter().find(|(_, value, least)| !(value.is_finite() && value >= least))
+    {
+        let allowed = if least > 0.0 {
+            "a number above 0"
+        } else if least == 0.0 {
+            "0 or more"
+        } else {
+            "a finite number"
+        };
         return Err(gearcut::Refusal::new(name, format!("{value} is not {allowed}"), format!("give {allowed}")).into());
     }
     Ok(PairOptions {

@@ -121,33 +121,40 @@ impl<'a> Facing<'a> {
 
     /// What a point of the driver asks for; larger is where the gears touch first.
     fn push_rad(&self, point_mm: DVec2) -> Option<f64> {
-        let d = point_mm - self.axis_mm;
-        let angle = self.driven.angle_rad(d.length())?;
-        let error = self.stand.sign * (d.to_angle() - self.stand.phi_1_rad - angle) - self.stand.phi_2_rad;
-        Some(self.pushing * wrapped(error))
+        Some(self.push_at(point_mm, self.driven.angle_rad(point_mm.distance(self.axis_mm))?))
     }
 
-    /// Every point of either chain that has something opposite.
+    /// The same where the driven flank's angle there is known.
+    fn push_at(&self, point_mm: DVec2, angle_rad: f64) -> f64 {
+        let d = point_mm - self.axis_mm;
+        let error = self.stand.sign * (d.to_angle() - self.stand.phi_1_rad - angle_rad) - self.stand.phi_2_rad;
+        self.pushing * wrapped(error)
+    }
+
+    /// Every point of either chain that has something opposite. Both chains are walked side by side: the cost is the
+    /// number of their points.
     fn visit(&self, mut visit: impl FnMut(Probe)) {
         let (driver, driven) = (self.driver, self.driven);
-        let [low, high] = driven.range_mm();
-        let mut offer = |place: f64, driven_point: Option<usize>| {
-            if let Some(push_rad) = self.push_rad(driver.at(place)) {
-                visit(Probe { place, driven_point, push_rad });
-            }
-        };
+        let radii = &driven.radii_mm;
         let mut radius = driver.points_mm[0].distance(self.axis_mm);
-        for i in 0..driver.points_mm.len() {
-            if radius >= low && radius <= high {
-                offer(i as f64, None);
+        // Number of the first driven radius beyond that of the driver's point.
+        let mut beyond = 0;
+        for (i, &point_mm) in driver.points_mm.iter().enumerate() {
+            beyond = driven.first_beyond(beyond, radius);
+            if let Some(angle_rad) = driven.angle_before(beyond, radius) {
+                visit(Probe { place: i as f64, driven_point: None, push_rad: self.push_at(point_mm, angle_rad) });
             }
             let Some(next) = driver.points_mm.get(i + 1).map(|point| point.distance(self.axis_mm)) else { break };
-            let (inner, outer) = (radius.min(next), radius.max(next));
-            if outer >= low && inner <= high {
-                let first = driven.radii_mm.partition_point(|r| *r <= inner);
-                for (k, &r) in driven.radii_mm.iter().enumerate().skip(first).take_while(|(_, r)| **r < outer) {
-                    offer(i as f64 + (r - radius) / (next - radius), Some(driven.chain_point(k)));
-                }
+            let mut offer = |k: usize| {
+                let place = i as f64 + (radii[k] - radius) / (next - radius);
+                let push_rad = self.push_at(driver.at(place), driven.angle_of_point(k));
+                visit(Probe { place, driven_point: Some(driven.chain_point(k)), push_rad });
+            };
+            if next > radius {
+                (beyond..radii.len()).take_while(|&k| radii[k] < next).for_each(&mut offer);
+            } else {
+                let between = (0..beyond).rev().take_while(|&k| radii[k] > next);
+                between.filter(|&k| radii[k] < radius).for_each(&mut offer);
             }
             radius = next;
         }

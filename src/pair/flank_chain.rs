@@ -144,6 +144,32 @@ impl PolarFlank {
         Ok(Self { radii_mm, angles_rad, slopes, tip_is_last })
     }
 
+    /// Number of the first radius beyond a given one, walking there from `near`.
+    pub fn first_beyond(&self, near: usize, radius_mm: f64) -> usize {
+        let mut k = near;
+        while k > 0 && self.radii_mm[k - 1] > radius_mm {
+            k -= 1;
+        }
+        while k < self.radii_mm.len() && self.radii_mm[k] <= radius_mm {
+            k += 1;
+        }
+        k
+    }
+
+    /// Polar angle at a radius before which the radius number `beyond` is the first larger one; none beyond the ends.
+    pub fn angle_before(&self, beyond: usize, radius_mm: f64) -> Option<f64> {
+        let last = self.radii_mm.len() - 1;
+        if beyond == 0 || (beyond > last && radius_mm > self.radii_mm[last]) {
+            return None;
+        }
+        Some(self.angle_in(beyond.min(last) - 1, radius_mm))
+    }
+
+    /// Polar angle of the point with the radius number `index`.
+    pub fn angle_of_point(&self, index: usize) -> f64 {
+        self.angles_rad[index]
+    }
+
     /// Number, along the chain that it was made from, of the point with the radius number `index`.
     pub fn chain_point(&self, index: usize) -> usize {
         if self.tip_is_last { index } else { self.radii_mm.len() - 1 - index }
@@ -170,13 +196,18 @@ impl PolarFlank {
             return None;
         }
         let i = self.radii_mm.partition_point(|r| *r <= radius_mm).clamp(1, self.radii_mm.len() - 1) - 1;
+        Some(self.angle_in(i, radius_mm))
+    }
+
+    /// Polar angle at a radius in the interval from the point number `i` on.
+    fn angle_in(&self, i: usize, radius_mm: f64) -> f64 {
         let width = self.radii_mm[i + 1] - self.radii_mm[i];
         let x = (radius_mm - self.radii_mm[i]) / width;
         let (a, b) = (self.angles_rad[i], self.angles_rad[i + 1]);
-        let Some(slopes) = &self.slopes else { return Some(a + x * (b - a)) };
+        let Some(slopes) = &self.slopes else { return a + x * (b - a) };
         let y = 1.0 - x;
         let bend = width * x * y * (slopes[i] * y - slopes[i + 1] * x);
-        Some(a * (y * y * (1.0 + 2.0 * x)) + b * (x * x * (3.0 - 2.0 * x)) + bend)
+        a * (y * y * (1.0 + 2.0 * x)) + b * (x * x * (3.0 - 2.0 * x)) + bend
     }
 }
 

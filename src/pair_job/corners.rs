@@ -65,11 +65,7 @@ fn deeper(a: &DeepestCorner, b: &DeepestCorner) -> Ordering {
 
 /// Tip corners of the mate's tooth in the space before the right flank of a label, in the mate's own frame, and the
 /// number of teeth of the gear with the space.
-fn corners(
-    gears: &[SectionOfGear; 2],
-    member: Member,
-    label: i64,
-) -> [(DVec2, i64); 2] {
+fn corners(gears: &[SectionOfGear; 2], member: Member, label: i64) -> [(DVec2, i64); 2] {
     let (mate, left) = match member {
         Member::Driver => (&gears[1], label - 1),
         Member::Driven => (&gears[0], label),
@@ -83,13 +79,7 @@ fn corners(
 }
 
 /// The place in words of the pair: which flank, and where on it.
-fn place(
-    found: CornerDepth,
-    gears: &[SectionOfGear; 2],
-    member: Member,
-    label: i64,
-    phi_1_rad: f64,
-) -> DeepestCorner {
+fn place(found: CornerDepth, gears: &[SectionOfGear; 2], member: Member, label: i64, phi_1_rad: f64) -> DeepestCorner {
     let own = &gears[usize::from(member == Member::Driven)];
     // Outside, and on the driver of a ring, the first flank of a space is the left one of the tooth before.
     let (side, label) = match (member, found.on_first) {

@@ -47,7 +47,8 @@ impl DoubleFlank {
     /// The largest variation within one pitch, um.
     pub fn in_a_pitch_um(&self) -> f64 {
         let n = self.variation_rad_um.len();
-        let from = |first: usize| range_um((0..=self.places_per_pitch).map(|k| &self.variation_rad_um[(first + k) % n]));
+        let from =
+            |first: usize| range_um((0..=self.places_per_pitch).map(|k| &self.variation_rad_um[(first + k) % n]));
         (0..n).map(from).fold(0.0, f64::max)
     }
 
@@ -104,10 +105,7 @@ pub fn with_master(
     found.map(Some)
 }
 
-fn around(
-    pitches: u32,
-    at: impl Fn(f64) -> Result<(f64, TightMesh), Refusal> + Sync,
-) -> Result<DoubleFlank, Refusal> {
+fn around(pitches: u32, at: impl Fn(f64) -> Result<(f64, TightMesh), Refusal> + Sync) -> Result<DoubleFlank, Refusal> {
     let places = pitches * PLACES_PER_PITCH;
     let one = |i: u32| {
         let (phi_rad, tight) = at(f64::from(i) / f64::from(places))?;

@@ -55,14 +55,14 @@ pub fn findings(name: &str, scenes: [&Scene; 2], options: &PairOptions, rolled: 
 
 /// Numbers of the sections that are told first.
 const HEADLINE: [(&str, &str, &str); 9] = [
-    ("transmission_error.right", "peak_to_peak", "transmission error, peak to peak"),
+    ("transmission_error.right", "peak_to_peak", "transmission error, range"),
     ("transmission_error.right", "mesh_peak_to_peak", "of it with the teeth"),
     ("transmission_error.right", "peak_to_peak_at_pitch_point", "at the pitch point"),
     ("ratio", "largest_deviation", "ratio off by at most"),
     ("backlash", "smallest", "smallest backlash"),
     ("contact.right", "smallest_contact_ratio", "smallest contact ratio"),
-    ("interference", "deepest", "deepest tip corner in the mate"),
-    ("double_flank.mate", "total", "centre distance in tight mesh"),
+    ("interference", "deepest", "deepest tip in the mate"),
+    ("double_flank.mate", "total", "tight centre distance, range"),
     ("center_distance", "transmission_error", "10 um of centre distance do"),
 ];
 
@@ -104,10 +104,16 @@ fn pair(scenes: [&Scene; 2], options: &PairOptions, rolled: &RolledPair) -> Sect
         .with("teeth_B", Quantity::count(teeth.count[1].into(), "teeth", "teeth of gear B"))
         .with("module", length(teeth.module_mm, "transverse module"))
         .with("pressure_angle", angle(teeth.pressure_angle_rad, "transverse pressure angle"))
-        .with("flanks", Quantity::text(match options.source {
-            super::flanks::FlankSource::Cut => "cut",
-            super::flanks::FlankSource::Nominal => "nominal",
-        }, "whether flanks as cut or nominal ones are rolled"))
+        .with(
+            "flanks",
+            Quantity::text(
+                match options.source {
+                    super::flanks::FlankSource::Cut => "cut",
+                    super::flanks::FlankSource::Nominal => "nominal",
+                },
+                "whether flanks as cut or nominal ones are rolled",
+            ),
+        )
         .shown(
             "center_distance",
             "centre distance",
@@ -133,7 +139,11 @@ fn pair(scenes: [&Scene; 2], options: &PairOptions, rolled: &RolledPair) -> Sect
         .with("turns", Quantity::count(rolled.period.turns.into(), "turns", "turns of gear A in a period of the pair"))
         .with(
             "positions",
-            Quantity::count(rolled.period.moments.len() as u64, "positions", "positions in a period, even over the teeth"),
+            Quantity::count(
+                rolled.period.moments.len() as u64,
+                "positions",
+                "positions in a period, even over the teeth",
+            ),
         )
         .with(
             "sections",
@@ -149,7 +159,11 @@ fn center_distance(rolled: &RolledPair) -> Section {
     Section::new("center_distance", "What the centre distance does")
         .with(
             "transmission_error",
-            Quantity::number(change.error_arcsec, "arcsec", of("largest change of the driving flanks' transmission error")),
+            Quantity::number(
+                change.error_arcsec,
+                "arcsec",
+                of("largest change of the driving flanks' transmission error"),
+            ),
         )
         .shown(
             "transmission_error_range",
@@ -162,12 +176,12 @@ fn center_distance(rolled: &RolledPair) -> Section {
         )
         .shown(
             "smallest_backlash_change",
-            "10 um: backlash grows at least",
+            "10 um: more backlash, least",
             Quantity::number(low, "um", of("smallest change of the circumferential backlash")),
         )
         .shown(
             "largest_backlash_change",
-            "10 um: backlash grows at most",
+            "10 um: more backlash, most",
             Quantity::number(high, "um", of("largest change of the circumferential backlash")),
         )
 }

@@ -60,9 +60,8 @@ impl Fit {
         let (a, b) = (&driver.gear, &driven.gear);
         kinds(a, b)?;
         teeth_alike(a, b)?;
-        let curves = [a, b].map(|gear| {
-            PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth).map(Arc::new)
-        });
+        let curves = [a, b]
+            .map(|gear| PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth).map(Arc::new));
         let [curve, own] = curves;
         let (curve, own) = (curve?, own?);
         let teeth = PairTeeth {
@@ -185,10 +184,8 @@ fn kinds(a: &Gear, b: &Gear) -> Result<(), Refusal> {
 
 fn teeth_alike(a: &Gear, b: &Gear) -> Result<(), Refusal> {
     let differ = |x: f64, y: f64| (x - y).abs() > EQUAL_SHARE * x.abs().max(y.abs());
-    let [module, angle] = [
-        [a.module_mm, b.module_mm],
-        [a.pressure_angle_rad.to_degrees(), b.pressure_angle_rad.to_degrees()],
-    ];
+    let [module, angle] =
+        [[a.module_mm, b.module_mm], [a.pressure_angle_rad.to_degrees(), b.pressure_angle_rad.to_degrees()]];
     if differ(module[0], module[1]) {
         return Err(Refusal::new(
             "gear.module_mm",
@@ -214,7 +211,10 @@ fn teeth_alike(a: &Gear, b: &Gear) -> Result<(), Refusal> {
     if differ(helix[0], helix[1]) {
         return Err(Refusal::new(
             "gear.helix_angle_deg",
-            format!("gear A has a helix angle of {} deg and gear B of {} deg: their axes would cross", helix[0], helix[1]),
+            format!(
+                "gear A has a helix angle of {} deg and gear B of {} deg: their axes would cross",
+                helix[0], helix[1]
+            ),
             "give gears of one helix angle; axes are parallel here",
         ));
     }

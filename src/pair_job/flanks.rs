@@ -84,8 +84,7 @@ impl PairFlanks {
     /// Gears that cannot be cut; flanks that the teeth do not reach.
     pub fn new(fit: &Fit, scenes: [&Scene; 2], source: FlankSource, count: usize) -> Result<Self> {
         let face_mm = scenes[0].gear.face_width_mm.min(scenes[1].gear.face_width_mm);
-        let rows_mm =
-            if count == 1 { vec![0.0] } else { rows_z_mm(face_mm, face_mm / (count as f64 - 1.0)) };
+        let rows_mm = if count == 1 { vec![0.0] } else { rows_z_mm(face_mm, face_mm / (count as f64 - 1.0)) };
         let sections = match source {
             FlankSource::Cut => {
                 let backend = choose(BackendWish::Cpu, OnFailure::default())?.backend;
@@ -110,7 +109,9 @@ impl PairFlanks {
     /// # Errors
     /// Flanks of the driven gear that cannot be rolled.
     pub fn meshing(&self, fit: &Fit, driver: &Gear, mounting: &Mounting) -> Result<Meshing, Refusal> {
-        let section = |(z_mm, [a, b]): (&f64, &[SectionOfGear; 2])| (*z_mm, shift_mm(driver, *z_mm), a.chains.clone(), b.chains.clone());
+        let section = |(z_mm, [a, b]): (&f64, &[SectionOfGear; 2])| {
+            (*z_mm, shift_mm(driver, *z_mm), a.chains.clone(), b.chains.clone())
+        };
         let owned: Vec<_> = self.rows_mm.iter().zip(&self.sections).map(section).collect();
         let sections: Vec<SectionFlanks> = owned
             .iter()
@@ -124,7 +125,8 @@ impl PairFlanks {
         let of = |section: &SectionOfGear| {
             let points = |flanks: &[FlankChain]| flanks.iter().map(|chain| chain.points_mm.len()).sum::<usize>();
             // Points for the chains and for the outlines of spaces, and an arc for each.
-            (points(&section.chains.right) + points(&section.chains.left)) * (2 * size_of::<glam::DVec2>() + size_of::<f64>())
+            (points(&section.chains.right) + points(&section.chains.left))
+                * (2 * size_of::<glam::DVec2>() + size_of::<f64>())
         };
         self.sections.iter().flatten().map(of).sum()
     }

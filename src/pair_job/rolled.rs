@@ -98,10 +98,11 @@ pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions) -> Result<RolledPai
     let meshing = flanks.meshing(&fit, gears[0], &mounting)?;
     let period = roll(&meshing, options.positions(fit.pitch.teeth().count))?;
     let moments = &period.moments;
-    let of_sides = |of: &dyn Fn(Side) -> Result<Vec<ToothContact>, Refusal>| -> Result<[Vec<ToothContact>; 2], Refusal> {
-        let [right, left] = SIDES.map(of);
-        Ok([right?, left?])
-    };
+    let of_sides =
+        |of: &dyn Fn(Side) -> Result<Vec<ToothContact>, Refusal>| -> Result<[Vec<ToothContact>; 2], Refusal> {
+            let [right, left] = SIDES.map(of);
+            Ok([right?, left?])
+        };
     let marking_um = options.marking_um;
     let teeth = of_sides(&|side| teeth::teeth(&fit, &flanks, &meshing, moments, side, marking_um))?;
     let [right, left] = SIDES.map(|side| contact_ratios(&fit, scenes, &period, side));
@@ -151,12 +152,7 @@ fn stride(period: &RolledPeriod, per_pitch: usize) -> usize {
     (period.moments.len() / (per_pitch * pitches)).max(1)
 }
 
-fn master(
-    fit: &Fit,
-    flanks: &PairFlanks,
-    scenes: [&Scene; 2],
-    member: Member,
-) -> Result<Option<DoubleFlank>, Refusal> {
+fn master(fit: &Fit, flanks: &PairFlanks, scenes: [&Scene; 2], member: Member) -> Result<Option<DoubleFlank>, Refusal> {
     let middle = &flanks.sections[flanks.sections.len() / 2];
     let at = usize::from(member == Member::Driven);
     let gear = &scenes[at].gear;
@@ -183,8 +179,7 @@ fn sensitivity(meshing: &Meshing, period: &RolledPeriod) -> Result<Sensitivity, 
         Ok([error_rad.to_degrees() * 3600.0, play_rad * moment.pitch.radius_mm[1] * UM_PER_MM])
     };
     let step = stride(period, PROBES_PER_PITCH);
-    let changes: Vec<[f64; 2]> =
-        period.moments.par_iter().step_by(step).map(change).collect::<Result<_, Refusal>>()?;
+    let changes: Vec<[f64; 2]> = period.moments.par_iter().step_by(step).map(change).collect::<Result<_, Refusal>>()?;
     let ends = |of: usize| {
         let values = changes.iter().map(|change| change[of]);
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [value.min(low), value.max(high)])

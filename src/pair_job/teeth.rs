@@ -168,7 +168,8 @@ fn widen([low, high]: &mut [f64; 2], value: f64) {
 /// Heights of a point of the machine over both pitch curves, mm.
 fn heights_mm(fit: &Fit, meshing: &Meshing, moment: &Moment, point_mm: DVec2) -> Result<[f64; 2], Refusal> {
     let pair = &fit.pitch;
-    let axis_mm = [DVec2::ZERO, pair.axis_mm(Member::Driven) + DVec2::X * pair.sign() * meshing.center_distance_error_mm()];
+    let axis_mm =
+        [DVec2::ZERO, pair.axis_mm(Member::Driven) + DVec2::X * pair.sign() * meshing.center_distance_error_mm()];
     let height = |member: Member, axis_mm: DVec2| {
         let own_mm = pair.gear_from_machine(&moment.pitch, member, point_mm - axis_mm);
         pair.height(member, own_mm, moment.pitch.phi_1_rad).map(|(height_mm, _)| height_mm)

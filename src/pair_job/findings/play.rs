@@ -19,7 +19,11 @@ pub(super) fn backlash(rolled: &RolledPair) -> Section {
     Section::new("backlash", "Backlash")
         .with(
             "smallest",
-            extreme(&circumferential, -1.0, "smallest play of B, across the line of centres at the pitch point; below 0 it jams"),
+            extreme(
+                &circumferential,
+                -1.0,
+                "smallest play of B, across the line of centres at the pitch point; below 0 it jams",
+            ),
         )
         .shown(
             "largest",
@@ -33,7 +37,7 @@ pub(super) fn backlash(rolled: &RolledPair) -> Section {
         )
         .shown(
             "smallest_normal",
-            "smallest normal to the flanks",
+            "smallest normal to flanks",
             extreme(
                 &|play| play.normal_left_mm.min(play.normal_right_mm),
                 -1.0,
@@ -55,7 +59,11 @@ pub(super) fn double_flank(rolled: &RolledPair) -> Section {
             Some(found) => part(key, &title, found).table(tables::double_flank(key, found)),
             None => Section::new(key, title).with(
                 "total",
-                Quantity::undefined("um", "largest less smallest centre distance", "a ring is not rolled with a master"),
+                Quantity::undefined(
+                    "um",
+                    "largest less smallest centre distance",
+                    "a ring is not rolled with a master",
+                ),
             ),
         });
     }
@@ -67,7 +75,11 @@ fn part(key: &str, title: &str, found: &DoubleFlank) -> Section {
     let at = largest_at(found.variation_rad_um.iter().map(|[_, um]| *um));
     let place = Place::default().and("angle_deg", found.variation_rad_um[at][0].to_degrees());
     Section::new(key, title)
-        .shown("total", "F_i\"", um(found.total_um(), "largest less smallest tight centre distance, less the one asked for"))
+        .shown(
+            "total",
+            "F_i\"",
+            um(found.total_um(), "largest less smallest tight centre distance, less the one asked for"),
+        )
         .shown("in_a_pitch", "f_i\"", um(found.in_a_pitch_um(), "largest variation of it within one pitch"))
         .with("mean", um(found.mean_um(), "mean of the tight less the nominal centre distance"))
         .with("largest", um(found.variation_rad_um[at][1], "largest tight less nominal centre distance").at(place))

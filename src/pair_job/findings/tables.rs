@@ -15,12 +15,20 @@ pub(super) fn rolling(rolled: &RolledPair) -> Table {
         TableColumn::new("angle_of_A", "deg", "angle of gear A"),
         TableColumn::new("angle_of_B", "deg", "angle of gear B that the pitch curves ask for"),
         TableColumn::new("ratio_asked_for", "1", "r2 / r1"),
-        TableColumn::new("ratio_achieved", "1", "ratio of the speeds by the driving flanks, between neighbouring positions"),
+        TableColumn::new(
+            "ratio_achieved",
+            "1",
+            "ratio of the speeds by the driving flanks, between neighbouring positions",
+        ),
     ];
     for side in SIDES {
         let key = |name: &str| format!("{name}_{}", side.name());
         columns.extend([
-            column(key("transmission_error"), "arcsec", "rotation of B beyond the one asked for when this side touches"),
+            column(
+                key("transmission_error"),
+                "arcsec",
+                "rotation of B beyond the one asked for when this side touches",
+            ),
             column(key("transmission_error_at_pitch_point"), "um", "the same times r2, across the line of centres"),
             column(key("long_wave"), "arcsec", "its waves longer than two teeth"),
             column(key("mesh"), "arcsec", "the rest of it"),
@@ -33,8 +41,16 @@ pub(super) fn rolling(rolled: &RolledPair) -> Table {
         TableColumn::new("backlash_angle", "arcsec", "play of B while A is held"),
         TableColumn::new("backlash_circumferential", "um", "play across the line of centres at the pitch point"),
         TableColumn::new("backlash_along_pitch_curves", "um", "play along the pitch curves"),
-        TableColumn::new("backlash_normal_right", "um", "gap of the right flanks while the left ones touch, along their normal"),
-        TableColumn::new("backlash_normal_left", "um", "gap of the left flanks while the right ones touch, along their normal"),
+        TableColumn::new(
+            "backlash_normal_right",
+            "um",
+            "gap of the right flanks while the left ones touch, along their normal",
+        ),
+        TableColumn::new(
+            "backlash_normal_left",
+            "um",
+            "gap of the left flanks while the right ones touch, along their normal",
+        ),
     ]);
     let rows = rolled.period.moments.iter().enumerate().map(|(i, moment)| {
         let pitch = &moment.pitch;
@@ -55,8 +71,7 @@ pub(super) fn rolling(rolled: &RolledPair) -> Table {
         }
         let play = &rolled.backlash[i];
         row.push(Datum::from(ARCSEC_PER_RAD * play.angle_rad));
-        let lengths_mm =
-            [play.circumferential_mm, play.tangential_mm, play.normal_right_mm, play.normal_left_mm];
+        let lengths_mm = [play.circumferential_mm, play.tangential_mm, play.normal_right_mm, play.normal_left_mm];
         row.extend(lengths_mm.map(|mm| Datum::from(UM_PER_MM * mm)));
         row
     });
@@ -72,9 +87,11 @@ pub(super) fn teeth(rolled: &RolledPair) -> Table {
         TableColumn::new("highest_on_A", "mm", "highest contact over the pitch curve of A"),
         TableColumn::new("lowest_on_B", "mm", "lowest contact over the pitch curve of B"),
         TableColumn::new("highest_on_B", "mm", "highest contact over the pitch curve of B"),
-        TableColumn::new("start_arc_on_A", "mm", "lowest contact on A, arc from the form point; below 0 in the fillet").or(nominal),
+        TableColumn::new("start_arc_on_A", "mm", "lowest contact on A, arc from the form point; below 0 in the fillet")
+            .or(nominal),
         TableColumn::new("end_arc_on_A", "mm", "highest contact on A, arc from the form point").or(nominal),
-        TableColumn::new("start_arc_on_B", "mm", "lowest contact on B, arc from the form point; below 0 in the fillet").or(nominal),
+        TableColumn::new("start_arc_on_B", "mm", "lowest contact on B, arc from the form point; below 0 in the fillet")
+            .or(nominal),
         TableColumn::new("end_arc_on_B", "mm", "highest contact on B, arc from the form point").or(nominal),
         TableColumn::new("positions_in_contact", "1", "positions at which it is within the marking thickness"),
         TableColumn::new("positions_first", "1", "positions at which it touches first"),

@@ -22,19 +22,16 @@ pub(super) fn ratio(rolled: &RolledPair) -> Section {
         let definition = format!("{what} ratio r2 / r1 of the speeds of A and B that the pitch curves ask for");
         Quantity::number(ratios[at][0], "1", definition).at(at_moment(rolled, at))
     };
-    Section::new("ratio", "Ratio")
-        .with("smallest", end(false))
-        .with("largest", end(true))
-        .with(
-            "largest_deviation",
-            Quantity::number(
-                percent(&ratios[worst]),
-                "%",
-                "largest deviation of the ratio that the driving flanks achieve, mean between neighbouring positions, from \
+    Section::new("ratio", "Ratio").with("smallest", end(false)).with("largest", end(true)).with(
+        "largest_deviation",
+        Quantity::number(
+            percent(&ratios[worst]),
+            "%",
+            "largest deviation of the ratio that the driving flanks achieve, mean between neighbouring positions, from \
                 the one asked for",
-            )
-            .at(at_moment(rolled, worst)),
         )
+        .at(at_moment(rolled, worst)),
+    )
 }
 
 pub(super) fn errors(rolled: &RolledPair) -> Section {

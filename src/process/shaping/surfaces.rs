@@ -13,8 +13,8 @@ use crate::process::shaping::job::ShapingJob;
 use crate::process::shaping::measure::flank_report;
 use crate::process::shaping::target::target_root;
 use crate::scene::Scene;
-use crate::surface::flanks::points_of_sections;
 use crate::surface::SurfaceGrid;
+use crate::surface::flanks::points_of_sections;
 use crate::surface::triangles::{SectionProfile, in_space};
 use crate::terms::Side;
 use glam::DVec2;
@@ -132,8 +132,7 @@ impl CylindricalGear for ShapingJob {
         spacing_mm: f64,
         rows_z_mm: &[f64],
     ) -> Result<Vec<Vec<DVec2>>> {
-        let mut field =
-            self.planar().root_field(&target_root(self.target_generation(), i64::from(space), spacing_mm));
+        let mut field = self.planar().root_field(&target_root(self.target_generation(), i64::from(space), spacing_mm));
         field.rows_z_mm = rows_z_mm.to_vec();
         let cut = self.cut(backend, field)?;
         Ok(points_of_sections(&cut.field, &cut.layers))
