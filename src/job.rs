@@ -15,7 +15,7 @@ use gearcut_core::error::Result;
 use gearcut_core::gear::PitchCurve;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::terms::Side;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 /// How far below the target a ray records cuts, in modules: undercut and wrong linkages stay well inside.
@@ -93,6 +93,9 @@ pub trait GearJob: Sync {
     /// # Errors
     /// The tool generates no flank there; the backend's.
     fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid>;
+
+    /// The same job as one of a cylindrical gear, if it is one.
+    fn cylindrical(&self) -> Option<&dyn CylindricalGear>;
 }
 
 /// A job whose gear is cylindrical: it has a pitch curve, and every row of a flank stands in one transverse section.
@@ -141,6 +144,19 @@ pub trait CylindricalGear: GearJob {
     /// # Errors
     /// The tool generates no flank there.
     fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>>;
+
+    /// The root of the space after tooth `space` after all operations, in every section of `rows_z_mm`: points about
+    /// `spacing_mm` apart, from the left flank of that tooth to the right one of the next.
+    ///
+    /// # Errors
+    /// The tool generates no flank there; the backend's.
+    fn cut_root(
+        &self,
+        backend: &dyn Backend,
+        space: u32,
+        spacing_mm: f64,
+        rows_z_mm: &[f64],
+    ) -> Result<Vec<Vec<DVec2>>>;
 
     /// Surface of the tip land of a tooth after all operations; `None` on a pointed tooth.
     ///

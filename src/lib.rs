@@ -90,6 +90,7 @@
 //! - [`steps`]: steps of a run that all processes share
 //! - [`process`]: a folder for each process: tool, linkage, target, passes, and what only it measures
 //! - [`pair`]: two gears rolling on each other
+//! - [`pair_job`]: two scenes rolled on each other, and what is written about it
 //! - [`run`]: the order of a whole run
 //! - [`library`]: the few items that other programs need
 //! - [`compare`]: results side by side
@@ -116,6 +117,8 @@ pub mod measure;
 pub mod output;
 #[doc(hidden)]
 pub mod pair;
+#[doc(hidden)]
+pub mod pair_job;
 #[doc(hidden)]
 pub mod process;
 pub mod run;

@@ -135,6 +135,17 @@ impl SurfaceGrid {
     }
 }
 
+/// Points on the surface after the last operation, section by section, of rays that stay in their sections.
+///
+/// # Panics
+/// No layer.
+pub fn points_of_sections(field: &impl RayGrid, layers: &[Layer]) -> Vec<Vec<DVec2>> {
+    let last = layers.last().expect("a job has at least one operation");
+    let rows = field.rows_mm().len();
+    let point = |c: usize, r: usize| field.point_mm(c, r, f64::from(last.heights_mm[c * rows + r])).truncate();
+    (0..rows).map(|r| (0..field.arcs_mm().len()).map(|c| point(c, r)).collect()).collect()
+}
+
 /// Normal deviation as a quantity.
 pub fn height_scalar(values: Vec<f32>) -> Scalar {
     Scalar {

@@ -82,6 +82,7 @@ fn meshing(pair: &PitchPair, addendum_mm: [f64; 2], errors: &Value) -> Meshing {
     let mounting = Mounting {
         center_distance_error_mm: optional(errors, "delta_a"),
         eccentricity_mm: [off("e1", "eps1"), glam::DVec2::from_angle(around).rotate(off("e2", "eps2"))],
+        ..Mounting::default()
     };
     let driver = thinned(pair, Member::Driver, addendum_mm, optional(errors, "thin1"));
     let driven = thinned(pair, Member::Driven, addendum_mm, optional(errors, "thin2"));

@@ -9,6 +9,7 @@ use crate::process::shaping::measure::flank_report;
 use crate::process::shaping::target::target_root;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
+use crate::surface::flanks::points_of_sections;
 use crate::surface::triangles::SectionProfile;
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::{Layer, Ray};
@@ -16,6 +17,7 @@ use gearcut_core::error::Result;
 use gearcut_core::gear::PitchCurve;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::terms::Side;
+use glam::DVec2;
 
 impl GearJob for ShapingJob {
     fn scene(&self) -> &Scene {
@@ -78,6 +80,10 @@ impl GearJob for ShapingJob {
         let cut = self.cut(backend, field)?;
         Ok(SurfaceGrid::new(&cut.field, &cut.layers, self.scene.fields.profile_spacing_mm))
     }
+
+    fn cylindrical(&self) -> Option<&dyn CylindricalGear> {
+        Some(self)
+    }
 }
 
 impl CylindricalGear for ShapingJob {
@@ -116,6 +122,19 @@ impl CylindricalGear for ShapingJob {
         let points = target_root(self.target_generation(), i64::from(space), spacing_mm);
         let profile: SectionProfile = points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect();
         Ok(vec![profile; rows_z_mm.len()])
+    }
+
+    fn cut_root(
+        &self,
+        backend: &dyn Backend,
+        space: u32,
+        spacing_mm: f64,
+        rows_z_mm: &[f64],
+    ) -> Result<Vec<Vec<DVec2>>> {
+        let mut field = self.planar().root_field(&target_root(self.target_generation(), i64::from(space), spacing_mm));
+        field.rows_z_mm = rows_z_mm.to_vec();
+        let cut = self.cut(backend, field)?;
+        Ok(points_of_sections(&cut.field, &cut.layers))
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {
