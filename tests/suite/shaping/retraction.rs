@@ -12,7 +12,7 @@ use gearcut::frame::Rigid2;
 use gearcut::gear::{Driver, GearKind, PitchCurve, PitchCurveShape};
 use gearcut::process::shaping::linkage::retraction::{RetractingCutter, RetractionLaw};
 use gearcut::process::shaping::linkage::{CutterPose, dynamics};
-use gearcut::process::shaping::returns::clearance::ReturnRoom;
+use gearcut::process::shaping::returns::clearance::{Clearance, ReturnRoom};
 use gearcut::process::shaping::returns::motion::{RamTimes, RetractionMotion};
 use gearcut::process::shaping::returns::survey::tightest;
 use gearcut::process::shaping::scene::model as shaping;
@@ -156,7 +156,7 @@ fn overlaps_of_the_returning_cutter_agree() {
                     let back = retracting.retracted(law, &finish(phi), phi, row[0]).expect("a foot").pose;
                     let back = Rigid2::new(back.angle_rad, back.center_mm);
                     let beyond_mm = |p: DVec2| job.blank.height(p, phi + DVec2::from_angle(phi).angle_to(p)).0 - 2.0;
-                    let depth_mm = -room.at(place, &back, beyond_mm).surface.smallest_mm;
+                    let depth_mm = -room.at(place, &back, beyond_mm, Clearance::ANY).surface_mm;
                     if depth_mm > 0.0 { (room.overlap_mm2(place, &back, beyond_mm), depth_mm) } else { (0.0, depth_mm) }
                 };
                 let found = (0..6).map(at).max_by(|a, b| a.0.total_cmp(&b.0)).expect("phases");
@@ -179,10 +179,7 @@ fn the_printed_example_never_reaches_the_angle_at_which_it_is_said_to_interfere(
         let job = ring_job(b, z0, shaping::Retraction::CenterLine, 0.5, 1020);
         let rooms = job.survey(0).rooms(0.5, |_| RetractionLaw::CenterLine).expect("poses");
         let angle = rooms.iter().map(|room| room.from_normal_rad.abs()).fold(0.0, f64::max).to_degrees();
-        (
-            angle,
-            tightest(&rooms, |room| room.clearance.surface.smallest_mm).expect("rooms").clearance.surface.smallest_mm,
-        )
+        (angle, tightest(&rooms, |room| room.clearance.surface_mm).expect("rooms").clearance.surface_mm)
     };
     let (angle, smallest_mm) = steepest(0.3, 13);
     println!("printed design: {angle:.4} deg, {smallest_mm:.4} mm");
@@ -254,15 +251,15 @@ fn a_tilted_retraction_clears_stock_as_well() {
 fn the_survey_says_what_the_whole_blank_finds() {
     let job = external_job(true, shaping::Retraction::CenterLine, 480);
     let rooms = job.survey(0).rooms(0.5, |_| RetractionLaw::CenterLine).expect("poses");
-    let least = tightest(&rooms, |room| room.clearance.material.smallest_mm).expect("rooms");
+    let least = tightest(&rooms, |room| room.clearance.material_mm).expect("rooms");
     let [_, on_stock] = rubbing(&job, 0);
-    println!("survey {:.4} mm, whole blank {:.4} mm", -least.clearance.material.smallest_mm, on_stock.0);
+    println!("survey {:.4} mm, whole blank {:.4} mm", -least.clearance.material_mm, on_stock.0);
     // The blank's rays stand 0.15 mm apart.
-    assert!((-least.clearance.material.smallest_mm - on_stock.0).abs() < 0.01);
+    assert!((-least.clearance.material_mm - on_stock.0).abs() < 0.01);
     // A round gear clears the flanks by b sin(alpha), wherever the cutter is in its pitch.
-    let surface = tightest(&rooms, |room| room.clearance.surface.smallest_mm).expect("rooms").clearance.surface;
+    let surface = tightest(&rooms, |room| room.clearance.surface_mm).expect("rooms").clearance.surface_mm;
     let expected_mm = 0.5 * 20_f64.to_radians().sin();
-    assert!((surface.smallest_mm - expected_mm).abs() < 0.03 * expected_mm, "{surface:?} {expected_mm}");
+    assert!((surface - expected_mm).abs() < 0.03 * expected_mm, "{surface:?} {expected_mm}");
 }
 
 #[test]

@@ -147,7 +147,8 @@ fn tip_corners(job: &ShapingJob) -> TipCorners {
         });
         deepest.fold((0.0, 0.0), |a: (f64, f64), b| if b.0 > a.0 { b } else { a })
     };
-    let spaces: Vec<(f64, f64)> = (0..job.scene.gear.teeth).into_par_iter().map(of_space).collect();
+    // All spaces of a period are all spaces.
+    let spaces: Vec<(f64, f64)> = (0..curve.period_teeth(job.scene.gear.teeth)).into_par_iter().map(of_space).collect();
     let deepest = spaces.into_iter().fold((0.0, 0.0), |a: (f64, f64), b| if b.0 > a.0 { b } else { a });
     match deepest {
         (depth_mm, phi_rad) if depth_mm >= LEAST_DEPTH_MM => TipCorners::Cut { depth_mm, phi_rad },

@@ -83,7 +83,7 @@ pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport
             pitch_mm,
             job.scene.gear.pressure_angle_rad,
         ),
-        period_teeth: period_teeth(&job.scene.gear.pitch_curve, teeth),
+        period_teeth: job.curve.period_teeth(teeth),
     })
 }
 
@@ -91,20 +91,6 @@ pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport
 pub fn root_stock(space: u32, cut: &CutField) -> RootReport {
     let (finished, earlier) = cut.layers.split_last().expect("at least one operation");
     RootReport { space, stock: earlier.iter().map(|layer| stock(&cut.field, layer, finished)).collect() }
-}
-
-/// Teeth of one period: those of an n-th of the curve when n divides z, else all.
-fn period_teeth(shape: &PitchCurveShape, teeth: u32) -> u32 {
-    let order = match shape {
-        PitchCurveShape::Ellipse { order, .. }
-        | PitchCurveShape::SinusoidalRatio { order, .. }
-        | PitchCurveShape::Pascal { order, .. } => *order,
-        PitchCurveShape::Circle => teeth,
-        PitchCurveShape::Fourier { .. } | PitchCurveShape::Table { .. } => 1,
-        // Mate and driver repeat after the same arc.
-        PitchCurveShape::Mate { driver, .. } => return period_teeth(&driver.curve, driver.teeth),
-    };
-    if teeth.is_multiple_of(order.max(1)) { teeth / order.max(1) } else { teeth }
 }
 
 #[cfg(test)]
