@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod cut;
 mod hobbing;
+mod pair;
 #[cfg(unix)]
 mod stopped;
 mod texture;
