@@ -104,7 +104,7 @@ pub enum Command {
         replaced.")]
     Mate(MateArguments),
     /// Roll two gears on each other without load: ratio, transmission error, backlash, contact, interference.
-    #[command(after_help = "Examples:\n  \
+    #[command(after_help = "Example:\n  \
         gearcut pair scenes/shaping/elliptical_normal.toml --mate 42\n  \
         gearcut pair scenes/shaping/internal_pair_driver.toml scenes/shaping/internal_pair_ring.toml\n  \
         gearcut pair scenes/shaping/circular_m3_z24.toml --mate 36 --flanks nominal --center-distance-error-um 20\n  \

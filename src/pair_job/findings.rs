@@ -20,7 +20,7 @@ use gearcut_core::units::UM_PER_MM;
 /// Name of the process in findings.
 pub const PROCESS: &str = "pair";
 /// Seconds of arc in a radian.
-pub(super) const ARCSEC_PER_RAD: f64 = 180.0 * 3600.0 / std::f64::consts::PI;
+pub const ARCSEC_PER_RAD: f64 = 180.0 * 3600.0 / std::f64::consts::PI;
 /// Play below this is none: what is left is the resolution of the dexels, um.
 const JAMS_UM: f64 = -0.1;
 /// Corners deeper than this are told as interference, um: below it lie scallops.

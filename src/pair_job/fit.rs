@@ -157,6 +157,16 @@ impl Fit {
         (side, (own - 1).rem_euclid(count) + 1)
     }
 
+    /// Under which side and label the pair knows a flank of the driven gear: [`Self::mate_flank`] the other way round.
+    pub fn label_of(&self, side: Side, tooth: i64) -> (Side, i64) {
+        match (self.pitch.sign() > 0.0, side) {
+            (true, Side::Right) => (Side::Right, self.phase - tooth + 1),
+            (true, Side::Left) => (Side::Left, self.phase - tooth),
+            (false, Side::Left) => (Side::Right, tooth - self.phase),
+            (false, Side::Right) => (Side::Left, tooth - self.phase - 1),
+        }
+    }
+
     /// A vector of the driven gear's scene in its own frame in the pair.
     pub fn in_pair(&self, own: DVec2) -> DVec2 {
         DVec2::from_angle(self.turn_rad).rotate(own)

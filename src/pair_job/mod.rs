@@ -14,10 +14,14 @@
 //! | [`teeth`] | contact tooth by tooth, edges and fillets that carry |
 //! | [`corners`] | tip corners in the mate's material |
 //! | [`double_flank`] | the centre distance without play, against the mate and against masters |
+//! | [`findings`] | the tree of findings |
+//! | [`charts`], [`pictures`], [`page`] | what is drawn |
+//! | [`write`] | the files |
 //!
 //! A pair is two scenes and options of a command, not a scene of its own: each gear stays one file that `cut`, `check`
 //! and `mate` read as well, and what is tried again and again with the same gears is how they are mounted.
 
+pub mod charts;
 pub mod corners;
 pub mod double_flank;
 pub mod findings;
@@ -26,6 +30,10 @@ pub mod flanks;
 pub mod member;
 pub mod options;
 pub mod outline;
+pub mod page;
+pub mod pictures;
 pub mod rolled;
 pub mod teeth;
+#[cfg(test)]
+mod tests;
 pub mod write;

@@ -81,7 +81,7 @@ fn cut_gear(gear: &dyn GearJob, backend: &dyn Backend, rows_z_mm: &[f64]) -> Res
 }
 
 /// Points and arcs of a flank from its form point to its tip, section by section.
-fn cut_flank(
+pub(super) fn cut_flank(
     gear: &dyn GearJob,
     backend: &dyn Backend,
     tooth: u32,

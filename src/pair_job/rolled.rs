@@ -19,7 +19,7 @@ use crate::pair::contact_ratio::path_of_contact;
 use crate::pair::flank_chain::GearFlanks;
 use crate::pair::pattern::{SectionGaps, smallest_gaps};
 use crate::pair::pitch_pair::Member;
-use crate::pair::rolling::{RolledPeriod, TransmissionError, roll};
+use crate::pair::rolling::{RolledPeriod, TransmissionError, enough, roll};
 use crate::scene::Scene;
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::gear::PitchCurve;
@@ -54,6 +54,8 @@ pub struct Sensitivity {
 pub struct RolledPair {
     /// How the gears belong together.
     pub fit: Fit,
+    /// Common width of the face, mm.
+    pub face_mm: f64,
     /// What is rolled.
     pub flanks: PairFlanks,
     /// In the machine.
@@ -94,9 +96,11 @@ pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions) -> Result<RolledPai
     let gears = [&scenes[0].gear, &scenes[1].gear];
     let fit = Fit::new(scenes[0], scenes[1], options.phase_teeth)?;
     let mounting = options.mounting(&fit, gears)?;
+    let positions = options.positions(fit.pitch.teeth().count);
+    enough(fit.pitch.teeth().count, positions)?;
     let flanks = PairFlanks::new(&fit, scenes, options.source, options.sections(gears)?)?;
     let meshing = flanks.meshing(&fit, gears[0], &mounting)?;
-    let period = roll(&meshing, options.positions(fit.pitch.teeth().count))?;
+    let period = roll(&meshing, positions)?;
     let moments = &period.moments;
     let of_sides =
         |of: &dyn Fn(Side) -> Result<Vec<ToothContact>, Refusal>| -> Result<[Vec<ToothContact>; 2], Refusal> {
@@ -123,6 +127,7 @@ pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions) -> Result<RolledPai
         tight,
         masters: [master_a?, master_b?],
         sensitivity: sensitivity(&meshing, &period)?,
+        face_mm: gears[0].face_width_mm.min(gears[1].face_width_mm),
         fit,
         flanks,
         meshing,
@@ -159,9 +164,8 @@ fn master(fit: &Fit, flanks: &PairFlanks, scenes: [&Scene; 2], member: Member) -
     let chains = &middle[at].chains;
     let own = match member {
         Member::Driver => chains.clone(),
-        // An external mate's flanks stand under each other's labels: the law that leads there leads back.
         Member::Driven => GearFlanks::build(gear.teeth, |side, tooth| {
-            let (side, label) = fit.mate_flank(side, tooth);
+            let (side, label) = fit.label_of(side, tooth);
             Ok::<_, Refusal>(chains.get(side, label).turned(-fit.turn_rad))
         })?,
     };

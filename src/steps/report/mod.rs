@@ -44,6 +44,8 @@ pub fn page(
     sections: Vec<PageSection>,
 ) -> Page {
     Page {
+        what: "cutting report",
+        done: "all flanks cut",
         title: job.scene().name.clone(),
         subtitle: gear.words,
         operations: found.parts("operations").iter().map(operation).collect(),

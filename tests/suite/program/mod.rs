@@ -6,6 +6,7 @@ mod compare;
 mod cut;
 mod hobbing;
 mod once;
+mod pair;
 #[cfg(unix)]
 mod stopped;
 mod texture;

@@ -9,7 +9,6 @@ use crate::measure::stock::{Stock, stock};
 use crate::process::shaping::ShapingJob;
 use crate::steps::planar::CutField;
 use gearcut_core::error::Result;
-use gearcut_core::gear::PitchCurveShape;
 
 /// Allowances of one operation over the finished gear.
 #[derive(Debug, Clone, PartialEq)]
