@@ -18,7 +18,7 @@ use crate::units::UM_PER_MM;
 use glam::DVec2;
 use std::f64::consts::TAU;
 
-/// Scallops of 200 strokes a tooth are 0.02 um high at most, and dexels 10 um apart cut their crests off.
+/// Scallops of 300 strokes a tooth are some 0.02 um high where the involute begins, and less above.
 const SCALLOPS_UM: f64 = 0.05;
 const THINNED: &str = "tooth_thickness_allowance_mm = -0.05\n";
 
