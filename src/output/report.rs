@@ -28,10 +28,10 @@ use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
-use crate::Result;
 use crate::findings::Place;
 use crate::output::atomic::write_bytes_atomically;
 use gear_frame::gear_frame;
+use gearcut_core::Result;
 use viewer::Viewer;
 
 pub use blocks::{Block, PageSection};

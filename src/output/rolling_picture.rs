@@ -10,7 +10,7 @@ use glam::DVec2;
 use crate::output::apng::AnimationFrame;
 use crate::output::canvas::{Align, Canvas, INK};
 use crate::output::raster::Raster;
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 
 /// Places in a pixel along each side.
 const FINER: usize = 3;

@@ -16,8 +16,8 @@ use glam::DVec2;
 use super::contact::{PairPose, Touch, touch};
 use super::flank_chain::{FlankChain, GearFlanks, PolarFlank};
 use super::pitch_pair::{PitchPair, PitchPoint};
-use crate::error::Refusal;
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::terms::Side;
 
 /// Teeth beside the one at the pitch point that are asked whether they touch.
 const TEETH_BESIDE: i64 = 5;

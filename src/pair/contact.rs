@@ -19,9 +19,9 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::flank_chain::{FlankChain, PolarFlank};
-use crate::math::extremum::maximum;
-use crate::math::roots::halve;
-use crate::terms::Side;
+use gearcut_core::math::extremum::maximum;
+use gearcut_core::math::roots::halve;
+use gearcut_core::terms::Side;
 
 /// Halvings of an interval towards the place where the driven flank ends in it.
 const END_HALVINGS: u32 = 50;

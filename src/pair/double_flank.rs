@@ -15,10 +15,10 @@ use super::assembly::{Meshing, first_touch};
 use super::contact::PairPose;
 use super::flank_chain::{FlankChain, GearFlanks, PolarFlank};
 use super::pitch_pair::{Member, PitchPair};
-use crate::error::Refusal;
-use crate::gear::PitchCurve;
-use crate::math::roots::regula_falsi;
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::math::roots::regula_falsi;
+use gearcut_core::terms::Side;
 
 /// How far from the nominal distance the tight one is looked for, modules.
 const REACH_MODULES: f64 = 0.2;

@@ -12,8 +12,8 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::pitch_pair::{FlankPoint, Member, PitchPair};
-use crate::error::Refusal;
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::terms::Side;
 
 /// Intervals of a nominal flank.
 const INTERVALS: usize = 128;

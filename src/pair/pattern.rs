@@ -12,8 +12,8 @@ use rayon::prelude::*;
 use super::assembly::{Meshing, Moment};
 use super::contact::probes;
 use super::flank_chain::GearFlanks;
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 
 /// Smallest gaps in one section, um, by the points of the chains; infinite where nothing came within reach.
 #[derive(Debug, Clone, PartialEq)]

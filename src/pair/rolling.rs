@@ -12,8 +12,8 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 
 use super::assembly::{Meshing, Moment};
-use crate::error::Refusal;
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::terms::Side;
 
 /// Fewest positions that a tooth needs before its passage can be told from a step.
 pub const LEAST_POSITIONS_PER_TOOTH: u32 = 8;

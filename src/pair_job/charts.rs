@@ -11,7 +11,7 @@ use super::rolled::{RolledPair, SIDES};
 use crate::findings::Findings;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// Ticks of value axes stand at least so far apart: less is rounding, not a fault.
 const LEAST_ARCSEC: f64 = 0.02;

@@ -15,7 +15,7 @@ use super::flanks::{PairFlanks, SectionOfGear};
 use crate::pair::assembly::{Meshing, Moment};
 use crate::pair::penetration::{CornerDepth, SpaceOutline};
 use crate::pair::pitch_pair::Member;
-use crate::terms::Side;
+use gearcut_core::terms::Side;
 
 /// The deepest corner in a gear.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,14 +9,14 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::error::Refusal;
-use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
 use crate::pair::assembly::Meshing;
 use crate::pair::double_flank::{Master, TightMesh, against_mate};
 use crate::pair::flank_chain::{FlankChain, GearFlanks};
 use crate::pair::pitch_pair::{PairTeeth, PitchPair};
 use crate::pair::rolling::turns_of_period;
-use crate::units::UM_PER_MM;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape};
+use gearcut_core::units::UM_PER_MM;
 
 /// Places in a pitch: enough to see a pitch's own variation.
 const PLACES_PER_PITCH: u32 = 8;

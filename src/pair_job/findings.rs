@@ -15,7 +15,7 @@ use super::options::PairOptions;
 use super::rolled::{PROBE_UM, RolledPair};
 use crate::findings::{Entry, Findings, Place, Quantity, Section};
 use crate::scene::Scene;
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// Name of the process in findings.
 pub const PROCESS: &str = "pair";

@@ -16,13 +16,13 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::error::Refusal;
-use crate::gear::{GearKind, PitchCurve};
 use crate::pair::pitch_pair::{PairTeeth, PitchPair};
 use crate::pair::rolling::turns_of_period;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::{GearKind, PitchCurve};
+use gearcut_core::terms::Side;
 
 /// Modules and angles that differ by less than this share are equal: written as decimals, they are rounded.
 const EQUAL_SHARE: f64 = 1e-6;

@@ -8,7 +8,6 @@
 //! Nominal flanks are the conjugate ones of the straight-sided rack; they have no root.
 
 use crate::backend::{BackendWish, OnFailure, choose};
-use crate::error::{Refusal, Result};
 use crate::job::rows_z_mm;
 use crate::pair::assembly::{Meshing, Mounting, SectionFlanks};
 use crate::pair::flank_chain::{FlankChain, GearFlanks, nominal_section};
@@ -16,7 +15,8 @@ use crate::pair::penetration::SpaceOutline;
 use crate::pair::pitch_pair::Member;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
-use crate::terms::{Hand, Side};
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::terms::{Hand, Side};
 
 use super::fit::Fit;
 use super::outline::{self, CutSections, Profile};

@@ -8,10 +8,10 @@
 
 use std::path::Path;
 
-use crate::error::{Error, Result};
 use crate::output::folder::RUN_RECORD;
 use crate::process;
 use crate::scene::{LoadedScene, Mate};
+use gearcut_core::error::{Error, Result};
 use serde_json::Value;
 
 /// Reads a gear of a pair.

@@ -6,11 +6,11 @@ use glam::DVec2;
 
 use super::fit::Fit;
 use super::flanks::FlankSource;
-use crate::error::Refusal;
 use crate::pair::assembly::Mounting;
 use crate::pair::rolling::turns_of_period;
 use crate::scene::model::Gear;
-use crate::units::UM_PER_MM;
+use gearcut_core::error::Refusal;
+use gearcut_core::units::UM_PER_MM;
 
 /// Farthest that the centre distance may be from the closing one, modules: the flanks of a round pair of standard teeth
 /// still reach each other, and contact of one pair ends before that of the next begins soon after.

@@ -10,14 +10,14 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::cut::Backend;
-use crate::dexel::NO_PASS;
-use crate::error::{Error, Refusal, Result};
 use crate::job::GearJob;
 use crate::pair::flank_chain::GearFlanks;
 use crate::process;
 use crate::scene::Scene;
-use crate::terms::Side;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::NO_PASS;
+use gearcut_core::error::{Error, Refusal, Result};
+use gearcut_core::terms::Side;
 
 /// Distance of points along a root, mm: a fillet of 1 mm radius is cut short by 0.01 um.
 const ROOT_SPACING_MM: f64 = 0.01;
@@ -109,8 +109,9 @@ pub(super) fn cut_flank(
         .into());
     }
     let profile = |row: usize| {
-        let point =
-            |(c, ray): (usize, &crate::dexel::Ray)| ray.at(f64::from(last.heights_mm[c * rows + row])).truncate();
+        let point = |(c, ray): (usize, &gearcut_core::dexel::Ray)| {
+            ray.at(f64::from(last.heights_mm[c * rows + row])).truncate()
+        };
         Profile { points_mm: target[row].iter().enumerate().map(point).collect(), u_mm: arcs_mm.clone() }
     };
     Ok((0..rows).map(profile).collect())

@@ -13,8 +13,6 @@ use super::flanks::SectionOfGear;
 use super::rolled::{RolledPair, SIDES};
 use super::teeth::gap_um;
 use crate::colormap::ColourScale;
-use crate::error::Result;
-use crate::gear::GearKind;
 use crate::output::apng::write_apng;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
 use crate::output::folder::OutputFolder;
@@ -23,7 +21,9 @@ use crate::output::rolling_picture::RollingPicture;
 use crate::pair::flank_chain::{FlankChain, GearFlanks};
 use crate::pair::pitch_pair::Member;
 use crate::scene::Scene;
-use crate::terms::Side;
+use gearcut_core::error::Result;
+use gearcut_core::gear::GearKind;
+use gearcut_core::terms::Side;
 
 /// Rows of a map along the profile, mm apart.
 const MAP_STEP_MM: f64 = 0.05;

@@ -13,8 +13,6 @@ use super::fit::Fit;
 use super::flanks::{PairFlanks, addendum_mm};
 use super::options::PairOptions;
 use super::teeth::{self, EdgeContact, ToothContact};
-use crate::error::{Refusal, Result};
-use crate::gear::PitchCurve;
 use crate::pair::assembly::{Meshing, Moment};
 use crate::pair::backlash::Backlash;
 use crate::pair::contact_ratio::path_of_contact;
@@ -23,8 +21,10 @@ use crate::pair::pattern::{SectionGaps, smallest_gaps};
 use crate::pair::pitch_pair::Member;
 use crate::pair::rolling::{RolledPeriod, TransmissionError, enough, roll};
 use crate::scene::Scene;
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 
 /// Change of the centre distance whose effect is told, um.
 pub const PROBE_UM: f64 = 10.0;

@@ -7,12 +7,12 @@
 
 use super::fit::Fit;
 use super::flanks::PairFlanks;
-use crate::error::Refusal;
 use crate::pair::assembly::{Meshing, Moment, ToothTouch};
 use crate::pair::contact::TouchKind;
 use crate::pair::pitch_pair::Member;
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::error::Refusal;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 use glam::DVec2;
 
 /// A corner or fillet that lifts the gears by less than this over what their flanks ask for carries nothing: it is the

@@ -5,13 +5,13 @@ use super::options::PairOptions;
 use super::page::{PagePictures, page};
 use super::pictures::{write_animation, write_pattern};
 use super::rolled::RolledPair;
-use crate::error::{Error, Result};
 use crate::findings::{Findings, RESULTS_FILE};
 use crate::output::folder::OutputFolder;
 use crate::output::report::REPORT_FILE;
 use crate::output::table::write_tables;
 use crate::pair::pitch_pair::Member;
 use crate::scene::Scene;
+use gearcut_core::error::{Error, Result};
 
 /// Writes everything but the run record.
 ///

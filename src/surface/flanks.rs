@@ -10,8 +10,8 @@
 //! per flank, whatever its width. Helical flanks keep all rows: they wind about the axis.
 
 use super::mesh::{Mesh, MeshPart, Scalar, ScalarValues};
-use crate::dexel::{Layer, NO_PASS, RayGrid};
-use crate::units::UM_PER_MM;
+use gearcut_core::dexel::{Layer, NO_PASS, RayGrid};
+use gearcut_core::units::UM_PER_MM;
 use glam::{DVec2, DVec3};
 
 /// Rows are left out where straight lines between the others miss no height by more than this, mm: a tenth of a
@@ -238,7 +238,7 @@ fn straight_rows(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dexel::{Column, Field};
+    use gearcut_core::dexel::{Column, Field};
 
     /// Part of a cylinder of radius 50 mm on the left of a tooth: `columns` dexels 5 µm apart, rows 50 µm apart over 10
     /// mm.

@@ -16,8 +16,8 @@ use serde_json::Value;
 use super::assembly::{Meshing, Mounting};
 use super::flank_chain::{self, FlankChain, GearFlanks};
 use super::pitch_pair::{Member, PairTeeth, PitchPair};
-use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
-use crate::terms::Side;
+use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape};
+use gearcut_core::terms::Side;
 
 fn data(name: &str) -> Value {
     let path = format!("{}/tests/data/pair/{name}.json", env!("CARGO_MANIFEST_DIR"));

@@ -7,8 +7,8 @@ use crate::pair_job::options::PairOptions;
 use crate::pair_job::rolled::{RolledPair, SIDES};
 use crate::pair_job::teeth::LEAST_LIFT_UM;
 use crate::scene::Scene;
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 
 pub(super) fn section(options: &PairOptions, rolled: &RolledPair) -> Section {
     let sides = (0..2).map(|side| side_section(options, rolled, side));

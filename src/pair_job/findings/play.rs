@@ -5,7 +5,7 @@ use crate::findings::{Place, Quantity, Section};
 use crate::pair::backlash::Backlash;
 use crate::pair_job::double_flank::{DoubleFlank, MASTER_TEETH};
 use crate::pair_job::rolled::RolledPair;
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 pub(super) fn backlash(rolled: &RolledPair) -> Section {
     let play = &rolled.backlash;

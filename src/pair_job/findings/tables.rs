@@ -5,7 +5,7 @@ use crate::findings::{Datum, Table, TableColumn};
 use crate::pair_job::double_flank::DoubleFlank;
 use crate::pair_job::rolled::{RolledPair, SIDES};
 use crate::pair_job::teeth::{ToothContact, edge};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// One row for every position of the period.
 pub(super) fn rolling(rolled: &RolledPair) -> Table {

@@ -5,8 +5,8 @@ use super::{ARCSEC_PER_RAD, at_moment, largest_at};
 use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
 use crate::pair::rolling::{TransmissionError, peak_to_peak};
 use crate::pair_job::rolled::{RolledPair, SIDES};
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 
 /// Multiples of the turns and of the mesh that are listed.
 const MULTIPLES: u32 = 4;

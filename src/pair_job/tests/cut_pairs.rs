@@ -2,7 +2,6 @@
 //! thinned teeth, and the contact search against all pairs of points.
 
 use super::*;
-use crate::gear::GearKind;
 use crate::pair::assembly::{Meshing, Mounting};
 use crate::pair::backlash::Backlash;
 use crate::pair::rolling::peak_to_peak;
@@ -13,8 +12,9 @@ use crate::pair_job::member;
 use crate::pair_job::options::PairOptions;
 use crate::pair_job::rolled::roll_pair;
 use crate::scene::Mate;
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::gear::GearKind;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 use glam::DVec2;
 use std::f64::consts::TAU;
 

@@ -1,7 +1,6 @@
 //! How deep the mate's tip corner stands in a fillet: p10, on the envelopes of flank and root.
 
 use super::*;
-use crate::gear::GearKind;
 use crate::job::GearJob;
 use crate::pair::flank_chain::FlankChain;
 use crate::pair::penetration::SpaceOutline;
@@ -10,8 +9,9 @@ use crate::pair_job::fit::Fit;
 use crate::pair_job::member;
 use crate::pair_job::outline::{Profile, joined};
 use crate::scene::Mate;
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::gear::GearKind;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 use glam::DVec2;
 
 /// Outline of the space before a tooth, of targets 5 um apart.

@@ -1,11 +1,11 @@
 //! Gears that do not belong together are refused, with what differs and by how much.
 
 use super::*;
-use crate::gear::GearKind;
 use crate::pair_job::fit::Fit;
 use crate::pair_job::member;
 use crate::pair_job::options::PairOptions;
 use crate::scene::Mate;
+use gearcut_core::gear::GearKind;
 
 const RING: &str = "kind = \"internal\"\nrim_mm = 10.0\n";
 

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::backend::{BackendWish, OnFailure, choose};
-use crate::gear::GearKind;
 use crate::pair::contact::{PairPose, touch};
 use crate::pair::flank_chain::{FlankChain, PolarFlank, nominal};
 use crate::pair::pitch_pair::Member;
@@ -10,8 +9,9 @@ use crate::pair_job::fit::Fit;
 use crate::pair_job::member;
 use crate::pair_job::outline::cut_flank;
 use crate::scene::Mate;
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::gear::GearKind;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 
 #[test]
 fn crests_and_bottoms_of_the_transmission_error() {

@@ -6,12 +6,6 @@
 //! curve; they are cut only by a hob that tops the gear, and otherwise the blank's own surface stands there. The
 //! linkage as printed destroys flanks and tips alike: the run makes no closed body of it.
 
-use crate::cut::Backend;
-use crate::dexel::PlacedRays;
-use crate::dexel::{Layer, Ray, SpatialField};
-use crate::error::Result;
-use crate::gear::PitchCurve;
-use crate::gear::blank::Blank;
 use crate::job::{
     CylindricalGear, GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, ToothFrame, band_mm, rows_z_mm,
     teeth_of_extreme_radius,
@@ -22,8 +16,14 @@ use crate::process::hobbing::rack_root::RackRootPoint;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
 use crate::surface::flanks::points_of_sections;
-use crate::surface::triangles::{SectionProfile, in_space};
-use crate::terms::Side;
+use crate::surface::triangles::SectionProfile;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::PlacedRays;
+use gearcut_core::dexel::{Layer, Ray, SpatialField};
+use gearcut_core::error::Result;
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::terms::Side;
 use glam::DVec2;
 
 /// Distance of the sections that show a helical gear's shape, mm: chords a micrometre off a helix of 20 deg on a radius
@@ -45,7 +45,7 @@ impl GearJob for HobCutter<'_> {
     }
 
     fn passes(&self) -> u32 {
-        self.operations.last().map_or(0, crate::passes::TurningPasses::end_pass)
+        self.operations.last().map_or(0, gearcut_core::passes::TurningPasses::end_pass)
     }
 
     fn marks_follow_along_tooth(&self, _operation: usize) -> bool {
@@ -76,8 +76,7 @@ impl GearJob for HobCutter<'_> {
         spacing_mm: f64,
         rows_mm: &[f64],
     ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
-        let (arcs_mm, profiles) = self.target_profiles(tooth, side, spacing_mm, rows_mm)?;
-        Ok((arcs_mm, in_space(&profiles, rows_mm)))
+        self.target_in_space(tooth, side, spacing_mm, rows_mm)
     }
 
     fn cut_flank(

@@ -12,7 +12,6 @@ mod teeth;
 
 pub use headline::headline;
 
-use crate::cut::CutStats;
 use crate::findings::{Place, Quantity, Section};
 use crate::measure::deviation::{PitchDeviations, Runout};
 use crate::measure::stock::Extreme;
@@ -22,7 +21,8 @@ use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::chips::ChipLedger;
 use crate::process::shaping::measure::{FlankReport, GearReport};
 use crate::steps::axes;
-use crate::units::UM_PER_MM;
+use gearcut_core::cut::CutStats;
+use gearcut_core::units::UM_PER_MM;
 use operation::operation;
 
 /// Why there is no pitch deviation.

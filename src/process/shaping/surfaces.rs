@@ -3,11 +3,6 @@
 //! Roots and tips are coarse fields of their own: roots along the normals of the target's fillet, tips along the
 //! normals of the pitch curve.
 
-use crate::cut::Backend;
-use crate::dexel::{Layer, Ray};
-use crate::error::Result;
-use crate::gear::PitchCurve;
-use crate::gear::blank::Blank;
 use crate::job::{CylindricalGear, GearJob, ToothFrame, band_mm, teeth_of_extreme_radius};
 use crate::process::shaping::job::ShapingJob;
 use crate::process::shaping::measure::flank_report;
@@ -15,8 +10,13 @@ use crate::process::shaping::target::target_root;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
 use crate::surface::flanks::points_of_sections;
-use crate::surface::triangles::{SectionProfile, in_space};
-use crate::terms::Side;
+use crate::surface::triangles::SectionProfile;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::{Layer, Ray};
+use gearcut_core::error::Result;
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::terms::Side;
 use glam::DVec2;
 
 impl GearJob for ShapingJob {
@@ -59,8 +59,7 @@ impl GearJob for ShapingJob {
         spacing_mm: f64,
         rows_mm: &[f64],
     ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
-        let (arcs_mm, profiles) = self.target_profiles(tooth, side, spacing_mm, rows_mm)?;
-        Ok((arcs_mm, in_space(&profiles, rows_mm)))
+        self.target_in_space(tooth, side, spacing_mm, rows_mm)
     }
 
     fn cut_flank(

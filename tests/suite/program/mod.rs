@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod cut;
 mod hobbing;
+mod once;
 mod pair;
 #[cfg(unix)]
 mod stopped;

@@ -4,6 +4,7 @@
 //! internal gears, internal_retraction_overlap.json the area that the returning cutter has in common with the finished
 //! gear, from polygons of the whole cutter and the whole gear.
 
+use crate::fixtures::expected::{data, number};
 use crate::fixtures::paper::{NORMAL, operation, paper_scene};
 use crate::fixtures::rings::ring_scene;
 use gearcut::cut::cpu::Cpu;
@@ -11,24 +12,14 @@ use gearcut::frame::Rigid2;
 use gearcut::gear::{Driver, GearKind, PitchCurve, PitchCurveShape};
 use gearcut::process::shaping::linkage::retraction::{RetractingCutter, RetractionLaw};
 use gearcut::process::shaping::linkage::{CutterPose, dynamics};
-use gearcut::process::shaping::returns::clearance::ReturnRoom;
+use gearcut::process::shaping::returns::clearance::{Clearance, ReturnRoom};
 use gearcut::process::shaping::returns::motion::{RamTimes, RetractionMotion};
 use gearcut::process::shaping::returns::survey::tightest;
 use gearcut::process::shaping::scene::model as shaping;
 use gearcut::process::shaping::{ShapingJob, gcode, programs};
 use gearcut::steps::planar::blank_report;
 use glam::DVec2;
-use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-fn data(name: &str) -> Value {
-    let path = format!("{}/tests/data/shaping/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
-}
 
 /// The internal gear of 102 teeth that runs with a driver of the ratio c + 1 - b sin phi.
 fn internal_shape(b: f64) -> PitchCurveShape {
@@ -60,7 +51,7 @@ fn rolling_pose(curve: &PitchCurve, kind: GearKind, r_c: f64, phi: f64) -> Cutte
 
 #[test]
 fn the_method_finds_the_places_of_the_independent_implementation() {
-    let case = &data("internal_s1")["cases"][0];
+    let case = &data("shaping/internal_s1")["cases"][0];
     let within = |key: &str| number(&case["tolerance"][key]);
     let (curve, r_c) = (internal_curve(0.3), number(&case["r0"]));
     let retraction = RetractingCutter { curve: &curve, kind: GearKind::Internal, cutter_pitch_radius_mm: r_c };
@@ -146,7 +137,7 @@ fn ring_job(b: f64, cutter_teeth: u32, retraction: shaping::Retraction, back_off
 
 #[test]
 fn overlaps_of_the_returning_cutter_agree() {
-    let data = data("internal_retraction_overlap");
+    let data = data("shaping/internal_retraction_overlap");
     let mut rows_seen = 0;
     for case in data["cases"].as_array().expect("cases") {
         let (b, z0, phi) = (number(&case["b"]), number(&case["z0"]), number(&case["phi"]));
@@ -165,7 +156,7 @@ fn overlaps_of_the_returning_cutter_agree() {
                     let back = retracting.retracted(law, &finish(phi), phi, row[0]).expect("a foot").pose;
                     let back = Rigid2::new(back.angle_rad, back.center_mm);
                     let beyond_mm = |p: DVec2| job.blank.height(p, phi + DVec2::from_angle(phi).angle_to(p)).0 - 2.0;
-                    let depth_mm = -room.at(place, &back, beyond_mm).surface.smallest_mm;
+                    let depth_mm = -room.at(place, &back, beyond_mm, Clearance::ANY).surface_mm;
                     if depth_mm > 0.0 { (room.overlap_mm2(place, &back, beyond_mm), depth_mm) } else { (0.0, depth_mm) }
                 };
                 let found = (0..6).map(at).max_by(|a, b| a.0.total_cmp(&b.0)).expect("phases");
@@ -188,10 +179,7 @@ fn the_printed_example_never_reaches_the_angle_at_which_it_is_said_to_interfere(
         let job = ring_job(b, z0, shaping::Retraction::CenterLine, 0.5, 1020);
         let rooms = job.survey(0).rooms(0.5, |_| RetractionLaw::CenterLine).expect("poses");
         let angle = rooms.iter().map(|room| room.from_normal_rad.abs()).fold(0.0, f64::max).to_degrees();
-        (
-            angle,
-            tightest(&rooms, |room| room.clearance.surface.smallest_mm).expect("rooms").clearance.surface.smallest_mm,
-        )
+        (angle, tightest(&rooms, |room| room.clearance.surface_mm).expect("rooms").clearance.surface_mm)
     };
     let (angle, smallest_mm) = steepest(0.3, 13);
     println!("printed design: {angle:.4} deg, {smallest_mm:.4} mm");
@@ -263,15 +251,15 @@ fn a_tilted_retraction_clears_stock_as_well() {
 fn the_survey_says_what_the_whole_blank_finds() {
     let job = external_job(true, shaping::Retraction::CenterLine, 480);
     let rooms = job.survey(0).rooms(0.5, |_| RetractionLaw::CenterLine).expect("poses");
-    let least = tightest(&rooms, |room| room.clearance.material.smallest_mm).expect("rooms");
+    let least = tightest(&rooms, |room| room.clearance.material_mm).expect("rooms");
     let [_, on_stock] = rubbing(&job, 0);
-    println!("survey {:.4} mm, whole blank {:.4} mm", -least.clearance.material.smallest_mm, on_stock.0);
+    println!("survey {:.4} mm, whole blank {:.4} mm", -least.clearance.material_mm, on_stock.0);
     // The blank's rays stand 0.15 mm apart.
-    assert!((-least.clearance.material.smallest_mm - on_stock.0).abs() < 0.01);
+    assert!((-least.clearance.material_mm - on_stock.0).abs() < 0.01);
     // A round gear clears the flanks by b sin(alpha), wherever the cutter is in its pitch.
-    let surface = tightest(&rooms, |room| room.clearance.surface.smallest_mm).expect("rooms").clearance.surface;
+    let surface = tightest(&rooms, |room| room.clearance.surface_mm).expect("rooms").clearance.surface_mm;
     let expected_mm = 0.5 * 20_f64.to_radians().sin();
-    assert!((surface.smallest_mm - expected_mm).abs() < 0.03 * expected_mm, "{surface:?} {expected_mm}");
+    assert!((surface - expected_mm).abs() < 0.03 * expected_mm, "{surface:?} {expected_mm}");
 }
 
 #[test]

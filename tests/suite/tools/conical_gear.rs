@@ -1,5 +1,5 @@
-//! A gear without pitch curve and transverse sections through the steps that all processes share: the two sides of slots
-//! that a face-mill head leaves at rest, cones whose axis leans in the gear.
+//! A gear without pitch curve and transverse sections through the steps that all processes share: the two sides of
+//! slots that a face-mill head leaves at rest, cones whose axis leans in the gear.
 
 use crate::fixtures::face_mill::*;
 use crate::fixtures::paper::paper_scene;

@@ -28,6 +28,8 @@ use crate::error::Refusal;
 use crate::gear::PitchCurveShape;
 use crate::math::jet::Jet;
 use crate::math::periodic_integral::PeriodicIntegral;
+use crate::math::roots::sample_angle_rad;
+use crate::units::TURN_RAD;
 pub use facts::{CurvatureExtremum, CurveFacts};
 use radius_law::{RadiusLaw, SizedLaw};
 
@@ -35,6 +37,8 @@ use radius_law::{RadiusLaw, SizedLaw};
 pub const DEFAULT_ACCURACY_MM: f64 = 1e-10;
 /// Largest difference between perimeter and pi m z that is accepted, in modules.
 pub const LARGEST_CLOSURE_ERROR_MODULES: f64 = 0.01;
+/// A curve repeats when its radii do to this share: 0.1 nm on a radius of 100 mm.
+const REPEAT_TOLERANCE: f64 = 1e-9;
 
 /// A closed pitch curve, ready for queries.
 #[derive(Debug, Clone)]
@@ -190,6 +194,22 @@ impl PitchCurve {
     /// Shape of the curve.
     pub fn facts(&self) -> &CurveFacts {
         &self.facts
+    }
+
+    /// Whether the curve, turned by an angle, covers itself.
+    pub fn repeats_after(&self, angle_rad: f64) -> bool {
+        let samples = self.samples_per_turn();
+        (0..samples).map(|index| sample_angle_rad(index, samples)).all(|phi| {
+            let [here, later] = [phi, phi + angle_rad].map(|phi| self.radius(phi).value());
+            (later - here).abs() <= REPEAT_TOLERANCE * here
+        })
+    }
+
+    /// Teeth after which a gear of `teeth` teeth looks the same again: the curve repeats, and a whole number of teeth
+    /// has passed. 1 on a circle, `teeth` on a curve without symmetry.
+    pub fn period_teeth(&self, teeth: u32) -> u32 {
+        let repeats = |part: &u32| self.repeats_after(TURN_RAD * f64::from(*part) / f64::from(teeth));
+        (1..teeth).filter(|part| teeth.is_multiple_of(*part)).find(repeats).unwrap_or(teeth)
     }
 
     /// Angles in [0, 2 pi) where the third derivative of r jumps (the points of a table).

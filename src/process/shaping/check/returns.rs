@@ -4,13 +4,13 @@
 //! In: a prepared [`ShapingJob`]. Out: lines and warnings for each operation, from the survey of ideal strokes
 //! ([`crate::process::shaping::returns::survey`]); the blank field of a run says what the strokes of the scene meet.
 
-use crate::error::Refusal;
 use crate::output::text::Sheet;
 use crate::process::shaping::returns::plan::{CLEAR_MM, no_pose};
 use crate::process::shaping::returns::survey::{PlacedRoom, Survey, tightest};
 use crate::process::shaping::scene::model::Retraction;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
-use crate::units::UM_PER_MM;
+use gearcut_core::error::Refusal;
+use gearcut_core::units::UM_PER_MM;
 
 /// Rows of the chart of the retraction angle, and the width of its bars.
 const CHART_ROWS: usize = 24;
@@ -65,11 +65,11 @@ fn angles(sheet: &mut Sheet, rooms: &[PlacedRoom]) {
 /// Room to the surfaces that stay.
 fn surface(sheet: &mut Sheet, operation: &PreparedOperation, survey: &Survey, rooms: &[PlacedRoom]) -> Option<String> {
     let name = &operation.spec.name;
-    let least = tightest(rooms, |room| room.clearance.surface.smallest_mm)?;
-    let (clearance_um, phi_deg) = (UM_PER_MM * least.clearance.surface.smallest_mm, least.phi_rad.to_degrees());
+    let least = tightest(rooms, |room| room.clearance.surface_mm)?;
+    let (clearance_um, phi_deg) = (UM_PER_MM * least.clearance.surface_mm, least.phi_rad.to_degrees());
     sheet
         .line("smallest clearance", format!("{clearance_um:.1} um from what is left, at polar angle {phi_deg:.2} deg"));
-    if least.clearance.surface.smallest_mm >= CLEAR_MM {
+    if least.clearance.surface_mm >= CLEAR_MM {
         return None;
     }
     if clearance_um >= 0.0 {
@@ -94,8 +94,8 @@ fn surface(sheet: &mut Sheet, operation: &PreparedOperation, survey: &Survey, ro
 /// Room to all material, stock included. That return strokes rub on stock is ordinary and costs the edge, not the gear:
 /// a line, and no warning.
 fn stock(sheet: &mut Sheet, operation: &PreparedOperation, rooms: &[PlacedRoom]) {
-    let Some(least) = tightest(rooms, |room| room.clearance.material.smallest_mm) else { return };
-    let (depth_mm, phi_deg) = (-least.clearance.material.smallest_mm, least.phi_rad.to_degrees());
+    let Some(least) = tightest(rooms, |room| room.clearance.material_mm) else { return };
+    let (depth_mm, phi_deg) = (-least.clearance.material_mm, least.phi_rad.to_degrees());
     if depth_mm < CLEAR_MM {
         sheet.line("stock", "clear of all material");
         return;

@@ -4,12 +4,11 @@
 
 use super::flank_report::FlankReport;
 use super::unevenness::{CrossedSurface, ToothAllowance, allowances, crossings, rack_allowance_mm};
-use crate::error::Result;
-use crate::gear::PitchCurveShape;
 use crate::measure::inspection::GearInspection;
 use crate::measure::stock::{Stock, stock};
 use crate::process::shaping::ShapingJob;
 use crate::steps::planar::CutField;
+use gearcut_core::error::Result;
 
 /// Allowances of one operation over the finished gear.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,7 +82,7 @@ pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport
             pitch_mm,
             job.scene.gear.pressure_angle_rad,
         ),
-        period_teeth: period_teeth(&job.scene.gear.pitch_curve, teeth),
+        period_teeth: job.curve.period_teeth(teeth),
     })
 }
 
@@ -91,20 +90,6 @@ pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport
 pub fn root_stock(space: u32, cut: &CutField) -> RootReport {
     let (finished, earlier) = cut.layers.split_last().expect("at least one operation");
     RootReport { space, stock: earlier.iter().map(|layer| stock(&cut.field, layer, finished)).collect() }
-}
-
-/// Teeth of one period: those of an n-th of the curve when n divides z, else all.
-fn period_teeth(shape: &PitchCurveShape, teeth: u32) -> u32 {
-    let order = match shape {
-        PitchCurveShape::Ellipse { order, .. }
-        | PitchCurveShape::SinusoidalRatio { order, .. }
-        | PitchCurveShape::Pascal { order, .. } => *order,
-        PitchCurveShape::Circle => teeth,
-        PitchCurveShape::Fourier { .. } | PitchCurveShape::Table { .. } => 1,
-        // Mate and driver repeat after the same arc.
-        PitchCurveShape::Mate { driver, .. } => return period_teeth(&driver.curve, driver.teeth),
-    };
-    if teeth.is_multiple_of(order.max(1)) { teeth / order.max(1) } else { teeth }
 }
 
 #[cfg(test)]

@@ -18,41 +18,37 @@
 //! covered.
 
 use super::swept::Swept;
-use crate::frame::Rigid2;
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::edge_polygon::EdgePolygon;
 use crate::process::shaping::linkage::CutterPose;
+use gearcut_core::frame::Rigid2;
 use glam::DVec2;
+use std::collections::VecDeque;
 
 /// Places of the edge are at most this far apart, in modules: 0.06 mm for module 3.
 const EDGE_SPACING_MODULES: f64 = 0.02;
 
-/// Room round the returning cutter at one stroke.
+/// Room round the returning cutter at one stroke: its smallest clearance in mm. Where it is negative, the edge stands
+/// in the material by so much; infinite where the whole edge is outside the uncut blank.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clearance {
     /// From the surfaces that the operation leaves.
-    pub surface: Room,
+    pub surface_mm: f64,
     /// From all material that is there, stock included.
-    pub material: Room,
+    pub material_mm: f64,
 }
 
-/// Smallest distance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Room {
-    /// Smallest clearance, mm; negative: the edge stands in the material by so much.
-    pub smallest_mm: f64,
-    /// Where, gear frame.
-    pub place_mm: DVec2,
+impl Clearance {
+    /// Of an edge that is nowhere in the blank; every clearance is below.
+    pub const ANY: Self = Self { surface_mm: f64::INFINITY, material_mm: f64::INFINITY };
 }
 
-impl Room {
-    const WIDE: Self = Self { smallest_mm: f64::INFINITY, place_mm: DVec2::ZERO };
-
-    fn add(&mut self, clearance_mm: f64, place_mm: DVec2) {
-        if clearance_mm < self.smallest_mm {
-            (self.smallest_mm, self.place_mm) = (clearance_mm, place_mm);
-        }
-    }
+/// Corners of the edge from one to another, on one cutter tooth.
+#[derive(Debug, Clone, Copy)]
+struct EdgePart {
+    blade: usize,
+    first: usize,
+    last: usize,
 }
 
 /// Clearances of the return strokes of one operation.
@@ -61,6 +57,8 @@ pub struct ReturnRoom {
     /// What the cutter has covered.
     pub swept: Swept,
     pub(super) polygon: EdgePolygon,
+    /// Way along the edge to each of its corners, mm.
+    arcs_mm: Vec<f64>,
     pub(super) module_mm: f64,
 }
 
@@ -74,29 +72,59 @@ impl ReturnRoom {
         pose: &dyn Fn(f64) -> CutterPose,
         earlier: &[&dyn Fn(f64) -> CutterPose],
     ) -> Self {
-        Self {
-            swept: Swept::new(cutter, teeth, module_mm, pose, earlier),
-            polygon: EdgePolygon::new(cutter.edge(), EDGE_SPACING_MODULES * module_mm),
-            module_mm,
-        }
+        let polygon = EdgePolygon::new(cutter.edge(), EDGE_SPACING_MODULES * module_mm);
+        let mut arc_mm = 0.0;
+        let chords = polygon.corners_mm[..=polygon.edge_chords()].windows(2).map(|chord| chord[0].distance(chord[1]));
+        let arcs_mm = std::iter::once(0.0).chain(chords.map(|chord_mm| {
+            arc_mm += chord_mm;
+            arc_mm
+        }));
+        let arcs_mm = arcs_mm.collect();
+        Self { swept: Swept::new(cutter, teeth, pose, earlier), polygon, arcs_mm, module_mm }
     }
 
     /// Room round the cutter that has gone back from the stroke at a place to `retracted` (gear from cutter);
-    /// `beyond_mm` says how far a point lies outside the uncut blank, negative inside.
-    pub fn at(&self, place: usize, retracted: &Rigid2, beyond_mm: impl Fn(DVec2) -> f64) -> Clearance {
-        let mut found = Clearance { surface: Room::WIDE, material: Room::WIDE };
-        for tool_from_blade in self.swept.tools_from_blades() {
-            let work_from_blade = retracted.after(&tool_from_blade);
-            for &corner_mm in &self.polygon.corners_mm[..=self.polygon.edge_chords()] {
-                let p = work_from_blade.point(corner_mm);
-                if beyond_mm(p) > 0.0 {
+    /// `beyond_mm` says how far a point lies outside the uncut blank, negative inside. Only clearances below `below` are
+    /// looked for; it is what comes out where there is none.
+    ///
+    /// Parts of the edge are halved. The clearance rises and falls by no more than one goes along the edge, so that a
+    /// part whose middle has room enough holds no place that is tighter than what was found, and no place of a part
+    /// whose middle lies far outside the blank is in it: the result is that of all corners.
+    pub fn at(
+        &self,
+        place: usize,
+        retracted: &Rigid2,
+        beyond_mm: impl Fn(DVec2) -> f64,
+        below: Clearance,
+    ) -> Clearance {
+        let blades: Vec<Rigid2> = self.swept.tools_from_blades().collect();
+        let work_from_blades: Vec<Rigid2> = blades.iter().map(|blade| retracted.after(blade)).collect();
+        let whole = |blade| EdgePart { blade, first: 0, last: self.polygon.edge_chords() };
+        let mut parts: VecDeque<EdgePart> = (0..blades.len()).map(whole).collect();
+        let mut found = below;
+        while let Some(EdgePart { blade, first, last }) = parts.pop_front() {
+            let middle = first.midpoint(last);
+            let p = work_from_blades[blade].point(self.polygon.corners_mm[middle]);
+            let [before_mm, here_mm, after_mm] = [first, middle, last].map(|corner| self.arcs_mm[corner]);
+            let reach_mm = (here_mm - before_mm).max(after_mm - here_mm);
+            let outside_mm = beyond_mm(p);
+            if outside_mm > reach_mm {
+                continue;
+            }
+            if outside_mm <= 0.0 {
+                let enough_mm = [found.surface_mm + reach_mm, found.material_mm + reach_mm];
+                let [surface_mm, material_mm] = self.swept.covered_mm(place, &blades[blade], p, enough_mm);
+                if surface_mm >= enough_mm[0] && material_mm >= enough_mm[1] {
                     continue;
                 }
-                // Deeper than the smallest clearance so far, a point says nothing new.
-                let enough = [found.surface, found.material].map(|room| room.smallest_mm);
-                let [surface_mm, material_mm] = self.swept.covered_mm(place, &tool_from_blade, p, enough);
-                found.surface.add(surface_mm, p);
-                found.material.add(material_mm, p);
+                found.surface_mm = found.surface_mm.min(surface_mm);
+                found.material_mm = found.material_mm.min(material_mm);
+            }
+            if middle > first {
+                parts.push_back(EdgePart { blade, first, last: middle - 1 });
+            }
+            if middle < last {
+                parts.push_back(EdgePart { blade, first: middle + 1, last });
             }
         }
         found

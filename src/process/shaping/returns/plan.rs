@@ -7,15 +7,17 @@
 //! by [`CLEAR_MM`], and turns it where it does not. A zone in which it turns reaches to the next place of the survey
 //! that is clear. Stock that later strokes take is no reason to turn: turning does not clear it, a tilt does.
 
-use super::survey::{PlacedRoom, Survey};
-use crate::error::{NotConverged, Refusal};
+use super::survey::Survey;
 use crate::process::shaping::linkage::retraction::{RetractingCutter, RetractionLaw};
 use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule};
 use crate::process::shaping::scene::model::{Machine, Retraction};
-use crate::units::TURN_RAD;
+use gearcut_core::error::{NotConverged, Refusal};
+use gearcut_core::units::TURN_RAD;
 
 /// Less clearance than this counts as none: the bound of what the survey resolves between its poses.
 pub const CLEAR_MM: f64 = 0.001;
+/// The clear places at the ends of a zone do not belong to it, whatever their rounding.
+const EDGE_RAD: f64 = 1e-9;
 
 /// How the cutter is drawn back over a turn.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,9 +47,8 @@ impl RetractionPlan {
             Retraction::CenterLine | Retraction::Normal | Retraction::Turned => {}
             Retraction::Tilted => plan.tilts_rad = Some(survey().tilts().unwrap_or_default()),
             Retraction::Auto => {
-                let rooms =
-                    survey().rooms(back_off_mm, |_| RetractionLaw::CenterLine).map_err(|_| no_pose(back_off_mm))?;
-                plan.turned_rad = zones(&rooms);
+                let clear = survey().clear(back_off_mm, |_| RetractionLaw::CenterLine, CLEAR_MM);
+                plan.turned_rad = zones(&clear.map_err(|_| no_pose(back_off_mm))?);
             }
         }
         let strokes = if plan.is_in_axes() { schedule.count() } else { 0 };
@@ -94,7 +95,10 @@ impl RetractionPlan {
                 RetractionLaw::Tilted(0.5 * (low + high))
             }
             Retraction::Auto => {
-                let within = |[from, to]: &[f64; 2]| (phi_rad - from).rem_euclid(TURN_RAD) <= to - from;
+                let within = |[from, to]: &[f64; 2]| {
+                    let into_rad = (phi_rad - from).rem_euclid(TURN_RAD);
+                    to - from >= TURN_RAD || (into_rad > EDGE_RAD && into_rad < to - from - EDGE_RAD)
+                };
                 if self.turned_rad.iter().any(within) { RetractionLaw::Turned } else { RetractionLaw::CenterLine }
             }
         }
@@ -126,15 +130,14 @@ pub fn no_pose(back_off_mm: f64) -> Refusal {
 }
 
 /// Neighbouring places without clearance, from the clear place before them to the one behind them.
-fn zones(rooms: &[PlacedRoom]) -> Vec<[f64; 2]> {
-    let clear = |index: usize| rooms[index % rooms.len()].clearance.surface.smallest_mm >= CLEAR_MM;
-    let step_rad = TURN_RAD / rooms.len() as f64;
-    let Some(start) = (0..rooms.len()).find(|&index| clear(index)) else {
+fn zones(clear: &[bool]) -> Vec<[f64; 2]> {
+    let step_rad = TURN_RAD / clear.len() as f64;
+    let Some(start) = clear.iter().position(|&clear| clear) else {
         return vec![[0.0, TURN_RAD]];
     };
     let mut zones: Vec<[f64; 2]> = Vec::new();
-    for index in start + 1..start + rooms.len() {
-        if clear(index) {
+    for index in start + 1..start + clear.len() {
+        if clear[index % clear.len()] {
             continue;
         }
         let [from, to] = [index - 1, index + 1].map(|near| near as f64 * step_rad);

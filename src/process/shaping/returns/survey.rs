@@ -5,6 +5,10 @@
 //! and cutter are ideal here: no runout, no eccentricity, the final offset; what the strokes of a scene really meet,
 //! the blank field says.
 //!
+//! Where the pitch curve repeats after a number of teeth, so does everything here, and only the places of one period
+//! are looked at: on a circle those of one pitch. A curve that does not quite close shifts the teeth against its
+//! period by at most its gap, a fiftieth of the way from place to place.
+//!
 //! Directions. An edge that has just made surface with the normal n (out of the tool) leaves it when the cutter moves
 //! along u with u . n <= 0. Measured from the normal of the pitch curve into the work, let the normals of all surface
 //! that still stands lie between the angles low and high; every direction out of the work tilted by
@@ -18,24 +22,28 @@
 
 use super::clearance::{Clearance, ReturnRoom};
 use super::swept::POSES_PER_PITCH;
-use crate::error::NotConverged;
-use crate::frame::Rigid2;
-use crate::gear::GearKind;
-use crate::gear::blank::Blank;
 use crate::process::shaping::generation::Generation;
 use crate::process::shaping::linkage::CutterPose;
 use crate::process::shaping::linkage::retraction::{RetractingCutter, RetractionLaw};
+use gearcut_core::error::NotConverged;
+use gearcut_core::frame::Rigid2;
+use gearcut_core::gear::GearKind;
+use gearcut_core::gear::blank::Blank;
 use glam::DVec2;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
 /// Places to a pitch at which return strokes are looked at: the room round the cutter repeats from tooth to tooth.
 pub const PHASES_PER_PITCH: usize = 6;
+/// Poses from one place to the next.
+const STEP: usize = POSES_PER_PITCH / PHASES_PER_PITCH;
 
 /// Return strokes of an operation.
 #[derive(Debug)]
 pub struct Survey<'a> {
     room: ReturnRoom,
+    /// Teeth after which the pitch curve repeats.
+    period_teeth: u32,
     generation: &'a Generation,
     blank: &'a Blank,
 }
@@ -67,10 +75,11 @@ impl<'a> Survey<'a> {
         let earlier: Vec<&dyn Fn(f64) -> CutterPose> =
             earlier.iter().map(|pose| pose as &dyn Fn(f64) -> CutterPose).collect();
         let room = ReturnRoom::new(&generation.cutter, teeth, module_mm, &pose_of(generation), &earlier);
-        Self { room, generation, blank }
+        Self { room, period_teeth: blank.curve().period_teeth(teeth), generation, blank }
     }
 
-    /// Room round the cutter over a turn, drawn back by `back_off_mm` by the law that `law(phi)` gives.
+    /// Room round the cutter over a turn, drawn back by `back_off_mm` by the law that `law(phi)` gives, which repeats as
+    /// the pitch curve does.
     ///
     /// # Errors
     /// A pose that the law does not lead to.
@@ -79,18 +88,37 @@ impl<'a> Survey<'a> {
         back_off_mm: f64,
         law: impl Fn(f64) -> RetractionLaw + Sync,
     ) -> Result<Vec<PlacedRoom>, NotConverged> {
-        self.places()
-            .map(|place| {
-                let phi_rad = self.room.swept.phi_rad(place);
-                let Generation { linkage, offset_mm, .. } = self.generation;
-                let pose = linkage.pose(phi_rad, *offset_mm);
-                let back = RetractingCutter::of(linkage).retracted(law(phi_rad), &pose, phi_rad, back_off_mm)?.pose;
-                let returning = Rigid2::new(back.angle_rad, back.center_mm);
-                let clearance = self.room.at(place, &returning, |p| self.beyond_mm(p, phi_rad));
-                let from_normal_rad = self.out_of_work(phi_rad).angle_to(self.sign() * pose.center_mm);
-                Ok(PlacedRoom { place, returning, phi_rad, from_normal_rad, clearance })
-            })
-            .collect()
+        let clearance =
+            |place: usize| Ok(self.clearance(place, &self.returning(place, back_off_mm, &law)?, Clearance::ANY));
+        let period: Vec<Clearance> = self.places_of_period().map(clearance).collect::<Result<_, _>>()?;
+        let places = (0..self.room.swept.places()).step_by(STEP).zip(period.iter().cycle());
+        let room = |(place, clearance): (usize, &Clearance)| {
+            let phi_rad = self.room.swept.phi_rad(place);
+            let from_normal_rad = self.out_of_work(phi_rad).angle_to(self.sign() * self.pose(phi_rad).center_mm);
+            let returning = self.returning(place, back_off_mm, &law)?;
+            Ok(PlacedRoom { place, returning, phi_rad, from_normal_rad, clearance: *clearance })
+        };
+        places.map(room).collect()
+    }
+
+    /// Whether the cutter, drawn back as for [`Self::rooms`], clears the surfaces that stay by `least_mm`, at the places
+    /// of a turn.
+    ///
+    /// # Errors
+    /// A pose that the law does not lead to.
+    pub fn clear(
+        &self,
+        back_off_mm: f64,
+        law: impl Fn(f64) -> RetractionLaw + Sync,
+        least_mm: f64,
+    ) -> Result<Vec<bool>, NotConverged> {
+        let below = Clearance { surface_mm: least_mm, material_mm: f64::NEG_INFINITY };
+        let clear = |place: usize| {
+            let clearance = self.clearance(place, &self.returning(place, back_off_mm, &law)?, below);
+            Ok(clearance.surface_mm >= least_mm)
+        };
+        let period: Vec<bool> = self.places_of_period().map(clear).collect::<Result<_, _>>()?;
+        Ok(period.repeat(self.room.swept.places() / STEP / period.len()))
     }
 
     /// Area that the returning cutter has in common with what the operation leaves, mm2.
@@ -101,7 +129,7 @@ impl<'a> Survey<'a> {
     /// Smallest and largest tilt out of the normal that clears everywhere, rad; the first is the larger one where none
     /// does. `None` where no stroke touches the blank.
     pub fn tilts(&self) -> Option<[f64; 2]> {
-        let bounds = self.places().filter_map(|place| {
+        let bounds = self.places_of_period().filter_map(|place| {
             let phi_rad = self.room.swept.phi_rad(place);
             let into_work = -self.out_of_work(phi_rad);
             let normals = self.room.contact_normals_rad(place, into_work, |p| self.beyond_mm(p, phi_rad));
@@ -110,9 +138,31 @@ impl<'a> Survey<'a> {
         bounds.reduce_with(|a, b| [a[0].max(b[0]), a[1].min(b[1])])
     }
 
-    fn places(&self) -> impl IndexedParallelIterator<Item = usize> {
-        let step = POSES_PER_PITCH / PHASES_PER_PITCH;
-        (0..self.room.swept.places() / step).into_par_iter().map(move |index| index * step)
+    /// Gear from cutter on the way back from the stroke at a place.
+    fn returning(
+        &self,
+        place: usize,
+        back_off_mm: f64,
+        law: impl Fn(f64) -> RetractionLaw,
+    ) -> Result<Rigid2, NotConverged> {
+        let phi_rad = self.room.swept.phi_rad(place);
+        let cutter = RetractingCutter::of(&self.generation.linkage);
+        let back = cutter.retracted(law(phi_rad), &self.pose(phi_rad), phi_rad, back_off_mm)?.pose;
+        Ok(Rigid2::new(back.angle_rad, back.center_mm))
+    }
+
+    fn clearance(&self, place: usize, returning: &Rigid2, below: Clearance) -> Clearance {
+        let phi_rad = self.room.swept.phi_rad(place);
+        self.room.at(place, returning, |p| self.beyond_mm(p, phi_rad), below)
+    }
+
+    /// Places to look at in the first period of the turn.
+    fn places_of_period(&self) -> impl IndexedParallelIterator<Item = usize> {
+        (0..self.period_teeth as usize * PHASES_PER_PITCH).into_par_iter().map(|index| index * STEP)
+    }
+
+    fn pose(&self, phi_rad: f64) -> CutterPose {
+        self.generation.linkage.pose(phi_rad, self.generation.offset_mm)
     }
 
     fn sign(&self) -> f64 {
@@ -142,4 +192,68 @@ impl<'a> Survey<'a> {
 /// The place with the least room to surfaces that stay, or to all material, by the key.
 pub fn tightest(rooms: &[PlacedRoom], of: impl Fn(&PlacedRoom) -> f64) -> Option<&PlacedRoom> {
     rooms.iter().filter(|room| of(room).is_finite()).min_by(|a, b| of(a).total_cmp(&of(b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::process;
+    use crate::process::shaping::ShapingJob;
+    use std::path::Path;
+
+    fn shipped(name: &str) -> ShapingJob {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/shaping/{name}.toml"));
+        ShapingJob::new(process::load(&path, &[]).expect("a shipped scene").scene).expect("it can be cut")
+    }
+
+    /// Room at a place with every corner of every cutter tooth looked at.
+    fn room_of_all_corners(survey: &Survey, at: &PlacedRoom) -> Clearance {
+        let mut found = Clearance::ANY;
+        let polygon = &survey.room.polygon;
+        for blade in survey.room.swept.tools_from_blades() {
+            for &corner_mm in &polygon.corners_mm[..=polygon.edge_chords()] {
+                let p = at.returning.after(&blade).point(corner_mm);
+                if survey.beyond_mm(p, at.phi_rad) <= 0.0 {
+                    let [surface_mm, material_mm] =
+                        survey.room.swept.covered_mm(at.place, &blade, p, [f64::INFINITY; 2]);
+                    found.surface_mm = found.surface_mm.min(surface_mm);
+                    found.material_mm = found.material_mm.min(material_mm);
+                }
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn one_period_and_parts_of_the_edge_say_what_the_whole_turn_says() {
+        for (name, period_teeth) in [("internal_interfering", 34), ("elliptical_normal", 14), ("circular_m3_z24", 1)] {
+            let job = shipped(name);
+            let survey = job.survey(1);
+            assert_eq!(survey.period_teeth, period_teeth, "{name}");
+            let rooms = survey.rooms(0.8, |_| RetractionLaw::CenterLine).expect("poses");
+            assert_eq!(rooms.len(), PHASES_PER_PITCH * job.scene.gear.teeth as usize);
+            // Places of every phase and period.
+            for room in rooms.iter().step_by(19) {
+                let expected = room_of_all_corners(&survey, room);
+                let off_mm = [
+                    room.clearance.surface_mm - expected.surface_mm,
+                    room.clearance.material_mm - expected.material_mm,
+                ];
+                // The elliptical gear's size is the printed one, and does not close to the last 60 nm.
+                let within_mm = 1e-8 + survey.blank.curve().closure_error_mm().abs();
+                assert!(off_mm.iter().all(|off| off.abs() < within_mm), "{name}: {room:?}, not {expected:?}");
+            }
+            let clear = survey.clear(0.8, |_| RetractionLaw::CenterLine, 0.1).expect("poses");
+            assert!(
+                clear.iter().eq(rooms.iter().map(|room| room.clearance.surface_mm >= 0.1).collect::<Vec<_>>().iter())
+            );
+            // A tooth short of the period is none.
+            if period_teeth > 1 {
+                let short = PHASES_PER_PITCH * (period_teeth as usize - 1);
+                let off_mm =
+                    |index: usize| rooms[index + short].clearance.surface_mm - rooms[index].clearance.surface_mm;
+                assert!((0..short).any(|index| off_mm(index).abs() > 0.001), "{name}");
+            }
+        }
+    }
 }

@@ -7,29 +7,81 @@
 //! Poses stand [`POSES_PER_PITCH`] to a pitch, and the parabola through the deepest three says where to look once more.
 //! Without that h = (sin a / 8) (1 / rho + 1 / r_c) ds^2 would be missing, 0.1 um at the pitch point for module 3 and
 //! 0.4 um towards the tip.
+//!
+//! The depth of a point changes by no more than the point moves against the tooth. From one pose to the next that is
+//! the turn between the poses times the distance from a pivot, and what the pivot itself slips; over k poses, with the
+//! largest turn t, slip s and way w of the pivot from pose to pose, and the distance D from the pivot here,
+//!
+//! ```text
+//! |depth(i + k) - depth(i)| <= k s + t (k D + w k (k - 1) / 2)
+//! ```
+//!
+//! Poses that cannot come up to the deepest so far are passed over. The pivot is the pole of the motion, near the pitch
+//! point, so that slips are rounding.
 
 use super::tooth_distance::ToothDistance;
-use crate::frame::Rigid2;
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::linkage::CutterPose;
-use crate::units::TURN_RAD;
+use gearcut_core::frame::Rigid2;
+use gearcut_core::units::TURN_RAD;
 use glam::DVec2;
+use std::ops::RangeInclusive;
 
 /// Poses of the cutter while it rolls over one pitch.
 pub const POSES_PER_PITCH: usize = 48;
-/// Pitches before and after a stroke whose poses can cover what the cutter meets there; a cutter tooth is in the work
-/// for less than three on external gears, and internal gears hold it longer.
-const REACH_PITCHES: usize = 6;
-/// A tooth passes a point once: the depth rises to its largest value and falls. When it has fallen by so many modules,
-/// the tooth is leaving.
-const LEAVING_MODULES: f64 = 0.5;
+/// Poses before and after a stroke that can cover what the cutter meets there: six pitches. A cutter tooth is in the
+/// work for less than three on external gears, and internal gears hold it longer.
+const REACH: usize = 6 * POSES_PER_PITCH;
 /// What a place of the edge at most stands in earlier poses if it touches what they have left, mm.
 const CONTACT_MM: f64 = 1e-3;
+/// A pole farther from the cutter's axis than so many of its tip radii is no pivot: the poses hardly turn.
+const FARTHEST_PIVOT: f64 = 2.0;
 
 /// The cutter's way over one turn and a little before and after, for one operation.
 #[derive(Debug)]
 struct Way {
     poses: Vec<Rigid2>,
+    /// Between each pose and the next, gear frame.
+    pivots_mm: Vec<DVec2>,
+    /// Largest turn from pose to pose, as the chord on the unit circle.
+    turn: f64,
+    /// Largest slip of a pivot.
+    slip_mm: f64,
+    /// Largest way from pivot to pivot.
+    pivot_step_mm: f64,
+}
+
+impl Way {
+    fn new(poses: Vec<Rigid2>, tip_radius_mm: f64) -> Self {
+        // Tool-from-gear as complex numbers: p becomes a (p - o).
+        let back = |pose: &Rigid2| DVec2::new(pose.rotation.x, -pose.rotation.y);
+        let (mut pivots_mm, mut turn, mut slip_mm) = (Vec::new(), 0.0_f64, 0.0_f64);
+        for pair in poses.windows(2) {
+            let [a, b] = [back(&pair[0]), back(&pair[1])];
+            let [from_mm, to_mm] = [pair[0].translation_mm, pair[1].translation_mm];
+            let chord = a - b;
+            let conjugate = DVec2::new(chord.x, -chord.y);
+            let pole_mm = conjugate.rotate(a.rotate(from_mm) - b.rotate(to_mm)) / chord.length_squared();
+            let near = pole_mm.distance(from_mm) < FARTHEST_PIVOT * tip_radius_mm;
+            let pivot_mm = if near { pole_mm } else { from_mm };
+            turn = turn.max(chord.length());
+            slip_mm = slip_mm.max(a.rotate(pivot_mm - from_mm).distance(b.rotate(pivot_mm - to_mm)));
+            pivots_mm.push(pivot_mm);
+        }
+        let pivot_step_mm = pivots_mm.windows(2).map(|pair| pair[0].distance(pair[1])).fold(0.0, f64::max);
+        Self { poses, pivots_mm, turn, slip_mm, pivot_step_mm }
+    }
+
+    /// Number of poses, on the same side of pose `index`, up to the first at which the depth of a point can have grown
+    /// by more than `gap_mm`.
+    fn poses_to_gain(&self, index: usize, p: DVec2, gap_mm: f64) -> usize {
+        let pivot_mm = [index.saturating_sub(1), index.min(self.pivots_mm.len() - 1)].map(|i| self.pivots_mm[i]);
+        let away_mm = pivot_mm[0].distance(p).max(pivot_mm[1].distance(p));
+        let quadratic = 0.5 * self.turn * self.pivot_step_mm;
+        let linear = self.slip_mm + self.turn * away_mm - quadratic;
+        let within = 2.0 * gap_mm / (linear + (linear * linear + 4.0 * quadratic * gap_mm).sqrt());
+        within as usize + 1
+    }
 }
 
 /// What a cutter covers in an operation and those before it.
@@ -40,34 +92,32 @@ pub struct Swept {
     ways: Vec<Way>,
     distance: ToothDistance,
     poses_per_turn: usize,
-    module_mm: f64,
 }
 
 impl Swept {
     /// For an operation that leads a cutter through `pose(phi)`, phi unwrapped, after the `earlier` ones; the gear has
-    /// `teeth` teeth of `module_mm`.
+    /// `teeth` teeth.
     pub fn new(
         cutter: &ShaperCutter,
         teeth: u32,
-        module_mm: f64,
         pose: &dyn Fn(f64) -> CutterPose,
         earlier: &[&dyn Fn(f64) -> CutterPose],
     ) -> Self {
         let poses_per_turn = POSES_PER_PITCH * teeth as usize;
-        let before = (REACH_PITCHES * POSES_PER_PITCH) as f64;
+        let before = REACH as f64;
         let way = |pose: &dyn Fn(f64) -> CutterPose| {
             let at = |index: usize| {
                 let pose = pose((index as f64 - before) * TURN_RAD / poses_per_turn as f64);
                 Rigid2::new(pose.angle_rad, pose.center_mm)
             };
-            Way { poses: (0..poses_per_turn + 2 * REACH_PITCHES * POSES_PER_PITCH).map(at).collect() }
+            let poses = (0..poses_per_turn + 2 * REACH).map(at).collect();
+            Way::new(poses, cutter.tip_radius_mm)
         };
         Self {
             cutter_teeth: cutter.teeth,
             ways: std::iter::once(way(pose)).chain(earlier.iter().map(|pose| way(pose))).collect(),
             distance: ToothDistance::new(cutter),
             poses_per_turn,
-            module_mm,
         }
     }
 
@@ -95,97 +145,138 @@ impl Swept {
     /// How deep a point stands in the pose that covers it deepest: over all poses, and over those up to the stroke. A
     /// depth that is `enough` ends the search.
     pub fn covered_mm(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2, enough: [f64; 2]) -> [f64; 2] {
-        let here = index(place);
-        let mut past_mm = self.deepest_mm(&self.ways[0], Span::Past(here), tool_from_blade, p, enough[1]);
-        past_mm = past_mm.max(self.earlier_mm(here, tool_from_blade, p, enough[1], past_mm));
+        let (here, own) = (index(place), &self.ways[0]);
+        let probe = Probe { distance: &self.distance, blade: tool_from_blade.rotation, p };
+        let mut deepest = Deepest { depth_mm: f64::NEG_INFINITY, at: here };
+        // From the stroke outwards: what it has cut itself is found first.
+        let left = probe.walk(own, Poses::until(here), &mut deepest, enough[1]);
+        let past_mm = probe.between_poses_mm(own, deepest, &(first(here)..=here), enough[1]);
+        let past_mm = self.earlier_mm(here, &probe, past_mm, enough[1]);
         if past_mm >= enough[0] {
             return [past_mm; 2];
         }
-        let next_mm = self.deepest_mm(&self.ways[0], Span::All(here), tool_from_blade, p, enough[0]);
-        [past_mm.max(next_mm), past_mm]
+        for poses in [Poses::after(here), left] {
+            probe.walk(own, poses, &mut deepest, enough[0]);
+        }
+        let all_mm = probe.between_poses_mm(own, deepest, &(first(here)..=here + REACH), enough[0]);
+        [all_mm.max(past_mm), past_mm]
     }
 
     /// Whether a point of the edge at its stroke touches surface that this stroke has made: no earlier pose has covered
     /// it.
     pub fn is_contact(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2) -> bool {
-        let here = index(place);
-        let past_mm = self.deepest_mm(&self.ways[0], Span::Past(here - 1), tool_from_blade, p, CONTACT_MM);
-        past_mm.max(self.earlier_mm(here, tool_from_blade, p, CONTACT_MM, past_mm)) <= CONTACT_MM
+        let (before, own) = (index(place) - 1, &self.ways[0]);
+        let probe = Probe { distance: &self.distance, blade: tool_from_blade.rotation, p };
+        let mut deepest = Deepest { depth_mm: f64::NEG_INFINITY, at: before };
+        probe.walk(own, Poses::until(before), &mut deepest, CONTACT_MM);
+        let past_mm = probe.between_poses_mm(own, deepest, &(first(before)..=before), CONTACT_MM);
+        self.earlier_mm(before, &probe, past_mm, CONTACT_MM) <= CONTACT_MM
     }
 
-    /// The depth over all poses of the earlier operations, unless `so_far_mm` is enough.
-    fn earlier_mm(&self, here: usize, tool_from_blade: &Rigid2, p: DVec2, enough_mm: f64, so_far_mm: f64) -> f64 {
-        let mut deepest_mm = so_far_mm;
+    /// The depth over all poses of the earlier operations where it is more than `deepest_mm`, unless that is enough.
+    fn earlier_mm(&self, here: usize, probe: &Probe, mut deepest_mm: f64, enough_mm: f64) -> f64 {
         for way in &self.ways[1..] {
             if deepest_mm >= enough_mm {
                 break;
             }
-            deepest_mm = deepest_mm.max(self.deepest_mm(way, Span::All(here), tool_from_blade, p, enough_mm));
+            let mut deepest = Deepest { depth_mm: f64::NEG_INFINITY, at: here };
+            for poses in [Poses::until(here), Poses::after(here)] {
+                probe.walk(way, poses, &mut deepest, enough_mm);
+            }
+            let all = first(here)..=here + REACH;
+            deepest_mm = deepest_mm.max(probe.between_poses_mm(way, deepest, &all, enough_mm));
         }
         deepest_mm
     }
+}
 
-    /// Depth in the deepest pose of a span; the search ends at a depth of `enough_mm`.
-    fn deepest_mm(&self, way: &Way, span: Span, tool_from_blade: &Rigid2, p: DVec2, enough_mm: f64) -> f64 {
-        let depth = |pose: &Rigid2| {
-            let away = p - pose.translation_mm;
-            let blade = pose.rotation.rotate(tool_from_blade.rotation);
-            -self.distance.at_mm(DVec2::new(blade.x, -blade.y).rotate(away))
-        };
-        let tip_mm = self.distance.tip_radius_mm;
-        let reach = REACH_PITCHES * POSES_PER_PITCH;
-        let (here, last) = match span {
-            Span::Past(here) => (here, here),
-            Span::All(here) => (here, here + reach),
-        };
-        let (mut deepest_mm, mut at) = (f64::NEG_INFINITY, here);
-        let leaving_mm = LEAVING_MODULES * self.module_mm;
-        // From the stroke outwards: what it has cut itself is found first.
-        let ways_out: [&mut dyn Iterator<Item = usize>; 2] =
-            [&mut (here + 1 - reach..=here).rev(), &mut (here + 1..=last)];
-        for poses in ways_out {
-            for index in poses {
-                // No pose covers a point deeper than its tip circle does.
-                let most_mm = tip_mm - p.distance(way.poses[index].translation_mm);
-                if most_mm <= deepest_mm - leaving_mm {
-                    break;
-                }
-                let here_mm = depth(&way.poses[index]);
-                if here_mm > deepest_mm {
-                    (deepest_mm, at) = (here_mm, index);
-                    if deepest_mm >= enough_mm {
-                        return deepest_mm;
-                    }
-                } else if here_mm < deepest_mm - leaving_mm {
-                    break;
-                }
+/// A point of the work, seen from one cutter tooth.
+struct Probe<'a> {
+    distance: &'a ToothDistance,
+    /// Direction of the tooth on the cutter.
+    blade: DVec2,
+    p: DVec2,
+}
+
+/// The deepest pose so far.
+#[derive(Clone, Copy)]
+struct Deepest {
+    depth_mm: f64,
+    /// Its index; the end of a span as long as there is none.
+    at: usize,
+}
+
+/// Poses to look at, outwards from a stroke.
+#[derive(Clone, Copy)]
+struct Poses {
+    next: usize,
+    left: usize,
+    backwards: bool,
+}
+
+impl Poses {
+    fn until(here: usize) -> Self {
+        Self { next: here, left: REACH, backwards: true }
+    }
+
+    fn after(here: usize) -> Self {
+        Self { next: here + 1, left: REACH, backwards: false }
+    }
+
+    fn pass(&mut self, poses: usize) {
+        let poses = poses.min(self.left);
+        self.left -= poses;
+        self.next = if self.backwards { self.next.saturating_sub(poses) } else { self.next + poses };
+    }
+}
+
+impl Probe<'_> {
+    fn depth_mm(&self, pose: &Rigid2) -> f64 {
+        let blade = pose.rotation.rotate(self.blade);
+        -self.distance.at_mm(DVec2::new(blade.x, -blade.y).rotate(self.p - pose.translation_mm))
+    }
+
+    /// Looks for deeper poses until one is deep enough; gives those that are left.
+    fn walk(&self, way: &Way, mut poses: Poses, deepest: &mut Deepest, enough_mm: f64) -> Poses {
+        while poses.left > 0 && deepest.depth_mm < enough_mm {
+            let pose = &way.poses[poses.next];
+            // No pose covers a point deeper than its tip circle does.
+            let most_mm = self.distance.tip_radius_mm - self.p.distance(pose.translation_mm);
+            let depth_mm = if most_mm > deepest.depth_mm { self.depth_mm(pose) } else { most_mm };
+            if depth_mm > deepest.depth_mm {
+                *deepest = Deepest { depth_mm, at: poses.next };
+                poses.pass(1);
+            } else {
+                poses.pass(way.poses_to_gain(poses.next, self.p, deepest.depth_mm - depth_mm));
             }
         }
-        if at == last || at + reach == here + 1 {
-            return deepest_mm;
+        poses
+    }
+
+    /// The depth where it is largest, on the way from pose to pose of a span; as it is where that is enough.
+    fn between_poses_mm(&self, way: &Way, deepest: Deepest, span: &RangeInclusive<usize>, enough_mm: f64) -> f64 {
+        let Deepest { depth_mm, at } = deepest;
+        if depth_mm >= enough_mm || at <= *span.start() || at >= *span.end() {
+            return depth_mm;
         }
         let around = [&way.poses[at - 1], &way.poses[at], &way.poses[at + 1]];
-        let [before_mm, after_mm] = [depth(around[0]), depth(around[2])];
-        let bend_mm = 2.0 * deepest_mm - before_mm - after_mm;
+        let [before_mm, after_mm] = [around[0], around[2]].map(|pose| self.depth_mm(pose));
+        let bend_mm = 2.0 * depth_mm - before_mm - after_mm;
         if bend_mm <= 0.0 {
-            return deepest_mm;
+            return depth_mm;
         }
-        depth(&between(around, 0.5 * (after_mm - before_mm) / bend_mm)).max(deepest_mm)
+        self.depth_mm(&between(around, 0.5 * (after_mm - before_mm) / bend_mm)).max(depth_mm)
     }
 }
 
 /// Index of the pose of a place.
 fn index(place: usize) -> usize {
-    place + REACH_PITCHES * POSES_PER_PITCH
+    place + REACH
 }
 
-/// Poses to look at, round the index of a stroke.
-#[derive(Clone, Copy)]
-enum Span {
-    /// Up to this one.
-    Past(usize),
-    /// Before and after.
-    All(usize),
+/// Index of the first pose to look at from that of a stroke.
+fn first(here: usize) -> usize {
+    here + 1 - REACH
 }
 
 /// The pose a share of a step after the middle one of three, by the parabola through them: 15 nm off at the cutter's
@@ -196,4 +287,104 @@ fn between(poses: [&Rigid2; 3], share: f64) -> Rigid2 {
         b + 0.5 * share * (c - a + share * (a - 2.0 * b + c))
     };
     Rigid2 { rotation: mix(|pose| pose.rotation).normalize(), translation_mm: mix(|pose| pose.translation_mm) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::process;
+    use crate::process::shaping::ShapingJob;
+    use std::path::Path;
+
+    fn shipped(name: &str) -> ShapingJob {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/shaping/{name}.toml"));
+        ShapingJob::new(process::load(&path, &[]).expect("a shipped scene").scene).expect("it can be cut")
+    }
+
+    /// The depth with every pose looked at, and the parabola through the deepest three.
+    fn deepest_of_all_mm(swept: &Swept, way: &Way, poses: std::ops::Range<usize>, blade: &Rigid2, p: DVec2) -> f64 {
+        let depth = |pose: &Rigid2| -swept.distance.at_mm(pose.after(blade).inverse().point(p));
+        let depths: Vec<f64> = way.poses[poses.clone()].iter().map(depth).collect();
+        let at = (0..depths.len()).max_by(|&a, &b| depths[a].total_cmp(&depths[b])).expect("poses");
+        let bend_mm =
+            if at == 0 || at + 1 == depths.len() { 0.0 } else { 2.0 * depths[at] - depths[at - 1] - depths[at + 1] };
+        if bend_mm <= 0.0 {
+            return depths[at];
+        }
+        let around = [-1, 0, 1].map(|off: isize| &way.poses[(poses.start + at).wrapping_add_signed(off)]);
+        depth(&between(around, 0.5 * (depths[at + 1] - depths[at - 1]) / bend_mm)).max(depths[at])
+    }
+
+    #[test]
+    fn poses_that_are_passed_over_cover_nothing_deeper() {
+        for name in ["internal_interfering", "fourier_concave", "circular_m3_z24"] {
+            let job = shipped(name);
+            let [rough, finish] = [0, 1].map(|i| {
+                let operation = &job.operations[i];
+                move |phi: f64| operation.linkage.pose(phi, operation.spec.offset_mm)
+            });
+            let gear = &job.scene.gear;
+            let swept = Swept::new(&job.cutter, gear.teeth, &finish, &[&rough]);
+            let (mut looked_at, mut inside) = (0, 0);
+            for place in (0..swept.places()).step_by(331) {
+                let (here, pose) = (index(place), *swept.pose(place));
+                for blade in swept.tools_from_blades() {
+                    for i in 0..70 {
+                        // All over the tooth, and beside it.
+                        let on_tooth = DVec2::new(
+                            swept.distance.tip_radius_mm - 0.33 * f64::from(i % 10) + 0.2,
+                            0.7 * (f64::from(i / 10) - 3.1),
+                        );
+                        let p = pose.after(&blade).point(on_tooth);
+                        let past = first(here)..here + 1;
+                        let all = first(here)..here + REACH + 1;
+                        let rough_mm = deepest_of_all_mm(&swept, &swept.ways[1], all.clone(), &blade, p);
+                        let past_mm = deepest_of_all_mm(&swept, &swept.ways[0], past, &blade, p).max(rough_mm);
+                        let all_mm = deepest_of_all_mm(&swept, &swept.ways[0], all, &blade, p).max(past_mm);
+                        let found = swept.covered_mm(place, &blade, p, [f64::INFINITY; 2]);
+                        for (found, expected) in found.into_iter().zip([all_mm, past_mm]) {
+                            let off_mm = found - expected;
+                            assert!(off_mm.abs() < 1e-9, "{name} {place} {p}: {found} for {expected}");
+                        }
+                        (looked_at, inside) = (looked_at + 1, inside + usize::from(all_mm > 0.0));
+                    }
+                }
+            }
+            assert!(looked_at > 1000 && 2 * inside < 3 * looked_at, "{name}: {looked_at}, {inside} inside");
+        }
+    }
+
+    #[test]
+    fn no_depth_grows_faster_than_the_bound_says() {
+        for name in ["internal_interfering", "fourier_concave", "elliptical_traditional"] {
+            let job = shipped(name);
+            let operation = &job.operations[0];
+            let pose = |phi: f64| operation.linkage.pose(phi, operation.spec.offset_mm);
+            let gear = &job.scene.gear;
+            let swept = Swept::new(&job.cutter, gear.teeth, &pose, &[]);
+            let way = &swept.ways[0];
+            // Pivots are poles: they do not slip, and stay near each other.
+            assert!(way.slip_mm < 1e-9 && way.pivot_step_mm < gear.module_mm, "{name}: {way:?}");
+            let mut tightest = f64::INFINITY;
+            for at in (400..way.poses.len() - 400).step_by(97) {
+                for (i, angle) in [0.0, 0.3, 1.0, 2.0, 3.0, 4.0, 5.0].into_iter().enumerate() {
+                    let p = way.pivots_mm[at] + i as f64 * DVec2::from_angle(angle);
+                    let on_tool = |index: usize| way.poses[index].inverse().point(p);
+                    for gap_mm in [0.001, 0.03, 0.4, 2.0] {
+                        let poses = way.poses_to_gain(at, p, gap_mm).min(200);
+                        for other in (1..poses).flat_map(|k| [at - k, at + k]) {
+                            let moved_mm = on_tool(at).distance(on_tool(other));
+                            assert!(moved_mm <= gap_mm, "{name} {at} {p}: {moved_mm} in {poses}");
+                        }
+                        if poses < 200 {
+                            let moved_mm = on_tool(at).distance(on_tool(at + poses));
+                            tightest = tightest.min(gap_mm / moved_mm);
+                        }
+                    }
+                }
+            }
+            // The bound is of use: somewhere points move about as far.
+            assert!(tightest < 2.0, "{name}: {tightest}");
+        }
+    }
 }

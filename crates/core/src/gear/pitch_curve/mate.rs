@@ -29,8 +29,6 @@ use crate::units::TURN_RAD;
 
 /// Accuracy of phi2(phi1), rad: 1e-12 mm on a radius of 100 mm.
 const TURN_ACCURACY_RAD: f64 = 1e-14;
-/// A driver repeats when its radii do to this share.
-const REPEAT_TOLERANCE: f64 = 1e-9;
 /// Scene key of the mate.
 const KEY: &str = "gear.pitch_curve.mate";
 
@@ -86,12 +84,7 @@ impl MateLaw {
                 "leave the driver's size out, and it is solved",
             ));
         }
-        let samples = curve.samples_per_turn();
-        let repeats = (0..samples).map(|i| TURN_RAD * i as f64 / samples as f64).all(|phi| {
-            let (here, later) = (curve.radius(phi).value(), curve.radius(phi + turns * TURN_RAD).value());
-            (later - here).abs() <= REPEAT_TOLERANCE * here
-        });
-        if !repeats {
+        if !curve.repeats_after(turns * TURN_RAD) {
             return Err(Refusal::new(
                 &format!("{KEY}.driver_teeth"),
                 format!(

@@ -6,6 +6,7 @@ use proptest::prelude::*;
 
 use super::examples::{any_curve, examples};
 use super::*;
+use crate::gear::{Driver, GearKind};
 
 #[test]
 fn derivatives_match_differences() {
@@ -109,6 +110,32 @@ fn refusals_name_their_key() {
     let lobeless = PitchCurveShape::Pascal { order: 0, eccentricity: 0.1, mean_radius_mm: None };
     assert_eq!(refuse(lobeless).key, "gear.pitch_curve.pascal.order");
     assert_eq!(PitchCurve::new(&PitchCurveShape::Circle, 3.0, 0).unwrap_err().key, "gear.module_mm");
+}
+
+#[test]
+fn curves_repeat_as_often_as_their_laws_say() {
+    let of = |shape: &PitchCurveShape, teeth: u32| PitchCurve::new(shape, 2.0, teeth).expect("it closes");
+    let ellipse = |order: u32| PitchCurveShape::Ellipse { order, eccentricity: 0.1, semi_major_axis_mm: None };
+    assert_eq!(of(&PitchCurveShape::Circle, 31).period_teeth(31), 1);
+    assert_eq!(of(&ellipse(3), 42).period_teeth(42), 14);
+    // A sixth of the curve is seven and a half teeth: two of them make a whole number.
+    assert_eq!(of(&ellipse(6), 45).period_teeth(45), 15);
+    assert_eq!(of(&ellipse(5), 42).period_teeth(42), 42);
+    // Every third harmonic, and one between them that is barely there.
+    let third = |first: f64| PitchCurveShape::Fourier {
+        cosine: vec![first, 0.0, 0.05, 0.0, 0.0, 0.01],
+        sine: Vec::new(),
+        mean_radius_mm: None,
+    };
+    assert_eq!(of(&third(0.0), 42).period_teeth(42), 14);
+    assert_eq!(of(&third(1e-6), 42).period_teeth(42), 42);
+    // The gear of 102 teeth repeats with every turn of its driver of 34.
+    let curve =
+        PitchCurveShape::SinusoidalRatio { order: 1, mean_ratio: 1.2, ratio_amplitude: 0.3, center_distance_mm: None };
+    let driver = Box::new(Driver { curve, teeth: 34, start_rad: None });
+    let mate = of(&PitchCurveShape::Mate { driver, kind: GearKind::Internal }, 102);
+    assert_eq!(mate.period_teeth(102), 34);
+    assert!(mate.repeats_after(TAU / 3.0) && !mate.repeats_after(TAU / 6.0));
 }
 
 proptest! {
