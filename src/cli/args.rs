@@ -6,7 +6,7 @@ use gearcut::process::PROCESSES;
 use gearcut::steps::parts::Parts;
 
 use clap::builder::PossibleValuesParser;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -282,14 +282,14 @@ pub struct MateArguments {
 
 /// Arguments of `pair`.
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("gear B").required(true).args(["b", "mate"]))]
 pub struct PairArguments {
     /// Gear A, the driver: a scene or a folder that `gearcut cut` wrote.
     pub a: PathBuf,
     /// Gear B: the same; leave it out with --mate.
-    #[arg(required_unless_present = "mate")]
     pub b: Option<PathBuf>,
     /// Gear B is the mate of gear A with so many teeth, cut like gear A.
-    #[arg(long, value_name = "TEETH", conflicts_with = "b", value_parser = clap::value_parser!(u32).range(4..=2000))]
+    #[arg(long, value_name = "TEETH", value_parser = clap::value_parser!(u32).range(4..=2000))]
     pub mate: Option<u32>,
     /// The mate is a ring with internal teeth.
     #[arg(long, requires = "mate")]

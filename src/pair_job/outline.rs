@@ -118,7 +118,7 @@ pub(super) fn cut_flank(
 }
 
 /// A flank behind its half of the root, which runs from the left flank of one tooth to the right one of the next.
-fn joined(root: &[DVec2], side: Side, flank: &Profile) -> Profile {
+pub(super) fn joined(root: &[DVec2], side: Side, flank: &Profile) -> Profile {
     let (before, behind) = root.split_at(root.len() / 2);
     let half: Vec<DVec2> = match side {
         Side::Left => before.iter().rev().copied().collect(),

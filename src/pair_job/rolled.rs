@@ -88,6 +88,13 @@ pub struct RolledPair {
     pub sensitivity: Sensitivity,
 }
 
+impl RolledPair {
+    /// Tooth of gear A, from 1, of an unwrapped label.
+    pub fn tooth_of_a(&self, label: i64) -> u64 {
+        ((label - 1).rem_euclid(i64::from(self.fit.pitch.teeth().count[0])) + 1) as u64
+    }
+}
+
 /// Makes two scenes ready, cuts what is needed and rolls them.
 ///
 /// # Errors

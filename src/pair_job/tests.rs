@@ -51,7 +51,7 @@ fn round(name: &str, teeth: u32, kind: &str, more: &str) -> LoadedScene {
              [tool.shaper_cutter]\nteeth = 16\n\
              [[operation]]\nname = \"finish\"\nstrokes_per_revolution = {}\n\
              [fields.flank]\nprofile_spacing_um = 10.0\n",
-            200 * teeth
+            300 * teeth
         ),
     )
 }

@@ -109,7 +109,9 @@ impl Writer<'_> {
             let kind = if self.mate.kind == GearKind::Internal { "kind = \"internal\"\n" } else { "" };
             lines = format!("{kind}teeth = {}\n{lines}{}", self.mate.teeth, self.hand());
         }
-        if self.holds(section, path) && (!lines.is_empty() || section.role == Role::Variant) {
+        // An element of a list stands there even where it is one by default: its variants need it.
+        let stands = matches!(section.role, Role::Variant | Role::List { .. });
+        if self.holds(section, path) && (!lines.is_empty() || stands) {
             let _ = write!(out, "\n{header}\n{lines}");
         }
     }

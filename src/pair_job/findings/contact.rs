@@ -36,7 +36,7 @@ fn side_section(options: &PairOptions, rolled: &RolledPair, at: usize) -> Sectio
     );
     let lift = match edge {
         Some(edge) => lift.at(at_moment(rolled, edge.moment)
-            .and("tooth_of_A", tooth(rolled, 0, edge.pair.tooth))
+            .and("tooth_of_A", rolled.tooth_of_a(edge.pair.tooth))
             .and("touching", edge.kind.name())),
         None => lift,
     };
@@ -54,17 +54,11 @@ fn side_section(options: &PairOptions, rolled: &RolledPair, at: usize) -> Sectio
         .with("edge_share", Quantity::number(100.0 * share, "%", "positions at which a tip corner or a fillet carries"))
 }
 
-/// Number of the tooth of a label, from 1.
-pub(super) fn tooth(rolled: &RolledPair, gear: usize, label: i64) -> u64 {
-    let count = i64::from(rolled.fit.pitch.teeth().count[gear]);
-    ((label - 1).rem_euclid(count) + 1) as u64
-}
-
 pub(super) fn interference(scenes: [&Scene; 2], rolled: &RolledPair) -> Section {
     let why = "nominal flanks have no fillets: roll cut ones";
     let quantity = |corner: &DeepestCorner, gear: usize, definition: String| {
         let (side, tooth) = match gear {
-            0 => (corner.side, tooth(rolled, 0, corner.label)),
+            0 => (corner.side, rolled.tooth_of_a(corner.label)),
             _ => {
                 let (side, tooth) = rolled.fit.mate_flank(corner.side, corner.label);
                 (side, tooth as u64)

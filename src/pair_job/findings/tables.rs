@@ -1,7 +1,6 @@
 //! The tables of a pair: every position, every tooth, the centre distance in tight mesh.
 
 use super::ARCSEC_PER_RAD;
-use super::contact::tooth;
 use crate::findings::{Datum, Table, TableColumn};
 use crate::pair_job::double_flank::DoubleFlank;
 use crate::pair_job::rolled::{RolledPair, SIDES};
@@ -64,7 +63,7 @@ pub(super) fn rolling(rolled: &RolledPair) -> Table {
                 Datum::from(UM_PER_MM * error.total_rad[i] * pitch.radius_mm[1]),
                 arcsec(error.long_wave_rad[i]),
                 arcsec(error.mesh_rad[i]),
-                Datum::from(tooth(rolled, 0, touch.acting.tooth)),
+                Datum::from(rolled.tooth_of_a(touch.acting.tooth)),
                 Datum::from(edge(&rolled.flanks, side, &touch.acting).map_or("flank", |edge| edge.name())),
                 Datum::from(u64::from(rolled.pairs[at][i])),
             ]);

@@ -7,6 +7,7 @@ use crate::pair::penetration::SpaceOutline;
 use crate::pair::pitch_pair::Member;
 use crate::pair_job::fit::Fit;
 use crate::pair_job::member;
+use crate::pair_job::outline::{Profile, joined};
 use crate::scene::Mate;
 use gearcut_core::gear::GearKind;
 use gearcut_core::terms::Side;
@@ -16,16 +17,14 @@ use glam::DVec2;
 /// Outline of the space before a tooth, of targets 5 um apart.
 fn space(gear: &dyn GearJob, tooth: u32) -> SpaceOutline {
     let cylinder = gear.cylindrical().expect("a cylindrical gear");
-    let flank = |tooth: u32, side: Side| -> Vec<DVec2> {
-        let (_, profiles) = cylinder.target_profiles(tooth, side, 0.005, &[0.0]).expect("a flank");
-        profiles[0].iter().map(|(point, _)| *point).collect()
-    };
     let root: Vec<DVec2> =
         cylinder.target_roots(tooth - 1, 0.005, &[0.0]).expect("a root")[0].iter().map(|(point, _)| *point).collect();
-    let (before, behind) = root.split_at(root.len() / 2);
-    let first: Vec<DVec2> = before.iter().rev().copied().chain(flank(tooth - 1, Side::Left)).collect();
-    let second: Vec<DVec2> = behind.iter().copied().chain(flank(tooth, Side::Right)).collect();
-    SpaceOutline::new(&FlankChain::straight(first), &FlankChain::straight(second), 1.0)
+    let chain = |tooth: u32, side: Side| {
+        let (u_mm, profiles) = cylinder.target_profiles(tooth, side, 0.005, &[0.0]).expect("a flank");
+        let flank = Profile { points_mm: profiles[0].iter().map(|(point, _)| *point).collect(), u_mm };
+        FlankChain::straight(joined(&root, side, &flank).points_mm)
+    };
+    SpaceOutline::new(&chain(tooth - 1, Side::Left), &chain(tooth, Side::Right), 1.0)
 }
 
 #[test]

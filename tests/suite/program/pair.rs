@@ -2,6 +2,10 @@
 
 use crate::fixtures::command::{files, gearcut, gearcut_in, read_json};
 use crate::fixtures::json_schema::assert_is_results;
+use gearcut::gear::GearKind;
+use gearcut::pair_job::fit::Fit;
+use gearcut::pair_job::member;
+use gearcut::scene::Mate;
 use std::path::Path;
 
 /// A small round gear, cut in no time.
@@ -34,8 +38,8 @@ fn a_pair_writes_numbers_tables_charts_patterns_and_a_page() {
     assert_is_results(&results);
     assert_eq!(results["process"], "pair");
     let play = &results["sections"]["backlash"]["smallest"];
-    // Both gears are thinned by 0.05 mm; what is missing is scallops.
-    assert!((play["value"].as_f64().expect("a number") - 100.0).abs() < 0.5, "{play}");
+    // Both gears are thinned by 0.05 mm: 100 um, less 1 % by a cutter that works deeper at another pressure angle.
+    assert!((play["value"].as_f64().expect("a number") - 99.0).abs() < 0.5, "{play}");
     assert_eq!(play["unit"], "um");
     for name in [
         "report.html",
@@ -105,4 +109,32 @@ fn what_cannot_be_rolled_is_refused_with_numbers() {
     gearcut(&["pair", round]).failed(2, &["--mate"]);
     gearcut(&["pair", round, round, "--mate", "24"]).failed(2, &["--mate"]);
     gearcut(&["pair", round, "--mate", "24", "--internal"]).failed(1, &["no internal mate with 24 teeth"]);
+}
+
+/// Every pair of the documentation: its scenes load, take their settings and belong together.
+#[test]
+fn the_pairs_of_the_documentation_fit() {
+    let page = std::fs::read_to_string("docs/pair.md").expect("the page");
+    let table = page.split("## Pairs to begin with").nth(1).expect("its table");
+    let commands: Vec<Vec<&str>> = table
+        .split('`')
+        .filter_map(|text| Some(text.strip_prefix("gearcut pair ")?.split_whitespace().collect()))
+        .collect();
+    assert!(commands.len() >= 8, "{} commands", commands.len());
+    for words in commands {
+        let after = |option: &str| -> Vec<String> {
+            words.windows(2).filter(|pair| pair[0] == option).map(|pair| pair[1].to_owned()).collect()
+        };
+        let (set_a, set_b) = (after("--set-a"), after("--set-b"));
+        let a = member::read(Path::new(words[0]), &set_a).expect("gear A");
+        let b = match after("--mate").first() {
+            Some(teeth) => {
+                let teeth = teeth.parse().expect("a number of teeth");
+                member::mate(&a, Mate { teeth, kind: GearKind::External }, &set_b).expect("a mate")
+            }
+            None => member::read(Path::new(words[1]), &set_b).expect("gear B"),
+        };
+        let fit = Fit::new(&a.scene, &b.scene, 0).unwrap_or_else(|refusal| panic!("{words:?}: {refusal}"));
+        assert!(fit.misfit_mm < 1e-3, "{words:?}: {} mm", fit.misfit_mm);
+    }
 }
