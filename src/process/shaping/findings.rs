@@ -14,7 +14,6 @@ mod teeth;
 pub use headline::headline;
 
 use crate::findings::{Place, Quantity, Section};
-use crate::gear::GearKind;
 use crate::measure::deviation::{PitchDeviations, Runout};
 use crate::measure::stock::Extreme;
 use crate::output::text::significant;
@@ -25,6 +24,7 @@ use crate::process::shaping::chips::ChipLedger;
 use crate::process::shaping::measure::{FlankReport, GearReport};
 use crate::steps::axes;
 use gearcut_core::cut::CutStats;
+use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
 use operation::operation;
 
