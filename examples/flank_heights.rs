@@ -7,8 +7,7 @@
 use gearcut::findings::Datum;
 use gearcut::output::line_chart::{LineChart, LineSeries, Panel};
 use gearcut::output::table::write_table;
-use gearcut::terms::Side;
-use gearcut::{Flank, Job};
+use gearcut::{Flank, Job, Side};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 

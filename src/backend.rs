@@ -9,9 +9,9 @@ mod with_gpu;
 #[cfg(not(feature = "gpu"))]
 mod without_gpu;
 
-use crate::cut::Backend;
-use crate::cut::cpu::Cpu;
-use crate::error::Result;
+use gearcut_core::cut::Backend;
+use gearcut_core::cut::cpu::Cpu;
+use gearcut_core::error::Result;
 #[cfg(feature = "gpu")]
 use with_gpu as build;
 #[cfg(not(feature = "gpu"))]

@@ -17,10 +17,10 @@ mod charts;
 mod lines;
 mod table;
 
-use crate::Result;
 use crate::findings::Findings;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
+use gearcut_core::Result;
 use lines::Line;
 
 /// Most results that stand side by side: as many as a chart has colours for.

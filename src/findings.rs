@@ -8,8 +8,8 @@
 //! path in `results.json` under `sections`, and the name of the line in a comparison.
 //!
 //! Two measures are told apart everywhere. A **normal deviation** is measured from the target, the envelope of
-//! the last operation. A **stock** is what an operation leaves over the finished surface. Both run along the target's normal,
-//! positive where material is.
+//! the last operation. A **stock** is what an operation leaves over the finished surface. Both run along the target's
+//! normal, positive where material is.
 //!
 //! Roads not taken: a struct for each process, which every renderer had to know; headline numbers marked by a level
 //! inside their sections, which a file with the headline first would have to move or to repeat.

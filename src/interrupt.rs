@@ -13,7 +13,7 @@ use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 
 /// Exit code of a program ended by Ctrl-C: 128 + SIGINT.
 pub const INTERRUPTED_EXIT_CODE: i32 = 130;

@@ -5,17 +5,17 @@
 //! curve and transverse sections, is a trait of its own ([`CylindricalGear`]): its closed body and the page's mesh of
 //! its target rest on that, and a process whose gear has neither makes these two itself.
 
-use crate::cut::Backend;
-use crate::dexel::{Layer, Ray};
-use crate::error::Result;
-use crate::gear::PitchCurve;
-use crate::gear::blank::Blank;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
 use crate::surface::SurfaceGrid;
-use crate::surface::triangles::SectionProfile;
-use crate::terms::Side;
-use glam::DVec3;
+use crate::surface::triangles::{SectionProfile, in_space};
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::{Layer, Ray};
+use gearcut_core::error::Result;
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::terms::Side;
+use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 /// How far below the target a ray records cuts, in modules: undercut and wrong linkages stay well inside.
@@ -93,6 +93,9 @@ pub trait GearJob: Sync {
     /// # Errors
     /// The tool generates no flank there; the backend's.
     fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid>;
+
+    /// The same job as one of a cylindrical gear, if it is one.
+    fn cylindrical(&self) -> Option<&dyn CylindricalGear>;
 }
 
 /// A job whose gear is cylindrical: it has a pitch curve, and every row of a flank stands in one transverse section.
@@ -120,12 +123,40 @@ pub trait CylindricalGear: GearJob {
         rows_z_mm: &[f64],
     ) -> Result<(Vec<f64>, Vec<SectionProfile>)>;
 
+    /// [`GearJob::target_points`] from [`CylindricalGear::target_profiles`].
+    ///
+    /// # Errors
+    /// The tool generates no flank there.
+    fn target_in_space(
+        &self,
+        tooth: u32,
+        side: Side,
+        spacing_mm: f64,
+        rows_z_mm: &[f64],
+    ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
+        let (arcs_mm, profiles) = self.target_profiles(tooth, side, spacing_mm, rows_z_mm)?;
+        Ok((arcs_mm, in_space(&profiles, rows_z_mm)))
+    }
+
     /// Root of the space after tooth `space` in every section of `rows_z_mm`, equally many points about `spacing_mm`
     /// apart, between the ends of its flanks.
     ///
     /// # Errors
     /// The tool generates no flank there.
     fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>>;
+
+    /// The root of the space after tooth `space` after all operations, in every section of `rows_z_mm`: points about
+    /// `spacing_mm` apart, from the left flank of that tooth to the right one of the next.
+    ///
+    /// # Errors
+    /// The tool generates no flank there; the backend's.
+    fn cut_root(
+        &self,
+        backend: &dyn Backend,
+        space: u32,
+        spacing_mm: f64,
+        rows_z_mm: &[f64],
+    ) -> Result<Vec<Vec<DVec2>>>;
 
     /// Surface of the tip land of a tooth after all operations; `None` on a pointed tooth.
     ///
@@ -141,8 +172,8 @@ pub struct ToothFrame {
     pub place_mm: DVec3,
     /// Unit direction from root to tip.
     pub front: DVec3,
-    /// Unit direction to the left of a viewer who stands before its tip and has `along` upwards: that of its left flank on
-    /// an external gear, of its right flank in a ring.
+    /// Unit direction to the left of a viewer who stands before its tip and has `along` upwards: that of its left flank
+    /// on an external gear, of its right flank in a ring.
     pub left: DVec3,
     /// Unit direction along the tooth.
     pub along: DVec3,
@@ -163,8 +194,8 @@ impl ToothFrame {
     }
 }
 
-/// Teeth of a cylindrical gear with the largest and with the smallest radius of the pitch curve, where its curvature and
-/// so the marks differ most.
+/// Teeth of a cylindrical gear with the largest and with the smallest radius of the pitch curve, where its curvature
+/// and so the marks differ most.
 pub fn teeth_of_extreme_radius(curve: &PitchCurve, teeth: u32) -> Vec<u32> {
     let pitch_mm = curve.perimeter_mm() / f64::from(teeth);
     // Differences below a nanometre are rounding: a circular gear then takes its first tooth.

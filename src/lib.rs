@@ -12,7 +12,7 @@
 //! the gear.
 //!
 //! ```
-//! use gearcut::terms::Side;
+//! use gearcut::Side;
 //! use std::path::Path;
 //!
 //! let text = "
@@ -48,7 +48,7 @@
 //!
 //! ```no_run
 //! # use std::path::Path;
-//! use gearcut::steps::parts::{Part, Parts};
+//! use gearcut::{Part, Parts};
 //!
 //! let scene = gearcut::load(Path::new("scenes/shaping/elliptical_normal.toml"), &["gear.teeth=45".to_owned()])?;
 //! let job = gearcut::Job::new(&scene)?;
@@ -62,12 +62,16 @@
 //!
 //! Three worked programs: `examples/flank_heights.rs` cuts one flank and plots its heights,
 //! `examples/roughness_against_feed.rs` sweeps a parameter, and `examples/read_x3p.rs` of `gearcut-texture` evaluates a
-//! measured surface. The modules below are the parts of the program; they are public for its tests and for those who
-//! build on a part, and change as the program does.
+//! measured surface.
 //!
-//! The modules, from the ground up; each uses only those above it in this list:
+//! # Modules
 //!
-//! - [`gearcut_core`]: gears, tools, dexels, passes and the native backend; its modules are re-exported here
+//! What these pages show is for other programs. The remaining modules are the parts of the program: public for its
+//! tests and benchmarks, hidden here, and free to change with the program.
+//!
+//! From the ground up; each uses only those above it in this list:
+//!
+//! - [`gearcut_core`]: gears, tools, dexels, passes and the native backend; its modules are passed on here
 //! - `gearcut_gpu` as `gpu`: the backend on wgpu, left out without the feature `gpu`
 //! - [`backend`]: which machine cuts
 //! - [`interrupt`]: Ctrl-C as a flag
@@ -86,36 +90,61 @@
 //! - [`steps`]: steps of a run that all processes share
 //! - [`process`]: a folder for each process: tool, linkage, target, passes, and what only it measures
 //! - [`pair`]: two gears rolling on each other
+//! - [`pair_job`]: two scenes rolled on each other, and what is written about it
 //! - [`run`]: the order of a whole run
 //! - [`library`]: the few items that other programs need
 //! - [`compare`]: results side by side
 
 pub mod backend;
+#[doc(hidden)]
 pub mod colormap;
+#[doc(hidden)]
 pub mod compare;
 pub mod findings;
+#[doc(hidden)]
 pub mod gcode;
 pub mod interrupt;
+#[doc(hidden)]
 pub mod job;
+#[doc(hidden)]
 pub mod library;
+#[doc(hidden)]
 pub mod machine;
+#[doc(hidden)]
 pub mod material;
+#[doc(hidden)]
 pub mod measure;
 pub mod output;
+#[doc(hidden)]
 pub mod pair;
+#[doc(hidden)]
+pub mod pair_job;
+#[doc(hidden)]
 pub mod process;
 pub mod run;
 pub mod scene;
+#[doc(hidden)]
 pub mod steps;
+#[doc(hidden)]
 pub mod surface;
+#[doc(hidden)]
 pub mod texture;
+#[doc(hidden)]
 pub mod wrap;
 
 pub use findings::Findings;
 pub use library::{Flank, Job};
 pub use process::{load, parse};
+pub use run::{Done, Run};
 pub use scene::{LoadedScene, Scene};
+pub use steps::parts::{Part, Parts};
 
-pub use gearcut_core::{Error, Refusal, Result, cut, dexel, error, frame, gear, math, passes, terms, tool, units};
+pub use gearcut_core::terms::Side;
+pub use gearcut_core::{Error, Refusal, Result};
+
+// For the program's own tests and benchmarks.
+#[doc(hidden)]
+pub use gearcut_core::{bevel, cut, dexel, error, frame, gear, math, passes, terms, tool, units};
 #[cfg(feature = "gpu")]
+#[doc(hidden)]
 pub use gearcut_gpu as gpu;

@@ -7,14 +7,14 @@
 //! Heights are normal deviations: from the target flank along its outward normal, positive where material is left.
 
 use crate::backend::{self, BackendWish, Choice, OnFailure};
-use crate::dexel::{Layer, NO_PASS, Ray};
-use crate::error::{Refusal, Result};
 use crate::job::{GearJob, rows_z_mm};
 use crate::process::{self, ProcessJob};
 use crate::run::Run;
 use crate::scene::LoadedScene;
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::dexel::{Layer, NO_PASS, Ray};
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 use glam::DVec3;
 
 /// A scene made ready to cut, with what cuts it.

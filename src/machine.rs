@@ -17,7 +17,7 @@ pub(crate) mod tests;
 pub use axis::{Axis, AxisKind, Order};
 pub use peak::{Limits, Peak, peaks, smallest_margin};
 
-use crate::math::Jet;
+use gearcut_core::math::Jet;
 
 /// One axis at one moment; rad or mm, per s, per s^2.
 #[derive(Debug, Clone, Copy, PartialEq)]

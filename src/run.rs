@@ -8,7 +8,6 @@
 //! Nothing here knows a process by name: [`crate::process::ProcessJob`] cuts itself with the shared [`crate::steps`].
 
 use crate::backend::Choice;
-use crate::error::Result;
 use crate::findings::Findings;
 use crate::interrupt::Interrupt;
 use crate::output::folder::{OutputFolder, RUN_RECORD};
@@ -17,6 +16,7 @@ use crate::process::{CutDone, ProcessJob};
 use crate::scene::LoadedScene;
 use crate::steps::parts::Parts;
 use crate::steps::{Tools, record};
+use gearcut_core::error::Result;
 use std::path::{Path, PathBuf};
 
 /// A finished run.

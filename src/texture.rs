@@ -24,14 +24,14 @@ pub use files::write;
 pub use findings::{findings, quantities};
 pub use window::{Window, windows};
 
-use crate::cut::Backend;
-use crate::dexel::NO_PASS;
-use crate::error::Result;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
 use crate::output::progress::Progress;
-use crate::units::UM_PER_MM;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::NO_PASS;
+use gearcut_core::error::Result;
+use gearcut_core::units::UM_PER_MM;
 use rayon::prelude::*;
 
 /// Marks that a window should hold in a direction in which marks follow each other.

@@ -1,11 +1,11 @@
 //! Choices of a build with the backend on wgpu.
 
 use super::{Choice, OnFailure, native};
-use crate::cut::Backend;
-use crate::cut::cpu::Cpu;
-use crate::error::Result;
-use crate::gpu::adapter::{self, AdapterFacts, AdapterWish, FoundAdapter};
-use crate::gpu::{Gpu, GpuOptions, GpuProblem, OnGpuFailure};
+use gearcut_core::cut::Backend;
+use gearcut_core::cut::cpu::Cpu;
+use gearcut_core::error::Result;
+use gearcut_gpu::adapter::{self, AdapterFacts, AdapterWish, FoundAdapter};
+use gearcut_gpu::{Gpu, GpuOptions, GpuProblem, OnGpuFailure};
 use serde::Serialize;
 use std::fmt;
 
@@ -97,7 +97,7 @@ impl fmt::Display for Devices {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::adapter::AdapterKind;
+    use gearcut_gpu::adapter::AdapterKind;
 
     fn adapter(name: &str, kind: AdapterKind) -> AdapterFacts {
         AdapterFacts {

@@ -1,9 +1,9 @@
 //! Choices of a build without the feature `gpu`: the processor.
 
 use super::{Choice, OnFailure, native};
-use crate::cut::Backend;
-use crate::cut::cpu::Cpu;
-use crate::error::{Error, Result};
+use gearcut_core::cut::Backend;
+use gearcut_core::cut::cpu::Cpu;
+use gearcut_core::error::{Error, Result};
 use std::fmt;
 
 /// Why there is no GPU.

@@ -6,7 +6,7 @@ use gearcut::process::PROCESSES;
 use gearcut::steps::parts::Parts;
 
 use clap::builder::PossibleValuesParser;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -103,6 +103,21 @@ pub enum Command {
         are the driver's. Prints the scene, or writes it with --out and prints a; an existing file is never\n\
         replaced.")]
     Mate(MateArguments),
+    /// Roll two gears on each other without load: ratio, transmission error, backlash, contact, interference.
+    #[command(after_help = "Example:\n  \
+        gearcut pair scenes/shaping/elliptical_normal.toml --mate 42\n  \
+        gearcut pair scenes/shaping/internal_pair_driver.toml scenes/shaping/internal_pair_ring.toml\n  \
+        gearcut pair scenes/shaping/circular_m3_z24.toml --mate 36 --flanks nominal --center-distance-error-um 20\n  \
+        gearcut pair out/elliptical_normal out/my_mate --eccentricity-b-um 15 --parallelism-in-plane-um 10\n\n\
+        A drives, B is driven. Each is a scene or a folder of results; --mate solves B from A. The gears must belong\n\
+        together: one module, pitch curves that close on each other (0.1 module is allowed between them).\n\
+        Their flanks are cut in the sections that are rolled, with every stroke; --flanks nominal leaves the strokes\n\
+        and the fillets out. A ring is always gear B.\n\n\
+        Transmission error is B's rotation less the one that the pitch curves ask for (arcsec), and times r2 (um).\n\
+        Right flanks drive when the angle of A grows; left ones are the back flanks.\n\n\
+        Writes a folder (out/<A>_with_<B> unless --out is given): results.json, tables/rolling.csv with a row for\n\
+        every position, tables/contact_by_tooth.csv, harmonics, double-flank rolling. See docs/pair.md.")]
+    Pair(PairArguments),
 }
 
 /// A scene and what is changed in it.
@@ -263,6 +278,79 @@ pub struct MateArguments {
     /// File to write [default: standard output].
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+}
+
+/// Arguments of `pair`.
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("gear B").required(true).args(["b", "mate"]))]
+pub struct PairArguments {
+    /// Gear A, the driver: a scene or a folder that `gearcut cut` wrote.
+    pub a: PathBuf,
+    /// Gear B: the same; leave it out with --mate.
+    pub b: Option<PathBuf>,
+    /// Gear B is the mate of gear A with so many teeth, cut like gear A.
+    #[arg(long, value_name = "TEETH", value_parser = clap::value_parser!(u32).range(4..=2000))]
+    pub mate: Option<u32>,
+    /// The mate is a ring with internal teeth.
+    #[arg(long, requires = "mate")]
+    pub internal: bool,
+    /// Put another value into gear A's scene; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set_a: Vec<String>,
+    /// Put another value into gear B's scene; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set_b: Vec<String>,
+    /// Which flanks are rolled.
+    #[arg(long, value_enum, default_value_t = FlankChoice::Cut)]
+    pub flanks: FlankChoice,
+    /// Positions in a period of the pair, 8 or more for each tooth that passes [default: 2000, or 12 for each tooth].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(64..=1_000_000))]
+    pub positions: Option<u32>,
+    /// Transverse sections that are rolled [default: 1 of spur gears; 11 of helical ones and of axes out of parallel].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=201))]
+    pub sections: Option<u32>,
+    /// Added to the centre distance at which the pitch curves close, at most a fifth of a module.
+    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub center_distance_error_um: f64,
+    /// How far gear A's pitch curve sits off its axis of rotation.
+    #[arg(long, value_name = "UM", default_value_t = 0.0)]
+    pub eccentricity_a_um: f64,
+    /// Polar angle of gear A at which it sits out.
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub eccentricity_a_at_deg: f64,
+    /// How far gear B's pitch curve sits off its axis of rotation.
+    #[arg(long, value_name = "UM", default_value_t = 0.0)]
+    pub eccentricity_b_um: f64,
+    /// Polar angle of gear B at which it sits out.
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub eccentricity_b_at_deg: f64,
+    /// Teeth by which gear B is turned on: other teeth meet.
+    #[arg(long, value_name = "TEETH", default_value_t = 0, allow_negative_numbers = true)]
+    pub phase_teeth: i64,
+    /// How far the axes come apart from end to end of the common face, in their plane (ISO/TR 10064-3).
+    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub parallelism_in_plane_um: f64,
+    /// How far they come apart across their plane.
+    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub parallelism_out_of_plane_um: f64,
+    /// Thickness of the marking compound of contact patterns.
+    #[arg(long, value_name = "UM", default_value_t = 6.0)]
+    pub marking_um: f64,
+    /// Folder to write [default: out/<A>_with_<B>].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print results.json instead of the summary.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Which flanks are rolled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FlankChoice {
+    /// As cut, with every stroke and the fillets.
+    Cut,
+    /// Conjugate ones, without strokes and fillets.
+    Nominal,
 }
 
 /// Arguments of `new`.

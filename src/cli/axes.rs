@@ -22,7 +22,7 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
     let mut sheet = Sheet::default();
     let write = |output: &OutputFolder, interrupt: &Interrupt| -> Result<(Record, Vec<String>), Error> {
         let warnings = process::prepare(&scene.scene)?.axes(output, interrupt, &mut sheet)?;
-        Ok(([("scene", json!(scene.resolved_toml()))], warnings))
+        Ok((vec![("scene", json!(scene.resolved_toml()))], warnings))
     };
     let (path, warnings) = folder::fill(&out, "axes", write).map_err(|error| Failure::of_scene(&scene, error))?;
     let written = format!("\ntables, charts and programs are in {}\n", path.join("axes").display());

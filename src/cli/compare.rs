@@ -25,7 +25,7 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
         Comparison::new(results).map_err(|reason| gearcut::Error::Unreadable { path: last.clone(), reason })?;
     let (path, ()) = folder::fill(&out, "compare", |output, _| {
         comparison.write(output)?;
-        Ok(([("results", json!(paths))], ()))
+        Ok((vec![("results", json!(paths))], ()))
     })?;
 
     let mut sheet = Sheet::default();

@@ -14,7 +14,7 @@ use gearcut::{Error, Result};
 use serde_json::{Map, Value, json};
 
 /// What a run record says beyond the program and the command.
-pub type Record = [(&'static str, Value); 1];
+pub type Record = Vec<(&'static str, Value)>;
 
 /// Fills the folder `path` with the files of `command`: `write` writes them and tells what the run record says beyond
 /// the program and the command. The folder's name is given back with what `write` returned.

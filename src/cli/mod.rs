@@ -13,6 +13,7 @@ mod failure;
 mod folder;
 mod mate;
 mod new;
+mod pair;
 mod print;
 mod texture;
 
@@ -35,6 +36,7 @@ pub fn run(arguments: CommandLine) -> ExitCode {
         }
         Command::New(arguments) => new::run(&arguments),
         Command::Mate(arguments) => mate::run(&arguments),
+        Command::Pair(arguments) => pair::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::lines::Line;
 use super::{Comparison, letters};
-use crate::Result;
 use crate::findings::{Datum, Level, Quantity};
 use crate::output::table::write_table;
 use crate::output::text::significant;
+use gearcut_core::Result;
 
 /// Longest words that stand in a column of the terminal, characters.
 const LONGEST_WORDS: usize = 20;

@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 use super::quantity::Quantity;
 use super::table::{Datum, Table, TableColumn};
 use super::tree::{Entry, Findings, Level, Section, title_of};
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 
 /// Version of the layout. A change of keys or meanings raises it; new keys that old readers may overlook do not.
 pub const SCHEMA_VERSION: u32 = 2;

@@ -1,8 +1,8 @@
 //! An axis by its name and kind: units and names of columns follow from the kind alone.
 //!
-//! Inside gearcut angles are rad and lengths mm; people, files and controls read deg and mm. What an axis does is turned
-//! from the one into the other by its [`AxisKind`] alone. Road not taken: a unit as text beside each number, or a rule by the axis's
-//! place in a list; both let a new axis pass in the wrong unit.
+//! Inside gearcut angles are rad and lengths mm; people, files and controls read deg and mm. What an axis does is
+//! turned from the one into the other by its [`AxisKind`] alone. Road not taken: a unit as text beside each number, or
+//! a rule by the axis's place in a list; both let a new axis pass in the wrong unit.
 
 /// How an axis moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,10 +2,10 @@
 //!
 //! In: a [`Motion`] and the [`Limits`] of its axes. Out: a [`Peak`] for every axis and order. Law: each smooth piece of
 //! the motion is sampled once for all axes, densely enough to see every lobe, and the best sample of each axis and
-//! order is refined by golden-section search ([`crate::math::extremum`]).
+//! order is refined by golden-section search ([`gearcut_core::math::extremum`]).
 
 use super::{Axis, Motion, Order};
-use crate::math::extremum::{grid_place, maximum_of_grid};
+use gearcut_core::math::extremum::{grid_place, maximum_of_grid};
 
 /// What the machine allows an axis; `None`: not limited.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

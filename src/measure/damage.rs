@@ -8,11 +8,11 @@
 
 use super::gear_place::{GearPlace, Zone};
 use super::target_outline::TargetOutline;
-use crate::cut::CutBlank;
-use crate::dexel::{BlankField, NO_PASS, intervals};
-use crate::math::planar_rays::FAMILIES;
 use crate::scene::model::Gear;
-use crate::terms::Side;
+use gearcut_core::cut::CutBlank;
+use gearcut_core::dexel::{BlankField, NO_PASS, intervals};
+use gearcut_core::math::planar_rays::FAMILIES;
+use gearcut_core::terms::Side;
 use glam::DVec2;
 use std::collections::BTreeMap;
 

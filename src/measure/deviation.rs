@@ -6,8 +6,8 @@
 //! cumulative F_p. No tolerance class is given: the standard's classes are for round gears.
 
 use super::crossing::Crossing;
-use crate::dexel::{Field, Layer, NO_PASS};
-use crate::gear::blank::Blank;
+use gearcut_core::dexel::{Field, Layer, NO_PASS};
+use gearcut_core::gear::blank::Blank;
 
 /// Finished heights along one line of a flank, as a measuring machine traces it.
 #[derive(Debug, Clone, PartialEq)]

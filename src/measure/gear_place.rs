@@ -1,8 +1,8 @@
 //! Names for places on the gear: tooth, side, zone, height over the pitch curve.
 
-use crate::gear::blank::Blank;
 use crate::scene::model::Gear;
-use crate::terms::Side;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::terms::Side;
 use glam::DVec2;
 
 /// Part of a tooth's height.

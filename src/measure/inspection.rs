@@ -6,8 +6,8 @@
 use super::crossing::Crossing;
 use super::deviation::{self, PitchDeviations, Runout, Trace, TraceDeviation};
 use super::thickness::Thickness;
-use crate::gear::blank::Blank;
-use crate::terms::Side;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::terms::Side;
 
 /// One flank after all operations, measured.
 #[derive(Debug, Clone, PartialEq)]

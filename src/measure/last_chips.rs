@@ -7,6 +7,6 @@ pub struct LastChips {
     pub thickness_mm: Vec<f32>,
     /// Part of the edge: 0 none, 1 right, 2 tip, 3 left.
     pub sides: Vec<u32>,
-    /// The pass; [`crate::dexel::NO_PASS`] where none came.
+    /// The pass; [`gearcut_core::dexel::NO_PASS`] where none came.
     pub passes: Vec<u32>,
 }

@@ -5,8 +5,8 @@
 //! without the loss that the grid's spacing would cause. For closed forms see Gao et al.'s errata in the docs:
 //! `h = (ds^2 / 8) (1/rho_g + 1/rho_t)`.
 
-use crate::dexel::{Field, Layer};
-use crate::math::newton::{LastStep, newton};
+use gearcut_core::dexel::{Field, Layer};
+use gearcut_core::math::newton::{LastStep, newton};
 
 /// A cusp.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,7 +3,7 @@
 //! Dexels that the earlier operation never reached still have the blank's height; their stock is not a stock of
 //! machining. They are counted, and left out of the figures.
 
-use crate::dexel::{Field, Layer, NO_PASS};
+use gearcut_core::dexel::{Field, Layer, NO_PASS};
 
 /// A value and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]

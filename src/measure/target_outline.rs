@@ -1,16 +1,16 @@
 //! The target's transverse section as one closed polygon: flanks, roots and tip lands as finishing leaves them in the
 //! limit of many strokes.
 //!
-//! In: points of the chain, counter-clockwise, and the stock's back. Out: area, material on rays, signed distances; what
-//! the blank field is judged against, by formulas that share nothing with it.
+//! In: points of the chain, counter-clockwise, and the stock's back. Out: area, material on rays, signed distances;
+//! what the blank field is judged against, by formulas that share nothing with it.
 //!
 //! Where the fillet has cut into a flank (undercut), the envelopes of flank and fillet run on past their crossing; the
 //! little loop that they form runs clockwise round air, on a ring counter-clockwise. Material of an external gear is
 //! therefore where the winding number is positive, that of a ring where it is not, and nothing has to be trimmed.
 
-use crate::dexel::intervals;
-use crate::gear::{Back, GearKind};
-use crate::math::planar_rays::{Family, RayRow};
+use gearcut_core::dexel::intervals;
+use gearcut_core::gear::{Back, GearKind};
+use gearcut_core::math::planar_rays::{Family, RayRow};
 use glam::DVec2;
 
 /// Edge length of the buckets in which segments are looked up, mm.
@@ -186,7 +186,7 @@ fn signed_distance([a, b]: [DVec2; 2], p: DVec2) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::planar_rays::FAMILIES;
+    use gearcut_core::math::planar_rays::FAMILIES;
 
     fn square_with_loop() -> TargetOutline {
         // A square of 10 mm whose corner at (10, 10) carries a clockwise loop of 1 mm outside.

@@ -4,7 +4,7 @@
 
 use crate::output::atomic::write_atomically;
 use crate::output::raster::Raster;
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 use std::io;
 use std::path::Path;
 

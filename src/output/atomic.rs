@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 
 pub use gearcut_texture::atomic::Sink;
 
@@ -12,7 +12,8 @@ pub use gearcut_texture::atomic::Sink;
 /// The folder must exist. A file already there is replaced at the end.
 ///
 /// # Errors
-/// [`crate::Error::Io`] with the system's reason, or with the reason that `fill` gave through [`io::Error::other`].
+/// [`gearcut_core::Error::Io`] with the system's reason, or with the reason that `fill` gave through
+/// [`io::Error::other`].
 pub fn write_atomically(path: &Path, fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>) -> Result<()> {
     gearcut_texture::atomic::write_atomically(path, fill).map_err(file_error)
 }
@@ -20,7 +21,7 @@ pub fn write_atomically(path: &Path, fill: impl FnOnce(&mut dyn Sink) -> io::Res
 /// Writes `path` with the given contents, completely or not at all.
 ///
 /// # Errors
-/// [`crate::Error::Io`] with the system's reason.
+/// [`gearcut_core::Error::Io`] with the system's reason.
 pub fn write_bytes_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
     gearcut_texture::atomic::write_bytes_atomically(path, bytes).map_err(file_error)
 }

@@ -9,10 +9,10 @@ use std::path::Path;
 
 use maud::html;
 
-use crate::Result;
 use crate::output::axis::{round_range, value_text, widened};
 use crate::output::figure::{Figure, LegendEntry, MOST_SERIES, Name, Plot, Sample};
 use crate::output::plot::{LABELS_PX, PlotFrame, Slots, WIDTH_PX, px};
+use gearcut_core::Result;
 
 /// A bar chart.
 #[derive(Debug, Clone, PartialEq)]

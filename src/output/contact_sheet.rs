@@ -15,7 +15,7 @@ use crate::output::grid::MapGrid;
 use crate::output::heat::{ColourBar, PixelBox, paint_cells, scale_problem, shown_range};
 use crate::output::letters::fitting_em_px;
 use crate::output::raster::Raster;
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 
 /// One small map of a sheet.
 #[derive(Debug, Clone, Copy)]

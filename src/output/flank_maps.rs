@@ -24,12 +24,12 @@ use super::folder::OutputFolder;
 use super::grid::{MapAxis, MapGrid};
 use super::map_png::{MapPicture, write_map_png};
 use crate::colormap::ColourScale;
-use crate::dexel::{Layer, NO_PASS};
-use crate::error::Result;
 use crate::measure::LastChips;
 use crate::output::atomic::file_error;
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::dexel::{Layer, NO_PASS};
+use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 
 /// What map readers need to know about u and v.
 const FRAME: &str = "flank frame: u = arc length along the target profile from the form point to the tip, v = place \
@@ -340,7 +340,7 @@ fn channel(name: &str, unit: &str, definition: &str, samples: Samples) -> MapCha
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dexel::{Column, Field};
+    use gearcut_core::dexel::{Column, Field};
     use glam::DVec2;
 
     /// Cells of four dexels, one of them untouched: the highest keeps the mark, the mean takes it with its share.

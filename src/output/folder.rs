@@ -29,7 +29,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::output::atomic::write_bytes_atomically;
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 use steps::{Disk, Steps};
 use workplace::{Workplace, with_ending};
 

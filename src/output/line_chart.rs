@@ -12,10 +12,10 @@ use std::path::Path;
 
 use maud::html;
 
-use crate::Result;
 use crate::output::axis::{Ticks, round_range, value_text, widened};
 use crate::output::figure::{Figure, LegendEntry, MOST_SERIES, Name, Plot, Sample};
 use crate::output::plot::{LABELS_PX, PlotFrame, WIDTH_PX, path};
+use gearcut_core::Result;
 
 /// A chart of one or more panels, one below the other.
 #[derive(Debug, Clone, PartialEq)]

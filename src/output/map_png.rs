@@ -21,7 +21,7 @@ use crate::output::heat::{ColourBar, PixelBox, paint_cells, scale_problem, shade
 use crate::output::letters::fitting_em_px;
 use crate::output::raster::Raster;
 pub use crate::output::relief::Relief;
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 
 /// A map to be drawn.
 #[derive(Debug, Clone, Copy)]

@@ -12,11 +12,11 @@ use crate::colormap::NO_VALUE;
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::mesh_file::{FRAME, MeshFile};
 use crate::surface::mesh::{Scalar, ScalarValues};
-use crate::{Error, Result};
 use document::{
     ARRAY_BUFFER, Accessor, Asset, Buffer, Document, ELEMENT_ARRAY_BUFFER, FLOAT, GltfMesh, GltfNode, GltfScene,
     GltfView, Material, MetallicRoughness, Primitive, UNSIGNED_INT, UNSIGNED_SHORT,
 };
+use gearcut_core::{Error, Result};
 use glam::DVec3;
 use serde_json::{Map, Value, json};
 use std::path::Path;

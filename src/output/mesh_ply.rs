@@ -7,10 +7,10 @@
 //!
 //! Road not taken: the part as a property of the triangles. Widely used readers fail on any property beside the list.
 
-use crate::Result;
 use crate::output::atomic::write_atomically;
 use crate::output::mesh_file::{FRAME, MeshFile};
 use crate::surface::mesh::ScalarValues;
+use gearcut_core::Result;
 use std::fmt::Write as _;
 use std::path::Path;
 

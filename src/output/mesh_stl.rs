@@ -6,7 +6,7 @@
 
 use crate::output::atomic::write_atomically;
 use crate::output::mesh_file::MeshFile;
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 use glam::DVec3;
 use std::path::Path;
 

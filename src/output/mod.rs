@@ -13,6 +13,7 @@
 //! | pictures of maps: one, all flanks, their colours | [`map_png`], [`contact_sheet`], [`crate::colormap`] |
 //! | meshes for other programs | [`mesh_file`], [`mesh_stl`], [`mesh_ply`], [`mesh_glb`] |
 //! | drawn bodies, one or many | [`render_png`], [`apng`] |
+//! | sections of gears in mesh | [`rolling_picture`] |
 //! | charts, on the page and as SVG files | [`bar_chart`], [`line_chart`], [`range_chart`], [`ratio_chart`] |
 //! | the report: everything on one page that opens offline | [`report`] |
 //! | progress and Ctrl-C | [`progress`], [`crate::interrupt`] |
@@ -43,6 +44,7 @@ pub mod ratio_chart;
 mod relief;
 pub mod render_png;
 pub mod report;
+pub mod rolling_picture;
 pub mod summary;
 pub mod table;
 pub mod text;

@@ -7,10 +7,10 @@ use std::path::Path;
 
 use maud::{Markup, html};
 
-use crate::Result;
 use crate::output::axis::{number_text, round_range};
 use crate::output::figure::{Figure, LegendEntry, Name, Plot, Sample};
 use crate::output::plot::{LABELS_PX, PlotFrame, path, px};
+use gearcut_core::Result;
 
 /// A material ratio curve.
 #[derive(Debug, Clone, PartialEq)]

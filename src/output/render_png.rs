@@ -12,7 +12,7 @@ use crate::output::heat::{ColourBar, PixelBox, scale_problem};
 use crate::output::letters::fitting_em_px;
 use crate::output::raster::Raster;
 use crate::surface::render::Rendered;
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 use std::path::Path;
 
 /// What colours mean.

@@ -28,10 +28,10 @@ use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
-use crate::Result;
 use crate::findings::Place;
 use crate::output::atomic::write_bytes_atomically;
 use gear_frame::gear_frame;
+use gearcut_core::Result;
 use viewer::Viewer;
 
 pub use blocks::{Block, PageSection};
@@ -53,6 +53,8 @@ const SCRIPTS: [&str; 3] = [
 /// Everything on the page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Page {
+    /// What kind of report it is, such as "cutting report".
+    pub what: &'static str,
     /// Name of the scene.
     pub title: String,
     /// What was cut, in a line.
@@ -61,6 +63,8 @@ pub struct Page {
     pub operations: Vec<String>,
     /// Whether all flanks were cut.
     pub complete: bool,
+    /// What was done when it is complete, such as "all flanks cut".
+    pub done: &'static str,
     /// Program and version.
     pub program: String,
     /// What to look at first; the first two are shown largest.
@@ -163,13 +167,13 @@ impl Page {
         };
         html! {
             header class="top" {
-                p class="brand" { strong { "gearcut" } " cutting report" }
+                p class="brand" { strong { "gearcut" } " " (self.what) }
                 h1 { (self.title) }
                 p class="subtitle" { (self.subtitle) }
                 ol class="operations" { @for operation in &self.operations { li { (operation) } } }
                 ul class="chips" {
                     @if self.complete {
-                        li class="good" { "all flanks cut" }
+                        li class="good" { (self.done) }
                     } @else {
                         li class="bad" { "stopped before all flanks were cut" }
                     }

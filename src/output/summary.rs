@@ -3,11 +3,11 @@
 //! Neighbouring sections that show the same quantities become the rows of one table, such as the texture of all
 //! windows. What is undefined is told with its reason in the headline and left out below it.
 
-use crate::cut::KERNEL_UM;
 use crate::findings::{Entry, Findings, Level, Quantity, Section};
 use crate::output::progress::duration_text;
 use crate::output::text::{Sheet, VALUE_COLUMN, plain, significant};
 use crate::wrap::wrapped;
+use gearcut_core::cut::KERNEL_UM;
 
 /// Widest line, characters.
 const WIDTH: usize = 80;

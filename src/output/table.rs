@@ -13,10 +13,10 @@ use std::borrow::Borrow;
 use std::io;
 use std::path::Path;
 
-use crate::Result;
 use crate::findings::{Datum, Findings, TableColumn};
 use crate::output::atomic::write_atomically;
 use crate::output::folder::OutputFolder;
+use gearcut_core::Result;
 
 /// Writes every table of the tree that has a file.
 ///

@@ -8,7 +8,7 @@
 
 use super::assembly::Moment;
 use super::pitch_pair::PitchPair;
-use crate::terms::Side;
+use gearcut_core::terms::Side;
 
 /// Backlash of a moment.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -19,9 +19,9 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::flank_chain::{FlankChain, PolarFlank};
-use crate::math::extremum::maximum;
-use crate::math::roots::halve;
-use crate::terms::Side;
+use gearcut_core::math::extremum::maximum;
+use gearcut_core::math::roots::halve;
+use gearcut_core::terms::Side;
 
 /// Halvings of an interval towards the place where the driven flank ends in it.
 const END_HALVINGS: u32 = 50;
@@ -63,8 +63,8 @@ impl TouchKind {
             Self::Inner => "flank",
             Self::DriverTip => "tip of A",
             Self::DrivenTip => "tip of B",
-            Self::DriverRoot => "form point of A",
-            Self::DrivenRoot => "form point of B",
+            Self::DriverRoot => "lower end of A",
+            Self::DrivenRoot => "lower end of B",
         }
     }
 }
@@ -78,6 +78,21 @@ pub struct Touch {
     pub kind: TouchKind,
     /// Where, machine frame, mm.
     pub point_mm: DVec2,
+    /// Place along the driver's chain.
+    pub driver_place: f64,
+    /// Place along the driven gear's chain.
+    pub driven_place: f64,
+}
+
+/// A point of one chain against the flank opposite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Probe {
+    /// Place along the driver's chain.
+    pub place: f64,
+    /// Number of the driven chain's point, if it is one of those.
+    pub driven_point: Option<usize>,
+    /// Rotation that the point asks for, counted in the direction in which this side pushes, rad.
+    pub push_rad: f64,
 }
 
 /// Difference of two angles within half a turn.
@@ -85,47 +100,87 @@ fn wrapped(angle_rad: f64) -> f64 {
     angle_rad - TAU * (angle_rad / TAU).round()
 }
 
+/// One flank of each gear, and how they stand.
+struct Facing<'a> {
+    driver: &'a FlankChain,
+    driven: &'a PolarFlank,
+    stand: &'a PairPose,
+    /// The driven axis as the driver sees it: its points need not be turned one by one.
+    axis_mm: DVec2,
+    pushing: f64,
+}
+
+impl<'a> Facing<'a> {
+    /// None where the distances of both flanks from the driven axis have nothing in common.
+    fn new(driver: &'a FlankChain, driven: &'a PolarFlank, stand: &'a PairPose, side: Side) -> Option<Self> {
+        let axis_mm = DVec2::from_angle(stand.phi_1_rad).rotate(stand.axis_2_mm);
+        let [low, high] = driven.range_mm();
+        let [nearest, farthest] = driver.distances_mm(axis_mm);
+        (farthest >= low && nearest <= high).then_some(Self { driver, driven, stand, axis_mm, pushing: -side.sign() })
+    }
+
+    /// What a point of the driver asks for; larger is where the gears touch first.
+    fn push_rad(&self, point_mm: DVec2) -> Option<f64> {
+        Some(self.push_at(point_mm, self.driven.angle_rad(point_mm.distance(self.axis_mm))?))
+    }
+
+    /// The same where the driven flank's angle there is known.
+    fn push_at(&self, point_mm: DVec2, angle_rad: f64) -> f64 {
+        let d = point_mm - self.axis_mm;
+        let error = self.stand.sign * (d.to_angle() - self.stand.phi_1_rad - angle_rad) - self.stand.phi_2_rad;
+        self.pushing * wrapped(error)
+    }
+
+    /// Every point of either chain that has something opposite. Both chains are walked side by side: the cost is the
+    /// number of their points.
+    fn visit(&self, mut visit: impl FnMut(Probe)) {
+        let (driver, driven) = (self.driver, self.driven);
+        let radii = &driven.radii_mm;
+        let mut radius = driver.points_mm[0].distance(self.axis_mm);
+        // Number of the first driven radius beyond that of the driver's point.
+        let mut beyond = 0;
+        for (i, &point_mm) in driver.points_mm.iter().enumerate() {
+            beyond = driven.first_beyond(beyond, radius);
+            if let Some(angle_rad) = driven.angle_before(beyond, radius) {
+                visit(Probe { place: i as f64, driven_point: None, push_rad: self.push_at(point_mm, angle_rad) });
+            }
+            let Some(next) = driver.points_mm.get(i + 1).map(|point| point.distance(self.axis_mm)) else { break };
+            let mut offer = |k: usize| {
+                let place = i as f64 + (radii[k] - radius) / (next - radius);
+                let push_rad = self.push_at(driver.at(place), driven.angle_of_point(k));
+                visit(Probe { place, driven_point: Some(driven.chain_point(k)), push_rad });
+            };
+            if next > radius {
+                (beyond..radii.len()).take_while(|&k| radii[k] < next).for_each(&mut offer);
+            } else {
+                let between = (0..beyond).rev().take_while(|&k| radii[k] > next);
+                between.filter(|&k| radii[k] < radius).for_each(&mut offer);
+            }
+            radius = next;
+        }
+    }
+}
+
+/// Shows every point of either flank that has the other one opposite.
+pub fn probes(driver: &FlankChain, driven: &PolarFlank, stand: &PairPose, side: Side, visit: impl FnMut(Probe)) {
+    if let Some(facing) = Facing::new(driver, driven, stand, side) {
+        facing.visit(visit);
+    }
+}
+
 /// The rotation at which a flank of the driver touches one of the driven gear; none where their distances from the
 /// driven axis have nothing in common.
 pub fn touch(driver: &FlankChain, driven: &PolarFlank, stand: &PairPose, side: Side) -> Option<Touch> {
-    // The driven axis as the driver sees it: its points need not be turned one by one.
-    let axis_mm = DVec2::from_angle(stand.phi_1_rad).rotate(stand.axis_2_mm);
-    let [low, high] = driven.range_mm();
-    let [nearest, farthest] = driver.distances_mm(axis_mm);
-    if farthest < low || nearest > high {
-        return None;
-    }
-    let pushing = -side.sign();
-    // Larger is where the gears touch first.
-    let push = |point_mm: DVec2| {
-        let d = point_mm - axis_mm;
-        let angle = driven.angle_rad(d.length())?;
-        let error = stand.sign * (d.to_angle() - stand.phi_1_rad - angle) - stand.phi_2_rad;
-        Some(pushing * wrapped(error))
-    };
-    let radii: Vec<f64> = driver.points_mm.iter().map(|p| p.distance(axis_mm)).collect();
+    let facing = Facing::new(driver, driven, stand, side)?;
     let mut best: Option<(f64, f64)> = None;
-    let mut offer = |place: f64| {
-        if let Some(value) = push(driver.at(place))
-            && best.is_none_or(|(b, _)| value > b)
-        {
-            best = Some((value, place));
+    facing.visit(|probe| {
+        if best.is_none_or(|(value, _)| probe.push_rad > value) {
+            best = Some((probe.push_rad, probe.place));
         }
-    };
-    for (i, &radius) in radii.iter().enumerate() {
-        if radius >= low && radius <= high {
-            offer(i as f64);
-        }
-        let Some(&next) = radii.get(i + 1) else { break };
-        let (inner, outer) = (radius.min(next), radius.max(next));
-        if outer < low || inner > high {
-            continue;
-        }
-        let first = driven.radii_mm.partition_point(|r| *r <= inner);
-        for &r in driven.radii_mm[first..].iter().take_while(|r| **r < outer) {
-            offer(i as f64 + (r - radius) / (next - radius));
-        }
-    }
+    });
+    let Facing { axis_mm, pushing, .. } = facing;
+    let [low, high] = driven.range_mm();
+    let push = |point_mm: DVec2| facing.push_rad(point_mm);
     let (mut value, mut place) = best?;
     if driver.is_smooth() {
         (value, place) = climbed(&|place| push(driver.at(place)), value, place, driver.last());
@@ -147,7 +202,8 @@ pub fn touch(driver: &FlankChain, driven: &PolarFlank, stand: &PairPose, side: S
         TouchKind::Inner
     };
     let point_mm = DVec2::from_angle(-stand.phi_1_rad).rotate(point_mm);
-    Some(Touch { error_rad: pushing * value, kind, point_mm })
+    let driven_place = driven.chain_place(radius);
+    Some(Touch { error_rad: pushing * value, kind, point_mm, driver_place: place, driven_place })
 }
 
 /// Goes on from an attained value to the largest one within an interval of the chain on either side.

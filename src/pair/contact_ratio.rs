@@ -11,8 +11,8 @@
 use glam::DVec2;
 
 use super::pitch_pair::{Member, PitchPair, PitchPoint, passing};
-use crate::error::Refusal;
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::terms::Side;
 
 /// Path of contact at a moment: distances from the pitch point along v, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -15,15 +15,20 @@ use super::assembly::{Meshing, first_touch};
 use super::contact::PairPose;
 use super::flank_chain::{FlankChain, GearFlanks, PolarFlank};
 use super::pitch_pair::{Member, PitchPair};
-use crate::error::Refusal;
-use crate::gear::PitchCurve;
-use crate::math::roots::regula_falsi;
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::math::roots::regula_falsi;
+use gearcut_core::terms::Side;
 
 /// How far from the nominal distance the tight one is looked for, modules.
 const REACH_MODULES: f64 = 0.2;
-/// Play that counts as none, rad: below a picometre at any radius.
-const LAST_PLAY_RAD: f64 = 1e-14;
+/// Play that counts as none, rad: a picometre at 100 mm.
+const LAST_PLAY_RAD: f64 = 1e-11;
+/// First step of the centre distance, mm, and how near to what it foretells the tight distance is enclosed: this and a
+/// share of its length. Play is nearly straight over some tenths of a millimetre.
+const FIRST_STEP_MM: f64 = 0.01;
+const FORETOLD_MM: f64 = 2e-4;
+const FORETOLD_SHARE: f64 = 0.02;
 
 /// A tight mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,8 +126,18 @@ fn tight(reach_mm: f64, sides: impl Fn(f64) -> Result<[f64; 2], Refusal>) -> Res
             |[right, left]| left - right,
         )
     };
-    let rising = if play(-reach_mm) <= 0.0 { 1.0 } else { -1.0 };
-    let found = regula_falsi(play, -rising * reach_mm, rising * reach_mm, LAST_PLAY_RAD);
+    let at = [play(0.0), play(FIRST_STEP_MM)];
+    let slope = (at[1] - at[0]) / FIRST_STEP_MM;
+    let foretold_mm = -at[0] / slope;
+    let near_mm = FORETOLD_MM + FORETOLD_SHARE * foretold_mm.abs();
+    let rising = if slope > 0.0 { 1.0 } else { -1.0 };
+    let found = (foretold_mm.abs() + near_mm < reach_mm)
+        .then(|| {
+            let [low, high] = [foretold_mm - rising * near_mm, foretold_mm + rising * near_mm];
+            regula_falsi(&mut play, low, high, LAST_PLAY_RAD)
+        })
+        .flatten()
+        .or_else(|| regula_falsi(&mut play, -rising * reach_mm, rising * reach_mm, LAST_PLAY_RAD));
     let distance_error_mm = match (found, failed) {
         (_, Some(refusal)) => return Err(refusal),
         (Some(found), None) => found,

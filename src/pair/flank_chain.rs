@@ -12,8 +12,8 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::pitch_pair::{FlankPoint, Member, PitchPair};
-use crate::error::Refusal;
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::terms::Side;
 
 /// Intervals of a nominal flank.
 const INTERVALS: usize = 128;
@@ -144,6 +144,46 @@ impl PolarFlank {
         Ok(Self { radii_mm, angles_rad, slopes, tip_is_last })
     }
 
+    /// Number of the first radius beyond a given one, walking there from `near`.
+    pub fn first_beyond(&self, near: usize, radius_mm: f64) -> usize {
+        let mut k = near;
+        while k > 0 && self.radii_mm[k - 1] > radius_mm {
+            k -= 1;
+        }
+        while k < self.radii_mm.len() && self.radii_mm[k] <= radius_mm {
+            k += 1;
+        }
+        k
+    }
+
+    /// Polar angle at a radius before which the radius number `beyond` is the first larger one; none beyond the ends.
+    pub fn angle_before(&self, beyond: usize, radius_mm: f64) -> Option<f64> {
+        let last = self.radii_mm.len() - 1;
+        if beyond == 0 || (beyond > last && radius_mm > self.radii_mm[last]) {
+            return None;
+        }
+        Some(self.angle_in(beyond.min(last) - 1, radius_mm))
+    }
+
+    /// Polar angle of the point with the radius number `index`.
+    pub fn angle_of_point(&self, index: usize) -> f64 {
+        self.angles_rad[index]
+    }
+
+    /// Number, along the chain that it was made from, of the point with the radius number `index`.
+    pub fn chain_point(&self, index: usize) -> usize {
+        if self.tip_is_last { index } else { self.radii_mm.len() - 1 - index }
+    }
+
+    /// Place along that chain at a radius, held within its ends.
+    pub fn chain_place(&self, radius_mm: f64) -> f64 {
+        let last = self.radii_mm.len() - 1;
+        let i = self.radii_mm.partition_point(|r| *r <= radius_mm).clamp(1, last) - 1;
+        let share = (radius_mm - self.radii_mm[i]) / (self.radii_mm[i + 1] - self.radii_mm[i]);
+        let place = i as f64 + share.clamp(0.0, 1.0);
+        if self.tip_is_last { place } else { last as f64 - place }
+    }
+
     /// Smallest and largest radius, mm.
     pub fn range_mm(&self) -> [f64; 2] {
         [self.radii_mm[0], self.radii_mm[self.radii_mm.len() - 1]]
@@ -156,13 +196,18 @@ impl PolarFlank {
             return None;
         }
         let i = self.radii_mm.partition_point(|r| *r <= radius_mm).clamp(1, self.radii_mm.len() - 1) - 1;
+        Some(self.angle_in(i, radius_mm))
+    }
+
+    /// Polar angle at a radius in the interval from the point number `i` on.
+    fn angle_in(&self, i: usize, radius_mm: f64) -> f64 {
         let width = self.radii_mm[i + 1] - self.radii_mm[i];
         let x = (radius_mm - self.radii_mm[i]) / width;
         let (a, b) = (self.angles_rad[i], self.angles_rad[i + 1]);
-        let Some(slopes) = &self.slopes else { return Some(a + x * (b - a)) };
+        let Some(slopes) = &self.slopes else { return a + x * (b - a) };
         let y = 1.0 - x;
         let bend = width * x * y * (slopes[i] * y - slopes[i + 1] * x);
-        Some(a * (y * y * (1.0 + 2.0 * x)) + b * (x * x * (3.0 - 2.0 * x)) + bend)
+        a * (y * y * (1.0 + 2.0 * x)) + b * (x * x * (3.0 - 2.0 * x)) + bend
     }
 }
 
@@ -195,6 +240,27 @@ impl<F> GearFlanks<F> {
         Ok(Self { right: side(Side::Right)?, left: side(Side::Left)? })
     }
 
+    /// The same, to be written to.
+    pub fn get_mut(&mut self, side: Side, label: i64) -> &mut F {
+        let flanks = match side {
+            Side::Right => &mut self.right,
+            Side::Left => &mut self.left,
+        };
+        let count = flanks.len() as i64;
+        &mut flanks[label.rem_euclid(count) as usize]
+    }
+
+    /// Something of every flank.
+    pub fn each<G>(&self, of: impl Fn(&F) -> G) -> GearFlanks<G> {
+        GearFlanks { right: self.right.iter().map(&of).collect(), left: self.left.iter().map(&of).collect() }
+    }
+
+    /// Puts the flanks of another gear with as many teeth to these, one by one.
+    pub fn combine(&mut self, other: &Self, with: impl Fn(&mut F, &F)) {
+        let both = self.right.iter_mut().zip(&other.right).chain(self.left.iter_mut().zip(&other.left));
+        both.for_each(|(own, other)| with(own, other));
+    }
+
     /// Every flank turned into something else.
     ///
     /// # Errors
@@ -219,6 +285,20 @@ pub fn nominal(
     addendum_mm: [f64; 2],
     extra_mm: impl Fn(Side, i64) -> f64,
 ) -> Result<GearFlanks<FlankChain>, Refusal> {
+    nominal_section(pair, member, addendum_mm, 0.0, extra_mm)
+}
+
+/// The same in a section of a helical pair in which all teeth stand `shift_mm` further along the driver's pitch curve.
+///
+/// # Errors
+/// Tips that the flanks do not reach.
+pub fn nominal_section(
+    pair: &PitchPair,
+    member: Member,
+    addendum_mm: [f64; 2],
+    shift_mm: f64,
+    extra_mm: impl Fn(Side, i64) -> f64,
+) -> Result<GearFlanks<FlankChain>, Refusal> {
     let (own, other, mate) = match member {
         Member::Driver => (addendum_mm[0], addendum_mm[1], Member::Driven),
         Member::Driven => (addendum_mm[1], addendum_mm[0], Member::Driver),
@@ -229,7 +309,7 @@ pub fn nominal(
     };
     let cos = pair.teeth().pressure_angle_rad.cos();
     GearFlanks::build(teeth, |side, label| {
-        let crossing_mm = pair.crossing_mm(side, label);
+        let crossing_mm = pair.crossing_mm(side, label) + shift_mm;
         let extra_mm = extra_mm(side, label);
         let arc = |phi: f64| pair.curve().arc_mm(phi);
         let tip_mm = arc(pair.phi_at_tip(member, side, crossing_mm, own)?);

@@ -13,9 +13,9 @@ use std::f64::consts::TAU;
 use super::contact_ratio::path_of_contact;
 use super::pitch_pair::{Member, PitchPair};
 use super::rolling::turns_of_period;
-use crate::error::Refusal;
-use crate::math::extremum::maximum;
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::math::extremum::maximum;
+use gearcut_core::terms::Side;
 
 /// Cells of a turn in which the largest reach is looked for.
 const CELLS_PER_TURN: usize = 120;

@@ -2,7 +2,8 @@
 //! have.
 //!
 //! In: pitch curves and flanks of both gears, nominal or cut. Out: rotations of the driven gear at which flanks touch,
-//! and what follows from them. Everything lives in the transverse plane; spur gears with parallel axes.
+//! and what follows from them. Everything lives in transverse planes: one of a spur pair, several of a helical one or of
+//! one whose axes are out of parallel.
 //!
 //! | module | what |
 //! | --- | --- |
@@ -15,6 +16,8 @@
 //! | [`contact_ratio`] | path of contact between the tips, contact ratio of a moment and of a tooth |
 //! | [`double_flank`] | the centre distance without play: against the mate and against a master |
 //! | [`interference`] | tips that ask for contact below the form point |
+//! | [`penetration`] | how deep tip corners stand in the mate's material |
+//! | [`pattern`] | how near the mate comes to every point of a flank |
 //!
 //! Words: the driver (gear 1) turns clockwise as phi_1 grows and pushes with its **right** flanks; its left flanks are
 //! the back flanks. The **transmission error** is the rotation of the driven gear less the one that the pitch curves
@@ -27,6 +30,8 @@ pub mod contact_ratio;
 pub mod double_flank;
 pub mod flank_chain;
 pub mod interference;
+pub mod pattern;
+pub mod penetration;
 pub mod pitch_pair;
 pub mod rolling;
 #[cfg(test)]

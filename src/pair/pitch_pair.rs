@@ -18,12 +18,12 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::error::Refusal;
-use crate::gear::{GearKind, PitchCurve};
-use crate::math::newton::{LastStep, newton};
-use crate::math::periodic_integral::PeriodicIntegral;
-use crate::math::roots::{bisect, try_bisect};
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::{GearKind, PitchCurve};
+use gearcut_core::math::newton::{LastStep, newton};
+use gearcut_core::math::periodic_integral::PeriodicIntegral;
+use gearcut_core::math::roots::{bisect, try_bisect};
+use gearcut_core::terms::Side;
 
 /// Accuracy of the driven angle, rad.
 const ANGLE_ACCURACY_RAD: f64 = 1e-13;

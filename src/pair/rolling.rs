@@ -12,8 +12,8 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 
 use super::assembly::{Meshing, Moment};
-use crate::error::Refusal;
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::terms::Side;
 
 /// Fewest positions that a tooth needs before its passage can be told from a step.
 pub const LEAST_POSITIONS_PER_TOOTH: u32 = 8;
@@ -55,24 +55,32 @@ pub fn turns_of_period([driver, driven]: [u32; 2]) -> u32 {
     driven / gcd(driver, driven)
 }
 
+/// Whether so many positions are enough for the teeth of a period.
+///
+/// # Errors
+/// They are not; how many would be.
+pub fn enough(count: [u32; 2], positions: usize) -> Result<(), Refusal> {
+    let turns = turns_of_period(count);
+    let teeth = turns * count[0];
+    let least = (LEAST_POSITIONS_PER_TOOTH * teeth) as usize;
+    if positions >= least {
+        return Ok(());
+    }
+    Err(Refusal::new(
+        "positions",
+        format!("{positions} positions are too few for the {teeth} teeth that pass in the {turns} turns of a period"),
+        format!("ask for {least} or more: {LEAST_POSITIONS_PER_TOOTH} per tooth"),
+    ))
+}
+
 /// Rolls a pair over its period.
 ///
 /// # Errors
 /// Too few positions for the teeth of the period; flanks out of reach.
 pub fn roll(meshing: &Meshing, positions: usize) -> Result<RolledPeriod, Refusal> {
     let count = meshing.pitch.teeth().count;
+    enough(count, positions)?;
     let turns = turns_of_period(count);
-    let teeth = turns * count[0];
-    let least = (LEAST_POSITIONS_PER_TOOTH * teeth) as usize;
-    if positions < least {
-        return Err(Refusal::new(
-            "positions",
-            format!(
-                "{positions} positions are too few for the {teeth} teeth that pass in the {turns} turns of a period"
-            ),
-            format!("ask for {least} or more: {LEAST_POSITIONS_PER_TOOTH} per tooth"),
-        ));
-    }
     let curve = meshing.pitch.curve();
     let travel_mm = f64::from(turns) * curve.perimeter_mm();
     let moment = |i: usize| meshing.at(curve.phi_at_arc(travel_mm * i as f64 / positions as f64));

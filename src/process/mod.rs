@@ -12,7 +12,6 @@
 pub mod hobbing;
 pub mod shaping;
 
-use crate::error::Result;
 use crate::findings::Findings;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
@@ -20,6 +19,7 @@ use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use crate::scene::{self, KeyTable, LoadedScene, Scene, SceneErrors, SceneProcess};
 use crate::steps::{Tools, Work};
+use gearcut_core::error::Result;
 use std::path::Path;
 use std::sync::LazyLock;
 

@@ -10,8 +10,8 @@ use super::model::{
 };
 use super::process::SceneProcess;
 use super::values::{Values, View};
-use crate::gear::{Driver, GearKind, PitchCurveShape};
-use crate::terms::Side;
+use gearcut_core::gear::{Driver, GearKind, PitchCurveShape};
+use gearcut_core::terms::Side;
 use gearcut_texture::Form;
 
 /// The scene called `name`; `base_dir` holds the files it refers to.

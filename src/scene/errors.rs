@@ -165,7 +165,7 @@ pub(super) fn shorten(text: &str, most: usize) -> String {
     short
 }
 
-impl From<SceneErrors> for crate::Error {
+impl From<SceneErrors> for gearcut_core::Error {
     fn from(errors: SceneErrors) -> Self {
         Self::Scene(Box::new(errors))
     }

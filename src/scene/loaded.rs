@@ -13,7 +13,7 @@ use super::tree::{KeyValue, Node, TomlValue, parse_document};
 use super::values::Values;
 use super::walk::walk;
 use super::{Scene, build, checks, foreign, overrides, write};
-use crate::error::Refusal;
+use gearcut_core::error::Refusal;
 
 /// A scene without problems, with the memory of where each value was written.
 #[derive(Debug, Clone)]

@@ -1,13 +1,14 @@
 //! The scene of the gear that runs with a scene's own.
 //!
-//! In: the driver's loaded scene, the mate's number of teeth, and whether its teeth stand outside or inside. Out: a scene
-//! as TOML. Its pitch curve is the mate of the driver's (`[gear.pitch_curve.mate]`, whose reader solves the distance of
-//! the axes); module, pressure angle, tool, machine and operations are the driver's, so that both gears are cut alike.
+//! In: the driver's loaded scene, the mate's number of teeth, and whether its teeth stand outside or inside. Out: a
+//! scene as TOML. Its pitch curve is the mate of the driver's (`[gear.pitch_curve.mate]`, whose reader solves the
+//! distance of the axes); module, pressure angle, tool, machine and operations are the driver's, so that both gears are
+//! cut alike.
 //!
 //! What the driver's file writes is copied as written; what holds there by default holds here by default. Counts per
 //! turn of the work grow with the number of teeth, so that the feed per tooth stays. A helix changes its hand on an
-//! external mate and keeps it on a ring. Left out is what belongs to the driver alone: its bore on a ring, places on its
-//! teeth (`[[texture]]`, `[[picture]]`, windows), programs and the name of its folder.
+//! external mate and keeps it on a ring. Left out is what belongs to the driver alone: its bore on a ring, places on
+//! its teeth (`[[texture]]`, `[[picture]]`, windows), programs and the name of its folder.
 
 use std::fmt::Write as _;
 
@@ -16,9 +17,9 @@ use super::table::{KeyTable, TableSection};
 use super::values::Checked;
 use super::write::{value_text, walk_sections};
 use super::{LoadedScene, SceneProcess};
-use crate::error::Refusal;
-use crate::gear::{Driver, GearKind, PitchCurve, PitchCurveShape};
-use crate::terms::Hand;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::{Driver, GearKind, PitchCurve, PitchCurveShape};
+use gearcut_core::terms::Hand;
 
 /// Keys of `[gear]` that do not pass from the driver to its mate as they are.
 const OWN_OF_GEAR: [&str; 4] = ["kind", "teeth", "hand", "rim_mm"];
@@ -108,7 +109,9 @@ impl Writer<'_> {
             let kind = if self.mate.kind == GearKind::Internal { "kind = \"internal\"\n" } else { "" };
             lines = format!("{kind}teeth = {}\n{lines}{}", self.mate.teeth, self.hand());
         }
-        if self.holds(section, path) && (!lines.is_empty() || section.role == Role::Variant) {
+        // An element of a list stands there even where it is one by default: its variants need it.
+        let stands = matches!(section.role, Role::Variant | Role::List { .. });
+        if self.holds(section, path) && (!lines.is_empty() || stands) {
             let _ = write!(out, "\n{header}\n{lines}");
         }
     }

@@ -5,10 +5,10 @@
 //! (`face_width_mm`, `pressure_angle_deg`); angles are radians here.
 
 use super::process::ScenePart;
-use crate::error::Refusal;
-use crate::gear::blank::Blank;
-use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
-use crate::terms::{Hand, Side};
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape};
+use gearcut_core::terms::{Hand, Side};
 use gearcut_texture::Form;
 use std::path::PathBuf;
 use std::sync::Arc;

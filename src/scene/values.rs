@@ -7,8 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::keys::join;
 use super::sources::At;
-use crate::terms::Hand;
-use crate::units::UM_PER_MM;
+use gearcut_core::terms::Hand;
+use gearcut_core::units::UM_PER_MM;
 
 /// A value that fits its key.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,10 +4,10 @@
 //! spread over the gear, exactly as the cut would plan them, and scaled to all flanks by their dexels. Time is the sum
 //! of the parts at rates measured on one processor, named with the result.
 
-use crate::dexel::BlankGrid;
 use crate::output::progress::duration_text;
 use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Fields;
+use gearcut_core::dexel::BlankGrid;
 
 /// Processor on whose cores the rates were measured.
 pub const PROCESSOR: &str = "an AMD EPYC (Zen 5, AVX-512)";

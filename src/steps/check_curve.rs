@@ -1,9 +1,9 @@
 //! The pitch curve: size, closure, curvature.
 
-use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
 use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Gear;
-use crate::units::UM_PER_MM;
+use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape};
+use gearcut_core::units::UM_PER_MM;
 
 /// A closure error above this (in modules) is worth a warning: single pitch deviations of good gears are of this size.
 const NOTABLE_CLOSURE_MODULES: f64 = 1e-3;

@@ -6,16 +6,16 @@
 use super::gear_maps::GearMaps;
 use super::parts::{Part, Parts};
 use super::{FlankFiles, Work, all_flanks, flanks_of, map_operations, meshes, needs_maps, needs_surfaces};
-use crate::cut::CutStats;
-use crate::dexel::{Layer, RayGrid};
-use crate::error::Result;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::measure::last_chips::LastChips;
 use crate::output::flank_maps::FlankMaps;
 use crate::output::progress::Progress;
 use crate::surface::SurfaceGrid;
-use crate::terms::Side;
+use gearcut_core::cut::CutStats;
+use gearcut_core::dexel::{Layer, RayGrid};
+use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
 use std::time::Instant;
 
 /// One flank after all operations.

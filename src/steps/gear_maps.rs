@@ -4,7 +4,7 @@
 
 use crate::colormap::ColourScale;
 use crate::output::flank_maps::FlankMaps;
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// Deviations whose colours reach the ends of the scale at least, µm: on a finer scale a perfect gear would look
 /// faulty.

@@ -2,11 +2,11 @@
 //!
 //! In: a job, its flanks and roots. Out: [`GearSurfaces`], from which the closed outline is made.
 
-use crate::cut::Backend;
-use crate::error::Result;
 use crate::job::CylindricalGear;
 use crate::surface::flanks::SurfaceGrid;
 use crate::surface::outline::{GearSurfaces, ToothSurfaces};
+use gearcut_core::cut::Backend;
+use gearcut_core::error::Result;
 use rayon::prelude::*;
 
 /// Cuts tips to go with the flanks, which stand tooth by tooth, left before right, and with the roots, space by space;

@@ -1,9 +1,6 @@
 //! Meshes of a run: one PLY per flank as it is finished, and the whole gear as one closed body in STL, PLY and glTF.
 
 use crate::colormap::ColourScale;
-use crate::cut::Backend;
-use crate::cut::CutBlank;
-use crate::error::Result;
 use crate::job::{CylindricalGear, GearJob};
 use crate::output::folder::OutputFolder;
 use crate::output::mesh_file::MeshFile;
@@ -15,7 +12,10 @@ use crate::steps::gear_surfaces;
 use crate::surface::gear_solid::gear_solid;
 use crate::surface::outline::{Outline, flank_name};
 use crate::surface::{BlankMesh, Mesh, SurfaceGrid};
-use crate::terms::Side;
+use gearcut_core::cut::Backend;
+use gearcut_core::cut::CutBlank;
+use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
 
 /// Heights shown beside each other on meshes of gears that were cut in one operation, µm: what a good cut leaves.
 const HEIGHT_COLOURS_UM: f32 = 5.0;

@@ -8,9 +8,6 @@
 
 use super::meshes::stock_scale;
 use crate::colormap::ColourScale;
-use crate::cut::Backend;
-use crate::dexel::NO_PASS;
-use crate::error::{Error, Result};
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::atomic::file_error;
@@ -23,8 +20,11 @@ use crate::scene::model::{Picture, PictureColour, PictureView};
 use crate::surface::mesh::ScalarValues;
 use crate::surface::render::{Bodies, CLAY, Camera, Lights, Look, Rendered, Shape, render};
 use crate::surface::{Mesh, SurfaceGrid};
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::NO_PASS;
+use gearcut_core::error::{Error, Result};
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 use glam::DVec3;
 use std::f64::consts::PI;
 

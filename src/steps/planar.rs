@@ -12,15 +12,15 @@ pub mod blank_findings;
 pub mod blank_report;
 pub mod stroke_faults;
 
-use crate::cut::{Backend, CutStats};
-use crate::dexel::{Column, Field, Layer};
-use crate::error::Result;
-use crate::gear::blank::Blank;
 use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, rows_z_mm};
-use crate::passes::planar::strokes::StrokeLaw;
-use crate::passes::{CutPlan, StrokeSet};
 use crate::scene::Scene;
-use crate::tool::PlanarTool;
+use gearcut_core::cut::{Backend, CutStats};
+use gearcut_core::dexel::{Column, Field, Layer};
+use gearcut_core::error::Result;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::passes::planar::strokes::StrokeLaw;
+use gearcut_core::passes::{CutPlan, StrokeSet};
+use gearcut_core::tool::PlanarTool;
 use glam::DVec2;
 
 /// Rays of a fillet stay within this share of its radius: further out they would cross each other.
@@ -132,9 +132,10 @@ impl PlanarGear<'_> {
         }
     }
 
-    /// Rays over a tip land, along the normals of the pitch curve and from it towards the tips, between the polar angles of the feet
-    /// of both its ends; `None` where there is hardly any land. A ray that no pass reached says that the blank's own
-    /// surface stands there; where a tool has cut the tips down, or a window left a tooth alone, it says that too.
+    /// Rays over a tip land, along the normals of the pitch curve and from it towards the tips, between the polar
+    /// angles of the feet of both its ends; `None` where there is hardly any land. A ray that no pass reached says that
+    /// the blank's own surface stands there; where a tool has cut the tips down, or a window left a tooth alone, it
+    /// says that too.
     pub fn tip_field(&self, feet_rad: [f64; 2]) -> Option<Field> {
         let curve = self.blank.curve();
         let [from_mm, to_mm] = feet_rad.map(|phi| curve.arc_mm(phi));

@@ -1,7 +1,7 @@
 //! The run record: what is needed to repeat a run and to trust its files.
 
 use super::{Tools, Work};
-use crate::error::{Error, Result};
+use gearcut_core::error::{Error, Result};
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;

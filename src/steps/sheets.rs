@@ -4,11 +4,11 @@ use super::gear_maps::{GearMaps, finished_heights_um, um};
 use super::parts::Part;
 use super::{Tools, map_operations};
 use crate::colormap::ColourScale;
-use crate::error::{Error, Result};
 use crate::job::GearJob;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
 use crate::output::flank_maps::{CHIPS_SHOWN, FlankMaps, NO_PASS_CAME, OperationMaps};
 use crate::output::folder::OutputFolder;
+use gearcut_core::error::{Error, Result};
 use rayon::prelude::*;
 use std::path::Path;
 

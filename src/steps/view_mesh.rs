@@ -6,13 +6,13 @@
 //! by the shape.
 //!
 //! End faces need no general triangulation: every tooth is a ladder from its right to its left flank, and the ring
-//! below the teeth a strip from root to bore or rim. All parts meet in the same points, so the mesh is closed (a test counts
-//! its edges).
+//! below the teeth a strip from root to bore or rim. All parts meet in the same points, so the mesh is closed (a test
+//! counts its edges).
 
-use crate::error::Result;
 use crate::job::{CylindricalGear, GearJob};
 use crate::surface::triangles::{SectionProfile, Triangles};
-use crate::terms::Side;
+use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
 use glam::{DVec2, DVec3};
 
 /// Distance between points along profiles and roots, mm.

@@ -1,13 +1,13 @@
 //! Rays through the whole blank, and what is found on it, whatever cuts it.
 
-use crate::dexel::{BlankField, BlankGrid};
-use crate::error::Refusal;
 use crate::findings::{Quantity, Section};
-use crate::gear::GearKind;
-use crate::gear::blank::Blank;
-use crate::gear::blank_outline::BlankOutline;
 use crate::measure::damage::OperationVolume;
 use crate::scene::Scene;
+use gearcut_core::dexel::{BlankField, BlankGrid};
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::GearKind;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::gear::blank_outline::BlankOutline;
 
 /// Where rays through a blank stand at the scene's spacing; one slice if all sections are `alike`.
 ///

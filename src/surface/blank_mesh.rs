@@ -17,30 +17,24 @@
 //! **End faces** are flat: the outermost cells hold the rim, and the end face within is triangulated between these
 //! vertices and no others. A field of one slice therefore gives walls as tall as the face.
 
+mod crossing;
+#[cfg(test)]
+mod tests;
+
 use super::dual_cells::{NOT_CROSSED, edge_x, edge_y, edge_z, labels};
 use super::flanks::{height_scalar, pass_scalar};
 use super::mesh::{Mesh, MeshPart};
 use super::plane_area::triangles_inside;
-use crate::dexel::blank_field::{BlankField, RayMaterial};
-use crate::dexel::{NO_PASS, intervals};
 use crate::measure::target_outline::TargetOutline;
-use crate::units::UM_PER_MM;
+use crossing::{Cross, best_meeting, end_between};
+use gearcut_core::dexel::NO_PASS;
+use gearcut_core::dexel::blank_field::BlankField;
+use gearcut_core::units::UM_PER_MM;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
 /// Vertices stay this share of a cell away from its sides: no two of them coincide, and 10 nm at 0.1 mm are no loss.
 const MARGIN: f64 = 1e-4;
-/// A sheet is a sharp edge where its tangents differ enough: tan(theta / 2) squared, theta = 11 degrees; below, the
-/// vertex moves along the mean normal only.
-const SHARP: f64 = 0.01;
-
-/// A crossing of a grid edge.
-#[derive(Clone, Copy)]
-struct Cross {
-    point_mm: DVec2,
-    normal: DVec2,
-    pass: u32,
-}
 
 /// Layer (or slice) and place in it: a cell by its lowest node, or a node.
 type Cell = (usize, usize, usize);
@@ -337,39 +331,6 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// The end of material in an edge of the grid: where it ends if the lower node is inside, else where it begins.
-fn end_between(ray: &RayMaterial, from_mm: f64, to_mm: f64, low_inside: bool) -> Option<intervals::End> {
-    if low_inside {
-        let span = ray.get(ray.partition_point(|s| s.high.at_mm < from_mm))?;
-        (span.high.at_mm <= to_mm).then_some(span.high)
-    } else {
-        let span = ray[..ray.partition_point(|s| s.low.at_mm <= to_mm)].last()?;
-        (span.low.at_mm >= from_mm).then_some(span.low)
-    }
-}
-
-/// Where the tangents at some crossings meet best: least squares of the distances from all of them, from the crossings'
-/// mean, along the mean normal alone where they are nearly parallel.
-fn best_meeting(crosses: &[Cross]) -> DVec2 {
-    let count = crosses.len() as f64;
-    let mean = crosses.iter().map(|c| c.point_mm).sum::<DVec2>() / count;
-    let (mut xx, mut xy, mut yy, mut right) = (0.0, 0.0, 0.0, DVec2::ZERO);
-    for Cross { point_mm, normal, .. } in crosses {
-        xx += normal.x * normal.x;
-        xy += normal.x * normal.y;
-        yy += normal.y * normal.y;
-        right += *normal * normal.dot(*point_mm - mean);
-    }
-    let (half_trace, half_gap) = (0.5 * (xx + yy), (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt());
-    let (large, small) = (half_trace + half_gap, half_trace - half_gap);
-    // Eigenvector of the larger eigenvalue, from the better conditioned column.
-    let steep = if xx > yy { DVec2::new(large - yy, xy) } else { DVec2::new(xy, large - xx) };
-    let steep = steep.try_normalize().unwrap_or(if xx > yy { DVec2::X } else { DVec2::Y });
-    let along = |axis: DVec2, value: f64| axis * (axis.dot(right) / value);
-    let sharp = if small > SHARP * large { along(steep.perp(), small) } else { DVec2::ZERO };
-    mean + along(steep, large) + sharp
-}
-
 /// The inside corner (0 or 1 in x and y) of a section that a sheet goes round, in a cell with one section.
 fn corner_of(labels: &[u8; 12], label: u8, pattern: u8) -> DVec2 {
     let slice = usize::from(pattern.trailing_zeros() >= 4);
@@ -379,69 +340,4 @@ fn corner_of(labels: &[u8; 12], label: u8, pattern: u8) -> DVec2 {
         section >> (x + 2 * y) & 1 == 1 && labels[edge_x(y, slice)] == label && labels[edge_y(x, slice)] == label
     });
     met.map_or(DVec2::splat(0.5), |(x, y)| DVec2::new(x as f64, y as f64))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::dexel::BlankGrid;
-    use crate::dexel::blank_field::Slice;
-    use crate::dexel::intervals::{End, Span};
-    use crate::math::planar_rays::RayRow;
-    use proptest::prelude::*;
-
-    /// Both families of a field whose inside nodes are given; surfaces a third of a cell beside the nodes.
-    fn field(size: usize, slices: usize, inside: impl Fn(usize, usize, usize) -> bool) -> BlankField {
-        let row = RayRow { first_mm: 0.0, spacing_mm: 1.0, count: size + 2 };
-        let node = |s: usize, i: usize, j: usize| (1..=size).contains(&i) && (1..=size).contains(&j) && inside(s, i, j);
-        let end = |at_mm: f64, normal: [f32; 2]| End { at_mm, pass: at_mm as u32, normal };
-        let ray = |along_x: bool, s: usize, r: usize| -> RayMaterial {
-            let here = |k: usize| if along_x { node(s, k, r) } else { node(s, r, k) };
-            let out = |sign: f32| if along_x { [sign, 0.0] } else { [0.0, sign] };
-            let mut spans = Vec::new();
-            let mut from = None;
-            for k in 1..size + 2 {
-                match (here(k - 1), here(k)) {
-                    (false, true) => from = Some(k as f64 - 1.0 / 3.0),
-                    (true, false) => spans.push(Span {
-                        low: end(from.expect("begun"), out(-1.0)),
-                        high: end(k as f64 - 2.0 / 3.0, out(1.0)),
-                    }),
-                    _ => {}
-                }
-            }
-            spans
-        };
-        let slice = |s: usize| Slice { rays: [true, false].map(|x| (0..size + 2).map(|r| ray(x, s, r)).collect()) };
-        let slices_z_mm = (0..slices).map(|s| s as f64 - 0.5 * (slices as f64 - 1.0)).collect();
-        let face_width_mm = (slices as f64 - 1.0).max(1.0);
-        let grid = BlankGrid { rows: [row; 2], slices_z_mm, face_width_mm };
-        BlankField { grid, slices: (0..slices).map(slice).collect() }
-    }
-
-    #[test]
-    fn a_square_bar_keeps_its_edges_and_volume() {
-        for slices in [1, 4] {
-            let field = field(6, slices, |_, i, j| (2..=4).contains(&i) && (3..=5).contains(&j));
-            let BlankMesh { mesh, guessed } = BlankMesh::new(&field, None);
-            assert!(mesh.is_closed() && guessed == 0, "{:?}", mesh.edge_faults());
-            let side = 2.0 + 2.0 / 3.0;
-            assert!((mesh.volume_mm3() - side * side * field.grid.face_width_mm).abs() < 1e-9);
-        }
-    }
-
-    proptest! {
-        /// Whatever the nodes: checkerboards, islands and holes through all slices.
-        #[test]
-        fn random_nodes_give_closed_meshes(
-            nodes in proptest::collection::vec(any::<bool>(), 192),
-            slices in 1_usize..4,
-        ) {
-            let field = field(8, slices, |s, i, j| nodes[64 * s + 8 * (i - 1) + j - 1]);
-            let mesh = BlankMesh::new(&field, None).mesh;
-            prop_assume!(!mesh.triangles.is_empty());
-            prop_assert!(mesh.is_closed(), "{:?}", mesh.edge_faults());
-            prop_assert!(mesh.volume_mm3() > 0.0);
-        }
-    }
 }

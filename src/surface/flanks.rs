@@ -10,8 +10,8 @@
 //! per flank, whatever its width. Helical flanks keep all rows: they wind about the axis.
 
 use super::mesh::{Mesh, MeshPart, Scalar, ScalarValues};
-use crate::dexel::{Layer, NO_PASS, RayGrid};
-use crate::units::UM_PER_MM;
+use gearcut_core::dexel::{Layer, NO_PASS, RayGrid};
+use gearcut_core::units::UM_PER_MM;
 use glam::{DVec2, DVec3};
 
 /// Rows are left out where straight lines between the others miss no height by more than this, mm: a tenth of a
@@ -135,6 +135,17 @@ impl SurfaceGrid {
     }
 }
 
+/// Points on the surface after the last operation, section by section, of rays that stay in their sections.
+///
+/// # Panics
+/// No layer.
+pub fn points_of_sections(field: &impl RayGrid, layers: &[Layer]) -> Vec<Vec<DVec2>> {
+    let last = layers.last().expect("a job has at least one operation");
+    let rows = field.rows_mm().len();
+    let point = |c: usize, r: usize| field.point_mm(c, r, f64::from(last.heights_mm[c * rows + r])).truncate();
+    (0..rows).map(|r| (0..field.arcs_mm().len()).map(|c| point(c, r)).collect()).collect()
+}
+
 /// Normal deviation as a quantity.
 pub fn height_scalar(values: Vec<f32>) -> Scalar {
     Scalar {
@@ -227,7 +238,7 @@ fn straight_rows(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dexel::{Column, Field};
+    use gearcut_core::dexel::{Column, Field};
 
     /// Part of a cylinder of radius 50 mm on the left of a tooth: `columns` dexels 5 µm apart, rows 50 µm apart over 10
     /// mm.

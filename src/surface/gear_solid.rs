@@ -11,9 +11,9 @@ use super::flanks::{height_scalar, pass_scalar, stock_scalar};
 use super::mesh::{Mesh, MeshPart};
 use super::outline::Outline;
 use super::plane_area::{sides_of_contours, triangles_inside};
-use crate::dexel::NO_PASS;
-use crate::error::Refusal;
-use crate::gear::{Back, GearKind};
+use gearcut_core::dexel::NO_PASS;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::{Back, GearKind};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 

@@ -5,15 +5,15 @@
 //!
 //! The order follows from the gear alone: right flank of a tooth from form point to tip, its tip land, its left flank
 //! down again, the root of the space behind it, and so on. What no pass reached (tip lands, teeth outside a window) is
-//! the blank's own outline. Where the fillet has cut into a flank (undercut), targets that are straight along the tooth let flank
-//! and root run on past their crossing; what lies behind it is air and is left out. The roots of a gear whose sections
-//! differ end where its flanks begin, in every section at another place: nothing is sought there, for a crossing of one
-//! section is none of the others, and the common end itself would pass for one or not by the last bit.
+//! the blank's own outline. Where the fillet has cut into a flank (undercut), targets that are straight along the tooth
+//! let flank and root run on past their crossing; what lies behind it is air and is left out. The roots of a gear whose
+//! sections differ end where its flanks begin, in every section at another place: nothing is sought there, for a
+//! crossing of one section is none of the others, and the common end itself would pass for one or not by the last bit.
 
 use super::flanks::SurfaceGrid;
-use crate::dexel::NO_PASS;
-use crate::gear::blank::Blank;
-use crate::terms::Side;
+use gearcut_core::dexel::NO_PASS;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::terms::Side;
 use glam::DVec2;
 use std::f64::consts::TAU;
 

@@ -3,9 +3,9 @@
 //! Profiles run counter-clockwise round the gear axis. The material of an external gear lies on their left, that of a
 //! ring on their right, where all triangles turn over.
 
-use crate::dexel::Ray;
-use crate::gear::GearKind;
-use crate::units::TURN_RAD;
+use gearcut_core::dexel::Ray;
+use gearcut_core::gear::GearKind;
+use gearcut_core::units::TURN_RAD;
 use glam::{DVec2, DVec3};
 
 /// Points of the target in one transverse section, gear frame, mm, each with the target's unit normal out of the gear.

@@ -2,7 +2,6 @@
 
 use super::{WindowTexture, chart};
 use crate::colormap::ColourScale;
-use crate::error::Result;
 use crate::job::GearJob;
 use crate::measure::topography::Surface;
 use crate::output::atomic::file_error;
@@ -10,7 +9,8 @@ use crate::output::folder::OutputFolder;
 use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::map_png::{MapPicture, Relief, write_relief_png};
 use crate::output::surface_files::{Format, SurfaceFile, write_surface};
-use crate::units::UM_PER_MM;
+use gearcut_core::error::Result;
+use gearcut_core::units::UM_PER_MM;
 use rayon::prelude::*;
 
 /// What readers of the files need to know about x, y and z.

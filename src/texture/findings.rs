@@ -5,7 +5,7 @@ use super::{WindowTexture, chart};
 use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
 use crate::job::GearJob;
 use crate::measure::topography::{Evaluation, Parameter};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// Intervals of the curve in the table.
 const CURVE_INTERVALS: u32 = 200;

@@ -4,11 +4,11 @@
 //! teeth are taken: those between which the marks differ most (on a cylindrical gear the ones with the largest and the
 //! smallest radius of the pitch curve), and tooth 3, which Gao et al. (2017, Fig. 13) measured.
 
-use crate::error::{Refusal, Result};
 use crate::job::GearJob;
 use crate::measure::topography::Form;
 use crate::scene::model::{TextureWindow, WindowSides};
-use crate::terms::Side;
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::terms::Side;
 
 /// Tooth that the paper measured.
 const PAPER_TOOTH: u32 = 3;

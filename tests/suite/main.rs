@@ -6,6 +6,7 @@
 
 mod fixtures;
 
+mod bevel;
 mod floors;
 #[cfg(feature = "gpu")]
 mod gpu;

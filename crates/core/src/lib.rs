@@ -1,7 +1,7 @@
 //! The ground that gearcut stands on: from pitch curves and cutting edges to dexels that passes are subtracted from.
 //!
 //! In: a pitch curve, a tool with its blades, poses of the tool over time. Out: what is left on every dexel, and the
-//! pass that left it. Nothing here knows files, scenes or a process of manufacture.
+//! pass that left it. Nothing here knows files, scenes or the commands of a process of manufacture.
 //!
 //! The modules, from the ground up; each uses only those above it in this list:
 //!
@@ -15,6 +15,7 @@
 //! - [`dexel`]: rays with the material that is left on them
 //! - [`passes`]: one blade's trip through the work, and which passes can matter to which dexels
 //! - [`cut`]: backends, and the native one
+//! - [`bevel`]: spiral bevel gears: blank, face-mill head, machines and the flank that they generate
 //!
 //! Lengths are in mm and angles in rad, in names as in values; points and directions say which frame they are in.
 //!
@@ -56,6 +57,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod bevel;
 pub mod cut;
 pub mod dexel;
 pub mod error;

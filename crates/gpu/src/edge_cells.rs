@@ -1,9 +1,9 @@
 //! The tables of a tool's edges as the spatial shader reads them, and the point from which a record counts.
 //!
-//! In: the segments of all edges of a tool, a place near which a tile's rays meet a segment. Out: one table of all segments' cells; the **base
-//! point** of the segment near that place, the start of the table cell over which it stands or the point of the arc, to
-//! which what f32 sees is referred. Base x and base point are rounded to f32 *before* they are subtracted, so that the
-//! shader's own subtraction of the same numbers is exact.
+//! In: the segments of all edges of a tool, a place near which a tile's rays meet a segment. Out: one table of all
+//! segments' cells; the **base point** of the segment near that place, the start of the table cell over which it stands
+//! or the point of the arc, to which what f32 sees is referred. Base x and base point are rounded to f32 *before* they
+//! are subtracted, so that the shader's own subtraction of the same numbers is exact.
 
 use super::compose::{ArcBase, END_OVERLAP_MM};
 use gearcut_core::tool::edge::{Segment, SegmentShape};

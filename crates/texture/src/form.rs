@@ -177,8 +177,8 @@ fn solve(m: &mut [[f64; 7]; 6], terms: usize) -> Option<[f64; 6]> {
 const FIRST_ANGLE_STEP_RAD: f64 = 0.05;
 /// What is left of the steps after a round that finds nothing better. Found by trial; it decides about time alone.
 const SHRINK: f64 = 0.4;
-/// Steps of the axis above this are not settled, rad: both unknowns are then known to a thousandth of their first steps,
-/// 1e-4 of the curvature, and the misfit near its least value to the square of that.
+/// Steps of the axis above this are not settled, rad: both unknowns are then known to a thousandth of their first
+/// steps, 1e-4 of the curvature, and the misfit near its least value to the square of that.
 const SETTLED_RAD: f64 = 5e-5;
 /// Rounds that are gone through in any case, and at most.
 const LEAST_ROUNDS: u32 = 40;

@@ -27,8 +27,8 @@ use super::surface::{Surface, transposed};
 const REACH: f64 = 1.0;
 /// c of Tukey's biweight per median of the residuals: three standard deviations of Gaussian residuals.
 const TUKEY: f64 = 4.4478;
-/// Rounds at most; five are usual. Nothing proves that the rounds of the robust form settle: one that has not by then is
-/// an error.
+/// Rounds at most; five are usual. Nothing proves that the rounds of the robust form settle: one that has not by then
+/// is an error.
 const ROUNDS: usize = 200;
 /// Change of c at which the rounds end.
 const SETTLED: f64 = 1e-4;

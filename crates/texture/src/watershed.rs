@@ -6,8 +6,8 @@
 //! letting the lower of two peaks end at the saddle where they first meet does the same in one sweep (the rise that is
 //! compared is the persistence of the peak).
 //!
-//! A place has eight neighbours. Equal heights are told apart by their place in the map, so that plateaus have one peak.
-//! Holes end a hill as the edge of the map does. Dales are the hills of the surface turned upside down.
+//! A place has eight neighbours. Equal heights are told apart by their place in the map, so that plateaus have one
+//! peak. Holes end a hill as the edge of the map does. Dales are the hills of the surface turned upside down.
 //!
 //! Source: G. W. Wolf, "Metric surface networks", Proc. 4th Int. Symp. on Spatial Data Handling, 1990; ISO
 //! 25178-2:2021, clause on segmentation.

@@ -18,7 +18,7 @@ use crate::output::atomic::write_bytes_atomically;
 use crate::output::font;
 use crate::output::letters::{fitting_em_px, text_width_px};
 use crate::output::plot::px;
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 
 /// Rules of everything that charts draw.
 const RULES: &str = include_str!("../../../assets/report/chart.css");

@@ -5,7 +5,7 @@
 
 use super::steps::{Disk, Steps};
 use super::{OutputFolder, RUN_RECORD};
-use crate::Result;
+use gearcut_core::Result;
 use serde_json::json;
 use std::fs::{self, File};
 use std::io;

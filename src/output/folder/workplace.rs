@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 use same_file::Handle;
 
 use super::steps::Steps;
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 
 const LOCK: &str = "lock";
 const NEW: &str = "new";

@@ -1,5 +1,6 @@
 //! What stands on the page: sections of headings, charts, tables and notes.
 
+use super::data_url;
 use super::table::PageTable;
 use super::texture::{self, TextureBlock};
 use super::traces::{self, TraceSheet};
@@ -40,6 +41,8 @@ pub enum Block {
     Table(PageTable),
     /// A texture window.
     Texture(TextureBlock),
+    /// A picture with what it shows: PNG, plain or animated.
+    Picture(String, Vec<u8>),
     /// Blocks that are folded away until asked for.
     Folded(String, Vec<Block>),
     /// Text as it is, such as a scene.
@@ -71,6 +74,12 @@ impl Block {
             Self::Traces(sheets) => traces::sheets(sheets),
             Self::Table(table) => table.markup(),
             Self::Texture(window) => texture::window(window),
+            Self::Picture(words, png) => html! {
+                figure class="picture" {
+                    figcaption { (words) }
+                    img src=(data_url("image/png", png)) alt=(words);
+                }
+            },
             Self::Folded(summary, blocks) => html! {
                 details { summary { (summary) } @for block in blocks { (block.markup()) } }
             },

@@ -29,6 +29,8 @@ fn page() -> Page {
         count: 2,
     };
     Page {
+        what: "cutting report",
+        done: "all flanks cut",
         title: HOSTILE.into(),
         subtitle: HOSTILE.into(),
         operations: vec![HOSTILE.into()],

@@ -175,6 +175,8 @@ mod tests {
                 blocks: vec![Block::Texture(scallops())],
             };
             let page = Page {
+                what: "cutting report",
+                done: "all flanks cut",
                 title: "texture".into(),
                 subtitle: String::new(),
                 operations: Vec::new(),

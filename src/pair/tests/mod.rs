@@ -16,8 +16,8 @@ use serde_json::Value;
 use super::assembly::{Meshing, Mounting};
 use super::flank_chain::{self, FlankChain, GearFlanks};
 use super::pitch_pair::{Member, PairTeeth, PitchPair};
-use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
-use crate::terms::Side;
+use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape};
+use gearcut_core::terms::Side;
 
 fn data(name: &str) -> Value {
     let path = format!("{}/tests/data/pair/{name}.json", env!("CARGO_MANIFEST_DIR"));
@@ -82,6 +82,7 @@ fn meshing(pair: &PitchPair, addendum_mm: [f64; 2], errors: &Value) -> Meshing {
     let mounting = Mounting {
         center_distance_error_mm: optional(errors, "delta_a"),
         eccentricity_mm: [off("e1", "eps1"), glam::DVec2::from_angle(around).rotate(off("e2", "eps2"))],
+        ..Mounting::default()
     };
     let driver = thinned(pair, Member::Driver, addendum_mm, optional(errors, "thin1"));
     let driven = thinned(pair, Member::Driven, addendum_mm, optional(errors, "thin2"));

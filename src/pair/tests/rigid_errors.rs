@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::pair::backlash::Backlash;
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 use serde_json::json;
 
 /// Checks all cases of a file, and tells the largest difference of the transmission error in arcsec.

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::pair::contact::TouchKind;
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 #[test]
 fn errors_of_one_flank_and_corners_that_touch() {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::pair::double_flank::{Master, against_mate};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 #[test]
 fn tight_centre_distances() {

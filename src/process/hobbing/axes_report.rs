@@ -12,7 +12,6 @@ mod charts;
 mod facts;
 
 use super::gcode;
-use crate::error::Result;
 use crate::machine::{Peak, peaks};
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
@@ -22,7 +21,8 @@ use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::{self, AXES};
 use crate::process::hobbing::scene::model::{HobbingKind, ShiftDirection, ShiftStrategy};
 use crate::steps::axes::{self, AxesOfOperation, Named, NamedChart, PeakWords, STEADY};
-use crate::units::UM_PER_MM;
+use gearcut_core::error::Result;
+use gearcut_core::units::UM_PER_MM;
 use std::path::Path;
 use std::sync::OnceLock;
 

@@ -2,19 +2,19 @@
 //! section at any height.
 
 use super::{HobCutter, HobbingJob};
-use crate::cut::Backend;
-use crate::cut::CutBlank;
-use crate::cut::sweep_chips::PassChip;
-use crate::dexel::{BlankField, BlankGrid};
-use crate::error::{Refusal, Result};
-use crate::gear::blank_outline::BlankOutline;
-use crate::math::roots::halve;
 use crate::measure::target_outline::TargetOutline;
-use crate::passes::sections::swept_sections::SweptSections;
 use crate::process::hobbing::rack_generation::FormPoint;
 use crate::steps::whole_blank;
-use crate::terms::Side;
-use crate::units::TURN_RAD;
+use gearcut_core::cut::Backend;
+use gearcut_core::cut::CutBlank;
+use gearcut_core::cut::sweep_chips::PassChip;
+use gearcut_core::dexel::{BlankField, BlankGrid};
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::gear::blank_outline::BlankOutline;
+use gearcut_core::math::roots::halve;
+use gearcut_core::passes::sections::swept_sections::SweptSections;
+use gearcut_core::terms::Side;
+use gearcut_core::units::TURN_RAD;
 use glam::DVec2;
 use rayon::prelude::*;
 

@@ -2,7 +2,6 @@
 
 mod cost;
 
-use crate::error::Result;
 use crate::output::text::{Sheet, plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::scene::model::HobbingKind;
@@ -10,7 +9,8 @@ use crate::process::hobbing::{HobCutter, HobbingJob};
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use crate::steps::flanks_of;
-use crate::terms::Side;
+use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
 use rayon::prelude::*;
 
 /// Share of the largest tooth count of a warning's list.

@@ -4,15 +4,15 @@
 //! teeth. Passes and the targets that somebody has asked for stay with the job, which makes them once.
 
 use super::HobbingJob;
-use crate::cut::{Backend, CutStats};
-use crate::dexel::PlacedRays;
-use crate::dexel::{Layer, SpatialField};
-use crate::error::{Refusal, Result};
 use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, rows_z_mm};
-use crate::passes::{SweepPlan, TurningPasses};
 use crate::process::hobbing::flank_patch::FlankPatch;
 use crate::process::hobbing::kept::Kept;
-use crate::terms::Side;
+use gearcut_core::cut::{Backend, CutStats};
+use gearcut_core::dexel::PlacedRays;
+use gearcut_core::dexel::{Layer, SpatialField};
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::passes::{SweepPlan, TurningPasses};
+use gearcut_core::terms::Side;
 use std::borrow::Cow;
 
 /// Places along profile and tooth at which the blank's height over the flank is taken; between them it is bilinear: it

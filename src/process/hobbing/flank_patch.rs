@@ -14,12 +14,12 @@ mod chebyshev;
 mod source;
 
 use super::rack_generation::{FormPoint, RackGeneration};
-use crate::dexel::Ray;
-use crate::error::Refusal;
-use crate::gear::blank::Blank;
-use crate::math::roots::regula_falsi;
-use crate::terms::Side;
 use chebyshev::{PARTS, clenshaw};
+use gearcut_core::dexel::Ray;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::math::roots::regula_falsi;
+use gearcut_core::terms::Side;
 use glam::DVec3;
 use source::{Source, error_mm};
 
@@ -195,9 +195,9 @@ impl PatchSection {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gear::PitchCurve;
-    use crate::gear::PitchCurveShape;
     use crate::process::hobbing::rack_generation::Rack;
+    use gearcut_core::gear::PitchCurve;
+    use gearcut_core::gear::PitchCurveShape;
     use std::f64::consts::PI;
     use std::sync::Arc;
 

@@ -31,7 +31,7 @@ pub use read::read;
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// Both programs of an operation, fully interpolated and with a gearbox; an error is the reason why there are none,
 /// `None`: none are wanted.

@@ -1,7 +1,5 @@
 //! A hobbed gear, cut and measured flank by flank.
 
-use crate::cut::Backend;
-use crate::error::{Error, Result};
 use crate::interrupt::Interrupt;
 use crate::measure::crossing::Crossing;
 use crate::measure::inspection::GearInspection;
@@ -14,7 +12,9 @@ use crate::steps::cut_flanks::{CutFlank, cut_flanks};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::{FlankFiles, Work};
 use crate::surface::SurfaceGrid;
-use crate::terms::Side;
+use gearcut_core::cut::Backend;
+use gearcut_core::error::{Error, Result};
+use gearcut_core::terms::Side;
 use std::f64::consts::PI;
 
 /// A hobbed and measured gear.
@@ -72,7 +72,7 @@ pub fn cut_gear(
         points,
         maps: cut.maps,
         surfaces: cut.surfaces,
-        passes: cutter.operations.iter().map(crate::passes::TurningPasses::count).collect(),
+        passes: cutter.operations.iter().map(gearcut_core::passes::TurningPasses::count).collect(),
         work: cut.work,
     })
 }

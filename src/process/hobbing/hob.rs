@@ -32,14 +32,14 @@
 
 mod edge;
 
-use crate::error::Refusal;
-use crate::frame::Rigid3;
 use crate::process::hobbing::scene::model;
 use crate::process::hobbing::scene::model::{GashForm, HobSize};
-use crate::tool::blade_edges::BladeEdges;
-use crate::tool::edge::Edge;
-use crate::tool::{CuttingTool, SpatialTool};
 use edge::{RakeFlank, tooth_edge};
+use gearcut_core::error::Refusal;
+use gearcut_core::frame::Rigid3;
+use gearcut_core::tool::blade_edges::BladeEdges;
+use gearcut_core::tool::edge::Edge;
+use gearcut_core::tool::{CuttingTool, SpatialTool};
 use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
 

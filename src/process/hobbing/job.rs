@@ -4,9 +4,6 @@
 //! In: the checked scene. Out: [`HobbingJob`]. The last operation is the finishing one: the rack in its place is the
 //! target's.
 
-use crate::error::{Refusal, Result};
-use crate::gear::PitchCurve;
-use crate::gear::blank::Blank;
 use crate::material::CuttingForce;
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::kept::{self, Kept};
@@ -17,7 +14,10 @@ use crate::process::hobbing::scene::model::{
 };
 use crate::scene::Scene;
 use crate::scene::model::Gear;
-use crate::units::TURN_RAD;
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::units::TURN_RAD;
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 

@@ -3,14 +3,14 @@
 //! Passes hold the motion as tables; a target flank is some ten kilobytes of polynomials, found by nested searches that
 //! take longer than a thousand dexels. Whoever cuts flanks one by one gets the same passes and targets each time.
 
-use crate::error::Refusal;
-use crate::passes::{MotionTable, TurningPasses};
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::flank_patch::FlankPatch;
 use crate::process::hobbing::linkage::HobbingLinkage;
-use crate::terms::Side;
-use crate::tool::SpatialTool;
-use crate::units::TURN_RAD;
+use gearcut_core::error::Refusal;
+use gearcut_core::passes::{MotionTable, TurningPasses};
+use gearcut_core::terms::Side;
+use gearcut_core::tool::SpatialTool;
+use gearcut_core::units::TURN_RAD;
 use std::sync::OnceLock;
 
 /// Passes and targets of a job.

@@ -28,12 +28,12 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use crate::error::Refusal;
-use crate::gear::PitchCurve;
-use crate::gear::Rolling;
-use crate::math::Jet;
-use crate::math::newton::{EVERYWHERE, LastStep, newton_within};
 use crate::process::hobbing::scene::model::{EvenMotion, ExtraRotation, LinkageForm};
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::gear::Rolling;
+use gearcut_core::math::Jet;
+use gearcut_core::math::newton::{EVERYWHERE, LastStep, newton_within};
 
 pub mod dynamics;
 mod feed_piece;

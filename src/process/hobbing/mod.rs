@@ -20,13 +20,13 @@ pub mod scene;
 mod surfaces;
 
 use super::{CutDone, Process};
-use crate::error::Result;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use crate::steps::{Tools, axes};
 use axes_report::HobbingAxesReport;
+use gearcut_core::error::Result;
 
 pub use blank::HobbedBlank;
 pub use cutter::{HobCutter, HobbedFlank};

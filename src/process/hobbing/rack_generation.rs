@@ -19,10 +19,10 @@
 //!
 //! The ideal is a hob with infinitely many gashes and infinitely fine feed.
 
-use crate::gear::PitchCurve;
-use crate::gear::blank::Blank;
-use crate::math::roots::{halve, regula_falsi};
-use crate::terms::Side;
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::math::roots::{halve, regula_falsi};
+use gearcut_core::terms::Side;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -10,8 +10,8 @@
 //! runs parallel to the pitch curve, `P - h n`.
 
 use super::rack_generation::RackGeneration;
-use crate::gear::blank::Blank;
-use crate::terms::Side;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::terms::Side;
 use glam::DVec2;
 
 /// Chords by which the length of a piece is taken.
@@ -121,9 +121,9 @@ fn evenly(pieces: &[RootPiece<'_>; 5], count: usize) -> Vec<RackRootPoint> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gear::PitchCurve;
-    use crate::gear::PitchCurveShape;
     use crate::process::hobbing::rack_generation::Rack;
+    use gearcut_core::gear::PitchCurve;
+    use gearcut_core::gear::PitchCurveShape;
     use std::f64::consts::PI;
     use std::sync::Arc;
 

@@ -3,7 +3,6 @@
 
 mod facts;
 
-use crate::error::Result;
 use crate::findings::{self, Findings};
 use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
@@ -18,6 +17,7 @@ use crate::steps::report::deviations;
 use crate::steps::report::deviations::{Inspection, InspectionWords};
 use crate::steps::report::{PageGear, RunWords, key_number, record, texture};
 use crate::steps::view_mesh::ViewMesh;
+use gearcut_core::error::Result;
 use std::f64::consts::PI;
 
 /// Charts that are files of their own as well.

@@ -10,7 +10,6 @@ mod points;
 
 use super::gear::cut_gear;
 use super::report;
-use crate::error::Result;
 use crate::findings::RESULTS_FILE;
 use crate::output::table::write_tables;
 use crate::process::CutDone;
@@ -24,6 +23,7 @@ use crate::steps::{
 };
 use crate::surface::SurfaceGrid;
 use crate::texture;
+use gearcut_core::error::Result;
 use rayon::prelude::*;
 
 /// Cuts a job and writes everything.

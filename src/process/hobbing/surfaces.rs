@@ -6,12 +6,6 @@
 //! curve; they are cut only by a hob that tops the gear, and otherwise the blank's own surface stands there. The
 //! linkage as printed destroys flanks and tips alike: the run makes no closed body of it.
 
-use crate::cut::Backend;
-use crate::dexel::PlacedRays;
-use crate::dexel::{Layer, Ray, SpatialField};
-use crate::error::Result;
-use crate::gear::PitchCurve;
-use crate::gear::blank::Blank;
 use crate::job::{
     CylindricalGear, GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, ToothFrame, band_mm, rows_z_mm,
     teeth_of_extreme_radius,
@@ -21,8 +15,15 @@ use crate::process::hobbing::measure::flank_report;
 use crate::process::hobbing::rack_root::RackRootPoint;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
-use crate::surface::triangles::{SectionProfile, in_space};
-use crate::terms::Side;
+use crate::surface::flanks::points_of_sections;
+use crate::surface::triangles::SectionProfile;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::PlacedRays;
+use gearcut_core::dexel::{Layer, Ray, SpatialField};
+use gearcut_core::error::Result;
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::terms::Side;
 use glam::DVec2;
 
 /// Distance of the sections that show a helical gear's shape, mm: chords a micrometre off a helix of 20 deg on a radius
@@ -44,7 +45,7 @@ impl GearJob for HobCutter<'_> {
     }
 
     fn passes(&self) -> u32 {
-        self.operations.last().map_or(0, crate::passes::TurningPasses::end_pass)
+        self.operations.last().map_or(0, gearcut_core::passes::TurningPasses::end_pass)
     }
 
     fn marks_follow_along_tooth(&self, _operation: usize) -> bool {
@@ -75,8 +76,7 @@ impl GearJob for HobCutter<'_> {
         spacing_mm: f64,
         rows_mm: &[f64],
     ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
-        let (arcs_mm, profiles) = self.target_profiles(tooth, side, spacing_mm, rows_mm)?;
-        Ok((arcs_mm, in_space(&profiles, rows_mm)))
+        self.target_in_space(tooth, side, spacing_mm, rows_mm)
     }
 
     fn cut_flank(
@@ -96,6 +96,10 @@ impl GearJob for HobCutter<'_> {
         let [arcs_mm, rows_z_mm] = self.places_mm(target);
         let rays = self.rays_over(target, arcs_mm, band_mm(rows_z_mm, reach_mm));
         self.surface(backend, &rays, self.job.scene.fields.profile_spacing_mm)
+    }
+
+    fn cylindrical(&self) -> Option<&dyn CylindricalGear> {
+        Some(self)
     }
 }
 
@@ -138,6 +142,18 @@ impl CylindricalGear for HobCutter<'_> {
             .into_iter()
             .map(|root| root.into_iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect())
             .collect())
+    }
+
+    fn cut_root(
+        &self,
+        backend: &dyn Backend,
+        space: u32,
+        spacing_mm: f64,
+        rows_z_mm: &[f64],
+    ) -> Result<Vec<Vec<DVec2>>> {
+        let rays = self.root_rays(space, spacing_mm, rows_z_mm)?;
+        let (layers, _) = self.cut_field(backend, &rays.field)?;
+        Ok(points_of_sections(&rays, &layers))
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {
@@ -189,7 +205,13 @@ impl HobCutter<'_> {
     pub fn root_surface(&self, backend: &dyn Backend, space: u32) -> Result<SurfaceGrid> {
         let fields = self.job.scene.fields;
         let rows_z_mm = rows_z_mm(self.job.scene.gear.face_width_mm, fields.lead_spacing_mm.max(ROOT_SPACING_MM[1]));
-        let roots = self.roots(space, fields.profile_spacing_mm.max(ROOT_SPACING_MM[0]), &rows_z_mm)?;
+        let rays = self.root_rays(space, fields.profile_spacing_mm.max(ROOT_SPACING_MM[0]), &rows_z_mm)?;
+        self.surface(backend, &rays, self.job.scene.output.mesh_spacing_mm)
+    }
+
+    /// Rays from the root of a space, points about `spacing_mm` apart in every section, to the middle of the space.
+    fn root_rays(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<PlacedRays> {
+        let roots = self.roots(space, spacing_mm, rows_z_mm)?;
         let target = &self.job.target;
         // In every section a point in the middle of the space, half way down.
         let focus: Vec<DVec2> = rows_z_mm
@@ -200,7 +222,7 @@ impl HobCutter<'_> {
                 frame.point_mm - 0.5 * target.rack.tip_height_mm * frame.normal
             })
             .collect();
-        let field = self.field(roots[0].len(), &rows_z_mm, |column, row| {
+        let field = self.field(roots[0].len(), rows_z_mm, |column, row| {
             let root = &roots[row];
             let (point, last) = (root[column], root[root.len() - 1]);
             let to_focus = focus[row] - point.point_mm;
@@ -212,7 +234,7 @@ impl HobCutter<'_> {
             (point.point_mm, direction.normalize_or(point.normal), FOCUS_SHARE * to_focus.length())
         });
         let arcs_mm = roots[roots.len() / 2].iter().map(|point| point.arc_mm).collect();
-        self.surface(backend, &PlacedRays { field, arcs_mm, rows_z_mm }, self.job.scene.output.mesh_spacing_mm)
+        Ok(PlacedRays { field, arcs_mm, rows_z_mm: rows_z_mm.to_vec() })
     }
 
     /// Whether the hob's roots come down to the blank's outline at full depth. If they do not, no edge reaches a tip

@@ -2,8 +2,8 @@
 //!
 //! In: a prepared [`ShapingJob`]. Out: [`OperationAxes`] for the shared steps ([`crate::steps::axes`]): facts for the
 //! terminal, clearance on the return stroke as findings, and in `axes/` per operation `<operation>.csv` (one row per
-//! stroke) and the charts `_positions`, `_velocities`, `_accelerations`, `_relief`, and `_retraction` where the axes draw
-//! the cutter back.
+//! stroke) and the charts `_positions`, `_velocities`, `_accelerations`, `_relief`, and `_retraction` where the axes
+//! draw the cutter back.
 //!
 //! The laws stand in [`crate::process::shaping::linkage::dynamics`] and [`crate::process::shaping::linkage::relief`].
 
@@ -13,7 +13,6 @@ mod retraction;
 mod strokes;
 
 use super::programs;
-use crate::Result;
 use crate::findings::{Place, Quantity, Section};
 use crate::machine::{Peak, peaks};
 use crate::output::line_chart::LineChart;
@@ -24,7 +23,8 @@ use crate::process::shaping::linkage::relief::{ReliefFlank, SmallestRelief};
 use crate::process::shaping::returns::motion::RetractionMotion;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes::{AxesOfOperation, Named, NamedChart, PeakWords};
-use crate::units::{TURN_RAD, UM_PER_MM};
+use gearcut_core::Result;
+use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 use std::path::Path;
 use std::sync::OnceLock;
 use strokes::StrokeRow;

@@ -1,18 +1,18 @@
 //! The whole stock of a shaping job: its return strokes, and the target's section, with which the gear is compared.
 
 use super::ShapingJob;
-use crate::cut::{Backend, CutBlank};
-use crate::dexel::BlankField;
-use crate::error::{Refusal, Result};
-use crate::frame::Rigid2;
 use crate::measure::target_outline::TargetOutline;
-use crate::passes::StrokeSet;
-use crate::passes::planar::strokes::StrokeLaw;
 use crate::process::shaping::linkage::CutterPose;
 use crate::process::shaping::target::{FlankEnd, TargetFlank, target_root};
 use crate::process::shaping::tip_relief::TipRelief;
-use crate::terms::Side;
-use crate::units::TURN_RAD;
+use gearcut_core::cut::{Backend, CutBlank};
+use gearcut_core::dexel::BlankField;
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::frame::Rigid2;
+use gearcut_core::passes::StrokeSet;
+use gearcut_core::passes::planar::strokes::StrokeLaw;
+use gearcut_core::terms::Side;
+use gearcut_core::units::TURN_RAD;
 use glam::DVec2;
 use rayon::prelude::*;
 

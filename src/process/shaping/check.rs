@@ -6,14 +6,14 @@ mod returns;
 pub mod ring;
 mod teeth;
 
-use crate::error::Result;
-use crate::gear::GearKind;
 use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use facts::ToothFacts;
+use gearcut_core::error::Result;
+use gearcut_core::gear::GearKind;
 use ring::RingFacts;
 
 /// Prints everything; what must be known before cutting.

@@ -6,15 +6,15 @@
 //! tangent of the involute's last point, as cutters are relieved there; its exact run touches only gear tips that reach
 //! below the cutter's involute.
 
-use crate::error::Refusal;
-use crate::frame::Rigid2;
 use crate::process::shaping::scene::model;
 use crate::scene::model::Gear;
-use crate::tool::blade_edges::BladeEdges;
-use crate::tool::edge::{Edge, Segment, SegmentName};
-use crate::tool::edge_table::TableError;
-use crate::tool::involute::{Involute, inv};
-use crate::tool::{CuttingTool, PlanarTool};
+use gearcut_core::error::Refusal;
+use gearcut_core::frame::Rigid2;
+use gearcut_core::tool::blade_edges::BladeEdges;
+use gearcut_core::tool::edge::{Edge, Segment, SegmentName};
+use gearcut_core::tool::edge_table::TableError;
+use gearcut_core::tool::involute::{Involute, inv};
+use gearcut_core::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 
@@ -270,23 +270,23 @@ impl PlanarTool for ShaperCutter {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::tool::edge::{RayHit, SegmentShape};
+    use gearcut_core::tool::edge::{RayHit, SegmentShape};
 
     /// The paper's cutter: 20 teeth of module 3.
     pub(crate) fn paper_cutter(tip: model::Tip) -> ShaperCutter {
         let gear = Gear {
-            kind: crate::gear::GearKind::External,
+            kind: gearcut_core::gear::GearKind::External,
             module_mm: 3.0,
             teeth: 42,
             pressure_angle_rad: 20_f64.to_radians(),
             helix_angle_rad: 0.0,
-            hand: crate::terms::Hand::Right,
+            hand: gearcut_core::terms::Hand::Right,
             face_width_mm: 30.0,
             addendum_coefficient: 1.0,
             bore_diameter_mm: 20.0,
             rim_mm: 0.0,
             tooth_thickness_allowance_mm: 0.0,
-            pitch_curve: crate::gear::PitchCurveShape::Circle,
+            pitch_curve: gearcut_core::gear::PitchCurveShape::Circle,
         };
         let spec = model::CutterSpec {
             teeth: 20,

@@ -10,7 +10,7 @@
 //! tip zone and by the rays across the tooth outside of it; the zones are disjoint and fill the tooth, so nothing is
 //! counted twice.
 
-use crate::tool::edge::{Edge, Segment, SegmentName};
+use gearcut_core::tool::edge::{Edge, Segment, SegmentName};
 use glam::DVec2;
 
 /// Largest distance of a chord from the edge: the same chords cut every stroke, so that thicknesses keep far less of

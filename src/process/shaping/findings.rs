@@ -13,9 +13,7 @@ mod teeth;
 
 pub use headline::headline;
 
-use crate::cut::CutStats;
 use crate::findings::{Place, Quantity, Section};
-use crate::gear::GearKind;
 use crate::measure::deviation::{PitchDeviations, Runout};
 use crate::measure::stock::Extreme;
 use crate::output::text::significant;
@@ -25,7 +23,9 @@ use crate::process::shaping::check::ring::RingFacts;
 use crate::process::shaping::chips::ChipLedger;
 use crate::process::shaping::measure::{FlankReport, GearReport};
 use crate::steps::axes;
-use crate::units::UM_PER_MM;
+use gearcut_core::cut::CutStats;
+use gearcut_core::gear::GearKind;
+use gearcut_core::units::UM_PER_MM;
 use operation::operation;
 
 /// Why there is no pitch deviation.

@@ -1,7 +1,5 @@
 //! A shaped gear, cut and measured: flank by flank, root by root, chip by chip.
 
-use crate::cut::Backend;
-use crate::error::{Error, Result};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use crate::process::shaping::ShapingJob;
@@ -14,6 +12,8 @@ use crate::steps::parts::Parts;
 use crate::steps::planar::CutField;
 use crate::steps::{FlankFiles, Work, needs_surfaces};
 use crate::surface::SurfaceGrid;
+use gearcut_core::cut::Backend;
+use gearcut_core::error::{Error, Result};
 use rayon::prelude::*;
 use std::time::Instant;
 

@@ -15,19 +15,19 @@
 //! at `eta' / lambda`. Where lambda changes its sign the envelope turns back: undercut. A circle of the tool (tip
 //! round, sharp corner with radius 0, tip circle) touches along the normal of its centre's path.
 //!
-//! Here sigma is +1 on the cutter flank that cuts the left gear flank of an external gear, the cutter's own left one. In
-//! a ring the cutter's teeth point the other way and its right flank cuts the left gear flank; chi' changes its sign as
-//! well, so that the same branch of the arcsine belongs to the same **gear** flank.
+//! Here sigma is +1 on the cutter flank that cuts the left gear flank of an external gear, the cutter's own left one.
+//! In a ring the cutter's teeth point the other way and its right flank cuts the left gear flank; chi' changes its sign
+//! as well, so that the same branch of the arcsine belongs to the same **gear** flank.
 //!
 //! For the finishing linkages this equals `q = P + (S_e - S) cos(a) (cos(a) t + sigma sin(a) n)`, independent of the
 //! cutter (checked against the oracle).
 
-use crate::gear::GearKind;
-use crate::math::jet::Jet;
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::cutter::CornerPart;
 use crate::process::shaping::linkage::ShapingLinkage;
-use crate::terms::Side;
+use gearcut_core::gear::GearKind;
+use gearcut_core::math::jet::Jet;
+use gearcut_core::terms::Side;
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -122,8 +122,8 @@ impl Generation {
         let path_turn = m.center_rate.perp_dot(m.center_rate_2) / (speed * speed);
         let x_rate = -r_b * (m.angle_rate_2 - m.angle_rate * along / speed) / speed;
         let cos = (1.0 - x * x).sqrt();
-        // The branch on which the left flank of the gear touches ahead of the line of centres and the right flank behind
-        // it.
+        // The branch on which the left flank of the gear touches ahead of the line of centres and the right flank
+        // behind it.
         let (delta, delta_rate) =
             if side == Side::Left { (x.asin(), x_rate / cos) } else { (-PI - x.asin(), -x_rate / cos) };
         let eta = m.center_rate.to_angle() - delta;
@@ -142,8 +142,8 @@ impl Generation {
         })
     }
 
-    /// Contact of the straight base below the involute that cuts side `side` of `space`: point (gear frame, mm) and normal
-    /// out of the gear; `None` where it touches nothing.
+    /// Contact of the straight base below the involute that cuts side `side` of `space`: point (gear frame, mm) and
+    /// normal out of the gear; `None` where it touches nothing.
     pub fn base_contact(&self, phi_rad: f64, space: i64, side: Side) -> Option<[DVec2; 2]> {
         let m = self.motion(phi_rad);
         let turn = DVec2::from_angle(self.tooth_angle(m.angle, space));

@@ -5,16 +5,7 @@
 //! does not grow with the number of teeth; of every tooth only the target is kept. The last operation is the finishing
 //! one: its continuous envelope is the target.
 
-use crate::cut::Backend;
-use crate::dexel::Field;
-use crate::error::{Refusal, Result};
-use crate::frame::Rigid2;
-use crate::gear::blank::Blank;
-use crate::gear::{GearKind, PitchCurve};
 use crate::material::EdgeForce;
-use crate::math::roots::sample_angle_rad;
-use crate::passes::StrokeSet;
-use crate::passes::planar::strokes::StrokeLaw;
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::gcode;
 use crate::process::shaping::gcode::AxisProgram;
@@ -28,7 +19,16 @@ use crate::process::shaping::target::{TargetFlank, target_root};
 use crate::process::shaping::tooth_target::ToothTarget;
 use crate::scene::Scene;
 use crate::steps::planar::{CutField, PlanarGear, PlanarOperation, ProfilePoint};
-use crate::terms::Side;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::Field;
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::frame::Rigid2;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::gear::{GearKind, PitchCurve};
+use gearcut_core::math::roots::sample_angle_rad;
+use gearcut_core::passes::StrokeSet;
+use gearcut_core::passes::planar::strokes::StrokeLaw;
+use gearcut_core::terms::Side;
 use glam::DVec2;
 use std::path::Path;
 use std::sync::Arc;

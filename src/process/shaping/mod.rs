@@ -25,13 +25,13 @@ pub mod tip_relief;
 pub mod tooth_target;
 
 use super::{CutDone, Process};
-use crate::error::Result;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use crate::steps::{Tools, axes};
 use axes_report::OperationAxes;
+use gearcut_core::error::Result;
 
 pub use cutter::ShaperCutter;
 pub use gear::{CutGear, cut_gear};

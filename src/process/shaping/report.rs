@@ -7,7 +7,6 @@ mod facts;
 mod ring;
 mod stock;
 
-use crate::error::Result;
 use crate::findings::{self, Findings, Quantity};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{KeyNumber, Page};
@@ -23,6 +22,7 @@ use crate::steps::report::deviations::{Inspection, InspectionWords};
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::{PageGear, RunWords, deviations, key_number, record, texture, value_and_unit};
 use crate::steps::view_mesh::ViewMesh;
+use gearcut_core::error::Result;
 use std::f64::consts::PI;
 
 /// The page of a run.

@@ -8,7 +8,6 @@ mod frames;
 
 use super::gear::cut_gear;
 use super::{findings, report};
-use crate::error::{Error, Result};
 use crate::findings::Findings;
 use crate::process::CutDone;
 use crate::process::shaping::ShapingJob;
@@ -20,6 +19,7 @@ use crate::steps::{
     Tools, Work, axes, meshes, stages, summary, write_meshes_and_pictures, write_programs, write_report,
 };
 use crate::texture;
+use gearcut_core::error::{Error, Result};
 use std::mem::take;
 
 /// Cuts a job and writes everything; `frames` is how many pictures of the cut as it happens are drawn.

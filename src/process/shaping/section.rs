@@ -7,20 +7,20 @@
 //!
 //! Chords of the drawn cutter lie within `CHORD_MM` of its edge, far below a pixel.
 
-use crate::cut::BlankOperation;
-use crate::cut::cpu::blank;
-use crate::dexel::{BlankField, BlankGrid};
-use crate::error::Refusal;
-use crate::frame::Rigid2;
-use crate::gear::blank_outline::BlankOutline;
-use crate::passes::StrokeSet;
-use crate::passes::planar::strokes::{StrokeLaw, cubic_through};
 use crate::process::shaping::ShapingJob;
 use crate::surface::BlankMesh;
 use crate::surface::mesh::{Mesh, MeshPart};
 use crate::surface::plane_area::{sides_of_contours, triangles_inside};
-use crate::tool::edge::SegmentShape;
-use crate::tool::{CuttingTool, PlanarTool};
+use gearcut_core::cut::BlankOperation;
+use gearcut_core::cut::cpu::blank;
+use gearcut_core::dexel::{BlankField, BlankGrid};
+use gearcut_core::error::Refusal;
+use gearcut_core::frame::Rigid2;
+use gearcut_core::gear::blank_outline::BlankOutline;
+use gearcut_core::passes::StrokeSet;
+use gearcut_core::passes::planar::strokes::{StrokeLaw, cubic_through};
+use gearcut_core::tool::edge::SegmentShape;
+use gearcut_core::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 use std::f64::consts::TAU;
 

@@ -3,19 +3,21 @@
 //! Roots and tips are coarse fields of their own: roots along the normals of the target's fillet, tips along the
 //! normals of the pitch curve.
 
-use crate::cut::Backend;
-use crate::dexel::{Layer, Ray};
-use crate::error::Result;
-use crate::gear::PitchCurve;
-use crate::gear::blank::Blank;
 use crate::job::{CylindricalGear, GearJob, ToothFrame, band_mm, teeth_of_extreme_radius};
 use crate::process::shaping::job::ShapingJob;
 use crate::process::shaping::measure::flank_report;
 use crate::process::shaping::target::target_root;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
-use crate::surface::triangles::{SectionProfile, in_space};
-use crate::terms::Side;
+use crate::surface::flanks::points_of_sections;
+use crate::surface::triangles::SectionProfile;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::{Layer, Ray};
+use gearcut_core::error::Result;
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::terms::Side;
+use glam::DVec2;
 
 impl GearJob for ShapingJob {
     fn scene(&self) -> &Scene {
@@ -57,8 +59,7 @@ impl GearJob for ShapingJob {
         spacing_mm: f64,
         rows_mm: &[f64],
     ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
-        let (arcs_mm, profiles) = self.target_profiles(tooth, side, spacing_mm, rows_mm)?;
-        Ok((arcs_mm, in_space(&profiles, rows_mm)))
+        self.target_in_space(tooth, side, spacing_mm, rows_mm)
     }
 
     fn cut_flank(
@@ -78,6 +79,10 @@ impl GearJob for ShapingJob {
         field.rows_z_mm = band_mm(field.rows_z_mm, reach_mm);
         let cut = self.cut(backend, field)?;
         Ok(SurfaceGrid::new(&cut.field, &cut.layers, self.scene.fields.profile_spacing_mm))
+    }
+
+    fn cylindrical(&self) -> Option<&dyn CylindricalGear> {
+        Some(self)
     }
 }
 
@@ -117,6 +122,19 @@ impl CylindricalGear for ShapingJob {
         let points = target_root(self.target_generation(), i64::from(space), spacing_mm);
         let profile: SectionProfile = points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect();
         Ok(vec![profile; rows_z_mm.len()])
+    }
+
+    fn cut_root(
+        &self,
+        backend: &dyn Backend,
+        space: u32,
+        spacing_mm: f64,
+        rows_z_mm: &[f64],
+    ) -> Result<Vec<Vec<DVec2>>> {
+        let mut field = self.planar().root_field(&target_root(self.target_generation(), i64::from(space), spacing_mm));
+        field.rows_z_mm = rows_z_mm.to_vec();
+        let cut = self.cut(backend, field)?;
+        Ok(points_of_sections(&cut.field, &cut.layers))
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {

@@ -7,13 +7,13 @@
 //! tip corners' fillets to the right one.
 
 use super::generation::{FlankContact, Generation};
-use crate::error::Refusal;
-use crate::gear::blank::Blank;
-use crate::math::newton::{LastStep, newton_within};
-use crate::math::roots::{halve, regula_falsi};
 use crate::measure::crossing::Crossing;
 use crate::steps::planar::ProfilePoint;
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::math::newton::{LastStep, newton_within};
+use gearcut_core::math::roots::{halve, regula_falsi};
+use gearcut_core::terms::Side;
 use glam::DVec2;
 use std::f64::consts::PI;
 use std::sync::Arc;

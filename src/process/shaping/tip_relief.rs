@@ -7,21 +7,21 @@
 //!
 //! Law: a straight piece p(w) = p_0 + w d with the normal n touches where `n . (O' + chi' i (p_0 + w d)) = 0`, which is
 //! linear in w. Involute and straight piece share the normal at p_0, so the profile goes on without a corner. Its
-//! curvature does not: from hollow with (R_p - r_c) sin(alpha) on a ring to convex with r_c sin(alpha) (1 + R_p / (R_p -
-//! r_c)) by the theorem of Euler and Savary, so that the tip is relieved by about half of the sum of both curvatures
+//! curvature does not: from hollow with (R_p - r_c) sin(alpha) on a ring to convex with r_c sin(alpha) (1 + R_p / (R_p
+//! - r_c)) by the theorem of Euler and Savary, so that the tip is relieved by about half of the sum of both curvatures
 //! times the square of the length.
 //!
-//! The conjugate flank beyond the involute's end is the same formula with a negative roll: contact would go on along the
-//! line of action.
+//! The conjugate flank beyond the involute's end is the same formula with a negative roll: contact would go on along
+//! the line of action.
 //!
 //! Tips of external gears behind the cutter's base are not followed: their target is reported as not known.
 
 use super::generation::Generation;
 use super::target::{FlankEnd, TargetFlank};
-use crate::gear::GearKind;
-use crate::gear::blank::Blank;
-use crate::math::roots::{bisect, halve};
-use crate::terms::Side;
+use gearcut_core::gear::GearKind;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::math::roots::{bisect, halve};
+use gearcut_core::terms::Side;
 use glam::DVec2;
 use std::f64::consts::PI;
 
@@ -41,7 +41,8 @@ pub struct TipRelief<'a> {
 }
 
 impl<'a> TipRelief<'a> {
-    /// Of a ring's flank that ends at the cutter's base; `None` for others, and where the base does not reach the outline.
+    /// Of a ring's flank that ends at the cutter's base; `None` for others, and where the base does not reach the
+    /// outline.
     pub fn new(flank: &'a TargetFlank, blank: &'a Blank) -> Option<Self> {
         if flank.tip_end != FlankEnd::CutterBase || blank.kind() == GearKind::External {
             return None;

@@ -12,11 +12,11 @@
 use super::generation::Generation;
 use super::target::TargetFlank;
 use super::tip_relief::TipRelief;
-use crate::error::Refusal;
-use crate::gear::blank::Blank;
-use crate::math::roots::try_halve;
 use crate::measure::crossing::Crossing;
-use crate::terms::Side;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::math::roots::try_halve;
+use gearcut_core::terms::Side;
 use rayon::prelude::*;
 use std::sync::Arc;
 

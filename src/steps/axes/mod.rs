@@ -15,7 +15,6 @@ mod tests;
 pub use peaks::{Named, PeakWords, STEADY, findings, margin_entry};
 pub use table::{Own, write_table};
 
-use crate::error::Result;
 use crate::findings::Findings;
 use crate::interrupt::Interrupt;
 use crate::machine::Peak;
@@ -26,6 +25,7 @@ use crate::output::line_chart::LineChart;
 use crate::output::report;
 use crate::output::text::Sheet;
 use crate::steps::report::peak_table;
+use gearcut_core::error::Result;
 use std::path::Path;
 
 /// A chart with the word that ends the name of its file.

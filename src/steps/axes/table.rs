@@ -1,9 +1,9 @@
 //! The axis table: positions, speeds and accelerations of all axes, for controllers, spreadsheets and scripts.
 
-use crate::error::Result;
 use crate::findings::Datum;
 use crate::machine::{Axis, AxisMotion, Order};
 use crate::output::table;
+use gearcut_core::error::Result;
 use std::path::Path;
 
 /// What a process adds to a row or to the names of the columns: before the positions, after them, at the end.

@@ -1,14 +1,14 @@
 //! Rays through the whole blank of a planar gear: uncut, and cut by all operations.
 
 use super::PlanarGear;
-use crate::cut::{Backend, BlankOperation, CutBlank};
-use crate::dexel::{BlankField, BlankGrid};
-use crate::error::{Refusal, Result};
-use crate::gear::GearKind;
-use crate::gear::blank_outline::BlankOutline;
-use crate::passes::StrokeSet;
 use crate::steps::whole_blank;
-use crate::tool::closed_tooth::ClosedTooth;
+use gearcut_core::cut::{Backend, BlankOperation, CutBlank};
+use gearcut_core::dexel::{BlankField, BlankGrid};
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::gear::GearKind;
+use gearcut_core::gear::blank_outline::BlankOutline;
+use gearcut_core::passes::StrokeSet;
+use gearcut_core::tool::closed_tooth::ClosedTooth;
 use glam::DVec2;
 
 impl PlanarGear<'_> {

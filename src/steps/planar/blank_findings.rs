@@ -2,13 +2,13 @@
 
 use super::PlanarGear;
 use super::blank_report::BlankReport;
-use crate::cut::CutBlank;
 use crate::findings::damage::{damage_row, damage_table, pairs};
 use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
-use crate::gear::GearKind;
 use crate::measure::damage::Damage;
 use crate::steps::whole_blank::{self, mean};
-use crate::terms::Side;
+use gearcut_core::cut::CutBlank;
+use gearcut_core::gear::GearKind;
+use gearcut_core::terms::Side;
 
 /// What is counted.
 const STROKE_FAULTS: &str = "strokes that are missing, did not cut or were made twice, told from what each stroke \

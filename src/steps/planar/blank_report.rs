@@ -15,16 +15,16 @@
 
 use super::PlanarGear;
 use super::stroke_faults::{LEAST_CELLS, StrokeFault, stroke_faults};
-use crate::cut::BlankStats;
-use crate::cut::CutBlank;
-use crate::dexel::BlankGrid;
-use crate::dexel::intervals;
-use crate::math::planar_rays::FAMILIES;
 use crate::measure::damage::{self, Damage, EndFace, Finding, OperationVolume};
 use crate::measure::gear_place::GearPlace;
 use crate::measure::target_outline::TargetOutline;
-use crate::passes::StrokeSet;
-use crate::terms::Side;
+use gearcut_core::cut::BlankStats;
+use gearcut_core::cut::CutBlank;
+use gearcut_core::dexel::BlankGrid;
+use gearcut_core::dexel::intervals;
+use gearcut_core::math::planar_rays::FAMILIES;
+use gearcut_core::passes::StrokeSet;
+use gearcut_core::terms::Side;
 use glam::DVec2;
 
 /// Strokes beside a gouging one that are not called faulty: it stands out, and the next ones find their chips gone.

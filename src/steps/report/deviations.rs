@@ -8,8 +8,8 @@ use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::report::traces::{TraceColumn, TraceSheet};
 use crate::output::report::{Block, PageSection};
 use crate::output::text::significant;
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 
 /// Teeth that are traced evenly around the gear, as on a measuring machine.
 const TRACED_TEETH: u32 = 4;

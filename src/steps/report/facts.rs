@@ -1,11 +1,11 @@
 //! What was cut: the gear in words and as a table.
 
-use crate::gear::{GearKind, PitchCurve};
 use crate::machine::{Axis, Limits, Order};
 use crate::output::report::{Block, PageTable};
 use crate::output::text::plain;
 use crate::scene::model::Gear;
-use crate::units::UM_PER_MM;
+use gearcut_core::gear::{GearKind, PitchCurve};
+use gearcut_core::units::UM_PER_MM;
 
 /// The gear in a line.
 pub fn gear_words(gear: &Gear) -> String {

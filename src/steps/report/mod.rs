@@ -5,7 +5,6 @@ pub mod facts;
 pub mod maps;
 pub mod texture;
 
-use crate::cut::{CutStats, KERNEL_UM};
 use crate::findings::{self, Findings, Place, Quantity, unit};
 use crate::job::GearJob;
 use crate::output::progress::duration_text;
@@ -13,6 +12,7 @@ use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
 use crate::output::text::{plain, significant};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::view_mesh::ViewMesh;
+use gearcut_core::cut::{CutStats, KERNEL_UM};
 
 /// What the run says of itself on the page. Times are left out: the same scene gives the same page.
 #[derive(Debug, Clone, Copy)]
@@ -44,6 +44,8 @@ pub fn page(
     sections: Vec<PageSection>,
 ) -> Page {
     Page {
+        what: "cutting report",
+        done: "all flanks cut",
         title: job.scene().name.clone(),
         subtitle: gear.words,
         operations: found.parts("operations").iter().map(operation).collect(),

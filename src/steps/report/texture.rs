@@ -1,12 +1,12 @@
 //! Texture windows on the page: the finished surface open, what earlier operations left folded away.
 
-use crate::error::{Error, Result};
 use crate::findings::{self, Findings, unit};
 use crate::output::folder::OutputFolder;
 use crate::output::ratio_chart::{RatioChart, SkConstruction};
 use crate::output::report::texture::{ParameterRow, TextureBlock};
 use crate::output::report::{Block, PageSection, PageTable};
 use crate::output::text::significant;
+use gearcut_core::error::{Error, Result};
 
 /// The section; none if no window was evaluated. Pictures are those that the folder holds.
 ///

@@ -1,7 +1,7 @@
 //! Light on bodies, and the picture it makes.
 //!
-//! In: bodies, camera, lights. Out: [`Rendered`]: sRGB pixels, and at every pixel's middle depth, normal, value and pass
-//! id.
+//! In: bodies, camera, lights. Out: [`Rendered`]: sRGB pixels, and at every pixel's middle depth, normal, value and
+//! pass id.
 //!
 //! A point is lit by one lamp (with shadows, a little soft) and by the sky, of which it sees as much as rays over its
 //! hemisphere say (ambient occlusion), weighted by the cosine. Four rays per pixel, stratified; each asks the sky in
@@ -13,7 +13,7 @@
 use super::bodies::{Bodies, BodyHit};
 use super::camera::Camera;
 use crate::interrupt::Interrupt;
-use crate::{Error, Result};
+use gearcut_core::{Error, Result};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -87,7 +87,7 @@ pub struct Rendered {
     pub normal: Vec<[f32; 3]>,
     /// Value that the colour shows; NaN where there is none.
     pub value: Vec<f32>,
-    /// Pass id; [`crate::dexel::NO_PASS`] where none is known.
+    /// Pass id; [`gearcut_core::dexel::NO_PASS`] where none is known.
     pub pass: Vec<u32>,
 }
 
@@ -141,7 +141,7 @@ pub fn render(bodies: &Bodies, camera: &Camera, lights: &Lights, interrupt: &Int
         depth_mm: found().map(|f| f.map_or(f32::INFINITY, |f| (f.distance_mm - far_mm) as f32)).collect(),
         normal: found().map(|f| f.map_or([0.0; 3], |f| f.normal.as_vec3().to_array())).collect(),
         value: found().map(|f| f.map_or(f32::NAN, |f| f.value)).collect(),
-        pass: found().map(|f| f.and_then(|f| f.pass).unwrap_or(crate::dexel::NO_PASS)).collect(),
+        pass: found().map(|f| f.and_then(|f| f.pass).unwrap_or(gearcut_core::dexel::NO_PASS)).collect(),
     })
 }
 

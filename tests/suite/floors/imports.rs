@@ -148,7 +148,11 @@ fn names(module: &ModulePath, words: &[String], sources: &Sources) -> Vec<Named>
                     found.push(Named { path, passed_on: passed_on.then(|| name.to_owned()) });
                 }
             });
-        } else if ["crate", "super", "self"].contains(&word) && before != "::" {
+        } else if ["crate", "super", "self"].contains(&word)
+            && before != "::"
+            && words.get(at + 1).is_some_and(|mark| mark == "::")
+        {
+            // Not the `crate` of a visibility.
             let mut path = vec![word.to_owned()];
             while words.get(at + 1).is_some_and(|mark| mark == "::") && words.get(at + 2).is_some_and(|w| is_name(w)) {
                 path.push(words[at + 2].clone());

@@ -68,20 +68,6 @@ fn compare(gpu: &dyn Backend, mut scene: Scene, feed_during_stroke: bool) -> Par
     all
 }
 
-#[test]
-fn every_shaping_scene_is_cut_alike() {
-    let gpu = software_gpu(strict());
-    let mut all = Parity::default();
-    for scene in scenes("shaping", 8) {
-        for feed_during_stroke in [false, true] {
-            all.merge(compare(&gpu, scene.clone(), feed_during_stroke));
-        }
-    }
-    println!("all shaping scenes: {all}");
-    println!("{:?}", gpu.stage_times());
-    assert_eq!(all.verdict_within(SHAPED_NM), Ok(()));
-}
-
 /// Two flanks of a hobbing scene, coarse in both directions, after every operation.
 fn compare_hobbed(gpu: &dyn Backend, mut scene: Scene) -> Parity {
     scene.fields.profile_spacing_mm = 0.1;
@@ -114,5 +100,19 @@ mod slow {
         }
         println!("all hobbing scenes: {all}");
         assert_eq!(all.verdict_within(HOBBED_NM), Ok(()));
+    }
+
+    #[test]
+    fn every_shaping_scene_is_cut_alike() {
+        let gpu = software_gpu(strict());
+        let mut all = Parity::default();
+        for scene in scenes("shaping", 8) {
+            for feed_during_stroke in [false, true] {
+                all.merge(compare(&gpu, scene.clone(), feed_during_stroke));
+            }
+        }
+        println!("all shaping scenes: {all}");
+        println!("{:?}", gpu.stage_times());
+        assert_eq!(all.verdict_within(SHAPED_NM), Ok(()));
     }
 }

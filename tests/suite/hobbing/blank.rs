@@ -36,7 +36,7 @@ fn cut_blank(cutter: &HobCutter) -> HobbedBlank {
     cutter.cut_blank(&Cpu::default(), field, &|| true).expect("the native backend").expect("not stopped")
 }
 
-const SMALL: [&str; 3] = ["gear.face_width_mm=6", "fields.blank.spacing_mm=0.5", "fields.blank.slice_spacing_mm=1.0"];
+const SMALL: [&str; 3] = ["gear.face_width_mm=6", "fields.blank.spacing_mm=0.5", "fields.blank.slice_spacing_mm=2.0"];
 
 /// Distance of a point of the rake face (distance from the axis, y) from the edge.
 fn off_edge_mm(edge: &Edge, point: DVec2) -> f64 {
@@ -128,7 +128,7 @@ fn neighbouring_slices_are_known_from_the_one_in_their_middle() {
         // Largest distance of the true section from the outline, as a share of its tolerance: on the edge, where it is
         // closed, and of ends of pieces alone, as a share of what is not arrow height.
         let (mut worst, mut pieces) = ([0.0_f64; 3], 0);
-        for index in (0..sections.len()).step_by(sections.len() / 150) {
+        for index in (0..sections.len()).step_by(sections.len() / 60) {
             for at_mm in [-0.4, -0.1, 0.0, 0.3].map(|share: f64| share * job.scene.gear.face_width_mm) {
                 if !band.set(&sections, index, [at_mm - half_mm, at_mm + half_mm]) {
                     continue;
@@ -164,126 +164,9 @@ fn neighbouring_slices_are_known_from_the_one_in_their_middle() {
             }
         }
         println!("{scene} {sets:?}, operation {operation}: {pieces} pieces, {worst:?} of their tolerance");
-        assert!(pieces > 10_000);
+        assert!(pieces > 4_000);
         // Half of it is what the hob's circle bends.
         assert!(worst.iter().all(|worst| *worst < 0.9) && worst[2] > 0.3);
-    }
-}
-
-#[test]
-fn candidates_leave_what_all_passes_leave() {
-    for (scene, face, spacing) in
-        [("circular_spur", "3", "0.5"), ("circular_helical", "3", "0.5"), ("third_order_plain", "1", "1.0")]
-    {
-        // Slices so close that several are known from one section.
-        let face = format!("gear.face_width_mm={face}");
-        let job =
-            job(scene, &[&face, &format!("fields.blank.spacing_mm={spacing}"), "fields.blank.slice_spacing_mm=0.3"]);
-        let cutter = HobCutter::new(&job).expect("passes");
-        let cut = |cull: bool, tolerance_share: f64| {
-            let mut field = job.blank_field().expect("fits");
-            let chips: Vec<_> = (0..job.operations.len())
-                .map(|operation| {
-                    let set = &cutter.operations[operation];
-                    let mut sections = cutter.sections(operation, cull).expect("a hob");
-                    sections.tolerance_share = tolerance_share;
-                    let ids = set.first_pass..set.end_pass();
-                    let steps = AtomicUsize::new(0);
-                    let advance = || {
-                        steps.fetch_add(1, Ordering::Relaxed);
-                        true
-                    };
-                    let done = blank_sweeps::cut(&mut field, &sections, ids, &advance).expect("done");
-                    // Progress counts slices, however many are cut together.
-                    assert_eq!(steps.into_inner(), field.slices.len());
-                    println!(
-                        "{scene}, cull {cull}, tolerance x {tolerance_share}: {} of {} passes in {} slices, {:?}",
-                        sections.len(),
-                        set.count(),
-                        field.slices.len(),
-                        done.cut.stats
-                    );
-                    done.chips
-                })
-                .collect();
-            (field, chips)
-        };
-        let all = cut(false, 1.0);
-        assert!(cut(true, 1.0) == all, "{scene}");
-        assert!(all.1.iter().all(|chips| chips.len() > 1000));
-        let set = &cutter.operations[0];
-        let mut field = job.blank_field().expect("fits");
-        let stopped = blank_sweeps::cut(
-            &mut field,
-            &cutter.sections(0, true).expect("a hob"),
-            set.first_pass..set.end_pass(),
-            &|| false,
-        );
-        assert!(stopped.is_none(), "told to stop");
-        // A wrong cull is noticed: outlines too narrow by some micrometres keep passes out.
-        assert!(cut(true, -3.0) != all, "{scene}");
-    }
-}
-
-#[test]
-fn what_is_left_is_the_target_and_its_marks() {
-    for (scene, sets) in [
-        ("circular_spur", vec!["operation.finish.axial_feed_mm_per_revolution=1.0"]),
-        ("circular_helical", vec![]),
-        ("third_order_plain", vec!["fields.blank.spacing_mm=0.6", "fields.blank.slice_spacing_mm=12.5"]),
-    ] {
-        let mut all = SMALL.to_vec();
-        if scene == "third_order_plain" {
-            all.clear();
-        }
-        all.extend(sets);
-        let job = job(scene, &all);
-        let cutter = HobCutter::new(&job).expect("passes");
-        let blank = cut_blank(&cutter);
-        let report = blank_report::measure(&cutter, &blank.cut);
-        // Both balances: pass by pass against the rays, and the two families against each other.
-        for removed in &report.operations {
-            println!("{scene}: removed {:?} by passes, {:?} by rays", removed.by_passes_mm3, removed.by_rays_mm3);
-            assert!(removed.imbalance() < 1e-9);
-        }
-        let section = report.section;
-        println!(
-            "{scene}: section {:?} against {} mm2, bound {:?}",
-            section.cut_mm2, section.target_mm2, section.bound_mm2
-        );
-        assert!((section.cut_mm2[0] - section.cut_mm2[1]).abs() < section.bound_mm2[0]);
-        assert!((0..2).all(|f| (section.cut_mm2[f] - section.target_mm2).abs() < section.bound_mm2[f]));
-        assert!(report.gouges.is_empty() && report.interference.is_empty(), "{:?}", report.gouges);
-        // No end that a pass left lies under the target; near the pitch curve none lies higher over it than feed and
-        // generating marks together. (A sharp hob corner leaves higher cusps in fillets.)
-        let sharpest = job.curve.facts().curvature_extrema.iter().map(|e| e.curvature_per_mm).fold(0.0, f64::max);
-        let marks_um = 1e3 * (job.finishing().plan.feed_mark_mm + job.generating_mark_mm(sharpest));
-        let (mut lowest_um, mut highest_um, mut ends) = (f64::INFINITY, 0.0_f64, 0);
-        let grid = &blank.cut.field.grid;
-        for (slice, &z_mm) in blank.cut.field.slices.iter().zip(&grid.slices_z_mm) {
-            let target = job.target_outline(z_mm, 0.03);
-            for (f, family) in FAMILIES.into_iter().enumerate() {
-                for (ray, spans) in slice.rays[f].iter().enumerate() {
-                    for end in spans.iter().flat_map(|span| [span.low, span.high]).filter(|end| end.pass != NO_PASS) {
-                        let place = family.point(end.at_mm, grid.rows[f].at_mm(ray));
-                        let over_um = 1e3 * target.distance_mm(place, 2.0).expect("near");
-                        lowest_um = lowest_um.min(over_um);
-                        if job.blank.height(place, place.to_angle()).0.abs() < 0.3 * job.scene.gear.module_mm {
-                            highest_um = highest_um.max(over_um);
-                        }
-                        ends += 1;
-                    }
-                }
-            }
-        }
-        println!(
-            "{scene}: {ends} ends, {lowest_um:.4} um and more over the target, at most {highest_um:.2} at the pitch \
-            curve; marks {marks_um:.2}"
-        );
-        // 0.2 um: chords of the outline over hollow fillets lie in the material's stead. Marks are formulas for the
-        // pitch line.
-        assert!(ends > 10_000 && lowest_um > -0.2);
-        assert!(highest_um < 1.3 * marks_um && highest_um > 0.5 * marks_um);
     }
 }
 
@@ -293,7 +176,7 @@ fn ends_of_spans_are_the_flank_kernels_heights() {
         let small: &[&str] = if scene == "circular_helical" {
             &SMALL
         } else {
-            &["fields.blank.spacing_mm=0.4", "fields.blank.slice_spacing_mm=25"]
+            &["fields.blank.spacing_mm=0.8", "fields.blank.slice_spacing_mm=25"]
         };
         let job = job(scene, small);
         let cutter = HobCutter::new(&job).expect("passes");
@@ -392,4 +275,128 @@ fn the_mesh_is_closed_and_loads_are_those_of_the_ledger() {
     );
     assert!(worst < 0.004);
     assert!((thickest[0] / thickest[1] - 1.0).abs() < 0.1);
+}
+
+mod slow {
+    use super::*;
+
+    #[test]
+    fn candidates_leave_what_all_passes_leave() {
+        for (scene, face, spacing) in
+            [("circular_spur", "1.5", "0.5"), ("circular_helical", "1.5", "0.5"), ("third_order_plain", "0.6", "1.0")]
+        {
+            // Slices so close that several are known from one section.
+            let face = format!("gear.face_width_mm={face}");
+            let job = job(
+                scene,
+                &[&face, &format!("fields.blank.spacing_mm={spacing}"), "fields.blank.slice_spacing_mm=0.3"],
+            );
+            let cutter = HobCutter::new(&job).expect("passes");
+            let cut = |cull: bool, tolerance_share: f64| {
+                let mut field = job.blank_field().expect("fits");
+                let chips: Vec<_> = (0..job.operations.len())
+                    .map(|operation| {
+                        let set = &cutter.operations[operation];
+                        let mut sections = cutter.sections(operation, cull).expect("a hob");
+                        sections.tolerance_share = tolerance_share;
+                        let ids = set.first_pass..set.end_pass();
+                        let steps = AtomicUsize::new(0);
+                        let advance = || {
+                            steps.fetch_add(1, Ordering::Relaxed);
+                            true
+                        };
+                        let done = blank_sweeps::cut(&mut field, &sections, ids, &advance).expect("done");
+                        // Progress counts slices, however many are cut together.
+                        assert_eq!(steps.into_inner(), field.slices.len());
+                        println!(
+                            "{scene}, cull {cull}, tolerance x {tolerance_share}: {} of {} passes in {} slices, {:?}",
+                            sections.len(),
+                            set.count(),
+                            field.slices.len(),
+                            done.cut.stats
+                        );
+                        done.chips
+                    })
+                    .collect();
+                (field, chips)
+            };
+            let all = cut(false, 1.0);
+            assert!(cut(true, 1.0) == all, "{scene}");
+            assert!(all.1.iter().all(|chips| chips.len() > 1000));
+            let set = &cutter.operations[0];
+            let mut field = job.blank_field().expect("fits");
+            let stopped = blank_sweeps::cut(
+                &mut field,
+                &cutter.sections(0, true).expect("a hob"),
+                set.first_pass..set.end_pass(),
+                &|| false,
+            );
+            assert!(stopped.is_none(), "told to stop");
+            // A wrong cull is noticed: outlines too narrow by some micrometres keep passes out.
+            assert!(cut(true, -3.0) != all, "{scene}");
+        }
+    }
+
+    #[test]
+    fn what_is_left_is_the_target_and_its_marks() {
+        for (scene, sets) in [
+            ("circular_spur", vec!["operation.finish.axial_feed_mm_per_revolution=1.0"]),
+            ("circular_helical", vec![]),
+            ("third_order_plain", vec!["fields.blank.spacing_mm=0.8", "fields.blank.slice_spacing_mm=25"]),
+        ] {
+            let mut all = SMALL.to_vec();
+            if scene == "third_order_plain" {
+                all.clear();
+            }
+            all.extend(sets);
+            let job = job(scene, &all);
+            let cutter = HobCutter::new(&job).expect("passes");
+            let blank = cut_blank(&cutter);
+            let report = blank_report::measure(&cutter, &blank.cut);
+            // Both balances: pass by pass against the rays, and the two families against each other.
+            for removed in &report.operations {
+                println!("{scene}: removed {:?} by passes, {:?} by rays", removed.by_passes_mm3, removed.by_rays_mm3);
+                assert!(removed.imbalance() < 1e-9);
+            }
+            let section = report.section;
+            println!(
+                "{scene}: section {:?} against {} mm2, bound {:?}",
+                section.cut_mm2, section.target_mm2, section.bound_mm2
+            );
+            assert!((section.cut_mm2[0] - section.cut_mm2[1]).abs() < section.bound_mm2[0]);
+            assert!((0..2).all(|f| (section.cut_mm2[f] - section.target_mm2).abs() < section.bound_mm2[f]));
+            assert!(report.gouges.is_empty() && report.interference.is_empty(), "{:?}", report.gouges);
+            // No end that a pass left lies under the target; near the pitch curve none lies higher over it than feed and
+            // generating marks together. (A sharp hob corner leaves higher cusps in fillets.)
+            let sharpest = job.curve.facts().curvature_extrema.iter().map(|e| e.curvature_per_mm).fold(0.0, f64::max);
+            let marks_um = 1e3 * (job.finishing().plan.feed_mark_mm + job.generating_mark_mm(sharpest));
+            let (mut lowest_um, mut highest_um, mut ends) = (f64::INFINITY, 0.0_f64, 0);
+            let grid = &blank.cut.field.grid;
+            for (slice, &z_mm) in blank.cut.field.slices.iter().zip(&grid.slices_z_mm) {
+                let target = job.target_outline(z_mm, 0.03);
+                for (f, family) in FAMILIES.into_iter().enumerate() {
+                    for (ray, spans) in slice.rays[f].iter().enumerate() {
+                        for end in spans.iter().flat_map(|span| [span.low, span.high]).filter(|end| end.pass != NO_PASS)
+                        {
+                            let place = family.point(end.at_mm, grid.rows[f].at_mm(ray));
+                            let over_um = 1e3 * target.distance_mm(place, 2.0).expect("near");
+                            lowest_um = lowest_um.min(over_um);
+                            if job.blank.height(place, place.to_angle()).0.abs() < 0.3 * job.scene.gear.module_mm {
+                                highest_um = highest_um.max(over_um);
+                            }
+                            ends += 1;
+                        }
+                    }
+                }
+            }
+            println!(
+                "{scene}: {ends} ends, {lowest_um:.4} um and more over the target, at most {highest_um:.2} at the pitch \
+                curve; marks {marks_um:.2}"
+            );
+            // 0.2 um: chords of the outline over hollow fillets lie in the material's stead. Marks are formulas for the
+            // pitch line.
+            assert!(ends > 10_000 && lowest_um > -0.2);
+            assert!(highest_um < 1.3 * marks_um && highest_um > 0.5 * marks_um);
+        }
+    }
 }

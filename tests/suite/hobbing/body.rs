@@ -38,7 +38,7 @@ fn job(name: &str, settings: &[&str]) -> HobbingJob {
         "gear.bore_diameter_mm=10",
         "fields.flank.profile_spacing_um=100",
         "fields.flank.lead_spacing_um=1000",
-        "fields.blank.spacing_mm=0.5",
+        "fields.blank.spacing_mm=1",
         "fields.blank.slice_spacing_mm=1",
         "output.mesh_spacing_mm=0.1",
     ];

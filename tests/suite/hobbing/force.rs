@@ -4,9 +4,8 @@
 //! their number is the section of its chip. The places of the section's border that stand in the blank and in no
 //! section before are the edge in engagement.
 
-use super::section_polygon::{Polygon, STEP_MM};
+use super::section_polygon::{Polygon, STEP_MM, sections_near};
 use gearcut::cut::cpu::Cpu;
-use gearcut::passes::sections::swept_sections::SweptSection;
 use gearcut::process::hobbing::measure::hob_force::OperationForce;
 use gearcut::process::hobbing::run::{force, load as hob_load};
 use gearcut::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
@@ -50,17 +49,8 @@ fn by_points(cutter: &HobCutter, space: i64, z_mm: f64) -> BTreeMap<u32, Counted
         .map(|p| middle + p.x * along + p.y * along.perp())
         .filter(|&p| in_blank(p))
         .collect();
-    let sections = cutter.sections(0, true).expect("a hob");
     let (mut before, mut found): (Vec<Polygon>, _) = (Vec::new(), BTreeMap::new());
-    let mut section = SweptSection::default();
-    for index in 0..sections.len() {
-        if !sections.section(index, z_mm, &mut section) {
-            continue;
-        }
-        let polygon = Polygon::new(&section);
-        if !(polygon.low - reach_mm).cmple(middle).all() || !(polygon.high + reach_mm).cmpge(middle).all() {
-            continue;
-        }
+    sections_near(cutter, z_mm, middle, reach_mm, |section, polygon| {
         let standing = material.len();
         material.retain(|&p| !polygon.holds(p));
         let taken_mm2 = (standing - material.len()) as f64 * STEP_MM * STEP_MM;
@@ -79,7 +69,7 @@ fn by_points(cutter: &HobCutter, space: i64, z_mm: f64) -> BTreeMap<u32, Counted
             found.insert(section.pass, counted);
         }
         before.push(polygon);
-    }
+    });
     found
 }
 

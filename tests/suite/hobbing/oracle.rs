@@ -5,6 +5,7 @@
 //! stand in the files. S4 is the ellipse of Liu et al. 2013, S2 the third-order gear of Liu et al. 2015. The data stand
 //! in the papers' work frame (x_c, y_c, z_c), which is the gear frame turned over: x_c = y, y_c = x, z_c = -z.
 
+use crate::fixtures::expected::{close, number};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -23,15 +24,6 @@ use gearcut::terms::Side;
 use gearcut::tool::SpatialTool;
 use glam::{DVec2, DVec3};
 use serde_json::Value;
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
-}
-
-#[track_caller]
-fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{what}: {found} not {expected}, off by {:e}", found - expected);
-}
 
 /// Largest value less smallest.
 fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {

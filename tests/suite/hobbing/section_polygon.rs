@@ -2,11 +2,34 @@
 
 use gearcut::math::planar_rays::{ClosedCurve, Piece};
 use gearcut::passes::sections::swept_sections::SweptSection;
+use gearcut::process::hobbing::HobCutter;
 use glam::DVec2;
 
 /// Distance of the corners of sections, mm. Clouds of points that they are compared with stand as near, so that two
 /// sections that nearly coincide hold each other's points alike.
 pub const STEP_MM: f64 = 0.04;
+
+/// Visits the sections of all passes of the first operation that come within `reach_mm` of a place in the slice
+/// `z_mm`, in order of time, as they are and as polygons.
+pub fn sections_near(
+    cutter: &HobCutter,
+    z_mm: f64,
+    place: DVec2,
+    reach_mm: f64,
+    mut visit: impl FnMut(&SweptSection, Polygon),
+) {
+    let sections = cutter.sections(0, true).expect("a hob");
+    let mut section = SweptSection::default();
+    for index in 0..sections.len() {
+        if !sections.section(index, z_mm, &mut section) {
+            continue;
+        }
+        let polygon = Polygon::new(&section);
+        if (polygon.low - reach_mm).cmple(place).all() && (polygon.high + reach_mm).cmpge(place).all() {
+            visit(&section, polygon);
+        }
+    }
+}
 
 /// A section as a polygon.
 pub struct Polygon {

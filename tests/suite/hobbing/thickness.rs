@@ -5,9 +5,8 @@
 //! surface of its chip. Points of the section's border that stand in material join the cloud: the new one. The chip's
 //! thickness is the largest distance of a new point from the nearest old one.
 
-use super::section_polygon::{EdgePoint, Polygon, STEP_MM};
+use super::section_polygon::{EdgePoint, Polygon, STEP_MM, sections_near};
 use gearcut::cut::cpu::Cpu;
-use gearcut::passes::sections::swept_sections::SweptSection;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
 use glam::DVec2;
@@ -26,18 +25,10 @@ fn by_points(cutter: &HobCutter, space: i64, z_mm: f64, reach_mm: f64) -> BTreeM
     };
     let half = (2.0 * reach_mm / STEP_MM) as i32;
     let mut front: Vec<DVec2> = (-half..=half).map(outline).collect();
-    let sections = cutter.sections(0, true).expect("a hob");
     let (mut before, mut found): (Vec<Polygon>, _) = (Vec::new(), BTreeMap::new());
-    let mut section = SweptSection::default();
-    for index in 0..sections.len() {
-        if !sections.section(index, z_mm, &mut section) {
-            continue;
-        }
-        let polygon = Polygon::new(&section);
-        if !(polygon.low - reach_mm).cmple(middle).all() || !(polygon.high + reach_mm).cmpge(middle).all() {
-            continue;
-        }
-        let (old, kept): (Vec<DVec2>, Vec<DVec2>) = front.into_iter().partition(|&p| polygon.holds(p));
+    sections_near(cutter, z_mm, middle, reach_mm, |section, polygon| {
+        let (old, kept): (Vec<DVec2>, Vec<DVec2>) =
+            std::mem::take(&mut front).into_iter().partition(|&p| polygon.holds(p));
         front = kept;
         let mut thickest_mm = 0.0_f64;
         for &EdgePoint { place, inward, .. } in &polygon.of_edge {
@@ -59,7 +50,7 @@ fn by_points(cutter: &HobCutter, space: i64, z_mm: f64, reach_mm: f64) -> BTreeM
             found.insert(section.pass, thickest_mm);
         }
         before.push(polygon);
-    }
+    });
     found
 }
 

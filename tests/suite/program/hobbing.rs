@@ -140,95 +140,6 @@ fn number(value: &Value) -> f64 {
     value["value"].as_f64().unwrap_or_else(|| panic!("{value}"))
 }
 
-#[test]
-fn a_hobbed_gear_comes_with_meshes_charts_marks_points_and_programs() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let out = folder.path().join("gear");
-    let cut_on = |out: &Path, threads: u32| {
-        let sets = ["gear.teeth=16", "tool.hob.reference_diameter_mm=50"];
-        cut(out, "scenes/hobbing/circular_spur.toml", &sets, threads)
-    };
-    let results = cut_on(&out, 2);
-    let again = folder.path().join("again");
-    cut_on(&again, 1);
-    assert_same_files(&files(&out), &files(&again));
-    for file in [
-        "mesh/gear.stl",
-        "mesh/gear.ply",
-        "mesh/gear.glb",
-        "mesh/flanks/tooth_16_right.ply",
-        "pictures/flank.png",
-        "pictures/offset_curves.svg",
-        "pictures/passes_finish.png",
-        "deviation/tooth_01_left.png",
-        "tables/flanks.csv",
-        "tables/marks.csv",
-        "tables/offset_curves.csv",
-        "axes/finish.csv",
-        "axes/finish_velocities.svg",
-        "axes/finish.ngc",
-        "axes/finish_gearbox.ngc",
-        "report.html",
-    ] {
-        assert!(out.join(file).metadata().is_ok_and(|data| data.len() > 100), "{file}");
-    }
-    let table = |name: &str| std::fs::read_to_string(out.join("tables").join(name)).expect("a table");
-    // Five curves cross both flanks of 16 teeth.
-    assert_eq!(table("offset_curves.csv").lines().count(), 1 + 5 * 32);
-    assert_is_results(&results);
-    let sections = &results["sections"];
-    let curves = &sections["offset_curves"];
-    assert_eq!(curves["points"]["value"], 160);
-    // A round gear: errors in x and y spread alike, and their frequencies are those of all points.
-    let [x, y] = ["error_x", "error_y"].map(|key| number(&curves[key]["sigma"]));
-    assert!(x > 0.1 && (x / y - 1.0).abs() < 0.2, "{x} {y}");
-    let frequencies = curves["error_x"]["frequencies"]["rows"].as_array().expect("seven");
-    assert_eq!(frequencies.iter().map(|row| row[1].as_u64().expect("a count")).sum::<u64>(), 160);
-    // Marks of one feed and one gash on every flank alike; both ways agree.
-    let marks: Vec<&Value> = parts(&sections["marks"]).collect();
-    assert!(marks.len() >= 2);
-    for step in marks.iter().flat_map(|flank| ["step_1", "step_2"].map(|step| &flank[step])) {
-        let [known, seen] = ["kinematic", "surface"].map(|key| number(&step[key]["length"]));
-        assert!((seen / known - 1.0).abs() < 0.05, "{step}");
-    }
-    // Every pitch deviation is less than the marks are high.
-    let highest = number(&results["headline"]["highest_mark"]);
-    assert!(number(&results["headline"]["single_pitch_deviation"]) < 2.0 * highest);
-    let window = parts(&sections["texture"]["finish"]).next().expect("a window");
-    let sz = &window["parameters"]["Sz"];
-    assert!(number(sz) <= 1.1 * highest, "{sz}");
-    let length_mm = 16.0 * 8.0 / 15_f64.to_radians().cos();
-    assert!((number(&sections["hob_load"]["length_of_teeth"]) / length_mm - 1.0).abs() < 1e-12);
-    // The load tooth by tooth is the whole volume, and a comparison reads it back.
-    let load = &sections["hob_load"]["operations"]["finish"];
-    assert_eq!(load["teeth"]["columns"][1]["key"], "volume");
-    let teeth = load["teeth"]["rows"].as_array().expect("hob teeth");
-    let sum: f64 = teeth.iter().map(|tooth| tooth[1].as_f64().expect("a volume")).sum();
-    assert!((sum / number(&load["volume"]) - 1.0).abs() < 1e-12);
-    let compared = folder.path().join("compared");
-    let gear = out.display().to_string();
-    gearcut(&["compare", &gear, &gear, "--out", &compared.display().to_string()]).done().says(&[
-        "gear (a) and gear (b)",
-        "hob load.operations.finish.largest volume",
-        "marks.tooth",
-        "texture.finish",
-        "Sa",
-    ]);
-    assert!(compared.join("hob_load_operations_finish_teeth_volume.svg").is_file());
-    let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
-    for words in [
-        "Cutting marks",
-        "Points on five curves",
-        "Work of the hob's teeth",
-        "Helix, left flanks",
-        "Axis motion",
-        "15.0000° right-hand",
-        "hob tooth, from the entering end",
-    ] {
-        assert!(page.contains(words), "{words}");
-    }
-}
-
 /// Parts of a section in `results.json`.
 fn parts(section: &Value) -> impl Iterator<Item = &Value> {
     section.as_object().expect("a section").values().filter(|part| part.get("$title").is_some())
@@ -299,6 +210,95 @@ mod slow {
                 let moved = cut(scene, "moved", 2, &["--set", "operation.finish.offset_mm=0.00001"]);
                 assert!(std::panic::catch_unwind(|| assert_same_files(&first, &moved)).is_err());
             }
+        }
+    }
+
+    #[test]
+    fn a_hobbed_gear_comes_with_meshes_charts_marks_points_and_programs() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let out = folder.path().join("gear");
+        let cut_on = |out: &Path, threads: u32| {
+            let sets = ["gear.teeth=16", "tool.hob.reference_diameter_mm=50"];
+            cut(out, "scenes/hobbing/circular_spur.toml", &sets, threads)
+        };
+        let results = cut_on(&out, 2);
+        let again = folder.path().join("again");
+        cut_on(&again, 1);
+        assert_same_files(&files(&out), &files(&again));
+        for file in [
+            "mesh/gear.stl",
+            "mesh/gear.ply",
+            "mesh/gear.glb",
+            "mesh/flanks/tooth_16_right.ply",
+            "pictures/flank.png",
+            "pictures/offset_curves.svg",
+            "pictures/passes_finish.png",
+            "deviation/tooth_01_left.png",
+            "tables/flanks.csv",
+            "tables/marks.csv",
+            "tables/offset_curves.csv",
+            "axes/finish.csv",
+            "axes/finish_velocities.svg",
+            "axes/finish.ngc",
+            "axes/finish_gearbox.ngc",
+            "report.html",
+        ] {
+            assert!(out.join(file).metadata().is_ok_and(|data| data.len() > 100), "{file}");
+        }
+        let table = |name: &str| std::fs::read_to_string(out.join("tables").join(name)).expect("a table");
+        // Five curves cross both flanks of 16 teeth.
+        assert_eq!(table("offset_curves.csv").lines().count(), 1 + 5 * 32);
+        assert_is_results(&results);
+        let sections = &results["sections"];
+        let curves = &sections["offset_curves"];
+        assert_eq!(curves["points"]["value"], 160);
+        // A round gear: errors in x and y spread alike, and their frequencies are those of all points.
+        let [x, y] = ["error_x", "error_y"].map(|key| number(&curves[key]["sigma"]));
+        assert!(x > 0.1 && (x / y - 1.0).abs() < 0.2, "{x} {y}");
+        let frequencies = curves["error_x"]["frequencies"]["rows"].as_array().expect("seven");
+        assert_eq!(frequencies.iter().map(|row| row[1].as_u64().expect("a count")).sum::<u64>(), 160);
+        // Marks of one feed and one gash on every flank alike; both ways agree.
+        let marks: Vec<&Value> = parts(&sections["marks"]).collect();
+        assert!(marks.len() >= 2);
+        for step in marks.iter().flat_map(|flank| ["step_1", "step_2"].map(|step| &flank[step])) {
+            let [known, seen] = ["kinematic", "surface"].map(|key| number(&step[key]["length"]));
+            assert!((seen / known - 1.0).abs() < 0.05, "{step}");
+        }
+        // Every pitch deviation is less than the marks are high.
+        let highest = number(&results["headline"]["highest_mark"]);
+        assert!(number(&results["headline"]["single_pitch_deviation"]) < 2.0 * highest);
+        let window = parts(&sections["texture"]["finish"]).next().expect("a window");
+        let sz = &window["parameters"]["Sz"];
+        assert!(number(sz) <= 1.1 * highest, "{sz}");
+        let length_mm = 16.0 * 8.0 / 15_f64.to_radians().cos();
+        assert!((number(&sections["hob_load"]["length_of_teeth"]) / length_mm - 1.0).abs() < 1e-12);
+        // The load tooth by tooth is the whole volume, and a comparison reads it back.
+        let load = &sections["hob_load"]["operations"]["finish"];
+        assert_eq!(load["teeth"]["columns"][1]["key"], "volume");
+        let teeth = load["teeth"]["rows"].as_array().expect("hob teeth");
+        let sum: f64 = teeth.iter().map(|tooth| tooth[1].as_f64().expect("a volume")).sum();
+        assert!((sum / number(&load["volume"]) - 1.0).abs() < 1e-12);
+        let compared = folder.path().join("compared");
+        let gear = out.display().to_string();
+        gearcut(&["compare", &gear, &gear, "--out", &compared.display().to_string()]).done().says(&[
+            "gear (a) and gear (b)",
+            "hob load.operations.finish.largest volume",
+            "marks.tooth",
+            "texture.finish",
+            "Sa",
+        ]);
+        assert!(compared.join("hob_load_operations_finish_teeth_volume.svg").is_file());
+        let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
+        for words in [
+            "Cutting marks",
+            "Points on five curves",
+            "Work of the hob's teeth",
+            "Helix, left flanks",
+            "Axis motion",
+            "15.0000° right-hand",
+            "hob tooth, from the entering end",
+        ] {
+            assert!(page.contains(words), "{words}");
         }
     }
 }

@@ -5,6 +5,8 @@ mod check;
 mod compare;
 mod cut;
 mod hobbing;
+mod once;
+mod pair;
 #[cfg(unix)]
 mod stopped;
 mod texture;

@@ -2,7 +2,7 @@
 
 use crate::fixtures::command::{gearcut, gearcut_in};
 
-const COMMANDS: [&str; 9] = ["cut", "check", "axes", "compare", "texture", "devices", "schema", "new", "mate"];
+const COMMANDS: [&str; 10] = ["cut", "check", "axes", "compare", "texture", "devices", "schema", "new", "mate", "pair"];
 
 #[test]
 fn help_teaches_every_command_with_an_example() {

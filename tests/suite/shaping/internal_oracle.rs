@@ -1,6 +1,7 @@
-//! The paper's ring (102 teeth, cutter of 13) against an independent implementation: pitch curve, axes, flanks, and what
-//! the cutter's envelope leaves of the teeth. The tolerances stand in the files.
+//! The paper's ring (102 teeth, cutter of 13) against an independent implementation: pitch curve, axes, flanks, and
+//! what the cutter's envelope leaves of the teeth. The tolerances stand in the files.
 
+use crate::fixtures::expected::{close, data, number, numbers};
 use crate::fixtures::paper::{NORMAL, TRADITIONAL, operation};
 use crate::fixtures::rings::*;
 use gearcut::cut::cpu::Cpu;
@@ -16,27 +17,8 @@ use gearcut::process::shaping::tip_relief::TipRelief;
 use gearcut::steps::planar::blank_report;
 use gearcut::terms::Side;
 use glam::DVec2;
-use serde_json::Value;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
-
-fn data(name: &str) -> Value {
-    let path = format!("{}/tests/data/shaping/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().unwrap().iter().map(number).collect()
-}
-
-#[track_caller]
-fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{what}: {found} not {expected}, off by {:e}", found - expected);
-}
 
 fn linkage() -> ShapingLinkage {
     ShapingLinkage::new(GearKind::Internal, NORMAL, Arc::new(oracle_mate()), 13.0, 0.0).unwrap()
@@ -44,7 +26,7 @@ fn linkage() -> ShapingLinkage {
 
 #[test]
 fn driver_and_mate_are_the_oracles() {
-    let case = &data("internal_s1")["cases"][0];
+    let case = &data("shaping/internal_s1")["cases"][0];
     let within = |key: &str| number(&case["tolerance"][key]);
     let driver = PitchCurve::new(&driver_shape(), 2.0, 34).unwrap();
     let expected = &case["driver"];
@@ -80,7 +62,7 @@ fn driver_and_mate_are_the_oracles() {
 /// The printed constants are rounded: r2 built from them misses the turn. A mate solves its centre distance.
 #[test]
 fn printed_constants_leave_a_gap_that_a_mate_does_not_have() {
-    let printed = &data("internal_s1")["printed_constants"];
+    let printed = &data("shaping/internal_s1")["printed_constants"];
     let (a0, b, c) = (number(&printed["a0"]), number(&printed["b"]), number(&printed["c"]));
     // Turn of the ring over three turns of the driver: the integral of 1 / (c + 1 - b sin phi) is closed.
     let turn = 3.0 * TAU / ((c + 1.0).powi(2) - b * b).sqrt();
@@ -93,7 +75,7 @@ fn printed_constants_leave_a_gap_that_a_mate_does_not_have() {
 
 #[test]
 fn axes_are_the_oracles() {
-    let case = &data("internal_s1")["cases"][0];
+    let case = &data("shaping/internal_s1")["cases"][0];
     let (axes, within) = (&case["axes"], number(&case["tolerance"]["axes"]));
     let column = |key: &str| numbers(&axes[key]);
     let (a, work, psi, delta) = (column("a"), column("Phi"), column("psi"), column("Delta_signed"));
@@ -120,7 +102,7 @@ fn axes_are_the_oracles() {
 /// As printed, Phi is zero on a circle and psi is wrong wherever r' > 0.
 #[test]
 fn the_angles_as_printed_are_wrong() {
-    let case = &data("internal_s1")["cases"][0];
+    let case = &data("shaping/internal_s1")["cases"][0];
     let (linkage, axes) = (linkage(), &case["axes"]);
     let printed = numbers(&axes["beta_printed"]);
     let mut wrong_rad = 0.0_f64;
@@ -144,7 +126,7 @@ fn the_angles_as_printed_are_wrong() {
 /// The angle between normal and line of centres stays below 9.82 deg: the criterion of 20 deg is never met.
 #[test]
 fn the_largest_angle_is_the_oracles() {
-    let case = &data("internal_s1")["cases"][0];
+    let case = &data("shaping/internal_s1")["cases"][0];
     let expected = &case["max_abs_Delta"];
     let linkage = linkage();
     let angle = |phi: f64| linkage.pose(phi, 0.0).center_mm.angle_to(linkage.curve().frame(phi).normal).abs();
@@ -184,7 +166,7 @@ fn relief_follows_the_angle_to_the_line_of_centres() {
 
 #[test]
 fn target_flanks_are_the_oracles() {
-    let flanks = &data("internal_s1")["cases"][0]["flank_points"];
+    let flanks = &data("shaping/internal_s1")["cases"][0]["flank_points"];
     let job = ShapingJob::new(paper_ring(1020)).expect("the paper's ring");
     let generation = job.target_generation();
     let (mut worst_mm, mut worst_roll) = (0.0_f64, 0.0_f64);
@@ -222,7 +204,7 @@ fn space_flanks(job: &ShapingJob, space: u32) -> [TargetFlank; 2] {
 /// millimetre: the flank in closed form covers that range, and no more than a step beside.
 #[test]
 fn the_envelope_reaches_as_far_as_the_oracle_says() {
-    let data = data("internal_s1_envelope");
+    let data = data("shaping/internal_s1_envelope");
     let tolerance = number(&data["tolerance_mm"]);
     let mut checked = 0;
     for addendum_coefficient in [1.25, 1.0] {
@@ -260,7 +242,7 @@ fn the_envelope_reaches_as_far_as_the_oracle_says() {
 /// 13 teeth relieve the tip by up to 24 um: the profile behind the involute in closed form.
 #[test]
 fn the_tip_relief_is_the_oracles() {
-    let data = data("internal_s1_envelope");
+    let data = data("shaping/internal_s1_envelope");
     let tolerance = number(&data["tolerance_mm"]);
     let job = ShapingJob::new(paper_ring(1020)).expect("the paper's ring");
     let (mut worst_mm, mut deepest_mm, mut model_mm) = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -295,8 +277,8 @@ fn the_tip_relief_is_the_oracles() {
     assert!(model_mm < 1e-3);
 }
 
-/// Roughing: along the normal the cutter keeps its orientation and stays back by the offset; along the line of centres it
-/// comes nearer to the gear axis.
+/// Roughing: along the normal the cutter keeps its orientation and stays back by the offset; along the line of centres
+/// it comes nearer to the gear axis.
 #[test]
 fn offsets_draw_the_cutter_inwards() {
     let curve = Arc::new(oracle_mate());
@@ -347,7 +329,7 @@ fn axis_speeds_are_those_of_the_strokes() {
 /// What `check` says of the paper's ring.
 #[test]
 fn the_facts_of_the_ring_are_the_oracles() {
-    let case = &data("internal_s1")["cases"][0];
+    let case = &data("shaping/internal_s1")["cases"][0];
     let expected = &case["undercut_as_printed"]["driven"];
     let mut scene = paper_ring(1020);
     // The paper's condition is for an addendum of one module.

@@ -4,6 +4,7 @@
 //! ways (f64 and multi-precision); the tolerances stand in the files. Case S0 is the third-order ellipse of Gao et al.
 //! 2017, Table 1; the circle is its closed-form limit.
 
+use crate::fixtures::expected::{close, data, number, numbers};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -14,24 +15,6 @@ use gearcut::process::shaping::scene::model::{Linkage, NormalReading, Shaping};
 use serde_json::Value;
 
 const AS_PRINTED: Linkage = Linkage::ShapingNormal { reading: NormalReading::AsPrinted };
-
-fn data(name: &str) -> Value {
-    let path = format!("{}/tests/data/shaping/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().unwrap().iter().map(number).collect()
-}
-
-#[track_caller]
-fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{what}: {found} not {expected}, off by {:e}", found - expected);
-}
 
 /// Difference of two angles of one turn.
 fn apart(a: f64, b: f64) -> f64 {
@@ -46,13 +29,13 @@ fn ellipse(semi_major_axis_mm: Option<f64>, eccentricity: f64) -> Arc<PitchCurve
 
 /// Each case: pitch curve, and the three blocks of the data.
 fn cases() -> [(Arc<PitchCurve>, Value, Value, Value); 2] {
-    let circle = data("external_circle");
+    let circle = data("shaping/external_circle");
     [
         (
             ellipse(Some(61.11), 0.1348),
-            data("external_s0_curve"),
-            data("external_s0_axes"),
-            data("external_s0_strokes"),
+            data("shaping/external_s0_curve"),
+            data("shaping/external_s0_axes"),
+            data("shaping/external_s0_strokes"),
         ),
         (ellipse(Some(63.0), 0.0), circle["curve"].clone(), circle["axes"].clone(), circle["strokes"].clone()),
     ]

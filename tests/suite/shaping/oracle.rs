@@ -1,6 +1,7 @@
 //! External shaping against the independent implementation's values (tests/data/shaping): target flanks, allowances,
 //! unevenness, facets.
 
+use crate::fixtures::expected::number;
 use crate::fixtures::paper::*;
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
@@ -21,10 +22,6 @@ use std::f64::consts::TAU;
 fn oracle(name: &str) -> Value {
     let path = format!("{}/tests/data/shaping/{name}.json", env!("CARGO_MANIFEST_DIR"));
     serde_json::from_str(&std::fs::read_to_string(path).expect("oracle file")).expect("oracle JSON")
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number")
 }
 
 fn point(value: &Value) -> DVec2 {

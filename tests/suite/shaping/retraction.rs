@@ -4,6 +4,7 @@
 //! internal gears, internal_retraction_overlap.json the area that the returning cutter has in common with the finished
 //! gear, from polygons of the whole cutter and the whole gear.
 
+use crate::fixtures::expected::{data, number};
 use crate::fixtures::paper::{NORMAL, operation, paper_scene};
 use crate::fixtures::rings::ring_scene;
 use gearcut::cut::cpu::Cpu;
@@ -18,17 +19,7 @@ use gearcut::process::shaping::scene::model as shaping;
 use gearcut::process::shaping::{ShapingJob, gcode, programs};
 use gearcut::steps::planar::blank_report;
 use glam::DVec2;
-use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-fn data(name: &str) -> Value {
-    let path = format!("{}/tests/data/shaping/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
-}
 
 /// The internal gear of 102 teeth that runs with a driver of the ratio c + 1 - b sin phi.
 fn internal_shape(b: f64) -> PitchCurveShape {
@@ -60,7 +51,7 @@ fn rolling_pose(curve: &PitchCurve, kind: GearKind, r_c: f64, phi: f64) -> Cutte
 
 #[test]
 fn the_method_finds_the_places_of_the_independent_implementation() {
-    let case = &data("internal_s1")["cases"][0];
+    let case = &data("shaping/internal_s1")["cases"][0];
     let within = |key: &str| number(&case["tolerance"][key]);
     let (curve, r_c) = (internal_curve(0.3), number(&case["r0"]));
     let retraction = RetractingCutter { curve: &curve, kind: GearKind::Internal, cutter_pitch_radius_mm: r_c };
@@ -146,7 +137,7 @@ fn ring_job(b: f64, cutter_teeth: u32, retraction: shaping::Retraction, back_off
 
 #[test]
 fn overlaps_of_the_returning_cutter_agree() {
-    let data = data("internal_retraction_overlap");
+    let data = data("shaping/internal_retraction_overlap");
     let mut rows_seen = 0;
     for case in data["cases"].as_array().expect("cases") {
         let (b, z0, phi) = (number(&case["b"]), number(&case["z0"]), number(&case["phi"]));

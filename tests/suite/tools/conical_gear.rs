@@ -1,5 +1,5 @@
-//! A gear without pitch curve and transverse sections through the steps that all processes share: the two sides of slots
-//! that a face-mill head leaves at rest, cones whose axis leans in the gear.
+//! A gear without pitch curve and transverse sections through the steps that all processes share: the two sides of
+//! slots that a face-mill head leaves at rest, cones whose axis leans in the gear.
 
 use crate::fixtures::face_mill::*;
 use crate::fixtures::paper::paper_scene;
@@ -10,7 +10,7 @@ use gearcut::error::Result;
 use gearcut::findings::Findings;
 use gearcut::frame::Rigid3;
 use gearcut::interrupt::Interrupt;
-use gearcut::job::{GearJob, ToothFrame};
+use gearcut::job::{CylindricalGear, GearJob, ToothFrame};
 use gearcut::output::folder::OutputFolder;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::passes::{SweepPlan, TurningPasses};
@@ -114,6 +114,10 @@ fn left_mm(side: Side) -> f64 {
 }
 
 impl GearJob for ConicalJob {
+    fn cylindrical(&self) -> Option<&dyn CylindricalGear> {
+        None
+    }
+
     fn scene(&self) -> &Scene {
         &self.scene
     }

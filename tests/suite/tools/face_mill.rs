@@ -1,5 +1,5 @@
-//! A face-mill head, whose blades stand along its axis: at rest it leaves cones of revolution, and with a slow feed marks
-//! of known spacing and height.
+//! A face-mill head, whose blades stand along its axis: at rest it leaves cones of revolution, and with a slow feed
+//! marks of known spacing and height.
 
 use crate::fixtures::face_mill::*;
 use gearcut::cut::cpu::Cpu;
@@ -156,9 +156,9 @@ fn a_fed_work_gets_marks_of_known_spacing_and_height() {
             assert!(on_ridge || layer.passes[dexel] == pass, "column {column}, row {row}");
             worst_mm = worst_mm.max((f64::from(layer.heights_mm[dexel]) - wanted_mm).abs());
         }
-        // Marks follow each other a feed per blade apart. Against the work a blade goes on a trochoid: where it goes with
-        // the feed, its path bends by radius / (radius - feed per radian)^2, and a ridge stands over the marks by an
-        // eighth of that, times the square of the feed.
+        // Marks follow each other a feed per blade apart. Against the work a blade goes on a trochoid: where it goes
+        // with the feed, its path bends by radius / (radius - feed per radian)^2, and a ridge stands over the marks by
+        // an eighth of that, times the square of the feed.
         let heights: Vec<f64> =
             (0..field.rows()).map(|row| f64::from(layer.heights_mm[field.index(column, row)])).collect();
         let ridges: Vec<usize> =

@@ -12,7 +12,8 @@ use gearcut::process::hobbing::Hob;
 use gearcut::tool::CuttingTool;
 use std::f64::consts::TAU;
 
-/// A hob's case with a second edge, thicker by as much as facets are high, with rounded tips; and two fields: a flank, coarse, and a fine patch.
+/// A hob's case with a second edge, thicker by as much as facets are high, with rounded tips; and two fields: a flank,
+/// coarse, and a fine patch.
 pub struct TwoEdgedHob {
     case: Case,
     second: Hob,

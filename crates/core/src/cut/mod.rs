@@ -84,9 +84,9 @@ pub trait Backend: Sync {
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<BlankCut>, Error>;
 
-    /// Takes all sweeps of an operation with a turning tool, whose passes have the ids `passes`, from the blank; `advance` is called
-    /// as often as the field has slices and says whether to go on. `None`: stopped, the field is then as it was or
-    /// partly cut.
+    /// Takes all sweeps of an operation with a turning tool, whose passes have the ids `passes`, from the blank;
+    /// `advance` is called as often as the field has slices and says whether to go on. `None`: stopped, the field is
+    /// then as it was or partly cut.
     ///
     /// # Errors
     /// As [`Self::cut`].

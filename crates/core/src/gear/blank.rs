@@ -3,8 +3,8 @@
 //! ([`Back`]).
 //!
 //! Heights over the pitch curve are measured along its normal **towards the tips**, outwards on an external gear and
-//! inwards on an internal one; they decide where flanks end at the tip and where a ray leaves the stock. With the sign s
-//! of [`GearKind::tip_sign`] the foot of a height h is P + s h n, and d/ds of the distance beside it is -(1 + s h
+//! inwards on an internal one; they decide where flanks end at the tip and where a ray leaves the stock. With the sign
+//! s of [`GearKind::tip_sign`] the foot of a height h is P + s h n, and d/ds of the distance beside it is -(1 + s h
 //! kappa).
 
 use super::{Back, GearKind, PitchCurve, PitchFrame};
@@ -114,8 +114,8 @@ impl Blank {
     }
 
     /// Height of a point over the pitch curve along the curve's normal, positive towards the tips, and the polar angle
-    /// of the foot: the foot that Newton's method runs to from `phi_guess_rad`, or that of the nearest place of the curve where it runs to none (a
-    /// point near the curve's centres of curvature).
+    /// of the foot: the foot that Newton's method runs to from `phi_guess_rad`, or that of the nearest place of the
+    /// curve where it runs to none (a point near the curve's centres of curvature).
     pub fn height(&self, point_mm: DVec2, phi_guess_rad: f64) -> (f64, f64) {
         let phi = newton("the foot of a normal", phi_guess_rad, LastStep::absolute(FOOT_RAD), FOOT_STEPS, |phi| {
             let frame = self.curve.frame(phi);

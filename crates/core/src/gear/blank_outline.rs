@@ -1,9 +1,9 @@
 //! The blank's outline as a closed curve on rays: the pitch curve moved along its normals towards the tips, and the
 //! extent of the stock between it and its back.
 //!
-//! Parameter: polar angle phi of the foot on the pitch curve. With the distance a and the sign s of the tips' direction,
-//! the outline is P + s a n and its derivative (1 + s a kappa) s' t; the blank refuses curvatures at which it would turn
-//! back.
+//! Parameter: polar angle phi of the foot on the pitch curve. With the distance a and the sign s of the tips'
+//! direction, the outline is P + s a n and its derivative (1 + s a kappa) s' t; the blank refuses curvatures at which
+//! it would turn back.
 
 use super::blank::Blank;
 use super::{Back, GearKind};
@@ -15,16 +15,16 @@ use std::f64::consts::TAU;
 const LEAST_PIECES: usize = 720;
 
 /// A piece stays within this many arrow heights at its middle of its chord: 32/27 for a cubic that bends one way (its
-/// distance from the chord is t (1 - t) ((1 - t) a + t b) with the slopes a and b at its ends), the rest for what half a
-/// degree of a pitch curve has beyond a cubic, and no proof. Too small, a ray that only just meets a bulge misses it,
+/// distance from the chord is t (1 - t) ((1 - t) a + t b) with the slopes a and b at its ends), the rest for what half
+/// a degree of a pitch curve has beyond a cubic, and no proof. Too small, a ray that only just meets a bulge misses it,
 /// and the blank loses what lies beyond its chord there: `tests/suite/shaping/blank_field.rs` compares volumes with the
 /// outline's own.
 const SAGITTA_SAFETY: f64 = 2.0;
 /// Added to arrow heights, mm: rounding.
 const ROUNDING_MM: f64 = 1e-9;
 
-/// Closed outline of the stock on its toothed side, counter-clockwise: round the material of an external gear, round the
-/// hole of a ring.
+/// Closed outline of the stock on its toothed side, counter-clockwise: round the material of an external gear, round
+/// the hole of a ring.
 #[derive(Debug)]
 pub struct BlankOutline<'a> {
     blank: &'a Blank,

@@ -11,8 +11,8 @@
 //! - [`super::planar_rays`] is the inner loop of whole blanks: it stays within the ends of a part of a curve and halves
 //!   it to the last bit should Newton's method not arrive;
 //! - `passes::spatial::sweep`: a polynomial is inverted by a fixed number of steps, tested over all arguments;
-//! - outside of the core, `process::hobbing::linkage::marks` reduces a lattice (whole numbers, whose lengths shrink by a
-//!   factor), and `gearcut-texture`, which does not know this crate, has two searches that end with an error of their
+//! - outside of the core, `process::hobbing::linkage::marks` reduces a lattice (whole numbers, whose lengths shrink by
+//!   a factor), and `gearcut-texture`, which does not know this crate, has two searches that end with an error of their
 //!   own (`form`, `gaussian`).
 
 use crate::error::NotConverged;

@@ -4,6 +4,7 @@
 pub mod convergence;
 pub mod extremum;
 pub mod jet;
+pub mod least_squares;
 pub mod newton;
 pub mod periodic_integral;
 pub mod periodic_spline;

@@ -1,7 +1,7 @@
 //! The edges of a tool's blades: one that all share, or several, and which blade has which.
 //!
-//! In: edges in their blade frames, and the pattern in which the blades have them. Out: the edge of every blade, and the
-//! segments of all edges in one list, one edge after another. Records of passes name a segment by its place in that
+//! In: edges in their blade frames, and the pattern in which the blades have them. Out: the edge of every blade, and
+//! the segments of all edges in one list, one edge after another. Records of passes name a segment by its place in that
 //! list, so that a backend looks up one table and knows nothing of blades.
 //!
 //! The road not taken: an edge number beside the segment's in every record. It would be one more look-up for each

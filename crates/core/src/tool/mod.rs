@@ -38,8 +38,8 @@ pub trait PlanarTool: CuttingTool {
 
 /// A tool whose rake faces move through space.
 pub trait SpatialTool: CuttingTool {
-    /// Place of blade `index` in the tool frame, whose z axis is the tool's own. The rake face holds the blade's x and y
-    /// axes and the tool's axis; z = x cross y is its normal. A blade may look away from the axis (hobs) or along it
+    /// Place of blade `index` in the tool frame, whose z axis is the tool's own. The rake face holds the blade's x and
+    /// y axes and the tool's axis; z = x cross y is its normal. A blade may look away from the axis (hobs) or along it
     /// (face-mill heads).
     fn tool_from_blade(&self, index: u32) -> Rigid3;
     /// How much the rake face turns about the tool's axis per mm along it, in the direction of the blade's y, rad/mm,
@@ -54,9 +54,9 @@ pub trait SpatialTool: CuttingTool {
     fn half_window_rad(&self) -> f64;
 }
 
-/// Half of the window in which blades can meet a work that, seen along the tool's axis, lies within `reach_mm` of a point
-/// `distance_mm` away from that axis: the circle round that point is seen from the axis under twice this angle, rad. A
-/// work that may reach the axis is all round it.
+/// Half of the window in which blades can meet a work that, seen along the tool's axis, lies within `reach_mm` of a
+/// point `distance_mm` away from that axis: the circle round that point is seen from the axis under twice this angle,
+/// rad. A work that may reach the axis is all round it.
 pub fn half_window_of(distance_mm: f64, reach_mm: f64) -> f64 {
     if reach_mm < distance_mm { (reach_mm / distance_mm).asin() } else { PI }
 }

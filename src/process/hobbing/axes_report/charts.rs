@@ -2,9 +2,7 @@
 //! share one transverse section.
 
 use super::linkage_words;
-use crate::error::NotConverged;
 use crate::machine::{AxisMotion, Motion as _, Order};
-use crate::math::newton::{EVERYWHERE, LastStep, newton_within};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, Panel};
 use crate::process::hobbing::HobbingJob;
@@ -14,7 +12,9 @@ use crate::process::hobbing::measure::engagement::Engagement;
 use crate::process::hobbing::scene::model::HobbingKind;
 use crate::steps::axes::NamedChart;
 use crate::steps::axes::charts::{Abscissa, chart, panel, panels};
-use crate::units::TURN_RAD;
+use gearcut_core::error::NotConverged;
+use gearcut_core::math::newton::{EVERYWHERE, LastStep, newton_within};
+use gearcut_core::units::TURN_RAD;
 
 /// Spacing of the points at which the work of the teeth is shared out, modules.
 const ENGAGEMENT_MODULES: f64 = 0.05;

@@ -6,7 +6,7 @@ use crate::output::text::{Sheet, plain, significant};
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::scene::model::HobbingKind;
 use crate::steps::axes::AxesOfOperation;
-use crate::units::{TURN_RAD, UM_PER_MM};
+use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 
 /// Feeds, travel, times, marks.
 pub(super) fn print(axes: &HobbingAxesReport, sheet: &mut Sheet) {

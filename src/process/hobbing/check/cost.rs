@@ -3,14 +3,14 @@
 //! Flanks are planned in a band about the middle of the face. For the blank, the sweeps that reach a slice are found
 //! for some passes and slices, and the rays that they cross are counted.
 
-use crate::Result;
-use crate::math::planar_rays::FAMILIES;
 use crate::output::text::{Sheet, significant};
-use crate::passes::SweepPlan;
-use crate::passes::sections::swept_sections::SweptSection;
-use crate::passes::spatial::sweep::SweepRecord;
 use crate::process::hobbing::HobCutter;
-use crate::terms::Side;
+use gearcut_core::Result;
+use gearcut_core::math::planar_rays::FAMILIES;
+use gearcut_core::passes::SweepPlan;
+use gearcut_core::passes::sections::swept_sections::SweptSection;
+use gearcut_core::passes::spatial::sweep::SweepRecord;
+use gearcut_core::terms::Side;
 use rayon::prelude::*;
 
 use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FLANKS};

@@ -2,11 +2,11 @@
 
 use super::chebyshev::{PARTS, chebyshev};
 use super::{FlankPatch, PANELS};
-use crate::dexel::Ray;
-use crate::gear::blank::Blank;
-use crate::math::roots::halve;
 use crate::process::hobbing::rack_generation::RackGeneration;
-use crate::terms::Side;
+use gearcut_core::dexel::Ray;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::math::roots::halve;
+use gearcut_core::terms::Side;
 use glam::DVec3;
 use std::f64::consts::PI;
 

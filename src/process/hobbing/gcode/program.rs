@@ -11,7 +11,7 @@ use crate::process::hobbing::linkage::HobbingLinkage;
 use crate::process::hobbing::linkage::dynamics::{self, AXES, in_order};
 use crate::process::hobbing::linkage::{HobbingGeometry, work_from_machine_at};
 use crate::process::hobbing::scene::model::HobbingAxisLimits;
-use crate::units::TURN_RAD;
+use gearcut_core::units::TURN_RAD;
 use glam::DVec3;
 use rayon::prelude::*;
 

@@ -7,7 +7,7 @@ use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::AXES;
 use crate::process::hobbing::scene::model::HobbingKind;
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// The text of a program, with everything in its head that the operator must know.
 pub fn text(

@@ -1,15 +1,15 @@
 //! The edge of a hob tooth in its rake face: the worm's flank, a protuberance, the tip round, as segments.
 //!
-//! In: the scene's hob and the flank of its worm in the rake face ([`RakeFlank`]; the laws stand with the hob). Out: the
-//! segments of one tooth, right root to left root, and where the flank proper ends.
+//! In: the scene's hob and the flank of its worm in the rake face ([`RakeFlank`]; the laws stand with the hob). Out:
+//! the segments of one tooth, right root to left root, and where the flank proper ends.
 
-use crate::error::Refusal;
-use crate::math::convergence::{Step, iterate};
 use crate::process::hobbing::scene::model;
 use crate::process::hobbing::scene::model::Worm;
-use crate::tool::edge::{Segment, SegmentName};
-use crate::tool::edge_profile::BladeCurve;
-use crate::tool::edge_table::TableError;
+use gearcut_core::error::Refusal;
+use gearcut_core::math::convergence::{Step, iterate};
+use gearcut_core::tool::edge::{Segment, SegmentName};
+use gearcut_core::tool::edge_profile::BladeCurve;
+use gearcut_core::tool::edge_table::TableError;
 use glam::DVec2;
 use std::ops::ControlFlow;
 

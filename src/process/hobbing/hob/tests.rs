@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::process::hobbing::scene::model::Worm;
-use crate::terms::Hand;
-use crate::tool::edge::{Segment, SegmentShape};
+use gearcut_core::terms::Hand;
+use gearcut_core::tool::edge::{Segment, SegmentShape};
 use glam::DVec2;
 
 fn spec() -> model::HobSpec {

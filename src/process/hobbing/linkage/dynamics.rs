@@ -8,8 +8,8 @@
 
 use super::{HobbingAxes, HobbingLinkage};
 use crate::machine::{Axis, AxisKind, AxisMotion, Limits, Motion, MotionPiece};
-use crate::math::Jet;
 use crate::process::hobbing::scene::model::HobbingAxisLimits;
+use gearcut_core::math::Jet;
 
 /// A piece shows this many cycles at most: one, and a tenth for humps that lie across its ends.
 const SHOWN_CYCLES: f64 = 1.1;

@@ -1,14 +1,14 @@
 //! Pieces of constant feeds: how the rolling runs in time within each of them.
 //!
-//! In: a linkage's law, the state at the beginning of a piece and its feeds. Out: [`FeedPiece`], and the polar angle and
-//! the extra rotation as printed at a time of it. Where the law keeps an angle even, time is an integral over the polar
-//! angle.
+//! In: a linkage's law, the state at the beginning of a piece and its feeds. Out: [`FeedPiece`], and the polar angle
+//! and the extra rotation as printed at a time of it. Where the law keeps an angle even, time is an integral over the
+//! polar angle.
 
 use super::HobbingLinkage;
-use crate::error::Refusal;
-use crate::math::Jet;
-use crate::math::periodic_integral::PeriodicIntegral;
 use crate::process::hobbing::scene::model::{EvenMotion, ExtraRotation, LinkageForm};
+use gearcut_core::error::Refusal;
+use gearcut_core::math::Jet;
+use gearcut_core::math::periodic_integral::PeriodicIntegral;
 use std::f64::consts::PI;
 use std::sync::Arc;
 

@@ -3,9 +3,9 @@
 //! In: the hob and the gear's helix. Out: [`HobbingGeometry`] with the arcs that hob, slide and shift roll, the pose of
 //! the tool in the machine frame, and that of the machine in the gear frame; frames and signs stand with the linkage.
 
-use crate::frame::Rigid3;
-use crate::math::Jet;
 use crate::process::hobbing::Hob;
+use gearcut_core::frame::Rigid3;
+use gearcut_core::math::Jet;
 use glam::{DMat3, DVec3};
 
 /// The geometry that gears the axes together.

@@ -14,13 +14,13 @@
 //! profile.
 
 use super::HobbingLinkage;
-use crate::math::convergence::{Step, iterate};
-use crate::math::newton::{EVERYWHERE, LastStep, newton_within};
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::rack_generation::RackGeneration;
-use crate::terms::Side;
-use crate::tool::SpatialTool;
-use crate::units::TURN_RAD;
+use gearcut_core::math::convergence::{Step, iterate};
+use gearcut_core::math::newton::{EVERYWHERE, LastStep, newton_within};
+use gearcut_core::terms::Side;
+use gearcut_core::tool::SpatialTool;
+use gearcut_core::units::TURN_RAD;
 use glam::{DVec2, DVec3};
 use std::ops::ControlFlow;
 

@@ -15,12 +15,12 @@ mod diagonal;
 mod tests;
 
 use super::{FeedPath, FeedPhase, HobbingGeometry};
-use crate::error::Refusal;
-use crate::gear::PitchCurve;
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::scene::model::{Approach, FeedDirection, HobbingKind, HobbingOperation};
 use crate::scene::model::Gear;
 use diagonal::DiagonalCut;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::PitchCurve;
 
 /// Room left between hob and blank before the cut, mm.
 const CLEARANCE_MM: f64 = 1.0;

@@ -1,12 +1,12 @@
 //! Poses of the hob in the work over time, and its motion.
 //!
-//! In: the axes of a linkage. Out: the tool frame and the head in the gear frame, with velocities; frames stand with the
-//! linkage.
+//! In: the axes of a linkage. Out: the tool frame and the head in the gear frame, with velocities; frames stand with
+//! the linkage.
 
 use super::geometry::work_from_machine;
 use super::{HobbingAxes, HobbingLinkage};
-use crate::frame::{Rigid3, RigidMotion3};
-use crate::math::Jet;
+use gearcut_core::frame::{Rigid3, RigidMotion3};
+use gearcut_core::math::Jet;
 use glam::{DMat3, DVec3};
 
 impl HobbingLinkage {

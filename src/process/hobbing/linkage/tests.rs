@@ -1,12 +1,12 @@
 //! Series against finite differences, motions against poses, the law of rolling, and limits.
 
 use super::*;
-use crate::frame::RigidMotion3;
-use crate::gear::PitchCurveShape;
 use crate::machine::{Limits, Motion, Order, Peak, peaks};
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::scene::model::{GashForm, HobSize, HobSpec, Worm};
-use crate::terms::Hand;
+use gearcut_core::frame::RigidMotion3;
+use gearcut_core::gear::PitchCurveShape;
+use gearcut_core::terms::Hand;
 use glam::DVec3;
 
 fn hob(hand: Hand) -> Hob {

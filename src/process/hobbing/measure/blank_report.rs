@@ -7,13 +7,13 @@
 //! A hob that cuts where it should not, the far side of a lobe or a neighbouring tooth, is found here. The rays of the
 //! flanks end before they get there.
 
-use crate::cut::BlankStats;
-use crate::cut::CutBlank;
-use crate::math::planar_rays::FAMILIES;
 use crate::measure::damage::{self, Damage, EndFace, OperationVolume};
 use crate::measure::gear_place::GearPlace;
 use crate::measure::target_outline::TargetOutline;
 use crate::process::hobbing::HobCutter;
+use gearcut_core::cut::BlankStats;
+use gearcut_core::cut::CutBlank;
+use gearcut_core::math::planar_rays::FAMILIES;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::f64::consts::PI;

@@ -7,20 +7,20 @@
 //!
 //! This is a load figure in a plane, from points: it says how the work is shared, not how thick the chips are, and
 //! nothing about tool life. It is a forecast for `gearcut axes`, before anything is cut, and takes a second; what the
-//! teeth do in the whole process is measured on the cut blank ([`super::hob_load`]). Where both can say it, what share of
-//! a full stock's volume each tooth takes, `tests/suite/hobbing/blank.rs` compares them.
+//! teeth do in the whole process is measured on the cut blank ([`super::hob_load`]). Where both can say it, what share
+//! of a full stock's volume each tooth takes, `tests/suite/hobbing/blank.rs` compares them.
 //!
 //! The point's path in the hob's head is a polynomial in the hob angle through five poses per pass, exact to far below
 //! the grid.
 
-use crate::error::NotConverged;
-use crate::frame::Rigid3;
-use crate::math::convergence::{Step, iterate};
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::linkage::HobbingLinkage;
 use crate::process::hobbing::rack_generation::RackGeneration;
-use crate::tool::{CuttingTool, SpatialTool};
-use crate::units::TURN_RAD;
+use gearcut_core::error::NotConverged;
+use gearcut_core::frame::Rigid3;
+use gearcut_core::math::convergence::{Step, iterate};
+use gearcut_core::tool::{CuttingTool, SpatialTool};
+use gearcut_core::units::TURN_RAD;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;

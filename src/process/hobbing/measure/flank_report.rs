@@ -3,18 +3,19 @@
 //! In: the cut flank. Out: [`HobbedReport`]: where the flank begins, normal deviations on the evaluated part,
 //! stock of earlier operations, profile and helix deviations.
 //!
-//! The evaluated part of the profile is the scene's `[measure]`: between two heights over the pitch curve, in the middle
-//! of the face. Where it names none, and along the face, a twentieth is left out at both ends. Profile deviations are those of the
-//! middle row, helix deviations those of the middle column (ISO 1328-1:2013: F_alpha and F_beta total, f_H slope, f_f
-//! form), along the target's local normals in space: on a gear that is not round the target takes the place of the
-//! design helix, and on a helical gear the standard's figures in the transverse section are these over cos(beta_b).
-//! Profiles stand over the roll, as the standard's do: over the place of the contact on the line of action.
+//! The evaluated part of the profile is the scene's `[measure]`: between two heights over the pitch curve, in the
+//! middle of the face. Where it names none, and along the face, a twentieth is left out at both ends. Profile
+//! deviations are those of the middle row, helix deviations those of the middle column (ISO 1328-1:2013: F_alpha and
+//! F_beta total, f_H slope, f_f form), along the target's local normals in space: on a gear that is not round the
+//! target takes the place of the design helix, and on a helical gear the standard's figures in the transverse section
+//! are these over cos(beta_b). Profiles stand over the roll, as the standard's do: over the place of the contact on the
+//! line of action.
 
-use crate::dexel::NO_PASS;
 use crate::measure::deviation::Trace;
 use crate::measure::inspection::InspectedFlank;
 use crate::process::hobbing::HobbedFlank;
-use crate::terms::Side;
+use gearcut_core::dexel::NO_PASS;
+use gearcut_core::terms::Side;
 use std::ops::Range;
 
 /// Share of profile and face left out at either end.

@@ -6,7 +6,8 @@
 //! **Law**: that of shaping, element by element of the edge (Altintas, Manufacturing Automation, 2012, section 2.4; see
 //! [`crate::material`]): F = K_c A + K_ce L, A the section of the chip in the rake face and L the length of edge in
 //! engagement. While a tooth goes through a slice its tip travels s; it takes the volume V there, and its edge sweeps
-//! the area S inside the material ([`crate::cut::sweep_chips`]). A = V / s and L = S / s are the means over that travel.
+//! the area S inside the material ([`gearcut_core::cut::sweep_chips`]). A = V / s and L = S / s are the means over that
+//! travel.
 //!
 //! **Referred to the tip.** Elements nearer to the hob's axis travel less than the tip. F is the moment of the cutting
 //! forces about the hob's axis over the tip's radius: F s is the work of the pass in the slice, and F times the tip's
@@ -17,10 +18,10 @@
 //! Rake faces are taken as square to the motion, as axial gashes at zero rake are; gashes across the thread lean by the
 //! lead angle, whose cosine is 0.997 at 4.5 deg.
 
-use crate::cut::sweep_chips::PassChip;
 use crate::material::CuttingForce;
-use crate::passes::TurningPasses;
 use crate::process::hobbing::linkage::HobbingLinkage;
+use gearcut_core::cut::sweep_chips::PassChip;
+use gearcut_core::passes::TurningPasses;
 
 /// Force of one pass of a hob tooth.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -17,8 +17,8 @@
 //! constant along the edge; thin chips cost more force per area, and wear follows temperature and thickness besides.
 //! Ratios of load say which teeth work and how evenly; they say nothing of hours.
 
-use crate::cut::sweep_chips::PassChip;
-use crate::passes::TurningPasses;
+use gearcut_core::cut::sweep_chips::PassChip;
+use gearcut_core::passes::TurningPasses;
 
 /// Teeth with less than this share of the hardest working tooth's volume are not called in use.
 const IN_USE: f64 = 0.01;

@@ -12,13 +12,13 @@
 //! Lengths and angles are those on the flank at the pitch line, where a step of roll is sin(alpha_t) long in the
 //! transverse plane, and a step of z at constant roll 1 / cos(beta) along the tooth trace.
 
-use crate::cut::Backend;
-use crate::dexel::{NO_PASS, Ray, SpatialField};
-use crate::error::Result;
 use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::linkage::marks::{MarkStep, Marks, shortest};
-use crate::terms::Side;
-use crate::units::TURN_RAD;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::{NO_PASS, Ray, SpatialField};
+use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
+use gearcut_core::units::TURN_RAD;
 use glam::DVec2;
 
 /// Lower peaks are chance: marks repeat with correlations above 0.9.

@@ -17,13 +17,13 @@
 //! The paper measured with a coordinate measuring machine and found a spread of 38 um; what is found here is what the
 //! process alone leaves: feed and generating marks.
 
-use crate::cut::Backend;
-use crate::dexel::{NO_PASS, Ray, SpatialField};
-use crate::error::{NotConverged, Result};
 use crate::measure::crossing::Crossing;
 use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::rack_generation::{ProfileCrossing, ProfilePart};
-use crate::terms::Side;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::{NO_PASS, Ray, SpatialField};
+use gearcut_core::error::{NotConverged, Result};
+use gearcut_core::terms::Side;
 use glam::DVec2;
 use std::f64::consts::PI;
 

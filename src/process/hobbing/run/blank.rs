@@ -1,12 +1,12 @@
 //! The blank field's part of a hobbing run: cut, report, findings.
 
-use crate::cut::Backend;
-use crate::error::Result;
 use crate::findings::damage::{damage, damage_row, damage_table, pairs};
 use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
-use crate::gear::GearKind;
 use crate::measure::damage::Damage;
 use crate::process::hobbing::{HobCutter, HobbedBlank};
+use gearcut_core::cut::Backend;
+use gearcut_core::error::Result;
+use gearcut_core::gear::GearKind;
 
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;

@@ -13,7 +13,7 @@ use crate::process::hobbing::measure::marks::MarkLattice;
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::texture::{self, WindowTexture};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// Why a pitch is not known.
 const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve";

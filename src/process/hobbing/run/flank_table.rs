@@ -2,7 +2,7 @@
 
 use crate::findings::{Datum, Table, TableColumn};
 use crate::process::hobbing::measure::flank_report::{HeightSummary, HobbedReport};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 const STOCK: &str = "the flank was not cut completely";
 const HEIGHTS: &str = "a dexel of the evaluated part was reached by no pass";

@@ -1,6 +1,5 @@
 //! The lattice of cutting marks of the texture windows' flanks, and all its steps side by side in `tables/marks.csv`.
 
-use crate::error::Result;
 use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
 use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::linkage::marks::MarkStep;
@@ -8,6 +7,7 @@ use crate::process::hobbing::measure::marks;
 use crate::process::hobbing::measure::marks::{MarkLattice, between_rad};
 use crate::steps::Tools;
 use crate::texture::Window;
+use gearcut_core::error::Result;
 use rayon::prelude::*;
 
 /// Lattices of every flank that has a texture window, in the windows' order.

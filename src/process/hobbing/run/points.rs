@@ -5,7 +5,7 @@ use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::process::hobbing::HobbedGear;
 use crate::process::hobbing::measure::offset_curves::{CurvePoint, ErrorSpread};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// Points of the curve of a normal distribution.
 const CURVE_POINTS: u32 = 200;

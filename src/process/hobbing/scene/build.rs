@@ -8,7 +8,7 @@ use crate::material::CuttingForce;
 use crate::scene::ScenePart;
 use crate::scene::build::stock_or_offset_mm;
 use crate::scene::values::{Values, View};
-use crate::units::TURN_RAD;
+use gearcut_core::units::TURN_RAD;
 use std::path::Path;
 
 /// Hobbing: hob, limits and operations.

@@ -2,7 +2,7 @@
 
 use crate::material::CuttingForce;
 use crate::scene::Scene;
-use crate::terms::Hand;
+use gearcut_core::terms::Hand;
 
 /// Hobbing: tool, machine and operations.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,7 +11,7 @@ use crate::process::shaping::linkage::dynamics::{self, AXES, CENTER_DISTANCE, CU
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes::NamedChart;
 use crate::steps::axes::charts::{chart, panel, panels};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// All charts of an operation.
 pub(super) fn all(job: &ShapingJob, operation: &PreparedOperation, rows: &[StrokeRow]) -> Vec<NamedChart<LineChart>> {

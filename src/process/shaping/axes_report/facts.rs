@@ -5,7 +5,7 @@ use crate::output::progress::duration_text;
 use crate::output::text::{Sheet, plain, significant};
 use crate::process::shaping::linkage::relief::ReliefFlank;
 use crate::steps::axes::AxesOfOperation;
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// A smaller beta than this, rad, is rounding: the curve is a circle.
 const ROUND_BETA_RAD: f64 = 1e-9;

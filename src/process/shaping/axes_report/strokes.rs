@@ -1,7 +1,6 @@
 //! All strokes of an operation, and what they add to the axis table: one row per stroke; where the axes draw the cutter
 //! back, with their positions on the way back.
 
-use crate::Result;
 use crate::findings::Datum;
 use crate::machine::{AxisMotion, Motion as _};
 use crate::process::shaping::linkage::StrokeState;
@@ -12,6 +11,7 @@ use crate::process::shaping::returns::RetractionPlan;
 use crate::process::shaping::returns::motion::axes_of;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes;
+use gearcut_core::Result;
 use std::path::Path;
 
 /// One stroke: the machine's motion and the clearance of its return.

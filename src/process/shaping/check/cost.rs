@@ -3,18 +3,18 @@
 //! For the blank and the chips, the cutter teeth that reach the blank are counted for strokes spread over all
 //! operations, and the rays that they cross.
 
-use crate::Refusal;
-use crate::cut::cpu::blank::TILE_RAYS;
-use crate::dexel::Field;
-use crate::gear::blank_outline::BlankOutline;
-use crate::math::planar_rays::{FAMILIES, RayCrossings};
 use crate::output::text::{Sheet, significant};
-use crate::passes::planar::blank_candidates::passes_at;
-use crate::passes::planar::candidates::TILE_COLUMNS;
-use crate::passes::{CutPlan, PassRecord};
 use crate::process::shaping::ShapingJob;
-use crate::terms::Side;
-use crate::tool::closed_tooth::PlacedScratch;
+use gearcut_core::Refusal;
+use gearcut_core::cut::cpu::blank::TILE_RAYS;
+use gearcut_core::dexel::Field;
+use gearcut_core::gear::blank_outline::BlankOutline;
+use gearcut_core::math::planar_rays::{FAMILIES, RayCrossings};
+use gearcut_core::passes::planar::blank_candidates::passes_at;
+use gearcut_core::passes::planar::candidates::TILE_COLUMNS;
+use gearcut_core::passes::{CutPlan, PassRecord};
+use gearcut_core::terms::Side;
+use gearcut_core::tool::closed_tooth::PlacedScratch;
 
 use crate::process::shaping::check::facts::ToothFacts;
 use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FLANKS};

@@ -8,7 +8,7 @@
 
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
-use crate::terms::Side;
+use gearcut_core::terms::Side;
 
 /// One flank of the target.
 #[derive(Debug, Clone, Copy, PartialEq)]

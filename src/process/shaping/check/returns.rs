@@ -4,7 +4,6 @@
 //! In: a prepared [`ShapingJob`]. Out: lines and warnings for each operation, from the survey of ideal strokes
 //! ([`crate::process::shaping::returns::survey`]); the blank field of a run says what the strokes of the scene meet.
 
-use crate::error::Refusal;
 use crate::output::text::Sheet;
 use crate::process::shaping::linkage::dynamics;
 use crate::process::shaping::linkage::retraction::RetractionLaw;
@@ -15,7 +14,8 @@ use crate::process::shaping::returns::plan::{CLEAR_MM, no_pose};
 use crate::process::shaping::returns::survey::{PlacedRoom, Survey, tightest};
 use crate::process::shaping::scene::model::Retraction;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
-use crate::units::UM_PER_MM;
+use gearcut_core::error::Refusal;
+use gearcut_core::units::UM_PER_MM;
 
 /// Rows of the chart along the curve at most, and the width of its bars: full at the largest clearance.
 const CHART_ROWS: usize = 24;

@@ -1,5 +1,5 @@
-//! What a cutter can do in a ring: whether it rolls and how large it may be, how much of the tip its involute generates,
-//! whether its teeth come clear of their neighbours.
+//! What a cutter can do in a ring: whether it rolls and how large it may be, how much of the tip its involute
+//! generates, whether its teeth come clear of their neighbours.
 //!
 //! In: a prepared job of an internal gear. Out: [`RingFacts`], and their lines and warnings. Nothing is cut for this.
 //!
@@ -7,8 +7,8 @@
 //! ends near its base circle; [`TipRelief`] says what the base leaves. **Interference** is told from the target: a tip
 //! corner of the cutter goes in and out of its space past the neighbouring teeth, and where its path runs through their
 //! material it cuts there what no envelope of the flanks has shaped. The tip of a cutter does not undercut a ring as it
-//! does a small external gear; the condition that is printed for it, m^2 h (z0 + h) <= rho (rho + m z0) sin^2(alpha), is
-//! that of an external gear of the radius rho, and is given beside.
+//! does a small external gear; the condition that is printed for it, m^2 h (z0 + h) <= rho (rho + m z0) sin^2(alpha),
+//! is that of an external gear of the radius rho, and is given beside.
 
 use crate::measure::damage::LEAST_DEPTH_MM;
 use crate::output::text::{Sheet, significant};
@@ -16,13 +16,14 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::cutter::CornerPart;
 use crate::process::shaping::target::FlankEnd;
 use crate::process::shaping::tip_relief::TipRelief;
-use crate::terms::Side;
-use crate::units::UM_PER_MM;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 use glam::DVec2;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// Points of the target's outline, mm: chords of the sharpest fillet, 0.2 mm, then miss a fifteenth of the least damage.
+/// Points of the target's outline, mm: chords of the sharpest fillet, 0.2 mm, then miss a fifteenth of the least
+/// damage.
 const TARGET_SPACING_MM: f64 = 0.01;
 /// Both sides of a tooth, in the order of what is told of them.
 const SIDES: [Side; 2] = [Side::Left, Side::Right];

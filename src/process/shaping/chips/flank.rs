@@ -18,15 +18,15 @@
 //! times the height of a scallop, t at most a half on the surface that is left), so thickness runs from 0 at one end of
 //! a facet through c in its middle to 2 c at the other.
 
-use crate::dexel::field::{Column, Field, NO_PASS};
-use crate::frame::Rigid2;
 use crate::measure::LastChips;
-use crate::passes::planar::near::{MAX_PHASES, NearPass, near_passes};
 use crate::process::shaping::edge_polygon::EdgeSide;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
-use crate::tool::edge::{Edge, Segment, SegmentShape};
-use crate::tool::{CuttingTool, PlanarTool};
 use arrayvec::ArrayVec;
+use gearcut_core::dexel::field::{Column, Field, NO_PASS};
+use gearcut_core::frame::Rigid2;
+use gearcut_core::passes::planar::near::{MAX_PHASES, NearPass, near_passes};
+use gearcut_core::tool::edge::{Edge, Segment, SegmentShape};
+use gearcut_core::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 
 /// Hits this far beyond a segment's end still count, as in the kernels, mm.
@@ -287,7 +287,7 @@ mod tests {
     use super::*;
     use crate::process::load;
     use crate::process::shaping::scene::model::Shaping;
-    use crate::terms::Side;
+    use gearcut_core::terms::Side;
     use std::path::Path;
 
     #[test]

@@ -3,14 +3,14 @@
 use super::oblique::{ElementForce, RakeFace};
 use super::section::SpaceSection;
 use super::stroke::{StrokeChips, StrokePose, ToothChip};
-use crate::cut::LEAST_CHIP_MM;
-use crate::frame::Rigid2;
-use crate::gear::{Back, GearKind};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_polygon::{EdgePolygon, Station};
 use crate::process::shaping::scene::model::Infeed;
-use crate::tool::{CuttingTool, PlanarTool};
-use crate::units::TURN_RAD;
+use gearcut_core::cut::LEAST_CHIP_MM;
+use gearcut_core::frame::Rigid2;
+use gearcut_core::gear::{Back, GearKind};
+use gearcut_core::tool::{CuttingTool, PlanarTool};
+use gearcut_core::units::TURN_RAD;
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -175,8 +175,8 @@ fn middle_pose(job: &ShapingJob, operation: usize, stroke: usize) -> Rigid2 {
     set.pose_at(stroke, set.law.tau(0.0))
 }
 
-/// The blank as closed polygons, gear frame: its outline on the toothed side, and the circle round a ring. Between an odd
-/// and the next even crossing of a ray is material. A bore is left out: no chip reaches it.
+/// The blank as closed polygons, gear frame: its outline on the toothed side, and the circle round a ring. Between an
+/// odd and the next even crossing of a ray is material. A bore is left out: no chip reaches it.
 fn contours(job: &ShapingJob) -> Vec<Vec<DVec2>> {
     let count = job.curve.samples_per_turn().clamp(8192, 1 << 15);
     let closed = |at: &dyn Fn(f64) -> DVec2| (0..count).map(|i| at(TURN_RAD * i as f64 / count as f64)).collect();

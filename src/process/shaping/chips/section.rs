@@ -15,11 +15,11 @@
 //! radius), 30 nm at 0.05 mm on a radius of 10 mm; lengths of contact and areas end within half a spacing at each end
 //! of a chip.
 
-use crate::dexel::NO_PASS;
-use crate::dexel::intervals::{self, End, LEAST_SPAN_MM, Span};
-use crate::frame::Rigid2;
-use crate::math::planar_rays::{FAMILIES, Family, RayRow};
 use crate::process::shaping::edge_polygon::{EdgePolygon, Station};
+use gearcut_core::dexel::NO_PASS;
+use gearcut_core::dexel::intervals::{self, End, LEAST_SPAN_MM, Span};
+use gearcut_core::frame::Rigid2;
+use gearcut_core::math::planar_rays::{FAMILIES, Family, RayRow};
 use glam::DVec2;
 
 /// Crossings further apart than this many spacings are not joined: a corner of the edge lies between them.

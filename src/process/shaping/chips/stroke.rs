@@ -1,9 +1,9 @@
 //! What one stroke takes away: the sum over the cutter teeth that cut in it.
 
 use super::oblique::ElementForce;
-use crate::cut::LEAST_CHIP_MM;
-use crate::frame::Rigid2;
 use crate::process::shaping::edge_polygon::{EdgeSide, Station};
+use gearcut_core::cut::LEAST_CHIP_MM;
+use gearcut_core::frame::Rigid2;
 use glam::DVec2;
 
 /// A side of the edge takes part in a chip when it is in contact over at least this share of the module.

@@ -3,7 +3,7 @@
 use crate::findings::{Place, Quantity, Section};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 use std::f64::consts::PI;
 
 const IDLE: &str = "all strokes are idle";

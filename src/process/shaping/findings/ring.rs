@@ -6,7 +6,7 @@
 
 use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn};
 use crate::process::shaping::check::ring::{RingFacts, TipCorners, ToothPlace};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// Why there is no radius, and no largest cutter.
 const NOT_CURVED: &str = "the pitch curve is not curved towards the axis there";

@@ -5,7 +5,7 @@
 use crate::findings::{Datum, Table, TableColumn};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 const IDLE: &str = "the stroke is idle";
 

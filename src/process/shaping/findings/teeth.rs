@@ -6,7 +6,7 @@ use crate::measure::stock::{Extreme, Stock};
 use crate::process::shaping::measure::gear_report::OperationAllowance;
 use crate::process::shaping::measure::{FlankReport, GearReport};
 use crate::process::shaping::target::FlankEnd;
-use crate::terms::Side;
+use gearcut_core::terms::Side;
 
 /// Smallest, largest and mean stock over some flanks (with their report, for the place) or roots.
 pub fn stock_range(

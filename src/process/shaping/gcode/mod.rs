@@ -15,8 +15,8 @@
 //! `N S F X B C`, comments in round brackets or after `;`, `%`. Everything else is refused by line and word: a word
 //! that is passed over may be the one that matters.
 //!
-//! Where the axes draw the cutter back for the return strokes (`machine.retraction`), that is in the program as well, in
-//! four blocks to a double stroke ([`retracting`]), and a program that is read back says where the cutter returns.
+//! Where the axes draw the cutter back for the return strokes (`machine.retraction`), that is in the program as well,
+//! in four blocks to a double stroke ([`retracting`]), and a program that is read back says where the cutter returns.
 //!
 //! Road not taken: one point per stroke. It is exact, and at 4,200 strokes it starves the block buffer of older
 //! controls; straight lines within a micrometre need a tenth.

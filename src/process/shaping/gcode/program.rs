@@ -1,10 +1,10 @@
 //! Axis positions as straight lines between knots, in the stroke coordinate.
 
 use crate::gcode::{Digits, beyond_limits, longest_lines};
-use crate::gear::GearKind;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
 use crate::process::shaping::scene::model::AxisLimits;
+use gearcut_core::gear::GearKind;
 use glam::DVec2;
 
 /// Half of the arc of the cutter round the line of centres that can be in the work; a cutter of twelve teeth meets it

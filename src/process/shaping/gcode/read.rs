@@ -1,8 +1,8 @@
 //! Reads a program back into axis positions, or says by line and word what it does not understand.
 
 use super::program::{AxisProgram, Knot};
-use crate::error::{Error, Result};
 use crate::gcode::{Word, blocks};
+use gearcut_core::error::{Error, Result};
 use std::path::Path;
 
 /// Block ends this near to a whole stroke stand on it: the digits of F leave so much.

@@ -1,9 +1,9 @@
 //! Axis positions and cutter poses: what every shaping linkage answers with.
 //!
-//! In: the pitch curve at a parameter ([`crate::gear::Rolling`]). Out: [`Axes`] (work angle, cutter angle, centre
-//! distance) as series in that parameter, and the [`CutterPose`] that they give. The law is the frame convention in the
-//! head of [`super`]: tooth 0 points along the line of centres at psi_b = 0, towards the gear axis where the cutter
-//! stands outside, away from it where the cutter stands in a ring.
+//! In: the pitch curve at a parameter ([`gearcut_core::gear::Rolling`]). Out: [`Axes`] (work angle, cutter angle,
+//! centre distance) as series in that parameter, and the [`CutterPose`] that they give. The law is the frame convention
+//! in the head of [`super`]: tooth 0 points along the line of centres at psi_b = 0, towards the gear axis where the
+//! cutter stands outside, away from it where the cutter stands in a ring.
 //!
 //! The parameter is the polar angle phi, or time or stroke when phi itself is a series in them: derivatives then follow
 //! by the chain rule without further formulas. The number of terms N is chosen by the caller: 1 for positions, 2 for
@@ -13,8 +13,8 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use crate::gear::GearKind;
-use crate::math::Jet;
+use gearcut_core::gear::GearKind;
+use gearcut_core::math::Jet;
 
 /// Positions of the three axes as series with N terms.
 #[derive(Debug, Clone, Copy, PartialEq)]

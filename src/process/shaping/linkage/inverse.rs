@@ -9,8 +9,8 @@
 //!
 //! Road not taken: a table fine enough to be the answer. The offset changes during infeed, and with it the function.
 
-use crate::math::newton::{LastStep, newton_within};
-use crate::units::TURN_RAD;
+use gearcut_core::math::newton::{LastStep, newton_within};
+use gearcut_core::units::TURN_RAD;
 use std::f64::consts::FRAC_PI_2;
 
 /// Smallest step of the divided difference, rad: rounding in the lag (1e-15) then disturbs the slope by 1e-8 at most.

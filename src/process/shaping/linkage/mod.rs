@@ -12,8 +12,8 @@
 //!
 //! A **ring** is shaped from inside: the cutter's centre is P - r_c n instead of P + r_c n, its tooth 0 points in the
 //! direction psi_c + psi_b, and it rolls the other way round. All of that is the external law with a **negative cutter
-//! radius**, d = -(r_c + delta_d) for d = r_c + delta_d and -r_c for r_c ([`ShapingLinkage`] puts the sign in), so there
-//! is one law for both. The internal paper writes a = l, Phi = psi_c and psi = -psi_b.
+//! radius**, d = -(r_c + delta_d) for d = r_c + delta_d and -r_c for r_c ([`ShapingLinkage`] puts the sign in), so
+//! there is one law for both. The internal paper writes a = l, Phi = psi_c and psi = -psi_b.
 
 mod axes;
 pub mod dynamics;

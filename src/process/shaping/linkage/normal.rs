@@ -1,7 +1,7 @@
 //! Normal linkage: the cutter stays back along the normal of the pitch curve.
 //!
-//! In: the rolling pitch curve, r_c and the offset delta_d, both negative in a ring. Out: axis positions. Law, with d = r_c + delta_d (Gao et
-//! al. 2017, Eq. 9, 10 and 12, which all have the form of Eq. 1 with d for r_c):
+//! In: the rolling pitch curve, r_c and the offset delta_d, both negative in a ring. Out: axis positions. Law, with d =
+//! r_c + delta_d (Gao et al. 2017, Eq. 9, 10 and 12, which all have the form of Eq. 1 with d for r_c):
 //!
 //! ```text
 //! alpha' = atan2(d cos mu, r + d sin mu)     psi_c = phi - alpha'
@@ -21,9 +21,9 @@
 //! a ring the last factor must be positive too, the cutter's centre on this side of the gear axis.
 
 use super::axes::Axes;
-use crate::gear::Rolling;
-use crate::math::Jet;
 use crate::process::shaping::scene::model::NormalReading;
+use gearcut_core::gear::Rolling;
+use gearcut_core::math::Jet;
 
 /// alpha', from the polar radius of the pitch point to the cutter centre.
 pub(super) fn alpha<const N: usize>(rolling: &Rolling<N>, d: Jet<N>) -> Jet<N> {

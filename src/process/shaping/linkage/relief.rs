@@ -2,7 +2,8 @@
 //!
 //! In: a linkage, the offset, the pressure angle alpha_p. Out: what of the back-off becomes clearance on each flank,
 //! and where it is least. Before the return stroke the cutter is drawn back by d along the line of centres, direction
-//! u: away from the gear axis, in a ring towards it. A flank in contact with unit normal v (out of the work) then clears by d (u . v).
+//! u: away from the gear axis, in a ring towards it. A flank in contact with unit normal v (out of the work) then
+//! clears by d (u . v).
 //!
 //! Law: all contact normals of one moment pass through the instantaneous centre Q and touch the cutter's base circle.
 //! With e the direction from Q to the cutter axis O_b, the normals stand at pi/2 -+ alpha_w from i e, where cos alpha_w
@@ -24,7 +25,7 @@
 use std::f64::consts::TAU;
 
 use super::ShapingLinkage;
-use crate::math::extremum::maximum;
+use gearcut_core::math::extremum::maximum;
 
 /// Below this share of a circular gear's clearance a warning is due.
 pub const TIGHT_RATIO: f64 = 0.5;

@@ -30,9 +30,9 @@ use glam::DVec2;
 
 use super::ShapingLinkage;
 use super::axes::CutterPose;
-use crate::error::NotConverged;
-use crate::gear::{GearKind, PitchCurve};
-use crate::math::newton::{LastStep, newton};
+use gearcut_core::error::NotConverged;
+use gearcut_core::gear::{GearKind, PitchCurve};
+use gearcut_core::math::newton::{LastStep, newton};
 
 /// Last step to a foot, rad: 1e-11 mm on a curve of 100 mm.
 const FOOT_RAD: f64 = 1e-13;

@@ -18,10 +18,10 @@ mod progress;
 
 use super::ShapingLinkage;
 use super::axes::{Axes, CutterPose};
-use crate::error::Refusal;
-use crate::math::Jet;
 use crate::process::shaping::scene::model::{Feed, Machine, Operation, StrokeSpacing};
-use crate::units::TURN_RAD;
+use gearcut_core::error::Refusal;
+use gearcut_core::math::Jet;
+use gearcut_core::units::TURN_RAD;
 use infeed::InfeedPlan;
 use progress::PathProgress;
 

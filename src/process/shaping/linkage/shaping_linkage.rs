@@ -18,11 +18,11 @@ use std::sync::Arc;
 
 use super::axes::{Axes, CutterPose, PoseMotion};
 use super::inverse::{Starts, solve};
-use crate::error::Refusal;
-use crate::gear::{GearKind, PitchCurve, Rolling};
-use crate::math::Jet;
 use crate::process::shaping::linkage::{normal, traditional};
 use crate::process::shaping::scene::model::{Linkage, NormalReading, TraditionalDirection};
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::{GearKind, PitchCurve, Rolling};
+use gearcut_core::math::Jet;
 
 /// One linkage on one pitch curve with one cutter.
 #[derive(Debug, Clone)]
@@ -73,7 +73,7 @@ impl ShapingLinkage {
         }
         let facts = self.curve.facts();
         let samples = self.curve.samples_per_turn();
-        let even = (0..samples).map(|i| crate::math::roots::sample_angle_rad(i, samples));
+        let even = (0..samples).map(|i| gearcut_core::math::roots::sample_angle_rad(i, samples));
         let sharp = facts.curvature_extrema.iter().map(|e| e.phi_rad);
         for phi in even.chain(sharp) {
             let turn = self.axes(phi, offset_mm).psi_c_rad.derivative(1);

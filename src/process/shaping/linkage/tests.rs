@@ -11,12 +11,12 @@ use std::sync::Arc;
 use proptest::prelude::*;
 
 use super::*;
-use crate::gear::{GearKind, PitchCurve, PitchCurveShape};
-use crate::math::Jet;
 use crate::process::shaping::scene::model::{
     AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, Retraction, StrokeSpacing,
     TraditionalDirection,
 };
+use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape};
+use gearcut_core::math::Jet;
 use pitch_curves::{any_curve, examples};
 
 const NORMAL: Linkage = Linkage::ShapingNormal { reading: NormalReading::Corrected };

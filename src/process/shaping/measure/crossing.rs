@@ -5,14 +5,14 @@
 //! curve: a ray along the curve's tangent is cut by all passes near it, moved to the foot of the hit, and cut again
 //! until it stays, which takes three or four rounds.
 
-use crate::error::NotConverged;
-use crate::math::convergence::{Step, iterate};
 use crate::measure::crossing::Crossing;
-use crate::passes::planar::near::{lowest_entry, near_passes};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::TargetFlank;
-use crate::terms::Side;
-use crate::tool::CuttingTool;
+use gearcut_core::error::NotConverged;
+use gearcut_core::math::convergence::{Step, iterate};
+use gearcut_core::passes::planar::near::{lowest_entry, near_passes};
+use gearcut_core::terms::Side;
+use gearcut_core::tool::CuttingTool;
 use std::ops::ControlFlow;
 
 /// Rays along the pitch curve's tangent towards what the strokes leave, at most: each starts where the one before

@@ -4,7 +4,6 @@
 //! each operation and the finished surface, heights, scallops, profile deviations, undercut, the witness mark. Heights
 //! come from the dexels; begin and end from the closed form.
 
-use crate::dexel::NO_PASS;
 use crate::measure::deviation::Trace;
 use crate::measure::inspection::InspectedFlank;
 use crate::measure::scallop::{Cusp, cusps};
@@ -12,6 +11,7 @@ use crate::measure::stock::{Extreme, Stock, extremes, stock};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use crate::steps::planar::CutField;
+use gearcut_core::dexel::NO_PASS;
 
 /// Share of the flank left out at either end when the scene does not say where profiles are evaluated, and of the face.
 const DEFAULT_MARGIN: f64 = 0.05;

@@ -4,11 +4,11 @@
 
 use super::flank_report::FlankReport;
 use super::unevenness::{CrossedSurface, ToothAllowance, allowances, crossings, rack_allowance_mm};
-use crate::error::Result;
 use crate::measure::inspection::GearInspection;
 use crate::measure::stock::{Stock, stock};
 use crate::process::shaping::ShapingJob;
 use crate::steps::planar::CutField;
+use gearcut_core::error::Result;
 
 /// Allowances of one operation over the finished gear.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,10 +5,10 @@
 //! `|AB - CD| / (delta_d tan(alpha))`, what the offset delta_d leaves on a straight rack.
 
 use super::crossing::{envelope_crossing, stroke_crossing};
-use crate::error::Result;
 use crate::measure::crossing::Crossing;
 use crate::process::shaping::ShapingJob;
-use crate::terms::Side;
+use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
 use rayon::prelude::*;
 
 /// Points and allowances of one tooth; `None` where a surface does not cross the pitch curve.

@@ -9,7 +9,7 @@ use crate::output::text::{plain, significant};
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::scene::model::{GcodeDialect, Linkage, NormalReading};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// The program of an operation; an error is the reason why there is none, `None`: none is wanted.
 pub fn text(job: &ShapingJob, operation: &PreparedOperation) -> Option<Result<String, String>> {

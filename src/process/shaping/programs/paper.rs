@@ -5,10 +5,10 @@
 //! delta_d (mm). On nearly every other control **G84 is a tapping cycle**: the file says DO NOT RUN before anything
 //! else.
 
-use crate::gear::PitchCurveShape;
 use crate::output::text::plain;
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::scene::model::Linkage;
+use gearcut_core::gear::PitchCurveShape;
 
 /// The program.
 ///

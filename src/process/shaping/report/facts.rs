@@ -6,7 +6,7 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::scene::model::{Retraction, Tip};
 use crate::steps::report::facts::{gear_table, mm, speed_limits, table};
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 
 /// Tables of gear, cutter and machine.
 pub fn section(job: &ShapingJob) -> PageSection {

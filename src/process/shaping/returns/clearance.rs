@@ -18,10 +18,10 @@
 //! covered.
 
 use super::swept::Swept;
-use crate::frame::Rigid2;
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::edge_polygon::EdgePolygon;
 use crate::process::shaping::linkage::CutterPose;
+use gearcut_core::frame::Rigid2;
 use glam::DVec2;
 use std::collections::VecDeque;
 

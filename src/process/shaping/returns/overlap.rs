@@ -7,7 +7,7 @@
 //! depth along the edge times its length, which counts twice where the overlap is as thick as it is long.
 
 use super::clearance::ReturnRoom;
-use crate::frame::Rigid2;
+use gearcut_core::frame::Rigid2;
 use glam::DVec2;
 
 /// Distance of the lines, in modules.

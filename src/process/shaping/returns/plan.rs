@@ -8,11 +8,11 @@
 //! that is clear. Stock that later strokes take is no reason to turn: turning does not clear it, a tilt does.
 
 use super::survey::Survey;
-use crate::error::{NotConverged, Refusal};
 use crate::process::shaping::linkage::retraction::{RetractingCutter, RetractionLaw};
 use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule};
 use crate::process::shaping::scene::model::{Machine, Retraction};
-use crate::units::TURN_RAD;
+use gearcut_core::error::{NotConverged, Refusal};
+use gearcut_core::units::TURN_RAD;
 
 /// Less clearance than this counts as none: the bound of what the survey resolves between its poses.
 pub const CLEAR_MM: f64 = 0.001;

@@ -22,13 +22,13 @@
 
 use super::clearance::{Clearance, ReturnRoom};
 use super::swept::POSES_PER_PITCH;
-use crate::error::NotConverged;
-use crate::frame::Rigid2;
-use crate::gear::GearKind;
-use crate::gear::blank::Blank;
 use crate::process::shaping::generation::Generation;
 use crate::process::shaping::linkage::CutterPose;
 use crate::process::shaping::linkage::retraction::{RetractingCutter, RetractionLaw};
+use gearcut_core::error::NotConverged;
+use gearcut_core::frame::Rigid2;
+use gearcut_core::gear::GearKind;
+use gearcut_core::gear::blank::Blank;
 use glam::DVec2;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;

@@ -8,14 +8,14 @@
 //! Without that h = (sin a / 8) (1 / rho + 1 / r_c) ds^2 would be missing, 0.1 um at the pitch point for module 3 and
 //! 0.4 um towards the tip.
 //!
-//! Poses that cannot come up to the deepest so far are passed over ([`super::way`]).
+//! Poses that cannot come up to the deepest so far are passed over, by the bound that is derived in `way.rs`.
 
 use super::tooth_distance::ToothDistance;
 use super::way::Way;
-use crate::frame::Rigid2;
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::linkage::CutterPose;
-use crate::units::TURN_RAD;
+use gearcut_core::frame::Rigid2;
+use gearcut_core::units::TURN_RAD;
 use glam::DVec2;
 use std::ops::RangeInclusive;
 

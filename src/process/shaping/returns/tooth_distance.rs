@@ -11,7 +11,7 @@
 
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::cutter::CornerPart;
-use crate::tool::involute::Involute;
+use gearcut_core::tool::involute::Involute;
 use glam::DVec2;
 
 /// A cutter tooth, as far as distances need it; symmetric to its centre line.

@@ -13,7 +13,7 @@
 //!
 //! The pivot is the pole of the motion, near the pitch point, so that slips are rounding.
 
-use crate::frame::Rigid2;
+use gearcut_core::frame::Rigid2;
 use glam::DVec2;
 
 /// A pole farther from the cutter's axis than so many of its tip radii is no pivot: the poses hardly turn.
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
     use crate::process;
     use crate::process::shaping::ShapingJob;
-    use crate::units::TURN_RAD;
+    use gearcut_core::units::TURN_RAD;
     use std::path::Path;
 
     fn shipped(name: &str) -> ShapingJob {

@@ -1,16 +1,16 @@
 //! The blank field's part of a run: cut and report.
 
-use crate::cut::Backend;
-use crate::cut::CutBlank;
-use crate::cut::cpu::blank;
-use crate::error::Result;
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::scene::model::Retraction;
 use crate::steps::planar::blank_report::{self, BlankReport};
-use crate::units::UM_PER_MM;
+use gearcut_core::cut::Backend;
+use gearcut_core::cut::CutBlank;
+use gearcut_core::cut::cpu::blank;
+use gearcut_core::error::Result;
+use gearcut_core::units::UM_PER_MM;
 
 /// Distance of the target outline's points: chords of a fillet then miss about 60 nm, a fifteenth of the least depth
 /// that is reported.

@@ -4,7 +4,6 @@
 //! `chips/<operation>_thickness_by_stroke.{png,exr}` and `_thickness_by_space.{png,exr}`.
 
 use crate::colormap::ColourScale;
-use crate::error::Result;
 use crate::output::atomic::file_error;
 use crate::output::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
 use crate::output::folder::OutputFolder;
@@ -15,7 +14,8 @@ use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips, ThicknessMap};
 use crate::process::shaping::edge_polygon::EdgeSide;
-use crate::units::UM_PER_MM;
+use gearcut_core::error::Result;
+use gearcut_core::units::UM_PER_MM;
 
 /// Charts and colours end at this many times the 90th percentile: first strokes into the full blank would flatten
 /// everything else.

@@ -3,7 +3,6 @@
 //! Maps of single flanks are written as the flanks are finished; everything here follows when all are.
 
 use super::chip_files;
-use crate::error::Result;
 use crate::findings::{Findings, RESULTS_FILE};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::table::write_tables;
@@ -14,6 +13,7 @@ use crate::process::shaping::measure::unevenness::ToothAllowance;
 use crate::steps::parts::Part;
 use crate::steps::sheets::write_sheets_and_deviations;
 use crate::steps::{Tools, axes};
+use gearcut_core::error::Result;
 
 /// Writes everything but the run record.
 ///

@@ -5,8 +5,6 @@
 //! centres stays, the gear and the cutter turn. The cutter is drawn at the upper end of its stroke, above the face,
 //! where it hides nothing; its height is a drawing's, not the tool's.
 
-use crate::error::{Error, Result};
-use crate::frame::Rigid2;
 use crate::interrupt::Interrupt;
 use crate::output::apng::{AnimationFrame, write_apng};
 use crate::output::folder::OutputFolder;
@@ -16,6 +14,8 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::section::{CutSection, cutter_solid};
 use crate::surface::Mesh;
 use crate::surface::render::{Bodies, CLAY, Camera, Lights, STEEL, Shape, render};
+use gearcut_core::error::{Error, Result};
+use gearcut_core::frame::Rigid2;
 use glam::{DVec2, DVec3};
 
 /// Size of a frame without its title.

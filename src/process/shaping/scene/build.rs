@@ -8,7 +8,7 @@ use crate::material::EdgeForce;
 use crate::scene::ScenePart;
 use crate::scene::build::stock_or_offset_mm;
 use crate::scene::values::Values;
-use crate::units::UM_PER_MM;
+use gearcut_core::units::UM_PER_MM;
 use std::path::Path;
 
 /// Shaping: cutter, machine and operations.

@@ -36,8 +36,8 @@ const CURVATURE_SAFETY: f64 = 1.5;
 const GRAZING_COSINE: f64 = 0.25;
 /// How far entries between samples may lie beyond those of the samples along the segment: this share of the samples'
 /// range, and [`END_MM`]. Entries that run evenly along the edge need nothing of it; for others it was found by trial
-/// and has no proof. Too small, a pass is dropped whose entry lies on the segment between two samples that miss its end,
-/// and the surface stays too high there. Brute force takes no samples: the comparison with it in
+/// and has no proof. Too small, a pass is dropped whose entry lies on the segment between two samples that miss its
+/// end, and the surface stays too high there. Brute force takes no samples: the comparison with it in
 /// `tests/suite/shaping/flank_heights.rs` sees such a loss on the fields it looks at, and no other.
 const END_SHARE: f64 = 0.25;
 /// The same as a length, for entries that all lie in one place, mm: a thousand times what places are computed to.

@@ -25,13 +25,13 @@ const MOST_STEPS: u32 = 20;
 const LAST_STEP_RAD: f64 = 1e-6;
 /// Half the shortest piece of a sweep that is fitted, rad.
 const SHORTEST_RAD: f64 = 0.25;
-/// Moments are looked for beyond the ends of the sweep by this angle, rad: a hob's 60 degrees become 1.25 rad. A pass is
-/// dropped from a slice where an end of a piece has no moment within it. It has one: only points of the edge are asked
-/// for that stand at most as far round as the tip does at the sweep's end if the work rests (`SweptSections::reached`),
-/// and there a radian of the blade is half the tip's radius along its travel. So the angle answers for a tenth of that
-/// radius, 6 mm on a usual hob, which the work moves along the blade's travel in a sixth of a turn: its feed there is
-/// hundredths of a millimetre. Brute force over all passes shares this number; the flank kernel does not, and what is
-/// left is compared with it in `tests/suite/hobbing/blank.rs`.
+/// Moments are looked for beyond the ends of the sweep by this angle, rad: a hob's 60 degrees become 1.25 rad. A pass
+/// is dropped from a slice where an end of a piece has no moment within it. It has one: only points of the edge are
+/// asked for that stand at most as far round as the tip does at the sweep's end if the work rests
+/// (`SweptSections::reached`), and there a radian of the blade is half the tip's radius along its travel. So the angle
+/// answers for a tenth of that radius, 6 mm on a usual hob, which the work moves along the blade's travel in a sixth of
+/// a turn: its feed there is hundredths of a millimetre. Brute force over all passes shares this number; the flank
+/// kernel does not, and what is left is compared with it in `tests/suite/hobbing/blank.rs`.
 const BEYOND_SWEEP_RAD: f64 = 0.2028;
 
 /// A pass with its pose as polynomials of the swept angle.
@@ -178,8 +178,8 @@ impl Sweeping {
     /// Where Newton's method leaves that range or does not settle in it, the range is halved where the point is on
     /// different sides of the slice at its ends. Where it is not, it may still go through twice, if it turns round in
     /// between: the rates at the ends say so, and halving finds the turn, and then the crossing on the guess's side of
-    /// it. A blade's travel bends one way during a sweep, so that it turns round once at most: `None` is no failure of a
-    /// search.
+    /// it. A blade's travel bends one way during a sweep, so that it turns round once at most: `None` is no failure of
+    /// a search.
     pub fn moment(&self, guess: f64, node: DVec2, twist_rad_per_mm: f64, z_mm: f64) -> Option<f64> {
         let value_and_rate = |swept: f64| {
             let [[x, y, z, shift], rates] = self.entries::<ROW>(swept);

@@ -1,8 +1,8 @@
 //! A turning tool's sweep where it crosses a transverse slice of the work: a closed curve, as a cutter tooth's outline
 //! is in shaping.
 //!
-//! In: the passes of an operation with the edges of their blades, a slice. Out: for each pass a [`SweptSection`] that rays along x
-//! and y are laid on.
+//! In: the passes of an operation with the edges of their blades, a slice. Out: for each pass a [`SweptSection`] that
+//! rays along x and y are laid on.
 //!
 //! **The law.** A point of the work is removed when it lies inside the blade's edge at the moment at which the rake
 //! face holds it. Place in the rake face and moment are coordinates of space, one to one as long as the blade moves

@@ -230,8 +230,8 @@ impl Sweep {
         }
     }
 
-    /// Distance from the tool's axis and place along it, from the blade's origin in the direction of w, of a point (tile
-    /// frame) at the moment when the rake face holds it. `None`: at no moment of the sweep and the piece.
+    /// Distance from the tool's axis and place along it, from the blade's origin in the direction of w, of a point
+    /// (tile frame) at the moment when the rake face holds it. `None`: at no moment of the sweep and the piece.
     ///
     /// # Errors
     /// The moment is not found: the work turns nearly as fast as the tool.
@@ -263,8 +263,8 @@ fn within_half_a_turn(angle_rad: f64) -> f64 {
     if angle_rad.abs() <= PI { angle_rad } else { angle_rad - TAU * (angle_rad / TAU).round() }
 }
 
-/// Inverse of [`half_angle`] at the nodes of a sweep, to rounding: a fixed number of Newton steps. It cannot fail: there
-/// are no other arguments than those between the largest t and its negative, and the test goes through them.
+/// Inverse of [`half_angle`] at the nodes of a sweep, to rounding: a fixed number of Newton steps. It cannot fail:
+/// there are no other arguments than those between the largest t and its negative, and the test goes through them.
 fn t_at(u: f64) -> f64 {
     (0..4).fold(u.tan(), |t, _| {
         let [value, rate] = half_angle(t);

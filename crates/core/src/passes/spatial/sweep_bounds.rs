@@ -36,9 +36,10 @@ const ROUNDING_MM: f64 = 2e-7;
 const END_MARGIN_MM: f64 = 1e-6;
 /// A candidate is clear of the rays where all nine heights lie below the floor by this share of their range, and by
 /// [`FLOOR_MM`]: between the rays heights may pass the highest of them. The share is that of a function whose second
-/// differences are 1.6 times its range; for others it was found by trial and has no proof. Too small, a sweep is dropped
-/// that rises over the floor between the rays, and the surface stays too high there. Brute force knows no floor: the
-/// comparison with it in `tests/suite/hobbing/spatial.rs` sees such a loss on the fields it looks at, and no other.
+/// differences are 1.6 times its range; for others it was found by trial and has no proof. Too small, a sweep is
+/// dropped that rises over the floor between the rays, and the surface stays too high there. Brute force knows no
+/// floor: the comparison with it in `tests/suite/hobbing/spatial.rs` sees such a loss on the fields it looks at, and no
+/// other.
 const FLOOR_SHARE: f64 = 0.2;
 /// The same as a length, for heights that are all alike, mm.
 const FLOOR_MM: f64 = 1e-3;

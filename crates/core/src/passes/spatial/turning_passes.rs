@@ -3,17 +3,17 @@
 //! In: the tool (blades whose rake faces hold its axis: hobs, face-mill heads, fly cutters), the machine's motion over
 //! the tool's angle. Out: passes by number, the place of every blade, and the blades' edges in their rake faces.
 //!
-//! **Axes of a rake face.** r away from the tool's axis, w along it, with or against the tool's z, so that the normal of
-//! r and w is that of the blade's x and y. A blade may look any way in that plane: a hob's away from the axis, a
-//! face-mill head's along it. Kernels see an edge turned from its blade's axes into r and w; for a blade that looks away
-//! from the axis the two are the same, bit for bit.
+//! **Axes of a rake face.** r away from the tool's axis, w along it, with or against the tool's z, so that the normal
+//! of r and w is that of the blade's x and y. A blade may look any way in that plane: a hob's away from the axis, a
+//! face-mill head's along it. Kernels see an edge turned from its blade's axes into r and w; for a blade that looks
+//! away from the axis the two are the same, bit for bit.
 //!
 //! **Window.** The head's x axis points to where the work is. While a blade is further from it than the tool's half
 //! window, it is clear of the blank; what a blade meets there is none of its pass.
 //!
-//! **Numbering.** Pass id = first id + turn x blades + rank, where turns count from the first one that reaches the work,
-//! and rank is the blade's place in the order in which the tool's blades pass the head's x axis within a turn; blades of
-//! one gash follow each other by their own number. Ids therefore grow with time, gash by gash.
+//! **Numbering.** Pass id = first id + turn x blades + rank, where turns count from the first one that reaches the
+//! work, and rank is the blade's place in the order in which the tool's blades pass the head's x axis within a turn;
+//! blades of one gash follow each other by their own number. Ids therefore grow with time, gash by gash.
 //! [`TurningPasses::blade_of`] leads back from the id to the turn and the blade.
 //!
 //! The road not taken: rake faces beside the axis (hook angles). A point of the work is then held where its distance

@@ -4,9 +4,9 @@
 //! idle travel. What a shift does to the feed stands with the plan.
 
 use super::{CLEARANCE_MM, FeedPlan};
-use crate::error::Refusal;
 use crate::process::hobbing::linkage::FeedPhase;
 use crate::process::hobbing::scene::model::{FeedOf, HobbingKind, HobbingOperation, ShiftStrategy};
+use gearcut_core::error::Refusal;
 
 /// More feed phases than this mean a stroke or feed that nobody wants.
 const MOST_PHASES: usize = 10_000;

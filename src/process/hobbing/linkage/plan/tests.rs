@@ -4,19 +4,19 @@ use crate::process;
 use crate::process::hobbing::HobbingJob;
 use std::path::Path;
 
-fn job(file: &str, settings: &[&str]) -> crate::Result<HobbingJob> {
+fn job(file: &str, settings: &[&str]) -> gearcut_core::Result<HobbingJob> {
     let settings: Vec<String> = settings.iter().map(|&s| format!("operation.finish.{s}")).collect();
     HobbingJob::new(&process::load(Path::new(&format!("scenes/hobbing/{file}.toml")), &settings)?.scene)
 }
 
-fn diagonal(settings: &[&str]) -> crate::Result<HobbingJob> {
+fn diagonal(settings: &[&str]) -> gearcut_core::Result<HobbingJob> {
     job("third_order_diagonal", settings)
 }
 
 /// Key and problem of a refusal.
-fn refused(result: crate::Result<HobbingJob>) -> (String, String) {
+fn refused(result: gearcut_core::Result<HobbingJob>) -> (String, String) {
     match result {
-        Err(crate::Error::Refused(refusal)) => (refusal.key, refusal.problem),
+        Err(gearcut_core::Error::Refused(refusal)) => (refusal.key, refusal.problem),
         other => panic!("not refused: {other:?}"),
     }
 }

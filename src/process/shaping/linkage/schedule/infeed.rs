@@ -4,8 +4,8 @@
 //! many strokes plunge before the rolling begins. Law: every plunging stroke takes the same depth, every rolling stroke
 //! of the infeed takes the same depth; the offset runs along the direction of the linkage.
 
-use crate::math::Jet;
 use crate::process::shaping::scene::model::Infeed;
+use gearcut_core::math::Jet;
 
 /// Offset against stroke.
 #[derive(Debug, Clone, Copy)]

@@ -9,15 +9,15 @@
 
 use std::sync::Arc;
 
-use crate::error::Refusal;
-use crate::gear::Rolling;
-use crate::math::Jet;
-use crate::math::periodic_integral::PeriodicIntegral;
-use crate::math::roots::{bisect, sample_angle_rad};
 use crate::process::shaping::linkage::Axes;
 use crate::process::shaping::linkage::ShapingLinkage;
 use crate::process::shaping::scene::model::{AxisLimits, StrokeSpacing};
-use crate::units::TURN_RAD;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::Rolling;
+use gearcut_core::math::Jet;
+use gearcut_core::math::periodic_integral::PeriodicIntegral;
+use gearcut_core::math::roots::{bisect, sample_angle_rad};
+use gearcut_core::units::TURN_RAD;
 
 /// Progress along the path.
 #[derive(Debug, Clone)]

@@ -1,0 +1,132 @@
+//! The cradle machine: its settings under their usual names, and the tool's pose in the work while the cradle rolls.
+//!
+//! In: settings and the cradle angle. Out: pose and velocity of the tool in the work (frames: [`super`]).
+//!
+//! Source: Chen, Yan, Ming and Xie (2008), Eq. 6, which this pose equals entry by entry; for the sliding base along the
+//! cradle's axis, the modified roll and the names Litvin and Zhang, NASA CR-4342 (1991). The paper draws X_B along the
+//! machine's x axis, where it acts like a part of X_p; on a machine the sliding base runs along the cradle's axis. Both are
+//! settings here, so that the printed example and a corrected one can be told apart.
+//!
+//! The road not taken: cutter tilt and swivel as settings. A tilted head is a pose like any other for all that follows
+//! (envelope, axes, passes); only [`CradleSettings::motion`] would have to know it.
+
+use crate::frame::{Rigid3, RigidMotion3};
+use glam::{DMat3, DVec3};
+
+/// Settings of a cradle machine; mm and rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CradleSettings {
+    /// Radial setting S_r: distance of the head's axis from the cradle's.
+    pub radial_setting_mm: f64,
+    /// Cradle angle q at the middle of the roll; positive and negative ones cut opposite hands of spiral.
+    pub cradle_angle_rad: f64,
+    /// Blank offset E_m, along the machine's y axis; 0 on spiral bevel gears.
+    pub blank_offset_mm: f64,
+    /// The paper's X_B, along the machine's x axis.
+    pub cross_shift_mm: f64,
+    /// Sliding base X_D, along the cradle's axis towards the work: how much deeper the tips stand.
+    pub sliding_base_mm: f64,
+    /// Machine centre to back X_p: how far the work stands back along its own axis.
+    pub center_to_back_mm: f64,
+    /// Machine root angle gamma_m.
+    pub root_angle_rad: f64,
+    /// How the work follows the cradle.
+    pub roll: Roll,
+}
+
+/// Work angle over cradle angle: A(q) = A(q0) + R_a (d - C d^2 - D d^3), d = q - q0, q0 the cradle angle at the middle of
+/// the roll. C and D are Litvin's coefficients of modified roll; with both 0 the ratio is the same all the time.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Roll {
+    /// Ratio of roll R_a: work angle per cradle angle at the middle of the roll.
+    pub ratio: f64,
+    /// C, 1/rad.
+    pub second_order_per_rad: f64,
+    /// D, 1/rad^2.
+    pub third_order_per_rad2: f64,
+}
+
+impl CradleSettings {
+    /// Work angle A and its rate dA/dq at a cradle angle; A is R_a q where the roll is not modified.
+    pub fn work_angle(&self, cradle_rad: f64) -> [f64; 2] {
+        let Roll { ratio, second_order_per_rad: c, third_order_per_rad2: d } = self.roll;
+        let by = cradle_rad - self.cradle_angle_rad;
+        [
+            ratio * (self.cradle_angle_rad + by * (1.0 - by * (c + by * d))),
+            ratio * (1.0 - by * (2.0 * c + 3.0 * d * by)),
+        ]
+    }
+
+    /// Tool in the machine frame, the blank's offset and both bases included.
+    fn machine_from_tool(&self, cradle_rad: f64) -> Rigid3 {
+        let (sin, cos) = cradle_rad.sin_cos();
+        let s = self.radial_setting_mm;
+        Rigid3 {
+            rotation: DMat3::from_rotation_z(cradle_rad),
+            translation_mm: DVec3::new(
+                s * cos + self.cross_shift_mm,
+                s * sin + self.blank_offset_mm,
+                self.sliding_base_mm,
+            ),
+        }
+    }
+
+    /// The paper's M_pt: pose of the tool in the work at a cradle angle and a work angle.
+    pub fn work_from_tool_at(&self, cradle_rad: f64, work_rad: f64) -> Rigid3 {
+        let still = Rigid3 {
+            rotation: DMat3::from_rotation_y(self.root_angle_rad),
+            translation_mm: DVec3::new(-self.center_to_back_mm, 0.0, 0.0),
+        };
+        let turn = Rigid3 { rotation: DMat3::from_rotation_x(-work_rad), translation_mm: DVec3::ZERO };
+        turn.after(&still).after(&self.machine_from_tool(cradle_rad))
+    }
+
+    /// Pose of the tool in the work while the cradle rolls.
+    pub fn work_from_tool(&self, cradle_rad: f64) -> Rigid3 {
+        self.work_from_tool_at(cradle_rad, self.work_angle(cradle_rad)[0])
+    }
+
+    /// The same with its velocity where the cradle turns by one radian per second.
+    pub fn motion(&self, cradle_rad: f64) -> RigidMotion3 {
+        let [work_rad, rate] = self.work_angle(cradle_rad);
+        let pose = self.work_from_tool_at(cradle_rad, work_rad);
+        let work_from_machine = DMat3::from_rotation_x(-work_rad) * DMat3::from_rotation_y(self.root_angle_rad);
+        let (sin, cos) = cradle_rad.sin_cos();
+        let turn = -rate * DVec3::X;
+        let swing = self.radial_setting_mm * DVec3::new(-sin, cos, 0.0);
+        RigidMotion3 {
+            pose,
+            velocity_mm_per_s: work_from_machine * swing + turn.cross(pose.translation_mm),
+            angular_velocity_rad_per_s: work_from_machine * DVec3::Z + turn,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn velocities_are_the_rates_of_poses() {
+        let settings = CradleSettings {
+            radial_setting_mm: 98.0,
+            cradle_angle_rad: 0.9,
+            blank_offset_mm: 12.0,
+            cross_shift_mm: -0.4,
+            sliding_base_mm: 1.3,
+            center_to_back_mm: 2.5,
+            root_angle_rad: 1.1,
+            roll: Roll { ratio: 1.08, second_order_per_rad: 0.03, third_order_per_rad2: -0.2 },
+        };
+        let (q, h, at) = (1.02, 1e-5, DVec3::new(40.0, -81.0, -3.0));
+        let motion = settings.motion(q);
+        let moved = |q: f64| settings.work_from_tool(q).point(at);
+        let wanted = (moved(q + h) - moved(q - h)) / (2.0 * h);
+        let got = motion.velocity_at(motion.pose.point(at));
+        assert!(got.distance(wanted) < 1e-6, "{got} not {wanted}");
+        // The rest of the third derivative at the step, and rounding: what a wrong sign would leave is 1e8 times larger.
+        let [before, rate] = settings.work_angle(q);
+        assert!((settings.work_angle(q + h)[0] - before - h * rate).abs() < 1e-10);
+        assert!((settings.work_angle(0.9)[0] - 1.08 * 0.9).abs() < 1e-15);
+    }
+}

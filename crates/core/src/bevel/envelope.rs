@@ -1,0 +1,164 @@
+//! The envelope of a cutting surface over the roll: where the head leaves the flank in the limit of many blades.
+//!
+//! In: settings of the machine and a cutting surface. Out: points and normals of the generated flank and of its fillet.
+//!
+//! **Law.** A point of the surface is on the envelope in the moment when its normal is square to its velocity in the
+//! work. Along a straight edge the normal n is the same, and the velocity v + w x r is linear in the place u on the edge:
+//! u = -n . (v + w x r0) / (n . (w x d)), r0 the point in the plane of the tips, d the edge's direction. In the round all
+//! normals go through its middle c, so that its velocity alone counts: the lean follows from n . (v + w x c) = 0. What is
+//! left are two unknowns, the angle theta about the head's axis and the cradle angle q, for the two coordinates that a
+//! point of the flank is asked for by; Newton's method finds them to rounding.
+//!
+//! Source: Litvin and Fuentes, Gear Geometry and Applied Theory (2004), chapters 6 and 22.
+
+use super::blank::BevelBlank;
+use super::cradle::CradleSettings;
+use super::face_mill::CuttingSurface;
+use crate::error::NotConverged;
+use glam::{DVec2, DVec3};
+
+/// A step of theta and q as small as this is the last, rad: the error after it is of its square times the difference
+/// quotients' share.
+const LAST_STEP_RAD: f64 = 1e-11;
+/// Step of the difference quotients, rad; the steps that they give are off by a share of about as much.
+const DIFFERENCE_RAD: f64 = 1e-6;
+/// Largest step, rad: beyond it the linear picture does not hold.
+const LARGEST_STEP_RAD: f64 = 0.1;
+/// Steps at most; from the guess of [`Envelope::guess`] it takes four to eight.
+const MOST_STEPS: u32 = 60;
+
+/// A cutting surface and the roll that it goes through.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Envelope {
+    /// The machine.
+    pub settings: CradleSettings,
+    /// What cuts.
+    pub surface: CuttingSurface,
+}
+
+/// A point of the generated flank, work frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlankPoint {
+    /// The point, mm.
+    pub point_mm: DVec3,
+    /// Unit normal out of the gear's material.
+    pub normal: DVec3,
+    /// Angle about the head's axis, tool frame, rad.
+    pub head_rad: f64,
+    /// Cradle angle at which it is generated, rad.
+    pub cradle_rad: f64,
+    /// Place on the cutting edge from the plane of the tips, mm.
+    pub edge_mm: f64,
+}
+
+/// What fixes a point on a flank beside its cone distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Place {
+    /// Height over the pitch cone, mm.
+    Height(f64),
+    /// Place on the cutting edge, mm.
+    Edge(f64),
+}
+
+impl Envelope {
+    /// Point of the envelope that belongs to an angle about the head's axis and a cradle angle.
+    pub fn at(&self, head_rad: f64, cradle_rad: f64) -> FlankPoint {
+        let motion = self.settings.motion(cradle_rad);
+        let pose = motion.pose;
+        let from_work = pose.rotation.transpose();
+        let v = from_work * motion.velocity_mm_per_s;
+        let w = from_work * motion.angular_velocity_rad_per_s;
+        let (normal, start_mm) = (self.surface.normal(head_rad), self.surface.point_mm(head_rad, 0.0));
+        let along = self.surface.edge_direction(head_rad);
+        let edge_mm = -normal.dot(v + w.cross(start_mm)) / normal.dot(w.cross(along));
+        FlankPoint {
+            point_mm: pose.point(start_mm + edge_mm * along),
+            normal: pose.direction(normal),
+            head_rad,
+            cradle_rad,
+            edge_mm,
+        }
+    }
+
+    /// Point of the fillet that belongs to the same angles, and its lean: the blade angle where it joins the flank, a right
+    /// angle where it joins the bottom.
+    pub fn fillet_at(&self, head_rad: f64, cradle_rad: f64) -> (FlankPoint, f64) {
+        let motion = self.settings.motion(cradle_rad);
+        let pose = motion.pose;
+        let center_mm = self.surface.corner_center_mm(head_rad);
+        let velocity = pose.rotation.transpose() * motion.velocity_at(pose.point(center_mm));
+        let away = velocity.dot(DVec3::new(head_rad.cos(), head_rad.sin(), 0.0));
+        // -s cos(lean) away - sin(lean) v_z = 0.
+        let mut lean_rad = (-self.surface.kind.sign() * away).atan2(velocity.z);
+        if lean_rad < 0.0 {
+            lean_rad += std::f64::consts::PI;
+        }
+        let normal = self.surface.normal_of_corner(head_rad, lean_rad);
+        let point = FlankPoint {
+            point_mm: pose.point(center_mm - self.surface.corner_radius_mm * normal),
+            normal: pose.direction(normal),
+            head_rad,
+            cradle_rad,
+            edge_mm: 0.0,
+        };
+        (point, lean_rad)
+    }
+
+    /// Angles about the head's axis and of the cradle near which a point at a cone distance is generated, rad: where the
+    /// circle of the points, seen along the cradle's axis, crosses the circle of the cone distance, at the moment when
+    /// that crossing lies on the line along which the head touches the root cone.
+    pub fn guess(&self, cone_distance_mm: f64) -> [f64; 2] {
+        let (s, r) = (self.settings.radial_setting_mm, self.surface.point_radius_mm);
+        let cosine = (cone_distance_mm.powi(2) - s * s - r * r) / (2.0 * s * r);
+        let head_rad = -self.settings.cradle_angle_rad.signum() * cosine.clamp(-1.0, 1.0).acos();
+        let at = DVec2::new(s, 0.0) + r * DVec2::from_angle(head_rad);
+        [head_rad, -at.to_angle()]
+    }
+
+    /// Point of the flank at a cone distance and at a height over the pitch cone, or where a place of the edge has cut it;
+    /// `start` are angles about the head's axis and of the cradle near it.
+    ///
+    /// # Errors
+    /// The roll generates no such point near the start.
+    pub fn find(
+        &self,
+        blank: &BevelBlank,
+        cone_distance_mm: f64,
+        place: Place,
+        start: [f64; 2],
+    ) -> Result<FlankPoint, NotConverged> {
+        let missing = |angles: DVec2| {
+            let point = self.at(angles.x, angles.y);
+            let [distance_mm, height_mm] = blank.cone_distance_and_height_mm(point.point_mm);
+            let second = match place {
+                Place::Height(wanted_mm) => wanted_mm - height_mm,
+                Place::Edge(wanted_mm) => wanted_mm - point.edge_mm,
+            };
+            DVec2::new(cone_distance_mm - distance_mm, second)
+        };
+        let mut angles = DVec2::from(start);
+        let mut lost = NotConverged {
+            what: "a point of the generated flank",
+            after: MOST_STEPS,
+            last: cone_distance_mm,
+            last_step: f64::INFINITY,
+            residual: f64::INFINITY,
+        };
+        for _ in 0..MOST_STEPS {
+            let left = missing(angles);
+            let [by_head, by_cradle] =
+                [DVec2::X, DVec2::Y].map(|axis| (missing(angles + DIFFERENCE_RAD * axis) - left) / DIFFERENCE_RAD);
+            let determinant = by_head.perp_dot(by_cradle);
+            let step = DVec2::new(-left.perp_dot(by_cradle), -by_head.perp_dot(left)) / determinant;
+            (lost.residual, lost.last_step) = (left.length(), step.length());
+            if !step.is_finite() {
+                return Err(lost);
+            }
+            angles += step.clamp_length_max(LARGEST_STEP_RAD);
+            if step.length() <= LAST_STEP_RAD {
+                return Ok(self.at(angles.x, angles.y));
+            }
+        }
+        Err(lost)
+    }
+}

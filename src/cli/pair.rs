@@ -1,0 +1,118 @@
+//! `gearcut pair`: two gears rolled on each other.
+
+use std::path::PathBuf;
+
+use gearcut::gear::GearKind;
+use gearcut::output::summary;
+use gearcut::output::text::{Sheet, plain};
+use gearcut::pair_job::flanks::FlankSource;
+use gearcut::pair_job::options::PairOptions;
+use gearcut::pair_job::{findings, member, rolled, write};
+use gearcut::scene::{LoadedScene, Mate};
+use gearcut::{Error, Findings};
+use serde_json::json;
+
+use super::args::{FlankChoice, PairArguments};
+use super::failure::Failure;
+use super::{folder, print};
+
+/// Runs the command.
+pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
+    let [a, b] = gears(arguments)?;
+    let scenes = [&a.scene, &b.scene];
+    let options = options(arguments)?;
+    let name = format!("{}_with_{}", a.scene.name, b.scene.name);
+    let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
+    let words = std::env::args().skip(1).collect::<Vec<_>>();
+    let (path, (found, mut sheet)) = folder::fill(&out, "pair", |folder, interrupt| {
+        let rolled = rolled::roll_pair(scenes, &options)?;
+        interrupt.check()?;
+        let found = findings::findings(&name, scenes, &options, &rolled);
+        write::write(scenes, &options, &rolled, &found, folder)?;
+        let record =
+            [("arguments", json!(words)), ("scene_A", json!(a.resolved_toml())), ("scene_B", json!(b.resolved_toml()))];
+        Ok((record.to_vec(), (found, Sheet::default())))
+    })
+    .map_err(|error| in_place(&a, error))?;
+    if arguments.json {
+        let text = serde_json::to_string_pretty(&found.to_json())
+            .map_err(|reason| Error::Output { path: path.clone(), reason: reason.to_string() })?;
+        return Ok(print::to_stdout(&format!("{text}\n"))?);
+    }
+    heading(&found, scenes.map(|scene| scene.gear.teeth), a.scene.gear.module_mm, &mut sheet);
+    summary::print(&found, &mut sheet);
+    Ok(print::to_stdout(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?)
+}
+
+fn heading(found: &Findings, teeth: [u32; 2], module_mm: f64, sheet: &mut Sheet) {
+    let [a, b] = teeth;
+    sheet.heading(&format!("{}: {a} and {b} teeth, module {} mm", found.scene, plain(module_mm)));
+}
+
+/// Both gears.
+fn gears(arguments: &PairArguments) -> Result<[LoadedScene; 2], Failure> {
+    let a = member::read(&arguments.a, &arguments.set_a)?;
+    let b = match (&arguments.b, arguments.mate) {
+        (Some(path), _) => member::read(path, &arguments.set_b)?,
+        (None, teeth) => {
+            let teeth = teeth.expect("the command line asks for gear B or --mate");
+            let kind = if arguments.internal { GearKind::Internal } else { GearKind::External };
+            member::mate(&a, Mate { teeth, kind }, &arguments.set_b).map_err(|error| match error {
+                Error::Refused(refusal) => {
+                    Failure::without_place(&format!("no {} mate with {teeth} teeth", kind.name()), &refusal)
+                }
+                other => other.into(),
+            })?
+        }
+    };
+    Ok([a, b])
+}
+
+/// What geometry refuses of a pair lies in both scenes, or in the options: it has no line in one file.
+fn in_place(a: &LoadedScene, error: Error) -> Failure {
+    match error {
+        Error::Refused(refusal) => Failure::without_place(&format!("{} in a pair", a.scene.name), &refusal),
+        other => other.into(),
+    }
+}
+
+fn options(arguments: &PairArguments) -> Result<PairOptions, Failure> {
+    let finite = [
+        ("--center-distance-error-um", arguments.center_distance_error_um, f64::NEG_INFINITY),
+        ("--eccentricity-a-um", arguments.eccentricity_a_um, 0.0),
+        ("--eccentricity-a-at-deg", arguments.eccentricity_a_at_deg, f64::NEG_INFINITY),
+        ("--eccentricity-b-um", arguments.eccentricity_b_um, 0.0),
+        ("--eccentricity-b-at-deg", arguments.eccentricity_b_at_deg, f64::NEG_INFINITY),
+        ("--parallelism-in-plane-um", arguments.parallelism_in_plane_um, f64::NEG_INFINITY),
+        ("--parallelism-out-of-plane-um", arguments.parallelism_out_of_plane_um, f64::NEG_INFINITY),
+        ("--marking-um", arguments.marking_um, f64::MIN_POSITIVE),
+    ];
+    if let Some((name, value, least)) =
+        finite.into_iter().find(|(_, value, least)| !(value.is_finite() && value >= least))
+    {
+        let allowed = if least > 0.0 {
+            "a number above 0"
+        } else if least == 0.0 {
+            "0 or more"
+        } else {
+            "a finite number"
+        };
+        return Err(gearcut::Refusal::new(name, format!("{value} is not {allowed}"), format!("give {allowed}")).into());
+    }
+    Ok(PairOptions {
+        source: match arguments.flanks {
+            FlankChoice::Cut => FlankSource::Cut,
+            FlankChoice::Nominal => FlankSource::Nominal,
+        },
+        positions: arguments.positions.map(|count| count as usize),
+        sections: arguments.sections.map(|count| count as usize),
+        center_distance_error_um: arguments.center_distance_error_um,
+        eccentricity_um_deg: [
+            [arguments.eccentricity_a_um, arguments.eccentricity_a_at_deg],
+            [arguments.eccentricity_b_um, arguments.eccentricity_b_at_deg],
+        ],
+        phase_teeth: arguments.phase_teeth,
+        parallelism_um: [arguments.parallelism_in_plane_um, arguments.parallelism_out_of_plane_um],
+        marking_um: arguments.marking_um,
+    })
+}

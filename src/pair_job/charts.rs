@@ -1,0 +1,178 @@
+//! Charts of a pair over the angle of gear A: ratio, transmission error, backlash, contact ratio, tight centre distance;
+//! and the waves of the transmission error as bars.
+//!
+//! In: a rolled pair and its findings. Out: charts with the names of their files.
+
+use std::f64::consts::TAU;
+
+use super::double_flank::{DoubleFlank, MASTER_TEETH};
+use super::findings::ARCSEC_PER_RAD;
+use super::rolled::{RolledPair, SIDES};
+use crate::findings::Findings;
+use crate::output::bar_chart::{BarChart, BarSeries};
+use crate::output::line_chart::{LineChart, LineSeries, Panel};
+use gearcut_core::units::UM_PER_MM;
+
+/// Ticks of value axes stand at least so far apart: less is rounding, not a fault.
+const LEAST_ARCSEC: f64 = 0.02;
+const LEAST_UM: f64 = 0.02;
+const LEAST_PERCENT: f64 = 0.002;
+
+/// A chart of curves with the name of its file.
+pub type NamedLines = (&'static str, LineChart);
+
+/// All charts of curves.
+pub fn lines(rolled: &RolledPair) -> Vec<NamedLines> {
+    vec![
+        ("ratio", ratio(rolled)),
+        ("transmission_error", transmission_error(rolled)),
+        ("backlash", backlash(rolled)),
+        ("contact_ratio", contact_ratio(rolled)),
+        ("double_flank", double_flank(rolled)),
+    ]
+}
+
+/// Angle of gear A over the period, deg, at every moment.
+fn angles_deg(rolled: &RolledPair) -> Vec<f64> {
+    rolled.period.moments.iter().map(|moment| moment.pitch.phi_1_rad.to_degrees()).collect()
+}
+
+fn over_angle(title: &str, panels: Vec<Panel>) -> LineChart {
+    LineChart { title: title.to_owned(), x_name: "angle of gear A".to_owned(), x_unit: "°".to_owned(), panels }
+}
+
+fn panel(name: &str, unit: &str, least_division: f64, series: Vec<LineSeries>) -> Panel {
+    Panel { value_name: name.to_owned(), unit: unit.to_owned(), series, limits: Vec::new(), least_division }
+}
+
+fn series(name: &str, at: &[f64], values: impl Iterator<Item = f64>) -> LineSeries {
+    LineSeries { name: name.to_owned(), points: at.iter().copied().zip(values).collect() }
+}
+
+fn ratio(rolled: &RolledPair) -> LineChart {
+    let at = angles_deg(rolled);
+    let asked = series("asked for by the pitch curves", &at, rolled.ratios.iter().map(|ratio| ratio[0]));
+    let achieved = series("achieved by the flanks", &at, rolled.ratios.iter().map(|ratio| ratio[1]));
+    let off = rolled.ratios.iter().map(|[asked, achieved]| 100.0 * (achieved / asked - 1.0));
+    over_angle(
+        "Ratio of the speeds of A and B",
+        vec![
+            panel("ratio", "1", 0.0, vec![achieved, asked]),
+            panel("deviation from the ratio asked for", "%", LEAST_PERCENT, vec![series("deviation", &at, off)]),
+        ],
+    )
+}
+
+fn transmission_error(rolled: &RolledPair) -> LineChart {
+    let at = angles_deg(rolled);
+    let moments = &rolled.period.moments;
+    let of = |part: usize| -> Vec<LineSeries> {
+        let curves = SIDES.iter().zip(&rolled.errors).map(|(side, error)| {
+            let values = [&error.total_rad, &error.long_wave_rad, &error.mesh_rad][part];
+            series(&format!("{} flanks drive", side.name()), &at, values.iter().map(|rad| ARCSEC_PER_RAD * rad))
+        });
+        curves.collect()
+    };
+    let in_um = SIDES.iter().zip(&rolled.errors).map(|(side, error)| {
+        let um = error.total_rad.iter().zip(moments).map(|(rad, at)| UM_PER_MM * rad * at.pitch.radius_mm[1]);
+        series(&format!("{} flanks drive", side.name()), &at, um)
+    });
+    over_angle(
+        "Transmission error of B, positive ahead",
+        vec![
+            panel("total", "″", LEAST_ARCSEC, of(0)),
+            panel("at the pitch point", "µm", LEAST_UM, in_um.collect()),
+            panel("long wave", "″", LEAST_ARCSEC, of(1)),
+            panel("tooth mesh", "″", LEAST_ARCSEC, of(2)),
+        ],
+    )
+}
+
+fn backlash(rolled: &RolledPair) -> LineChart {
+    let at = angles_deg(rolled);
+    let of = |name: &str, of: &dyn Fn(&crate::pair::backlash::Backlash) -> f64| {
+        series(name, &at, rolled.backlash.iter().map(|play| UM_PER_MM * of(play)))
+    };
+    over_angle(
+        "Backlash",
+        vec![
+            panel(
+                "circumferential, at the pitch point",
+                "µm",
+                LEAST_UM,
+                vec![of("j_c", &|play| play.circumferential_mm)],
+            ),
+            panel(
+                "normal to the flanks",
+                "µm",
+                LEAST_UM,
+                vec![
+                    of("right flanks, left ones touching", &|play| play.normal_right_mm),
+                    of("left flanks, right ones touching", &|play| play.normal_left_mm),
+                ],
+            ),
+        ],
+    )
+}
+
+fn contact_ratio(rolled: &RolledPair) -> LineChart {
+    let at = angles_deg(rolled);
+    let path = |side: usize| LineSeries {
+        name: format!("{} flanks", SIDES[side].name()),
+        points: rolled.contact_ratio[side].iter().map(|&(moment, ratio)| (at[moment], ratio)).collect(),
+    };
+    let pairs = |side: usize| {
+        let counts = rolled.pairs[side].iter().map(|&count| f64::from(count));
+        series(&format!("{} flanks", SIDES[side].name()), &at, counts)
+    };
+    over_angle(
+        "Contact ratio",
+        vec![
+            panel("path between the tip curves over the base pitch", "1", 0.01, vec![path(0), path(1)]),
+            panel("pairs within the marking thickness", "1", 1.0, vec![pairs(0), pairs(1)]),
+        ],
+    )
+}
+
+fn double_flank(rolled: &RolledPair) -> LineChart {
+    let curve = |name: String, found: &DoubleFlank| {
+        let mut points: Vec<(f64, f64)> =
+            found.variation_rad_um.iter().map(|[rad, um]| (rad.rem_euclid(TAU).to_degrees(), *um)).collect();
+        points.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        LineSeries { name, points }
+    };
+    let mut panels =
+        vec![panel("A with B, tight less nominal", "µm", LEAST_UM, vec![curve("A with B".to_owned(), &rolled.tight)])];
+    let masters: Vec<LineSeries> = ["A", "B"]
+        .iter()
+        .zip(&rolled.masters)
+        .filter_map(|(gear, found)| Some(curve(format!("gear {gear}"), found.as_ref()?)))
+        .collect();
+    if !masters.is_empty() {
+        let name = format!("with a master of {MASTER_TEETH} teeth, tight less nominal");
+        panels.push(panel(&name, "µm", LEAST_UM, masters));
+    }
+    LineChart { x_name: "angle of the gear".to_owned(), ..over_angle("Double-flank rolling: centre distance", panels) }
+}
+
+/// Waves of the transmission error that have a name.
+pub fn waves(found: &Findings) -> Option<BarChart> {
+    let tables: Vec<_> = SIDES
+        .iter()
+        .map(|side| found.find(&format!("transmission_error.{}", side.name()))?.table_of("waves"))
+        .collect::<Option<_>>()?;
+    let categories = tables[0].rows.iter().map(|row| row[0].name()).collect();
+    let series = SIDES.iter().zip(&tables).map(|(side, table)| BarSeries {
+        name: format!("{} flanks", side.name()),
+        values: table.numbers("amplitude").collect(),
+    });
+    Some(BarChart {
+        title: "Waves of the transmission error".to_owned(),
+        category_name: "wave".to_owned(),
+        categories,
+        value_name: "amplitude".to_owned(),
+        unit: "″".to_owned(),
+        least_division: LEAST_ARCSEC,
+        series: series.collect(),
+    })
+}

@@ -1,0 +1,116 @@
+//! Double-flank rolling: the centre distance without play, against the mate and against masters.
+//!
+//! In: the pair. Out: variations of the centre distance over a turn, with the composite deviations that double-flank
+//! testers report: F_i" over the whole turn, f_i" the largest within one pitch (ISO 1328-2 for round gears; a non-circular
+//! gear is rolled at the distances that its pitch curve asks for, and the deviation from them counts).
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::pair::assembly::Meshing;
+use crate::pair::double_flank::{Master, TightMesh, against_mate};
+use crate::pair::flank_chain::{FlankChain, GearFlanks};
+use crate::pair::pitch_pair::{PairTeeth, PitchPair};
+use crate::pair::rolling::turns_of_period;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape};
+use gearcut_core::units::UM_PER_MM;
+
+/// Places in a pitch: enough to see a pitch's own variation.
+const PLACES_PER_PITCH: u32 = 8;
+/// Most places of a period that are looked at.
+const MOST_PLACES: u32 = 1200;
+/// Teeth of a master: no undercut, and of a size that testers have.
+pub const MASTER_TEETH: u32 = 30;
+
+/// Variation of the centre distance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DoubleFlank {
+    /// Angle of the gear, rad, and tight less nominal centre distance, um.
+    pub variation_rad_um: Vec<[f64; 2]>,
+    places_per_pitch: usize,
+}
+
+impl DoubleFlank {
+    fn new(variation_rad_um: Vec<[f64; 2]>, pitches: u32) -> Self {
+        let places_per_pitch = (variation_rad_um.len() / pitches as usize).max(1);
+        Self { variation_rad_um, places_per_pitch }
+    }
+
+    /// Largest less smallest value, um.
+    pub fn total_um(&self) -> f64 {
+        range_um(self.variation_rad_um.iter())
+    }
+
+    /// The largest variation within one pitch, um.
+    pub fn in_a_pitch_um(&self) -> f64 {
+        let n = self.variation_rad_um.len();
+        let from =
+            |first: usize| range_um((0..=self.places_per_pitch).map(|k| &self.variation_rad_um[(first + k) % n]));
+        (0..n).map(from).fold(0.0, f64::max)
+    }
+
+    /// The mean, um: how far teeth that are thinner than nominal let the axes come together.
+    pub fn mean_um(&self) -> f64 {
+        self.variation_rad_um.iter().map(|[_, um]| um).sum::<f64>() / self.variation_rad_um.len() as f64
+    }
+}
+
+fn range_um<'a>(values: impl Iterator<Item = &'a [f64; 2]>) -> f64 {
+    let (low, high) =
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), [_, um]| (low.min(*um), high.max(*um)));
+    high - low
+}
+
+/// Both gears in tight mesh over their period, or over its first 1,200 places where it has more.
+///
+/// # Errors
+/// No tight distance near the nominal one.
+pub fn with_mate(meshing: &Meshing) -> Result<DoubleFlank, Refusal> {
+    let pitch = &meshing.pitch;
+    let teeth = turns_of_period(pitch.teeth().count) * pitch.teeth().count[0];
+    let pitches = teeth.min(MOST_PLACES / PLACES_PER_PITCH);
+    let curve = pitch.curve();
+    around(pitches, |share| {
+        let phi_rad = curve.phi_at_arc(share * f64::from(pitches) * pitch.pitch_mm());
+        Ok((phi_rad, against_mate(meshing, phi_rad)?))
+    })
+}
+
+/// A gear against a round master of 30 teeth, work angles even along its pitch curve; flanks by tooth, in the gear's own
+/// frame. None on a ring, into which a master of this size may not go.
+///
+/// # Errors
+/// No tight distance near the nominal one.
+pub fn with_master(
+    curve: &PitchCurve,
+    flanks: &GearFlanks<FlankChain>,
+    kind: GearKind,
+    teeth: &PairTeeth,
+    addendum_mm: f64,
+) -> Result<Option<DoubleFlank>, Refusal> {
+    if kind == GearKind::Internal {
+        return Ok(None);
+    }
+    let round = Arc::new(PitchCurve::new(&PitchCurveShape::Circle, teeth.module_mm, MASTER_TEETH)?);
+    let masters = PairTeeth { count: [MASTER_TEETH; 2], driven: GearKind::External, ..*teeth };
+    let master = Master::new(&PitchPair::closing(round, masters)?, addendum_mm)?;
+    let count = flanks.right.len() as u32;
+    let found = around(count, |share| {
+        let phi_rad = curve.phi_at_arc(share * curve.perimeter_mm());
+        Ok((phi_rad, master.against(curve, flanks, teeth.module_mm, phi_rad)?))
+    });
+    found.map(Some)
+}
+
+fn around(pitches: u32, at: impl Fn(f64) -> Result<(f64, TightMesh), Refusal> + Sync) -> Result<DoubleFlank, Refusal> {
+    let places = pitches * PLACES_PER_PITCH;
+    let one = |i: u32| {
+        let (phi_rad, tight) = at(f64::from(i) / f64::from(places))?;
+        Ok([phi_rad.rem_euclid(TAU), UM_PER_MM * tight.distance_error_mm])
+    };
+    let variation = (0..places).into_par_iter().map(one).collect::<Result<_, Refusal>>()?;
+    Ok(DoubleFlank::new(variation, pitches))
+}

@@ -1,0 +1,223 @@
+//! The flanks of both gears as they are rolled: cut or nominal, in the frames and under the labels of the pair.
+//!
+//! In: two gears that belong together. Out: [`PairFlanks`]: chains for the contact search, arcs along the profiles, and
+//! the outlines of spaces for the corners.
+//!
+//! Cut flanks go on into the root. On the driven gear they end where the root turns along the pitch curve: there the
+//! distance from the axis no longer tells places apart, and what comes so deep is found as a corner in the outline.
+//! Nominal flanks are the conjugate ones of the straight-sided rack; they have no root.
+
+use crate::backend::{BackendWish, OnFailure, choose};
+use crate::job::rows_z_mm;
+use crate::pair::assembly::{Meshing, Mounting, SectionFlanks};
+use crate::pair::flank_chain::{FlankChain, GearFlanks, nominal_section};
+use crate::pair::penetration::SpaceOutline;
+use crate::pair::pitch_pair::Member;
+use crate::scene::Scene;
+use crate::scene::model::Gear;
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::terms::{Hand, Side};
+
+use super::fit::Fit;
+use super::outline::{self, CutSections, Profile};
+
+/// Least change of the distance from the axis along a driven root, as a share of its arc: with less it may turn back
+/// when the gear is mounted off its axis.
+const LEAST_CLIMB: f64 = 0.05;
+
+/// Which flanks are rolled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FlankSource {
+    /// Cut ones: nominal points and the heights that are left on them.
+    Cut,
+    /// Conjugate flanks without feed marks, roots and errors of cutting.
+    Nominal,
+}
+
+/// Flanks of one gear in one section.
+#[derive(Debug, Clone)]
+pub struct SectionOfGear {
+    /// Chains to roll, by the labels of the pair.
+    pub chains: GearFlanks<FlankChain>,
+    /// Arc from the form point at every point of the chains, mm; empty on nominal flanks.
+    pub u_mm: GearFlanks<Vec<f64>>,
+    /// Spaces by label: that which the right flank of a label bounds; none on nominal flanks.
+    pub spaces: Vec<SpaceOutline>,
+    /// Whether the right flank of a label is the first one of its space, seen counter-clockwise: on a ring.
+    pub right_is_first: bool,
+    /// Points of the root that the outlines of spaces have and the chains leave out.
+    left_out: GearFlanks<usize>,
+}
+
+impl SectionOfGear {
+    /// Arc from the form point, mm, at a place along a flank of an outline; the chain's lower end where it begins later.
+    pub fn outline_u(&self, side: Side, label: i64, place: f64) -> f64 {
+        arc_at(self.u_mm.get(side, label), place - *self.left_out.get(side, label) as f64)
+    }
+
+    /// Arc from the form point, mm, at a place along a chain; NaN on nominal flanks.
+    pub fn chain_u(&self, side: Side, label: i64, place: f64) -> f64 {
+        arc_at(self.u_mm.get(side, label), place)
+    }
+}
+
+fn arc_at(u_mm: &[f64], place: f64) -> f64 {
+    let Some(last) = u_mm.len().checked_sub(1) else { return f64::NAN };
+    let place = place.clamp(0.0, last as f64);
+    let i = (place as usize).min(last - 1);
+    u_mm[i] + (place - i as f64) * (u_mm[i + 1] - u_mm[i])
+}
+
+/// Both gears in all sections.
+#[derive(Debug, Clone)]
+pub struct PairFlanks {
+    /// Places along the face, mm.
+    pub rows_mm: Vec<f64>,
+    /// Driver and driven gear in every section.
+    pub sections: Vec<[SectionOfGear; 2]>,
+}
+
+impl PairFlanks {
+    /// Flanks of the gears of two scenes in `count` sections: one in the middle of the common face, or evenly over it.
+    ///
+    /// # Errors
+    /// Gears that cannot be cut; flanks that the teeth do not reach.
+    pub fn new(fit: &Fit, scenes: [&Scene; 2], source: FlankSource, count: usize) -> Result<Self> {
+        let face_mm = scenes[0].gear.face_width_mm.min(scenes[1].gear.face_width_mm);
+        let rows_mm = if count == 1 { vec![0.0] } else { rows_z_mm(face_mm, face_mm / (count as f64 - 1.0)) };
+        let sections = match source {
+            FlankSource::Cut => {
+                let backend = choose(BackendWish::Cpu, OnFailure::default())?.backend;
+                let cut = |scene| outline::cut(scene, backend.as_ref(), &rows_mm);
+                let (a, b): (CutSections, CutSections) = (cut(scenes[0])?, cut(scenes[1])?);
+                a.iter().zip(&b).map(|(a, b)| [driver(a), driven(fit, b)]).collect()
+            }
+            FlankSource::Nominal => {
+                let section = |z_mm: &f64| -> Result<_> {
+                    let shift_mm = shift_mm(&scenes[0].gear, *z_mm);
+                    let gear = |member| nominal(fit, scenes, member, shift_mm);
+                    Ok([gear(Member::Driver)?, gear(Member::Driven)?])
+                };
+                rows_mm.iter().map(section).collect::<Result<_>>()?
+            }
+        };
+        Ok(Self { rows_mm, sections })
+    }
+
+    /// The gears in the machine.
+    ///
+    /// # Errors
+    /// Flanks of the driven gear that cannot be rolled.
+    pub fn meshing(&self, fit: &Fit, driver: &Gear, mounting: &Mounting) -> Result<Meshing, Refusal> {
+        let section = |(z_mm, [a, b]): (&f64, &[SectionOfGear; 2])| {
+            (*z_mm, shift_mm(driver, *z_mm), a.chains.clone(), b.chains.clone())
+        };
+        let owned: Vec<_> = self.rows_mm.iter().zip(&self.sections).map(section).collect();
+        let sections: Vec<SectionFlanks> = owned
+            .iter()
+            .map(|(z_mm, shift_mm, driver, driven)| SectionFlanks { z_mm: *z_mm, shift_mm: *shift_mm, driver, driven })
+            .collect();
+        Meshing::of_sections(fit.pitch.clone(), &sections, mounting)
+    }
+
+    /// Memory of all points, bytes: what grows with teeth, spacing and sections.
+    pub fn bytes(&self) -> usize {
+        let of = |section: &SectionOfGear| {
+            let points = |flanks: &[FlankChain]| flanks.iter().map(|chain| chain.points_mm.len()).sum::<usize>();
+            // Points for the chains and for the outlines of spaces, and an arc for each.
+            (points(&section.chains.right) + points(&section.chains.left))
+                * (2 * size_of::<glam::DVec2>() + size_of::<f64>())
+        };
+        self.sections.iter().flatten().map(of).sum()
+    }
+}
+
+/// How far the teeth of a helical driver stand along its pitch curve in a section, mm.
+fn shift_mm(gear: &Gear, z_mm: f64) -> f64 {
+    let hand = if gear.hand == Hand::Left { -1.0 } else { 1.0 };
+    hand * gear.helix_angle_rad.tan() * z_mm
+}
+
+fn driver(flanks: &GearFlanks<Profile>) -> SectionOfGear {
+    let teeth = flanks.right.len() as i64;
+    let space = |label: i64| {
+        // The space before a tooth lies between the left flank of the one before and its own right one.
+        let [left, right] = [(Side::Left, label - 1), (Side::Right, label)];
+        let chain = |(side, label)| FlankChain::straight(flanks.get(side, label).points_mm.clone());
+        SpaceOutline::new(&chain(left), &chain(right), 1.0)
+    };
+    SectionOfGear {
+        chains: flanks.each(|profile| FlankChain::straight(profile.points_mm.clone())),
+        u_mm: flanks.each(|profile| profile.u_mm.clone()),
+        spaces: (0..teeth).map(space).collect(),
+        right_is_first: false,
+        left_out: flanks.each(|_| 0),
+    }
+}
+
+fn driven(fit: &Fit, flanks: &GearFlanks<Profile>) -> SectionOfGear {
+    let teeth = flanks.right.len() as u32;
+    let tip_sign = fit.pitch.sign();
+    let in_pair = |profile: &Profile| -> Vec<_> { profile.points_mm.iter().map(|p| fit.in_pair(*p)).collect() };
+    let own = |side: Side, label: i64| {
+        let (side, tooth) = fit.mate_flank(side, label);
+        flanks.get(side, tooth)
+    };
+    let rolled = |side: Side, label: i64| {
+        let profile = own(side, label);
+        let first = climbing_from(profile);
+        (FlankChain::straight(in_pair(profile).split_off(first)), profile.u_mm[first..].to_vec(), first)
+    };
+    let all = |side: Side| (0..i64::from(teeth)).map(move |label| (side, label));
+    let of = |side: Side| all(side).map(|(side, label)| rolled(side, label)).collect::<Vec<_>>();
+    let rolled = GearFlanks { right: of(Side::Right), left: of(Side::Left) };
+    let space = |label: i64| {
+        let (side, tooth) = fit.mate_flank(Side::Right, label);
+        // Seen from the driven gear: the flank at the smaller angle of the space is the left one of the tooth before.
+        let (left, right) = if side == Side::Right { (tooth - 1, tooth) } else { (tooth, tooth + 1) };
+        let chain = |side, tooth| FlankChain::straight(in_pair(flanks.get(side, tooth)));
+        SpaceOutline::new(&chain(Side::Left, left), &chain(Side::Right, right), tip_sign)
+    };
+    SectionOfGear {
+        chains: rolled.each(|(chain, ..)| chain.clone()),
+        u_mm: rolled.each(|(_, u_mm, _)| u_mm.clone()),
+        spaces: (0..i64::from(teeth)).map(space).collect(),
+        right_is_first: tip_sign < 0.0,
+        left_out: rolled.each(|(.., first)| *first),
+    }
+}
+
+/// First point from which the distance from the axis changes steadily up to the tip.
+fn climbing_from(profile: &Profile) -> usize {
+    let points = &profile.points_mm;
+    let last = points.len() - 1;
+    let outwards = (points[last].length() - points[0].length()).signum();
+    let climbs = |i: usize| {
+        let arc_mm = points[i + 1].distance(points[i]);
+        outwards * (points[i + 1].length() - points[i].length()) > LEAST_CLIMB * arc_mm
+    };
+    // Down to the form point the flank stands as it was cut; what turns back there is refused where it is rolled.
+    let form = profile.u_mm.iter().position(|u| *u >= 0.0).unwrap_or(0);
+    (0..form).rev().find(|&i| !climbs(i)).map_or(0, |i| i + 1)
+}
+
+fn nominal(fit: &Fit, scenes: [&Scene; 2], member: Member, shift_mm: f64) -> Result<SectionOfGear> {
+    let gear = match member {
+        Member::Driver => &scenes[0].gear,
+        Member::Driven => &scenes[1].gear,
+    };
+    let extra_mm = 0.5 * gear.tooth_thickness_allowance_mm * fit.pitch.teeth().pressure_angle_rad.cos();
+    let chains = nominal_section(&fit.pitch, member, addendum_mm(scenes), shift_mm, |_, _| extra_mm)?;
+    Ok(SectionOfGear {
+        u_mm: chains.each(|_| Vec::new()),
+        left_out: chains.each(|_| 0),
+        chains,
+        spaces: Vec::new(),
+        right_is_first: false,
+    })
+}
+
+/// Heights of both gears' tips over their pitch curves, mm.
+pub fn addendum_mm(scenes: [&Scene; 2]) -> [f64; 2] {
+    scenes.map(|scene| scene.gear.addendum_coefficient * scene.gear.module_mm)
+}

@@ -1,0 +1,39 @@
+//! `gearcut pair`: two gears of scenes or results rolled on each other, and what is written about it.
+//!
+//! In: two scenes, errors of mounting. Out: findings, tables, charts, contact patterns, an animation and a page. The
+//! mechanics stand in [`crate::pair`].
+//!
+//! | module | what |
+//! | --- | --- |
+//! | [`member`] | a gear as it is named: a scene, a folder of results, the mate of the other |
+//! | [`fit`] | whether two gears belong together, and which of their teeth meet |
+//! | [`outline`] | flanks and roots as cut, in transverse sections |
+//! | [`flanks`] | the flanks of both gears as they are rolled |
+//! | [`options`] | what a pair is rolled with: positions, sections, errors of mounting |
+//! | [`rolled`] | everything that is found out about the pair |
+//! | [`teeth`] | contact tooth by tooth, edges and fillets that carry |
+//! | [`corners`] | tip corners in the mate's material |
+//! | [`double_flank`] | the centre distance without play, against the mate and against masters |
+//! | [`findings`] | the tree of findings |
+//! | [`charts`], [`pictures`], [`page`] | what is drawn |
+//! | [`write`] | the files |
+//!
+//! A pair is two scenes and options of a command, not a scene of its own: each gear stays one file that `cut`, `check`
+//! and `mate` read as well, and what is tried again and again with the same gears is how they are mounted.
+
+pub mod charts;
+pub mod corners;
+pub mod double_flank;
+pub mod findings;
+pub mod fit;
+pub mod flanks;
+pub mod member;
+pub mod options;
+pub mod outline;
+pub mod page;
+pub mod pictures;
+pub mod rolled;
+pub mod teeth;
+#[cfg(test)]
+mod tests;
+pub mod write;

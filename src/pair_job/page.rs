@@ -1,0 +1,199 @@
+//! The page of a pair: `report.html`.
+//!
+//! In: a rolled pair with its findings and charts. Out: one page: key numbers, the ratio that the pair is for, transmission
+//! error with its waves, backlash, contact with its patterns, interference, double-flank rolling, centre distance.
+
+use super::charts::{self, NamedLines};
+use super::options::PairOptions;
+use super::rolled::RolledPair;
+use super::teeth::ToothContact;
+use crate::findings::{Entry, Findings, Place, Quantity, Section, unit};
+use crate::output::range_chart::{RangeChart, RangeSeries};
+use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
+use crate::output::text::{plain, significant};
+use crate::scene::Scene;
+use crate::steps::report::facts::gear_words;
+
+/// Pictures as they stand on the page: what is shown, and the PNG.
+pub struct PagePictures {
+    /// Contact patterns, one for each gear that has one.
+    pub patterns: Vec<(String, Vec<u8>)>,
+    /// The gears rolling.
+    pub animation: Vec<u8>,
+}
+
+/// The page.
+pub fn page(
+    scenes: [&Scene; 2],
+    options: &PairOptions,
+    rolled: &RolledPair,
+    found: &Findings,
+    lines: &[NamedLines],
+    pictures: PagePictures,
+) -> Page {
+    let chart = |name: &str| {
+        let found = lines.iter().find(|(own, _)| *own == name);
+        found.map(|(_, chart)| Block::Lines(chart.clone()))
+    };
+    let section = |id: &'static str, title: &str, lead: &str, blocks: Vec<Block>| PageSection {
+        id,
+        title: title.to_owned(),
+        lead: lead.to_owned(),
+        blocks,
+    };
+    let table = |path: &str| found.find(path).map(|section| Block::Table(quantities(section)));
+    let part = |blocks: Vec<Option<Block>>| blocks.into_iter().flatten().collect::<Vec<_>>();
+    let rolling =
+        Block::Picture("The gears in mesh, first pitches; contacts are marked".to_owned(), pictures.animation);
+    let patterns = pictures.patterns.into_iter().map(|(words, png)| Some(Block::Picture(words, png)));
+    let mut contact = part(vec![chart("contact_ratio"), Some(Block::Ranges(by_tooth(rolled)))]);
+    contact.extend(patterns.flatten());
+    contact.extend(part(vec![table("contact.right"), table("contact.left")]));
+    let sections = vec![
+        section(
+            "ratio",
+            "Ratio",
+            "What the pair is for: the ratio of the speeds that the pitch curves ask for, and the one that the flanks \
+            achieve.",
+            part(vec![chart("ratio"), table("ratio"), Some(rolling)]),
+        ),
+        section(
+            "transmission-error",
+            "Transmission error",
+            "Rotation of B less the one asked for, without load. Long waves are longer than two teeth; the rest comes with \
+            the teeth.",
+            part(vec![
+                chart("transmission_error"),
+                charts::waves(found).map(Block::Bars),
+                table("transmission_error.right"),
+                table("transmission_error.left"),
+            ]),
+        ),
+        section(
+            "backlash",
+            "Backlash",
+            "What B can turn while A is held, at the pitch point across the line of centres and normal to the flanks. Below \
+            zero the pair jams.",
+            part(vec![chart("backlash"), table("backlash")]),
+        ),
+        section(
+            "contact",
+            "Contact",
+            "Where flanks come nearer to each other than the marking compound is thick. Heights count from the pitch curve, \
+            u from the form point.",
+            contact,
+        ),
+        section(
+            "interference",
+            "Interference",
+            "How deep tip corners stand in the mate where the pitch curves want them; below zero they stay clear.",
+            part(vec![table("interference")]),
+        ),
+        section(
+            "double-flank",
+            "Double-flank rolling",
+            "The centre distance at which both flanks touch, less the nominal one.",
+            part(vec![
+                chart("double_flank"),
+                table("double_flank.mate"),
+                table("double_flank.master_A"),
+                table("double_flank.master_B"),
+            ]),
+        ),
+        section(
+            "center-distance",
+            "Centre distance",
+            "What 10 µm more do. Round gears turn as evenly at any distance; non-circular ones do not.",
+            part(vec![table("center_distance"), table("pair")]),
+        ),
+    ];
+    let gears = scenes.iter().zip(["A drives", "B is driven"]);
+    Page {
+        what: "rolling report",
+        title: found.scene.clone(),
+        subtitle: format!(
+            "{} flanks, {} positions in a period; axes {} mm apart",
+            found.find("pair").map_or("", |pair| pair.words("flanks")),
+            rolled.period.moments.len(),
+            plain(rolled.fit.pitch.center_distance_mm() + rolled.meshing.center_distance_error_mm()),
+        ),
+        operations: gears.map(|(scene, role)| format!("{role}: {}. {}", scene.name, gear_words(&scene.gear))).collect(),
+        complete: true,
+        done: "rolled over a whole period",
+        program: format!("gearcut {}", found.program_version),
+        key_numbers: found.headline.iter().map(key_number).collect(),
+        warnings: found.all_warnings().iter().map(|text| unit::sentence_with_signs(text)).collect(),
+        viewer: None,
+        sections: sections.into_iter().map(|section| with_marking(section, options)).collect(),
+    }
+}
+
+/// The lead of the section on contact names the marking.
+fn with_marking(mut section: PageSection, options: &PairOptions) -> PageSection {
+    if section.id == "contact" {
+        section.lead = format!("{} Marking: {} µm.", section.lead, plain(options.marking_um));
+    }
+    section
+}
+
+/// The quantities of a section as a table.
+fn quantities(section: &Section) -> PageTable {
+    let rows = section.entries.iter().map(|entry| {
+        let (value, unit) = value_and_unit(&entry.quantity);
+        let what = entry.quantity.why().unwrap_or(entry.quantity.definition());
+        vec![entry.heading(), format!("{value} {unit}").trim().to_owned(), place(&entry.quantity), what.to_owned()]
+    });
+    PageTable {
+        caption: section.title.clone(),
+        columns: ["", "Value", "At", "What it is"].map(str::to_owned).into(),
+        rows: rows.collect(),
+    }
+}
+
+/// A number of the headline.
+fn key_number(entry: &Entry) -> KeyNumber {
+    let (value, unit) = value_and_unit(&entry.quantity);
+    KeyNumber {
+        name: entry.heading(),
+        value,
+        unit,
+        definition: entry.quantity.definition().to_owned(),
+        note: entry.quantity.why().map_or_else(|| place(&entry.quantity), str::to_owned),
+        place: None,
+    }
+}
+
+/// Number or words, and the unit in the signs of a page: ratios stay ratios, and signs stay with deviations.
+fn value_and_unit(quantity: &Quantity) -> (String, String) {
+    let value = match (quantity.value(), quantity.words()) {
+        (Some(count), _) if quantity.is_count() => plain(count),
+        (Some(value), _) => significant(value, 4).replace('-', "−"),
+        (None, words) => words.unwrap_or("–").to_owned(),
+    };
+    (value, quantity.unit().map_or_else(String::new, |unit| unit::signs(unit).replace("arcsec", "″")))
+}
+
+fn place(quantity: &Quantity) -> String {
+    quantity.place().map_or_else(String::new, Place::words_with_signs)
+}
+
+/// Where contact begins and ends on the teeth of A.
+fn by_tooth(rolled: &RolledPair) -> RangeChart {
+    let teeth = rolled.fit.pitch.teeth().count[0];
+    let series = |name: &str, found: &[ToothContact]| RangeSeries {
+        name: name.to_owned(),
+        values: (1..=i64::from(teeth))
+            .map(|tooth| {
+                let [low, high] = found.iter().find(|contact| contact.tooth == tooth)?.heights_mm[0];
+                Some([low, 0.5 * (low + high), high])
+            })
+            .collect(),
+    };
+    RangeChart {
+        title: "Where contact begins and ends on A: height over the pitch curve".to_owned(),
+        category_name: "tooth of A".to_owned(),
+        categories: (1..=teeth).map(|tooth| tooth.to_string()).collect(),
+        unit: "mm".to_owned(),
+        series: vec![series("right flanks", &rolled.teeth[0]), series("left flanks", &rolled.teeth[1])],
+    }
+}

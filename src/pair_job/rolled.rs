@@ -1,0 +1,204 @@
+//! A pair rolled over its period, with everything that is found out about it.
+//!
+//! In: two scenes and options. Out: [`RolledPair`]: the moments, and from them transmission error, play, ratio, contact
+//! and interference; the same gears in tight mesh; and what ten micrometres of centre distance do.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::corners::{self, DeepestCorner};
+use super::double_flank::{self, DoubleFlank};
+use super::fit::Fit;
+use super::flanks::{PairFlanks, addendum_mm};
+use super::options::PairOptions;
+use super::teeth::{self, EdgeContact, ToothContact};
+use crate::pair::assembly::{Meshing, Moment};
+use crate::pair::backlash::Backlash;
+use crate::pair::contact_ratio::path_of_contact;
+use crate::pair::flank_chain::GearFlanks;
+use crate::pair::pattern::{SectionGaps, smallest_gaps};
+use crate::pair::pitch_pair::Member;
+use crate::pair::rolling::{RolledPeriod, TransmissionError, enough, roll};
+use crate::scene::Scene;
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
+
+/// Change of the centre distance whose effect is told, um.
+pub const PROBE_UM: f64 = 10.0;
+/// Places in a pitch at which the path of contact between the tip curves is computed.
+const PATHS_PER_PITCH: usize = 4;
+/// Places in a pitch at which the effect of the centre distance is looked at.
+const PROBES_PER_PITCH: usize = 4;
+/// Gaps are noted up to this many marking thicknesses.
+const GAPS_REACH: f64 = 3.0;
+
+/// Both sides, the driving flanks first.
+pub const SIDES: [Side; 2] = [Side::Right, Side::Left];
+
+/// What ten micrometres more centre distance change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sensitivity {
+    /// Largest change of the transmission error of the driving flanks, arcsec.
+    pub error_arcsec: f64,
+    /// Its change from peak to peak, arcsec: what a mean cannot take off.
+    pub error_range_arcsec: f64,
+    /// Smallest and largest change of the play, circumferential, um.
+    pub backlash_um: [f64; 2],
+}
+
+/// A pair and what was found.
+#[derive(Debug)]
+pub struct RolledPair {
+    /// How the gears belong together.
+    pub fit: Fit,
+    /// Common width of the face, mm.
+    pub face_mm: f64,
+    /// What is rolled.
+    pub flanks: PairFlanks,
+    /// In the machine.
+    pub meshing: Meshing,
+    /// Every moment.
+    pub period: RolledPeriod,
+    /// Transmission error of both sides.
+    pub errors: [TransmissionError; 2],
+    /// Play at every moment.
+    pub backlash: Vec<Backlash>,
+    /// Ratio asked for and achieved at every moment.
+    pub ratios: Vec<[f64; 2]>,
+    /// Contact ratio of both sides between the tip curves: number of the moment, and its ratio.
+    pub contact_ratio: [Vec<(usize, f64)>; 2],
+    /// Pairs within the marking thickness at every moment, of both sides.
+    pub pairs: [Vec<u32>; 2],
+    /// Contact by tooth, of both sides.
+    pub teeth: [Vec<ToothContact>; 2],
+    /// The edge contact that lifts most, and the share of moments at which one carries.
+    pub edges: [(Option<EdgeContact>, f64); 2],
+    /// Smallest gaps on all flanks.
+    pub gaps: Vec<SectionGaps>,
+    /// Deepest corner in A and in B.
+    pub corners: [Option<DeepestCorner>; 2],
+    /// In tight mesh with each other.
+    pub tight: DoubleFlank,
+    /// A and B against a master; none for a ring.
+    pub masters: [Option<DoubleFlank>; 2],
+    /// What the centre distance does.
+    pub sensitivity: Sensitivity,
+}
+
+impl RolledPair {
+    /// Tooth of gear A, from 1, of an unwrapped label.
+    pub fn tooth_of_a(&self, label: i64) -> u64 {
+        ((label - 1).rem_euclid(i64::from(self.fit.pitch.teeth().count[0])) + 1) as u64
+    }
+}
+
+/// Makes two scenes ready, cuts what is needed and rolls them.
+///
+/// # Errors
+/// Gears that do not belong together, cannot be cut or do not reach each other; too few positions.
+pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions) -> Result<RolledPair> {
+    let gears = [&scenes[0].gear, &scenes[1].gear];
+    let fit = Fit::new(scenes[0], scenes[1], options.phase_teeth)?;
+    let mounting = options.mounting(&fit, gears)?;
+    let positions = options.positions(fit.pitch.teeth().count);
+    enough(fit.pitch.teeth().count, positions)?;
+    let flanks = PairFlanks::new(&fit, scenes, options.source, options.sections(gears)?)?;
+    let meshing = flanks.meshing(&fit, gears[0], &mounting)?;
+    let period = roll(&meshing, positions)?;
+    let moments = &period.moments;
+    let of_sides =
+        |of: &dyn Fn(Side) -> Result<Vec<ToothContact>, Refusal>| -> Result<[Vec<ToothContact>; 2], Refusal> {
+            let [right, left] = SIDES.map(of);
+            Ok([right?, left?])
+        };
+    let marking_um = options.marking_um;
+    let teeth = of_sides(&|side| teeth::teeth(&fit, &flanks, &meshing, moments, side, marking_um))?;
+    let [right, left] = SIDES.map(|side| contact_ratios(&fit, scenes, &period, side));
+    let tight = double_flank::with_mate(&meshing)?;
+    let [master_a, master_b] = [Member::Driver, Member::Driven].map(|member| master(&fit, &flanks, scenes, member));
+    Ok(RolledPair {
+        errors: SIDES.map(|side| period.transmission_error(side)),
+        backlash: moments.iter().map(|moment| Backlash::of(&fit.pitch, moment)).collect(),
+        ratios: period.ratios(),
+        contact_ratio: [right?, left?],
+        pairs: SIDES.map(|side| {
+            moments.iter().map(|moment| teeth::pairs_in_contact(&meshing, moment, side, marking_um)).collect()
+        }),
+        teeth,
+        edges: SIDES.map(|side| teeth::edges(&flanks, &meshing, moments, side)),
+        gaps: smallest_gaps(&meshing, moments, GAPS_REACH * marking_um),
+        corners: [Member::Driver, Member::Driven].map(|member| corners::deepest(&flanks, &meshing, moments, member)),
+        tight,
+        masters: [master_a?, master_b?],
+        sensitivity: sensitivity(&meshing, &period)?,
+        face_mm: gears[0].face_width_mm.min(gears[1].face_width_mm),
+        fit,
+        flanks,
+        meshing,
+        period,
+    })
+}
+
+/// Contact ratio of a side at some moments of the period.
+fn contact_ratios(
+    fit: &Fit,
+    scenes: [&Scene; 2],
+    period: &RolledPeriod,
+    side: Side,
+) -> Result<Vec<(usize, f64)>, Refusal> {
+    let addendum_mm = addendum_mm(scenes);
+    let step = stride(period, PATHS_PER_PITCH);
+    let at = |index: usize| {
+        let path = path_of_contact(&fit.pitch, &period.moments[index].pitch, side, addendum_mm)?;
+        Ok((index, path.contact_ratio(&fit.pitch)))
+    };
+    (0..period.moments.len()).into_par_iter().step_by(step).map(at).collect()
+}
+
+/// Every so many moments of a period, for about `per_pitch` in each pitch.
+fn stride(period: &RolledPeriod, per_pitch: usize) -> usize {
+    let pitches = (period.turns * period.teeth) as usize;
+    (period.moments.len() / (per_pitch * pitches)).max(1)
+}
+
+fn master(fit: &Fit, flanks: &PairFlanks, scenes: [&Scene; 2], member: Member) -> Result<Option<DoubleFlank>, Refusal> {
+    let middle = &flanks.sections[flanks.sections.len() / 2];
+    let at = usize::from(member == Member::Driven);
+    let gear = &scenes[at].gear;
+    let chains = &middle[at].chains;
+    let own = match member {
+        Member::Driver => chains.clone(),
+        Member::Driven => GearFlanks::build(gear.teeth, |side, tooth| {
+            let (side, label) = fit.label_of(side, tooth);
+            Ok::<_, Refusal>(chains.get(side, label).turned(-fit.turn_rad))
+        })?,
+    };
+    let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
+    let mate = &scenes[1 - at].gear;
+    double_flank::with_master(&curve, &own, gear.kind, fit.pitch.teeth(), mate.addendum_coefficient * mate.module_mm)
+}
+
+/// What a larger centre distance changes at some moments of the period.
+fn sensitivity(meshing: &Meshing, period: &RolledPeriod) -> Result<Sensitivity, Refusal> {
+    let change = |moment: &Moment| {
+        let [right, left] = SIDES.map(|side| meshing.side(&moment.pitch, side, PROBE_UM / UM_PER_MM));
+        let error_rad = right?.error_rad - moment.right.error_rad;
+        let play_rad = left?.error_rad - moment.left.error_rad - error_rad;
+        Ok([error_rad.to_degrees() * 3600.0, play_rad * moment.pitch.radius_mm[1] * UM_PER_MM])
+    };
+    let step = stride(period, PROBES_PER_PITCH);
+    let changes: Vec<[f64; 2]> = period.moments.par_iter().step_by(step).map(change).collect::<Result<_, Refusal>>()?;
+    let ends = |of: usize| {
+        let values = changes.iter().map(|change| change[of]);
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [value.min(low), value.max(high)])
+    };
+    let [low, high] = ends(0);
+    Ok(Sensitivity {
+        error_arcsec: if high.abs() > low.abs() { high } else { low },
+        error_range_arcsec: high - low,
+        backlash_um: ends(1),
+    })
+}

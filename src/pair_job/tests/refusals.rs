@@ -1,0 +1,68 @@
+//! Gears that do not belong together are refused, with what differs and by how much.
+
+use super::*;
+use crate::pair_job::fit::Fit;
+use crate::pair_job::member;
+use crate::pair_job::options::PairOptions;
+use crate::scene::Mate;
+use gearcut_core::gear::GearKind;
+
+const RING: &str = "kind = \"internal\"\nrim_mm = 10.0\n";
+
+#[track_caller]
+fn refused(a: &LoadedScene, b: &LoadedScene, phase: i64, says: &[&str]) {
+    let refusal = Fit::new(&a.scene, &b.scene, phase).err().expect("they do not belong together");
+    let text = refusal.to_string();
+    assert!(says.iter().all(|words| text.contains(words)), "{text} does not say {says:?}");
+}
+
+#[test]
+fn what_does_not_mesh_is_told_with_numbers() {
+    let a = round("a", 24, "", "");
+    let other = process::parse(
+        "[gear]\nmodule_mm = 2.5\nteeth = 24\n[tool.shaper_cutter]\nteeth = 20\n",
+        "other.toml",
+        Path::new(""),
+        &[],
+    )
+    .expect("a scene");
+    refused(&a, &other, 0, &["3 mm", "2.5 mm", "differ by 1.5708 mm"]);
+    refused(&round("ring", 60, RING, ""), &a, 0, &["gear A is a ring of 60", "external gear first"]);
+    refused(&round("ring", 60, RING, ""), &round("ring", 61, RING, ""), 0, &["both gears are rings"]);
+    // A round gear beside a third-order one: the mate's radii and its own.
+    let third = third_order(20, 420, 0.0);
+    refused(&third, &round("round", 42, "", ""), 0, &["52.8", "69.3", "63.000", "0.300 mm are allowed", "--mate"]);
+    // The mate for outside, used as a ring. (Of ellipses both have one shape: another curve.)
+    let pascal = parsed(
+        "pascal",
+        "[gear]\nmodule_mm = 3.0\nteeth = 42\n[gear.pitch_curve.pascal]\norder = 3\neccentricity = 0.08\n\
+         [tool.shaper_cutter]\nteeth = 20\n",
+    );
+    let ring = member::mate(&pascal, Mate { teeth: 84, kind: GearKind::Internal }, &[]).expect("a ring");
+    Fit::new(&pascal.scene, &ring.scene, 0).expect("a ring fits");
+    let mut wrong = member::mate(&pascal, Mate { teeth: 84, kind: GearKind::External }, &[]).expect("a mate");
+    wrong.scene.gear.kind = GearKind::Internal;
+    refused(&pascal, &wrong, 0, &["internal mate of 84 teeth", "do not close together"]);
+}
+
+#[test]
+fn gear_b_may_be_turned_on_by_whole_repeats_only() {
+    let a = third_order(20, 420, 0.0);
+    let b = member::mate(&a, Mate { teeth: 42, kind: GearKind::External }, &[]).expect("a mate");
+    let fit = Fit::new(&a.scene, &b.scene, 14).expect("a third of a turn repeats the curve");
+    assert!(fit.misfit_mm < 1e-6, "{}", fit.misfit_mm);
+    refused(&a, &b, 1, &["turned on by 1 teeth", "mm away"]);
+}
+
+#[test]
+fn a_centre_distance_a_millimetre_off_is_refused() {
+    let (a, b) = (round("a", 24, "", ""), round("b", 36, "", ""));
+    let fit = Fit::new(&a.scene, &b.scene, 0).expect("they belong together");
+    let gears = [&a.scene.gear, &b.scene.gear];
+    let options = |um| PairOptions { center_distance_error_um: um, ..PairOptions::default() };
+    let text = options(1000.0).mounting(&fit, gears).expect_err("too far").to_string();
+    assert!(text.contains("91.000000 mm") && text.contains("90.000000 mm") && text.contains("0.728 mm"), "{text}");
+    options(500.0).mounting(&fit, gears).expect("a sixth of a module can be rolled");
+    let one = PairOptions { sections: Some(1), parallelism_um: [10.0, 0.0], ..PairOptions::default() };
+    assert!(one.sections(gears).expect_err("one section").to_string().contains("11"));
+}

@@ -1,0 +1,140 @@
+//! `gearcut pair`: what it writes, what it says, what it refuses.
+
+use crate::fixtures::command::{files, gearcut, gearcut_in, read_json};
+use crate::fixtures::json_schema::assert_is_results;
+use gearcut::gear::GearKind;
+use gearcut::pair_job::fit::Fit;
+use gearcut::pair_job::member;
+use gearcut::scene::Mate;
+use std::path::Path;
+
+/// A small round gear, cut in no time.
+const SCENE: &str = "[gear]\nmodule_mm = 3.0\nteeth = 12\nface_width_mm = 10.0\n\
+    tooth_thickness_allowance_mm = -0.05\n\
+    [tool.shaper_cutter]\nteeth = 16\n\
+    [[operation]]\nname = \"finish\"\nstrokes_per_revolution = 720\n\
+    [fields.flank]\nprofile_spacing_um = 20.0\n";
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    std::fs::write(folder.path().join("a.toml"), SCENE).expect("a scene");
+    folder
+}
+
+fn roll(folder: &Path, more: &[&str]) -> String {
+    let arguments = [&["pair", "a.toml", "--mate", "18", "--positions", "288"], more].concat();
+    gearcut_in(folder, &arguments).done().out
+}
+
+#[test]
+fn a_pair_writes_numbers_tables_charts_patterns_and_a_page() {
+    let folder = folder();
+    let said = roll(folder.path(), &[]);
+    for words in ["12 and 18 teeth", "transmission error", "smallest backlash", "10 um of centre distance do"] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let out = folder.path().join("out/a_with_a_mate_18");
+    let results = read_json(&out.join("results.json"));
+    assert_is_results(&results);
+    assert_eq!(results["process"], "pair");
+    let play = &results["sections"]["backlash"]["smallest"];
+    // Both gears are thinned by 0.05 mm: 100 um, less 1 % by a cutter that works deeper at another pressure angle.
+    assert!((play["value"].as_f64().expect("a number") - 99.0).abs() < 0.5, "{play}");
+    assert_eq!(play["unit"], "um");
+    for name in [
+        "report.html",
+        "run.json",
+        "tables/rolling.csv",
+        "tables/contact_by_tooth.csv",
+        "tables/harmonics_right.csv",
+        "tables/double_flank_mate.csv",
+        "pictures/ratio.svg",
+        "pictures/transmission_error.svg",
+        "pictures/backlash.svg",
+        "pictures/contact_ratio.svg",
+        "pictures/double_flank.svg",
+        "pictures/waves.svg",
+        "pictures/contact_pattern_A.png",
+        "pictures/contact_pattern_B.png",
+        "pictures/rolling.apng",
+    ] {
+        assert!(out.join(name).is_file(), "{name} is missing");
+    }
+    let rows = std::fs::read_to_string(out.join("tables/rolling.csv")).expect("a table").lines().count();
+    assert_eq!(rows, 289, "a head and a row for every position");
+    let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
+    for words in ["rolling report", "rolled over a whole period", "Transmission error", "data:image/png;base64,"] {
+        assert!(page.contains(words), "the page does not say {words}");
+    }
+    // The same again, as bytes; a copy of the gear by its record; and both compared.
+    let first = files(&out);
+    roll(folder.path(), &[]);
+    for ((name, one), (_, other)) in first.iter().zip(&files(&out)) {
+        assert!(one == other, "{} differs from run to run", name.display());
+    }
+    roll(folder.path(), &["--center-distance-error-um", "20", "--out", "out/apart"]);
+    let compared = gearcut_in(folder.path(), &["compare", "out/a_with_a_mate_18", "out/apart"]).done().out;
+    // 20 um apart: 2 * 20 um * tan(20 deg).
+    assert!(compared.contains("backlash smallest") && compared.contains("14.5"), "{compared}");
+}
+
+#[test]
+fn a_folder_of_results_rolls_as_its_scene_does() {
+    let folder = folder();
+    gearcut_in(folder.path(), &["cut", "a.toml", "--only", "numbers"]).done();
+    let by_scene = gearcut_in(folder.path(), &["pair", "a.toml", "a.toml", "--positions", "144", "--json"]).done().out;
+    let arguments = ["pair", "out/a_part", "out/a_part", "--positions", "144", "--json"];
+    let by_folder = gearcut_in(folder.path(), &arguments).done().out;
+    let sections = |text: &str| {
+        let mut results: serde_json::Value = serde_json::from_str(text).expect("JSON");
+        results["sections"]["pair"].take();
+        results["sections"]["interference"].take();
+        results["sections"].clone()
+    };
+    assert_eq!(sections(&by_scene), sections(&by_folder));
+    gearcut_in(folder.path(), &["pair", "out/a_with_a", "a.toml"]).failed(1, &["record of pair", "gearcut cut"]);
+}
+
+#[test]
+fn what_cannot_be_rolled_is_refused_with_numbers() {
+    let ring = "scenes/shaping/internal_pair_ring.toml";
+    let driver = "scenes/shaping/internal_pair_driver.toml";
+    let round = "scenes/shaping/circular_m3_z24.toml";
+    gearcut(&["pair", ring, driver]).failed(1, &["ring of 102", "external gear first"]);
+    gearcut(&["pair", driver, round]).failed(1, &["2 mm", "3 mm", "differ by 3.1416 mm"]);
+    gearcut(&["pair", round, "--mate", "24", "--center-distance-error-um", "1000"])
+        .failed(1, &["73.000000 mm", "72.000000 mm", "600 um"]);
+    gearcut(&["pair", round, "--mate", "24", "--marking-um", "0"]).failed(1, &["--marking-um", "above 0"]);
+    gearcut(&["pair", round, "--mate", "25", "--positions", "100"]).failed(1, &["100 positions", "600", "4800"]);
+    gearcut(&["pair", round]).failed(2, &["--mate"]);
+    gearcut(&["pair", round, round, "--mate", "24"]).failed(2, &["--mate"]);
+    gearcut(&["pair", round, "--mate", "24", "--internal"]).failed(1, &["no internal mate with 24 teeth"]);
+}
+
+/// Every pair of the documentation: its scenes load, take their settings and belong together.
+#[test]
+fn the_pairs_of_the_documentation_fit() {
+    let page = std::fs::read_to_string("docs/pair.md").expect("the page");
+    let table = page.split("## Pairs to begin with").nth(1).expect("its table");
+    let commands: Vec<Vec<&str>> = table
+        .split('`')
+        .filter_map(|text| Some(text.strip_prefix("gearcut pair ")?.split_whitespace().collect()))
+        .collect();
+    assert!(commands.len() >= 8, "{} commands", commands.len());
+    for words in commands {
+        let after = |option: &str| -> Vec<String> {
+            words.windows(2).filter(|pair| pair[0] == option).map(|pair| pair[1].to_owned()).collect()
+        };
+        let (set_a, set_b) = (after("--set-a"), after("--set-b"));
+        let a = member::read(Path::new(words[0]), &set_a).expect("gear A");
+        let b = match after("--mate").first() {
+            Some(teeth) => {
+                let teeth = teeth.parse().expect("a number of teeth");
+                member::mate(&a, Mate { teeth, kind: GearKind::External }, &set_b).expect("a mate")
+            }
+            None => member::read(Path::new(words[1]), &set_b).expect("gear B"),
+        };
+        let fit = Fit::new(&a.scene, &b.scene, 0).unwrap_or_else(|refusal| panic!("{words:?}: {refusal}"));
+        assert!(fit.misfit_mm < 1e-3, "{words:?}: {} mm", fit.misfit_mm);
+    }
+}
