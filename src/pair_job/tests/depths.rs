@@ -35,8 +35,9 @@ fn space(gear: &dyn GearJob, tooth: u32) -> SpaceOutline {
     SpaceOutline::new(&chain(tooth - 1, Side::Left), &chain(tooth, Side::Right), 1.0)
 }
 
-/// Distance of a point of the driver from the path of the cutter's corner that cuts the fillet of a tooth's right flank:
-/// r_c rolls on the pitch curve; the corner stands at r_a, half a tooth pi / (2 z) + inv alpha - inv alpha_a beside it.
+/// Distance of a point of the driver from the path of the cutter's corner that cuts the fillet of a tooth's right
+/// flank: r_c rolls on the pitch curve; the corner stands at r_a, half a tooth pi / (2 z) + inv alpha - inv alpha_a
+/// beside it.
 fn from_corner_path_um(pair: &PitchPair, cutter_teeth: u64, tooth: u32, phi: f64, point: DVec2) -> f64 {
     let alpha = pair.teeth().pressure_angle_rad;
     let inv = |angle: f64| angle.tan() - angle;
