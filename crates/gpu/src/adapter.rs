@@ -7,6 +7,9 @@ use super::problem::GpuProblem;
 use serde::Serialize;
 use std::fmt;
 
+/// Threads of a workgroup: at least one wave on every GPU, and small enough for any.
+pub const WORKGROUP_THREADS: u32 = 64;
+
 /// Storage buffers that a stage binds.
 const STORAGE_BUFFERS: u32 = 8;
 
@@ -122,8 +125,8 @@ fn facts(adapter: &wgpu::Adapter) -> AdapterFacts {
     let (info, limits) = (adapter.get_info(), adapter.limits());
     let lacks = if limits.max_storage_buffers_per_shader_stage < STORAGE_BUFFERS {
         Some(format!("{STORAGE_BUFFERS} storage buffers in a stage"))
-    } else if limits.max_compute_invocations_per_workgroup < super::WORKGROUP_THREADS {
-        Some(format!("workgroups of {} threads", super::WORKGROUP_THREADS))
+    } else if limits.max_compute_invocations_per_workgroup < WORKGROUP_THREADS {
+        Some(format!("workgroups of {} threads", WORKGROUP_THREADS))
     } else {
         None
     };

@@ -4,6 +4,7 @@
 //! Dexels of a batch stay on the device through its rounds, which run in order, so that a tile with more records than
 //! one launch may have is cut like any other.
 
+use super::adapter::WORKGROUP_THREADS;
 use super::problem::GpuProblem;
 use super::{compose, pipeline, records};
 use gearcut_core::dexel::Field;
@@ -72,7 +73,7 @@ pub fn batches(plan: &CutPlan, allowance: Allowance) -> Result<Vec<Batch>, GpuPr
     }
     let dexels = (allowance.buffer_bytes / 4).min(allowance.batch_bytes / 32).min(BATCH_DEXELS as u64);
     // Columns that fit the memory and, as one tile, one dispatch.
-    let dispatch_columns = WORKGROUPS * super::WORKGROUP_THREADS as usize / pipeline::threads_per_column(rows);
+    let dispatch_columns = WORKGROUPS * WORKGROUP_THREADS as usize / pipeline::threads_per_column(rows);
     // A column longer than the usual batch is a batch of its own as long as the memory allows it.
     let column_fits = batch_bytes(rows, 1, 1) <= allowance.batch_bytes
         && padded(rows) as u64 * 4 <= allowance.buffer_bytes

@@ -8,9 +8,10 @@
 //! Return strokes go through the shader in their turn: they take nothing and add up the material that they meet. Where
 //! and how deep a stroke rubs is worked out natively, on the few tiles that met any.
 
+use super::adapter::WORKGROUP_THREADS;
 use super::blank_rays::{PassWork, Terms, TileDone, TileWork, parts};
+use super::context::Gpu;
 use super::problem::GpuProblem;
-use super::{Gpu, WORKGROUP_THREADS};
 use gearcut_core::cut::cpu::blank::rubs_of_tile;
 use gearcut_core::cut::{BlankCut, BlankOperation};
 use gearcut_core::dexel::BlankField;

@@ -15,9 +15,10 @@ mod spans;
 
 pub use parts::parts;
 
+use super::adapter::WORKGROUP_THREADS;
+use super::context::Gpu;
 use super::problem::GpuProblem;
 use super::records::{BlankLaunch, BlankPart, BlankPiece, BlankSpan};
-use super::{Gpu, WORKGROUP_THREADS};
 use gearcut_core::dexel::blank_field::RayMaterial;
 use gearcut_core::dexel::intervals::Span;
 use gearcut_core::math::planar_rays::Family;

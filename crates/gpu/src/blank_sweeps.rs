@@ -18,9 +18,10 @@
 //! across the rays, in f32 and to the same bits for both parts, or lose the pairing of crossings on which the kernel
 //! rests.
 
+use super::adapter::WORKGROUP_THREADS;
 use super::blank_rays::{PassWork, TakenPiece, Terms, TileDone, TileWork, parts};
+use super::context::Gpu;
 use super::problem::GpuProblem;
-use super::{Gpu, WORKGROUP_THREADS};
 use gearcut_core::cut::BlankStats;
 use gearcut_core::cut::cpu::blank_sweeps::block_slices;
 use gearcut_core::cut::sweep_chips::{ChipAccumulator, ChipSurfaces, PassChip, SweepsCut};

@@ -3,7 +3,7 @@
 //! A stage's text is its file after the shared ones, joined as they are: no preprocessor stands between the files and
 //! what the driver sees. Variants are `override` constants. Bindings come from the shader itself.
 
-use super::WORKGROUP_THREADS;
+use super::adapter::WORKGROUP_THREADS;
 use super::device::Device;
 use super::problem::GpuProblem;
 

@@ -8,12 +8,14 @@
 //! A tile's dexels stay on the device while its records come in **rounds**, in their order: what is left does not
 //! depend on how they are split.
 
+use super::adapter::WORKGROUP_THREADS;
 use super::batches::Allowance;
+use super::context::{Gpu, IN_FLIGHT};
 use super::edge_cells::EdgeCells;
 use super::pipeline::{self, SPATIAL_ROWS_PER_THREAD};
+use super::problem::GpuProblem;
 use super::readback::{self, InFlight, Input, Returned, Shipment, StageLaunch};
 use super::sweep_records::{SweepRecord, SweepTile};
-use super::{Gpu, GpuProblem, IN_FLIGHT, WORKGROUP_THREADS};
 use gearcut_core::dexel::{Layer, SpatialField};
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::passes::spatial::sweep;

@@ -6,6 +6,7 @@
 mod chips;
 mod headline;
 mod operation;
+mod ring;
 mod strokes;
 mod tables;
 mod teeth;
@@ -18,10 +19,12 @@ use crate::measure::stock::Extreme;
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
+use crate::process::shaping::check::ring::RingFacts;
 use crate::process::shaping::chips::ChipLedger;
 use crate::process::shaping::measure::{FlankReport, GearReport};
 use crate::steps::axes;
 use gearcut_core::cut::CutStats;
+use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
 use operation::operation;
 
@@ -38,7 +41,9 @@ pub fn sections(job: &ShapingJob, report: &GearReport, ledger: &ChipLedger, moti
     let period = "teeth after which the pitch curve repeats: the first period of tables and charts";
     let teeth: Vec<Section> = (1..=job.scene.gear.teeth).map(|tooth| teeth::finished_tooth(report, tooth)).collect();
     let flank_table = tables::flanks(&report.flanks, &operations[..operations.len() - 1], &teeth);
-    vec![
+    let ring =
+        (job.blank.kind() == GearKind::Internal).then(|| ring::section(&RingFacts::new(job), job.scene.gear.module_mm));
+    let sections = [
         Section::new("operations", "Operations").parts(operations),
         deviations(report),
         Section::new("teeth", "Finished teeth")
@@ -46,7 +51,8 @@ pub fn sections(job: &ShapingJob, report: &GearReport, ledger: &ChipLedger, moti
             .table(flank_table)
             .table(tables::teeth(&teeth))
             .parts(teeth),
-    ]
+    ];
+    sections.into_iter().chain(ring).collect()
 }
 
 /// What a gear inspector states of the whole gear.

@@ -4,6 +4,7 @@
 //! definitions; nothing is computed here that is not in a file beside the page.
 
 mod facts;
+mod ring;
 mod stock;
 
 use crate::findings::{self, Findings, Quantity};
@@ -14,6 +15,7 @@ use crate::process::shaping::CutGear;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::measure::GearReport;
+use crate::process::shaping::scene::model::Retraction;
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations::{Inspection, InspectionWords};
@@ -36,6 +38,7 @@ pub fn page(
     folder: &OutputFolder,
 ) -> Result<Page> {
     let mut sections = stock::section(job, found).into_iter().collect::<Vec<_>>();
+    sections.extend(ring::section(job, found));
     sections.push(deviations::section(&inspection(&cut.report, job.scene.gear.module_mm)));
     sections.extend(texture::section(found, folder)?);
     sections.push(axes::section(
@@ -49,7 +52,7 @@ pub fn page(
     let operations = found.parts("operations").len();
     let gear = PageGear { words: gear_words(&job.scene.gear), mesh: ViewMesh::new(job)? };
     let operation = |of: &_| operation_words(of, operations);
-    Ok(steps::report::page(job, gear, found, &cut.maps, operation, key_numbers(found), sections))
+    Ok(steps::report::page(job, gear, found, &cut.maps, operation, key_numbers(job, found), sections))
 }
 
 fn operation_words(operation: &findings::Section, count: usize) -> String {
@@ -68,7 +71,7 @@ fn operation_words(operation: &findings::Section, count: usize) -> String {
     )
 }
 
-fn key_numbers(found: &Findings) -> Vec<KeyNumber> {
+fn key_numbers(job: &ShapingJob, found: &Findings) -> Vec<KeyNumber> {
     let missing = Quantity::undefined("1", "not among the findings of this run", "not among the findings of this run");
     let of = |key: &str| found.headline(key).unwrap_or(&missing);
     let card = |name: &str, key: &str| key_number(name, of(key));
@@ -102,13 +105,17 @@ fn key_numbers(found: &Findings) -> Vec<KeyNumber> {
         }
         _ => thinnest,
     });
+    let relief = match job.machine.retraction {
+        Retraction::CenterLine => "of a circular gear's",
+        _ => "of a circular gear's, were it along the line of centres; the cutter is drawn back another way",
+    };
     numbers.extend([
         card("Highest start of involute", "start_of_involute"),
         card("Undercut flanks", "undercut_flanks"),
         card("Narrowest tip land", "tip_land"),
         card("Pointed teeth", "pointed_teeth"),
         card("Witness mark", "witness_mark"),
-        with_note(card("Relief on the return stroke", "relief_ratio"), "of a circular gear's".to_owned()),
+        with_note(card("Relief on the return stroke", "relief_ratio"), relief.to_owned()),
         card("Reserve to the tightest axis limit", "axis_margin"),
         card("Time of all strokes", "cycle_time"),
     ]);

@@ -87,6 +87,24 @@ fn the_flank_of_a_round_ring_is_the_internal_involute() {
     assert!(worst_mm < 1e-11 && cut_mm[1] < 2e-5);
 }
 
+/// Height of the scallop between two strokes whose pitch points lie `feed_mm` apart, at the pitch point of a flank.
+fn pitch_scallop_mm(job: &ShapingJob, tooth: u32, side: Side, feed_mm: f64) -> f64 {
+    let flank = job.target_flank(tooth, side);
+    let crossing = flank.pitch_crossing(&job.blank).expect("it crosses");
+    let arc_mm = job.curve.arc_mm(crossing.phi_rad);
+    let strokes_around = StrokeSet::new(0, &job.cutter, StrokeLaw::Frozen, 2, |lambda| {
+        let pose = job.finishing().linkage.pose(job.curve.phi_at_arc(arc_mm + (lambda - 0.5) * feed_mm), 0.0);
+        Rigid2::new(pose.angle_rad, pose.center_mm)
+    });
+    let pitch_arc_mm = flank.at_height(&job.blank, 0.0).expect("it crosses").0;
+    let arcs = (0..4000).map(|i| pitch_arc_mm + 0.1 * feed_mm * (f64::from(i) / 2000.0 - 1.0));
+    let field = job.field_over(flank, arcs, vec![-10.0, 10.0]);
+    let mut layer = field.blank_layer();
+    let plan = CutPlan::new(&field, &strokes_around, &job.cutter);
+    Cpu::default().cut(&field, &plan, &mut layer).expect("native");
+    cusps(&field, &layer, 0).iter().map(|c| c.height_mm).fold(f64::INFINITY, f64::min)
+}
+
 /// h = (f^2 sin(alpha) / 8) (1 / r_c - 1 / R_p) at the pitch point, with the arc f between two strokes.
 #[test]
 fn scallops_follow_the_law_of_internal_gearing() {
@@ -94,25 +112,32 @@ fn scallops_follow_the_law_of_internal_gearing() {
         let mut scene = round_ring(vec![operation("finish", NORMAL, 0.0, strokes)]);
         scene.fields = Fields { profile_spacing_mm: 0.4 / f64::from(strokes), lead_spacing_mm: 20.0, ..scene.fields };
         scene.gear.addendum_coefficient = 0.15;
-        let job = job(scene);
-        let flank = job.target_flank(3, side);
-        let crossing = flank.pitch_crossing(&job.blank).expect("it crosses");
-        let strokes_around = StrokeSet::new(0, &job.cutter, StrokeLaw::Frozen, 2, |lambda| {
-            let pose = job.finishing().linkage.pose(crossing.phi_rad + (lambda - 0.5) * TAU / f64::from(strokes), 0.0);
-            Rigid2::new(pose.angle_rad, pose.center_mm)
-        });
-        let pitch_arc_mm = flank.at_height(&job.blank, 0.0).expect("it crosses").0;
-        let half_mm = 40.0 / f64::from(strokes);
-        let arcs = (0..4000).map(|i| pitch_arc_mm + half_mm * (f64::from(i) / 2000.0 - 1.0));
-        let field = job.field_over(flank, arcs, vec![-10.0, 10.0]);
-        let mut layer = field.blank_layer();
-        let plan = CutPlan::new(&field, &strokes_around, &job.cutter);
-        Cpu::default().cut(&field, &plan, &mut layer).expect("native");
-        let found = cusps(&field, &layer, 0).iter().map(|c| c.height_mm).fold(f64::INFINITY, f64::min);
         let feed_mm = 60.0 * TAU / f64::from(strokes);
+        let found = pitch_scallop_mm(&job(scene), 3, side, feed_mm);
         let law = feed_mm * feed_mm * ALPHA_RAD.sin() / 8.0 * (1.0 / 20.0 - 1.0 / 60.0);
         println!("{strokes} strokes: {:.5} um, law {:.5} um", 1e3 * found, 1e3 * law);
         assert!((found / law - 1.0).abs() < 0.005, "{found} against {law}");
+    }
+}
+
+/// Rows of the table in docs/internal.md: what strokes leave at the pitch point of the paper's ring, tooth 9, against the
+/// law with the curvature of the pitch curve there, and against the roughness that is printed.
+#[test]
+fn strokes_of_the_papers_ring_leave_what_the_docs_say() {
+    let job = job(ring_scene(mate_shape(None), 102, 13, vec![operation("finish", NORMAL, 0.0, 6120)]));
+    for (per_tooth, documented_um) in [(60, 0.030), (20, 0.27), (7, 2.2)] {
+        let feed_mm = 2.0 * PI / f64::from(per_tooth);
+        let flank = job.target_flank(9, Side::Left);
+        let phi_rad = flank.pitch_crossing(&job.blank).expect("it crosses").phi_rad;
+        let bent_per_mm = 1.0 / 13.0 - job.curve.frame(phi_rad).curvature_per_mm;
+        let law_um = 1e3 * feed_mm * feed_mm * ALPHA_RAD.sin() / 8.0 * bent_per_mm;
+        let found_um = 1e3 * pitch_scallop_mm(&job, 9, Side::Left, feed_mm);
+        println!("{per_tooth} strokes a tooth: {found_um:.5} um, law {law_um:.5} um");
+        // The law is the first term of a series in f / r_c: at 7 strokes a tooth, f is a fifteenth of r_c.
+        assert!((found_um / law_um - 1.0).abs() < 0.005_f64.max(0.5 * (feed_mm / 13.0).powi(2)), "{found_um}");
+        assert!((found_um / documented_um - 1.0).abs() < 0.03, "{found_um} um, the docs say {documented_um}");
+        // Ra of parabolas of the height h is 4 h / (9 sqrt(3)): below the printed 0.7 um in every row.
+        assert!(4.0 * found_um / (9.0 * 3_f64.sqrt()) < 0.7);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Buffers of the kernel, one launch, and the way back.
 
-use crate::Gpu;
+use crate::context::Gpu;
 use crate::device::Device;
 use crate::pipeline::BLANK_RAYS;
 use crate::problem::GpuProblem;

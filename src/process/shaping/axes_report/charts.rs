@@ -72,6 +72,7 @@ fn positions(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
 
 fn relief(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
     let circular_um = UM_PER_MM * job.machine.back_off_mm * job.scene.gear.pressure_angle_rad.sin();
+    let pressure_deg = job.scene.gear.pressure_angle_rad.to_degrees();
     let curve = |value: &dyn Fn(&StrokeRow) -> f64| rows.iter().map(|row| (work_angle_deg(row), value(row))).collect();
     let flanks = |scale: f64| {
         vec![
@@ -82,5 +83,10 @@ fn relief(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
     vec![
         panel(["clearance", "µm"], flanks(circular_um), [("circular gear", circular_um), ("rubs below", 0.0)]),
         panel(["share of circular gear", "%"], flanks(100.0), [("rubs below", 0.0)]),
+        panel(
+            ["retraction angle", "°"],
+            vec![("normal to line of centres", curve(&|row| row.relief.beta_rad.to_degrees()))],
+            [("pressure angle", pressure_deg), ("pressure angle", -pressure_deg)],
+        ),
     ]
 }

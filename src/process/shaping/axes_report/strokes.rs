@@ -51,7 +51,7 @@ pub(super) fn rows(job: &ShapingJob, operation: &PreparedOperation) -> Vec<Strok
 
 /// Writes the table; `stroke` counts from 0, as pass ids do, and angles run on beyond a turn.
 pub(super) fn write_table(path: &Path, plan: &RetractionPlan, rows: &[StrokeRow]) -> Result<()> {
-    let relief = ["left_relief_share_of_circular", "right_relief_share_of_circular"];
+    let relief = ["left_relief_share_of_circular", "right_relief_share_of_circular", "normal_to_line_of_centres_deg"];
     let returning = if plan.is_in_axes() { &COLUMNS[..] } else { &[] };
     let own = [vec!["stroke", "time_s"], vec!["offset_mm", "phi_deg"], [&relief[..], returning].concat()];
     let row = |row: &StrokeRow| {
@@ -59,7 +59,11 @@ pub(super) fn write_table(path: &Path, plan: &RetractionPlan, rows: &[StrokeRow]
         let own = [
             vec![stroke, row.time_s.into()],
             vec![row.offset_mm.into(), row.phi_rad.to_degrees().into()],
-            [vec![row.relief.left.into(), row.relief.right.into()], cells(plan, row)].concat(),
+            [
+                vec![row.relief.left.into(), row.relief.right.into(), row.relief.beta_rad.to_degrees().into()],
+                cells(plan, row),
+            ]
+            .concat(),
         ];
         (own, row.motion)
     };

@@ -5,6 +5,11 @@
 //! ([`crate::process::shaping::returns::survey`]); the blank field of a run says what the strokes of the scene meet.
 
 use crate::output::text::Sheet;
+use crate::process::shaping::linkage::dynamics;
+use crate::process::shaping::linkage::retraction::RetractionLaw;
+use crate::process::shaping::returns::RetractionPlan;
+use crate::process::shaping::returns::clearance::Clearance;
+use crate::process::shaping::returns::motion::RetractionMotion;
 use crate::process::shaping::returns::plan::{CLEAR_MM, no_pose};
 use crate::process::shaping::returns::survey::{PlacedRoom, Survey, tightest};
 use crate::process::shaping::scene::model::Retraction;
@@ -12,7 +17,7 @@ use crate::process::shaping::{PreparedOperation, ShapingJob};
 use gearcut_core::error::Refusal;
 use gearcut_core::units::UM_PER_MM;
 
-/// Rows of the chart of the retraction angle, and the width of its bars.
+/// Rows of the chart along the curve at most, and the width of its bars: full at the largest clearance.
 const CHART_ROWS: usize = 24;
 const CHART_WIDTH: f64 = 24.0;
 
@@ -32,7 +37,8 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>, Refusal
         sheet.heading(&format!("Return strokes of {}: {}", operation.spec.name, plan.asked().words()));
         angles(sheet, &rooms);
         warnings.extend(surface(sheet, operation, &survey, &rooms));
-        stock(sheet, operation, &rooms);
+        stock(sheet, job, operation, &survey, &rooms);
+        along(sheet, plan, &rooms[..survey.period_places()]);
     }
     Ok(warnings)
 }
@@ -45,21 +51,33 @@ fn angles(sheet: &mut Sheet, rooms: &[PlacedRoom]) {
     let most_rad = steepest.from_normal_rad.abs();
     let place = format!("{:.2} deg at polar angle {:.2} deg", most_rad.to_degrees(), steepest.phi_rad.to_degrees());
     sheet.line("retraction angle", format!("at most {place} (line of centres against the normal)"));
-    if most_rad < 1e-6 {
-        return;
-    }
-    let rows = (0..CHART_ROWS).map(|row| {
-        let room = &rooms[row * rooms.len() / CHART_ROWS];
-        let bar = (CHART_WIDTH * room.from_normal_rad.abs() / most_rad).round() as usize;
-        let [left, right] = if room.from_normal_rad < 0.0 { [bar, 0] } else { [0, bar] };
-        let width = CHART_WIDTH as usize;
+}
+
+/// The chart along the curve, over the places after which it repeats: angle, law, clearance from what is left, depth in
+/// stock.
+fn along(sheet: &mut Sheet, plan: &RetractionPlan, period: &[PlacedRoom]) {
+    let widest_mm = period.iter().map(|room| room.clearance.surface_mm).filter(|mm| mm.is_finite()).fold(0.0, f64::max);
+    let um = |mm: f64| if mm.is_finite() { format!("{:.1} um", UM_PER_MM * mm) } else { "-".to_owned() };
+    let row = |room: &PlacedRoom| {
+        let Clearance { surface_mm, material_mm } = room.clearance;
+        let bar = if surface_mm.is_finite() && widest_mm > 0.0 {
+            (CHART_WIDTH * (surface_mm / widest_mm).clamp(0.0, 1.0)).round() as usize
+        } else {
+            0
+        };
         vec![
-            format!("{:.0} deg", room.phi_rad.to_degrees()),
+            format!("{:.2} deg", room.phi_rad.to_degrees()),
             format!("{:.2} deg", room.from_normal_rad.to_degrees()),
-            format!("{}{}|{}", " ".repeat(width - left), "#".repeat(left), "#".repeat(right)),
+            if plan.law(room.phi_rad) == RetractionLaw::Turned { "turned".to_owned() } else { "-".to_owned() },
+            um(surface_mm),
+            um((-material_mm).max(0.0)),
+            format!("|{:<width$}|", "#".repeat(bar), width = CHART_WIDTH as usize),
         ]
-    });
-    sheet.table(&rows.collect::<Vec<_>>());
+    };
+    let heading = ["polar angle", "retraction angle", "cutter", "clearance", "in stock", "clearance"];
+    let step = period.len().div_ceil(CHART_ROWS);
+    let rows = period.iter().step_by(step).map(row);
+    sheet.table(&std::iter::once(heading.map(str::to_owned).to_vec()).chain(rows).collect::<Vec<_>>());
 }
 
 /// Room to the surfaces that stay.
@@ -93,7 +111,7 @@ fn surface(sheet: &mut Sheet, operation: &PreparedOperation, survey: &Survey, ro
 
 /// Room to all material, stock included. That return strokes rub on stock is ordinary and costs the edge, not the gear:
 /// a line, and no warning.
-fn stock(sheet: &mut Sheet, operation: &PreparedOperation, rooms: &[PlacedRoom]) {
+fn stock(sheet: &mut Sheet, job: &ShapingJob, operation: &PreparedOperation, survey: &Survey, rooms: &[PlacedRoom]) {
     let Some(least) = tightest(rooms, |room| room.clearance.material_mm) else { return };
     let (depth_mm, phi_deg) = (-least.clearance.material_mm, least.phi_rad.to_degrees());
     if depth_mm < CLEAR_MM {
@@ -101,8 +119,29 @@ fn stock(sheet: &mut Sheet, operation: &PreparedOperation, rooms: &[PlacedRoom])
         return;
     }
     let way_out = match operation.retraction.asked() {
-        Retraction::Tilted => "leave less of it to this operation",
-        _ => "machine.retraction = \"tilted\" draws the edge away from it",
+        Retraction::Tilted => "leave less of it to this operation".to_owned(),
+        _ => offer(job, operation, survey),
     };
     sheet.line("stock", format!("rubs up to {depth_mm:.3} mm deep on it, at polar angle {phi_deg:.2} deg; {way_out}"));
+}
+
+/// The direction that clears stock, and what it costs in stroke time.
+fn offer(job: &ShapingJob, operation: &PreparedOperation, survey: &Survey) -> String {
+    let Some([low_rad, high_rad]) = survey.tilts().filter(|[low, high]| low < high) else {
+        return "no direction clears all of it: leave less of it to this operation".to_owned();
+    };
+    let plan = RetractionPlan::tilted(job.machine.back_off_mm, [low_rad, high_rad]);
+    let limits = dynamics::limits(&job.machine.limits);
+    let motion = RetractionMotion::new(&operation.schedule, &plan, &job.ram_times(), &limits);
+    let cost = match motion.and_then(|motion| motion.slowdown()) {
+        None => "machine.limits does not say at what cost in time".to_owned(),
+        Some(factor) if !factor.is_finite() => "approach and overrun leave the axes no time".to_owned(),
+        Some(factor) if factor > 1.0 => format!(
+            "double strokes then last {factor:.2} times as long, at most {:.0} per minute",
+            job.machine.double_strokes_per_minute / factor
+        ),
+        Some(_) => "it costs no time".to_owned(),
+    };
+    let tilt_deg = 0.5 * (low_rad + high_rad).to_degrees();
+    format!("machine.retraction = \"tilted\" draws the edge away from it, {tilt_deg:.1} deg out of the normal: {cost}")
 }

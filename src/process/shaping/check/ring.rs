@@ -25,6 +25,11 @@ use std::f64::consts::{PI, TAU};
 /// Points of the target's outline, mm: chords of the sharpest fillet, 0.2 mm, then miss a fifteenth of the least
 /// damage.
 const TARGET_SPACING_MM: f64 = 0.01;
+/// Both sides of a tooth, in the order of what is told of them.
+const SIDES: [Side; 2] = [Side::Left, Side::Right];
+/// Rows of the chart along the curve at most, and the width of its bars: full where the cutter ceases to roll.
+const CHART_ROWS: usize = 24;
+const CHART_WIDTH: f64 = 24.0;
 /// Places of a tip corner's path per pitch.
 const PLACES_PER_PITCH: i32 = 64;
 
@@ -37,6 +42,52 @@ pub struct ToothPlace {
     pub tooth: u32,
     /// Its side.
     pub side: Side,
+}
+
+/// What holds of one tooth of the ring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RingTooth {
+    /// Its number, from 1.
+    pub tooth: u32,
+    /// Polar angle of its middle, rad.
+    pub phi_rad: f64,
+    /// Curvature of the pitch curve there, positive where the ring is hollow towards its axis.
+    pub curvature_per_mm: f64,
+    /// Height over the pitch curve up to which the cutter's involute generates the flanks, mm: left and right.
+    pub involute_mm: [f64; 2],
+    /// Depth of the tips behind the conjugate flank, mm: left and right; `None` where their shape is not known.
+    pub relief_mm: [Option<f64>; 2],
+}
+
+impl RingTooth {
+    fn new(job: &ShapingJob, tooth: u32) -> Self {
+        let phi_rad = job.curve.phi_at_arc(PI * job.scene.gear.module_mm * (f64::from(tooth) - 0.5));
+        let flanks = SIDES.map(|side| job.target_flank(tooth, side));
+        let addendum_mm = job.blank.addendum_mm;
+        Self {
+            tooth,
+            phi_rad,
+            curvature_per_mm: job.curve.frame(phi_rad).curvature_per_mm,
+            involute_mm: flanks.map(|flank| {
+                let tip = flank.at_arc(flank.length_mm());
+                job.blank.height(tip.point_mm, tip.phi_rad).0
+            }),
+            relief_mm: flanks.map(|flank| match flank.tip_end {
+                FlankEnd::CutterBase => Some(TipRelief::new(flank, &job.blank)?.depth_mm(addendum_mm)),
+                _ => Some(0.0),
+            }),
+        }
+    }
+
+    /// Most cutter teeth of a module whose pitch circle rolls there; `None` where any rolls.
+    pub fn rolling_teeth(&self, module_mm: f64) -> Option<u32> {
+        (self.curvature_per_mm > 0.0).then(|| rolling_teeth(1.0 / self.curvature_per_mm, module_mm))
+    }
+}
+
+/// Most cutter teeth whose pitch circle is smaller than a radius.
+fn rolling_teeth(radius_mm: f64, module_mm: f64) -> u32 {
+    (2.0 * radius_mm / module_mm).ceil() as u32 - 1
 }
 
 /// What the tip corners of the cutter do on their way past the teeth beside their space.
@@ -58,6 +109,8 @@ pub enum TipCorners {
 /// What is known of cutter and ring before cutting.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RingFacts {
+    /// The teeth after which the pitch curve repeats.
+    pub teeth: Vec<RingTooth>,
     /// Smallest radius of curvature of the pitch curve, mm, and its polar angle, rad.
     pub sharpest: (f64, f64),
     /// Most cutter teeth whose pitch circle rolls everywhere.
@@ -80,28 +133,27 @@ impl RingFacts {
         let gear = &job.scene.gear;
         let sharpest = job.curve.facts().largest_curvature;
         let rho_mm = 1.0 / sharpest.curvature_per_mm;
-        let flanks: Vec<_> = (1..=gear.teeth)
-            .flat_map(|tooth| [Side::Left, Side::Right].map(|side| job.target_flank(tooth, side)))
-            .filter(|flank| flank.tip_end == FlankEnd::CutterBase)
-            .collect();
-        let short = flanks.iter().map(|flank| {
-            let tip = flank.at_arc(flank.length_mm());
-            let mm = job.blank.height(tip.point_mm, tip.phi_rad).0;
-            ToothPlace { mm, tooth: flank.tooth, side: flank.side }
+        let teeth = 1..=job.curve.period_teeth(gear.teeth);
+        let teeth: Vec<RingTooth> = teeth.into_par_iter().map(|tooth| RingTooth::new(job, tooth)).collect();
+        let ends = teeth.iter().flat_map(|of| {
+            SIDES.into_iter().zip(of.involute_mm).map(|(side, mm)| ToothPlace { mm, tooth: of.tooth, side })
         });
-        let reliefs = flanks.par_iter().filter_map(|flank| {
-            let mm = TipRelief::new(flank, &job.blank)?.depth_mm(job.blank.addendum_mm);
-            Some(ToothPlace { mm, tooth: flank.tooth, side: flank.side })
+        let short = ends.filter(|end| job.target_flank(end.tooth, end.side).tip_end == FlankEnd::CutterBase);
+        let shortest_involute = short.reduce(|a, b| if b.mm < a.mm { b } else { a });
+        let reliefs = teeth.iter().flat_map(|of| {
+            let sides = SIDES.into_iter().zip(of.relief_mm);
+            sides.filter_map(|(side, mm)| Some(ToothPlace { mm: mm?, tooth: of.tooth, side }))
         });
-        let reliefs: Vec<ToothPlace> = reliefs.collect();
+        let relief = reliefs.filter(|of| of.mm > 0.0).reduce(|a, b| if b.mm > a.mm { b } else { a });
         let (z0, h) = (f64::from(job.cutter.teeth), job.cutter_spec.addendum_coefficient);
         let sine_2 = gear.pressure_angle_rad.sin().powi(2);
         let m = gear.module_mm;
         Self {
             sharpest: (rho_mm, sharpest.phi_rad),
-            rolling_teeth: (2.0 * rho_mm / m).ceil() as u32 - 1,
-            shortest_involute: short.reduce(|a, b| if b.mm < a.mm { b } else { a }),
-            relief: reliefs.into_iter().reduce(|a, b| if b.mm > a.mm { b } else { a }),
+            rolling_teeth: rolling_teeth(rho_mm, m),
+            teeth,
+            shortest_involute,
+            relief,
             tip_corners: tip_corners(job),
             printed_undercut_mm2: [m * m * h * (z0 + h), rho_mm * (rho_mm + m * z0) * sine_2],
             // The quadratic h (z0 + h) m^2 - rho z0 sin^2 m - rho^2 sin^2 = 0.
@@ -200,6 +252,34 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &RingFacts) {
             facts.printed_module_mm
         ),
     );
+    along(sheet, job, facts);
+}
+
+/// The chart along the pitch curve: tooth by tooth, some left out where there are many.
+fn along(sheet: &mut Sheet, job: &ShapingJob, facts: &RingFacts) {
+    if facts.teeth.len() < 2 {
+        return;
+    }
+    let heading =
+        ["tooth", "polar angle", "radius of curvature", "cutter rolls", "involute to", "tip relief", "r_c / rho"];
+    let row = |of: &RingTooth| {
+        let share = job.cutter.pitch_radius_mm * of.curvature_per_mm;
+        let bar = "#".repeat((CHART_WIDTH * share.clamp(0.0, 1.0)).round() as usize);
+        let relief_mm = of.relief_mm.into_iter().try_fold(0.0, |most: f64, mm| Some(most.max(mm?)));
+        let teeth = of.rolling_teeth(job.scene.gear.module_mm);
+        vec![
+            of.tooth.to_string(),
+            format!("{:.2} deg", of.phi_rad.to_degrees()),
+            if of.curvature_per_mm == 0.0 { "straight".into() } else { format!("{:.2} mm", 1.0 / of.curvature_per_mm) },
+            teeth.map_or("any".to_owned(), |teeth| format!("{teeth} teeth")),
+            format!("{:.3} mm", of.involute_mm[0].min(of.involute_mm[1])),
+            relief_mm.map_or("not known".to_owned(), |mm| format!("{:.2} um", UM_PER_MM * mm)),
+            format!("{share:.3} |{bar:<width$}|", width = CHART_WIDTH as usize),
+        ]
+    };
+    let step = facts.teeth.len().div_ceil(CHART_ROWS);
+    let rows = facts.teeth.iter().step_by(step).map(row);
+    sheet.table(&std::iter::once(heading.map(str::to_owned).to_vec()).chain(rows).collect::<Vec<_>>());
 }
 
 /// What must be known before cutting.

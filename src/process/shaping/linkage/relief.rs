@@ -46,6 +46,8 @@ pub struct ReliefRatio {
     pub left: f64,
     /// Right flank.
     pub right: f64,
+    /// Angle from the contact's normal to the line of centres, rad: positive on the side on which left flanks gain.
+    pub beta_rad: f64,
 }
 
 /// The place of the smallest clearance.
@@ -82,7 +84,8 @@ pub fn relief_ratio(linkage: &ShapingLinkage, phi_rad: f64, offset_mm: f64, pres
     let sign = linkage.gear().tip_sign();
     let back = sign * motion.pose.center_mm;
     let beta_rad = sign * from_center.perp_dot(back).atan2(from_center.dot(back));
-    ReliefRatio { left: (working_rad + beta_rad).sin() / sin_p, right: (working_rad - beta_rad).sin() / sin_p }
+    let ratio = |angle_rad: f64| angle_rad.sin() / sin_p;
+    ReliefRatio { left: ratio(working_rad + beta_rad), right: ratio(working_rad - beta_rad), beta_rad }
 }
 
 /// The smallest clearance over one turn.

@@ -27,6 +27,8 @@ use std::collections::VecDeque;
 
 /// Places of the edge are at most this far apart, in modules: 0.06 mm for module 3.
 const EDGE_SPACING_MODULES: f64 = 0.02;
+/// What a place of the edge at most stands in earlier poses if it touches what they have left, mm.
+const CONTACT_MM: f64 = 1e-3;
 
 /// Room round the returning cutter at one stroke: its smallest clearance in mm. Where it is negative, the edge stands
 /// in the material by so much; infinite where the whole edge is outside the uncut blank.
@@ -41,14 +43,6 @@ pub struct Clearance {
 impl Clearance {
     /// Of an edge that is nowhere in the blank; every clearance is below.
     pub const ANY: Self = Self { surface_mm: f64::INFINITY, material_mm: f64::INFINITY };
-}
-
-/// Corners of the edge from one to another, on one cutter tooth.
-#[derive(Debug, Clone, Copy)]
-struct EdgePart {
-    blade: usize,
-    first: usize,
-    last: usize,
 }
 
 /// Clearances of the return strokes of one operation.
@@ -87,9 +81,8 @@ impl ReturnRoom {
     /// `beyond_mm` says how far a point lies outside the uncut blank, negative inside. Only clearances below `below` are
     /// looked for; it is what comes out where there is none.
     ///
-    /// Parts of the edge are halved. The clearance rises and falls by no more than one goes along the edge, so that a
-    /// part whose middle has room enough holds no place that is tighter than what was found, and no place of a part
-    /// whose middle lies far outside the blank is in it: the result is that of all corners.
+    /// The clearance rises and falls by no more than one goes along the edge, so that a part of the edge whose middle has
+    /// room enough holds no place that is tighter than what was found: the result is that of all corners.
     pub fn at(
         &self,
         place: usize,
@@ -99,34 +92,19 @@ impl ReturnRoom {
     ) -> Clearance {
         let blades: Vec<Rigid2> = self.swept.tools_from_blades().collect();
         let work_from_blades: Vec<Rigid2> = blades.iter().map(|blade| retracted.after(blade)).collect();
-        let whole = |blade| EdgePart { blade, first: 0, last: self.polygon.edge_chords() };
-        let mut parts: VecDeque<EdgePart> = (0..blades.len()).map(whole).collect();
         let mut found = below;
-        while let Some(EdgePart { blade, first, last }) = parts.pop_front() {
-            let middle = first.midpoint(last);
-            let p = work_from_blades[blade].point(self.polygon.corners_mm[middle]);
-            let [before_mm, here_mm, after_mm] = [first, middle, last].map(|corner| self.arcs_mm[corner]);
-            let reach_mm = (here_mm - before_mm).max(after_mm - here_mm);
+        search(blades.len(), &self.arcs_mm, |blade, corner, reach_mm| {
+            let p = work_from_blades[blade].point(self.polygon.corners_mm[corner]);
             let outside_mm = beyond_mm(p);
-            if outside_mm > reach_mm {
-                continue;
+            if outside_mm > 0.0 {
+                return outside_mm <= reach_mm;
             }
-            if outside_mm <= 0.0 {
-                let enough_mm = [found.surface_mm + reach_mm, found.material_mm + reach_mm];
-                let [surface_mm, material_mm] = self.swept.covered_mm(place, &blades[blade], p, enough_mm);
-                if surface_mm >= enough_mm[0] && material_mm >= enough_mm[1] {
-                    continue;
-                }
-                found.surface_mm = found.surface_mm.min(surface_mm);
-                found.material_mm = found.material_mm.min(material_mm);
-            }
-            if middle > first {
-                parts.push_back(EdgePart { blade, first, last: middle - 1 });
-            }
-            if middle < last {
-                parts.push_back(EdgePart { blade, first: middle + 1, last });
-            }
-        }
+            let enough_mm = [found.surface_mm + reach_mm, found.material_mm + reach_mm];
+            let [surface_mm, material_mm] = self.swept.covered_mm(place, &blades[blade], p, enough_mm);
+            found.surface_mm = found.surface_mm.min(surface_mm);
+            found.material_mm = found.material_mm.min(material_mm);
+            surface_mm < enough_mm[0] || material_mm < enough_mm[1]
+        });
         found
     }
 
@@ -139,19 +117,46 @@ impl ReturnRoom {
         beyond_mm: impl Fn(DVec2) -> f64,
     ) -> Option<[f64; 2]> {
         let pose = self.swept.pose(place);
+        let blades: Vec<Rigid2> = self.swept.tools_from_blades().collect();
+        let arcs_mm: Vec<f64> = self.polygon.stations.iter().map(|station| station.arc_mm).collect();
         let mut range: Option<[f64; 2]> = None;
-        for tool_from_blade in self.swept.tools_from_blades() {
-            let work_from_blade = pose.after(&tool_from_blade);
-            for station in &self.polygon.stations {
-                let p = work_from_blade.point(station.point_mm);
-                if beyond_mm(p) > 0.0 || !self.swept.is_contact(place, &tool_from_blade, p) {
-                    continue;
-                }
+        search(blades.len(), &arcs_mm, |blade, station, reach_mm| {
+            let work_from_blade = pose.after(&blades[blade]);
+            let station = &self.polygon.stations[station];
+            let p = work_from_blade.point(station.point_mm);
+            let outside_mm = beyond_mm(p);
+            if outside_mm > 0.0 {
+                return outside_mm <= reach_mm;
+            }
+            let enough_mm = CONTACT_MM + reach_mm;
+            let covered_mm = self.swept.covered_before_mm(place, &blades[blade], p, enough_mm);
+            if covered_mm <= CONTACT_MM {
                 let angle_rad = into_work.angle_to(work_from_blade.direction(station.normal));
                 let [low, high] = range.unwrap_or([angle_rad; 2]);
                 range = Some([low.min(angle_rad), high.max(angle_rad)]);
             }
-        }
+            covered_mm < enough_mm
+        });
         range
+    }
+}
+
+/// Looks at the places of an edge, whose arcs are given, on every cutter tooth: at the middle of a part first, then at the
+/// halves beside it. `look` gets tooth, place, and how far the part reaches to either side, mm; it says whether the rest
+/// of the part is to be looked at.
+fn search(blades: usize, arcs_mm: &[f64], mut look: impl FnMut(usize, usize, f64) -> bool) {
+    let mut parts: VecDeque<(usize, [usize; 2])> = (0..blades).map(|blade| (blade, [0, arcs_mm.len() - 1])).collect();
+    while let Some((blade, [first, last])) = parts.pop_front() {
+        let middle = first.midpoint(last);
+        let reach_mm = (arcs_mm[middle] - arcs_mm[first]).max(arcs_mm[last] - arcs_mm[middle]);
+        if !look(blade, middle, reach_mm) {
+            continue;
+        }
+        if middle > first {
+            parts.push_back((blade, [first, middle - 1]));
+        }
+        if middle < last {
+            parts.push_back((blade, [middle + 1, last]));
+        }
     }
 }

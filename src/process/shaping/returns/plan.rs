@@ -59,6 +59,11 @@ impl RetractionPlan {
         Ok(plan)
     }
 
+    /// Tilted out of the normal, within what clears.
+    pub fn tilted(back_off_mm: f64, tilts_rad: [f64; 2]) -> Self {
+        Self { asked: Retraction::Tilted, back_off_mm, tilts_rad: Some(tilts_rad), turned_rad: Vec::new() }
+    }
+
     /// What the scene asks for.
     pub fn asked(&self) -> Retraction {
         self.asked

@@ -156,9 +156,14 @@ impl<'a> Survey<'a> {
         self.room.at(place, returning, |p| self.beyond_mm(p, phi_rad), below)
     }
 
+    /// How many of the rooms of a turn there are before the pitch curve repeats.
+    pub fn period_places(&self) -> usize {
+        self.period_teeth as usize * PHASES_PER_PITCH
+    }
+
     /// Places to look at in the first period of the turn.
     fn places_of_period(&self) -> impl IndexedParallelIterator<Item = usize> {
-        (0..self.period_teeth as usize * PHASES_PER_PITCH).into_par_iter().map(|index| index * STEP)
+        (0..self.period_places()).into_par_iter().map(|index| index * STEP)
     }
 
     fn pose(&self, phi_rad: f64) -> CutterPose {

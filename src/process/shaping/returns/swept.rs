@@ -32,8 +32,6 @@ pub const POSES_PER_PITCH: usize = 48;
 /// Poses before and after a stroke that can cover what the cutter meets there: six pitches. A cutter tooth is in the
 /// work for less than three on external gears, and internal gears hold it longer.
 const REACH: usize = 6 * POSES_PER_PITCH;
-/// What a place of the edge at most stands in earlier poses if it touches what they have left, mm.
-const CONTACT_MM: f64 = 1e-3;
 /// A pole farther from the cutter's axis than so many of its tip radii is no pivot: the poses hardly turn.
 const FARTHEST_PIVOT: f64 = 2.0;
 
@@ -162,15 +160,15 @@ impl Swept {
         [all_mm.max(past_mm), past_mm]
     }
 
-    /// Whether a point of the edge at its stroke touches surface that this stroke has made: no earlier pose has covered
-    /// it.
-    pub fn is_contact(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2) -> bool {
+    /// How deep a point stands in the pose before the stroke that covers it deepest. A depth that is `enough` ends the
+    /// search.
+    pub fn covered_before_mm(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2, enough_mm: f64) -> f64 {
         let (before, own) = (index(place) - 1, &self.ways[0]);
         let probe = Probe { distance: &self.distance, blade: tool_from_blade.rotation, p };
         let mut deepest = Deepest { depth_mm: f64::NEG_INFINITY, at: before };
-        probe.walk(own, Poses::until(before), &mut deepest, CONTACT_MM);
-        let past_mm = probe.between_poses_mm(own, deepest, &(first(before)..=before), CONTACT_MM);
-        self.earlier_mm(before, &probe, past_mm, CONTACT_MM) <= CONTACT_MM
+        probe.walk(own, Poses::until(before), &mut deepest, enough_mm);
+        let past_mm = probe.between_poses_mm(own, deepest, &(first(before)..=before), enough_mm);
+        self.earlier_mm(before, &probe, past_mm, enough_mm)
     }
 
     /// The depth over all poses of the earlier operations where it is more than `deepest_mm`, unless that is enough.
