@@ -6,8 +6,8 @@
 //!
 //! Law: a rotation about the driven axis keeps every point in its transverse section, so each section asks for a
 //! rotation of its own, and the gears touch at the largest of them (right flanks; at the left ones the smallest). That
-//! is exact for parallel axes, spur or helical. Axes out of parallel are taken as axes that stand apart by another vector
-//! in every section, which leaves out squares of the inclination: a nanometre at 0.1 mm over 30 mm of face.
+//! is exact for parallel axes, spur or helical. Axes out of parallel are taken as axes that stand apart by another
+//! vector in every section, which leaves out squares of the inclination: a nanometre at 0.1 mm over 30 mm of face.
 //!
 //! The driven gear's own frame is that of the machine at phi_1 = 0, moved to its axis.
 

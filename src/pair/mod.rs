@@ -2,8 +2,8 @@
 //! have.
 //!
 //! In: pitch curves and flanks of both gears, nominal or cut. Out: rotations of the driven gear at which flanks touch,
-//! and what follows from them. Everything lives in transverse planes: one of a spur pair, several of a helical one or of
-//! one whose axes are out of parallel.
+//! and what follows from them. Everything lives in transverse planes: one of a spur pair, several of a helical one or
+//! of one whose axes are out of parallel.
 //!
 //! | module | what |
 //! | --- | --- |

@@ -4,8 +4,8 @@
 //! while the flanks of its side touch, along their normal. Where it is below the thickness of the marking compound, the
 //! compound is rubbed off: the pattern that a roll test shows (ISO/TR 10064-4 speaks of 6 to 12 um for red lead).
 //!
-//! Law: a point asks for a rotation of the driven gear; what it falls short of the acting pair's, times the lever of the
-//! line of action, is its gap.
+//! Law: a point asks for a rotation of the driven gear; what it falls short of the acting pair's, times the lever of
+//! the line of action, is its gap.
 
 use rayon::prelude::*;
 

@@ -4,8 +4,8 @@
 //! position that the pitch curves ask for, on the flank or in the fillet below its form point.
 //!
 //! Law: the space between two teeth is a chain of points from the tip of its one flank through the root to the tip of
-//! the other, with the material on its left (external gear). A corner is inside where the nearest place of the chain has
-//! it on that side; its depth is the distance. Conjugate flanks touch their mate's corner at the end of the path of
+//! the other, with the material on its left (external gear). A corner is inside where the nearest place of the chain
+//! has it on that side; its depth is the distance. Conjugate flanks touch their mate's corner at the end of the path of
 //! contact, so a depth of nothing is what a sound pair shows.
 
 use glam::DVec2;

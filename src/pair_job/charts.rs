@@ -1,5 +1,5 @@
-//! Charts of a pair over the angle of gear A: ratio, transmission error, backlash, contact ratio, tight centre distance;
-//! and the waves of the transmission error as bars.
+//! Charts of a pair over the angle of gear A: ratio, transmission error, backlash, contact ratio, tight centre
+//! distance; and the waves of the transmission error as bars.
 //!
 //! In: a rolled pair and its findings. Out: charts with the names of their files.
 

@@ -1,7 +1,7 @@
 //! Tip corners in the mate's material, over a period of the pair.
 //!
-//! In: the gears in mesh, the outlines of their spaces. Out: for each gear the deepest place at which a tip corner of the
-//! other stands in it, in the position that the pitch curves ask for.
+//! In: the gears in mesh, the outlines of their spaces. Out: for each gear the deepest place at which a tip corner of
+//! the other stands in it, in the position that the pitch curves ask for.
 //!
 //! Teeth that are thinner than nominal leave the driven gear a play in which it evades; the depth tells what it has to
 //! evade, and the transmission error tells whether it did.

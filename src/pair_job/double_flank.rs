@@ -1,8 +1,8 @@
 //! Double-flank rolling: the centre distance without play, against the mate and against masters.
 //!
 //! In: the pair. Out: variations of the centre distance over a turn, with the composite deviations that double-flank
-//! testers report: F_i" over the whole turn, f_i" the largest within one pitch (ISO 1328-2 for round gears; a non-circular
-//! gear is rolled at the distances that its pitch curve asks for, and the deviation from them counts).
+//! testers report: F_i" over the whole turn, f_i" the largest within one pitch (ISO 1328-2 for round gears; a
+//! non-circular gear is rolled at the distances that its pitch curve asks for, and the deviation from them counts).
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -79,8 +79,8 @@ pub fn with_mate(meshing: &Meshing) -> Result<DoubleFlank, Refusal> {
     })
 }
 
-/// A gear against a round master of 30 teeth, work angles even along its pitch curve; flanks by tooth, in the gear's own
-/// frame. None on a ring, into which a master of this size may not go.
+/// A gear against a round master of 30 teeth, work angles even along its pitch curve; flanks by tooth, in the gear's
+/// own frame. None on a ring, into which a master of this size may not go.
 ///
 /// # Errors
 /// No tight distance near the nominal one.

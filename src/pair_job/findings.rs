@@ -191,8 +191,8 @@ fn warnings(rolled: &RolledPair) -> Vec<String> {
     let smallest = rolled.backlash.iter().map(|play| UM_PER_MM * play.circumferential_mm).fold(f64::INFINITY, f64::min);
     if smallest < JAMS_UM {
         warnings.push(format!(
-            "the pair jams: {:.1} um of backlash are missing; thin the teeth with gear.tooth_thickness_allowance_mm, or \
-            move the axes",
+            "the pair jams: {:.1} um of backlash are missing; thin the teeth with gear.tooth_thickness_allowance_mm, \
+            or move the axes",
             -smallest
         ));
     }
@@ -200,8 +200,8 @@ fn warnings(rolled: &RolledPair) -> Vec<String> {
         let Some(corner) = corner.filter(|corner| UM_PER_MM * corner.depth_mm > INTERFERES_UM) else { continue };
         let what = if corner.u_mm < 0.0 { "fillet" } else { "flank" };
         warnings.push(format!(
-            "a tip of gear {other} stands {:.1} um deep in a {what} of gear {own} where the pitch curves want it, at {:.2} \
-            deg of gear A",
+            "a tip of gear {other} stands {:.1} um deep in a {what} of gear {own} where the pitch curves want it, at \
+            {:.2} deg of gear A",
             UM_PER_MM * corner.depth_mm,
             corner.phi_1_rad.to_degrees()
         ));

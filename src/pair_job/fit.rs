@@ -1,15 +1,16 @@
 //! Whether two gears belong together, and which of their teeth meet.
 //!
-//! In: the scenes of both gears. Out: [`Fit`]: the pitch curves in mesh, how the driven gear is turned on its axis so that
-//! its pitch curve follows the driver's, and which of its flanks meets which.
+//! In: the scenes of both gears. Out: [`Fit`]: the pitch curves in mesh, how the driven gear is turned on its axis so
+//! that its pitch curve follows the driver's, and which of its flanks meets which.
 //!
-//! Law: equal transverse modules and pressure angles; helices of one angle, of opposite hands outside and of one hand in
-//! a ring; r2 = a - s r1 all round, at the distance a at which a mate with this number of teeth closes. A scene has a
-//! space centred on its polar angle 0, so a tooth of the driver meets a space of the driven gear, and it can be turned on
-//! by whole teeth: the turn is taken that brings both pitch curves nearest. On a round gear all are alike.
+//! Law: equal transverse modules and pressure angles; helices of one angle, of opposite hands outside and of one hand
+//! in a ring; r2 = a - s r1 all round, at the distance a at which a mate with this number of teeth closes. A scene has
+//! a space centred on its polar angle 0, so a tooth of the driver meets a space of the driven gear, and it can be
+//! turned on by whole teeth: the turn is taken that brings both pitch curves nearest. On a round gear all are alike.
 //!
 //! Seen against z an external mate turns the other way: with its arc counted as in its own scene, sigma = sigma_0 - S;
-//! a ring's is sigma = sigma_0 + S. So the right flanks of the driver meet right flanks outside and left ones in a ring.
+//! a ring's is sigma = sigma_0 + S. So the right flanks of the driver meet right flanks outside and left ones in a
+//! ring.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -127,9 +128,9 @@ impl Fit {
         let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
         let turned = if phase_teeth == 0 { String::new() } else { format!(", turned on by {phase_teeth} teeth") };
         let problem = format!(
-            "the pitch curves do not close together: the {} mate of {} teeth has radii from {low:.3} to {high:.3} mm at a \
-             centre distance of {a_mm:.3} mm; gear B{turned} has {:.3} to {:.3} mm, up to {:.3} mm away (at {:.1} deg of \
-             gear A), and {most_mm:.3} mm are allowed",
+            "the pitch curves do not close together: the {} mate of {} teeth has radii from {low:.3} to {high:.3} mm \
+             at a centre distance of {a_mm:.3} mm; gear B{turned} has {:.3} to {:.3} mm, up to {:.3} mm away (at \
+             {:.1} deg of gear A), and {most_mm:.3} mm are allowed",
             b.kind.name(),
             b.teeth,
             own.facts().smallest_radius_mm,
@@ -145,7 +146,8 @@ impl Fit {
         Refusal::new("gear.pitch_curve", problem, way_out)
     }
 
-    /// Flank of the driven gear that a flank of the driver meets, by the driver's tooth: its side, and its tooth from 1.
+    /// Flank of the driven gear that a flank of the driver meets, by the driver's tooth: its side, and its tooth from
+    /// 1.
     pub fn mate_flank(&self, side: Side, tooth: i64) -> (Side, i64) {
         let (side, own) = match (self.pitch.sign() > 0.0, side) {
             (true, Side::Right) => (Side::Right, self.phase - tooth + 1),
@@ -179,7 +181,8 @@ fn kinds(a: &Gear, b: &Gear) -> Result<(), Refusal> {
         (GearKind::Internal, GearKind::External) => Err(Refusal::new(
             "gear.kind",
             format!(
-                "gear A is a ring of {} internal teeth and gear B external with {}: the driver of a pair is the external one",
+                "gear A is a ring of {} internal teeth and gear B external with {}: the driver of a pair is the \
+                external one",
                 a.teeth, b.teeth
             ),
             "give the external gear first",

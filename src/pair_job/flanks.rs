@@ -50,7 +50,8 @@ pub struct SectionOfGear {
 }
 
 impl SectionOfGear {
-    /// Arc from the form point, mm, at a place along a flank of an outline; the chain's lower end where it begins later.
+    /// Arc from the form point, mm, at a place along a flank of an outline; the chain's lower end where it begins
+    /// later.
     pub fn outline_u(&self, side: Side, label: i64, place: f64) -> f64 {
         arc_at(self.u_mm.get(side, label), place - *self.left_out.get(side, label) as f64)
     }

@@ -95,9 +95,9 @@ impl PairOptions {
             return Err(Refusal::new(
                 "center_distance_error_um",
                 format!(
-                    "the axes would stand {:.6} mm apart, {error_mm:.3} mm from the {closing_mm:.6} mm at which the pair \
-                    closes: a play of about {play_mm:.3} mm on the pitch curves; up to {most_mm:.3} mm (a fifth of a \
-                    module) can be rolled",
+                    "the axes would stand {:.6} mm apart, {error_mm:.3} mm from the {closing_mm:.6} mm at which the \
+                    pair closes: a play of about {play_mm:.3} mm on the pitch curves; up to {most_mm:.3} mm (a fifth \
+                    of a module) can be rolled",
                     closing_mm + error_mm
                 ),
                 format!("give -{0:.0} to {0:.0} um", UM_PER_MM * most_mm),

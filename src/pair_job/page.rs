@@ -1,7 +1,8 @@
 //! The page of a pair: `report.html`.
 //!
-//! In: a rolled pair with its findings and charts. Out: one page: key numbers, the ratio that the pair is for, transmission
-//! error with its waves, backlash, contact with its patterns, interference, double-flank rolling, centre distance.
+//! In: a rolled pair with its findings and charts. Out: one page: key numbers, the ratio that the pair is for,
+//! transmission error with its waves, backlash, contact with its patterns, interference, double-flank rolling, centre
+//! distance.
 
 use super::charts::{self, NamedLines};
 use super::options::PairOptions;
@@ -60,8 +61,8 @@ pub fn page(
         section(
             "transmission-error",
             "Transmission error",
-            "Rotation of B less the one asked for, without load. Long waves are longer than two teeth; the rest comes with \
-            the teeth.",
+            "Rotation of B less the one asked for, without load. Long waves are longer than two teeth; the rest comes \
+            with the teeth.",
             part(vec![
                 chart("transmission_error"),
                 charts::waves(found).map(Block::Bars),
@@ -72,15 +73,15 @@ pub fn page(
         section(
             "backlash",
             "Backlash",
-            "What B can turn while A is held, at the pitch point across the line of centres and normal to the flanks. Below \
-            zero the pair jams.",
+            "What B can turn while A is held, at the pitch point across the line of centres and normal to the flanks. \
+            Below zero the pair jams.",
             part(vec![chart("backlash"), table("backlash")]),
         ),
         section(
             "contact",
             "Contact",
-            "Where flanks come nearer to each other than the marking compound is thick. Heights count from the pitch curve, \
-            u from the form point.",
+            "Where flanks come nearer to each other than the marking compound is thick. Heights count from the pitch \
+            curve, u from the form point.",
             contact,
         ),
         section(

@@ -31,7 +31,8 @@ fn side_section(options: &PairOptions, rolled: &RolledPair, at: usize) -> Sectio
     let lift = Quantity::number_or(
         edge.as_ref().map(|edge| edge.lift_um),
         "um",
-        "how far a tip corner or a fillet drives the gears at most beyond what flanks ask for, along the flank's normal",
+        "how far a tip corner or a fillet drives the gears at most beyond what flanks ask for, along the flank's \
+        normal",
         format!("nothing but flanks carries: corners and fillets lift by less than {LEAST_LIFT_UM} um"),
     );
     let lift = match edge {
@@ -44,11 +45,19 @@ fn side_section(options: &PairOptions, rolled: &RolledPair, at: usize) -> Sectio
     Section::new(side.name(), title)
         .with(
             "smallest_contact_ratio",
-            extreme(-1.0, "smallest of the contact ratios of all moments: path of contact between the tip curves over the base pitch"),
+            extreme(
+                -1.0,
+                "smallest of the contact ratios of all moments: path of contact between the tip curves over \
+                the base pitch",
+            ),
         )
         .with("mean_contact_ratio", Quantity::number(mean, "1", "mean of the contact ratios of all moments"))
         .with("largest_contact_ratio", extreme(1.0, "largest of the contact ratios of all moments"))
-        .shown("mean_pairs", "pairs in contact, mean", Quantity::number(mean_pairs, "1", format!("mean number of {marked}")))
+        .shown(
+            "mean_pairs",
+            "pairs in contact, mean",
+            Quantity::number(mean_pairs, "1", format!("mean number of {marked}")),
+        )
         .with("fewest_pairs", Quantity::count(fewest.into(), "pairs", format!("smallest number of {marked}")))
         .shown("edge_lift", "lift by edges", lift)
         .with("edge_share", Quantity::number(100.0 * share, "%", "positions at which a tip corner or a fillet carries"))
@@ -70,7 +79,8 @@ pub(super) fn interference(scenes: [&Scene; 2], rolled: &RolledPair) -> Section 
     };
     let definition = |gear: usize| {
         format!(
-            "deepest place of a tip corner of the mate in the material of {} ({}), where the pitch curves want it; below 0: clear",
+            "deepest place of a tip corner of the mate in the material of {} ({}), where the pitch curves want it; \
+            below 0: clear",
             scenes[gear].name,
             ["gear A", "gear B"][gear]
         )
