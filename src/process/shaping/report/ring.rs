@@ -3,7 +3,7 @@
 use crate::findings::{Findings, Table};
 use crate::output::line_chart::{LineChart, Panel};
 use crate::output::report::{Block, PageSection};
-use crate::output::text::significant;
+use crate::output::text::{plain, significant};
 use crate::process::shaping::ShapingJob;
 use crate::steps::axes::charts::panel;
 
@@ -53,7 +53,7 @@ fn panels(job: &ShapingJob, table: &Table) -> Vec<Panel> {
 fn words(ring: &crate::findings::Section, teeth: u32) -> String {
     let mut words = format!(
         "The cutter has {teeth} teeth; up to {} roll everywhere.",
-        ring.number("rolling_teeth").map_or("–".to_owned(), |count| significant(count, 3))
+        ring.number("rolling_teeth").map_or("–".to_owned(), plain)
     );
     let depth = ring.number("tip_corner_depth");
     words.push_str(&match depth {
