@@ -37,19 +37,21 @@ pub fn smallest_gaps(meshing: &Meshing, moments: &[Moment], reach_um: f64) -> Ve
     moments
         .par_iter()
         .fold(nothing, |mut gaps, moment| {
-            [Side::Right, Side::Left].into_iter().for_each(|side| note(meshing, moment, side, reach_um, &mut gaps));
+            for side in [Side::Right, Side::Left] {
+                note(meshing, moment, side, reach_um, &mut gaps);
+            }
             gaps
         })
         .reduce(nothing, |mut a, b| {
             for (a, b) in a.iter_mut().zip(&b) {
-                a.driver_um.combine(&b.driver_um, least);
-                a.driven_um.combine(&b.driven_um, least);
+                a.driver_um.combine(&b.driver_um, |a, b| least(a, b));
+                a.driven_um.combine(&b.driven_um, |a, b| least(a, b));
             }
             a
         })
 }
 
-fn least(a: &mut Vec<f32>, b: &Vec<f32>) {
+fn least(a: &mut [f32], b: &[f32]) {
     for (a, b) in a.iter_mut().zip(b) {
         *a = a.min(*b);
     }

@@ -124,9 +124,11 @@ fn brute_force(meshing: &Meshing) {
                     continue;
                 }
                 for flank in &section.driven.right {
-                    [(side[0], a), (side[1], b)].into_iter().for_each(|(d, radius)| {
-                        flank.angle_rad(radius).into_iter().for_each(|angle| offer(d, angle));
-                    });
+                    for (d, radius) in [(side[0], a), (side[1], b)] {
+                        if let Some(angle) = flank.angle_rad(radius) {
+                            offer(d, angle);
+                        }
+                    }
                     let first = flank.radii_mm.partition_point(|r| *r < a.min(b));
                     for (k, r) in flank.radii_mm.iter().enumerate().skip(first).take_while(|(_, r)| **r <= a.max(b)) {
                         offer(side[0].lerp(side[1], (r - a) / (b - a)), flank.angle_of_point(k));
