@@ -32,7 +32,9 @@ fn the_papers_axes_are_written() {
         let (header, rows) = table(&out.join(format!("axes/{operation}.csv")));
         let begin = ["stroke", "time_s", "psi_c_deg", "psi_b_deg", "center_distance_mm", "offset_mm", "phi_deg"];
         assert_eq!(header[..7], begin);
-        assert_eq!((header.len(), rows.len()), (15, 4200));
+        assert_eq!((header.len(), rows.len()), (16, 4200));
+        let end = ["left_relief_share_of_circular", "right_relief_share_of_circular", "normal_to_line_of_centres_deg"];
+        assert_eq!(header[13..], end);
         for chart in ["positions", "velocities", "accelerations", "relief"] {
             let path = out.join(format!("axes/{operation}_{chart}.svg"));
             let text = std::fs::read_to_string(&path).expect("a chart");
