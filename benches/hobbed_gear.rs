@@ -19,6 +19,9 @@
 //! `-- blank` for the whole blank alone.
 
 mod common;
+#[allow(dead_code, reason = "shared with the tests: a bench takes its part")]
+#[path = "../tests/suite/fixtures/expected.rs"]
+mod expected;
 #[allow(
     dead_code,
     clippy::wildcard_imports,

@@ -9,6 +9,7 @@
 //! not taken is one trait with a method for every measure: each new measure of one process would have to be thought of
 //! in all.
 
+pub mod bevel;
 pub mod hobbing;
 pub mod shaping;
 
@@ -73,7 +74,7 @@ pub trait ProcessJob: Sync {
 }
 
 /// All processes; a new one adds its line here.
-pub static PROCESSES: &[&Process] = &[&shaping::PROCESS, &hobbing::PROCESS];
+pub static PROCESSES: &[&Process] = &[&shaping::PROCESS, &hobbing::PROCESS, &bevel::PROCESS];
 
 /// The keys of all scenes.
 pub fn table() -> &'static KeyTable {

@@ -84,7 +84,8 @@ fn gear(values: &Values) -> Option<Gear> {
 /// The curve that a table chooses: `[gear.pitch_curve]`, or that of a mate's driver.
 fn pitch_curve(values: &Values, choice: &str, kind: GearKind) -> Option<PitchCurveShape> {
     let (holder, name) = choice.rsplit_once('.')?;
-    let shape = values.view(holder).variant(name)?;
+    // Gears that roll on cones have no choice of curves: a circle stands for theirs.
+    let Some(shape) = values.view(holder).variant(name) else { return Some(PitchCurveShape::Circle) };
     let path = format!("{choice}.{shape}");
     let curve = values.view(&path);
     Some(match shape {

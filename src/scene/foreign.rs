@@ -28,7 +28,7 @@ pub(super) fn refuse_foreign(
         let path_in_table = general(&path);
         let others = table.processes().iter().filter(|other| other.name != process.name);
         for owner in others.filter(|other| KeyTable::new(&[other]).knows(&path_in_table)).take(1) {
-            let senseless = process.senseless.iter().find(|senseless| is_within(&path_in_table, senseless.path));
+            let senseless = process.senseless.iter().find(|senseless| senseless.holds(&path_in_table));
             problems.add(
                 &values.place_of(&path),
                 format!(
@@ -49,11 +49,6 @@ pub(super) fn refuse_foreign(
     }
     values.held.retain(|path, _| !foreign(path));
     values.variants.retain(|path, _| !foreign(path));
-}
-
-/// Whether a path is a key or section, or inside of it.
-fn is_within(path: &str, outer: &str) -> bool {
-    path.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 /// `operation.0.infeed` as the table of keys has it: `operation[].infeed`.

@@ -51,6 +51,13 @@ impl LoadedScene {
     /// This gear is a ring or a mate itself; no gear with so many teeth runs with it and closes.
     pub fn mate(&self, mate: Mate) -> Result<MateScene, Refusal> {
         let gear = &self.scene.gear;
+        if !KeyTable::new(&[self.scene.process.process()]).knows("gear.pitch_curve") {
+            return Err(Refusal::new(
+                "gear",
+                "this gear rolls on no pitch curve, and a mate's curve follows from its driver's",
+                "write the scene of the mate with its own cones and settings",
+            ));
+        }
         if gear.kind == GearKind::Internal {
             return Err(Refusal::new(
                 "gear.kind",

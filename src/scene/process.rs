@@ -37,7 +37,8 @@ pub struct SceneProcess {
     pub of_one_gear: &'static [&'static str],
     /// Shared sections that hold only where they are written: no default stands in for them.
     pub on_demand: &'static [&'static str],
-    /// Keys and sections of others that readers may well look for, and why they have no sense here.
+    /// Keys and sections that have no sense here, and why: those of others that readers may well look for, and shared ones,
+    /// which its scenes then do not have.
     pub senseless: &'static [Senseless],
     /// Puts in defaults that follow from other keys.
     pub(crate) derive: fn(&mut Values),
@@ -48,7 +49,7 @@ pub struct SceneProcess {
     pub(crate) build: fn(&Values, &Path) -> Option<ScenePart>,
 }
 
-/// A key or section of other processes that has no sense in one.
+/// A key or section that has no sense in a process.
 #[derive(Debug)]
 pub struct Senseless {
     /// Its path, `[]` after the name of a list.
@@ -57,6 +58,13 @@ pub struct Senseless {
     pub why: &'static str,
     /// What to do instead.
     pub instead: &'static str,
+}
+
+impl Senseless {
+    /// Whether a path, `[]` after the name of a list, is this key or section, or inside of it.
+    pub(super) fn holds(&self, path: &str) -> bool {
+        path.strip_prefix(self.path).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    }
 }
 
 impl SceneProcess {

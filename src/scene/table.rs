@@ -2,7 +2,8 @@
 //!
 //! In: the processes. Out: [`KeyTable`], against which files are checked and from which schema, reference and template
 //! are printed. The order is that of a scene file: by [`ORDER`], in it the shared sections first, then process by
-//! process. The table of a single process has what its scenes may say, and so tells which keys are another's.
+//! process. The table of a single process has what its scenes may say, and so tells which keys are another's; shared keys
+//! that have no sense in it are left out.
 
 use super::keys::{self, Addition, Group, Key, KeySection, Role, join};
 use super::process::SceneProcess;
@@ -51,6 +52,15 @@ impl KeyTable {
         for addition in processes.iter().flat_map(|process| process.added) {
             let section = sections.iter_mut().find(|section| section.path == addition.path);
             section.unwrap_or_else(|| panic!("keys are added to {}, which is no section", addition.path)).add(addition);
+        }
+        // What has no sense in any of them is not there.
+        let senseless = |path: &str| {
+            let in_one = |process: &&SceneProcess| process.senseless.iter().any(|senseless| senseless.holds(path));
+            !processes.is_empty() && processes.iter().all(in_one)
+        };
+        sections.retain(|section| !senseless(section.path));
+        for section in &mut sections {
+            section.keys.retain(|key| !senseless(&join(section.path, key.name)));
         }
         sections.sort_by_key(|section| place(section.path));
         Self { processes: processes.to_vec(), sections }

@@ -88,6 +88,15 @@ impl<'a> Walk<'a, '_> {
         self.own.and_then(|own| own.section(section.path)?.key(key.name)).unwrap_or(key)
     }
 
+    /// Whether the scene's own process has a key; without one, whether all processes have it.
+    fn asks_for(&self, section: &TableSection, key: &Key) -> bool {
+        let path = join(section.path, key.name);
+        match self.own {
+            Some(own) => own.knows(&path),
+            None => self.table.processes().iter().all(|process| KeyTable::new(&[process]).knows(&path)),
+        }
+    }
+
     /// Checks the elements of a list of tables.
     fn list(&mut self, section: &'a TableSection, fewest: usize, path: &str, list: &Node, at: &At) {
         let name = section.name();
@@ -180,7 +189,7 @@ impl<'a> Walk<'a, '_> {
         }
         let value = match key.default {
             // Written under a wrong name: one problem is enough.
-            Default::Required if misspelt() => return,
+            Default::Required if misspelt() || !self.asks_for(section, key) => return,
             Default::Required => {
                 let header = section.header();
                 self.problems.add(

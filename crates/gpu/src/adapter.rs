@@ -126,7 +126,7 @@ fn facts(adapter: &wgpu::Adapter) -> AdapterFacts {
     let lacks = if limits.max_storage_buffers_per_shader_stage < STORAGE_BUFFERS {
         Some(format!("{STORAGE_BUFFERS} storage buffers in a stage"))
     } else if limits.max_compute_invocations_per_workgroup < WORKGROUP_THREADS {
-        Some(format!("workgroups of {} threads", WORKGROUP_THREADS))
+        Some(format!("workgroups of {WORKGROUP_THREADS} threads"))
     } else {
         None
     };

@@ -1,4 +1,10 @@
 //! Spiral bevel gears cut with a face-mill head on a six-axis machine.
 
 mod cases;
+mod command;
+mod cut;
+mod gcode;
+mod jobs;
 mod oracle;
+mod pair;
+mod refusals;

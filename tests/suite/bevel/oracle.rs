@@ -69,8 +69,8 @@ fn matrices_and_axes() {
     }
 }
 
-/// All rows of Table 3; the file has the fifth row's Y without its stray digit, and the work's angles that follow from the
-/// other columns.
+/// All rows of Table 3; the file has the fifth row's Y without its stray digit, and the work's angles that follow from
+/// the other columns.
 #[test]
 fn positions_of_table_3() {
     let file = data("b02_table3");
@@ -234,8 +234,8 @@ fn settings_come_back_from_axes() {
     assert!(machine.cradle_of(&roll[..1], 0.9, 0.7).is_err());
 }
 
-/// Points of the fillet are the torus's at their moment, and moments beside it leave them in the material that stays: the
-/// torus touches its envelope from inside.
+/// Points of the fillet are the torus's at their moment, and moments beside it leave them in the material that stays:
+/// the torus touches its envelope from inside.
 #[test]
 fn the_fillet_is_touched_by_the_round() {
     let file = data("b05_flank");

@@ -329,11 +329,21 @@ fn rivals(name: &str) -> impl Iterator<Item = &'static str> {
 
 /// What of a template cannot be left out: gear and tool with the keys that must be written.
 fn shortest(template: &str) -> String {
-    let needed = |line: &&str| {
-        let header = *line == "[gear]" || line.starts_with("[tool.") && line.matches('.').count() == 1;
-        header || !line.starts_with('#') && (line.ends_with("; required") || line.ends_with("; one of the two"))
-    };
-    template.lines().filter(needed).flat_map(|line| [line, "\n"]).collect()
+    let mut out = String::new();
+    let mut header = "";
+    for line in template.lines() {
+        if line.starts_with('[') {
+            header = line;
+        } else if !line.starts_with('#') && (line.ends_with("; required") || line.ends_with("; one of the two")) {
+            // The header of a section stands before the first key that must be written.
+            if !header.is_empty() {
+                out.extend([header, "\n"]);
+                header = "";
+            }
+            out.extend([line, "\n"]);
+        }
+    }
+    out
 }
 
 #[test]

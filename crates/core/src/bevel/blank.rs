@@ -1,14 +1,15 @@
 //! The blank of a bevel gear from its cone data, and whether the data agree with each other.
 //!
-//! In: angles of pitch, face and root cone, outer cone distance, face width, outer addendum and dedendum. Out: the tooth
-//! between them at every cone distance, and a list of what does not fit.
+//! In: angles of pitch, face and root cone, outer cone distance, face width, outer addendum and dedendum. Out: the
+//! tooth between them at every cone distance, and a list of what does not fit.
 //!
 //! **Places.** A point of the axial section is told by its cone distance R along the pitch cone from the pitch apex, and
-//! by its height h over the pitch cone, square to it, positive towards the tips: in the work frame
-//! x = R cos(gamma) - h sin(gamma) along the axis and R sin(gamma) + h cos(gamma) away from it. Face and root cone need
-//! not meet the pitch apex: what fixes them is addendum and dedendum at the outer cone distance.
+//! by its height h over the pitch cone, square to it, positive towards the tips. In the work frame it stands at
+//! R cos(gamma) - h sin(gamma) along the axis and R sin(gamma) + h cos(gamma) away from it. Face and root cone need not
+//! meet the pitch apex: what fixes them is addendum and dedendum at the outer cone distance.
 //!
-//! Source of the terms: ISO 23509. The checks hold the rounding of printed data (0.01 deg, 0.5 % of the depth) as equal.
+//! Source of the terms: ISO 23509. The checks hold the rounding of printed data (0.01 deg, 0.5 % of the depth) as
+//! equal.
 
 use crate::error::Refusal;
 use glam::{DVec2, DVec3, Vec3Swizzles};
@@ -123,8 +124,8 @@ impl BevelBlank {
         self.outer_dedendum_mm - (self.outer_cone_distance_mm - cone_distance_mm) * self.dedendum_angle_rad().tan()
     }
 
-    /// How far the line of the roots passes the pitch apex, towards the back, mm: by so much a head whose tips' plane goes
-    /// through the apex at the root angle cuts too shallow.
+    /// How far the line of the roots passes the pitch apex, towards the back, mm: by so much a head whose tips' plane
+    /// goes through the apex at the root angle cuts too shallow.
     pub fn root_apex_offset_mm(&self) -> f64 {
         let (sin, cos) = self.dedendum_angle_rad().sin_cos();
         self.outer_dedendum_mm * cos - self.outer_cone_distance_mm * sin

@@ -4,8 +4,8 @@
 //!
 //! Source: Chen, Yan, Ming and Xie (2008), Eq. 6, which this pose equals entry by entry; for the sliding base along the
 //! cradle's axis, the modified roll and the names Litvin and Zhang, NASA CR-4342 (1991). The paper draws X_B along the
-//! machine's x axis, where it acts like a part of X_p; on a machine the sliding base runs along the cradle's axis. Both are
-//! settings here, so that the printed example and a corrected one can be told apart.
+//! machine's x axis, where it acts like a part of X_p; on a machine the sliding base runs along the cradle's axis. Both
+//! are settings here, so that the printed example and a corrected one can be told apart.
 //!
 //! The road not taken: cutter tilt and swivel as settings. A tilted head is a pose like any other for all that follows
 //! (envelope, axes, passes); only [`CradleSettings::motion`] would have to know it.
@@ -34,8 +34,8 @@ pub struct CradleSettings {
     pub roll: Roll,
 }
 
-/// Work angle over cradle angle: A(q) = A(q0) + R_a (d - C d^2 - D d^3), d = q - q0, q0 the cradle angle at the middle of
-/// the roll. C and D are Litvin's coefficients of modified roll; with both 0 the ratio is the same all the time.
+/// Work angle over cradle angle: A(q) = A(q0) + R_a (d - C d^2 - D d^3), d = q - q0, q0 the cradle angle at the middle
+/// of the roll. C and D are Litvin's coefficients of modified roll; with both 0 the ratio is the same all the time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Roll {
     /// Ratio of roll R_a: work angle per cradle angle at the middle of the roll.
@@ -124,7 +124,8 @@ mod tests {
         let wanted = (moved(q + h) - moved(q - h)) / (2.0 * h);
         let got = motion.velocity_at(motion.pose.point(at));
         assert!(got.distance(wanted) < 1e-6, "{got} not {wanted}");
-        // The rest of the third derivative at the step, and rounding: what a wrong sign would leave is 1e8 times larger.
+        // The rest of the third derivative at the step, and rounding: what a wrong sign would leave is 1e8 times
+        // larger.
         let [before, rate] = settings.work_angle(q);
         assert!((settings.work_angle(q + h)[0] - before - h * rate).abs() < 1e-10);
         assert!((settings.work_angle(0.9)[0] - 1.08 * 0.9).abs() < 1e-15);

@@ -3,11 +3,11 @@
 //! In: settings of the machine and a cutting surface. Out: points and normals of the generated flank and of its fillet.
 //!
 //! **Law.** A point of the surface is on the envelope in the moment when its normal is square to its velocity in the
-//! work. Along a straight edge the normal n is the same, and the velocity v + w x r is linear in the place u on the edge:
-//! u = -n . (v + w x r0) / (n . (w x d)), r0 the point in the plane of the tips, d the edge's direction. In the round all
-//! normals go through its middle c, so that its velocity alone counts: the lean follows from n . (v + w x c) = 0. What is
-//! left are two unknowns, the angle theta about the head's axis and the cradle angle q, for the two coordinates that a
-//! point of the flank is asked for by; Newton's method finds them to rounding.
+//! work. Along a straight edge the normal n is the same, and the velocity v + w x r is linear in the place u on the
+//! edge: u = -n . (v + w x r0) / (n . (w x d)), r0 the point in the plane of the tips, d the edge's direction. In the
+//! round all normals go through its middle c, so that its velocity alone counts: the lean follows from n . (v + w x c)
+//! = 0. What is left are two unknowns, the angle theta about the head's axis and the cradle angle q, for the two
+//! coordinates that a point of the flank is asked for by; Newton's method finds them to rounding.
 //!
 //! Source: Litvin and Fuentes, Gear Geometry and Applied Theory (2004), chapters 6 and 22.
 
@@ -80,8 +80,16 @@ impl Envelope {
         }
     }
 
-    /// Point of the fillet that belongs to the same angles, and its lean: the blade angle where it joins the flank, a right
-    /// angle where it joins the bottom.
+    /// How far a point of the work stands beyond the cone at a cradle angle, mm: what the blades leave over it where
+    /// they pass at that moment alone. A point of the envelope has 0 at its own moment and more before and after.
+    pub fn beyond_mm(&self, point_mm: DVec3, cradle_rad: f64) -> f64 {
+        let in_tool = self.settings.work_from_tool(cradle_rad).inverse().point(point_mm);
+        let head_rad = in_tool.y.atan2(in_tool.x);
+        (self.surface.point_mm(head_rad, 0.0) - in_tool).dot(self.surface.normal(head_rad))
+    }
+
+    /// Point of the fillet that belongs to the same angles, and its lean: the blade angle where it joins the flank, a
+    /// right angle where it joins the bottom.
     pub fn fillet_at(&self, head_rad: f64, cradle_rad: f64) -> (FlankPoint, f64) {
         let motion = self.settings.motion(cradle_rad);
         let pose = motion.pose;
@@ -104,9 +112,9 @@ impl Envelope {
         (point, lean_rad)
     }
 
-    /// Angles about the head's axis and of the cradle near which a point at a cone distance is generated, rad: where the
-    /// circle of the points, seen along the cradle's axis, crosses the circle of the cone distance, at the moment when
-    /// that crossing lies on the line along which the head touches the root cone.
+    /// Angles about the head's axis and of the cradle near which a point at a cone distance is generated, rad: where
+    /// the circle of the points, seen along the cradle's axis, crosses the circle of the cone distance, at the moment
+    /// when that crossing lies on the line along which the head touches the root cone.
     pub fn guess(&self, cone_distance_mm: f64) -> [f64; 2] {
         let (s, r) = (self.settings.radial_setting_mm, self.surface.point_radius_mm);
         let cosine = (cone_distance_mm.powi(2) - s * s - r * r) / (2.0 * s * r);
@@ -115,8 +123,8 @@ impl Envelope {
         [head_rad, -at.to_angle()]
     }
 
-    /// Point of the flank at a cone distance and at a height over the pitch cone, or where a place of the edge has cut it;
-    /// `start` are angles about the head's axis and of the cradle near it.
+    /// Point of the flank at a cone distance and at a height over the pitch cone, or where a place of the edge has cut
+    /// it; `start` are angles about the head's axis and of the cradle near it.
     ///
     /// # Errors
     /// The roll generates no such point near the start.

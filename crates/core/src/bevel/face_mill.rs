@@ -1,15 +1,15 @@
 //! The face-mill head: inside and outside blades in turn on one circle, and the surfaces that they sweep at rest.
 //!
-//! In: radius, point width, blade angles, rounds, runouts. Out: a tool for the passes, and for both sides of the slot the
-//! surface of revolution that all blades of the kind sweep: a cone with a torus at its foot ([`CuttingSurface`]).
+//! In: radius, point width, blade angles, rounds, runouts. Out: a tool for the passes, and for both sides of the slot
+//! the surface of revolution that all blades of the kind sweep: a cone with a torus at its foot ([`CuttingSurface`]).
 //!
 //! **Frames.** Tool frame: origin in the middle of the tips' plane, z along the head's axis to the work (see
 //! [`super`]). Blade b stands at the angle 2 pi b / n. Blade frame: x along the axis to the tip, y away from the axis,
 //! origin [`FaceMill::blade_height_mm`] short of the tips on the mean radius.
 //!
 //! **Blades.** Outside blades have even numbers: they cut the slot's outer side, on which the tooth is concave. Inside
-//! blades cut the inner one, the convex side of the next tooth. The back of a blade leans half as much as its cutting edge
-//! and clears the other side of the slot.
+//! blades cut the inner one, the convex side of the next tooth. The back of a blade leans half as much as its cutting
+//! edge and clears the other side of the slot.
 //!
 //! The road not taken: hook and rake angles. Rake faces hold the head's axis, as [`crate::passes`] asks.
 

@@ -2,11 +2,12 @@
 //!
 //! In: a pose of the tool in the work, or cradle settings. Out: positions of the axes, and the way back.
 //!
-//! The chain is p = R_x(-A) (R_y(B) (R_z(C) t + (X, Y, Z)) - (x_e, 0, 0)), Chen, Yan, Ming and Xie (2008), Eqs. 3 and 5:
-//! L_pt = R_x R_y R_z, and x_e is the mounting distance from B's axis to the work, fixed on the machine. Any pose has its
-//! axes, tilted heads too: B = asin L_13, A = atan2(L_23, L_33), C = atan2(-L_12, L_11), unless the head's axis runs
-//! along the work's. From a cradle machine without tilt follow Eqs. 9 to 14 in closed form: B is the root angle and rests,
-//! so that five axes are linked and the turn of the head's frame C = q goes into the spindle, where it is of no account.
+//! The chain is p = R_x(-A) (R_y(B) (R_z(C) t + (X, Y, Z)) - (x_e, 0, 0)), Chen, Yan, Ming and Xie (2008), Eqs. 3 and
+//! 5: L_pt = R_x R_y R_z, and x_e is the mounting distance from B's axis to the work, fixed on the machine. Any pose
+//! has its axes, tilted heads too: B = asin L_13, A = atan2(L_23, L_33), C = atan2(-L_12, L_11), unless the head's axis
+//! runs along the work's. From a cradle machine without tilt follow Eqs. 9 to 14 in closed form: B is the root angle
+//! and rests, so that five axes are linked and the turn of the head's frame C = q goes into the spindle, where it is of
+//! no account.
 
 use super::cradle::{CradleSettings, Roll};
 use crate::error::{NotConverged, Refusal};
@@ -87,10 +88,10 @@ impl FiveAxisMachine {
         }
     }
 
-    /// The way back: settings of a cradle machine that does the same as a list of positions along a roll, and the largest
-    /// distance of their paths, mm. X, Y over C give S_r, E_m and the middle of the arc; Z gives X_p, once the sliding
-    /// base is known, because both move the head along the same line of the plane of the axes; A over C gives the ratio
-    /// and the modified roll about `cradle_angle_rad`.
+    /// The way back: settings of a cradle machine that does the same as a list of positions along a roll, and the
+    /// largest distance of their paths, mm. X, Y over C give S_r, E_m and the middle of the arc; Z gives X_p, once the
+    /// sliding base is known, because both move the head along the same line of the plane of the axes; A over C gives
+    /// the ratio and the modified roll about `cradle_angle_rad`.
     ///
     /// # Errors
     /// Fewer than four positions, or positions that lie too near to each other to tell the settings apart.

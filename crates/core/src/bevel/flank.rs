@@ -1,7 +1,7 @@
 //! The target flank as a grid: rows along the tooth, each with its profile from the form point to the tip.
 //!
-//! In: an envelope and the blank. Out: rows at places along the tooth, and on each the points and normals of the flank at
-//! shares of its profile.
+//! In: an envelope and the blank. Out: rows at places along the tooth, and on each the points and normals of the flank
+//! at shares of its profile.
 //!
 //! A **row** stands at one cone distance: it lies in the cone square to the pitch cone, as ISO's transverse sections of
 //! bevel gears do. Its place along the tooth counts from the middle of the face along the pitch cone, towards the heel.
@@ -14,8 +14,8 @@ use super::envelope::{Envelope, FlankPoint, Place};
 use crate::error::{NotConverged, Refusal};
 use glam::{DVec2, DVec3};
 
-/// Intervals over which the arc of the middle profile is summed: chords of 0.1 mm on a radius of 100 mm are short by 4e-8
-/// of themselves.
+/// Intervals over which the arc of the middle profile is summed: chords of 0.1 mm on a radius of 100 mm are short by
+/// 4e-8 of themselves.
 const ARC_INTERVALS: usize = 100;
 
 /// One flank of a tooth.
@@ -79,6 +79,14 @@ impl BevelFlank {
         ((after - 1) as f64 + (arc_mm - from) / (to - from)) / last as f64
     }
 
+    /// Arc from the form point at which a share of the profile ends, in the middle of the face, mm.
+    pub fn arc_at(&self, share: f64) -> f64 {
+        let last = self.arcs_mm.len() - 1;
+        let place = share * last as f64;
+        let before = (place.max(0.0) as usize).min(last - 1);
+        self.arcs_mm[before] + (place - before as f64) * (self.arcs_mm[before + 1] - self.arcs_mm[before])
+    }
+
     /// The row at a place along the tooth, mm from the middle of the face, positive towards the heel.
     ///
     /// # Errors
@@ -125,13 +133,17 @@ impl BevelFlank {
 }
 
 impl FlankRow<'_> {
+    /// Share of the profile at which it crosses the pitch cone; beyond 0 to 1 where it does not.
+    pub fn pitch_share(&self) -> f64 {
+        -self.form_height_mm / (self.tip_height_mm - self.form_height_mm)
+    }
+
     /// Spiral angle on the pitch cone, rad: from the generatrix to the tooth's trace, positive.
     ///
     /// # Errors
     /// The flank does not reach the pitch cone here.
     pub fn spiral_angle_rad(&self) -> Result<f64, Refusal> {
-        let height_mm = self.tip_height_mm - self.form_height_mm;
-        let pitch = self.point(-self.form_height_mm / height_mm)?;
+        let pitch = self.point(self.pitch_share())?;
         let away = pitch.point_mm.with_x(0.0).normalize();
         let (sin, cos) = self.flank.blank.pitch_angle_rad.sin_cos();
         let [generatrix, out] = [DVec3::X * cos + sin * away, cos * away - sin * DVec3::X];

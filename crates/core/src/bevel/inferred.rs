@@ -3,11 +3,11 @@
 //! In: settings and blank. Out: the mean cutter radius and mean spiral angle that the settings place on the mean point,
 //! and the ratio of roll that they should have.
 //!
-//! In the plane of the root cone the machine centre, the head's middle and the mean point make a triangle: with S_r and q
-//! the head stands V = S_r sin q across and H = S_r cos q along the line to the mean point, which is R_m cos(theta_f) away,
-//! theta_f the dedendum angle. A circle through that point has the radius and there the spiral angle of the vector between
-//! them. A crown gear in that plane rolls on the gear with cos(theta_f) / sin(gamma). Both hold for settings without offset
-//! and without modified roll that let the head's circle run through the mean point.
+//! In the plane of the root cone the machine centre, the head's middle and the mean point make a triangle: with S_r and
+//! q the head stands V = S_r sin q across and H = S_r cos q along the line to the mean point, which is R_m cos(theta_f)
+//! away, theta_f the dedendum angle. A circle through that point has the radius and there the spiral angle of the
+//! vector between them. A crown gear in that plane rolls on the gear with cos(theta_f) / sin(gamma). Both hold for
+//! settings without offset and without modified roll that let the head's circle run through the mean point.
 
 use super::blank::BevelBlank;
 use super::cradle::CradleSettings;

@@ -1,11 +1,11 @@
 //! Linear least squares with a few unknowns, and polynomials fitted to samples.
 //!
-//! In: equations, or values over a window. Out: the unknowns; for a polynomial its coefficients and the largest error at
-//! the samples.
+//! In: equations, or values over a window. Out: the unknowns; for a polynomial its coefficients and the largest error
+//! at the samples.
 //!
-//! The equations go through Givens rotations one by one (Golub and Van Loan, Matrix Computations, 5.2.5), which keep the
-//! digits that normal equations would square away; nothing larger than a triangle of the unknowns is kept. A polynomial
-//! is fitted over tau in [-1, 1], where even order 12 loses few digits.
+//! The equations go through Givens rotations one by one (Golub and Van Loan, Matrix Computations, 5.2.5), which keep
+//! the digits that normal equations would square away; nothing larger than a triangle of the unknowns is kept. A
+//! polynomial is fitted over tau in [-1, 1], where even order 12 loses few digits.
 
 use crate::error::NotConverged;
 
@@ -100,8 +100,8 @@ impl WindowFit {
         self.in_tau.iter().rev().fold(0.0, |sum, coefficient| sum * tau + coefficient)
     }
 
-    /// Coefficients of powers of the place itself, as controls take them. They lose digits where the window is narrow and
-    /// far from 0.
+    /// Coefficients of powers of the place itself, as controls take them. They lose digits where the window is narrow
+    /// and far from 0.
     pub fn in_place(&self) -> Vec<f64> {
         let [from, to] = self.window;
         let (slope, offset) = (2.0 / (to - from), -(from + to) / (to - from));

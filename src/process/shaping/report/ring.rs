@@ -51,15 +51,11 @@ fn panels(job: &ShapingJob, table: &Table) -> Vec<Panel> {
 }
 
 fn words(ring: &crate::findings::Section, teeth: u32) -> String {
-    let mut words = format!(
-        "The cutter has {teeth} teeth; up to {} roll everywhere.",
-        ring.number("rolling_teeth").map_or("–".to_owned(), |count| significant(count, 3))
-    );
-    let depth = ring.number("tip_corner_depth");
-    words.push_str(&match depth {
+    let rolling = ring.number("rolling_teeth").map_or("–".to_owned(), |count| significant(count, 3));
+    let corners = match ring.number("tip_corner_depth") {
         Some(0.0) => " Its tip corners come clear of the teeth beside their space.".to_owned(),
         Some(mm) => format!(" Its tip corners cut {} mm into teeth beside their space.", significant(mm, 3)),
         None => String::new(),
-    });
-    words
+    };
+    format!("The cutter has {teeth} teeth; up to {rolling} roll everywhere.{corners}")
 }

@@ -1,0 +1,238 @@
+//! How the six-axis machine has to move: what bevel cutting adds to the axes' tables, charts and peaks.
+//!
+//! In: a prepared [`BevelJob`]. Out: [`BevelAxesReport`] for the shared steps ([`crate::steps::axes`]): roll, times and
+//! marks for the terminal, per operation `<operation>.csv` over one slot's roll, charts of positions and speeds, how well
+//! polynomials follow the axes ([`BevelAxesReport::fits`]), and the program.
+
+use super::gcode;
+use super::job::BevelJob;
+use super::measure;
+use super::motion::{AXES, RollMotion, limits};
+use super::operation::PreparedBevel;
+use crate::machine::{Motion as _, Order, Peak, peaks};
+use crate::output::line_chart::LineChart;
+use crate::output::progress::duration_text;
+use crate::output::text::{Sheet, plain, significant};
+use crate::steps::axes::charts::{chart, panels};
+use crate::steps::axes::{self, AxesOfOperation, Named, NamedChart, PeakWords, STEADY};
+use gearcut_core::error::Result;
+use gearcut_core::math::least_squares::WindowFit;
+use gearcut_core::terms::Side;
+use gearcut_core::units::{TURN_RAD, UM_PER_MM};
+use std::path::Path;
+use std::sync::OnceLock;
+
+/// Rows of the axis table.
+const ROWS: u32 = 720;
+/// Orders of the polynomials that are fitted to the axes.
+const ORDERS: [usize; 3] = [4, 6, 8];
+/// Samples of a fit.
+const FIT_SAMPLES: usize = 2001;
+
+/// How bevel cutting speaks of peaks.
+const PEAK_WORDS: PeakWords = PeakWords {
+    at: "at",
+    place: "time_s",
+    place_unit: ("s", 3),
+    place_note: "; its time counts from the beginning of a slot's roll",
+    way_out: "lower roll_speed_deg_per_s",
+    named,
+    zero_below: STEADY,
+};
+
+/// What one operation asks of the machine.
+#[derive(Debug)]
+pub struct BevelAxesReport<'a> {
+    job: &'a BevelJob,
+    operation: &'a PreparedBevel,
+    peaks: Vec<Peak>,
+    charts: OnceLock<[NamedChart<LineChart>; 2]>,
+}
+
+/// A polynomial of one axis over one slot's roll.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisFit {
+    /// Letter of the axis.
+    pub letter: char,
+    /// Its order.
+    pub order: usize,
+    /// The polynomial over time, s, in the axis's unit as it is read.
+    pub fit: WindowFit,
+}
+
+impl<'a> BevelAxesReport<'a> {
+    /// Of all operations of a job, in order.
+    pub fn of_job(job: &'a BevelJob) -> Vec<Self> {
+        let one = |operation: &'a PreparedBevel| {
+            let mut peaks = peaks(&RollMotion { job, operation }, &limits(job));
+            // Speeds of all axes first.
+            peaks.sort_by_key(|peak| peak.order);
+            Self { job, operation, peaks, charts: OnceLock::new() }
+        };
+        job.operations.iter().map(one).collect()
+    }
+
+    fn motion(&self) -> RollMotion<'a> {
+        RollMotion { job: self.job, operation: self.operation }
+    }
+
+    /// The operation.
+    pub fn operation(&self) -> &'a PreparedBevel {
+        self.operation
+    }
+
+    /// Polynomials that follow the moving axes over one slot's roll, with their largest errors: the five-linkage paper
+    /// fits order 4 over a whole turn of the work, which is millimetres off where the flank is cut.
+    ///
+    /// # Errors
+    /// None that a roll of any length gives.
+    pub fn fits(&self) -> Result<Vec<AxisFit>> {
+        let motion = self.motion();
+        let mut found = Vec::new();
+        for (index, axis) in AXES.iter().enumerate().filter(|(_, axis)| matches!(axis.letter, 'X' | 'Y' | 'A')) {
+            for order in ORDERS {
+                let value = |time_s: f64| axis.kind.shown(motion.positions(time_s)[index]);
+                let fit = WindowFit::new(value, [0.0, self.operation.roll_s()], order, FIT_SAMPLES)?;
+                found.push(AxisFit { letter: axis.letter, order, fit });
+            }
+        }
+        Ok(found)
+    }
+
+    fn drawn(&self) -> [NamedChart<LineChart>; 2] {
+        let motion = self.motion();
+        let roll_s = self.operation.roll_s();
+        let points: Vec<_> = (0..=ROWS)
+            .map(|i| roll_s * f64::from(i) / f64::from(ROWS))
+            .map(|time_s| (time_s, motion.at(time_s)))
+            .collect();
+        let linkage = self.linkage_words();
+        let words = [self.operation.spec.name.as_str(), &self.job.scene.name, &linkage];
+        [(Order::Position, "positions"), (Order::Speed, "velocities")].map(|(order, name)| {
+            // B rests.
+            let panels = panels(&AXES, 0..AXES.len() - 1, &limits(self.job), order, &points);
+            (
+                name,
+                chart(
+                    words,
+                    &format!("axis {name} over one slot"),
+                    ["time from the beginning of the roll", "s"],
+                    panels,
+                ),
+            )
+        })
+    }
+}
+
+impl AxesOfOperation for BevelAxesReport<'_> {
+    fn name(&self) -> &str {
+        &self.operation.spec.name
+    }
+
+    fn linkage_words(&self) -> String {
+        let roll = self.operation.settings.roll;
+        let modified = roll.second_order_per_rad != 0.0 || roll.third_order_per_rad2 != 0.0;
+        format!("six axes, five linked, {} roll", if modified { "modified" } else { "even" })
+    }
+
+    fn peak_words(&self) -> &PeakWords {
+        &PEAK_WORDS
+    }
+
+    fn peaks(&self) -> &[Peak] {
+        &self.peaks
+    }
+
+    fn place(&self, peak: &Peak) -> f64 {
+        peak.at
+    }
+
+    fn print_facts(&self, sheet: &mut Sheet) {
+        let (job, operation) = (self.job, self.operation);
+        let spec = &operation.spec;
+        sheet.heading(&format!(
+            "Operation {}: {}, offset {} mm",
+            spec.name,
+            self.linkage_words(),
+            plain(spec.offset_mm)
+        ));
+        let speed = spec.head_speed_rad_per_s / TURN_RAD * 60.0;
+        let cutting_m_per_min = TURN_RAD * job.head.radius_mm * speed / 1e3;
+        sheet.line("head", format!("{} 1/min, {} m/min", significant(speed, 5), significant(cutting_m_per_min, 4)));
+        let [from, to] = operation.roll_rad.map(f64::to_degrees);
+        sheet.line(
+            "roll",
+            format!("cradle from {from:.3} to {to:.3} deg at {} deg/s", plain(spec.roll_speed_rad_per_s.to_degrees())),
+        );
+        let [need_from, need_to] = job.needed_rad.map(f64::to_degrees);
+        sheet.line(
+            "flanks need",
+            format!(
+                "{need_from:.3} to {need_to:.3} deg; {:.0} % of the roll is idle",
+                100.0 * idle_share(job, operation)
+            ),
+        );
+        let teeth = f64::from(job.blank.teeth);
+        sheet.line(
+            "time",
+            format!(
+                "{} for {} slots, {} of it between slots",
+                duration_text(teeth * operation.cycle_s()),
+                job.blank.teeth,
+                duration_text(teeth * spec.idle_s)
+            ),
+        );
+        for side in [Side::Left, Side::Right] {
+            if let Ok(marks) = measure::marks(job, side) {
+                let words = format!(
+                    "{} um high, {} mm apart, of the {} blades",
+                    significant(UM_PER_MM * marks.height_mm, 3),
+                    significant(marks.spacing_mm, 3),
+                    job.kind_of(side).name()
+                );
+                sheet.line(&format!("marks on {} flanks", side.name()), words);
+            }
+        }
+    }
+
+    fn own_warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn write_table(&self, path: &Path) -> Result<()> {
+        let motion = self.motion();
+        let roll_s = self.operation.roll_s();
+        let rows = (0..=ROWS).map(|i| {
+            let time_s = roll_s * f64::from(i) / f64::from(ROWS);
+            let cradle_deg = motion.cradle_rad(time_s).to_degrees();
+            ([vec![time_s.into(), cradle_deg.into()], vec![], vec![]], motion.at(time_s))
+        });
+        axes::write_table(path, &AXES, [vec!["time_s", "cradle_angle_deg"], vec![], vec![]], rows)
+    }
+
+    fn charts(&self) -> &[NamedChart<LineChart>] {
+        self.charts.get_or_init(|| self.drawn())
+    }
+
+    fn programs(&self) -> Option<Result<Vec<(&'static str, String)>, String>> {
+        Some(gcode::text(self.job, self.operation)?.map(|text| vec![("", text)]))
+    }
+}
+
+/// Share of an operation's roll in which no point of the target flanks is generated.
+pub fn idle_share(job: &BevelJob, operation: &PreparedBevel) -> f64 {
+    let [from, to] = operation.roll_rad;
+    let (low, high) = (from.min(to), from.max(to));
+    let used = (high.min(job.needed_rad[1]) - low.max(job.needed_rad[0])).max(0.0);
+    1.0 - used / (high - low)
+}
+
+fn named(peak: &Peak) -> Named {
+    let name = peak.name();
+    Named {
+        key: name.to_lowercase().replace(' ', "_"),
+        title: name.clone(),
+        quantity: name,
+        unlimited: "machine.bevel_limits gives none for this axis".to_owned(),
+    }
+}

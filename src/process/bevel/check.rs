@@ -1,0 +1,154 @@
+//! What a bevel scene means: blank, settings, head, operations, cost.
+
+use super::axes_report::BevelAxesReport;
+use super::job::BevelJob;
+use crate::output::progress::duration_text;
+use crate::output::text::{Sheet, plain, significant};
+use crate::steps::axes;
+use crate::steps::check_cost::{BYTES_PER_DEXEL, PROCESSOR};
+use gearcut_core::error::Result;
+use gearcut_core::passes::SweepPlan;
+use gearcut_core::terms::Side;
+
+/// What one thread of the native backend takes for a dexel's ray and its measures, s.
+const RAY_S_PER_DEXEL: f64 = 8e-8;
+/// The same for one evaluation (dexel against record).
+const CUT_S_PER_EVALUATION: f64 = 5e-8;
+/// Bytes of a dexel's ray: two vectors and the blank's height.
+const BYTES_PER_RAY: f64 = 52.0;
+/// Rows of a flank that are planned, about the middle of the face.
+const PLANNED_ROWS: usize = 96;
+
+/// Prints everything; what must be known before cutting.
+///
+/// # Errors
+/// Geometry that cannot be cut.
+pub fn print(sheet: &mut Sheet, job: &BevelJob) -> Result<Vec<String>> {
+    let operations = BevelAxesReport::of_job(job);
+    sheet.heading(&format!("{}: {}", job.scene.name, gear_words(job)));
+    print_blank(sheet, job)?;
+    print_head(sheet, job);
+    for operation in &operations {
+        axes::print(operation, sheet);
+    }
+    print_cost(sheet, job)?;
+    let mut warnings = job.contradictions();
+    warnings.extend(axes::warnings(&operations));
+    Ok(warnings)
+}
+
+/// The gear in a line.
+pub(super) fn gear_words(job: &BevelJob) -> String {
+    let kind = if job.finishing().settings.blank_offset_mm == 0.0 { "Spiral bevel" } else { "Hypoid" };
+    format!(
+        "{kind} gear, {} teeth, outer module {} mm, pitch angle {:.4} deg, face width {} mm",
+        job.blank.teeth,
+        significant(job.blank.outer_module_mm(), 6),
+        job.blank.pitch_angle_rad.to_degrees(),
+        plain(job.blank.face_width_mm)
+    )
+}
+
+fn print_blank(sheet: &mut Sheet, job: &BevelJob) -> Result<()> {
+    let blank = &job.blank;
+    sheet.heading("Blank");
+    let [pitch, face, root] = [blank.pitch_angle_rad, blank.face_angle_rad, blank.root_angle_rad].map(f64::to_degrees);
+    sheet.line("cones", format!("pitch {pitch:.4}, face {face:.4}, root {root:.4} deg"));
+    let (outer, mean) = (blank.outer_cone_distance_mm, blank.mean_cone_distance_mm());
+    sheet.line("cone distances", format!("outer {outer:.4} mm, mean {mean:.4} mm"));
+    let inner = outer - blank.face_width_mm;
+    let depth = |at: f64| blank.addendum_mm(at) + blank.dedendum_mm(at);
+    sheet.line(
+        "whole depth",
+        format!("{:.3} mm at the toe, {:.3} in the middle, {:.3} at the heel", depth(inner), depth(mean), depth(outer)),
+    );
+    for side in [Side::Left, Side::Right] {
+        let (target, kind) = (job.target_of(side), job.kind_of(side));
+        let spiral = target.row(0.0)?.spiral_angle_rad()?.to_degrees();
+        sheet.line(
+            &format!("{} flanks", side.name()),
+            format!(
+                "{}, cut by {} blades, spiral angle {spiral:.3} deg, profile {:.3} mm long",
+                kind.flank(),
+                kind.name(),
+                target.length_mm()
+            ),
+        );
+    }
+    Ok(())
+}
+
+fn print_head(sheet: &mut Sheet, job: &BevelJob) {
+    let (head, settings) = (&job.head, &job.finishing().settings);
+    sheet.heading("Head and settings");
+    let source = if job.spec.head.radius_mm.is_some() { "given" } else { "inferred from the settings" };
+    sheet.line("mean radius", format!("{:.4} mm, {source}", head.radius_mm));
+    sheet.line(
+        "settings say",
+        format!(
+            "radius {:.4} mm and spiral angle {:.4} deg through the mean point, ratio of roll {:.6}",
+            job.inferred.radius_mm,
+            job.inferred.spiral_angle_rad.to_degrees(),
+            job.inferred.roll_ratio
+        ),
+    );
+    sheet.line(
+        "blades",
+        format!("{}, outside and inside in turn, point width {} mm", head.blades(), plain(head.point_width_mm)),
+    );
+    sheet.line(
+        "in the work",
+        format!("within {:.2} deg to either side of the slot's middle", head.half_window_rad.to_degrees()),
+    );
+    sheet.line("ratio of roll", format!("{:.6}", settings.roll.ratio));
+    let missed_mm = job.depth_missed_mm();
+    let words = if missed_mm > 0.0 { "short of" } else { "beyond" };
+    sheet.line("tips stand", format!("{:.4} mm {words} the blank's roots, middle of the face", missed_mm.abs()));
+}
+
+fn print_cost(sheet: &mut Sheet, job: &BevelJob) -> Result<()> {
+    let fields = job.scene.fields;
+    let (mut dexels, mut evaluations) = (0.0, 0.0);
+    let mut largest = 0.0_f64;
+    for side in [Side::Left, Side::Right] {
+        let [arcs_mm, rows_mm] = job.places_mm(side);
+        let flank = (arcs_mm.len() * rows_mm.len()) as f64;
+        let first = rows_mm.len().saturating_sub(PLANNED_ROWS) / 2;
+        let planned = rows_mm[first..(first + PLANNED_ROWS).min(rows_mm.len())].to_vec();
+        let field = job.rays_over(1, side, arcs_mm, planned)?.field;
+        let visits = (0..job.operations.len())
+            .map(|operation| SweepPlan::new(&field, job.slots.of(operation, job.space_of(1, side))).dexel_passes());
+        let teeth = f64::from(job.blank.teeth);
+        evaluations += teeth * flank / field.len() as f64 * visits.sum::<u64>() as f64;
+        dexels += teeth * flank;
+        largest = largest.max(flank);
+    }
+    let surfaces = job.operations.len() as f64;
+    let threads = rayon::current_num_threads();
+    sheet.heading("Cost of the cut (nothing has been cut)");
+    sheet.line(
+        "flank fields",
+        format!(
+            "{} of at most {:.2} million dexels, {} by {} um; {:.1} million in all",
+            2 * job.blank.teeth,
+            1e-6 * largest,
+            plain(1e3 * fields.profile_spacing_mm),
+            plain(1e3 * fields.lead_spacing_mm),
+            1e-6 * dexels
+        ),
+    );
+    sheet.line(
+        "evaluations",
+        format!(
+            "{} million dexels against passes, {:.1} per dexel and operation",
+            significant(1e-6 * evaluations, 3),
+            evaluations / (dexels * surfaces)
+        ),
+    );
+    // The rays of both sides are kept.
+    let bytes = largest * (threads as f64 * (BYTES_PER_RAY + BYTES_PER_DEXEL as f64 * surfaces) + 2.0 * BYTES_PER_RAY);
+    sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {threads} threads", 1e-6 * bytes));
+    let seconds = (dexels * RAY_S_PER_DEXEL + evaluations * CUT_S_PER_EVALUATION) / threads as f64;
+    sheet.line("time", format!("{} on {threads} threads of {PROCESSOR}; files come on top", duration_text(seconds)));
+    Ok(())
+}

@@ -1,0 +1,408 @@
+//! What a run finds on a bevel gear: names, units, definitions, places.
+
+use super::axes_report::{BevelAxesReport, idle_share};
+use super::gear::BevelGear;
+use super::job::BevelJob;
+use super::measure::{self, BevelReport, Heights};
+use crate::findings::{Datum, Entry, Findings, Place, Quantity, Section, Table, TableColumn};
+use crate::steps::axes::{self, AxesOfOperation as _};
+use crate::texture::{self, WindowTexture};
+use gearcut_core::bevel::face_mill::FaceMill;
+use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
+
+const UNTOUCHED: &str = "a dexel of the evaluated part was reached by no pass";
+const TRACE: &str = "a dexel of the trace was reached by no pass";
+
+/// Everything that was found.
+///
+/// # Errors
+/// Flanks without a middle.
+pub fn findings(
+    job: &BevelJob,
+    gear: &BevelGear,
+    motion: &[BevelAxesReport],
+    textures: &[WindowTexture],
+) -> Result<Findings> {
+    let work = &gear.work;
+    let candidates = Quantity::number(
+        work.stats.dexel_passes as f64 / work.dexels.max(1) as f64,
+        "passes",
+        "passes visited per dexel and operation; two or three touch it",
+    );
+    let mut warnings = job.contradictions();
+    warnings.extend(own_warnings(gear));
+    warnings.extend(axes::warnings(motion));
+    Ok(Findings {
+        program_version: env!("CARGO_PKG_VERSION").to_owned(),
+        process: "bevel".to_owned(),
+        scene: job.scene.name.clone(),
+        complete: !work.interrupted,
+        headline: headline(job, gear, motion),
+        warnings,
+        sections: vec![
+            settings(job),
+            operations(job, motion)?,
+            marks(job)?,
+            Section::new("teeth", "Finished teeth").table(flanks(job, gear)).table(grid(gear)),
+            slot(gear),
+            errors(job, gear)?,
+            blades(job, gear),
+            texture::findings(job, textures),
+            Section::new("work", "Work of cutting").with("candidates", candidates),
+        ],
+    })
+}
+
+fn headline(job: &BevelJob, gear: &BevelGear, motion: &[BevelAxesReport]) -> Vec<Entry> {
+    let extreme = |end: usize, sign: f64, definition: &'static str| {
+        let found = gear.flanks.iter().filter_map(|flank| Some((flank.own.finished?, flank)));
+        let found = found.max_by(|a, b| (sign * a.0.range_mm[end]).total_cmp(&(sign * b.0.range_mm[end])));
+        match found {
+            None => Quantity::undefined("um", definition, UNTOUCHED),
+            Some((heights, flank)) => {
+                let [u_mm, v_mm] = heights.at_mm[end];
+                Quantity::number(sign * heights.range_mm[end] * UM_PER_MM, "um", definition).at(Place::on_flank(
+                    flank.tooth,
+                    flank.side.name(),
+                    u_mm,
+                    v_mm,
+                ))
+            }
+        }
+    };
+    let largest = |value: fn(&BevelReport) -> Option<f64>, definition: &'static str| {
+        let found = gear.flanks.iter().filter_map(value).reduce(f64::max);
+        Quantity::number_or(found.map(|mm| mm * UM_PER_MM), "um", definition, TRACE)
+    };
+    let middle = gear.slot.get(gear.slot.len() / 2);
+    let in_slot = |value: Option<f64>, definition: &'static str| {
+        Quantity::number_or(value, "mm", definition, "the slot behind tooth 1 was not cut as a whole")
+    };
+    let teeth = f64::from(job.blank.teeth);
+    vec![
+        Entry::headline(
+            "highest_mark",
+            "highest mark",
+            extreme(1, 1.0, "largest normal deviation on the evaluated part of any flank"),
+        ),
+        Entry::headline(
+            "deepest_cut",
+            "deepest cut",
+            extreme(0, -1.0, "deepest place below the target on the evaluated part of any flank, positive inwards"),
+        ),
+        Entry::headline(
+            "slot_depth",
+            "slot depth",
+            in_slot(
+                middle.and_then(|row| row.depth_mm),
+                "depth of the slot behind tooth 1 in the middle of the face, from the face cone, square to the \
+                pitch cone",
+            ),
+        ),
+        Entry::headline(
+            "whole_depth",
+            "whole depth of the blank",
+            in_slot(middle.map(|row| row.whole_depth_mm), "addendum and dedendum of the blank at the same place"),
+        ),
+        Entry::headline(
+            "slot_width",
+            "slot width",
+            in_slot(
+                middle.and_then(|row| row.width_mm),
+                "width of the slot behind tooth 1 on the circle of the pitch cone in the middle of the face",
+            ),
+        ),
+        Entry::headline(
+            "profile_deviation",
+            "profile deviation",
+            largest(
+                |flank| flank.profile.map(|d| d.total_mm),
+                "largest range along the profile in the middle of the face",
+            ),
+        ),
+        Entry::headline(
+            "lead_deviation",
+            "lead deviation",
+            largest(
+                |flank| flank.lead.map(|d| d.total_mm),
+                "largest range along the tooth in the middle of the profile",
+            ),
+        ),
+        axes::margin_entry(motion),
+        Entry::headline(
+            "idle_share",
+            "idle share of the roll",
+            Quantity::number(
+                idle_share(job, job.finishing()),
+                "1",
+                "share of the last operation's roll in which no point of the target flanks is generated",
+            ),
+        ),
+        Entry::headline(
+            "cutting_time",
+            "cutting time",
+            Quantity::number(
+                job.operations.iter().map(|operation| teeth * operation.cycle_s()).sum(),
+                "s",
+                "time of all operations: roll and idle time of every slot",
+            ),
+        ),
+    ]
+}
+
+/// Settings as they hold, and what they say of the cutter.
+fn settings(job: &BevelJob) -> Section {
+    let of = &job.finishing().settings;
+    let deg = |rad: f64, definition: &'static str| Quantity::number(rad.to_degrees(), "deg", definition);
+    let mm = |value: f64, definition: &'static str| Quantity::number(value, "mm", definition);
+    let given = if job.spec.head.radius_mm.is_some() { "given by the scene" } else { "inferred from the settings" };
+    Section::new("settings", "Settings of the machine")
+        .with("radial_setting", mm(of.radial_setting_mm, "S_r: from the cradle's axis to the head's"))
+        .with("cradle_angle", deg(of.cradle_angle_rad, "q in the middle of the roll"))
+        .with("blank_offset", mm(of.blank_offset_mm, "E_m"))
+        .with("sliding_base", mm(of.sliding_base_mm, "along the cradle's axis, offsets of operations included"))
+        .with("center_to_back", mm(of.center_to_back_mm, "X_p"))
+        .with("root_angle", deg(of.root_angle_rad, "gamma_m"))
+        .with("roll_ratio", Quantity::number(of.roll.ratio, "1", "R_a: work angle per cradle angle"))
+        .with("cutter_radius", mm(job.head.radius_mm, "mean cutter radius in use"))
+        .with("cutter_radius_source", Quantity::text(given, "where the cutter radius comes from"))
+        .with(
+            "inferred_radius",
+            mm(job.inferred.radius_mm, "radius of the circle that the settings lead through the mean point"),
+        )
+        .with("inferred_spiral_angle", deg(job.inferred.spiral_angle_rad, "spiral angle of that circle there"))
+        .with("inferred_roll_ratio", Quantity::number(job.inferred.roll_ratio, "1", "R_a of a crown gear"))
+        .with(
+            "missed_depth",
+            mm(job.depth_missed_mm(), "how far the tips stand short of the blank's roots, middle of the face"),
+        )
+}
+
+fn operations(job: &BevelJob, motion: &[BevelAxesReport]) -> Result<Section> {
+    let mut section = Section::new("operations", "Operations");
+    for (index, report) in motion.iter().enumerate() {
+        let operation = report.operation();
+        let deg = |rad: f64, definition: &'static str| Quantity::number(rad.to_degrees(), "deg", definition);
+        let ids = job.slots.ids(index);
+        let mut fits = Table::new(
+            "axis_fits",
+            "Polynomials of the axes over one slot's roll",
+            vec![
+                TableColumn::words("axis", "letter of the axis"),
+                TableColumn::new("order", "1", "order of the polynomial in time from the beginning of the roll, s"),
+                TableColumn::new("largest_error", "mm or deg", "largest error over the roll"),
+            ],
+        );
+        for fit in report.fits()? {
+            fits = fits.with_rows([vec![
+                Datum::Word(fit.letter.to_string()),
+                Datum::from(fit.order as u32),
+                Datum::from(fit.fit.largest_error),
+            ]]);
+        }
+        section = section.part(
+            Section::new(&operation.spec.name, format!("Operation {}", operation.spec.name))
+                .with("linkage", Quantity::text(report.linkage_words(), "linkage of head and work"))
+                .with("offset", Quantity::number(operation.spec.offset_mm, "mm", "how far the head stays back"))
+                .with(
+                    "passes",
+                    Quantity::count((ids.end - ids.start).into(), "passes", "blades times turns over all slots"),
+                )
+                .with("roll_from", deg(operation.roll_rad[0], "cradle angle at which a slot begins"))
+                .with("roll_to", deg(operation.roll_rad[1], "cradle angle at which it ends"))
+                .shown(
+                    "slot_time",
+                    "time for a slot",
+                    Quantity::number(operation.cycle_s(), "s", "roll and idle time of one slot"),
+                )
+                .with(
+                    "idle_share",
+                    Quantity::number(idle_share(job, operation), "1", "share of the roll that generates no flank"),
+                )
+                .table(fits)
+                .part(axes::findings(report)),
+        );
+    }
+    Ok(section)
+}
+
+fn marks(job: &BevelJob) -> Result<Section> {
+    let mut section = Section::new("marks", "Marks of the blades, closed form");
+    for side in [Side::Left, Side::Right] {
+        let marks = measure::marks(job, side)?;
+        section = section.part(
+            Section::new(side.name(), format!("{} flanks", side.name()))
+                .with("blades", Quantity::text(job.kind_of(side).name(), "blades that cut these flanks"))
+                .with("form", Quantity::text(job.kind_of(side).flank(), "form of these flanks along the tooth"))
+                .with(
+                    "height",
+                    Quantity::number(
+                        marks.height_mm * UM_PER_MM,
+                        "um",
+                        "how far the cone stands over its envelope half a period of the blades beside the moment of \
+                        generation, middle of the flank",
+                    ),
+                )
+                .with(
+                    "spacing",
+                    Quantity::number(
+                        marks.spacing_mm,
+                        "mm",
+                        "cradle angle from blade to blade of the kind over the gradient of the moment of generation",
+                    ),
+                ),
+        );
+    }
+    Ok(section)
+}
+
+fn flanks(job: &BevelJob, gear: &BevelGear) -> Table {
+    let um = |key: &'static str, definition: &'static str, why: &'static str| {
+        TableColumn::new(key, "um", definition).or(why)
+    };
+    let mut columns = vec![
+        TableColumn::new("tooth", "1", "number of the tooth, from 1"),
+        TableColumn::words("flank", "flank: left or right"),
+        TableColumn::words("blades", "blades that cut it: outside or inside"),
+        TableColumn::new("profile_length", "mm", "length of the profile in the middle of the face"),
+    ];
+    for operation in &job.operations[..job.operations.len() - 1] {
+        let key = format!("{}_mean_stock", operation.spec.name);
+        columns.push(TableColumn::new(key, "mm", "mean stock over the finished surface").or(UNTOUCHED));
+    }
+    columns.extend([
+        um("lowest", "lowest normal deviation", UNTOUCHED),
+        um("highest", "highest normal deviation", UNTOUCHED),
+        um("mean", "mean normal deviation", UNTOUCHED),
+        um("rms", "root mean square about the mean", UNTOUCHED),
+        um("profile_total", "range along the profile in the middle of the face", TRACE),
+        um("lead_total", "range along the tooth in the middle of the profile", TRACE),
+    ]);
+    let rows = gear.flanks.iter().map(|flank| {
+        let mut row: Vec<Datum> = vec![
+            flank.tooth.into(),
+            flank.side.name().into(),
+            job.kind_of(flank.side).name().into(),
+            flank.length_mm.into(),
+        ];
+        row.extend(flank.own.stock.iter().map(|stock| Datum::from(stock.map(|stock| stock.mean_mm))));
+        let height = |of: fn(&Heights) -> f64| Datum::from(flank.own.finished.as_ref().map(|h| of(h) * UM_PER_MM));
+        row.extend([height(|h| h.range_mm[0]), height(|h| h.range_mm[1]), height(|h| h.mean_mm), height(|h| h.rms_mm)]);
+        row.extend([&flank.profile, &flank.lead].map(|d| Datum::from(d.as_ref().map(|d| d.total_mm * UM_PER_MM))));
+        row
+    });
+    Table::new("flanks", "Finished flanks", columns).with_rows(rows).in_file("flanks")
+}
+
+/// Points, normals and deviations as coordinate measuring machines take them.
+fn grid(gear: &BevelGear) -> Table {
+    let axis = |key: &'static str, definition: &'static str| TableColumn::new(key, "mm", definition);
+    let normal = |key: &'static str| TableColumn::new(key, "1", "component of the unit normal out of the material");
+    let columns = vec![
+        TableColumn::new("tooth", "1", "number of the tooth, from 1"),
+        TableColumn::words("flank", "flank: left or right"),
+        TableColumn::new("column", "1", "place along the profile, 1 at the root to 5 at the tip"),
+        TableColumn::new("row", "1", "place along the tooth, 1 at the toe to 9 at the heel"),
+        axis("x", "nominal point, gear frame: origin in the apex, x through the middle of space 0"),
+        axis("y", "nominal point, gear frame"),
+        axis("z", "nominal point, gear frame: along the axis from the back to the apex"),
+        normal("nx"),
+        normal("ny"),
+        normal("nz"),
+        TableColumn::new("deviation", "um", "normal deviation, positive where material is left")
+            .or("no pass reached the point"),
+    ];
+    let rows = gear.flanks.iter().flat_map(|flank| {
+        flank.own.grid.iter().map(|point| {
+            let mut row: Vec<Datum> =
+                vec![flank.tooth.into(), flank.side.name().into(), point.place[0].into(), point.place[1].into()];
+            row.extend(point.target.origin_mm.to_array().map(Datum::from));
+            row.extend(point.target.normal.to_array().map(Datum::from));
+            row.push(Datum::from(point.deviation_mm.map(|mm| mm * UM_PER_MM)));
+            row
+        })
+    });
+    Table::new("grid", "Points of inspection, 5 by 9 on every flank", columns).with_rows(rows).rows_in_file("grid")
+}
+
+fn slot(gear: &BevelGear) -> Section {
+    let columns = vec![
+        TableColumn::new("along", "mm", "place along the tooth from the middle of the face, towards the heel"),
+        TableColumn::new("width", "mm", "width of the slot on the circle of the pitch cone").or(TRACE),
+        TableColumn::new("depth", "mm", "depth from the face cone, square to the pitch cone").or(TRACE),
+        TableColumn::new("whole_depth", "mm", "addendum and dedendum of the blank"),
+    ];
+    let rows = gear
+        .slot
+        .iter()
+        .map(|row| vec![row.along_mm.into(), row.width_mm.into(), row.depth_mm.into(), row.whole_depth_mm.into()]);
+    let table = Table::new("along_the_face", "Slot behind tooth 1 along the face", columns).with_rows(rows);
+    Section::new("slot", "Slot").table(table.in_file("slot"))
+}
+
+/// Settings whose errors explain the deviations of tooth 1.
+fn errors(job: &BevelJob, gear: &BevelGear) -> Result<Section> {
+    let mut section = Section::new("settings_errors", "Errors of settings that would explain the deviations");
+    let why = "all deviations of the grid are below 0.5 um, or a point of it was not cut";
+    for flank in gear.flanks.iter().filter(|flank| flank.tooth == 1) {
+        let side = flank.side.name();
+        let Some(found) = measure::explained(job, flank)? else {
+            section =
+                section.with(side, Quantity::undefined("mm", "error of the setting that explains them best", why));
+            continue;
+        };
+        let columns = vec![
+            TableColumn::words("setting", "the setting, by itself"),
+            TableColumn::new("error", "mm or deg", "its error that explains most; of the ratio of roll a pure number"),
+            TableColumn::new("left", "um", "root mean square of what it leaves unexplained on the grid"),
+        ];
+        let rows = found.iter().map(|one| {
+            let error = if one.setting.is_angle() { one.error.to_degrees() } else { one.error };
+            vec![Datum::Word(one.setting.name().to_owned()), error.into(), (one.left_rms_mm * UM_PER_MM).into()]
+        });
+        section = section.table(Table::new(side, &format!("Tooth 1, {side} flank"), columns).with_rows(rows));
+    }
+    Ok(section)
+}
+
+/// How much of the flanks each blade has left.
+fn blades(job: &BevelJob, gear: &BevelGear) -> Section {
+    let columns = vec![
+        TableColumn::new("blade", "1", "number of the blade, from 0"),
+        TableColumn::words("kind", "outside or inside"),
+        TableColumn::new("runout", "um", "how far it stands out in radius"),
+        TableColumn::new("share", "%", "share of all flanks that it has left last").as_bars(),
+    ];
+    let all: u64 = gear.flanks.iter().flat_map(|flank| &flank.own.left_by_blade).sum();
+    let rows = (0..job.head.blades()).map(|blade| {
+        let own: u64 = gear.flanks.iter().map(|flank| flank.own.left_by_blade[blade as usize]).sum();
+        vec![
+            Datum::from(blade),
+            FaceMill::kind_of(blade).name().into(),
+            (job.head.runouts_mm[blade as usize] * UM_PER_MM).into(),
+            (100.0 * own as f64 / all.max(1) as f64).into(),
+        ]
+    });
+    let table = Table::new("blades", "Flanks by blade", columns).with_rows(rows).in_file("blades");
+    Section::new("blades", "Blades").table(table)
+}
+
+fn own_warnings(gear: &BevelGear) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let untouched: u64 = gear.flanks.iter().map(|flank| flank.untouched).sum();
+    if untouched > 0 {
+        warnings.push(format!("{untouched} dexels were reached by no pass: the roll does not cover the whole flanks"));
+    }
+    let unconverged = gear.work.stats.unconverged;
+    if unconverged > 0 {
+        warnings.push(format!(
+            "{unconverged} rays did not converge: their heights may be too large; please report the scene"
+        ));
+    }
+    if gear.work.interrupted {
+        warnings.push("stopped by Ctrl-C: figures cover the finished flanks only".to_owned());
+    }
+    warnings
+}

@@ -1,0 +1,97 @@
+//! G-code for the six-axis machine: written from the roll of an operation over all slots, and read back.
+//!
+//! In: a prepared operation and the **contour error**, the largest displacement of the blades' tips in the work that
+//! straight lines may cause. Out: a text, and from any such text the axes at every moment ([`read()`]).
+//!
+//! | word | axis | unit |
+//! | --- | --- | --- |
+//! | X, Y, Z | middle of the head against the machine centre, Eq. 14 of the five-linkage paper | mm |
+//! | A | work spindle | deg |
+//! | B | swing of the work | deg |
+//!
+//! Every block is a straight line in all axes in inverse time (`G93`). Between slots the head withdraws along Z, the
+//! cradle angle goes back and the work is indexed in one block, and the head comes in again; together they take the
+//! operation's idle time. The head itself turns at the speed that the program's head says.
+
+mod program;
+mod read;
+
+pub use program::{BevelKnot, BevelProgram};
+pub use read::read;
+
+use super::job::BevelJob;
+use super::motion::{AXES, RollMotion, limits};
+use super::operation::PreparedBevel;
+use crate::gcode::{ProgramText, axis_word};
+use crate::output::text::{plain, significant};
+use gearcut_core::units::{TURN_RAD, UM_PER_MM};
+
+/// The program of an operation; an error is the reason why there is none, `None`: none is wanted.
+pub fn text(job: &BevelJob, operation: &PreparedBevel) -> Option<Result<String, String>> {
+    job.spec.programs.then(|| linear(job, operation))
+}
+
+fn linear(job: &BevelJob, operation: &PreparedBevel) -> Result<String, String> {
+    let motion = RollMotion { job, operation };
+    let asked_mm = job.scene.output.gcode_contour_error_mm;
+    let program = BevelProgram::fit(&motion, asked_mm);
+    let (reached_mm, time_s) = program.contour_error_mm(&motion);
+    if reached_mm > asked_mm {
+        return Err(format!(
+            "the shortest blocks leave a contour error of {} um at {time_s:.3} s, {} um are asked; ask for no less, or \
+             lower roll_speed_deg_per_s",
+            significant(reached_mm * UM_PER_MM, 3),
+            plain(asked_mm * UM_PER_MM)
+        ));
+    }
+    if let Some(first) = crate::machine::peaks(&motion, &limits(job)).iter().find(|peak| peak.exceeds_its_limit()) {
+        return Err(format!(
+            "the {} reaches {} {unit}, the machine allows {} {unit}; lower roll_speed_deg_per_s",
+            first.name(),
+            significant(first.shown(), 4),
+            significant(first.shown_limit().unwrap_or_default(), 4),
+            unit = first.unit()
+        ));
+    }
+    let digits = program::digits(job, asked_mm);
+    let head = [
+        format!("gearcut {}: operation {} of {}", env!("CARGO_PKG_VERSION"), operation.spec.name, job.scene.name),
+        "UNITS mm and deg; G90 absolute; G93 inverse time, F = 1 / minutes of the block".to_owned(),
+        "AXES X Y Z middle of the plane of the tips, A work spindle, B swing".to_owned(),
+        "SIGNS Z along the axis of the head to the work; X in the plane of the axes of head and work, away from the \
+        apex; Y completes them to a right-hand frame; A about the axis of the work from the back to the apex; B from \
+        the axis of the work at right angles to that of the head"
+            .to_owned(),
+        format!(
+            "ZERO X0 Y0 Z0: the swing axis; the apex of the work stands {} mm from it along the axis of the work, \
+             towards the head",
+            plain(job.machine.mounting_mm)
+        ),
+        format!(
+            "SET UP head of {} blades, mean radius {:.6} mm, point width {} mm, {:.4} 1/min against the cradle angle",
+            job.head.blades(),
+            job.head.radius_mm,
+            plain(job.head.point_width_mm),
+            operation.spec.head_speed_rad_per_s / TURN_RAD * 60.0
+        ),
+        format!("GEAR z {}, {} slots one after the other", job.blank.teeth, job.blank.teeth),
+        format!(
+            "CONTOUR at most {} um at the tips of the blades asked, {} um reached at {time_s:.3} s",
+            plain(asked_mm * UM_PER_MM),
+            significant(reached_mm * UM_PER_MM, 6)
+        ),
+    ];
+    let position = |knot: &BevelKnot| {
+        let words = AXES.iter().zip(&knot.axes).map(|(axis, &at)| axis_word(axis, at, digits.of(axis.kind)));
+        words.collect::<Vec<_>>().join(" ")
+    };
+    let mut text = ProgramText::new(&head);
+    text.block("G21 G90 G94");
+    text.block(&format!("G0 {}", position(&program.knots[0])));
+    for pair in program.knots.windows(2) {
+        let per_minute = 60.0 / (pair[1].time_s - pair[0].time_s);
+        text.block(&format!("G93 G1 {} F{per_minute:.9}", position(&pair[1])));
+    }
+    text.block("M30");
+    Ok(text.finish())
+}

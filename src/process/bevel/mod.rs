@@ -1,0 +1,54 @@
+//! Spiral bevel gears cut with a face-mill head on a machine that generates them.
+//!
+//! The physics stands in [`crate::bevel`]: blank, head, machines, the flank that they generate. Here are scenes, the
+//! passes of the head's blades over all slots, flank fields, measures, files and the page.
+
+pub mod axes_report;
+mod check;
+pub mod findings;
+pub mod gcode;
+pub mod gear;
+pub mod job;
+pub mod measure;
+pub mod motion;
+pub mod operation;
+mod report;
+mod run;
+pub mod scene;
+pub mod slots;
+mod surfaces;
+
+use super::{CutDone, Process};
+use crate::interrupt::Interrupt;
+use crate::job::GearJob;
+use crate::output::folder::OutputFolder;
+use crate::output::text::Sheet;
+use crate::steps::{Tools, axes};
+use axes_report::BevelAxesReport;
+use gearcut_core::error::Result;
+
+pub use job::BevelJob;
+
+/// The process.
+pub static PROCESS: Process = Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(BevelJob::new(scene)?)) };
+
+impl super::ProcessJob for BevelJob {
+    fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
+        if frames.is_some() {
+            tools.progress.note("no frames are drawn: pictures of the cut as it happens exist for shaping only");
+        }
+        run::run(self, tools)
+    }
+
+    fn check(&self, sheet: &mut Sheet) -> Result<Vec<String>> {
+        check::print(sheet, self)
+    }
+
+    fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()> {
+        visit(self)
+    }
+
+    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<String>> {
+        axes::command(&BevelAxesReport::of_job(self), folder, interrupt, sheet)
+    }
+}

@@ -1,0 +1,34 @@
+//! One run of the head over all slots: settings, roll, times.
+
+use super::scene::model::BevelOperation;
+use gearcut_core::bevel::cradle::CradleSettings;
+
+/// One operation with its roll.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreparedBevel {
+    /// What the scene says.
+    pub spec: BevelOperation,
+    /// Settings, the head held back by the offset.
+    pub settings: CradleSettings,
+    /// The same as the machine is: with its errors.
+    pub as_set: CradleSettings,
+    /// Cradle angles at which a slot's roll begins and ends, rad.
+    pub roll_rad: [f64; 2],
+}
+
+impl PreparedBevel {
+    /// Time of a slot's roll, s.
+    pub fn roll_s(&self) -> f64 {
+        (self.roll_rad[1] - self.roll_rad[0]).abs() / self.spec.roll_speed_rad_per_s
+    }
+
+    /// Speed of the cradle with its sign, rad/s.
+    pub fn cradle_rad_per_s(&self) -> f64 {
+        self.spec.roll_speed_rad_per_s * (self.roll_rad[1] - self.roll_rad[0]).signum()
+    }
+
+    /// Time from one slot to the next, s.
+    pub fn cycle_s(&self) -> f64 {
+        self.roll_s() + self.spec.idle_s
+    }
+}

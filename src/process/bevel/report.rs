@@ -1,0 +1,251 @@
+//! The page of a bevel gear: slot, grid deviations, marks, blades, six axes.
+
+use super::axes_report::BevelAxesReport;
+use super::check::gear_words;
+use super::gear::BevelGear;
+use super::job::BevelJob;
+use super::measure::{BevelReport, GRID};
+use crate::findings::{self, Findings};
+use crate::job::rows_z_mm;
+use crate::output::folder::OutputFolder;
+use crate::output::line_chart::{LineChart, LineSeries, Panel};
+use crate::output::report::{Block, Page, PageSection, PageTable};
+use crate::output::text::{plain, significant};
+use crate::steps;
+use crate::steps::axes;
+use crate::steps::report::facts::table;
+use crate::steps::report::{PageGear, RunWords, key_number, record, texture};
+use crate::steps::view_mesh::{ViewFlank, ViewMesh};
+use crate::surface::triangles::Triangles;
+use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
+use rayon::prelude::*;
+
+/// Distance of the rows of the flanks that the page shows, mm: chords a hundredth of a millimetre off the spiral.
+const VIEW_ROW_MM: f64 = 3.0;
+/// Smallest distance of two ticks on charts of deviations, um.
+const LEAST_DIVISION_UM: f64 = 1.0;
+
+/// The page of a run.
+///
+/// # Errors
+/// A place that the roll does not generate; a picture of the folder cannot be read back.
+pub fn page(
+    job: &BevelJob,
+    gear: &BevelGear,
+    found: &Findings,
+    motion: &[BevelAxesReport],
+    run: &RunWords,
+    folder: &OutputFolder,
+) -> Result<Page> {
+    let mut sections = vec![deviations(job, gear), slot(gear), blades(found)];
+    sections.extend(texture::section(found, folder)?);
+    sections.push(axes::section(
+        motion,
+        found,
+        "How the six-axis machine moves while one slot is rolled.",
+        "Axis speeds",
+    ));
+    sections.push(setup(job, found));
+    sections.push(record(gear.flanks.len(), &gear.work.stats, gear.work.dexels, run));
+    let operation = |operation: &findings::Section| {
+        let mm = |key: &str| operation.number(key).map_or_else(|| "–".to_owned(), plain);
+        format!("{}: {}, head held back by {} mm", operation.key, operation.words("linkage"), mm("offset"))
+    };
+    let key_numbers = found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect();
+    let page_gear = PageGear { words: gear_words(job), mesh: mesh(job)? };
+    Ok(steps::report::page(job, page_gear, found, &gear.maps, operation, key_numbers, sections))
+}
+
+/// All target flanks.
+fn mesh(job: &BevelJob) -> Result<ViewMesh> {
+    let rows_mm = rows_z_mm(job.blank.face_width_mm, VIEW_ROW_MM);
+    let flanks: Vec<(u32, Side)> = steps::flanks_of(job);
+    let flanks = flanks
+        .into_par_iter()
+        .map(|(tooth, side)| ViewFlank::of_target(job, tooth, side, rows_mm.clone()))
+        .collect::<Result<_>>()?;
+    Ok(ViewMesh { flanks, body: Triangles::default() })
+}
+
+/// Grid of the flanks with the largest deviations, and lines along profile and tooth.
+fn deviations(job: &BevelJob, gear: &BevelGear) -> PageSection {
+    let mut blocks = Vec::new();
+    for side in [Side::Left, Side::Right] {
+        let range = |flank: &BevelReport| {
+            let values = flank.own.grid.iter().filter_map(|point| point.deviation_mm);
+            values.map(f64::abs).fold(0.0, f64::max)
+        };
+        let flanks = gear.flanks.iter().filter(|flank| flank.side == side);
+        let Some(worst) = flanks.max_by(|a, b| range(a).total_cmp(&range(b))) else { continue };
+        let words = format!("Tooth {}, {} flank ({})", worst.tooth, side.name(), job.kind_of(side).flank());
+        blocks.push(Block::Table(grid_table(worst, &words)));
+        blocks.push(Block::Lines(traces(worst, &words)));
+    }
+    blocks.push(Block::Note(
+        "Grid deviations in µm along the target's normal, positive where material is left; all flanks with points and \
+        normals stand in tables/grid.csv."
+            .to_owned(),
+    ));
+    PageSection {
+        id: "deviations",
+        title: "Deviations".to_owned(),
+        lead: "The finished gear against the surface that the last operation would leave with infinitely many blades, \
+            on each side the flank with the largest deviation of the grid."
+            .to_owned(),
+        blocks,
+    }
+}
+
+fn grid_table(flank: &BevelReport, words: &str) -> PageTable {
+    let [columns, _] = GRID;
+    let mut head = vec!["Along the tooth".to_owned()];
+    head.extend((1..=columns).map(|column| match column {
+        1 => "root".to_owned(),
+        _ if column == columns => "tip".to_owned(),
+        _ => column.to_string(),
+    }));
+    let rows = flank.own.grid.chunks(columns).map(|row| {
+        let mut cells = vec![row[0].place[1].to_string()];
+        let um = |mm: f64| significant(if mm.abs() < 1e-9 { 0.0 } else { mm * UM_PER_MM }, 3).replace('-', "−");
+        cells.extend(row.iter().map(|point| point.deviation_mm.map_or_else(|| "–".to_owned(), um)));
+        cells
+    });
+    PageTable { caption: format!("{words}: grid, toe first"), columns: head, rows: rows.collect() }
+}
+
+fn traces(flank: &BevelReport, words: &str) -> LineChart {
+    let panel = |name: &str, trace: &crate::measure::deviation::Trace| {
+        let points = trace.places_mm.iter().zip(&trace.heights_mm).map(|(&x, &mm)| (x, mm * UM_PER_MM)).collect();
+        Panel {
+            value_name: name.to_owned(),
+            unit: "µm".to_owned(),
+            series: vec![LineSeries { name: name.to_owned(), points }],
+            limits: Vec::new(),
+            least_division: LEAST_DIVISION_UM,
+        }
+    };
+    LineChart {
+        title: format!("{words}: along the tooth, middle of the profile"),
+        x_name: "v from the middle of the face, towards the heel".to_owned(),
+        x_unit: "mm".to_owned(),
+        panels: vec![panel("deviation", &flank.lead_trace)],
+    }
+}
+
+fn slot(gear: &BevelGear) -> PageSection {
+    let series = |name: &str, value: &dyn Fn(&super::measure::SlotRow) -> Option<f64>| LineSeries {
+        name: name.to_owned(),
+        points: gear.slot.iter().filter_map(|row| Some((row.along_mm, value(row)?))).collect(),
+    };
+    let panel = |name: &str, series: Vec<LineSeries>| Panel {
+        value_name: name.to_owned(),
+        unit: "mm".to_owned(),
+        series,
+        limits: Vec::new(),
+        least_division: 0.0,
+    };
+    let chart = LineChart {
+        title: "Slot behind tooth 1".to_owned(),
+        x_name: "v from the middle of the face, towards the heel".to_owned(),
+        x_unit: "mm".to_owned(),
+        panels: vec![
+            panel("width on the pitch cone", vec![series("width", &|row| row.width_mm)]),
+            panel(
+                "depth",
+                vec![series("as cut", &|row| row.depth_mm), series("of the blank", &|row| Some(row.whole_depth_mm))],
+            ),
+        ],
+    };
+    let drawn = !gear.slot.is_empty();
+    PageSection {
+        id: "slot",
+        title: "Slot".to_owned(),
+        lead: "Width and depth along the face, as cut.".to_owned(),
+        blocks: if drawn { vec![Block::Lines(chart)] } else { Vec::new() },
+    }
+}
+
+fn blades(found: &Findings) -> PageSection {
+    let rows = found.parts("marks").iter().map(|side| {
+        let number = |key: &str| side.number(key).map_or_else(|| "–".to_owned(), |value| significant(value, 3));
+        vec![
+            side.title.clone(),
+            side.words("blades").to_owned(),
+            side.words("form").to_owned(),
+            number("height"),
+            number("spacing"),
+        ]
+    });
+    let marks = PageTable {
+        caption: "Marks in the middle of the flank, closed form".to_owned(),
+        columns: ["Flanks", "Blades", "Form", "Height [µm]", "Apart [mm]"].map(str::to_owned).into(),
+        rows: rows.collect(),
+    };
+    let by_blade = found.find("blades").and_then(|section| section.table_of("blades"));
+    let mut blocks = vec![Block::Table(marks)];
+    blocks.extend(by_blade.map(|table| {
+        Block::Table(PageTable {
+            caption: "Share of all flanks that each blade has left last".to_owned(),
+            columns: ["Blade", "Kind", "Runout [µm]", "Share [%]"].map(str::to_owned).into(),
+            rows: table
+                .rows
+                .iter()
+                .map(|row| {
+                    let number =
+                        |cell: usize| row[cell].number().map_or_else(String::new, |value| significant(value, 3));
+                    vec![row[0].name(), row[1].name(), number(2), number(3)]
+                })
+                .collect(),
+        })
+    }));
+    PageSection {
+        id: "blades",
+        title: "Blades and their marks".to_owned(),
+        lead: "Blades of one kind follow each other while the cradle rolls; between two of them a ridge stays."
+            .to_owned(),
+        blocks,
+    }
+}
+
+fn setup(job: &BevelJob, found: &Findings) -> PageSection {
+    let settings = found.find("settings");
+    let rows = settings.map_or_else(Vec::new, |section| {
+        let value = |entry: &findings::Entry| {
+            let quantity = &entry.quantity;
+            match (quantity.value(), quantity.words()) {
+                (Some(value), _) => {
+                    let unit = quantity.unit().map_or("", |unit| if unit == "1" { "" } else { unit });
+                    format!("{} {unit}", significant(value, 7)).trim_end().replace('-', "−")
+                }
+                (None, words) => words.unwrap_or("–").to_owned(),
+            }
+        };
+        section.entries.iter().map(|entry| (entry.title.as_str(), value(entry))).collect()
+    });
+    let blank = &job.blank;
+    let deg = |rad: f64| format!("{:.4}°", rad.to_degrees());
+    let gear = table(
+        "Blank",
+        vec![
+            ("Teeth", blank.teeth.to_string()),
+            (
+                "Pitch, face, root angle",
+                [blank.pitch_angle_rad, blank.face_angle_rad, blank.root_angle_rad].map(deg).join(", "),
+            ),
+            ("Outer cone distance", format!("{:.4} mm", blank.outer_cone_distance_mm)),
+            ("Face width", format!("{} mm", plain(blank.face_width_mm))),
+            (
+                "Outer addendum, dedendum",
+                format!("{} mm, {} mm", plain(blank.outer_addendum_mm), plain(blank.outer_dedendum_mm)),
+            ),
+        ],
+    );
+    PageSection {
+        id: "setup",
+        title: "What was cut, and how".to_owned(),
+        lead: String::new(),
+        blocks: vec![gear, table("Settings", rows)],
+    }
+}

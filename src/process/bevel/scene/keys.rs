@@ -1,0 +1,14 @@
+//! Keys that scenes of bevel gears add to the shared ones.
+
+mod gear;
+mod machine;
+mod operation;
+mod tool;
+
+use crate::scene::keys::{Addition, KeySection};
+
+/// Sections of its own.
+pub(super) static SECTIONS: &[&[KeySection]] = &[gear::SECTIONS, tool::SECTIONS, machine::SECTIONS];
+
+/// Keys in shared sections.
+pub(super) static ADDED: &[&Addition] = &[&operation::ADDED];

@@ -1,0 +1,121 @@
+//! Keys of the machines: the cradle machine's settings and their errors, the six-axis machine, limits of its axes.
+
+use crate::scene::keys::{Default, Key, KeySection, Kind, Range, Role};
+
+/// A length that is 0 unless it is written.
+const fn length(name: &'static str, example: &'static str, teach: &'static str) -> Key {
+    Key::number(name, "mm", Range::closed(-500.0, 500.0), 0.0, example, teach)
+}
+
+/// `[machine.cradle]`, `[machine.cradle_errors]`, `[machine.five_axis]`, `[machine.bevel_limits]`.
+pub(super) static SECTIONS: &[KeySection] = &[
+    KeySection {
+        path: "machine.cradle",
+        role: Role::Plain,
+        keys: &[
+            Key {
+                name: "radial_setting_mm",
+                kind: Kind::Number(Range::above(0.0, 1000.0)),
+                unit: "mm",
+                default: Default::Required,
+                example: "47.0",
+                teach: "Radial setting S_r: distance of the head's axis from the cradle's.",
+            },
+            Key {
+                name: "cradle_angle_deg",
+                kind: Kind::Number(Range::closed(-180.0, 180.0)),
+                unit: "deg",
+                default: Default::Required,
+                example: "58.0",
+                teach: "Cradle angle q in the middle of the roll; its sign chooses the hand of the spiral.",
+            },
+            length("blank_offset_mm", "0.0", "Blank offset E_m; 0 on spiral bevel gears."),
+            length("cross_shift_mm", "0.0", "X_B as the five-linkage paper draws it, along the machine's x axis."),
+            length("sliding_base_mm", "0.0", "Sliding base: how much deeper the head stands along the cradle's axis."),
+            length("center_to_back_mm", "0.0", "Machine centre to back X_p: how far the work stands back."),
+            Key::optional(
+                "root_angle_deg",
+                "deg",
+                Range::above(0.0, 89.9),
+                "the blank's root angle",
+                "59.0",
+                "Machine root angle gamma_m.",
+            ),
+            Key::optional(
+                "roll_ratio",
+                "",
+                Range::above(0.0, 100.0),
+                "that of a crown gear in the plane of the root cone",
+                "1.13",
+                "Ratio of roll R_a: work angle per cradle angle.",
+            ),
+            Key::number(
+                "modified_roll_c",
+                "",
+                Range::closed(-5.0, 5.0),
+                0.0,
+                "0.0",
+                "Coefficient C of the modified roll, per rad: the work turns by R_a (d - C d^2 - D d^3) while the cradle \
+                turns by d from the middle of the roll.",
+            ),
+            Key::number(
+                "modified_roll_d",
+                "",
+                Range::closed(-50.0, 50.0),
+                0.0,
+                "0.0",
+                "Coefficient D of the modified roll, per rad squared.",
+            ),
+        ],
+        groups: &[],
+        teach: "Settings of a cradle machine that generates bevel gears; the six-axis machine follows from them.",
+    },
+    KeySection {
+        path: "machine.cradle_errors",
+        role: Role::Plain,
+        keys: &[
+            length("radial_setting_mm", "0.02", "Error of the radial setting."),
+            length("blank_offset_mm", "0.02", "Error of the blank offset."),
+            length("sliding_base_mm", "0.02", "Error of the sliding base."),
+            length("center_to_back_mm", "0.02", "Error of machine centre to back."),
+            Key::number("root_angle_deg", "deg", Range::closed(-5.0, 5.0), 0.0, "0.02", "Error of the root angle."),
+            Key::number("roll_ratio", "", Range::closed(-0.1, 0.1), 0.0, "0.0005", "Error of the ratio of roll."),
+        ],
+        groups: &[],
+        teach: "Errors of a machine that is not set as it should be: it cuts with settings and errors together, and \
+            the target is that of the settings alone.",
+    },
+    KeySection {
+        path: "machine.five_axis",
+        role: Role::Plain,
+        keys: &[Key::number(
+            "mounting_distance_mm",
+            "mm",
+            Range::closed(-1000.0, 1000.0),
+            100.0,
+            "100.0",
+            "Mounting distance x_e from the swing axis B to the apex of the work, fixed on the machine.",
+        )],
+        groups: &[],
+        teach: "The six-axis machine of bevel gears: X, Y, Z, A and B are linked, C turns the head.",
+    },
+    KeySection {
+        path: "machine.bevel_limits",
+        role: Role::Plain,
+        keys: &[
+            Key::limit("x_speed_mm_per_s", "mm/s", "200.0", "Largest speed of X."),
+            Key::limit("y_speed_mm_per_s", "mm/s", "200.0", "Largest speed of Y."),
+            Key::limit("z_speed_mm_per_s", "mm/s", "200.0", "Largest speed of Z."),
+            Key::limit("a_speed_deg_per_s", "deg/s", "120.0", "Largest speed of the work spindle A."),
+            Key::limit("b_speed_deg_per_s", "deg/s", "30.0", "Largest speed of the swing B."),
+            Key::limit("x_acceleration_mm_per_s2", "mm/s^2", "1000.0", "Largest acceleration of X."),
+            Key::limit("y_acceleration_mm_per_s2", "mm/s^2", "1000.0", "Largest acceleration of Y."),
+            Key::limit("z_acceleration_mm_per_s2", "mm/s^2", "1000.0", "Largest acceleration of Z."),
+            Key::limit("a_acceleration_deg_per_s2", "deg/s^2", "500.0", "Largest acceleration of A."),
+            Key::limit("b_acceleration_deg_per_s2", "deg/s^2", "200.0", "Largest acceleration of B."),
+        ],
+        groups: &[],
+        teach: "Largest speeds and accelerations of the linked axes of a six-axis bevel machine, where known. They \
+            hold for the roll; the way back and the indexing are left to the control.",
+    },
+];

@@ -1,0 +1,99 @@
+//! What scenes of bevel gears may say, and what becomes of it.
+
+mod build;
+mod keys;
+pub mod model;
+
+use crate::scene::problems::Found;
+use crate::scene::values::{Checked, Values};
+use crate::scene::{ProcessPart, SceneProcess, Senseless};
+use model::Bevel;
+
+/// A shared key or section without sense here.
+const fn without(path: &'static str, why: &'static str, instead: &'static str) -> Senseless {
+    Senseless { path, why, instead }
+}
+
+/// Spiral bevel gears cut with a face-mill head.
+pub static SCENE: SceneProcess = SceneProcess {
+    name: "bevel",
+    tool: "face_mill",
+    tool_words: "a face-mill head",
+    needed: "the module, the number of teeth, the blank's cones and the machine's settings",
+    scenes: include_str!("scenes.md"),
+    sections: keys::SECTIONS,
+    added: keys::ADDED,
+    per_revolution: &[],
+    of_one_gear: &[],
+    on_demand: &[],
+    senseless: &[
+        without("gear.kind", "the pitch angle says where teeth stand", "remove it"),
+        without("gear.helix_angle_deg", "the machine's settings make the spiral", "remove it"),
+        without("gear.hand", "the sign of machine.cradle.cradle_angle_deg chooses the hand", "remove it"),
+        without("gear.addendum_coefficient", "the addendum stands in [gear.bevel]", "write gear.bevel.addendum_mm"),
+        without("gear.bore_diameter_mm", "no closed body is made", "remove it"),
+        without("gear.rim_mm", "no gear is internal", "remove it"),
+        without("gear.tooth_thickness_allowance_mm", "the head makes the slot", "set tool.face_mill.point_width_mm"),
+        without("gear.pitch_curve", "gears roll on cones", "remove it"),
+        without("fields.blank", "no rays go through the whole blank", "remove it"),
+        without("measure", "flanks are measured on a grid", "remove it"),
+        without("material", "cutting forces are not computed", "remove it"),
+    ],
+    derive,
+    check,
+    build: build::build,
+};
+
+/// What shared code reads of every gear, with the values that mean nothing.
+fn derive(values: &mut Values) {
+    for (key, word) in [("kind", "external"), ("hand", "right")] {
+        values.put_default("gear", key, Checked::Text(word.to_owned()));
+    }
+    for (section, key, number) in [
+        ("gear", "helix_angle_deg", 0.0),
+        ("gear", "addendum_coefficient", 1.0),
+        ("gear", "bore_diameter_mm", 0.0),
+        ("gear", "tooth_thickness_allowance_mm", 0.0),
+        ("fields.blank", "spacing_mm", 1.0),
+        ("fields.blank", "slice_spacing_mm", 1.0),
+    ] {
+        values.put_default(section, key, Checked::Number(number));
+    }
+}
+
+/// Holds values against each other.
+fn check(found: &mut Found<'_, '_, '_>) {
+    let _: Option<()> = runouts(found);
+    rolls(found);
+}
+
+/// One runout for each blade.
+fn runouts(found: &mut Found) -> Option<()> {
+    let head = found.view("tool.face_mill");
+    let (blades, runouts) = (head.whole("blades")? as usize, head.numbers("runouts_um")?.len());
+    let message = || format!("`tool.face_mill.runouts_um` has {runouts} entries for {blades} blades");
+    let wrong = runouts > 0 && runouts != blades;
+    found.blame(wrong, "tool.face_mill.runouts_um", message, "write one for each blade, or leave the list empty");
+    Some(())
+}
+
+/// A roll has a length.
+fn rolls(found: &mut Found) {
+    for index in 0..found.values.count("operation") {
+        let path = format!("operation.{index}");
+        let [from, to] = ["roll_from_deg", "roll_to_deg"].map(|key| found.view(&path).number(key));
+        let message = || format!("the roll from {} to {} deg has no length", from.unwrap_or(0.0), to.unwrap_or(0.0));
+        let wrong = from.is_some() && from == to;
+        found.blame(wrong, &format!("{path}.roll_to_deg"), message, "make the ends differ");
+    }
+}
+
+impl ProcessPart for Bevel {
+    fn process(&self) -> &'static SceneProcess {
+        &SCENE
+    }
+
+    fn operation_names(&self) -> Vec<&str> {
+        self.operations.iter().map(|operation| operation.name.as_str()).collect()
+    }
+}

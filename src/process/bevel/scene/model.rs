@@ -1,0 +1,102 @@
+//! Checked values of bevel scenes: cones, head, settings, limits, operations; mm, rad, s.
+
+use crate::scene::Scene;
+use gearcut_core::bevel::blank::MatingCones;
+use gearcut_core::bevel::cradle::CradleSettings;
+use gearcut_core::bevel::ease_off::Setting;
+
+/// Spiral bevel gears: blank, head, machine and operations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bevel {
+    /// Cones of the blank.
+    pub cones: Cones,
+    /// The head.
+    pub head: HeadSpec,
+    /// Settings of the cradle machine.
+    pub settings: SettingsSpec,
+    /// Mounting distance of the six-axis machine.
+    pub mounting_mm: f64,
+    /// Largest speeds of X, Y, Z, A and B, mm or rad per s; `None`: not limited.
+    pub speed_limits: [Option<f64>; 5],
+    /// Largest accelerations of the same axes, mm or rad per s^2.
+    pub acceleration_limits: [Option<f64>; 5],
+    /// Operations in the order they are cut; the last one defines the target.
+    pub operations: Vec<BevelOperation>,
+    /// Whether axis programs are written.
+    pub programs: bool,
+}
+
+impl Bevel {
+    /// The bevel part of a scene, if it cuts bevel gears.
+    pub fn of(scene: &Scene) -> Option<&Self> {
+        scene.process.get()
+    }
+}
+
+/// Cone data beside those of `[gear]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cones {
+    /// Pitch angle.
+    pub pitch_angle_rad: f64,
+    /// Face angle.
+    pub face_angle_rad: f64,
+    /// Root angle.
+    pub root_angle_rad: f64,
+    /// Outer addendum, mm.
+    pub addendum_mm: f64,
+    /// Outer dedendum, mm.
+    pub dedendum_mm: f64,
+    /// The mate, where the scene names it.
+    pub mate: Option<MatingCones>,
+}
+
+/// The head as the scene describes it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeadSpec {
+    /// Mean radius, mm; `None`: inferred from the settings.
+    pub radius_mm: Option<f64>,
+    /// Point width, mm.
+    pub point_width_mm: f64,
+    /// Blade angles, outside and inside, rad.
+    pub blade_angles_rad: [f64; 2],
+    /// Radius of the cutting corners, mm.
+    pub corner_radius_mm: f64,
+    /// Width of blades at their tips, mm; `None`: 0.7 point widths.
+    pub tip_width_mm: Option<f64>,
+    /// Number of blades of both kinds.
+    pub blades: u32,
+    /// How far each blade stands out, mm; empty: none does.
+    pub runouts_mm: Vec<f64>,
+    /// Angle of the first blade when the first slot begins, rad.
+    pub start_angle_rad: f64,
+}
+
+/// Settings as the scene names them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SettingsSpec {
+    /// Settings; the root angle and the ratio of roll count only where they are given.
+    pub cradle: CradleSettings,
+    /// The machine's root angle, where given, rad.
+    pub root_angle_rad: Option<f64>,
+    /// Ratio of roll, where given.
+    pub roll_ratio: Option<f64>,
+    /// How far the machine is off, setting by setting: mm, rad or a ratio.
+    pub errors: [(Setting, f64); 6],
+}
+
+/// One run of the head over all slots.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BevelOperation {
+    /// Name, unique in the scene.
+    pub name: String,
+    /// How far the head stays back along its axis, mm.
+    pub offset_mm: f64,
+    /// Speed of the head against the cradle, rad/s.
+    pub head_speed_rad_per_s: f64,
+    /// Speed of the cradle, rad/s.
+    pub roll_speed_rad_per_s: f64,
+    /// Cradle angles at which the roll begins and ends, rad; `None`: what the flanks need.
+    pub roll_rad: [Option<f64>; 2],
+    /// Time between two slots: withdraw, roll back, index, s.
+    pub idle_s: f64,
+}

@@ -1,0 +1,102 @@
+//! Passes of the head's blades over all slots of all operations.
+//!
+//! In: operations with their rolls, the head, the pose of the head in the gear. Out: one set of passes for every slot,
+//! with ids that grow in the order of cutting: operation by operation, slot 0, 1, 2 and so on.
+//!
+//! The head turns on while the machine withdraws, rolls back and indexes, so that each slot begins with the blades at
+//! another angle: tau0(j) = start + omega j T, T the time from slot to slot. During a slot's roll the cradle angle is
+//! q = q_from + (tau - tau0) dq/dt / omega.
+
+use super::operation::PreparedBevel;
+use gearcut_core::bevel::face_mill::FaceMill;
+use gearcut_core::error::Refusal;
+use gearcut_core::frame::Rigid3;
+use gearcut_core::passes::{MotionTable, TurningPasses};
+use gearcut_core::units::TURN_RAD;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Passes of all operations and slots.
+#[derive(Debug)]
+pub struct Slots {
+    /// One set for every slot, operation by operation.
+    sets: Vec<TurningPasses>,
+    slots: usize,
+}
+
+/// Pose of the head in the gear for an operation, a slot and a cradle angle; the head's x axis looks at the slot.
+pub type HeadPose<'a> = &'a (dyn Fn(&PreparedBevel, u32, f64) -> Rigid3 + Sync);
+
+impl Slots {
+    /// Passes of operations over so many slots, with a head whose first blade stands at `start_rad` when slot 0 of each
+    /// begins.
+    ///
+    /// # Errors
+    /// A head that cannot be made; more passes than can be numbered.
+    pub fn new(
+        operations: &[PreparedBevel],
+        head: &FaceMill,
+        (start_rad, slots): (f64, u32),
+        gear_from_head: HeadPose,
+    ) -> Result<Self, Refusal> {
+        let tool = head.tool()?;
+        let numbered: Vec<(&PreparedBevel, u32)> =
+            operations.iter().flat_map(|operation| (0..slots).map(move |slot| (operation, slot))).collect();
+        let sets: Vec<TurningPasses> = numbered
+            .into_par_iter()
+            .map(|(operation, slot)| {
+                let speed = operation.spec.head_speed_rad_per_s;
+                let turned = start_rad + speed * operation.cycle_s() * f64::from(slot);
+                let from = turned.rem_euclid(TURN_RAD);
+                let to = from + speed * operation.roll_s();
+                let cradle_rad =
+                    |tool_rad: f64| operation.roll_rad[0] + (tool_rad - from) * operation.cradle_rad_per_s() / speed;
+                let beyond = head.half_window_rad;
+                let motion = MotionTable::new([from - beyond, to + beyond], &[], |tool_rad| {
+                    gear_from_head(operation, slot, cradle_rad(tool_rad)).inverse()
+                });
+                TurningPasses::new(0, &tool, 1.0, motion)
+            })
+            .collect::<Result<_, _>>()?;
+        let passes: u64 = sets.iter().map(|set| u64::from(set.count())).sum();
+        if passes >= u64::from(u32::MAX) {
+            return Err(Refusal::new(
+                "operation.roll_speed_deg_per_s",
+                format!("{passes} passes are more than can be numbered"),
+                "roll faster or use fewer blades",
+            ));
+        }
+        let mut first_pass = 0;
+        let sets = sets
+            .into_iter()
+            .map(|mut set| {
+                set.first_pass = first_pass;
+                first_pass = set.end_pass();
+                set
+            })
+            .collect();
+        Ok(Self { sets, slots: slots as usize })
+    }
+
+    /// Passes of a slot in an operation.
+    pub fn of(&self, operation: usize, slot: u32) -> &TurningPasses {
+        &self.sets[operation * self.slots + slot as usize]
+    }
+
+    /// Ids of an operation's passes.
+    pub fn ids(&self, operation: usize) -> Range<u32> {
+        let sets = &self.sets[operation * self.slots..(operation + 1) * self.slots];
+        sets[0].first_pass..sets[self.slots - 1].end_pass()
+    }
+
+    /// Passes of all operations.
+    pub fn count(&self) -> u32 {
+        self.sets.last().map_or(0, TurningPasses::end_pass)
+    }
+
+    /// Blade behind a pass.
+    pub fn blade_of(&self, pass: u32) -> u32 {
+        let at = self.sets.partition_point(|set| set.end_pass() <= pass);
+        self.sets[at].blade_of(pass).1
+    }
+}

@@ -1,0 +1,222 @@
+//! Cut flanks against closed forms: marks of the blades, a blade that stands out, the slot's depth; candidates against
+//! all passes; the device against the native backend.
+
+use super::jobs::job;
+use gearcut::bevel::ease_off::Setting;
+use gearcut::cut::Backend;
+use gearcut::cut::cpu::Cpu;
+use gearcut::dexel::{FreeRays, Layer};
+use gearcut::passes::SweepPlan;
+use gearcut::process::bevel::BevelJob;
+use gearcut::process::bevel::measure::{self, MarkForm};
+use gearcut::terms::Side;
+
+const SIDES: [Side; 2] = [Side::Left, Side::Right];
+/// Numerical resolution of the native backend on face-milled cones, mm.
+const BOUND_MM: f64 = 1e-7;
+/// A faster roll, whose marks stand far above the resolution.
+const FAST: &str = "operation.finish.roll_speed_deg_per_s=20";
+
+/// Rays round the middle of a flank: so many columns and rows so far apart, mm.
+fn patch(job: &BevelJob, tooth: u32, side: Side, [columns, rows]: [usize; 2], step_mm: [f64; 2]) -> FreeRays {
+    let middle_mm = 0.5 * job.target_of(side).length_mm();
+    let places = |count: usize, step: f64, middle: f64| -> Vec<f64> {
+        (0..count).map(|i| middle + step * (i as f64 - 0.5 * (count - 1) as f64)).collect()
+    };
+    let (arcs_mm, rows_mm) = (places(columns, step_mm[0], middle_mm), places(rows, step_mm[1], 0.0));
+    job.rays_over(tooth, side, arcs_mm, rows_mm).expect("rays")
+}
+
+/// What the finishing operation leaves by itself.
+fn finished(job: &BevelJob, tooth: u32, side: Side, rays: &FreeRays) -> Layer {
+    let (layers, stats) = job.cut_field(&Cpu::default(), job.space_of(tooth, side), &rays.field).expect("cuts");
+    assert_eq!(stats.unconverged, 0);
+    layers.last().expect("an operation").clone()
+}
+
+fn heights_mm(layer: &Layer) -> impl Iterator<Item = f64> + '_ {
+    layer.heights_mm.iter().map(|&height| f64::from(height))
+}
+
+/// Between two passes of a kind of blade the cone stands over its envelope by the closed form; nowhere does it go
+/// below.
+#[test]
+fn marks_have_their_height_and_go_down_to_the_target() {
+    let job = job("five_linkage_printed", &[FAST]).expect("a gear");
+    for side in SIDES {
+        let MarkForm { spacing_mm, height_mm } = measure::marks(&job, side).expect("marks");
+        // Two marks wide and high, in steps of a fiftieth of a mark.
+        let rays = patch(&job, 5, side, [120, 120], [0.02 * spacing_mm; 2]);
+        let layer = finished(&job, 5, side, &rays);
+        let lowest_mm = heights_mm(&layer).fold(f64::INFINITY, f64::min);
+        let highest_mm = heights_mm(&layer).fold(f64::NEG_INFINITY, f64::max);
+        println!(
+            "{side:?}: {lowest_mm:e} to {highest_mm:e} mm, {height_mm:e} mm in closed form, {spacing_mm} mm apart"
+        );
+        assert!(lowest_mm.abs() < BOUND_MM, "{lowest_mm:e} mm");
+        // Within 1.2 marks the height of the ridges changes with the place by a few per cent.
+        assert!((highest_mm / height_mm - 1.0).abs() < 0.05, "{highest_mm:e} of {height_mm:e} mm");
+        // Passes of neighbouring facets follow each other by the two kinds of blades.
+        let mut passes = layer.passes.clone();
+        passes.sort_unstable();
+        passes.dedup();
+        assert!(passes.len() >= 2 && passes.windows(2).all(|pair| (pair[1] - pair[0]).is_multiple_of(2)), "{passes:?}");
+        assert!(passes.iter().all(|&pass| job.slots.blade_of(pass) % 2 == job.kind_of(side).index() as u32));
+    }
+}
+
+/// Marks counted along the profile and along the tooth give the distance of their lines in the flank.
+#[test]
+fn marks_are_as_far_apart_as_their_closed_form() {
+    let job = job("five_linkage_printed", &[]).expect("a gear");
+    for side in SIDES {
+        // Way from the first to the last change of marks on a line of dexels, and marks on it, counted in time.
+        let marks = |size: [usize; 2], step_mm: [f64; 2]| {
+            let rays = patch(&job, 5, side, size, step_mm);
+            let layer = finished(&job, 5, side, &rays);
+            let changes: Vec<usize> =
+                (1..layer.passes.len()).filter(|&i| layer.passes[i] != layer.passes[i - 1]).collect();
+            let [first, last] = [changes[0], changes[changes.len() - 1]];
+            let at = |i: usize| rays.field.ray(i / size[1], i % size[1]).origin_mm;
+            let grows = if layer.passes[last] > layer.passes[first] { 1.0 } else { -1.0 };
+            (at(last) - at(first), grows * (changes.len() - 1) as f64)
+        };
+        let ((a, n_a), (b, n_b)) = (marks([800, 1], [0.0025, 1.0]), marks([1, 800], [1.0, 0.01]));
+        let (aa, ab, bb) = (a.dot(a), a.dot(b), b.dot(b));
+        let per_mm = ((n_a * bb - n_b * ab) * a + (n_b * aa - n_a * ab) * b) / (aa * bb - ab * ab);
+        let share = 1.0 / per_mm.length() / measure::marks(&job, side).expect("marks").spacing_mm;
+        println!("{side:?}: {n_a} and {n_b} marks, {share} of the closed form");
+        // The distance changes by some per cent over the lines.
+        assert!((share - 1.0).abs() < 0.05, "{side:?}: {share}");
+    }
+}
+
+/// A blade that stands out by d leaves d cos(blade angle) below the target where it passes, and its neighbours reach
+/// the surface no more.
+#[test]
+fn a_blade_that_stands_out_leaves_the_flank() {
+    let runouts = "tool.face_mill.runouts_um=[0, 0, 0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]";
+    let job = job("five_linkage_printed", &[runouts]).expect("a gear");
+    for side in SIDES {
+        let rays = patch(&job, 1, side, [40, 60], [0.05, 0.1]);
+        let layer = finished(&job, 1, side, &rays);
+        let lowest_mm = heights_mm(&layer).fold(f64::INFINITY, f64::min);
+        let stands_out = job.kind_of(side).index() == 0;
+        let wanted_mm = if stands_out { -0.01 * 20_f64.to_radians().cos() } else { 0.0 };
+        // Every eighth mark, whose bottom a dexel may miss by 0.05 mm of its 0.8: 1e-8 mm.
+        assert!((lowest_mm - wanted_mm).abs() < 2.0 * BOUND_MM, "{side:?}: {lowest_mm:e} not {wanted_mm:e}");
+        let by_that = layer.passes.iter().filter(|&&pass| job.slots.blade_of(pass) == 4).count();
+        assert_eq!(by_that, if stands_out { layer.passes.len() } else { 0 }, "{side:?}");
+    }
+}
+
+/// The plane of the tips stands parallel to the root cone: the slot misses the same depth everywhere, counted square to
+/// the pitch cone.
+#[test]
+fn slots_are_as_deep_as_the_tips_stand() {
+    let cpu = Cpu::default();
+    for (scene, missed_mm) in [("five_linkage_printed", 0.746_364_5), ("five_linkage_corrected", -3.5e-5)] {
+        let job =
+            job(scene, &["fields.flank.profile_spacing_um=500", "fields.flank.lead_spacing_um=500"]).expect("a gear");
+        assert!((job.depth_missed_mm() - missed_mm).abs() < 2e-6, "{} mm", job.depth_missed_mm());
+        let report = |tooth, side| {
+            let rays = job.rays(tooth, side).expect("rays");
+            let (layers, _) = job.cut_field(&cpu, job.space_of(tooth, side), &rays.field).expect("cuts");
+            measure::measure(&job, tooth, side, &rays, &layers).expect("measured")
+        };
+        let flanks = [report(1, Side::Left), report(2, Side::Right)];
+        let slot = measure::slot(&job, &cpu, [&flanks[0], &flanks[1]]).expect("a slot");
+        assert_eq!(slot.len(), 9);
+        let off_mm = job.depth_missed_mm() / job.blank.dedendum_angle_rad().cos();
+        for row in &slot {
+            let depth_mm = row.depth_mm.expect("cut");
+            // In the middle of the slot the tips stand a little beside the generatrix: a ten-thousandth of a
+            // millimetre.
+            assert!(
+                (row.whole_depth_mm - depth_mm - off_mm).abs() < 2e-4,
+                "{} mm of {off_mm}",
+                row.whole_depth_mm - depth_mm
+            );
+        }
+        // Slots open towards the heel: 5.2, 6.2 and 7.6 mm on the pitch cone, as the independent solver has them.
+        let widths: Vec<f64> = slot.iter().map(|row| row.width_mm.expect("cut")).collect();
+        assert!(widths.is_sorted(), "{widths:?}");
+        if scene == "five_linkage_printed" {
+            assert!((widths[4] - 6.2).abs() < 0.06, "{widths:?}");
+        }
+    }
+}
+
+#[test]
+fn candidates_and_all_passes_leave_the_same_flank() {
+    let job = job("five_linkage_corrected", &[FAST]).expect("a gear");
+    for (tooth, side) in [(1, Side::Left), (31, Side::Right)] {
+        let rays = patch(&job, tooth, side, [40, 80], [0.12, 0.4]);
+        for operation in 0..2 {
+            let set = job.slots.of(operation, job.space_of(tooth, side));
+            let plans = [SweepPlan::new(&rays.field, set), SweepPlan::brute_force(&rays.field, set)];
+            assert!(plans[1].dexel_passes() > 4 * plans[0].dexel_passes());
+            let [layer, all] = plans.map(|plan| {
+                let mut layer = rays.field.blank_layer();
+                Cpu::default().cut_spatial(&rays.field, &plan, &mut layer).expect("cuts");
+                layer
+            });
+            assert!(layer == all, "tooth {tooth} {side:?}, operation {operation}");
+            assert!(layer != rays.field.blank_layer());
+        }
+    }
+}
+
+/// Roughing holds the head back along its axis: it leaves the offset times the sine of the blade angle.
+#[test]
+fn roughing_leaves_its_stock() {
+    let job = job("five_linkage_corrected", &["tool.face_mill.runouts_um=[]"]).expect("a gear");
+    for side in SIDES {
+        let rays = patch(&job, 2, side, [10, 20], [0.05, 0.5]);
+        let (layers, _) = job.cut_field(&Cpu::default(), job.space_of(2, side), &rays.field).expect("cuts");
+        for (rough, finish) in heights_mm(&layers[0]).zip(heights_mm(&layers[1])) {
+            // Not the same along a generated flank: the moment of contact moves with the head.
+            assert!((rough - finish - 0.2).abs() < 2e-3, "{} mm", rough - finish);
+        }
+    }
+}
+
+#[cfg(feature = "gpu")]
+#[test]
+fn the_device_cuts_the_same_flanks() {
+    use crate::fixtures::parity::{cut_both_in_space, software_gpu, strict};
+    /// What the shaders add at most, nm, as with other face-mill heads: 1.11 measured.
+    const SWEPT_NM: f64 = 2.0;
+    let gpu = software_gpu(strict());
+    let job = job("five_linkage_corrected", &[FAST]).expect("a gear");
+    for (tooth, side) in [(1, Side::Left), (40, Side::Right)] {
+        let rays = patch(&job, tooth, side, [32, 64], [0.15, 0.5]);
+        let plan = SweepPlan::new(&rays.field, job.slots.of(1, job.space_of(tooth, side)));
+        let (parity, _, _, _) = cut_both_in_space(&gpu, &format!("tooth {tooth}"), &rays.field, &plan);
+        println!("{parity}");
+        assert_eq!(parity.verdict_within(SWEPT_NM), Ok(()));
+        // The next slot's passes stand at another phase, and are seen.
+        let other = SweepPlan::new(&rays.field, job.slots.of(0, job.space_of(tooth, side)));
+        let mut layer = rays.field.blank_layer();
+        gpu.cut_spatial(&rays.field, &other, &mut layer).expect("cuts");
+        assert!(layer != finished(&job, tooth, side, &rays));
+    }
+}
+
+/// A machine whose root angle is off cuts what its ease-off says, and the deviations name the error.
+#[test]
+fn errors_of_settings_are_cut_and_named() {
+    let job = job("setting_errors", &["fields.flank.profile_spacing_um=400", "fields.flank.lead_spacing_um=1000"])
+        .expect("a gear");
+    for side in SIDES {
+        let rays = job.rays(1, side).expect("rays");
+        let (layers, _) = job.cut_field(&Cpu::default(), job.space_of(1, side), &rays.field).expect("cuts");
+        let flank = measure::measure(&job, 1, side, &rays, &layers).expect("measured");
+        let explained = measure::explained(&job, &flank).expect("flanks").expect("deviations");
+        println!("{side:?}: {:?}", &explained[..2]);
+        assert_eq!(explained[0].setting, Setting::RootAngle);
+        assert!((explained[0].error.to_degrees() / 0.02 - 1.0).abs() < 0.01);
+        // What is left are the marks: some nanometres.
+        assert!(explained[0].left_rms_mm < 1e-5 && explained[1].left_rms_mm > 1e-4);
+    }
+}
