@@ -36,7 +36,7 @@ fn cut_blank(cutter: &HobCutter) -> HobbedBlank {
     cutter.cut_blank(&Cpu::default(), field, &|| true).expect("the native backend").expect("not stopped")
 }
 
-const SMALL: [&str; 3] = ["gear.face_width_mm=6", "fields.blank.spacing_mm=0.5", "fields.blank.slice_spacing_mm=2.0"];
+const SMALL: [&str; 3] = ["gear.face_width_mm=6", "fields.blank.spacing_mm=0.5", "fields.blank.slice_spacing_mm=1.0"];
 
 /// Distance of a point of the rake face (distance from the axis, y) from the edge.
 fn off_edge_mm(edge: &Edge, point: DVec2) -> f64 {
@@ -301,7 +301,7 @@ mod slow {
         for (scene, sets) in [
             ("circular_spur", vec!["operation.finish.axial_feed_mm_per_revolution=1.0"]),
             ("circular_helical", vec![]),
-            ("third_order_plain", vec!["fields.blank.spacing_mm=0.8", "fields.blank.slice_spacing_mm=25"]),
+            ("third_order_plain", vec!["fields.blank.spacing_mm=0.6", "fields.blank.slice_spacing_mm=12.5"]),
         ] {
             let mut all = SMALL.to_vec();
             if scene == "third_order_plain" {
