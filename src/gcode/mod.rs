@@ -7,10 +7,12 @@ mod axes;
 mod digits;
 mod lines;
 mod text;
+mod timed;
 mod words;
 
 pub use axes::{axis_word, beyond_limits};
 pub use digits::Digits;
 pub use lines::longest_lines;
 pub use text::ProgramText;
+pub use timed::{TimedKnot, read_timed};
 pub use words::{Word, blocks};

@@ -3,6 +3,7 @@
 //! In: a roll and the contour error. Out: [`BevelProgram`]: the longest blocks that keep the tips of the blades within
 //! that error, repeated for every slot with the work indexed, and the way back between slots.
 
+use crate::gcode::TimedKnot;
 use crate::gcode::{Digits, longest_lines};
 use crate::process::bevel::job::BevelJob;
 use crate::process::bevel::motion::{AXES, RollMotion};
@@ -24,13 +25,7 @@ const SAMPLED_SHARE: f64 = 0.95;
 const IDLE_PARTS: [f64; 3] = [0.2, 0.6, 0.2];
 
 /// Axes at one moment.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BevelKnot {
-    /// Time from the first knot, s.
-    pub time_s: f64,
-    /// X, Y, Z in mm, A and B in rad.
-    pub axes: [f64; 5],
-}
+pub type BevelKnot = TimedKnot<5>;
 
 /// A program: straight lines between knots in order of time, the first at 0.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,6 +4,7 @@
 //! can be in the work, within that error; what it asks of the axes; the share of it that an electronic gearbox takes
 //! over.
 
+use crate::gcode::TimedKnot;
 use crate::gcode::{Digits, beyond_limits, longest_lines};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
@@ -28,13 +29,7 @@ const SAMPLED_SHARE: f64 = 0.95;
 pub type Positions = [f64; 6];
 
 /// Axes at one moment.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HobbingKnot {
-    /// Time from the first knot, s.
-    pub time_s: f64,
-    /// Where the axes stand.
-    pub axes: Positions,
-}
+pub type HobbingKnot = TimedKnot<6>;
 
 /// A program: straight lines between knots in order of time, the first at 0.
 #[derive(Debug, Clone, PartialEq)]
