@@ -10,6 +10,7 @@ use crate::process::hobbing::measure::flank_report::{self, HobbedReport};
 use crate::process::hobbing::measure::offset_curves::{self, CurvePoint};
 use crate::steps::cut_flanks::{CutFlank, cut_flanks};
 use crate::steps::gear_maps::GearMaps;
+use crate::steps::pictures::flank::PicturedFlanks;
 use crate::steps::{FlankFiles, Work};
 use crate::surface::SurfaceGrid;
 use gearcut_core::cut::Backend;
@@ -30,6 +31,8 @@ pub struct HobbedGear {
     pub maps: GearMaps,
     /// Their surfaces at mesh spacing; empty where nothing that is written needs them.
     pub surfaces: Vec<SurfaceGrid>,
+    /// What pictures of single flanks show.
+    pub pictured: PicturedFlanks,
     /// Passes of every operation.
     pub passes: Vec<u32>,
     /// How much work it was.
@@ -72,6 +75,7 @@ pub fn cut_gear(
         points,
         maps: cut.maps,
         surfaces: cut.surfaces,
+        pictured: cut.pictured,
         passes: cutter.operations.iter().map(gearcut_core::passes::TurningPasses::count).collect(),
         work: cut.work,
     })

@@ -68,8 +68,9 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
             meshes::write_blank(job, cut, folder)?;
         }
         let (flanks, roots) = (take(&mut gear.surfaces), take(&mut gear.roots));
-        interrupted |=
-            !write_meshes_and_pictures(job, tools, || meshes::gear(job, tools.backend, flanks, roots, progress))?;
+        interrupted |= !write_meshes_and_pictures(job, tools, &gear.pictured, || {
+            meshes::gear(job, tools.backend, flanks, roots, progress).map(Some)
+        })?;
         if let Some(count) = frames {
             let drawn = frames::draw(job, count, progress, interrupt, folder)?;
             if drawn < count {
