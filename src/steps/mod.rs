@@ -51,6 +51,27 @@ pub struct Work {
     pub interrupted: bool,
 }
 
+impl Work {
+    /// What a reader of the results must know of how flanks were cut: `untouched` dexels were reached by no pass, and
+    /// `why` says so for the process.
+    pub fn warnings(&self, untouched: u64, why: &str) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if untouched > 0 {
+            warnings.push(format!("{untouched} dexels were reached by no pass: {why}"));
+        }
+        let unconverged = self.stats.unconverged;
+        if unconverged > 0 {
+            warnings.push(format!(
+                "{unconverged} rays did not converge: their heights may be too large; please report the scene"
+            ));
+        }
+        if self.interrupted {
+            warnings.push("stopped by Ctrl-C: figures cover the finished flanks only".to_owned());
+        }
+        warnings
+    }
+}
+
 /// What a run says where a gear has no closed body.
 pub const NO_BODY: &str = "mesh/gear.* and pictures of the gear and its teeth are left out";
 

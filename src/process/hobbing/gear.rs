@@ -16,7 +16,6 @@ use crate::surface::SurfaceGrid;
 use gearcut_core::cut::Backend;
 use gearcut_core::error::{Error, Result};
 use gearcut_core::terms::Side;
-use std::f64::consts::PI;
 
 /// A hobbed and measured gear.
 #[derive(Debug)]
@@ -93,7 +92,6 @@ fn inspection(cutter: &HobCutter, flanks: &[HobbedReport], points: &[Vec<CurvePo
             .collect()
     };
     let [left, right] = [Side::Left, Side::Right].map(crossings);
-    let pitch_mm = PI * spec.transverse_module_mm();
     let pressure_angle_rad = spec.transverse_pressure_angle_rad();
-    GearInspection::of_crossings(&cutter.job.blank, [&left, &right], pitch_mm, pressure_angle_rad)
+    GearInspection::of_crossings(&cutter.job.blank, [&left, &right], pressure_angle_rad)
 }

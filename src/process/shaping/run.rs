@@ -47,7 +47,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion);
     sections.extend(whole.as_ref().map(|(cut, report)| blank_findings::findings(&job.planar(), cut, report)));
     sections.push(texture::findings(job, &textures));
-    let mut warnings = findings::warnings(&gear.report, &gear.work.stats, gear.work.interrupted, &motion);
+    let mut warnings = findings::warnings(&gear.report, &gear.work, &motion);
     warnings.extend(whole.as_ref().and_then(|(_, report)| blank::rubbing_warning(job, report)));
     let found = Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
