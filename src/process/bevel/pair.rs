@@ -28,6 +28,8 @@ use rayon::prelude::*;
 const PITCHES: f64 = 2.0;
 /// Intervals of a pitch; errors of neighbouring pairs of teeth are then known at the same angles.
 const PER_PITCH: usize = 20;
+/// Motion errors are known to this, rad, two millionths of an arc second: what the search for contact leaves.
+const KNOWN_RAD: f64 = 1e-11;
 /// Modules that differ by more belong to no pair, mm: rounding of data sheets.
 const MODULE_MM: f64 = 2e-3;
 
@@ -70,8 +72,8 @@ impl MountingError {
     pub fn names(self) -> [&'static str; 2] {
         match self {
             Self::Offset => ["E", "hypoid offset a"],
-            Self::PinionAxial => ["P", "mounting distance of the pinion t_B1"],
-            Self::GearAxial => ["G", "mounting distance of the wheel t_B2"],
+            Self::PinionAxial => ["P", "pinion mounting distance t_B1"],
+            Self::GearAxial => ["G", "wheel mounting distance t_B2"],
             Self::ShaftAngle => ["Sigma", "shaft angle Sigma"],
         }
     }
@@ -105,10 +107,12 @@ impl Running {
         let angle = |i: usize| PITCHES * pitch_rad * (i as f64 / (count - 1) as f64 - 0.5);
         let middle = count / 2;
         let carrying = (middle - PER_PITCH / 2..=middle + PER_PITCH / 2).map(|i| {
-            let teeth = [i.checked_sub(PER_PITCH), Some(i), Some(i + PER_PITCH)];
+            let teeth = [Some(i), i.checked_sub(PER_PITCH), Some(i + PER_PITCH)];
             let met = teeth.into_iter().flatten().filter_map(|i| *found.get(i)?);
-            // A pinion that pushes the gear back is ahead where the gear's angle is smallest.
-            let first = met.min_by(|a, b| (a.0.closing * a.1).total_cmp(&(b.0.closing * b.1)));
+            // A pinion that pushes the gear back is ahead where the gear's angle is smallest; where several pairs of
+            // teeth carry alike, as conjugate ones do, the one nearest to the middle stands for them.
+            let ahead = |(contact, error_rad): &(Contact, f64)| contact.closing * error_rad;
+            let first = met.reduce(|best, next| if ahead(&next) < ahead(&best) - KNOWN_RAD { next } else { best });
             let (contact, error_rad) = first.ok_or_else(|| {
                 Refusal::new("pair", "no teeth meet at an angle of the pinion", "check the mounting and both scenes")
             })?;
@@ -119,10 +123,11 @@ impl Running {
         Ok(Self { teeth, carrying })
     }
 
-    /// Range of the motion error over a pitch, rad.
+    /// Range of the motion error over a pitch, rad; 0 where it is no more than the search leaves.
     pub fn motion_error_rad(&self) -> f64 {
         let errors = || self.carrying.iter().map(|(.., error_rad)| *error_rad);
-        errors().fold(f64::NEG_INFINITY, f64::max) - errors().fold(f64::INFINITY, f64::min)
+        let range_rad = errors().fold(f64::NEG_INFINITY, f64::max) - errors().fold(f64::INFINITY, f64::min);
+        if range_rad > KNOWN_RAD { range_rad } else { 0.0 }
     }
 
     /// Mean place of the contact of one pair of teeth over a pitch about the middle: along the gear's tooth from the
