@@ -56,7 +56,8 @@ fn motion_error(side: &RolledSide) -> Quantity {
     Quantity::number(
         ARCSEC_PER_RAD * side.running.motion_error_rad(),
         "arcsec",
-        "range over a pitch of the gear's angle less that of a constant ratio, by the teeth that carry",
+        "range over a pitch of the gear's angle less that of a constant ratio, by the teeth that carry; 0 where it is \
+        below two millionths of an arc second, which the search leaves",
     )
 }
 
