@@ -125,11 +125,13 @@ impl Running {
         errors().fold(f64::NEG_INFINITY, f64::max) - errors().fold(f64::INFINITY, f64::min)
     }
 
-    /// Mean place of the contact over a pitch: along the gear's tooth from the middle of the face, and height over the
-    /// pitch cone, mm.
+    /// Mean place of the contact of one pair of teeth over a pitch about the middle: along the gear's tooth from the
+    /// middle of the face, and height over the pitch cone, mm. Which teeth carry does not enter: conjugate ones all do.
     pub fn center_mm(&self) -> [f64; 2] {
-        let count = self.carrying.len() as f64;
-        [0, 1].map(|k| self.carrying.iter().map(|(_, contact, _)| contact.place_mm[k]).sum::<f64>() / count)
+        let middle = self.teeth.len() / 2;
+        let pitch = &self.teeth[middle - PER_PITCH / 2..=middle + PER_PITCH / 2];
+        let met: Vec<&Contact> = pitch.iter().filter_map(|(_, met)| met.as_ref().map(|(contact, _)| contact)).collect();
+        [0, 1].map(|k| met.iter().map(|contact| contact.place_mm[k]).sum::<f64>() / met.len() as f64)
     }
 
     /// Contact in the middle of the pitch.

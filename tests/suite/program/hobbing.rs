@@ -169,8 +169,10 @@ fn the_printed_linkage_gives_no_program_and_no_closed_body() {
 mod slow {
     use super::*;
 
-    /// So coarse, and a face so narrow, that a scene takes some seconds.
-    const COARSEST: [&str; 12] = [
+    /// So coarse, with so few teeth and so narrow a face that a scene takes some seconds.
+    const COARSEST: [&str; 14] = [
+        "--set",
+        "gear.teeth=21",
         "--set",
         "gear.face_width_mm=2",
         "--set",

@@ -249,7 +249,7 @@ impl BevelPair {
         let half_axis_mm = |bend: f64| if bend > 0.0 { (2.0 * thickness_mm / bend).sqrt() } else { f64::INFINITY };
         Some(Ellipse {
             half_axes_mm: [mean - half, mean + half].map(half_axis_mm),
-            directions: [short.perp(), short].map(|axis| (back * axis).to_array()),
+            directions: [short.perp(), short].map(|axis| (BEND_MM * (back * axis)).to_array()),
         })
     }
 

@@ -38,15 +38,15 @@ fn headline(side: &RolledSide) -> Vec<Entry> {
     let name = words(side);
     let [along_mm, _] = side.running.center_mm();
     vec![
-        Entry::headline(&format!("motion_error_{name}"), &format!("motion error, {name} flanks"), motion_error(side)),
+        Entry::headline(&format!("motion_error_{name}"), &format!("motion error, {name}"), motion_error(side)),
         Entry::headline(
             &format!("center_along_{name}"),
-            &format!("contact along the tooth, {name} flanks"),
+            &format!("contact along, {name}"),
             Quantity::number(along_mm, "mm", format!("mean place over a pitch, {ALONG}")),
         ),
         Entry::headline(
             &format!("ellipse_length_{name}"),
-            &format!("length of the contact, {name} flanks"),
+            &format!("contact length, {name}"),
             half_axis(side.running.middle(), 0, 2.0, "length of the contact ellipse in the middle of a pitch"),
         ),
     ]
