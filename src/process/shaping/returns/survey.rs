@@ -269,7 +269,7 @@ mod tests {
             assert_eq!(rooms.len(), PHASES_PER_PITCH * job.scene.gear.teeth as usize);
             // Places of every phase and period.
             for room in rooms.iter().step_by(19) {
-                let expected = room_of_all_corners(&survey, room);
+                let expected = room_of_all_corners(survey, room);
                 let off_mm = [
                     room.clearance.surface_mm - expected.surface_mm,
                     room.clearance.material_mm - expected.material_mm,
