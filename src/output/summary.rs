@@ -116,7 +116,7 @@ fn value_text(quantity: &Quantity) -> String {
 }
 
 /// Value, unit and place, or why there is none.
-fn shown(quantity: &Quantity) -> String {
+pub fn shown(quantity: &Quantity) -> String {
     if let Some(why) = quantity.why() {
         return format!("none ({why})");
     }

@@ -1,20 +1,20 @@
 //! What a shaping scene means: teeth, axes, return strokes, cost.
 
+mod along;
 mod cost;
 mod facts;
 mod returns;
-pub mod ring;
+mod ring;
 mod teeth;
 
 use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
+use crate::process::shaping::findings;
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use facts::ToothFacts;
 use gearcut_core::error::Result;
-use gearcut_core::gear::GearKind;
-use ring::RingFacts;
 
 /// Prints everything; what must be known before cutting.
 ///
@@ -27,9 +27,9 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>> {
     sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
     check_curve::print(sheet, &job.curve, &job.scene.gear, Some(job.cutter.pitch_radius_mm));
     teeth::print(sheet, job, &facts);
-    let ring = (job.blank.kind() == GearKind::Internal).then(|| RingFacts::new(job));
+    let ring = findings::ring::of_job(job);
     if let Some(ring) = &ring {
-        ring::print(sheet, job, ring);
+        ring::print(sheet, ring, job.blank.addendum_mm);
     }
     for operation in &operations {
         axes::print(operation, sheet);
@@ -38,7 +38,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>> {
     cost::print(sheet, job, &facts)?;
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
     warnings.extend(teeth::warnings(job, &facts));
-    warnings.extend(ring.iter().filter_map(ring::warning));
+    warnings.extend(ring.iter().filter_map(findings::ring::warning));
     warnings.extend(axes::warnings(&operations));
     warnings.extend(of_returns);
     Ok(warnings)

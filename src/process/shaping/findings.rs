@@ -3,10 +3,12 @@
 //! In: the job, what was measured, the chip ledger. Out: entries and sections of the tree. Nothing is computed here but
 //! extremes over flanks.
 
+pub mod answers;
 mod chips;
 mod headline;
 mod operation;
-mod ring;
+pub mod returns;
+pub mod ring;
 mod strokes;
 mod tables;
 mod teeth;
@@ -19,11 +21,10 @@ use crate::measure::stock::Extreme;
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
-use crate::process::shaping::check::ring::RingFacts;
 use crate::process::shaping::chips::ChipLedger;
 use crate::process::shaping::measure::{FlankReport, GearReport};
 use crate::steps::{Work, axes};
-use gearcut_core::gear::GearKind;
+use gearcut_core::error::Refusal;
 use gearcut_core::units::UM_PER_MM;
 use operation::operation;
 
@@ -33,15 +34,21 @@ const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve
 /// gear drawing.
 const GOUGE_MM: f64 = 1e-4;
 
-/// Operations, deviations and teeth.
-pub fn sections(job: &ShapingJob, report: &GearReport, ledger: &ChipLedger, motion: &[OperationAxes]) -> Vec<Section> {
-    let operations: Vec<Section> =
-        (0..job.operations.len()).map(|index| operation(job, report, ledger, &motion[index], index)).collect();
+/// Operations, deviations and teeth; what was known of a ring before cutting.
+///
+/// # Errors
+/// A back-off so large that the retraction leads to no pose.
+pub fn sections(
+    job: &ShapingJob,
+    report: &GearReport,
+    ledger: &ChipLedger,
+    motion: &[OperationAxes],
+) -> Result<Vec<Section>, Refusal> {
+    let operations = (0..job.operations.len()).map(|index| operation(job, report, ledger, &motion[index], index));
+    let operations: Vec<Section> = operations.collect::<Result<_, _>>()?;
     let period = "teeth after which the pitch curve repeats: the first period of tables and charts";
     let teeth: Vec<Section> = (1..=job.scene.gear.teeth).map(|tooth| teeth::finished_tooth(report, tooth)).collect();
     let flank_table = tables::flanks(&report.flanks, &operations[..operations.len() - 1], &teeth);
-    let ring =
-        (job.blank.kind() == GearKind::Internal).then(|| ring::section(&RingFacts::new(job), job.scene.gear.module_mm));
     let sections = [
         Section::new("operations", "Operations").parts(operations),
         deviations(report),
@@ -51,7 +58,7 @@ pub fn sections(job: &ShapingJob, report: &GearReport, ledger: &ChipLedger, moti
             .table(tables::teeth(&teeth))
             .parts(teeth),
     ];
-    sections.into_iter().chain(ring).collect()
+    Ok(sections.into_iter().chain(ring::of_job(job)).collect())
 }
 
 /// What a gear inspector states of the whole gear.

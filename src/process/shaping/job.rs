@@ -10,8 +10,9 @@ use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::gcode;
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::generation::Generation;
-use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule};
+use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule, dynamics};
 use crate::process::shaping::returns::RetractionPlan;
+use crate::process::shaping::returns::facts::ReturnFacts;
 use crate::process::shaping::returns::motion::RamTimes;
 use crate::process::shaping::returns::survey::Survey;
 use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Operation, Shaping};
@@ -31,7 +32,7 @@ use gearcut_core::passes::planar::strokes::StrokeLaw;
 use gearcut_core::terms::Side;
 use glam::DVec2;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// One operation with its strokes.
 #[derive(Debug)]
@@ -48,8 +49,12 @@ pub struct PreparedOperation {
     pub program: Option<AxisProgram>,
     /// Poses for the dexels.
     pub strokes: StrokeSet,
+    /// Return strokes over a turn, of ideal work and cutter.
+    pub survey: Survey,
     /// Which way the cutter is drawn back for the return strokes.
     pub retraction: RetractionPlan,
+    /// What is known of them before cutting, once it has been asked for.
+    returns: OnceLock<Result<ReturnFacts, Refusal>>,
 }
 
 impl PreparedOperation {
@@ -152,11 +157,22 @@ impl ShapingJob {
             first_pass = strokes.end_pass();
             let (linkage_of_flanks, cutter) = (linkage.clone(), shared_cutter.clone());
             let generation = Arc::new(Generation { linkage: linkage_of_flanks, cutter, offset_mm: spec.offset_mm });
-            let before: Vec<&Generation> = operations.iter().map(|before| &*before.generation).collect();
-            let retraction = RetractionPlan::new(&machine, &schedule, || {
-                Survey::new(&[&before[..], &[&generation]].concat(), &blank, gear.teeth, gear.module_mm)
-            })?;
-            operations.push(PreparedOperation { spec, linkage, generation, schedule, program, strokes, retraction });
+            let before = operations.iter().map(|before| &before.generation);
+            let generations = before.chain([&generation]).cloned().collect();
+            let survey = Survey::new(generations, blank.clone(), gear.teeth, gear.module_mm);
+            let retraction = RetractionPlan::new(&machine, &schedule, &survey)?;
+            let returns = OnceLock::new();
+            operations.push(PreparedOperation {
+                spec,
+                linkage,
+                generation,
+                schedule,
+                program,
+                strokes,
+                survey,
+                retraction,
+                returns,
+            });
         }
         rim_holds(gear.rim_mm, &blank, &cutter, &operations)?;
         let finishing = operations.last().expect("a checked scene has at least one operation");
@@ -196,10 +212,18 @@ impl ShapingJob {
         &self.finishing().generation
     }
 
-    /// Return strokes of an operation over a turn, of ideal work and cutter.
-    pub fn survey(&self, operation: usize) -> Survey<'_> {
-        let generations: Vec<&Generation> = self.operations[..=operation].iter().map(|o| &*o.generation).collect();
-        Survey::new(&generations, &self.blank, self.scene.gear.teeth, self.scene.gear.module_mm)
+    /// What is known of the return strokes of an operation before cutting; none where the cutter is not drawn back.
+    ///
+    /// # Errors
+    /// A back-off so large that the retraction leads to no pose.
+    pub fn return_facts(&self, operation: usize) -> Result<Option<&ReturnFacts>, Refusal> {
+        if self.machine.back_off_mm <= 0.0 {
+            return Ok(None);
+        }
+        let PreparedOperation { survey, schedule, retraction, returns, .. } = &self.operations[operation];
+        let limits = dynamics::limits(&self.machine.limits);
+        let facts = returns.get_or_init(|| ReturnFacts::new(survey, retraction, schedule, &self.ram_times(), &limits));
+        facts.as_ref().map(Some).map_err(Clone::clone)
     }
 
     /// When the ram passes the ends of the face.
@@ -284,8 +308,8 @@ fn rim_holds(
     Err(Refusal::new(
         "gear.rim_mm",
         format!(
-            "the rim of {rim_mm} mm is thinner than the teeth are deep: the cutter reaches {reach_mm:.3} mm from the gear \
-            axis, the ring {:.3} mm",
+            "the rim of {rim_mm} mm is thinner than the teeth are deep: the cutter reaches {reach_mm:.3} mm from the \
+            gear axis, the ring {:.3} mm",
             blank.back.radius_mm
         ),
         format!("make it thicker than {:.3} mm; 5 modules are usual", rim_mm + missing_mm),

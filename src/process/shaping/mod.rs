@@ -16,6 +16,7 @@ pub mod measure;
 pub mod programs;
 mod report;
 pub mod returns;
+pub mod ring;
 mod run;
 pub mod scene;
 pub mod section;

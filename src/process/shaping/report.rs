@@ -4,6 +4,7 @@
 //! definitions; nothing is computed here that is not in a file beside the page.
 
 mod facts;
+mod returns;
 mod ring;
 mod stock;
 
@@ -39,6 +40,7 @@ pub fn page(
 ) -> Result<Page> {
     let mut sections = stock::section(job, found).into_iter().collect::<Vec<_>>();
     sections.extend(ring::section(job, found));
+    sections.extend(returns::section(job, found));
     sections.push(deviations::section(&inspection(&cut.report, job.scene.gear.module_mm)));
     sections.extend(texture::section(found, folder)?);
     sections.push(axes::section(

@@ -34,9 +34,12 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
         frames,
         &stages::Costs { before: &[("chips", 0.05)], flank_s: 0.03, root_s: 0.0, blank_s: 0.04 },
     ));
-    // A window that lies on no flank, or too large a blank field, is refused before the first cut.
+    // A window that lies on no flank, too large a blank field or back-off is refused before the first cut.
     let windows = texture::windows(job)?;
     job.planar().blank_grid()?;
+    for operation in 0..job.operations.len() {
+        job.return_facts(operation)?;
+    }
     let mut gear = cut_gear(job, backend, progress, interrupt, Some((folder, notes, parts)))?;
     if gear.report.flanks.is_empty() {
         return Err(Error::Interrupted);
@@ -44,7 +47,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let textures = texture::measure(job, &windows, backend, progress, interrupt)?;
     let whole = if gear.work.interrupted { None } else { blank::cut(job, backend, progress, interrupt)? };
     let motion = OperationAxes::of_job(job);
-    let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion);
+    let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion)?;
     sections.extend(whole.as_ref().map(|(cut, report)| blank_findings::findings(&job.planar(), cut, report)));
     sections.push(texture::findings(job, &textures));
     let mut warnings = findings::warnings(&gear.report, &gear.work, &motion);

@@ -7,11 +7,12 @@ use crate::fixtures::rings::*;
 use gearcut::cut::cpu::Cpu;
 use gearcut::gear::{GearKind, PitchCurve, PitchCurveShape};
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::check::ring::{RingFacts, TipCorners};
+use gearcut::process::shaping::cutter::CornerPart;
 use gearcut::process::shaping::generation::Generation;
 use gearcut::process::shaping::linkage::ShapingLinkage;
 use gearcut::process::shaping::linkage::relief::relief_ratio;
-use gearcut::process::shaping::scene::model::Shaping;
+use gearcut::process::shaping::ring::{PrintedUndercut, RingFacts, generated_height_mm, generating_teeth};
+use gearcut::process::shaping::scene::model::{Shaping, Tip};
 use gearcut::process::shaping::target::{FlankEnd, TargetFlank};
 use gearcut::process::shaping::tip_relief::TipRelief;
 use gearcut::steps::planar::blank_report;
@@ -32,6 +33,8 @@ fn driver_and_mate_are_the_oracles() {
     let expected = &case["driver"];
     close("a0", driver.size_mm(), number(&expected["a0"]), within("r"));
     close("perimeter", driver.perimeter_mm(), number(&expected["perimeter"]), within("S"));
+    close("pi m z1", driver.perimeter_mm(), number(&expected["pi_m_z1"]), within("S"));
+    close("c", (9.0 + number(&expected["b"]).powi(2)).sqrt() - 1.0, number(&expected["c"]), within("r"));
     close("rho_min", driver.facts().smallest_curvature_radius_mm, number(&expected["rho_min"]), within("r"));
     close("r_min", driver.facts().smallest_radius_mm, number(&expected["r_min"]), within("r"));
     close("r_max", driver.facts().largest_radius_mm, number(&expected["r_max"]), within("r"));
@@ -39,10 +42,17 @@ fn driver_and_mate_are_the_oracles() {
     // The centre distance that closes the mate is the driver's a0: r2 = a0 + r1.
     close("centre distance", mate.size_mm(), number(&case["driver"]["a0"]), within("r"));
     close("perimeter", mate.perimeter_mm(), number(&expected["perimeter"]), within("S"));
+    close("pi m z2", mate.perimeter_mm(), number(&expected["pi_m_z2"]), within("S"));
     close("pi m z", mate.closure_error_mm(), 0.0, within("S"));
+    // Three turns of the driver are one of the mate.
+    let turn_rad = mate.phi_at_arc(3.0 * driver.perimeter_mm());
+    close("turn", turn_rad, number(&case["turn_of_driven_after_lobes_driver_turns"]), 1e-9);
     let facts = mate.facts();
-    close("rho_min", facts.smallest_curvature_radius_mm, number(&expected["rho_min"]), 1e-7);
-    close("rho_max", 1.0 / facts.smallest_curvature.curvature_per_mm, number(&expected["rho_max"]), 1e-6);
+    // Radii of curvature are as right as curvatures are, times their square.
+    for (extremum, key) in [(facts.largest_curvature, "rho_min"), (facts.smallest_curvature, "rho_max")] {
+        let radius_mm = 1.0 / extremum.curvature_per_mm;
+        close(key, radius_mm, number(&expected[key]), radius_mm * radius_mm * within("kappa"));
+    }
     close("kappa_min", facts.smallest_curvature.curvature_per_mm, number(&expected["kappa_min"]), within("kappa"));
     let column = |key: &str| numbers(&expected[key]);
     let (r, dr, d2r, arc, kappa) = (column("r"), column("dr"), column("d2r"), column("S"), column("kappa"));
@@ -68,6 +78,17 @@ fn printed_constants_leave_a_gap_that_a_mate_does_not_have() {
     let turn = 3.0 * TAU / ((c + 1.0).powi(2) - b * b).sqrt();
     close("turn", turn, number(&printed["turn_after_3_driver_turns"]), 1e-12);
     close("gap", turn - TAU, number(&printed["closure_gap_rad"]), 1e-12);
+    let printed_shape = PitchCurveShape::SinusoidalRatio {
+        order: 1,
+        mean_ratio: c - 1.0,
+        ratio_amplitude: -b,
+        center_distance_mm: Some(a0),
+    };
+    // The size that is printed leaves the perimeter as it is; 34 teeth of module 2 then miss it by 95 nm.
+    let off_mm = number(&printed["perimeter_r1"]) - number(&printed["pi_m_z1"]);
+    let curve = PitchCurve::new(&printed_shape, 2.0, 34).expect("the printed driver");
+    close("perimeter", curve.perimeter_mm(), number(&printed["perimeter_r1"]), 1e-8);
+    close("closure", curve.closure_error_mm().abs(), off_mm.abs(), 1e-8);
     let gap_um = 1e3 * (TAU - turn) * (a0 + a0 / c);
     assert!((7.0..9.0).contains(&gap_um), "{gap_um} um at the pitch curve");
     assert!(oracle_mate().closure_error_mm().abs() < 1e-9);
@@ -246,14 +267,19 @@ fn the_tip_relief_is_the_oracles() {
     let tolerance = number(&data["tolerance_mm"]);
     let job = ShapingJob::new(paper_ring(1020)).expect("the paper's ring");
     let (mut worst_mm, mut deepest_mm, mut model_mm) = (0.0_f64, 0.0_f64, 0.0_f64);
-    let spaces = [("high curvature", 9), ("low curvature", 26), ("max slope", 0)];
+    // What docs/internal.md says of the tips themselves, um.
+    let spaces = [("high curvature", 9, 29.5), ("low curvature", 26, 19.8), ("max slope", 0, 24.0)];
     for row in data["tip"].as_array().expect("rows") {
         let place = row["where"].as_str().expect("a place");
-        let space = spaces.iter().find(|(name, _)| *name == place).expect("known").1;
+        let &(_, space, documented_um) = spaces.iter().find(|(name, ..)| *name == place).expect("known");
         let flanks = space_flanks(&job, space);
         let flank = &flanks[usize::from(number(&row["side"]) < 0.0)];
         let relief = TipRelief::new(flank, &job.blank).expect("the base reaches the tip");
         let ours = TipRelief::new(job.target_flank(flank.tooth, flank.side), &job.blank).expect("as well");
+        let tip_um = 1e3 * ours.depth_mm(job.blank.addendum_mm);
+        println!("{place} {}: {tip_um:.2} um at the tip", row["side"]);
+        // The larger of both sides is documented.
+        assert!((documented_um - 1.6..documented_um + 0.05).contains(&tip_um), "{tip_um} um");
         for point in row["rows"].as_array().expect("points") {
             let (polar_mm, expected_mm) = (number(&point[0]), -number(&point[1]));
             // Heights along the normal are those along the radius times the cosine of the slope.
@@ -326,22 +352,64 @@ fn axis_speeds_are_those_of_the_strokes() {
     }
 }
 
+/// Both sides of the printed condition of undercut, and the module up to which it holds, of driver and ring.
+#[test]
+fn the_printed_condition_of_undercut_is_the_oracles() {
+    let case = &data("shaping/internal_s1")["cases"][0];
+    let expected = &case["undercut_as_printed"];
+    let exact = PrintedUndercut {
+        module_mm: number(&case["m"]),
+        cutter_teeth: number(&case["z0"]),
+        addendum_coefficient: 1.0,
+        sine: 20_f64.to_radians().sin(),
+    };
+    // The paper's simplified form takes 0.34 for sin 20 deg.
+    let printed = PrintedUndercut { sine: 0.34, ..exact };
+    let driver = PitchCurve::new(&driver_shape(), 2.0, 34).expect("the driver");
+    let radii_mm = [&driver, &oracle_mate()].map(|curve| curve.facts().smallest_curvature_radius_mm);
+    for (name, radius_mm) in ["driver", "driven"].into_iter().zip(radii_mm) {
+        let [left, right] = exact.sides_mm2(radius_mm);
+        close("lhs", left, number(&expected[name]["lhs"]), 1e-9);
+        // The radius is right to 1e-8 mm.
+        close("rhs", right, number(&expected[name]["rhs"]), 1e-6);
+        assert_eq!(number(&expected[name]["ok"]) > 0.0, left <= right);
+        for (form, word) in [(exact, "exact"), (printed, "printed")] {
+            let limit_mm = number(&expected[&format!("module_limit_{word}_{name}")]);
+            close(word, form.module_limit_mm(radius_mm), limit_mm, 1e-8);
+        }
+    }
+}
+
+/// How far an involute reaches by the osculating circle, and how many teeth reach the tip.
+#[test]
+fn the_reach_of_the_involute_is_the_oracles() {
+    let case = &data("shaping/internal_s1")["cases"][0];
+    let (expected, alpha_rad) = (&case["generated_addendum_limit"], 20_f64.to_radians());
+    let facts = oracle_mate().facts().clone();
+    for (extremum, key) in [(facts.largest_curvature, "at_rho_min"), (facts.smallest_curvature, "at_kappa_min")] {
+        let radius_mm = 1.0 / extremum.curvature_per_mm;
+        close(key, generated_height_mm(radius_mm, number(&case["r0"]), alpha_rad), number(&expected[key]), 1e-8);
+    }
+    // A round ring of 102 teeth, module 2: the target's flanks end at the cutter's base up to 18 teeth.
+    let teeth = generating_teeth(102.0, 2.0, alpha_rad, 2.0).expect("some cutter");
+    for (cutter_teeth, ends) in [(teeth - 1, FlankEnd::CutterBase), (teeth, FlankEnd::BlankOutline)] {
+        let scene =
+            ring_scene(PitchCurveShape::Circle, 102, cutter_teeth, vec![operation("finish", NORMAL, 0.0, 2040)]);
+        let job = ShapingJob::new(scene).expect("a round ring");
+        assert_eq!(job.target_flank(1, Side::Left).tip_end, ends, "{cutter_teeth} teeth");
+    }
+    assert_eq!(teeth, 19);
+}
+
 /// What `check` says of the paper's ring.
 #[test]
 fn the_facts_of_the_ring_are_the_oracles() {
     let case = &data("shaping/internal_s1")["cases"][0];
-    let expected = &case["undercut_as_printed"]["driven"];
-    let mut scene = paper_ring(1020);
-    // The paper's condition is for an addendum of one module.
-    Shaping::of_mut(&mut scene).expect("shaping").tool.addendum_coefficient = 1.0;
-    let facts = RingFacts::new(&ShapingJob::new(scene).expect("the paper's ring"));
-    close("lhs", facts.printed_undercut_mm2[0], number(&expected["lhs"]), 1e-9);
-    close("rhs", facts.printed_undercut_mm2[1], number(&expected["rhs"]), 1e-6);
-    let limit = number(&case["undercut_as_printed"]["module_limit_exact_driven"]);
-    close("module limit", facts.printed_module_mm, limit, 1e-8);
-    assert_eq!(facts.rolling_teeth, 72, "rho_min is 72.306 mm");
-    assert_eq!(facts.tip_corners, TipCorners::Clear, "the oracle finds no gouge");
     let facts = RingFacts::new(&ShapingJob::new(paper_ring(1020)).expect("the paper's ring"));
+    assert_eq!(facts.rolling_teeth, 72, "rho_min is 72.306 mm");
+    // The oracle finds no gouge: corners come clear, and no flank is undercut.
+    assert!(facts.tightest_corner.expect("known").way.clearance_mm > 0.0, "{:?}", facts.tightest_corner);
+    assert_eq!(facts.undercut_flanks, 0);
     let local = &case["generated_addendum_limit"];
     let short = facts.shortest_involute.expect("13 teeth are few");
     // The oracle's estimate by the osculating circle, for an involute down to the base circle: the project's goes over
@@ -349,7 +417,28 @@ fn the_facts_of_the_ring_are_the_oracles() {
     let job = ShapingJob::new(paper_ring(1020)).expect("the paper's ring");
     let before_mm = job.cutter.base_radius_mm * job.cutter.roll_range[0] * 20_f64.to_radians().sin();
     close("shortest involute", short.mm + before_mm, number(&local["at_rho_min"]), 3e-3);
-    assert!(facts.relief.is_some_and(|relief| (0.024..0.035).contains(&relief.mm)), "{:?}", facts.relief);
+    // The oracle's rows end 0.05 mm before the tip, at 24 um.
+    let relief = facts.relief.expect("13 teeth are few");
+    println!("{relief:?}, {:?}", facts.tightest_corner);
+    assert!((0.0285..0.0305).contains(&relief.mm), "{relief:?}");
+}
+
+/// The closed form of the largest cutter that clears, against corners that are followed through the target.
+#[test]
+fn the_largest_cutter_that_clears_does_and_larger_ones_do_not() {
+    let ring = |teeth: u32| {
+        let mut scene = ring_scene(PitchCurveShape::Circle, 40, teeth, vec![operation("finish", NORMAL, 0.0, 2000)]);
+        Shaping::of_mut(&mut scene).expect("shaping").tool.tip = Tip::Sharp;
+        RingFacts::new(&ShapingJob::new(scene).expect("a ring"))
+    };
+    let told = ring(20).clearing_teeth.expect("known");
+    assert_eq!(told, 30);
+    // One tooth more fouls by a third of a micrometre, less than the corners' places resolve; two more cut.
+    for (teeth, clears) in [(told - 4, true), (told, true), (told + 2, false)] {
+        let tightest = ring(teeth).tightest_corner.expect("known").way;
+        println!("{teeth} teeth: {tightest:?}");
+        assert_eq!(tightest.clearance_mm > 0.0, clears, "{teeth} teeth: {tightest:?}");
+    }
 }
 
 /// A cutter with nearly as many teeth as the ring cuts into the tips beside its space; the blank finds the same.
@@ -362,18 +451,62 @@ fn tips_beside_the_space_are_told_before_cutting() {
     };
     for (teeth, interferes) in [(20, false), (34, true)] {
         let job = ring(teeth);
-        let facts = RingFacts::new(&job);
+        let tightest = RingFacts::new(&job).tightest_corner.expect("known").way;
         let field = job.planar().blank_field().expect("fits");
         let cut = job.cut_blank(&Cpu::default(), field, &|| true).expect("native").expect("not stopped");
         let target = job.target_outline(0.02).expect("known");
         let report = blank_report::measure(&job.planar(), &cut, Some(&target));
         let deepest_mm = report.gouges.iter().map(|gouge| gouge.depth_mm).fold(0.0, f64::max);
-        println!("{teeth} teeth: {:?} told, {deepest_mm:.4} mm found", facts.tip_corners);
-        let told = matches!(facts.tip_corners, TipCorners::Cut { .. });
-        assert_eq!(told, interferes);
+        println!("{teeth} teeth: {tightest:?} told, {deepest_mm:.4} mm found");
+        assert_eq!(tightest.clearance_mm < 0.0, interferes);
         assert_eq!(deepest_mm > 0.0, interferes);
-        if let TipCorners::Cut { depth_mm: told_mm, .. } = facts.tip_corners {
-            assert!((told_mm / deepest_mm - 1.0).abs() < 0.1, "{told_mm} told, {deepest_mm} found");
+        if interferes {
+            assert!((-tightest.clearance_mm / deepest_mm - 1.0).abs() < 0.1, "{tightest:?}, {deepest_mm} found");
         }
+    }
+}
+
+/// Room of a tip corner in a round ring, written from geometry: the corner runs on a hypotrochoid.
+#[test]
+fn room_of_tip_corners_is_that_of_a_hypotrochoid() {
+    let scene = ring_scene(PitchCurveShape::Circle, 60, 24, vec![operation("finish", NORMAL, 0.0, 2000)]);
+    let job = ShapingJob::new(scene).expect("a ring");
+    let [way_in, way_out] = RingFacts::new(&job).teeth[0].corners.expect("known");
+    // A round ring is the same from both sides.
+    close("in and out", way_in.clearance_mm, way_out.clearance_mm, 1e-3);
+    // Flanks of the teeth beside the space behind tooth 1, whose middle lies at one pitch.
+    let points = |(tooth, side)| {
+        let flank = job.target_flank(tooth, side);
+        (0..=400).map(|i| flank.at_arc(flank.length_mm() * f64::from(i) / 400.0).point_mm).collect::<Vec<DVec2>>()
+    };
+    let flanks = [(1, Side::Left), (2, Side::Right)].map(points);
+    let bore_mm = 60.0 - 2.0;
+    assert!(flanks.iter().all(|flank| (flank[400].length() - bore_mm).abs() < 1e-6), "whole tips");
+    let [(center_mm, radius_mm)] = job.cutter.corner.iter().filter_map(round).collect::<Vec<_>>()[..] else {
+        panic!("one round")
+    };
+    let mut nearest_mm = f64::INFINITY;
+    for side in [1.0, -1.0] {
+        let (reach_mm, aside_rad) = (center_mm.length(), side * center_mm.to_angle());
+        for i in 0..20_000 {
+            // The cutter's axis at R - r = 36 mm, and the cutter turned back by (R - r) / r = 1.5 times its angle.
+            let rolled_rad = f64::from(i) / 20_000.0;
+            let at = 36.0 * DVec2::from_angle(TAU / 60.0 + rolled_rad)
+                + reach_mm * DVec2::from_angle(TAU / 60.0 - 1.5 * rolled_rad + aside_rad);
+            if at.length() <= bore_mm {
+                let apart_mm = flanks.iter().flatten().map(|point| point.distance(at) - radius_mm);
+                nearest_mm = apart_mm.fold(nearest_mm, f64::min);
+            }
+        }
+    }
+    println!("{:.4} mm told, {nearest_mm:.4} mm from the hypotrochoid", way_out.clearance_mm);
+    // Where the corner leaves the outline between two places, 1/64 of a pitch apart, a chord gives its distance.
+    close("room", way_out.clearance_mm, nearest_mm, 5e-3);
+}
+
+fn round(part: &CornerPart) -> Option<(DVec2, f64)> {
+    match *part {
+        CornerPart::Round { center_mm, radius_mm, .. } => Some((center_mm, radius_mm)),
+        CornerPart::Chamfer { .. } => None,
     }
 }

@@ -175,6 +175,33 @@ fn candidates_equal_brute_force_in_a_ring() {
     }
 }
 
+/// A last tile of a single column has no width that would hide a box that is too small by some nanometres: the pass
+/// that the tile before told of was lost.
+#[test]
+fn a_column_alone_in_its_tile_is_cut_as_by_all_passes() {
+    let path = std::path::Path::new("scenes/shaping/internal_interfering.toml");
+    let job = job(gearcut::process::load(path, &[]).expect("a shipped scene").scene);
+    let strokes = &job.finishing().strokes;
+    let mut compared = 0;
+    for (tooth, side) in [(3, Side::Right), (3, Side::Left), (20, Side::Right)] {
+        let flank = job.target_flank(tooth, side);
+        for last in (0..40).map(|i| 3.80187 - 0.0437 * f64::from(i)) {
+            let field = job.field_over(flank, (0..17).map(|i| last - 0.005 * f64::from(16 - i)), vec![-8.0]);
+            let cut = |plan: &CutPlan| {
+                let mut layer = field.blank_layer();
+                Cpu::default().cut(&field, plan, &mut layer).expect("native");
+                (layer.heights_mm.iter().map(|h| h.to_bits()).collect::<Vec<_>>(), layer.passes)
+            };
+            let plan = CutPlan::new(&field, strokes, &job.cutter);
+            assert_eq!(plan.tiles.last().expect("tiles").columns, 16..17);
+            let brute = CutPlan::brute_force(&field, strokes, &job.cutter);
+            assert!(cut(&plan) == cut(&brute), "tooth {tooth} {side:?}, {last} mm");
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 120);
+}
+
 fn cut(job: &ShapingJob) -> CutBlank {
     let field = job.planar().blank_field().expect("fits in memory");
     job.cut_blank(&Cpu::default(), field, &|| true).expect("the native backend").expect("not stopped")

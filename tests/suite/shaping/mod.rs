@@ -1,5 +1,6 @@
 //! Shaping: linkages, flanks, blanks, chips and programs.
 
+mod answers;
 mod blank_field;
 mod chips;
 mod flank_chips;

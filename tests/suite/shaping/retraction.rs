@@ -69,8 +69,11 @@ fn the_method_finds_the_places_of_the_independent_implementation() {
         let off = |angle: f64| (angle + PI).rem_euclid(TAU) - PI;
         assert!(off(work_rad - value("Phi")).abs() < within("axes"), "{row}: {back:?}");
         assert!((value("Phi") - back.pose.angle_rad - value("psi")).abs() < within("axes"), "{row}: {back:?}");
+        // Between the line of centres and the normal at the new foot.
+        let delta_rad = back.pose.center_mm.angle_to(curve.frame(back.foot_rad).normal);
+        assert!((delta_rad - value("Delta_new")).abs() < within("axes"), "{row}: {delta_rad}");
     }
-    assert!(rows.len() >= 12);
+    assert_eq!(rows.len(), 15);
 }
 
 #[test]
@@ -173,11 +176,43 @@ fn overlaps_of_the_returning_cutter_agree() {
     assert_eq!(rows_seen, 48);
 }
 
+/// The printed design at twelve places, drawn back by up to 4.5 mm: along the line of centres, along the normal and by
+/// the method it overlaps its teeth nowhere.
+#[test]
+fn the_printed_example_overlaps_nowhere() {
+    let data = data("shaping/internal_s1_envelope");
+    let job = ring_job(0.3, 13, shaping::Retraction::CenterLine, 0.3, 1020);
+    let (linkage, finish) = (&job.finishing().linkage, |phi: f64| job.finishing().linkage.pose(phi, 0.0));
+    let room = ReturnRoom::new(&job.cutter, 102, 2.0, &finish, &[]);
+    let retracting = RetractingCutter::of(linkage);
+    let (mut compared, mut smallest_mm) = (0, f64::INFINITY);
+    for case in data["retraction"].as_array().expect("places") {
+        let place = (number(&case["phi"]) / TAU * room.swept.places() as f64).round() as usize;
+        let phi = room.swept.phi_rad(place);
+        let beyond_mm = |p: DVec2| job.blank.height(p, phi + DVec2::from_angle(phi).angle_to(p)).0 - 2.0;
+        for row in case["rows"].as_array().expect("rows") {
+            let row: Vec<f64> = row.as_array().expect("a row").iter().map(number).collect();
+            let laws = [RetractionLaw::CenterLine, RetractionLaw::Normal, RetractionLaw::Turned];
+            for (law, expected_mm2) in laws.into_iter().zip(&row[1..]) {
+                let back = retracting.retracted(law, &finish(phi), phi, row[0]).expect("a foot").pose;
+                let back = Rigid2::new(back.angle_rad, back.center_mm);
+                let clearance_mm = room.at(place, &back, beyond_mm, Clearance::ANY).surface_mm;
+                smallest_mm = smallest_mm.min(clearance_mm);
+                // An edge that stands in no tooth has nothing in common with them.
+                assert!(*expected_mm2 == 0.0 && clearance_mm > 0.0, "{row:?} {law:?} at {phi}: {clearance_mm}");
+                compared += 1;
+            }
+        }
+    }
+    println!("{compared} poses, at least {smallest_mm:.5} mm clear");
+    assert_eq!(compared, 216);
+}
+
 #[test]
 fn the_printed_example_never_reaches_the_angle_at_which_it_is_said_to_interfere() {
     let steepest = |b: f64, z0: u32| {
         let job = ring_job(b, z0, shaping::Retraction::CenterLine, 0.5, 1020);
-        let rooms = job.survey(0).rooms(0.5, |_| RetractionLaw::CenterLine).expect("poses");
+        let rooms = job.operations[0].survey.rooms(0.5, |_| RetractionLaw::CenterLine).expect("poses");
         let angle = rooms.iter().map(|room| room.from_normal_rad.abs()).fold(0.0, f64::max).to_degrees();
         (angle, tightest(&rooms, |room| room.clearance.surface_mm).expect("rooms").clearance.surface_mm)
     };
@@ -250,7 +285,7 @@ fn a_tilted_retraction_clears_stock_as_well() {
 #[test]
 fn the_survey_says_what_the_whole_blank_finds() {
     let job = external_job(true, shaping::Retraction::CenterLine, 480);
-    let rooms = job.survey(0).rooms(0.5, |_| RetractionLaw::CenterLine).expect("poses");
+    let rooms = job.operations[0].survey.rooms(0.5, |_| RetractionLaw::CenterLine).expect("poses");
     let least = tightest(&rooms, |room| room.clearance.material_mm).expect("rooms");
     let [_, on_stock] = rubbing(&job, 0);
     println!("survey {:.4} mm, whole blank {:.4} mm", -least.clearance.material_mm, on_stock.0);

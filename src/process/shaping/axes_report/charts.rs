@@ -11,6 +11,7 @@ use crate::process::shaping::linkage::dynamics::{self, AXES, CENTER_DISTANCE, CU
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes::NamedChart;
 use crate::steps::axes::charts::{chart, panel, panels};
+use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
 
 /// All charts of an operation.
@@ -52,14 +53,13 @@ fn positions(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
         let points = rows.iter().map(|row| (work_angle_deg(row), shown(row))).collect();
         panel([value_name, position_sign(axis)], vec![(name, points)], [])
     };
+    let even_rolling = match job.blank.kind() {
+        GearKind::External => "cutter angle less even rolling, ψb − (z / z0) ψc",
+        GearKind::Internal => "cutter angle less even rolling, ψb + (z / z0) ψc",
+    };
     vec![
         one("cutter angle", &CUTTER, "ψb", &|[_, cutter_rad, _], _| cutter_rad),
-        one(
-            "departure",
-            &CUTTER,
-            "cutter angle less even rolling, ψb − (z / z0) ψc",
-            &|[work_rad, cutter_rad, _], _| cutter_rad - ratio * work_rad,
-        ),
+        one("departure", &CUTTER, even_rolling, &|[work_rad, cutter_rad, _], _| cutter_rad - ratio * work_rad),
         one("centre distance", &CENTER_DISTANCE, "l", &|[_, _, center_distance_mm], _| center_distance_mm),
         one(
             "pitch point",
@@ -85,7 +85,10 @@ fn relief(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
         panel(["share of circular gear", "%"], flanks(100.0), [("rubs below", 0.0)]),
         panel(
             ["retraction angle", "°"],
-            vec![("normal to line of centres", curve(&|row| row.relief.beta_rad.to_degrees()))],
+            vec![(
+                "normal to line of centres, positive where left flanks gain",
+                curve(&|row| row.relief.beta_rad.to_degrees()),
+            )],
             [("pressure angle", pressure_deg), ("pressure angle", -pressure_deg)],
         ),
     ]

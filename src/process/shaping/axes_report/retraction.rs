@@ -12,6 +12,7 @@ use crate::output::text::{Sheet, significant};
 use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::returns::motion::RetractionMotion;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
+use crate::steps::axes::STEADY;
 use crate::steps::axes::charts::panel;
 
 /// Why there is no cost.
@@ -24,7 +25,8 @@ pub(super) fn panels(rows: &[StrokeRow]) -> Vec<Panel> {
         let kind = AXES[axis].kind;
         let points = rows.iter().map(|row| {
             let moved = row.returning.map_or(0.0, |there| there[axis] - row.motion[axis].position);
-            (row.motion[0].position.to_degrees(), kind.shown(moved))
+            // An axis that moves evenly shows as a straight line, not as the noise of its last digits.
+            (row.motion[0].position.to_degrees(), (kind.shown(moved) / STEADY).round() * STEADY)
         });
         panel([AXES[axis].name, kind.sign(Order::Position)], vec![(AXES[axis].name, points.collect())], [])
     };

@@ -1,6 +1,6 @@
 //! One operation on a shaped gear: strokes, axes, chips, and the stock that it leaves.
 
-use super::{chips, strokes, teeth};
+use super::{chips, returns, strokes, teeth};
 use crate::findings::{Quantity, Section};
 use crate::measure::stock::Stock;
 use crate::process::shaping::ShapingJob;
@@ -9,16 +9,20 @@ use crate::process::shaping::chips::ChipLedger;
 use crate::process::shaping::measure::unevenness::{ToothAllowance, Unevenness as Percent, summarise};
 use crate::process::shaping::measure::{FlankReport, GearReport};
 use crate::steps::axes;
+use gearcut_core::error::Refusal;
 use teeth::stock_range;
 
 /// Everything that was found on an operation.
+///
+/// # Errors
+/// A back-off so large that the retraction leads to no pose.
 pub fn operation(
     job: &ShapingJob,
     report: &GearReport,
     ledger: &ChipLedger,
     motion: &OperationAxes,
     index: usize,
-) -> Section {
+) -> Result<Section, Refusal> {
     let operation = &job.operations[index];
     let allowance = report.allowances.iter().find(|a| a.operation == index);
     let last = index + 1 == job.operations.len();
@@ -69,7 +73,7 @@ pub fn operation(
     let (spec, schedule) = (&operation.spec, &operation.schedule);
     let strokes = schedule.count();
     let stock_of_teeth = allowance.into_iter().flat_map(|of| &of.strokes);
-    Section::new(&spec.name, format!("Operation {}", spec.name))
+    let section = Section::new(&spec.name, format!("Operation {}", spec.name))
         .with("linkage", Quantity::text(operation.linkage.words(), "linkage of cutter and work"))
         .with("offset", Quantity::number(spec.offset_mm, "mm", "delta_d in force, thickness allowance included"))
         .with("strokes", Quantity::count(strokes as u64, "strokes", "strokes, plunging ones included"))
@@ -89,6 +93,7 @@ pub fn operation(
         .part(axes::findings(motion))
         .part(motion.relief_findings())
         .parts(motion.retraction_findings())
+        .parts(returns::section(job, index)?)
         .part(chips::chips(job, ledger, index).table(strokes::strokes(job, ledger, index)))
         .part(stock_range("flank_stock", "Stock on all active flanks", &over_flanks, "on all active flanks", why))
         .part(stock_range(
@@ -102,5 +107,6 @@ pub fn operation(
         .part(
             Section::new("teeth", "Stock of each tooth")
                 .parts(stock_of_teeth.map(|of| teeth::tooth_stock(report, index, of.tooth))),
-        )
+        );
+    Ok(section)
 }

@@ -1,76 +1,257 @@
 //! What the cutter can do in a ring, as findings: how large it may be, how far its involute reaches, how deep its base
-//! relieves the tips, whether its tip corners come clear.
+//! relieves the tips, whether it undercuts, whether its tip corners come clear, how large the module may be; each with
+//! its place and with what to change.
 //!
 //! In: [`RingFacts`], known before cutting. Out: a section, with a row for every tooth of a period in
 //! `tables/ring.csv`.
 
+use super::answers::answered;
 use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn};
-use crate::process::shaping::check::ring::{RingFacts, TipCorners, ToothPlace};
+use crate::output::text::significant;
+use crate::process::shaping::ShapingJob;
+use crate::process::shaping::ring::{CornerWay, RingFacts, RingTooth, ToothPlace, rolling_module_mm, rolling_teeth};
+use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
 
 /// Why there is no radius, and no largest cutter.
 const NOT_CURVED: &str = "the pitch curve is not curved towards the axis there";
+/// Why there is no condition of undercut.
+const STRAIGHT: &str = "the pitch curve is straight there";
 /// Why there is no depth of the tips.
 const NO_RELIEF: &str = "the cutter's base does not shape the tip, or leaves it out of its reach";
+/// Why nothing is known of the corners.
+const NO_OUTLINE: &str = "the target's outline is not known";
 
-/// The section.
-pub fn section(facts: &RingFacts, module_mm: f64) -> Section {
-    let at = |place: ToothPlace| Place::default().and("tooth", u64::from(place.tooth)).and("side", place.side.name());
-    let (radius_mm, phi_rad) = facts.sharpest;
-    let angle = |phi_rad: f64| Place::default().and("phi_deg", phi_rad.to_degrees());
+/// What the largest cutters are.
+const ROLLING: &str = "most cutter teeth whose pitch circle rolls everywhere";
+const CLEARING: &str = "most cutter teeth whose tip corners come clear of the tips beside their space";
+
+/// The section; none of an external gear.
+pub fn of_job(job: &ShapingJob) -> Option<Section> {
+    (job.blank.kind() == GearKind::Internal).then(|| section(job, &RingFacts::new(job)))
+}
+
+fn section(job: &ShapingJob, facts: &RingFacts) -> Section {
+    let (z0, module_mm) = (job.cutter.teeth, job.scene.gear.module_mm);
+    let (radius_mm, sharpest_rad) = facts.sharpest;
+    // On a circle no place is sharper than others.
+    let sharpest = |quantity: Quantity| {
+        let place = Place::default().and("polar_angle_deg", sharpest_rad.to_degrees());
+        if facts.teeth.len() > 1 { quantity.at(place) } else { quantity }
+    };
+    let section = Section::new("ring", "What the cutter can do in the ring");
+    let section = answered(
+        section,
+        "rolling_teeth",
+        "largest cutter that rolls",
+        sharpest(Quantity::count(facts.rolling_teeth.into(), "teeth", ROLLING)),
+        format!("this one has {z0}; for more, take a curve with a larger smallest radius of curvature"),
+    );
+    let clearing = facts.clearing_teeth.map_or_else(
+        || {
+            Quantity::undefined(
+                "teeth",
+                CLEARING,
+                "tips or rolling leave no such cutter, or tips lie inside the base circle",
+            )
+        },
+        |teeth| Quantity::count(teeth.into(), "teeth", CLEARING),
+    );
+    let section = answered(
+        section,
+        "clearing_teeth",
+        "largest cutter that clears",
+        sharpest(clearing),
+        "of a round ring of that radius, for sharp corners; a lower addendum of cutter or ring allows more",
+    );
+    let section = answered(
+        section,
+        "smallest_radius_of_curvature",
+        "smallest radius of curvature",
+        sharpest(Quantity::number(radius_mm, "mm", "smallest radius of curvature of the pitch curve")),
+        "a rounder curve, or more teeth of the same module, make it larger",
+    );
+    let section = undercut(section, facts);
+    let section = tips(section, job, facts);
+    let section = corners(section, facts);
+    let modules = [rolling_module_mm(radius_mm, z0), facts.printed.module_limit_mm(radius_mm)];
+    let definition =
+        "module at which the pitch circle of a cutter of so many teeth no longer rolls on this pitch curve";
+    answered(
+        section,
+        "module_limit",
+        "limit of the module",
+        sharpest(Quantity::number(modules[0], "mm", definition)),
+        format!(
+            "this one is {} mm; fewer cutter teeth allow more on this curve (the printed condition of undercut: {} mm)",
+            significant(module_mm, 3),
+            significant(modules[1], 4)
+        ),
+    )
+    .with(
+        "printed_module_limit",
+        sharpest(Quantity::number(modules[1], "mm", "module up to which the printed condition of undercut holds")),
+    )
+    .table(table(facts, z0, module_mm))
+}
+
+fn on_tooth(place: ToothPlace) -> Place {
+    Place::default().and("tooth", place.tooth).and("flank", place.side.name())
+}
+
+/// Flanks that begin too late, and the condition as it is printed.
+fn undercut(section: Section, facts: &RingFacts) -> Section {
+    let start = facts.highest_start;
+    let [left_mm2, right_mm2] = facts.printed.sides_mm2(facts.sharpest.0);
+    let told = if facts.undercut_flanks > 0 {
+        "use a smaller tool.shaper_cutter.addendum_coefficient, or a curve that is less hollow towards the ring"
+            .to_owned()
+    } else {
+        format!("nothing: flanks begin where the cutter's tip corner ends, at most at {:.3} mm", start.mm)
+    };
+    let sign = if left_mm2 <= right_mm2 { "<=" } else { ">" };
+    let advice =
+        format!("{told}; the printed condition, of an external gear, reads {left_mm2:.0} {sign} {right_mm2:.0} mm2");
+    let section = answered(
+        section,
+        "undercut_flanks",
+        "undercut",
+        Quantity::count(facts.undercut_flanks.into(), "flanks", "flanks whose beginning the cutter's tip cuts away")
+            .at(on_tooth(start)),
+        advice,
+    );
+    let start_of = "height over the pitch curve of the highest start of a generated flank, negative towards the root";
+    let side =
+        "side of the printed condition of undercut, that of an external gear of the smallest radius of curvature";
+    section
+        .with("highest_start", Quantity::number(start.mm, "mm", start_of).at(on_tooth(start)))
+        .with("printed_undercut_left", Quantity::number(left_mm2, "mm^2", format!("left {side}")))
+        .with("printed_undercut_right", Quantity::number(right_mm2, "mm^2", format!("right {side}")))
+}
+
+/// What the involute does not reach.
+fn tips(section: Section, job: &ShapingJob, facts: &RingFacts) -> Section {
+    let gear = &job.scene.gear;
     let placed = |mm: Option<ToothPlace>, scale: f64, unit: &'static str, definition: &'static str, why| {
         let quantity = Quantity::number_or(mm.map(|place| scale * place.mm), unit, definition, why);
         match mm {
-            Some(place) => quantity.at(at(place)),
+            Some(place) => quantity.at(on_tooth(place)),
             None => quantity,
         }
     };
-    let deepest = "largest depth at which a tip corner of the cutter runs through teeth beside its space";
-    let corners = match facts.tip_corners {
-        TipCorners::Unknown => Quantity::undefined("mm", deepest, "the target's outline is not known"),
-        TipCorners::Clear => Quantity::number(0.0, "mm", deepest),
-        TipCorners::Cut { depth_mm, phi_rad } => Quantity::number(depth_mm, "mm", deepest).at(angle(phi_rad)),
+    let more_teeth = facts.generating_teeth.map_or("no cutter that rolls generates whole tips".to_owned(), |teeth| {
+        format!("about {teeth} cutter teeth generate whole tips at the sharpest place")
+    });
+    let advice = match facts.shortest_involute {
+        None => "nothing: the involute reaches the tips".to_owned(),
+        Some(short) => {
+            let lower = (100.0 * short.mm / gear.module_mm).floor() / 100.0;
+            format!("{more_teeth}; gear.addendum_coefficient = {lower} ends the teeth below")
+        }
     };
-    let rolling = "most cutter teeth whose pitch circle rolls everywhere";
     let reach = "lowest end of a flank that the cutter's involute generates, height over the pitch curve";
     let relief = "largest depth of a tip behind the conjugate flank, which the cutter's base has shaped";
-    Section::new("ring", "What the cutter can do in the ring")
-        .with(
-            "smallest_radius_of_curvature",
-            Quantity::number(radius_mm, "mm", "smallest radius of curvature of the pitch curve").at(angle(phi_rad)),
-        )
-        .with("rolling_teeth", Quantity::count(facts.rolling_teeth.into(), "teeth", rolling))
-        .with(
-            "involute_height",
-            placed(facts.shortest_involute, 1.0, "mm", reach, "the involute reaches the tip on all flanks"),
-        )
-        .with("tip_relief", placed(facts.relief, UM_PER_MM, "um", relief, NO_RELIEF))
-        .with("tip_corner_depth", corners)
-        .table(table(facts, module_mm))
+    let section = answered(
+        section,
+        "involute_height",
+        "involute of the cutter",
+        placed(facts.shortest_involute, 1.0, "mm", reach, "the involute reaches the tip on all flanks"),
+        format!("the addendum is {} mm; {advice}", significant(job.blank.addendum_mm, 3)),
+    );
+    let told = match facts.relief {
+        Some(_) => format!("{more_teeth}; keep the mating tips off that part, or take it as tip relief"),
+        None => "nothing".to_owned(),
+    };
+    answered(section, "tip_relief", "tips set back", placed(facts.relief, UM_PER_MM, "um", relief, NO_RELIEF), told)
 }
 
-fn table(facts: &RingFacts, module_mm: f64) -> Table {
-    let um = |key, definition| TableColumn::new(key, "um", definition).or(NO_RELIEF);
+/// Tip corners on their way in and out.
+fn corners(section: Section, facts: &RingFacts) -> Section {
+    let definition = "smallest distance of a tip corner of the cutter from the teeth beside its space, on its way in \
+                      or out; minus the depth where it cuts into them";
+    let Some(tightest) = facts.tightest_corner else {
+        let unknown = Quantity::undefined("mm", definition, NO_OUTLINE);
+        return answered(section, "tip_corner_clearance", "tip corners", unknown, "see the whole blank of a run");
+    };
+    let CornerWay { clearance_mm, phi_rad } = tightest.way;
+    let place = Place::default()
+        .and("polar_angle_deg", phi_rad.to_degrees())
+        .and("space_after_tooth", tightest.tooth)
+        .and("way", if tightest.entering { "in" } else { "out" });
+    let advice = if clearance_mm < 0.0 {
+        "use a cutter with fewer teeth, a smaller tool.shaper_cutter.addendum_coefficient or gear.addendum_coefficient"
+    } else {
+        "nothing: they come clear of the teeth beside their space; more cutter teeth bring them nearer"
+    };
+    let clearance = Quantity::number(clearance_mm, "mm", definition).at(place);
+    answered(section, "tip_corner_clearance", "tip corners", clearance, advice)
+}
+
+/// What must be known before cutting.
+pub fn warning(section: &Section) -> Option<String> {
+    let depth_mm = -section.number("tip_corner_clearance").filter(|&mm| mm < 0.0)?;
+    let place = section.quantity("tip_corner_clearance")?.place().map(Place::words)?;
+    let way_out = section.words("tip_corner_clearance_advice");
+    Some(format!(
+        "the tip corners of the cutter cut {depth_mm:.3} mm into teeth beside their space ({place}): {way_out}"
+    ))
+}
+
+fn table(facts: &RingFacts, cutter_teeth: u32, module_mm: f64) -> Table {
+    let new = |key, unit, definition| TableColumn::new(key, unit, definition);
+    let mm = |key, definition| new(key, "mm", definition);
+    let um = |key, definition| new(key, "um", definition).or(NO_RELIEF);
     let columns = vec![
-        TableColumn::new("tooth", "1", "number of the tooth, from 1"),
-        TableColumn::new("phi", "deg", "polar angle of its middle on the pitch curve"),
-        TableColumn::new("radius_of_curvature", "mm", "radius of curvature of the pitch curve").or(NOT_CURVED),
-        TableColumn::new("rolling_teeth", "1", "most cutter teeth whose pitch circle rolls there").or(NOT_CURVED),
-        TableColumn::new("involute_left", "mm", "height over the pitch curve at which the generated left flank ends"),
-        TableColumn::new("involute_right", "mm", "height over the pitch curve at which the generated right flank ends"),
+        new("tooth", "1", "number of the tooth, from 1"),
+        new("phi", "deg", "polar angle of its middle on the pitch curve"),
+        mm("radius_of_curvature", "radius of curvature of the pitch curve").or(NOT_CURVED),
+        new("rolling_teeth", "1", "most cutter teeth whose pitch circle rolls there").or(NOT_CURVED),
+        new("rolling_share", "%", "pitch radius of the cutter over the radius of curvature, and module over its limit")
+            .or(NOT_CURVED),
+        mm("start_left", "height over the pitch curve at which the generated left flank begins"),
+        mm("start_right", "height over the pitch curve at which the generated right flank begins"),
+        new(
+            "printed_undercut",
+            "%",
+            "left side of the printed condition of undercut over its right side: it holds to 100",
+        )
+        .or(STRAIGHT),
+        mm("involute_left", "height over the pitch curve at which the generated left flank ends"),
+        mm("involute_right", "height over the pitch curve at which the generated right flank ends"),
         um("tip_relief_left", "depth of the left tip behind the conjugate flank"),
         um("tip_relief_right", "depth of the right tip behind the conjugate flank"),
+        mm(
+            "corners_in",
+            "smallest distance of the tip corners from the teeth on their way into the space after the tooth",
+        )
+        .or(NO_OUTLINE),
+        mm("corners_out", "the same on their way out of it").or(NO_OUTLINE),
+        mm("rolling_module", "module at which the cutter no longer rolls there").or(NOT_CURVED),
+        mm("printed_module", "module up to which the printed condition of undercut holds there").or(STRAIGHT),
     ];
-    let rows = facts.teeth.iter().map(|of| {
-        let curved = of.rolling_teeth(module_mm);
-        let mut row = vec![Datum::from(of.tooth), of.phi_rad.to_degrees().into()];
-        row.push(curved.map(|_| 1.0 / of.curvature_per_mm).into());
-        row.push(curved.map_or(Datum::Undefined, Datum::from));
+    let row = |of: &RingTooth| {
+        let radius_mm = of.radius_mm();
+        // Where the curve is hollow towards the ring, the condition is that of the gear it is printed for.
+        let any_radius_mm = (of.curvature_per_mm != 0.0).then(|| 1.0 / of.curvature_per_mm.abs());
+        let module_limit_mm = radius_mm.map(|radius_mm| rolling_module_mm(radius_mm, cutter_teeth));
+        let share = module_limit_mm.map(|limit_mm| 100.0 * module_mm / limit_mm);
+        let printed = any_radius_mm.map(|radius_mm| {
+            let [left_mm2, right_mm2] = facts.printed.sides_mm2(radius_mm);
+            100.0 * left_mm2 / right_mm2
+        });
+        let mut row = vec![Datum::from(of.tooth), of.phi_rad.to_degrees().into(), radius_mm.into()];
+        row.push(radius_mm.map_or(Datum::Undefined, |radius_mm| rolling_teeth(radius_mm, module_mm).into()));
+        row.push(share.into());
+        row.extend(of.start_mm.map(Datum::from));
+        row.push(printed.into());
         row.extend(of.involute_mm.map(Datum::from));
         row.extend(of.relief_mm.map(|mm| Datum::from(mm.map(|mm| UM_PER_MM * mm))));
+        row.extend([0, 1].map(|way| Datum::from(of.corners.map(|ways| ways[way].clearance_mm))));
+        row.push(module_limit_mm.into());
+        row.push(any_radius_mm.map(|radius_mm| facts.printed.module_limit_mm(radius_mm)).into());
         row
-    });
+    };
     Table::new("teeth", "What the cutter can do, tooth by tooth over one period of the pitch curve", columns)
-        .with_rows(rows)
+        .with_rows(facts.teeth.iter().map(row))
         .in_file("ring")
 }

@@ -3,15 +3,15 @@
 use crate::findings::{Findings, Table};
 use crate::output::line_chart::{LineChart, Panel};
 use crate::output::report::{Block, PageSection};
-use crate::output::text::{plain, significant};
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::findings::answers;
 use crate::steps::axes::charts::panel;
 
 /// The section; none for an external gear.
 pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
     let ring = found.find("ring")?;
     let table = ring.table_of("teeth")?;
-    let mut blocks = Vec::new();
+    let mut blocks = vec![Block::Table(answers::table(ring, "Before cutting"))];
     if table.rows.len() > 1 {
         blocks.push(Block::Lines(LineChart {
             title: format!("{}: the cutter in the ring, over one period of the pitch curve", job.scene.name),
@@ -19,13 +19,15 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
             x_unit: "°".to_owned(),
             panels: panels(job, table),
         }));
+    } else {
+        blocks.push(Block::Note("The pitch curve is a circle: all this is the same on every tooth.".to_owned()));
     }
-    blocks.push(Block::Note(words(ring, job.cutter.teeth)));
     Some(PageSection {
         id: "ring",
         title: "The cutter in the ring".to_owned(),
-        lead: "What was known before cutting: where the cutter rolls, how far its involute reaches on the flanks, and \
-               how far its base sets the tips back."
+        lead: "What was known before cutting: where the cutter rolls and how large the module may be, how far its \
+               involute reaches on the flanks and how far its base sets the tips back, and how near its tip corners \
+               come to the teeth beside their space."
             .to_owned(),
         blocks,
     })
@@ -36,8 +38,12 @@ fn panels(job: &ShapingJob, table: &Table) -> Vec<Panel> {
         let value = |value: Option<f64>| value.unwrap_or(f64::NAN);
         table.numbers("phi").map(value).zip(table.numbers(key).map(value)).collect::<Vec<_>>()
     };
-    let sides = |stem: &str| {
-        ["left", "right"].map(|side| (side, curve(&format!("{stem}_{side}")))).into_iter().collect::<Vec<_>>()
+    let two = |names: [&'static str; 2], keys: [&str; 2]| {
+        names.into_iter().zip(keys.map(curve)).collect::<Vec<(&str, Vec<(f64, f64)>)>>()
+    };
+    let flanks = |stem: &str| {
+        let [left, right] = ["left", "right"].map(|side| format!("{stem}_{side}"));
+        two(["left flanks", "right flanks"], [&left, &right])
     };
     vec![
         panel(
@@ -45,17 +51,18 @@ fn panels(job: &ShapingJob, table: &Table) -> Vec<Panel> {
             vec![("pitch curve", curve("radius_of_curvature"))],
             [("pitch radius of the cutter", job.cutter.pitch_radius_mm)],
         ),
-        panel(["involute reaches", "mm"], sides("involute"), [("tip", job.blank.addendum_mm)]),
-        panel(["tip relief", "µm"], sides("tip_relief"), []),
+        panel(
+            ["limit of the module", "mm"],
+            two(["the cutter rolls", "printed condition of undercut"], ["rolling_module", "printed_module"]),
+            [("module", job.scene.gear.module_mm)],
+        ),
+        panel(["flanks begin at height", "mm"], flanks("start"), []),
+        panel(["flanks end at height", "mm"], flanks("involute"), [("tip", job.blank.addendum_mm)]),
+        panel(["tips set back", "µm"], flanks("tip_relief"), []),
+        panel(
+            ["room of tip corners", "mm"],
+            two(["on the way in", "on the way out"], ["corners_in", "corners_out"]),
+            [("cuts below", 0.0)],
+        ),
     ]
-}
-
-fn words(ring: &crate::findings::Section, teeth: u32) -> String {
-    let rolling = ring.number("rolling_teeth").map_or("–".to_owned(), plain);
-    let corners = match ring.number("tip_corner_depth") {
-        Some(0.0) => " Its tip corners come clear of the teeth beside their space.".to_owned(),
-        Some(mm) => format!(" Its tip corners cut {} mm into teeth beside their space.", significant(mm, 3)),
-        None => String::new(),
-    };
-    format!("The cutter has {teeth} teeth; up to {rolling} roll everywhere.{corners}")
 }

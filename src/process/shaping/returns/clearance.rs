@@ -78,11 +78,11 @@ impl ReturnRoom {
     }
 
     /// Room round the cutter that has gone back from the stroke at a place to `retracted` (gear from cutter);
-    /// `beyond_mm` says how far a point lies outside the uncut blank, negative inside. Only clearances below `below` are
-    /// looked for; it is what comes out where there is none.
+    /// `beyond_mm` says how far a point lies outside the uncut blank, negative inside. Only clearances below `below`
+    /// are looked for; it is what comes out where there is none.
     ///
-    /// The clearance rises and falls by no more than one goes along the edge, so that a part of the edge whose middle has
-    /// room enough holds no place that is tighter than what was found: the result is that of all corners.
+    /// The clearance rises and falls by no more than one goes along the edge, so that a part of the edge whose middle
+    /// has room enough holds no place that is tighter than what was found: the result is that of all corners.
     pub fn at(
         &self,
         place: usize,
@@ -92,71 +92,95 @@ impl ReturnRoom {
     ) -> Clearance {
         let blades: Vec<Rigid2> = self.swept.tools_from_blades().collect();
         let work_from_blades: Vec<Rigid2> = blades.iter().map(|blade| retracted.after(blade)).collect();
+        let corner = |[blade, corner]: [usize; 2]| work_from_blades[blade].point(self.polygon.corners_mm[corner]);
         let mut found = below;
-        search(blades.len(), &self.arcs_mm, |blade, corner, reach_mm| {
-            let p = work_from_blades[blade].point(self.polygon.corners_mm[corner]);
-            let outside_mm = beyond_mm(p);
-            if outside_mm > 0.0 {
-                return outside_mm <= reach_mm;
-            }
-            let enough_mm = [found.surface_mm + reach_mm, found.material_mm + reach_mm];
-            let [surface_mm, material_mm] = self.swept.covered_mm(place, &blades[blade], p, enough_mm);
-            found.surface_mm = found.surface_mm.min(surface_mm);
-            found.material_mm = found.material_mm.min(material_mm);
-            surface_mm < enough_mm[0] || material_mm < enough_mm[1]
-        });
+        search(
+            blades.len(),
+            &self.arcs_mm,
+            |at| beyond_mm(corner(at)),
+            |at, reach_mm| {
+                let enough_mm = [found.surface_mm + reach_mm, found.material_mm + reach_mm];
+                let [surface_mm, material_mm] = self.swept.covered_mm(place, &blades[at[0]], corner(at), enough_mm);
+                found.surface_mm = found.surface_mm.min(surface_mm);
+                found.material_mm = found.material_mm.min(material_mm);
+                surface_mm < enough_mm[0] || material_mm < enough_mm[1]
+            },
+        );
         found
     }
 
     /// Angles, relative to a direction, of the edge's normals where the stroke at a place has made surface that still
-    /// stands: smallest and largest. Moving the cutter off along `-n` of these alone clears everything.
+    /// stands: smallest and largest, and no less than those that are `known`. Moving the cutter off along `-n` of these
+    /// alone clears everything.
     pub fn contact_normals_rad(
         &self,
         place: usize,
         into_work: DVec2,
         beyond_mm: impl Fn(DVec2) -> f64,
+        known: Option<[f64; 2]>,
     ) -> Option<[f64; 2]> {
-        let pose = self.swept.pose(place);
         let blades: Vec<Rigid2> = self.swept.tools_from_blades().collect();
+        let work_from_blades: Vec<Rigid2> = blades.iter().map(|blade| self.swept.pose(place).after(blade)).collect();
         let arcs_mm: Vec<f64> = self.polygon.stations.iter().map(|station| station.arc_mm).collect();
-        let mut range: Option<[f64; 2]> = None;
-        search(blades.len(), &arcs_mm, |blade, station, reach_mm| {
-            let work_from_blade = pose.after(&blades[blade]);
-            let station = &self.polygon.stations[station];
-            let p = work_from_blade.point(station.point_mm);
-            let outside_mm = beyond_mm(p);
-            if outside_mm > 0.0 {
-                return outside_mm <= reach_mm;
-            }
-            let enough_mm = CONTACT_MM + reach_mm;
-            let covered_mm = self.swept.covered_before_mm(place, &blades[blade], p, enough_mm);
-            if covered_mm <= CONTACT_MM {
-                let angle_rad = into_work.angle_to(work_from_blade.direction(station.normal));
-                let [low, high] = range.unwrap_or([angle_rad; 2]);
-                range = Some([low.min(angle_rad), high.max(angle_rad)]);
-            }
-            covered_mm < enough_mm
-        });
+        let point = |[blade, at]: [usize; 2]| work_from_blades[blade].point(self.polygon.stations[at].point_mm);
+        let mut range = known;
+        search(
+            blades.len(),
+            &arcs_mm,
+            |at| beyond_mm(point(at)),
+            |[blade, station], reach_mm| {
+                let normal = work_from_blades[blade].direction(self.polygon.stations[station].normal);
+                let angle_rad = into_work.angle_to(normal);
+                if range.is_some_and(|[low, high]| (low..=high).contains(&angle_rad)) {
+                    return true;
+                }
+                let enough_mm = CONTACT_MM + reach_mm;
+                let covered_mm =
+                    self.swept.covered_before_mm(place, &blades[blade], point([blade, station]), enough_mm);
+                if covered_mm <= CONTACT_MM {
+                    let [low, high] = range.unwrap_or([angle_rad; 2]);
+                    range = Some([low.min(angle_rad), high.max(angle_rad)]);
+                }
+                covered_mm < enough_mm
+            },
+        );
         range
     }
 }
 
-/// Looks at the places of an edge, whose arcs are given, on every cutter tooth: at the middle of a part first, then at the
-/// halves beside it. `look` gets tooth, place, and how far the part reaches to either side, mm; it says whether the rest
-/// of the part is to be looked at.
-fn search(blades: usize, arcs_mm: &[f64], mut look: impl FnMut(usize, usize, f64) -> bool) {
-    let mut parts: VecDeque<(usize, [usize; 2])> = (0..blades).map(|blade| (blade, [0, arcs_mm.len() - 1])).collect();
-    while let Some((blade, [first, last])) = parts.pop_front() {
+/// Looks at the places of an edge, whose arcs are given, on every cutter tooth where they are inside the blank: at the
+/// middle of a part first, then at the halves beside it. A place is cutter tooth and number; `outside_mm` says how far
+/// it lies outside the blank, negative inside, and rises and falls by no more than one goes along the edge. `look` gets
+/// how far the part reaches to either side, mm, and says whether the rest of it is to be looked at.
+fn search(
+    blades: usize,
+    arcs_mm: &[f64],
+    outside_mm: impl Fn([usize; 2]) -> f64,
+    mut look: impl FnMut([usize; 2], f64) -> bool,
+) {
+    /// A part of the edge of a tooth, first and last place, and whether all of it is known to be inside.
+    struct Part {
+        blade: usize,
+        first: usize,
+        last: usize,
+        inside: bool,
+    }
+    let whole = |blade: usize| Part { blade, first: 0, last: arcs_mm.len() - 1, inside: false };
+    let mut parts: VecDeque<Part> = (0..blades).map(whole).collect();
+    while let Some(Part { blade, first, last, mut inside }) = parts.pop_front() {
         let middle = first.midpoint(last);
         let reach_mm = (arcs_mm[middle] - arcs_mm[first]).max(arcs_mm[last] - arcs_mm[middle]);
-        if !look(blade, middle, reach_mm) {
+        let outside_mm = if inside { f64::NEG_INFINITY } else { outside_mm([blade, middle]) };
+        inside = outside_mm <= -reach_mm;
+        let go_on = if outside_mm > 0.0 { outside_mm <= reach_mm } else { look([blade, middle], reach_mm) };
+        if !go_on {
             continue;
         }
         if middle > first {
-            parts.push_back((blade, [first, middle - 1]));
+            parts.push_back(Part { blade, first, last: middle - 1, inside });
         }
         if middle < last {
-            parts.push_back((blade, [middle + 1, last]));
+            parts.push_back(Part { blade, first: middle + 1, last, inside });
         }
     }
 }

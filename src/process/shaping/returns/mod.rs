@@ -5,6 +5,7 @@
 //! travel and time of the axes ([`motion`]). The laws themselves are in [`super::linkage::retraction`].
 
 pub mod clearance;
+pub mod facts;
 pub mod motion;
 mod overlap;
 pub mod plan;

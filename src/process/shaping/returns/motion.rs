@@ -63,7 +63,9 @@ impl RamTimes {
 /// Axis positions of the cutter drawn back from a stroke: work angle, cutter angle, centre distance, on the turn on
 /// which the stroke has them.
 pub fn axes_of(stroke: &StrokeState, retracted: &CutterPose) -> [f64; 3] {
-    let moved_rad = DVec2::from_angle(stroke.psi_c_rad).angle_to(retracted.center_mm);
+    // By both sine and cosine: an angle by its cosine alone is off by 1e-8 rad near zero.
+    let from = DVec2::from_angle(stroke.psi_c_rad);
+    let moved_rad = from.perp_dot(retracted.center_mm).atan2(from.dot(retracted.center_mm));
     let turned_rad = retracted.angle_rad - stroke.pose.angle_rad;
     [stroke.psi_c_rad + moved_rad, stroke.psi_b_rad + turned_rad - moved_rad, retracted.center_mm.length()]
 }

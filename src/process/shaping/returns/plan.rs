@@ -1,6 +1,6 @@
 //! Which law every return stroke of an operation follows.
 //!
-//! In: what the scene asks for, the back-off, the survey of the operation where the choice depends on it. Out:
+//! In: what the scene asks for, the back-off, the survey of the operation. Out:
 //! [`RetractionPlan`]: the law at every polar angle, and the retracted pose of every stroke.
 //!
 //! `auto` draws the cutter back along the line of centres wherever that clears the surfaces that the operation leaves
@@ -31,23 +31,19 @@ pub struct RetractionPlan {
 }
 
 impl RetractionPlan {
-    /// What a machine does with an operation; `survey` is made where the choice depends on it.
+    /// What a machine does with an operation; the survey is asked where the choice depends on it.
     ///
     /// # Errors
     /// A back-off so large that a law leads to no pose after some stroke.
-    pub fn new<'a>(
-        machine: &Machine,
-        schedule: &StrokeSchedule,
-        survey: impl Fn() -> Survey<'a>,
-    ) -> Result<Self, Refusal> {
+    pub fn new(machine: &Machine, schedule: &StrokeSchedule, survey: &Survey) -> Result<Self, Refusal> {
         let (asked, back_off_mm) = (machine.retraction, machine.back_off_mm);
         let mut plan = Self { asked, back_off_mm, tilts_rad: None, turned_rad: Vec::new() };
         match asked {
             _ if back_off_mm <= 0.0 => {}
             Retraction::CenterLine | Retraction::Normal | Retraction::Turned => {}
-            Retraction::Tilted => plan.tilts_rad = Some(survey().tilts().unwrap_or_default()),
+            Retraction::Tilted => plan.tilts_rad = Some(survey.tilts().unwrap_or_default()),
             Retraction::Auto => {
-                let clear = survey().clear(back_off_mm, |_| RetractionLaw::CenterLine, CLEAR_MM);
+                let clear = survey.clear(back_off_mm, |_| RetractionLaw::CenterLine, CLEAR_MM);
                 plan.turned_rad = zones(&clear.map_err(|_| no_pose(back_off_mm))?);
             }
         }

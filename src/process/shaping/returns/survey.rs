@@ -18,7 +18,8 @@
 //! ```
 //!
 //! then clears, for a small back-off. The middle between the largest lower and the smallest upper bound of a turn is
-//! one angle for the whole operation, as a machine sets it.
+//! one angle for the whole operation, as a machine sets it. Only an edge whose normal looks farther to a side than all
+//! that were found before says anything new: the others are passed over.
 
 use super::clearance::{Clearance, ReturnRoom};
 use super::swept::POSES_PER_PITCH;
@@ -32,20 +33,27 @@ use gearcut_core::gear::blank::Blank;
 use glam::DVec2;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
+use std::sync::{Arc, OnceLock};
 
 /// Places to a pitch at which return strokes are looked at: the room round the cutter repeats from tooth to tooth.
 pub const PHASES_PER_PITCH: usize = 6;
+/// A smaller angle between normal and line of centres is rounding: the curve is a circle.
+const ROUND_RAD: f64 = 1e-9;
 /// Poses from one place to the next.
 const STEP: usize = POSES_PER_PITCH / PHASES_PER_PITCH;
 
-/// Return strokes of an operation.
+/// Return strokes of an operation. What takes time is found when it is first asked for, and kept.
 #[derive(Debug)]
-pub struct Survey<'a> {
-    room: ReturnRoom,
+pub struct Survey {
+    /// The operation, behind those before it in the order in which they are cut.
+    operations: Vec<Arc<Generation>>,
+    blank: Blank,
+    teeth: u32,
+    module_mm: f64,
     /// Teeth after which the pitch curve repeats.
     period_teeth: u32,
-    generation: &'a Generation,
-    blank: &'a Blank,
+    room: OnceLock<ReturnRoom>,
+    tilts: OnceLock<Option<[f64; 2]>>,
 }
 
 /// Room at one place of the turn.
@@ -63,23 +71,37 @@ pub struct PlacedRoom {
     pub clearance: Clearance,
 }
 
-impl<'a> Survey<'a> {
+impl Survey {
     /// Of the last of some operations, in the order in which they are cut; `teeth` of the gear.
     ///
     /// # Panics
     /// No operation.
-    pub fn new(operations: &[&'a Generation], blank: &'a Blank, teeth: u32, module_mm: f64) -> Self {
-        let (generation, earlier) = operations.split_last().expect("an operation whose return strokes are looked at");
-        let pose_of = |of: &'a Generation| move |phi: f64| of.linkage.pose(phi, of.offset_mm);
-        let earlier: Vec<_> = earlier.iter().map(|of| pose_of(of)).collect();
-        let earlier: Vec<&dyn Fn(f64) -> CutterPose> =
-            earlier.iter().map(|pose| pose as &dyn Fn(f64) -> CutterPose).collect();
-        let room = ReturnRoom::new(&generation.cutter, teeth, module_mm, &pose_of(generation), &earlier);
-        Self { room, period_teeth: blank.curve().period_teeth(teeth), generation, blank }
+    pub fn new(operations: Vec<Arc<Generation>>, blank: Blank, teeth: u32, module_mm: f64) -> Self {
+        assert!(!operations.is_empty(), "an operation whose return strokes are looked at");
+        let period_teeth = blank.curve().period_teeth(teeth);
+        let (room, tilts) = (OnceLock::new(), OnceLock::new());
+        Self { operations, blank, teeth, module_mm, period_teeth, room, tilts }
     }
 
-    /// Room round the cutter over a turn, drawn back by `back_off_mm` by the law that `law(phi)` gives, which repeats as
-    /// the pitch curve does.
+    /// The operation itself.
+    fn generation(&self) -> &Generation {
+        self.operations.last().expect("an operation")
+    }
+
+    fn room(&self) -> &ReturnRoom {
+        self.room.get_or_init(|| {
+            let generation = self.generation();
+            let pose = |phi: f64| self.pose(phi);
+            let before = &self.operations[..self.operations.len() - 1];
+            let earlier = before.iter().map(|of| |phi: f64| of.linkage.pose(phi, of.offset_mm)).collect::<Vec<_>>();
+            let earlier: Vec<&dyn Fn(f64) -> CutterPose> =
+                earlier.iter().map(|pose| pose as &dyn Fn(f64) -> CutterPose).collect();
+            ReturnRoom::new(&generation.cutter, self.teeth, self.module_mm, &pose, &earlier)
+        })
+    }
+
+    /// Room round the cutter over a turn, drawn back by `back_off_mm` by the law that `law(phi)` gives, which repeats
+    /// as the pitch curve does.
     ///
     /// # Errors
     /// A pose that the law does not lead to.
@@ -91,18 +113,20 @@ impl<'a> Survey<'a> {
         let clearance =
             |place: usize| Ok(self.clearance(place, &self.returning(place, back_off_mm, &law)?, Clearance::ANY));
         let period: Vec<Clearance> = self.places_of_period().map(clearance).collect::<Result<_, _>>()?;
-        let places = (0..self.room.swept.places()).step_by(STEP).zip(period.iter().cycle());
+        let places = (0..self.room().swept.places()).step_by(STEP).zip(period.iter().cycle());
         let room = |(place, clearance): (usize, &Clearance)| {
-            let phi_rad = self.room.swept.phi_rad(place);
-            let from_normal_rad = self.out_of_work(phi_rad).angle_to(self.sign() * self.pose(phi_rad).center_mm);
+            let phi_rad = self.room().swept.phi_rad(place);
+            let (normal, centres) = (self.out_of_work(phi_rad), self.sign() * self.pose(phi_rad).center_mm);
+            let angle_rad = normal.perp_dot(centres).atan2(normal.dot(centres));
+            let from_normal_rad = if angle_rad.abs() < ROUND_RAD { 0.0 } else { angle_rad };
             let returning = self.returning(place, back_off_mm, &law)?;
             Ok(PlacedRoom { place, returning, phi_rad, from_normal_rad, clearance: *clearance })
         };
         places.map(room).collect()
     }
 
-    /// Whether the cutter, drawn back as for [`Self::rooms`], clears the surfaces that stay by `least_mm`, at the places
-    /// of a turn.
+    /// Whether the cutter, drawn back as for [`Self::rooms`], clears the surfaces that stay by `least_mm`, at the
+    /// places of a turn.
     ///
     /// # Errors
     /// A pose that the law does not lead to.
@@ -118,24 +142,30 @@ impl<'a> Survey<'a> {
             Ok(clearance.surface_mm >= least_mm)
         };
         let period: Vec<bool> = self.places_of_period().map(clear).collect::<Result<_, _>>()?;
-        Ok(period.repeat(self.room.swept.places() / STEP / period.len()))
+        Ok(period.repeat(self.room().swept.places() / STEP / period.len()))
     }
 
     /// Area that the returning cutter has in common with what the operation leaves, mm2.
     pub fn overlap_mm2(&self, at: &PlacedRoom) -> f64 {
-        self.room.overlap_mm2(at.place, &at.returning, |p| self.beyond_mm(p, at.phi_rad))
+        self.room().overlap_mm2(at.place, &at.returning, |p| self.beyond_mm(p, at.phi_rad))
     }
 
     /// Smallest and largest tilt out of the normal that clears everywhere, rad; the first is the larger one where none
     /// does. `None` where no stroke touches the blank.
     pub fn tilts(&self) -> Option<[f64; 2]> {
-        let bounds = self.places_of_period().filter_map(|place| {
-            let phi_rad = self.room.swept.phi_rad(place);
-            let into_work = -self.out_of_work(phi_rad);
-            let normals = self.room.contact_normals_rad(place, into_work, |p| self.beyond_mm(p, phi_rad));
+        *self.tilts.get_or_init(|| {
+            let wider = |normals: Option<[f64; 2]>, place: usize| {
+                let phi_rad = self.room().swept.phi_rad(place);
+                let into_work = -self.out_of_work(phi_rad);
+                self.room().contact_normals_rad(place, into_work, |p| self.beyond_mm(p, phi_rad), normals)
+            };
+            let union = |a: Option<[f64; 2]>, b: Option<[f64; 2]>| match (a, b) {
+                (Some(a), Some(b)) => Some([a[0].min(b[0]), a[1].max(b[1])]),
+                (found, None) | (None, found) => found,
+            };
+            let normals = self.places_of_period().fold(|| None, wider).reduce(|| None, union);
             normals.map(|[low, high]| [high - FRAC_PI_2, low + FRAC_PI_2])
-        });
-        bounds.reduce_with(|a, b| [a[0].max(b[0]), a[1].min(b[1])])
+        })
     }
 
     /// Gear from cutter on the way back from the stroke at a place.
@@ -145,15 +175,15 @@ impl<'a> Survey<'a> {
         back_off_mm: f64,
         law: impl Fn(f64) -> RetractionLaw,
     ) -> Result<Rigid2, NotConverged> {
-        let phi_rad = self.room.swept.phi_rad(place);
-        let cutter = RetractingCutter::of(&self.generation.linkage);
+        let phi_rad = self.room().swept.phi_rad(place);
+        let cutter = RetractingCutter::of(&self.generation().linkage);
         let back = cutter.retracted(law(phi_rad), &self.pose(phi_rad), phi_rad, back_off_mm)?.pose;
         Ok(Rigid2::new(back.angle_rad, back.center_mm))
     }
 
     fn clearance(&self, place: usize, returning: &Rigid2, below: Clearance) -> Clearance {
-        let phi_rad = self.room.swept.phi_rad(place);
-        self.room.at(place, returning, |p| self.beyond_mm(p, phi_rad), below)
+        let phi_rad = self.room().swept.phi_rad(place);
+        self.room().at(place, returning, |p| self.beyond_mm(p, phi_rad), below)
     }
 
     /// How many of the rooms of a turn there are before the pitch curve repeats.
@@ -167,7 +197,7 @@ impl<'a> Survey<'a> {
     }
 
     fn pose(&self, phi_rad: f64) -> CutterPose {
-        self.generation.linkage.pose(phi_rad, self.generation.offset_mm)
+        self.generation().linkage.pose(phi_rad, self.generation().offset_mm)
     }
 
     fn sign(&self) -> f64 {
@@ -214,13 +244,13 @@ mod tests {
     /// Room at a place with every corner of every cutter tooth looked at.
     fn room_of_all_corners(survey: &Survey, at: &PlacedRoom) -> Clearance {
         let mut found = Clearance::ANY;
-        let polygon = &survey.room.polygon;
-        for blade in survey.room.swept.tools_from_blades() {
+        let polygon = &survey.room().polygon;
+        for blade in survey.room().swept.tools_from_blades() {
             for &corner_mm in &polygon.corners_mm[..=polygon.edge_chords()] {
                 let p = at.returning.after(&blade).point(corner_mm);
                 if survey.beyond_mm(p, at.phi_rad) <= 0.0 {
                     let [surface_mm, material_mm] =
-                        survey.room.swept.covered_mm(at.place, &blade, p, [f64::INFINITY; 2]);
+                        survey.room().swept.covered_mm(at.place, &blade, p, [f64::INFINITY; 2]);
                     found.surface_mm = found.surface_mm.min(surface_mm);
                     found.material_mm = found.material_mm.min(material_mm);
                 }
@@ -233,13 +263,13 @@ mod tests {
     fn one_period_and_parts_of_the_edge_say_what_the_whole_turn_says() {
         for (name, period_teeth) in [("internal_interfering", 34), ("elliptical_normal", 14), ("circular_m3_z24", 1)] {
             let job = shipped(name);
-            let survey = job.survey(1);
+            let survey = &job.operations[1].survey;
             assert_eq!(survey.period_teeth, period_teeth, "{name}");
             let rooms = survey.rooms(0.8, |_| RetractionLaw::CenterLine).expect("poses");
             assert_eq!(rooms.len(), PHASES_PER_PITCH * job.scene.gear.teeth as usize);
             // Places of every phase and period.
             for room in rooms.iter().step_by(19) {
-                let expected = room_of_all_corners(&survey, room);
+                let expected = room_of_all_corners(survey, room);
                 let off_mm = [
                     room.clearance.surface_mm - expected.surface_mm,
                     room.clearance.material_mm - expected.material_mm,

@@ -121,12 +121,13 @@ impl<'a> SegmentBounds<'a> {
                 let half = s.y_range_mm[1];
                 [(radius_mm * radius_mm - half * half).max(0.0).sqrt() - radius_mm, 0.0]
             }
-            SegmentShape::Table(table) => table
-                .cells
-                .iter()
-                .map(|cell| cell[0])
-                .chain([table.x_and_slope(table.y_end_mm())[0]])
-                .fold([0.0, 0.0], |[low, high]: [f64; 2], x| [low.min(x), high.max(x)]),
+            SegmentShape::Table(table) => {
+                let nodes = table.cells.iter().map(|cell| cell[0]).chain([table.x_and_slope(table.y_end_mm())[0]]);
+                let [low, high] = nodes.fold([0.0, 0.0], |[low, high]: [f64; 2], x| [low.min(x), high.max(x)]);
+                // Between two nodes the segment leaves their chord by this at most: the extreme lies inside a cell.
+                let bulge_mm = CURVATURE_SAFETY * curvature(s) / (8.0 * table.cells_per_mm * table.cells_per_mm);
+                [low - bulge_mm, high + bulge_mm]
+            }
         };
         Self {
             segments,
@@ -140,6 +141,8 @@ impl<'a> SegmentBounds<'a> {
     pub fn box_meets(&self, rays: &[BladeRay], segment: usize, heights_mm: [f64; 2], margin_mm: f64) -> bool {
         let Segment { blade_from_segment, y_range_mm, .. } = &self.segments[segment];
         let [x_low, x_high] = self.x_ranges_mm[segment];
+        // A ray through the joint of two segments meets the box of both.
+        let margin_mm = margin_mm + ROUNDING_MM;
         let turn = DVec2::new(blade_from_segment.rotation.x, -blade_from_segment.rotation.y);
         rays.iter().any(|ray| {
             let o = turn.rotate(ray.origin_mm - blade_from_segment.translation_mm);

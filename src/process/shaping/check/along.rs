@@ -1,0 +1,74 @@
+//! A table of findings as a chart along the curve on the terminal: some of its rows, with bars.
+//!
+//! In: a table and what of it is shown. Out: rows at even distances and those with the largest bars, so that no
+//! extreme falls between two rows.
+
+use crate::findings::{Datum, Table};
+use crate::output::text::Sheet;
+
+/// Rows at even distances, at most.
+const ROWS: usize = 12;
+/// Characters of a full bar.
+const WIDTH: usize = 20;
+
+/// A column that is shown.
+pub struct Shown {
+    /// Its key in the table.
+    pub key: &'static str,
+    /// What it is called.
+    pub heading: &'static str,
+    /// Digits behind the point.
+    pub decimals: usize,
+    /// The value that fills a bar beside it, if it has one.
+    pub full: Option<f64>,
+}
+
+/// A column of values alone.
+pub fn values(key: &'static str, heading: &'static str, decimals: usize) -> Shown {
+    Shown { key, heading, decimals, full: None }
+}
+
+/// A column with bars, full at a value.
+pub fn bars(key: &'static str, heading: &'static str, decimals: usize, full: f64) -> Shown {
+    Shown { full: Some(full), ..values(key, heading, decimals) }
+}
+
+/// Largest value of some columns: what fills their bars.
+pub fn largest(table: &Table, keys: &[&str]) -> f64 {
+    keys.iter().flat_map(|key| table.numbers(key)).flatten().fold(0.0, f64::max)
+}
+
+/// Adds the chart.
+pub fn print(sheet: &mut Sheet, table: &Table, shown: &[Shown]) {
+    let step = table.rows.len().div_ceil(ROWS).max(1);
+    let mut rows: Vec<usize> = (0..table.rows.len()).step_by(step).collect();
+    for of in shown.iter().filter(|of| of.full.is_some()) {
+        let numbers = table.numbers(of.key).enumerate().filter_map(|(row, number)| Some((row, number?)));
+        rows.extend(numbers.reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(row, _)| row));
+    }
+    rows.sort_unstable();
+    rows.dedup();
+    let heading = shown.iter().flat_map(|of| {
+        let bar = of.full.map(|_| String::new());
+        std::iter::once(of.heading.to_owned()).chain(bar)
+    });
+    let line = |row: usize| shown.iter().flat_map(move |of| cells(table, row, of)).collect::<Vec<_>>();
+    let lines: Vec<Vec<String>> = std::iter::once(heading.collect()).chain(rows.into_iter().map(line)).collect();
+    sheet.table(&lines);
+}
+
+/// Value, and bar if it has one.
+fn cells(table: &Table, row: usize, of: &Shown) -> Vec<String> {
+    let Some(column) = table.column(of.key) else { return Vec::new() };
+    let unit = table.columns[column].unit.as_deref().filter(|&unit| unit != "1").unwrap_or_default();
+    let number = table.rows[row][column].number();
+    let value = match &table.rows[row][column] {
+        Datum::Word(word) => word.clone(),
+        _ => number.map_or("-".to_owned(), |number| format!("{number:.*} {unit}", of.decimals).trim_end().to_owned()),
+    };
+    let bar = of.full.map(|full| {
+        let share = if full > 0.0 { number.unwrap_or(0.0) / full } else { 0.0 };
+        format!("|{:<WIDTH$}|", "#".repeat((WIDTH as f64 * share.clamp(0.0, 1.0)).round() as usize))
+    });
+    std::iter::once(value).chain(bar).collect()
+}

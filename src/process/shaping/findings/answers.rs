@@ -1,0 +1,54 @@
+//! A question that is answered before cutting: the number with its place, and beside it what to change.
+//!
+//! In: a quantity and a sentence. Out: the quantity under its key and the sentence under `<key>_advice`; on the
+//! terminal and on the page both stand in one line.
+
+use crate::findings::{Entry, Place, Quantity, Section, unit};
+use crate::output::report::PageTable;
+use crate::output::summary;
+use crate::output::text::Sheet;
+use crate::steps::report::value_and_unit;
+
+/// What the key of a sentence ends with.
+const ADVICE: &str = "_advice";
+
+/// The section with an answer.
+pub fn answered(section: Section, key: &str, title: &str, quantity: Quantity, advice: impl Into<String>) -> Section {
+    let mut section = section.with(&format!("{key}{ADVICE}"), Quantity::text(advice, "what to change"));
+    let answer = Entry { title: title.to_owned(), ..Entry::new(key, quantity) };
+    section.entries.insert(section.entries.len() - 1, answer);
+    section
+}
+
+/// Entries of a section that are answers, with their sentences.
+fn answers(section: &Section) -> impl Iterator<Item = (&Entry, &str)> {
+    section.entries.iter().filter_map(|entry| {
+        let advice = section.quantity(&format!("{}{ADVICE}", entry.key))?.words()?;
+        Some((entry, advice))
+    })
+}
+
+/// Lines for the terminal.
+pub fn print(sheet: &mut Sheet, section: &Section) {
+    for (entry, advice) in answers(section) {
+        summary::line(sheet, &entry.title, &format!("{}; {advice}", summary::shown(&entry.quantity)));
+    }
+}
+
+/// Rows for the page.
+pub fn table(section: &Section, caption: &str) -> PageTable {
+    let row = |(entry, advice): (&Entry, &str)| {
+        let (value, unit_word) = value_and_unit(&entry.quantity);
+        let number = match entry.quantity.why() {
+            Some(why) => format!("none: {why}"),
+            None => unit::with_signs(&value, &unit_word),
+        };
+        let place = entry.quantity.place().map_or_else(|| "–".to_owned(), Place::words_with_signs);
+        vec![entry.title.clone(), number, place, unit::sentence_with_signs(advice)]
+    };
+    PageTable {
+        caption: caption.to_owned(),
+        columns: ["Question", "Answer", "Where", "What to change"].map(str::to_owned).into(),
+        rows: answers(section).map(row).collect(),
+    }
+}

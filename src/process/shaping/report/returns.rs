@@ -1,0 +1,63 @@
+//! The return strokes on the page: what was known of them before cutting.
+
+use crate::findings::{Findings, Section};
+use crate::output::line_chart::{LineChart, Panel};
+use crate::output::report::{Block, PageSection};
+use crate::process::shaping::ShapingJob;
+use crate::process::shaping::findings::answers;
+use crate::steps::axes::charts::panel;
+
+/// The section; none where the cutter is not drawn back.
+pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
+    let operations = found.parts("operations");
+    let returns: Vec<(&str, &Section)> =
+        operations.iter().filter_map(|of| Some((of.key.as_str(), of.find("return_strokes")?))).collect();
+    let direction = returns.first()?.1.words("direction").to_owned();
+    let blocks = returns.iter().flat_map(|&(name, section)| {
+        let answers = Block::Table(answers::table(section, &format!("Return strokes of {name}")));
+        std::iter::once(answers).chain(chart(job, name, section).map(Block::Lines))
+    });
+    Some(PageSection {
+        id: "returns",
+        title: "Return strokes".to_owned(),
+        lead: format!(
+            "For the return stroke the cutter is drawn back {direction}. What was known before cutting, of ideal work \
+             and cutter; what the strokes of this run met is in results.json, under blank."
+        ),
+        blocks: blocks.collect(),
+    })
+}
+
+/// Over one period of the pitch curve.
+fn chart(job: &ShapingJob, name: &str, section: &Section) -> Option<LineChart> {
+    let table = section.table_of("places")?;
+    let curve = |key: &str| {
+        let value = |value: Option<f64>| value.unwrap_or(f64::NAN);
+        table.numbers("phi").map(value).zip(table.numbers(key).map(value)).collect::<Vec<_>>()
+    };
+    let pressure_deg = job.scene.gear.pressure_angle_rad.to_degrees();
+    Some(LineChart {
+        title: format!("{name} of {}: return strokes over one period of the pitch curve", job.scene.name),
+        x_name: "polar angle φ".to_owned(),
+        x_unit: "°".to_owned(),
+        panels: vec![
+            panel(
+                ["retraction angle", "°"],
+                vec![("normal to line of centres, positive where the radius grows", curve("retraction_angle"))],
+                [("pressure angle", pressure_deg), ("pressure angle", -pressure_deg)],
+            ),
+            no_finer_than_um(panel(
+                ["clearance from the teeth", "µm"],
+                vec![("nearest edge", curve("clearance"))],
+                [("rubs below", 0.0)],
+            )),
+            no_finer_than_um(panel(["depth in stock", "µm"], vec![("deepest edge", curve("depth_in_stock"))], [])),
+        ],
+    })
+}
+
+/// A panel whose ticks stand a micrometre apart at least: on a circle the room repeats from place to place, and its
+/// last nanometres are the survey's own.
+fn no_finer_than_um(panel: Panel) -> Panel {
+    Panel { least_division: 1.0, ..panel }
+}
