@@ -8,6 +8,7 @@ use super::charts::{self, NamedLines};
 use super::options::PairOptions;
 use super::rolled::RolledPair;
 use super::teeth::ToothContact;
+use super::view;
 use crate::findings::{Entry, Findings, Place, Quantity, Section, unit};
 use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
@@ -32,6 +33,7 @@ pub fn page(
     lines: &[NamedLines],
     pictures: PagePictures,
 ) -> Page {
+    let viewer = view::viewer(rolled, options.marking_um);
     let chart = |name: &str| {
         let found = lines.iter().find(|(own, _)| *own == name);
         found.map(|(_, chart)| Block::Lines(chart.clone()))
@@ -124,7 +126,7 @@ pub fn page(
         program: format!("gearcut {}", found.program_version),
         key_numbers: found.headline.iter().map(key_number).collect(),
         warnings: found.all_warnings().iter().map(|text| unit::sentence_with_signs(text)).collect(),
-        viewer: None,
+        viewer,
         sections: sections.into_iter().map(|section| with_marking(section, options)).collect(),
     }
 }
@@ -142,7 +144,8 @@ fn quantities(section: &Section) -> PageTable {
     let rows = section.entries.iter().map(|entry| {
         let (value, unit) = value_and_unit(&entry.quantity);
         let what = entry.quantity.why().unwrap_or(entry.quantity.definition());
-        vec![entry.heading(), format!("{value} {unit}").trim().to_owned(), place(&entry.quantity), what.to_owned()]
+        let [name, what] = [entry.heading().as_str(), what].map(unit::sentence_with_signs);
+        vec![name, format!("{value} {unit}").trim().to_owned(), place(&entry.quantity), what]
     });
     PageTable {
         caption: section.title.clone(),
@@ -155,10 +158,10 @@ fn quantities(section: &Section) -> PageTable {
 fn key_number(entry: &Entry) -> KeyNumber {
     let (value, unit) = value_and_unit(&entry.quantity);
     KeyNumber {
-        name: entry.heading(),
+        name: unit::sentence_with_signs(&entry.heading()),
         value,
         unit,
-        definition: entry.quantity.definition().to_owned(),
+        definition: unit::sentence_with_signs(entry.quantity.definition()),
         note: entry.quantity.why().map_or_else(|| place(&entry.quantity), str::to_owned),
         place: None,
     }
@@ -168,6 +171,8 @@ fn key_number(entry: &Entry) -> KeyNumber {
 fn value_and_unit(quantity: &Quantity) -> (String, String) {
     let value = match (quantity.value(), quantity.words()) {
         (Some(count), _) if quantity.is_count() => plain(count),
+        // Sizes and distances of axes to the micrometre.
+        (Some(value), _) if quantity.unit() == Some("mm") => plain((value * 1e3).round() / 1e3).replace('-', "−"),
         (Some(value), _) => significant(value, 4).replace('-', "−"),
         (None, words) => words.unwrap_or("–").to_owned(),
     };
