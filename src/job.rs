@@ -1,6 +1,6 @@
 //! What meshes, pictures, maps and texture ask of a job, whatever its process.
 //!
-//! In: a prepared job. Out: points and normals of the target in space, and surfaces of flanks after all operations
+//! In: a prepared job. Out: points and normals of the target in space, and what every operation left on a flank
 //! ([`GearJob`]); nothing behind this interface knows a tool or a process. What only a cylindrical gear has, a pitch
 //! curve and transverse sections, is a trait of its own ([`CylindricalGear`]): its closed body and the page's mesh of
 //! its target rest on that, and a process whose gear has neither makes these two itself.
@@ -86,13 +86,6 @@ pub trait GearJob: Sync {
         arcs_mm: &[f64],
         rows_mm: &[f64],
     ) -> Result<Vec<Layer>>;
-
-    /// Surface of a flank after all operations with all the dexels of the scene's spacing, no further than `reach_mm`
-    /// from the middle of the face.
-    ///
-    /// # Errors
-    /// The tool generates no flank there; the backend's.
-    fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid>;
 
     /// The same job as one of a cylindrical gear, if it is one.
     fn cylindrical(&self) -> Option<&dyn CylindricalGear>;
@@ -212,12 +205,4 @@ pub fn teeth_of_extreme_radius(curve: &PitchCurve, teeth: u32) -> Vec<u32> {
 pub fn rows_z_mm(width_mm: f64, spacing_mm: f64) -> Vec<f64> {
     let intervals = (width_mm / spacing_mm).round().max(1.0) as usize;
     (0..=intervals).map(|i| width_mm * (i as f64 / intervals as f64 - 0.5)).collect()
-}
-
-/// Rows of `rows_z_mm` nearer to the middle of the face than `reach_mm`, and one at either side of that band.
-pub fn band_mm(mut rows_z_mm: Vec<f64>, reach_mm: f64) -> Vec<f64> {
-    rows_z_mm.retain(|z_mm| z_mm.abs() < reach_mm);
-    rows_z_mm.insert(0, -reach_mm);
-    rows_z_mm.push(reach_mm);
-    rows_z_mm
 }

@@ -61,8 +61,8 @@
 //! ```
 //!
 //! Three worked programs: `examples/flank_heights.rs` cuts one flank and plots its heights,
-//! `examples/roughness_against_feed.rs` sweeps a parameter, and `examples/read_x3p.rs` of `gearcut-texture` evaluates a
-//! measured surface.
+//! `examples/scallops_against_strokes.rs` sweeps a parameter, and `examples/read_x3p.rs` of `gearcut-texture`
+//! evaluates a measured surface.
 //!
 //! # Modules
 //!

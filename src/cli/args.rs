@@ -119,6 +119,19 @@ pub enum Command {
         Writes a folder (out/<A>_with_<B> unless --out is given): results.json, tables/rolling.csv with a row for\n\
         every position, tables/contact_by_tooth.csv, harmonics, double-flank rolling. See docs/pair.md.")]
     Pair(PairArguments),
+    /// Bring a bevel gear and its pinion into contact without load: motion error, contact path and ellipses.
+    #[command(after_help = "Example:\n  \
+        gearcut contact scenes/bevel/crown_gear.toml scenes/bevel/crown_pinion.toml\n  \
+        gearcut contact scenes/bevel/crown_gear.toml scenes/bevel/crown_pinion.toml --e-um 50 --g-um -30\n\n\
+        The flanks that the heads' cones generate touch; marks of blades are left out. Both scenes have a face-mill\n\
+        head, one module and opposite hands of spiral; the shaft angle is the sum of their pitch angles.\n\n\
+        Errors of the mounting have Gleason's letters: E offset of the pinion's axis, P pinion and G gear away from\n\
+        the apex, Sigma shaft angle. Beside the mounting asked for, 50 um and 0.05 deg of each are tried in both\n\
+        directions: how far the contact moves, and what the motion error becomes.\n\n\
+        Writes a folder (out/<GEAR>_with_<PINION> unless --out is given): report.html, results.json,\n\
+        tables/contact_*.csv, tables/trends_*.csv, pictures/motion_error.svg, pictures/bearing_*.svg.\n\
+        See docs/bevel.md.")]
+    Contact(ContactArguments),
 }
 
 /// A scene and what is changed in it.
@@ -279,6 +292,42 @@ pub struct MateArguments {
     /// File to write [default: standard output].
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+}
+
+/// Arguments of `contact`.
+#[derive(Debug, Args)]
+pub struct ContactArguments {
+    /// The gear: a scene with a face-mill head.
+    pub gear: PathBuf,
+    /// The pinion that runs with it.
+    pub pinion: PathBuf,
+    /// Put another value into the gear's scene; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set_gear: Vec<String>,
+    /// Put another value into the pinion's scene; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set_pinion: Vec<String>,
+    /// Offset of the pinion's axis (E).
+    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub e_um: f64,
+    /// Pinion along its axis, away from the apex (P).
+    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub p_um: f64,
+    /// Gear along its axis, away from the apex (G).
+    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub g_um: f64,
+    /// Error of the shaft angle (Sigma).
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub sigma_deg: f64,
+    /// Thickness of the marking compound of contact ellipses.
+    #[arg(long, value_name = "UM", default_value_t = 6.35)]
+    pub marking_um: f64,
+    /// Folder to write [default: out/<GEAR>_with_<PINION>].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print results.json instead of the summary.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Arguments of `pair`.

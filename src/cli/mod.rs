@@ -6,6 +6,7 @@ pub mod args;
 mod axes;
 mod check;
 mod compare;
+mod contact;
 mod cut;
 mod devices;
 mod drivers;
@@ -37,6 +38,7 @@ pub fn run(arguments: CommandLine) -> ExitCode {
         Command::New(arguments) => new::run(&arguments),
         Command::Mate(arguments) => mate::run(&arguments),
         Command::Pair(arguments) => pair::run(&arguments),
+        Command::Contact(arguments) => contact::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

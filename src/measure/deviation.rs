@@ -2,8 +2,10 @@
 //!
 //! Profile and lead: normal deviations over a stated range of a line: total deviation F_alpha or F_beta (range), slope
 //! deviation f_H (the mean line's rise over the range) and form deviation f_f (range about the mean line). Pitch:
-//! places where the flanks cross the pitch curve, as arcs of that curve, against one pitch pi m each: single f_p and
-//! cumulative F_p. No tolerance class is given: the standard's classes are for round gears.
+//! places where the flanks cross the pitch curve, as arcs of that curve, against its mean pitch, its length over the
+//! number of teeth (ISO 1328-1:2013, 4.2): single f_p and cumulative F_p. So single deviations add up to zero over the
+//! turn, and F_p is never below f_p. Road not taken: pi m as the pitch. A curve that closes a hair short of z pi m then
+//! charges all of that to the first tooth. No tolerance class is given: the standard's classes are for round gears.
 
 use super::crossing::Crossing;
 use gearcut_core::dexel::{Field, Layer, NO_PASS};
@@ -119,15 +121,16 @@ impl PitchDeviations {
     }
 }
 
-/// Pitch deviations from the crossings of all flanks of one side in order of teeth; `perimeter_mm` closes the turn.
+/// Pitch deviations from the crossings of all flanks of one side in order of teeth, on a pitch curve of this length.
 /// `None` if one is missing.
-pub fn pitch(crossings: &[Option<Crossing>], pitch_mm: f64, perimeter_mm: f64) -> Option<PitchDeviations> {
+pub fn pitch(crossings: &[Option<Crossing>], perimeter_mm: f64) -> Option<PitchDeviations> {
     let arcs: Vec<f64> = crossings.iter().map(|c| c.map(|c| c.arc_mm)).collect::<Option<_>>()?;
     let first = *arcs.first()?;
+    let mean_mm = perimeter_mm / arcs.len() as f64;
     let previous = |i: usize| if i == 0 { arcs[arcs.len() - 1] - perimeter_mm } else { arcs[i - 1] };
     Some(PitchDeviations {
-        single_mm: (0..arcs.len()).map(|i| arcs[i] - previous(i) - pitch_mm).collect(),
-        cumulative_mm: arcs.iter().enumerate().map(|(i, arc)| arc - first - pitch_mm * i as f64).collect(),
+        single_mm: (0..arcs.len()).map(|i| arcs[i] - previous(i) - mean_mm).collect(),
+        cumulative_mm: arcs.iter().enumerate().map(|(i, arc)| arc - first - mean_mm * i as f64).collect(),
     })
 }
 
@@ -184,6 +187,7 @@ pub fn runout(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec2;
 
     /// A parabola over a slope has its figures in closed form.
     #[test]
@@ -202,5 +206,24 @@ mod tests {
         holed.heights_mm[700] = f64::NAN;
         assert_eq!(holed.deviation([-1.0, 1.0]), None);
         assert!(holed.deviation([0.0, 1.0]).is_some(), "the hole is outside");
+    }
+    /// Flanks in their places but for the third, on a curve that is 0.06 um short of its teeth's nominal pitches.
+    #[test]
+    fn pitch_deviations_close_over_the_turn() {
+        let (teeth, pitch_mm, off_mm) = (42, 3.0 * std::f64::consts::PI, 0.004);
+        let perimeter_mm = f64::from(teeth) * pitch_mm - 6e-5;
+        let at =
+            |tooth: u32| f64::from(tooth) / f64::from(teeth) * perimeter_mm + if tooth == 2 { off_mm } else { 0.0 };
+        let crossing = |tooth| Some(Crossing { point_mm: DVec2::ZERO, phi_rad: 0.0, arc_mm: at(tooth) });
+        let mut crossings: Vec<_> = (0..teeth).map(crossing).collect();
+        let found = pitch(&crossings, perimeter_mm).expect("all teeth");
+        assert!(found.single_mm.iter().sum::<f64>().abs() < 1e-10);
+        for (tooth, expected_mm) in [(0, 0.0), (2, off_mm), (3, -off_mm), (41, 0.0)] {
+            assert!((found.single_mm[tooth] - expected_mm).abs() < 1e-10, "tooth {tooth}: {:?}", found.single_mm);
+        }
+        assert!((found.total_mm() - off_mm).abs() < 1e-10);
+        assert!(found.total_mm() >= found.largest_single_mm() - 1e-10);
+        crossings[7] = None;
+        assert_eq!(pitch(&crossings, perimeter_mm), None);
     }
 }

@@ -46,16 +46,11 @@ pub struct GearInspection {
 }
 
 impl GearInspection {
-    /// From where left and right flanks, in order of teeth, cross the pitch curve; `pitch_mm` is its arc from tooth to
-    /// tooth, `pressure_angle_rad` that of the transverse section.
-    pub fn of_crossings(
-        blank: &Blank,
-        [left, right]: [&[Option<Crossing>]; 2],
-        pitch_mm: f64,
-        pressure_angle_rad: f64,
-    ) -> Self {
+    /// From where left and right flanks, in order of teeth, cross the pitch curve; `pressure_angle_rad` is that of the
+    /// transverse section.
+    pub fn of_crossings(blank: &Blank, [left, right]: [&[Option<Crossing>]; 2], pressure_angle_rad: f64) -> Self {
         Self {
-            pitch: [left, right].map(|side| deviation::pitch(side, pitch_mm, blank.curve().perimeter_mm())),
+            pitch: [left, right].map(|side| deviation::pitch(side, blank.curve().perimeter_mm())),
             runout: deviation::runout(blank, left, right, pressure_angle_rad),
             thickness: left
                 .iter()

@@ -9,12 +9,13 @@ use super::options::PairOptions;
 use super::rolled::RolledPair;
 use super::teeth::ToothContact;
 use super::view;
-use crate::findings::{Entry, Findings, Place, Quantity, Section, unit};
+use crate::findings::{Findings, unit};
 use crate::output::range_chart::{RangeChart, RangeSeries};
-use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
-use crate::output::text::{plain, significant};
+use crate::output::report::{Block, Page, PageSection};
+use crate::output::text::plain;
 use crate::scene::Scene;
 use crate::steps::report::facts::gear_words;
+use crate::steps::report::quantities;
 
 /// Pictures as they stand on the page: what is shown, and the PNG.
 pub struct PagePictures {
@@ -44,7 +45,7 @@ pub fn page(
         lead: lead.to_owned(),
         blocks,
     };
-    let table = |path: &str| found.find(path).map(|section| Block::Table(quantities(section)));
+    let table = |path: &str| found.find(path).map(|section| Block::Table(quantities::table(section)));
     let part = |blocks: Vec<Option<Block>>| blocks.into_iter().flatten().collect::<Vec<_>>();
     let rolling =
         Block::Picture("The gears in mesh, first pitches; contacts are marked".to_owned(), pictures.animation);
@@ -124,7 +125,7 @@ pub fn page(
         complete: true,
         done: "rolled over a whole period",
         program: format!("gearcut {}", found.program_version),
-        key_numbers: found.headline.iter().map(key_number).collect(),
+        key_numbers: found.headline.iter().map(quantities::key_number).collect(),
         warnings: found.all_warnings().iter().map(|text| unit::sentence_with_signs(text)).collect(),
         viewer,
         sections: sections.into_iter().map(|section| with_marking(section, options)).collect(),
@@ -137,50 +138,6 @@ fn with_marking(mut section: PageSection, options: &PairOptions) -> PageSection 
         section.lead = format!("{} Marking: {} µm.", section.lead, plain(options.marking_um));
     }
     section
-}
-
-/// The quantities of a section as a table.
-fn quantities(section: &Section) -> PageTable {
-    let rows = section.entries.iter().map(|entry| {
-        let (value, unit) = value_and_unit(&entry.quantity);
-        let what = entry.quantity.why().unwrap_or(entry.quantity.definition());
-        let [name, what] = [entry.heading().as_str(), what].map(unit::sentence_with_signs);
-        vec![name, format!("{value} {unit}").trim().to_owned(), place(&entry.quantity), what]
-    });
-    PageTable {
-        caption: section.title.clone(),
-        columns: ["", "Value", "At", "What it is"].map(str::to_owned).into(),
-        rows: rows.collect(),
-    }
-}
-
-/// A number of the headline.
-fn key_number(entry: &Entry) -> KeyNumber {
-    let (value, unit) = value_and_unit(&entry.quantity);
-    KeyNumber {
-        name: unit::sentence_with_signs(&entry.heading()),
-        value,
-        unit,
-        definition: unit::sentence_with_signs(entry.quantity.definition()),
-        note: entry.quantity.why().map_or_else(|| place(&entry.quantity), str::to_owned),
-        place: None,
-    }
-}
-
-/// Number or words, and the unit in the signs of a page: ratios stay ratios, and signs stay with deviations.
-fn value_and_unit(quantity: &Quantity) -> (String, String) {
-    let value = match (quantity.value(), quantity.words()) {
-        (Some(count), _) if quantity.is_count() => plain(count),
-        // Sizes and distances of axes to the micrometre.
-        (Some(value), _) if quantity.unit() == Some("mm") => plain((value * 1e3).round() / 1e3).replace('-', "−"),
-        (Some(value), _) => significant(value, 4).replace('-', "−"),
-        (None, words) => words.unwrap_or("–").to_owned(),
-    };
-    (value, quantity.unit().map_or_else(String::new, |unit| unit::signs(unit).replace("arcsec", "″")))
-}
-
-fn place(quantity: &Quantity) -> String {
-    quantity.place().map_or_else(String::new, Place::words_with_signs)
 }
 
 /// Where contact begins and ends on the teeth of A.

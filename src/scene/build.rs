@@ -10,8 +10,8 @@ use super::model::{
 };
 use super::process::SceneProcess;
 use super::values::{Values, View};
-use gearcut_core::gear::{Driver, GearKind, PitchCurveShape};
-use gearcut_core::terms::Side;
+use gearcut_core::gear::{Driver, GearKind, PitchCurveShape, TableScaling};
+use gearcut_core::terms::{Hand, Side};
 use gearcut_texture::Form;
 
 /// The scene called `name`; `base_dir` holds the files it refers to.
@@ -70,8 +70,9 @@ fn gear(values: &Values) -> Option<Gear> {
         module_mm: gear.number("module_mm")?,
         teeth: gear.whole("teeth")?,
         pressure_angle_rad: gear.rad("pressure_angle_deg")?,
-        helix_angle_rad: gear.rad("helix_angle_deg")?,
-        hand: gear.hand("hand")?,
+        // Only processes that cut helical gears know these two.
+        helix_angle_rad: gear.rad("helix_angle_deg").unwrap_or(0.0),
+        hand: gear.hand("hand").unwrap_or(Hand::Right),
         face_width_mm: gear.number("face_width_mm")?,
         addendum_coefficient: gear.number("addendum_coefficient")?,
         bore_diameter_mm: gear.number("bore_diameter_mm")?,
@@ -113,7 +114,11 @@ fn pitch_curve(values: &Values, choice: &str, kind: GearKind) -> Option<PitchCur
         },
         "table" => PitchCurveShape::Table {
             points_rad_mm: curve.points("points_deg_mm")?.iter().map(|&[deg, mm]| [deg.to_radians(), mm]).collect(),
-            scale_to_close: curve.boolean("scale_to_close")?,
+            scaling: match curve.boolean("scale_to_close") {
+                None => TableScaling::Small,
+                Some(true) => TableScaling::Any,
+                Some(false) => TableScaling::AsGiven,
+            },
         },
         "mate" => {
             let driver = Driver {

@@ -2,11 +2,14 @@
 
 use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Gear;
-use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape};
+use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape, TableScaling};
 use gearcut_core::units::UM_PER_MM;
 
 /// A closure error above this (in modules) is worth a warning: single pitch deviations of good gears are of this size.
 const NOTABLE_CLOSURE_MODULES: f64 = 1e-3;
+
+/// Radii scaled by more than this share are worth a warning: no rounding of points explains it.
+const NOTABLE_SCALING: f64 = 1e-3;
 
 /// `rolling_radius_mm`: pitch radius of a cutter that has to roll in hollows.
 pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_mm: Option<f64>) {
@@ -16,6 +19,9 @@ pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_
     let (name, given) = size_words(&gear.pitch_curve);
     let origin = if given { "given" } else { "solved so that the curve closes" };
     sheet.line(name, format!("{:.6} mm, {origin}", curve.size_mm()));
+    if let Some(factor) = curve.scaling() {
+        sheet.line("scaling", format!("radii of the points times {factor:.6}"));
+    }
     sheet.line("radius", format!("{:.3} to {:.3} mm", facts.smallest_radius_mm, facts.largest_radius_mm));
     let wanted_mm = std::f64::consts::PI * gear.transverse_module_mm() * f64::from(gear.teeth);
     let error_um = UM_PER_MM * curve.closure_error_mm();
@@ -82,7 +88,16 @@ pub fn warnings(curve: &PitchCurve, gear: &Gear) -> Vec<String> {
             gear.teeth
         )
     };
-    notable.then(text).into_iter().collect()
+    let asked = matches!(gear.pitch_curve, PitchCurveShape::Table { scaling: TableScaling::Any, .. });
+    let scaled = curve.scaling().filter(|factor| !asked && (factor - 1.0).abs() > NOTABLE_SCALING);
+    let scaled = scaled.map(|factor| {
+        format!(
+            "radii of the points are multiplied by {factor:.6} to close on {} teeth: correct them, or write \
+             scale_to_close = true",
+            gear.teeth
+        )
+    });
+    notable.then(text).into_iter().chain(scaled).collect()
 }
 
 /// What the size of a shape is called, and whether the scene gives it.
@@ -96,7 +111,7 @@ fn size_words(shape: &PitchCurveShape) -> (&'static str, bool) {
         PitchCurveShape::Pascal { mean_radius_mm, .. } | PitchCurveShape::Fourier { mean_radius_mm, .. } => {
             ("mean radius", mean_radius_mm.is_some())
         }
-        PitchCurveShape::Table { scale_to_close, .. } => ("mean radius of the points", !scale_to_close),
+        PitchCurveShape::Table { scaling, .. } => ("mean radius", *scaling == TableScaling::AsGiven),
         PitchCurveShape::Mate { .. } => ("centre distance of the pair", false),
     }
 }

@@ -1,11 +1,12 @@
 //! All flanks of a gear, cut and measured in parallel, each written and thinned out as soon as it is done.
 //!
-//! In: the job; how the process cuts and measures one flank. Out: [`CutFlanks`]: reports, and maps and surfaces at
-//! their own spacings. The dexels themselves are dropped flank by flank: of a gear they would fill the memory.
+//! In: the job; how the process cuts and measures one flank. Out: [`CutFlanks`]: reports, maps and surfaces at
+//! their own spacings, and what pictures show. The dexels themselves are dropped flank by flank: of a gear they would fill the memory.
 
 use super::gear_maps::GearMaps;
 use super::parts::{Part, Parts};
-use super::{FlankFiles, Work, all_flanks, flanks_of, map_operations, meshes, needs_maps, needs_surfaces};
+use super::pictures::flank::PicturedFlanks;
+use super::{FlankFiles, Work, all_flanks, flanks_of, map_operations, meshes, needs_maps, needs_surfaces, pictures};
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::measure::last_chips::LastChips;
@@ -40,6 +41,8 @@ pub struct CutFlanks<R> {
     pub maps: GearMaps,
     /// Their surfaces at mesh spacing; empty where nothing that is written needs them.
     pub surfaces: Vec<SurfaceGrid>,
+    /// What pictures of single flanks show.
+    pub pictured: PicturedFlanks,
     /// How much work it was.
     pub work: Work,
 }
@@ -49,6 +52,7 @@ struct Kept<R> {
     report: R,
     maps: Option<FlankMaps>,
     surface: Option<SurfaceGrid>,
+    pictured: PicturedFlanks,
     stats: CutStats,
     dexels: u64,
 }
@@ -85,6 +89,7 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
             maps
         });
         let surface = needs_surfaces(job, parts).then(|| SurfaceGrid::new(&rays, &layers, output.mesh_spacing_mm));
+        let pictured = pictures::flank::shown(job, (tooth, side), parts, &rays, &layers)?;
         if let Some((folder, notes, _)) = folder {
             if let Some(maps) = maps.as_ref().filter(|_| parts.has(Part::Maps)) {
                 maps.write(folder, &operations, notes)?;
@@ -95,18 +100,20 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
         }
         step.advance(1);
         let dexels = layers.iter().map(|layer| layer.heights_mm.len() as u64).sum();
-        Ok(Some(Kept { report, maps, surface, stats, dexels }))
+        Ok(Some(Kept { report, maps, surface, pictured, stats, dexels }))
     })?;
     step.finish();
     let interrupted = finished.iter().any(Option::is_none);
     let mut work = Work { stats: CutStats::default(), dexels: 0, elapsed: started.elapsed(), interrupted };
     let (mut reports, mut maps, mut surfaces) = (Vec::new(), Vec::new(), Vec::new());
+    let mut pictured = PicturedFlanks::new();
     for flank in finished.into_iter().flatten() {
         reports.push(flank.report);
         maps.extend(flank.maps);
         surfaces.extend(flank.surface);
+        pictured.extend(flank.pictured);
         work.stats += flank.stats;
         work.dexels += flank.dexels;
     }
-    Ok(CutFlanks { reports, maps: GearMaps::new(maps), surfaces, work })
+    Ok(CutFlanks { reports, maps: GearMaps::new(maps), surfaces, pictured, work })
 }

@@ -33,6 +33,7 @@ use gearcut_core::cut::{Backend, CutStats};
 use gearcut_core::error::{Error, Result};
 use gearcut_core::terms::Side;
 use parts::{Part, Parts};
+use pictures::flank::PicturedFlanks;
 use rayon::prelude::*;
 use std::sync::Mutex;
 use std::time::Duration;
@@ -49,6 +50,30 @@ pub struct Work {
     /// Stopped by the user before all flanks were done.
     pub interrupted: bool,
 }
+
+impl Work {
+    /// What a reader of the results must know of how flanks were cut: `untouched` dexels were reached by no pass, and
+    /// `why` says so for the process.
+    pub fn warnings(&self, untouched: u64, why: &str) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if untouched > 0 {
+            warnings.push(format!("{untouched} dexels were reached by no pass: {why}"));
+        }
+        let unconverged = self.stats.unconverged;
+        if unconverged > 0 {
+            warnings.push(format!(
+                "{unconverged} rays did not converge: their heights may be too large; please report the scene"
+            ));
+        }
+        if self.interrupted {
+            warnings.push("stopped by Ctrl-C: figures cover the finished flanks only".to_owned());
+        }
+        warnings
+    }
+}
+
+/// What a run says where a gear has no closed body.
+pub const NO_BODY: &str = "mesh/gear.* and pictures of the gear and its teeth are left out";
 
 /// Where files of single flanks go, what stands in their heads, and which of them are written.
 pub type FlankFiles<'a> = (&'a OutputFolder, &'a [(String, String)], Parts);
@@ -155,41 +180,39 @@ pub fn write_report(tools: &Tools, page: impl FnOnce() -> Result<Page>) -> Resul
     Ok(())
 }
 
-/// Meshes of the whole gear and the scene's pictures of it; whether all pictures were drawn. `body` makes the gear's
-/// closed body: [`meshes::gear`] for a cylindrical one.
+/// Meshes of the whole gear and the scene's pictures; whether all pictures were drawn. `body` makes the gear's closed
+/// body, [`meshes::gear`] for a cylindrical one: `None`, with a note that says why, where it has none.
 ///
 /// # Errors
-/// Those of `body`, but for a refusal; the backend's, files.
+/// Those of `body`, but for a refusal; files.
 pub fn write_meshes_and_pictures(
     job: &dyn GearJob,
     tools: &Tools,
-    body: impl FnOnce() -> Result<Mesh>,
+    flanks: &PicturedFlanks,
+    body: impl FnOnce() -> Result<Option<Mesh>>,
 ) -> Result<bool> {
-    let Tools { backend, progress, interrupt, folder, parts, notes, .. } = *tools;
+    let Tools { progress, folder, parts, notes, .. } = *tools;
     let asked = if parts.has(Part::Pictures) { job.scene().pictures.len() } else { 0 };
     if asked == 0 && !parts.has(Part::Meshes) {
         return Ok(true);
     }
-    match body() {
-        Ok(solid) => {
-            if parts.has(Part::Meshes) {
-                meshes::write_gear(job, &solid, folder, notes, progress)?;
-            }
-            if asked == 0 {
-                return Ok(true);
-            }
-            let drawn = pictures::draw(job, backend, &solid, progress, interrupt, folder, notes)?;
-            if drawn < asked {
-                progress.note(&format!("stopped: {drawn} of {asked} pictures are drawn"));
-            }
-            Ok(drawn == asked)
-        }
+    let solid = match body() {
         // What was cut and measured is not lost for a mesh.
         Err(Error::Refused(refusal)) => {
-            progress
-                .note(&format!("mesh/gear.* and its pictures are left out; mesh/blank.ply shows the gear. {refusal}"));
-            Ok(true)
+            progress.note(&format!("{NO_BODY}; mesh/blank.ply shows the gear. {refusal}"));
+            None
         }
-        Err(error) => Err(error),
+        other => other?,
+    };
+    if let Some(solid) = solid.as_ref().filter(|_| parts.has(Part::Meshes)) {
+        meshes::write_gear(job, solid, folder, notes, progress)?;
     }
+    if asked == 0 {
+        return Ok(true);
+    }
+    let drawn = pictures::draw(job, solid.as_ref(), flanks, tools)?;
+    if drawn < asked {
+        progress.note(&format!("stopped: {drawn} of {asked} pictures are drawn"));
+    }
+    Ok(drawn == asked)
 }

@@ -13,6 +13,7 @@ use super::mesh::{Mesh, MeshPart, Scalar, ScalarValues};
 use gearcut_core::dexel::{Layer, NO_PASS, RayGrid};
 use gearcut_core::units::UM_PER_MM;
 use glam::{DVec2, DVec3};
+use std::ops::Range;
 
 /// Rows are left out where straight lines between the others miss no height by more than this, mm: a tenth of a
 /// micrometre, below any machine's accuracy.
@@ -47,11 +48,20 @@ impl SurfaceGrid {
     /// # Panics
     /// No layer or no dexel.
     pub fn new(field: &impl RayGrid, layers: &[Layer], spacing_mm: f64) -> Self {
+        Self::of_rows(field, layers, 0..field.rows_mm().len(), spacing_mm)
+    }
+
+    /// [`SurfaceGrid::new`] of some of the rows.
+    ///
+    /// # Panics
+    /// No layer or no dexel.
+    pub fn of_rows(field: &impl RayGrid, layers: &[Layer], among: Range<usize>, spacing_mm: f64) -> Self {
         let last = layers.last().expect("a job has at least one operation");
         let before = layers.len().checked_sub(2).map(|i| &layers[i]);
         let (arcs_mm, rows_mm) = (field.arcs_mm(), field.rows_mm());
         let columns = spaced(&arcs_mm, spacing_mm);
-        let mut rows = spaced(rows_mm, spacing_mm);
+        let first = among.start;
+        let mut rows: Vec<usize> = spaced(&rows_mm[among], spacing_mm).into_iter().map(|row| first + row).collect();
         let all = rows_mm.len();
         if field.is_straight() {
             rows = straight_rows(rows_mm, &rows, |from, to, visit| {

@@ -2,7 +2,7 @@
 
 use crate::fixtures::paper::{NORMAL, TRADITIONAL, operation, paper_scene};
 use gearcut::cut::cpu::Cpu;
-use gearcut::gear::PitchCurveShape;
+use gearcut::gear::{PitchCurveShape, TableScaling};
 use gearcut::measure::scallop::cusps;
 use gearcut::measure::topography::Form;
 use gearcut::process::shaping::ShapingJob;
@@ -116,7 +116,7 @@ fn cusps_on_an_ellipse_are_as_high_as_brute_force_says() {
     let turn = (b * t.sin()).atan2(a * t.cos());
     let points_rad_mm =
         (0..2880).map(|i| std::f64::consts::TAU * f64::from(i) / 2880.0).map(|phi| [phi, radius(phi - turn)]).collect();
-    let shape = PitchCurveShape::Table { points_rad_mm, scale_to_close: true };
+    let shape = PitchCurveShape::Table { points_rad_mm, scaling: TableScaling::Any };
     let scene = finishing_scene(pitch_mm / std::f64::consts::PI, teeth, 27, shape, 0.35);
     let job = ShapingJob::new(scene).expect("a job");
     assert!((job.curve.perimeter_mm() - perimeter_mm).abs() < 1e-4, "{}", job.curve.perimeter_mm());

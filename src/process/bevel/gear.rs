@@ -6,6 +6,7 @@ use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use crate::steps::cut_flanks::{CutFlank, cut_flanks};
 use crate::steps::gear_maps::GearMaps;
+use crate::steps::pictures::flank::PicturedFlanks;
 use crate::steps::{FlankFiles, Work};
 use crate::surface::SurfaceGrid;
 use gearcut_core::cut::Backend;
@@ -23,6 +24,8 @@ pub struct BevelGear {
     pub maps: GearMaps,
     /// Their surfaces at mesh spacing; empty where nothing that is written needs them.
     pub surfaces: Vec<SurfaceGrid>,
+    /// What pictures of single flanks show.
+    pub pictured: PicturedFlanks,
     /// How much work it was.
     pub work: Work,
 }
@@ -54,5 +57,12 @@ pub fn cut_gear(
         (Some(before), Some(after)) => measure::slot(job, backend, [before, after])?,
         _ => Vec::new(),
     };
-    Ok(BevelGear { slot, flanks: cut.reports, maps: cut.maps, surfaces: cut.surfaces, work: cut.work })
+    Ok(BevelGear {
+        slot,
+        flanks: cut.reports,
+        maps: cut.maps,
+        surfaces: cut.surfaces,
+        pictured: cut.pictured,
+        work: cut.work,
+    })
 }

@@ -37,11 +37,11 @@ const TIP_WIDTH: f64 = 0.7;
 const BLADE_HEIGHT: f64 = 1.5;
 /// Rows and shares of the profile at which the needed roll is looked for; it is a smooth function of both.
 const ROLL_PLACES: usize = 9;
-/// Steps of the blades' angle at which the head is held against the blank, rad: half a millimetre on a head of 100 mm.
+/// Steps of the blades' angle at which the head is compared with the blank, rad: half a millimetre on a head of 100 mm.
 const WINDOW_STEP_RAD: f64 = 0.005;
 /// What the window is wider than the widest contact found, rad: the steps, and the roll between those looked at.
 const WINDOW_MARGIN_RAD: f64 = 0.03;
-/// Cradle angles at which the head is held against the blank.
+/// Cradle angles at which the head is compared with the blank.
 const WINDOW_ROLLS: u32 = 25;
 /// Settings off the blank's root angle by more than this are worth a word, rad.
 const ROOT_ANGLE_RAD: f64 = 0.01 * PI / 180.0;

@@ -12,6 +12,7 @@ pub mod job;
 pub mod measure;
 pub mod motion;
 pub mod operation;
+pub mod pair;
 mod report;
 mod run;
 pub mod scene;

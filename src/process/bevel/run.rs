@@ -1,7 +1,7 @@
 //! The order of a bevel run: flanks cut and measured, texture, and what is written about the gear.
 //!
 //! No rays go through the whole blank, and no closed body is made: sections of the blank take no blades that look along
-//! the head's axis. Flanks are written as meshes one by one.
+//! the head's axis. Flanks are written as meshes one by one, and pictures show them alone.
 
 use super::axes_report::BevelAxesReport;
 use super::findings;
@@ -13,7 +13,9 @@ use crate::output::table::write_tables;
 use crate::process::CutDone;
 use crate::steps::parts::Part;
 use crate::steps::report::RunWords;
-use crate::steps::{Tools, axes, sheets, stages, summary, write_programs, write_report};
+use crate::steps::{
+    NO_BODY, Tools, axes, sheets, stages, summary, write_meshes_and_pictures, write_programs, write_report,
+};
 use crate::texture;
 use gearcut_core::error::Result;
 
@@ -37,6 +39,13 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
     if parts.has(Part::Texture) {
         texture::write(job, &textures, folder, notes)?;
     }
+    let mut work = gear.work;
+    if !work.interrupted {
+        work.interrupted = !write_meshes_and_pictures(job, tools, &gear.pictured, || {
+            progress.note(&format!("{NO_BODY}: no closed body is made of a bevel gear"));
+            Ok(None)
+        })?;
+    }
     if parts.has(Part::Axes) {
         for operation in &motion {
             axes::write(operation, folder)?;
@@ -47,8 +56,8 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
         let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
         write_report(tools, || report::page(job, &gear, &found, &motion, &words, folder))?;
     }
-    let out = folder.results_path(!gear.work.interrupted);
+    let out = folder.results_path(!work.interrupted);
     let flanks = gear.flanks.len();
-    let summary = summary::text(&job.scene.gear, &found, flanks, &gear.work, &out, &backend.name());
-    Ok(CutDone { findings: found, summary, work: gear.work })
+    let summary = summary::text(&job.scene.gear, &found, flanks, &work, &out, &backend.name());
+    Ok(CutDone { findings: found, summary, work })
 }

@@ -5,9 +5,8 @@
 //! those of the middle of the face.
 
 use super::job::{BevelJob, index};
-use crate::job::{CylindricalGear, GearJob, ToothFrame, band_mm, rows_z_mm};
+use crate::job::{CylindricalGear, GearJob, ToothFrame, rows_z_mm};
 use crate::scene::Scene;
-use crate::surface::SurfaceGrid;
 use gearcut_core::bevel::face_mill::BladeKind;
 use gearcut_core::cut::{Backend, CutStats};
 use gearcut_core::dexel::{FreeRays, Layer, Ray, SpatialField};
@@ -203,12 +202,5 @@ impl GearJob for BevelJob {
     ) -> Result<Vec<Layer>> {
         let rays = self.rays_over(tooth, side, arcs_mm.to_vec(), rows_mm.to_vec())?;
         Ok(self.cut_field(backend, self.space_of(tooth, side), &rays.field)?.0)
-    }
-
-    fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid> {
-        let [arcs_mm, rows_mm] = self.places_mm(side);
-        let rays = self.rays_over(tooth, side, arcs_mm, band_mm(rows_mm, reach_mm))?;
-        let (layers, _) = self.cut_field(backend, self.space_of(tooth, side), &rays.field)?;
-        Ok(SurfaceGrid::new(&rays, &layers, self.scene.fields.profile_spacing_mm))
     }
 }

@@ -10,12 +10,12 @@ use crate::process::hobbing::measure::flank_report::{self, HobbedReport};
 use crate::process::hobbing::measure::offset_curves::{self, CurvePoint};
 use crate::steps::cut_flanks::{CutFlank, cut_flanks};
 use crate::steps::gear_maps::GearMaps;
+use crate::steps::pictures::flank::PicturedFlanks;
 use crate::steps::{FlankFiles, Work};
 use crate::surface::SurfaceGrid;
 use gearcut_core::cut::Backend;
 use gearcut_core::error::{Error, Result};
 use gearcut_core::terms::Side;
-use std::f64::consts::PI;
 
 /// A hobbed and measured gear.
 #[derive(Debug)]
@@ -30,6 +30,8 @@ pub struct HobbedGear {
     pub maps: GearMaps,
     /// Their surfaces at mesh spacing; empty where nothing that is written needs them.
     pub surfaces: Vec<SurfaceGrid>,
+    /// What pictures of single flanks show.
+    pub pictured: PicturedFlanks,
     /// Passes of every operation.
     pub passes: Vec<u32>,
     /// How much work it was.
@@ -72,6 +74,7 @@ pub fn cut_gear(
         points,
         maps: cut.maps,
         surfaces: cut.surfaces,
+        pictured: cut.pictured,
         passes: cutter.operations.iter().map(gearcut_core::passes::TurningPasses::count).collect(),
         work: cut.work,
     })
@@ -89,7 +92,6 @@ fn inspection(cutter: &HobCutter, flanks: &[HobbedReport], points: &[Vec<CurvePo
             .collect()
     };
     let [left, right] = [Side::Left, Side::Right].map(crossings);
-    let pitch_mm = PI * spec.transverse_module_mm();
     let pressure_angle_rad = spec.transverse_pressure_angle_rad();
-    GearInspection::of_crossings(&cutter.job.blank, [&left, &right], pitch_mm, pressure_angle_rad)
+    GearInspection::of_crossings(&cutter.job.blank, [&left, &right], pressure_angle_rad)
 }

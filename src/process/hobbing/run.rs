@@ -18,10 +18,9 @@ use crate::process::hobbing::{HobCutter, HobbingJob};
 use crate::steps::parts::Part;
 use crate::steps::report::RunWords;
 use crate::steps::{
-    Tools, axes, meshes, needs_surfaces, sheets, stages, summary, write_meshes_and_pictures, write_programs,
-    write_report,
+    NO_BODY, Tools, axes, meshes, sheets, stages, summary, write_meshes_and_pictures, write_programs, write_report,
 };
-use crate::surface::SurfaceGrid;
+use crate::surface::{Mesh, SurfaceGrid};
 use crate::texture;
 use gearcut_core::error::Result;
 use rayon::prelude::*;
@@ -81,19 +80,10 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     if parts.has(Part::Texture) {
         texture::write(&cutter, &textures, folder, notes)?;
     }
-    if !needs_surfaces(&cutter, parts) {
-        // Nothing of the whole gear is asked for.
-    } else if job.operations.iter().any(|operation| operation.linkage.law().is_as_printed()) {
-        progress.note(
-            "mesh/gear.* and pictures of the gear are left out: what the linkage as printed leaves has no \
-            flanks to join",
-        );
-    } else if !gear.work.interrupted {
+    if !gear.work.interrupted {
         let flanks = std::mem::take(&mut gear.surfaces);
-        let roots = cut_roots(&cutter, tools)?;
-        gear.work.interrupted = !write_meshes_and_pictures(&cutter, tools, || {
-            meshes::gear(&cutter, tools.backend, flanks, roots, progress)
-        })?;
+        let drawn = write_meshes_and_pictures(&cutter, tools, &gear.pictured, || body(&cutter, flanks, tools))?;
+        gear.work.interrupted = !drawn;
     }
     if parts.has(Part::Axes) {
         for operation in &motion {
@@ -110,6 +100,17 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     let flanks = gear.flanks.len();
     let summary = summary::text(&job.scene.gear, &found, flanks, &gear.work, &out, &backend.name());
     Ok(CutDone { findings: found, summary, work: gear.work })
+}
+
+/// The gear's closed body; nothing where the linkage as printed leaves no flanks to join.
+fn body(cutter: &HobCutter, flanks: Vec<SurfaceGrid>, tools: &Tools) -> Result<Option<Mesh>> {
+    let Tools { backend, progress, .. } = *tools;
+    if cutter.job.operations.iter().any(|operation| operation.linkage.law().is_as_printed()) {
+        progress.note(&format!("{NO_BODY}: what the linkage as printed leaves has no flanks to join"));
+        return Ok(None);
+    }
+    let roots = cut_roots(cutter, tools)?;
+    meshes::gear(cutter, backend, flanks, roots, progress).map(Some)
 }
 
 /// Surfaces of all roots, space by space. Meshes alone show them: hobbing measures nothing there.

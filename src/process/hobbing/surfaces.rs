@@ -7,7 +7,7 @@
 //! linkage as printed destroys flanks and tips alike: the run makes no closed body of it.
 
 use crate::job::{
-    CylindricalGear, GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, ToothFrame, band_mm, rows_z_mm,
+    CylindricalGear, GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, ToothFrame, rows_z_mm,
     teeth_of_extreme_radius,
 };
 use crate::process::hobbing::cutter::HobCutter;
@@ -89,13 +89,6 @@ impl GearJob for HobCutter<'_> {
     ) -> Result<Vec<Layer>> {
         let rays = self.rays_over(self.target(tooth, side)?, arcs_mm.to_vec(), rows_z_mm.to_vec());
         Ok(self.cut_field(backend, &rays.field)?.0)
-    }
-
-    fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid> {
-        let target = self.target(tooth, side)?;
-        let [arcs_mm, rows_z_mm] = self.places_mm(target);
-        let rays = self.rays_over(target, arcs_mm, band_mm(rows_z_mm, reach_mm));
-        self.surface(backend, &rays, self.job.scene.fields.profile_spacing_mm)
     }
 
     fn cylindrical(&self) -> Option<&dyn CylindricalGear> {

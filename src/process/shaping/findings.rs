@@ -22,8 +22,7 @@ use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::check::ring::RingFacts;
 use crate::process::shaping::chips::ChipLedger;
 use crate::process::shaping::measure::{FlankReport, GearReport};
-use crate::steps::axes;
-use gearcut_core::cut::CutStats;
+use crate::steps::{Work, axes};
 use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
 use operation::operation;
@@ -110,15 +109,11 @@ pub fn place(flank: &FlankReport, at: &Extreme) -> Place {
 }
 
 /// What a reader must know before trusting the numbers.
-pub fn warnings(report: &GearReport, stats: &CutStats, interrupted: bool, motion: &[OperationAxes]) -> Vec<String> {
+pub fn warnings(report: &GearReport, work: &Work, motion: &[OperationAxes]) -> Vec<String> {
     let mut warnings = Vec::new();
     let below: u64 = report.flanks.iter().map(|f| f.own.below_range).sum();
     if below > 0 {
         warnings.push(format!("{below} dexels were cut deeper than their rays record: heights there are upper bounds"));
-    }
-    let untouched: u64 = report.flanks.iter().map(|f| f.untouched).sum();
-    if untouched > 0 {
-        warnings.push(format!("{untouched} dexels were touched by no pass: part of the flanks is still the blank"));
     }
     let deepest = report
         .flanks
@@ -136,14 +131,8 @@ pub fn warnings(report: &GearReport, stats: &CutStats, interrupted: bool, motion
             deepest.arc_mm
         ));
     }
-    if stats.unconverged > 0 {
-        let count = stats.unconverged;
-        warnings
-            .push(format!("{count} rays did not converge: their heights may be too large; please report the scene"));
-    }
-    if interrupted {
-        warnings.push("stopped by Ctrl-C: figures cover the finished flanks only".to_owned());
-    }
+    let untouched = report.flanks.iter().map(|flank| flank.untouched).sum();
+    warnings.extend(work.warnings(untouched, "part of the flanks is still the blank"));
     warnings.extend(axes::warnings(motion));
     warnings
 }

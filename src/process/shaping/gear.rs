@@ -9,6 +9,7 @@ use crate::process::shaping::measure::{GearReport, flank_report, gear_report};
 use crate::steps::cut_flanks::{CutFlank, cut_flanks};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::parts::Parts;
+use crate::steps::pictures::flank::PicturedFlanks;
 use crate::steps::planar::CutField;
 use crate::steps::{FlankFiles, Work, needs_surfaces};
 use crate::surface::SurfaceGrid;
@@ -28,6 +29,8 @@ pub struct CutGear {
     pub maps: GearMaps,
     /// Surfaces of all finished flanks at mesh spacing, in order; empty where nothing that is written needs them.
     pub surfaces: Vec<SurfaceGrid>,
+    /// What pictures of single flanks show.
+    pub pictured: PicturedFlanks,
     /// Surfaces of all roots at mesh spacing, in order; empty where nothing that is written needs them.
     pub roots: Vec<SurfaceGrid>,
     /// How much work it was, chips and roots included in its time.
@@ -68,7 +71,7 @@ pub fn cut_gear(
     let report = gear_report::measure(job, cut.reports, root_reports)?;
     let roots = roots.into_iter().flatten().collect();
     let work = Work { elapsed: started.elapsed(), ..cut.work };
-    Ok(CutGear { report, chips, maps: cut.maps, surfaces: cut.surfaces, roots, work })
+    Ok(CutGear { report, chips, maps: cut.maps, surfaces: cut.surfaces, pictured: cut.pictured, roots, work })
 }
 
 /// Cuts every root once, for the stock that operations find in it and, if meshes need it, for its surface; nothing

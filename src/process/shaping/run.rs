@@ -47,7 +47,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion);
     sections.extend(whole.as_ref().map(|(cut, report)| blank_findings::findings(&job.planar(), cut, report)));
     sections.push(texture::findings(job, &textures));
-    let mut warnings = findings::warnings(&gear.report, &gear.work.stats, gear.work.interrupted, &motion);
+    let mut warnings = findings::warnings(&gear.report, &gear.work, &motion);
     warnings.extend(whole.as_ref().and_then(|(_, report)| blank::rubbing_warning(job, report)));
     let found = Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -68,8 +68,9 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
             meshes::write_blank(job, cut, folder)?;
         }
         let (flanks, roots) = (take(&mut gear.surfaces), take(&mut gear.roots));
-        interrupted |=
-            !write_meshes_and_pictures(job, tools, || meshes::gear(job, tools.backend, flanks, roots, progress))?;
+        interrupted |= !write_meshes_and_pictures(job, tools, &gear.pictured, || {
+            meshes::gear(job, tools.backend, flanks, roots, progress).map(Some)
+        })?;
         if let Some(count) = frames {
             let drawn = frames::draw(job, count, progress, interrupt, folder)?;
             if drawn < count {

@@ -3,7 +3,7 @@
 //! Roots and tips are coarse fields of their own: roots along the normals of the target's fillet, tips along the
 //! normals of the pitch curve.
 
-use crate::job::{CylindricalGear, GearJob, ToothFrame, band_mm, teeth_of_extreme_radius};
+use crate::job::{CylindricalGear, GearJob, ToothFrame, teeth_of_extreme_radius};
 use crate::process::shaping::job::ShapingJob;
 use crate::process::shaping::measure::flank_report;
 use crate::process::shaping::target::target_root;
@@ -72,13 +72,6 @@ impl GearJob for ShapingJob {
     ) -> Result<Vec<Layer>> {
         let field = self.field_over(self.target_flank(tooth, side), arcs_mm.iter().copied(), rows_z_mm.to_vec());
         Ok(self.cut(backend, field)?.layers)
-    }
-
-    fn flank_surface(&self, backend: &dyn Backend, tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid> {
-        let mut field = self.flank_field(self.target_flank(tooth, side));
-        field.rows_z_mm = band_mm(field.rows_z_mm, reach_mm);
-        let cut = self.cut(backend, field)?;
-        Ok(SurfaceGrid::new(&cut.field, &cut.layers, self.scene.fields.profile_spacing_mm))
     }
 
     fn cylindrical(&self) -> Option<&dyn CylindricalGear> {

@@ -175,10 +175,10 @@ const fn table(path: &'static str) -> KeySection {
             name: "scale_to_close",
             kind: Kind::Boolean,
             unit: "",
-            default: Default::Boolean(true),
+            default: Default::LeftOut("scaled by at most 1 %; points that need more are refused"),
             example: "true",
-            teach: "Scale the radii so that the perimeter is exactly pi x module x teeth; measured points seldom \
-                close by themselves.",
+            teach: "Scale the radii by any factor so that the perimeter is exactly pi x module x teeth; false takes \
+                the points as they are.",
         },
     ];
     KeySection {

@@ -3,6 +3,7 @@
 pub mod deviations;
 pub mod facts;
 pub mod maps;
+pub mod quantities;
 pub mod texture;
 
 use crate::findings::{self, Findings, Place, Quantity, unit};

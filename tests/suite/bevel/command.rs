@@ -3,13 +3,15 @@
 use crate::fixtures::command::{assert_same_files, files, gearcut, gearcut_on_threads, read_json};
 use crate::fixtures::json_schema::assert_is_results;
 
-const COARSE: [&str; 6] = [
+const COARSE: [&str; 8] = [
     "--set",
     "fields.flank.profile_spacing_um=300",
     "--set",
     "fields.flank.lead_spacing_um=1000",
     "--set",
     "texture.0.tooth=2",
+    "--set",
+    "picture.0.width_px=96",
 ];
 
 #[test]
@@ -26,7 +28,7 @@ fn a_run_writes_the_same_files_on_one_thread_and_on_two() {
             "--out",
             out.to_str().expect("a path"),
         ];
-        let only = ["--only", if threads == 1 { "numbers" } else { "numbers,axes,report,texture" }];
+        let only = ["--only", if threads == 1 { "numbers" } else { "numbers,axes,report,texture,pictures" }];
         gearcut_on_threads(threads, &[&arguments[..], &COARSE[..], &only].concat()).done().says(&[
             "highest mark",
             "slot depth",
@@ -42,7 +44,14 @@ fn a_run_writes_the_same_files_on_one_thread_and_on_two() {
     };
     assert!(numbers(&runs[0]).len() >= 5);
     assert_same_files(&numbers(&runs[0]), &numbers(&runs[1]));
-    for file in ["report.html", "axes/finish.csv", "axes/finish.ngc", "axes/finish_positions.svg", "tables/grid.csv"] {
+    for file in [
+        "report.html",
+        "axes/finish.csv",
+        "axes/finish.ngc",
+        "axes/finish_positions.svg",
+        "tables/grid.csv",
+        "pictures/flank.png",
+    ] {
         assert!(runs[1].join(file).is_file(), "{file} is missing");
     }
     // Points for a measuring machine: 45 on each of 124 flanks, with unit normals.

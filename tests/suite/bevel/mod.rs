@@ -2,6 +2,7 @@
 
 mod cases;
 mod command;
+mod contact;
 mod cut;
 mod gcode;
 mod jobs;

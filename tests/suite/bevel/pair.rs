@@ -104,7 +104,11 @@ fn a_crowned_pinion_touches_in_the_ellipse_of_its_curvature() {
     let radius_mm = CUTTER_MM + DEDENDUM_MM * BLADE_RAD.tan();
     let bend = -wider_mm / (radius_mm * (radius_mm + wider_mm)) * BLADE_RAD.cos();
     let wanted_mm = (2.0 * MARKING_MM / bend).sqrt();
-    let [long_mm, short_mm] = middle.half_axes_mm;
+    let ellipse = middle.ellipse.expect("inside the flank");
+    let [long_mm, short_mm] = ellipse.half_axes_mm;
+    // The long axis runs along the tooth, and a point on it is that far away.
+    let [along, height] = ellipse.directions[0];
+    assert!(along.abs() > 0.9 && height.abs() < 0.3, "{:?}", ellipse.directions);
     println!("half axes {long_mm} by {short_mm} mm, {wanted_mm} mm along the tooth by the cutters' radii");
     // The ellipse leans against the trace by some 14 deg, and is longer by the cosine of that.
     assert!(long_mm > wanted_mm && long_mm < 1.05 * wanted_mm && short_mm < 0.1 * long_mm);

@@ -110,3 +110,15 @@ mod slow {
         }
     }
 }
+
+/// The ram strokes along the axis: no key of a helix is taken in silence.
+#[test]
+fn a_shaping_scene_has_no_helix() {
+    for (setting, way_out) in
+        [("gear.helix_angle_deg=10", "hob the gear with [tool.hob]"), ("gear.hand=left", "way out: remove it")]
+    {
+        let scene = "scenes/shaping/circular_m3_z24.toml";
+        gearcut(&["check", scene, "--set", setting])
+            .failed(1, &["this scene is for shaping, where the ram strokes along the gear's axis", way_out]);
+    }
+}

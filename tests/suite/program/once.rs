@@ -105,8 +105,7 @@ fn logged(scene: &str, settings: &[&str], cut: impl Fn(&Job)) -> Log {
         "fields.flank.profile_spacing_um=100",
         "fields.flank.lead_spacing_um=1000",
         "fields.blank.spacing_mm=1",
-        // A picture of a single flank would cut the rows that it shows again: no flank is kept in full.
-        "picture=[{name='gear',width_px=96,height_px=72}]",
+        "picture=[{name='gear',width_px=96,height_px=72},{name='flank',view='flank',width_px=96,height_px=72}]",
     ];
     let settings: Vec<String> = coarse.iter().chain(settings).map(|&setting| setting.to_owned()).collect();
     let scene = gearcut::load(Path::new(scene), &settings).unwrap_or_else(|problems| panic!("{problems}"));

@@ -21,7 +21,6 @@ use gearcut::steps::parts::Parts;
 use gearcut::steps::report::PageGear;
 use gearcut::steps::view_mesh::{ViewFlank, ViewMesh};
 use gearcut::steps::{Tools, pictures, report, sheets};
-use gearcut::surface::SurfaceGrid;
 use gearcut::surface::triangles::Triangles;
 use gearcut::terms::Side;
 use gearcut::texture;
@@ -175,11 +174,6 @@ impl GearJob for ConicalJob {
     ) -> Result<Vec<Layer>> {
         Ok(vec![self.cut(&self.rays(side, arcs_mm.to_vec(), rows_mm.to_vec()))])
     }
-
-    fn flank_surface(&self, _: &dyn Backend, _tooth: u32, side: Side, reach_mm: f64) -> Result<SurfaceGrid> {
-        let rays = self.rays(side, even(0.0, PROFILE_MM, 41), even(-reach_mm, reach_mm, 61));
-        Ok(SurfaceGrid::new(&rays, &[self.cut(&rays)], self.scene.fields.profile_spacing_mm))
-    }
 }
 
 fn cut(job: &ConicalJob, tools: Option<&Tools>) -> CutFlanks<()> {
@@ -253,7 +247,7 @@ fn files_pictures_page_and_texture_ask_for_no_pitch_curve() {
     sheets::write_sheets_and_deviations(&job, &done.maps, &tools).expect("sheets");
     // What stands for the gear's body: here the flank alone.
     let body = done.surfaces[0].mesh("tooth_01_left");
-    let drawn = pictures::draw(&job, &cpu, &body, &progress, &interrupt, &folder, &notes).expect("pictures");
+    let drawn = pictures::draw(&job, Some(&body), &done.pictured, &tools).expect("pictures");
     assert_eq!(drawn, 2);
 
     let rows_mm = even(-0.5 * FACE_MM, 0.5 * FACE_MM, 11);

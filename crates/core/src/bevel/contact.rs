@@ -67,9 +67,19 @@ pub struct Contact {
     pub gear_rad: f64,
     /// Place on the gear's flank: along the tooth from the middle of the face, and height over the pitch cone, mm.
     pub place_mm: [f64; 2],
-    /// Half axes of the contact ellipse at the thickness asked for, mm; the long one is infinite where the flanks touch
-    /// along a line.
+    /// +1 where a growing angle of the gear closes gaps, so that the pinion pushes it back; -1 where it pushes it on.
+    pub closing: f64,
+    /// The contact ellipse at the thickness asked for; none at the edge of a flank.
+    pub ellipse: Option<Ellipse>,
+}
+
+/// Where a gap is below a thickness of marking compound, about a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ellipse {
+    /// Half axes, mm; the long one is infinite where the flanks touch along a line.
     pub half_axes_mm: [f64; 2],
+    /// Changes of place (along the tooth, height) for each mm along the long and the short axis.
+    pub directions: [[f64; 2]; 2],
 }
 
 /// A point of the gear's flank while it touches.
@@ -207,28 +217,19 @@ impl BevelPair {
     /// # Errors
     /// The flanks do not meet.
     pub fn contact(&self, pinion_rad: f64, start_rad: f64, thickness_mm: f64) -> Result<Contact, NotConverged> {
-        let (place, touch, turn) = self.first(pinion_rad, start_rad).ok_or(NotConverged {
-            what: "a contact of both flanks",
-            after: MOST_STEPS,
-            last: start_rad,
-            last_step: f64::INFINITY,
-            residual: f64::INFINITY,
-        })?;
-        let half_axes_mm = self.half_axes_mm(place, &touch, [pinion_rad, turn], thickness_mm);
-        Ok(Contact { pinion_rad, gear_rad: touch.gear_rad, place_mm: place.into(), half_axes_mm })
+        let (place, touch, turn) = self.first(pinion_rad, start_rad).ok_or_else(|| not_met(start_rad))?;
+        let ellipse = self.ellipse(place, &touch, [pinion_rad, turn], thickness_mm);
+        Ok(Contact { pinion_rad, gear_rad: touch.gear_rad, place_mm: place.into(), closing: turn, ellipse })
     }
 
-    /// Half axes of the ellipse over which the gap is below a thickness: the gap is g = x . H x / 2 over the tangent
+    /// The ellipse over which the gap is below a thickness: the gap is g = x . H x / 2 over the tangent
     /// plane, H from differences over places beside the contact.
-    fn half_axes_mm(&self, place: DVec2, touch: &Touch, [pinion_rad, turn]: [f64; 2], thickness_mm: f64) -> [f64; 2] {
+    fn ellipse(&self, place: DVec2, touch: &Touch, [pinion_rad, turn]: [f64; 2], thickness_mm: f64) -> Option<Ellipse> {
         let beside = |x: f64, y: f64| self.touch(place + BEND_MM * DVec2::new(x, y), pinion_rad, touch.gear_rad);
         let gap = |found: &Touch| turn * (found.gear_rad - touch.gear_rad) * found.closing_mm.abs();
         let around =
             [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (-1.0, -1.0)].map(|(x, y)| beside(x, y));
-        let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = around else {
-            // At the edge of a flank there is no ellipse.
-            return [f64::NAN; 2];
-        };
+        let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = around else { return None };
         // Second differences in the two directions of places, which are no right-angled axes.
         let [aa, cc, ee] = [gap(&a) + gap(&b), gap(&c) + gap(&d), gap(&e) + gap(&f)];
         let mixed = 0.5 * (ee - aa - cc);
@@ -240,12 +241,16 @@ impl BevelPair {
             DMat2::from_cols(DVec2::new(along, 0.0), DVec2::new(v.dot(u) / along, u.cross(v).length() / along));
         let back = places.inverse();
         let hessian = back.transpose() * bends * back;
-        let (mean, half) = (
-            0.5 * (hessian.x_axis.x + hessian.y_axis.y),
-            (0.5 * (hessian.x_axis.x - hessian.y_axis.y)).hypot(hessian.x_axis.y),
-        );
-        [mean - half, mean + half]
-            .map(|bend| if bend > 0.0 { (2.0 * thickness_mm / bend).sqrt() } else { f64::INFINITY })
+        let mean = 0.5 * (hessian.x_axis.x + hessian.y_axis.y);
+        let across = DVec2::new(0.5 * (hessian.x_axis.x - hessian.y_axis.y), hessian.x_axis.y);
+        let half = across.length();
+        // Twice the angle of the axis along which the gap opens fastest.
+        let short = DVec2::from_angle(0.5 * across.to_angle());
+        let half_axis_mm = |bend: f64| if bend > 0.0 { (2.0 * thickness_mm / bend).sqrt() } else { f64::INFINITY };
+        Some(Ellipse {
+            half_axes_mm: [mean - half, mean + half].map(half_axis_mm),
+            directions: [short.perp(), short].map(|axis| (back * axis).to_array()),
+        })
     }
 
     /// Smallest distance of the gear's flank from the pinion's while they touch, over so many places along the tooth
@@ -275,29 +280,54 @@ impl BevelPair {
         nearest
     }
 
-    /// Contacts at even angles of the pinion over so many pitches about its middle, and the motion error of each in
-    /// rad: the gear's angle less that of a constant ratio, zero in the middle.
+    /// Contacts of one pair of teeth at even angles of the pinion over so many pitches about its middle, where they
+    /// meet, and the motion error of each in rad: the gear's angle less that of a constant ratio, zero in the middle.
     ///
     /// # Errors
-    /// The flanks do not meet somewhere.
-    pub fn motion(&self, pitches: f64, count: u32, thickness_mm: f64) -> Result<Vec<(Contact, f64)>, Refusal> {
-        let lost = |lost: NotConverged| {
-            Refusal::new("pair", lost.to_string(), "check the mounting: the flanks do not meet there")
-        };
+    /// The flanks do not meet in the middle.
+    pub fn motion_of_teeth(
+        &self,
+        pitches: f64,
+        count: u32,
+        thickness_mm: f64,
+    ) -> Result<Vec<Option<(Contact, f64)>>, Refusal> {
         let [pinion_rad, gear_rad] = self.middle_rad()?;
         let ratio = f64::from(self.pinion.blank.teeth) / f64::from(self.gear.blank.teeth);
         let range_rad = pitches * TAU / f64::from(self.pinion.blank.teeth);
         let middle = self.contact(pinion_rad, gear_rad, thickness_mm).map_err(lost)?;
-        (0..count)
-            .map(|i| {
-                let by = range_rad * (f64::from(i) / f64::from(count - 1) - 0.5);
-                // The gear turns the other way.
-                let even_rad = middle.gear_rad - ratio * by;
-                let contact = self.contact(pinion_rad + by, even_rad, thickness_mm).map_err(lost)?;
-                Ok((contact, contact.gear_rad - even_rad))
-            })
-            .collect()
+        let at = |i| {
+            let by = range_rad * (f64::from(i) / f64::from(count - 1) - 0.5);
+            // The gear turns the other way.
+            let even_rad = middle.gear_rad - ratio * by;
+            let contact = self.contact(pinion_rad + by, even_rad, thickness_mm).ok()?;
+            Some((contact, contact.gear_rad - even_rad))
+        };
+        Ok((0..count).map(at).collect())
     }
+
+    /// The same where they meet all the time.
+    ///
+    /// # Errors
+    /// The flanks do not meet somewhere.
+    pub fn motion(&self, pitches: f64, count: u32, thickness_mm: f64) -> Result<Vec<(Contact, f64)>, Refusal> {
+        let [pinion_rad, _] = self.middle_rad()?;
+        let found = self.motion_of_teeth(pitches, count, thickness_mm)?;
+        found.into_iter().map(|met| met.ok_or_else(|| lost(not_met(pinion_rad)))).collect()
+    }
+}
+
+fn not_met(angle_rad: f64) -> NotConverged {
+    NotConverged {
+        what: "a contact of both flanks",
+        after: MOST_STEPS,
+        last: angle_rad,
+        last_step: f64::INFINITY,
+        residual: f64::INFINITY,
+    }
+}
+
+fn lost(lost: NotConverged) -> Refusal {
+    Refusal::new("pair", lost.to_string(), "check the mounting: the flanks do not meet there")
 }
 
 /// Whether a blank has teeth at a cone distance and height; roots are looked for where the roll generates them.

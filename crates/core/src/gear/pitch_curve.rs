@@ -25,7 +25,7 @@ use std::f64::consts::PI;
 use glam::DVec2;
 
 use crate::error::Refusal;
-use crate::gear::PitchCurveShape;
+use crate::gear::{LARGEST_UNASKED_SCALING, PitchCurveShape, TableScaling};
 use crate::math::jet::Jet;
 use crate::math::periodic_integral::PeriodicIntegral;
 use crate::math::roots::sample_angle_rad;
@@ -47,6 +47,7 @@ pub struct PitchCurve {
     size_mm: f64,
     arc: PeriodicIntegral,
     closure_error_mm: f64,
+    scaling: Option<f64>,
     facts: CurveFacts,
 }
 
@@ -74,8 +75,8 @@ impl PitchCurve {
     /// Pitch curve with arc lengths good to [`DEFAULT_ACCURACY_MM`].
     ///
     /// # Errors
-    /// Parameters outside their range, a radius that is not positive everywhere, a table out of order, or a given size
-    /// whose perimeter misses pi m z by more than [`LARGEST_CLOSURE_ERROR_MODULES`]; the refusal says which size
+    /// Parameters outside their range, a radius that is not positive everywhere, a table out of order or one whose radii
+    /// would be scaled by more than [`LARGEST_UNASKED_SCALING`] unasked, or a given size whose perimeter misses pi m z by more than [`LARGEST_CLOSURE_ERROR_MODULES`]; the refusal says which size
     /// closes.
     pub fn new(shape: &PitchCurveShape, module_mm: f64, teeth: u32) -> Result<Self, Refusal> {
         Self::with_accuracy(shape, module_mm, teeth, DEFAULT_ACCURACY_MM)
@@ -137,8 +138,27 @@ impl PitchCurve {
                 format!("the size that closes is {closing_mm:.9} mm; leave the key out and it is solved"),
             ));
         }
+        let scaling = shape.scaled_from_mm().map(|(points_mm, allowed)| (size_mm / points_mm, allowed));
+        if let Some((factor, TableScaling::Small)) = scaling
+            && (factor - 1.0).abs() > LARGEST_UNASKED_SCALING
+        {
+            return Err(Refusal::new(
+                size_key,
+                format!(
+                    "the points make {teeth} teeth of {module_mm} mm only if all radii are multiplied by {factor:.6}; \
+                     without this key a change of {} % is allowed",
+                    100.0 * LARGEST_UNASKED_SCALING
+                ),
+                format!(
+                    "correct the module (the points fit {:.6} mm), the teeth or the points; or write scale_to_close = \
+                     true",
+                    module_mm / factor
+                ),
+            ));
+        }
         let facts = CurveFacts::new(|phi| law.unit(phi) * size_mm, samples);
-        Ok(Self { law, size_mm, arc, closure_error_mm, facts })
+        let scaling = scaling.map(|(factor, _)| factor);
+        Ok(Self { law, size_mm, arc, closure_error_mm, scaling, facts })
     }
 
     /// r in mm at `phi_rad` (any real) with three derivatives with respect to phi.
@@ -189,6 +209,11 @@ impl PitchCurve {
     /// a mate), mean radius (for a table: mean of the radii of its points).
     pub fn size_mm(&self) -> f64 {
         self.size_mm
+    }
+
+    /// Factor that the radii of a table were multiplied by to close the curve; `None` where nothing was scaled.
+    pub fn scaling(&self) -> Option<f64> {
+        self.scaling
     }
 
     /// Shape of the curve.

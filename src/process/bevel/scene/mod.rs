@@ -46,11 +46,8 @@ pub static SCENE: SceneProcess = SceneProcess {
 
 /// What shared code reads of every gear, with the values that mean nothing.
 fn derive(values: &mut Values) {
-    for (key, word) in [("kind", "external"), ("hand", "right")] {
-        values.put_default("gear", key, Checked::Text(word.to_owned()));
-    }
+    values.put_default("gear", "kind", Checked::Text("external".to_owned()));
     for (section, key, number) in [
-        ("gear", "helix_angle_deg", 0.0),
         ("gear", "addendum_coefficient", 1.0),
         ("gear", "bore_diameter_mm", 0.0),
         ("gear", "tooth_thickness_allowance_mm", 0.0),

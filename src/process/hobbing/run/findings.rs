@@ -258,11 +258,14 @@ fn tooth(gear: &HobbedGear, number: u32) -> Section {
         Section::new(key, format!("{key} flank"))
             .with(
                 "single_pitch",
-                um(pitch.map(|p| p.single_mm[row]), "f_p: arc of the pitch curve from the tooth before, less pi m_t"),
+                um(
+                    pitch.map(|p| p.single_mm[row]),
+                    "f_p: arc of the pitch curve from the tooth before, less the mean pitch",
+                ),
             )
             .with(
                 "cumulative_pitch",
-                um(pitch.map(|p| p.cumulative_mm[row]), "arc of the pitch curve from tooth 1, less its pitches"),
+                um(pitch.map(|p| p.cumulative_mm[row]), "arc of the pitch curve from tooth 1, less its mean pitches"),
             )
     };
     let thickness = gear.inspection.thickness.get(row).copied().flatten();
@@ -306,18 +309,7 @@ fn warnings(cutter: &HobCutter, gear: &HobbedGear) -> Vec<String> {
         warnings
             .push(format!("cuts go deeper than rays record: {reach_mm} mm under the target stands for that and more"));
     }
-    let untouched: u64 = gear.flanks.iter().map(|f| f.untouched).sum();
-    if untouched > 0 {
-        warnings.push(format!("{untouched} dexels were reached by no pass: the hob does not cover the whole face"));
-    }
-    let unconverged = gear.work.stats.unconverged;
-    if unconverged > 0 {
-        warnings.push(format!(
-            "{unconverged} rays did not converge: their heights may be too large; please report the scene"
-        ));
-    }
-    if gear.work.interrupted {
-        warnings.push("stopped by Ctrl-C: figures cover the finished flanks only".to_owned());
-    }
+    let untouched = gear.flanks.iter().map(|flank| flank.untouched).sum();
+    warnings.extend(gear.work.warnings(untouched, "the hob does not cover the whole face"));
     warnings
 }

@@ -304,11 +304,14 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         )
         .with(
             "single_pitch",
-            pitch_um(pitch.map(|p| p.single_mm[row]), "f_p: arc of the pitch curve from the tooth before, less pi m"),
+            pitch_um(
+                pitch.map(|p| p.single_mm[row]),
+                "f_p: arc of the pitch curve from the tooth before, less the mean pitch",
+            ),
         )
         .with(
             "cumulative_pitch",
-            pitch_um(pitch.map(|p| p.cumulative_mm[row]), "arc of the pitch curve from tooth 1, less its pitches"),
+            pitch_um(pitch.map(|p| p.cumulative_mm[row]), "arc of the pitch curve from tooth 1, less its mean pitches"),
         )
         .with(
             "below_range_dexels",

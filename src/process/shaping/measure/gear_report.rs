@@ -69,19 +69,13 @@ pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport
             })
         })
         .collect::<Result<_>>()?;
-    let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
     let [left, right] = [0, 1].map(|side| finished.iter().map(|tooth| tooth[side]).collect::<Vec<_>>());
     Ok(GearReport {
         flanks,
         roots,
         tip_lands_mm: (1..=teeth).map(|tooth| job.target(tooth).tip_land_mm).collect(),
         allowances,
-        inspection: GearInspection::of_crossings(
-            &job.blank,
-            [&left, &right],
-            pitch_mm,
-            job.scene.gear.pressure_angle_rad,
-        ),
+        inspection: GearInspection::of_crossings(&job.blank, [&left, &right], job.scene.gear.pressure_angle_rad),
         period_teeth: job.curve.period_teeth(teeth),
     })
 }

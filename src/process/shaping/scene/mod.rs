@@ -6,7 +6,7 @@ mod keys;
 pub mod model;
 
 use crate::scene::values::{Checked, Values};
-use crate::scene::{ProcessPart, SceneProcess};
+use crate::scene::{ProcessPart, SceneProcess, Senseless};
 use model::Shaping;
 
 /// Shaping with a pinion cutter.
@@ -21,7 +21,14 @@ pub static SCENE: SceneProcess = SceneProcess {
     per_revolution: &["strokes_per_revolution"],
     of_one_gear: &["window_deg", "program"],
     on_demand: &[],
-    senseless: &[],
+    senseless: &[
+        Senseless {
+            path: "gear.helix_angle_deg",
+            why: "the ram strokes along the gear's axis: a helical guide is not modelled",
+            instead: "remove it, or hob the gear with [tool.hob]",
+        },
+        Senseless { path: "gear.hand", why: "the ram strokes along the gear's axis", instead: "remove it" },
+    ],
     derive,
     check: checks::check,
     build: build::build,

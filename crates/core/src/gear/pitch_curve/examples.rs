@@ -1,6 +1,6 @@
 //! Pitch curves to test with: one of every kind, and any that is accepted. Tests of the linkages include this file too.
 
-use crate::gear::{Driver, GearKind, PitchCurve, PitchCurveShape};
+use crate::gear::{Driver, GearKind, PitchCurve, PitchCurveShape, TableScaling};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ pub(crate) fn examples() -> Vec<PitchCurve> {
         PitchCurveShape::SinusoidalRatio { order: 2, mean_ratio: 1.2, ratio_amplitude: 0.3, center_distance_mm: None },
         PitchCurveShape::Pascal { order: 2, eccentricity: 0.2, mean_radius_mm: None },
         PitchCurveShape::Fourier { cosine: vec![0.05, 0.1], sine: vec![-0.04, 0.0, 0.02], mean_radius_mm: None },
-        PitchCurveShape::Table { points_rad_mm: points, scale_to_close: true },
+        PitchCurveShape::Table { points_rad_mm: points, scaling: TableScaling::Any },
         mate_of(GearKind::External, 42),
         mate_of(GearKind::Internal, 14),
     ]
@@ -52,7 +52,7 @@ pub(crate) fn any_curve() -> impl Strategy<Value = PitchCurve> {
         prop::collection::vec(50.0..60.0f64, 4..40).prop_map(|radii| {
             let n = radii.len() as f64;
             let points_rad_mm = radii.iter().enumerate().map(|(i, r)| [0.3 + i as f64 * TAU / n, *r]).collect();
-            PitchCurveShape::Table { points_rad_mm, scale_to_close: true }
+            PitchCurveShape::Table { points_rad_mm, scaling: TableScaling::Any }
         }),
     ];
     (shape, 0.5..6.0f64, 10u32..120)

@@ -9,7 +9,7 @@
 
 use super::mate::MateLaw;
 use crate::error::Refusal;
-use crate::gear::PitchCurveShape;
+use crate::gear::{PitchCurveShape, TableScaling};
 use crate::math::Jet;
 use crate::math::periodic_spline::PeriodicSpline;
 
@@ -85,11 +85,11 @@ impl SizedLaw {
                 key: "gear.pitch_curve.fourier",
                 size_key: "gear.pitch_curve.fourier.mean_radius_mm",
             },
-            PitchCurveShape::Table { points_rad_mm, scale_to_close } => {
+            PitchCurveShape::Table { points_rad_mm, scaling } => {
                 let (spline, mean_radius_mm) = PeriodicSpline::new(points_rad_mm)?;
                 Self {
                     law: RadiusLaw::Table { spline },
-                    size_mm: (!scale_to_close).then_some(mean_radius_mm),
+                    size_mm: (*scaling == TableScaling::AsGiven).then_some(mean_radius_mm),
                     key: "gear.pitch_curve.table",
                     size_key: "gear.pitch_curve.table.scale_to_close",
                 }

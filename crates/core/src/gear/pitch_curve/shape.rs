@@ -50,8 +50,8 @@ pub enum PitchCurveShape {
     Table {
         /// Polar angles (rad, increasing, within one turn) and radii (mm).
         points_rad_mm: Vec<[f64; 2]>,
-        /// Scale the radii so that the curve closes.
-        scale_to_close: bool,
+        /// How the radii become a curve that closes.
+        scaling: TableScaling,
     },
     /// The gear that runs with a driver; see [`super::mate`].
     Mate {
@@ -61,6 +61,20 @@ pub enum PitchCurveShape {
         kind: GearKind,
     },
 }
+
+/// How far the radii of a table may be scaled so that the perimeter is pi m z.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TableScaling {
+    /// By no more than rounding and measuring explain, [`LARGEST_UNASKED_SCALING`]: more is another gear.
+    Small,
+    /// By any factor.
+    Any,
+    /// Not at all: the points are the curve.
+    AsGiven,
+}
+
+/// Radii of a table are scaled by no larger share than this where the scene does not ask for it.
+pub const LARGEST_UNASKED_SCALING: f64 = 0.01;
 
 /// The gear that a mate runs with.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +89,17 @@ pub struct Driver {
 }
 
 impl PitchCurveShape {
+    /// Mean radius of the points of a table that is scaled, mm, and how far it may be.
+    pub(super) fn scaled_from_mm(&self) -> Option<(f64, TableScaling)> {
+        match self {
+            Self::Table { points_rad_mm, scaling } if *scaling != TableScaling::AsGiven => {
+                let sum_mm: f64 = points_rad_mm.iter().map(|[_, radius_mm]| radius_mm).sum();
+                Some((sum_mm / points_rad_mm.len() as f64, *scaling))
+            }
+            _ => None,
+        }
+    }
+
     /// The shape in words, such as "ellipse of order 3, eccentricity 0.1348".
     pub fn words(&self) -> String {
         match self {

@@ -160,3 +160,26 @@ proptest! {
         prop_assert!(inside == (frame.curvature_per_mm < 0.0) || frame.curvature_per_mm.abs() < tolerance);
     }
 }
+
+/// A round table: the factor is the ratio of the radii, and only a small one is taken unasked.
+#[test]
+fn a_table_is_scaled_by_little_unless_the_scene_asks_for_more() {
+    let curve = |radius_mm: f64, scaling| {
+        let points_rad_mm = (0..72).map(|i| [f64::from(i) * TAU / 72.0, radius_mm]).collect();
+        PitchCurve::new(&PitchCurveShape::Table { points_rad_mm, scaling }, 3.0, 42)
+    };
+    // 42 teeth of 3 mm take a radius of 63 mm.
+    for (radius_mm, scaling, factor) in [
+        (62.9, TableScaling::Small, Some(63.0 / 62.9)),
+        (42.84, TableScaling::Any, Some(63.0 / 42.84)),
+        (63.0, TableScaling::AsGiven, None),
+    ] {
+        let found = curve(radius_mm, scaling).expect("a curve").scaling();
+        match (found, factor) {
+            (Some(found), Some(factor)) => assert!((found - factor).abs() < 1e-12, "{found}, {factor} expected"),
+            (found, factor) => assert_eq!(found, factor),
+        }
+    }
+    let refusal = curve(42.84, TableScaling::Small).expect_err("that is another gear").to_string();
+    assert!(refusal.contains("multiplied by 1.470588") && refusal.contains("fit 2.040000 mm"), "{refusal}");
+}

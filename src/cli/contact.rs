@@ -1,0 +1,98 @@
+//! `gearcut contact`: a bevel gear and its pinion in contact.
+
+use std::path::PathBuf;
+
+use gearcut::findings::RESULTS_FILE;
+use gearcut::output::report::REPORT_FILE;
+use gearcut::output::summary;
+use gearcut::output::table::write_tables;
+use gearcut::output::text::Sheet;
+use gearcut::process::bevel::BevelJob;
+use gearcut::process::bevel::pair::{MountingErrors, charts, findings, page, roll};
+use gearcut::process::load;
+use gearcut::scene::LoadedScene;
+use gearcut::units::UM_PER_MM;
+use gearcut::{Error, Refusal};
+use serde_json::json;
+
+use super::args::ContactArguments;
+use super::failure::Failure;
+use super::{folder, print};
+
+/// Errors of the mounting above this are another pair, mm and deg.
+const LARGEST_MM: f64 = 2.0;
+const LARGEST_DEG: f64 = 2.0;
+/// Marking compound of more than this is no marking, mm.
+const THICKEST_MM: f64 = 0.1;
+
+/// Runs the command.
+pub fn run(arguments: &ContactArguments) -> Result<(), Failure> {
+    let errors = errors(arguments)?;
+    let marking_mm = within("--marking-um", arguments.marking_um / UM_PER_MM, THICKEST_MM, 0.0, UM_PER_MM)?;
+    let gear = load(&arguments.gear, &arguments.set_gear)?;
+    let pinion = load(&arguments.pinion, &arguments.set_pinion)?;
+    let name = format!("{}_with_{}", gear.scene.name, pinion.scene.name);
+    let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
+    let words = std::env::args().skip(1).collect::<Vec<_>>();
+    let jobs = [job(&gear)?, job(&pinion)?];
+    let filled = folder::fill(&out, "contact", |folder, interrupt| {
+        let rolled = roll(&jobs[0], &jobs[1], &errors, marking_mm)?;
+        interrupt.check()?;
+        let jobs = [&jobs[0], &jobs[1]];
+        let found = findings::findings(&name, jobs, &rolled);
+        let charts = charts::charts(&rolled);
+        for (name, chart) in &charts {
+            chart.write_svg(&folder.path(format!("pictures/{name}.svg"))?)?;
+        }
+        write_tables(&found, folder)?;
+        page::page(jobs, &rolled, &found, &charts).write(&folder.path(REPORT_FILE)?)?;
+        folder.write_json(RESULTS_FILE, &found.to_json())?;
+        let record = [
+            ("arguments", json!(words)),
+            ("scene_gear", json!(gear.resolved_toml())),
+            ("scene_pinion", json!(pinion.resolved_toml())),
+        ];
+        Ok((record.to_vec(), found))
+    });
+    let (path, found) = filled.map_err(|error| match error {
+        // What geometry refuses of a pair lies in both scenes.
+        Error::Refused(refusal) => Failure::without_place("no pair", &refusal),
+        other => other.into(),
+    })?;
+    if arguments.json {
+        let text = serde_json::to_string_pretty(&found.to_json())
+            .map_err(|reason| Error::Output { path: path.clone(), reason: reason.to_string() })?;
+        return Ok(print::to_stdout(&format!("{text}\n"))?);
+    }
+    let mut sheet = Sheet::default();
+    sheet.heading(&found.scene);
+    summary::print(&found, &mut sheet);
+    Ok(print::to_stdout(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?)
+}
+
+fn job(loaded: &LoadedScene) -> Result<BevelJob, Failure> {
+    BevelJob::new(&loaded.scene).map_err(|error| match error {
+        Error::Refused(refusal) => Failure::without_place(&loaded.scene.name, &refusal),
+        other => other.into(),
+    })
+}
+
+fn errors(arguments: &ContactArguments) -> Result<MountingErrors, Failure> {
+    let mm = |name, um: f64| within(name, um / UM_PER_MM, LARGEST_MM, -LARGEST_MM, UM_PER_MM);
+    Ok(MountingErrors {
+        offset_mm: mm("--e-um", arguments.e_um)?,
+        pinion_axial_mm: mm("--p-um", arguments.p_um)?,
+        gear_axial_mm: mm("--g-um", arguments.g_um)?,
+        shaft_angle_rad: within("--sigma-deg", arguments.sigma_deg, LARGEST_DEG, -LARGEST_DEG, 1.0)?.to_radians(),
+    })
+}
+
+/// A value within its range; `shown` is what a value is multiplied by to be as it was written.
+fn within(name: &'static str, value: f64, most: f64, least: f64, shown: f64) -> Result<f64, Failure> {
+    if value.is_finite() && value >= least && value <= most && (least < 0.0 || value > 0.0) {
+        return Ok(value);
+    }
+    let above = if least < 0.0 { format!("{}", least * shown) } else { "above 0".to_owned() };
+    let problem = format!("{} is not {above} to {}", value * shown, most * shown);
+    Err(Refusal::new(name, problem, "give a value in this range").into())
+}

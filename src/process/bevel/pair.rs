@@ -1,0 +1,273 @@
+//! A bevel gear and its pinion in contact, without load: motion error, contact path and ellipses, and what errors of
+//! the mounting do to them.
+//!
+//! In: two bevel jobs and how they are mounted. Out: [`RolledBevels`], its findings ([`findings`]), charts
+//! ([`charts`]) and page ([`page`]).
+//!
+//! Target flanks touch, those that the heads' cones generate: marks of single blades are left out. The law stands in
+//! [`gearcut_core::bevel::contact`]. Concave flanks of the gear, cut by outside blades, run on the pinion's convex
+//! ones, cut by inside blades, and the other way round.
+//!
+//! At every moment the pair of teeth carries that pushes the gear farthest on: the actual motion error over a pitch is
+//! the extremum of the errors of one pair of teeth, taken a pitch apart.
+//!
+//! Road not taken: contact on the cut dexel flanks. Their marks are some hundredths of a micrometre high and say
+//! nothing of the bearing; the deviations of the cut flanks are reported by `gearcut cut`.
+
+pub mod charts;
+pub mod findings;
+pub mod page;
+
+use super::BevelJob;
+use gearcut_core::bevel::contact::{BevelPair, Contact, Mounting};
+use gearcut_core::bevel::face_mill::BladeKind;
+use gearcut_core::error::{Refusal, Result};
+use rayon::prelude::*;
+
+/// Pitches of the pinion over which one pair of teeth is followed.
+const PITCHES: f64 = 2.0;
+/// Intervals of a pitch; errors of neighbouring pairs of teeth are then known at the same angles.
+const PER_PITCH: usize = 20;
+/// Modules that differ by more belong to no pair, mm: rounding of data sheets.
+const MODULE_MM: f64 = 2e-3;
+
+/// How much every error of the mounting is changed to see what it does, in both directions: mm, or rad of the shaft
+/// angle (3').
+const TRIED_MM: f64 = 0.05;
+const TRIED_RAD: f64 = 0.05 * std::f64::consts::PI / 180.0;
+
+/// How far a pair is mounted off its nominal place; mm and rad.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MountingErrors {
+    /// E, offset of the pinion's axis.
+    pub offset_mm: f64,
+    /// P, pinion along its axis, away from the apex.
+    pub pinion_axial_mm: f64,
+    /// G, gear along its axis, away from the apex.
+    pub gear_axial_mm: f64,
+    /// Sigma, shaft angle.
+    pub shaft_angle_rad: f64,
+}
+
+/// One of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MountingError {
+    /// E.
+    Offset,
+    /// P.
+    PinionAxial,
+    /// G.
+    GearAxial,
+    /// Sigma.
+    ShaftAngle,
+}
+
+impl MountingError {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Offset, Self::PinionAxial, Self::GearAxial, Self::ShaftAngle];
+
+    /// Gleason's letter and ISO's name (ISO 23509, ISO/TR 10064-6).
+    pub fn names(self) -> [&'static str; 2] {
+        match self {
+            Self::Offset => ["E", "hypoid offset a"],
+            Self::PinionAxial => ["P", "mounting distance of the pinion t_B1"],
+            Self::GearAxial => ["G", "mounting distance of the wheel t_B2"],
+            Self::ShaftAngle => ["Sigma", "shaft angle Sigma"],
+        }
+    }
+
+    fn added(self, to: &MountingErrors, sign: f64) -> MountingErrors {
+        let mut errors = *to;
+        match self {
+            Self::Offset => errors.offset_mm += sign * TRIED_MM,
+            Self::PinionAxial => errors.pinion_axial_mm += sign * TRIED_MM,
+            Self::GearAxial => errors.gear_axial_mm += sign * TRIED_MM,
+            Self::ShaftAngle => errors.shaft_angle_rad += sign * TRIED_RAD,
+        }
+        errors
+    }
+}
+
+/// How one pair of flanks runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Running {
+    /// Angle of the pinion about the middle, rad; contact and motion error of one pair of teeth, rad, where they meet.
+    pub teeth: Vec<(f64, Option<(Contact, f64)>)>,
+    /// The same over a pitch about the middle, of the pair of teeth that carries at each angle.
+    pub carrying: Vec<(f64, Contact, f64)>,
+}
+
+impl Running {
+    fn of(pair: &BevelPair, marking_mm: f64) -> Result<Self> {
+        let pitch_rad = std::f64::consts::TAU / f64::from(pair.pinion.blank.teeth);
+        let count = (PITCHES * PER_PITCH as f64) as usize + 1;
+        let found = pair.motion_of_teeth(PITCHES, count as u32, marking_mm)?;
+        let angle = |i: usize| PITCHES * pitch_rad * (i as f64 / (count - 1) as f64 - 0.5);
+        let middle = count / 2;
+        let carrying = (middle - PER_PITCH / 2..=middle + PER_PITCH / 2).map(|i| {
+            let teeth = [i.checked_sub(PER_PITCH), Some(i), Some(i + PER_PITCH)];
+            let met = teeth.into_iter().flatten().filter_map(|i| *found.get(i)?);
+            // A pinion that pushes the gear back is ahead where the gear's angle is smallest.
+            let first = met.min_by(|a, b| (a.0.closing * a.1).total_cmp(&(b.0.closing * b.1)));
+            let (contact, error_rad) = first.ok_or_else(|| {
+                Refusal::new("pair", "no teeth meet at an angle of the pinion", "check the mounting and both scenes")
+            })?;
+            Ok((angle(i), contact, error_rad))
+        });
+        let carrying = carrying.collect::<Result<_>>()?;
+        let teeth = found.into_iter().enumerate().map(|(i, met)| (angle(i), met)).collect();
+        Ok(Self { teeth, carrying })
+    }
+
+    /// Range of the motion error over a pitch, rad.
+    pub fn motion_error_rad(&self) -> f64 {
+        let errors = || self.carrying.iter().map(|(.., error_rad)| *error_rad);
+        errors().fold(f64::NEG_INFINITY, f64::max) - errors().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Mean place of the contact over a pitch: along the gear's tooth from the middle of the face, and height over the
+    /// pitch cone, mm.
+    pub fn center_mm(&self) -> [f64; 2] {
+        let count = self.carrying.len() as f64;
+        [0, 1].map(|k| self.carrying.iter().map(|(_, contact, _)| contact.place_mm[k]).sum::<f64>() / count)
+    }
+
+    /// Contact in the middle of the pitch.
+    pub fn middle(&self) -> &Contact {
+        &self.carrying[self.carrying.len() / 2].1
+    }
+}
+
+/// What an error of the mounting does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trend {
+    /// The error.
+    pub error: MountingError,
+    /// What was added to it: mm, or rad of the shaft angle.
+    pub added: f64,
+    /// Motion error over a pitch, rad, and the mean place of the contact, mm; `None` where the teeth part.
+    pub found: Option<(f64, [f64; 2])>,
+}
+
+/// One side of the teeth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RolledSide {
+    /// Blades that cut the gear's flanks.
+    pub gear_blades: BladeKind,
+    /// The flanks.
+    pub pair: BevelPair,
+    /// How they run.
+    pub running: Running,
+    /// What errors of the mounting do.
+    pub trends: Vec<Trend>,
+}
+
+/// Both sides, and how they are mounted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RolledBevels {
+    /// Concave flanks of the gear, then convex ones.
+    pub sides: [RolledSide; 2],
+    /// Nominal shaft angle, rad.
+    pub shaft_angle_rad: f64,
+    /// Errors of the mounting.
+    pub errors: MountingErrors,
+    /// Thickness of the marking compound, mm.
+    pub marking_mm: f64,
+}
+
+/// Brings a gear and a pinion into contact.
+///
+/// # Errors
+/// Scenes that make no pair; flanks that do not meet.
+pub fn roll(gear: &BevelJob, pinion: &BevelJob, errors: &MountingErrors, marking_mm: f64) -> Result<RolledBevels> {
+    let shaft_angle_rad = fitting(gear, pinion)?;
+    let side = |gear_blades: BladeKind| -> Result<RolledSide> {
+        let pinion_blades = match gear_blades {
+            BladeKind::Outside => BladeKind::Inside,
+            BladeKind::Inside => BladeKind::Outside,
+        };
+        let mounted = |errors: &MountingErrors| BevelPair {
+            gear: gear.target[gear_blades.index()].clone(),
+            pinion: pinion.target[pinion_blades.index()].clone(),
+            mounting: Mounting {
+                shaft_angle_rad: shaft_angle_rad + errors.shaft_angle_rad,
+                offset_mm: errors.offset_mm,
+                pinion_axial_mm: errors.pinion_axial_mm,
+                gear_axial_mm: errors.gear_axial_mm,
+            },
+        };
+        let pair = mounted(errors);
+        let running = Running::of(&pair, marking_mm)?;
+        let tried: Vec<(MountingError, f64)> =
+            MountingError::ALL.into_iter().flat_map(|error| [(error, -1.0), (error, 1.0)]).collect();
+        let trends = tried.into_par_iter().map(|(error, sign)| {
+            let found = Running::of(&mounted(&error.added(errors, sign)), marking_mm).ok();
+            let tried = if error == MountingError::ShaftAngle { TRIED_RAD } else { TRIED_MM };
+            Trend {
+                error,
+                added: sign * tried,
+                found: found.map(|running| (running.motion_error_rad(), running.center_mm())),
+            }
+        });
+        Ok(RolledSide { gear_blades, trends: trends.collect(), pair, running })
+    };
+    let sides = [side(BladeKind::Outside)?, side(BladeKind::Inside)?];
+    Ok(RolledBevels { sides, shaft_angle_rad, errors: *errors, marking_mm })
+}
+
+/// The shaft angle, if both belong together.
+fn fitting(gear: &BevelJob, pinion: &BevelJob) -> Result<f64, Refusal> {
+    let [gear_mm, pinion_mm] = [gear, pinion].map(|job| job.blank.outer_module_mm());
+    if (gear_mm - pinion_mm).abs() > MODULE_MM {
+        return Err(Refusal::new(
+            "gear.module_mm",
+            format!("the gear's outer module is {gear_mm:.4} mm, the pinion's {pinion_mm:.4} mm"),
+            "a pair has one module",
+        ));
+    }
+    let [gear_teeth, pinion_teeth] = [gear, pinion].map(|job| job.blank.teeth);
+    if pinion_teeth > gear_teeth {
+        return Err(Refusal::new(
+            "gear.teeth",
+            format!("the first scene has {gear_teeth} teeth, the second one {pinion_teeth}"),
+            "name the gear first, then the pinion",
+        ));
+    }
+    let hand = |job: &BevelJob| job.finishing().settings.cradle_angle_rad.signum();
+    if hand(gear) * hand(pinion) > 0.0 {
+        return Err(Refusal::new(
+            "machine.cradle.cradle_angle_deg",
+            "gear and pinion have the same hand of spiral",
+            "a pair has opposite hands: change the sign of one cradle angle",
+        ));
+    }
+    let angles_rad = [gear, pinion].map(|job| job.blank.pitch_angle_rad);
+    let shaft_angle_rad = angles_rad[0] + angles_rad[1];
+    for (job, mate_teeth) in [(gear, pinion_teeth), (pinion, gear_teeth)] {
+        let Some(mate) = job.spec.cones.mate else { continue };
+        if mate.teeth != mate_teeth {
+            return Err(Refusal::new(
+                "gear.bevel.mate_teeth",
+                format!("{} names a mate with {} teeth; this one has {mate_teeth}", job.scene.name, mate.teeth),
+                "correct it, or take the scene of its mate",
+            ));
+        }
+        let off_rad = mate.shaft_angle_rad - shaft_angle_rad;
+        if off_rad.abs() > SHAFT_ANGLE_RAD {
+            return Err(Refusal::new(
+                "gear.bevel.shaft_angle_deg",
+                format!(
+                    "{} names a shaft angle of {:.4} deg; the pitch angles add up to {:.4} deg",
+                    job.scene.name,
+                    mate.shaft_angle_rad.to_degrees(),
+                    shaft_angle_rad.to_degrees()
+                ),
+                "correct the pitch angles or the shaft angle",
+            ));
+        }
+    }
+    Ok(shaft_angle_rad)
+}
+
+/// Shaft angles that differ by more belong to no pair, rad: rounding of data sheets.
+const SHAFT_ANGLE_RAD: f64 = 0.02 * std::f64::consts::PI / 180.0;

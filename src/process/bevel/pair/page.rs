@@ -1,0 +1,78 @@
+//! The page of a bevel pair: `report.html`.
+
+use super::RolledBevels;
+use super::findings::words;
+use crate::findings::{Datum, Findings, Table, unit};
+use crate::output::line_chart::LineChart;
+use crate::output::report::{Block, Page, PageSection, PageTable};
+use crate::output::text::{plain, significant};
+use crate::process::bevel::BevelJob;
+use crate::process::bevel::check::gear_words;
+use crate::steps::report::quantities;
+use gearcut_core::units::UM_PER_MM;
+
+/// The page.
+pub fn page(jobs: [&BevelJob; 2], rolled: &RolledBevels, found: &Findings, charts: &[(String, LineChart)]) -> Page {
+    let chart = |name: &str| {
+        let found = charts.iter().find(|(own, _)| own == name);
+        found.map(|(_, chart)| Block::Lines(chart.clone()))
+    };
+    let quantities_of = |path: &str| found.find(path).map(|section| Block::Table(quantities::table(section)));
+    let section = |id: &'static str, title: &str, lead: String, blocks: Vec<Option<Block>>| PageSection {
+        id,
+        title: title.to_owned(),
+        lead,
+        blocks: blocks.into_iter().flatten().collect(),
+    };
+    let mut sections = vec![section(
+        "motion-error",
+        "Motion error",
+        "How unevenly the gear turns without load while the pinion turns evenly. At every moment the pair of teeth \
+        carries that is ahead."
+            .to_owned(),
+        vec![chart("motion_error")],
+    )];
+    for (side, id) in rolled.sides.iter().zip(["concave", "convex"]) {
+        let name = words(side);
+        let trends = found.find(name).and_then(|section| section.table_of("trends"));
+        sections.push(section(
+            id,
+            &format!("Contact on {name} flanks of the gear"),
+            format!("Marking: {} µm.", plain(UM_PER_MM * rolled.marking_mm)),
+            vec![chart(&format!("bearing_{name}")), quantities_of(name), trends.map(|table| Block::Table(rows(table)))],
+        ));
+    }
+    sections.push(section(
+        "pair",
+        "Pair and mounting",
+        "Gleason's letters and the names of ISO 23509.".to_owned(),
+        vec![quantities_of("pair")],
+    ));
+    let roles = jobs.into_iter().zip(["gear", "pinion"]);
+    Page {
+        what: "tooth contact report",
+        title: found.scene.clone(),
+        subtitle: format!("shaft angle {} deg", plain(rolled.shaft_angle_rad.to_degrees())),
+        operations: roles.map(|(job, role)| format!("{role}: {}. {}", job.scene.name, gear_words(job))).collect(),
+        complete: true,
+        done: "both sides rolled over a pitch",
+        program: format!("gearcut {}", found.program_version),
+        key_numbers: found.headline.iter().map(quantities::key_number).collect(),
+        warnings: found.all_warnings().iter().map(|text| unit::sentence_with_signs(text)).collect(),
+        viewer: None,
+        sections,
+    }
+}
+
+/// A table of findings on the page.
+fn rows(table: &Table) -> PageTable {
+    let cell = |datum: &Datum| match datum.number() {
+        Some(number) => significant(number, 4).replace('-', "−"),
+        None => datum.name(),
+    };
+    PageTable {
+        caption: table.title.clone(),
+        columns: table.columns.iter().map(|column| unit::sentence_with_signs(&column.head())).collect(),
+        rows: table.rows.iter().map(|row| row.iter().map(cell).collect()).collect(),
+    }
+}
