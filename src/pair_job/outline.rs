@@ -117,9 +117,8 @@ fn cut_gear(gear: &dyn GearJob, backend: &dyn Backend, rows_z_mm: &[f64], stage:
 
 /// Whether the points of a root follow each other; else the first step between them that is too far, mm.
 fn whole(points_mm: &[DVec2], module_mm: f64) -> std::result::Result<(), f64> {
-    let steps_mm = points_mm.windows(2).map(|pair| pair[0].distance(pair[1]));
-    let far = steps_mm.into_iter().find(|step_mm| *step_mm > ROOT_STEP_MODULES * module_mm);
-    far.map_or(Ok(()), Err)
+    let mut steps_mm = points_mm.windows(2).map(|pair| pair[0].distance(pair[1]));
+    steps_mm.find(|step_mm| *step_mm > ROOT_STEP_MODULES * module_mm).map_or(Ok(()), Err)
 }
 
 /// Points and arcs of a flank from its form point to its tip, section by section.
