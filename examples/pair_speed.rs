@@ -3,11 +3,14 @@
 //! `cargo run --release --example pair_speed [scene] [teeth of the mate]`
 
 use gearcut::gear::GearKind;
+use gearcut::interrupt::Interrupt;
+use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::pair::rolling::roll;
 use gearcut::pair_job::fit::Fit;
 use gearcut::pair_job::flanks::PairFlanks;
 use gearcut::pair_job::member;
 use gearcut::pair_job::options::PairOptions;
+use gearcut::pair_job::watch::Watch;
 use gearcut::scene::Mate;
 use std::path::Path;
 use std::time::Instant;
@@ -22,12 +25,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let gears = [&a.scene.gear, &b.scene.gear];
     let started = Instant::now();
     let fit = Fit::new(scenes[0], scenes[1], 0)?;
-    let flanks = PairFlanks::new(&fit, scenes, options.source, 1)?;
-    println!("flanks cut in {:.2} s; {:.1} MB of points", started.elapsed().as_secs_f64(), flanks.bytes() as f64 / 1e6);
+    let (progress, interrupt) = (Progress::new(ProgressMode::Quiet), Interrupt::default());
+    let flanks = PairFlanks::new(&fit, scenes, options.source, 1, &Watch::new(&progress, &interrupt))?;
+    println!("flanks cut in {:.2} s", started.elapsed().as_secs_f64());
     let meshing = flanks.meshing(&fit, gears[0], &options.mounting(&fit, gears)?)?;
     for positions in [500, 1000, 2000, 4000] {
         let started = Instant::now();
-        let period = roll(&meshing, positions)?;
+        let period = roll(&meshing, positions, || Ok(()))?;
         let seconds = started.elapsed().as_secs_f64();
         println!(
             "{} positions in {seconds:.2} s: {:.3} ms each",

@@ -9,6 +9,7 @@
 //! | `<path>_<column>.svg` | bars of a column that asks for them, all rows |
 //! | `<path>_<column>_first_period.svg` | the rows of the pitch curve's first period (Gao et al. 2017, Fig. 10) |
 //! | `<path>_<column>_a.svg`, `_b.svg`, ... | one result each, on its own scale |
+//! | `<path>.svg` | curves of the columns that ask for them, such as the transmission error of pairs |
 //!
 //! Everything is read from the trees by path, whatever the process: what joins the tree joins the comparison. Results
 //! of different gears may be compared: what one of them lacks stays empty. Places are not compared.
@@ -22,6 +23,7 @@ use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use gearcut_core::Result;
 use lines::Line;
+use std::path::PathBuf;
 
 /// Most results that stand side by side: as many as a chart has colours for.
 pub const MOST_RESULTS: usize = 7;
@@ -33,6 +35,8 @@ pub struct Compared {
     pub name: String,
     /// What was found.
     pub findings: Findings,
+    /// Its folder, in which tables are that `results.json` only names.
+    pub folder: PathBuf,
 }
 
 /// Results and the lines in which they are compared.
@@ -71,10 +75,13 @@ impl Comparison {
     /// Writes table and charts.
     ///
     /// # Errors
-    /// Files that cannot be written.
+    /// Files that cannot be written; tables of the results that cannot be read.
     pub fn write(&self, folder: &OutputFolder) -> Result<()> {
         self.write_csv(&folder.path("comparison.csv")?)?;
         for (name, chart) in charts::charts(&self.results) {
+            chart.write_svg(&folder.path(format!("{name}.svg"))?)?;
+        }
+        for (name, chart) in charts::curves(&self.results)? {
             chart.write_svg(&folder.path(format!("{name}.svg"))?)?;
         }
         Ok(())

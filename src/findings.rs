@@ -26,5 +26,5 @@ pub mod unit;
 pub use json::{RESULTS_FILE, SCHEMA, SCHEMA_VERSION};
 pub use place::{Coordinate, Place};
 pub use quantity::Quantity;
-pub use table::{Datum, Table, TableColumn};
+pub use table::{ColumnChart, Datum, Table, TableColumn};
 pub use tree::{Entry, Findings, Level, Section};

@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use gearcut_core::{Error, Result};
 
 /// Exit code of a program ended by Ctrl-C: 128 + SIGINT.
-pub const INTERRUPTED_EXIT_CODE: i32 = 130;
+pub const INTERRUPTED_EXIT_CODE: u8 = 130;
 
 /// Flag that is raised when the user wants to stop; clones share it.
 #[derive(Debug, Clone, Default)]
@@ -34,7 +34,7 @@ impl Interrupt {
         let on_signal = interrupt.clone();
         ctrlc::set_handler(move || {
             if on_signal.raised.swap(true, Ordering::SeqCst) {
-                std::process::exit(INTERRUPTED_EXIT_CODE);
+                std::process::exit(INTERRUPTED_EXIT_CODE.into());
             }
         })
         .map_err(io::Error::other)?;

@@ -168,10 +168,33 @@ gearcut.loaded.then((data) => {
     Object.assign(material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   }
   const scene = new THREE.Scene();
-  scene.add(flankBody, body, ...edges);
+  const gear = [flankBody, body, ...edges];
+  scene.add(...gear);
 
   flankShape.computeBoundingSphere();
-  const radius = flankShape.boundingSphere.radius;
+  const gearRadius = flankShape.boundingSphere.radius;
+  const { mate } = description;
+  const origin = new THREE.Vector3();
+  let radius = gearRadius;
+  let mateParts = [];
+  if (mate) {
+    const shape = geometry(mate.mesh);
+    shape.computeBoundingSphere();
+    // Its own metal, a little darker, and no map.
+    const material = bodyMaterial.clone();
+    material.uniforms.metal.value = new THREE.Vector3();
+    mateParts = [new THREE.Mesh(shape, material), linesOf(walls(shape))];
+    for (const part of mateParts) part.position.set(...mate.axis, 0);
+    scene.add(...mateParts);
+    // Both gears are looked at from over their common middle.
+    const [low, high] = [0, 1].map((k) => {
+      const reaches = [[0, gearRadius], [mate.axis[0], shape.boundingSphere.radius]];
+      const ends = reaches.map(([middle, reach]) => middle + (k === 0 ? -reach : reach));
+      return k === 0 ? Math.min(...ends) : Math.max(...ends);
+    });
+    origin.set((low + high) / 2, 0, 0);
+    radius = (high - low) / 2;
+  }
   const camera = new THREE.PerspectiveCamera(28, 1, radius / 50, radius * 60);
   camera.up.set(0, 0, 1);
   const controls = new THREE.OrbitControls(camera, canvas);
@@ -191,7 +214,6 @@ gearcut.loaded.then((data) => {
     camera.position.copy(target).addScaledVector(direction, distance);
     controls.update();
   }
-  const origin = new THREE.Vector3();
 
   function lookAtFlank() {
     const [first, count] = flanks[chosen.flank].corners;
@@ -202,6 +224,7 @@ gearcut.loaded.then((data) => {
       normal.add(new THREE.Vector3().fromBufferAttribute(normals, corner));
     }
     middle.divideScalar(count);
+    for (const vector of [middle, normal]) vector.applyEuler(flankBody.rotation);
     // From outside and a little above, so that the tooth in front does not hide it.
     const outwards = new THREE.Vector3(middle.x, middle.y, 0).normalize();
     const direction = normal.normalize().addScaledVector(outwards, 1.1).add(new THREE.Vector3(0, 0, 0.5)).normalize();
@@ -297,6 +320,7 @@ gearcut.loaded.then((data) => {
   };
   function theme() {
     flankMaterial.uniforms.metal.value.set(...colour("--body-metal"));
+    if (mate) mateParts[0].material.uniforms.metal.value.set(...colour("--body-metal").map((share) => 0.8 * share));
     flankMaterial.uniforms.accent.value.set(...colour("--s1"));
     edgeMaterial.color.set(getComputedStyle(document.documentElement).getPropertyValue("--edge").trim());
     draw();
@@ -312,6 +336,34 @@ gearcut.loaded.then((data) => {
     if (!fitted) actions.home();
     fitted = true;
     draw();
+  }
+  // Both gears at a place of the roll.
+  if (mate) {
+    const [slider, play, angle] = ["roll", "roll-play", "roll-angle"].map((id) => document.getElementById(id));
+    const places = mate.turned.length;
+    slider.max = places - 1;
+    let rolling = null;
+    const show = () => {
+      const [own, other] = mate.turned[slider.value];
+      for (const part of gear) part.rotation.z = (own * Math.PI) / 180;
+      for (const part of mateParts) part.rotation.z = (other * Math.PI) / 180;
+      angle.textContent = `A at ${(-own).toFixed(1)}°`;
+      draw();
+    };
+    const stop = () => {
+      clearInterval(rolling);
+      rolling = null;
+      play.setAttribute("aria-pressed", "false");
+      play.textContent = "Roll";
+    };
+    slider.addEventListener("input", () => { stop(); show(); });
+    play.addEventListener("click", () => {
+      if (rolling) return stop();
+      play.setAttribute("aria-pressed", "true");
+      play.textContent = "Stop";
+      rolling = setInterval(() => { slider.value = (Number(slider.value) + 1) % places; show(); }, 60);
+    });
+    show();
   }
   controls.addEventListener("change", draw);
   new ResizeObserver(resize).observe(canvas);

@@ -19,7 +19,8 @@ use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
         gearcut check scenes/shaping/elliptical_normal.toml   what the scene means, in a second\n  \
         gearcut cut scenes/shaping/elliptical_normal.toml     cut it and measure it\n  \
         gearcut new shaping --out my_gear.toml                a commented scene of your own\n\n\
-        Exit codes: 0 done; 1 refused or failed, with the reason; 2 wrong usage; 130 stopped by Ctrl-C."
+        Exit codes: 0 done; 1 refused or failed, with the reason; 2 wrong usage; 3 done and written, but the verdict\n\
+        is bad (pair: a tip stands in the mate); 130 stopped by Ctrl-C."
 )]
 pub struct CommandLine {
     /// What to do.

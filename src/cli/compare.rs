@@ -15,7 +15,8 @@ use super::{folder, print};
 pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
     let paths = &arguments.results;
     let read = |path: &PathBuf| -> Result<Compared, Failure> {
-        Ok(Compared { name: folder::name_of(path), findings: Findings::read(path)? })
+        let folder = if path.is_file() { path.parent().unwrap_or(path) } else { path };
+        Ok(Compared { name: folder::name_of(path), findings: Findings::read(path)?, folder: folder.to_owned() })
     };
     let results = paths.iter().map(read).collect::<Result<Vec<_>, Failure>>()?;
     let names: Vec<&str> = results.iter().map(|one| one.name.as_str()).collect();

@@ -13,8 +13,13 @@ use gearcut::{Error, Refusal};
 #[derive(Debug)]
 pub struct Failure {
     text: String,
-    interrupted: bool,
+    code: u8,
 }
+
+/// Refused or failed.
+const FAILED: u8 = 1;
+/// Done and written, but what was found is bad.
+const BAD_VERDICT: u8 = 3;
 
 impl Failure {
     /// A failure of work on a scene: what geometry refuses is shown at its place in the scene file.
@@ -28,7 +33,7 @@ impl Failure {
     /// A refusal of something that no file says.
     pub fn without_place(what: &str, refusal: &Refusal) -> Self {
         let text = format!("error: {what}: {}\n  way out: {}", refusal.problem, refusal.way_out);
-        Self { text, interrupted: false }
+        Self { text, code: FAILED }
     }
 
     /// A run that Ctrl-C ended early: its results are in `partial`, beside what is at `out`.
@@ -39,25 +44,30 @@ impl Failure {
         } else {
             finished
         };
-        Self { text, interrupted: true }
+        Self { text, code: INTERRUPTED_EXIT_CODE }
+    }
+
+    /// Work that is done and written, with a finding that nobody should miss.
+    pub fn bad_verdict(what: &str) -> Self {
+        Self { text: format!("verdict: {what}"), code: BAD_VERDICT }
     }
 
     /// Prints the reason on standard error.
     pub fn report(&self) -> ExitCode {
         // Nobody is left to be told when standard error is closed.
         let _closed = writeln!(std::io::stderr(), "{}", self.text.trim_end());
-        if self.interrupted { u8::try_from(INTERRUPTED_EXIT_CODE).unwrap_or(1).into() } else { ExitCode::FAILURE }
+        self.code.into()
     }
 }
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
-        let interrupted = matches!(error, Error::Interrupted);
+        let code = if matches!(error, Error::Interrupted) { INTERRUPTED_EXIT_CODE } else { FAILED };
         let text = match error {
             Error::Scene(errors) => errors.to_string(), // every problem says "error:" itself
             other => format!("error: {other}"),
         };
-        Self { text, interrupted }
+        Self { text, code }
     }
 }
 

@@ -3,10 +3,12 @@
 use std::path::PathBuf;
 
 use gearcut::gear::GearKind;
+use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::output::summary;
 use gearcut::output::text::{Sheet, plain};
 use gearcut::pair_job::flanks::FlankSource;
 use gearcut::pair_job::options::PairOptions;
+use gearcut::pair_job::watch::Watch;
 use gearcut::pair_job::{findings, member, rolled, write};
 use gearcut::scene::{LoadedScene, Mate};
 use gearcut::{Error, Findings};
@@ -24,29 +26,36 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
     let name = format!("{}_with_{}", a.scene.name, b.scene.name);
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
     let words = std::env::args().skip(1).collect::<Vec<_>>();
-    let (path, (found, mut sheet)) = folder::fill(&out, "pair", |folder, interrupt| {
-        let rolled = rolled::roll_pair(scenes, &options)?;
-        interrupt.check()?;
+    let progress = Progress::new(ProgressMode::choose(false, arguments.json));
+    let (path, (found, interference)) = folder::fill(&out, "pair", |folder, interrupt| {
+        let watch = Watch::new(&progress, interrupt);
+        let rolled = rolled::roll_pair(scenes, &options, &watch)?;
         let found = findings::findings(&name, scenes, &options, &rolled);
-        write::write(scenes, &options, &rolled, &found, folder)?;
+        write::write(scenes, &options, &rolled, &found, folder, &watch)?;
         let record =
             [("arguments", json!(words)), ("scene_A", json!(a.resolved_toml())), ("scene_B", json!(b.resolved_toml()))];
-        Ok((record.to_vec(), (found, Sheet::default())))
+        Ok((record.to_vec(), (found, findings::interference(&rolled))))
     })
     .map_err(|error| in_place(&a, error))?;
     if arguments.json {
         let text = serde_json::to_string_pretty(&found.to_json())
             .map_err(|reason| Error::Output { path: path.clone(), reason: reason.to_string() })?;
-        return Ok(print::to_stdout(&format!("{text}\n"))?);
+        print::to_stdout(&format!("{text}\n"))?;
+    } else {
+        let mut sheet = Sheet::default();
+        heading(&found, scenes.map(|scene| scene.gear.teeth), a.scene.gear.module_mm, &mut sheet);
+        summary::print(&found, &mut sheet);
+        print::to_stdout(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?;
     }
-    heading(&found, scenes.map(|scene| scene.gear.teeth), a.scene.gear.module_mm, &mut sheet);
-    summary::print(&found, &mut sheet);
-    Ok(print::to_stdout(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?)
+    // Everything is written all the same.
+    if interference.is_empty() { Ok(()) } else { Err(Failure::bad_verdict(&interference.join("; "))) }
 }
 
 fn heading(found: &Findings, teeth: [u32; 2], module_mm: f64, sheet: &mut Sheet) {
     let [a, b] = teeth;
-    sheet.heading(&format!("{}: {a} and {b} teeth, module {} mm", found.scene, plain(module_mm)));
+    let apart_mm = found.find("pair").and_then(|pair| pair.number("center_distance")).unwrap_or(f64::NAN);
+    let [module, apart] = [module_mm, apart_mm].map(plain);
+    sheet.heading(&format!("{}: {a} and {b} teeth, module {module} mm, axes {apart} mm apart", found.scene));
 }
 
 /// Both gears.

@@ -1,23 +1,27 @@
 //! Bars of every column that asks for them: all results in one picture, and where the gear repeats itself, the first
-//! period and each result on a scale of its own, since one may be a fiftieth of the other.
+//! period and each result on a scale of its own, since one may be a fiftieth of the other. Curves of every column that
+//! asks for those: all results in one picture, a panel for each column of a table.
 
 use super::{Compared, letters};
-use crate::findings::{Findings, Table, TableColumn};
+use crate::findings::{ColumnChart, Datum, Findings, Table, TableColumn, unit};
 use crate::output::bar_chart::{BarChart, BarSeries};
+use crate::output::line_chart::{LineChart, LineSeries, Panel};
+use crate::output::table;
+use gearcut_core::Result;
 
 /// The charts with their file names; a result without such a table or row has no bars.
 pub(super) fn charts(results: &[Compared]) -> Vec<(String, BarChart)> {
     let mut charts = Vec::new();
-    for path in paths(results) {
+    for path in paths(results, ColumnChart::Bars) {
         let tables: Vec<(&str, Option<&Table>)> =
-            results.iter().map(|one| (one.name.as_str(), table(&one.findings, &path))).collect();
+            results.iter().map(|one| (one.name.as_str(), table_at(&one.findings, &path))).collect();
         let rows = |table: &&Table| table.rows.len();
         // The longest one, for the names of columns and rows.
         let Some(longest) = tables.iter().filter_map(|of| of.1).max_by_key(rows).filter(|table| rows(table) > 0) else {
             continue;
         };
         let period = tables.iter().filter_map(|of| of.1?.period_rows).max().map(|rows| rows as usize);
-        for column in longest.columns.iter().filter(|column| column.bars) {
+        for column in longest.columns.iter().filter(|column| column.chart == Some(ColumnChart::Bars)) {
             let stem = format!("{path}.{}", column.key).replace('.', "_");
             let of = |count: usize, what: &str, tables: &[(&str, Option<&Table>)]| {
                 chart(&path, what, longest, count, column, tables)
@@ -34,12 +38,60 @@ pub(super) fn charts(results: &[Compared]) -> Vec<(String, BarChart)> {
     charts
 }
 
-/// Paths of all tables with bars, in the order in which the results first have them.
-fn paths(results: &[Compared]) -> Vec<String> {
+/// The charts of curves with their file names.
+///
+/// # Errors
+/// Rows that a result has in a file which cannot be read.
+pub(super) fn curves(results: &[Compared]) -> Result<Vec<(String, LineChart)>> {
+    let of_path = |path: String| {
+        let mut panels: Vec<Panel> = Vec::new();
+        let mut title = String::new();
+        let mut x = (String::new(), String::new());
+        for one in results {
+            let Some(table) = table_at(&one.findings, &path) else { continue };
+            let rows = table::rows(table, &one.folder)?;
+            title.clone_from(&table.title);
+            x = (words(&table.columns[0]), signs(&table.columns[0]));
+            for (k, column) in table.columns.iter().enumerate() {
+                if column.chart != Some(ColumnChart::Curve) {
+                    continue;
+                }
+                let value = |row: &[Datum], k: usize| row[k].number().unwrap_or(f64::NAN);
+                let points = rows.iter().map(|row| (value(row, 0), value(row, k))).collect();
+                let series = LineSeries { name: one.name.clone(), points };
+                let name = words(column);
+                match panels.iter_mut().find(|panel| panel.value_name == name) {
+                    Some(panel) => panel.series.push(series),
+                    None => panels.push(Panel {
+                        value_name: name,
+                        unit: signs(column),
+                        series: vec![series],
+                        limits: Vec::new(),
+                        least_division: 0.0,
+                    }),
+                }
+            }
+        }
+        Ok((path.replace('.', "_"), LineChart { title, x_name: x.0, x_unit: x.1, panels }))
+    };
+    paths(results, ColumnChart::Curve).into_iter().map(of_path).collect()
+}
+
+fn words(column: &TableColumn) -> String {
+    column.key.replace('_', " ")
+}
+
+fn signs(column: &TableColumn) -> String {
+    column.unit.as_deref().map_or_else(String::new, unit::signs)
+}
+
+/// Paths of all tables with such columns, in the order in which the results first have them.
+fn paths(results: &[Compared], chart: ColumnChart) -> Vec<String> {
     let mut paths: Vec<String> = Vec::new();
     for one in results {
         one.findings.walk(&mut |path, section| {
-            for table in section.tables.iter().filter(|table| table.columns.iter().any(|column| column.bars)) {
+            let drawn = |table: &&Table| table.columns.iter().any(|column| column.chart == Some(chart));
+            for table in section.tables.iter().filter(drawn) {
                 let path = format!("{path}.{}", table.key);
                 if !paths.contains(&path) {
                     paths.push(path);
@@ -50,7 +102,7 @@ fn paths(results: &[Compared]) -> Vec<String> {
     paths
 }
 
-fn table<'a>(findings: &'a Findings, path: &str) -> Option<&'a Table> {
+fn table_at<'a>(findings: &'a Findings, path: &str) -> Option<&'a Table> {
     let (section, key) = path.rsplit_once('.')?;
     findings.find(section)?.table_of(key)
 }

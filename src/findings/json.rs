@@ -9,7 +9,7 @@ use std::path::Path;
 use serde_json::{Map, Value, json};
 
 use super::quantity::Quantity;
-use super::table::{Datum, Table, TableColumn};
+use super::table::{ColumnChart, Datum, Table, TableColumn};
 use super::tree::{Entry, Findings, Level, Section, title_of};
 use gearcut_core::{Error, Result};
 
@@ -23,6 +23,9 @@ pub const SCHEMA: &str = include_str!("../../assets/results.schema.json");
 /// Names of the levels in files.
 pub(super) const LEVELS: [(Level, &str); 3] =
     [(Level::Headline, "headline"), (Level::Summary, "summary"), (Level::Detail, "detail")];
+
+/// Names of the charts of columns in files.
+pub(super) const CHARTS: [(ColumnChart, &str); 2] = [(ColumnChart::Bars, "bars"), (ColumnChart::Curve, "curve")];
 
 impl Findings {
     /// The document.
@@ -120,8 +123,10 @@ fn of_column(column: &TableColumn) -> Value {
     if let Some(why) = &column.why {
         value["why"] = json!(why);
     }
-    if column.bars {
-        value["chart"] = json!("bars");
+    if let Some(chart) = column.chart
+        && let Some((_, name)) = CHARTS.iter().find(|(own, _)| *own == chart)
+    {
+        value["chart"] = json!(name);
     }
     value
 }

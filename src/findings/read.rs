@@ -5,7 +5,7 @@
 
 use serde_json::{Map, Value};
 
-use super::json::LEVELS;
+use super::json::{CHARTS, LEVELS};
 use super::quantity::Quantity;
 use super::table::{Datum, Table, TableColumn};
 use super::tree::{Entry, Findings, Level, Section, title_of};
@@ -107,7 +107,7 @@ fn column(value: &Value) -> Read<TableColumn> {
         unit: text("unit").map(Into::into),
         definition: text("definition").ok_or("a column has a definition")?.into(),
         why: text("why").map(Into::into),
-        bars: all.get("chart").and_then(Value::as_str) == Some("bars"),
+        chart: CHARTS.iter().find(|(_, name)| all.get("chart").is_some_and(|own| own == name)).map(|(chart, _)| *chart),
     })
 }
 

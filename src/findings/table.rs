@@ -39,8 +39,17 @@ pub struct TableColumn {
     pub definition: Cow<'static, str>,
     /// Why a value may be missing; none where none ever is.
     pub why: Option<Cow<'static, str>>,
-    /// Whether comparisons draw it as bars over the first column.
-    pub bars: bool,
+    /// How comparisons draw it over the first column, if they do.
+    pub chart: Option<ColumnChart>,
+}
+
+/// How a column is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColumnChart {
+    /// Bars, one for each row.
+    Bars,
+    /// A curve through all rows.
+    Curve,
 }
 
 /// One value.
@@ -125,7 +134,7 @@ impl Table {
 impl TableColumn {
     /// A column of numbers or counts.
     pub fn new(key: impl Into<Cow<'static, str>>, unit: &'static str, definition: &'static str) -> Self {
-        Self { key: key.into(), unit: Some(unit.into()), definition: definition.into(), why: None, bars: false }
+        Self { key: key.into(), unit: Some(unit.into()), definition: definition.into(), why: None, chart: None }
     }
 
     /// A column of quantities like this one.
@@ -135,7 +144,7 @@ impl TableColumn {
             unit: quantity.unit().map(|unit| unit.to_owned().into()),
             definition: quantity.definition().to_owned().into(),
             why: Some("the quantity of this row in its section tells why".into()),
-            bars: false,
+            chart: None,
         }
     }
 
@@ -152,7 +161,7 @@ impl TableColumn {
 
     /// A column of words.
     pub fn words(key: &'static str, definition: &'static str) -> Self {
-        Self { key: key.into(), unit: None, definition: definition.into(), why: None, bars: false }
+        Self { key: key.into(), unit: None, definition: definition.into(), why: None, chart: None }
     }
 
     /// The column, in which a value may be missing for this reason.
@@ -165,7 +174,14 @@ impl TableColumn {
     /// The column, drawn as bars by comparisons.
     #[must_use]
     pub fn as_bars(mut self) -> Self {
-        self.bars = true;
+        self.chart = Some(ColumnChart::Bars);
+        self
+    }
+
+    /// The column, drawn as a curve by comparisons.
+    #[must_use]
+    pub fn as_curve(mut self) -> Self {
+        self.chart = Some(ColumnChart::Curve);
         self
     }
 }

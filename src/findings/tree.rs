@@ -79,8 +79,11 @@ impl Entry {
         Self { key: key.to_owned(), title: title.to_owned(), level: Level::Headline, quantity }
     }
 
-    /// The name for a heading: the title with a capital.
+    /// The name for a heading: the title with a capital. A symbol, such as f_i", keeps its letter.
     pub fn heading(&self) -> String {
+        if self.title.chars().nth(1) == Some('_') {
+            return self.title.clone();
+        }
         let mut letters = self.title.chars();
         letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
     }

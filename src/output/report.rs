@@ -134,7 +134,7 @@ impl Page {
                         }
                         main {
                             (self.numbers())
-                            @if self.viewer.is_some() { (gear_frame()) }
+                            @if let Some(viewer) = &self.viewer { (gear_frame(viewer.mate.is_some())) }
                             @for section in &self.sections { (section.markup()) }
                         }
                     }

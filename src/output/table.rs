@@ -13,10 +13,10 @@ use std::borrow::Borrow;
 use std::io;
 use std::path::Path;
 
-use crate::findings::{Datum, Findings, TableColumn};
+use crate::findings::{Datum, Findings, Table, TableColumn};
 use crate::output::atomic::write_atomically;
 use crate::output::folder::OutputFolder;
-use gearcut_core::Result;
+use gearcut_core::{Error, Result};
 
 /// Writes every table of the tree that has a file.
 ///
@@ -63,6 +63,34 @@ where
     })
 }
 
+/// Rows of a table that stand in its file below the folder of the results; those of the tree where it has no file.
+///
+/// # Errors
+/// No such file; a file whose columns are not those of the table.
+pub fn rows(table: &Table, folder: &Path) -> Result<Vec<Vec<Datum>>> {
+    let Some(file) = table.file.as_ref().filter(|_| table.rows_in_file && table.rows.is_empty()) else {
+        return Ok(table.rows.clone());
+    };
+    let path = folder.join(file);
+    let text = std::fs::read(&path).map_err(Error::reading(&path))?;
+    let unreadable = |reason: String| Error::Unreadable { path: path.clone(), reason };
+    let mut reader = csv::Reader::from_reader(text.as_slice());
+    let heads: Vec<String> = table.columns.iter().map(TableColumn::head).collect();
+    let found = reader.headers().map_err(|reason| unreadable(reason.to_string()))?;
+    if *found != heads {
+        return Err(unreadable("its columns are not those that results.json names".to_owned()));
+    }
+    let cell = |text: &str| match text.parse() {
+        Ok(number) => Datum::Number(number),
+        Err(_) if text.is_empty() => Datum::Undefined,
+        Err(_) => Datum::Word(text.to_owned()),
+    };
+    let row = |record: csv::Result<csv::StringRecord>| {
+        Ok(record.map_err(|reason| unreadable(reason.to_string()))?.iter().map(cell).collect())
+    };
+    reader.records().map(row).collect()
+}
+
 /// The system's own reason where there is one: "no storage space" says more than a CSV error around it.
 fn reason(failed: csv::Error) -> io::Error {
     io::Error::from(failed)
@@ -104,6 +132,21 @@ mod tests {
         fn map_bits(&self) -> Vec<u64> {
             self.as_ref().iter().map(|x| x.to_bits()).collect()
         }
+    }
+
+    #[test]
+    fn rows_of_a_file_come_back_and_foreign_ones_are_refused() {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let columns = vec![TableColumn::new("angle", "deg", "angle"), TableColumn::words("touching", "what touches")];
+        let rows_made = vec![vec![0.1.into(), "flank".into()], vec![0.2.into(), Datum::Undefined]];
+        let table = Table::new("positions", "Positions", columns).with_rows(rows_made.clone()).rows_in_file("rolling");
+        let path = folder.path().join("tables/rolling.csv");
+        std::fs::create_dir(folder.path().join("tables")).expect("a folder");
+        write_table(&path, &["angle_deg", "touching"], &table.rows).expect("a good table");
+        let read = Table { rows: Vec::new(), ..table };
+        assert_eq!(rows(&read, folder.path()).expect("its own file"), rows_made);
+        write_table(&path, &["angle_rad", "touching"], &rows_made).expect("a good table");
+        assert!(rows(&read, folder.path()).is_err_and(|reason| reason.to_string().contains("rolling.csv")));
     }
 
     #[test]

@@ -169,13 +169,18 @@ impl Meshing {
         self.center_distance_error_mm
     }
 
+    /// Axis of the driven gear in the middle section, machine frame, mm; the driver's is the origin.
+    pub fn axis_2_mm(&self) -> DVec2 {
+        DVec2::new(self.pitch.sign() * (self.pitch.center_distance_mm() + self.center_distance_error_mm), 0.0)
+    }
+
     /// How the gears stand in a section, with the driven gear where the pitch curves want it; `distance_error_mm` moves
     /// its axis along the line of centres.
     pub fn stand(&self, pitch: &PitchPoint, section: &Section, distance_error_mm: f64) -> PairPose {
-        let distance_mm = self.pitch.center_distance_mm() + self.center_distance_error_mm + distance_error_mm;
+        let moved_mm = DVec2::new(self.pitch.sign() * distance_error_mm, 0.0);
         PairPose {
             phi_1_rad: pitch.phi_1_rad,
-            axis_2_mm: DVec2::new(self.pitch.sign() * distance_mm, 0.0) + section.axis_offset_mm,
+            axis_2_mm: self.axis_2_mm() + moved_mm + section.axis_offset_mm,
             phi_2_rad: pitch.phi_2_rad,
             sign: self.pitch.sign(),
         }

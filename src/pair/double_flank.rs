@@ -24,11 +24,13 @@ use gearcut_core::terms::Side;
 const REACH_MODULES: f64 = 0.2;
 /// Play that counts as none, rad: a picometre at 100 mm.
 const LAST_PLAY_RAD: f64 = 1e-11;
-/// First step of the centre distance, mm, and how near to what it foretells the tight distance is enclosed: this and a
-/// share of its length. Play is nearly straight over some tenths of a millimetre.
+/// First step of the centre distance, mm, and how near to what it foretells the tight distance is enclosed at first:
+/// this and a share of its length. Play is nearly straight over some tenths of a millimetre.
 const FIRST_STEP_MM: f64 = 0.01;
 const FORETOLD_MM: f64 = 2e-4;
 const FORETOLD_SHARE: f64 = 0.02;
+/// How much wider the next enclosure is where one did not hold it.
+const WIDER: f64 = 4.0;
 
 /// A tight mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,16 +130,18 @@ fn tight(reach_mm: f64, sides: impl Fn(f64) -> Result<[f64; 2], Refusal>) -> Res
     };
     let at = [play(0.0), play(FIRST_STEP_MM)];
     let slope = (at[1] - at[0]) / FIRST_STEP_MM;
-    let foretold_mm = -at[0] / slope;
-    let near_mm = FORETOLD_MM + FORETOLD_SHARE * foretold_mm.abs();
+    let foretold_mm = if slope == 0.0 { 0.0 } else { (-at[0] / slope).clamp(-reach_mm, reach_mm) };
     let rising = if slope > 0.0 { 1.0 } else { -1.0 };
-    let found = (foretold_mm.abs() + near_mm < reach_mm)
-        .then(|| {
-            let [low, high] = [foretold_mm - rising * near_mm, foretold_mm + rising * near_mm];
-            regula_falsi(&mut play, low, high, LAST_PLAY_RAD)
-        })
-        .flatten()
-        .or_else(|| regula_falsi(&mut play, -rising * reach_mm, rising * reach_mm, LAST_PLAY_RAD));
+    // Where a corner or a fillet carries, play bends: the enclosure grows until it holds the place.
+    let mut near_mm = FORETOLD_MM + FORETOLD_SHARE * foretold_mm.abs();
+    let found = loop {
+        let end = |towards: f64| (foretold_mm + towards * near_mm).clamp(-reach_mm, reach_mm);
+        let found = regula_falsi(&mut play, end(-rising), end(rising), LAST_PLAY_RAD);
+        if found.is_some() || near_mm > 2.0 * reach_mm {
+            break found;
+        }
+        near_mm *= WIDER;
+    };
     let distance_error_mm = match (found, failed) {
         (_, Some(refusal)) => return Err(refusal),
         (Some(found), None) => found,

@@ -10,10 +10,11 @@
 
 use std::f64::consts::TAU;
 
-use super::contact_ratio::path_of_contact;
+use super::contact_ratio::{PathOfContact, path_of_contact};
 use super::pitch_pair::{Member, PitchPair};
 use super::rolling::turns_of_period;
 use gearcut_core::error::Refusal;
+use gearcut_core::gear::GearKind;
 use gearcut_core::math::extremum::maximum;
 use gearcut_core::terms::Side;
 
@@ -36,6 +37,31 @@ impl SharpCutter {
         let tip_radius_mm = pitch_radius_mm + self.addendum_coefficient * module_mm;
         let base_radius_mm = pitch_radius_mm * pressure_angle_rad.cos();
         (tip_radius_mm.powi(2) - base_radius_mm.powi(2)).sqrt() - pitch_radius_mm * pressure_angle_rad.sin()
+    }
+
+    /// How far along it towards the tip of a ring's tooth, mm: there the cutter's involute begins at its base circle,
+    /// and what lies beyond is relieved.
+    pub fn base_reach_mm(&self, module_mm: f64, pressure_angle_rad: f64) -> f64 {
+        0.5 * module_mm * f64::from(self.teeth) * pressure_angle_rad.sin()
+    }
+}
+
+/// What is left of a path of contact between the tip curves where both gears are cut: it ends at the form points, and
+/// in a ring where the cutter's involute begins.
+pub fn generated_path(pair: &PitchPair, path: &PathOfContact, cutters: [SharpCutter; 2]) -> PathOfContact {
+    let teeth = pair.teeth();
+    let of = |reach: fn(&SharpCutter, f64, f64) -> f64, cutter: &SharpCutter| {
+        reach(cutter, teeth.module_mm, teeth.pressure_angle_rad)
+    };
+    let [form_1, form_2] = [0, 1].map(|gear| of(SharpCutter::form_reach_mm, &cutters[gear]));
+    let base_2 = match teeth.driven {
+        GearKind::External => f64::INFINITY,
+        GearKind::Internal => of(SharpCutter::base_reach_mm, &cutters[1]),
+    };
+    let ended = |at_mm: f64, most_mm: f64| at_mm.clamp(-most_mm, most_mm);
+    PathOfContact {
+        driver_tip_mm: ended(path.driver_tip_mm, form_2),
+        driven_tip_mm: ended(path.driven_tip_mm, form_1.min(base_2)),
     }
 }
 

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::assembly::{Meshing, Moment};
 use super::contact::probes;
 use super::flank_chain::GearFlanks;
+use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 
@@ -24,8 +25,17 @@ pub struct SectionGaps {
     pub driven_um: GearFlanks<Vec<f32>>,
 }
 
-/// Smallest gaps, section by section. Pairs of flanks that are farther apart than `reach_um` are not looked at.
-pub fn smallest_gaps(meshing: &Meshing, moments: &[Moment], reach_um: f64) -> Vec<SectionGaps> {
+/// Smallest gaps, section by section. Pairs of flanks that are farther apart than `reach_um` are not looked at;
+/// `passed` is called after every moment and may end the work.
+///
+/// # Errors
+/// Those of `passed`.
+pub fn smallest_gaps(
+    meshing: &Meshing,
+    moments: &[Moment],
+    reach_um: f64,
+    passed: impl Fn() -> Result<()> + Sync,
+) -> Result<Vec<SectionGaps>> {
     let never = |count: usize| vec![f32::INFINITY; count];
     let nothing = || -> Vec<SectionGaps> {
         let gaps = meshing.sections.iter().map(|section| SectionGaps {
@@ -36,18 +46,19 @@ pub fn smallest_gaps(meshing: &Meshing, moments: &[Moment], reach_um: f64) -> Ve
     };
     moments
         .par_iter()
-        .fold(nothing, |mut gaps, moment| {
+        .try_fold(nothing, |mut gaps, moment| {
             for side in [Side::Right, Side::Left] {
                 note(meshing, moment, side, reach_um, &mut gaps);
             }
-            gaps
+            passed()?;
+            Ok(gaps)
         })
-        .reduce(nothing, |mut a, b| {
+        .try_reduce(nothing, |mut a, b| {
             for (a, b) in a.iter_mut().zip(&b) {
                 a.driver_um.combine(&b.driver_um, |a, b| least(a, b));
                 a.driven_um.combine(&b.driven_um, |a, b| least(a, b));
             }
-            a
+            Ok(a)
         })
 }
 

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 
 use super::assembly::{Meshing, Moment};
-use gearcut_core::error::Refusal;
+use gearcut_core::error::{Refusal, Result};
 use gearcut_core::terms::Side;
 
 /// Fewest positions that a tooth needs before its passage can be told from a step.
@@ -73,18 +73,22 @@ pub fn enough(count: [u32; 2], positions: usize) -> Result<(), Refusal> {
     ))
 }
 
-/// Rolls a pair over its period.
+/// Rolls a pair over its period; `passed` is called after every position and may end the work.
 ///
 /// # Errors
-/// Too few positions for the teeth of the period; flanks out of reach.
-pub fn roll(meshing: &Meshing, positions: usize) -> Result<RolledPeriod, Refusal> {
+/// Too few positions for the teeth of the period; flanks out of reach; those of `passed`.
+pub fn roll(meshing: &Meshing, positions: usize, passed: impl Fn() -> Result<()> + Sync) -> Result<RolledPeriod> {
     let count = meshing.pitch.teeth().count;
     enough(count, positions)?;
     let turns = turns_of_period(count);
     let curve = meshing.pitch.curve();
     let travel_mm = f64::from(turns) * curve.perimeter_mm();
-    let moment = |i: usize| meshing.at(curve.phi_at_arc(travel_mm * i as f64 / positions as f64));
-    let moments = (0..positions).into_par_iter().map(moment).collect::<Result<_, _>>()?;
+    let moment = |i: usize| -> Result<Moment> {
+        let moment = meshing.at(curve.phi_at_arc(travel_mm * i as f64 / positions as f64))?;
+        passed()?;
+        Ok(moment)
+    };
+    let moments = (0..positions).into_par_iter().map(moment).collect::<Result<_>>()?;
     Ok(RolledPeriod { moments, turns, teeth: count[0] })
 }
 
@@ -99,13 +103,14 @@ impl RolledPeriod {
         let n = total_rad.len();
         // Waves per period: those of half the number of teeth are two teeth long.
         let per_tooth = (self.turns * self.teeth) as usize;
+        // Whole turns are taken off in integers, so waves need the sines of n angles only.
+        let sines: Vec<(f64, f64)> = (0..n).map(|i| (TAU * i as f64 / n as f64).sin_cos()).collect();
         let wave = |k: usize| {
             let (mut cos, mut sin) = (0.0, 0.0);
             for (i, value) in total_rad.iter().enumerate() {
-                // Whole turns taken off in integers: the angle keeps its digits.
-                let angle = TAU * (k * i % n) as f64 / n as f64;
-                cos += value * angle.cos();
-                sin += value * angle.sin();
+                let angle = sines[k * i % n];
+                cos += value * angle.1;
+                sin += value * angle.0;
             }
             let share = if k == 0 { 1.0 } else { 2.0 } / n as f64;
             [share * cos, share * sin]
@@ -117,8 +122,8 @@ impl RolledPeriod {
             .into_par_iter()
             .map(|i| {
                 waves[..long].iter().enumerate().fold(0.0, |sum, (k, [cos, sin])| {
-                    let angle = TAU * (k * i % n) as f64 / n as f64;
-                    sum + cos * angle.cos() + sin * angle.sin()
+                    let angle = sines[k * i % n];
+                    sum + cos * angle.1 + sin * angle.0
                 })
             })
             .collect();

@@ -129,7 +129,7 @@ fn contact_ratio(rolled: &RolledPair) -> LineChart {
         "Contact ratio",
         vec![
             panel("path between the tip curves over the base pitch", "1", 0.01, vec![path(0), path(1)]),
-            panel("pairs within the marking thickness", "1", 1.0, vec![pairs(0), pairs(1)]),
+            panel("pairs within the marking thickness", "1", 0.5, vec![pairs(0), pairs(1)]),
         ],
     )
 }

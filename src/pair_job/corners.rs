@@ -12,9 +12,11 @@ use std::cmp::Ordering;
 use glam::DVec2;
 
 use super::flanks::{PairFlanks, SectionOfGear};
+use super::watch::Stage;
 use crate::pair::assembly::{Meshing, Moment};
 use crate::pair::penetration::{CornerDepth, SpaceOutline};
 use crate::pair::pitch_pair::Member;
+use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 
 /// The deepest corner in a gear.
@@ -33,8 +35,17 @@ pub struct DeepestCorner {
 }
 
 /// The deepest corner of the mate in a gear; none where its outlines are not known.
-pub fn deepest(flanks: &PairFlanks, meshing: &Meshing, moments: &[Moment], member: Member) -> Option<DeepestCorner> {
-    let of = |moment: &Moment| {
+///
+/// # Errors
+/// Ctrl-C.
+pub fn deepest(
+    flanks: &PairFlanks,
+    meshing: &Meshing,
+    moments: &[Moment],
+    member: Member,
+    stage: &Stage,
+) -> Result<Option<DeepestCorner>> {
+    let of = |moment: &Moment| -> Result<Option<DeepestCorner>> {
         let sections = flanks.sections.iter().zip(&meshing.sections).flat_map(move |(gears, section)| {
             let here = usize::from(member == Member::Driven);
             let stand = meshing.stand(&moment.pitch, section, 0.0);
@@ -53,9 +64,12 @@ pub fn deepest(flanks: &PairFlanks, meshing: &Meshing, moments: &[Moment], membe
                 })
             })
         });
-        sections.max_by(deeper)
+        let found = sections.max_by(deeper);
+        stage.count()?;
+        Ok(found)
     };
-    moments.par_iter().filter_map(of).max_by(deeper)
+    let found: Vec<Option<DeepestCorner>> = moments.par_iter().map(of).collect::<Result<_>>()?;
+    Ok(found.into_iter().flatten().max_by(deeper))
 }
 
 fn deeper(a: &DeepestCorner, b: &DeepestCorner) -> Ordering {

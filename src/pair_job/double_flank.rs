@@ -9,12 +9,13 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::watch::{Stage, TIGHT, Watch};
 use crate::pair::assembly::Meshing;
 use crate::pair::double_flank::{Master, TightMesh, against_mate};
 use crate::pair::flank_chain::{FlankChain, GearFlanks};
 use crate::pair::pitch_pair::{PairTeeth, PitchPair};
 use crate::pair::rolling::turns_of_period;
-use gearcut_core::error::Refusal;
+use gearcut_core::error::{Refusal, Result};
 use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape};
 use gearcut_core::units::UM_PER_MM;
 
@@ -64,16 +65,22 @@ fn range_um<'a>(values: impl Iterator<Item = &'a [f64; 2]>) -> f64 {
     high - low
 }
 
+/// Pitches over which both gears are looked at in tight mesh.
+pub fn pitches(pitch: &PitchPair) -> u32 {
+    let [driver, driven] = pitch.teeth().count;
+    (turns_of_period([driver, driven]) * driver).min(MOST_PLACES / PLACES_PER_PITCH)
+}
+
 /// Both gears in tight mesh over their period, or over its first 1,200 places where it has more.
 ///
 /// # Errors
-/// No tight distance near the nominal one.
-pub fn with_mate(meshing: &Meshing) -> Result<DoubleFlank, Refusal> {
+/// No tight distance near the nominal one; Ctrl-C.
+pub fn with_mate(meshing: &Meshing, watch: &Watch) -> Result<DoubleFlank> {
     let pitch = &meshing.pitch;
-    let teeth = turns_of_period(pitch.teeth().count) * pitch.teeth().count[0];
-    let pitches = teeth.min(MOST_PLACES / PLACES_PER_PITCH);
+    let pitches = pitches(pitch);
     let curve = pitch.curve();
-    around(pitches, |share| {
+    let stage = watch.stage(TIGHT, (pitches * PLACES_PER_PITCH) as usize, "places")?;
+    around(pitches, stage, |share| {
         let phi_rad = curve.phi_at_arc(share * f64::from(pitches) * pitch.pitch_mm());
         Ok((phi_rad, against_mate(meshing, phi_rad)?))
     })
@@ -83,14 +90,16 @@ pub fn with_mate(meshing: &Meshing) -> Result<DoubleFlank, Refusal> {
 /// own frame. None on a ring, into which a master of this size may not go.
 ///
 /// # Errors
-/// No tight distance near the nominal one.
+/// No tight distance near the nominal one; Ctrl-C.
 pub fn with_master(
     curve: &PitchCurve,
     flanks: &GearFlanks<FlankChain>,
     kind: GearKind,
     teeth: &PairTeeth,
     addendum_mm: f64,
-) -> Result<Option<DoubleFlank>, Refusal> {
+    stage: &str,
+    watch: &Watch,
+) -> Result<Option<DoubleFlank>> {
     if kind == GearKind::Internal {
         return Ok(None);
     }
@@ -98,19 +107,26 @@ pub fn with_master(
     let masters = PairTeeth { count: [MASTER_TEETH; 2], driven: GearKind::External, ..*teeth };
     let master = Master::new(&PitchPair::closing(round, masters)?, addendum_mm)?;
     let count = flanks.right.len() as u32;
-    let found = around(count, |share| {
+    let stage = watch.stage(stage, (count * PLACES_PER_PITCH) as usize, "places")?;
+    let found = around(count, stage, |share| {
         let phi_rad = curve.phi_at_arc(share * curve.perimeter_mm());
         Ok((phi_rad, master.against(curve, flanks, teeth.module_mm, phi_rad)?))
     });
     found.map(Some)
 }
 
-fn around(pitches: u32, at: impl Fn(f64) -> Result<(f64, TightMesh), Refusal> + Sync) -> Result<DoubleFlank, Refusal> {
+fn around(
+    pitches: u32,
+    stage: Stage,
+    at: impl Fn(f64) -> Result<(f64, TightMesh), Refusal> + Sync,
+) -> Result<DoubleFlank> {
     let places = pitches * PLACES_PER_PITCH;
     let one = |i: u32| {
         let (phi_rad, tight) = at(f64::from(i) / f64::from(places))?;
+        stage.count()?;
         Ok([phi_rad.rem_euclid(TAU), UM_PER_MM * tight.distance_error_mm])
     };
-    let variation = (0..places).into_par_iter().map(one).collect::<Result<_, Refusal>>()?;
+    let variation = (0..places).into_par_iter().map(one).collect::<Result<_>>()?;
+    stage.finish();
     Ok(DoubleFlank::new(variation, pitches))
 }

@@ -15,11 +15,13 @@ use crate::pair::penetration::SpaceOutline;
 use crate::pair::pitch_pair::Member;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
+use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::terms::{Hand, Side};
 
 use super::fit::Fit;
-use super::outline::{self, CutSections, Profile};
+use super::outline::{self, CutGear, Profile};
+use super::watch::{CUT, Watch};
 
 /// Least change of the distance from the axis along a driven root, as a share of its arc: with less it may turn back
 /// when the gear is mounted off its axis.
@@ -76,25 +78,36 @@ pub struct PairFlanks {
     pub rows_mm: Vec<f64>,
     /// Driver and driven gear in every section.
     pub sections: Vec<[SectionOfGear; 2]>,
+    /// Both gears to look at; none of nominal flanks, which belong to no body.
+    pub views: Option<[ViewMesh; 2]>,
 }
 
 impl PairFlanks {
     /// Flanks of the gears of two scenes in `count` sections: one in the middle of the common face, or evenly over it.
     ///
     /// # Errors
-    /// Gears that cannot be cut; flanks that the teeth do not reach.
-    pub fn new(fit: &Fit, scenes: [&Scene; 2], source: FlankSource, count: usize) -> Result<Self> {
+    /// Gears that cannot be cut; flanks that the teeth do not reach; Ctrl-C.
+    pub fn new(fit: &Fit, scenes: [&Scene; 2], source: FlankSource, count: usize, watch: &Watch) -> Result<Self> {
         let face_mm = scenes[0].gear.face_width_mm.min(scenes[1].gear.face_width_mm);
         let rows_mm = if count == 1 { vec![0.0] } else { rows_z_mm(face_mm, face_mm / (count as f64 - 1.0)) };
+        let mut views = None;
         let sections = match source {
             FlankSource::Cut => {
                 let backend = choose(BackendWish::Cpu, OnFailure::default())?.backend;
-                let cut = |scene| outline::cut(scene, backend.as_ref(), &rows_mm);
-                let (a, b): (CutSections, CutSections) = (cut(scenes[0])?, cut(scenes[1])?);
-                a.iter().zip(&b).map(|(a, b)| [driver(a), driven(fit, b)]).collect()
+                let cut = |at: usize| -> Result<CutGear> {
+                    // A root and two flanks for each tooth.
+                    let stage = watch.stage(CUT[at], 3 * scenes[at].gear.teeth as usize, "flanks and roots")?;
+                    let gear = outline::cut(scenes[at], backend.as_ref(), &rows_mm, &stage)?;
+                    stage.finish();
+                    Ok(gear)
+                };
+                let (a, b) = (cut(0)?, cut(1)?);
+                views = Some([a.view, b.view]);
+                a.sections.iter().zip(&b.sections).map(|(a, b)| [driver(a), driven(fit, b)]).collect()
             }
             FlankSource::Nominal => {
                 let section = |z_mm: &f64| -> Result<_> {
+                    watch.check()?;
                     let shift_mm = shift_mm(&scenes[0].gear, *z_mm);
                     let gear = |member| nominal(fit, scenes, member, shift_mm);
                     Ok([gear(Member::Driver)?, gear(Member::Driven)?])
@@ -102,7 +115,7 @@ impl PairFlanks {
                 rows_mm.iter().map(section).collect::<Result<_>>()?
             }
         };
-        Ok(Self { rows_mm, sections })
+        Ok(Self { rows_mm, sections, views })
     }
 
     /// The gears in the machine.
@@ -119,17 +132,6 @@ impl PairFlanks {
             .map(|(z_mm, shift_mm, driver, driven)| SectionFlanks { z_mm: *z_mm, shift_mm: *shift_mm, driver, driven })
             .collect();
         Meshing::of_sections(fit.pitch.clone(), &sections, mounting)
-    }
-
-    /// Memory of all points, bytes: what grows with teeth, spacing and sections.
-    pub fn bytes(&self) -> usize {
-        let of = |section: &SectionOfGear| {
-            let points = |flanks: &[FlankChain]| flanks.iter().map(|chain| chain.points_mm.len()).sum::<usize>();
-            // Points for the chains and for the outlines of spaces, and an arc for each.
-            (points(&section.chains.right) + points(&section.chains.left))
-                * (2 * size_of::<glam::DVec2>() + size_of::<f64>())
-        };
-        self.sections.iter().flatten().map(of).sum()
     }
 }
 

@@ -10,12 +10,13 @@
 //! | [`outline`] | flanks and roots as cut, in transverse sections |
 //! | [`flanks`] | the flanks of both gears as they are rolled |
 //! | [`options`] | what a pair is rolled with: positions, sections, errors of mounting |
+//! | [`watch`] | progress and Ctrl-C |
 //! | [`rolled`] | everything that is found out about the pair |
 //! | [`teeth`] | contact tooth by tooth, edges and fillets that carry |
 //! | [`corners`] | tip corners in the mate's material |
 //! | [`double_flank`] | the centre distance without play, against the mate and against masters |
 //! | [`findings`] | the tree of findings |
-//! | [`charts`], [`pictures`], [`page`] | what is drawn |
+//! | [`charts`], [`pictures`], [`view`], [`page`] | what is drawn |
 //! | [`write`] | the files |
 //!
 //! A pair is two scenes and options of a command, not a scene of its own: each gear stays one file that `cut`, `check`
@@ -36,4 +37,6 @@ pub mod rolled;
 pub mod teeth;
 #[cfg(test)]
 mod tests;
+pub mod view;
+pub mod watch;
 pub mod write;

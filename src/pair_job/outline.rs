@@ -5,22 +5,28 @@
 //!
 //! Points are dexels of the finished gear: nominal points and normals of the target, and the heights that the last
 //! operation left, at the scene's spacing along the profile. Roots are cut on rays of their own, closer together: what
-//! meets a fillet is a tip corner, and the sag of a chord must stay below a tenth of a micrometre.
+//! meets a fillet is a tip corner, and the sag of a chord must stay below a tenth of a micrometre. A root that is not cut
+//! through is refused: a ray that stands out of it would touch first.
 
 use glam::DVec2;
 use rayon::prelude::*;
 
+use super::watch::Stage;
 use crate::job::GearJob;
 use crate::pair::flank_chain::GearFlanks;
 use crate::process;
 use crate::scene::Scene;
+use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::NO_PASS;
 use gearcut_core::error::{Error, Refusal, Result};
 use gearcut_core::terms::Side;
 
-/// Distance of points along a root, mm: a fillet of 1 mm radius is cut short by 0.01 um.
-const ROOT_SPACING_MM: f64 = 0.01;
+/// Distance of points along a root, modules: at module 3 these are 10 um, and a fillet of 1 mm radius is cut short by
+/// 0.01 um. Fillets grow with the module.
+const ROOT_SPACING_MODULES: f64 = 1.0 / 300.0;
+/// Neighbouring points of a root that stand farther apart than this were not cut, modules: roots have no such steps.
+const ROOT_STEP_MODULES: f64 = 0.25;
 
 /// Points are left out where the chain without them passes this near, mm: two nanometres, a hundredth of a scallop. Of
 /// 1,600 dexels 5 um apart some 400 are left, and the contact search takes a quarter of the time.
@@ -38,36 +44,65 @@ pub struct Profile {
 /// A gear in its sections; flanks by tooth modulo their number.
 pub type CutSections = Vec<GearFlanks<Profile>>;
 
+/// A cut gear.
+#[derive(Debug)]
+pub struct CutGear {
+    /// Its sections.
+    pub sections: CutSections,
+    /// Its target, to look at.
+    pub view: ViewMesh,
+}
+
 /// Cuts the finished flanks and roots of a gear in the sections `rows_z_mm`, with the native backend.
 ///
 /// # Errors
-/// Geometry that cannot be cut; flanks that no pass has reached; a gear without sections.
-pub fn cut(scene: &Scene, backend: &dyn Backend, rows_z_mm: &[f64]) -> Result<CutSections> {
-    let mut sections = None;
+/// Geometry that cannot be cut; flanks that no pass has reached; a gear without sections; Ctrl-C.
+pub fn cut(scene: &Scene, backend: &dyn Backend, rows_z_mm: &[f64], stage: &Stage) -> Result<CutGear> {
+    let mut cut = None;
     process::prepare(scene)?.with_gear(&mut |gear| {
-        sections = Some(cut_gear(gear, backend, rows_z_mm)?);
+        cut = Some(cut_gear(gear, backend, rows_z_mm, stage)?);
         Ok(())
     })?;
-    Ok(sections.expect("a job shows its gear"))
+    Ok(cut.expect("a job shows its gear"))
 }
 
-fn cut_gear(gear: &dyn GearJob, backend: &dyn Backend, rows_z_mm: &[f64]) -> Result<CutSections> {
+fn cut_gear(gear: &dyn GearJob, backend: &dyn Backend, rows_z_mm: &[f64], stage: &Stage) -> Result<CutGear> {
     let Some(cylinder) = gear.cylindrical() else {
         let way_out = "give cylindrical gears: shaped or hobbed";
         return Err(Refusal::new("gear", "a pair of gears without a pitch curve cannot be rolled", way_out).into());
     };
     let teeth = gear.scene().gear.teeth;
-    let roots: Vec<Vec<Vec<DVec2>>> = (0..teeth)
-        .into_par_iter()
-        .map(|space| cylinder.cut_root(backend, if space == 0 { teeth } else { space }, ROOT_SPACING_MM, rows_z_mm))
-        .collect::<Result<_>>()?;
+    let module_mm = gear.scene().gear.module_mm;
+    let root = |space: u32| -> Result<Vec<Vec<DVec2>>> {
+        let space = if space == 0 { teeth } else { space };
+        let root = cylinder.cut_root(backend, space, ROOT_SPACING_MODULES * module_mm, rows_z_mm)?;
+        for (row, points) in root.iter().enumerate() {
+            whole(points, module_mm).map_err(|step_mm| {
+                Refusal::new(
+                    "operation",
+                    format!(
+                        "the root after tooth {space} of {} has a step of {step_mm:.3} mm {:.3} mm from the middle of \
+                        the face: it is not cut there",
+                        gear.scene().name,
+                        rows_z_mm[row]
+                    ),
+                    "roll other sections with --sections, or nominal flanks with --flanks nominal",
+                )
+            })?;
+        }
+        stage.count()?;
+        Ok(root)
+    };
+    let roots: Vec<Vec<Vec<DVec2>>> = (0..teeth).into_par_iter().map(root).collect::<Result<_>>()?;
     let flank = |side: Side, tooth: u32| -> Result<Vec<Profile>> {
         let flanks = cut_flank(gear, backend, tooth, side, rows_z_mm)?;
         // The space behind a tooth bears its number.
         let space = if side == Side::Left { tooth % teeth } else { tooth - 1 };
         let joined =
             flanks.into_iter().enumerate().map(|(row, flank)| joined(&roots[space as usize][row], side, &flank));
-        Ok(joined.collect())
+        let joined = joined.collect();
+        stage.count()?;
+        Ok(joined)
     };
     let side = |side: Side| -> Result<Vec<Vec<Profile>>> {
         (0..teeth).into_par_iter().map(|label| flank(side, if label == 0 { teeth } else { label })).collect()
@@ -77,7 +112,13 @@ fn cut_gear(gear: &dyn GearJob, backend: &dyn Backend, rows_z_mm: &[f64]) -> Res
         let of = |flanks: &[Vec<Profile>]| flanks.iter().map(|rows| rows[row].clone()).collect();
         GearFlanks { right: of(&right), left: of(&left) }
     };
-    Ok((0..rows_z_mm.len()).map(section).collect())
+    Ok(CutGear { sections: (0..rows_z_mm.len()).map(section).collect(), view: ViewMesh::new(cylinder)? })
+}
+
+/// Whether the points of a root follow each other; else the first step between them that is too far, mm.
+fn whole(points_mm: &[DVec2], module_mm: f64) -> std::result::Result<(), f64> {
+    let mut steps_mm = points_mm.windows(2).map(|pair| pair[0].distance(pair[1]));
+    steps_mm.find(|step_mm| *step_mm > ROOT_STEP_MODULES * module_mm).map_or(Ok(()), Err)
 }
 
 /// Points and arcs of a flank from its form point to its tip, section by section.

@@ -8,6 +8,7 @@ use super::charts::{self, NamedLines};
 use super::options::PairOptions;
 use super::rolled::RolledPair;
 use super::teeth::ToothContact;
+use super::view;
 use crate::findings::{Findings, unit};
 use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, Page, PageSection};
@@ -33,6 +34,7 @@ pub fn page(
     lines: &[NamedLines],
     pictures: PagePictures,
 ) -> Page {
+    let viewer = view::viewer(rolled, options.marking_um);
     let chart = |name: &str| {
         let found = lines.iter().find(|(own, _)| *own == name);
         found.map(|(_, chart)| Block::Lines(chart.clone()))
@@ -125,7 +127,7 @@ pub fn page(
         program: format!("gearcut {}", found.program_version),
         key_numbers: found.headline.iter().map(quantities::key_number).collect(),
         warnings: found.all_warnings().iter().map(|text| unit::sentence_with_signs(text)).collect(),
-        viewer: None,
+        viewer,
         sections: sections.into_iter().map(|section| with_marking(section, options)).collect(),
     }
 }

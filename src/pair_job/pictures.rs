@@ -12,6 +12,7 @@ use std::f64::consts::TAU;
 use super::flanks::SectionOfGear;
 use super::rolled::{RolledPair, SIDES};
 use super::teeth::gap_um;
+use super::watch::{PICTURES, Watch};
 use crate::colormap::ColourScale;
 use crate::output::apng::write_apng;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
@@ -80,8 +81,8 @@ pub fn write_pattern(
     Ok(Some(name))
 }
 
-/// Smallest gaps on a flank by places along the profile and sections.
-fn pattern(rolled: &RolledPair, member: Member, side: Side, tooth: i64, marking_um: f64) -> (MapGrid, Vec<f32>) {
+/// Smallest gaps on a flank, um, by places along the profile and sections; NaN where nothing is rubbed off.
+pub fn pattern(rolled: &RolledPair, member: Member, side: Side, tooth: i64, marking_um: f64) -> (MapGrid, Vec<f32>) {
     let gear = usize::from(member == Member::Driven);
     // The label under which the pair knows the flank.
     let (side, label) = match member {
@@ -134,8 +135,8 @@ fn gap_at(u_mm: &[f64], gaps_um: &[f32], at_mm: f64) -> f32 {
 /// Writes an animation of the first pitches, `pictures/rolling.apng`, and returns its name.
 ///
 /// # Errors
-/// Files that cannot be written.
-pub fn write_animation(rolled: &RolledPair, marking_um: f64, folder: &OutputFolder) -> Result<String> {
+/// Files that cannot be written; Ctrl-C.
+pub fn write_animation(rolled: &RolledPair, marking_um: f64, folder: &OutputFolder, watch: &Watch) -> Result<String> {
     let pitches = (rolled.period.turns * rolled.period.teeth) as usize;
     let per_frame = (rolled.period.moments.len() / pitches / FRAMES_PER_PITCH).max(1);
     let count = (FRAME_PITCHES * FRAMES_PER_PITCH).min(rolled.period.moments.len() / per_frame);
@@ -148,7 +149,9 @@ pub fn write_animation(rolled: &RolledPair, marking_um: f64, folder: &OutputFold
     let beside = WINDOW_MODULES.map(|modules| modules * module_mm);
     let low = DVec2::new(facts.smallest_radius_mm - beside[0], -0.5 * beside[1]);
     let high = DVec2::new(facts.largest_radius_mm + beside[0], 0.5 * beside[1]);
+    let stage = watch.stage(PICTURES, count, "frames")?;
     let frames = (0..count).map(|k| {
+        stage.count()?;
         let moment = &rolled.period.moments[k * per_frame];
         let section = &rolled.meshing.sections[middle];
         let stand = rolled.meshing.stand(&moment.pitch, section, 0.0);
@@ -177,6 +180,7 @@ pub fn write_animation(rolled: &RolledPair, marking_um: f64, folder: &OutputFold
         .frame()
     });
     let frames = frames.collect::<Result<Vec<_>>>()?;
+    stage.finish();
     let name = "pictures/rolling.apng".to_owned();
     write_apng(&folder.path(&name)?, &frames, FRAME_MS, FRAME_MS)?;
     Ok(name)

@@ -10,9 +10,10 @@ use rayon::prelude::*;
 use super::corners::{self, DeepestCorner};
 use super::double_flank::{self, DoubleFlank};
 use super::fit::Fit;
-use super::flanks::{PairFlanks, addendum_mm};
+use super::flanks::{FlankSource, PairFlanks, addendum_mm};
 use super::options::PairOptions;
 use super::teeth::{self, EdgeContact, ToothContact};
+use super::watch::{BY_TOOTH, CORNERS, DISTANCE, MASTERS, PATTERN, RATIO, ROLL, Stage, Watch, Work};
 use crate::pair::assembly::{Meshing, Moment};
 use crate::pair::backlash::Backlash;
 use crate::pair::contact_ratio::path_of_contact;
@@ -22,19 +23,20 @@ use crate::pair::pitch_pair::Member;
 use crate::pair::rolling::{RolledPeriod, TransmissionError, enough, roll};
 use crate::scene::Scene;
 use gearcut_core::error::{Refusal, Result};
-use gearcut_core::gear::PitchCurve;
+use gearcut_core::gear::{GearKind, PitchCurve};
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 
 /// Change of the centre distance whose effect is told, um.
 pub const PROBE_UM: f64 = 10.0;
-/// Places in a pitch at which the path of contact between the tip curves is computed.
-const PATHS_PER_PITCH: usize = 4;
-/// Places in a pitch at which the effect of the centre distance is looked at.
+/// Places in a pitch at which the path of contact between the tip curves is computed, and at which the effect of the
+/// centre distance is looked at.
 const PROBES_PER_PITCH: usize = 4;
 /// Gaps are noted up to this many marking thicknesses.
 const GAPS_REACH: f64 = 3.0;
 
+/// Driver and driven gear.
+const MEMBERS: [Member; 2] = [Member::Driver, Member::Driven];
 /// Both sides, the driving flanks first.
 pub const SIDES: [Side; 2] = [Side::Right, Side::Left];
 
@@ -98,42 +100,66 @@ impl RolledPair {
 /// Makes two scenes ready, cuts what is needed and rolls them.
 ///
 /// # Errors
-/// Gears that do not belong together, cannot be cut or do not reach each other; too few positions.
-pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions) -> Result<RolledPair> {
+/// Gears that do not belong together, cannot be cut or do not reach each other; too few positions; Ctrl-C.
+pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions, watch: &Watch) -> Result<RolledPair> {
     let gears = [&scenes[0].gear, &scenes[1].gear];
     let fit = Fit::new(scenes[0], scenes[1], options.phase_teeth)?;
     let mounting = options.mounting(&fit, gears)?;
     let positions = options.positions(fit.pitch.teeth().count);
     enough(fit.pitch.teeth().count, positions)?;
-    let flanks = PairFlanks::new(&fit, scenes, options.source, options.sections(gears)?)?;
+    let sections = options.sections(gears)?;
+    watch.plan(&Work {
+        teeth: fit.pitch.teeth().count,
+        ring: fit.pitch.teeth().driven == GearKind::Internal,
+        cut: options.source == FlankSource::Cut,
+        helical: gears[0].helix_angle_rad != 0.0,
+        sections,
+        positions,
+        pitches: double_flank::pitches(&fit.pitch),
+    });
+    let flanks = PairFlanks::new(&fit, scenes, options.source, sections, watch)?;
     let meshing = flanks.meshing(&fit, gears[0], &mounting)?;
-    let period = roll(&meshing, positions)?;
+    let period = in_stage(watch, ROLL, positions, |stage| roll(&meshing, positions, || stage.count()))?;
     let moments = &period.moments;
-    let of_sides =
-        |of: &dyn Fn(Side) -> Result<Vec<ToothContact>, Refusal>| -> Result<[Vec<ToothContact>; 2], Refusal> {
-            let [right, left] = SIDES.map(of);
-            Ok([right?, left?])
-        };
+    let both = 2 * moments.len();
     let marking_um = options.marking_um;
-    let teeth = of_sides(&|side| teeth::teeth(&fit, &flanks, &meshing, moments, side, marking_um))?;
-    let [right, left] = SIDES.map(|side| contact_ratios(&fit, scenes, &period, side));
-    let tight = double_flank::with_mate(&meshing)?;
-    let [master_a, master_b] = [Member::Driver, Member::Driven].map(|member| master(&fit, &flanks, scenes, member));
+    let [right, left] = in_stage(watch, BY_TOOTH, both, |stage| {
+        let [right, left] = SIDES.map(|side| teeth::teeth(&fit, &flanks, &meshing, moments, side, marking_um, stage));
+        Ok([right?, left?])
+    })?;
+    let teeth = [right, left];
+    let gaps = in_stage(watch, PATTERN, moments.len(), |stage| {
+        smallest_gaps(&meshing, moments, GAPS_REACH * marking_um, || stage.count())
+    })?;
+    let corners = in_stage(watch, CORNERS, both, |stage| {
+        let [in_a, in_b] = MEMBERS.map(|member| corners::deepest(&flanks, &meshing, moments, member, stage));
+        Ok([in_a?, in_b?])
+    })?;
+    let probes = moments.len().div_ceil(stride(&period, PROBES_PER_PITCH));
+    let contact_ratio = in_stage(watch, RATIO, 2 * probes, |stage| {
+        let [right, left] = SIDES.map(|side| contact_ratios(&fit, scenes, &period, side, stage));
+        Ok([right?, left?])
+    })?;
+    let tight = double_flank::with_mate(&meshing, watch)?;
+    let [master_a, master_b] = MEMBERS.map(|member| master(&fit, &flanks, scenes, member, watch));
+    let masters = [master_a?, master_b?];
+    let sensitivity = in_stage(watch, DISTANCE, probes, |stage| sensitivity(&meshing, &period, stage))?;
+    watch.check()?;
     Ok(RolledPair {
         errors: SIDES.map(|side| period.transmission_error(side)),
         backlash: moments.iter().map(|moment| Backlash::of(&fit.pitch, moment)).collect(),
         ratios: period.ratios(),
-        contact_ratio: [right?, left?],
+        contact_ratio,
         pairs: SIDES.map(|side| {
             moments.iter().map(|moment| teeth::pairs_in_contact(&meshing, moment, side, marking_um)).collect()
         }),
         teeth,
         edges: SIDES.map(|side| teeth::edges(&flanks, &meshing, moments, side)),
-        gaps: smallest_gaps(&meshing, moments, GAPS_REACH * marking_um),
-        corners: [Member::Driver, Member::Driven].map(|member| corners::deepest(&flanks, &meshing, moments, member)),
+        gaps,
+        corners,
         tight,
-        masters: [master_a?, master_b?],
-        sensitivity: sensitivity(&meshing, &period)?,
+        masters,
+        sensitivity,
         face_mm: gears[0].face_width_mm.min(gears[1].face_width_mm),
         fit,
         flanks,
@@ -142,17 +168,27 @@ pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions) -> Result<RolledPai
     })
 }
 
+/// Does the work of a stage.
+fn in_stage<T>(watch: &Watch, name: &str, positions: usize, work: impl FnOnce(&Stage) -> Result<T>) -> Result<T> {
+    let stage = watch.stage(name, positions, "positions")?;
+    let done = work(&stage)?;
+    stage.finish();
+    Ok(done)
+}
+
 /// Contact ratio of a side at some moments of the period.
 fn contact_ratios(
     fit: &Fit,
     scenes: [&Scene; 2],
     period: &RolledPeriod,
     side: Side,
-) -> Result<Vec<(usize, f64)>, Refusal> {
+    stage: &Stage,
+) -> Result<Vec<(usize, f64)>> {
     let addendum_mm = addendum_mm(scenes);
-    let step = stride(period, PATHS_PER_PITCH);
+    let step = stride(period, PROBES_PER_PITCH);
     let at = |index: usize| {
         let path = path_of_contact(&fit.pitch, &period.moments[index].pitch, side, addendum_mm)?;
+        stage.count()?;
         Ok((index, path.contact_ratio(&fit.pitch)))
     };
     (0..period.moments.len()).into_par_iter().step_by(step).map(at).collect()
@@ -164,7 +200,13 @@ fn stride(period: &RolledPeriod, per_pitch: usize) -> usize {
     (period.moments.len() / (per_pitch * pitches)).max(1)
 }
 
-fn master(fit: &Fit, flanks: &PairFlanks, scenes: [&Scene; 2], member: Member) -> Result<Option<DoubleFlank>, Refusal> {
+fn master(
+    fit: &Fit,
+    flanks: &PairFlanks,
+    scenes: [&Scene; 2],
+    member: Member,
+    watch: &Watch,
+) -> Result<Option<DoubleFlank>> {
     let middle = &flanks.sections[flanks.sections.len() / 2];
     let at = usize::from(member == Member::Driven);
     let gear = &scenes[at].gear;
@@ -178,19 +220,21 @@ fn master(fit: &Fit, flanks: &PairFlanks, scenes: [&Scene; 2], member: Member) -
     };
     let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
     let mate = &scenes[1 - at].gear;
-    double_flank::with_master(&curve, &own, gear.kind, fit.pitch.teeth(), mate.addendum_coefficient * mate.module_mm)
+    let addendum_mm = mate.addendum_coefficient * mate.module_mm;
+    double_flank::with_master(&curve, &own, gear.kind, fit.pitch.teeth(), addendum_mm, MASTERS[at], watch)
 }
 
 /// What a larger centre distance changes at some moments of the period.
-fn sensitivity(meshing: &Meshing, period: &RolledPeriod) -> Result<Sensitivity, Refusal> {
+fn sensitivity(meshing: &Meshing, period: &RolledPeriod, stage: &Stage) -> Result<Sensitivity> {
     let change = |moment: &Moment| {
         let [right, left] = SIDES.map(|side| meshing.side(&moment.pitch, side, PROBE_UM / UM_PER_MM));
         let error_rad = right?.error_rad - moment.right.error_rad;
         let play_rad = left?.error_rad - moment.left.error_rad - error_rad;
+        stage.count()?;
         Ok([error_rad.to_degrees() * 3600.0, play_rad * moment.pitch.radius_mm[1] * UM_PER_MM])
     };
     let step = stride(period, PROBES_PER_PITCH);
-    let changes: Vec<[f64; 2]> = period.moments.par_iter().step_by(step).map(change).collect::<Result<_, Refusal>>()?;
+    let changes: Vec<[f64; 2]> = period.moments.par_iter().step_by(step).map(change).collect::<Result<_>>()?;
     let ends = |of: usize| {
         let values = changes.iter().map(|change| change[of]);
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [value.min(low), value.max(high)])

@@ -7,10 +7,11 @@
 
 use super::fit::Fit;
 use super::flanks::PairFlanks;
+use super::watch::Stage;
 use crate::pair::assembly::{Meshing, Moment, ToothTouch};
 use crate::pair::contact::TouchKind;
 use crate::pair::pitch_pair::Member;
-use gearcut_core::error::Refusal;
+use gearcut_core::error::{Refusal, Result};
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 use glam::DVec2;
@@ -125,7 +126,7 @@ pub fn pairs_in_contact(meshing: &Meshing, moment: &Moment, side: Side, marking_
 /// thickness are left out.
 ///
 /// # Errors
-/// A contact that has no foot on a pitch curve.
+/// A contact that has no foot on a pitch curve; Ctrl-C.
 pub fn teeth(
     fit: &Fit,
     flanks: &PairFlanks,
@@ -133,7 +134,8 @@ pub fn teeth(
     moments: &[Moment],
     side: Side,
     marking_um: f64,
-) -> Result<Vec<ToothContact>, Refusal> {
+    stage: &Stage,
+) -> Result<Vec<ToothContact>> {
     let count = i64::from(fit.pitch.teeth().count[0]);
     let none = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
     let mut found: Vec<ToothContact> = (1..=count)
@@ -156,6 +158,7 @@ pub fn teeth(
                 widen(&mut tooth.arcs_mm[gear], arcs[gear]);
             }
         }
+        stage.count()?;
     }
     found.retain(|tooth| tooth.moments[0] > 0);
     Ok(found)

@@ -2,18 +2,27 @@
 
 mod cut_pairs;
 mod depths;
+mod parallelism;
 mod refusals;
 mod scallops;
 
 use serde_json::Value;
 use std::path::Path;
 
+use super::watch::Watch;
+use crate::interrupt::Interrupt;
+use crate::output::progress::{Progress, ProgressMode};
 use crate::process;
 use crate::scene::LoadedScene;
 
 fn data(name: &str) -> Value {
     let path = format!("{}/tests/data/pair/{name}.json", env!("CARGO_MANIFEST_DIR"));
     serde_json::from_slice(&std::fs::read(path).expect("a file of expected values")).expect("JSON")
+}
+
+/// Work that nobody watches or stops.
+fn unwatched<T>(work: impl FnOnce(&Watch) -> T) -> T {
+    work(&Watch::new(&Progress::new(ProgressMode::Quiet), &Interrupt::default()))
 }
 
 fn number(value: &Value, key: &str) -> f64 {

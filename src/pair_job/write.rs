@@ -5,6 +5,7 @@ use super::options::PairOptions;
 use super::page::{PagePictures, page};
 use super::pictures::{write_animation, write_pattern};
 use super::rolled::RolledPair;
+use super::watch::Watch;
 use crate::findings::{Findings, RESULTS_FILE};
 use crate::output::folder::OutputFolder;
 use crate::output::report::REPORT_FILE;
@@ -16,13 +17,14 @@ use gearcut_core::error::{Error, Result};
 /// Writes everything but the run record.
 ///
 /// # Errors
-/// Files that cannot be written.
+/// Files that cannot be written; Ctrl-C.
 pub fn write(
     scenes: [&Scene; 2],
     options: &PairOptions,
     rolled: &RolledPair,
     found: &Findings,
     folder: &OutputFolder,
+    watch: &Watch,
 ) -> Result<()> {
     write_tables(found, folder)?;
     let lines = charts::lines(rolled);
@@ -41,8 +43,9 @@ pub fn write(
         if let Some(name) = write_pattern(rolled, member, scene, options.marking_um, folder)? {
             patterns.push((format!("Contact pattern on all flanks of gear {gear}"), bytes(&name)?));
         }
+        watch.check()?;
     }
-    let animation = bytes(&write_animation(rolled, options.marking_um, folder)?)?;
+    let animation = bytes(&write_animation(rolled, options.marking_um, folder, watch)?)?;
     let page = page(scenes, options, rolled, found, &lines, PagePictures { patterns, animation });
     page.write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &found.to_json())

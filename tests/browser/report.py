@@ -2,7 +2,7 @@
 
 No errors, no requests, a gear that turns, maps that follow the picker.
 
-In: the report, a folder for screenshots, the browser. Out: screenshots of wide, narrow, light, dark and printed pages
+In: the report of a gear and that of a pair, a folder for screenshots, the browser. Out: screenshots of wide, narrow, light, dark and printed pages
 for a look; exit code 1 with the reason when something is wrong.
 """
 
@@ -18,7 +18,7 @@ ARGUMENTS = """--no-sandbox --disable-gpu --use-gl=angle --use-angle=swiftshader
     --disable-sync""".split()
 
 
-def main(report, pictures, chromium):
+def main(report, pair, pictures, chromium):
     pictures = pathlib.Path(pictures)
     pictures.mkdir(parents=True, exist_ok=True)
     address = pathlib.Path(report).resolve().as_uri()
@@ -46,6 +46,10 @@ def main(report, pictures, chromium):
             keep_pictures(other, name)
             other.close()
         check_without_scripts(browser, address)
+        rolling = open_page(browser, pathlib.Path(pair).resolve().as_uri(), pictures, 1360, 900, "light")
+        check_roll(rolling)
+        keep_pictures(rolling, "pair_light")
+        rolling.close()
         browser.close()
 
 
@@ -202,6 +206,22 @@ def check_gear(opened):
         becomes(opened, gear, start, True, "the button home does not lead home")
 
 
+def check_roll(opened):
+    """Both gears of a pair are drawn, and turn."""
+    page = opened.page
+    share = drawn_share(opened)
+    assert 0.1 < share < 0.9, f"{share:.0%} of the canvas is covered by the pair"
+    before = kept(opened, "gear-view")
+    page.locator("#roll").fill("5")
+    becomes(opened, "gear-view", before, False, "the slider does not roll the gears")
+    angle = page.locator("#roll-angle").inner_text()
+    assert angle.startswith("A at ") and not angle.startswith("A at 0.0"), angle
+    page.locator("#roll-play").click()
+    page.wait_for_function("(angle) => document.getElementById('roll-angle').textContent !== angle", arg=angle)
+    page.locator("#roll-play").click()
+    assert page.locator("#roll-play").inner_text() == "Roll", "the button does not stop the gears"
+
+
 def check_picker(opened):
     page = opened.page
 
@@ -278,7 +298,7 @@ def check_without_scripts(browser, address):
 if __name__ == "__main__":
     started = time.monotonic()
     try:
-        main(*sys.argv[1:4])
+        main(*sys.argv[1:5])
     except AssertionError as problem:
         sys.exit(f"error: {problem}")
-    print(f"report opened, turned and picked in {time.monotonic() - started:.1f} s; screenshots in {sys.argv[2]}")
+    print(f"report opened, turned and picked in {time.monotonic() - started:.1f} s; screenshots in {sys.argv[3]}")

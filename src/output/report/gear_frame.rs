@@ -2,8 +2,8 @@
 
 use maud::{Markup, html};
 
-/// The 3D view, the picker and the map: empty frames that the scripts fill.
-pub fn gear_frame() -> Markup {
+/// The 3D view, the picker and the map: empty frames that the scripts fill; with a mate, the means to roll.
+pub fn gear_frame(rolls: bool) -> Markup {
     let turn = |action: &str, words: &str, label: &str| {
         html! {
             button type="button" data-view=(action) title=(label) aria-label=(label) { (words) }
@@ -26,6 +26,13 @@ pub fn gear_frame() -> Markup {
                         (turn("flank", "Flank", "View of the picked flank"))
                         (turn("closer", "+", "Closer"))
                         (turn("further", "−", "Further away"))
+                    }
+                    @if rolls {
+                        div class="roll" {
+                            button type="button" id="roll-play" aria-pressed="false" { "Roll" }
+                            input id="roll" type="range" min="0" value="0" step="1" aria-label="Angle of gear A";
+                            output id="roll-angle" {}
+                        }
                     }
                     output id="gear-readout" class="readout" aria-live="off" {}
                 }

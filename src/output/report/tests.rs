@@ -62,6 +62,7 @@ fn page() -> Page {
                 values: vec![vec![0.0, 1.0, f32::NAN, -1.0]],
             }],
             body: crate::surface::triangles::Triangles::default(),
+            mate: None,
         }),
         sections: vec![PageSection {
             id: "all",

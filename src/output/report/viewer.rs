@@ -34,6 +34,19 @@ pub struct Viewer {
     pub quantities: Vec<ViewerQuantity>,
     /// The rest of the gear.
     pub body: Triangles,
+    /// A gear that rolls with it.
+    pub mate: Option<ViewerMate>,
+}
+
+/// A second gear, without maps, and how both turn while they roll.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewerMate {
+    /// All of it, in its own frame.
+    pub triangles: Triangles,
+    /// Its axis, mm; that of the first gear is the origin.
+    pub axis_mm: [f64; 2],
+    /// How far both gears are turned counter-clockwise at every place of the roll, deg.
+    pub turned_deg: Vec<[f64; 2]>,
 }
 
 /// A flank of the viewer.
@@ -191,6 +204,10 @@ impl Viewer {
         let mut flank_mesh = triangles(&mut block, &mesh);
         flank_mesh["places"] = block.add_f32(places.as_flattened()).into();
         let body_mesh = triangles(&mut block, &self.body);
+        let mate = self.mate.as_ref().map(|mate| {
+            let mesh = triangles(&mut block, &mate.triangles);
+            json!({"mesh": mesh, "axis": mate.axis_mm, "turned": mate.turned_deg})
+        });
         let colours = block.add(tables().as_flattened().as_flattened().iter().copied());
         let description = json!({
             "cells": first_cell,
@@ -198,6 +215,7 @@ impl Viewer {
             "quantities": quantities,
             "flank_mesh": flank_mesh,
             "body_mesh": body_mesh,
+            "mate": mate,
             "colours": colours,
             "bytes": block.bytes.len(),
         });
@@ -290,6 +308,7 @@ mod tests {
                 values: (0..flanks).map(|_| (0..u * v).map(&value).collect()).collect(),
             }],
             body: Triangles::default(),
+            mate: None,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::pair::contact_ratio::path_of_contact;
-use crate::pair::interference::{SharpCutter, needed_reach};
+use crate::pair::interference::needed_reach;
 
 #[test]
 fn tips_that_ask_for_contact_below_the_form_point() {
@@ -12,11 +12,16 @@ fn tips_that_ask_for_contact_below_the_form_point() {
         let design = &case["design"];
         let pair = pair_of(design);
         let teeth = pair.teeth();
+        let cutters = cutters(design);
+        // The form point is where the flank turns back, or below it: none of these gears is undercut.
+        let undercut = &case["undercut_gear1"];
+        let sharpest = extremes(&pair, |at| at.curvature_per_mm[0])[1];
+        let margin = |depth_mm: f64| 1.0 - sharpest[1] * depth_mm / teeth.pressure_angle_rad.sin();
+        largest.within(margin(number(undercut, "limit")), 0.0, 1e-9, "limit of undercut");
+        largest.within(pair.curvature_margin(Member::Driver, sharpest[0], 5.0), margin(5.0), 1e-12, "margin");
+        assert_eq!(margin(number(undercut, "lambda_form")) < 0.0, undercut["undercut"] == true, "{}", case["name"]);
         for (member, gear) in [(Member::Driver, 1), (Member::Driven, 2)] {
-            let cutter = SharpCutter {
-                teeth: number(design, &format!("cutter{gear}_z0")) as u32,
-                addendum_coefficient: number(design, "cutter_ha0"),
-            };
+            let cutter = cutters[gear - 1];
             let form_mm = cutter.form_reach_mm(teeth.module_mm, teeth.pressure_angle_rad);
             for (side, name) in SIDES {
                 let expected = &case[format!("gear{gear}_{name}")];
@@ -31,6 +36,15 @@ fn tips_that_ask_for_contact_below_the_form_point() {
                 largest.within(there.abs(), wanted, 1e-7, &what);
                 assert!((wanted - 1e-9..wanted + 1e-3).contains(&needed.reach_mm), "{what}: {needed:?}");
                 largest.within(form_mm - there.abs(), number(expected, "margin_min"), 1e-6, &what);
+                // A ring's tips are relieved from the base point of their cutter on.
+                let relieved = &case[format!("gear2_tip_{name}")];
+                if member == Member::Driver && relieved.is_object() {
+                    let base_mm = cutters[1].base_reach_mm(teeth.module_mm, teeth.pressure_angle_rad);
+                    largest.within(base_mm, number(relieved, "lambda_base_of_cutter2"), 1e-7, &what);
+                    largest.within(base_mm - there.abs(), number(relieved, "margin_min"), 1e-6, &what);
+                    let margin_mm = number(expected, "margin_min_when_gear2_ends_at_its_cutter_base");
+                    largest.within(form_mm - base_mm, margin_mm, 1e-6, &what);
+                }
             }
         }
     }

@@ -8,15 +8,17 @@ mod rigid_errors;
 mod single_flank;
 mod tight;
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use serde_json::Value;
 
 use super::assembly::{Meshing, Mounting};
 use super::flank_chain::{self, FlankChain, GearFlanks};
-use super::pitch_pair::{Member, PairTeeth, PitchPair};
+use super::interference::SharpCutter;
+use super::pitch_pair::{Member, PairTeeth, PitchPair, PitchPoint};
 use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape};
+use gearcut_core::math::extremum::maximum;
 use gearcut_core::terms::Side;
 
 fn data(name: &str) -> Value {
@@ -30,6 +32,14 @@ fn numbers(value: &Value) -> Vec<f64> {
 
 fn number(value: &Value, key: &str) -> f64 {
     value[key].as_f64().unwrap_or_else(|| panic!("{key} is a number"))
+}
+
+/// The cutters of both gears.
+fn cutters(design: &Value) -> [SharpCutter; 2] {
+    [1, 2].map(|gear| SharpCutter {
+        teeth: number(design, &format!("cutter{gear}_z0")) as u32,
+        addendum_coefficient: number(design, "cutter_ha0"),
+    })
 }
 
 /// Zero where the file does not name it.
@@ -63,6 +73,14 @@ fn pair_of(design: &Value) -> PitchPair {
     };
     let curve = PitchCurve::with_accuracy(&shape, teeth.module_mm, teeth.count[0], 1e-12).expect("a closed curve");
     PitchPair::closing(Arc::new(curve), teeth).expect("a mate that closes")
+}
+
+/// Places and values of the smallest and the largest of something over the driver's turn.
+fn extremes(pair: &PitchPair, of: impl Fn(&PitchPoint) -> f64) -> [[f64; 2]; 2] {
+    [-1.0, 1.0].map(|sign| {
+        let (at, found) = maximum(|phi| sign * of(&pair.at(phi)), 0.0, TAU, 360);
+        [at, sign * found]
+    })
 }
 
 fn addendum_mm(design: &Value) -> [f64; 2] {

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::pair::contact::TouchKind;
+use crate::pair::contact_ratio::tooth_path;
 use gearcut_core::units::UM_PER_MM;
 
 #[test]
@@ -29,6 +30,12 @@ fn errors_of_one_flank_and_corners_that_touch() {
             let moment = meshing.at(phi).expect("flanks that touch");
             let expected = numbers(&case["TE_arcsec"])[i];
             let kind = case["contact"][i].as_str().expect("a kind");
+            if case["in_path"][i] == true && kind == "inner" {
+                // The error over the lever of the line of action, away from the ends of the path.
+                let closed = numbers(&case["closed_form_inside_path_arcsec"])[i];
+                let far = number(case, "max_difference_from_closed_form_off_edges_arcsec");
+                Largest::default().within(arcsec(moment.right.error_rad), closed, far + 0.002, name);
+            }
             let what = format!("{name} at {phi}: {kind}, {:?}", moment.right.acting);
             let error = arcsec(moment.right.error_rad);
             if kind == "inner" {
@@ -41,6 +48,15 @@ fn errors_of_one_flank_and_corners_that_touch() {
             // Where only one pair carries the error, it is the one of the file; several agree where there is none.
             if expected.abs() > 0.01 {
                 assert_eq!(moment.right.acting.tooth, case["acting_tooth"][i].as_i64().expect("a tooth"), "{what}");
+            }
+        }
+        if wrong_gear == Member::Driver {
+            let path = tooth_path(&pair, Side::Right, wrong, tips).expect("tips");
+            for (angle, given) in [path.phi_at_driven_tip_rad, path.phi_at_driver_tip_rad]
+                .into_iter()
+                .zip(numbers(&case["path_of_this_tooth"]))
+            {
+                Largest::default().within(angle, given, 1e-8, "path of the tooth");
             }
         }
         println!("p06 {name}: flank {:.1e} arcsec, corner {:.1e} arcsec", inner.0, edge.0);

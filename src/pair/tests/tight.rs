@@ -48,6 +48,7 @@ fn tight_centre_distances() {
             assert!((distance_mm - expected("l_nominal")).abs() < 1e-9, "{distance_mm}");
             assert!((work_rad - expected("psi_c")).abs() < 1e-9, "{work_rad}");
             let tight = master.against(pair.curve(), &gear, pair.teeth().module_mm, phi).expect("a tight mesh");
+            assert!((distance_mm + tight.distance_error_mm - expected("l")).abs() < 1e-5, "{}", expected("l"));
             largest.within(
                 UM_PER_MM * tight.distance_error_mm,
                 expected("delta_l_um"),

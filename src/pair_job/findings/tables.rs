@@ -27,7 +27,8 @@ pub(super) fn rolling(rolled: &RolledPair) -> Table {
                 key("transmission_error"),
                 "arcsec",
                 "rotation of B beyond the one asked for when this side touches",
-            ),
+            )
+            .as_curve(),
             column(key("transmission_error_at_pitch_point"), "um", "the same times r2, across the line of centres"),
             column(key("long_wave"), "arcsec", "its waves longer than two teeth"),
             column(key("mesh"), "arcsec", "the rest of it"),
@@ -38,7 +39,8 @@ pub(super) fn rolling(rolled: &RolledPair) -> Table {
     }
     columns.extend([
         TableColumn::new("backlash_angle", "arcsec", "play of B while A is held"),
-        TableColumn::new("backlash_circumferential", "um", "play across the line of centres at the pitch point"),
+        TableColumn::new("backlash_circumferential", "um", "play across the line of centres at the pitch point")
+            .as_curve(),
         TableColumn::new("backlash_along_pitch_curves", "um", "play along the pitch curves"),
         TableColumn::new(
             "backlash_normal_right",

@@ -131,7 +131,7 @@ fn all(rolled: &RolledPair, side: Side, error: &TransmissionError) -> Table {
         vec![((k + 1) as u64).into(), order.into(), arcsec.into(), um.into()]
     });
     let mut columns = columns(TableColumn::new("harmonic", "1", "waves in a period of the pair"));
-    columns[2].bars = false;
+    columns[2].chart = None;
     Table::new("harmonics", &format!("All waves, {} flanks", side.name()), columns)
         .with_rows(rows)
         .rows_in_file(&format!("harmonics_{}", side.name()))

@@ -38,7 +38,7 @@ fn round_gears_turn_evenly_outside_and_in_a_ring() {
     for (kind, teeth) in [("", 27), ("kind = \"internal\"\nrim_mm = 10.0\n", 54)] {
         let (a, b) = (round("a", 18, "", THINNED), round("b", teeth, kind, THINNED));
         let options = PairOptions { positions: Some(18 * 3 * 12), ..PairOptions::default() };
-        let rolled = roll_pair([&a.scene, &b.scene], &options).expect("a pair");
+        let rolled = unwatched(|watch| roll_pair([&a.scene, &b.scene], &options, watch)).expect("a pair");
         let radius_mm = 1.5 * f64::from(teeth);
         let tip_sign = rolled.fit.pitch.sign();
         let thinned_um = UM_PER_MM * (thinning_mm(18, 1.0) + thinning_mm(teeth, tip_sign));
@@ -65,7 +65,8 @@ fn the_third_order_pair_as_cut() {
     let a = third_order(30, 4200, 0.0);
     let b = member::mate(&a, Mate { teeth: 42, kind: GearKind::External }, &[]).expect("a mate");
     let fit = Fit::new(&a.scene, &b.scene, 0).expect("they belong together");
-    let flanks = PairFlanks::new(&fit, [&a.scene, &b.scene], FlankSource::Cut, 1).expect("flanks");
+    let flanks =
+        unwatched(|watch| PairFlanks::new(&fit, [&a.scene, &b.scene], FlankSource::Cut, 1, watch)).expect("flanks");
     let mut play_was_mm = 0.0;
     for case in data("p04_s0_centre_distance")["cases"].as_array().expect("cases") {
         // Teeth that are thinned as well stand in the file of thinned teeth.

@@ -1,8 +1,11 @@
 //! How deep the mate's tip corner stands in a fillet: p10, on the envelopes of flank and root.
 //!
-//! A sharp corner of the cutter leaves its own path as the fillet, so the depth is the distance from that path, which
-//! is computed here from the rolling circles alone. The file's own value agrees for 14 teeth; for 20 teeth it lies
-//! 0.135 um above the path, because it is the smallest of sampled poses.
+//! The file defines the depth as the smallest distance of the corner from the cutter over all of its poses. A sharp
+//! corner of the cutter leaves its own path as the fillet, so that is the distance from this path, which is computed
+//! here from the rolling circles alone. It confirms the file's values but one: for 20 teeth the file tells 5.784 um,
+//! and in the file's own position its own corner is 5.647 um away from the path. The file's search over the poses has
+//! stopped 35 microradians beside the nearest one. There the tolerance of the file holds for the depth as it defines
+//! it.
 
 use super::*;
 use crate::job::GearJob;
@@ -17,10 +20,12 @@ use gearcut_core::gear::GearKind;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 use glam::DVec2;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
-/// What sampled poses add to the file's depths, um.
-const SAMPLED_UM: f64 = 0.15;
+/// The pair whose depth in the file is not the smallest over all poses, and by how much, um.
+const STOPPED_SHORT: (&str, f64) = ("S0 z0=20", 0.137);
+/// Sag of the chords between points of roots 5 um apart, and sampling of the positions, um.
+const CHORDS_UM: f64 = 0.005;
 
 /// Outline of the space before a tooth, of targets 5 um apart.
 fn space(gear: &dyn GearJob, tooth: u32) -> SpaceOutline {
@@ -59,48 +64,63 @@ fn from_corner_path_um(pair: &PitchPair, cutter_teeth: u64, tooth: u32, phi: f64
     UM_PER_MM * path.windows(2).map(distance).fold(f64::INFINITY, f64::min)
 }
 
+/// The round driver of the file.
+fn round_driver() -> LoadedScene {
+    parsed(
+        "round_driver",
+        "[gear]\nmodule_mm = 3.0\nteeth = 20\nface_width_mm = 20.0\n\
+         [tool.shaper_cutter]\nteeth = 20\naddendum_coefficient = 1.25\n",
+    )
+}
+
 #[test]
 fn tip_corners_in_fillets() {
     let file = data("p10_interference");
     for case in file["cases"].as_array().expect("cases") {
         let design = &case["design"];
-        // The round pair of the file has no fillet to stand in; its form points are tested with the mechanics.
-        if design["z1"] != 42 {
-            continue;
-        }
+        let name = case["name"].as_str().expect("a name");
         let cutter_teeth = design["cutter1_z0"].as_u64().expect("a number of teeth");
-        let a = third_order(cutter_teeth, 420, 0.0);
-        let b = member::mate(&a, Mate { teeth: 42, kind: GearKind::External }, &[]).expect("a mate");
+        let a = if design["z1"] == 42 { third_order(cutter_teeth, 420, 0.0) } else { round_driver() };
+        let teeth = design["z2"].as_u64().expect("a number of teeth") as u32;
+        let b = member::mate(&a, Mate { teeth, kind: GearKind::External }, &[]).expect("a mate");
         let pair = Fit::new(&a.scene, &b.scene, 0).expect("they belong together").pitch;
         let expected = &case["tip2_into_fillet1"];
-        let tooth = expected["tooth"].as_u64().expect("a tooth") as u32;
-        let mut deepest = (f64::NEG_INFINITY, 0.0, DVec2::ZERO);
+        // Teeth before the first one are those of the turn before.
+        let before = expected["tooth"].as_i64().expect("a tooth") < 1;
+        let turn = if before { a.scene.gear.teeth } else { 0 };
+        let tooth = (expected["tooth"].as_i64().expect("a tooth") + i64::from(turn)) as u32;
+        let file_rad = number(expected, "phi1") + if before { TAU } else { 0.0 };
+        let crossing_mm = pair.crossing_mm(Side::Right, i64::from(tooth));
+        let tip = pair.phi_at_tip(Member::Driven, Side::Right, crossing_mm, 3.0).expect("a tip");
+        let corner = pair.flank_point(Member::Driven, Side::Right, crossing_mm, tip).point_mm;
+        // In the driver's frame.
+        let corner_at = |phi: f64| {
+            let at = pair.at(phi);
+            let machine = DVec2::from_angle(at.phi_2_rad).rotate(corner) + pair.axis_mm(Member::Driven);
+            pair.gear_from_machine(&at, Member::Driver, machine)
+        };
+        let mut deepest_mm = f64::NEG_INFINITY;
         let show = &mut |gear: &dyn GearJob| {
             let space = space(gear, tooth);
-            let crossing_mm = pair.crossing_mm(Side::Right, i64::from(tooth));
-            let tip = pair.phi_at_tip(Member::Driven, Side::Right, crossing_mm, 3.0).expect("a tip");
-            let corner = pair.flank_point(Member::Driven, Side::Right, crossing_mm, tip).point_mm;
             for i in -200..=200 {
-                let at = pair.at(number(expected, "phi1") + 2e-4 * f64::from(i));
-                let machine = DVec2::from_angle(at.phi_2_rad).rotate(corner) + pair.axis_mm(Member::Driven);
-                let own = pair.gear_from_machine(&at, Member::Driver, machine);
-                let found = space.corner(own).expect("the corner stands in the space");
-                if found.depth_mm > deepest.0 {
-                    deepest = (found.depth_mm, at.phi_1_rad, own);
-                }
+                let found = space.corner(corner_at(file_rad + 2e-4 * f64::from(i))).expect("it stands in the space");
+                deepest_mm = deepest_mm.max(found.depth_mm);
             }
             Ok(())
         };
         process::prepare(&a.scene).expect("a job").with_gear(show).expect("its gear");
-        let depth_um = UM_PER_MM * deepest.0;
-        let wanted_um = number(expected, "penetration_um");
-        println!("p10 {}: {depth_um:.3} um, the file {wanted_um:.3}", case["name"]);
-        // A corner that stays clear touches the flank at the end of the path of contact: 0.
-        assert!(depth_um - wanted_um.max(0.0) <= number(expected, "tolerance_um"), "{depth_um}, {wanted_um}");
-        assert!(wanted_um - depth_um <= SAMPLED_UM, "{depth_um}, {wanted_um}");
-        if wanted_um > 1.0 {
-            let path_um = from_corner_path_um(&pair, cutter_teeth, tooth, deepest.1, deepest.2);
-            assert!((depth_um - path_um).abs() < 0.005, "{}: {depth_um}, from the path {path_um}", case["name"]);
+        let depth_um = UM_PER_MM * deepest_mm;
+        let (file_um, tolerance_um) = (number(expected, "penetration_um"), number(expected, "tolerance_um"));
+        println!("p10 {name}: {depth_um:.3} um, the file {file_um:.3}");
+        if file_um < tolerance_um {
+            // A corner that stays clear touches the flank at the end of the path of contact: 0.
+            assert!(depth_um.abs() <= tolerance_um, "{name}: {depth_um}");
+            continue;
         }
+        let defined_um = from_corner_path_um(&pair, cutter_teeth, tooth, file_rad, corner_at(file_rad));
+        assert!((depth_um - defined_um).abs() < CHORDS_UM, "{name}: {depth_um}, as defined {defined_um}");
+        let short_um = if name == STOPPED_SHORT.0 { STOPPED_SHORT.1 } else { 0.0 };
+        assert!((file_um - defined_um - short_um).abs() < 0.1 * tolerance_um + CHORDS_UM, "{name}: {defined_um}");
+        assert!((depth_um - (file_um - short_um)).abs() <= tolerance_um, "{name}: {depth_um}");
     }
 }

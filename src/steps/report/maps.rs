@@ -2,29 +2,35 @@
 
 use crate::job::GearJob;
 use crate::output::flank_maps::FlankMaps;
+use crate::output::grid::MapGrid;
 use crate::output::report::viewer::{Thinning, Viewer, ViewerFlank, ViewerQuantity};
 use crate::steps::gear_maps::{GearMaps, finished_heights_um, um};
 use crate::steps::map_operations;
-use crate::steps::view_mesh::ViewMesh;
+use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 
 /// Mesh of the target, and on it: stock of every earlier operation, deviation and height of the finished surface.
 pub fn viewer(job: &dyn GearJob, mesh: ViewMesh, maps: &GearMaps) -> Viewer {
     let flanks = mesh.flanks.into_iter().map(|flank| {
         let map = maps.flanks.iter().find(|map| map.tooth == flank.tooth && map.side == flank.side);
-        let rows_mm = &flank.rows_mm;
-        ViewerFlank {
-            tooth: flank.tooth,
-            side: flank.side.name().to_owned(),
-            grid: map.map(|map| map.grid.clone()),
-            places_mm: flank
-                .arcs_mm
-                .iter()
-                .flat_map(|&arc| rows_mm.iter().map(move |&row| [arc as f32, row as f32]))
-                .collect(),
-            triangles: flank.triangles,
-        }
+        viewer_flank(flank, map.map(|map| map.grid.clone()))
     });
-    Viewer { flanks: flanks.collect(), quantities: quantities(job, maps), body: mesh.body }
+    Viewer { flanks: flanks.collect(), quantities: quantities(job, maps), body: mesh.body, mate: None }
+}
+
+/// A flank of the mesh with the grid of its map.
+pub fn viewer_flank(flank: ViewFlank, grid: Option<MapGrid>) -> ViewerFlank {
+    let rows_mm = &flank.rows_mm;
+    ViewerFlank {
+        tooth: flank.tooth,
+        side: flank.side.name().to_owned(),
+        grid,
+        places_mm: flank
+            .arcs_mm
+            .iter()
+            .flat_map(|&arc| rows_mm.iter().map(move |&row| [arc as f32, row as f32]))
+            .collect(),
+        triangles: flank.triangles,
+    }
 }
 
 fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {

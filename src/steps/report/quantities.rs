@@ -9,7 +9,8 @@ pub fn table(section: &Section) -> PageTable {
     let rows = section.entries.iter().map(|entry| {
         let (value, unit) = value_and_unit(&entry.quantity);
         let what = entry.quantity.why().unwrap_or(entry.quantity.definition());
-        vec![entry.heading(), format!("{value} {unit}").trim().to_owned(), place(&entry.quantity), what.to_owned()]
+        let [name, what] = [entry.heading().as_str(), what].map(unit::sentence_with_signs);
+        vec![name, format!("{value} {unit}").trim().to_owned(), place(&entry.quantity), what]
     });
     PageTable {
         caption: section.title.clone(),
@@ -22,10 +23,10 @@ pub fn table(section: &Section) -> PageTable {
 pub fn key_number(entry: &Entry) -> KeyNumber {
     let (value, unit) = value_and_unit(&entry.quantity);
     KeyNumber {
-        name: entry.heading(),
+        name: unit::sentence_with_signs(&entry.heading()),
         value,
         unit,
-        definition: entry.quantity.definition().to_owned(),
+        definition: unit::sentence_with_signs(entry.quantity.definition()),
         note: entry.quantity.why().map_or_else(|| place(&entry.quantity), str::to_owned),
         place: None,
     }
@@ -35,6 +36,10 @@ pub fn key_number(entry: &Entry) -> KeyNumber {
 fn value_and_unit(quantity: &Quantity) -> (String, String) {
     let value = match (quantity.value(), quantity.words()) {
         (Some(count), _) if quantity.is_count() => plain(count),
+        // Sizes and distances of axes to the micrometre.
+        (Some(value), _) if quantity.unit() == Some("mm") && value.abs() >= 10.0 => {
+            plain((value * 1e3).round() / 1e3).replace('-', "−")
+        }
         (Some(value), _) => significant(value, 4).replace('-', "−"),
         (None, words) => words.unwrap_or("–").to_owned(),
     };

@@ -78,6 +78,29 @@ fn a_pair_writes_numbers_tables_charts_patterns_and_a_page() {
     let compared = gearcut_in(folder.path(), &["compare", "out/a_with_a_mate_18", "out/apart"]).done().out;
     // 20 um apart: 2 * 20 um * tan(20 deg).
     assert!(compared.contains("backlash smallest") && compared.contains("14.5"), "{compared}");
+    let curves = folder.path().join("out/compare_a_with_a_mate_18_apart/transmission_error_positions.svg");
+    let curves = std::fs::read_to_string(curves).expect("both curves in one chart");
+    for words in
+        ["transmission error right", "backlash circumferential", ">a_with_a_mate_18<", ">apart<", "class=\"curve s1\""]
+    {
+        assert!(curves.contains(words), "the chart does not say {words}");
+    }
+}
+
+/// What interferes is written all the same, and nobody can miss it.
+#[test]
+fn a_tip_that_stands_in_the_mate_ends_with_code_3() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let out = folder.path().join("rolled");
+    let scene = "scenes/shaping/elliptical_normal.toml";
+    let coarse = ["--positions", "504", "--set-a", "fields.flank.profile_spacing_um=50", "--out"];
+    let arguments = [&["pair", scene, "--mate", "42"], &coarse[..], &[out.to_str().expect("UTF-8")]].concat();
+    gearcut(&arguments).failed(3, &["verdict: a tip of gear", "um deep in a fillet of gear"]);
+    let results = read_json(&out.join("results.json"));
+    let deepest = &results["headline"]["interference_deepest"];
+    assert!(deepest["value"].as_f64().expect("a number") > 1.0, "{deepest}");
+    let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
+    assert!(page.contains("id=\"roll\"") && page.contains("Contact pattern of gear A"), "both gears roll on the page");
 }
 
 #[test]
@@ -106,6 +129,12 @@ fn what_cannot_be_rolled_is_refused_with_numbers() {
     gearcut(&["pair", driver, round]).failed(1, &["2 mm", "3 mm", "differ by 3.1416 mm"]);
     gearcut(&["pair", round, "--mate", "24", "--center-distance-error-um", "1000"])
         .failed(1, &["73.000000 mm", "72.000000 mm", "600 um"]);
+    let third = "scenes/shaping/elliptical_normal.toml";
+    let apart = ["27.331 to 43.806 mm", "8.669 mm away", "0.300 mm are allowed", "--mate"];
+    gearcut(&["pair", third, round]).failed(1, &apart);
+    // The mate for outside, said to be a ring.
+    gearcut(&["pair", third, "--mate", "42", "--set-b", "gear.kind=internal", "--set-b", "gear.rim_mm=10"])
+        .failed(1, &["a driver of 42 teeth does not fit into a ring of 42"]);
     gearcut(&["pair", round, "--mate", "24", "--marking-um", "0"]).failed(1, &["--marking-um", "above 0"]);
     gearcut(&["pair", round, "--mate", "25", "--positions", "100"]).failed(1, &["100 positions", "600", "4800"]);
     gearcut(&["pair", round]).failed(2, &["--mate"]);

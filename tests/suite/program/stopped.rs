@@ -7,6 +7,7 @@ use gearcut::output::folder::OutputFolder;
 use gearcut::output::surface_files::{Format, SurfaceFile, write_surface};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
@@ -228,6 +229,40 @@ fn ctrl_c_leaves_nothing_of_axis_tables() {
     assert!(wait_until(&mut child, || hidden.exists()), "the command ended before it could be stopped");
     assert_eq!(ctrl_c(child).status.code(), Some(130));
     assert_eq!(names_in(folder.path()), Vec::<String>::new());
+}
+
+/// A pair of round gears, cut in moments.
+const COARSE_PAIR: [&str; 6] = ["pair", ROUND, "--mate", "36", "--set-a", "fields.flank.profile_spacing_um=50"];
+
+#[test]
+fn ctrl_c_ends_a_pair_at_once_in_every_stage() {
+    for stage in ["cut gear A", "roll", "pictures"] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let out = folder.path().join("rolled");
+        let mut child = program()
+            .args(COARSE_PAIR)
+            .args(["--positions", "2000", "--json", "--out"])
+            .arg(&out)
+            .spawn()
+            .expect("it starts");
+        let mut events = BufReader::new(child.stderr.take().expect("piped")).lines().map_while(Result::ok);
+        let begins = |line: String| line.contains("step_started") && line.contains(&format!("\"{stage}\""));
+        assert!(events.any(begins), "{stage} never began");
+        let clock = Instant::now();
+        let rest = std::thread::spawn(move || events.last());
+        assert_eq!(ctrl_c(child).status.code(), Some(130), "in {stage}");
+        let took = clock.elapsed();
+        // A second on an idle machine; others may compute as well.
+        assert!(took < Duration::from_secs(5), "{stage} went on for {took:?}");
+        let told = rest.join().expect("a reader").expect("a last line");
+        assert!(told.contains("stopped"), "{told}");
+        assert_eq!(names_in(folder.path()), Vec::<String>::new(), "in {stage}");
+    }
+}
+
+#[test]
+fn pairs_killed_at_any_time_leave_a_whole_result() {
+    killed_at_any_time(&[&COARSE_PAIR[..], &["--positions", "900"]].concat(), &[30, 95]);
 }
 
 #[test]

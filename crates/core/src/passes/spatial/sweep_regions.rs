@@ -20,6 +20,9 @@ pub const SIDE: usize = 3;
 pub const RAYS: usize = SIDE * SIDE;
 /// All rays of a region, as bits.
 pub const ALL: u32 = (1 << RAYS) - 1;
+/// Rows farther apart than this have no facet in common, mm: each is bounded alone. Over a tile of 32 of them nothing
+/// is smooth enough for a sweep to be culled, and every dexel would visit hundreds. It decides about time alone.
+const FAR_ROWS_MM: f64 = 1.5;
 
 /// Lines of dexels in one direction.
 #[derive(Debug, Clone, Copy)]
@@ -95,7 +98,9 @@ impl<'a> Region<'a> {
     /// All of a field.
     pub fn whole(field: &'a SpatialField) -> Self {
         let span = |lines: usize, tile: usize| LineSpan::new(0, lines.div_ceil(tile), tile, lines - 1);
-        Self::new(field, span(field.columns(), TILE_COLUMNS), span(field.rows(), TILE_ROWS))
+        let along_mm = |row: usize| field.ray(0, row).origin_mm;
+        let far = field.rows() > 1 && along_mm(0).distance(along_mm(1)) > FAR_ROWS_MM;
+        Self::new(field, span(field.columns(), TILE_COLUMNS), span(field.rows(), if far { 1 } else { TILE_ROWS }))
     }
 
     pub fn new(field: &'a SpatialField, columns: LineSpan, rows: LineSpan) -> Self {
