@@ -154,6 +154,38 @@ fn marks_are_left_by_the_gashes_of_the_independent_implementation() {
     }
 }
 
+/// Roots in one section or two, as pairs of gears roll them: rays there look across the hob's tips.
+#[test]
+fn candidates_of_roots_in_single_sections_leave_what_all_passes_leave() {
+    let scene = load(Path::new("scenes/hobbing/third_order_plain.toml"), &[]).expect("the scene").scene;
+    let job = HobbingJob::new(&scene).expect("the gear");
+    let cutter = HobCutter::new(&job).expect("passes");
+    let passes = &cutter.operations[0];
+    for rows_z_mm in [&[25.0][..], &[24.9, 25.0]] {
+        let whole = cutter.root_rays(10, 0.01, rows_z_mm).expect("a root").field;
+        let cut = |field: &SpatialField, plan: &SweepPlan| {
+            let mut layer = field.blank_layer();
+            Cpu::default().cut_spatial(field, plan, &mut layer).expect("cuts");
+            layer
+        };
+        let few = cut(&whole, &SweepPlan::new(&whole, passes));
+        let uncut = (0..whole.len()).filter(|&i| few.passes[i] == gearcut::dexel::NO_PASS).count();
+        println!("{} columns, {uncut} dexels not cut", whole.columns());
+        // A part of it by brute force: every pass that comes near at all.
+        let [from, columns] = [whole.columns() * 35 / 100, 64];
+        let part = SpatialField::new(columns, rows_z_mm.len(), whole.low_mm, |column, row| {
+            (whole.ray(from + column, row), f64::from(whole.blank_mm[whole.index(from + column, row)]))
+        });
+        let all = cut(&part, &SweepPlan::brute_force(&part, passes));
+        let differ: Vec<_> = (0..part.len())
+            .map(|i| (i, whole.index(from + i / part.rows(), i % part.rows())))
+            .filter(|&(i, own)| few.heights_mm[own] != all.heights_mm[i])
+            .map(|(i, own)| (own, few.heights_mm[own], all.heights_mm[i], few.passes[own], all.passes[i]))
+            .collect();
+        assert!(differ.is_empty(), "{rows_z_mm:?}: {} of {} differ: {differ:?}", differ.len(), part.len());
+    }
+}
+
 mod slow {
     use super::*;
 
