@@ -179,7 +179,8 @@ fn candidates_of_roots_in_single_sections_leave_what_all_passes_leave() {
         let all = cut(&part, &SweepPlan::brute_force(&part, passes));
         let differ: Vec<_> = (0..part.len())
             .map(|i| (i, whole.index(from + i / part.rows(), i % part.rows())))
-            .filter(|&(i, own)| few.heights_mm[own] != all.heights_mm[i])
+            // Tiles of the part have other origins: the last bit of a height may differ.
+            .filter(|&(i, own)| (few.heights_mm[own] - all.heights_mm[i]).abs() > 1e-8)
             .map(|(i, own)| (own, few.heights_mm[own], all.heights_mm[i], few.passes[own], all.passes[i]))
             .collect();
         assert!(differ.is_empty(), "{rows_z_mm:?}: {} of {} differ: {differ:?}", differ.len(), part.len());
