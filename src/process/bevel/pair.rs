@@ -100,7 +100,11 @@ pub struct Running {
 }
 
 impl Running {
-    fn of(pair: &BevelPair, marking_mm: f64) -> Result<Self> {
+    /// How a pair of flanks runs; ellipses are those of `marking_mm` of compound.
+    ///
+    /// # Errors
+    /// Flanks that do not meet.
+    pub fn of(pair: &BevelPair, marking_mm: f64) -> Result<Self> {
         let pitch_rad = std::f64::consts::TAU / f64::from(pair.pinion.blank.teeth);
         let count = (PITCHES * PER_PITCH as f64) as usize + 1;
         let found = pair.motion_of_teeth(PITCHES, count as u32, marking_mm)?;

@@ -3,10 +3,11 @@
 use super::jobs::job;
 use crate::fixtures::command::{gearcut, read_json};
 use crate::fixtures::json_schema::assert_is_results;
-use gearcut::bevel::contact::Contact;
+use gearcut::bevel::contact::{BevelPair, Contact, Mounting};
+use gearcut::bevel::face_mill::BladeKind;
 use gearcut::process::bevel::BevelJob;
 use gearcut::process::bevel::pair::findings::ARCSEC_PER_RAD;
-use gearcut::process::bevel::pair::{MountingError, MountingErrors, RolledBevels, roll};
+use gearcut::process::bevel::pair::{MountingError, MountingErrors, RolledBevels, Running, roll};
 use std::f64::consts::PI;
 
 const MARKING_MM: f64 = 0.00635;
@@ -46,16 +47,21 @@ fn conjugate_pinion() -> [String; 3] {
 #[test]
 fn flanks_of_one_crown_gear_turn_evenly() {
     let settings = conjugate_pinion();
-    let jobs = jobs(&settings.iter().map(String::as_str).collect::<Vec<_>>());
-    let concave = &rolled(&jobs, &MountingErrors::default()).sides[0];
-    let arcsec = ARCSEC_PER_RAD * concave.running.motion_error_rad();
-    let [long_mm, short_mm] = concave.running.middle().ellipse.expect("inside the flank").half_axes_mm;
+    let [gear, pinion] = jobs(&settings.iter().map(String::as_str).collect::<Vec<_>>());
+    let running = |offset_mm: f64| {
+        let [gear, pinion] =
+            [&gear.target[BladeKind::Outside.index()], &pinion.target[BladeKind::Inside.index()]].map(Clone::clone);
+        let mounting = Mounting { shaft_angle_rad: 0.5 * PI, offset_mm, pinion_axial_mm: 0.0, gear_axial_mm: 0.0 };
+        Running::of(&BevelPair { gear, pinion, mounting }, MARKING_MM).expect("they meet")
+    };
+    let concave = running(0.0);
+    let arcsec = ARCSEC_PER_RAD * concave.motion_error_rad();
+    let [long_mm, short_mm] = concave.middle().ellipse.expect("inside the flank").half_axes_mm;
     println!("conjugate: {arcsec:e} arc seconds, {long_mm} by {short_mm} mm");
     assert!(arcsec < 0.1, "{arcsec} arc seconds");
     // A line: as long as differences over places known to 1e-4 mm can tell, far beyond the face of 25 mm.
     assert!(long_mm > 60.0 && short_mm < 2.0, "{long_mm} by {short_mm} mm");
-    let off = MountingErrors { offset_mm: 0.05, ..MountingErrors::default() };
-    let arcsec = ARCSEC_PER_RAD * rolled(&jobs, &off).sides[0].running.motion_error_rad();
+    let arcsec = ARCSEC_PER_RAD * running(0.05).motion_error_rad();
     println!("E = 50 um: {arcsec} arc seconds");
     assert!(arcsec > 0.5, "{arcsec} arc seconds");
 }

@@ -138,22 +138,6 @@ fn the_comparison_can_fail() {
 }
 
 #[test]
-fn lists_without_room_grow_and_end_the_same() {
-    let gpu = software_gpu(strict());
-    let Native { cutter, .. } = &*SPUR;
-    let job = cutter.job;
-    let run = |room: Option<usize>| -> (BlankField, Vec<PassChip>) {
-        let mut field = job.blank_field().expect("fits");
-        let passes = &cutter.operations[0];
-        let ids = passes.first_pass..passes.end_pass();
-        let cut =
-            gpu.cut_blank_sweeps_on_device(&mut field, &cutter.sections(0, true).expect("a hob"), ids, room, &|| true);
-        (field, cut.expect("a software adapter works").expect("not stopped").chips)
-    };
-    assert!(run(None) == run(Some(0)));
-}
-
-#[test]
 fn a_blank_after_the_loss_is_cut_natively_and_the_loss_is_told() {
     let Native { cutter, blank: native, .. } = &*SPUR;
     let job = cutter.job;
@@ -172,6 +156,27 @@ fn a_blank_after_the_loss_is_cut_natively_and_the_loss_is_told() {
 
 mod slow {
     use super::*;
+
+    #[test]
+    fn lists_without_room_grow_and_end_the_same() {
+        let gpu = software_gpu(strict());
+        let Native { cutter, .. } = &*SPUR;
+        let job = cutter.job;
+        let run = |room: Option<usize>| -> (BlankField, Vec<PassChip>) {
+            let mut field = job.blank_field().expect("fits");
+            let passes = &cutter.operations[0];
+            let ids = passes.first_pass..passes.end_pass();
+            let cut = gpu.cut_blank_sweeps_on_device(
+                &mut field,
+                &cutter.sections(0, true).expect("a hob"),
+                ids,
+                room,
+                &|| true,
+            );
+            (field, cut.expect("a software adapter works").expect("not stopped").chips)
+        };
+        assert!(run(None) == run(Some(0)));
+    }
 
     #[test]
     fn the_gpu_leaves_the_same_spans_volumes_and_chips() {

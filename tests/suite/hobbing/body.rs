@@ -157,7 +157,7 @@ mod slow {
         let ellipse = "operation.finish.linkage.hobbing";
         check("circular_spur", &["gear.teeth=20", NARROW]);
         check("circular_helical", &["gear.teeth=21", NARROW]);
-        check("circular_helical", &["gear.teeth=11", "tool.hob.starts=1", "tool.hob.gashes=18"]);
+        check("circular_helical", &["gear.teeth=11", "tool.hob.starts=1", "tool.hob.gashes=18", NARROW]);
         check("third_order_diagonal", &[NARROW]);
         // Each even motion and each extra rotation once; their six pairs have their axes compared with the oracle.
         for (even, extra) in [("arc_length", "work"), ("rotation_angle", "hob"), ("polar_angle", "work")] {

@@ -55,7 +55,7 @@ mod slow {
             "operation.finish.linkage.hobbing_diagonal.shift_mm_per_revolution=500",
             "gear.face_width_mm=12",
             "fields.flank.profile_spacing_um=100",
-            "fields.flank.lead_spacing_um=100",
+            "fields.flank.lead_spacing_um=50",
         ]
         .map(str::to_owned);
         let scene = load(Path::new("scenes/hobbing/third_order_diagonal.toml"), &settings).expect("the scene").scene;

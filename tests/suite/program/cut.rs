@@ -91,43 +91,6 @@ fn meshes_pictures_and_frames_are_written_and_are_the_same_every_time() {
     assert!(passes.iter().filter(|&&pass| pass != u32::MAX).count() > 3000);
 }
 
-/// What is asked for has the bytes that it has in a whole result, and nothing else is there.
-#[test]
-fn parts_that_are_left_out_are_left_out_and_the_rest_keeps_its_bytes() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let cut = |name: &str, only: &[&str]| {
-        let out = folder.path().join(name);
-        let arguments = [
-            &["cut", "scenes/shaping/circular_m3_z24.toml", "--quiet", "--backend", "cpu", "--out"],
-            &[out.to_str().expect("a path")][..],
-            &COARSE[..],
-            only,
-        ];
-        gearcut(&arguments.concat()).done();
-        files(&out)
-    };
-    let whole = cut("whole", &[]);
-    let is_number = |path: &Path| path.starts_with("tables") || path == Path::new("results.json");
-    let same = |part: &[(PathBuf, Vec<u8>)], belongs: &dyn Fn(&Path) -> bool| {
-        let wanted: Vec<_> = whole.iter().filter(|(path, _)| belongs(path)).cloned().collect();
-        assert!(wanted.len() > 5, "a whole result holds it");
-        let found: Vec<_> = part.iter().filter(|(path, _)| path != Path::new("run.json")).cloned().collect();
-        assert_same_files(&wanted, &found);
-    };
-    same(&cut("numbers", &["--only", "numbers"]), &is_number);
-    same(&cut("maps", &["--only", "maps,axes"]), &|path| {
-        is_number(path) || ["maps", "allowance", "deviation", "axes"].iter().any(|part| path.starts_with(part))
-    });
-    same(&cut("pictures", &["--only", "pictures"]), &|path| is_number(path) || path.starts_with("pictures"));
-    let record = read_json(&folder.path().join("maps/run.json"));
-    assert_eq!(record["written"], serde_json::json!(["numbers", "maps", "axes"]));
-    let stages = record["stages"].as_array().expect("stages");
-    for stage in ["chips", "cut", "cut the whole blank", "tables and charts", "checksums"] {
-        assert!(stages.iter().any(|found| found["stage"] == stage && found["wall_s"].is_f64()), "{stage}: {stages:?}");
-    }
-    gearcut(&["cut", PAPER, "--only", "sheets"]).failed(2, &["sheets", "numbers, maps"]);
-}
-
 /// A draft goes beside the whole result, on coarser dexels unless a setting says otherwise.
 #[test]
 fn a_draft_is_coarse_and_takes_no_result_away() {
@@ -147,6 +110,46 @@ fn a_draft_is_coarse_and_takes_no_result_away() {
 
 mod slow {
     use super::*;
+
+    /// What is asked for has the bytes that it has in a whole result, and nothing else is there.
+    #[test]
+    fn parts_that_are_left_out_are_left_out_and_the_rest_keeps_its_bytes() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cut = |name: &str, only: &[&str]| {
+            let out = folder.path().join(name);
+            let arguments = [
+                &["cut", "scenes/shaping/circular_m3_z24.toml", "--quiet", "--backend", "cpu", "--out"],
+                &[out.to_str().expect("a path")][..],
+                &COARSE[..],
+                only,
+            ];
+            gearcut(&arguments.concat()).done();
+            files(&out)
+        };
+        let whole = cut("whole", &[]);
+        let is_number = |path: &Path| path.starts_with("tables") || path == Path::new("results.json");
+        let same = |part: &[(PathBuf, Vec<u8>)], belongs: &dyn Fn(&Path) -> bool| {
+            let wanted: Vec<_> = whole.iter().filter(|(path, _)| belongs(path)).cloned().collect();
+            assert!(wanted.len() > 5, "a whole result holds it");
+            let found: Vec<_> = part.iter().filter(|(path, _)| path != Path::new("run.json")).cloned().collect();
+            assert_same_files(&wanted, &found);
+        };
+        same(&cut("numbers", &["--only", "numbers"]), &is_number);
+        same(&cut("maps", &["--only", "maps,axes"]), &|path| {
+            is_number(path) || ["maps", "allowance", "deviation", "axes"].iter().any(|part| path.starts_with(part))
+        });
+        same(&cut("pictures", &["--only", "pictures"]), &|path| is_number(path) || path.starts_with("pictures"));
+        let record = read_json(&folder.path().join("maps/run.json"));
+        assert_eq!(record["written"], serde_json::json!(["numbers", "maps", "axes"]));
+        let stages = record["stages"].as_array().expect("stages");
+        for stage in ["chips", "cut", "cut the whole blank", "tables and charts", "checksums"] {
+            assert!(
+                stages.iter().any(|found| found["stage"] == stage && found["wall_s"].is_f64()),
+                "{stage}: {stages:?}"
+            );
+        }
+        gearcut(&["cut", PAPER, "--only", "sheets"]).failed(2, &["sheets", "numbers, maps"]);
+    }
 
     #[test]
     fn every_shipped_scene_is_cut_and_the_same_scene_gives_the_same_bytes() {

@@ -145,29 +145,29 @@ fn parts(section: &Value) -> impl Iterator<Item = &Value> {
     section.as_object().expect("a section").values().filter(|part| part.get("$title").is_some())
 }
 
-#[test]
-fn the_printed_linkage_gives_no_program_and_no_closed_body() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let out = folder.path().join("gear");
-    let results = cut(
-        &out,
-        PLAIN,
-        &[
-            "gear.teeth=24",
-            "gear.pitch_curve.ellipse.eccentricity=0.03",
-            "operation.finish.linkage.hobbing.form=as_printed",
-        ],
-        2,
-    );
-    assert!(number(&results["headline"]["deepest_cut"]) > 10.0, "the printed form cuts into the target");
-    for file in ["axes/finish.ngc", "axes/finish_gearbox.ngc", "mesh/gear.stl"] {
-        assert!(!out.join(file).exists(), "{file}");
-    }
-    assert!(out.join("report.html").exists() && out.join("axes/finish.csv").exists());
-}
-
 mod slow {
     use super::*;
+
+    #[test]
+    fn the_printed_linkage_gives_no_program_and_no_closed_body() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let out = folder.path().join("gear");
+        let results = cut(
+            &out,
+            PLAIN,
+            &[
+                "gear.teeth=24",
+                "gear.pitch_curve.ellipse.eccentricity=0.03",
+                "operation.finish.linkage.hobbing.form=as_printed",
+            ],
+            2,
+        );
+        assert!(number(&results["headline"]["deepest_cut"]) > 10.0, "the printed form cuts into the target");
+        for file in ["axes/finish.ngc", "axes/finish_gearbox.ngc", "mesh/gear.stl"] {
+            assert!(!out.join(file).exists(), "{file}");
+        }
+        assert!(out.join("report.html").exists() && out.join("axes/finish.csv").exists());
+    }
 
     /// So coarse, with so few teeth and so narrow a face that a scene takes some seconds.
     const COARSEST: [&str; 14] = [

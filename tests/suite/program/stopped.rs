@@ -261,11 +261,6 @@ fn ctrl_c_ends_a_pair_at_once_in_every_stage() {
 }
 
 #[test]
-fn pairs_killed_at_any_time_leave_a_whole_result() {
-    killed_at_any_time(&[&COARSE_PAIR[..], &["--positions", "900"]].concat(), &[30, 95]);
-}
-
-#[test]
 fn ctrl_c_leaves_no_temporary_name_of_a_saved_surface() {
     let folder = tempfile::tempdir().expect("a folder");
     let input = folder.path().join("ramp.npy");
@@ -292,4 +287,13 @@ fn ctrl_c_leaves_no_temporary_name_of_a_saved_surface() {
         }
     }
     panic!("the writing of a file was never met");
+}
+
+mod slow {
+    use super::*;
+
+    #[test]
+    fn pairs_killed_at_any_time_leave_a_whole_result() {
+        killed_at_any_time(&[&COARSE_PAIR[..], &["--positions", "900"]].concat(), &[30, 95]);
+    }
 }
