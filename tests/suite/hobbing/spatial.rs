@@ -320,7 +320,7 @@ mod slow {
                 part([columns / 20, rows / 33], [20, 33], [0, 0]),
                 part([1, 1], [17, 40], [columns - 17, 0]),
                 part([1, 1], [17, 40], [0, rows - 40]),
-                part([1, (rows - 1) / 4], [50, 5], [columns / 2, 0]),
+                part([1, (rows - 1) / 4], [16, 5], [columns / 2, 0]),
             ];
             for (number, field) in fields.iter().enumerate() {
                 let mut layer = field.blank_layer();
