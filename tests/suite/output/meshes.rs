@@ -1,6 +1,7 @@
 //! Meshes of cut gears: closed, free of crossings, as large as polygon clipping says, and readable.
 
 use crate::fixtures::clipping::clipped;
+use crate::fixtures::command::shipped_scenes;
 use crate::fixtures::contour::crossings;
 use gearcut::cut::cpu::Cpu;
 use gearcut::process;
@@ -13,7 +14,7 @@ use gearcut::surface::{BlankMesh, Mesh, SurfaceGrid};
 use gearcut::terms::Side;
 use glam::DVec2;
 use std::f64::consts::PI;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const COARSE: [&str; 2] = ["fields.flank.profile_spacing_um=20", "fields.flank.lead_spacing_um=2000"];
 
@@ -43,20 +44,9 @@ fn outline_and_solid(job: &ShapingJob) -> (Outline, Mesh) {
     (outline, solid)
 }
 
-fn shipped_scenes() -> Vec<PathBuf> {
-    let mut scenes: Vec<PathBuf> = std::fs::read_dir("scenes/shaping")
-        .expect("scenes")
-        .map(|entry| entry.expect("an entry").path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
-        .collect();
-    scenes.sort();
-    assert!(scenes.len() >= 8);
-    scenes
-}
-
 #[test]
 fn every_shipped_scene_gives_a_closed_body() {
-    for path in shipped_scenes() {
+    for path in shipped_scenes("shaping") {
         let job = load(&path, &[]);
         let (outline, solid) = outline_and_solid(&job);
         assert!(solid.is_closed(), "{}: {:?}", path.display(), solid.edge_faults());

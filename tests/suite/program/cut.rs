@@ -1,6 +1,6 @@
 //! `gearcut cut` from the outside: what it writes, and that the same scene gives the same bytes.
 
-use crate::fixtures::command::{assert_same_files, files, gearcut, gearcut_on_threads, read_json};
+use crate::fixtures::command::{assert_same_files, files, gearcut, gearcut_on_threads, read_json, shipped_scenes};
 use crate::fixtures::json_schema::assert_is_results;
 use gearcut::output::surface_files::read_surface;
 use serde_json::Value;
@@ -154,12 +154,7 @@ mod slow {
     #[test]
     fn every_shipped_scene_is_cut_and_the_same_scene_gives_the_same_bytes() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut scenes: Vec<PathBuf> = std::fs::read_dir("scenes/shaping")
-            .expect("scenes")
-            .map(|entry| entry.expect("an entry").path())
-            .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
-            .collect();
-        scenes.sort();
+        let scenes = shipped_scenes("shaping");
         assert!(scenes.len() >= 8);
         for scene in &scenes {
             let scene_text = scene.to_str().expect("a name");

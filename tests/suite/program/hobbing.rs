@@ -1,6 +1,6 @@
 //! Hobbing from the command line: bad input explained, and everything that a run gives back.
 
-use crate::fixtures::command::{assert_same_files, files, gearcut, gearcut_on_threads};
+use crate::fixtures::command::{assert_same_files, files, gearcut, gearcut_on_threads, shipped_scenes};
 use crate::fixtures::json_schema::assert_is_results;
 use serde_json::Value;
 use std::path::Path;
@@ -190,11 +190,7 @@ mod slow {
     #[test]
     fn every_shipped_scene_gives_the_same_bytes_on_one_thread_and_on_two() {
         let folder = tempfile::tempdir().expect("a folder");
-        let entries = std::fs::read_dir("scenes/hobbing").expect("scenes");
-        let mut scenes: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
-        scenes.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
-        scenes.sort();
-        assert!(scenes.len() >= 5, "only {} scenes found", scenes.len());
+        let scenes = shipped_scenes("hobbing");
         let cut = |scene: &Path, name: &str, threads: u32, more: &[&str]| {
             let out = folder.path().join(name);
             let (scene, out_text) = (scene.to_str().expect("a path"), out.to_str().expect("a path"));
