@@ -10,15 +10,19 @@
 //! | `<path>_<column>_first_period.svg` | the rows of the pitch curve's first period (Gao et al. 2017, Fig. 10) |
 //! | `<path>_<column>_a.svg`, `_b.svg`, ... | one result each, on its own scale |
 //! | `<path>.svg` | curves of the columns that ask for them, such as the transmission error of pairs |
+//! | `difference_deviation_b_minus_a.png` | deviations of b less those of a, all flanks, where both have maps |
 //!
 //! Everything is read from the trees by path, whatever the process: what joins the tree joins the comparison. Results
-//! of different gears may be compared: what one of them lacks stays empty. Places are not compared.
+//! of different gears may be compared: what one of them lacks stays empty. Places are not compared. The terminal shows
+//! first what changed most.
 
 mod charts;
 mod lines;
+mod maps;
+mod ranked;
 mod table;
 
-use crate::findings::Findings;
+use crate::findings::{Findings, Level};
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use gearcut_core::Result;
@@ -72,7 +76,7 @@ impl Comparison {
         Ok(Self { results, lines })
     }
 
-    /// Writes table and charts.
+    /// Writes table, charts and maps.
     ///
     /// # Errors
     /// Files that cannot be written; tables of the results that cannot be read.
@@ -84,7 +88,7 @@ impl Comparison {
         for (name, chart) in charts::curves(&self.results)? {
             chart.write_svg(&folder.path(format!("{name}.svg"))?)?;
         }
-        Ok(())
+        self.write_maps(folder)
     }
 
     /// The table for the terminal.
@@ -92,7 +96,15 @@ impl Comparison {
         let names: Vec<&str> = self.results.iter().map(|one| one.name.as_str()).collect();
         let (last, others) = names.split_last().expect("two or more");
         sheet.heading(&format!("{} and {last}", others.join(", ")));
-        sheet.table(&self.printed_rows());
+        let ranked = ranked::ranked(&self.lines);
+        if ranked.is_empty() {
+            sheet.words("nothing changed");
+        } else {
+            sheet.heading("Changed most");
+            sheet.table(&self.printed_rows(ranked.iter().take(ranked::FIRST).map(|(line, _)| *line)));
+        }
+        sheet.heading("All");
+        sheet.table(&self.printed_rows(self.lines.iter().filter(|line| line.level <= Level::Summary)));
         for one in self.results.iter().filter(|one| !one.findings.complete) {
             sheet.line("", format!("{} was stopped before all flanks were cut", one.name));
         }

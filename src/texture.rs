@@ -21,11 +21,11 @@ mod findings;
 mod window;
 
 pub use files::write;
-pub use findings::{findings, quantities};
+pub use findings::{findings, quantities, warnings};
 pub use window::{Window, windows};
 
 use crate::interrupt::Interrupt;
-use crate::job::GearJob;
+use crate::job::{GearJob, RAY_DEPTH_MODULES};
 use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
 use crate::output::progress::Progress;
 use gearcut_core::cut::Backend;
@@ -41,6 +41,10 @@ pub const ENOUGH_MARKS: usize = 5;
 /// parabolic mark it takes 1/N off Sdq, 5 % here.
 pub const ENOUGH_POINTS: f64 = 20.0;
 
+/// Share of the depth that rays record from which on a height is their end: f32 and the last step of a search are far
+/// finer.
+const ENDS_SHARE: f64 = 0.999;
+
 /// What one operation left in one window.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindowTexture {
@@ -49,7 +53,7 @@ pub struct WindowTexture {
     /// Index of the operation.
     pub operation: usize,
     /// Normal deviations, um; x along the tooth, y along the profile towards the tip; NaN where no pass
-    /// came. None where none came at all.
+    /// came or a ray ends inside a cut. None where there is no height at all.
     pub heights: Option<Surface>,
     /// Marks that follow each other along the tooth and along the profile: `[x, y]`; 0 along the tooth where the axes
     /// rest during strokes, so that marks run along it without end.
@@ -70,7 +74,7 @@ pub struct Evaluated {
 }
 
 impl WindowTexture {
-    /// What a reader must know before trusting the numbers.
+    /// What a reader must know before trusting its numbers.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         for (marks, direction) in self.marks.iter().zip(["along the tooth", "along the profile"]) {
@@ -95,7 +99,10 @@ impl WindowTexture {
         }
         let holes = self.heights.as_ref().map_or(0, Surface::holes);
         if holes > 0 {
-            warnings.push(format!("no pass reached {holes} points of the window: they are holes"));
+            warnings.push(format!("{holes} points of the window are holes: no pass reached them, or they are cut deeper than their rays record"));
+        }
+        if let Err(reason) = &self.evaluated {
+            warnings.push(format!("the window could not be evaluated: {reason}"));
         }
         warnings
     }
@@ -125,7 +132,7 @@ pub fn measure(
     Ok(textures.concat())
 }
 
-/// Cuts one window through all operations and evaluates what each of them left.
+/// Cuts one window through all operations and evaluates what each of them left, or the last alone.
 ///
 /// # Errors
 /// Geometry and the backend.
@@ -133,12 +140,18 @@ pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> 
     let (arcs_mm, rows_z_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.rows_z_mm());
     let (columns, rows) = (arcs_mm.len(), rows_z_mm.len());
     let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &rows_z_mm)?;
+    let first = if window.every_operation { 0 } else { layers.len() - 1 };
     Ok(layers
         .iter()
         .enumerate()
+        .skip(first)
         .map(|(operation, layer)| {
+            // Where a ray ends inside a cut, its end is no surface: a flank that is gone has no texture.
+            let ends_mm = -ENDS_SHARE * RAY_DEPTH_MODULES * job.scene().gear.module_mm;
             let height = |i: usize| {
-                if layer.passes[i] == NO_PASS { f64::NAN } else { f64::from(layer.heights_mm[i]) * UM_PER_MM }
+                let height_mm = f64::from(layer.heights_mm[i]);
+                let is_surface = layer.passes[i] != NO_PASS && height_mm > ends_mm;
+                if is_surface { height_mm * UM_PER_MM } else { f64::NAN }
             };
             let heights_um: Vec<f64> = (0..columns * rows).map(height).collect();
             let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use gearcut::Error;
+use gearcut::findings::Warning;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::folder::OutputFolder;
 use gearcut::output::text::Sheet;
@@ -20,7 +21,7 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
     let default = || PathBuf::from("out").join(format!("{}_axes", scene.scene.name));
     let out = arguments.out.clone().unwrap_or_else(default);
     let mut sheet = Sheet::default();
-    let write = |output: &OutputFolder, interrupt: &Interrupt| -> Result<(Record, Vec<String>), Error> {
+    let write = |output: &OutputFolder, interrupt: &Interrupt| -> Result<(Record, Vec<Warning>), Error> {
         let warnings = process::prepare(&scene.scene)?.axes(output, interrupt, &mut sheet)?;
         Ok((vec![("scene", json!(scene.resolved_toml()))], warnings))
     };

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use gearcut::findings::RESULTS_FILE;
+use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::output::report::REPORT_FILE;
 use gearcut::output::summary;
 use gearcut::output::table::write_tables;
@@ -35,8 +36,9 @@ pub fn run(arguments: &ContactArguments) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
     let words = std::env::args().skip(1).collect::<Vec<_>>();
     let jobs = [job(&gear)?, job(&pinion)?];
+    let progress = Progress::new(ProgressMode::choose(false, arguments.json));
     let filled = folder::fill(&out, "contact", |folder, interrupt| {
-        let rolled = roll(&jobs[0], &jobs[1], &errors, marking_mm)?;
+        let rolled = roll(&jobs[0], &jobs[1], &errors, marking_mm, (&progress, interrupt))?;
         interrupt.check()?;
         let jobs = [&jobs[0], &jobs[1]];
         let found = findings::findings(&name, jobs, &rolled);

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
+use gearcut::Findings;
 use gearcut::backend::{BackendWish, OnFailure, choose};
+use gearcut::findings::Severity;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::scene::Scene;
@@ -69,7 +71,22 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
     } else if !arguments.quiet {
         print::to_stdout(&done.summary)?;
     }
-    if done.interrupted { Err(Failure::ended_early(&done.folder, &out)) } else { Ok(()) }
+    if done.interrupted {
+        return Err(Failure::ended_early(&done.folder, &out));
+    }
+    verdict(&done.findings)
+}
+
+/// The verdict on a run that is done and written: a fault is told once more, and by the exit code.
+fn verdict(findings: &Findings) -> Result<(), Failure> {
+    let mut faults = findings.warnings.iter().filter(|warning| warning.severity == Severity::Fault);
+    let Some(first) = faults.next() else { return Ok(()) };
+    let more = match faults.count() {
+        0 => String::new(),
+        1 => "; and 1 more fault".to_owned(),
+        count => format!("; and {count} more faults"),
+    };
+    Err(Failure::bad_verdict(&format!("{}{more}", first.text)))
 }
 
 /// How much further apart a draft's dexels stand along profiles and teeth, where several cross a feed mark.

@@ -2,6 +2,8 @@
 
 use std::io::{self, ErrorKind, Write};
 
+use gearcut::findings::Warning;
+use gearcut::findings::warning::count_words;
 use gearcut::{Error, Result};
 
 /// Prints a text. A reader that has heard enough (`gearcut schema | head`) is no failure.
@@ -13,9 +15,10 @@ pub fn to_stdout(text: &str) -> Result<()> {
     }
 }
 
-/// Prints warnings on standard error, where they are seen when the report goes into a file.
-pub fn warnings(warnings: &[String]) {
-    for warning in warnings {
-        let _closed = writeln!(io::stderr(), "warning: {warning}");
+/// Prints warnings and how many they are on standard error, where they are seen when the report goes into a file.
+pub fn warnings(warnings: &[Warning]) {
+    let lines = warnings.iter().map(Warning::line).chain([count_words(warnings)]);
+    for line in lines {
+        let _closed = writeln!(io::stderr(), "{line}");
     }
 }

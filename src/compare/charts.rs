@@ -67,7 +67,7 @@ pub(super) fn curves(results: &[Compared]) -> Result<Vec<(String, LineChart)>> {
                         unit: signs(column),
                         series: vec![series],
                         limits: Vec::new(),
-                        least_division: 0.0,
+                        least_division: least_division(column),
                     }),
                 }
             }
@@ -75,6 +75,15 @@ pub(super) fn curves(results: &[Compared]) -> Result<Vec<(String, LineChart)>> {
         Ok((path.replace('.', "_"), LineChart { title, x_name: x.0, x_unit: x.1, panels }))
     };
     paths(results, ColumnChart::Curve).into_iter().map(of_path).collect()
+}
+
+/// A micrometre to a division at least: on a finer axis equal results look apart.
+fn least_division(column: &TableColumn) -> f64 {
+    match column.unit.as_deref() {
+        Some("um") => 1.0,
+        Some("mm") => 1e-3,
+        _ => 0.0,
+    }
 }
 
 fn words(column: &TableColumn) -> String {
@@ -128,7 +137,7 @@ fn chart(
         title: format!("{path}: {}{what}", column.definition),
         category_name: longest.columns[0].definition.to_string(),
         value_name: column.key.replace('_', " "),
-        least_division: 0.0,
+        least_division: least_division(column),
         unit: column.unit.as_deref().unwrap_or_default().to_owned(),
         series: series.collect(),
         categories,

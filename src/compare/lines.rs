@@ -7,6 +7,9 @@ use std::collections::HashMap;
 use super::Compared;
 use crate::findings::{Entry, Findings, Level, Quantity};
 
+/// Keys of quantities that say where something was looked at: they are shown, but not subtracted.
+const PLACES: [&str; 3] = ["tooth", "center_profile", "center_lead"];
+
 /// One line of the comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Line {
@@ -59,9 +62,13 @@ impl Line {
         self.quantities.iter().flatten().next()
     }
 
-    /// The first value and that of each result after it, where both are numbers of one unit.
-    fn pairs(&self) -> impl Iterator<Item = Option<[f64; 2]>> {
-        let first = self.quantities.first().and_then(Option::as_ref);
+    fn is_place(&self) -> bool {
+        PLACES.contains(&self.name.rsplit('.').next().unwrap_or(&self.name))
+    }
+
+    /// The first value and that of each result after it, where both are numbers of one unit and no places.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = Option<[f64; 2]>> {
+        let first = self.quantities.first().and_then(Option::as_ref).filter(|_| !self.is_place());
         self.quantities.iter().skip(1).map(move |other| {
             let (first, other) = (first?, other.as_ref()?);
             (first.unit() == other.unit()).then_some(())?;

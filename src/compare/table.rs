@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::lines::Line;
 use super::{Comparison, letters};
-use crate::findings::{Datum, Level, Quantity};
+use crate::findings::{Datum, Quantity};
 use crate::output::table::write_table;
 use crate::output::text::significant;
 use gearcut_core::Result;
@@ -28,9 +28,8 @@ impl Comparison {
         write_table(path, &columns, [names].into_iter().chain(self.lines.iter().map(cells)))
     }
 
-    /// Titles, then one row per line of headline and summary: its values, difference and ratio where there are just
-    /// two, the unit.
-    pub(super) fn printed_rows(&self) -> Vec<Vec<String>> {
+    /// Titles, then one row per line: its values, difference and ratio where there are just two, the unit.
+    pub(super) fn printed_rows<'a>(&self, lines: impl Iterator<Item = &'a Line>) -> Vec<Vec<String>> {
         let mut titles = vec![String::new()];
         titles.extend(self.results.iter().map(|one| one.name.clone()));
         let two = self.results.len() == 2;
@@ -38,7 +37,7 @@ impl Comparison {
             titles.extend(["difference", "ratio"].map(str::to_owned));
         }
         titles.push("unit".into());
-        let rows = self.lines.iter().filter(|line| line.level <= Level::Summary).map(|line| {
+        let rows = lines.map(|line| {
             let mut row = vec![line.name.replace('_', " ")];
             row.extend(line.quantities.iter().map(|quantity| printed(quantity.as_ref())));
             if two {

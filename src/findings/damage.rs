@@ -1,7 +1,8 @@
 //! Damage to the target, and the work of cutting a whole blank, as findings of any process.
 
-use super::{Datum, Place, Quantity, Section, Table, TableColumn};
-use crate::measure::damage::{Damage, LEAST_DEPTH_MM};
+use super::{Datum, Place, Quantity, Section, Table, TableColumn, Warning};
+use crate::measure::damage::{Damage, LEAST_DEPTH_MM, gouge_mm};
+use gearcut_core::units::UM_PER_MM;
 
 /// All places of one kind of damage together; each of them is a row of [`damage_table`].
 ///
@@ -44,12 +45,48 @@ pub fn damage(
         )
 }
 
+/// What is said of cuts below the target: a fault where they are gouges, deeper than `gouge_mm`. `by` says what made
+/// one.
+pub fn warning(places: &[Damage], gouge_mm: f64, by: impl Fn(&Damage) -> String) -> Option<Warning> {
+    let deepest = places.iter().max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm))?;
+    let [depth_um, gouge_um] = [deepest.depth_mm, gouge_mm].map(|mm| UM_PER_MM * mm);
+    let place = format!("tooth {} {}, {}", deepest.place.tooth, deepest.place.side.name(), deepest.place.zone.name());
+    let (count, by) = (places.len(), by(deepest));
+    let sides = if count == 1 { "1 side of a tooth is".to_owned() } else { format!("{count} sides of teeth are") };
+    Some(if deepest.depth_mm > gouge_mm {
+        Warning::fault(format!(
+            "{sides} cut below the target: {by} gouged {place} by {depth_um:.1} um; a gouge is deeper than {gouge_um:.1} \
+             um"
+        ))
+    } else {
+        Warning::warn(format!(
+            "{sides} cut below the target, by {depth_um:.1} um at most ({by}, {place}): deviations, no gouges, which are \
+             deeper than {gouge_um:.1} um"
+        ))
+    })
+}
+
+/// What a cut below the target is called in the table: `gouged` from `gouge_mm` on, a deviation before.
+pub fn kind(damage: &Damage, gouge_mm: f64, gouged: &'static str) -> &'static str {
+    if damage.depth_mm > gouge_mm { gouged } else { "deviation" }
+}
+
+/// The depth that tells gouges from deviations, as a quantity.
+pub fn gouge_from(module_mm: f64) -> Quantity {
+    let definition = "depth from which on a cut below the target is a gouge and no deviation: form deviation that ISO \
+                      1328-1:2013 allows a profile in class 8";
+    Quantity::number(gouge_mm(module_mm), "mm", definition)
+}
+
 /// Every place of damage of the whole blank; `pass` names what did it, which differs between processes.
 pub fn damage_table(pass: [TableColumn; 2], rows: impl IntoIterator<Item = Vec<Datum>>) -> Table {
     let none = "a stroke has no place on the gear";
     let number = |key, unit, definition| TableColumn::new(key, unit, definition).or(none);
     let mut columns = vec![
-        TableColumn::words("kind", "what is wrong: a gouge, interference, rubbing on the way back, a faulty stroke"),
+        TableColumn::words(
+            "kind",
+            "what is wrong: a deviation, a gouge, interference, rubbing on the way back, a faulty stroke",
+        ),
         TableColumn::words("operation", "operation that did it"),
         TableColumn::new("tooth", "1", "tooth, from 1"),
         TableColumn::words("side", "side of the tooth: left or right"),

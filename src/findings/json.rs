@@ -1,7 +1,7 @@
-//! `results.json`, schema version 2: the tree in a fixed order of keys, and its document of rules.
+//! `results.json`, schema version 3: the tree in a fixed order of keys, and its document of rules.
 //!
-//! A section is an object: `$title`, its quantities, tables and parts under their keys, and `$warnings` where it has
-//! any. Keys of the tree never begin with `$`. A quantity's title is written where it differs from its key, its level
+//! A section is an object: `$title`, its quantities, tables and parts under their keys. Keys of the tree never begin
+//! with `$`. A quantity's title is written where it differs from its key, its level
 //! where it is not a detail.
 
 use std::path::Path;
@@ -11,10 +11,11 @@ use serde_json::{Map, Value, json};
 use super::quantity::Quantity;
 use super::table::{ColumnChart, Datum, Table, TableColumn};
 use super::tree::{Entry, Findings, Level, Section, title_of};
+use super::warning::Warning;
 use gearcut_core::{Error, Result};
 
 /// Version of the layout. A change of keys or meanings raises it; new keys that old readers may overlook do not.
-pub const SCHEMA_VERSION: u32 = 2;
+pub const SCHEMA_VERSION: u32 = 3;
 /// Name of the file in an output folder.
 pub const RESULTS_FILE: &str = "results.json";
 /// The layout as a JSON Schema (draft 2020-12).
@@ -40,7 +41,7 @@ impl Findings {
             "scene": self.scene,
             "complete": self.complete,
             "headline": headline.collect::<Map<_, _>>(),
-            "warnings": self.warnings,
+            "warnings": self.warnings.iter().map(of_warning).collect::<Vec<_>>(),
             "sections": sections.collect::<Map<_, _>>(),
         })
     }
@@ -68,6 +69,14 @@ impl Findings {
     }
 }
 
+fn of_warning(warning: &Warning) -> Value {
+    let mut value = json!({"severity": warning.severity.name(), "text": warning.text});
+    if let Some(section) = &warning.section {
+        value["section"] = json!(section);
+    }
+    value
+}
+
 fn of_entry(entry: &Entry) -> Value {
     let mut value = of_quantity(&entry.quantity);
     if entry.title != title_of(&entry.key) {
@@ -92,9 +101,6 @@ fn of_section(section: &Section) -> Value {
     all.extend(section.entries.iter().map(|entry| (entry.key.clone(), of_entry(entry))));
     all.extend(section.tables.iter().map(|table| (table.key.clone(), of_table(table))));
     all.extend(section.sections.iter().map(|part| (part.key.clone(), of_section(part))));
-    if !section.warnings.is_empty() {
-        all.insert("$warnings".to_owned(), json!(section.warnings));
-    }
     Value::Object(all)
 }
 

@@ -78,6 +78,12 @@ impl Quantity {
         Self { value, unit: Some(unit.into()), definition: definition.into(), place: None }
     }
 
+    /// The same quantity where its value does not exist, with the reason.
+    #[must_use]
+    pub fn without_value(self, why: impl Into<String>) -> Self {
+        Self { value: Value::Undefined { why: why.into() }, place: None, ..self }
+    }
+
     /// The same value, found at `place`.
     #[must_use]
     pub fn at(mut self, place: Place) -> Self {

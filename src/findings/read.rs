@@ -9,6 +9,7 @@ use super::json::{CHARTS, LEVELS};
 use super::quantity::Quantity;
 use super::table::{Datum, Table, TableColumn};
 use super::tree::{Entry, Findings, Level, Section, title_of};
+use super::warning::{Severity, Warning};
 
 /// What reads a part, or why it cannot.
 type Read<T> = Result<T, String>;
@@ -29,7 +30,7 @@ impl Findings {
             scene: text("scene")?,
             complete: field(all, "complete")?.as_bool().ok_or("complete is true or false")?,
             headline: headline.iter().map(|(key, value)| entry(key, value)).collect::<Read<_>>()?,
-            warnings: texts(all.get("warnings"), "warnings")?,
+            warnings: list(all, "warnings")?.iter().map(warning).collect::<Read<_>>()?,
             sections: sections.iter().map(|(key, value)| section(key, value, key)).collect::<Read<_>>()?,
         })
     }
@@ -43,9 +44,20 @@ fn field<'a>(of: &'a Map<String, Value>, key: &str) -> Read<&'a Value> {
     of.get(key).ok_or_else(|| format!("missing field {key}"))
 }
 
-fn texts(value: Option<&Value>, what: &str) -> Read<Vec<String>> {
-    let list = value.and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
-    list.iter().map(|text| Ok(text.as_str().ok_or(format!("{what} are texts"))?.to_owned())).collect()
+fn list<'a>(of: &'a Map<String, Value>, key: &str) -> Read<&'a Vec<Value>> {
+    field(of, key)?.as_array().ok_or_else(|| format!("{key} is a list"))
+}
+
+fn warning(value: &Value) -> Read<Warning> {
+    let all = object(value, "a warning")?;
+    let text = |key: &str| field(all, key)?.as_str().ok_or_else(|| format!("a warning's {key} is a text"));
+    let name = text("severity")?;
+    let severity = Severity::ALL.into_iter().find(|severity| severity.name() == name);
+    Ok(Warning {
+        severity: severity.ok_or_else(|| format!("there is no severity {name}"))?,
+        text: text("text")?.to_owned(),
+        section: all.get("section").and_then(Value::as_str).map(str::to_owned),
+    })
 }
 
 fn entry(key: &str, value: &Value) -> Read<Entry> {
@@ -68,7 +80,6 @@ fn section(key: &str, value: &Value, path: &str) -> Read<Section> {
     let all = object(value, path)?;
     let title = field(all, "$title").map_err(|reason| format!("{path}: {reason}"))?;
     let mut section = Section::new(key, title.as_str().ok_or(format!("{path}.$title is a text"))?);
-    section.warnings = texts(all.get("$warnings"), path)?;
     for (key, value) in all.iter().filter(|(key, _)| !key.starts_with('$')) {
         let path = format!("{path}.{key}");
         if value.get("definition").is_some_and(Value::is_string) {
@@ -84,10 +95,9 @@ fn section(key: &str, value: &Value, path: &str) -> Read<Section> {
 
 fn table(key: &str, value: &Value) -> Read<Table> {
     let all = object(value, key)?;
-    let list = |key: &str| field(all, key)?.as_array().ok_or_else(|| format!("{key} is a list"));
     let title = field(all, "title")?.as_str().ok_or("title is a text")?;
-    let columns: Vec<TableColumn> = list("columns")?.iter().map(column).collect::<Read<_>>()?;
-    let rows = list("rows")?.iter().map(|row| {
+    let columns: Vec<TableColumn> = list(all, "columns")?.iter().map(column).collect::<Read<_>>()?;
+    let rows = list(all, "rows")?.iter().map(|row| {
         let cells = row.as_array().filter(|row| row.len() == columns.len()).ok_or("a row has a cell per column")?;
         cells.iter().map(cell).collect::<Read<Vec<_>>>()
     });
@@ -146,8 +156,7 @@ mod tests {
             .shown("idle_time", "time without a cut", Quantity::number(2.5, "s", "time"))
             .table(table)
             .table(many)
-            .part(Section::new("relief", "Relief").with("ratio", Quantity::undefined("1", "share", "no stroke")))
-            .warning(["few strokes".to_owned()]);
+            .part(Section::new("relief", "Relief").with("ratio", Quantity::undefined("1", "share", "no stroke")));
         Findings {
             program_version: "0.1.0".to_owned(),
             process: "shaping".to_owned(),
@@ -157,7 +166,7 @@ mod tests {
                 Entry::headline("smallest_normal_stock", "smallest normal stock", stock),
                 Entry::headline("backend", "computed by", Quantity::text("cpu", "backend")),
             ],
-            warnings: vec!["made by hand".to_owned()],
+            warnings: vec![Warning::fault("made by hand"), Warning::note("few strokes").about("operations.rough")],
             sections: vec![Section::new("operations", "Operations").part(rough)],
         }
     }
@@ -166,10 +175,9 @@ mod tests {
     fn findings_come_back_as_they_were() {
         let findings = findings();
         let text = serde_json::to_string(&findings.to_json()).expect("JSON");
-        assert!(text.starts_with(r#"{"schema_version":2,"program":"gearcut","program_version":"0.1.0","process":"#));
+        assert!(text.starts_with(r#"{"schema_version":3,"program":"gearcut","program_version":"0.1.0","process":"#));
         let back = Findings::from_json(&serde_json::from_str(&text).expect("JSON")).expect("its own document");
         assert_eq!(back, findings);
-        assert_eq!(back.all_warnings(), ["made by hand", "Rough: few strokes"]);
     }
 
     #[test]
@@ -188,10 +196,15 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_is_named() {
-        let mut document = findings().to_json();
+        let findings = findings();
+        let mut document = findings.to_json();
         document["sections"]["operations"]["rough"]["idle_time"]["value"] = Value::Null;
         let reason = Findings::from_json(&document).expect_err("null without a reason");
         assert!(reason.contains("operations.rough.idle_time") && reason.contains("why"), "{reason}");
+        let mut document = findings.to_json();
+        document["warnings"][0]["severity"] = "grave".into();
+        let reason = Findings::from_json(&document).expect_err("an unknown severity");
+        assert!(reason.contains("there is no severity grave"), "{reason}");
         let reason = Findings::from_json(&serde_json::json!({"headline": {}})).expect_err("not a result");
         assert!(reason.contains("missing field"), "{reason}");
     }

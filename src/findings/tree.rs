@@ -2,6 +2,7 @@
 
 use super::quantity::Quantity;
 use super::table::Table;
+use super::warning::Warning;
 
 /// Everything that a run found.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,8 +17,8 @@ pub struct Findings {
     pub complete: bool,
     /// What to look at first: numbers of the whole gear.
     pub headline: Vec<Entry>,
-    /// What a reader must know before trusting the numbers.
-    pub warnings: Vec<String>,
+    /// What a reader must know before trusting the numbers, [`super::warning::ranked`].
+    pub warnings: Vec<Warning>,
     /// Everything else.
     pub sections: Vec<Section>,
 }
@@ -35,8 +36,6 @@ pub struct Section {
     pub tables: Vec<Table>,
     /// Parts.
     pub sections: Vec<Section>,
-    /// What a reader must know before trusting its numbers.
-    pub warnings: Vec<String>,
 }
 
 /// A quantity under its key.
@@ -135,13 +134,6 @@ impl Section {
         sections.into_iter().fold(self, Self::part)
     }
 
-    /// With warnings.
-    #[must_use]
-    pub fn warning(mut self, warnings: impl IntoIterator<Item = String>) -> Self {
-        self.warnings.extend(warnings);
-        self
-    }
-
     /// Whether nothing of this key is in it.
     pub fn is_free(&self, key: &str) -> bool {
         self.entries.iter().all(|entry| entry.key != key)
@@ -222,14 +214,5 @@ impl Findings {
         for section in &self.sections {
             section.walk(&section.key, visit);
         }
-    }
-
-    /// All warnings, those of a section with its title in front.
-    pub fn all_warnings(&self) -> Vec<String> {
-        let mut all = self.warnings.clone();
-        self.walk(&mut |_, section| {
-            all.extend(section.warnings.iter().map(|warning| format!("{}: {warning}", section.title)));
-        });
-        all
     }
 }

@@ -9,10 +9,10 @@ pub struct ProgramText {
 }
 
 impl ProgramText {
-    /// Head only.
-    pub fn new(head: &[String]) -> Self {
+    /// Head only: what it says of itself, then what must be known before it is run, a comment each.
+    pub fn new(head: &[String], warnings: impl IntoIterator<Item = String>) -> Self {
         let mut text = "%\n".to_owned();
-        for line in head {
+        for line in head.iter().cloned().chain(warnings) {
             // Round brackets end a comment.
             let _ = writeln!(text, "({})", line.replace(['(', ')'], " "));
         }

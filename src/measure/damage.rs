@@ -15,10 +15,17 @@ use gearcut_core::math::planar_rays::FAMILIES;
 use gearcut_core::terms::Side;
 use glam::DVec2;
 use std::collections::BTreeMap;
+use std::f64::consts::SQRT_2;
 
 /// Damage and rubbing less deep than this are not reported: above the errors of the outline (chords of the target, 0.1
 /// um in a fillet), below what any machine holds.
 pub const LEAST_DEPTH_MM: f64 = 1e-3;
+
+/// Depth from which on a cut below the target is a gouge, mm: what ISO 1328-1:2013 allows a profile of this module as
+/// form deviation in class 8, f_f_alpha = (0.55 m + 5) um times sqrt(2)^(8 - 5). Shallower cuts are deviations.
+pub fn gouge_mm(module_mm: f64) -> f64 {
+    1e-3 * (0.55 * module_mm + 5.0) * SQRT_2.powi(3)
+}
 
 /// Damage or rubbing on one side of a tooth by one operation.
 #[derive(Debug, Clone, Copy, PartialEq)]

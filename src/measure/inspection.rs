@@ -41,7 +41,8 @@ pub struct GearInspection {
     pub pitch: [Option<PitchDeviations>; 2],
     /// Places of a probe in the space after each tooth.
     pub runout: Option<Runout>,
-    /// Thickness of each tooth on the pitch curve; `None` where a flank does not cross it.
+    /// Thickness of each tooth on the pitch curve; `None` where a flank does not cross it, or where nothing is left
+    /// between its flanks.
     pub thickness: Vec<Option<Thickness>>,
 }
 
@@ -55,7 +56,7 @@ impl GearInspection {
             thickness: left
                 .iter()
                 .zip(right)
-                .map(|(left, right)| Some(Thickness::between((*left)?, (*right)?)))
+                .map(|(left, right)| Some(Thickness::between((*left)?, (*right)?)).filter(|of| of.arc_mm > 0.0))
                 .collect(),
         }
     }

@@ -1,9 +1,14 @@
 //! Normal stock: what one operation leaves over another one, along the target's normals.
 //!
 //! Dexels that the earlier operation never reached still have the blank's height; their stock is not a stock of
-//! machining. They are counted, and left out of the figures.
+//! machining. They are counted, and left out of the figures. A stock below zero is a cut into the finished gear, and
+//! keeps its sign.
 
 use gearcut_core::dexel::{Field, Layer, NO_PASS};
+
+/// Cuts shallower than this below the target are numerical, mm: the edge tables, f32 heights and Newton's last step
+/// together.
+pub const RESOLUTION_MM: f64 = 1e-6;
 
 /// A value and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,12 +63,19 @@ pub fn extremes(
     (low.0 <= high.0).then(|| [place(low), place(high)])
 }
 
-/// Stock between an earlier and a later layer; `None` if the earlier operation reached nothing.
-pub fn stock(field: &Field, earlier: &Layer, later: &Layer) -> Option<Stock> {
-    let at =
-        |index: usize| (earlier.passes[index] != NO_PASS).then(|| earlier.heights_mm[index] - later.heights_mm[index]);
-    let [smallest, largest] = extremes(field, |_| true, at)?;
-    let (sum, dexels) =
-        (0..field.len()).filter_map(at).fold((0.0, 0_u64), |(sum, n), value| (sum + f64::from(value), n + 1));
-    Some(Stock { smallest, largest, mean_mm: sum / dexels as f64, dexels, untouched: field.len() as u64 - dexels })
+/// Stock between an earlier and a later layer over a field's chosen columns; `None` if the earlier operation reached
+/// nothing there. Where the later operation takes nothing because the earlier one has cut below the target, the stock is
+/// minus that depth.
+pub fn stock(field: &Field, earlier: &Layer, later: &Layer, column_counts: impl Fn(usize) -> bool) -> Option<Stock> {
+    let at = |index: usize| {
+        let (before, after) = (earlier.heights_mm[index], later.heights_mm[index]);
+        let untaken = earlier.passes[index] == later.passes[index];
+        let below = untaken && f64::from(before) < -RESOLUTION_MM;
+        (earlier.passes[index] != NO_PASS).then_some(if below { before } else { before - after })
+    };
+    let rows = field.rows();
+    let [smallest, largest] = extremes(field, &column_counts, at)?;
+    let chosen = || (0..field.len()).filter(|index| column_counts(index / rows));
+    let (sum, dexels) = chosen().filter_map(at).fold((0.0, 0_u64), |(sum, n), value| (sum + f64::from(value), n + 1));
+    Some(Stock { smallest, largest, mean_mm: sum / dexels as f64, dexels, untouched: chosen().count() as u64 - dexels })
 }

@@ -11,7 +11,7 @@ use maud::html;
 
 use crate::output::axis::{round_range, value_text, widened};
 use crate::output::figure::{Figure, LegendEntry, MOST_SERIES, Name, Plot, Sample};
-use crate::output::plot::{LABELS_PX, PlotFrame, Slots, WIDTH_PX, px};
+use crate::output::plot::{BarPlaces, LABELS_PX, PlotFrame, WIDTH_PX, px};
 use gearcut_core::Result;
 
 /// A bar chart.
@@ -95,7 +95,7 @@ impl BarChart {
     /// The chart laid out.
     pub(super) fn figure(&self) -> Figure<'_> {
         let frame = PlotFrame::new(236.0, self.range());
-        let slots = Slots { frame: &frame, categories: &self.categories, series: self.series.len() };
+        let slots = BarPlaces { frame: &frame, categories: &self.categories, series: self.series.len() };
         let width = slots.bar_px();
         let drawing = html! {
             (frame.value_axis())

@@ -79,13 +79,13 @@ impl PlotFrame {
 }
 
 /// Places of bars: a slot for each category, in it a bar for each series.
-pub(super) struct Slots<'a> {
+pub(super) struct BarPlaces<'a> {
     pub frame: &'a PlotFrame,
     pub categories: &'a [String],
     pub series: usize,
 }
 
-impl Slots<'_> {
+impl BarPlaces<'_> {
     fn slot_px(&self) -> f64 {
         (self.frame.right - self.frame.left) / self.categories.len().max(1) as f64
     }

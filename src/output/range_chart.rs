@@ -6,7 +6,7 @@ use maud::html;
 
 use crate::output::axis::{round_range, value_text};
 use crate::output::figure::{Figure, LegendEntry, Name, Plot, Sample};
-use crate::output::plot::{LABELS_PX, PlotFrame, Slots, WIDTH_PX, px};
+use crate::output::plot::{BarPlaces, LABELS_PX, PlotFrame, WIDTH_PX, px};
 
 /// A chart of ranges.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +38,7 @@ impl RangeChart {
         let values = || self.series.iter().flat_map(|series| series.values.iter().flatten().flatten().copied());
         let range = round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max));
         let frame = PlotFrame::new(236.0, range);
-        let slots = Slots { frame: &frame, categories: &self.categories, series: self.series.len() };
+        let slots = BarPlaces { frame: &frame, categories: &self.categories, series: self.series.len() };
         // Bars of neighbouring series keep apart: both their ends are read.
         let width = 0.86 * slots.bar_px();
         let drawing = html! {

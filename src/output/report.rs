@@ -29,6 +29,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use crate::findings::Place;
+use crate::findings::warning::{Severity, Warning, count_words};
 use crate::output::atomic::write_bytes_atomically;
 use gear_frame::gear_frame;
 use gearcut_core::Result;
@@ -69,8 +70,8 @@ pub struct Page {
     pub program: String,
     /// What to look at first; the first two are shown largest.
     pub key_numbers: Vec<KeyNumber>,
-    /// What a reader must know before trusting the numbers.
-    pub warnings: Vec<String>,
+    /// What a reader must know before trusting the numbers, units in the signs of a page.
+    pub warnings: Vec<Warning>,
     /// The gear to turn, with its maps.
     pub viewer: Option<Viewer>,
     /// The rest, in order.
@@ -160,11 +161,8 @@ impl Page {
     }
 
     fn head(&self) -> Markup {
-        let warned = match self.warnings.len() {
-            0 => "no warnings".to_owned(),
-            1 => "1 warning".to_owned(),
-            count => format!("{count} warnings"),
-        };
+        let warned = count_words(&self.warnings);
+        let grave = self.warnings.iter().any(|warning| warning.severity > Severity::Note);
         html! {
             header class="top" {
                 p class="brand" { strong { "gearcut" } " " (self.what) }
@@ -180,7 +178,7 @@ impl Page {
                     @if self.warnings.is_empty() {
                         li class="good" { (warned) }
                     } @else {
-                        li class="bad" { a href="#warnings" { (warned) } }
+                        li class=(if grave { "bad" } else { "good" }) { a href="#warnings" { (warned) } }
                     }
                 }
             }
@@ -196,7 +194,9 @@ impl Page {
                 }
                 div id="warnings" {
                     @for warning in &self.warnings {
-                        p class="warning" role="note" { strong { "Warning. " } (warning) }
+                        p class=(format!("warning {}", warning.severity.name())) role="note" {
+                            strong { (heading(warning.severity)) ". " } (warning.text)
+                        }
                     }
                 }
             }
@@ -222,6 +222,15 @@ impl KeyNumber {
                 }
             }
         }
+    }
+}
+
+/// A severity at the head of its sentence.
+fn heading(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Fault => "Fault",
+        Severity::Warning => "Warning",
+        Severity::Note => "Note",
     }
 }
 

@@ -1,4 +1,4 @@
-//! Findings for the terminal: the headline, then what each section shows, then warnings; at most 80 columns.
+//! Findings for the terminal: the headline, then what each section shows, then warnings by severity; at most 80 columns.
 //!
 //! Neighbouring sections that show the same quantities become the rows of one table, such as the texture of all
 //! windows. What is undefined is told with its reason in the headline and left out below it.
@@ -22,9 +22,8 @@ pub fn print(findings: &Findings, sheet: &mut Sheet) {
     for section in &findings.sections {
         print_section(sheet, &section.title, section);
     }
-    for warning in findings.all_warnings() {
-        let text = format!("warning: {warning}");
-        let mut lines = wrapped(&text, WIDTH - 2).into_iter();
+    for warning in &findings.warnings {
+        let mut lines = wrapped(&warning.line(), WIDTH - 2).into_iter();
         sheet.heading(&lines.next().unwrap_or_default());
         lines.for_each(|line| sheet.words(&line));
     }
@@ -131,7 +130,7 @@ pub fn shown(quantity: &Quantity) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::findings::Place;
+    use crate::findings::{Place, Warning};
 
     fn window(key: &str, sa: f64) -> Section {
         Section::new(key, key.replace('_', " "))
@@ -153,9 +152,9 @@ mod tests {
                 Entry::headline("witness_mark", "witness mark", undefined),
                 Entry::headline("undercut_flanks", "undercut flanks", Quantity::count(12, "flanks", "undercut")),
             ],
-            warnings: vec![
-                "words that go on and on until the line is much wider than any terminal would like it".into(),
-            ],
+            warnings: vec![Warning::warn(
+                "words that go on and on until the line is much wider than any terminal would like it",
+            )],
             sections: vec![
                 Section::new("texture", "Texture")
                     .part(window("tooth_03_left", 0.25))

@@ -24,7 +24,7 @@ const TEETH_BESIDE: i64 = 5;
 
 /// Errors of mounting.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Mounting {
+pub struct AssemblyErrors {
     /// Added to the closing centre distance, mm.
     pub center_distance_error_mm: f64,
     /// From the axis of rotation to the origin of the pitch curve, each in the frame of its gear, mm.
@@ -92,7 +92,7 @@ impl Moment {
 
 /// Both gears in one section.
 #[derive(Debug, Clone)]
-pub struct Section {
+pub struct GearsInSection {
     /// Place along the face, from its middle, mm.
     pub z_mm: f64,
     shift_mm: f64,
@@ -103,7 +103,7 @@ pub struct Section {
     axis_offset_mm: DVec2,
 }
 
-impl Section {
+impl GearsInSection {
     /// Labels of the teeth that may touch when `pitch` is the pitch point.
     pub fn near(&self, pitch: &PitchPoint, pitch_mm: f64) -> impl Iterator<Item = i64> + use<> {
         let at = ((pitch.arc_mm - self.shift_mm) / pitch_mm).round() as i64;
@@ -117,7 +117,7 @@ pub struct Meshing {
     /// The pitch curves.
     pub pitch: PitchPair,
     /// The sections that are looked at.
-    pub sections: Vec<Section>,
+    pub sections: Vec<GearsInSection>,
     /// How far the gears are moved off their axes of rotation, each in its own frame, mm.
     pub eccentricity_mm: [DVec2; 2],
     center_distance_error_mm: f64,
@@ -132,7 +132,7 @@ impl Meshing {
         pitch: PitchPair,
         driver: &GearFlanks<FlankChain>,
         driven: &GearFlanks<FlankChain>,
-        mounting: &Mounting,
+        mounting: &AssemblyErrors,
     ) -> Result<Self, Refusal> {
         Self::of_sections(pitch, &[SectionFlanks { z_mm: 0.0, shift_mm: 0.0, driver, driven }], mounting)
     }
@@ -141,11 +141,15 @@ impl Meshing {
     ///
     /// # Errors
     /// Flanks of the driven gear that cannot be rolled.
-    pub fn of_sections(pitch: PitchPair, sections: &[SectionFlanks], mounting: &Mounting) -> Result<Self, Refusal> {
+    pub fn of_sections(
+        pitch: PitchPair,
+        sections: &[SectionFlanks],
+        mounting: &AssemblyErrors,
+    ) -> Result<Self, Refusal> {
         let [off_1, off_2] = mounting.eccentricity_mm;
         let section = |of: &SectionFlanks| {
             let [apart, across] = (mounting.inclination * of.z_mm).to_array();
-            Ok(Section {
+            Ok(GearsInSection {
                 z_mm: of.z_mm,
                 shift_mm: of.shift_mm,
                 driver: of.driver.map(|chain| Ok::<_, Refusal>(chain.moved(off_1)))?,
@@ -154,7 +158,7 @@ impl Meshing {
             })
         };
         let sections = sections.iter().map(section).collect::<Result<_, Refusal>>()?;
-        let Mounting { center_distance_error_mm, eccentricity_mm, .. } = *mounting;
+        let AssemblyErrors { center_distance_error_mm, eccentricity_mm, .. } = *mounting;
         Ok(Self { pitch, sections, eccentricity_mm, center_distance_error_mm })
     }
 
@@ -176,7 +180,7 @@ impl Meshing {
 
     /// How the gears stand in a section, with the driven gear where the pitch curves want it; `distance_error_mm` moves
     /// its axis along the line of centres.
-    pub fn stand(&self, pitch: &PitchPoint, section: &Section, distance_error_mm: f64) -> PairPose {
+    pub fn stand(&self, pitch: &PitchPoint, section: &GearsInSection, distance_error_mm: f64) -> PairPose {
         let moved_mm = DVec2::new(self.pitch.sign() * distance_error_mm, 0.0);
         PairPose {
             phi_1_rad: pitch.phi_1_rad,

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use super::pitch_pair::{FlankPoint, Member, PitchPair};
+use super::pitch_pair::{ConjugatePoint, Member, PitchPair};
 use gearcut_core::error::Refusal;
 use gearcut_core::terms::Side;
 
@@ -42,7 +42,7 @@ impl FlankChain {
     }
 
     /// Smooth chain through points of a flank from root to tip.
-    pub fn smooth(points: &[FlankPoint]) -> Self {
+    pub fn smooth(points: &[ConjugatePoint]) -> Self {
         let places: Vec<DVec2> = points.iter().map(|p| p.point_mm).collect();
         let chord = |i: usize| places[(i + 1).min(places.len() - 1)] - places[i.saturating_sub(1)];
         let tangents = points.iter().enumerate().map(|(i, p)| p.normal.perp() * p.normal.perp().dot(chord(i)).signum());
@@ -323,9 +323,9 @@ pub fn nominal_section(
         let arcs_mm: Vec<f64> = (0..=INTERVALS).map(place).take_while(sound).collect();
         let point = |s: &f64| {
             let on = pair.flank_point(member, side, crossing_mm, pair.curve().phi_at_arc(*s));
-            FlankPoint { point_mm: on.point_mm + extra_mm * on.normal, ..on }
+            ConjugatePoint { point_mm: on.point_mm + extra_mm * on.normal, ..on }
         };
-        let points: Vec<FlankPoint> = arcs_mm.iter().rev().map(point).collect();
+        let points: Vec<ConjugatePoint> = arcs_mm.iter().rev().map(point).collect();
         Ok(FlankChain::smooth(&points))
     })
 }

@@ -15,7 +15,7 @@
 //! | [`backlash`] | the play between both flanks, in four measures |
 //! | [`contact_ratio`] | path of contact between the tips, contact ratio of a moment and of a tooth |
 //! | [`double_flank`] | the centre distance without play: against the mate and against a master |
-//! | [`interference`] | tips that ask for contact below the form point |
+//! | [`flank_limits`] | how far generated flanks reach along the line of action |
 //! | [`penetration`] | how deep tip corners stand in the mate's material |
 //! | [`pattern`] | how near the mate comes to every point of a flank |
 //!
@@ -29,7 +29,7 @@ pub mod contact;
 pub mod contact_ratio;
 pub mod double_flank;
 pub mod flank_chain;
-pub mod interference;
+pub mod flank_limits;
 pub mod pattern;
 pub mod penetration;
 pub mod pitch_pair;

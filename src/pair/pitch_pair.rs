@@ -85,7 +85,7 @@ pub struct PitchPoint {
 
 /// Point of a flank in its gear's own frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FlankPoint {
+pub struct ConjugatePoint {
     /// Place, mm.
     pub point_mm: DVec2,
     /// Unit normal out of the tooth.
@@ -233,7 +233,7 @@ impl PitchPair {
 
     /// Point of a gear's flank that crosses the pitch curve at the driver's arc `crossing_mm`, where it is generated at
     /// `phi_1_rad`; the gear's own frame.
-    pub fn flank_point(&self, member: Member, side: Side, crossing_mm: f64, phi_1_rad: f64) -> FlankPoint {
+    pub fn flank_point(&self, member: Member, side: Side, crossing_mm: f64, phi_1_rad: f64) -> ConjugatePoint {
         let point = self.at(phi_1_rad);
         let v = self.line_of_action(&point, side);
         let lambda = (crossing_mm - point.arc_mm) * self.teeth.pressure_angle_rad.cos();
@@ -242,7 +242,7 @@ impl PitchPair {
             Member::Driver => side.sign(),
             Member::Driven => -side.sign(),
         };
-        FlankPoint {
+        ConjugatePoint {
             point_mm: self.gear_from_machine(&point, member, contact - self.axis_mm(member)),
             normal: self.gear_from_machine(&point, member, out * v),
         }
@@ -276,6 +276,34 @@ impl PitchPair {
                 Refusal::new("gear.addendum_coefficient", lost.to_string(), way_out)
             })?;
         Ok((at_foot(phi).0, phi))
+    }
+
+    /// Where the normal of a point of a gear's flank meets its pitch curve: the driver's angle at which the point is in
+    /// contact, and its distance from the pitch point along v then, mm. Point and normal out of the tooth are those of
+    /// the gear's own frame; Newton's method for the foot begins at `guess_rad`.
+    ///
+    /// # Errors
+    /// The normal does not meet the pitch curve within two pitches.
+    pub fn contact_of(
+        &self,
+        member: Member,
+        side: Side,
+        on: &ConjugatePoint,
+        guess_rad: f64,
+    ) -> Result<(f64, f64), Refusal> {
+        let out = match member {
+            Member::Driver => side.sign(),
+            Member::Driven => -side.sign(),
+        };
+        // Below the pitch curve the normal out of the tooth climbs to it, above it the other one falls to it.
+        let from_root = self.height(member, on.point_mm, guess_rad)?.0 < 0.0;
+        let towards = if from_root { 1.0 } else { -1.0 };
+        let at = |way_mm: f64| self.height(member, on.point_mm + towards * way_mm * on.normal, guess_rad);
+        let before = |way_mm: f64| Ok((at(way_mm)?.0 < 0.0) == from_root);
+        let way_mm = passing(self.pitch_mm(), before, || {
+            format!("the normal of a {} flank does not meet the pitch curve", side.name())
+        })?;
+        Ok((at(way_mm)?.1, -towards * way_mm * out))
     }
 
     /// Driver's angle at which a flank's contact lies on the tip curve of a gear: the pitch curve moved by `height_mm`

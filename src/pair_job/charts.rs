@@ -7,7 +7,8 @@ use std::f64::consts::TAU;
 
 use super::double_flank::{DoubleFlank, MASTER_TEETH};
 use super::findings::ARCSEC_PER_RAD;
-use super::rolled::{RolledPair, SIDES};
+use super::fit::SIDES;
+use super::rolled::RolledPair;
 use crate::findings::Findings;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
@@ -128,7 +129,7 @@ fn contact_ratio(rolled: &RolledPair) -> LineChart {
     over_angle(
         "Contact ratio",
         vec![
-            panel("path between the tip curves over the base pitch", "1", 0.01, vec![path(0), path(1)]),
+            panel("path of contact over the base pitch", "1", 0.01, vec![path(0), path(1)]),
             panel("pairs within the marking thickness", "1", 0.5, vec![pairs(0), pairs(1)]),
         ],
     )

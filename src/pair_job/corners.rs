@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 use glam::DVec2;
 
 use super::flanks::{PairFlanks, SectionOfGear};
-use super::watch::Stage;
+use super::watch::WatchedUnits;
 use crate::pair::assembly::{Meshing, Moment};
 use crate::pair::penetration::{CornerDepth, SpaceOutline};
 use crate::pair::pitch_pair::Member;
@@ -43,7 +43,7 @@ pub fn deepest(
     meshing: &Meshing,
     moments: &[Moment],
     member: Member,
-    stage: &Stage,
+    stage: &WatchedUnits,
 ) -> Result<Option<DeepestCorner>> {
     let of = |moment: &Moment| -> Result<Option<DeepestCorner>> {
         let sections = flanks.sections.iter().zip(&meshing.sections).flat_map(move |(gears, section)| {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::watch::{Stage, TIGHT, Watch};
+use super::watch::{TIGHT, Watch, WatchedUnits};
 use crate::pair::assembly::Meshing;
 use crate::pair::double_flank::{Master, TightMesh, against_mate};
 use crate::pair::flank_chain::{FlankChain, GearFlanks};
@@ -117,7 +117,7 @@ pub fn with_master(
 
 fn around(
     pitches: u32,
-    stage: Stage,
+    stage: WatchedUnits,
     at: impl Fn(f64) -> Result<(f64, TightMesh), Refusal> + Sync,
 ) -> Result<DoubleFlank> {
     let places = pitches * PLACES_PER_PITCH;

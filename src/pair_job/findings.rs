@@ -13,7 +13,8 @@ mod transmission;
 
 use super::options::PairOptions;
 use super::rolled::{PROBE_UM, RolledPair};
-use crate::findings::{Entry, Findings, Place, Quantity, Section};
+use crate::findings::warning::ranked;
+use crate::findings::{Entry, Findings, Place, Quantity, Section, Warning};
 use crate::scene::Scene;
 use gearcut_core::units::UM_PER_MM;
 
@@ -46,7 +47,7 @@ pub fn findings(name: &str, scenes: [&Scene; 2], options: &PairOptions, rolled: 
         scene: name.to_owned(),
         complete: true,
         headline: Vec::new(),
-        warnings: warnings(rolled),
+        warnings: ranked(warnings(rolled)),
         sections,
     };
     found.headline = headline(&found);
@@ -186,22 +187,22 @@ fn center_distance(rolled: &RolledPair) -> Section {
         )
 }
 
-fn warnings(rolled: &RolledPair) -> Vec<String> {
+fn warnings(rolled: &RolledPair) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let smallest = rolled.backlash.iter().map(|play| UM_PER_MM * play.circumferential_mm).fold(f64::INFINITY, f64::min);
     if smallest < JAMS_UM {
-        warnings.push(format!(
+        warnings.push(Warning::warn(format!(
             "the pair jams: {:.1} um of backlash are missing; thin the teeth with gear.tooth_thickness_allowance_mm, \
             or move the axes",
             -smallest
-        ));
+        )));
     }
-    warnings.extend(interference(rolled));
+    warnings.extend(interference(rolled).into_iter().map(Warning::fault));
     if rolled.fit.misfit_mm > TOLD_MISFIT_MM {
-        warnings.push(format!(
+        warnings.push(Warning::warn(format!(
             "gear B's pitch curve stands up to {:.1} um away from the mate's of gear A",
             UM_PER_MM * rolled.fit.misfit_mm
-        ));
+        )));
     }
     warnings
 }

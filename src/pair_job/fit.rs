@@ -17,13 +17,18 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::pair::pitch_pair::{PairTeeth, PitchPair};
+use crate::pair::pitch_pair::{Member, PairTeeth, PitchPair};
 use crate::pair::rolling::turns_of_period;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
 use gearcut_core::error::Refusal;
 use gearcut_core::gear::{GearKind, PitchCurve};
 use gearcut_core::terms::Side;
+
+/// Driver and driven gear.
+pub const MEMBERS: [Member; 2] = [Member::Driver, Member::Driven];
+/// Both sides, the driving flanks first.
+pub const SIDES: [Side; 2] = [Side::Right, Side::Left];
 
 /// Modules and angles that differ by less than this share are equal: written as decimals, they are rounded.
 const EQUAL_SHARE: f64 = 1e-6;

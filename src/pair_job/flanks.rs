@@ -9,7 +9,7 @@
 
 use crate::backend::{BackendWish, OnFailure, choose};
 use crate::job::rows_z_mm;
-use crate::pair::assembly::{Meshing, Mounting, SectionFlanks};
+use crate::pair::assembly::{AssemblyErrors, Meshing, SectionFlanks};
 use crate::pair::flank_chain::{FlankChain, GearFlanks, nominal_section};
 use crate::pair::penetration::SpaceOutline;
 use crate::pair::pitch_pair::Member;
@@ -20,7 +20,8 @@ use gearcut_core::error::{Refusal, Result};
 use gearcut_core::terms::{Hand, Side};
 
 use super::fit::Fit;
-use super::outline::{self, CutGear, Profile};
+use super::generated::FlankEnds;
+use super::outline::{self, GearInSections, ToothOutline};
 use super::watch::{CUT, Watch};
 
 /// Least change of the distance from the axis along a driven root, as a share of its arc: with less it may turn back
@@ -78,6 +79,8 @@ pub struct PairFlanks {
     pub rows_mm: Vec<f64>,
     /// Driver and driven gear in every section.
     pub sections: Vec<[SectionOfGear; 2]>,
+    /// Where the flanks that the tools generate begin and end; none of nominal flanks, which no tool has made.
+    pub ends: Option<[FlankEnds; 2]>,
     /// Both gears to look at; none of nominal flanks, which belong to no body.
     pub views: Option<[ViewMesh; 2]>,
 }
@@ -90,11 +93,11 @@ impl PairFlanks {
     pub fn new(fit: &Fit, scenes: [&Scene; 2], source: FlankSource, count: usize, watch: &Watch) -> Result<Self> {
         let face_mm = scenes[0].gear.face_width_mm.min(scenes[1].gear.face_width_mm);
         let rows_mm = if count == 1 { vec![0.0] } else { rows_z_mm(face_mm, face_mm / (count as f64 - 1.0)) };
-        let mut views = None;
+        let (mut ends, mut views) = (None, None);
         let sections = match source {
             FlankSource::Cut => {
                 let backend = choose(BackendWish::Cpu, OnFailure::default())?.backend;
-                let cut = |at: usize| -> Result<CutGear> {
+                let cut = |at: usize| -> Result<GearInSections> {
                     // A root and two flanks for each tooth.
                     let stage = watch.stage(CUT[at], 3 * scenes[at].gear.teeth as usize, "flanks and roots")?;
                     let gear = outline::cut(scenes[at], backend.as_ref(), &rows_mm, &stage)?;
@@ -102,8 +105,9 @@ impl PairFlanks {
                     Ok(gear)
                 };
                 let (a, b) = (cut(0)?, cut(1)?);
-                views = Some([a.view, b.view]);
-                a.sections.iter().zip(&b.sections).map(|(a, b)| [driver(a), driven(fit, b)]).collect()
+                let sections = a.sections.iter().zip(&b.sections).map(|(a, b)| [driver(a), driven(fit, b)]).collect();
+                (ends, views) = (Some([a.ends, b.ends]), Some([a.view, b.view]));
+                sections
             }
             FlankSource::Nominal => {
                 let section = |z_mm: &f64| -> Result<_> {
@@ -115,14 +119,14 @@ impl PairFlanks {
                 rows_mm.iter().map(section).collect::<Result<_>>()?
             }
         };
-        Ok(Self { rows_mm, sections, views })
+        Ok(Self { rows_mm, sections, ends, views })
     }
 
     /// The gears in the machine.
     ///
     /// # Errors
     /// Flanks of the driven gear that cannot be rolled.
-    pub fn meshing(&self, fit: &Fit, driver: &Gear, mounting: &Mounting) -> Result<Meshing, Refusal> {
+    pub fn meshing(&self, fit: &Fit, driver: &Gear, mounting: &AssemblyErrors) -> Result<Meshing, Refusal> {
         let section = |(z_mm, [a, b]): (&f64, &[SectionOfGear; 2])| {
             (*z_mm, shift_mm(driver, *z_mm), a.chains.clone(), b.chains.clone())
         };
@@ -141,7 +145,7 @@ fn shift_mm(gear: &Gear, z_mm: f64) -> f64 {
     hand * gear.helix_angle_rad.tan() * z_mm
 }
 
-fn driver(flanks: &GearFlanks<Profile>) -> SectionOfGear {
+fn driver(flanks: &GearFlanks<ToothOutline>) -> SectionOfGear {
     let teeth = flanks.right.len() as i64;
     let space = |label: i64| {
         // The space before a tooth lies between the left flank of the one before and its own right one.
@@ -158,10 +162,10 @@ fn driver(flanks: &GearFlanks<Profile>) -> SectionOfGear {
     }
 }
 
-fn driven(fit: &Fit, flanks: &GearFlanks<Profile>) -> SectionOfGear {
+fn driven(fit: &Fit, flanks: &GearFlanks<ToothOutline>) -> SectionOfGear {
     let teeth = flanks.right.len() as u32;
     let tip_sign = fit.pitch.sign();
-    let in_pair = |profile: &Profile| -> Vec<_> { profile.points_mm.iter().map(|p| fit.in_pair(*p)).collect() };
+    let in_pair = |profile: &ToothOutline| -> Vec<_> { profile.points_mm.iter().map(|p| fit.in_pair(*p)).collect() };
     let own = |side: Side, label: i64| {
         let (side, tooth) = fit.mate_flank(side, label);
         flanks.get(side, tooth)
@@ -191,7 +195,7 @@ fn driven(fit: &Fit, flanks: &GearFlanks<Profile>) -> SectionOfGear {
 }
 
 /// First point from which the distance from the axis changes steadily up to the tip.
-fn climbing_from(profile: &Profile) -> usize {
+fn climbing_from(profile: &ToothOutline) -> usize {
     let points = &profile.points_mm;
     let last = points.len() - 1;
     let outwards = (points[last].length() - points[0].length()).signum();

@@ -9,6 +9,7 @@
 //! | [`fit`] | whether two gears belong together, and which of their teeth meet |
 //! | [`outline`] | flanks and roots as cut, in transverse sections |
 //! | [`flanks`] | the flanks of both gears as they are rolled |
+//! | [`generated`] | how far the flanks that the tools generate reach |
 //! | [`options`] | what a pair is rolled with: positions, sections, errors of mounting |
 //! | [`watch`] | progress and Ctrl-C |
 //! | [`rolled`] | everything that is found out about the pair |
@@ -28,6 +29,7 @@ pub mod double_flank;
 pub mod findings;
 pub mod fit;
 pub mod flanks;
+pub mod generated;
 pub mod member;
 pub mod options;
 pub mod outline;

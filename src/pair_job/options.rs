@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::fit::Fit;
 use super::flanks::FlankSource;
-use crate::pair::assembly::Mounting;
+use crate::pair::assembly::AssemblyErrors;
 use crate::pair::rolling::turns_of_period;
 use crate::scene::model::Gear;
 use gearcut_core::error::Refusal;
@@ -86,7 +86,7 @@ impl PairOptions {
     ///
     /// # Errors
     /// A centre distance at which the teeth would not meet.
-    pub fn mounting(&self, fit: &Fit, gears: [&Gear; 2]) -> Result<Mounting, Refusal> {
+    pub fn mounting(&self, fit: &Fit, gears: [&Gear; 2]) -> Result<AssemblyErrors, Refusal> {
         let error_mm = self.center_distance_error_um / UM_PER_MM;
         let most_mm = LARGEST_DISTANCE_ERROR_MODULES * fit.pitch.teeth().module_mm;
         if error_mm.abs() > most_mm {
@@ -106,7 +106,7 @@ impl PairOptions {
         let face_mm = gears[0].face_width_mm.min(gears[1].face_width_mm);
         let off = |[um, deg]: [f64; 2]| um / UM_PER_MM * DVec2::from_angle(deg.to_radians());
         let [a, b] = self.eccentricity_um_deg.map(off);
-        Ok(Mounting {
+        Ok(AssemblyErrors {
             center_distance_error_mm: error_mm,
             eccentricity_mm: [a, fit.in_pair(b)],
             inclination: DVec2::from(self.parallelism_um) / (UM_PER_MM * face_mm),

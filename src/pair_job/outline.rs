@@ -11,7 +11,8 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::watch::Stage;
+use super::generated::{FlankEnds, flank_ends};
+use super::watch::WatchedUnits;
 use crate::job::GearJob;
 use crate::pair::flank_chain::GearFlanks;
 use crate::process;
@@ -34,7 +35,7 @@ const LEFT_OUT_MM: f64 = 2e-6;
 
 /// A flank with its half of the root, from the root's middle to the tip.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Profile {
+pub struct ToothOutline {
     /// Points, gear frame, mm.
     pub points_mm: Vec<DVec2>,
     /// Arc along the profile from the form point, mm; negative in the root.
@@ -42,13 +43,15 @@ pub struct Profile {
 }
 
 /// A gear in its sections; flanks by tooth modulo their number.
-pub type CutSections = Vec<GearFlanks<Profile>>;
+pub type CutSections = Vec<GearFlanks<ToothOutline>>;
 
 /// A cut gear.
 #[derive(Debug)]
-pub struct CutGear {
+pub struct GearInSections {
     /// Its sections.
     pub sections: CutSections,
+    /// Where the flanks of its target begin and end.
+    pub ends: FlankEnds,
     /// Its target, to look at.
     pub view: ViewMesh,
 }
@@ -57,7 +60,7 @@ pub struct CutGear {
 ///
 /// # Errors
 /// Geometry that cannot be cut; flanks that no pass has reached; a gear without sections; Ctrl-C.
-pub fn cut(scene: &Scene, backend: &dyn Backend, rows_z_mm: &[f64], stage: &Stage) -> Result<CutGear> {
+pub fn cut(scene: &Scene, backend: &dyn Backend, rows_z_mm: &[f64], stage: &WatchedUnits) -> Result<GearInSections> {
     let mut cut = None;
     process::prepare(scene)?.with_gear(&mut |gear| {
         cut = Some(cut_gear(gear, backend, rows_z_mm, stage)?);
@@ -66,7 +69,12 @@ pub fn cut(scene: &Scene, backend: &dyn Backend, rows_z_mm: &[f64], stage: &Stag
     Ok(cut.expect("a job shows its gear"))
 }
 
-fn cut_gear(gear: &dyn GearJob, backend: &dyn Backend, rows_z_mm: &[f64], stage: &Stage) -> Result<CutGear> {
+fn cut_gear(
+    gear: &dyn GearJob,
+    backend: &dyn Backend,
+    rows_z_mm: &[f64],
+    stage: &WatchedUnits,
+) -> Result<GearInSections> {
     let Some(cylinder) = gear.cylindrical() else {
         let way_out = "give cylindrical gears: shaped or hobbed";
         return Err(Refusal::new("gear", "a pair of gears without a pitch curve cannot be rolled", way_out).into());
@@ -94,7 +102,7 @@ fn cut_gear(gear: &dyn GearJob, backend: &dyn Backend, rows_z_mm: &[f64], stage:
         Ok(root)
     };
     let roots: Vec<Vec<Vec<DVec2>>> = (0..teeth).into_par_iter().map(root).collect::<Result<_>>()?;
-    let flank = |side: Side, tooth: u32| -> Result<Vec<Profile>> {
+    let flank = |side: Side, tooth: u32| -> Result<Vec<ToothOutline>> {
         let flanks = cut_flank(gear, backend, tooth, side, rows_z_mm)?;
         // The space behind a tooth bears its number.
         let space = if side == Side::Left { tooth % teeth } else { tooth - 1 };
@@ -104,15 +112,16 @@ fn cut_gear(gear: &dyn GearJob, backend: &dyn Backend, rows_z_mm: &[f64], stage:
         stage.count()?;
         Ok(joined)
     };
-    let side = |side: Side| -> Result<Vec<Vec<Profile>>> {
+    let side = |side: Side| -> Result<Vec<Vec<ToothOutline>>> {
         (0..teeth).into_par_iter().map(|label| flank(side, if label == 0 { teeth } else { label })).collect()
     };
     let (right, left) = (side(Side::Right)?, side(Side::Left)?);
     let section = |row: usize| {
-        let of = |flanks: &[Vec<Profile>]| flanks.iter().map(|rows| rows[row].clone()).collect();
+        let of = |flanks: &[Vec<ToothOutline>]| flanks.iter().map(|rows| rows[row].clone()).collect();
         GearFlanks { right: of(&right), left: of(&left) }
     };
-    Ok(CutGear { sections: (0..rows_z_mm.len()).map(section).collect(), view: ViewMesh::new(cylinder)? })
+    let sections = (0..rows_z_mm.len()).map(section).collect();
+    Ok(GearInSections { sections, ends: flank_ends(cylinder)?, view: ViewMesh::new(cylinder)? })
 }
 
 /// Whether the points of a root follow each other; else the first step between them that is too far, mm.
@@ -128,7 +137,7 @@ pub(super) fn cut_flank(
     tooth: u32,
     side: Side,
     rows_z_mm: &[f64],
-) -> Result<Vec<Profile>> {
+) -> Result<Vec<ToothOutline>> {
     let scene = gear.scene();
     let (arcs_mm, target) = gear.target_points(tooth, side, scene.fields.profile_spacing_mm, rows_z_mm)?;
     let layers = gear.cut_flank(backend, tooth, side, &arcs_mm, rows_z_mm)?;
@@ -153,13 +162,13 @@ pub(super) fn cut_flank(
         let point = |(c, ray): (usize, &gearcut_core::dexel::Ray)| {
             ray.at(f64::from(last.heights_mm[c * rows + row])).truncate()
         };
-        Profile { points_mm: target[row].iter().enumerate().map(point).collect(), u_mm: arcs_mm.clone() }
+        ToothOutline { points_mm: target[row].iter().enumerate().map(point).collect(), u_mm: arcs_mm.clone() }
     };
     Ok((0..rows).map(profile).collect())
 }
 
 /// A flank behind its half of the root, which runs from the left flank of one tooth to the right one of the next.
-pub(super) fn joined(root: &[DVec2], side: Side, flank: &Profile) -> Profile {
+pub(super) fn joined(root: &[DVec2], side: Side, flank: &ToothOutline) -> ToothOutline {
     let (before, behind) = root.split_at(root.len() / 2);
     let half: Vec<DVec2> = match side {
         Side::Left => before.iter().rev().copied().collect(),
@@ -178,11 +187,11 @@ pub(super) fn joined(root: &[DVec2], side: Side, flank: &Profile) -> Profile {
         u_mm[i] = u;
     }
     // The form point stays: the arc counts from it.
-    let [root, flank] = [Profile { points_mm, u_mm }, flank.clone()].map(|part| part.thinned(LEFT_OUT_MM));
-    Profile { points_mm: [root.points_mm, flank.points_mm].concat(), u_mm: [root.u_mm, flank.u_mm].concat() }
+    let [root, flank] = [ToothOutline { points_mm, u_mm }, flank.clone()].map(|part| part.thinned(LEFT_OUT_MM));
+    ToothOutline { points_mm: [root.points_mm, flank.points_mm].concat(), u_mm: [root.u_mm, flank.u_mm].concat() }
 }
 
-impl Profile {
+impl ToothOutline {
     /// The profile without points that lie nearer than `tolerance_mm` to the chain of the others (Ramer 1972; Douglas
     /// and Peucker 1973).
     fn thinned(&self, tolerance_mm: f64) -> Self {

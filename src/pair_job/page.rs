@@ -9,7 +9,7 @@ use super::options::PairOptions;
 use super::rolled::RolledPair;
 use super::teeth::ToothContact;
 use super::view;
-use crate::findings::{Findings, unit};
+use crate::findings::{Findings, Warning};
 use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, Page, PageSection};
 use crate::output::text::plain;
@@ -126,7 +126,7 @@ pub fn page(
         done: "rolled over a whole period",
         program: format!("gearcut {}", found.program_version),
         key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.all_warnings().iter().map(|text| unit::sentence_with_signs(text)).collect(),
+        warnings: found.warnings.iter().map(Warning::with_signs).collect(),
         viewer,
         sections: sections.into_iter().map(|section| with_marking(section, options)).collect(),
     }

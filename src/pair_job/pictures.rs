@@ -9,8 +9,9 @@
 use glam::DVec2;
 use std::f64::consts::TAU;
 
+use super::fit::SIDES;
 use super::flanks::SectionOfGear;
-use super::rolled::{RolledPair, SIDES};
+use super::rolled::RolledPair;
 use super::teeth::gap_um;
 use super::watch::{PICTURES, Watch};
 use crate::colormap::ColourScale;

@@ -9,15 +9,17 @@ use rayon::prelude::*;
 
 use super::corners::{self, DeepestCorner};
 use super::double_flank::{self, DoubleFlank};
-use super::fit::Fit;
+use super::fit::{Fit, MEMBERS, SIDES};
 use super::flanks::{FlankSource, PairFlanks, addendum_mm};
+use super::generated;
 use super::options::PairOptions;
 use super::teeth::{self, EdgeContact, ToothContact};
-use super::watch::{BY_TOOTH, CORNERS, DISTANCE, MASTERS, PATTERN, RATIO, ROLL, Stage, Watch, Work};
+use super::watch::{BY_TOOTH, CORNERS, DISTANCE, MASTERS, PATTERN, RATIO, ROLL, RollingWork, Watch, WatchedUnits};
 use crate::pair::assembly::{Meshing, Moment};
 use crate::pair::backlash::Backlash;
 use crate::pair::contact_ratio::path_of_contact;
 use crate::pair::flank_chain::GearFlanks;
+use crate::pair::flank_limits::FlankLimits;
 use crate::pair::pattern::{SectionGaps, smallest_gaps};
 use crate::pair::pitch_pair::Member;
 use crate::pair::rolling::{RolledPeriod, TransmissionError, enough, roll};
@@ -29,16 +31,11 @@ use gearcut_core::units::UM_PER_MM;
 
 /// Change of the centre distance whose effect is told, um.
 pub const PROBE_UM: f64 = 10.0;
-/// Places in a pitch at which the path of contact between the tip curves is computed, and at which the effect of the
+/// Places in a pitch at which the path of contact is computed, and at which the effect of the
 /// centre distance is looked at.
 const PROBES_PER_PITCH: usize = 4;
 /// Gaps are noted up to this many marking thicknesses.
 const GAPS_REACH: f64 = 3.0;
-
-/// Driver and driven gear.
-const MEMBERS: [Member; 2] = [Member::Driver, Member::Driven];
-/// Both sides, the driving flanks first.
-pub const SIDES: [Side; 2] = [Side::Right, Side::Left];
 
 /// What ten micrometres more centre distance change.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,7 +67,8 @@ pub struct RolledPair {
     pub backlash: Vec<Backlash>,
     /// Ratio asked for and achieved at every moment.
     pub ratios: Vec<[f64; 2]>,
-    /// Contact ratio of both sides between the tip curves: number of the moment, and its ratio.
+    /// Contact ratio of both sides: number of the moment, and its ratio. Nominal flanks go on to the tip curve of the
+    /// mate; cut ones end at their form points.
     pub contact_ratio: [Vec<(usize, f64)>; 2],
     /// Pairs within the marking thickness at every moment, of both sides.
     pub pairs: [Vec<u32>; 2],
@@ -108,7 +106,7 @@ pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions, watch: &Watch) -> R
     let positions = options.positions(fit.pitch.teeth().count);
     enough(fit.pitch.teeth().count, positions)?;
     let sections = options.sections(gears)?;
-    watch.plan(&Work {
+    watch.plan(&RollingWork {
         teeth: fit.pitch.teeth().count,
         ring: fit.pitch.teeth().driven == GearKind::Internal,
         cut: options.source == FlankSource::Cut,
@@ -136,8 +134,12 @@ pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions, watch: &Watch) -> R
         Ok([in_a?, in_b?])
     })?;
     let probes = moments.len().div_ceil(stride(&period, PROBES_PER_PITCH));
+    let limits = flanks.ends.as_ref().map(|ends| generated::limits(&fit, addendum_mm(scenes), ends)).transpose()?;
     let contact_ratio = in_stage(watch, RATIO, 2 * probes, |stage| {
-        let [right, left] = SIDES.map(|side| contact_ratios(&fit, scenes, &period, side, stage));
+        let [right, left] = [0, 1].map(|at| {
+            let limits = limits.as_ref().map(|limits| &limits[at]);
+            contact_ratios(&fit, scenes, limits, &period, SIDES[at], stage)
+        });
         Ok([right?, left?])
     })?;
     let tight = double_flank::with_mate(&meshing, watch)?;
@@ -169,7 +171,12 @@ pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions, watch: &Watch) -> R
 }
 
 /// Does the work of a stage.
-fn in_stage<T>(watch: &Watch, name: &str, positions: usize, work: impl FnOnce(&Stage) -> Result<T>) -> Result<T> {
+fn in_stage<T>(
+    watch: &Watch,
+    name: &str,
+    positions: usize,
+    work: impl FnOnce(&WatchedUnits) -> Result<T>,
+) -> Result<T> {
     let stage = watch.stage(name, positions, "positions")?;
     let done = work(&stage)?;
     stage.finish();
@@ -180,14 +187,17 @@ fn in_stage<T>(watch: &Watch, name: &str, positions: usize, work: impl FnOnce(&S
 fn contact_ratios(
     fit: &Fit,
     scenes: [&Scene; 2],
+    limits: Option<&[FlankLimits; 2]>,
     period: &RolledPeriod,
     side: Side,
-    stage: &Stage,
+    stage: &WatchedUnits,
 ) -> Result<Vec<(usize, f64)>> {
     let addendum_mm = addendum_mm(scenes);
     let step = stride(period, PROBES_PER_PITCH);
     let at = |index: usize| {
-        let path = path_of_contact(&fit.pitch, &period.moments[index].pitch, side, addendum_mm)?;
+        let pitch = &period.moments[index].pitch;
+        let between_tips = path_of_contact(&fit.pitch, pitch, side, addendum_mm)?;
+        let path = limits.map_or(between_tips, |[a, b]| between_tips.generated(side, [a, b], pitch.phi_1_rad));
         stage.count()?;
         Ok((index, path.contact_ratio(&fit.pitch)))
     };
@@ -225,7 +235,7 @@ fn master(
 }
 
 /// What a larger centre distance changes at some moments of the period.
-fn sensitivity(meshing: &Meshing, period: &RolledPeriod, stage: &Stage) -> Result<Sensitivity> {
+fn sensitivity(meshing: &Meshing, period: &RolledPeriod, stage: &WatchedUnits) -> Result<Sensitivity> {
     let change = |moment: &Moment| {
         let [right, left] = SIDES.map(|side| meshing.side(&moment.pitch, side, PROBE_UM / UM_PER_MM));
         let error_rad = right?.error_rad - moment.right.error_rad;

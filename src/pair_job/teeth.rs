@@ -7,7 +7,7 @@
 
 use super::fit::Fit;
 use super::flanks::PairFlanks;
-use super::watch::Stage;
+use super::watch::WatchedUnits;
 use crate::pair::assembly::{Meshing, Moment, ToothTouch};
 use crate::pair::contact::TouchKind;
 use crate::pair::pitch_pair::Member;
@@ -134,7 +134,7 @@ pub fn teeth(
     moments: &[Moment],
     side: Side,
     marking_um: f64,
-    stage: &Stage,
+    stage: &WatchedUnits,
 ) -> Result<Vec<ToothContact>> {
     let count = i64::from(fit.pitch.teeth().count[0]);
     let none = [[f64::INFINITY, f64::NEG_INFINITY]; 2];

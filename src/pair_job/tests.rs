@@ -2,6 +2,7 @@
 
 mod cut_pairs;
 mod depths;
+mod generated;
 mod parallelism;
 mod refusals;
 mod scallops;

@@ -1,6 +1,6 @@
 //! How far the work is, and Ctrl-C: what every long loop of a pair tells and asks after each of its units.
 //!
-//! In: where progress is shown, the flag that Ctrl-C raises. Out: [`Stage`]s; a unit that is done is counted, and no
+//! In: where progress is shown, the flag that Ctrl-C raises. Out: [`WatchedUnits`]s; a unit that is done is counted, and no
 //! other begins once the flag is raised.
 //!
 //! A pair keeps nothing of what Ctrl-C ends: half a period has no transmission error.
@@ -13,7 +13,7 @@ use gearcut_core::error::Result;
 pub const CUT: [&str; 2] = ["cut gear A", "cut gear B"];
 /// The contact search at every position.
 pub const ROLL: &str = "roll";
-/// Path of contact between the tip curves at some positions.
+/// Path of contact at some positions.
 pub const RATIO: &str = "contact ratio";
 /// Where contact begins and ends.
 pub const BY_TOOTH: &str = "contact by tooth";
@@ -32,7 +32,7 @@ pub const PICTURES: &str = "pictures";
 
 /// How much there is to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Work {
+pub struct RollingWork {
     /// Teeth of both gears.
     pub teeth: [u32; 2],
     /// Whether gear B is a ring.
@@ -57,7 +57,7 @@ pub struct Watch<'a> {
 }
 
 /// Work that consists of equal units, done from any thread.
-pub struct Stage<'a> {
+pub struct WatchedUnits<'a> {
     step: ProgressStep<'a>,
     interrupt: &'a Interrupt,
 }
@@ -69,7 +69,7 @@ impl<'a> Watch<'a> {
     }
 
     /// Tells what is to come, so that the time left of the whole command can be shown.
-    pub fn plan(&self, work: &Work) {
+    pub fn plan(&self, work: &RollingWork) {
         let [sections, positions] = [work.sections, work.positions].map(|count| count as f64);
         let [teeth_a, teeth_b] = work.teeth.map(f64::from);
         // Seconds by trial on two cores; only their proportions count. Helical teeth are hobbed, in space.
@@ -100,9 +100,9 @@ impl<'a> Watch<'a> {
     ///
     /// # Errors
     /// Ctrl-C.
-    pub fn stage(&self, name: &str, total: usize, unit: &str) -> Result<Stage<'a>> {
+    pub fn stage(&self, name: &str, total: usize, unit: &str) -> Result<WatchedUnits<'a>> {
         self.check()?;
-        Ok(Stage { step: self.progress.step(name, total as u64, unit), interrupt: self.interrupt })
+        Ok(WatchedUnits { step: self.progress.step(name, total as u64, unit), interrupt: self.interrupt })
     }
 
     /// Between pieces of work that are no stage.
@@ -114,7 +114,7 @@ impl<'a> Watch<'a> {
     }
 }
 
-impl Stage<'_> {
+impl WatchedUnits<'_> {
     /// A unit is done.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ pub mod bevel;
 pub mod hobbing;
 pub mod shaping;
 
-use crate::findings::Findings;
+use crate::findings::{Findings, Warning};
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -57,7 +57,7 @@ pub trait ProcessJob: Sync {
     ///
     /// # Errors
     /// Geometry that cannot be cut.
-    fn check(&self, sheet: &mut Sheet) -> Result<Vec<String>>;
+    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Warning>>;
 
     /// Shows the gear to `visit`, with which single flanks can be cut.
     ///
@@ -70,7 +70,7 @@ pub trait ProcessJob: Sync {
     ///
     /// # Errors
     /// Files that cannot be written; Ctrl-C.
-    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<String>>;
+    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>>;
 }
 
 /// All processes; a new one adds its line here.

@@ -10,6 +10,7 @@ use super::model::{
 };
 use super::process::SceneProcess;
 use super::values::{Values, View};
+use crate::material::CuttingForce;
 use gearcut_core::gear::{Driver, GearKind, PitchCurveShape, TableScaling};
 use gearcut_core::terms::{Hand, Side};
 use gearcut_texture::Form;
@@ -55,6 +56,23 @@ pub(crate) fn stock_or_offset_mm(operation: View<'_>, pressure_angle_rad: f64) -
     match operation.number("stock_per_flank_mm") {
         Some(stock_mm) => Some(stock_mm / pressure_angle_rad.sin()),
         None => operation.number("offset_mm"),
+    }
+}
+
+/// Cutting force of the material that a scene names.
+pub(crate) fn cutting_force(material: View<'_>) -> Option<CuttingForce> {
+    Some(CuttingForce {
+        per_area_n_per_mm2: material.number("cutting_force_n_per_mm2")?,
+        per_length_n_per_mm: material.number("cutting_edge_force_n_per_mm")?,
+    })
+}
+
+/// Whether straight-line programs are written, of a process that has no others.
+pub(crate) fn linear_programs(values: &Values) -> Option<bool> {
+    match values.view("output").text("gcode")? {
+        "linear" => Some(true),
+        "none" => Some(false),
+        _ => None,
     }
 }
 

@@ -1,5 +1,6 @@
 //! The pitch curve: size, closure, curvature.
 
+use crate::findings::Warning;
 use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Gear;
 use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape, TableScaling};
@@ -77,7 +78,7 @@ pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_
 }
 
 /// What must be known of the curve before cutting.
-pub fn warnings(curve: &PitchCurve, gear: &Gear) -> Vec<String> {
+pub fn warnings(curve: &PitchCurve, gear: &Gear) -> Vec<Warning> {
     let error_mm = curve.closure_error_mm();
     let notable = error_mm.abs() > NOTABLE_CLOSURE_MODULES * gear.module_mm;
     let text = || {
@@ -97,7 +98,7 @@ pub fn warnings(curve: &PitchCurve, gear: &Gear) -> Vec<String> {
             gear.teeth
         )
     });
-    notable.then(text).into_iter().chain(scaled).collect()
+    notable.then(text).into_iter().chain(scaled).map(Warning::warn).collect()
 }
 
 /// What the size of a shape is called, and whether the scene gives it.

@@ -26,9 +26,12 @@ pub fn stock_scale(job: &dyn GearJob) -> ColourScale {
     before_last.unwrap_or(ColourScale::Sequential { low: 0.0, high: 1.0 })
 }
 
-/// Quantity that vertices are coloured by: the stock where there is one, else the normal deviation.
-fn colour(job: &dyn GearJob) -> (&'static str, ColourScale) {
-    if job.operations().len() > 1 {
+/// Quantity that vertices are coloured by: the stock where there is one, else the normal deviation; on bodies from rays
+/// through the blank the pass.
+fn colour(job: &dyn GearJob, mesh: &Mesh) -> (&'static str, ColourScale) {
+    if mesh.scalar("height_um").is_none() {
+        ("pass_id", ColourScale::Sequential { low: 0.0, high: job.passes() as f32 })
+    } else if job.operations().len() > 1 {
         ("stock_mm", stock_scale(job))
     } else {
         ("height_um", ColourScale::Sequential { low: 0.0, high: HEIGHT_COLOURS_UM })
@@ -48,7 +51,8 @@ pub fn write_flank(
 ) -> Result<()> {
     let name = flank_name(tooth, side);
     let title = format!("{}: tooth {tooth}, {} flank", job.scene().name, side.name());
-    let file = MeshFile { mesh: &surface.mesh(&name), title: &title, colour: colour(job), notes: &[] };
+    let mesh = surface.mesh(&name);
+    let file = MeshFile { mesh: &mesh, title: &title, colour: colour(job, &mesh), notes: &[] };
     write_ply(&folder.path(format!("mesh/flanks/{name}.ply"))?, &file)
 }
 
@@ -78,10 +82,9 @@ pub fn gear(
 /// The file cannot be written.
 pub fn write_blank(job: &dyn GearJob, cut: &CutBlank, folder: &OutputFolder) -> Result<()> {
     let title = format!("gear of {}, from rays through the blank", job.scene().name);
-    let passes = job.passes();
-    let colour = ("pass_id", ColourScale::Sequential { low: 0.0, high: passes as f32 });
     let mesh = BlankMesh::new(&cut.field, None).mesh;
-    write_ply(&folder.path("mesh/blank.ply")?, &MeshFile { mesh: &mesh, title: &title, colour, notes: &[] })
+    let file = MeshFile { mesh: &mesh, title: &title, colour: colour(job, &mesh), notes: &[] };
+    write_ply(&folder.path("mesh/blank.ply")?, &file)
 }
 
 /// Writes `mesh/gear.{stl,ply,glb}`; `notes` go into the glTF.
@@ -97,7 +100,7 @@ pub fn write_gear(
 ) -> Result<()> {
     let step = progress.step("meshes", 3, "files");
     let title = format!("gear of {}", job.scene().name);
-    let file = MeshFile { mesh, title: &title, colour: colour(job), notes };
+    let file = MeshFile { mesh, title: &title, colour: colour(job, mesh), notes };
     write_stl(&folder.path("mesh/gear.stl")?, &file)?;
     step.advance(1);
     write_ply(&folder.path("mesh/gear.ply")?, &file)?;

@@ -4,9 +4,11 @@
 //! In: a job ([`GearJob`]) and what it is run with ([`Tools`]). A process puts the steps in its own order and adds what
 //! is its own.
 
+pub mod attempts;
 pub mod axes;
 pub mod check_cost;
 pub mod check_curve;
+pub mod conclusion;
 pub mod cut_flanks;
 pub mod gear_maps;
 pub mod gear_surfaces;
@@ -22,13 +24,14 @@ pub mod summary;
 pub mod view_mesh;
 pub mod whole_blank;
 
+use crate::findings::Warning;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::flank_maps::OperationMaps;
 use crate::output::folder::OutputFolder;
 use crate::output::progress::Progress;
-use crate::output::report::{Page, REPORT_FILE};
 use crate::surface::Mesh;
+use attempts::Attempts;
 use gearcut_core::cut::{Backend, CutStats};
 use gearcut_core::error::{Error, Result};
 use gearcut_core::terms::Side;
@@ -54,19 +57,19 @@ pub struct Work {
 impl Work {
     /// What a reader of the results must know of how flanks were cut: `untouched` dexels were reached by no pass, and
     /// `why` says so for the process.
-    pub fn warnings(&self, untouched: u64, why: &str) -> Vec<String> {
+    pub fn warnings(&self, untouched: u64, why: &str) -> Vec<Warning> {
         let mut warnings = Vec::new();
         if untouched > 0 {
-            warnings.push(format!("{untouched} dexels were reached by no pass: {why}"));
+            warnings.push(Warning::warn(format!("{untouched} dexels were reached by no pass: {why}")));
         }
         let unconverged = self.stats.unconverged;
         if unconverged > 0 {
-            warnings.push(format!(
+            warnings.push(Warning::warn(format!(
                 "{unconverged} rays did not converge: their heights may be too large; please report the scene"
-            ));
+            )));
         }
         if self.interrupted {
-            warnings.push("stopped by Ctrl-C: figures cover the finished flanks only".to_owned());
+            warnings.push(Warning::warn("stopped by Ctrl-C: figures cover the finished flanks only"));
         }
         warnings
     }
@@ -153,41 +156,15 @@ pub fn needs_surfaces(job: &dyn GearJob, parts: Parts) -> bool {
     parts.has(Part::Meshes) || parts.has(Part::Pictures) && !job.scene().pictures.is_empty()
 }
 
-/// Axis programs, with what they have to say.
+/// Meshes of the whole gear and the scene's pictures; whether all pictures were drawn or failed. `body` makes the
+/// gear's closed body, [`meshes::gear`] for a cylindrical one, where it has one; a note says why not.
 ///
 /// # Errors
-/// Those of `write`.
-pub fn write_programs(progress: &Progress, write: impl FnOnce() -> Result<Vec<String>>) -> Result<()> {
-    let step = progress.step("axis programs", 1, "part");
-    let notes = write()?;
-    step.advance(1);
-    step.finish();
-    for note in notes {
-        progress.note(&note);
-    }
-    Ok(())
-}
-
-/// The report.
-///
-/// # Errors
-/// Those of `page`, and a file that cannot be written.
-pub fn write_report(tools: &Tools, page: impl FnOnce() -> Result<Page>) -> Result<()> {
-    let step = tools.progress.step("report", 1, "page");
-    page()?.write(&tools.folder.path(REPORT_FILE)?)?;
-    step.advance(1);
-    step.finish();
-    Ok(())
-}
-
-/// Meshes of the whole gear and the scene's pictures; whether all pictures were drawn. `body` makes the gear's closed
-/// body, [`meshes::gear`] for a cylindrical one: `None`, with a note that says why, where it has none.
-///
-/// # Errors
-/// Those of `body`, but for a refusal; files.
+/// Ctrl-C while the body is made.
 pub fn write_meshes_and_pictures(
     job: &dyn GearJob,
     tools: &Tools,
+    attempts: &mut Attempts,
     flanks: &PicturedFlanks,
     body: impl FnOnce() -> Result<Option<Mesh>>,
 ) -> Result<bool> {
@@ -197,20 +174,22 @@ pub fn write_meshes_and_pictures(
         return Ok(true);
     }
     let solid = match body() {
-        // What was cut and measured is not lost for a mesh.
+        Ok(solid) => solid,
+        // A gear that has no closed body: flanks that do not meet.
         Err(Error::Refused(refusal)) => {
-            progress.note(&format!("{NO_BODY}; mesh/blank.ply shows the gear. {refusal}"));
+            let why = refusal.problem;
+            attempts.tell(Warning::warn(format!("{NO_BODY}; mesh/blank.ply shows the gear: {why}")));
             None
         }
-        other => other?,
+        Err(other) => attempts.of("the gear's closed body", Err(other))?.flatten(),
     };
     if let Some(solid) = solid.as_ref().filter(|_| parts.has(Part::Meshes)) {
-        meshes::write_gear(job, solid, folder, notes, progress)?;
+        attempts.of("meshes of the gear", meshes::write_gear(job, solid, folder, notes, progress))?;
     }
     if asked == 0 {
         return Ok(true);
     }
-    let drawn = pictures::draw(job, solid.as_ref(), flanks, tools)?;
+    let drawn = pictures::draw(job, solid.as_ref(), flanks, tools, attempts)?;
     if drawn < asked {
         progress.note(&format!("stopped: {drawn} of {asked} pictures are drawn"));
     }

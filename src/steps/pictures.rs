@@ -6,6 +6,7 @@
 pub mod flank;
 
 use super::Tools;
+use super::attempts::Attempts;
 use super::meshes::stock_scale;
 use crate::colormap::ColourScale;
 use crate::interrupt::Interrupt;
@@ -28,11 +29,17 @@ use std::f64::consts::PI;
 /// Colours run between these quantiles of the values; what lies beyond is marked at the colour bar.
 const SHOWN: [f64; 2] = [0.01, 0.98];
 /// Draws all pictures of the scene into `pictures/`, those of the gear and of teeth where there is a `solid`; how many
-/// were finished, or had nothing to show, before Ctrl-C.
+/// were finished, failed, or had nothing to show, before Ctrl-C.
 ///
 /// # Errors
-/// Files that cannot be written.
-pub fn draw(job: &dyn GearJob, solid: Option<&Mesh>, flanks: &PicturedFlanks, tools: &Tools) -> Result<usize> {
+/// A device that failed where the user wants the run to stop.
+pub fn draw(
+    job: &dyn GearJob,
+    solid: Option<&Mesh>,
+    flanks: &PicturedFlanks,
+    tools: &Tools,
+    attempts: &mut Attempts,
+) -> Result<usize> {
     let Tools { progress, interrupt, folder, notes, .. } = *tools;
     let pictures = &job.scene().pictures;
     if pictures.is_empty() {
@@ -50,12 +57,13 @@ pub fn draw(job: &dyn GearJob, solid: Option<&Mesh>, flanks: &PicturedFlanks, to
             (PictureView::Gear | PictureView::Tooth, None) => None,
             (PictureView::Flank, _) => flanks.get(&index).map(|grid| draw_flank(job, picture, grid, interrupt)),
         };
-        match drawn {
-            Some(Ok(drawn)) => drawn.write(picture, folder, notes)?,
+        let written = match drawn {
+            Some(Ok(drawn)) => drawn.write(picture, folder, notes),
             Some(Err(Error::Interrupted)) => return Ok(index),
-            Some(Err(other)) => return Err(other),
-            None => {}
-        }
+            Some(Err(other)) => Err(other),
+            None => Ok(()),
+        };
+        attempts.of(&format!("picture {}", picture.name), written)?;
         step.advance(1);
     }
     step.finish();
@@ -90,7 +98,7 @@ impl DrawnPicture {
     }
 }
 
-/// What colours show on a mesh.
+/// What colours show on a mesh; nothing where it has no such quantity.
 fn look(job: &dyn GearJob, colour: PictureColour, mesh: &Mesh) -> (Look, Option<Legend<'static>>) {
     let (name, quantity, unit) = match colour {
         PictureColour::Clay => return (CLAY, None),
@@ -98,14 +106,14 @@ fn look(job: &dyn GearJob, colour: PictureColour, mesh: &Mesh) -> (Look, Option<
         PictureColour::Height => ("height_um", "normal deviation", "µm"),
         PictureColour::Pass => ("pass_id", "pass that left the surface, counted in time", "1"),
     };
-    let scale = match (colour, mesh.scalar(name).map(|scalar| &scalar.values)) {
+    let Some(scalar) = mesh.scalar(name) else { return (CLAY, None) };
+    let scale = match (colour, &scalar.values) {
         (PictureColour::Stock, _) => stock_scale(job),
-        (_, Some(ScalarValues::F32(values))) => ColourScale::between_quantiles([values.as_slice()], SHOWN),
-        (_, Some(ScalarValues::U32(values))) => {
+        (_, ScalarValues::F32(values)) => ColourScale::between_quantiles([values.as_slice()], SHOWN),
+        (_, ScalarValues::U32(values)) => {
             let cut: Vec<f32> = values.iter().filter(|&&v| v != NO_PASS).map(|&v| v as f32).collect();
             ColourScale::sequential_over([cut.as_slice()])
         }
-        (_, None) => ColourScale::Sequential { low: 0.0, high: 1.0 },
     };
     (Look::Scalar { name, scale }, Some(Legend { quantity, unit, scale }))
 }

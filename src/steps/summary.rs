@@ -2,6 +2,7 @@
 
 use super::Work;
 use crate::findings::Findings;
+use crate::findings::warning::count_words;
 use crate::output::summary;
 use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Gear;
@@ -28,5 +29,6 @@ pub fn text(gear: &Gear, findings: &Findings, flanks: usize, work: &Work, out: &
     let seconds = significant(work.elapsed.as_secs_f64(), 3);
     summary::line(&mut sheet, "cut, measured and mapped in", &format!("{seconds} s"));
     sheet.line("written to", out.display().to_string());
+    sheet.line("told above", count_words(&findings.warnings));
     sheet.into_text()
 }

@@ -2,7 +2,7 @@
 
 use super::files::stems;
 use super::{WindowTexture, chart};
-use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
+use crate::findings::{Datum, Quantity, Section, Table, TableColumn, Warning};
 use crate::job::GearJob;
 use crate::measure::topography::{Evaluation, Parameter};
 use gearcut_core::units::UM_PER_MM;
@@ -34,14 +34,33 @@ pub fn findings(job: &dyn GearJob, textures: &[WindowTexture]) -> Section {
     Section::new("texture", "Surface texture (ISO 25178-2)").parts(parts)
 }
 
+/// What a reader must know before trusting the numbers of windows, each sentence about its window's section.
+pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
+    let (stems, operations) = (stems(job, textures), job.operations());
+    let of = |(texture, stem): (&WindowTexture, &String)| -> Vec<Warning> {
+        let operation = operations[texture.operation].0;
+        let (tooth, side) = (texture.window.tooth, texture.window.side.name());
+        let told = texture.warnings().into_iter().map(|text| {
+            let text = format!("texture of tooth {tooth} {side} after {operation}: {text}");
+            Warning::note(text).about(format!("texture.{operation}.{}", key_of(stem)))
+        });
+        told.collect()
+    };
+    textures.iter().zip(&stems).flat_map(of).collect()
+}
+
+/// Key of a window's section: the last part of its stem.
+fn key_of(stem: &str) -> &str {
+    stem.rsplit('/').next().unwrap_or(stem)
+}
+
 fn window(texture: &WindowTexture, stem: &str) -> Section {
     let window = &texture.window;
     let (center, length, spacing) = (window.center_mm(), window.length_mm(), window.spacing_mm());
     let mm = |value: f64, definition: &'static str| Quantity::number(value, "mm", definition);
     let um = |value: f64, definition: &'static str| Quantity::number(value * UM_PER_MM, "um", definition);
     let marks = |count: usize, definition: &'static str| Quantity::count(count as u64, "marks", definition);
-    let key = stem.rsplit('/').next().unwrap_or(stem);
-    let section = Section::new(key, format!("tooth {} {}", window.tooth, window.side.name()))
+    let section = Section::new(key_of(stem), format!("tooth {} {}", window.tooth, window.side.name()))
         .with("tooth", Quantity::count(window.tooth.into(), "1", "tooth, from 1"))
         .with("flank", Quantity::text(window.side.name(), "flank: left or right"))
         .with(
@@ -65,16 +84,13 @@ fn window(texture: &WindowTexture, stem: &str) -> Section {
                  strokes, marks run along the tooth without end",
             ),
         )
-        .with("files", Quantity::text(stem, "files of the window without their endings, in the output folder"))
-        .warning(texture.warnings());
+        .with("files", Quantity::text(stem, "files of the window without their endings, in the output folder"));
     match &texture.evaluated {
         Ok(evaluated) => section
             .with("chain", Quantity::text(evaluated.chain.join("; "), CHAIN))
             .part(parameters(&evaluated.evaluation))
             .part(material_ratio(&evaluated.evaluation)),
-        Err(reason) => section
-            .with("chain", Quantity::undefined("1", CHAIN, reason.clone()))
-            .warning([format!("the window could not be evaluated: {reason}")]),
+        Err(reason) => section.with("chain", Quantity::undefined("1", CHAIN, reason.clone())),
     }
 }
 

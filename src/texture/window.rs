@@ -2,7 +2,9 @@
 //!
 //! Without a `[[texture]]` in the scene, the whole active flanks (the evaluated profile over the whole face) of some
 //! teeth are taken: those between which the marks differ most (on a cylindrical gear the ones with the largest and the
-//! smallest radius of the pitch curve), and tooth 3, which Gao et al. (2017, Fig. 13) measured.
+//! smallest radius of the pitch curve), and tooth 3, which Gao et al. (2017, Fig. 13) measured. They show the finished
+//! surface alone: what roughing leaves there is its fillet and its feed, not a texture that anybody measures. Windows
+//! that a scene asks for show every operation.
 
 use crate::job::GearJob;
 use crate::measure::topography::Form;
@@ -32,6 +34,8 @@ pub struct Window {
     pub count: [usize; 2],
     /// F-operator.
     pub form: Form,
+    /// Whether it shows what every operation left, as windows of a scene do, or the finished surface alone.
+    pub every_operation: bool,
 }
 
 impl Window {
@@ -174,5 +178,6 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
     // What is left over of the last step is shared by both ends.
     let start = |[low, high]: [f64; 2], k: usize| low + 0.5 * ((high - low) - step_mm[k] * (count[k] - 1) as f64);
     let start_mm = [start(along_tooth, 0), start(profile, 1).max(0.0)];
-    Ok(Window { tooth: spec.tooth, side, start_mm, step_mm, count, form: spec.form })
+    let every_operation = !job.scene().textures.is_empty();
+    Ok(Window { tooth: spec.tooth, side, start_mm, step_mm, count, form: spec.form, every_operation })
 }

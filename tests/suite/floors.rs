@@ -139,3 +139,37 @@ fn planted_circles_are_noticed() {
     let children = planted(&sources, "tool::edge", "use super::CuttingTool;");
     assert_eq!(circles(&imports(&children)), [""; 0], "a head and its children are not counted");
 }
+
+/// Names that two types may share: every crate has its own error, and one of two modules stands for the GPU's devices.
+const SHARED_NAMES: [&str; 2] = ["Error", "Devices"];
+
+/// Names of types with the files that declare them, where there are two.
+fn names_of_two_types<'a>(files: impl IntoIterator<Item = (String, &'a str)>) -> Vec<String> {
+    let mut homes: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for (home, text) in files {
+        for line in text.lines() {
+            let declared = ["struct ", "enum ", "trait "].iter().find_map(|kind| {
+                let after = line.trim_start().strip_prefix("pub")?;
+                let after = after.strip_prefix('(').map_or(after, |scope| scope.split_once(')').map_or("", |s| s.1));
+                after.trim_start().strip_prefix(kind)
+            });
+            let Some(after) = declared else { continue };
+            let name = after.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("");
+            homes.entry(name).or_default().push(home.clone());
+        }
+    }
+    let twice = homes.iter().filter(|(name, homes)| homes.len() > 1 && !SHARED_NAMES.contains(name));
+    twice.map(|(name, homes)| format!("{name}: {}", homes.join(", "))).collect()
+}
+
+#[test]
+fn no_two_types_have_one_name() {
+    let all: Vec<(String, String)> = CRATES
+        .iter()
+        .flat_map(|source| read(source).into_iter().map(move |(module, text)| (format!("{source} {module:?}"), text)))
+        .collect();
+    let twice = names_of_two_types(all.iter().map(|(home, text)| (home.clone(), text.as_str())));
+    assert!(twice.is_empty(), "one name, two types:\n{}", twice.join("\n"));
+    let planted = ["pub struct Span {", "    pub(crate) enum Span;"].map(|text| ("planted".to_owned(), text));
+    assert_eq!(names_of_two_types(planted), ["Span: planted, planted"]);
+}

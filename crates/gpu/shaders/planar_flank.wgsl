@@ -6,9 +6,9 @@
 // rounding to f32 is a part.
 
 @group(0) @binding(0) var<uniform> launch: Launch;
-@group(0) @binding(1) var<storage, read> tiles: array<Tile>;
-@group(0) @binding(2) var<storage, read> columns: array<Column>;
-@group(0) @binding(3) var<uniform> records: array<PassRecord, ROUND_RECORDS>;
+@group(0) @binding(1) var<storage, read> tiles: array<FlankTile>;
+@group(0) @binding(2) var<storage, read> columns: array<FlankColumn>;
+@group(0) @binding(3) var<uniform> records: array<FlankPass, ROUND_RECORDS>;
 // Rows in fours; columns follow each other, each filled up to whole fours. Phase tau of a column's rows.
 @group(0) @binding(4) var<storage, read> row_phases: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> heights_mm: array<vec4<f32>>;
@@ -63,7 +63,7 @@ fn quad(column: u32, index: u32, column_there: bool) -> Quad {
     return Quad(at, there, row_there, row_phases[in_column], heights_mm[at], passes[at], vec4(0u));
 }
 
-fn lowered(quad: Quad, ray: RayCubics, record: PassRecord, low_mm: f32) -> Quad {
+fn lowered(quad: Quad, ray: RayCubics, record: FlankPass, low_mm: f32) -> Quad {
     let rays =
         Rays(cubic(ray.x, quad.tau), cubic(ray.y, quad.tau), cubic(ray.nx, quad.tau), cubic(ray.ny, quad.tau));
     var entries: Entries;

@@ -5,8 +5,8 @@
 // crates/core/src/cut/cpu/spatial.rs; derivation: crates/core/src/passes/spatial/sweep.rs. Adds at most 2 nm to a
 // height.
 
-@group(0) @binding(0) var<storage, read> tiles: array<SweepTile>;
-@group(0) @binding(1) var<storage, read> records: array<SweepRecord>;
+@group(0) @binding(0) var<storage, read> tiles: array<SpatialTile>;
+@group(0) @binding(1) var<storage, read> records: array<SpatialPass>;
 // Coefficients of x = c0 + t (c1 + t (c2 + t c3)), all segments after each other.
 @group(0) @binding(2) var<storage, read> cells: array<vec4<f32>>;
 // Six for each group of four rows: x, y, z of the origins against the tile's, x, y, z of the directions.
@@ -50,7 +50,7 @@ struct Rays {
     n: array<vec4<f32>, 3>,
 }
 
-fn path(record: SweepRecord, row: u32, q: array<vec4<f32>, 3>, n: array<vec4<f32>, 3>) -> Path {
+fn path(record: SpatialPass, row: u32, q: array<vec4<f32>, 3>, n: array<vec4<f32>, 3>) -> Path {
     var out: Path;
     for (var k = 0u; k < 3u; k++) {
         let turn = record.turn[3u * k + row];

@@ -21,7 +21,7 @@ const WORKGROUPS: usize = 65535;
 /// Records of a launch.
 const ROUND_RECORDS: usize = pipeline::ROUND_RECORDS as usize;
 /// Bytes of their buffer.
-const ROUND_BYTES: u64 = (ROUND_RECORDS * size_of::<records::PassRecord>()) as u64;
+const ROUND_BYTES: u64 = (ROUND_RECORDS * size_of::<records::FlankPass>()) as u64;
 
 /// What a device and the memory limit allow.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +53,9 @@ pub struct Batch {
 /// Bytes that a batch needs: dexels once on the device and once to come back, columns, rounds of records.
 pub fn batch_bytes(rows: usize, columns: usize, records: usize) -> u64 {
     let dexels = (padded(rows) * columns) as u64;
-    dexels * 16 + (columns * size_of::<records::Column>()) as u64 + records.div_ceil(ROUND_RECORDS) as u64 * ROUND_BYTES
+    dexels * 16
+        + (columns * size_of::<records::FlankColumn>()) as u64
+        + records.div_ceil(ROUND_RECORDS) as u64 * ROUND_BYTES
 }
 
 /// Rows of a column filled up to whole quads.
@@ -120,9 +122,9 @@ pub fn batches(plan: &CutPlan, allowance: Allowance) -> Result<Vec<Batch>, GpuPr
 #[derive(Debug, Default)]
 pub struct Round {
     /// Tiles, one for each piece.
-    pub tiles: Vec<records::Tile>,
+    pub tiles: Vec<records::FlankTile>,
     /// Records of all of them.
-    pub records: Vec<records::PassRecord>,
+    pub records: Vec<records::FlankPass>,
     /// Columns of the widest tile.
     pub widest: usize,
     /// (Dexel, pass) pairs.
@@ -178,8 +180,8 @@ impl Round {
         by_pairs.min(ROUND_RECORDS - self.records.len())
     }
 
-    fn take(&mut self, piece: &TileColumns, batch: &Batch, dexels: u64, records: &[records::PassRecord]) {
-        self.tiles.push(records::Tile {
+    fn take(&mut self, piece: &TileColumns, batch: &Batch, dexels: u64, records: &[records::FlankPass]) {
+        self.tiles.push(records::FlankTile {
             first_column: (piece.columns.start - batch.columns.start) as u32,
             column_count: piece.columns.len() as u32,
             first_record: self.records.len() as u32,
@@ -197,7 +199,7 @@ impl Round {
     }
 
     /// The records, filled up to what the shader declares.
-    pub fn padded_records(&self) -> Vec<records::PassRecord> {
+    pub fn padded_records(&self) -> Vec<records::FlankPass> {
         let mut records = self.records.clone();
         records.resize(ROUND_RECORDS, bytemuck::Zeroable::zeroed());
         records

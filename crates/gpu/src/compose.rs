@@ -1,6 +1,6 @@
 //! From the plan's f64 records to f32 records that lose nothing.
 //!
-//! In: tiles, their rays, plan. Out: [`records::PassRecord`] and [`records::Column`].
+//! In: tiles, their rays, plan. Out: [`records::FlankPass`] and [`records::FlankColumn`].
 //!
 //! A record of the plan maps the tile's frame to the segment's: millimetres on both sides, where f32 resolves half a
 //! nanometre and a Newton step on differences of such numbers loses several. So the last subtraction is done here, in
@@ -31,7 +31,7 @@ pub fn records(
     segment: &Segment,
     columns: &[Column],
     tile_origin_mm: DVec2,
-    out: &mut Vec<records::PassRecord>,
+    out: &mut Vec<records::FlankPass>,
 ) {
     let start_mm = f64::from(record.start_mm as f32);
     let n = middle(columns).normal;
@@ -42,7 +42,7 @@ pub fn records(
     }
     let [from, to] = [segment.y_range_mm[0] - END_OVERLAP_MM, segment.y_range_mm[1] + END_OVERLAP_MM];
     let place = DVec2::new(x[0], y[0]);
-    let counted_from = |base: DVec2, [from, to]: [f64; 2]| records::PassRecord {
+    let counted_from = |base: DVec2, [from, to]: [f64; 2]| records::FlankPass {
         cos: record.cos.map(|c| c as f32),
         sin: record.sin.map(|c| c as f32),
         x_mm: [x[0] - base.x, x[1], x[2], x[3]].map(|c| c as f32),
@@ -64,7 +64,7 @@ pub fn records(
             near_edge::curves(table, range, place.y, &mut curves);
             out.extend(curves.iter().map(|curve| {
                 let [c1, c2, c3, c4, c5] = curve.coefficients.map(|c| c as f32);
-                records::PassRecord {
+                records::FlankPass {
                     curve: [c1, c2, c3, c4],
                     curve_5: c5,
                     ..counted_from(curve.base_mm, curve.range_mm.map(|t| curve.base_mm.y + t))
@@ -74,7 +74,7 @@ pub fn records(
         SegmentShape::Arc { radius_mm } => {
             let base = ArcBase::new(*radius_mm, place);
             let [center_x, center_y] = base.from_center_mm;
-            out.push(records::PassRecord {
+            out.push(records::FlankPass {
                 curve: [center_x, center_y, base.excess_mm2, 0.0],
                 is_arc: 1,
                 ..counted_from(base.point, [from, to])
@@ -110,9 +110,9 @@ impl ArcBase {
 }
 
 /// A column for the shader, in the frame of its tile.
-pub fn column(ray: &Column, tile_origin_mm: DVec2, middle: &Column) -> records::Column {
+pub fn column(ray: &Column, tile_origin_mm: DVec2, middle: &Column) -> records::FlankColumn {
     let pair = |v: DVec2| [v.x as f32, v.y as f32];
-    records::Column {
+    records::FlankColumn {
         offset_mm: pair(ray.origin_mm - tile_origin_mm),
         normal: pair(ray.normal),
         normal_change: pair(ray.normal - middle.normal),

@@ -82,14 +82,14 @@ impl CutInputs<'_> {
             field.columns[piece.columns.clone()].iter().map(move |ray| compose::column(ray, tile.origin_mm, &middle))
         });
         let dexels = batch.columns.start * rows..batch.columns.end * rows;
-        let columns: Vec<records::Column> = columns.collect();
+        let columns: Vec<records::FlankColumn> = columns.collect();
         let rounds = Round::compose(batch, plan, field);
         let launch = records::Launch {
             rows: rows as u32,
             quads: (row_phases.len() / pipeline::QUAD_ROWS) as u32,
             threads_per_column: pipeline::threads_per_column(rows) as u32,
         };
-        let records: Vec<Vec<records::PassRecord>> = rounds.iter().map(Round::padded_records).collect();
+        let records: Vec<Vec<records::FlankPass>> = rounds.iter().map(Round::padded_records).collect();
         let shared = |label, bytes| Input::Shared { label, bytes, usage: wgpu::BufferUsages::STORAGE };
         let launches: Vec<StageLaunch> = rounds
             .iter()

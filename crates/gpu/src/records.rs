@@ -20,7 +20,7 @@ pub struct Launch {
 /// Columns that visit the same passes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct Tile {
+pub struct FlankTile {
     /// First column of the batch.
     pub first_column: u32,
     /// Number of columns.
@@ -34,7 +34,7 @@ pub struct Tile {
 /// One ray of the transverse plane, in the frame of its tile.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct Column {
+pub struct FlankColumn {
     /// Origin against the tile's origin, mm.
     pub offset_mm: [f32; 2],
     /// Unit direction.
@@ -50,7 +50,7 @@ pub struct Column {
 /// One pass of one segment over one tile; coefficients belong to tau^0 to tau^3.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct PassRecord {
+pub struct FlankPass {
     /// Cosine of the rotation from the tile's frame into the segment's.
     pub cos: [f32; 4],
     /// Sine of it.

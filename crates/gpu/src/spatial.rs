@@ -15,11 +15,11 @@ use super::edge_cells::EdgeCells;
 use super::pipeline::{self, SPATIAL_ROWS_PER_THREAD};
 use super::problem::GpuProblem;
 use super::readback::{self, InFlight, Input, Returned, Shipment, StageLaunch};
-use super::sweep_records::{SweepRecord, SweepTile};
+use super::sweep_records::{SpatialPass, SpatialTile};
 use gearcut_core::dexel::{Layer, SpatialField};
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::passes::spatial::sweep;
-use gearcut_core::passes::spatial::sweep_tile::SweepTile as PlanTile;
+use gearcut_core::passes::spatial::sweep_tile::SweepTile;
 use gearcut_core::tool::edge::{Segment, SegmentShape};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -71,12 +71,12 @@ pub fn cut_on_device(
 }
 
 /// Groups of a tile.
-fn groups(tile: &PlanTile) -> usize {
+fn groups(tile: &SweepTile) -> usize {
     tile.columns.len() * tile.rows.len().div_ceil(ROWS)
 }
 
 /// Dexel of every lane of every group of some tiles.
-fn lanes<'a>(field: &'a SpatialField, tiles: &'a [PlanTile]) -> impl Iterator<Item = usize> + 'a {
+fn lanes<'a>(field: &'a SpatialField, tiles: &'a [SweepTile]) -> impl Iterator<Item = usize> + 'a {
     tiles.iter().flat_map(move |tile| {
         tile.columns.clone().flat_map(move |column| {
             tile.rows.clone().step_by(ROWS).flat_map(move |first| {
@@ -88,7 +88,7 @@ fn lanes<'a>(field: &'a SpatialField, tiles: &'a [PlanTile]) -> impl Iterator<It
 
 /// Records that fit the device together.
 fn records_at_most(Allowance { buffer_bytes, batch_bytes }: Allowance) -> usize {
-    buffer_bytes.min(batch_bytes / 2) as usize / size_of::<SweepRecord>()
+    buffer_bytes.min(batch_bytes / 2) as usize / size_of::<SpatialPass>()
 }
 
 /// Runs of tiles that fit the device together. Their records keep to half of its memory, unless a single tile has more.
@@ -125,8 +125,8 @@ fn batches(plan: &SweepPlan, allowance: Allowance) -> Result<Vec<Range<usize>>, 
 /// One launch: the next records of the tiles that have any left.
 #[derive(Default)]
 struct SweepRound {
-    tiles: Vec<SweepTile>,
-    records: Vec<SweepRecord>,
+    tiles: Vec<SpatialTile>,
+    records: Vec<SpatialPass>,
 }
 
 impl SweepRound {
@@ -161,7 +161,7 @@ fn send(
         for (round, records) in plan.records[tile.records.clone()].chunks(round_records).enumerate() {
             rounds.resize_with(rounds.len().max(round + 1), SweepRound::default);
             let SweepRound { tiles, records: composed } = &mut rounds[round];
-            tiles.push(SweepTile {
+            tiles.push(SpatialTile {
                 middle: middle.extend(field.low_mm as f32).to_array(),
                 first_group,
                 group_count: groups(tile) as u32,
@@ -209,7 +209,7 @@ fn send(
 }
 
 /// A record for the shader; `middle` is the direction of the tile's middle ray as the shader has it.
-fn compose(cells: &EdgeCells, record: &sweep::SweepRecord, segment: &Segment, middle: DVec3) -> SweepRecord {
+fn compose(cells: &EdgeCells, record: &sweep::SweepRecord, segment: &Segment, middle: DVec3) -> SpatialPass {
     let start_mm = f64::from(record.start.height_mm[0] as f32);
     let (mut place, axes) = (record.place_mm, segment.blade_from_segment.rotation);
     for (place, turn) in place.iter_mut().zip(&record.turn) {
@@ -243,7 +243,7 @@ fn compose(cells: &EdgeCells, record: &sweep::SweepRecord, segment: &Segment, mi
         let [x, y, z] = turn[k][r];
         [x, y, z, place[k][r]].map(|c| c as f32)
     };
-    SweepRecord {
+    SpatialPass {
         turn: std::array::from_fn(|i| row(i / 3, i % 3)),
         place_3: [place[3][0], place[3][1], place[3][2], start_mm].map(|c| c as f32),
         radius_mm: radius_mm as f32,

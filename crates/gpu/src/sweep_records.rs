@@ -8,7 +8,7 @@ use bytemuck::{Pod, Zeroable};
 /// Dexels that visit the same passes, in groups of four rows.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct SweepTile {
+pub struct SpatialTile {
     /// Direction of the tile's middle ray, and the lowest height that rays record, mm.
     pub middle: [f32; 4],
     /// First group of the batch.
@@ -24,7 +24,7 @@ pub struct SweepTile {
 /// One sweep of one segment over one tile.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct SweepRecord {
+pub struct SpatialPass {
     /// Rows r, q, y of the rotation, three for each of u^0, u^1, u^2; last the same coefficient of the place of the
     /// tile's middle ray at the start height, mm.
     pub turn: [[f32; 4]; 9],

@@ -43,6 +43,8 @@ pub enum Block {
     Texture(TextureBlock),
     /// A picture with what it shows: PNG, plain or animated.
     Picture(String, Vec<u8>),
+    /// A drawing with what it shows: SVG that brings its own colours.
+    Drawing(String, String),
     /// Blocks that are folded away until asked for.
     Folded(String, Vec<Block>),
     /// Text as it is, such as a scene.
@@ -78,6 +80,12 @@ impl Block {
                 figure class="picture" {
                     figcaption { (words) }
                     img src=(data_url("image/png", png)) alt=(words);
+                }
+            },
+            Self::Drawing(words, svg) => html! {
+                figure class="picture" {
+                    figcaption { (words) }
+                    img src=(data_url("image/svg+xml", svg.as_bytes())) alt=(words);
                 }
             },
             Self::Folded(summary, blocks) => html! {

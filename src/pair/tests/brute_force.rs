@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::pair::flank_chain::PolarFlank;
-use crate::pair::pitch_pair::FlankPoint;
+use crate::pair::pitch_pair::ConjugatePoint;
 use serde_json::json;
 use std::f64::consts::TAU;
 
@@ -57,7 +57,7 @@ fn nothing_is_missed_at_twenty_positions() {
     let driver = flank_chain::nominal(&pair, Member::Driver, tips, extra(1)).expect("flanks");
     let driven = flank_chain::nominal(&pair, Member::Driven, tips, extra(2)).expect("flanks");
     let errors = json!({ "delta_a": 0.05 });
-    let mounting = Mounting { center_distance_error_mm: number(&errors, "delta_a"), ..Mounting::default() };
+    let mounting = AssemblyErrors { center_distance_error_mm: number(&errors, "delta_a"), ..AssemblyErrors::default() };
     let meshing = Meshing::new(pair.clone(), &driver, &driven, &mounting).expect("gears that roll");
     let dense = |chains: &[FlankChain], steps: usize| -> Vec<Vec<glam::DVec2>> {
         let points = |c: &FlankChain| (0..=steps).map(|i| c.at(c.last() * i as f64 / steps as f64)).collect();
@@ -96,7 +96,7 @@ fn kinked_chains_touch_at_their_corners() {
     let at = pair.at(0.44);
     let crossing = pair.crossing_mm(Side::Right, 4);
     let crest = pair.flank_point(Member::Driver, Side::Right, crossing, at.phi_1_rad);
-    let beside = |phi: f64| -> FlankPoint { pair.flank_point(Member::Driver, Side::Right, crossing, phi) };
+    let beside = |phi: f64| -> ConjugatePoint { pair.flank_point(Member::Driver, Side::Right, crossing, phi) };
     let points = vec![beside(0.43).point_mm, crest.point_mm + 1e-3 * crest.normal, beside(0.45).point_mm];
     let kinked = FlankChain::straight(points);
     let polar = PolarFlank::new(driven.get(Side::Right, 4)).expect("a flank");

@@ -1,8 +1,8 @@
 //! Form points against what the mate's tips ask for.
 
+use super::sharp_cutter::needed_reach;
 use super::*;
 use crate::pair::contact_ratio::path_of_contact;
-use crate::pair::interference::needed_reach;
 
 #[test]
 fn tips_that_ask_for_contact_below_the_form_point() {

@@ -5,6 +5,7 @@ mod form_points;
 mod harmonics;
 mod nominal;
 mod rigid_errors;
+mod sharp_cutter;
 mod single_flank;
 mod tight;
 
@@ -13,13 +14,13 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
-use super::assembly::{Meshing, Mounting};
+use super::assembly::{AssemblyErrors, Meshing};
 use super::flank_chain::{self, FlankChain, GearFlanks};
-use super::interference::SharpCutter;
 use super::pitch_pair::{Member, PairTeeth, PitchPair, PitchPoint};
 use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape};
 use gearcut_core::math::extremum::maximum;
 use gearcut_core::terms::Side;
+use sharp_cutter::SharpCutter;
 
 fn data(name: &str) -> Value {
     let path = format!("{}/tests/data/pair/{name}.json", env!("CARGO_MANIFEST_DIR"));
@@ -97,10 +98,10 @@ fn meshing(pair: &PitchPair, addendum_mm: [f64; 2], errors: &Value) -> Meshing {
     let off = |e: &str, eps: &str| optional(errors, e) * glam::DVec2::from_angle(optional(errors, eps));
     // The driven gear's angles count from the pitch point at phi_1 = 0, which an external one has on its left.
     let around = if pair.sign() > 0.0 { PI } else { 0.0 };
-    let mounting = Mounting {
+    let mounting = AssemblyErrors {
         center_distance_error_mm: optional(errors, "delta_a"),
         eccentricity_mm: [off("e1", "eps1"), glam::DVec2::from_angle(around).rotate(off("e2", "eps2"))],
-        ..Mounting::default()
+        ..AssemblyErrors::default()
     };
     let driver = thinned(pair, Member::Driver, addendum_mm, optional(errors, "thin1"));
     let driven = thinned(pair, Member::Driven, addendum_mm, optional(errors, "thin2"));

@@ -5,6 +5,9 @@ use crate::pair::contact::TouchKind;
 use crate::pair::contact_ratio::tooth_path;
 use gearcut_core::units::UM_PER_MM;
 
+/// Teeth beside the wrong one that may be in contact with it.
+const TEETH_BESIDE: i64 = 3;
+
 #[test]
 fn errors_of_one_flank_and_corners_that_touch() {
     let file = data("p06_s0_form_pitch");
@@ -23,8 +26,12 @@ fn errors_of_one_flank_and_corners_that_touch() {
             flank_chain::nominal(&pair, member, tips, extra_mm).expect("flanks")
         };
         let meshing =
-            Meshing::new(pair.clone(), &flanks(Member::Driver), &flanks(Member::Driven), &Mounting::default())
+            Meshing::new(pair.clone(), &flanks(Member::Driver), &flanks(Member::Driven), &AssemblyErrors::default())
                 .expect("gears that roll");
+        let others: Vec<_> = (wrong - TEETH_BESIDE..=wrong + TEETH_BESIDE)
+            .filter(|&tooth| tooth != wrong)
+            .map(|tooth| tooth_path(&pair, Side::Right, tooth, tips).expect("tips"))
+            .collect();
         let (mut inner, mut edge) = (Largest::default(), Largest::default());
         for (i, phi) in numbers(&case["phi1"]).into_iter().enumerate() {
             let moment = meshing.at(phi).expect("flanks that touch");
@@ -36,6 +43,9 @@ fn errors_of_one_flank_and_corners_that_touch() {
                 let far = number(case, "max_difference_from_closed_form_off_edges_arcsec");
                 Largest::default().within(arcsec(moment.right.error_rad), closed, far + 0.002, name);
             }
+            let in_contact =
+                others.iter().filter(|path| (path.phi_at_driven_tip_rad..path.phi_at_driver_tip_rad).contains(&phi));
+            assert_eq!(in_contact.count() as u64, case["other_pairs_in_contact"][i].as_u64().expect("a number"));
             let what = format!("{name} at {phi}: {kind}, {:?}", moment.right.acting);
             let error = arcsec(moment.right.error_rad);
             if kind == "inner" {

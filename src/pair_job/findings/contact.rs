@@ -3,8 +3,10 @@
 use super::{at_angle, at_moment, largest_at, tables};
 use crate::findings::{Place, Quantity, Section};
 use crate::pair_job::corners::DeepestCorner;
+use crate::pair_job::fit::SIDES;
+use crate::pair_job::flanks::FlankSource;
 use crate::pair_job::options::PairOptions;
-use crate::pair_job::rolled::{RolledPair, SIDES};
+use crate::pair_job::rolled::RolledPair;
 use crate::pair_job::teeth::LEAST_LIFT_UM;
 use crate::scene::Scene;
 use gearcut_core::terms::Side;
@@ -41,16 +43,18 @@ fn side_section(options: &PairOptions, rolled: &RolledPair, at: usize) -> Sectio
             .and("touching", edge.kind.name())),
         None => lift,
     };
+    let path = match options.source {
+        FlankSource::Cut => {
+            "smallest of the contact ratios of all moments: path of contact between tip curves and form points over the \
+            base pitch"
+        }
+        FlankSource::Nominal => {
+            "smallest of the contact ratios of all moments: path of contact between the tip curves over the base pitch"
+        }
+    };
     let title = if side == Side::Right { "Right flanks" } else { "Left flanks" };
     Section::new(side.name(), title)
-        .with(
-            "smallest_contact_ratio",
-            extreme(
-                -1.0,
-                "smallest of the contact ratios of all moments: path of contact between the tip curves over \
-                the base pitch",
-            ),
-        )
+        .with("smallest_contact_ratio", extreme(-1.0, path))
         .with("mean_contact_ratio", Quantity::number(mean, "1", "mean of the contact ratios of all moments"))
         .with("largest_contact_ratio", extreme(1.0, "largest of the contact ratios of all moments"))
         .shown(

@@ -3,7 +3,8 @@
 use super::ARCSEC_PER_RAD;
 use crate::findings::{Datum, Table, TableColumn};
 use crate::pair_job::double_flank::DoubleFlank;
-use crate::pair_job::rolled::{RolledPair, SIDES};
+use crate::pair_job::fit::SIDES;
+use crate::pair_job::rolled::RolledPair;
 use crate::pair_job::teeth::{ToothContact, edge};
 use gearcut_core::units::UM_PER_MM;
 

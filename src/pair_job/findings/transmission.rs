@@ -4,7 +4,8 @@ use super::tables;
 use super::{ARCSEC_PER_RAD, at_moment, largest_at};
 use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
 use crate::pair::rolling::{TransmissionError, peak_to_peak};
-use crate::pair_job::rolled::{RolledPair, SIDES};
+use crate::pair_job::fit::SIDES;
+use crate::pair_job::rolled::RolledPair;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 

@@ -2,7 +2,7 @@
 //! thinned teeth, and the contact search against all pairs of points.
 
 use super::*;
-use crate::pair::assembly::{Meshing, Mounting};
+use crate::pair::assembly::{AssemblyErrors, Meshing};
 use crate::pair::backlash::Backlash;
 use crate::pair::rolling::peak_to_peak;
 use crate::pair_job::findings::ARCSEC_PER_RAD;
@@ -74,7 +74,7 @@ fn the_third_order_pair_as_cut() {
             continue;
         }
         let center_distance_error_mm = number(&case["errors"], "delta_a");
-        let mounting = Mounting { center_distance_error_mm, ..Mounting::default() };
+        let mounting = AssemblyErrors { center_distance_error_mm, ..AssemblyErrors::default() };
         let meshing = flanks.meshing(&fit, &a.scene.gear, &mounting).expect("gears that roll");
         let mut largest = [0.0_f64; 2];
         for (i, phi) in numbers(&case["phi1"]).into_iter().enumerate() {

@@ -14,7 +14,7 @@ use crate::pair::penetration::SpaceOutline;
 use crate::pair::pitch_pair::{Member, PitchPair};
 use crate::pair_job::fit::Fit;
 use crate::pair_job::member;
-use crate::pair_job::outline::{Profile, joined};
+use crate::pair_job::outline::{ToothOutline, joined};
 use crate::scene::Mate;
 use gearcut_core::gear::GearKind;
 use gearcut_core::terms::Side;
@@ -34,7 +34,7 @@ fn space(gear: &dyn GearJob, tooth: u32) -> SpaceOutline {
         cylinder.target_roots(tooth - 1, 0.005, &[0.0]).expect("a root")[0].iter().map(|(point, _)| *point).collect();
     let chain = |tooth: u32, side: Side| {
         let (u_mm, profiles) = cylinder.target_profiles(tooth, side, 0.005, &[0.0]).expect("a flank");
-        let flank = Profile { points_mm: profiles[0].iter().map(|(point, _)| *point).collect(), u_mm };
+        let flank = ToothOutline { points_mm: profiles[0].iter().map(|(point, _)| *point).collect(), u_mm };
         FlankChain::straight(joined(&root, side, &flank).points_mm)
     };
     SpaceOutline::new(&chain(tooth - 1, Side::Left), &chain(tooth, Side::Right), 1.0)

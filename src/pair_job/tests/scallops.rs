@@ -52,6 +52,24 @@ fn crests_and_bottoms_of_the_transmission_error() {
             let crest_um = expected.iter().copied().fold(0.0, f64::max);
             largest[1] = largest[1].max((error_um(phi) - bottom_um).abs() / crest_um);
         }
+        // Closed forms stand beside the path: crests and bottoms between their places.
+        let closed = &case["closed_form"];
+        let places = numbers(&closed["phi1"]);
+        let formula = |key: &str, phi: f64| {
+            let after = places.partition_point(|&place| place < phi).clamp(1, places.len() - 1);
+            let [from, to] = [after - 1, after].map(|i| numbers(&closed[key])[i]);
+            from + (to - from) * (phi - places[after - 1]) / (places[after] - places[after - 1])
+        };
+        let [mut of_crests, mut of_bottoms] = [0.0_f64; 2];
+        for phi in numbers(&crests["phi1"]) {
+            of_crests = of_crests.max((error_um(phi) / formula("crest_um", phi) - 1.0).abs());
+        }
+        for phi in numbers(&bottoms["phi1"]) {
+            of_bottoms = of_bottoms.max((error_um(phi) - formula("bottom_um", phi)).abs() / formula("crest_um", phi));
+        }
+        println!("p07 {strokes} strokes: crests within {of_crests:.4}, bottoms within {of_bottoms:.4} of the formula");
+        assert!(of_crests <= number(&case["tolerance"], "crest_relative"), "{of_crests}");
+        assert!(of_bottoms <= number(&case["tolerance"], "bottom_relative_to_crest"), "{of_bottoms}");
         println!(
             "p07 {strokes} strokes: crests within {:.4}, bottoms within {:.4} of the crest",
             largest[0], largest[1]

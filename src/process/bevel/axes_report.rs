@@ -9,6 +9,7 @@ use super::job::BevelJob;
 use super::measure;
 use super::motion::{AXES, RollMotion, limits};
 use super::operation::PreparedBevel;
+use crate::findings::Warning;
 use crate::machine::{Motion as _, Order, Peak, peaks};
 use crate::output::line_chart::LineChart;
 use crate::output::progress::duration_text;
@@ -195,7 +196,7 @@ impl AxesOfOperation for BevelAxesReport<'_> {
         }
     }
 
-    fn own_warnings(&self) -> Vec<String> {
+    fn own_warnings(&self) -> Vec<Warning> {
         Vec::new()
     }
 
@@ -214,8 +215,8 @@ impl AxesOfOperation for BevelAxesReport<'_> {
         self.charts.get_or_init(|| self.drawn())
     }
 
-    fn programs(&self) -> Option<Result<Vec<(&'static str, String)>, String>> {
-        Some(gcode::text(self.job, self.operation)?.map(|text| vec![("", text)]))
+    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(&'static str, String)>, String>> {
+        Some(gcode::text(self.job, self.operation, warnings)?.map(|text| vec![("", text)]))
     }
 }
 

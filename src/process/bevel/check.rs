@@ -1,7 +1,10 @@
 //! What a bevel scene means: blank, settings, head, operations, cost.
 
 use super::axes_report::BevelAxesReport;
+use super::blank::CellGrid;
+use super::findings;
 use super::job::BevelJob;
+use crate::findings::Warning;
 use crate::output::progress::duration_text;
 use crate::output::text::{Sheet, plain, significant};
 use crate::steps::axes;
@@ -14,6 +17,10 @@ use gearcut_core::terms::Side;
 const RAY_S_PER_DEXEL: f64 = 8e-8;
 /// The same for one evaluation (dexel against record).
 const CUT_S_PER_EVALUATION: f64 = 5e-8;
+/// The same on rays of the blank, where all segments of all passes that come near are looked at.
+const BLANK_S_PER_EVALUATION: f64 = 2e-8;
+/// Segments of a blade: back, tip, round, flank.
+const SEGMENTS: f64 = 4.0;
 /// Bytes of a dexel's ray: two vectors and the blank's height.
 const BYTES_PER_RAY: f64 = 52.0;
 /// Rows of a flank that are planned, about the middle of the face.
@@ -23,7 +30,7 @@ const PLANNED_ROWS: usize = 96;
 ///
 /// # Errors
 /// Geometry that cannot be cut.
-pub fn print(sheet: &mut Sheet, job: &BevelJob) -> Result<Vec<String>> {
+pub fn print(sheet: &mut Sheet, job: &BevelJob) -> Result<Vec<Warning>> {
     let operations = BevelAxesReport::of_job(job);
     sheet.heading(&format!("{}: {}", job.scene.name, gear_words(job)));
     print_blank(sheet, job)?;
@@ -32,9 +39,7 @@ pub fn print(sheet: &mut Sheet, job: &BevelJob) -> Result<Vec<String>> {
         axes::print(operation, sheet);
     }
     print_cost(sheet, job)?;
-    let mut warnings = job.contradictions();
-    warnings.extend(axes::warnings(&operations));
-    Ok(warnings)
+    findings::known_before(job, &operations)
 }
 
 /// The gear in a line.
@@ -145,10 +150,23 @@ fn print_cost(sheet: &mut Sheet, job: &BevelJob) -> Result<()> {
             evaluations / (dexels * surfaces)
         ),
     );
+    let grid = CellGrid::of_scene(job)?;
+    let rays = f64::from(job.blank.teeth) * (grid.columns * grid.rows()) as f64;
+    let passes = f64::from(job.slots.count()) / f64::from(job.blank.teeth);
+    sheet.line(
+        "whole blank",
+        format!(
+            "{} thousand rays in {} rows, each met by some {:.0} passes",
+            significant(1e-3 * rays, 3),
+            grid.rows(),
+            passes
+        ),
+    );
     // The rays of both sides are kept.
     let bytes = largest * (threads as f64 * (BYTES_PER_RAY + BYTES_PER_DEXEL as f64 * surfaces) + 2.0 * BYTES_PER_RAY);
     sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {threads} threads", 1e-6 * bytes));
-    let seconds = (dexels * RAY_S_PER_DEXEL + evaluations * CUT_S_PER_EVALUATION) / threads as f64;
+    let on_blank = rays * passes * SEGMENTS * BLANK_S_PER_EVALUATION;
+    let seconds = (dexels * RAY_S_PER_DEXEL + evaluations * CUT_S_PER_EVALUATION + on_blank) / threads as f64;
     sheet.line("time", format!("{} on {threads} threads of {PROCESSOR}; files come on top", duration_text(seconds)));
     Ok(())
 }

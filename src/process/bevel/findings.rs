@@ -1,12 +1,16 @@
 //! What a run finds on a bevel gear: names, units, definitions, places.
 
 mod tables;
+pub mod whole;
 
 use super::axes_report::{BevelAxesReport, idle_share};
+use super::blank::CutCells;
+use super::chips::SlotLedger;
 use super::gear::BevelGear;
 use super::job::BevelJob;
 use super::measure::{self, BevelReport};
-use crate::findings::{Datum, Entry, Findings, Place, Quantity, Section, Table, TableColumn};
+use crate::findings::warning::ranked;
+use crate::findings::{Datum, Entry, Findings, Place, Quantity, Section, Table, TableColumn, Warning};
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::texture::{self, WindowTexture};
 use gearcut_core::error::Result;
@@ -17,45 +21,66 @@ use tables::{blades, flanks, grid, slot};
 const UNTOUCHED: &str = "a dexel of the evaluated part was reached by no pass";
 const TRACE: &str = "a dexel of the trace was reached by no pass";
 
+/// What was measured besides the flanks.
+pub struct BevelMeasured<'a> {
+    /// The six-axis machine, operation by operation.
+    pub motion: &'a [BevelAxesReport<'a>],
+    /// Texture windows.
+    pub textures: &'a [WindowTexture],
+    /// The whole gear and the chips of a slot; nothing where the run was stopped before.
+    pub whole: Option<(&'a CutCells, &'a SlotLedger)>,
+}
+
 /// Everything that was found.
 ///
 /// # Errors
 /// Flanks without a middle.
-pub fn findings(
-    job: &BevelJob,
-    gear: &BevelGear,
-    motion: &[BevelAxesReport],
-    textures: &[WindowTexture],
-) -> Result<Findings> {
+pub fn findings(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> Result<Findings> {
+    let BevelMeasured { motion, textures, whole } = *measured;
     let work = &gear.work;
     let candidates = Quantity::number(
         work.stats.dexel_passes as f64 / work.dexels.max(1) as f64,
         "passes",
         "passes visited per dexel and operation; two or three touch it",
     );
-    let mut warnings = job.contradictions();
+    let mut warnings = known_before(job, motion)?;
     let untouched = gear.flanks.iter().map(|flank| flank.untouched).sum();
     warnings.extend(work.warnings(untouched, "the roll does not cover the whole flanks"));
-    warnings.extend(axes::warnings(motion));
+    warnings.extend(texture::warnings(job, textures));
+    let mut sections = vec![
+        settings(job),
+        operations(job, motion)?,
+        marks(job)?,
+        Section::new("teeth", "Finished teeth").table(flanks(job, gear)).table(grid(job, gear)),
+        slot(gear),
+        errors(job, gear)?,
+        blades(job, gear),
+    ];
+    if let Some((blank, ledger)) = whole {
+        sections.extend([whole::blank(job, blank), whole::chips(job, ledger)]);
+    }
+    sections.push(texture::findings(job, textures));
+    sections.push(Section::new("work", "Work of cutting").with("candidates", candidates));
     Ok(Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         process: "bevel".to_owned(),
         scene: job.scene.name.clone(),
         complete: !work.interrupted,
         headline: headline(job, gear, motion),
-        warnings,
-        sections: vec![
-            settings(job),
-            operations(job, motion)?,
-            marks(job)?,
-            Section::new("teeth", "Finished teeth").table(flanks(job, gear)).table(grid(gear)),
-            slot(gear),
-            errors(job, gear)?,
-            blades(job, gear),
-            texture::findings(job, textures),
-            Section::new("work", "Work of cutting").with("candidates", candidates),
-        ],
+        warnings: ranked(warnings),
+        sections,
     })
+}
+
+/// What is known before anything is cut: keys that contradict each other, a head that hits the next tooth, and what the
+/// axes say.
+///
+/// # Errors
+/// A place that the roll does not generate.
+pub fn known_before(job: &BevelJob, motion: &[BevelAxesReport]) -> Result<Vec<Warning>> {
+    let hit = job.next_tooth_warning()?.map(Warning::fault);
+    let off = job.contradictions().into_iter().map(Warning::warn);
+    Ok(ranked(hit.into_iter().chain(off).chain(axes::warnings(motion))))
 }
 
 fn headline(job: &BevelJob, gear: &BevelGear, motion: &[BevelAxesReport]) -> Vec<Entry> {

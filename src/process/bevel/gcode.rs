@@ -22,16 +22,17 @@ pub use read::read;
 use super::job::BevelJob;
 use super::motion::{AXES, RollMotion, limits};
 use super::operation::PreparedBevel;
+use crate::findings::Warning;
 use crate::gcode::{ProgramText, axis_word};
 use crate::output::text::{plain, significant};
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 
-/// The program of an operation; an error is the reason why there is none, `None`: none is wanted.
-pub fn text(job: &BevelJob, operation: &PreparedBevel) -> Option<Result<String, String>> {
-    job.spec.programs.then(|| linear(job, operation))
+/// The program of an operation, `warnings` in its head; an error is the reason why there is none, `None`: none is wanted.
+pub fn text(job: &BevelJob, operation: &PreparedBevel, warnings: &[Warning]) -> Option<Result<String, String>> {
+    job.spec.programs.then(|| linear(job, operation, warnings))
 }
 
-fn linear(job: &BevelJob, operation: &PreparedBevel) -> Result<String, String> {
+fn linear(job: &BevelJob, operation: &PreparedBevel, warnings: &[Warning]) -> Result<String, String> {
     let motion = RollMotion { job, operation };
     let asked_mm = job.scene.output.gcode_contour_error_mm;
     let program = BevelProgram::fit(&motion, asked_mm);
@@ -85,7 +86,7 @@ fn linear(job: &BevelJob, operation: &PreparedBevel) -> Result<String, String> {
         let words = AXES.iter().zip(&knot.axes).map(|(axis, &at)| axis_word(axis, at, digits.of(axis.kind)));
         words.collect::<Vec<_>>().join(" ")
     };
-    let mut text = ProgramText::new(&head);
+    let mut text = ProgramText::new(&head, warnings.iter().map(Warning::line));
     text.block("G21 G90 G94");
     text.block(&format!("G0 {}", position(&program.knots[0])));
     for pair in program.knots.windows(2) {

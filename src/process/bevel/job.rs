@@ -43,10 +43,6 @@ const WINDOW_STEP_RAD: f64 = 0.005;
 const WINDOW_MARGIN_RAD: f64 = 0.03;
 /// Cradle angles at which the head is compared with the blank.
 const WINDOW_ROLLS: u32 = 25;
-/// Settings off the blank's root angle by more than this are worth a word, rad.
-const ROOT_ANGLE_RAD: f64 = 0.01 * PI / 180.0;
-/// Depth missed by more than this is worth a word, mm.
-const DEPTH_MM: f64 = 0.02;
 
 /// Rays of both targets in space 0, row after row, with the height of the blank's surface on each, mm.
 pub(super) type KeptRays = [Vec<(Ray, f32)>; 2];
@@ -134,7 +130,7 @@ impl BevelJob {
                 index(slot, blank.teeth).after(&gear_from_work).after(&pose).after(&towards_work)
             },
         )?;
-        Ok(Self {
+        let job = Self {
             scene: scene.clone(),
             spec: spec.clone(),
             blank,
@@ -149,7 +145,9 @@ impl BevelJob {
             left,
             slots,
             rays: OnceLock::new(),
-        })
+        };
+        job.check_grid()?;
+        Ok(job)
     }
 
     /// The finishing operation.
@@ -177,55 +175,6 @@ impl BevelJob {
     /// Target of a flank in space 0.
     pub fn target_of(&self, side: Side) -> &BevelFlank {
         &self.target[self.kind_of(side).index()]
-    }
-
-    /// What in the scene contradicts itself.
-    pub fn contradictions(&self) -> Vec<String> {
-        let mut found = self.blank.contradictions(self.spec.cones.mate);
-        let settings = &self.finishing().settings;
-        let off_rad = settings.root_angle_rad - self.blank.root_angle_rad;
-        if off_rad.abs() > ROOT_ANGLE_RAD {
-            found.push(format!(
-                "the machine's root angle is {:.4} deg off the blank's: slots are not parallel to the root cone",
-                off_rad.to_degrees()
-            ));
-        }
-        let short_mm = self.depth_missed_mm();
-        if short_mm.abs() > DEPTH_MM {
-            let what = if short_mm > 0.0 { "too shallow" } else { "too deep" };
-            found.push(format!(
-                "slots come out {:.4} mm {what} at the middle of the face: add {short_mm:.4} mm to \
-                 machine.cradle.sliding_base_mm",
-                short_mm.abs()
-            ));
-        }
-        for operation in &self.operations {
-            let [from, to] = operation.roll_rad;
-            if from.min(to) > self.needed_rad[0] || from.max(to) < self.needed_rad[1] {
-                found.push(format!(
-                    "operation {}: the cradle rolls from {:.3} to {:.3} deg, the flanks need {:.3} to {:.3} deg: they \
-                     are not generated as a whole",
-                    operation.spec.name,
-                    from.to_degrees(),
-                    to.to_degrees(),
-                    self.needed_rad[0].to_degrees(),
-                    self.needed_rad[1].to_degrees()
-                ));
-            }
-        }
-        found
-    }
-
-    /// How far the plane of the tips stands short of the blank's roots at the middle of the face, square to the root
-    /// cone, mm; positive where the slot is too shallow. The plane cuts deepest along the generatrix in the plane of
-    /// the axes.
-    pub fn depth_missed_mm(&self) -> f64 {
-        let settings = &self.finishing().settings;
-        let mean_mm = self.blank.mean_cone_distance_mm();
-        let root = self.blank.axial_mm([mean_mm, -self.blank.dedendum_mm(mean_mm)]);
-        // Back from the work to the machine: z of the root's point, which the tips should reach.
-        let (sin, cos) = settings.root_angle_rad.sin_cos();
-        sin * (root.x + settings.center_to_back_mm) - cos * root.y - settings.sliding_base_mm
     }
 }
 

@@ -3,8 +3,8 @@
 //! In: cut flanks. Out: [`BevelReport`] for each, [`SlotRow`]s for the slot beside them, [`MarkForm`] as it should be.
 //!
 //! A twentieth of profile and face is left out at either end. The **grid** has 5 points along the profile and 9 along
-//! the tooth (AGMA 2009, ISO 17485), on the dexels nearest to its even places: points, normals and deviations belong to
-//! each other exactly. Deviations run along the target's normal, positive where material is left.
+//! the tooth (AGMA 2009, ISO 17485) unless the scene asks for more, on the dexels nearest to its even places: points,
+//! normals and deviations belong to each other exactly. Deviations run along the target's normal, positive where material is left.
 
 use super::job::{BevelJob, index};
 use super::surfaces::MARGIN;
@@ -20,8 +20,6 @@ use glam::{DMat3, DVec3};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Points of the grid along profile and tooth.
-pub const GRID: [usize; 2] = [5, 9];
 /// How far rays of the bottom record below the blank's root, in outer modules.
 const BOTTOM_MODULES: f64 = 0.5;
 /// Deviations below this are marks of the blades, and no setting is looked for, mm.
@@ -36,9 +34,9 @@ pub type BevelReport = InspectedFlank<BevelSurface>;
 #[derive(Debug, Clone, PartialEq)]
 pub struct BevelSurface {
     /// Heights of the finished surface; `None` where a dexel of the evaluated part was not reached.
-    pub finished: Option<Heights>,
+    pub finished: Option<FlankHeights>,
     /// What each earlier operation left over the finished surface.
-    pub stock: Vec<Option<Heights>>,
+    pub stock: Vec<Option<FlankHeights>>,
     /// The grid, row by row along the tooth from the toe, each from the root to the tip.
     pub grid: Vec<GridPoint>,
     /// Shares of the profile and places along the tooth, mm, of the grid.
@@ -51,7 +49,7 @@ pub struct BevelSurface {
 
 /// Heights over many dexels, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Heights {
+pub struct FlankHeights {
     /// Lowest and highest.
     pub range_mm: [f64; 2],
     /// Where they stand: arc from the form point in the middle of the face, and place along the tooth, mm.
@@ -114,7 +112,7 @@ pub fn measure(job: &BevelJob, tooth: u32, side: Side, rays: &FreeRays, layers: 
     let over = |height: &dyn Fn(usize) -> Option<f64>| {
         let value =
             |[column, row]: [usize; 2]| Some((height(rays.field.index(column, row))?, [arcs_mm[column], rows_mm[row]]));
-        evaluated().map(value).collect::<Option<Vec<_>>>().and_then(|values| Heights::of(&values))
+        evaluated().map(value).collect::<Option<Vec<_>>>().and_then(|values| FlankHeights::of(&values))
     };
     let trace = |places_mm: &[f64], index: &dyn Fn(usize) -> usize| Trace {
         places_mm: places_mm.to_vec(),
@@ -129,7 +127,7 @@ pub fn measure(job: &BevelJob, tooth: u32, side: Side, rays: &FreeRays, layers: 
         left_by_blade[job.slots.blade_of(pass) as usize] += 1;
     }
     let [grid_columns, grid_rows] =
-        [(&columns, GRID[0]), (&rows, GRID[1])].map(|(inner, count)| grid_places(inner, count));
+        [(&columns, job.spec.grid[0]), (&rows, job.spec.grid[1])].map(|(inner, count)| grid_places(inner, count));
     let grid = grid_rows.iter().enumerate().flat_map(|(j, &row)| {
         grid_columns.iter().enumerate().map(move |(i, &column)| GridPoint {
             place: [i as u32 + 1, j as u32 + 1],
@@ -169,7 +167,7 @@ pub fn measure(job: &BevelJob, tooth: u32, side: Side, rays: &FreeRays, layers: 
 }
 
 /// Indices without the margins, never empty.
-fn inner(count: usize) -> Range<usize> {
+pub(super) fn inner(count: usize) -> Range<usize> {
     let margin = ((MARGIN * count as f64).ceil() as usize).min((count - 1) / 2);
     margin..count - margin
 }
@@ -180,7 +178,7 @@ fn grid_places(inner: &Range<usize>, count: usize) -> Vec<usize> {
     (0..count).map(|i| inner.start + (last * i as f64 / (count - 1) as f64).round() as usize).collect()
 }
 
-impl Heights {
+impl FlankHeights {
     /// Of values with their places; `None` of none.
     fn of(values: &[(f64, [f64; 2])]) -> Option<Self> {
         let low = values.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -204,7 +202,8 @@ pub fn slot(job: &BevelJob, backend: &dyn Backend, flanks: [&BevelReport; 2]) ->
     let [before, after] = flanks;
     let space = job.space_of(before.tooth, before.side);
     let [_, rows_mm] = job.places_mm(before.side);
-    let rows_mm: Vec<f64> = grid_places(&inner(rows_mm.len()), GRID[1]).into_iter().map(|row| rows_mm[row]).collect();
+    let rows_mm: Vec<f64> =
+        grid_places(&inner(rows_mm.len()), job.spec.grid[1]).into_iter().map(|row| rows_mm[row]).collect();
     let blank = &job.blank;
     let turn = index(space, blank.teeth);
     // On the pitch cone: polar angle and normal of a flank, gear frame.

@@ -4,7 +4,12 @@
 //! passes of the head's blades over all slots, flank fields, measures, files and the page.
 
 pub mod axes_report;
+pub mod blank;
+pub mod body;
 mod check;
+pub mod chips;
+pub mod drawing;
+mod faults;
 pub mod findings;
 pub mod gcode;
 pub mod gear;
@@ -20,6 +25,7 @@ pub mod slots;
 mod surfaces;
 
 use super::{CutDone, Process};
+use crate::findings::Warning;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -41,7 +47,7 @@ impl super::ProcessJob for BevelJob {
         run::run(self, tools)
     }
 
-    fn check(&self, sheet: &mut Sheet) -> Result<Vec<String>> {
+    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Warning>> {
         check::print(sheet, self)
     }
 
@@ -49,7 +55,8 @@ impl super::ProcessJob for BevelJob {
         visit(self)
     }
 
-    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<String>> {
-        axes::command(&BevelAxesReport::of_job(self), folder, interrupt, sheet)
+    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {
+        let motion = BevelAxesReport::of_job(self);
+        axes::command(&motion, findings::known_before(self, &motion)?, folder, interrupt, sheet)
     }
 }

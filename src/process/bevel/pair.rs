@@ -19,6 +19,8 @@ pub mod findings;
 pub mod page;
 
 use super::BevelJob;
+use crate::interrupt::Interrupt;
+use crate::output::progress::Progress;
 use gearcut_core::bevel::contact::{BevelPair, Contact, Mounting};
 use gearcut_core::bevel::face_mill::BladeKind;
 use gearcut_core::error::{Refusal, Result};
@@ -178,20 +180,44 @@ pub struct RolledSide {
 pub struct RolledBevels {
     /// Concave flanks of the gear, then convex ones.
     pub sides: [RolledSide; 2],
-    /// Nominal shaft angle, rad.
-    pub shaft_angle_rad: f64,
+    /// How the pair is meant to be mounted.
+    pub nominal: Nominal,
     /// Errors of the mounting.
     pub errors: MountingErrors,
     /// Thickness of the marking compound, mm.
     pub marking_mm: f64,
 }
 
+/// How a pair is meant to be mounted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nominal {
+    /// Shaft angle, rad.
+    pub shaft_angle_rad: f64,
+    /// Offset of the pinion's axis along y of the gear's machine, mm; 0 on spiral bevel gears.
+    pub offset_mm: f64,
+}
+
 /// Brings a gear and a pinion into contact.
 ///
 /// # Errors
-/// Scenes that make no pair; flanks that do not meet.
-pub fn roll(gear: &BevelJob, pinion: &BevelJob, errors: &MountingErrors, marking_mm: f64) -> Result<RolledBevels> {
-    let shaft_angle_rad = fitting(gear, pinion)?;
+/// Scenes that make no pair; flanks that do not meet; Ctrl-C.
+pub fn roll(
+    gear: &BevelJob,
+    pinion: &BevelJob,
+    errors: &MountingErrors,
+    marking_mm: f64,
+    (progress, interrupt): (&Progress, &Interrupt),
+) -> Result<RolledBevels> {
+    let nominal = fitting(gear, pinion)?;
+    let tried: Vec<(MountingError, f64)> =
+        MountingError::ALL.into_iter().flat_map(|error| [(error, -1.0), (error, 1.0)]).collect();
+    let step = progress.step("contact", 2 * (1 + tried.len()) as u64, "mountings");
+    let running = |pair: &BevelPair| -> Result<Result<Running>> {
+        interrupt.check()?;
+        let running = Running::of(pair, marking_mm);
+        step.advance(1);
+        Ok(running)
+    };
     let side = |gear_blades: BladeKind| -> Result<RolledSide> {
         let pinion_blades = match gear_blades {
             BladeKind::Outside => BladeKind::Inside,
@@ -201,33 +227,33 @@ pub fn roll(gear: &BevelJob, pinion: &BevelJob, errors: &MountingErrors, marking
             gear: gear.target[gear_blades.index()].clone(),
             pinion: pinion.target[pinion_blades.index()].clone(),
             mounting: Mounting {
-                shaft_angle_rad: shaft_angle_rad + errors.shaft_angle_rad,
-                offset_mm: errors.offset_mm,
+                shaft_angle_rad: nominal.shaft_angle_rad + errors.shaft_angle_rad,
+                offset_mm: nominal.offset_mm + errors.offset_mm,
                 pinion_axial_mm: errors.pinion_axial_mm,
                 gear_axial_mm: errors.gear_axial_mm,
             },
         };
         let pair = mounted(errors);
-        let running = Running::of(&pair, marking_mm)?;
-        let tried: Vec<(MountingError, f64)> =
-            MountingError::ALL.into_iter().flat_map(|error| [(error, -1.0), (error, 1.0)]).collect();
-        let trends = tried.into_par_iter().map(|(error, sign)| {
-            let found = Running::of(&mounted(&error.added(errors, sign)), marking_mm).ok();
+        let as_mounted = running(&pair)??;
+        let trends = tried.par_iter().map(|&(error, sign)| {
+            // Teeth that part say so in the table.
+            let found = running(&mounted(&error.added(errors, sign)))?.ok();
             let tried = if error == MountingError::ShaftAngle { TRIED_RAD } else { TRIED_MM };
-            Trend {
+            Ok(Trend {
                 error,
                 added: sign * tried,
                 found: found.map(|running| (running.motion_error_rad(), running.center_mm())),
-            }
+            })
         });
-        Ok(RolledSide { gear_blades, trends: trends.collect(), pair, running })
+        Ok(RolledSide { gear_blades, trends: trends.collect::<Result<_>>()?, pair, running: as_mounted })
     };
     let sides = [side(BladeKind::Outside)?, side(BladeKind::Inside)?];
-    Ok(RolledBevels { sides, shaft_angle_rad, errors: *errors, marking_mm })
+    step.finish();
+    Ok(RolledBevels { sides, nominal, errors: *errors, marking_mm })
 }
 
-/// The shaft angle, if both belong together.
-fn fitting(gear: &BevelJob, pinion: &BevelJob) -> Result<f64, Refusal> {
+/// How they are meant to be mounted, if both belong together.
+fn fitting(gear: &BevelJob, pinion: &BevelJob) -> Result<Nominal, Refusal> {
     let [gear_mm, pinion_mm] = [gear, pinion].map(|job| job.blank.outer_module_mm());
     if (gear_mm - pinion_mm).abs() > MODULE_MM {
         return Err(Refusal::new(
@@ -252,8 +278,19 @@ fn fitting(gear: &BevelJob, pinion: &BevelJob) -> Result<f64, Refusal> {
             "a pair has opposite hands: change the sign of one cradle angle",
         ));
     }
+    let offsets_mm = [gear, pinion].map(|job| job.spec.cones.hypoid_offset_mm);
+    if (offsets_mm[0] - offsets_mm[1]).abs() > OFFSET_MM {
+        return Err(Refusal::new(
+            "gear.bevel.hypoid_offset_mm",
+            format!("the gear's scene names an offset of {} mm, the pinion's {} mm", offsets_mm[0], offsets_mm[1]),
+            "write the same offset into both scenes",
+        ));
+    }
+    let offset_mm = offsets_mm[0];
     let angles_rad = [gear, pinion].map(|job| job.blank.pitch_angle_rad);
-    let shaft_angle_rad = angles_rad[0] + angles_rad[1];
+    // Pitch cones of hypoid gears do not meet in an apex: their angles add up to no shaft angle.
+    let shaft_angle_rad =
+        if offset_mm == 0.0 { angles_rad[0] + angles_rad[1] } else { gear.spec.cones.shaft_angle_rad };
     for (job, mate_teeth) in [(gear, pinion_teeth), (pinion, gear_teeth)] {
         let Some(mate) = job.spec.cones.mate else { continue };
         if mate.teeth != mate_teeth {
@@ -268,7 +305,7 @@ fn fitting(gear: &BevelJob, pinion: &BevelJob) -> Result<f64, Refusal> {
             return Err(Refusal::new(
                 "gear.bevel.shaft_angle_deg",
                 format!(
-                    "{} names a shaft angle of {:.4} deg; the pitch angles add up to {:.4} deg",
+                    "{} names a shaft angle of {:.4} deg; the pair's is {:.4} deg",
                     job.scene.name,
                     mate.shaft_angle_rad.to_degrees(),
                     shaft_angle_rad.to_degrees()
@@ -277,8 +314,10 @@ fn fitting(gear: &BevelJob, pinion: &BevelJob) -> Result<f64, Refusal> {
             ));
         }
     }
-    Ok(shaft_angle_rad)
+    Ok(Nominal { shaft_angle_rad, offset_mm })
 }
 
+/// Offsets that differ by more belong to no pair, mm.
+const OFFSET_MM: f64 = 1e-6;
 /// Shaft angles that differ by more belong to no pair, rad: rounding of data sheets.
 const SHAFT_ANGLE_RAD: f64 = 0.02 * std::f64::consts::PI / 180.0;

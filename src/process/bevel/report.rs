@@ -1,10 +1,14 @@
 //! The page of a bevel gear: slot, grid deviations, marks, blades, six axes.
 
 use super::axes_report::BevelAxesReport;
+use super::blank::CutCells;
+use super::body::beside_flanks;
 use super::check::gear_words;
+use super::drawing::{self, Drawn};
+use super::findings::whole::{ChipCharts, page_words};
 use super::gear::BevelGear;
 use super::job::BevelJob;
-use super::measure::{BevelReport, GRID};
+use super::measure::BevelReport;
 use crate::findings::{self, Findings};
 use crate::job::rows_z_mm;
 use crate::output::folder::OutputFolder;
@@ -16,7 +20,6 @@ use crate::steps::axes;
 use crate::steps::report::facts::table;
 use crate::steps::report::{PageGear, RunWords, key_number, record, texture};
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
-use crate::surface::triangles::Triangles;
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
@@ -24,6 +27,8 @@ use rayon::prelude::*;
 
 /// Distance of the rows of the flanks that the page shows, mm: chords a hundredth of a millimetre off the spiral.
 const VIEW_ROW_MM: f64 = 3.0;
+/// Distance of the columns of roots and tip lands that it shows, mm.
+const VIEW_COLUMN_MM: f64 = 0.4;
 /// Smallest distance of two ticks on charts of deviations, um.
 const LEAST_DIVISION_UM: f64 = 1.0;
 
@@ -35,11 +40,13 @@ pub fn page(
     job: &BevelJob,
     gear: &BevelGear,
     found: &Findings,
+    (whole, charts): (Option<&CutCells>, ChipCharts),
     motion: &[BevelAxesReport],
     run: &RunWords,
     folder: &OutputFolder,
 ) -> Result<Page> {
     let mut sections = vec![deviations(job, gear), slot(gear), blades(found)];
+    sections.extend(chips(found, charts));
     sections.extend(texture::section(found, folder)?);
     sections.push(axes::section(
         motion,
@@ -54,19 +61,43 @@ pub fn page(
         format!("{}: {}, head held back by {} mm", operation.key, operation.words("linkage"), mm("offset"))
     };
     let key_numbers = found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect();
-    let page_gear = PageGear { words: gear_words(job), mesh: mesh(job)? };
+    let page_gear = PageGear { words: gear_words(job), mesh: mesh(job, whole)? };
     Ok(steps::report::page(job, page_gear, found, &gear.maps, operation, key_numbers, sections))
 }
 
-/// All target flanks.
-fn mesh(job: &BevelJob) -> Result<ViewMesh> {
+/// Nothing where the run was stopped before.
+fn chips(found: &Findings, (bars, lines): ChipCharts) -> Option<PageSection> {
+    let blank = found.find("blank")?;
+    let number = |key: &str| blank.number(key).map_or_else(|| "–".to_owned(), |value| significant(value, 5));
+    let mut blocks: Vec<Block> = lines.into_iter().map(|(_, chart)| Block::Lines(chart)).collect();
+    blocks.extend(bars.into_iter().map(|(_, chart)| Block::Bars(chart)));
+    if let Some(law) = found.find("chips").map(|chips| chips.words("law")).filter(|law| !law.is_empty()) {
+        blocks.push(Block::Note(format!("Cutting force: {law}.")));
+    }
+    Some(PageSection {
+        id: "chips",
+        title: "Chips and the work of the blades".to_owned(),
+        lead: format!(
+            "What the passes take from the slot behind tooth 1, in order of time. The whole ring has {} mm³ of the {} \
+            mm³ of its blank left. {}",
+            number("left_volume"),
+            number("blank_volume"),
+            page_words()
+        ),
+        blocks,
+    })
+}
+
+/// All target flanks, and what is between them as it was cut.
+fn mesh(job: &BevelJob, whole: Option<&CutCells>) -> Result<ViewMesh> {
     let rows_mm = rows_z_mm(job.blank.face_width_mm, VIEW_ROW_MM);
     let flanks: Vec<(u32, Side)> = steps::flanks_of(job);
     let flanks = flanks
         .into_par_iter()
         .map(|(tooth, side)| ViewFlank::of_target(job, tooth, side, rows_mm.clone()))
         .collect::<Result<_>>()?;
-    Ok(ViewMesh { flanks, body: Triangles::default() })
+    let body = whole.map(|whole| beside_flanks(job, whole, VIEW_COLUMN_MM)).transpose()?;
+    Ok(ViewMesh { flanks, body: body.unwrap_or_default() })
 }
 
 /// Grid of the flanks with the largest deviations, and lines along profile and tooth.
@@ -80,7 +111,7 @@ fn deviations(job: &BevelJob, gear: &BevelGear) -> PageSection {
         let flanks = gear.flanks.iter().filter(|flank| flank.side == side);
         let Some(worst) = flanks.max_by(|a, b| range(a).total_cmp(&range(b))) else { continue };
         let words = format!("Tooth {}, {} flank ({})", worst.tooth, side.name(), job.kind_of(side).flank());
-        blocks.push(Block::Table(grid_table(worst, &words)));
+        blocks.push(Block::Table(grid_table(worst, job.spec.grid[0], &words)));
         blocks.push(Block::Lines(traces(worst, &words)));
     }
     blocks.push(Block::Note(
@@ -98,8 +129,7 @@ fn deviations(job: &BevelJob, gear: &BevelGear) -> PageSection {
     }
 }
 
-fn grid_table(flank: &BevelReport, words: &str) -> PageTable {
-    let [columns, _] = GRID;
+fn grid_table(flank: &BevelReport, columns: usize, words: &str) -> PageTable {
     let mut head = vec!["Along the tooth".to_owned()];
     head.extend((1..=columns).map(|column| match column {
         1 => "root".to_owned(),
@@ -246,6 +276,10 @@ fn setup(job: &BevelJob, found: &Findings) -> PageSection {
         id: "setup",
         title: "What was cut, and how".to_owned(),
         lead: String::new(),
-        blocks: vec![gear, table("Settings", rows)],
+        blocks: vec![
+            Block::Drawing("Settings of the cradle machine, to scale".to_owned(), drawing::svg(&Drawn::of(job))),
+            gear,
+            table("Settings", rows),
+        ],
     }
 }

@@ -1,23 +1,25 @@
-//! The order of a bevel run: flanks cut and measured, texture, and what is written about the gear.
-//!
-//! No rays go through the whole blank, and no closed body is made: sections of the blank take no blades that look along
-//! the head's axis. Flanks are written as meshes one by one, and pictures show them alone.
+//! The order of a bevel run: flanks cut and measured, texture, the whole blank, the chips of a slot, and what is
+//! written about the gear.
 
 use super::axes_report::BevelAxesReport;
-use super::findings;
+use super::blank::CellGrid;
+use super::drawing::{self, Drawn};
+use super::findings::{self, BevelMeasured};
 use super::gear::cut_gear;
 use super::job::BevelJob;
 use super::report;
-use crate::findings::RESULTS_FILE;
+use super::{blank, body, chips};
+use crate::findings::Findings;
+use crate::output::atomic::write_bytes_atomically;
 use crate::output::table::write_tables;
 use crate::process::CutDone;
+use crate::steps::attempts::Attempts;
 use crate::steps::parts::Part;
 use crate::steps::report::RunWords;
-use crate::steps::{
-    NO_BODY, Tools, axes, sheets, stages, summary, write_meshes_and_pictures, write_programs, write_report,
-};
+use crate::steps::{Tools, axes, conclusion, sheets, stages, summary, write_meshes_and_pictures};
 use crate::texture;
 use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
 
 /// Cuts a job and writes everything.
 ///
@@ -25,37 +27,63 @@ use gearcut_core::error::Result;
 /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
 pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, notes } = *tools;
-    let costs = stages::Costs { before: &[], flank_s: 0.4, root_s: 0.0, blank_s: 0.0 };
+    let costs = stages::Costs { before: &[], flank_s: 0.4, root_s: 0.0, blank_s: 0.05 };
     progress.plan(stages::plan(job, tools, None, &costs));
-    // A window that lies on no flank is refused before the first cut.
+    // A window that lies on no flank, or too many rays through the blank, are refused before the first cut.
+    CellGrid::of_scene(job)?;
     let windows = texture::windows(job)?;
     let gear = cut_gear(job, backend, progress, interrupt, Some((folder, notes, parts)))?;
-    let textures = texture::measure(job, &windows, backend, progress, interrupt)?;
-    let motion = BevelAxesReport::of_job(job);
-    let found = findings::findings(job, &gear, &motion, &textures)?;
-    sheets::write_sheets_and_deviations(job, &gear.maps, tools)?;
-    write_tables(&found, folder)?;
-    folder.write_json(RESULTS_FILE, &found.to_json())?;
-    if parts.has(Part::Texture) {
-        texture::write(job, &textures, folder, notes)?;
-    }
+    let mut attempts = Attempts::new(progress);
+    let textures = texture::measure(job, &windows, backend, progress, interrupt);
+    let textures = attempts.of("texture", textures)?.unwrap_or_default();
     let mut work = gear.work;
+    let whole = if work.interrupted { None } else { blank::cut(job, backend, progress, interrupt)? };
+    let slot = job.space_of(1, Side::Left);
+    let ledger = match &whole {
+        Some(whole) => chips::measure(job, &whole.grid, slot, progress, interrupt)?,
+        None => None,
+    };
+    work.interrupted |= ledger.is_none();
+    let motion = BevelAxesReport::of_job(job);
+    let measured = BevelMeasured { motion: &motion, textures: &textures, whole: whole.as_ref().zip(ledger.as_ref()) };
+    let mut found = findings::findings(job, &gear, &measured)?;
+    let charts = ledger.as_ref().map_or_else(Default::default, |ledger| findings::whole::charts(job, ledger));
+    if parts.has(Part::Chips) {
+        let write = || {
+            for (stem, chart) in &charts.0 {
+                chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
+            }
+            for (stem, chart) in &charts.1 {
+                chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
+            }
+            Ok(())
+        };
+        attempts.of("charts of the chips", write())?;
+    }
+    if parts.has(Part::Pictures) {
+        let svg = drawing::svg(&Drawn::of(job));
+        let write = || write_bytes_atomically(&folder.path("pictures/settings.svg")?, svg.as_bytes());
+        attempts.of("drawing of the settings", write())?;
+    }
+    let sheets = sheets::write_sheets_and_deviations(job, &gear.maps, tools);
+    attempts.of("sheets and maps of deviations", sheets)?;
+    attempts.of("tables", write_tables(&found, folder))?;
+    if parts.has(Part::Texture) {
+        attempts.of("files of texture", texture::write(job, &textures, folder, notes))?;
+    }
     if !work.interrupted {
-        work.interrupted = !write_meshes_and_pictures(job, tools, &gear.pictured, || {
-            progress.note(&format!("{NO_BODY}: no closed body is made of a bevel gear"));
-            Ok(None)
-        })?;
+        let spacing_mm = job.scene.output.mesh_spacing_mm;
+        let body = || Ok(whole.as_ref().map(|whole| body::body(job, whole, spacing_mm)));
+        work.interrupted = !write_meshes_and_pictures(job, tools, &mut attempts, &gear.pictured, body)?;
     }
     if parts.has(Part::Axes) {
         for operation in &motion {
-            axes::write(operation, folder)?;
+            attempts.of("table and charts of the axes", axes::write(operation, folder))?;
         }
-        write_programs(progress, || axes::write_programs(&motion, folder))?;
     }
-    if parts.has(Part::Report) {
-        let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
-        write_report(tools, || report::page(job, &gear, &found, &motion, &words, folder))?;
-    }
+    let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
+    let page = |found: &Findings| report::page(job, &gear, found, (whole.as_ref(), charts), &motion, &words, folder);
+    conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
     let out = folder.results_path(!work.interrupted);
     let flanks = gear.flanks.len();
     let summary = summary::text(&job.scene.gear, &found, flanks, &work, &out, &backend.name());

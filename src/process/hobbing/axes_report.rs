@@ -12,6 +12,7 @@ mod charts;
 mod facts;
 
 use super::gcode;
+use crate::findings::Warning;
 use crate::machine::{Peak, peaks};
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
@@ -97,25 +98,25 @@ impl AxesOfOperation for HobbingAxesReport<'_> {
     }
 
     /// Feed marks above what is allowed, and a linkage that is for comparison only.
-    fn own_warnings(&self) -> Vec<String> {
+    fn own_warnings(&self) -> Vec<Warning> {
         let PreparedHobbing { spec, plan, linkage, .. } = self.operation();
         let name = &spec.name;
         let mut warnings = Vec::new();
         if plan.feed_mark_mm > spec.ridge_tolerance_mm {
             let ratio = (spec.ridge_tolerance_mm / plan.feed_mark_mm).sqrt();
-            warnings.push(format!(
+            warnings.push(Warning::warn(format!(
                 "operation {name}: the feed leaves marks up to {} um high, {} um are allowed (ridge_tolerance_um): \
                 feed at most {} mm per revolution",
                 significant(UM_PER_MM * plan.feed_mark_mm, 3),
                 significant(UM_PER_MM * spec.ridge_tolerance_mm, 3),
                 significant(ratio * spec.axial_feed_mm_per_revolution, 3)
-            ));
+            )));
         }
         if linkage.law().is_as_printed() {
-            warnings.push(format!(
+            warnings.push(Warning::warn(format!(
                 "operation {name}: the linkage is the one printed in the paper; work and carriage part on a curve that \
                 is no circle, and no G-code is written"
-            ));
+            )));
         }
         warnings
     }
@@ -146,8 +147,8 @@ impl AxesOfOperation for HobbingAxesReport<'_> {
         Ok(vec![("teeth", charts::work_of_teeth(self.job, self.operation())?)])
     }
 
-    fn programs(&self) -> Option<Result<Vec<(&'static str, String)>, String>> {
-        let programs = gcode::texts(self.job, self.operation())?;
+    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(&'static str, String)>, String>> {
+        let programs = gcode::texts(self.job, self.operation(), warnings)?;
         Some(programs.map(|[full, geared]| vec![("", full), ("_gearbox", geared)]))
     }
 }

@@ -2,10 +2,11 @@
 
 mod cost;
 
-use crate::output::text::{Sheet, plain, significant};
+use crate::findings::Warning;
+use crate::output::text::{Sheet, plain};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
-use crate::process::hobbing::scene::model::HobbingKind;
-use crate::process::hobbing::{HobCutter, HobbingJob};
+use crate::process::hobbing::warnings::greatest_common_divisor;
+use crate::process::hobbing::{HobCutter, HobbingJob, warnings};
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use crate::steps::flanks_of;
@@ -13,14 +14,11 @@ use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use rayon::prelude::*;
 
-/// Share of the largest tooth count of a warning's list.
-const MOST_NAMED: usize = 6;
-
 /// Prints everything; what must be known before cutting.
 ///
 /// # Errors
 /// Geometry that cannot be cut.
-pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<String>> {
+pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<Warning>> {
     let operations = HobbingAxesReport::of_job(job);
     let cutter = HobCutter::new(job)?;
     let teeth = FormPoints::of(&cutter)?;
@@ -32,11 +30,7 @@ pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<String>> {
         axes::print(operation, sheet);
     }
     cost::print(sheet, &cutter)?;
-    let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
-    warnings.extend(hob_warnings(job));
-    warnings.extend(teeth.warnings());
-    warnings.extend(axes::warnings(&operations));
-    Ok(warnings)
+    warnings::before(&cutter, &operations)
 }
 
 fn print_hob(sheet: &mut Sheet, job: &HobbingJob) {
@@ -72,54 +66,6 @@ fn print_hob(sheet: &mut Sheet, job: &HobbingJob) {
             }
         },
     );
-}
-
-fn hob_warnings(job: &HobbingJob) -> Vec<String> {
-    let (hob, gear) = (&job.hob, &job.scene.gear);
-    let mut warnings = Vec::new();
-    let common = greatest_common_divisor(hob.starts, gear.teeth);
-    if common > 1 {
-        warnings.push(format!(
-            "{} starts and {} teeth share the divisor {common}: each start always cuts the same tooth spaces, and the \
-            hob's pitch errors stay on the gear",
-            hob.starts, gear.teeth
-        ));
-    }
-    for operation in &job.operations {
-        let geometry = operation.linkage.geometry();
-        let right = geometry.gear_hand * geometry.helix_angle_rad - geometry.hob_hand * geometry.lead_angle_rad;
-        if (geometry.head_angle_rad - right).abs() > 1e-9 {
-            warnings.push(format!(
-                "operation {}: the head stands at {:.4} deg, hob and gear ask for {:.4} deg: the flanks will be off",
-                operation.spec.name,
-                geometry.head_angle_rad.to_degrees(),
-                right.to_degrees()
-            ));
-        }
-        let closure_mm = job.curve.closure_error_mm().abs() * operation.linkage.end_s() / operation.linkage.cycle_s();
-        if closure_mm > 1e-3 * gear.module_mm {
-            warnings.push(format!(
-                "operation {}: the pitch curve's closure error adds up to {} mm over its cycles: leave the size out \
-                and it is solved",
-                operation.spec.name,
-                significant(closure_mm, 3)
-            ));
-        }
-        if let HobbingKind::Diagonal { .. } = operation.spec.kind
-            && (operation.plan.slide_feeds_mm[0] - operation.plan.slide_feeds_mm[1]).abs() > 1e-9
-        {
-            let [first, second] = operation.plan.slide_feeds_mm;
-            warnings.push(format!(
-                "operation {}: with feed_of = \"resultant\" the slide feeds {} mm per revolution one way and {} mm the \
-                other: feed marks differ by a factor of {}",
-                operation.spec.name,
-                significant(first, 4),
-                significant(second, 4),
-                significant((first.max(second) / first.min(second)).powi(2), 3)
-            ));
-        }
-    }
-    warnings
 }
 
 /// Form points of all flanks in the middle of the face.
@@ -158,24 +104,4 @@ impl FormPoints {
         let undercut = self.flanks.iter().filter(|flank| flank.3).count();
         sheet.line("undercut flanks", format!("{undercut} of {}", self.flanks.len()));
     }
-
-    fn warnings(&self) -> Vec<String> {
-        let mut teeth: Vec<u32> = self.flanks.iter().filter(|flank| flank.3).map(|flank| flank.0).collect();
-        teeth.dedup();
-        if teeth.is_empty() {
-            return Vec::new();
-        }
-        let named: Vec<String> = teeth.iter().take(MOST_NAMED).map(u32::to_string).collect();
-        let more = if teeth.len() > MOST_NAMED { ", ..." } else { "" };
-        vec![format!(
-            "the hob's tip corner undercuts {} teeth ({}{more}), where the pitch curve is sharp: use more teeth, a \
-            smaller addendum_coefficient of the hob, or a flatter curve",
-            teeth.len(),
-            named.join(", ")
-        )]
-    }
-}
-
-fn greatest_common_divisor(a: u32, b: u32) -> u32 {
-    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
 }

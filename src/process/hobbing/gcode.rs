@@ -28,18 +28,23 @@ mod text;
 pub use program::{Gearbox, HobbingKnot, HobbingProgram, Positions};
 pub use read::read;
 
+use crate::findings::Warning;
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use gearcut_core::units::UM_PER_MM;
 
-/// Both programs of an operation, fully interpolated and with a gearbox; an error is the reason why there are none,
+/// Both programs of an operation, fully interpolated and with a gearbox, `warnings` in their heads; an error is the reason why there are none,
 /// `None`: none are wanted.
-pub fn texts(job: &HobbingJob, operation: &PreparedHobbing) -> Option<Result<[String; 2], String>> {
-    job.programs.then(|| linear(job, operation))
+pub fn texts(
+    job: &HobbingJob,
+    operation: &PreparedHobbing,
+    warnings: &[Warning],
+) -> Option<Result<[String; 2], String>> {
+    job.programs.then(|| linear(job, operation, warnings))
 }
 
-fn linear(job: &HobbingJob, operation: &PreparedHobbing) -> Result<[String; 2], String> {
+fn linear(job: &HobbingJob, operation: &PreparedHobbing, warnings: &[Warning]) -> Result<[String; 2], String> {
     let linkage = &operation.linkage;
     if linkage.law().is_as_printed() {
         return Err(
@@ -65,5 +70,5 @@ fn linear(job: &HobbingJob, operation: &PreparedHobbing) -> Result<[String; 2], 
     let gearbox = Gearbox::new(linkage);
     let geared = program.geared(&gearbox, -1.0);
     Ok([(&program, None), (&geared, Some(&gearbox))]
-        .map(|(program, gearbox)| text::text(job, operation, program, gearbox, (reached_mm, time_s))))
+        .map(|(program, gearbox)| text::text(job, operation, program, gearbox, (reached_mm, time_s), warnings)))
 }

@@ -18,8 +18,10 @@ mod report;
 pub mod run;
 pub mod scene;
 mod surfaces;
+pub mod warnings;
 
 use super::{CutDone, Process};
+use crate::findings::Warning;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -45,7 +47,7 @@ impl super::ProcessJob for HobbingJob {
         run::run(self, tools)
     }
 
-    fn check(&self, sheet: &mut Sheet) -> Result<Vec<String>> {
+    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Warning>> {
         check::print(sheet, self)
     }
 
@@ -53,7 +55,9 @@ impl super::ProcessJob for HobbingJob {
         visit(&HobCutter::new(self)?)
     }
 
-    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<String>> {
-        axes::command(&HobbingAxesReport::of_job(self), folder, interrupt, sheet)
+    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {
+        let motion = HobbingAxesReport::of_job(self);
+        let warnings = warnings::before(&HobCutter::new(self)?, &motion)?;
+        axes::command(&motion, warnings, folder, interrupt, sheet)
     }
 }

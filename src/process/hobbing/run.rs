@@ -10,16 +10,15 @@ mod points;
 
 use super::gear::cut_gear;
 use super::report;
-use crate::findings::RESULTS_FILE;
+use crate::findings::Findings;
 use crate::output::table::write_tables;
 use crate::process::CutDone;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::{HobCutter, HobbingJob};
+use crate::steps::attempts::Attempts;
 use crate::steps::parts::Part;
 use crate::steps::report::RunWords;
-use crate::steps::{
-    NO_BODY, Tools, axes, meshes, sheets, stages, summary, write_meshes_and_pictures, write_programs, write_report,
-};
+use crate::steps::{NO_BODY, Tools, axes, conclusion, meshes, sheets, stages, summary, write_meshes_and_pictures};
 use crate::surface::{Mesh, SurfaceGrid};
 use crate::texture;
 use gearcut_core::error::Result;
@@ -42,8 +41,10 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     job.blank_grid()?;
     let windows = texture::windows(&cutter)?;
     let mut gear = cut_gear(&cutter, backend, progress, interrupt, Some((folder, notes, parts)))?;
-    let textures = texture::measure(&cutter, &windows, backend, progress, interrupt)?;
-    let lattices = marks::measure(&cutter, &windows, tools)?;
+    let mut attempts = Attempts::new(progress);
+    let textures = texture::measure(&cutter, &windows, backend, progress, interrupt);
+    let textures = attempts.of("texture", textures)?.unwrap_or_default();
+    let lattices = attempts.of("lattice of marks", marks::measure(&cutter, &windows, tools))?.unwrap_or_default();
     let whole = if gear.work.interrupted { None } else { blank::cut(&cutter, backend, progress, interrupt)? };
     gear.work.interrupted |= whole.is_none();
     let loads = whole.as_ref().map_or_else(Vec::new, |whole| load::measure(&cutter, &whole.blank));
@@ -55,54 +56,58 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
         lattices: &lattices,
         whole: whole.as_ref().map(|whole| (whole, loads.as_slice(), forces.as_slice())),
     };
-    let found = findings::findings(&cutter, &gear, &measured);
+    let mut found = findings::findings(&cutter, &gear, &measured)?;
     let mut load_charts = load::charts(job, &loads);
     load_charts.extend(force::bars(job, &forces));
     let force_charts = force::over_time(job, &forces);
     let points_chart = points::chart(&job.scene.name, &gear);
     if let Some(whole) = whole.as_ref().filter(|_| parts.has(Part::Meshes)) {
-        meshes::write_blank(&cutter, &whole.blank.cut, folder)?;
+        attempts.of("mesh of the blank", meshes::write_blank(&cutter, &whole.blank.cut, folder))?;
     }
     if parts.has(Part::Chips) {
-        for (stem, chart) in &load_charts {
-            chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
-        }
-        for (stem, chart) in &force_charts {
-            chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
-        }
+        let write = || {
+            for (stem, chart) in &load_charts {
+                chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
+            }
+            for (stem, chart) in &force_charts {
+                chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
+            }
+            Ok(())
+        };
+        attempts.of("charts of the hob's load", write())?;
     }
     if let Some(chart) = points_chart.as_ref().filter(|_| parts.has(Part::Pictures)) {
-        chart.write_svg(&folder.path("pictures/offset_curves.svg")?)?;
+        let write = || chart.write_svg(&folder.path("pictures/offset_curves.svg")?);
+        attempts.of("chart of the offset curves", write())?;
     }
-    sheets::write_sheets_and_deviations(&cutter, &gear.maps, tools)?;
-    write_tables(&found, folder)?;
-    folder.write_json(RESULTS_FILE, &found.to_json())?;
+    let sheets = sheets::write_sheets_and_deviations(&cutter, &gear.maps, tools);
+    attempts.of("sheets and maps of deviations", sheets)?;
+    attempts.of("tables", write_tables(&found, folder))?;
     if parts.has(Part::Texture) {
-        texture::write(&cutter, &textures, folder, notes)?;
+        attempts.of("files of texture", texture::write(&cutter, &textures, folder, notes))?;
     }
     if !gear.work.interrupted {
         let flanks = std::mem::take(&mut gear.surfaces);
-        let drawn = write_meshes_and_pictures(&cutter, tools, &gear.pictured, || body(&cutter, flanks, tools))?;
+        let body = || body(&cutter, flanks, tools);
+        let drawn = write_meshes_and_pictures(&cutter, tools, &mut attempts, &gear.pictured, body)?;
         gear.work.interrupted = !drawn;
     }
     if parts.has(Part::Axes) {
         for operation in &motion {
-            axes::write(operation, folder)?;
+            attempts.of("table and charts of the axes", axes::write(operation, folder))?;
         }
-        write_programs(progress, || axes::write_programs(&motion, folder))?;
     }
-    if parts.has(Part::Report) {
-        let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
-        let charts = report::Charts { loads: load_charts, forces: force_charts, points: points_chart };
-        write_report(tools, || report::page(&cutter, &gear, &found, charts, &motion, &words, folder))?;
-    }
+    let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
+    let charts = report::Charts { loads: load_charts, forces: force_charts, points: points_chart };
+    let page = |found: &Findings| report::page(&cutter, &gear, found, charts, &motion, &words, folder);
+    conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
     let out = folder.results_path(!gear.work.interrupted);
     let flanks = gear.flanks.len();
     let summary = summary::text(&job.scene.gear, &found, flanks, &gear.work, &out, &backend.name());
     Ok(CutDone { findings: found, summary, work: gear.work })
 }
 
-/// The gear's closed body; nothing where the linkage as printed leaves no flanks to join.
+/// The gear's closed body; none where the linkage as printed leaves no flanks to join.
 fn body(cutter: &HobCutter, flanks: Vec<SurfaceGrid>, tools: &Tools) -> Result<Option<Mesh>> {
     let Tools { backend, progress, .. } = *tools;
     if cutter.job.operations.iter().any(|operation| operation.linkage.law().is_as_printed()) {

@@ -1,7 +1,7 @@
 //! How a gear shaper has to move: what shaping adds to the axes' tables, charts and peaks.
 //!
 //! In: a prepared [`ShapingJob`]. Out: [`OperationAxes`] for the shared steps ([`crate::steps::axes`]): facts for the
-//! terminal, clearance on the return stroke as findings, and in `axes/` per operation `<operation>.csv` (one row per
+//! terminal (of a program under test its own peaks), clearance on the return stroke as findings, and in `axes/` per operation `<operation>.csv` (one row per
 //! stroke) and the charts `_positions`, `_velocities`, `_accelerations`, `_relief`, and `_retraction` where the axes
 //! draw the cutter back.
 //!
@@ -12,8 +12,9 @@ mod facts;
 mod retraction;
 mod strokes;
 
+use super::gcode::{AxisProgram, Judgement};
 use super::programs;
-use crate::findings::{Place, Quantity, Section};
+use crate::findings::{Place, Quantity, Section, Warning};
 use crate::machine::{Peak, peaks};
 use crate::output::line_chart::LineChart;
 use crate::output::text::Sheet;
@@ -49,6 +50,8 @@ pub struct OperationAxes<'a> {
     job: &'a ShapingJob,
     index: usize,
     peaks: Vec<Peak>,
+    /// The program under test against the scene's own strokes, if one is cut.
+    program: Option<Judgement>,
     /// Where the return stroke has the least clearance.
     pub relief: SmallestRelief,
     /// Largest angle between the line of centres and the common normal direction, rad, without its sign.
@@ -66,7 +69,7 @@ pub struct OperationAxes<'a> {
 impl<'a> OperationAxes<'a> {
     /// Peaks and relief of operation `index` of a job.
     pub fn new(job: &'a ShapingJob, index: usize) -> Self {
-        let PreparedOperation { spec, linkage, schedule, retraction, .. } = &job.operations[index];
+        let PreparedOperation { spec, linkage, schedule, retraction, program, .. } = &job.operations[index];
         let limits = dynamics::limits(&job.machine.limits);
         let beta = |phi: f64| {
             let motion = linkage.pose_motion(phi, spec.offset_mm);
@@ -77,10 +80,17 @@ impl<'a> OperationAxes<'a> {
         let places = (0..BETA_PLACES).map(|i| TURN_RAD * f64::from(i) / f64::from(BETA_PLACES));
         let (largest_beta_phi_rad, largest_beta_rad) =
             places.map(|phi| (phi, beta(phi))).fold((0.0, 0.0), |best, here| if here.1 > best.1 { here } else { best });
+        let judged = |program: &AxisProgram| {
+            let ram = job.ram_times();
+            let ram = retraction.is_in_axes().then_some(&ram);
+            let asked_mm = job.scene.output.gcode_contour_error_mm;
+            program.judged(schedule, job.cutter.tip_radius_mm, ram, asked_mm, spec.feed_during_stroke)
+        };
         Self {
             job,
             index,
-            peaks: peaks(schedule, &limits),
+            peaks: program.as_ref().map_or_else(|| peaks(schedule, &limits), |program| program.peaks(&limits)),
+            program: program.as_ref().map(judged),
             relief: relief::smallest_relief(linkage, spec.offset_mm, job.scene.gear.pressure_angle_rad),
             largest_beta_rad,
             largest_beta_phi_rad,
@@ -101,6 +111,11 @@ impl<'a> OperationAxes<'a> {
 
     fn strokes(&self) -> &[StrokeRow] {
         self.strokes.get_or_init(|| strokes::rows(self.job, self.operation()))
+    }
+
+    /// The program under test against the scene's own strokes, if one is cut.
+    pub fn program(&self) -> Option<&Judgement> {
+        self.program.as_ref()
     }
 
     /// What the retraction asks of the axes, where they carry it out.
@@ -156,13 +171,18 @@ impl AxesOfOperation for OperationAxes<'_> {
         }
     }
 
+    /// A program under test that asks too much must not be run.
+    fn exceeded(&self, text: String) -> Warning {
+        if self.program.is_some() { Warning::fault(text) } else { Warning::warn(text) }
+    }
+
     /// Little or no relief by the machine's own relief; axes too slow for another one.
-    fn own_warnings(&self) -> Vec<String> {
+    fn own_warnings(&self) -> Vec<Warning> {
         let warnings = match &self.retraction {
             None => self.relief.warning(self.job.machine.back_off_mm).into_iter().collect(),
             Some(motion) => retraction::warnings(self, motion),
         };
-        warnings.into_iter().map(|text| format!("operation {}: {text}", self.name())).collect()
+        warnings.into_iter().map(|text| Warning::warn(format!("operation {}: {text}", self.name()))).collect()
     }
 
     fn write_table(&self, path: &Path) -> Result<()> {
@@ -173,8 +193,8 @@ impl AxesOfOperation for OperationAxes<'_> {
         self.charts.get_or_init(|| charts::all(self.job, self.operation(), self.strokes()))
     }
 
-    fn programs(&self) -> Option<Result<Vec<(&'static str, String)>, String>> {
-        Some(programs::text(self.job, self.operation())?.map(|text| vec![("", text)]))
+    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(&'static str, String)>, String>> {
+        Some(programs::text(self.job, self.operation(), warnings)?.map(|text| vec![("", text)]))
     }
 }
 

@@ -2,25 +2,25 @@
 
 mod along;
 mod cost;
-mod facts;
 mod returns;
 mod ring;
 mod teeth;
 
+use crate::findings::Warning;
 use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
-use crate::process::shaping::findings;
+use crate::process::shaping::tooth_facts::ToothFacts;
+use crate::process::shaping::{findings, warnings};
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
-use facts::ToothFacts;
 use gearcut_core::error::Result;
 
 /// Prints everything; what must be known before cutting.
 ///
 /// # Errors
 /// Geometry that cannot be cut.
-pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>> {
+pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<Warning>> {
     let facts = ToothFacts::of_job(job);
     let operations = OperationAxes::of_job(job);
 
@@ -34,12 +34,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>> {
     for operation in &operations {
         axes::print(operation, sheet);
     }
-    let of_returns = returns::print(sheet, job)?;
+    returns::print(sheet, job)?;
     cost::print(sheet, job, &facts)?;
-    let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
-    warnings.extend(teeth::warnings(job, &facts));
-    warnings.extend(ring.iter().filter_map(findings::ring::warning));
-    warnings.extend(axes::warnings(&operations));
-    warnings.extend(of_returns);
-    Ok(warnings)
+    warnings::before(job, &operations, ring.as_ref())
 }

@@ -7,6 +7,7 @@ pub mod answers;
 mod chips;
 mod headline;
 mod operation;
+pub mod program;
 pub mod returns;
 pub mod ring;
 mod strokes;
@@ -18,21 +19,16 @@ pub use headline::headline;
 use crate::findings::{Place, Quantity, Section};
 use crate::measure::deviation::{PitchDeviations, Runout};
 use crate::measure::stock::Extreme;
-use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::chips::ChipLedger;
 use crate::process::shaping::measure::{FlankReport, GearReport};
-use crate::steps::{Work, axes};
 use gearcut_core::error::Refusal;
 use gearcut_core::units::UM_PER_MM;
 use operation::operation;
 
 /// Why there is no pitch deviation.
 const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve";
-/// Cuts below the target deeper than this are worth a warning: far above the resolution, below every tolerance on a
-/// gear drawing.
-const GOUGE_MM: f64 = 1e-4;
 
 /// Operations, deviations and teeth; what was known of a ring before cutting.
 ///
@@ -113,33 +109,4 @@ fn deviations(report: &GearReport) -> Section {
 /// Place of an extreme on a flank.
 pub fn place(flank: &FlankReport, at: &Extreme) -> Place {
     Place::on_flank(flank.tooth, flank.side.name(), at.arc_mm, at.z_mm)
-}
-
-/// What a reader must know before trusting the numbers.
-pub fn warnings(report: &GearReport, work: &Work, motion: &[OperationAxes]) -> Vec<String> {
-    let mut warnings = Vec::new();
-    let below: u64 = report.flanks.iter().map(|f| f.own.below_range).sum();
-    if below > 0 {
-        warnings.push(format!("{below} dexels were cut deeper than their rays record: heights there are upper bounds"));
-    }
-    let deepest = report
-        .flanks
-        .iter()
-        .filter_map(|flank| Some((flank, flank.own.undercut?)))
-        .min_by(|a, b| a.1.value_mm.total_cmp(&b.1.value_mm))
-        .filter(|(_, deepest)| deepest.value_mm < -GOUGE_MM);
-    if let Some((flank, deepest)) = deepest {
-        let count = report.flanks.iter().filter(|f| f.own.undercut.is_some_and(|u| u.value_mm < -GOUGE_MM)).count();
-        warnings.push(format!(
-            "{count} flanks are cut below the target, tooth {} {} by {} um, {:.2} mm above the start of the involute",
-            flank.tooth,
-            flank.side.name(),
-            significant(-deepest.value_mm * 1e3, 3),
-            deepest.arc_mm
-        ));
-    }
-    let untouched = report.flanks.iter().map(|flank| flank.untouched).sum();
-    warnings.extend(work.warnings(untouched, "part of the flanks is still the blank"));
-    warnings.extend(axes::warnings(motion));
-    warnings
 }

@@ -23,9 +23,12 @@ pub mod section;
 mod surfaces;
 pub mod target;
 pub mod tip_relief;
+pub mod tooth_facts;
 pub mod tooth_target;
+pub mod warnings;
 
 use super::{CutDone, Process};
+use crate::findings::Warning;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -47,7 +50,7 @@ impl super::ProcessJob for ShapingJob {
         run::run(self, tools, frames)
     }
 
-    fn check(&self, sheet: &mut Sheet) -> Result<Vec<String>> {
+    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Warning>> {
         check::print(sheet, self)
     }
 
@@ -55,7 +58,9 @@ impl super::ProcessJob for ShapingJob {
         visit(self)
     }
 
-    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<String>> {
-        axes::command(&OperationAxes::of_job(self), folder, interrupt, sheet)
+    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {
+        let motion = OperationAxes::of_job(self);
+        let warnings = warnings::before(self, &motion, findings::ring::of_job(self).as_ref())?;
+        axes::command(&motion, warnings, folder, interrupt, sheet)
     }
 }

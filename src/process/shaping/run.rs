@@ -7,17 +7,17 @@ mod files;
 mod frames;
 
 use super::gear::cut_gear;
-use super::{findings, report};
+use super::{findings, report, warnings};
 use crate::findings::Findings;
+use crate::findings::warning::ranked;
 use crate::process::CutDone;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
+use crate::steps::attempts::Attempts;
 use crate::steps::parts::Part;
 use crate::steps::planar::blank_findings;
 use crate::steps::report::RunWords;
-use crate::steps::{
-    Tools, Work, axes, meshes, stages, summary, write_meshes_and_pictures, write_programs, write_report,
-};
+use crate::steps::{Tools, Work, conclusion, meshes, stages, summary, write_meshes_and_pictures};
 use crate::texture;
 use gearcut_core::error::{Error, Result};
 use std::mem::take;
@@ -44,51 +44,52 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     if gear.report.flanks.is_empty() {
         return Err(Error::Interrupted);
     }
-    let textures = texture::measure(job, &windows, backend, progress, interrupt)?;
+    let mut attempts = Attempts::new(progress);
+    let textures = texture::measure(job, &windows, backend, progress, interrupt);
+    let textures = attempts.of("texture", textures)?.unwrap_or_default();
     let whole = if gear.work.interrupted { None } else { blank::cut(job, backend, progress, interrupt)? };
     let motion = OperationAxes::of_job(job);
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion)?;
     sections.extend(whole.as_ref().map(|(cut, report)| blank_findings::findings(&job.planar(), cut, report)));
     sections.push(texture::findings(job, &textures));
-    let mut warnings = findings::warnings(&gear.report, &gear.work, &motion);
-    warnings.extend(whole.as_ref().and_then(|(_, report)| blank::rubbing_warning(job, report)));
-    let found = Findings {
+    let ring = sections.iter().find(|section| section.key == findings::ring::KEY);
+    let mut list = warnings::before(job, &motion, ring)?;
+    let blank_report = whole.as_ref().map(|(_, report)| report);
+    list.extend(warnings::after(job, &gear.report, &gear.chips, &gear.work, blank_report));
+    list.extend(texture::warnings(job, &textures));
+    let mut found = Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         process: "shaping".to_owned(),
         scene: job.scene.name.clone(),
         complete: !gear.work.interrupted,
         headline: findings::headline(job, &gear.report, &gear.chips, &motion),
-        warnings,
+        warnings: ranked(list),
         sections,
     };
-    files::write(job, &gear, &motion, &found, tools)?;
+    files::write(job, &gear, &motion, &found, tools, &mut attempts)?;
     if parts.has(Part::Texture) {
-        texture::write(job, &textures, folder, notes)?;
+        attempts.of("files of texture", texture::write(job, &textures, folder, notes))?;
     }
     let mut interrupted = whole.is_none();
     if let Some((cut, _)) = &whole {
         if parts.has(Part::Meshes) {
-            meshes::write_blank(job, cut, folder)?;
+            attempts.of("mesh of the blank", meshes::write_blank(job, cut, folder))?;
         }
         let (flanks, roots) = (take(&mut gear.surfaces), take(&mut gear.roots));
-        interrupted |= !write_meshes_and_pictures(job, tools, &gear.pictured, || {
+        interrupted |= !write_meshes_and_pictures(job, tools, &mut attempts, &gear.pictured, || {
             meshes::gear(job, tools.backend, flanks, roots, progress).map(Some)
         })?;
         if let Some(count) = frames {
-            let drawn = frames::draw(job, count, progress, interrupt, folder)?;
-            if drawn < count {
+            let drawn = attempts.of("frames", frames::draw(job, count, progress, interrupt, folder))?;
+            if let Some(drawn) = drawn.filter(|&drawn| drawn < count) {
                 progress.note(&format!("stopped: {drawn} of {count} frames are drawn"));
                 interrupted = true;
             }
         }
     }
-    if parts.has(Part::Axes) {
-        write_programs(progress, || axes::write_programs(&motion, folder))?;
-    }
-    if parts.has(Part::Report) {
-        let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
-        write_report(tools, || report::page(job, &gear, &found, &motion, &words, folder))?;
-    }
+    let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
+    let page = |found: &Findings| report::page(job, &gear, found, &motion, &words, folder);
+    conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
     let out = folder.results_path(!interrupted);
     let work = Work { interrupted, ..gear.work };
     let flanks = gear.report.flanks.len();

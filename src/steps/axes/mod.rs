@@ -15,7 +15,8 @@ mod tests;
 pub use peaks::{Named, PeakWords, STEADY, findings, margin_entry};
 pub use table::{Own, write_table};
 
-use crate::findings::Findings;
+use crate::findings::warning::ranked;
+use crate::findings::{Findings, Severity, Warning};
 use crate::interrupt::Interrupt;
 use crate::machine::Peak;
 use crate::output::atomic::write_bytes_atomically;
@@ -51,8 +52,13 @@ pub trait AxesOfOperation {
     /// Heading and facts for the terminal, the table of peaks apart.
     fn print_facts(&self, sheet: &mut Sheet);
 
+    /// What an exceeded limit, told in `text`, amounts to.
+    fn exceeded(&self, text: String) -> Warning {
+        Warning::warn(text)
+    }
+
     /// What the user should know beside exceeded limits.
-    fn own_warnings(&self) -> Vec<String>;
+    fn own_warnings(&self) -> Vec<Warning>;
 
     /// Writes the axis table.
     ///
@@ -71,9 +77,9 @@ pub trait AxesOfOperation {
         Ok(Vec::new())
     }
 
-    /// Programs, each with the end of its file's name; an error is the reason why there are none, `None`: none are
-    /// wanted.
-    fn programs(&self) -> Option<Result<Vec<(&'static str, String)>, String>>;
+    /// Programs, each with the end of its file's name, `warnings` in their heads; an error is the reason why there are
+    /// none, `None`: none are wanted.
+    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(&'static str, String)>, String>>;
 }
 
 /// Facts and peaks of an operation.
@@ -83,8 +89,12 @@ pub fn print(operation: &impl AxesOfOperation, sheet: &mut Sheet) {
 }
 
 /// What the user should know before cutting: limits exceeded, and what the process says.
-pub fn warnings<O: AxesOfOperation>(operations: &[O]) -> Vec<String> {
-    operations.iter().flat_map(|operation| peaks::exceeded(operation).chain(operation.own_warnings())).collect()
+pub fn warnings<O: AxesOfOperation>(operations: &[O]) -> Vec<Warning> {
+    let of = |operation: &O| -> Vec<Warning> {
+        let exceeded = peaks::exceeded(operation).map(|text| operation.exceeded(text));
+        exceeded.chain(operation.own_warnings()).collect()
+    };
+    operations.iter().flat_map(of).collect()
 }
 
 /// Writes tables and charts of the motion into the folder's `axes/`.
@@ -100,37 +110,47 @@ pub fn write(operation: &impl AxesOfOperation, folder: &OutputFolder) -> Result<
     Ok(())
 }
 
-/// Writes the programs of all operations into `axes/`; gives a sentence for each operation that has none.
+/// Writes the programs of all operations into `axes/`, the faults and warnings among `warnings` in their heads (notes say
+/// how to read numbers); tells each operation that has none.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write_programs<O: AxesOfOperation>(operations: &[O], folder: &OutputFolder) -> Result<Vec<String>> {
+pub fn write_programs<O: AxesOfOperation>(
+    operations: &[O],
+    warnings: &[Warning],
+    folder: &OutputFolder,
+) -> Result<Vec<Warning>> {
     let mut left_out = Vec::new();
+    let head: Vec<Warning> = warnings.iter().filter(|of| of.severity > Severity::Note).cloned().collect();
     for operation in operations {
         let name = operation.name();
-        match operation.programs() {
+        match operation.programs(&head) {
             Some(Ok(programs)) => {
                 for (end, text) in programs {
                     write_bytes_atomically(&folder.path(format!("axes/{name}{end}.ngc"))?, text.as_bytes())?;
                 }
             }
-            Some(Err(why)) => left_out.push(format!("operation {name}: no G-code written: {why}")),
+            Some(Err(why)) => {
+                left_out.push(Warning::warn(format!("operation {name}: no G-code written: {why}")));
+            }
             None => {}
         }
     }
     Ok(left_out)
 }
 
-/// All that the command `axes` writes and says; gives what must be known before the programs are used.
+/// All that the command `axes` writes and says; gives what must be known before the programs are used: the job's
+/// `warnings`, and the programs that are left out.
 ///
 /// # Errors
 /// Files that cannot be written; Ctrl-C.
 pub fn command<O: AxesOfOperation>(
     operations: &[O],
+    warnings: Vec<Warning>,
     folder: &OutputFolder,
     interrupt: &Interrupt,
     sheet: &mut Sheet,
-) -> Result<Vec<String>> {
+) -> Result<Vec<Warning>> {
     for operation in operations {
         interrupt.check()?;
         write(operation, folder)?;
@@ -141,8 +161,8 @@ pub fn command<O: AxesOfOperation>(
         print(operation, sheet);
     }
     interrupt.check()?;
-    let left_out = write_programs(operations, folder)?;
-    Ok(warnings(operations).into_iter().chain(left_out).collect())
+    let left_out = write_programs(operations, &warnings, folder)?;
+    Ok(ranked(warnings.into_iter().chain(left_out)))
 }
 
 /// The page's section: peaks and first chart of every operation, the other charts folded under their name.

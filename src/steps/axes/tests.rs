@@ -51,8 +51,8 @@ impl AxesOfOperation for Made {
         sheet.heading("Operation finish");
     }
 
-    fn own_warnings(&self) -> Vec<String> {
-        vec!["its own".to_owned()]
+    fn own_warnings(&self) -> Vec<Warning> {
+        vec![Warning::note("its own")]
     }
 
     fn write_table(&self, path: &Path) -> Result<()> {
@@ -64,7 +64,7 @@ impl AxesOfOperation for Made {
         &[]
     }
 
-    fn programs(&self) -> Option<Result<Vec<(&'static str, String)>, String>> {
+    fn programs(&self, _: &[Warning]) -> Option<Result<Vec<(&'static str, String)>, String>> {
         None
     }
 }
@@ -137,8 +137,8 @@ fn the_terminal_tells_peaks_limits_and_what_is_left() {
         ["work spindle acceleration", "17.19 deg/s^2", "not given", ""]
     );
     let told = warnings(&[made]);
-    assert_eq!(told[0], "operation finish: the X speed reaches 0.7500 mm/s, the machine allows 0.5000 mm/s: go slower");
-    assert_eq!(told[1..], ["its own"]);
+    let exceeded = "operation finish: the X speed reaches 0.7500 mm/s, the machine allows 0.5000 mm/s: go slower";
+    assert_eq!(told, [Warning::warn(exceeded), Warning::note("its own")]);
 }
 
 #[test]

@@ -2,9 +2,9 @@
 
 use super::PlanarGear;
 use super::blank_report::BlankReport;
-use crate::findings::damage::{damage_row, damage_table, pairs};
-use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
-use crate::measure::damage::Damage;
+use crate::findings::damage::{self, damage_row, damage_table, gouge_from, pairs};
+use crate::findings::{Datum, Quantity, Section, Table, TableColumn, Warning};
+use crate::measure::damage::{Damage, gouge_mm};
 use crate::steps::whole_blank::{self, mean};
 use gearcut_core::cut::CutBlank;
 use gearcut_core::gear::GearKind;
@@ -21,7 +21,7 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
     let area = |value: Option<f64>, definition: &'static str| Quantity::number_or(value, "mm2", definition, NO_TARGET);
     let end_face = report.end_face;
     let against_target = |key, title, places: &[Damage], what| {
-        if end_face.is_some() { damage(key, title, places, what) } else { without_target(key, title, what) }
+        if end_face.is_some() { damage_of(key, title, places, what) } else { without_target(key, title, what) }
     };
     let rubbing =
         |stays: bool| -> Vec<Damage> { report.rubbing.iter().filter(|r| r.stays == stays).map(|r| r.damage).collect() };
@@ -30,7 +30,6 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
     } else {
         Quantity::undefined("strokes", STROKE_FAULTS, "no operation takes chips as large as ten cells of the grid")
     };
-    let not_judged = "gouges and interference are not judged";
     let slices = (cut.field.slices.len(), "transverse sections; one stands for the whole face where all are equal");
     let volumes = [report.blank_mm3, report.left_mm3];
     whole_blank::findings(gear.blank.kind(), cut.field.grid.spacing_mm(), slices, volumes, &report.operations)
@@ -61,6 +60,7 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
             ),
         )
         .shown("stroke_faults", "faulty strokes", faults)
+        .with("gouge_from", gouge_from(gear.scene.gear.module_mm))
         .with(
             "ray_passes_visited",
             pairs(report.stats.visited, "pairs of ray and pass in which the ray crosses the cutter tooth"),
@@ -68,26 +68,55 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
         .with("ray_passes_removing", pairs(report.stats.removing, "those of them that removed material"))
         .table(all_damage(gear, report))
         .part(whole_blank::removed(gear.operations.iter().map(|operation| operation.name), &report.operations))
-        .part(against_target("gouges", "gouges", &report.gouges, "target material that the last operation took"))
+        .part(against_target(
+            "gouges",
+            "below the target, last operation",
+            &report.gouges,
+            "target material that the last operation took",
+        ))
         .part(against_target(
             "interference",
-            "interference",
+            "below the target, earlier operations",
             &report.interference,
             "target material that an earlier operation took",
         ))
-        .part(damage(
+        .part(damage_of(
             "rubbing_on_gear",
             "return stroke on the gear",
             &rubbing(true),
             "material that the cutter enters on its way back, on surfaces that stay",
         ))
-        .part(damage(
+        .part(damage_of(
             "rubbing_on_stock",
             "return stroke on stock",
             &rubbing(false),
             "material that the cutter enters on its way back, on stock that a later stroke removes",
         ))
-        .warning(end_face.is_none().then(|| format!("{not_judged}: {NO_TARGET}")))
+}
+
+/// What a reader must know of damage and strokes.
+pub fn warnings(gear: &PlanarGear, report: &BlankReport) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let gouge_mm = gouge_mm(gear.scene.gear.module_mm);
+    let name = |operation: usize| gear.operations[operation].name;
+    let by = |d: &Damage| format!("stroke {} of operation {}, cutter tooth {}", d.stroke, name(d.operation), d.blade);
+    if report.end_face.is_none() {
+        warnings.push(Warning::note(format!("cuts below the target are not looked for: {NO_TARGET}")));
+    }
+    for places in [&report.gouges, &report.interference] {
+        warnings.extend(damage::warning(places, gouge_mm, by));
+    }
+    if let Some(first) = report.stroke_faults.first() {
+        warnings.push(Warning::warn(format!(
+            "{} strokes seem to be missing, made twice or without a cut, from what each removed: the first is stroke {} of \
+             operation {} ({})",
+            report.stroke_faults.len(),
+            first.fault.stroke,
+            name(first.operation),
+            first.fault.kind.name().replace('_', " ")
+        )));
+    }
+    warnings
 }
 
 /// Every place of damage, rubbing and every fault of a stroke.
@@ -97,8 +126,9 @@ fn all_damage(gear: &PlanarGear, report: &BlankReport) -> Table {
         row.extend([Datum::from(d.stroke as u64), d.blade.into()]);
         row
     };
-    let gouges = report.gouges.iter().map(|d| row("gouge", d));
-    let interference = report.interference.iter().map(|d| row("interference", d));
+    let gouge_mm = gouge_mm(gear.scene.gear.module_mm);
+    let gouges = report.gouges.iter().map(|d| row(damage::kind(d, gouge_mm, "gouge"), d));
+    let interference = report.interference.iter().map(|d| row(damage::kind(d, gouge_mm, "interference"), d));
     let rubbing =
         report.rubbing.iter().map(|r| row(if r.stays { "rubbing_on_gear" } else { "rubbing_on_stock" }, &r.damage));
     let strokes = report.stroke_faults.iter().map(|f| {
@@ -129,8 +159,8 @@ fn without_target(key: &str, title: &str, what: &'static str) -> Section {
         .with("volume", undefined("mm3"))
 }
 
-fn damage(key: &str, title: &str, places: &[Damage], what: &'static str) -> Section {
-    crate::findings::damage::damage(key, title, places, what, |place, d| {
+fn damage_of(key: &str, title: &str, places: &[Damage], what: &'static str) -> Section {
+    damage::damage(key, title, places, what, |place, d| {
         place.and("stroke", d.stroke as u64).and("cutter_tooth", d.blade)
     })
 }

@@ -6,7 +6,7 @@ pub mod maps;
 pub mod quantities;
 pub mod texture;
 
-use crate::findings::{self, Findings, Place, Quantity, unit};
+use crate::findings::{self, Findings, Place, Quantity, Warning, unit};
 use crate::job::GearJob;
 use crate::output::progress::duration_text;
 use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
@@ -53,7 +53,7 @@ pub fn page(
         complete: found.complete,
         program: format!("gearcut {}", found.program_version),
         key_numbers: known_first(key_numbers),
-        warnings: warnings(found),
+        warnings: found.warnings.iter().map(Warning::with_signs).collect(),
         viewer: Some(maps::viewer(job, gear.mesh, maps)),
         sections,
     }
@@ -91,12 +91,6 @@ fn known_first(numbers: Vec<KeyNumber>) -> Vec<KeyNumber> {
     let (mut known, unknown): (Vec<_>, Vec<_>) = numbers.into_iter().partition(|number| number.value != "–");
     known.extend(unknown);
     known
-}
-
-/// What a reader must know of the run, in the page's signs; windows tell their own.
-fn warnings(found: &Findings) -> Vec<String> {
-    let of_blank = found.find("blank").map_or(&[][..], |blank| &blank.warnings);
-    found.warnings.iter().chain(of_blank).map(|text| unit::sentence_with_signs(text)).collect()
 }
 
 /// Peaks of an operation's axes against their limits.

@@ -16,9 +16,9 @@ pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSec
     let operations = found.parts("texture");
     let Some((last, earlier)) = operations.split_last() else { return Ok(None) };
     let mut blocks = vec![overview(last, earlier)];
-    blocks.extend(shown(last, folder)?);
+    blocks.extend(shown(last, found, folder)?);
     for operation in earlier {
-        blocks.push(Block::Folded(operation.title.clone(), shown(operation, folder)?));
+        blocks.push(Block::Folded(operation.title.clone(), shown(operation, found, folder)?));
     }
     Ok(Some(PageSection {
         id: "texture",
@@ -34,11 +34,17 @@ pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSec
 }
 
 /// The windows of an operation.
-fn shown(operation: &findings::Section, folder: &OutputFolder) -> Result<Vec<Block>> {
-    operation.sections.iter().map(|window| Ok(Block::Texture(texture_window(window, folder)?))).collect()
+fn shown(operation: &findings::Section, found: &Findings, folder: &OutputFolder) -> Result<Vec<Block>> {
+    let block = |window: &findings::Section| {
+        let path = format!("texture.{}.{}", operation.key, window.key);
+        let warnings = found.warnings.iter().filter(|warning| warning.section.as_ref() == Some(&path));
+        let warnings = warnings.map(|warning| warning.with_signs().text).collect();
+        Ok(Block::Texture(texture_window(window, warnings, folder)?))
+    };
+    operation.sections.iter().map(block).collect()
 }
 
-fn texture_window(window: &findings::Section, folder: &OutputFolder) -> Result<TextureBlock> {
+fn texture_window(window: &findings::Section, warnings: Vec<String>, folder: &OutputFolder) -> Result<TextureBlock> {
     let number = |key: &str| window.number(key).map_or_else(|| "–".to_owned(), |value| digits(value, 4));
     let path = folder.path(format!("{}_relief.png", window.words("files")))?;
     // A window that could not be evaluated has no picture, nor has one whose files are left out.
@@ -94,7 +100,7 @@ fn texture_window(window: &findings::Section, folder: &OutputFolder) -> Result<T
         ),
         chain: window.words("chain").to_owned(),
         parameters: parameters.iter().map(parameter).collect(),
-        warnings: window.warnings.clone(),
+        warnings,
         png,
         material_ratio,
     })

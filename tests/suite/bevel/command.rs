@@ -3,7 +3,11 @@
 use crate::fixtures::command::{assert_same_files, files, gearcut, gearcut_on_threads, read_json};
 use crate::fixtures::json_schema::assert_is_results;
 
-const COARSE: [&str; 8] = [
+const COARSE: [&str; 12] = [
+    "--set",
+    "operation.finish.roll_speed_deg_per_s=20",
+    "--set",
+    "fields.blank.spacing_mm=0.5",
     "--set",
     "fields.flank.profile_spacing_um=300",
     "--set",

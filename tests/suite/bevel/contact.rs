@@ -5,10 +5,16 @@ use crate::fixtures::command::{gearcut, read_json};
 use crate::fixtures::json_schema::assert_is_results;
 use gearcut::bevel::contact::{BevelPair, Contact, Mounting};
 use gearcut::bevel::face_mill::BladeKind;
+use gearcut::cut::cpu::Cpu;
+use gearcut::dexel::Ray;
+use gearcut::interrupt::Interrupt;
+use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::bevel::BevelJob;
 use gearcut::process::bevel::pair::findings::ARCSEC_PER_RAD;
 use gearcut::process::bevel::pair::{MountingError, MountingErrors, RolledBevels, Running, roll};
-use std::f64::consts::PI;
+use gearcut::terms::Side;
+use glam::{DMat3, DVec3};
+use std::f64::consts::{PI, TAU};
 
 const MARKING_MM: f64 = 0.00635;
 /// Where the gear's outside blades cut, mm; the common cone stands two dedenda further, and the scene's pinion takes
@@ -23,7 +29,8 @@ fn jobs(pinion: &[&str]) -> [BevelJob; 2] {
 }
 
 fn rolled([gear, pinion]: &[BevelJob; 2], errors: &MountingErrors) -> RolledBevels {
-    roll(gear, pinion, errors, MARKING_MM).expect("they meet")
+    let (progress, interrupt) = (Progress::new(ProgressMode::Quiet), Interrupt::default());
+    roll(gear, pinion, errors, MARKING_MM, (&progress, &interrupt)).expect("they meet")
 }
 
 /// Settings of a pinion whose inside blades follow the gear's cone: no crowning at all.
@@ -97,6 +104,124 @@ fn a_crowned_pinion_shows_its_bearing_and_how_it_moves() {
     assert!(moved(MountingError::Offset) > 0.1);
 }
 
+/// Flanks that one crown gear generates on blanks with an offset touch it, and each other, in a point: the closed form
+/// of hypoid pairs is an even motion. An offset that is 20 um off is none.
+#[test]
+fn a_hypoid_pair_of_one_crown_gear_turns_evenly() {
+    let [gear, pinion] = ["hypoid_crown_gear", "hypoid_crown_pinion"].map(|name| job(name, &[]).expect("a gear"));
+    let offsets_mm = [&gear, &pinion].map(|job| job.finishing().settings.blank_offset_mm);
+    let nominal_mm = gear.spec.cones.hypoid_offset_mm;
+    assert_eq!(offsets_mm[0] + offsets_mm[1], nominal_mm);
+    let running = |off_mm: f64| {
+        let [gear, pinion] =
+            [&gear.target[BladeKind::Outside.index()], &pinion.target[BladeKind::Inside.index()]].map(Clone::clone);
+        let offset_mm = nominal_mm + off_mm;
+        let mounting = Mounting { shaft_angle_rad: 0.5 * PI, offset_mm, pinion_axial_mm: 0.0, gear_axial_mm: 0.0 };
+        Running::of(&BevelPair { gear, pinion, mounting }, MARKING_MM).expect("they meet")
+    };
+    let concave = running(0.0);
+    let arcsec = ARCSEC_PER_RAD * concave.motion_error_rad();
+    let ellipse = concave.middle().ellipse;
+    println!("hypoid: {arcsec:e} arc seconds, contact at {:?}, {ellipse:?}", concave.center_mm());
+    assert!(arcsec < 0.1, "{arcsec} arc seconds");
+    let [long_mm, short_mm] = ellipse.expect("inside the flank").half_axes_mm;
+    assert!(long_mm.is_finite() && short_mm < long_mm, "{long_mm} by {short_mm} mm");
+    for off_mm in [-0.02, 0.02] {
+        let arcsec = ARCSEC_PER_RAD * running(off_mm).motion_error_rad();
+        println!("offset {off_mm} mm off: {arcsec} arc seconds");
+        assert!(arcsec > 0.1, "{arcsec} arc seconds");
+    }
+}
+
+/// Points of a cut flank about a place (along the tooth, height over the pitch cone; mm), in the work frame with the
+/// normals of their rays: an even patch of `count` by `count` dexels, `step_mm` apart.
+fn cut_patch(job: &BevelJob, kind: BladeKind, [along_mm, height_mm]: [f64; 2], count: usize, step_mm: f64) -> Vec<Ray> {
+    let side = if job.left == kind { Side::Left } else { Side::Right };
+    let target = &job.target[kind.index()];
+    let row = target.row(along_mm).expect("a row");
+    let share = (height_mm - row.form_height_mm) / (row.tip_height_mm - row.form_height_mm);
+    let even = |middle: f64| (0..count).map(|i| middle + step_mm * (i as f64 - 0.5 * (count - 1) as f64)).collect();
+    // The tooth whose flank stands in space 0.
+    let tooth = if side == Side::Left { job.blank.teeth } else { 1 };
+    assert_eq!(job.space_of(tooth, side), 0);
+    let rays = job.rays_over(tooth, side, even(target.arc_at(share)), even(along_mm)).expect("rays");
+    let (layers, _) = job.cut_field(&Cpu::default(), 0, &rays.field).expect("cuts");
+    let heights_mm = &layers.last().expect("an operation").heights_mm;
+    let work_from_gear = job.gear_from_work.inverse();
+    let point = |i: usize| {
+        let ray = rays.field.ray(i / count, i % count);
+        let at_mm = ray.at(f64::from(heights_mm[i]));
+        Ray { origin_mm: work_from_gear.point(at_mm), normal: work_from_gear.direction(ray.normal) }
+    };
+    (0..count * count).map(point).collect()
+}
+
+/// Brute force, with nothing of the contact search in it: both flanks are cut, the dexels about the contact are turned
+/// by the angles that were found, and every point of the gear is compared with the pinion's nearest one.
+#[test]
+fn cut_flanks_touch_where_the_contact_is_found() {
+    // So slow a roll that marks stay below a micrometre's hundredth.
+    let slow = "operation.finish.roll_speed_deg_per_s=0.5";
+    for [gear, pinion] in [["crown_gear", "crown_pinion"], ["hypoid_crown_gear", "hypoid_crown_pinion"]] {
+        let [gear, pinion] = [gear, pinion].map(|name| job(name, &[slow]).expect("a gear"));
+        let offset_mm = gear.spec.cones.hypoid_offset_mm;
+        let mounting = Mounting { shaft_angle_rad: 0.5 * PI, offset_mm, pinion_axial_mm: 0.0, gear_axial_mm: 0.0 };
+        let [gear_flank, pinion_flank] =
+            [&gear.target[BladeKind::Outside.index()], &pinion.target[BladeKind::Inside.index()]].map(Clone::clone);
+        let pair = BevelPair { gear: gear_flank, pinion: pinion_flank, mounting };
+        let [pinion_rad, gear_rad] = pair.middle_rad().expect("a middle");
+        let contact = pair.contact(pinion_rad, gear_rad, MARKING_MM).expect("they meet");
+        // Axes of both members in one frame: the gear's leans by its pitch angle, the pinion's by its own the other way.
+        let [gear_lean, pinion_lean] = [&gear, &pinion].map(|job| DMat3::from_rotation_y(-job.blank.pitch_angle_rad));
+        let gear_turn = gear_lean * DMat3::from_rotation_x(contact.gear_rad);
+        let pinion_turn = DMat3::from_rotation_x(PI) * pinion_lean * DMat3::from_rotation_x(contact.pinion_rad);
+        let beside = offset_mm * DVec3::Y;
+        let in_pinion = |at_mm: DVec3| pinion_turn.transpose() * (gear_turn * at_mm - beside);
+        let gear_points = cut_patch(&gear, BladeKind::Outside, contact.place_mm, 21, 0.05);
+        let middle = in_pinion(gear_points[gear_points.len() / 2].origin_mm);
+        let [distance_mm, height_mm] = pinion.blank.cone_distance_and_height_mm(middle);
+        let place_mm = [distance_mm - pinion.blank.mean_cone_distance_mm(), height_mm];
+        let pinion_points = cut_patch(&pinion, BladeKind::Inside, place_mm, 101, 0.015);
+        // The tooth of the pinion that is there: cut in space 0, wanted near the gear's point.
+        let turned = |point: DVec3| {
+            let polar = |at: DVec3| at.z.atan2(at.y);
+            let pitch = TAU / f64::from(pinion.blank.teeth);
+            let by = ((polar(middle) - polar(point)) / pitch).round() * pitch;
+            DMat3::from_rotation_x(by)
+        };
+        let turn = turned(pinion_points[pinion_points.len() / 2].origin_mm);
+        let pinion_points: Vec<Ray> = pinion_points
+            .iter()
+            .map(|ray| Ray { origin_mm: turn * ray.origin_mm, normal: turn * ray.normal })
+            .collect();
+        let gap_mm = |gear_point: &Ray| {
+            let at = in_pinion(gear_point.origin_mm);
+            let nearest = pinion_points
+                .iter()
+                .min_by(|a, b| at.distance_squared(a.origin_mm).total_cmp(&at.distance_squared(b.origin_mm)));
+            let nearest = nearest.expect("points");
+            // Beyond the patch the nearest point is its border.
+            let [along, off] = [(at - nearest.origin_mm).dot(nearest.normal), at.distance(nearest.origin_mm)];
+            ((off * off - along * along).max(0.0).sqrt() < 0.02).then_some(along)
+        };
+        let gaps: Vec<f64> = gear_points.iter().filter_map(gap_mm).collect();
+        let smallest_mm = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+        println!("{}: {} gaps, the smallest {smallest_mm:e} mm", gear.scene.name, gaps.len());
+        assert!(gaps.len() > 100, "{}", gaps.len());
+        assert!(smallest_mm.abs() < 1e-5, "{smallest_mm:e} mm");
+    }
+}
+
+/// Ctrl-C ends the work between two mountings.
+#[test]
+fn contact_stops_when_asked() {
+    let [gear, pinion] = jobs(&[]);
+    let (progress, interrupt) = (Progress::new(ProgressMode::Quiet), Interrupt::default());
+    interrupt.raise();
+    let stopped = roll(&gear, &pinion, &MountingErrors::default(), MARKING_MM, (&progress, &interrupt));
+    assert!(matches!(stopped, Err(gearcut::Error::Interrupted)));
+}
+
 #[test]
 fn the_command_writes_a_folder_and_refuses_what_is_no_pair() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -117,6 +242,7 @@ fn the_command_writes_a_folder_and_refuses_what_is_no_pair() {
         (vec![gear, gear], "the same hand of spiral"),
         (vec![gear, pinion, "--set-pinion", "gear.module_mm=4.1"], "the gear's outer module is 4.0000 mm"),
         (vec![gear, pinion, "--set-gear", "gear.bevel.mate_teeth=20"], "names a mate with 20 teeth"),
+        (vec![gear, "scenes/bevel/hypoid_crown_pinion.toml"], "names an offset of 0 mm, the pinion's 8 mm"),
         (vec![gear, pinion, "--g-um", "5000"], "5000 is not -2000 to 2000"),
         (vec![gear, "scenes/shaping/circular_m3_z24.toml"], "this tool does not cut bevel gears"),
     ] {

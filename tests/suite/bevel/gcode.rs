@@ -11,7 +11,7 @@ use glam::DVec3;
 fn a_program_read_back_moves_the_head_as_the_cradle_does() {
     let job = job("five_linkage_printed", &[]).expect("a gear");
     let operation = job.finishing();
-    let text = gcode::text(&job, operation).expect("wanted").expect("a program");
+    let text = gcode::text(&job, operation, &[]).expect("wanted").expect("a program");
     let program = read(&text).expect("it reads");
     let motion = RollMotion { job: &job, operation };
     let end_s = 61.0 * operation.cycle_s() + operation.roll_s();

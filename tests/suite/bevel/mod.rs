@@ -1,9 +1,11 @@
 //! Spiral bevel gears cut with a face-mill head on a six-axis machine.
 
+mod blank;
 mod cases;
 mod command;
 mod contact;
 mod cut;
+mod drawing;
 mod gcode;
 mod jobs;
 mod oracle;

@@ -3,7 +3,7 @@
 use super::cases::*;
 use gearcut::bevel::blank::{MatingCones, pitch_angle_rad};
 use gearcut::bevel::cradle::{CradleSettings, Roll};
-use gearcut::bevel::envelope::{Envelope, Place};
+use gearcut::bevel::envelope::{Envelope, OnFlank};
 use gearcut::bevel::face_mill::{BladeKind, CuttingSurface};
 use gearcut::bevel::five_axis::{FiveAxisMachine, SixAxes};
 use gearcut::bevel::flank::BevelFlank;
@@ -170,7 +170,7 @@ fn points_and_normals_of_the_flank() {
             for point in points {
                 let distance_mm = number(point, "cone_distance");
                 let found = envelope
-                    .find(&blank, distance_mm, Place::Height(number(point, "height")), envelope.guess(distance_mm))
+                    .find(&blank, distance_mm, OnFlank::Height(number(point, "height")), envelope.guess(distance_mm))
                     .expect("a point of the flank");
                 let wanted = DVec3::from_slice(&numbers(&point["P"]));
                 worst_mm = worst_mm.max(found.point_mm.distance(wanted));

@@ -3,6 +3,7 @@
 
 use super::jobs::job;
 use crate::fixtures::command::gearcut;
+use gearcut::process::bevel::blank::CellGrid;
 
 const PRINTED: &str = "five_linkage_printed";
 
@@ -23,6 +24,20 @@ fn what_cannot_be_cut_is_refused_with_numbers() {
     }
 }
 
+/// More points than dexels: the grid would have one point twice.
+#[test]
+fn a_grid_finer_than_the_dexels_is_refused() {
+    let settings = ["fields.flank.profile_spacing_um=500", "inspection.profile_points=60"];
+    let refused = job(PRINTED, &settings).map(|_| ()).expect_err("too fine").to_string();
+    for words in ["inspection.profile_points", "60 points find", "ask for at most"] {
+        assert!(refused.contains(words), "{refused}");
+    }
+    assert!(job(PRINTED, &settings[1..]).is_ok());
+    let many = job(PRINTED, &["fields.blank.spacing_mm=0.001", "fields.blank.slice_spacing_mm=0.02"]).expect("a gear");
+    let refused = CellGrid::of_scene(&many).expect_err("too many rays").to_string();
+    assert!(refused.contains("fields.blank.spacing_mm") && refused.contains("at most 2e9"), "{refused}");
+}
+
 #[test]
 fn what_is_off_is_warned_of_with_numbers() {
     for (setting, words) in [
@@ -33,9 +48,45 @@ fn what_is_off_is_warned_of_with_numbers() {
         let warnings = job(PRINTED, &[setting]).expect("a gear").contradictions();
         assert!(warnings.iter().any(|warning| warning.contains(words)), "{setting}: {warnings:?}");
     }
+    // Blades of 18.5 and 21.5 deg fit one way round better than the other.
+    let angles = |outside: f64, inside: f64| {
+        [
+            format!("tool.face_mill.outside_blade_angle_deg={outside}"),
+            format!("tool.face_mill.inside_blade_angle_deg={inside}"),
+        ]
+    };
+    let exchanged = |[outside, inside]: [String; 2]| {
+        let warnings = job(PRINTED, &[&outside, &inside]).expect("a gear").contradictions();
+        warnings.iter().any(|warning| warning.contains("inside and outside blades look exchanged"))
+    };
+    assert!(!exchanged(angles(20.0, 20.0)));
+    let both = [exchanged(angles(18.5, 21.5)), exchanged(angles(21.5, 18.5))];
+    assert!(both[0] != both[1], "{both:?}");
+    // Ends of the travel: B stands at the root angle of 75.4333 deg.
+    for (limit, words) in [
+        ("machine.bevel_limits.b_to_deg=70", "B goes from 75.433 to 75.433 deg, the machine from no end to 70.000 deg"),
+        ("machine.bevel_limits.y_to_mm=80", "the machine from no end to 80.000 mm"),
+    ] {
+        let warnings = job(PRINTED, &[limit]).expect("a gear").contradictions();
+        assert!(warnings.iter().any(|warning| warning.contains(words)), "{limit}: {warnings:?}");
+    }
+    assert_eq!(job(PRINTED, &["machine.bevel_limits.b_to_deg=80"]).expect("a gear").contradictions().len(), 1);
     let short = ["operation.finish.roll_from_deg=45", "operation.finish.roll_to_deg=70"];
     let warnings = job(PRINTED, &short).expect("a gear").contradictions();
     assert!(warnings.iter().any(|warning| warning.contains("the flanks need 42.2")), "{warnings:?}");
+}
+
+/// A head that rolls on beyond the flanks, or is too wide, cuts into the next tooth.
+#[test]
+fn a_head_that_hits_the_next_tooth_is_warned_of() {
+    assert_eq!(job(PRINTED, &[]).expect("a gear").next_tooth_warning().expect("flanks"), None);
+    let far = ["operation.finish.roll_from_deg=20", "operation.finish.roll_to_deg=100"];
+    let warning = job(PRINTED, &far).expect("a gear").next_tooth_warning().expect("flanks");
+    println!("{warning:?}");
+    let wide = ["tool.face_mill.point_width_mm=9"];
+    let warning = job(PRINTED, &wide).expect("a gear").next_tooth_warning().expect("flanks");
+    println!("{warning:?}");
+    assert!(warning.is_some_and(|words| words.contains("hits the next tooth")));
 }
 
 #[test]
@@ -45,7 +96,7 @@ fn keys_of_cylindrical_gears_are_refused_at_their_place() {
         ("gear.helix_angle_deg=10", "this scene is for bevel, where the machine's settings make the spiral"),
         ("gear.kind=internal", "where the pitch angle says where teeth stand"),
         ("gear.pitch_curve.ellipse={order=2, eccentricity=0.1}", "where gears roll on cones"),
-        ("fields.blank.spacing_mm=0.5", "where no rays go through the whole blank"),
+        ("material.normal_force_n_per_mm2=1000", "the cutting force alone is computed"),
         ("tool.face_mill.runouts_um=[1.0]", "has 1 entries for 16 blades"),
     ] {
         gearcut(&["check", &scene, "--set", setting]).failed(1, &[words]);

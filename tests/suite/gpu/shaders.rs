@@ -85,11 +85,11 @@ macro_rules! layout {
 fn records_have_the_same_members_on_both_sides() {
     let layouts = [
         layout!(0, records::Launch { rows, quads, threads_per_column }),
-        layout!(0, records::Tile { first_column, column_count, first_record, record_count }),
-        layout!(0, records::Column { offset_mm, normal, normal_change, low_mm, padding }),
+        layout!(0, records::FlankTile { first_column, column_count, first_record, record_count }),
+        layout!(0, records::FlankColumn { offset_mm, normal, normal_change, low_mm, padding }),
         layout!(
             0,
-            records::PassRecord {
+            records::FlankPass {
                 cos,
                 sin,
                 x_mm,
@@ -111,10 +111,10 @@ fn records_have_the_same_members_on_both_sides() {
         layout!(1, records::BlankPart { along, across, across_end_mm, padding_1, padding_2, padding_3 }),
         layout!(1, records::BlankSpan { low_mm, high_mm, low_pass, high_pass, low_normal, high_normal }),
         layout!(1, records::BlankPiece { span, ray, pass_id }),
-        layout!(2, sweep_records::SweepTile { middle, first_group, group_count, first_record, record_count }),
+        layout!(2, sweep_records::SpatialTile { middle, first_group, group_count, first_record, record_count }),
         layout!(
             2,
-            sweep_records::SweepRecord {
+            sweep_records::SpatialPass {
                 turn,
                 place_3,
                 radius_mm,

@@ -150,7 +150,8 @@ mod slow {
         let mut wanted: Option<BTreeMap<u32, Counted>> = None;
         let mut spreads = Vec::new();
         for spacing in ["0.3", "0.15"] {
-            let job = spur(&[&format!("fields.blank.spacing_mm={spacing}"), "material.name=\"16MnCr5\""]);
+            let job =
+                spur(&[&format!("fields.blank.spacing_mm={spacing}"), "gear.teeth=20", "material.name=\"16MnCr5\""]);
             let cutter = HobCutter::new(&job).expect("passes");
             let blank = cut(&cutter);
             let wanted = wanted.get_or_insert_with(|| of_two_spaces(&cutter, &blank.cut.field.grid.slices_z_mm));

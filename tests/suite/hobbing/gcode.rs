@@ -70,7 +70,8 @@ fn programs_read_back_to_the_axes_within_the_contour_error() {
         for error_mm in [0.01, 0.001] {
             job.scene.output.gcode_contour_error_mm = error_mm;
             let operation = job.finishing();
-            let [full, geared] = texts(&job, operation).expect("wanted").unwrap_or_else(|why| panic!("{name}: {why}"));
+            let [full, geared] =
+                texts(&job, operation, &[]).expect("wanted").unwrap_or_else(|why| panic!("{name}: {why}"));
             let shift_mm = operation.linkage.axes::<1>(0.0).shift_mm.value();
             let program = read(&full, shift_mm).expect("its own program");
             assert_eq!(program.knots.len(), HobbingProgram::fit(&job, operation, error_mm).knots.len());
@@ -105,7 +106,7 @@ fn programs_read_back_to_the_axes_within_the_contour_error() {
 
 #[test]
 fn printed_linkages_and_exceeded_limits_have_no_program() {
-    let why = |job: &HobbingJob| texts(job, job.finishing()).expect("wanted").expect_err("refused");
+    let why = |job: &HobbingJob| texts(job, job.finishing(), &[]).expect("wanted").expect_err("refused");
     let coarse = "operation.finish.axial_feed_mm_per_revolution=10";
     let printed = job("ellipse_six_schemes", &[coarse, "operation.finish.linkage.hobbing.form=as_printed"]);
     assert!(why(&printed).contains("as printed"), "{}", why(&printed));

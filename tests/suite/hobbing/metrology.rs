@@ -110,7 +110,7 @@ mod slow {
     #[test]
     fn faces_are_finished_as_the_middle_is() {
         let settings =
-            ["fields.flank.profile_spacing_um=200", "fields.flank.lead_spacing_um=250", "gear.face_width_mm=20"];
+            ["fields.flank.profile_spacing_um=400", "fields.flank.lead_spacing_um=250", "gear.face_width_mm=12"];
         for scene in ["third_order_plain", "circular_helical"] {
             let path = format!("scenes/hobbing/{scene}.toml");
             let scene = process::load(Path::new(&path), &settings.map(str::to_owned)).expect("the scene").scene;
@@ -123,7 +123,7 @@ mod slow {
                 let flank = cutter.cut(&Cpu::default(), tooth, side).expect("a flank");
                 let (field, heights) = (&flank.rays.field, &flank.layers[flank.layers.len() - 1].heights_mm);
                 let highest = |near_face: bool| {
-                    let rows = (0..field.rows()).filter(|&row| (flank.rays.rows_z_mm[row].abs() > 6.0) == near_face);
+                    let rows = (0..field.rows()).filter(|&row| (flank.rays.rows_z_mm[row].abs() > 3.0) == near_face);
                     rows.flat_map(|row| (0..field.columns()).map(move |column| heights[field.index(column, row)]))
                         .fold(0.0, f32::max)
                 };

@@ -28,7 +28,7 @@ fn unevenness(tooth: u32, level: f64) -> f64 {
 
 fn document(process: &str, headline: &Value, sections: &Value) -> Value {
     json!({
-        "schema_version": 2, "program": "gearcut", "program_version": "0.1.0", "process": process,
+        "schema_version": 3, "program": "gearcut", "program_version": "0.1.0", "process": process,
         "scene": "made_by_hand", "complete": true, "headline": headline, "warnings": [], "sections": sections,
     })
 }
@@ -80,6 +80,7 @@ fn two_results_stand_side_by_side() {
     let folder = two_runs();
     gearcut_in(folder.path(), &["compare", "out/traditional", "out/normal"]).done().says(&[
         "traditional and normal",
+        "Changed most",
         "smallest normal stock",
         "0.2500",
         "0.6500",
@@ -123,6 +124,78 @@ fn two_results_stand_side_by_side() {
         .says(&["normal (a) and normal (b)"]);
 }
 
+/// What changed most comes first, by its share of the larger value; nanometres are no change, and the tooth that was
+/// looked at is shown but not subtracted.
+#[test]
+fn the_largest_changes_come_first_and_places_are_not_subtracted() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let of = |stock_mm: f64, pitch_um: f64, force_n: f64, tooth: u32| {
+        let headline = |value: f64, unit: &str| {
+            let mut quantity = number(value, unit);
+            quantity["level"] = json!("headline");
+            quantity
+        };
+        let mut place = json!({ "value": tooth, "unit": "1", "definition": "made by hand" });
+        place["level"] = json!("summary");
+        document(
+            "shaping",
+            &json!({
+                "smallest_stock": headline(stock_mm, "mm"),
+                "pitch": headline(pitch_um, "um"),
+                "force": headline(force_n, "N"),
+            }),
+            &json!({ "texture": { "$title": "Texture", "tooth": place } }),
+        )
+    };
+    put(&folder, "a", &of(0.50, 0.001, 1000.0, 3));
+    put(&folder, "b", &of(0.55, 0.010, 4000.0, 7));
+    let out = gearcut_in(folder.path(), &["compare", "out/a", "out/b"]).done().out;
+    let first = out.split("\nAll\n").next().expect("what comes before all lines");
+    let place = |words: &str| first.find(words).unwrap_or_else(|| panic!("no {words:?} in {first}"));
+    // 3/4 of the larger force, 1/11 of the larger stock, 9 nm of a micrometre; teeth are no change.
+    assert!(place("force") < place("smallest stock") && place("smallest stock") < place("pitch"), "{first}");
+    assert!(!first.contains("texture.tooth"), "{first}");
+    let csv = std::fs::read_to_string(folder.path().join("out/compare_a_b/comparison.csv")).expect("written");
+    assert!(csv.contains("\ntexture.tooth,1,3.0,7.0,,,made by hand\n"), "{csv}");
+}
+
+/// Maps that both runs have are subtracted cell by cell.
+#[test]
+fn maps_of_deviations_are_subtracted() {
+    use gearcut::output::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
+    use gearcut::output::grid::{MapAxis, MapGrid};
+    let folder = two_runs();
+    let axis = |name: &str, count: usize| MapAxis {
+        name: name.to_owned(),
+        meaning: "made by hand".to_owned(),
+        start_mm: 0.0,
+        step_mm: 0.5,
+        count,
+    };
+    for (run, deviation_mm) in [("traditional", 0.0_f32), ("normal", 0.004)] {
+        let maps = folder.path().join("out").join(run).join("deviation");
+        std::fs::create_dir_all(&maps).expect("a folder");
+        let map = ExrMap {
+            grid: MapGrid { u: axis("u", 8), v: axis("v", 12) },
+            frame: "made by hand".to_owned(),
+            channels: vec![MapChannel {
+                name: "deviation_mm".to_owned(),
+                unit: "mm".to_owned(),
+                definition: "made by hand".to_owned(),
+                samples: Samples::F32(vec![deviation_mm; 96]),
+            }],
+            notes: Vec::new(),
+        };
+        write_exr_map(&maps.join("tooth_01_left.exr"), &map).expect("written");
+    }
+    gearcut_in(folder.path(), &["compare", "out/traditional", "out/normal"]).done();
+    let sheet = folder.path().join("out/compare_traditional_normal/difference_deviation_b_minus_a.png");
+    let picture = image::open(&sheet).expect("a sheet").into_rgb8();
+    // All cells are 4 um apart, the end of the scale: the field has its one colour, as no other sheet has.
+    let end = gearcut::colormap::ColourScale::Diverging { limit: 4.0 }.colour(4.0);
+    assert!(picture.pixels().filter(|pixel| pixel.0 == end).count() > 1000, "no field of the scale's end");
+}
+
 #[test]
 fn what_is_no_result_is_refused_with_a_reason() {
     let folder = two_runs();
@@ -134,8 +207,8 @@ fn what_is_no_result_is_refused_with_a_reason() {
     write("{}");
     compare("bad.json").failed(1, &["schema_version"]);
     write(r#"{"schema_version": 99}"#);
-    compare("bad.json").failed(1, &["schema version 99", "reads 2"]);
-    write(r#"{"schema_version": 2, "program": "gearcut"}"#);
+    compare("bad.json").failed(1, &["schema version 99", "reads 3"]);
+    write(r#"{"schema_version": 3, "program": "gearcut"}"#);
     compare("bad.json").failed(1, &["not a complete result", "missing field"]);
     assert!(!folder.path().join("out/compare_bad.json_normal").exists());
 }

@@ -21,17 +21,19 @@ const COARSE: [&str; 10] = [
 ];
 
 /// What makes a scene quick where only its findings are looked at.
-const BRIEF: [&str; 10] = [
+const BRIEF: [&str; 12] = [
     "--only",
     "report",
     "--set",
-    "fields.flank.profile_spacing_um=200",
+    "fields.flank.profile_spacing_um=400",
     "--set",
-    "fields.blank.spacing_mm=2",
+    "fields.flank.lead_spacing_um=10000",
+    "--set",
+    "fields.blank.spacing_mm=4",
     "--set",
     "fields.blank.slice_spacing_mm=30",
     "--set",
-    "fields.chips.spacing_mm=1",
+    "fields.chips.spacing_mm=2",
 ];
 
 #[test]

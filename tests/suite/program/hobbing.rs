@@ -1,6 +1,6 @@
 //! Hobbing from the command line: bad input explained, and everything that a run gives back.
 
-use crate::fixtures::command::{assert_same_files, files, gearcut, gearcut_on_threads, shipped_scenes};
+use crate::fixtures::command::{Outcome, assert_same_files, files, gearcut, gearcut_on_threads, shipped_scenes};
 use crate::fixtures::json_schema::assert_is_results;
 use serde_json::Value;
 use std::path::Path;
@@ -130,10 +130,14 @@ const SMALL: [&str; 12] = [
 ];
 
 fn cut(folder: &Path, scene: &str, more: &[&str], threads: u32) -> Value {
+    serde_json::from_str(&outcome(folder, scene, more, threads).done().out).expect("results")
+}
+
+fn outcome(folder: &Path, scene: &str, more: &[&str], threads: u32) -> Outcome {
     let settings: Vec<&str> = SMALL.iter().chain(more).flat_map(|setting| ["--set", setting]).collect();
     let out = folder.display().to_string();
     let arguments = [&["cut", scene, "--backend", "cpu", "--json", "--out", &out][..], &settings].concat();
-    serde_json::from_str(&gearcut_on_threads(threads, &arguments).done().out).expect("results")
+    gearcut_on_threads(threads, &arguments)
 }
 
 fn number(value: &Value) -> f64 {
@@ -152,16 +156,14 @@ mod slow {
     fn the_printed_linkage_gives_no_program_and_no_closed_body() {
         let folder = tempfile::tempdir().expect("a folder");
         let out = folder.path().join("gear");
-        let results = cut(
-            &out,
-            PLAIN,
-            &[
-                "gear.teeth=24",
-                "gear.pitch_curve.ellipse.eccentricity=0.03",
-                "operation.finish.linkage.hobbing.form=as_printed",
-            ],
-            2,
-        );
+        let settings = [
+            "gear.teeth=24",
+            "gear.pitch_curve.ellipse.eccentricity=0.03",
+            "operation.finish.linkage.hobbing.form=as_printed",
+        ];
+        // The gear is damaged, and everything is written all the same.
+        let damaged = outcome(&out, PLAIN, &settings, 2).failed(3, &["verdict: ", "cut below the target"]);
+        let results: Value = serde_json::from_str(&damaged.out).expect("results");
         assert!(number(&results["headline"]["deepest_cut"]) > 10.0, "the printed form cuts into the target");
         for file in ["axes/finish.ngc", "axes/finish_gearbox.ngc", "mesh/gear.stl"] {
             assert!(!out.join(file).exists(), "{file}");
@@ -198,7 +200,9 @@ mod slow {
             gearcut_on_threads(threads, &[&arguments[..], &COARSEST[..], more].concat()).done();
             files(&out)
         };
-        for (number, scene) in scenes.iter().enumerate() {
+        // The spur gear's bytes, all of its files, are compared by another test.
+        let others = scenes.iter().filter(|scene| !scene.ends_with("circular_spur.toml"));
+        for (number, scene) in others.enumerate() {
             let start = std::time::Instant::now();
             let first = cut(scene, &format!("{number}_one"), 1, &[]);
             assert_same_files(&first, &cut(scene, &format!("{number}_two"), 2, &[]));

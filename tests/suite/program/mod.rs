@@ -5,9 +5,11 @@ mod check;
 mod compare;
 mod cut;
 mod hobbing;
+mod nothing_lost;
 mod once;
 mod pair;
 #[cfg(unix)]
 mod stopped;
 mod texture;
 mod usage;
+mod warnings;

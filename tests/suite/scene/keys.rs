@@ -92,6 +92,7 @@ fn defaults_are_allowed_and_units_stand_in_the_names() {
             "mm/s^2" => "_mm_per_s2",
             "1/min" => "_per_minute",
             "s" => "_s",
+            "N" => "_n",
             "N/mm^2" => "_n_per_mm2",
             "N/mm" => "_n_per_mm",
             "pixels" => "_px",

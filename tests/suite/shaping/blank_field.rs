@@ -2,6 +2,7 @@
 //! and with a hundred injected defects.
 
 use crate::fixtures::clipping::clipped;
+use crate::fixtures::command::shipped_scenes;
 use crate::fixtures::paper::*;
 use gearcut::cut::CutBlank;
 use gearcut::cut::cpu::Cpu;
@@ -23,7 +24,6 @@ use gearcut::steps::planar::blank_report::BlankReport;
 use gearcut::steps::planar::stroke_faults::StrokeFaultKind;
 use gearcut::surface::BlankMesh;
 use glam::DVec2;
-use std::path::PathBuf;
 
 /// Points of the target's outline, mm: chords of a fillet of 0.8 mm then miss 0.25 um, a quarter of the least damage
 /// that is reported.
@@ -292,12 +292,7 @@ mod slow {
 
     #[test]
     fn meshes_of_all_scenes_are_closed() {
-        let folder = std::fs::read_dir("scenes/shaping").expect("the folder of scenes");
-        let mut paths: Vec<PathBuf> = folder.filter_map(|entry| Some(entry.ok()?.path())).collect();
-        paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
-        paths.sort();
-        assert!(paths.len() >= 8);
-        for path in paths {
+        for path in shipped_scenes("shaping") {
             let mut scene = load(&path, &[]).unwrap_or_else(|errors| panic!("{errors}")).scene;
             scene.fields.blank_slice_spacing_mm = 15.0;
             let name = scene.name.clone();

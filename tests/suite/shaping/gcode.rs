@@ -16,7 +16,7 @@ fn job(operation: Operation) -> ShapingJob {
 }
 
 fn text(job: &ShapingJob) -> String {
-    programs::text(job, &job.operations[0]).expect("wanted").expect("written")
+    programs::text(job, &job.operations[0], &[]).expect("wanted").expect("written")
 }
 
 /// Heights of some flanks after the cut, mm.
@@ -95,8 +95,9 @@ fn cutting_the_written_program_gives_the_same_gear() {
         }
         if continuous {
             job.scene.output.gcode_contour_error_mm = 1e-6;
-            let why =
-                programs::text(&job, &job.operations[0]).expect("wanted").expect_err("a nanometre between strokes");
+            let why = programs::text(&job, &job.operations[0], &[])
+                .expect("wanted")
+                .expect_err("a nanometre between strokes");
             assert!(why.contains("blocks of one double stroke") && why.contains("0.001 um are asked"), "{why}");
         }
     }
@@ -141,12 +142,12 @@ fn a_program_of_another_length_is_refused() {
 fn limits_are_checked_and_as_printed_is_never_written() {
     let as_printed = Linkage::ShapingNormal { reading: NormalReading::AsPrinted };
     let printed = job(operation("cut", as_printed, 2.0, 600));
-    let why = programs::text(&printed, &printed.operations[0]).expect("wanted").expect_err("never written");
+    let why = programs::text(&printed, &printed.operations[0], &[]).expect("wanted").expect_err("never written");
     assert!(why.contains("as printed"), "{why}");
 
     let mut fast = job(operation("cut", NORMAL, 0.0, 600));
     fast.machine.limits.work_speed_rad_per_s = Some(0.001);
-    let why = programs::text(&fast, &fast.operations[0]).expect("wanted").expect_err("too fast");
+    let why = programs::text(&fast, &fast.operations[0], &[]).expect("wanted").expect_err("too fast");
     assert!(why.contains("work spindle") && why.contains("deg/s"), "{why}");
 }
 
@@ -160,7 +161,7 @@ fn the_papers_form_is_marked_and_reads_as_refused() {
     let refused = read::program(&text).expect_err("G84 is not read");
     assert!(refused.contains("line 5") && refused.contains("`G84`") && refused.contains("tapping"), "{refused}");
     job.gcode = GcodeDialect::None;
-    assert!(programs::text(&job, &job.operations[0]).is_none());
+    assert!(programs::text(&job, &job.operations[0], &[]).is_none());
 }
 
 #[test]

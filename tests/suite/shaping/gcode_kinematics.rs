@@ -52,7 +52,7 @@ fn positions(program: &str) -> Vec<Position> {
 fn program(mut scene: Scene) -> Vec<Position> {
     scene.output.gcode_contour_error_mm = 1e-4;
     let job = ShapingJob::new(scene).expect("a gear");
-    let text = programs::text(&job, &job.operations[0]).expect("wanted").expect("written");
+    let text = programs::text(&job, &job.operations[0], &[]).expect("wanted").expect("written");
     let positions = positions(&text);
     let last = positions.last().expect("positions").stroke;
     assert!((last - f64::from(STROKES - 1)).abs() < 1e-5, "stroke {last}");

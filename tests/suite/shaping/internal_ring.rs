@@ -372,7 +372,7 @@ fn a_program_of_a_ring_reads_back_and_cuts_the_same_gear() {
     let mut scene = oval_ring(vec![finish]);
     scene.fields = Fields { profile_spacing_mm: 0.05, lead_spacing_mm: 10.0, ..scene.fields };
     let direct = job(scene.clone());
-    let text = programs::text(&direct, &direct.operations[0]).expect("wanted").expect("written");
+    let text = programs::text(&direct, &direct.operations[0], &[]).expect("wanted").expect("written");
     let program = read::program(&text).expect("its own program");
     // X runs inside the ring, C against the work angle, B against the rolling of an external cutter.
     let [first, last] = [&program.knots[0], program.knots.last().expect("knots")];

@@ -1,6 +1,8 @@
 //! Shaping: linkages, flanks, blanks, chips and programs.
 
+mod active_flank;
 mod answers;
+mod below_zero;
 mod blank_field;
 mod chips;
 mod flank_chips;
@@ -15,5 +17,6 @@ mod linkage_envelope;
 mod linkage_oracle;
 mod oracle;
 mod paper_figures;
+mod planted;
 mod retraction;
 mod rubbing;

@@ -150,6 +150,7 @@ fn two_readings_that_do_not_fit() {
     let of = |linkage| both_denominators(&lobe(linkage, 360, None, CrossedSurface::Envelope))[0];
     let (polar, as_printed) = (of(POLAR), of(AS_PRINTED));
     row("closed turn, envelope: offset along the polar radius; Eq. 12 as printed", polar, as_printed);
-    agrees("offset along the polar radius", polar, [199.97, 131.85], TWO_DECIMALS);
+    // On one tooth CD falls below zero: the difference is larger than the sum.
+    agrees("offset along the polar radius", polar, [201.14, 132.18], TWO_DECIMALS);
     agrees("Eq. 12 as printed", as_printed, [43.61, 28.86], TWO_DECIMALS);
 }

@@ -313,7 +313,7 @@ fn programs_draw_the_cutter_back_and_are_read_back() {
         part.operations[0].feed_during_stroke = continuous;
         let job = ShapingJob::new(scene).expect("a gear");
         let operation = job.finishing();
-        let text = programs::text(&job, operation).expect("wanted").expect("written");
+        let text = programs::text(&job, operation, &[]).expect("wanted").expect("written");
         assert!(text.contains("RETRACTION"), "{}", &text[..600]);
         let program = gcode::read::program(&text).expect("it is read");
         assert_eq!(program.count(), operation.schedule.count());

@@ -16,6 +16,7 @@ use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::passes::{SweepPlan, TurningPasses};
 use gearcut::scene::Scene;
 use gearcut::scene::model::{Picture, PictureColour, PictureView};
+use gearcut::steps::attempts::Attempts;
 use gearcut::steps::cut_flanks::{CutFlank, CutFlanks, cut_flanks};
 use gearcut::steps::parts::Parts;
 use gearcut::steps::report::PageGear;
@@ -247,7 +248,8 @@ fn files_pictures_page_and_texture_ask_for_no_pitch_curve() {
     sheets::write_sheets_and_deviations(&job, &done.maps, &tools).expect("sheets");
     // What stands for the gear's body: here the flank alone.
     let body = done.surfaces[0].mesh("tooth_01_left");
-    let drawn = pictures::draw(&job, Some(&body), &done.pictured, &tools).expect("pictures");
+    let mut attempts = Attempts::new(&progress);
+    let drawn = pictures::draw(&job, Some(&body), &done.pictured, &tools, &mut attempts).expect("pictures");
     assert_eq!(drawn, 2);
 
     let rows_mm = even(-0.5 * FACE_MM, 0.5 * FACE_MM, 11);

@@ -15,7 +15,7 @@
 //! cones away from the apexes, z to the gear's side; with no errors both apexes stand in its origin.
 
 use super::blank::BevelBlank;
-use super::envelope::Place;
+use super::envelope::OnFlank;
 use super::flank::BevelFlank;
 use crate::error::{NotConverged, Refusal};
 use crate::frame::Rigid3;
@@ -130,7 +130,7 @@ impl BevelPair {
         let gear = &self.gear;
         let distance_mm = gear.blank.mean_cone_distance_mm() + place_mm.x;
         let start = gear.envelope.guess(distance_mm);
-        let point = gear.envelope.find(&gear.blank, distance_mm, Place::Height(place_mm.y), start).ok()?;
+        let point = gear.envelope.find(&gear.blank, distance_mm, OnFlank::Height(place_mm.y), start).ok()?;
         let mut gear_rad = start_rad;
         for _ in 0..MOST_STEPS {
             let (gap_mm, closing_mm) = self.gap(point.point_mm, pinion_rad, gear_rad)?;
@@ -155,7 +155,7 @@ impl BevelPair {
             return None;
         }
         let guess = pinion.envelope.guess(distance_mm);
-        let on = pinion.envelope.find(&pinion.blank, distance_mm, Place::Height(over_mm), guess).ok()?;
+        let on = pinion.envelope.find(&pinion.blank, distance_mm, OnFlank::Height(over_mm), guess).ok()?;
         let arc = (at_mm.z.atan2(at_mm.y) - on.point_mm.z.atan2(on.point_mm.y) + PI).rem_euclid(TAU) - PI;
         let axis = pinion_from_mount.direction(mount_from_gear.direction(DVec3::X));
         let apex_mm = pinion_from_mount.point(mount_from_gear.translation_mm);

@@ -17,7 +17,7 @@
 
 use super::blank::BevelBlank;
 use super::cradle::CradleSettings;
-use super::envelope::{Envelope, FlankPoint, Place};
+use super::envelope::{Envelope, FlankPoint, OnFlank};
 use super::flank::BevelFlank;
 use crate::error::{NotConverged, Refusal};
 use glam::DVec3;
@@ -118,7 +118,7 @@ pub fn distance_mm(at: &FlankPoint, other: &Envelope, blank: &BevelBlank, turn_r
     let mut beyond = |height_mm: f64| -> Result<(f64, f64), NotConverged> {
         let point_mm = at.point_mm + height_mm * at.normal;
         let [distance_mm, over_mm] = blank.cone_distance_and_height_mm(point_mm);
-        let found = other.find(blank, distance_mm, Place::Height(over_mm), start)?;
+        let found = other.find(blank, distance_mm, OnFlank::Height(over_mm), start)?;
         start = [found.head_rad, found.cradle_rad];
         let [own, others] = [point_mm, found.point_mm].map(|p| p.z.atan2(p.y));
         let radius_mm = point_mm.with_x(0.0).length();

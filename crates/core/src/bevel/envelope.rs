@@ -53,7 +53,7 @@ pub struct FlankPoint {
 
 /// What fixes a point on a flank beside its cone distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Place {
+pub enum OnFlank {
     /// Height over the pitch cone, mm.
     Height(f64),
     /// Place on the cutting edge, mm.
@@ -132,15 +132,15 @@ impl Envelope {
         &self,
         blank: &BevelBlank,
         cone_distance_mm: f64,
-        place: Place,
+        place: OnFlank,
         start: [f64; 2],
     ) -> Result<FlankPoint, NotConverged> {
         let missing = |angles: DVec2| {
             let point = self.at(angles.x, angles.y);
             let [distance_mm, height_mm] = blank.cone_distance_and_height_mm(point.point_mm);
             let second = match place {
-                Place::Height(wanted_mm) => wanted_mm - height_mm,
-                Place::Edge(wanted_mm) => wanted_mm - point.edge_mm,
+                OnFlank::Height(wanted_mm) => wanted_mm - height_mm,
+                OnFlank::Edge(wanted_mm) => wanted_mm - point.edge_mm,
             };
             DVec2::new(cone_distance_mm - distance_mm, second)
         };

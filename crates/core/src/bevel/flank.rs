@@ -10,7 +10,7 @@
 //! towards the heel. Profile arcs in mm are those of the middle of the face.
 
 use super::blank::BevelBlank;
-use super::envelope::{Envelope, FlankPoint, Place};
+use super::envelope::{Envelope, FlankPoint, OnFlank};
 use crate::error::{NotConverged, Refusal};
 use glam::{DVec2, DVec3};
 
@@ -98,12 +98,12 @@ impl BevelFlank {
         let find = |place, start| envelope.find(blank, cone_distance_mm, place, start);
         let angles = |point: FlankPoint| DVec2::new(point.head_rad, point.cradle_rad);
         let rows = || -> Result<_, NotConverged> {
-            let pitch = find(Place::Height(0.0), envelope.guess(cone_distance_mm))?;
+            let pitch = find(OnFlank::Height(0.0), envelope.guess(cone_distance_mm))?;
             let start = angles(pitch).into();
-            let form = find(Place::Edge(envelope.surface.corner_end_mm()), start)?;
+            let form = find(OnFlank::Edge(envelope.surface.corner_end_mm()), start)?;
             let [_, form_height_mm] = blank.cone_distance_and_height_mm(form.point_mm);
-            let tip = find(Place::Height(tip_height_mm), start)?;
-            let middle = find(Place::Height(0.5 * (form_height_mm + tip_height_mm)), start)?;
+            let tip = find(OnFlank::Height(tip_height_mm), start)?;
+            let middle = find(OnFlank::Height(0.5 * (form_height_mm + tip_height_mm)), start)?;
             Ok((form_height_mm, [form, middle, tip].map(angles)))
         };
         let (form_height_mm, angles) = rows().map_err(|lost| {
@@ -162,7 +162,7 @@ impl FlankRow<'_> {
         let start = form + share * (slope + share * bend);
         let height_mm = self.form_height_mm + share * (self.tip_height_mm - self.form_height_mm);
         let BevelFlank { envelope, blank, .. } = self.flank;
-        envelope.find(blank, self.cone_distance_mm, Place::Height(height_mm), start.into()).map_err(|lost| {
+        envelope.find(blank, self.cone_distance_mm, OnFlank::Height(height_mm), start.into()).map_err(|lost| {
             Refusal::new(
                 "machine.cradle",
                 format!("at a cone distance of {:.3} mm, height {height_mm:.3} mm: {lost}", self.cone_distance_mm),

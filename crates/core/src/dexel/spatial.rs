@@ -66,31 +66,37 @@ impl SpatialField {
     }
 
     /// Number of columns.
+    #[inline]
     pub fn columns(&self) -> usize {
         self.columns
     }
 
     /// Number of rows.
+    #[inline]
     pub fn rows(&self) -> usize {
         self.rows
     }
 
     /// Number of dexels.
+    #[inline]
     pub fn len(&self) -> usize {
         self.blank_mm.len()
     }
 
     /// No dexel at all.
+    #[inline]
     pub fn is_empty(&self) -> bool {
         self.blank_mm.is_empty()
     }
 
     /// Place of a dexel in layers and in the component lists.
+    #[inline]
     pub fn index(&self, column: usize, row: usize) -> usize {
         column * self.rows + row
     }
 
     /// One ray.
+    #[inline]
     pub fn ray(&self, column: usize, row: usize) -> Ray {
         let at = self.index(column, row);
         let vector = |lists: &[Vec<f64>; 3]| DVec3::new(lists[0][at], lists[1][at], lists[2][at]);

@@ -29,7 +29,7 @@ struct Entries {
 }
 
 // Falling root of x + k nx - U(y + k ny), U the record's polynomial.
-fn enter_curve(rays: Rays, record: PassRecord) -> Entries {
+fn enter_curve(rays: Rays, record: FlankPass) -> Entries {
     let c = record.curve;
     let c5 = record.curve_5;
     var k = vec4<f32>(0.0);
@@ -57,7 +57,7 @@ fn enter_curve(rays: Rays, record: PassRecord) -> Entries {
 
 // First root of a circle, without cancellation where the ray points at it: q (q + 2 m) + excess, with m from the centre
 // to the base point.
-fn enter_arc(rays: Rays, record: PassRecord) -> Entries {
+fn enter_arc(rays: Rays, record: FlankPass) -> Entries {
     let m_x = record.curve.x;
     let m_y = record.curve.y;
     let b = rays.nx * (rays.x + m_x) + rays.ny * (rays.y + m_y);

@@ -11,7 +11,7 @@ struct Launch {
 }
 
 // Columns that visit the same passes.
-struct Tile {
+struct FlankTile {
     first_column: u32,
     column_count: u32,
     first_record: u32,
@@ -19,7 +19,7 @@ struct Tile {
 }
 
 // One ray of the transverse plane, in the frame of its tile.
-struct Column {
+struct FlankColumn {
     // Origin against the tile's origin.
     offset_mm: vec2<f32>,
     // Unit direction.
@@ -32,7 +32,7 @@ struct Column {
 }
 
 // One pass of one segment over one tile. Coefficients belong to tau^0 to tau^3.
-struct PassRecord {
+struct FlankPass {
     // Rotation from the tile's frame into the segment's.
     cos: vec4<f32>,
     sin: vec4<f32>,

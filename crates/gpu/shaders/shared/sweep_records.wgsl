@@ -2,7 +2,7 @@
 // compares both.
 
 // Dexels that visit the same passes, in groups of four rows.
-struct SweepTile {
+struct SpatialTile {
     // Direction of the tile's middle ray, and the lowest height that rays record.
     middle: vec4<f32>,
     first_group: u32,
@@ -13,7 +13,7 @@ struct SweepTile {
 
 // One sweep of one segment over one tile. Axes: r from the tool's axis, q in the direction of rotation, y along the
 // blade's; r and y count from the segment's base point.
-struct SweepRecord {
+struct SpatialPass {
     // Rows r, q, y of the rotation, three for each of u^0, u^1, u^2; in w the same coefficient of the place of the
     // tile's middle ray at the start height.
     turn: array<vec4<f32>, 9>,

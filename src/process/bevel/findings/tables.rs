@@ -4,7 +4,7 @@ use super::{TRACE, UNTOUCHED};
 use crate::findings::{Datum, Section, Table, TableColumn};
 use crate::process::bevel::gear::BevelGear;
 use crate::process::bevel::job::BevelJob;
-use crate::process::bevel::measure::Heights;
+use crate::process::bevel::measure::FlankHeights;
 use gearcut_core::bevel::face_mill::FaceMill;
 use gearcut_core::units::UM_PER_MM;
 
@@ -39,7 +39,7 @@ pub(super) fn flanks(job: &BevelJob, gear: &BevelGear) -> Table {
             flank.length_mm.into(),
         ];
         row.extend(flank.own.stock.iter().map(|stock| Datum::from(stock.map(|stock| stock.mean_mm))));
-        let height = |of: fn(&Heights) -> f64| Datum::from(flank.own.finished.as_ref().map(|h| of(h) * UM_PER_MM));
+        let height = |of: fn(&FlankHeights) -> f64| Datum::from(flank.own.finished.as_ref().map(|h| of(h) * UM_PER_MM));
         row.extend([height(|h| h.range_mm[0]), height(|h| h.range_mm[1]), height(|h| h.mean_mm), height(|h| h.rms_mm)]);
         row.extend([&flank.profile, &flank.lead].map(|d| Datum::from(d.as_ref().map(|d| d.total_mm * UM_PER_MM))));
         row
@@ -48,14 +48,14 @@ pub(super) fn flanks(job: &BevelJob, gear: &BevelGear) -> Table {
 }
 
 /// Points, normals and deviations as coordinate measuring machines take them.
-pub(super) fn grid(gear: &BevelGear) -> Table {
+pub(super) fn grid(job: &BevelJob, gear: &BevelGear) -> Table {
     let axis = |key: &'static str, definition: &'static str| TableColumn::new(key, "mm", definition);
     let normal = |key: &'static str| TableColumn::new(key, "1", "component of the unit normal out of the material");
     let columns = vec![
         TableColumn::new("tooth", "1", "number of the tooth, from 1"),
         TableColumn::words("flank", "flank: left or right"),
-        TableColumn::new("column", "1", "place along the profile, 1 at the root to 5 at the tip"),
-        TableColumn::new("row", "1", "place along the tooth, 1 at the toe to 9 at the heel"),
+        TableColumn::new("column", "1", "place along the profile, 1 at the root, the last one at the tip"),
+        TableColumn::new("row", "1", "place along the tooth, 1 at the toe, the last one at the heel"),
         axis("x", "nominal point, gear frame: origin in the apex, x through the middle of space 0"),
         axis("y", "nominal point, gear frame"),
         axis("z", "nominal point, gear frame: along the axis from the back to the apex"),
@@ -75,7 +75,9 @@ pub(super) fn grid(gear: &BevelGear) -> Table {
             row
         })
     });
-    Table::new("grid", "Points of inspection, 5 by 9 on every flank", columns).with_rows(rows).rows_in_file("grid")
+    let [along_profile, along_tooth] = job.spec.grid;
+    let title = format!("Points of inspection, {along_profile} by {along_tooth} on every flank");
+    Table::new("grid", &title, columns).with_rows(rows).rows_in_file("grid")
 }
 
 /// The slot behind tooth 1 along the face.

@@ -1,7 +1,7 @@
 //! What a bevel pair shows: motion error, path and ellipse of contact, and how they move with the mounting.
 
 use super::{MountingError, MountingErrors, RolledBevels, RolledSide, Trend};
-use crate::findings::{Datum, Entry, Findings, Quantity, Section, Table, TableColumn};
+use crate::findings::{Datum, Entry, Findings, Quantity, Section, Table, TableColumn, Warning};
 use crate::process::bevel::BevelJob;
 use gearcut_core::bevel::contact::Contact;
 use gearcut_core::units::UM_PER_MM;
@@ -24,7 +24,7 @@ pub fn findings(name: &str, [gear, pinion]: [&BevelJob; 2], rolled: &RolledBevel
         scene: name.to_owned(),
         complete: true,
         headline: rolled.sides.iter().flat_map(headline).collect(),
-        warnings: rolled.sides.iter().filter_map(at_edge).collect(),
+        warnings: rolled.sides.iter().filter_map(at_edge).map(Warning::warn).collect(),
         sections: std::iter::once(mounted(gear, pinion, rolled)).chain(sides).collect(),
     }
 }
@@ -89,7 +89,8 @@ fn mounted(gear: &BevelJob, pinion: &BevelJob, rolled: &RolledBevels) -> Section
         .with("teeth_of_gear", Quantity::count(gear.blank.teeth.into(), "teeth", "number of teeth of the gear"))
         .with("teeth_of_pinion", Quantity::count(pinion.blank.teeth.into(), "teeth", "number of teeth of the pinion"))
         .with("outer_module", mm(gear.blank.outer_module_mm(), "outer transverse module"))
-        .with("shaft_angle", deg(rolled.shaft_angle_rad, "nominal shaft angle: sum of both pitch angles"))
+        .with("shaft_angle", deg(rolled.nominal.shaft_angle_rad, "nominal shaft angle"))
+        .with("hypoid_offset", mm(rolled.nominal.offset_mm, "nominal offset a of both axes; 0 of spiral bevel gears"))
         .with("offset_error", mm(offset_mm, "E: offset of the pinion's axis (ISO 23509: hypoid offset a)"))
         .with("pinion_axial_error", mm(pinion_axial_mm, "P: pinion away from the apex (mounting distance t_B1)"))
         .with("gear_axial_error", mm(gear_axial_mm, "G: gear away from the apex (mounting distance t_B2)"))

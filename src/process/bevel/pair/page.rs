@@ -2,7 +2,7 @@
 
 use super::RolledBevels;
 use super::findings::words;
-use crate::findings::{Datum, Findings, Table, unit};
+use crate::findings::{Datum, Findings, Table, Warning, unit};
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable};
 use crate::output::text::{plain, significant};
@@ -52,13 +52,17 @@ pub fn page(jobs: [&BevelJob; 2], rolled: &RolledBevels, found: &Findings, chart
     Page {
         what: "tooth contact report",
         title: found.scene.clone(),
-        subtitle: format!("shaft angle {} deg", plain(rolled.shaft_angle_rad.to_degrees())),
+        subtitle: format!(
+            "shaft angle {} deg, offset {} mm",
+            plain(rolled.nominal.shaft_angle_rad.to_degrees()),
+            plain(rolled.nominal.offset_mm)
+        ),
         operations: roles.map(|(job, role)| format!("{role}: {}. {}", job.scene.name, gear_words(job))).collect(),
         complete: true,
         done: "both sides rolled over a pitch",
         program: format!("gearcut {}", found.program_version),
         key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.all_warnings().iter().map(|text| unit::sentence_with_signs(text)).collect(),
+        warnings: found.warnings.iter().map(Warning::with_signs).collect(),
         viewer: None,
         sections,
     }

@@ -2,7 +2,7 @@
 
 use super::model::{Bevel, BevelOperation, Cones, HeadSpec, SettingsSpec};
 use crate::scene::ScenePart;
-use crate::scene::build::stock_or_offset_mm;
+use crate::scene::build::{cutting_force, linear_programs, stock_or_offset_mm};
 use crate::scene::values::{Values, View};
 use gearcut_core::bevel::blank::MatingCones;
 use gearcut_core::bevel::cradle::{CradleSettings, Roll};
@@ -19,12 +19,12 @@ pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
     let operations: Option<Vec<BevelOperation>> = (0..values.count("operation"))
         .map(|index| operation(values.view(&format!("operation.{index}")), pressure_angle_rad))
         .collect();
-    let programs = match values.view("output").text("gcode")? {
-        "linear" => true,
-        "none" => false,
-        _ => return None,
-    };
+    let programs = linear_programs(values)?;
     let limit = |order: &str| AXES.map(|(axis, turns)| limits(values.view("machine.bevel_limits"), axis, order, turns));
+    let material = match values.view("material") {
+        material if material.text("name").is_some() => Some(cutting_force(material)?),
+        _ => None,
+    };
     Some(ScenePart::new(Bevel {
         cones: cones(values.view("gear.bevel"))?,
         head: head(values.view("tool.face_mill"))?,
@@ -32,7 +32,13 @@ pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
         mounting_mm: values.view("machine.five_axis").number("mounting_distance_mm")?,
         speed_limits: limit("speed"),
         acceleration_limits: limit("acceleration"),
+        travel: travel(values.view("machine.bevel_limits")),
+        grid: [
+            values.view("inspection").whole("profile_points")? as usize,
+            values.view("inspection").whole("tooth_points")? as usize,
+        ],
         operations: operations?,
+        material,
         programs,
     }))
 }
@@ -46,6 +52,8 @@ fn cones(cones: View<'_>) -> Option<Cones> {
         addendum_mm: cones.number("addendum_mm")?,
         dedendum_mm: cones.number("dedendum_mm")?,
         mate: cones.whole("mate_teeth").map(|teeth| MatingCones { teeth, shaft_angle_rad }),
+        shaft_angle_rad,
+        hypoid_offset_mm: cones.number("hypoid_offset_mm")?,
     })
 }
 
@@ -99,6 +107,12 @@ fn limits(limits: View<'_>, axis: &str, order: &str, turns: bool) -> Option<f64>
     } else {
         limits.number(&format!("{axis}_{order}_mm_per_s{square}"))
     }
+}
+
+/// Ends of the travel of X, Y, Z and B.
+fn travel(limits: View<'_>) -> [[Option<f64>; 2]; 4] {
+    let ends = |axis: &str| ["from", "to"].map(|end| limits.number(&format!("{axis}_{end}_mm")));
+    [ends("x"), ends("y"), ends("z"), ["b_from_deg", "b_to_deg"].map(|key| limits.rad(key))]
 }
 
 fn operation(operation: View<'_>, pressure_angle_rad: f64) -> Option<BevelOperation> {

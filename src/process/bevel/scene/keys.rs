@@ -1,6 +1,7 @@
 //! Keys that scenes of bevel gears add to the shared ones.
 
 mod gear;
+mod inspection;
 mod machine;
 mod operation;
 mod tool;
@@ -8,7 +9,8 @@ mod tool;
 use crate::scene::keys::{Addition, KeySection};
 
 /// Sections of its own.
-pub(super) static SECTIONS: &[&[KeySection]] = &[gear::SECTIONS, tool::SECTIONS, machine::SECTIONS];
+pub(super) static SECTIONS: &[&[KeySection]] =
+    &[gear::SECTIONS, tool::SECTIONS, machine::SECTIONS, inspection::SECTIONS];
 
 /// Keys in shared sections.
 pub(super) static ADDED: &[&Addition] = &[&operation::ADDED];

@@ -9,6 +9,10 @@ use crate::scene::values::{Checked, Values};
 use crate::scene::{ProcessPart, SceneProcess, Senseless};
 use model::Bevel;
 
+/// Why keys of the normal force are refused, and what is there instead.
+const NO_NORMAL_FORCE: &str = "the cutting force alone is computed";
+const CUTTING_FORCE: &str = "remove it; cutting_force_n_per_mm2 and cutting_edge_force_n_per_mm give the cutting force";
+
 /// A shared key or section without sense here.
 const fn without(path: &'static str, why: &'static str, instead: &'static str) -> Senseless {
     Senseless { path, why, instead }
@@ -25,19 +29,19 @@ pub static SCENE: SceneProcess = SceneProcess {
     added: keys::ADDED,
     per_revolution: &[],
     of_one_gear: &[],
-    on_demand: &[],
+    on_demand: &["material"],
     senseless: &[
         without("gear.kind", "the pitch angle says where teeth stand", "remove it"),
         without("gear.helix_angle_deg", "the machine's settings make the spiral", "remove it"),
         without("gear.hand", "the sign of machine.cradle.cradle_angle_deg chooses the hand", "remove it"),
         without("gear.addendum_coefficient", "the addendum stands in [gear.bevel]", "write gear.bevel.addendum_mm"),
-        without("gear.bore_diameter_mm", "no closed body is made", "remove it"),
+        without("gear.bore_diameter_mm", "the body is the toothed ring", "remove it"),
         without("gear.rim_mm", "no gear is internal", "remove it"),
         without("gear.tooth_thickness_allowance_mm", "the head makes the slot", "set tool.face_mill.point_width_mm"),
         without("gear.pitch_curve", "gears roll on cones", "remove it"),
-        without("fields.blank", "no rays go through the whole blank", "remove it"),
         without("measure", "flanks are measured on a grid", "remove it"),
-        without("material", "cutting forces are not computed", "remove it"),
+        without("material.normal_force_n_per_mm2", NO_NORMAL_FORCE, CUTTING_FORCE),
+        without("material.normal_edge_force_n_per_mm", NO_NORMAL_FORCE, CUTTING_FORCE),
     ],
     derive,
     check,
@@ -51,8 +55,6 @@ fn derive(values: &mut Values) {
         ("gear", "addendum_coefficient", 1.0),
         ("gear", "bore_diameter_mm", 0.0),
         ("gear", "tooth_thickness_allowance_mm", 0.0),
-        ("fields.blank", "spacing_mm", 1.0),
-        ("fields.blank", "slice_spacing_mm", 1.0),
     ] {
         values.put_default(section, key, Checked::Number(number));
     }

@@ -1,5 +1,6 @@
 //! Checked values of bevel scenes: cones, head, settings, limits, operations; mm, rad, s.
 
+use crate::material::CuttingForce;
 use crate::scene::Scene;
 use gearcut_core::bevel::blank::MatingCones;
 use gearcut_core::bevel::cradle::CradleSettings;
@@ -20,8 +21,14 @@ pub struct Bevel {
     pub speed_limits: [Option<f64>; 5],
     /// Largest accelerations of the same axes, mm or rad per s^2.
     pub acceleration_limits: [Option<f64>; 5],
+    /// Lowest and highest positions of X, Y, Z and B, mm or rad; `None`: not limited.
+    pub travel: [[Option<f64>; 2]; 4],
+    /// Points of inspection along profile and tooth.
+    pub grid: [usize; 2],
     /// Operations in the order they are cut; the last one defines the target.
     pub operations: Vec<BevelOperation>,
+    /// Cutting force of the work's material; `None` where the scene does not name it, and no force is computed.
+    pub material: Option<CuttingForce>,
     /// Whether axis programs are written.
     pub programs: bool,
 }
@@ -48,6 +55,10 @@ pub struct Cones {
     pub dedendum_mm: f64,
     /// The mate, where the scene names it.
     pub mate: Option<MatingCones>,
+    /// Angle between both axes of the pair.
+    pub shaft_angle_rad: f64,
+    /// Offset of both axes, mm.
+    pub hypoid_offset_mm: f64,
 }
 
 /// The head as the scene describes it.

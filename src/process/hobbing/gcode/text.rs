@@ -1,6 +1,7 @@
 //! A hobbing program as text: what the operator must know, then the blocks.
 
 use super::program::{Gearbox, HobbingKnot, HobbingProgram, digits};
+use crate::findings::Warning;
 use crate::gcode::{ProgramText, axis_word};
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
@@ -16,6 +17,7 @@ pub fn text(
     program: &HobbingProgram,
     gearbox: Option<&Gearbox>,
     (reached_mm, time_s): (f64, f64),
+    warnings: &[Warning],
 ) -> String {
     let (output, linkage, spec) = (&job.scene.output, &operation.linkage, &job.scene.gear);
     let g = linkage.geometry();
@@ -102,7 +104,7 @@ pub fn text(
         words.extend([word(0), axis_word(&AXES[1], knot.axes[1], work_digits)]);
         words.join(" ")
     };
-    let mut text = ProgramText::new(&head);
+    let mut text = ProgramText::new(&head, warnings.iter().map(Warning::line));
     text.block("G21 G90 G94");
     text.block(&format!("G0 {}", position(&program.knots[0])));
     for pair in program.knots.windows(2) {

@@ -1,8 +1,8 @@
 //! The blank field's part of a hobbing run: cut, report, findings.
 
-use crate::findings::damage::{damage, damage_row, damage_table, pairs};
+use crate::findings::damage::{damage, damage_row, damage_table, gouge_from, kind, pairs};
 use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
-use crate::measure::damage::Damage;
+use crate::measure::damage::{Damage, gouge_mm};
 use crate::process::hobbing::{HobCutter, HobbedBlank};
 use gearcut_core::cut::Backend;
 use gearcut_core::error::Result;
@@ -53,8 +53,9 @@ fn all_damage(cutter: &HobCutter, report: &HobbedBlankReport) -> Table {
         row.extend([Datum::from(d.stroke as u64), hob_tooth(cutter, d).as_str().into()]);
         row
     };
-    let gouges = report.gouges.iter().map(|d| row("gouge", d));
-    let interference = report.interference.iter().map(|d| row("interference", d));
+    let gouge_mm = gouge_mm(cutter.job.scene.gear.module_mm);
+    let gouges = report.gouges.iter().map(|d| row(kind(d, gouge_mm, "gouge"), d));
+    let interference = report.interference.iter().map(|d| row(kind(d, gouge_mm, "interference"), d));
     let pass = [TableColumn::new("hob_turn", "1", "turn of the hob"), TableColumn::words("hob_tooth", "hob tooth")];
     damage_table(pass, gouges.chain(interference))
 }
@@ -102,6 +103,7 @@ pub fn findings(cutter: &HobCutter, whole: &WholeBlank) -> Section {
                  outline along the rays",
         ),
     )
+    .with("gouge_from", gouge_from(cutter.job.scene.gear.module_mm))
     .with(
         "ray_passes_visited",
         pairs(report.stats.visited, "pairs of ray and pass in which the ray crosses the sweep of the hob tooth"),
@@ -109,10 +111,15 @@ pub fn findings(cutter: &HobCutter, whole: &WholeBlank) -> Section {
     .with("ray_passes_removing", pairs(report.stats.removing, "those of them that removed material"))
     .table(all_damage(cutter, report))
     .part(whole_blank::removed(names, &report.operations))
-    .part(damage("gouges", "gouges", &report.gouges, "target material that the last operation took"))
+    .part(damage(
+        "gouges",
+        "below the target, last operation",
+        &report.gouges,
+        "target material that the last operation took",
+    ))
     .part(damage(
         "interference",
-        "interference",
+        "below the target, earlier operations",
         &report.interference,
         "target material that an earlier operation took",
     ))

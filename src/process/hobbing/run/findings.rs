@@ -1,8 +1,8 @@
 //! What a run finds on a hobbed gear: names, units, definitions, places.
 
 use super::{blank, flank_table, force, load, marks, points};
+use crate::findings::warning::ranked;
 use crate::findings::{Entry, Findings, Place, Quantity, Section};
-use crate::job::RAY_DEPTH_MODULES;
 use crate::measure::deviation::PitchDeviations;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::job::PreparedHobbing;
@@ -10,9 +10,10 @@ use crate::process::hobbing::measure::flank_report::HobbedReport;
 use crate::process::hobbing::measure::hob_force::OperationForce;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::measure::marks::MarkLattice;
-use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
+use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob, warnings};
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::texture::{self, WindowTexture};
+use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 
 /// Why a pitch is not known.
@@ -37,7 +38,10 @@ pub struct Measured<'a> {
 }
 
 /// Everything that was found.
-pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> Findings {
+///
+/// # Errors
+/// A flank that the hob does not generate.
+pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> Result<Findings> {
     let job = cutter.job;
     let work = &gear.work;
     let operations = job.operations.iter().zip(measured.motion).zip(&gear.passes);
@@ -70,17 +74,19 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
         sections.extend(force::findings(job, forces));
         sections.push(blank::findings(cutter, whole));
     }
-    let mut warnings = warnings(cutter, gear);
-    warnings.extend(axes::warnings(measured.motion));
-    Findings {
+    let mut list = warnings::before(cutter, measured.motion)?;
+    let of_blank = measured.whole.map(|(whole, loads, _)| (&whole.report, loads));
+    list.extend(warnings::after(cutter, gear, of_blank));
+    list.extend(texture::warnings(cutter, measured.textures));
+    Ok(Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         process: "hobbing".to_owned(),
         scene: job.scene.name.clone(),
         complete: !work.interrupted,
         headline: headline(job, gear, measured.motion),
-        warnings,
+        warnings: ranked(list),
         sections,
-    }
+    })
 }
 
 /// Where the scene has profiles evaluated, if it names it.
@@ -278,38 +284,4 @@ fn tooth(gear: &HobbedGear, number: u32) -> Section {
         )
         .part(side("left", 0))
         .part(side("right", 1))
-}
-
-/// What a reader must know before trusting the numbers.
-fn warnings(cutter: &HobCutter, gear: &HobbedGear) -> Vec<String> {
-    let job = cutter.job;
-    let mut warnings = Vec::new();
-    let unreached = gear.flanks.iter().filter(|flank| {
-        let target = cutter.target(flank.tooth, flank.side).ok();
-        let ends_mm = target.map(|target| cutter.measured_ends_mm(target));
-        let named = job.scene.measure.heights_mm();
-        ends_mm.is_some_and(|ends_mm| named.iter().zip(ends_mm).any(|(named, end)| named.is_some() && end.is_none()))
-    });
-    let unreached = unreached.count();
-    if unreached > 0 {
-        warnings.push(format!(
-            "{unreached} flanks do not reach an end of [measure]: there 5 % of the profile are left out instead"
-        ));
-    }
-    if job.hob_spec.protuberance.is_some() {
-        warnings.push(
-            "the target knows no protuberance: the relief that it leaves at the roots is reported as a cut below the \
-             target and as gouges"
-                .to_owned(),
-        );
-    }
-    let reach_mm = RAY_DEPTH_MODULES * job.scene.gear.module_mm;
-    let lowest_mm = gear.flanks.iter().filter_map(|f| f.own.finished).map(|h| h.lowest_mm).fold(0.0, f64::min);
-    if lowest_mm < -0.999 * reach_mm {
-        warnings
-            .push(format!("cuts go deeper than rays record: {reach_mm} mm under the target stands for that and more"));
-    }
-    let untouched = gear.flanks.iter().map(|flank| flank.untouched).sum();
-    warnings.extend(gear.work.warnings(untouched, "the hob does not cover the whole face"));
-    warnings
 }

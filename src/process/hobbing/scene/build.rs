@@ -4,9 +4,8 @@ use super::model::{
     Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, HobSize, HobSpec, Hobbing, HobbingAxisLimits,
     HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
 };
-use crate::material::CuttingForce;
 use crate::scene::ScenePart;
-use crate::scene::build::stock_or_offset_mm;
+use crate::scene::build::{cutting_force, linear_programs, stock_or_offset_mm};
 use crate::scene::values::{Values, View};
 use gearcut_core::units::TURN_RAD;
 use std::path::Path;
@@ -18,19 +17,11 @@ pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
         .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
         .collect();
     let tool = hob(values.view("tool.hob"))?;
-    let material = values.view("material");
-    let material = match material.text("name") {
-        Some(_) => Some(CuttingForce {
-            per_area_n_per_mm2: material.number("cutting_force_n_per_mm2")?,
-            per_length_n_per_mm: material.number("cutting_edge_force_n_per_mm")?,
-        }),
-        None => None,
+    let material = match values.view("material") {
+        material if material.text("name").is_some() => Some(cutting_force(material)?),
+        _ => None,
     };
-    let programs = match values.view("output").text("gcode")? {
-        "linear" => true,
-        "none" => false,
-        _ => return None,
-    };
+    let programs = linear_programs(values)?;
     Some(ScenePart::new(Hobbing { tool, limits: limits(values), operations: operations?, material, programs }))
 }
 

@@ -16,7 +16,7 @@ use gearcut_core::passes::{CutPlan, PassRecord};
 use gearcut_core::terms::Side;
 use gearcut_core::tool::closed_tooth::PlacedScratch;
 
-use crate::process::shaping::check::facts::ToothFacts;
+use crate::process::shaping::tooth_facts::ToothFacts;
 use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FLANKS};
 
 /// What one thread of the native backend takes for the plan of a tile, s.

@@ -7,25 +7,19 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::findings::{answers, returns};
 use gearcut_core::error::Refusal;
 
-/// Adds the lines; gives the warnings.
+/// Adds the lines; none where the cutter is not drawn back.
 ///
 /// # Errors
 /// A back-off so large that the retraction leads to no pose.
-pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<String>, Refusal> {
-    let mut warnings = Vec::new();
+pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<(), Refusal> {
     for (index, operation) in job.operations.iter().enumerate() {
-        let Some(section) = returns::section(job, index)? else {
-            return Ok(vec![
-                "machine.back_off_mm = 0: the cutter returns along the surfaces that it has cut".to_owned(),
-            ]);
-        };
+        let Some(section) = returns::section(job, index)? else { return Ok(()) };
         let name = &operation.spec.name;
         sheet.heading(&format!("{} of {name}: {}", section.title, section.words("direction")));
         answers::print(sheet, &section);
         along(sheet, &section);
-        warnings.extend(returns::warning(name, &section));
     }
-    Ok(warnings)
+    Ok(())
 }
 
 fn along(sheet: &mut Sheet, section: &Section) {

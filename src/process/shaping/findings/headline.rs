@@ -1,7 +1,7 @@
 //! What to look at first on a shaped gear.
 
 use super::chips::{ENTRY_FORCE, entry, peak};
-use super::place;
+use super::{place, program};
 use crate::findings::{Entry, Quantity};
 use crate::measure::stock::Extreme;
 use crate::process::shaping::ShapingJob;
@@ -69,7 +69,13 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
         let of = |index: usize| chips.operations[index].largest(value).map_or(0.0, |(_, stroke)| value(stroke));
         (0..job.operations.len()).reduce(|best, next| if of(next) > of(best) { next } else { best }).unwrap_or(0)
     };
-    let thickness_why = "no tooth crosses the pitch curve with both flanks";
+    let thickness_why = "no tooth crosses the pitch curve with both flanks, or nothing is left between them";
+    // Ends and tips of flanks follow from the meshing condition: of the scene's own strokes.
+    let other_gear = program::not_of_the_gear(job, motion);
+    let of_scene = |quantity: Quantity| match &other_gear {
+        Some(why) => quantity.without_value(why.clone()),
+        None => quantity,
+    };
     vec![
         Entry::headline(
             "smallest_normal_stock",
@@ -96,28 +102,28 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
         Entry::headline(
             "start_of_involute",
             "highest start of involute",
-            quantity_at(
+            of_scene(quantity_at(
                 extreme_over(flanks, form, |a, b| a > b),
                 1.0,
                 "mm",
                 "highest start of the involute of all flanks, as height over the pitch curve",
                 none,
-            ),
+            )),
         ),
         Entry::headline(
             "undercut_flanks",
             "undercut flanks",
-            Quantity::count(undercut as u64, "flanks", "flanks whose generated profile turns back"),
+            of_scene(Quantity::count(undercut as u64, "flanks", "flanks whose generated profile turns back")),
         ),
         Entry::headline(
             "tip_land",
             "narrowest tip land",
-            Quantity::number_or(narrowest, "mm", "narrowest tip land of all teeth", none),
+            of_scene(Quantity::number_or(narrowest, "mm", "narrowest tip land of all teeth", none)),
         ),
         Entry::headline(
             "pointed_teeth",
             "pointed teeth",
-            Quantity::count(pointed as u64, "teeth", "teeth that are pointed below the blank's outline"),
+            of_scene(Quantity::count(pointed as u64, "teeth", "teeth that are pointed below the blank's outline")),
         ),
         Entry::headline(
             "scallop_height",

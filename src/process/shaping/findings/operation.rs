@@ -1,6 +1,6 @@
 //! One operation on a shaped gear: strokes, axes, chips, and the stock that it leaves.
 
-use super::{chips, returns, strokes, teeth};
+use super::{chips, program, returns, strokes, teeth};
 use crate::findings::{Quantity, Section};
 use crate::measure::stock::Stock;
 use crate::process::shaping::ShapingJob;
@@ -29,6 +29,8 @@ pub fn operation(
     let why = if last { "the last operation leaves no stock to itself" } else { "no flank was reached" };
     let over_flanks: Vec<(Option<&FlankReport>, Stock)> =
         report.flanks.iter().filter_map(|f| Some((Some(f), (*f.own.stock.get(index)?)?))).collect();
+    let over_fillets: Vec<(Option<&FlankReport>, Stock)> =
+        report.flanks.iter().filter_map(|f| Some((Some(f), (*f.own.fillet_stock.get(index)?)?))).collect();
     let over_roots: Vec<(Option<&FlankReport>, Stock)> =
         report.roots.iter().filter_map(|r| Some((None, (*r.stock.get(index)?)?))).collect();
     let by_mean = |teeth: &[ToothAllowance]| summarise(teeth.iter().map(ToothAllowance::unevenness_mean_percent));
@@ -91,11 +93,19 @@ pub fn operation(
         )
         .table(teeth::allowance(report, allowance, &spec.name))
         .part(axes::findings(motion))
+        .parts(program::section(motion))
         .part(motion.relief_findings())
         .parts(motion.retraction_findings())
         .parts(returns::section(job, index)?)
         .part(chips::chips(job, ledger, index).table(strokes::strokes(job, ledger, index)))
         .part(stock_range("flank_stock", "Stock on all active flanks", &over_flanks, "on all active flanks", why))
+        .part(stock_range(
+            "fillet_stock",
+            "Stock where the operation's fillet stands on the flanks",
+            &over_fillets,
+            "on all flanks below the start of the operation's own involute or of the evaluated profile",
+            why,
+        ))
         .part(stock_range(
             "root_stock",
             "Stock in all roots",

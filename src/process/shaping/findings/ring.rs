@@ -13,6 +13,8 @@ use crate::process::shaping::ring::{CornerWay, RingFacts, RingTooth, ToothPlace,
 use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
 
+/// Key of the section.
+pub const KEY: &str = "ring";
 /// Why there is no radius, and no largest cutter.
 const NOT_CURVED: &str = "the pitch curve is not curved towards the axis there";
 /// Why there is no condition of undercut.
@@ -39,7 +41,7 @@ fn section(job: &ShapingJob, facts: &RingFacts) -> Section {
         let place = Place::default().and("polar_angle_deg", sharpest_rad.to_degrees());
         if facts.teeth.len() > 1 { quantity.at(place) } else { quantity }
     };
-    let section = Section::new("ring", "What the cutter can do in the ring");
+    let section = Section::new(KEY, "What the cutter can do in the ring");
     let section = answered(
         section,
         "rolling_teeth",

@@ -8,6 +8,9 @@ use crate::process::shaping::measure::{FlankReport, GearReport};
 use crate::process::shaping::target::FlankEnd;
 use gearcut_core::terms::Side;
 
+/// Why a lowest height is not known.
+const BELOW_RANGE: &str = "the flank is cut deeper than its rays record, half a module under the target";
+
 /// Smallest, largest and mean stock over some flanks (with their report, for the place) or roots.
 pub fn stock_range(
     key: &str,
@@ -17,7 +20,10 @@ pub fn stock_range(
     why: &str,
 ) -> Section {
     let found = |pick: fn(&Stock) -> Extreme, better: fn(f64, f64) -> bool, what: &str| {
-        let definition = format!("{what} stock {where_}, along the target's normal");
+        let definition = format!(
+            "{what} stock {where_}, along the target's normal; negative where the operation cut below the target and \
+             finishing takes nothing"
+        );
         let best = parts
             .iter()
             .map(|(flank, stock)| (flank, pick(stock)))
@@ -56,7 +62,7 @@ pub fn tooth_stock(report: &GearReport, operation: usize, tooth: u32) -> Section
     let range = |side: Side, title: &str| {
         let stock = flank_of(report, tooth, side).and_then(|f| Some((Some(f), (*f.own.stock.get(operation)?)?)));
         let why = "the flank was not cut or not reached";
-        stock_range(side.name(), title, &stock.into_iter().collect::<Vec<_>>(), "on the flank", why)
+        stock_range(side.name(), title, &stock.into_iter().collect::<Vec<_>>(), "on the active flank", why)
     };
     Section::new(format!("tooth_{tooth:02}"), format!("tooth {tooth}"))
         .part(range(Side::Left, "left flank (larger arc)"))
@@ -78,8 +84,16 @@ pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, op
         mm("C_y", "y of C"),
         mm("D_x", "x of D in the gear frame: right flank as this operation leaves it, on the pitch curve"),
         mm("D_y", "y of D"),
-        mm("AB", "chord from A (this operation) to B (finished), left flank, on the pitch curve"),
-        mm("CD", "chord from C (finished) to D (this operation), right flank, on the pitch curve"),
+        mm(
+            "AB",
+            "chord from A (this operation) to B (as finishing alone leaves it), left flank, on the pitch curve; negative \
+             where A lies inside the finished tooth",
+        ),
+        mm(
+            "CD",
+            "chord from C (as finishing alone leaves it) to D (this operation), right flank, on the pitch curve; negative \
+             where D lies inside the finished tooth",
+        ),
         TableColumn::new("unevenness_mean_denominator", "%", "|AB - CD| over the mean of AB and CD")
             .or(missing)
             .as_bars(),
@@ -125,7 +139,7 @@ pub fn finished_tooth(report: &GearReport, tooth: u32) -> Section {
     let row = tooth as usize - 1;
     let thickness = report.inspection.thickness.get(row).copied().flatten();
     let mm = |value: Option<f64>, definition: &'static str, why| Quantity::number_or(value, "mm", definition, why);
-    let crossing = "a flank does not cross the pitch curve";
+    let crossing = "a flank does not cross the pitch curve, or nothing is left between both";
     Section::new(format!("tooth_{tooth:02}"), format!("tooth {tooth}"))
         .with(
             "tip_land",
@@ -203,6 +217,11 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         Quantity::number_or(value.map(|v| v * 1e3), "um", definition, "a flank does not cross the pitch curve")
     };
     let finished = flank.and_then(|f| f.own.finished);
+    // Where rays end inside the cut, the lowest height is where they end.
+    let lowest = |quantity: Quantity| match flank {
+        Some(flank) if flank.own.below_range > 0 => quantity.without_value(BELOW_RANGE),
+        _ => quantity,
+    };
     Section::new(side.name(), format!("{} flank", side.name()))
         .with(
             "start_of_involute",
@@ -240,11 +259,11 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         )
         .with(
             "smallest_height",
-            at(
+            lowest(at(
                 finished.map(|h| h[0]),
                 "smallest normal deviation of the finished surface on the evaluated profile",
                 "no dexel of the evaluated profile was reached",
-            ),
+            )),
         )
         .with(
             "largest_height",
@@ -256,11 +275,11 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         )
         .with(
             "deepest_cut",
-            at(
+            lowest(at(
                 flank.and_then(|f| f.own.undercut),
                 "deepest cut below the target anywhere on the flank",
                 "nothing is cut more than a nanometre below the target",
-            ),
+            )),
         )
         .part(
             Section::new("profile", "profile deviations in the middle of the face, as ISO 1328-1 has them")

@@ -9,7 +9,7 @@
 //! In: [`AxisProgram::fit`] takes a schedule and the **contour error**, the largest displacement that straight lines
 //! may cause anywhere on the cutter's flanks. Out: the text (`programs`), and from any such text the axis
 //! positions at every stroke ([`read::program`]). A scene's operation can name a program; the gear is then cut as the
-//! program says.
+//! program says, and the program is judged ([`judge`]).
 //!
 //! The dialect that is read: `G0`, `G1`, `G4 P` (dwell, s), `G21`, `G90`, `G93`, `G94`, `M3`, `M5`, `M2`, `M30`, words
 //! `N S F X B C`, comments in round brackets or after `;`, `%`. Everything else is refused by line and word: a word
@@ -21,8 +21,10 @@
 //! Road not taken: one point per stroke. It is exact, and at 4,200 strokes it starves the block buffer of older
 //! controls; straight lines within a micrometre need a tenth.
 
+pub mod judge;
 pub mod program;
 pub mod read;
 pub mod retracting;
 
+pub use judge::Judgement;
 pub use program::{AxisProgram, Knot};

@@ -1,6 +1,7 @@
 //! Axis positions as straight lines between knots, in the stroke coordinate.
 
 use crate::gcode::{Digits, beyond_limits, longest_lines};
+use crate::machine::{Limits, Order, Peak};
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
 use crate::process::shaping::scene::model::AxisLimits;
@@ -154,31 +155,43 @@ impl AxisProgram {
             .fold((0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst })
     }
 
-    /// What the program asks beyond the machine's limits: speeds within blocks, and steps of speed between blocks taken
-    /// within one double stroke, or within the shorter of both blocks where that is less.
-    pub fn exceeded(&self, limits: &AxisLimits) -> Vec<String> {
+    /// What the program asks of the axes, axis by axis: speeds within blocks, and steps of speed between blocks taken
+    /// within one double stroke, or within the shorter of both blocks where that is less; each with its stroke.
+    pub fn peaks(&self, limits: &[Limits; 3]) -> Vec<Peak> {
         let stroke_s = 60.0 / self.double_strokes_per_minute;
-        let limits = dynamics::limits(limits);
-        let beyond = AXES.iter().zip(&limits).enumerate().flat_map(|(index, (axis, limits))| {
-            // Speed of each block, and how many double strokes it lasts.
-            let blocks: Vec<[f64; 2]> = self
+        let mut peaks = Vec::new();
+        for (index, (axis, limits)) in AXES.iter().zip(limits).enumerate() {
+            // Speed of each block, how many double strokes it lasts, and where it begins.
+            let blocks: Vec<[f64; 3]> = self
                 .knots
                 .windows(2)
                 .filter(|pair| pair[1].stroke > pair[0].stroke)
                 .map(|pair| {
                     let travel = pair[1].axes()[index] - pair[0].axes()[index];
                     let strokes = pair[1].stroke - pair[0].stroke;
-                    [travel / (strokes * stroke_s), strokes]
+                    [travel / (strokes * stroke_s), strokes, pair[0].stroke]
                 })
                 .collect();
-            let largest = blocks.iter().fold(0.0_f64, |most, [v, _]| most.max(v.abs()));
-            let rates = blocks.windows(2).map(|pair| {
-                let [[v, strokes], [next_v, next_strokes]] = [pair[0], pair[1]];
-                (next_v - v).abs() / strokes.min(next_strokes).min(1.0)
-            });
-            let step = rates.fold(0.0_f64, f64::max) / stroke_s;
-            beyond_limits(axis, limits, [largest, step])
-        });
-        beyond.collect()
+            let largest = |of: &mut dyn Iterator<Item = [f64; 2]>| {
+                of.fold([0.0, 0.0], |most, next| if next[0] > most[0] { next } else { most })
+            };
+            let speed = largest(&mut blocks.iter().map(|[speed, _, at]| [speed.abs(), *at]));
+            let acceleration = largest(&mut blocks.windows(2).map(|pair| {
+                let [[v, strokes, _], [next_v, next_strokes, at]] = [pair[0], pair[1]];
+                [(next_v - v).abs() / (strokes.min(next_strokes).min(1.0) * stroke_s), at]
+            }));
+            for (order, [value, at]) in [(Order::Speed, speed), (Order::Acceleration, acceleration)] {
+                peaks.push(Peak { axis, order, value, at, limit: limits.of(order) });
+            }
+        }
+        peaks
+    }
+
+    /// What the program asks beyond the machine's limits.
+    pub fn exceeded(&self, limits: &AxisLimits) -> Vec<String> {
+        let limits = dynamics::limits(limits);
+        let peaks = self.peaks(&limits);
+        let pairs = AXES.iter().zip(&limits).zip(peaks.chunks_exact(2));
+        pairs.flat_map(|((axis, limits), of)| beyond_limits(axis, limits, [of[0].value, of[1].value])).collect()
     }
 }

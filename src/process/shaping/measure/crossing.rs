@@ -13,7 +13,7 @@ use gearcut_core::math::convergence::{Step, iterate};
 use gearcut_core::passes::planar::near::{lowest_entry, near_passes};
 use gearcut_core::terms::Side;
 use gearcut_core::tool::CuttingTool;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 /// Rays along the pitch curve's tangent towards what the strokes leave, at most: each starts where the one before
 /// ended, and misses the curve by the square of its length. The last one moves the crossing by less than this, mm.
@@ -29,8 +29,8 @@ pub fn envelope_crossing(job: &ShapingJob, operation: usize, tooth: u32, side: S
     TargetFlank::new(job.generation(operation), &job.blank, tooth, side, None).ok()?.pitch_crossing(&job.blank)
 }
 
-/// Crossing of what the strokes of operations 0 to `last_operation` leave in the middle of the face, on one flank;
-/// `start` is a crossing near it (the target's).
+/// Crossing of what the strokes of some operations leave in the middle of the face, on one flank; `start` is a crossing
+/// near it (the target's).
 ///
 /// `None` where no pass comes within reach: half a pitch into the space, half a module into the tooth.
 ///
@@ -38,13 +38,13 @@ pub fn envelope_crossing(job: &ShapingJob, operation: usize, tooth: u32, side: S
 /// The rays go on moving along the pitch curve: the surface jumps where they meet it.
 pub fn stroke_crossing(
     job: &ShapingJob,
-    last_operation: usize,
+    operations: Range<usize>,
     side: Side,
     start: Crossing,
 ) -> Result<Option<Crossing>, NotConverged> {
     let module_mm = job.scene.gear.module_mm;
     let reach_mm = 0.5 * std::f64::consts::PI * module_mm;
-    let passes: Vec<_> = job.operations[..=last_operation]
+    let passes: Vec<_> = job.operations[operations]
         .iter()
         .map(|operation| near_passes(&operation.strokes, &job.cutter, start.point_mm, reach_mm))
         .collect();

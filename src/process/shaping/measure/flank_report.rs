@@ -7,7 +7,7 @@
 use crate::measure::deviation::Trace;
 use crate::measure::inspection::InspectedFlank;
 use crate::measure::scallop::{Cusp, cusps};
-use crate::measure::stock::{Extreme, Stock, extremes, stock};
+use crate::measure::stock::{Extreme, RESOLUTION_MM, Stock, extremes, stock};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use crate::steps::planar::CutField;
@@ -50,8 +50,11 @@ pub struct ShapedFlank {
     pub form: FlankLimit,
     /// Tip.
     pub tip: FlankLimit,
-    /// Stock of every operation but the last over the finished surface; `None` where the operation reached nothing.
+    /// Stock of every operation but the last over the finished surface, on the active flank: the evaluated profile above
+    /// the operation's own fillet. `None` where the operation reached nothing.
     pub stock: Vec<Option<Stock>>,
+    /// The same below it, where the operation's fillet stands on the finished flank.
+    pub fillet_stock: Vec<Option<Stock>>,
     /// Smallest and largest normal deviation of the finished surface on the evaluated profile.
     pub finished: Option<[Extreme; 2]>,
     /// Deepest cut below the target anywhere on the flank (undercut, gouge), if deeper than the dexels' resolution.
@@ -65,10 +68,6 @@ pub struct ShapedFlank {
     pub below_range: u64,
 }
 
-/// Cuts shallower than this below the target are numerical: the edge tables, f32 heights and Newton's last step
-/// together.
-pub const RESOLUTION_MM: f64 = 1e-6;
-
 /// Arcs between which profiles and textures are evaluated, mm from the form point: as the scene says, else without 5 %
 /// of the flank at either end.
 pub fn evaluated_profile_mm(job: &ShapingJob, flank: &TargetFlank) -> [f64; 2] {
@@ -76,6 +75,22 @@ pub fn evaluated_profile_mm(job: &ShapingJob, flank: &TargetFlank) -> [f64; 2] {
     let [from_mm, to_mm] = job.scene.measure.ends_mm(arc_at);
     let length_mm = flank.length_mm();
     [from_mm.unwrap_or(DEFAULT_MARGIN * length_mm), to_mm.unwrap_or((1.0 - DEFAULT_MARGIN) * length_mm)]
+}
+
+/// Arc of a flank at the height where an operation's own involute begins, mm; 0 where it begins below the flank.
+fn begins_mm(job: &ShapingJob, operation: usize, flank: &TargetFlank) -> f64 {
+    let height_mm = |of: &TargetFlank, arc_mm: f64| {
+        let contact = of.at_arc(arc_mm);
+        job.blank.height(contact.point_mm, contact.phi_rad).0
+    };
+    let own = TargetFlank::new(job.generation(operation), &job.blank, flank.tooth, flank.side, None);
+    let Ok(own) = own else { return 0.0 };
+    let begin_mm = height_mm(&own, 0.0);
+    match flank.at_height(&job.blank, begin_mm) {
+        Some((arc_mm, _)) => arc_mm,
+        None if begin_mm > height_mm(flank, 0.0) => flank.length_mm(),
+        None => 0.0,
+    }
 }
 
 /// Measures a flank.
@@ -148,10 +163,24 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
             finished.column(column, rows).iter().filter(|&&h| h <= low).count() as u64
         })
         .sum();
+    // Where the involute of every earlier operation begins on this flank; its fillet stands below.
+    let begins_mm: Vec<f64> = (0..layers.len() - 1).map(|operation| begins_mm(job, operation, flank)).collect();
+    let arc_mm = |column: usize| field.columns[column].arc_mm;
+    let from_mm = |operation: usize| begins_mm[operation].max(evaluated_mm[0]);
+    let active = |operation: usize| {
+        let from_mm = from_mm(operation);
+        move |column: usize| arc_mm(column) >= from_mm && arc_mm(column) <= evaluated_mm[1]
+    };
+    let fillet = |operation: usize| {
+        let from_mm = from_mm(operation);
+        move |column: usize| arc_mm(column) < from_mm
+    };
+    let earlier = || layers[..layers.len() - 1].iter().enumerate();
     let own = ShapedFlank {
         form: limit(0.0, flank.form_end),
         tip: limit(length_mm, flank.tip_end),
-        stock: layers[..layers.len() - 1].iter().map(|layer| stock(field, layer, finished)).collect(),
+        stock: earlier().map(|(operation, layer)| stock(field, layer, finished, active(operation))).collect(),
+        fillet_stock: earlier().map(|(operation, layer)| stock(field, layer, finished, fillet(operation))).collect(),
         finished: evaluated,
         undercut: deepest.filter(|low| low.value_mm < -RESOLUTION_MM),
         scallops,

@@ -57,15 +57,18 @@ pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport
     let teeth = job.scene.gear.teeth;
     let last = job.operations.len() - 1;
     let envelope = crossings(job, last, CrossedSurface::Envelope)?;
-    // B and C of every operation.
     let finished = crossings(job, last, CrossedSurface::Strokes)?;
+    // B and C of every operation: against what finishing alone leaves, cuts that went below it keep their sign. Where
+    // it does not reach a flank, that is finished as it is.
+    let own = if last > 0 { crossings(job, last, CrossedSurface::OwnStrokes)? } else { Vec::new() };
+    let own: Vec<_> = own.iter().zip(&finished).map(|(own, all)| [own[0].or(all[0]), own[1].or(all[1])]).collect();
     let allowances = (0..last)
         .map(|operation| {
             Ok(OperationAllowance {
                 operation,
                 rack_mm: rack_allowance_mm(job, operation),
                 envelope: allowances(&crossings(job, operation, CrossedSurface::Envelope)?, &envelope),
-                strokes: allowances(&crossings(job, operation, CrossedSurface::Strokes)?, &finished),
+                strokes: allowances(&crossings(job, operation, CrossedSurface::Strokes)?, &own),
             })
         })
         .collect::<Result<_>>()?;
@@ -83,7 +86,7 @@ pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport
 /// Stock in one root, on rays long enough.
 pub fn root_stock(space: u32, cut: &CutField) -> RootReport {
     let (finished, earlier) = cut.layers.split_last().expect("at least one operation");
-    RootReport { space, stock: earlier.iter().map(|layer| stock(&cut.field, layer, finished)).collect() }
+    RootReport { space, stock: earlier.iter().map(|layer| stock(&cut.field, layer, finished, |_| true)).collect() }
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! What is measured on shaped gears.
 
+pub mod below_finished;
 pub mod crossing;
 pub mod flank_report;
 pub mod gear_report;

@@ -9,6 +9,7 @@ use crate::measure::crossing::Crossing;
 use crate::process::shaping::ShapingJob;
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
+use gearcut_core::units::TURN_RAD;
 use rayon::prelude::*;
 
 /// Points and allowances of one tooth; `None` where a surface does not cross the pitch curve.
@@ -40,19 +41,21 @@ pub struct Unevenness {
 pub enum CrossedSurface {
     /// The limit of infinitely many strokes.
     Envelope,
-    /// What the strokes leave in the middle of the face.
+    /// What the strokes leave in the middle of the face, those of earlier operations included.
     Strokes,
+    /// What the strokes of the operation would leave there without those before.
+    OwnStrokes,
 }
 
 impl ToothAllowance {
-    /// Chord AB, mm.
+    /// Chord AB, mm; negative where A lies inside the finished tooth.
     pub fn ab_mm(&self) -> Option<f64> {
-        Some(self.a?.point_mm.distance(self.b?.point_mm))
+        Some(chord_mm(&self.b?, &self.a?))
     }
 
-    /// Chord CD, mm.
+    /// Chord CD, mm; negative where D lies inside the finished tooth.
     pub fn cd_mm(&self) -> Option<f64> {
-        Some(self.c?.point_mm.distance(self.d?.point_mm))
+        Some(chord_mm(&self.d?, &self.c?))
     }
 
     /// |AB - CD| over the mean of both, percent.
@@ -65,6 +68,14 @@ impl ToothAllowance {
     pub fn unevenness_rack_percent(&self, rack_mm: f64) -> Option<f64> {
         (rack_mm > 0.0).then_some(100.0 * (self.ab_mm()? - self.cd_mm()?).abs() / rack_mm)
     }
+}
+
+/// Chord from one crossing to another, mm; negative where the second has the smaller arc.
+fn chord_mm(from: &Crossing, to: &Crossing) -> f64 {
+    let ahead_rad = to.phi_rad - from.phi_rad;
+    let ahead_rad = ahead_rad - TURN_RAD * (ahead_rad / TURN_RAD).round();
+    let chord_mm = from.point_mm.distance(to.point_mm);
+    if ahead_rad < 0.0 { -chord_mm } else { chord_mm }
 }
 
 /// Crossings of a tooth's left and right flank with the pitch curve.
@@ -80,12 +91,14 @@ pub fn crossings(job: &ShapingJob, operation: usize, surface: CrossedSurface) ->
         .into_par_iter()
         .map(|tooth| {
             let on = |side: Side| -> Result<_> {
-                match surface {
-                    CrossedSurface::Envelope => Ok(envelope_crossing(job, operation, tooth, side)),
-                    CrossedSurface::Strokes => match envelope_crossing(job, finishing, tooth, side) {
-                        Some(start) => Ok(stroke_crossing(job, operation, side, start)?),
-                        None => Ok(None),
-                    },
+                let first = match surface {
+                    CrossedSurface::Envelope => return Ok(envelope_crossing(job, operation, tooth, side)),
+                    CrossedSurface::Strokes => 0,
+                    CrossedSurface::OwnStrokes => operation,
+                };
+                match envelope_crossing(job, finishing, tooth, side) {
+                    Some(start) => Ok(stroke_crossing(job, first..operation + 1, side, start)?),
+                    None => Ok(None),
                 }
             };
             Ok([on(Side::Left)?, on(Side::Right)?])

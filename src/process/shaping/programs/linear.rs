@@ -1,5 +1,6 @@
 //! The text of a program, with everything in its head that the operator must know.
 
+use crate::findings::Warning;
 use crate::gcode::{Digits, ProgramText, axis_word};
 use crate::machine::Axis;
 use crate::output::text::plain;
@@ -8,12 +9,13 @@ use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::linkage::dynamics::AXES;
 
 /// A program in the linear dialect, for an operation of a job, and its largest contour error (mm) with the stroke that
-/// has it.
+/// has it; `warnings` go into its head.
 pub fn text(
     job: &ShapingJob,
     operation: &PreparedOperation,
     program: &AxisProgram,
     (error_mm, worst): (f64, f64),
+    warnings: &[Warning],
 ) -> String {
     let output = &job.scene.output;
     let tip_radius_mm = job.cutter.tip_radius_mm;
@@ -73,7 +75,7 @@ pub fn text(
         // The work turns by -psi_c.
         [word(distance, knot.center_distance_mm), word(work, -knot.psi_c_rad), word(cutter, knot.psi_b_rad)].join(" ")
     };
-    let mut text = ProgramText::new(&head);
+    let mut text = ProgramText::new(&head, warnings.iter().map(Warning::line));
     text.block("G21 G90 G94");
     text.block(&format!("G0 {}", position(&program.knots[0])));
     text.block(&format!("S{} M3", plain(program.double_strokes_per_minute)));

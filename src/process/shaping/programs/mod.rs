@@ -5,14 +5,15 @@
 mod linear;
 mod paper;
 
+use crate::findings::Warning;
 use crate::output::text::{plain, significant};
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::scene::model::{GcodeDialect, Linkage, NormalReading};
 use gearcut_core::units::UM_PER_MM;
 
-/// The program of an operation; an error is the reason why there is none, `None`: none is wanted.
-pub fn text(job: &ShapingJob, operation: &PreparedOperation) -> Option<Result<String, String>> {
+/// The program of an operation, `warnings` in its head; an error is the reason why there is none, `None`: none is wanted.
+pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning]) -> Option<Result<String, String>> {
     if job.gcode == GcodeDialect::None {
         return None;
     }
@@ -20,13 +21,13 @@ pub fn text(job: &ShapingJob, operation: &PreparedOperation) -> Option<Result<St
         return Some(Err("Eq. 12 as printed turns the cutter wrongly; this reading is for comparison only".to_owned()));
     }
     Some(match job.gcode {
-        GcodeDialect::PaperG84 => paper::text(job, operation),
-        _ => straight_lines(job, operation),
+        GcodeDialect::PaperG84 => paper::text(job, operation, warnings),
+        _ => straight_lines(job, operation, warnings),
     })
 }
 
 /// The program in straight lines, or what keeps it from being written.
-fn straight_lines(job: &ShapingJob, operation: &PreparedOperation) -> Result<String, String> {
+fn straight_lines(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning]) -> Result<String, String> {
     let asked_mm = job.scene.output.gcode_contour_error_mm;
     let (schedule, tip_radius_mm) = (&operation.schedule, job.cutter.tip_radius_mm);
     let continuous = operation.spec.feed_during_stroke;
@@ -56,6 +57,6 @@ fn straight_lines(job: &ShapingJob, operation: &PreparedOperation) -> Result<Str
     }
     match program.exceeded(&job.machine.limits).first() {
         Some(first) => Err(format!("{first}; take more strokes per revolution or fewer double strokes per minute")),
-        None => Ok(linear::text(job, operation, &program, (reached_mm, stroke))),
+        None => Ok(linear::text(job, operation, &program, (reached_mm, stroke), warnings)),
     }
 }

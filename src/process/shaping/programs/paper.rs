@@ -5,6 +5,7 @@
 //! delta_d (mm). On nearly every other control **G84 is a tapping cycle**: the file says DO NOT RUN before anything
 //! else.
 
+use crate::findings::Warning;
 use crate::output::text::plain;
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::scene::model::Linkage;
@@ -14,7 +15,7 @@ use gearcut_core::gear::PitchCurveShape;
 ///
 /// # Errors
 /// Why this form cannot say it.
-pub fn text(job: &ShapingJob, operation: &PreparedOperation) -> Result<String, String> {
+pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning]) -> Result<String, String> {
     let PitchCurveShape::Ellipse { order, eccentricity, .. } = job.scene.gear.pitch_curve else {
         return Err("the one-block form knows elliptical pitch curves only; use gcode = \"linear\"".to_owned());
     };
@@ -22,6 +23,8 @@ pub fn text(job: &ShapingJob, operation: &PreparedOperation) -> Result<String, S
         return Err("the one-block form stands for the normal linkage; use gcode = \"linear\"".to_owned());
     };
     let start_rad = operation.schedule.phi_rad(0.0);
+    let comment = |warning: &Warning| format!("({})\n", warning.line().replace(['(', ')'], " "));
+    let told = warnings.iter().map(comment).collect::<Vec<_>>().concat();
     // r = a (1 - k^2) / (1 - k cos n phi) is a (1 + k) at phi = 0.
     let semi_major_axis_mm = job.curve.frame(0.0).point_mm.length() / (1.0 + eccentricity);
     Ok(format!(
@@ -29,6 +32,7 @@ pub fn text(job: &ShapingJob, operation: &PreparedOperation) -> Result<String, S
          (DO NOT RUN: this block is understood only by the control described in Gao et al. 2017)\n\
          (gearcut {} operation {} of {}; mm, deg)\n\
          (A semi-major axis, N order, K eccentricity, R cutter pitch radius, D start polar angle, S residual feed)\n\
+         {told}\
          G84 A{} N{order} K{} R{} D{} S{}\n",
         env!("CARGO_PKG_VERSION"),
         operation.spec.name,

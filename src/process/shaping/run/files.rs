@@ -1,50 +1,59 @@
-//! What a run writes about the gear as a whole: tables, charts, contact sheets and results.
+//! What a run writes about the gear as a whole: tables, charts and contact sheets.
 //!
 //! Maps of single flanks are written as the flanks are finished; everything here follows when all are.
 
 use super::chip_files;
-use crate::findings::{Findings, RESULTS_FILE};
+use crate::findings::Findings;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::table::write_tables;
 use crate::process::shaping::CutGear;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::measure::unevenness::ToothAllowance;
+use crate::steps::attempts::Attempts;
 use crate::steps::parts::Part;
 use crate::steps::sheets::write_sheets_and_deviations;
 use crate::steps::{Tools, axes};
 use gearcut_core::error::Result;
 
-/// Writes everything but the run record.
+/// Writes tables, charts, chips and sheets.
 ///
 /// # Errors
-/// Files that cannot be written.
-pub fn write(job: &ShapingJob, cut: &CutGear, motion: &[OperationAxes], found: &Findings, tools: &Tools) -> Result<()> {
+/// Ctrl-C.
+pub fn write(
+    job: &ShapingJob,
+    cut: &CutGear,
+    motion: &[OperationAxes],
+    found: &Findings,
+    tools: &Tools,
+    attempts: &mut Attempts,
+) -> Result<()> {
     let Tools { folder, notes, progress, parts, .. } = *tools;
     let step = progress.step("tables and charts", 3 + cut.report.allowances.len() as u64, "parts");
-    write_tables(found, folder)?;
+    attempts.of("tables", write_tables(found, folder))?;
     step.advance(1);
     for allowance in &cut.report.allowances {
         let name = &job.operations[allowance.operation].spec.name;
         if parts.has(Part::Pictures) {
             let chart = unevenness_chart(job, &allowance.strokes, name);
-            chart.write_svg(&folder.path(format!("pictures/unevenness_{name}.svg"))?)?;
+            let write = || chart.write_svg(&folder.path(format!("pictures/unevenness_{name}.svg"))?);
+            attempts.of("chart of the unevenness", write())?;
         }
         step.advance(1);
     }
     if parts.has(Part::Chips) {
-        chip_files::write(job, &cut.chips, folder, notes)?;
+        attempts.of("charts and maps of chips", chip_files::write(job, &cut.chips, folder, notes))?;
     }
     step.advance(1);
     if parts.has(Part::Axes) {
         for operation in motion {
-            axes::write(operation, folder)?;
+            attempts.of("table and charts of the axes", axes::write(operation, folder))?;
         }
     }
     step.advance(1);
     step.finish();
-    write_sheets_and_deviations(job, &cut.maps, tools)?;
-    folder.write_json(RESULTS_FILE, &found.to_json())
+    attempts.of("sheets and maps of deviations", write_sheets_and_deviations(job, &cut.maps, tools))?;
+    Ok(())
 }
 
 fn unevenness_chart(job: &ShapingJob, teeth: &[ToothAllowance], operation: &str) -> BarChart {

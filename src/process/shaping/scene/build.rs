@@ -90,6 +90,7 @@ fn machine(values: &Values) -> Option<Machine> {
             work_acceleration_rad_per_s2: limits.rad("work_acceleration_deg_per_s2"),
             cutter_acceleration_rad_per_s2: limits.rad("cutter_acceleration_deg_per_s2"),
             center_distance_acceleration_mm_per_s2: limits.number("center_distance_acceleration_mm_per_s2"),
+            cutting_force_n: limits.number("cutting_force_n"),
         },
     })
 }

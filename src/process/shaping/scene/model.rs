@@ -154,6 +154,8 @@ pub struct AxisLimits {
     pub cutter_acceleration_rad_per_s2: Option<f64>,
     /// Centre distance, mm/s^2.
     pub center_distance_acceleration_mm_per_s2: Option<f64>,
+    /// Cutting force of the ram, N.
+    pub cutting_force_n: Option<f64>,
 }
 
 /// One run of a linkage over the work.

@@ -7,7 +7,8 @@
 //! helical gash adds). Over an interval of swept angles the ball's centre stays within speed x half the interval of
 //! where it is in the middle, and every point of the ball within its radius of the centre: where even this reaches none
 //! of the three, the interval is clear. An interval that is not is halved, down to where halving shows little more; a
-//! pass is near if such an interval is left.
+//! pass is near if such an interval is left. The tool angles at which the ball stands in the room that all blades sweep
+//! are looked for first, once for all passes.
 //!
 //! The speed is bounded by the motion table's own polynomials ([`MotionTable::largest_rates`]), so that nothing here
 //! rests on module, starts, teeth or the pitch curve's shape: every step is a bound, for candidates and for the brute
@@ -26,7 +27,7 @@ use std::f64::consts::{PI, TAU};
 const MARGIN_MM: f64 = 0.1;
 /// An interval is halved no further once blade and ball move by less than this share of the ball's radius in it. It
 /// decides about time alone: what is left is near.
-const SHORTEST_SHARE: f64 = 0.1;
+const SHORTEST_SHARE: f64 = 0.6;
 /// Balls smaller than this count as this large there, mm.
 const SMALLEST_MM: f64 = 1.0;
 
@@ -40,47 +41,125 @@ pub struct Ball {
 }
 
 impl Ball {
-    /// A ball that holds some points: about the middle of their box.
-    pub fn around(points_mm: impl Iterator<Item = DVec3> + Clone) -> Self {
-        let (low, high) = points_mm
-            .clone()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)));
+    /// A ball that holds some balls: about the middle of their centres' box.
+    pub fn of_balls(balls: &[Self]) -> Self {
+        let (low, high) = balls
+            .iter()
+            .map(|ball| ball.center_mm)
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
         let center_mm = 0.5 * (low + high);
-        let radius_mm = points_mm.map(|point| point.distance_squared(center_mm)).fold(0.0, f64::max).sqrt();
-        Self { center_mm, radius_mm }
+        let reach_mm = |ball: &Self| ball.center_mm.distance(center_mm) + ball.radius_mm;
+        Self { center_mm, radius_mm: balls.iter().map(reach_mm).fold(0.0, f64::max) }
     }
 }
 
 /// Passes whose blade may hold a point of `whole` and of one of its parts (each within `whole`), in time order.
 pub fn near_passes(set: &TurningPasses, whole: &Ball, parts: &[Ball]) -> Vec<BladePass> {
     let [speed_mm, turn_rad] = set.motion.largest_rates(whole.center_mm);
-    let speed_of = |ball: &Ball| speed_mm + turn_rad * ball.center_mm.distance(whole.center_mm);
+    let room = Room::of_blades(set);
+    let moving = |ball: &Ball, within: &[[f64; 2]]| {
+        let speed_mm = speed_mm + turn_rad * ball.center_mm.distance(whole.center_mm);
+        MovingBall { ball: *ball, speed_mm, near_rad: near_angles(set, &room, ball, speed_mm, within) }
+    };
+    let whole = moving(whole, &[set.motion.range_rad()]);
+    let parts: Vec<_> = parts.iter().map(|part| moving(part, &whole.near_rad)).collect();
     (0..set.count())
         .map(|index| set.pass(index))
-        .filter(|pass| {
-            may_hold(set, pass, whole, speed_mm) && parts.iter().any(|part| may_hold(set, pass, part, speed_of(part)))
-        })
+        .filter(|pass| may_hold(set, pass, &whole) && parts.iter().any(|part| may_hold(set, pass, part)))
         .collect()
 }
 
-/// Whether a pass's blade may hold a point of a ball whose centre moves in the head by at most `speed_mm` per radian of
-/// the tool.
-fn may_hold(set: &TurningPasses, pass: &BladePass, ball: &Ball, speed_mm: f64) -> bool {
+/// A ball in the work, as the head sees it.
+struct MovingBall {
+    ball: Ball,
+    /// How far its centre moves at most per radian of the tool, mm.
+    speed_mm: f64,
+    /// Tool angles at which it is in the room that the blades sweep, rad: intervals in order.
+    near_rad: Vec<[f64; 2]>,
+}
+
+/// What the blades of a tool sweep in the head: a ring about its axis.
+struct Room {
+    radii_mm: [f64; 2],
+    axial_mm: [f64; 2],
+}
+
+impl Room {
+    fn of_blades(set: &TurningPasses) -> Self {
+        let mut room =
+            Self { radii_mm: [f64::INFINITY, f64::NEG_INFINITY], axial_mm: [f64::INFINITY, f64::NEG_INFINITY] };
+        // One turn of the tool has every blade in its place.
+        for pass in (0..set.count().min(set.places.len() as u32)).map(|index| set.pass(index)) {
+            let (place, edge) = (set.place(&pass), set.edge(&pass));
+            let radius_mm = place.radial_mm + edge.center_mm.x;
+            let axial_mm = place.axial_mm + place.y_sign * edge.center_mm.y;
+            for (ends_mm, middle_mm) in [(&mut room.radii_mm, radius_mm), (&mut room.axial_mm, axial_mm)] {
+                ends_mm[0] = ends_mm[0].min(middle_mm - edge.reach_mm);
+                ends_mm[1] = ends_mm[1].max(middle_mm + edge.reach_mm);
+            }
+        }
+        room
+    }
+}
+
+/// Down to which half interval it is worth to look.
+fn is_fine(half_rad: f64, ball: &Ball, speed_mm: f64) -> bool {
+    half_rad * speed_mm <= SHORTEST_SHARE * ball.radius_mm.max(SMALLEST_MM)
+}
+
+/// Tool angles of some intervals in order at which a ball may be in the room of all blades, wherever they stand: most
+/// passes work on other teeth, and are told from these angles alone.
+fn near_angles(set: &TurningPasses, room: &Room, ball: &Ball, speed_mm: f64, within: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut near: Vec<[f64; 2]> = Vec::new();
+    let mut open: Vec<[f64; 2]> = within.iter().rev().copied().collect();
+    while let Some([from, to]) = open.pop() {
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let at = set.motion.head_from_work(middle).point(ball.center_mm);
+        let around_mm = ball.radius_mm + speed_mm * half + MARGIN_MM;
+        let distance_mm = at.truncate().length();
+        if distance_mm - around_mm > room.radii_mm[1]
+            || distance_mm + around_mm < room.radii_mm[0]
+            || at.z - around_mm > room.axial_mm[1]
+            || at.z + around_mm < room.axial_mm[0]
+        {
+            continue;
+        }
+        if is_fine(half, ball, speed_mm) {
+            match near.last_mut() {
+                Some(last) if last[1] == from => last[1] = to,
+                _ => near.push([from, to]),
+            }
+        } else {
+            open.extend([[middle, to], [from, middle]]);
+        }
+    }
+    near
+}
+
+/// Whether a pass's blade may hold a point of a ball.
+fn may_hold(set: &TurningPasses, pass: &BladePass, moving: &MovingBall) -> bool {
+    let MovingBall { ball, speed_mm, near_rad } = moving;
     let (place, edge) = (set.place(pass), set.edge(pass));
     let middle_mm = place.radial_mm + edge.center_mm.x;
     let [innermost_mm, tip_mm] = [middle_mm - edge.reach_mm, middle_mm + edge.reach_mm];
     // A tile's middle is held within half a sweep, what a tile holds at most a quarter turn from there.
     let most_rad = set.half_window_rad + 2.0 * LARGEST_T.atan();
-    // The motion's own range; it is symmetric to the tool's direction.
-    let ends = set.motion.range_rad().map(|angle| set.turn * (angle - pass.tool_angle_rad));
-    let first = [ends[0].min(ends[1]).max(-most_rad), ends[0].max(ends[1]).min(most_rad)];
-    let finest_mm = SHORTEST_SHARE * ball.radius_mm.max(SMALLEST_MM);
-    let mut open = vec![first];
+    // The window is symmetric to the tool's direction.
+    let window = [pass.tool_angle_rad - most_rad, pass.tool_angle_rad + most_rad];
+    let first = near_rad.partition_point(|near| near[1] < window[0]);
+    let in_window = near_rad[first..].iter().take_while(|near| near[0] <= window[1]);
+    let mut open: Vec<[f64; 2]> = in_window
+        .map(|near| {
+            let ends = [near[0].max(window[0]), near[1].min(window[1])];
+            let swept = ends.map(|angle| set.turn * (angle - pass.tool_angle_rad));
+            [swept[0].min(swept[1]), swept[0].max(swept[1])]
+        })
+        .collect();
     while let Some([from, to]) = open.pop() {
         let (swept, half) = (0.5 * (from + to), 0.5 * (to - from));
         let at = set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).point(ball.center_mm);
         let around_mm = ball.radius_mm + speed_mm * half + MARGIN_MM;
-        let distance_mm = at.x.hypot(at.y);
+        let distance_mm = at.truncate().length();
         let y_mm = place.y_sign * (at.z - place.axial_mm);
         if distance_mm - around_mm > tip_mm
             || distance_mm + around_mm < innermost_mm
@@ -94,7 +173,7 @@ fn may_hold(set: &TurningPasses, pass: &BladePass, ball: &Ball, speed_mm: f64) -
         if ahead.abs() > seen_rad + twist.abs() * around_mm + half {
             continue;
         }
-        if half * (speed_mm + tip_mm) <= finest_mm {
+        if is_fine(half, ball, speed_mm + tip_mm) {
             return true;
         }
         open.extend([[swept, to], [from, swept]]);

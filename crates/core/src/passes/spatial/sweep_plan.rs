@@ -26,7 +26,7 @@ use std::sync::Arc;
 /// All cells of a tile.
 const ALL_CELLS: u16 = u16::MAX;
 /// Parts of a field in each direction whose balls are looked at first. It decides about time alone.
-const PARTS: usize = 4;
+const PARTS: usize = 2;
 /// Surroundings reach this much further than the ends of nine rays, for what bulges between them: a surface of radius
 /// rho bulges by a / (2 rho) of the reach over a region that reaches a, so that 5 % holds up to a = rho / 10. For
 /// larger regions it was found by trial; the comparison with all passes in `tests/suite/hobbing/spatial.rs` stands for
@@ -110,10 +110,19 @@ impl SweepPlanner<'_> {
         }
         let whole = Region::whole(self.field);
         let (origin_mm, reach_mm) = self.surroundings(&whole.dexels());
-        let ball = self.ball(0..self.field.columns(), 0..self.field.rows());
+        let parts = || {
+            let parts = self.parts();
+            (Ball::of_balls(&parts), parts)
+        };
         let near = match self.passes {
-            Considered::Candidates => near_passes(self.set, &ball, &self.parts()),
-            Considered::Near => near_passes(self.set, &ball, &[ball]),
+            Considered::Candidates => {
+                let (whole, parts) = parts();
+                near_passes(self.set, &whole, &parts)
+            }
+            Considered::Near => {
+                let whole = parts().0;
+                near_passes(self.set, &whole, &[whole])
+            }
             Considered::All => (0..self.set.count()).map(|index| self.set.pass(index)).collect(),
         };
         let near: Vec<SweepCandidate> = near
@@ -191,10 +200,25 @@ impl SweepPlanner<'_> {
     /// blank's.
     fn ball(&self, columns: Range<usize>, rows: Range<usize>) -> Ball {
         let field = self.field;
-        Ball::around(columns.flat_map(|column| rows.clone().map(move |row| (column, row))).flat_map(|(column, row)| {
-            let ray = field.ray(column, row);
-            [2.0 * field.low_mm, f64::from(field.blank_mm[field.index(column, row)])].map(|h| ray.at(h))
-        }))
+        let (origins_mm, normals) = (field.origins_mm(), field.normals());
+        let lowest_mm = 2.0 * field.low_mm;
+        // Component by component, as rays lie in memory: every ray of a flank is asked.
+        let spans = columns.map(|column| field.index(column, rows.start)..field.index(column, rows.end));
+        let (mut low_mm, mut high_mm) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for span in spans {
+            let blank_mm = &field.blank_mm[span.clone()];
+            for axis in 0..3 {
+                let (mut low, mut high) = (low_mm[axis], high_mm[axis]);
+                let components = origins_mm[axis][span.clone()].iter().zip(&normals[axis][span.clone()]);
+                for ((from, along), &blank) in components.zip(blank_mm) {
+                    let (a, b) = (from + lowest_mm * along, from + f64::from(blank) * along);
+                    (low, high) = (low.min(a.min(b)), high.max(a.max(b)));
+                }
+                (low_mm[axis], high_mm[axis]) = (low, high);
+            }
+        }
+        let center_mm = 0.5 * (low_mm + high_mm);
+        Ball { center_mm, radius_mm: 0.5 * (high_mm - low_mm).length() }
     }
 
     /// Balls of parts of the field: together they are much slimmer than one of the whole.

@@ -40,6 +40,15 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             "90.0",
             "Angle between both axes of the pair.",
         ),
+        Key::number(
+            "hypoid_offset_mm",
+            "mm",
+            Range::closed(-500.0, 500.0),
+            0.0,
+            "0.0",
+            "Offset a of the pair's axes, the same in both scenes; 0 on spiral bevel gears. Positive where the pinion's \
+            axis stands at the larger y of the gear's machine.",
+        ),
     ],
     groups: &[],
     teach: "Cones of a bevel gear; only scenes with a face-mill head have them. gear.module_mm is the outer transverse \

@@ -7,6 +7,11 @@ const fn length(name: &'static str, example: &'static str, teach: &'static str) 
     Key::number(name, "mm", Range::closed(-500.0, 500.0), 0.0, example, teach)
 }
 
+/// An end of an axis's travel.
+const fn end(name: &'static str, unit: &'static str, example: &'static str, teach: &'static str) -> Key {
+    Key::optional(name, unit, Range::closed(-5000.0, 5000.0), "not limited", example, teach)
+}
+
 /// `[machine.cradle]`, `[machine.cradle_errors]`, `[machine.five_axis]`, `[machine.bevel_limits]`.
 pub(super) static SECTIONS: &[KeySection] = &[
     KeySection {
@@ -113,9 +118,17 @@ pub(super) static SECTIONS: &[KeySection] = &[
             Key::limit("z_acceleration_mm_per_s2", "mm/s^2", "1000.0", "Largest acceleration of Z."),
             Key::limit("a_acceleration_deg_per_s2", "deg/s^2", "500.0", "Largest acceleration of A."),
             Key::limit("b_acceleration_deg_per_s2", "deg/s^2", "200.0", "Largest acceleration of B."),
+            end("x_from_mm", "mm", "-250.0", "Lowest position of X."),
+            end("x_to_mm", "mm", "250.0", "Highest position of X."),
+            end("y_from_mm", "mm", "-250.0", "Lowest position of Y."),
+            end("y_to_mm", "mm", "250.0", "Highest position of Y."),
+            end("z_from_mm", "mm", "-100.0", "Lowest position of Z."),
+            end("z_to_mm", "mm", "500.0", "Highest position of Z."),
+            end("b_from_deg", "deg", "-10.0", "Smallest angle of the swing B."),
+            end("b_to_deg", "deg", "100.0", "Largest angle of the swing B."),
         ],
         groups: &[],
-        teach: "Largest speeds and accelerations of the linked axes of a six-axis bevel machine, where known. They \
-            hold for the roll; the way back and the indexing are left to the control.",
+        teach: "Largest speeds and accelerations of the linked axes of a six-axis bevel machine, and how far they \
+            travel, where known. They hold for the roll; the way back and the indexing are left to the control.",
     },
 ];

@@ -90,7 +90,15 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             "500.0",
             "Largest acceleration of the radial axis.",
         ),
+        Key::limit(
+            "cutting_force_n",
+            "N",
+            "30000.0",
+            "Largest cutting force of the ram; strokes that need more are warned about, without the key those that \
+                need more than 40 kN.",
+        ),
     ],
     groups: &[],
-    teach: "Largest speeds and accelerations of the axes; the peaks of every operation are compared with them.",
+    teach: "Largest speeds and accelerations of the axes, with which the peaks of every operation are compared, and the \
+        force of the ram.",
 }];

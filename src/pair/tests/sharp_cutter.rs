@@ -1,20 +1,15 @@
-//! Tips that ask for contact below the form point, where the cutter has left a fillet instead of the flank.
+//! Closed forms of a shaper cutter with sharp tip corners, and how far the mate's tips ask for contact.
 //!
-//! In: the pitch pair, tip heights, the cutters' sizes. Out: how far along the line of action the flanks reach, and how
-//! far the mate's tips ask for.
-//!
-//! A pinion cutter with sharp tip corners leaves the flank down to lambda_form = sqrt(r_a0^2 - r_b0^2) - r_c sin(alpha)
-//! along the line of action: where its corner passes (Litvin and Fuentes, *Gear Geometry and Applied Theory*, 2004, ch.
-//! 6.7, for the corner's path). The same line is the one of the pair, since cutter and mate roll on the same pitch
-//! curve.
+//! It leaves the flank down to lambda_form = sqrt(r_a0^2 - r_b0^2) - r_c sin(alpha) along the line of action: where its
+//! corner passes (Litvin and Fuentes, *Gear Geometry and Applied Theory*, 2004, ch. 6.7, for the corner's path). The
+//! same line is the one of the pair, since cutter and mate roll on the same pitch curve.
 
 use std::f64::consts::TAU;
 
-use super::contact_ratio::{PathOfContact, path_of_contact};
-use super::pitch_pair::{Member, PitchPair};
-use super::rolling::turns_of_period;
+use crate::pair::contact_ratio::path_of_contact;
+use crate::pair::pitch_pair::{Member, PitchPair};
+use crate::pair::rolling::turns_of_period;
 use gearcut_core::error::Refusal;
-use gearcut_core::gear::GearKind;
 use gearcut_core::math::extremum::maximum;
 use gearcut_core::terms::Side;
 
@@ -43,25 +38,6 @@ impl SharpCutter {
     /// and what lies beyond is relieved.
     pub fn base_reach_mm(&self, module_mm: f64, pressure_angle_rad: f64) -> f64 {
         0.5 * module_mm * f64::from(self.teeth) * pressure_angle_rad.sin()
-    }
-}
-
-/// What is left of a path of contact between the tip curves where both gears are cut: it ends at the form points, and
-/// in a ring where the cutter's involute begins.
-pub fn generated_path(pair: &PitchPair, path: &PathOfContact, cutters: [SharpCutter; 2]) -> PathOfContact {
-    let teeth = pair.teeth();
-    let of = |reach: fn(&SharpCutter, f64, f64) -> f64, cutter: &SharpCutter| {
-        reach(cutter, teeth.module_mm, teeth.pressure_angle_rad)
-    };
-    let [form_1, form_2] = [0, 1].map(|gear| of(SharpCutter::form_reach_mm, &cutters[gear]));
-    let base_2 = match teeth.driven {
-        GearKind::External => f64::INFINITY,
-        GearKind::Internal => of(SharpCutter::base_reach_mm, &cutters[1]),
-    };
-    let ended = |at_mm: f64, most_mm: f64| at_mm.clamp(-most_mm, most_mm);
-    PathOfContact {
-        driver_tip_mm: ended(path.driver_tip_mm, form_2),
-        driven_tip_mm: ended(path.driven_tip_mm, form_1.min(base_2)),
     }
 }
 

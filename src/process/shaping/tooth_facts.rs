@@ -10,6 +10,14 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use gearcut_core::terms::Side;
 
+/// Tip lands below this (in modules) are called narrow: case-hardened tips break below about 0.2 to 0.3 modules.
+const NARROW_LAND_MODULES: f64 = 0.25;
+
+/// What an empty list reads as.
+const NONE: &str = "none";
+/// Entries of a list that are shown.
+const SHOWN: usize = 8;
+
 /// One flank of the target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlankFacts {
@@ -79,4 +87,50 @@ impl FlankFacts {
     pub fn is_undercut(&self) -> bool {
         self.start == FlankEnd::Undercut
     }
+}
+
+/// What must be known of them before cutting, in sentences.
+pub fn warnings(job: &ShapingJob, facts: &[ToothFacts]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let undercut = flanks_with(facts, FlankFacts::is_undercut);
+    if undercut != NONE {
+        warnings.push(format!(
+            "the cutter undercuts {undercut}: use a smaller tool.shaper_cutter.addendum_coefficient, more teeth on the \
+            gear, or a pitch curve with a larger smallest radius of curvature"
+        ));
+    }
+    let base = flanks_with(facts, |flank| flank.end == FlankEnd::CutterBase);
+    if base != NONE {
+        warnings.push(format!(
+            "the cutter's involute ends before the tip of {base}: the rest of the tip is cut by the cutter's base; use \
+            a cutter with more teeth or a smaller gear.addendum_coefficient"
+        ));
+    }
+    let pointed = list(facts.iter().filter(|tooth| tooth.is_pointed()).map(|tooth| tooth.tooth.to_string()));
+    if pointed != NONE {
+        warnings.push(format!("pointed below the blank's outline: tooth {pointed}"));
+    }
+    let narrow_mm = NARROW_LAND_MODULES * job.scene.gear.module_mm;
+    let narrow = facts.iter().filter(|tooth| !tooth.is_pointed() && tooth.tip_land_mm < narrow_mm);
+    let narrow = list(narrow.map(|tooth| tooth.tooth.to_string()));
+    if narrow != NONE {
+        warnings.push(format!("tip land below {NARROW_LAND_MODULES} modules ({narrow_mm:.3} mm): tooth {narrow}"));
+    }
+    warnings
+}
+
+/// Entries with commas, the first ones when there are many.
+pub fn list(entries: impl Iterator<Item = String>) -> String {
+    let entries: Vec<String> = entries.collect();
+    match entries.len() {
+        0 => NONE.to_owned(),
+        1..=SHOWN => entries.join(", "),
+        more => format!("{} and {} more", entries[..SHOWN].join(", "), more - SHOWN),
+    }
+}
+
+/// Flanks for which something holds, as a list.
+pub fn flanks_with(facts: &[ToothFacts], holds: impl Fn(&FlankFacts) -> bool) -> String {
+    let flanks = facts.iter().flat_map(|tooth| tooth.flanks().map(|(side, flank)| (tooth.tooth, side, flank)));
+    list(flanks.filter(|(_, _, flank)| holds(flank)).map(|(tooth, side, _)| format!("tooth {tooth} {}", side.name())))
 }

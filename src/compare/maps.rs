@@ -1,0 +1,108 @@
+//! Difference maps: the deviations of a later result less those of the first, all flanks on one sheet.
+//!
+//! In: `deviation/*.exr` of two folders. Out: `difference_deviation_<letter>_minus_a.png`. Flanks that only one of them
+//! has, or that lie on other grids, have no difference and are left out; without any there is no sheet. One scale for
+//! all flanks, whose ends are a micrometre at least: on a finer one equal gears would look apart.
+
+use super::{Comparison, letters};
+use crate::colormap::ColourScale;
+use crate::output::atomic::file_error;
+use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
+use crate::output::folder::OutputFolder;
+use crate::output::grid::{MapAxis, MapGrid};
+use crate::output::surface_files::read_surface;
+use gearcut_core::error::{Error, Result};
+use gearcut_core::units::UM_PER_MM;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Folder of the maps in a result.
+const FOLDER: &str = "deviation";
+/// Ends of the scale, um, where differences are smaller.
+const LEAST_UM: f32 = 1.0;
+
+/// Difference of a flank.
+struct DifferenceMap {
+    label: String,
+    grid: MapGrid,
+    values_um: Vec<f32>,
+}
+
+impl Comparison {
+    /// Writes a sheet for every result after the first.
+    ///
+    /// # Errors
+    /// Maps that cannot be read, and sheets that cannot be written.
+    pub(super) fn write_maps(&self, folder: &OutputFolder) -> Result<()> {
+        let (first, others) = self.results.split_first().expect("two or more");
+        for (other, letter) in others.iter().zip(letters().skip(1)) {
+            let maps = differences(&first.folder.join(FOLDER), &other.folder.join(FOLDER))?;
+            if maps.is_empty() {
+                continue;
+            }
+            let scale = match ColourScale::diverging_over(maps.iter().map(|map| map.values_um.as_slice())) {
+                ColourScale::Diverging { limit } => ColourScale::Diverging { limit: limit.max(LEAST_UM) },
+                scale @ ColourScale::Sequential { .. } => scale,
+            };
+            let thumbnails: Vec<Thumbnail> = maps
+                .iter()
+                .map(|map| Thumbnail { label: &map.label, grid: &map.grid, values: &map.values_um })
+                .collect();
+            let sheet = ContactSheet {
+                title: &format!("deviation of {} less that of {}, all flanks", other.name, first.name),
+                quantity: "difference of mean normal deviations of cells",
+                unit: "µm",
+                scale,
+                missing: "no pass came here in one of them",
+                maps: &thumbnails,
+            };
+            write_contact_sheet(&folder.path(format!("difference_deviation_{letter}_minus_a.png"))?, &sheet)?;
+        }
+        Ok(())
+    }
+}
+
+/// Flanks that both folders have on one grid.
+fn differences(first: &Path, other: &Path) -> Result<Vec<DifferenceMap>> {
+    let names = names(first)?;
+    let shared = names.intersection(&self::names(other)?).cloned().collect::<Vec<_>>();
+    let mut maps = Vec::new();
+    for name in shared {
+        let read = |folder: &Path| read_surface(&folder.join(&name), None).map_err(file_error);
+        let [a, b] = [read(first)?.surface, read(other)?.surface];
+        let of = |surface: &gearcut_texture::Surface| (surface.nx(), surface.ny(), surface.dx_um(), surface.dy_um());
+        if of(&a) != of(&b) {
+            continue;
+        }
+        let axis = |name: &str, meaning: &str, step_um: f64, count: usize| MapAxis {
+            name: name.to_owned(),
+            meaning: meaning.to_owned(),
+            start_mm: 0.0,
+            step_mm: step_um / UM_PER_MM,
+            count,
+        };
+        maps.push(DifferenceMap {
+            label: name.trim_end_matches(".exr").trim_start_matches("tooth_").replace('_', " "),
+            grid: MapGrid {
+                u: axis("u", "along the profile from the form point", a.dy_um(), a.ny()),
+                v: axis("v", "along the tooth", a.dx_um(), a.nx()),
+            },
+            values_um: a.heights_um().iter().zip(b.heights_um()).map(|(a, b)| (b - a) as f32).collect(),
+        });
+    }
+    Ok(maps)
+}
+
+/// Names of the maps in a folder; none where it has no such folder.
+fn names(folder: &Path) -> Result<BTreeSet<String>> {
+    let entries = match std::fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => return Ok(BTreeSet::new()),
+        Err(reason) => return Err(Error::reading(folder)(reason)),
+    };
+    let names = entries.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()));
+    let names: std::io::Result<BTreeSet<String>> = names.collect();
+    let mut names = names.map_err(Error::reading(folder))?;
+    names.retain(|name| Path::new(name).extension().is_some_and(|extension| extension == "exr"));
+    Ok(names)
+}

@@ -1,0 +1,334 @@
+//! The whole blank on rays: every slot's part of it, cut by the passes of all operations.
+//!
+//! In: a job, a backend. Out: [`CutCells`]: what is left on every ray after each operation, with the pass that left
+//! it, and volumes.
+//!
+//! **Cells.** The blank is shared out to the slots: the cell of a slot reaches half a pitch to either side of the
+//! slot's middle on the pitch cone, and leans with it along the face. Cells differ by a turn alone.
+//!
+//! **Rays.** Columns stand side by side round the axis, rows at cone distances from toe to heel. A ray begins on the
+//! root cone and runs square to the pitch cone to the face cone; it has a share of the volume
+//! dV = (rho + h cos gamma) dh dphi dR, where rho is the radius of its foot and h the height over that. Flanks lean by
+//! the blades' angles against the rays, so that no ray grazes them. What the blank has below
+//! [`RIM_MODULES`] under the roots is not counted: the scene does not say it.
+//!
+//! A ray keeps its **lowest** cut, as flanks do: material that hung over it, as on undercut teeth, is counted as gone.
+//! The ledger of chips ([`super::chips`]) knows several pieces of material on a ray and says how much that is.
+//!
+//! All passes that come near a row go over all its rays. Candidates, as flanks have them, are chosen between rays on one
+//! smooth surface; a row goes from flank to flank over the bottom and both tips, and there they lose passes that matter.
+//!
+//! The road not taken: slices across the axis, as hobbing has them. Blades of a face-mill head move nearly along them.
+
+use super::job::{BevelJob, index};
+use crate::interrupt::Interrupt;
+use crate::output::progress::Progress;
+use gearcut_core::cut::cpu::Cpu;
+use gearcut_core::cut::{Backend, CutStats};
+use gearcut_core::dexel::{Layer, NO_PASS, Ray, SpatialField};
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::passes::SweepPlan;
+use gearcut_core::terms::Side;
+use gearcut_core::units::TURN_RAD;
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// How far below the root cone rays record cuts and the body ends, in outer modules.
+pub const RIM_MODULES: f64 = 1.0;
+/// Blades that go deeper than this into a flank of the next tooth hit it, mm.
+const HIT_MM: f64 = 0.005;
+/// Memory that cells may take, bytes: as much as the blank fields of the other processes.
+const MOST_BYTES: f64 = gearcut_core::dexel::blank_field::MOST_BYTES;
+/// Bytes of a ray on each layer: height and pass.
+const BYTES_PER_RAY: f64 = 8.0;
+
+/// Where the rays of a slot's cell stand.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellGrid {
+    /// Cone distances of the rows from the toe to the heel, both ends among them, mm.
+    pub distances_mm: Vec<f64>,
+    /// Polar angle of the slot's middle on every row, space 0, gear frame, rad.
+    pub middles_rad: Vec<f64>,
+    /// Number of columns: their strips fill a pitch.
+    pub columns: usize,
+    /// Lowest height that rays record, over the root cone, mm; negative.
+    pub low_mm: f64,
+    /// Angle of a column's strip, rad.
+    pub strip_rad: f64,
+}
+
+/// Every slot's cell after each operation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutCells {
+    /// Where the rays stand.
+    pub grid: CellGrid,
+    /// Slot after slot, what the operations left.
+    pub slots: Vec<Vec<Layer>>,
+    /// Whether the slots next to one reach into its cell.
+    pub neighbours_reach: bool,
+    /// Volume of the uncut ring, mm3.
+    pub blank_mm3: f64,
+    /// Volume of the ring after every operation, mm3.
+    pub left_mm3: Vec<f64>,
+    /// Work done.
+    pub stats: CutStats,
+}
+
+impl CellGrid {
+    /// Rays at most so far apart round the axis, at the heel's pitch circle, and along the face, mm.
+    ///
+    /// # Errors
+    /// A slot without a middle; more memory than is taken.
+    pub fn new(job: &BevelJob, spacing_mm: f64, slice_spacing_mm: f64) -> Result<Self, Refusal> {
+        let blank = &job.blank;
+        let pitch_rad = TURN_RAD / f64::from(blank.teeth);
+        let arc_mm = pitch_rad * blank.outer_cone_distance_mm * blank.pitch_angle_rad.sin();
+        let columns = (arc_mm / spacing_mm).ceil().max(4.0);
+        let intervals = (blank.face_width_mm / slice_spacing_mm).ceil().max(1.0);
+        let layers = job.operations.len() as f64;
+        let bytes = BYTES_PER_RAY * layers * columns * (intervals + 1.0) * f64::from(blank.teeth);
+        if bytes > MOST_BYTES {
+            return Err(Refusal::new(
+                "fields.blank.spacing_mm",
+                format!(
+                    "rays {spacing_mm} mm apart in rows {slice_spacing_mm} mm apart need about {bytes:.2e} bytes; at \
+                     most {MOST_BYTES:.0e} are taken"
+                ),
+                format!(
+                    "use a spacing_mm of {:.3} or more, or a larger slice_spacing_mm",
+                    spacing_mm * bytes / MOST_BYTES
+                ),
+            ));
+        }
+        let half_mm = 0.5 * blank.face_width_mm;
+        let along_mm = (0..=intervals as usize).map(|i| blank.face_width_mm * i as f64 / intervals - half_mm);
+        let (mut distances_mm, mut middles_rad) = (Vec::new(), Vec::new());
+        for along_mm in along_mm {
+            distances_mm.push(blank.mean_cone_distance_mm() + along_mm);
+            middles_rad.push(job.slot_middle_rad(along_mm)?);
+        }
+        Ok(Self {
+            distances_mm,
+            middles_rad,
+            columns: columns as usize,
+            low_mm: -RIM_MODULES * blank.outer_module_mm(),
+            strip_rad: pitch_rad / columns,
+        })
+    }
+
+    /// The grid at the scene's spacing.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_scene(job: &BevelJob) -> Result<Self, Refusal> {
+        let fields = &job.scene.fields;
+        Self::new(job, fields.blank_spacing_mm, fields.blank_slice_spacing_mm)
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.distances_mm.len()
+    }
+
+    /// A ray of space 0 with the height of the face cone on it, mm. Columns beyond a pitch go on into the next cell.
+    pub fn ray(&self, job: &BevelJob, column: usize, row: usize) -> (Ray, f64) {
+        let (blank, distance_mm) = (&job.blank, self.distances_mm[row]);
+        let dedendum_mm = blank.dedendum_mm(distance_mm);
+        let root = blank.axial_mm([distance_mm, -dedendum_mm]);
+        let (sin, cos) = blank.pitch_angle_rad.sin_cos();
+        let from_middle_rad = self.strip_rad * (column as f64 + 0.5 - 0.5 * self.columns as f64);
+        let turn = DMat3::from_rotation_z(self.middles_rad[row] + from_middle_rad);
+        let ray = Ray { origin_mm: turn * DVec3::new(root.y, 0.0, -root.x), normal: turn * DVec3::new(cos, 0.0, sin) };
+        (ray, blank.addendum_mm(distance_mm) + dedendum_mm)
+    }
+
+    /// Rays of a slot's cell, row after row; in the field's own words rows of the cell are columns.
+    pub fn field(&self, job: &BevelJob, slot: u32) -> SpatialField {
+        self.field_of_rows(job, slot, 0..self.rows())
+    }
+
+    /// Rays of some rows of a slot's cell.
+    pub fn field_of_rows(&self, job: &BevelJob, slot: u32, rows: Range<usize>) -> SpatialField {
+        let turn = index(slot, job.blank.teeth);
+        SpatialField::new(rows.len(), self.columns, self.low_mm, |row, column| {
+            let (ray, blank_mm) = self.ray(job, column, rows.start + row);
+            (Ray { origin_mm: turn.point(ray.origin_mm), normal: turn.direction(ray.normal) }, blank_mm)
+        })
+    }
+
+    /// Place of a ray in a cell's layers.
+    pub fn index(&self, column: usize, row: usize) -> usize {
+        row * self.columns + column
+    }
+
+    /// Share of the face that every row stands for, mm: the trapezoidal rule.
+    pub fn row_widths_mm(&self) -> Vec<f64> {
+        let (at, last) = (&self.distances_mm, self.rows() - 1);
+        (0..=last).map(|i| 0.5 * (at[(i + 1).min(last)] - at[i.saturating_sub(1)])).collect()
+    }
+
+    /// Volume for each mm of cone distance between two heights of a ray, mm2.
+    pub fn between_mm2(&self, job: &BevelJob, row: usize, [from_mm, to_mm]: [f64; 2]) -> f64 {
+        let distance_mm = self.distances_mm[row];
+        let foot_mm = job.blank.axial_mm([distance_mm, -job.blank.dedendum_mm(distance_mm)]).y;
+        let middle_mm = foot_mm + 0.5 * (from_mm + to_mm) * job.blank.pitch_angle_rad.cos();
+        self.strip_rad * middle_mm * (to_mm - from_mm)
+    }
+
+    /// Volume below heights of a cell, mm3.
+    pub fn volume_mm3(&self, job: &BevelJob, heights_mm: &[f32]) -> f64 {
+        let widths_mm = self.row_widths_mm();
+        let below = |i: usize| {
+            let row = i / self.columns;
+            widths_mm[row] * self.between_mm2(job, row, [self.low_mm, f64::from(heights_mm[i])])
+        };
+        (0..heights_mm.len()).map(below).sum()
+    }
+}
+
+impl BevelJob {
+    /// Polar angle of the middle of slot 0 on the pitch cone at a place along the tooth, gear frame, rad.
+    ///
+    /// # Errors
+    /// A flank that is not generated there.
+    pub fn slot_middle_rad(&self, along_mm: f64) -> Result<f64, Refusal> {
+        let polar = |side: Side| -> Result<f64, Refusal> {
+            let row = self.target_of(side).row(along_mm)?;
+            let at = self.gear_from_work.point(row.point(row.pitch_share())?.point_mm);
+            Ok(at.y.atan2(at.x))
+        };
+        // Left flanks of the tooth before stand at the smaller angle of a space.
+        let (from, to) = (polar(Side::Left)?, polar(Side::Right)?);
+        let across = (to - from + PI).rem_euclid(TURN_RAD) - PI;
+        Ok(from + 0.5 * across)
+    }
+
+    /// What the operations leave of a slot's cell; with the slots beside it where they reach into it.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_cell(
+        &self,
+        backend: &dyn Backend,
+        grid: &CellGrid,
+        slot: u32,
+        beside: bool,
+    ) -> Result<(Vec<Layer>, CutStats)> {
+        let teeth = self.blank.teeth;
+        let slots = [slot, (slot + 1) % teeth, (slot + teeth - 1) % teeth];
+        let nothing = || Layer { heights_mm: Vec::new(), passes: Vec::new() };
+        let (mut layers, mut stats) = (vec![nothing(); self.operations.len()], CutStats::default());
+        for row in 0..grid.rows() {
+            let field = grid.field_of_rows(self, slot, row..row + 1);
+            let mut layer = field.blank_layer();
+            for (operation, cell) in layers.iter_mut().enumerate() {
+                for &by in &slots[..if beside { 3 } else { 1 }] {
+                    let plan = SweepPlan::brute_force(&field, self.slots.of(operation, by));
+                    stats += backend.cut_spatial(&field, &plan, &mut layer)?;
+                }
+                cell.heights_mm.extend_from_slice(&layer.heights_mm);
+                cell.passes.extend_from_slice(&layer.passes);
+            }
+        }
+        Ok((layers, stats))
+    }
+
+    /// Whether the slots beside slot 0 take anything from its cell: teeth that come to a point, or are hit.
+    fn neighbours_reach(&self, backend: &dyn Backend, grid: &CellGrid) -> Result<bool> {
+        let [own, all] = [false, true].map(|beside| self.cut_cell(backend, grid, 0, beside));
+        let (own, all) = (own?.0, all?.0);
+        Ok(own.iter().zip(&all).any(|(own, all)| own.heights_mm != all.heights_mm))
+    }
+
+    /// How deep the passes of the slots beside a tooth's own go below the target of one of its flanks, mm, with the
+    /// side and the place along the tooth: 0 where the head clears the next tooth.
+    ///
+    /// # Errors
+    /// A place that the roll does not generate.
+    pub fn next_tooth_hit(&self) -> Result<(f64, Side, f64)> {
+        const PLACES: [usize; 2] = [8, 16];
+        let teeth = self.blank.teeth;
+        let half_mm = 0.5 * self.blank.face_width_mm;
+        let mut deepest = (0.0, Side::Left, 0.0);
+        for side in [Side::Left, Side::Right] {
+            let length_mm = self.target_of(side).length_mm();
+            let arcs_mm = (0..PLACES[0]).map(|i| length_mm * i as f64 / (PLACES[0] - 1) as f64).collect();
+            let rows_mm: Vec<f64> =
+                (0..PLACES[1]).map(|i| half_mm * (2.0 * i as f64 / (PLACES[1] - 1) as f64 - 1.0)).collect();
+            let rays = self.rays_over(1, side, arcs_mm, rows_mm.clone())?;
+            let own = self.space_of(1, side);
+            let mut layer = rays.field.blank_layer();
+            for slot in [(own + 1) % teeth, (own + teeth - 1) % teeth] {
+                for operation in 0..self.operations.len() {
+                    let plan = SweepPlan::new(&rays.field, self.slots.of(operation, slot));
+                    Cpu::default().cut_spatial(&rays.field, &plan, &mut layer)?;
+                }
+            }
+            for (i, (&height_mm, &pass)) in layer.heights_mm.iter().zip(&layer.passes).enumerate() {
+                let depth_mm = -f64::from(height_mm);
+                if pass != NO_PASS && depth_mm > deepest.0 {
+                    deepest = (depth_mm, side, rows_mm[i % PLACES[1]]);
+                }
+            }
+        }
+        Ok(deepest)
+    }
+}
+
+impl BevelJob {
+    /// A head that hits the next tooth, in words with numbers.
+    ///
+    /// # Errors
+    /// A place that the roll does not generate.
+    pub fn next_tooth_warning(&self) -> Result<Option<String>> {
+        let (depth_mm, side, along_mm) = self.next_tooth_hit()?;
+        Ok((depth_mm > HIT_MM).then(|| {
+            format!(
+                "the head hits the next tooth: while one slot is cut, its blades go {depth_mm:.3} mm into the {} flank \
+                 beyond, {along_mm:.1} mm from the middle of the face along the tooth; roll less far, or use a smaller \
+                 point width or a larger cutter",
+                side.name()
+            )
+        }))
+    }
+}
+
+/// Cuts the whole blank; nothing after Ctrl-C.
+///
+/// # Errors
+/// Rays that do not fit in memory; the backend's.
+pub fn cut(
+    job: &BevelJob,
+    backend: &dyn Backend,
+    progress: &Progress,
+    interrupt: &Interrupt,
+) -> Result<Option<CutCells>> {
+    let grid = CellGrid::of_scene(job)?;
+    let step = progress.step("cut the whole blank", u64::from(job.blank.teeth), "slots");
+    let beside = job.neighbours_reach(backend, &grid)?;
+    let cut = (0..job.blank.teeth).into_par_iter().map(|slot| {
+        if interrupt.is_raised() {
+            return Ok(None);
+        }
+        let cell = job.cut_cell(backend, &grid, slot, beside)?;
+        step.advance(1);
+        Ok(Some(cell))
+    });
+    let Some(cells) = cut.collect::<Result<Option<Vec<_>>>>()? else { return Ok(None) };
+    step.finish();
+    let mut stats = CutStats::default();
+    let mut left_mm3 = vec![0.0; job.operations.len()];
+    let mut slots = Vec::with_capacity(cells.len());
+    for (layers, of_cell) in cells {
+        stats += of_cell;
+        for (left_mm3, layer) in left_mm3.iter_mut().zip(&layers) {
+            *left_mm3 += grid.volume_mm3(job, &layer.heights_mm);
+        }
+        slots.push(layers);
+    }
+    let uncut = grid.field(job, 0).blank_mm;
+    let blank_mm3 = f64::from(job.blank.teeth) * grid.volume_mm3(job, &uncut);
+    Ok(Some(CutCells { grid, slots, neighbours_reach: beside, blank_mm3, left_mm3, stats }))
+}

@@ -1,0 +1,166 @@
+//! What in a bevel scene contradicts itself, in words with numbers: cones, depth, roll, blades, travel of the axes, the
+//! grid of inspection.
+//!
+//! In: a job. Out: lines for `check`, terminal and page; refusals where nothing can be measured.
+
+use super::job::BevelJob;
+use super::measure::inner;
+use super::operation::PreparedBevel;
+use gearcut_core::bevel::face_mill::BladeKind;
+use gearcut_core::error::Refusal;
+use gearcut_core::terms::Side;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Settings off the blank's root angle by more than this are worth a word, rad.
+const ROOT_ANGLE_RAD: f64 = 0.01 * PI / 180.0;
+/// Depth missed by more than this is worth a word, mm.
+const DEPTH_MM: f64 = 0.02;
+/// Exchanging the blades has to bring the pressure angles nearer to the gear's by more than this, both sides together,
+/// to be worth a word, rad: half a degree a side, above what a tilted root plane does.
+const EXCHANGED_RAD: f64 = 1.0 * PI / 180.0;
+/// Cradle angles at which the axes are compared with their travel: they bend little between them.
+const TRAVEL_STEPS: u32 = 64;
+
+impl BevelJob {
+    /// Refuses a grid of inspection with more points than a flank has dexels to stand on.
+    pub(super) fn check_grid(&self) -> Result<(), Refusal> {
+        for side in [Side::Left, Side::Right] {
+            let lines = self.places_mm(side).map(|places| inner(places.len()).len());
+            for (k, key, spacing) in [
+                (0, "inspection.profile_points", "fields.flank.profile_spacing_um"),
+                (1, "inspection.tooth_points", "fields.flank.lead_spacing_um"),
+            ] {
+                let asked = self.spec.grid[k];
+                if asked > lines[k] {
+                    return Err(Refusal::new(
+                        key,
+                        format!("{asked} points find {} lines of dexels on {} flanks", lines[k], side.name()),
+                        format!("ask for at most {} points, or make {spacing} smaller", lines[k]),
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What in the scene contradicts itself.
+    pub fn contradictions(&self) -> Vec<String> {
+        // Pairs with an offset do not roll on cones whose apexes meet.
+        let mate = self.spec.cones.mate.filter(|_| self.spec.cones.hypoid_offset_mm == 0.0);
+        let mut found = self.blank.contradictions(mate);
+        let settings = &self.finishing().settings;
+        let off_rad = settings.root_angle_rad - self.blank.root_angle_rad;
+        if off_rad.abs() > ROOT_ANGLE_RAD {
+            found.push(format!(
+                "the machine's root angle is {:.4} deg off the blank's: slots are not parallel to the root cone",
+                off_rad.to_degrees()
+            ));
+        }
+        let short_mm = self.depth_missed_mm();
+        if short_mm.abs() > DEPTH_MM {
+            let what = if short_mm > 0.0 { "too shallow" } else { "too deep" };
+            found.push(format!(
+                "slots come out {:.4} mm {what} at the middle of the face: add {short_mm:.4} mm to \
+                 machine.cradle.sliding_base_mm",
+                short_mm.abs()
+            ));
+        }
+        found.extend(self.exchanged_blades());
+        for operation in &self.operations {
+            found.extend(self.beyond_travel(operation));
+            let [from, to] = operation.roll_rad;
+            if from.min(to) > self.needed_rad[0] || from.max(to) < self.needed_rad[1] {
+                found.push(format!(
+                    "operation {}: the cradle rolls from {:.3} to {:.3} deg, the flanks need {:.3} to {:.3} deg: they \
+                     are not generated as a whole",
+                    operation.spec.name,
+                    from.to_degrees(),
+                    to.to_degrees(),
+                    self.needed_rad[0].to_degrees(),
+                    self.needed_rad[1].to_degrees()
+                ));
+            }
+        }
+        found
+    }
+
+    /// Blade angles that would fit the pressure angle far better the other way round.
+    fn exchanged_blades(&self) -> Option<String> {
+        let wanted_rad = self.scene.gear.pressure_angle_rad;
+        let [outside, inside] = self.head.blade_angles_rad;
+        // On the pitch cone the normal leans by the pressure angle against the cone.
+        let actual = |kind: BladeKind| -> Option<f64> {
+            let row = self.target[kind.index()].row(0.0).ok()?;
+            let point = row.point(row.pitch_share()).ok()?;
+            let (sin, cos) = self.blank.pitch_angle_rad.sin_cos();
+            let out = cos * point.point_mm.with_x(0.0).normalize() - sin * DVec3::X;
+            Some(point.normal.dot(out).abs().asin())
+        };
+        let off_rad = [actual(BladeKind::Outside)? - wanted_rad, actual(BladeKind::Inside)? - wanted_rad];
+        let step_rad = inside - outside;
+        let misfit = |[a, b]: [f64; 2]| a.abs() + b.abs();
+        let other_way = [off_rad[0] + step_rad, off_rad[1] - step_rad];
+        (misfit(other_way) + EXCHANGED_RAD < misfit(off_rad)).then(|| {
+            let deg = |rad: f64| (wanted_rad + rad).to_degrees();
+            format!(
+                "inside and outside blades look exchanged: concave flanks come out with a pressure angle of {:.2} deg, \
+                 convex ones with {:.2} deg; with outside blades of {:.2} deg and inside blades of {:.2} deg it would \
+                 be {:.2} and {:.2} deg, near gear.pressure_angle_deg = {:.2}",
+                deg(off_rad[0]),
+                deg(off_rad[1]),
+                inside.to_degrees(),
+                outside.to_degrees(),
+                deg(other_way[0]),
+                deg(other_way[1]),
+                wanted_rad.to_degrees()
+            )
+        })
+    }
+
+    /// Axes that leave the machine's travel while a slot is rolled.
+    fn beyond_travel(&self, operation: &PreparedBevel) -> Vec<String> {
+        let [from, to] = operation.roll_rad;
+        let positions: Vec<[f64; 4]> = (0..=TRAVEL_STEPS)
+            .map(|i| from + (to - from) * f64::from(i) / f64::from(TRAVEL_STEPS))
+            .map(|cradle_rad| {
+                let axes = self.machine.axes_of_cradle(&operation.settings, cradle_rad);
+                let [x, y, z] = axes.slides_mm.to_array();
+                [x, y, z, axes.swing_rad]
+            })
+            .collect();
+        let mut found = Vec::new();
+        for (k, axis) in ["X", "Y", "Z", "B"].into_iter().enumerate() {
+            let (scale, unit) = if k == 3 { (180.0 / PI, "deg") } else { (1.0, "mm") };
+            let reached = positions.iter().map(|position| position[k]);
+            let (low, high) =
+                (reached.clone().fold(f64::INFINITY, f64::min), reached.fold(f64::NEG_INFINITY, f64::max));
+            let [lowest, highest] = self.spec.travel[k];
+            if lowest.is_some_and(|end| low < end) || highest.is_some_and(|end| high > end) {
+                let end = |end: Option<f64>| end.map_or("no end".to_owned(), |end| format!("{:.3}", scale * end));
+                found.push(format!(
+                    "operation {}: {axis} goes from {:.3} to {:.3} {unit}, the machine from {} to {} {unit}: check the \
+                     settings, machine.five_axis.mounting_distance_mm and machine.bevel_limits",
+                    operation.spec.name,
+                    scale * low,
+                    scale * high,
+                    end(lowest),
+                    end(highest)
+                ));
+            }
+        }
+        found
+    }
+
+    /// How far the plane of the tips stands short of the blank's roots at the middle of the face, square to the root
+    /// cone, mm; positive where the slot is too shallow. The plane cuts deepest along the generatrix in the plane of
+    /// the axes.
+    pub fn depth_missed_mm(&self) -> f64 {
+        let settings = &self.finishing().settings;
+        let mean_mm = self.blank.mean_cone_distance_mm();
+        let root = self.blank.axial_mm([mean_mm, -self.blank.dedendum_mm(mean_mm)]);
+        // Back from the work to the machine: z of the root's point, which the tips should reach.
+        let (sin, cos) = settings.root_angle_rad.sin_cos();
+        sin * (root.x + settings.center_to_back_mm) - cos * root.y - settings.sliding_base_mm
+    }
+}

@@ -1,0 +1,21 @@
+//! Keys of the grid on which flanks are inspected.
+
+use crate::scene::keys::{Default, Key, KeySection, Kind, Role};
+
+/// Points in one direction.
+const fn points(name: &'static str, usual: u32, example: &'static str, teach: &'static str) -> Key {
+    Key { name, kind: Kind::Whole { min: 3, max: 200 }, unit: "", default: Default::Whole(usual), example, teach }
+}
+
+/// `[inspection]`.
+pub(super) static SECTIONS: &[KeySection] = &[KeySection {
+    path: "inspection",
+    role: Role::Plain,
+    keys: &[
+        points("profile_points", 5, "5", "Points along the profile; no more than the flank has columns of dexels."),
+        points("tooth_points", 9, "9", "Points along the tooth; no more than the flank has rows of dexels."),
+    ],
+    groups: &[],
+    teach: "The grid on which bevel flanks are inspected, 5 by 9 points as gear inspection takes it unless more are \
+        asked for: nominal points, normals and deviations of all flanks stand in tables/grid.csv.",
+}];

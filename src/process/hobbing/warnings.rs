@@ -1,0 +1,192 @@
+//! The list of warnings of a hobbed gear: what its job knows before anything is cut, and what its run found.
+//!
+//! In: the passes and targets of a job with the motion of its axes; afterwards what was measured. Out: the list that
+//! terminal, report, `results.json` and programs show ([`crate::findings::warning`]).
+
+use super::axes_report::HobbingAxesReport;
+use super::gear::HobbedGear;
+use super::job::PreparedHobbing;
+use super::measure::blank_report::HobbedBlankReport;
+use super::measure::hob_load::OperationLoad;
+use super::scene::model::HobbingKind;
+use super::{HobCutter, HobbingJob};
+use crate::findings::warning::ranked;
+use crate::findings::{Warning, damage};
+use crate::job::RAY_DEPTH_MODULES;
+use crate::measure::damage::{Damage, gouge_mm};
+use crate::output::text::significant;
+use crate::steps::{axes, check_curve, flanks_of};
+use gearcut_core::error::Result;
+use rayon::prelude::*;
+
+/// Teeth that are named in a sentence.
+const MOST_NAMED: usize = 6;
+/// Uncut chips thicker than this are warned about, mm: a choice, about twice what hobbing is usually planned for. No
+/// published limit was found that holds for every hob.
+pub const USUAL_CHIP_MM: f64 = 0.5;
+
+/// What is known before anything is cut.
+///
+/// # Errors
+/// A flank that the hob does not generate.
+pub fn before(cutter: &HobCutter, motion: &[HobbingAxesReport]) -> Result<Vec<Warning>> {
+    let job = cutter.job;
+    let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
+    let sentences = hunting(job).into_iter().chain(of_operations(job)).chain(undercut(cutter)?);
+    warnings.extend(sentences.map(Warning::warn));
+    if job.hob_spec.protuberance.is_some() {
+        warnings.push(Warning::note(
+            "the target knows no protuberance: the relief that it leaves at the roots is reported as a cut below the \
+             target and as gouges",
+        ));
+    }
+    warnings.extend(axes::warnings(motion));
+    Ok(ranked(warnings))
+}
+
+/// What the run found on its flanks and, with the loads of the hob's teeth, in its blank, if that was cut.
+pub fn after(
+    cutter: &HobCutter,
+    gear: &HobbedGear,
+    whole: Option<(&HobbedBlankReport, &[OperationLoad])>,
+) -> Vec<Warning> {
+    let mut warnings = of_flanks(cutter, gear);
+    let untouched = gear.flanks.iter().map(|flank| flank.untouched).sum();
+    warnings.extend(gear.work.warnings(untouched, "the hob does not cover the whole face"));
+    if let Some((report, loads)) = whole {
+        warnings.extend(thick_chips(cutter.job, loads));
+        warnings.extend(damaged(cutter.job, report));
+    }
+    warnings
+}
+
+/// Starts that always meet the same tooth spaces.
+fn hunting(job: &HobbingJob) -> Option<String> {
+    let (starts, teeth) = (job.hob.starts, job.scene.gear.teeth);
+    let common = greatest_common_divisor(starts, teeth);
+    (common > 1).then(|| {
+        format!(
+            "{starts} starts and {teeth} teeth share the divisor {common}: each start always cuts the same tooth spaces, \
+             and the hob's pitch errors stay on the gear"
+        )
+    })
+}
+
+/// Largest whole number that divides both.
+pub fn greatest_common_divisor(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
+}
+
+fn of_operations(job: &HobbingJob) -> Vec<String> {
+    let mut told = Vec::new();
+    for operation in &job.operations {
+        let geometry = operation.linkage.geometry();
+        let right = geometry.gear_hand * geometry.helix_angle_rad - geometry.hob_hand * geometry.lead_angle_rad;
+        if (geometry.head_angle_rad - right).abs() > 1e-9 {
+            told.push(format!(
+                "operation {}: the head stands at {:.4} deg, hob and gear ask for {:.4} deg: the flanks will be off",
+                operation.spec.name,
+                geometry.head_angle_rad.to_degrees(),
+                right.to_degrees()
+            ));
+        }
+        let closure_mm = job.curve.closure_error_mm().abs() * operation.linkage.end_s() / operation.linkage.cycle_s();
+        if closure_mm > 1e-3 * job.scene.gear.module_mm {
+            told.push(format!(
+                "operation {}: the pitch curve's closure error adds up to {} mm over its cycles: leave the size out \
+                and it is solved",
+                operation.spec.name,
+                significant(closure_mm, 3)
+            ));
+        }
+        if let HobbingKind::Diagonal { .. } = operation.spec.kind
+            && (operation.plan.slide_feeds_mm[0] - operation.plan.slide_feeds_mm[1]).abs() > 1e-9
+        {
+            let [first, second] = operation.plan.slide_feeds_mm;
+            told.push(format!(
+                "operation {}: with feed_of = \"resultant\" the slide feeds {} mm per revolution one way and {} mm the \
+                other: feed marks differ by a factor of {}",
+                operation.spec.name,
+                significant(first, 4),
+                significant(second, 4),
+                significant((first.max(second) / first.min(second)).powi(2), 3)
+            ));
+        }
+    }
+    told
+}
+
+/// Teeth whose involute the hob's tip corner cuts away in the middle of the face.
+fn undercut(cutter: &HobCutter) -> Result<Option<String>> {
+    let of = |(tooth, side)| Ok(cutter.target(tooth, side)?.middle_form.undercut.then_some(tooth));
+    let flanks: Vec<Option<u32>> = flanks_of(cutter).into_par_iter().map(of).collect::<Result<_>>()?;
+    let mut teeth: Vec<u32> = flanks.into_iter().flatten().collect();
+    teeth.dedup();
+    let named: Vec<String> = teeth.iter().take(MOST_NAMED).map(u32::to_string).collect();
+    let more = if teeth.len() > MOST_NAMED { ", ..." } else { "" };
+    Ok((!teeth.is_empty()).then(|| {
+        format!(
+            "the hob's tip corner undercuts {} teeth ({}{more}), where the pitch curve is sharp: use more teeth, a \
+            smaller addendum_coefficient of the hob, or a flatter curve",
+            teeth.len(),
+            named.join(", ")
+        )
+    }))
+}
+
+fn of_flanks(cutter: &HobCutter, gear: &HobbedGear) -> Vec<Warning> {
+    let job = cutter.job;
+    let mut warnings = Vec::new();
+    let unreached = gear.flanks.iter().filter(|flank| {
+        let target = cutter.target(flank.tooth, flank.side).ok();
+        let ends_mm = target.map(|target| cutter.measured_ends_mm(target));
+        let named = job.scene.measure.heights_mm();
+        ends_mm.is_some_and(|ends_mm| named.iter().zip(ends_mm).any(|(named, end)| named.is_some() && end.is_none()))
+    });
+    let unreached = unreached.count();
+    if unreached > 0 {
+        warnings.push(Warning::note(format!(
+            "{unreached} flanks do not reach an end of [measure]: there 5 % of the profile are left out instead"
+        )));
+    }
+    let reach_mm = RAY_DEPTH_MODULES * job.scene.gear.module_mm;
+    let lowest_mm = gear.flanks.iter().filter_map(|f| f.own.finished).map(|h| h.lowest_mm).fold(0.0, f64::min);
+    if lowest_mm < -0.999 * reach_mm {
+        warnings.push(Warning::warn(format!(
+            "cuts go deeper than rays record: {reach_mm} mm under the target stands for that and more"
+        )));
+    }
+    warnings
+}
+
+/// Operations whose hob teeth take chips thicker than is usual.
+fn thick_chips(job: &HobbingJob, loads: &[OperationLoad]) -> Vec<Warning> {
+    let of = |(operation, load): (&PreparedHobbing, &OperationLoad)| {
+        let tooth = load.peak(|load| load.thickness_mm)?;
+        let thickness_mm = load.teeth[tooth].thickness_mm;
+        (thickness_mm > USUAL_CHIP_MM).then(|| {
+            Warning::warn(format!(
+                "operation {}: hob tooth {} takes a chip {} mm thick, more than {USUAL_CHIP_MM} mm, which few \
+                 hobs bear: lower the feed, take more gashes or fewer starts, or divide the cut",
+                operation.spec.name,
+                job.hob.teeth[tooth].label(job.hob.starts),
+                significant(thickness_mm, 3)
+            ))
+        })
+    };
+    job.operations.iter().zip(loads).filter_map(of).collect()
+}
+
+/// Cuts below the target; what a protuberance takes there it is made to take.
+fn damaged(job: &HobbingJob, report: &HobbedBlankReport) -> Vec<Warning> {
+    if job.hob_spec.protuberance.is_some() {
+        return Vec::new();
+    }
+    let by =
+        |d: &Damage| format!("operation {} in turn {} of the hob", job.operations[d.operation].spec.name, d.stroke);
+    let gouge_mm = gouge_mm(job.scene.gear.module_mm);
+    [&report.gouges, &report.interference]
+        .into_iter()
+        .filter_map(|places| damage::warning(places, gouge_mm, by))
+        .collect()
+}

@@ -1,0 +1,108 @@
+//! A program under test: how far it lies off the scene's own strokes, and which strokes it leaves out.
+//!
+//! In: what [`crate::process::shaping::gcode::judge`] found. Out: a section of the operation, the sentences of the list
+//! of warnings, and whether numbers that are known of the scene's own strokes hold for the gear that is cut.
+
+use crate::findings::{Place, Quantity, Section, Warning};
+use crate::measure::damage::gouge_mm;
+use crate::output::text::significant;
+use crate::process::shaping::ShapingJob;
+use crate::process::shaping::axes_report::OperationAxes;
+use crate::process::shaping::gcode::Judgement;
+use crate::steps::axes::AxesOfOperation as _;
+use gearcut_core::units::UM_PER_MM;
+
+/// The section; none where the operation is cut by the scene's own strokes.
+pub fn section(motion: &OperationAxes) -> Option<Section> {
+    let Judgement { distance_mm, distance_at, missing, doubled, off, strokes_per_minute } = motion.program()?;
+    let count = |of: &[usize], definition: &'static str| {
+        let quantity = Quantity::count(of.len() as u64, "strokes", definition);
+        match of.first() {
+            Some(&first) => quantity.at(Place::default().and("stroke", first as u64)),
+            None => quantity,
+        }
+    };
+    let [program, scene] = *strokes_per_minute;
+    let distance = "largest displacement of the cutter's edge in the work from the scene's own strokes";
+    Some(
+        Section::new("program", "Program under test")
+            .shown(
+                "largest_distance",
+                "off the scene's strokes",
+                Quantity::number(UM_PER_MM * distance_mm, "um", distance)
+                    .at(Place::default().and("stroke", *distance_at)),
+            )
+            .shown("missing_strokes", "missing", count(missing, "strokes of the scene that the program does not make"))
+            .shown("doubled_strokes", "made twice", count(doubled, "strokes of the program that repeat one before"))
+            .shown(
+                "strokes_off",
+                "none of the scene's",
+                count(off, "strokes of the program that are none of the scene's"),
+            )
+            .with(
+                "strokes_per_minute",
+                Quantity::number(program, "1/min", "S of the program: double strokes per minute"),
+            )
+            .with(
+                "asked_strokes_per_minute",
+                Quantity::number(scene, "1/min", "double strokes per minute of the scene"),
+            ),
+    )
+}
+
+/// Whether what is known of the scene's own strokes holds for the gear that is cut: a reason where it does not.
+pub fn not_of_the_gear(job: &ShapingJob, motion: &[OperationAxes]) -> Option<String> {
+    let asked_mm = job.scene.output.gcode_contour_error_mm;
+    let judged = motion.iter().filter_map(|operation| Some((operation.name(), operation.program()?)));
+    let worst = judged.max_by(|a, b| a.1.distance_mm.total_cmp(&b.1.distance_mm))?;
+    let (name, judgement) = worst;
+    (judgement.distance_mm > asked_mm).then(|| {
+        format!(
+            "known of the scene's own strokes alone; the program of {name} that cuts this gear lies up to {} mm off them",
+            significant(judgement.distance_mm, 3)
+        )
+    })
+}
+
+/// What a reader must know of the programs under test.
+pub fn warnings(job: &ShapingJob, motion: &[OperationAxes]) -> Vec<Warning> {
+    let of = |operation: &OperationAxes| operation.program().map(|program| told(job, operation.name(), program));
+    motion.iter().filter_map(of).flatten().collect()
+}
+
+fn told(job: &ShapingJob, name: &str, judgement: &Judgement) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let asked_mm = job.scene.output.gcode_contour_error_mm;
+    let distance_mm = judgement.distance_mm;
+    if distance_mm > asked_mm {
+        let text = format!(
+            "operation {name}: the program lies up to {} um off the scene's own strokes, at stroke {}; {} um are asked \
+             (output.gcode_contour_error_um)",
+            significant(UM_PER_MM * distance_mm, 4),
+            significant(judgement.distance_at, 6),
+            significant(UM_PER_MM * asked_mm, 3)
+        );
+        let damages = distance_mm > gouge_mm(job.scene.gear.module_mm);
+        warnings.push(if damages { Warning::fault(text) } else { Warning::warn(text) });
+    }
+    for (strokes, what) in [
+        (&judgement.missing, "of the scene's strokes are missing from the program"),
+        (&judgement.doubled, "strokes of the program are made twice"),
+        (&judgement.off, "strokes of the program are none of the scene's"),
+    ] {
+        if let Some(first) = strokes.first() {
+            let count = strokes.len();
+            warnings.push(Warning::fault(format!("operation {name}: {count} {what}, the first is stroke {first}")));
+        }
+    }
+    if judgement.is_at_another_speed() {
+        let [program, scene] = judgement.strokes_per_minute;
+        warnings.push(Warning::fault(format!(
+            "operation {name}: the program's S is {} double strokes per minute, the scene says {}: times and forces are \
+             those of the scene",
+            significant(program, 6),
+            significant(scene, 6)
+        )));
+    }
+    warnings
+}

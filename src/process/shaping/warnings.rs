@@ -1,0 +1,195 @@
+//! The list of warnings of a shaped gear: what its job knows before anything is cut, and what its run found.
+//!
+//! In: the job with the motion of its axes; afterwards what was measured. Out: the list that terminal, report,
+//! `results.json` and programs show ([`crate::findings::warning`]). Sentences that only one subject can make stand with
+//! it (teeth, ring, return strokes, axes); here they come together with their severity.
+
+use super::chips::ChipLedger;
+use super::findings::{program, returns, ring};
+use super::measure::GearReport;
+use super::measure::below_finished::below_finished;
+use super::scene::model::Retraction;
+use super::tooth_facts::{self, ToothFacts};
+use super::{ShapingJob, axes_report::OperationAxes};
+use crate::findings::warning::ranked;
+use crate::findings::{Section, Warning};
+use crate::measure::damage::gouge_mm;
+use crate::output::text::significant;
+use crate::steps::planar::blank_findings;
+use crate::steps::planar::blank_report::BlankReport;
+use crate::steps::{Work, axes, check_curve};
+use gearcut_core::error::Result;
+use gearcut_core::units::UM_PER_MM;
+
+/// Cuts below the target deeper than this are worth a warning: far above the resolution, below every tolerance on a
+/// gear drawing.
+const BELOW_TARGET_MM: f64 = 1e-4;
+/// Cutting force beyond which a ram is taken to stall where the scene gives no `machine.limits.cutting_force_n`, N. A
+/// shaper for module 20, among the strongest that are built, is laid out for 36.42 kN ("Design and analysis of
+/// hydraulic main drive system for large-scale CNC gear shaping machines", zhygear.com).
+pub const USUAL_FORCE_N: f64 = 40e3;
+
+/// What is known before anything is cut; `ring`: what the cutter can do in a ring, if the gear is one.
+///
+/// # Errors
+/// A back-off so large that the retraction leads to no pose.
+pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>) -> Result<Vec<Warning>> {
+    let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
+    let mut sentences = tooth_facts::warnings(job, &ToothFacts::of_job(job));
+    sentences.extend(ring.and_then(ring::warning));
+    for (index, operation) in job.operations.iter().enumerate() {
+        match returns::section(job, index)? {
+            Some(section) => sentences.extend(returns::warning(&operation.spec.name, &section)),
+            None => {
+                sentences.push("machine.back_off_mm = 0: the cutter returns along the surfaces that it has cut".into());
+                break;
+            }
+        }
+    }
+    warnings.extend(sentences.into_iter().map(Warning::warn));
+    warnings.extend(too_deep(job));
+    warnings.extend(axes::warnings(motion));
+    warnings.extend(program::warnings(job, motion));
+    Ok(ranked(warnings))
+}
+
+/// What the run found on its flanks, in its chips and in its blank, if that was cut.
+pub fn after(
+    job: &ShapingJob,
+    report: &GearReport,
+    chips: &ChipLedger,
+    work: &Work,
+    blank: Option<&BlankReport>,
+) -> Vec<Warning> {
+    let mut warnings = forces(job, chips);
+    warnings.extend(below_target(report));
+    let untouched = report.flanks.iter().map(|flank| flank.untouched).sum();
+    warnings.extend(work.warnings(untouched, "part of the flanks is still the blank"));
+    if let Some(blank) = blank {
+        warnings.extend(blank_findings::warnings(&job.planar(), blank));
+        warnings.extend(rubbing(job, blank));
+    }
+    warnings
+}
+
+/// Operations that leave finishing less than nothing: cuts into the finished flanks.
+fn too_deep(job: &ShapingJob) -> Vec<Warning> {
+    let gouge_mm = gouge_mm(job.scene.gear.module_mm);
+    let told = |depth_mm: f64, text: String| {
+        if depth_mm > gouge_mm { Warning::fault(text) } else { Warning::warn(text) }
+    };
+    let earlier = &job.operations[..job.operations.len() - 1];
+    let by_offset = earlier.iter().filter_map(|operation| {
+        let deeper_mm = job.finishing().spec.offset_mm - operation.spec.offset_mm;
+        (deeper_mm > 0.0).then(|| {
+            let depth_mm = deeper_mm * job.scene.gear.pressure_angle_rad.sin();
+            told(
+                depth_mm,
+                format!(
+                    "operation {}: it goes {} mm deeper than finishing and cuts some {} um into every flank: give it a \
+                     larger offset_mm",
+                    operation.spec.name,
+                    significant(deeper_mm, 3),
+                    significant(UM_PER_MM * depth_mm, 3)
+                ),
+            )
+        })
+    });
+    let by_flank = below_finished(job).into_iter().map(|below| {
+        told(
+            below.depth_mm,
+            format!(
+                "operation {}: its envelope lies up to {} um below {} of the finished flanks, deepest on tooth {} {}, \
+                 {:.2} mm over the pitch curve: leave more stock, or take the linkage of finishing",
+                job.operations[below.operation].spec.name,
+                significant(UM_PER_MM * below.depth_mm, 3),
+                below.flanks,
+                below.tooth,
+                below.side.name(),
+                below.height_mm
+            ),
+        )
+    });
+    by_offset.chain(by_flank).collect()
+}
+
+/// Operations whose strokes ask more of the ram than it gives.
+fn forces(job: &ShapingJob, chips: &ChipLedger) -> Vec<Warning> {
+    let asked_n = job.machine.limits.cutting_force_n;
+    let limit_n = asked_n.unwrap_or(USUAL_FORCE_N);
+    let source = match asked_n {
+        Some(_) => "machine.limits.cutting_force_n",
+        None => "what rams for module 20 are built for; machine.limits.cutting_force_n states another limit",
+    };
+    let kn = |force_n: f64| significant(force_n / 1e3, 3);
+    let mut warnings = Vec::new();
+    for (operation, chips) in job.operations.iter().zip(&chips.operations) {
+        let name = &operation.spec.name;
+        let beyond = |what: &str, force_n: f64, way_out: &str| {
+            (force_n > limit_n).then(|| {
+                Warning::warn(format!(
+                    "operation {name}: {what} {} kN, more than {} kN ({source}): {way_out}",
+                    kn(force_n),
+                    kn(limit_n)
+                ))
+            })
+        };
+        let entry = chips.entry().map(|stroke| stroke.cutting_n);
+        warnings.extend(entry.and_then(|force_n| {
+            let what = "the first stroke comes at full depth and takes";
+            beyond(what, force_n, "give the operation an infeed, or leave it less stock")
+        }));
+        let largest = chips.largest(|stroke| stroke.cutting_n).map(|(stroke, chips)| (stroke, chips.cutting_n));
+        warnings.extend(largest.and_then(|(stroke, force_n)| {
+            let what = format!("the cutting force reaches, at stroke {stroke},");
+            beyond(&what, force_n, "take more strokes, or more revolutions to full depth")
+        }));
+    }
+    warnings
+}
+
+/// Flanks whose heights lie below the target, and those that their rays do not tell to the end.
+fn below_target(report: &GearReport) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let below: u64 = report.flanks.iter().map(|f| f.own.below_range).sum();
+    if below > 0 {
+        warnings.push(Warning::warn(format!(
+            "{below} dexels were cut deeper than their rays record: heights there are upper bounds"
+        )));
+    }
+    let cuts = || report.flanks.iter().filter_map(|flank| Some((flank, flank.own.undercut?)));
+    let deep = || cuts().filter(|(_, deepest)| deepest.value_mm < -BELOW_TARGET_MM);
+    if let Some((flank, deepest)) = deep().min_by(|a, b| a.1.value_mm.total_cmp(&b.1.value_mm)) {
+        let at_least = if flank.own.below_range > 0 { "at least " } else { "" };
+        warnings.push(Warning::warn(format!(
+            "{} flanks are cut below the target, tooth {} {} by {at_least}{} um, {:.2} mm above the start of the involute",
+            deep().count(),
+            flank.tooth,
+            flank.side.name(),
+            significant(-deepest.value_mm * UM_PER_MM, 3),
+            deepest.arc_mm
+        )));
+    }
+    warnings
+}
+
+/// Return strokes that enter surfaces that stay.
+fn rubbing(job: &ShapingJob, report: &BlankReport) -> Option<Warning> {
+    let on_gear = || report.rubbing.iter().filter(|rubbing| rubbing.stays).map(|rubbing| &rubbing.damage);
+    let deepest = on_gear().max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm))?;
+    let volume_mm3 = on_gear().fold(0.0, |sum, damage| sum + damage.volume_mm3);
+    let way_out = match job.machine.retraction {
+        Retraction::CenterLine => "set machine.retraction = \"auto\"",
+        _ => "set another machine.retraction or machine.back_off_mm",
+    };
+    Some(Warning::warn(format!(
+        "operation {}: after stroke {} the returning cutter stands {} um deep in tooth {} {}, and in {} mm3 of the gear in \
+         all: {way_out}; gearcut check says where it clears",
+        job.operations[deepest.operation].spec.name,
+        deepest.stroke,
+        significant(UM_PER_MM * deepest.depth_mm, 3),
+        deepest.place.tooth,
+        deepest.place.side.name(),
+        significant(volume_mm3, 3),
+    )))
+}

@@ -1,0 +1,72 @@
+//! What follows the cut: a part that fails is told, and everything else is written.
+//!
+//! In: the outcome of each part (texture, sheets, pictures, meshes, programs, page). Out: its value, or none and a fault
+//! in the run's list. A gear that is cut and measured is not lost for a picture.
+//!
+//! Two failures end the run all the same: Ctrl-C, and a device that failed where the user wants the run to stop then.
+//! Road not taken: files of single flanks, which are written while the gear is cut. Where those fail, nothing else can
+//! be written either.
+
+use crate::findings::Warning;
+use crate::output::progress::Progress;
+use gearcut_core::error::{Error, Result};
+
+/// Parts of a run that follow its cut, with what is to be told of them.
+pub struct Attempts<'a> {
+    progress: &'a Progress,
+    told: Vec<Warning>,
+}
+
+impl<'a> Attempts<'a> {
+    /// Nothing attempted yet; notes are shown on `progress` at once.
+    pub fn new(progress: &'a Progress) -> Self {
+        Self { progress, told: Vec::new() }
+    }
+
+    /// The outcome of a part; none where it failed.
+    ///
+    /// # Errors
+    /// Ctrl-C; a device that failed where the user wants the run to stop.
+    pub fn of<T>(&mut self, part: &str, outcome: Result<T>) -> Result<Option<T>> {
+        match outcome {
+            Ok(value) => Ok(Some(value)),
+            Err(error @ (Error::Interrupted | Error::Device(_))) => Err(error),
+            Err(error) => {
+                let why = error.to_string().split('\n').map(str::trim).collect::<Vec<_>>().join("; ");
+                self.tell(Warning::fault(format!("{part}: {why}; everything else is there")));
+                Ok(None)
+            }
+        }
+    }
+
+    /// One more sentence for the run's list, shown as a note at once.
+    pub fn tell(&mut self, warning: Warning) {
+        self.progress.note(&warning.text);
+        self.told.push(warning);
+    }
+
+    /// What has been told so far.
+    pub fn told(&self) -> Vec<Warning> {
+        self.told.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::progress::ProgressMode;
+    use gearcut_core::error::Refusal;
+
+    #[test]
+    fn a_part_that_fails_is_told_and_ctrl_c_is_not_taken_for_one() {
+        let progress = Progress::new(ProgressMode::Quiet);
+        let mut attempts = Attempts::new(&progress);
+        assert_eq!(attempts.of("the page", Ok(7)).expect("done"), Some(7));
+        let refused = Refusal::new("picture", "it shows nothing", "look elsewhere");
+        assert_eq!(attempts.of::<()>("pictures", Err(refused.into())).expect("told"), None);
+        assert!(attempts.of::<()>("pictures", Err(Error::Interrupted)).is_err());
+        let told = attempts.told();
+        let text = "pictures: `picture`: it shows nothing; way out: look elsewhere; everything else is there";
+        assert_eq!(told, [Warning::fault(text)]);
+    }
+}

@@ -1,0 +1,48 @@
+//! The end of a run: programs, page and `results.json`, in this order.
+//!
+//! In: what was found, the motion of the axes, what the parts before had to tell. Out: the files. Each shows the list of
+//! warnings as far as it is known then: a program that is left out is told on the page, and a page that fails in
+//! `results.json`, which closes the run.
+
+use super::Tools;
+use super::attempts::Attempts;
+use super::axes::{self, AxesOfOperation};
+use super::parts::Part;
+use crate::findings::warning::ranked;
+use crate::findings::{Findings, RESULTS_FILE};
+use crate::output::report::{Page, REPORT_FILE};
+use gearcut_core::error::Result;
+
+/// Writes them; afterwards `found` has the whole list. `page` makes the report.
+///
+/// # Errors
+/// `results.json` cannot be written; Ctrl-C.
+pub fn write<O: AxesOfOperation>(
+    found: &mut Findings,
+    motion: &[O],
+    tools: &Tools,
+    attempts: &mut Attempts,
+    page: impl FnOnce(&Findings) -> Result<Page>,
+) -> Result<()> {
+    let Tools { progress, folder, parts, .. } = *tools;
+    let known = std::mem::take(&mut found.warnings);
+    let list = |attempts: &Attempts| ranked(known.iter().cloned().chain(attempts.told()));
+    if parts.has(Part::Axes) {
+        let step = progress.step("axis programs", 1, "part");
+        let written = axes::write_programs(motion, &list(attempts), folder);
+        let left_out = attempts.of("axis programs", written)?;
+        step.advance(1);
+        step.finish();
+        left_out.into_iter().flatten().for_each(|warning| attempts.tell(warning));
+    }
+    found.warnings = list(attempts);
+    if parts.has(Part::Report) {
+        let step = progress.step("report", 1, "page");
+        let write = || page(found)?.write(&folder.path(REPORT_FILE)?);
+        attempts.of(REPORT_FILE, write())?;
+        step.advance(1);
+        step.finish();
+    }
+    found.warnings = list(attempts);
+    folder.write_json(RESULTS_FILE, &found.to_json())
+}

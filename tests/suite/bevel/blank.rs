@@ -1,0 +1,225 @@
+//! The whole blank on rays: volumes against closed forms, a test of points in the tool's frame and the ledger of chips;
+//! passes near a row against all passes; the device against the native backend; the closed body.
+
+use super::jobs::job;
+use gearcut::bevel::face_mill::BladeKind;
+use gearcut::cut::Backend;
+use gearcut::cut::cpu::Cpu;
+use gearcut::interrupt::Interrupt;
+use gearcut::output::progress::{Progress, ProgressMode};
+use gearcut::passes::SweepPlan;
+use gearcut::process::bevel::BevelJob;
+use gearcut::process::bevel::blank::{self, CellGrid, CutCells};
+use gearcut::process::bevel::body::body;
+use gearcut::process::bevel::chips::{self, SlotLedger};
+use glam::{DVec2, DVec3};
+use std::f64::consts::TAU;
+
+const COARSE: [&str; 2] = ["fields.blank.spacing_mm=0.2", "fields.blank.slice_spacing_mm=3"];
+
+fn coarse(scene: &str, more: &[&str]) -> BevelJob {
+    job(scene, &[&COARSE[..], more].concat()).expect("a gear")
+}
+
+fn whole(job: &BevelJob) -> CutCells {
+    blank::cut(job, &Cpu::default(), &Progress::new(ProgressMode::Quiet), &Interrupt::default())
+        .expect("cuts")
+        .expect("not stopped")
+}
+
+fn ledger(job: &BevelJob, grid: &CellGrid, slot: u32) -> SlotLedger {
+    chips::measure(job, grid, slot, &Progress::new(ProgressMode::Quiet), &Interrupt::default())
+        .expect("cuts")
+        .expect("not stopped")
+}
+
+/// Volume of the ring's quadrangle turned about the axis (Pappus): between the face cone and `below_mm` under the root
+/// cone.
+fn ring_mm3(job: &BevelJob, below_mm: f64) -> f64 {
+    let blank = &job.blank;
+    let [heel, toe] = [blank.outer_cone_distance_mm, blank.outer_cone_distance_mm - blank.face_width_mm];
+    let corner = |distance_mm: f64, height_mm: f64| blank.axial_mm([distance_mm, height_mm]);
+    let section = [
+        corner(toe, -blank.dedendum_mm(toe) - below_mm),
+        corner(heel, -blank.dedendum_mm(heel) - below_mm),
+        corner(heel, blank.addendum_mm(heel)),
+        corner(toe, blank.addendum_mm(toe)),
+    ];
+    // Area times the way of its centre: the integral of radius over the polygon, edge by edge.
+    let moment = |i: usize| {
+        let (a, b): (DVec2, DVec2) = (section[i], section[(i + 1) % 4]);
+        a.perp_dot(b) * (a.y + b.y) / 6.0
+    };
+    TAU * (0..4).map(moment).sum::<f64>()
+}
+
+/// Rays of the uncut blank hold the closed form's volume; what the trapezoidal rule leaves of it falls with the square
+/// of the rows' distance.
+#[test]
+fn the_uncut_ring_has_the_volume_of_its_section() {
+    for scene in ["five_linkage_corrected", "crown_pinion"] {
+        let job = coarse(scene, &[]);
+        let off = |slice_mm: f64| {
+            let grid = CellGrid::new(&job, 0.5, slice_mm).expect("rays");
+            let found_mm3 = f64::from(job.blank.teeth) * grid.volume_mm3(&job, &grid.field(&job, 0).blank_mm);
+            found_mm3 / ring_mm3(&job, -grid.low_mm) - 1.0
+        };
+        let [coarse, fine] = [4.0, 1.0].map(off);
+        println!("{scene}: {coarse:e} and {fine:e} off");
+        assert!(coarse.abs() < 1e-3 && fine.abs() < 1e-4, "{scene}: {coarse:e}, {fine:e}");
+        assert!(fine.abs() < 0.1 * coarse.abs() + 1e-7, "{scene}: {coarse:e}, {fine:e}");
+    }
+}
+
+/// Whether any moment of the last operation's roll has a point of space 0, gear frame, between the cones of both kinds
+/// of blades and beyond the plane of their tips: closed forms in the tool's frame, without blades and without rays.
+fn is_swept(job: &BevelJob, point_mm: DVec3) -> bool {
+    const STEPS: u32 = 300;
+    let operation = job.finishing();
+    let [from, to] = operation.roll_rad;
+    let in_work = job.gear_from_work.inverse().point(point_mm);
+    let [outside, inside] = BladeKind::BOTH.map(|kind| job.head.surface(kind));
+    (0..=STEPS).any(|i| {
+        let cradle_rad = from + (to - from) * f64::from(i) / f64::from(STEPS);
+        let at = operation.as_set.work_from_tool(cradle_rad).inverse().point(in_work);
+        let (radius_mm, height_mm) = (at.truncate().length(), -at.z);
+        (0.0..=job.head.blade_height_mm).contains(&height_mm)
+            && radius_mm < outside.point_radius_mm + height_mm * outside.blade_angle_rad.tan()
+            && radius_mm > inside.point_radius_mm - height_mm * inside.blade_angle_rad.tan()
+    })
+}
+
+/// The slot on rays has the volume that points tell which lie between the head's cones at some moment.
+#[test]
+fn a_slot_has_the_volume_of_the_points_that_the_head_sweeps() {
+    const POINTS: u32 = 12_000;
+    for scene in ["five_linkage_corrected", "crown_pinion"] {
+        let job = coarse(scene, &["tool.face_mill.corner_radius_mm=0", "tool.face_mill.runouts_um=[]"]);
+        let grid = CellGrid::of_scene(&job).expect("rays");
+        let (layers, _) = job.cut_cell(&Cpu::default(), &grid, 0, false).expect("cuts");
+        let uncut = grid.field(&job, 0).blank_mm;
+        let removed = |heights_mm: &[f32]| grid.volume_mm3(&job, &uncut) - grid.volume_mm3(&job, heights_mm);
+        let on_rays_mm3 = removed(&layers.last().expect("an operation").heights_mm);
+        // Points spread over the cell by the golden ratio's kin; each stands for its share of the volume.
+        let (mut swept_mm3, mut all_mm3) = (0.0, 0.0);
+        let toe_mm = job.blank.outer_cone_distance_mm - job.blank.face_width_mm;
+        let fine = CellGrid::new(&job, 0.05, 0.1).expect("rays");
+        for i in 0..POINTS {
+            let share = |step: f64| (f64::from(i) * step + 0.5).fract();
+            let distance_mm = toe_mm + job.blank.face_width_mm * share(0.819_172_5);
+            let row = ((distance_mm - toe_mm) / job.blank.face_width_mm * (fine.rows() - 1) as f64).round() as usize;
+            let column = (share(0.671_043_6) * fine.columns as f64) as usize;
+            let (ray, top_mm) = fine.ray(&job, column, row);
+            let height_mm = top_mm * share(0.549_700_5);
+            let at = ray.at(height_mm);
+            let weight = at.truncate().length() * top_mm;
+            all_mm3 += weight;
+            if is_swept(&job, at) {
+                swept_mm3 += weight;
+            }
+        }
+        let pitch_rad = TAU / f64::from(job.blank.teeth);
+        let scale = pitch_rad * job.blank.face_width_mm / f64::from(POINTS);
+        let off = on_rays_mm3 / (swept_mm3 * scale) - 1.0;
+        println!("{scene}: {on_rays_mm3} mm3 on rays, {} by points, {} in all", swept_mm3 * scale, all_mm3 * scale);
+        // Twelve thousand points leave some thousandths; rays 3 mm apart along the face about one.
+        assert!(off.abs() < 0.008, "{scene}: {off}");
+    }
+}
+
+/// Chips are summed pass by pass by one code path, what is left comes from all passes at once by another.
+#[test]
+fn chips_add_up_to_what_is_missing() {
+    for (scene, material) in [("five_linkage_corrected", true), ("crown_pinion", false)] {
+        let set: &[&str] =
+            if material { &["material.name=\"C45\"", "material.cutting_edge_force_n_per_mm=0"] } else { &[] };
+        let job = coarse(scene, set);
+        let grid = CellGrid::of_scene(&job).expect("rays");
+        let slot = 1;
+        let found = ledger(&job, &grid, slot);
+        let taken_mm3: f64 = found.passes.iter().map(|pass| pass.volume_mm3).sum();
+        let missing_mm3 = found.blank_mm3 - found.left_mm3;
+        assert!((taken_mm3 / missing_mm3 - 1.0).abs() < 1e-9, "{taken_mm3} of {missing_mm3} mm3");
+        let (layers, _) = job.cut_cell(&Cpu::default(), &grid, slot, false).expect("cuts");
+        let lowest_mm3 = grid.volume_mm3(&job, &layers.last().expect("an operation").heights_mm);
+        let off = (found.left_mm3 - found.overhang_mm3) / lowest_mm3 - 1.0;
+        println!(
+            "{scene}: {} passes took {taken_mm3} mm3, {off:e} off all at once, {} mm3 hang over",
+            found.passes.len(),
+            found.overhang_mm3
+        );
+        assert!(off.abs() < 1e-9, "{off:e}");
+        assert!(found.overhang_mm3 < 1e-6 * missing_mm3, "{} mm3", found.overhang_mm3);
+        // Alive: a pass that is left out is missed.
+        let thickest = found.passes.iter().map(|pass| pass.volume_mm3).fold(0.0, f64::max);
+        assert!(((taken_mm3 - thickest) / missing_mm3 - 1.0).abs() > 1e-4);
+        // Passes follow each other in time, and the cradle with them.
+        assert!(found.passes.windows(2).all(|pair| pair[0].pass < pair[1].pass));
+        if material {
+            // Without a force along the edge the work is K_c times the volume.
+            let work: f64 = found.passes.iter().map(|pass| pass.work_nmm.expect("a material")).sum();
+            let k_c = job.spec.material.expect("a material").per_area_n_per_mm2;
+            assert!((work / (k_c * missing_mm3) - 1.0).abs() < 1e-9, "{work}");
+        } else {
+            assert!(found.passes.iter().all(|pass| pass.force_n.is_none() && pass.work_nmm.is_none()));
+        }
+    }
+}
+
+/// Passes that are left out because they stay clear of a row take nothing from it.
+#[test]
+fn passes_near_a_row_and_all_passes_leave_the_same() {
+    for scene in ["five_linkage_corrected", "crown_pinion"] {
+        let job = coarse(scene, &["operation.finish.roll_speed_deg_per_s=10", "fields.blank.spacing_mm=0.4"]);
+        let grid = CellGrid::of_scene(&job).expect("rays");
+        for (slot, row) in [(0, 0), (7, 5)] {
+            let field = grid.field_of_rows(&job, slot, row..row + 1);
+            for operation in 0..job.operations.len() {
+                let set = job.slots.of(operation, slot);
+                let plans = [SweepPlan::brute_force(&field, set), SweepPlan::of_all_passes(&field, set)];
+                let [layer, all] = plans.map(|plan| {
+                    let mut layer = field.blank_layer();
+                    let stats = Cpu::default().cut_spatial(&field, &plan, &mut layer).expect("cuts");
+                    assert_eq!(stats.unconverged, 0);
+                    layer
+                });
+                assert!(layer == all, "{scene}, slot {slot}, row {row}, operation {operation}");
+                assert!(layer != field.blank_layer());
+            }
+        }
+    }
+}
+
+/// The body is closed, looks outwards, and holds what the rays hold: chords are short by some thousandths.
+#[test]
+fn the_body_is_closed_and_has_the_volume_of_the_rays() {
+    for scene in ["crown_pinion", "crown_gear"] {
+        let job = coarse(scene, &["operation.finish.roll_speed_deg_per_s=20"]);
+        let whole = whole(&job);
+        let mesh = body(&job, &whole, 0.2);
+        assert!(mesh.is_closed(), "{scene}: {:?}", mesh.edge_faults());
+        let left_mm3 = whole.left_mm3[0];
+        println!("{scene}: {} mm3 in the mesh, {left_mm3} on rays of {}", mesh.volume_mm3(), whole.blank_mm3);
+        assert!((mesh.volume_mm3() / left_mm3 - 1.0).abs() < 3e-3, "{scene}");
+        assert!(left_mm3 < 0.9 * whole.blank_mm3);
+        // Cells are alike but for the blades' phase.
+        let of_slot = |slot: usize| whole.grid.volume_mm3(&job, &whole.slots[slot][0].heights_mm);
+        assert!((of_slot(3) / of_slot(0) - 1.0).abs() < 5e-3, "{} and {} mm3", of_slot(0), of_slot(3));
+    }
+}
+
+#[cfg(feature = "gpu")]
+#[test]
+fn the_device_cuts_the_same_cell() {
+    use crate::fixtures::parity::{cut_both_in_space, software_gpu, strict};
+    /// As on flanks, but rays lean by the blades' angle against the surface, which stretches errors by 1 / sin 20 deg.
+    const SWEPT_NM: f64 = 6.0;
+    let gpu = software_gpu(strict());
+    let job = coarse("five_linkage_corrected", &["operation.finish.roll_speed_deg_per_s=20"]);
+    let grid = CellGrid::of_scene(&job).expect("rays");
+    let field = grid.field_of_rows(&job, 2, 4..5);
+    let plan = SweepPlan::brute_force(&field, job.slots.of(1, 2));
+    let (parity, _, _, _) = cut_both_in_space(&gpu, "slot 2, row 4", &field, &plan);
+    println!("{parity}");
+    assert_eq!(parity.verdict_within(SWEPT_NM), Ok(()));
+}

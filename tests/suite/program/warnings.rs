@@ -1,0 +1,126 @@
+//! One list of warnings: what `check` knows is in the list of `cut`, and every place shows that list.
+
+use crate::fixtures::command::{Outcome, gearcut, read_json};
+use serde_json::Value;
+use std::path::Path;
+
+/// A round gear of nine teeth, which the cutter undercuts, roughed at full depth from the first stroke on.
+const UNDERCUT: &str = "scenes/shaping/circular_m3_z24.toml";
+const SETTINGS: [&str; 8] = [
+    "gear.teeth=9",
+    "gear.bore_diameter_mm=5",
+    "tool.shaper_cutter.teeth=40",
+    "fields.flank.profile_spacing_um=100",
+    "fields.flank.lead_spacing_um=5000",
+    "fields.chips.spacing_mm=0.3",
+    "fields.blank.spacing_mm=1",
+    "picture=[]",
+];
+
+fn run(command: &str, scene: &str, settings: &[&str], more: &[&str]) -> Outcome {
+    let settings = settings.iter().flat_map(|setting| ["--set", setting]);
+    gearcut(&[command, scene].into_iter().chain(settings).chain(more.iter().copied()).collect::<Vec<_>>())
+}
+
+/// Severity and text of every warning in `results.json`.
+fn listed(out: &Path) -> Vec<String> {
+    let results = read_json(&out.join("results.json"));
+    let word = |warning: &Value, key: &str| warning[key].as_str().expect("a text").to_owned();
+    let list = results["warnings"].as_array().expect("a list");
+    list.iter().map(|warning| format!("{}: {}", word(warning, "severity"), word(warning, "text"))).collect()
+}
+
+fn text(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|why| panic!("{}: {why}", path.display()))
+}
+
+/// How many lines there are of each severity, in words.
+fn counted(lines: &[impl AsRef<str>]) -> String {
+    let of = |severity: &str| {
+        let count = lines.iter().filter(|line| line.as_ref().starts_with(severity)).count();
+        let plural = if count == 1 { "" } else { "s" };
+        (count > 0).then(|| format!("{count} {severity}{plural}"))
+    };
+    ["fault", "warning", "note"].into_iter().filter_map(of).collect::<Vec<_>>().join(", ")
+}
+
+/// White space as one blank, as the summary breaks lines.
+fn unbroken(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn every_place_shows_the_same_list() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (cut, axes) = (folder.path().join("cut"), folder.path().join("axes"));
+    let only = ["--only", "axes,report", "--out", cut.to_str().expect("a path")];
+    let summary = unbroken(&run("cut", UNDERCUT, &SETTINGS, &only).done().out);
+    let listed = listed(&cut);
+    assert!(listed[0].starts_with("warning: "), "the gravest first: {listed:?}");
+    let has = |words: &str| assert!(listed.iter().any(|line| line.contains(words)), "no {words:?} in {listed:?}");
+    has("warning: the cutter undercuts tooth 1 left");
+    has("the first stroke comes at full depth and takes");
+    // What is known before cutting is in the list, word by word; the count comes last.
+    for err in [
+        run("check", UNDERCUT, &SETTINGS, &[]).done().err,
+        run("axes", UNDERCUT, &SETTINGS, &["--out", axes.to_str().expect("a path")]).done().err,
+    ] {
+        let lines: Vec<&str> = err.lines().collect();
+        let (count, known) = lines.split_last().expect("lines");
+        assert!(!known.is_empty() && known.iter().all(|line| listed.iter().any(|of| of == line)), "{err}");
+        assert_eq!(*count, counted(known), "{err}");
+    }
+    let page = text(&cut.join("report.html"));
+    for line in &listed {
+        let words = line.split_once(": ").expect("a severity").1;
+        assert!(summary.contains(&unbroken(line)), "{line} is not in the summary: {summary}");
+        let on_page = words.replace(" um", " µm").replace('&', "&amp;").replace('"', "&quot;");
+        assert!(page.contains(&on_page), "{on_page} is not on the page");
+        for operation in ["rough", "finish"].into_iter().filter(|_| !line.starts_with("note")) {
+            let program = text(&cut.join(format!("axes/{operation}.ngc")));
+            let comment = format!("({})", line.replace(['(', ')'], " "));
+            assert!(program.contains(&comment), "{comment} is not in the program's head");
+        }
+    }
+    let count = format!("told above {}", counted(&listed));
+    assert!(summary.contains(&count), "no {count:?} in {summary}");
+    assert!(page.contains(&format!("{}</a>", counted(&listed))), "the page does not count them");
+}
+
+/// Two starts on an even number of teeth, and a feed that makes chips of more than half a millimetre.
+#[test]
+fn a_hob_that_hunts_and_takes_thick_chips_is_warned_about() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("gear");
+    let settings = [
+        "gear.teeth=16",
+        "tool.hob.starts=2",
+        "tool.hob.gashes=6",
+        "operation.finish.axial_feed_mm_per_revolution=8",
+        "fields.flank.profile_spacing_um=500",
+        "fields.flank.lead_spacing_um=5000",
+        "fields.blank.spacing_mm=1",
+        "fields.blank.slice_spacing_mm=5",
+        "picture=[]",
+    ];
+    let scene = "scenes/hobbing/circular_spur.toml";
+    let hunting = "warning: 2 starts and 16 teeth share the divisor 2";
+    assert!(run("check", scene, &settings, &[]).done().err.contains(hunting));
+    run("cut", scene, &settings, &["--only", "report", "--out", out.to_str().expect("a path")]);
+    let listed = listed(&out);
+    for words in [hunting, "mm thick, more than 0.5 mm"] {
+        assert!(listed.iter().any(|line| line.contains(words)), "no {words:?} in {listed:?}");
+    }
+}
+
+/// A gear clamped 5 um off its axis deviates; it is not gouged.
+#[test]
+fn five_micrometres_of_runout_are_a_deviation() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("gear");
+    let settings = [&["machine.work_eccentricity_um=5", "fields.blank.spacing_mm=0.3"], &SETTINGS[3..6]].concat();
+    run("cut", UNDERCUT, &settings, &["--only", "report", "--out", out.to_str().expect("a path")]).done();
+    let listed = listed(&out);
+    assert!(listed.iter().any(|line| line.contains("deviations, no gouges")), "{listed:?}");
+    assert!(!listed.iter().any(|line| line.starts_with("fault")), "{listed:?}");
+}
