@@ -110,7 +110,7 @@ mod slow {
     #[test]
     fn faces_are_finished_as_the_middle_is() {
         let settings =
-            ["fields.flank.profile_spacing_um=400", "fields.flank.lead_spacing_um=250", "gear.face_width_mm=12"];
+            ["fields.flank.profile_spacing_um=800", "fields.flank.lead_spacing_um=250", "gear.face_width_mm=12"];
         for scene in ["third_order_plain", "circular_helical"] {
             let path = format!("scenes/hobbing/{scene}.toml");
             let scene = process::load(Path::new(&path), &settings.map(str::to_owned)).expect("the scene").scene;

@@ -9,6 +9,9 @@ use glam::DVec2;
 /// sections that nearly coincide hold each other's points alike.
 pub const STEP_MM: f64 = 0.04;
 
+/// Height of the rows in which sides of a polygon are looked for, mm. It decides about time alone.
+const ROW_MM: f64 = 0.2;
+
 /// Visits the sections of all passes of the first operation that come within `reach_mm` of a place in the slice
 /// `z_mm`, in order of time, as they are and as polygons.
 pub fn sections_near(
@@ -34,6 +37,9 @@ pub fn sections_near(
 /// A section as a polygon.
 pub struct Polygon {
     corners: Vec<DVec2>,
+    /// Corners at which sides end, by rows of `ROW_MM` from the lowest on that the sides cross: a point is asked for
+    /// in one row.
+    sides: Vec<Vec<u32>>,
     /// Points of the edge.
     pub of_edge: Vec<EdgePoint>,
     /// Smallest coordinates.
@@ -74,7 +80,13 @@ impl Polygon {
         }
         let low = corners.iter().fold(DVec2::INFINITY, |a, &b| a.min(b));
         let high = corners.iter().fold(DVec2::NEG_INFINITY, |a, &b| a.max(b));
-        Self { corners, of_edge, low, high }
+        let row = |y: f64| ((y - low.y) / ROW_MM) as usize;
+        let mut sides = vec![Vec::new(); row(high.y) + 1];
+        for end in 0..corners.len() {
+            let [a, b] = [corners[(end + corners.len() - 1) % corners.len()].y, corners[end].y];
+            sides[row(a.min(b))..=row(a.max(b))].iter_mut().for_each(|row| row.push(end as u32));
+        }
+        Self { corners, sides, of_edge, low, high }
     }
 
     /// Whether a point lies inside.
@@ -83,12 +95,12 @@ impl Polygon {
             return false;
         }
         let mut inside = false;
-        let mut a = self.corners[self.corners.len() - 1];
-        for &b in &self.corners {
+        for &end in &self.sides[((p.y - self.low.y) / ROW_MM) as usize] {
+            let (end, count) = (end as usize, self.corners.len());
+            let [a, b] = [self.corners[(end + count - 1) % count], self.corners[end]];
             if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
                 inside = !inside;
             }
-            a = b;
         }
         inside
     }

@@ -314,12 +314,13 @@ mod slow {
                 })
             };
             let (columns, rows) = (whole.columns(), whole.rows());
-            // A coarse flank from face to face, two by two tiles as in use where the tip meets one face and the root
-            // the other, and the sections of a pair: rows so far apart that each is bounded alone.
+            // A coarse flank from face to face, two by two tiles as in use where the tip meets one face, cells of a
+            // tile where the root meets the other, and the sections of a pair: rows so far apart that each is bounded
+            // alone.
             let fields = [
                 part([columns / 14, rows / 24], [14, 24], [0, 0]),
                 part([1, 1], [17, 33], [columns - 17, 0]),
-                part([1, 1], [17, 33], [0, rows - 33]),
+                part([1, 1], [9, 17], [0, rows - 17]),
                 part([1, (rows - 1) / 4], [16, 5], [columns / 2, 0]),
             ];
             for (number, field) in fields.iter().enumerate() {

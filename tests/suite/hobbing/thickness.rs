@@ -36,7 +36,7 @@ fn by_points(cutter: &HobCutter, space: i64, z_mm: f64, reach_mm: f64) -> BTreeM
             let inside = place + 1e-5 * inward;
             let stands = place.distance(middle) < 1.5 * reach_mm
                 && job.blank.height(inside, inside.to_angle()).0 < job.blank.addendum_mm
-                && !before.iter().any(|polygon| polygon.holds(inside));
+                && !before.iter().rev().any(|polygon| polygon.holds(inside));
             if !stands {
                 continue;
             }

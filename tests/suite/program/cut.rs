@@ -5,9 +5,11 @@ use crate::fixtures::json_schema::assert_is_results;
 use gearcut::output::surface_files::read_surface;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+use tempfile::TempDir;
 
-const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
-const COARSE: [&str; 10] = [
+const ROUND: &str = "scenes/shaping/circular_m3_z24.toml";
+const COARSE: [&str; 12] = [
     "--set",
     "fields.flank.profile_spacing_um=50",
     "--set",
@@ -17,13 +19,18 @@ const COARSE: [&str; 10] = [
     "--set",
     "fields.blank.spacing_mm=0.5",
     "--set",
-    "picture=[]",
+    "picture=[{name='gear',width_px=96,height_px=72},{name='mark',view='flank',tooth=3,side='right',colour='pass',\
+     width_px=96,height_px=72,exr=true}]",
+    "--frames",
+    "3",
 ];
 
 /// What makes a scene quick where only its findings are looked at.
-const BRIEF: [&str; 12] = [
+const BRIEF: [&str; 14] = [
     "--only",
     "report",
+    "--set",
+    "picture=[]",
     "--set",
     "fields.flank.profile_spacing_um=400",
     "--set",
@@ -36,62 +43,15 @@ const BRIEF: [&str; 12] = [
     "fields.chips.spacing_mm=2",
 ];
 
-#[test]
-fn json_prints_the_results() {
+/// A whole result with every kind of file, cut once on two threads: folder of it, and its files.
+static WHOLE: LazyLock<(TempDir, Vec<(PathBuf, Vec<u8>)>)> = LazyLock::new(|| {
     let folder = tempfile::tempdir().expect("a folder");
-    let out = folder.path().join("gear");
-    let arguments = [
-        &["cut", "scenes/shaping/circular_m3_z24.toml", "--json", "--out"],
-        &[out.to_str().expect("a path")][..],
-        &COARSE[..],
-    ];
-    let outcome = gearcut(&arguments.concat()).done();
-    let printed: Value = serde_json::from_str(&outcome.out).expect("JSON on standard output");
-    assert_eq!(printed, read_json(&out.join("results.json")));
-    for line in outcome.err.lines() {
-        let event: Value = serde_json::from_str(line).expect("one JSON event per line");
-        assert!(event["event"].is_string());
-    }
-}
-
-#[test]
-fn meshes_pictures_and_frames_are_written_and_are_the_same_every_time() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let small = "picture=[{name='gear',width_px=96,height_px=72},{name='mark',view='flank',tooth=3,side='right',\
-                 colour='pass',width_px=96,height_px=72,exr=true}]";
-    let cut = |name: &str, threads: u32| {
-        let out = folder.path().join(name);
-        let arguments = [
-            &["cut", "scenes/shaping/circular_m3_z24.toml", "--quiet", "--backend", "cpu", "--frames", "3", "--out"],
-            &[out.to_str().expect("a path")][..],
-            &COARSE[..4],
-            &["--set", small],
-        ];
-        gearcut_on_threads(threads, &arguments.concat()).done();
-        files(&out)
-    };
-    let written = cut("a", 2);
-    assert_same_files(&written, &cut("b", 1));
-    let bytes = |name: &str| &written.iter().find(|(path, _)| path == Path::new(name)).expect(name).1;
-    assert!(bytes("mesh/gear.stl").starts_with(b"gearcut, mm: gear of circular_m3_z24 "));
-    assert!(bytes("mesh/gear.glb").starts_with(b"glTF\x02\0\0\0"));
-    assert_eq!(written.iter().filter(|(path, _)| path.starts_with("mesh/flanks")).count(), 48);
-    for name in ["pictures/gear.png", "pictures/mark.png", "frames/frame_0003.png"] {
-        let picture = image::load_from_memory(bytes(name)).expect("a PNG").into_rgb8();
-        let colours: std::collections::BTreeSet<_> = picture.pixels().map(|p| p.0).collect();
-        assert!(colours.len() > 50, "{name} shows hardly anything: {} colours", colours.len());
-    }
-    // An animated PNG says in its acTL chunk how many frames it has.
-    let moving = bytes("frames/cut.apng");
-    let control = moving.windows(4).position(|chunk| chunk == b"acTL").expect("an animation");
-    assert_eq!(moving[control + 4..control + 8], 3_u32.to_be_bytes());
-    let map = gearcut::output::exr_map::read_exr_map(&folder.path().join("a/pictures/mark.exr")).expect("an EXR");
-    let names: Vec<&str> = map.channels.iter().map(|channel| channel.name.as_str()).collect();
-    assert_eq!(names, ["depth_mm", "normal_x", "normal_y", "normal_z", "pass_id", "value"]);
-    assert_eq!((map.grid.u.count, map.grid.v.count), (72, 96));
-    let gearcut::output::exr_map::Samples::U32(passes) = &map.channels[4].samples else { panic!("pass ids are whole") };
-    assert!(passes.iter().filter(|&&pass| pass != u32::MAX).count() > 3000);
-}
+    let out = folder.path().to_str().expect("a path").to_owned() + "/gear";
+    let arguments = [&["cut", ROUND, "--quiet", "--backend", "cpu", "--out", &out], &COARSE[..]].concat();
+    gearcut_on_threads(2, &arguments).done();
+    let written = files(Path::new(&out));
+    (folder, written)
+});
 
 /// A draft goes beside the whole result, on coarser dexels unless a setting says otherwise.
 #[test]
@@ -113,6 +73,60 @@ fn a_draft_is_coarse_and_takes_no_result_away() {
 mod slow {
     use super::*;
 
+    #[test]
+    fn the_same_scene_gives_the_same_bytes_and_prints_its_results() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let out = folder.path().join("gear");
+        let out_text = out.to_str().expect("a path");
+        let arguments = [&["cut", ROUND, "--json", "--backend", "cpu", "--out", out_text], &COARSE[..]].concat();
+        let outcome = gearcut_on_threads(1, &arguments).done();
+        assert_same_files(&WHOLE.1, &files(&out));
+        let printed: Value = serde_json::from_str(&outcome.out).expect("JSON on standard output");
+        assert_eq!(printed, read_json(&out.join("results.json")));
+        for line in outcome.err.lines() {
+            let event: Value = serde_json::from_str(line).expect("one JSON event per line");
+            assert!(event["event"].is_string());
+        }
+    }
+
+    #[test]
+    fn meshes_pictures_frames_and_surfaces_are_written() {
+        let (folder, written) = &*WHOLE;
+        let bytes = |name: &str| &written.iter().find(|(path, _)| path == Path::new(name)).expect(name).1;
+        assert!(bytes("mesh/gear.stl").starts_with(b"gearcut, mm: gear of circular_m3_z24 "));
+        assert!(bytes("mesh/gear.glb").starts_with(b"glTF\x02\0\0\0"));
+        assert_eq!(written.iter().filter(|(path, _)| path.starts_with("mesh/flanks")).count(), 48);
+        for name in ["pictures/gear.png", "pictures/mark.png", "frames/frame_0003.png"] {
+            let picture = image::load_from_memory(bytes(name)).expect("a PNG").into_rgb8();
+            let colours: std::collections::BTreeSet<_> = picture.pixels().map(|p| p.0).collect();
+            assert!(colours.len() > 50, "{name} shows hardly anything: {} colours", colours.len());
+        }
+        // An animated PNG says in its acTL chunk how many frames it has.
+        let moving = bytes("frames/cut.apng");
+        let control = moving.windows(4).position(|chunk| chunk == b"acTL").expect("an animation");
+        assert_eq!(moving[control + 4..control + 8], 3_u32.to_be_bytes());
+        let gear = folder.path().join("gear");
+        let map = gearcut::output::exr_map::read_exr_map(&gear.join("pictures/mark.exr")).expect("an EXR");
+        let names: Vec<&str> = map.channels.iter().map(|channel| channel.name.as_str()).collect();
+        assert_eq!(names, ["depth_mm", "normal_x", "normal_y", "normal_z", "pass_id", "value"]);
+        assert_eq!((map.grid.u.count, map.grid.v.count), (72, 96));
+        let gearcut::output::exr_map::Samples::U32(passes) = &map.channels[4].samples else {
+            panic!("pass ids are whole")
+        };
+        assert!(passes.iter().filter(|&&pass| pass != u32::MAX).count() > 3000);
+        // What a surface is of goes with it in every format.
+        for ending in ["x3p", "sdf", "npy", "csv"] {
+            let path = gear.join(format!("texture/finish/tooth_01_left.{ending}"));
+            let notes = read_surface(&path, None).expect("a surface with its spacing").notes;
+            for (name, words) in
+                [("frame", "arc length along the target profile"), ("scene", "[gear]"), ("run", "version")]
+            {
+                let note = notes.iter().find(|note| note.0 == name);
+                assert!(note.is_some_and(|note| note.1.contains(words)), "{ending}: {name} is {note:?}");
+            }
+        }
+    }
+
     /// What is asked for has the bytes that it has in a whole result, and nothing else is there.
     #[test]
     fn parts_that_are_left_out_are_left_out_and_the_rest_keeps_its_bytes() {
@@ -120,15 +134,14 @@ mod slow {
         let cut = |name: &str, only: &[&str]| {
             let out = folder.path().join(name);
             let arguments = [
-                &["cut", "scenes/shaping/circular_m3_z24.toml", "--quiet", "--backend", "cpu", "--out"],
-                &[out.to_str().expect("a path")][..],
-                &COARSE[..],
+                &["cut", ROUND, "--quiet", "--backend", "cpu", "--out", out.to_str().expect("a path")],
+                &COARSE[..10],
                 only,
             ];
             gearcut(&arguments.concat()).done();
             files(&out)
         };
-        let whole = cut("whole", &[]);
+        let whole = &WHOLE.1;
         let is_number = |path: &Path| path.starts_with("tables") || path == Path::new("results.json");
         let same = |part: &[(PathBuf, Vec<u8>)], belongs: &dyn Fn(&Path) -> bool| {
             let wanted: Vec<_> = whole.iter().filter(|(path, _)| belongs(path)).cloned().collect();
@@ -150,26 +163,20 @@ mod slow {
                 "{stage}: {stages:?}"
             );
         }
-        gearcut(&["cut", PAPER, "--only", "sheets"]).failed(2, &["sheets", "numbers, maps"]);
+        gearcut(&["cut", ROUND, "--only", "sheets"]).failed(2, &["sheets", "numbers, maps"]);
     }
 
+    /// Of every scene what it finds, and its page.
     #[test]
-    fn every_shipped_scene_is_cut_and_the_same_scene_gives_the_same_bytes() {
+    fn every_shipped_scene_is_cut() {
         let folder = tempfile::tempdir().expect("a folder");
-        let scenes = shipped_scenes("shaping");
-        assert!(scenes.len() >= 8);
-        for scene in &scenes {
+        for scene in &shipped_scenes("shaping") {
             let scene_text = scene.to_str().expect("a name");
             let out = folder.path().join(scene.file_stem().expect("a stem"));
             let out_text = out.to_str().expect("a path");
-            // The paper's gear with every file, to be compared; of the others what every scene finds and its page.
-            let brief = if scene_text == PAPER { &[][..] } else { &BRIEF };
-            gearcut_on_threads(
-                2,
-                &[&["cut", scene_text, "--out", out_text, "--backend", "cpu"], &COARSE[..], brief].concat(),
-            )
-            .done()
-            .says(&["smallest normal stock", "flanks cut"]);
+            gearcut(&[&["cut", scene_text, "--out", out_text, "--backend", "cpu"], &BRIEF[..]].concat())
+                .done()
+                .says(&["smallest normal stock", "flanks cut"]);
             let results = read_json(&out.join("results.json"));
             assert_is_results(&results);
             assert_eq!(results["complete"], true);
@@ -179,22 +186,5 @@ mod slow {
             assert_eq!(checksums.len() + 1, files(&out).len(), "all files but the record itself");
             assert!(record["scene"].as_str().expect("the scene").contains("[gear]"));
         }
-        // What a surface is of goes with it in every format.
-        for ending in ["x3p", "sdf", "npy", "csv"] {
-            let path = folder.path().join(format!("elliptical_normal/texture/finish/tooth_03_left.{ending}"));
-            let notes = read_surface(&path, None).expect("a surface with its spacing").notes;
-            for (name, words) in
-                [("frame", "arc length along the target profile"), ("scene", "[gear]"), ("run", "version")]
-            {
-                let note = notes.iter().find(|note| note.0 == name);
-                assert!(note.is_some_and(|note| note.1.contains(words)), "{ending}: {name} is {note:?}");
-            }
-        }
-        let again = folder.path().join("again");
-        let text = again.to_str().expect("a path");
-        gearcut_on_threads(1, &[&["cut", PAPER, "--out", text, "--quiet", "--backend", "cpu"], &COARSE[..]].concat())
-            .done();
-        let first = folder.path().join("elliptical_normal");
-        assert_same_files(&files(&first), &files(&again));
     }
 }
