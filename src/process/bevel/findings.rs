@@ -11,8 +11,10 @@ use super::job::BevelJob;
 use super::measure::{self, BevelReport};
 use crate::findings::warning::ranked;
 use crate::findings::{Datum, Entry, Findings, Place, Quantity, Section, Table, TableColumn, Warning};
+use crate::output::text::significant;
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::texture::{self, WindowTexture};
+use gearcut_core::bevel::ease_off::{Explained, Setting};
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
@@ -72,14 +74,14 @@ pub fn findings(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> R
     })
 }
 
-/// What is known before anything is cut: keys that contradict each other, a head that hits the next tooth, and what the
-/// axes say.
+/// What is known before anything is cut: keys that contradict each other, a head that hits the next tooth, undercut,
+/// and what the axes say.
 ///
 /// # Errors
 /// A place that the roll does not generate.
 pub fn known_before(job: &BevelJob, motion: &[BevelAxesReport]) -> Result<Vec<Warning>> {
     let hit = job.next_tooth_warning()?.map(Warning::fault);
-    let off = job.contradictions().into_iter().map(Warning::warn);
+    let off = job.contradictions().into_iter().chain(job.undercut_warning()?).map(Warning::warn);
     Ok(ranked(hit.into_iter().chain(off).chain(axes::warnings(motion))))
 }
 
@@ -201,6 +203,14 @@ fn settings(job: &BevelJob) -> Section {
             mm(job.inferred.radius_mm, "radius of the circle that the settings lead through the mean point"),
         )
         .with("inferred_spiral_angle", deg(job.inferred.spiral_angle_rad, "spiral angle of that circle there"))
+        .with(
+            "modified_roll_c",
+            Quantity::number(of.roll.second_order_per_rad, "1/rad", "C of the modified roll; 0 where the roll is even"),
+        )
+        .with(
+            "modified_roll_d",
+            Quantity::number(of.roll.third_order_per_rad2, "1/rad^2", "D of the modified roll; 0 where it is even"),
+        )
         .with("inferred_roll_ratio", Quantity::number(job.inferred.roll_ratio, "1", "R_a of a crown gear"))
         .with(
             "missed_depth",
@@ -306,7 +316,25 @@ fn errors(job: &BevelJob, gear: &BevelGear) -> Result<Section> {
             let error = if one.setting.is_angle() { one.error.to_degrees() } else { one.error };
             vec![Datum::Word(one.setting.name().to_owned()), error.into(), (one.left_rms_mm * UM_PER_MM).into()]
         });
-        section = section.table(Table::new(side, &format!("Tooth 1, {side} flank"), columns).with_rows(rows));
+        let (first, second) = (found[0], found[1]);
+        let said = |one: &Explained| {
+            let (error, unit) = match one.setting {
+                Setting::RollRatio => (one.error, ""),
+                setting if setting.is_angle() => (one.error.to_degrees(), " deg"),
+                _ => (one.error, " mm"),
+            };
+            let left_um = one.left_rms_mm * UM_PER_MM;
+            let (error, left_um) = (significant(error, 3), significant(left_um, 2));
+            format!("{} off by {error}{unit} leaves {left_um} um rms", one.setting.name())
+        };
+        let words = Quantity::text(
+            format!("{}; next {}", said(&first), said(&second)),
+            "settings whose error, each by itself, explains most of the deviations of the grid, and root mean square of \
+            what it leaves",
+        );
+        section = section
+            .shown(&format!("{side}_explained"), &format!("tooth 1 {side}"), words)
+            .table(Table::new(side, &format!("Tooth 1, {side} flank"), columns).with_rows(rows));
     }
     Ok(section)
 }

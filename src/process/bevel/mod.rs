@@ -13,6 +13,7 @@ mod faults;
 pub mod findings;
 pub mod gcode;
 pub mod gear;
+pub mod hits;
 pub mod job;
 pub mod measure;
 pub mod motion;

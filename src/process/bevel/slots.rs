@@ -5,7 +5,8 @@
 //!
 //! The head turns on while the machine withdraws, rolls back and indexes, so that each slot begins with the blades at
 //! another angle: tau0(j) = start + omega j T, T the time from slot to slot. During a slot's roll the cradle angle is
-//! q = q_from + (tau - tau0) dq/dt / omega.
+//! q = q_from + (tau - tau0) dq/dt / omega. Every blade passes that points to the work within that time, those of the
+//! turns that the roll begins or ends in the middle of among them.
 
 use super::operation::PreparedBevel;
 use gearcut_core::bevel::face_mill::FaceMill;
@@ -55,9 +56,9 @@ impl Slots {
                 let motion = MotionTable::new([from - beyond, to + beyond], &[], |tool_rad| {
                     gear_from_head(operation, slot, cradle_rad(tool_rad)).inverse()
                 });
-                TurningPasses::new(0, &tool, 1.0, motion)
+                Ok(TurningPasses::new(0, &tool, 1.0, motion)?.with_parts_of_turns())
             })
-            .collect::<Result<_, _>>()?;
+            .collect::<Result<_, Refusal>>()?;
         let passes: u64 = sets.iter().map(|set| u64::from(set.count())).sum();
         if passes >= u64::from(u32::MAX) {
             return Err(Refusal::new(

@@ -2,9 +2,11 @@
 //! passes near a row against all passes; the device against the native backend; the closed body.
 
 use super::jobs::job;
-use gearcut::bevel::face_mill::BladeKind;
+use gearcut::bevel::face_mill::{BladeKind, FaceMill};
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
+use gearcut::dexel::Layer;
+use gearcut::frame::Rigid3;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::passes::SweepPlan;
@@ -12,9 +14,14 @@ use gearcut::process::bevel::BevelJob;
 use gearcut::process::bevel::blank::{self, CellGrid, CutCells};
 use gearcut::process::bevel::body::body;
 use gearcut::process::bevel::chips::{self, SlotLedger};
-use glam::{DVec2, DVec3};
+use gearcut::process::bevel::job::index;
+use gearcut::process::bevel::operation::PreparedBevel;
+use gearcut::process::bevel::slots::Slots;
+use gearcut::terms::Side;
+use glam::{DMat3, DVec2, DVec3};
 use std::f64::consts::TAU;
 
+const SIDES: [Side; 2] = [Side::Left, Side::Right];
 const COARSE: [&str; 2] = ["fields.blank.spacing_mm=0.2", "fields.blank.slice_spacing_mm=3"];
 
 fn coarse(scene: &str, more: &[&str]) -> BevelJob {
@@ -164,6 +171,110 @@ fn chips_add_up_to_what_is_missing() {
             assert!(found.passes.iter().all(|pass| pass.force_n.is_none() && pass.work_nmm.is_none()));
         }
     }
+}
+
+/// Neighbours that are said to be clear change no bit of any slot's cell, and where teeth come to a point they are not
+/// said to be.
+#[test]
+fn neighbours_that_are_said_to_be_clear_take_nothing() {
+    let wide = "tool.face_mill.point_width_mm=4";
+    for (scene, more, clear) in [
+        ("five_linkage_corrected", &[][..], true),
+        ("crown_gear", &[], true),
+        ("crown_gear", &[wide, "tool.face_mill.runouts_um=[0,0,0,20,0,0,0,0,0,0,0,0]"], false),
+    ] {
+        let fast = ["operation.finish.roll_speed_deg_per_s=20", "fields.blank.spacing_mm=0.4"];
+        let job = coarse(scene, &[&fast[..], more].concat());
+        let grid = CellGrid::of_scene(&job).expect("rays");
+        assert_eq!(job.neighbours_may_reach(&grid), !clear, "{scene}");
+        for slot in [0, 5, job.blank.teeth - 1] {
+            let [own, all] = [false, true].map(|beside| job.cut_cell(&Cpu::default(), &grid, slot, beside));
+            let [own, all] = [own.expect("cuts").0, all.expect("cuts").0];
+            assert_eq!(own == all, clear, "{scene}, slot {slot}");
+        }
+    }
+}
+
+/// Blades farther round than the head's window stay clear of the blank: with a wider window the ends of the face, which
+/// they leave last, are the same.
+#[test]
+fn blades_beyond_the_window_take_nothing() {
+    for scene in ["five_linkage_corrected", "hypoid", "crown_pinion"] {
+        let job = coarse(scene, &["operation.finish.roll_speed_deg_per_s=10", "fields.blank.spacing_mm=0.4"]);
+        let cut = |half_window_rad: f64, row: usize| {
+            let head = FaceMill { half_window_rad, ..job.head.clone() };
+            let pose = |operation: &PreparedBevel, slot: u32, cradle_rad: f64| {
+                let to_work = DMat3::from_rotation_z(job.middle_rad);
+                let to_work = Rigid3 { rotation: to_work, translation_mm: DVec3::ZERO };
+                let pose = operation.as_set.work_from_tool(cradle_rad).after(&to_work);
+                index(slot, job.blank.teeth).after(&job.gear_from_work).after(&pose)
+            };
+            let slots = Slots::new(&job.operations, &head, (0.0, job.blank.teeth), &pose).expect("passes");
+            let grid = CellGrid::of_scene(&job).expect("rays");
+            let field = grid.field_of_rows(&job, 3, row..row + 1);
+            let mut layer = field.blank_layer();
+            let plan = SweepPlan::brute_force(&field, slots.of(job.operations.len() - 1, 3));
+            Cpu::default().cut_spatial(&field, &plan, &mut layer).expect("cuts");
+            layer
+        };
+        let window_rad = job.head.half_window_rad;
+        let last = CellGrid::of_scene(&job).expect("rays").rows() - 1;
+        for row in [0, last] {
+            let [own, wide, narrow] = [window_rad, window_rad + 0.15, 0.6 * window_rad].map(|window| cut(window, row));
+            let off_mm = |other: &Layer| {
+                let heights = own.heights_mm.iter().zip(&other.heights_mm);
+                heights.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max)
+            };
+            // Motion tables of other ranges differ by rounding.
+            assert!(off_mm(&wide) < 1e-6, "{scene}, row {row}: {:e} mm", off_mm(&wide));
+            // Alive: in a window that is too narrow blades are missing.
+            assert!(off_mm(&narrow) > 1e-3, "{scene}, row {row}: {:e} mm", off_mm(&narrow));
+        }
+    }
+}
+
+/// An undercut is as deep as points below the target are swept by the head at other moments of its roll.
+#[test]
+fn an_undercut_is_as_deep_as_the_head_sweeps() {
+    let sharp = ["tool.face_mill.corner_radius_mm=0"];
+    let pinion = job("hypoid_crown_pinion", &sharp).expect("a pinion");
+    let words = pinion.undercut_warning().expect("flanks").expect("an undercut");
+    assert!(words.starts_with("undercut: blades of the same slot go 0."), "{words}");
+    let found = SIDES.map(|side| pinion.deepest_cut(side, &[0]).expect("flanks"));
+    let deepest = if found[0].depth_mm > found[1].depth_mm { found[0] } else { found[1] };
+    let [arc_mm, along_mm] = deepest.at_mm;
+    println!("{words}: {deepest:?}");
+    // The flank's place in space 0.
+    let tooth = if deepest.side == Side::Left { pinion.blank.teeth } else { 1 };
+    let rays = pinion.rays_over(tooth, deepest.side, vec![arc_mm], vec![along_mm]).expect("a ray");
+    let at = |share: f64| rays.field.ray(0, 0).at(-share * deepest.depth_mm);
+    assert!(is_swept(&pinion, at(0.97)) && !is_swept(&pinion, at(1.03)));
+    // The gear has none.
+    assert_eq!(job("crown_gear", &[]).expect("a gear").undercut_warning().expect("flanks"), None);
+}
+
+/// Candidates, which the blank does not use, leave the cell as all passes do, rays of a row being farther apart than the
+/// blades' rounds are wide.
+#[test]
+fn candidates_and_all_passes_leave_the_same_cell() {
+    let job = job("five_linkage_corrected", &["operation.finish.roll_speed_deg_per_s=10"]).expect("a gear");
+    let grid = CellGrid::of_scene(&job).expect("rays");
+    let mut visits = [0, 0];
+    for (rows, slot) in [(1, 0), (8, 7)] {
+        for first in (0..grid.rows() - rows).step_by(rows) {
+            let field = grid.field_of_rows(&job, slot, first..first + rows);
+            let set = job.slots.of(1, slot);
+            let plans = [SweepPlan::new(&field, set), SweepPlan::brute_force(&field, set)];
+            (0..2).for_each(|k| visits[k] += plans[k].dexel_passes());
+            let [layer, all] = plans.map(|plan| {
+                let mut layer = field.blank_layer();
+                Cpu::default().cut_spatial(&field, &plan, &mut layer).expect("cuts");
+                layer
+            });
+            assert!(layer == all, "slot {slot}, rows from {first}");
+        }
+    }
+    assert!(visits[1] > 3 * visits[0], "{visits:?}");
 }
 
 /// Passes that are left out because they stay clear of a row take nothing from it.

@@ -229,7 +229,7 @@ fn the_command_writes_a_folder_and_refuses_what_is_no_pair() {
     let [gear, pinion] = ["scenes/bevel/crown_gear.toml", "scenes/bevel/crown_pinion.toml"];
     gearcut(&["contact", gear, pinion, "--e-um", "20", "--out", out.to_str().expect("a path")])
         .done()
-        .says(&["motion error, concave", "contact length, convex"]);
+        .says(&["motion error, concave", "ellipse, convex"]);
     let results = read_json(&out.join("results.json"));
     assert_is_results(&results);
     assert_eq!(results["process"], "bevel pair");

@@ -65,6 +65,52 @@ fn marks_have_their_height_and_go_down_to_the_target() {
     }
 }
 
+/// Blades pass from the first moment of the roll to the last, wherever the head's turn begins and ends: the ends of the
+/// flanks have marks as high as their middle, in slots of any phase.
+#[test]
+fn marks_are_no_higher_where_the_roll_begins_and_ends() {
+    let job = job("five_linkage_printed", &[FAST]).expect("a gear");
+    for side in SIDES {
+        let height_mm = measure::marks(&job, side).expect("marks").height_mm;
+        let [length_mm, half_mm] = [job.target_of(side).length_mm(), 0.5 * job.blank.face_width_mm];
+        for tooth in [1, 14, 27, 40, 55] {
+            let arcs_mm = (0..12).map(|i| length_mm * f64::from(i) / 11.0).collect();
+            let rows_mm = (0..40).map(|i| half_mm * (f64::from(i) / 19.5 - 1.0)).collect();
+            let rays = job.rays_over(tooth, side, arcs_mm, rows_mm).expect("rays");
+            let layer = finished(&job, tooth, side, &rays);
+            let highest_mm = heights_mm(&layer).fold(f64::NEG_INFINITY, f64::max);
+            // Marks lie farther apart at the heel: their height goes with the square of that.
+            assert!(highest_mm < 3.0 * height_mm, "tooth {tooth} {side:?}: {highest_mm:e} of {height_mm:e} mm");
+        }
+    }
+}
+
+/// With a modified roll, marks go down to the target of the modified roll as they do to that of an even one.
+#[test]
+fn a_modified_roll_is_cut_as_its_target_says() {
+    let modified = ["machine.cradle.modified_roll_c=0.02", "machine.cradle.modified_roll_d=-0.05"];
+    let [even, job] =
+        [&[FAST][..], &[&modified[..], &[FAST]].concat()].map(|set| job("five_linkage_printed", set).expect("a gear"));
+    for side in SIDES {
+        let MarkForm { spacing_mm, .. } = measure::marks(&job, side).expect("marks");
+        let (mut lowest_mm, mut farthest_mm) = (f64::INFINITY, 0.0_f64);
+        for (along_mm, share) in [(-15.0, 0.2), (0.0, 0.5), (15.0, 0.8)] {
+            let arc_mm = share * job.target_of(side).length_mm();
+            let even_places = |middle: f64| {
+                (0..60).map(|i| middle + 0.025 * spacing_mm * (f64::from(i) - 29.5)).collect::<Vec<f64>>()
+            };
+            let rays = job.rays_over(5, side, even_places(arc_mm), even_places(along_mm)).expect("rays");
+            lowest_mm = lowest_mm.min(heights_mm(&finished(&job, 5, side, &rays)).fold(f64::INFINITY, f64::min));
+            // Alive: an even roll leaves another flank.
+            let other = finished(&even, 5, side, &rays);
+            farthest_mm = heights_mm(&other).map(f64::abs).fold(farthest_mm, f64::max);
+        }
+        println!("{side:?}: down to {lowest_mm:e} mm; an even roll is {farthest_mm} mm off");
+        assert!(lowest_mm.abs() < BOUND_MM, "{lowest_mm:e} mm");
+        assert!(farthest_mm > 0.01, "{farthest_mm} mm");
+    }
+}
+
 /// Marks counted along the profile and along the tooth give the distance of their lines in the flank.
 #[test]
 fn marks_are_as_far_apart_as_their_closed_form() {

@@ -10,7 +10,7 @@ use gearcut::bevel::flank::BevelFlank;
 use gearcut::bevel::inferred::InferredCutter;
 use gearcut::frame::Rigid3;
 use gearcut::math::least_squares::WindowFit;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// Largest entry of the difference of two poses.
 fn apart(a: &Rigid3, b: &Rigid3) -> f64 {
@@ -150,6 +150,46 @@ fn the_blank_and_what_the_settings_say_of_the_cutter() {
     assert!(blank.contradictions(Some(mate)).is_empty());
     let pinion_deg = pitch_angle_rad(19, 62, mate.shaft_angle_rad).to_degrees();
     close("pinion", pinion_deg, number(&file["settings"], "gamma1"), 0.003);
+}
+
+/// With an offset, radius and spiral angle are those of the head's circle through the mean point, and with the ratio of
+/// roll the tool moves along the tooth there; of both hands.
+#[test]
+fn the_ratio_of_roll_lets_the_mean_point_slide_along_the_tooth() {
+    let file = data("b04_blank");
+    let blank = blank(&file);
+    let (spiral_rad, cutter_mm) = (35_f64.to_radians(), 95.25);
+    let [distance_mm, below_rad] = [blank.mean_cone_distance_mm(), blank.dedendum_angle_rad()];
+    for (hand, offset_mm) in [(1.0, 0.0), (1.0, 5.0), (1.0, -8.0), (-1.0, 5.0)] {
+        // In axes of the machine about the work's apex: the mean point on the pitch cone, the head in the plane of the
+        // tips.
+        let mean_mm = distance_mm * DVec3::new(below_rad.cos(), 0.0, -below_rad.sin());
+        let head_mm = mean_mm.with_z(0.0) + cutter_mm * DVec3::new(-spiral_rad.sin(), hand * spiral_rad.cos(), 0.0);
+        let from_cradle_mm = head_mm - offset_mm * DVec3::Y;
+        let mut settings = CradleSettings {
+            radial_setting_mm: from_cradle_mm.length(),
+            cradle_angle_rad: from_cradle_mm.y.atan2(from_cradle_mm.x),
+            blank_offset_mm: offset_mm,
+            cross_shift_mm: 0.0,
+            ..settings(&file)
+        };
+        let inferred = InferredCutter::new(&settings, &blank);
+        close("radius", inferred.radius_mm, cutter_mm, 1e-12);
+        close("spiral angle", inferred.spiral_angle_rad, spiral_rad, 1e-12);
+        settings.roll.ratio = inferred.roll_ratio;
+        let q = settings.cradle_angle_rad;
+        let motion = settings.motion(q);
+        let in_tool =
+            DMat3::from_rotation_z(-q) * (mean_mm - offset_mm * DVec3::Y) - settings.radial_setting_mm * DVec3::X;
+        let velocity = DMat3::from_rotation_z(q)
+            * motion.pose.rotation.transpose()
+            * motion.velocity_at(motion.pose.point(in_tool));
+        let tooth = DVec3::new(spiral_rad.cos(), hand * spiral_rad.sin(), 0.0);
+        let across = velocity - velocity.dot(tooth) * tooth;
+        assert!(across.length() < 1e-9, "hand {hand}, offset {offset_mm} mm: {across} mm/rad");
+        let slides = velocity.dot(tooth).abs();
+        close("sliding", slides, offset_mm.abs() / spiral_rad.cos(), 1e-9);
+    }
 }
 
 #[test]

@@ -9,6 +9,7 @@ use gearcut::bevel::ease_off::{Setting, ease_off_mm, explain};
 use gearcut::bevel::envelope::Envelope;
 use gearcut::bevel::face_mill::{BladeKind, CuttingSurface};
 use gearcut::bevel::flank::BevelFlank;
+use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
 /// Teeth, module, depth under the pitch cones, cutter.
@@ -154,6 +155,44 @@ fn wrong_settings_are_named_by_their_ease_off() {
             assert_eq!(explained[0].setting, setting);
             assert!((explained[0].error / error - 1.0).abs() < 0.01, "{:?}", explained[0]);
             assert!(explained[1].left_rms_mm > 3.0 * explained[0].left_rms_mm, "{explained:?}");
+        }
+    }
+}
+
+/// What a modified roll does to a flank, to the first order: at the moment d of the roll the work is turned by R_a (C d^2
+/// + D d^3) less, which moves a point by that angle times its arm about the axis.
+#[test]
+fn a_modified_roll_moves_points_by_their_moment() {
+    let file = data("b05_flank");
+    let (shares, along_mm) = ([0.1, 0.5, 0.9], [-15.0, 0.0, 15.0]);
+    for (c, d) in [(1e-5, 0.0), (0.0, 1e-4), (-5e-6, 5e-5)] {
+        for kind in BladeKind::BOTH {
+            let envelope = Envelope { settings: settings(&file), surface: surface(kind) };
+            let mut modified = envelope;
+            modified.settings.roll.second_order_per_rad = c;
+            modified.settings.roll.third_order_per_rad2 = d;
+            let flank = BevelFlank::new(envelope, blank(&file)).expect("a flank");
+            let off_mm = ease_off_mm(&flank, &modified, &shares, &along_mm).expect("flanks");
+            let ratio = envelope.settings.roll.ratio;
+            let places = along_mm.iter().flat_map(|&along| shares.iter().map(move |&share| (along, share)));
+            let turned: Vec<(f64, f64)> = places
+                .map(|(along, share)| {
+                    let point = flank.row(along).expect("a row").point(share).expect("a point");
+                    let by = point.cradle_rad - envelope.settings.cradle_angle_rad;
+                    (ratio * by * by * (c + d * by), DVec3::X.cross(point.point_mm).dot(point.normal))
+                })
+                .collect();
+            // The work is turned so that the middle fits.
+            let level_rad = turned[turned.len() / 2].0;
+            let mut largest_mm = 0.0_f64;
+            for (off_mm, (angle_rad, arm_mm)) in off_mm.iter().zip(&turned) {
+                let wanted_mm = (angle_rad - level_rad) * arm_mm;
+                largest_mm = largest_mm.max(wanted_mm.abs());
+                // What is left is of the second order: a hundred-millionth of a millimetre.
+                assert!((off_mm - wanted_mm).abs() < 4e-8, "{off_mm:e} not {wanted_mm:e} mm");
+            }
+            println!("C {c}, D {d}, {}: up to {largest_mm:e} mm", kind.name());
+            assert!(largest_mm > 5e-6, "{largest_mm:e} mm");
         }
     }
 }

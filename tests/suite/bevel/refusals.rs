@@ -76,17 +76,19 @@ fn what_is_off_is_warned_of_with_numbers() {
     assert!(warnings.iter().any(|warning| warning.contains("the flanks need 42.2")), "{warnings:?}");
 }
 
-/// A head that rolls on beyond the flanks, or is too wide, cuts into the next tooth.
+/// A head that is too wide cuts into the next tooth, and so does one that has to roll too far: with the ratio of roll of a
+/// gear without offset.
 #[test]
 fn a_head_that_hits_the_next_tooth_is_warned_of() {
     assert_eq!(job(PRINTED, &[]).expect("a gear").next_tooth_warning().expect("flanks"), None);
-    let far = ["operation.finish.roll_from_deg=20", "operation.finish.roll_to_deg=100"];
-    let warning = job(PRINTED, &far).expect("a gear").next_tooth_warning().expect("flanks");
-    println!("{warning:?}");
     let wide = ["tool.face_mill.point_width_mm=9"];
     let warning = job(PRINTED, &wide).expect("a gear").next_tooth_warning().expect("flanks");
     println!("{warning:?}");
     assert!(warning.is_some_and(|words| words.contains("hits the next tooth")));
+    let hypoid = job("hypoid", &["machine.cradle.roll_ratio=1.0232"]).expect("a gear");
+    let warning = hypoid.next_tooth_warning().expect("flanks").expect("a hit");
+    assert!(warning.contains("mm into the left flank beyond"), "{warning}");
+    assert_eq!(job("hypoid", &[]).expect("a gear").next_tooth_warning().expect("flanks"), None);
 }
 
 #[test]

@@ -89,6 +89,33 @@ struct Touch {
     closing_mm: f64,
     /// The point, gear frame, mm.
     point_mm: DVec3,
+    /// Angles of head and cradle at which gear and pinion are generated there, rad.
+    generated_rad: [[f64; 2]; 2],
+}
+
+/// Where a search for a touch begins.
+#[derive(Clone, Copy)]
+struct Near {
+    gear_rad: f64,
+    /// Angles of head and cradle of gear and pinion near the place, where they are known.
+    generated_rad: Option<[[f64; 2]; 2]>,
+}
+
+impl Touch {
+    /// A beginning for places beside this one.
+    fn near(&self) -> Near {
+        Near { gear_rad: self.gear_rad, generated_rad: Some(self.generated_rad) }
+    }
+}
+
+/// A point of the gear beside the pinion.
+struct Gap {
+    /// Its distance from the pinion's flank along the pinion's normal, mm.
+    gap_mm: f64,
+    /// How fast that falls with the gear's angle, mm.
+    closing_mm: f64,
+    /// Angles of head and cradle at which the pinion is generated there, rad.
+    generated_rad: [f64; 2],
 }
 
 impl BevelPair {
@@ -124,28 +151,35 @@ impl BevelPair {
         }
     }
 
-    /// The gear's angle near `start_rad` at which a point of its flank touches the pinion's; `None` where the pinion
-    /// has no flank.
-    fn touch(&self, place_mm: DVec2, pinion_rad: f64, start_rad: f64) -> Option<Touch> {
+    /// The gear's angle near a beginning at which a point of its flank touches the pinion's; `None` where the pinion has
+    /// no flank.
+    fn touch(&self, place_mm: DVec2, pinion_rad: f64, near: Near) -> Option<Touch> {
         let gear = &self.gear;
         let distance_mm = gear.blank.mean_cone_distance_mm() + place_mm.x;
-        let start = gear.envelope.guess(distance_mm);
+        let [on_gear, mut on_pinion] = match near.generated_rad {
+            Some([on_gear, on_pinion]) => [Some(on_gear), Some(on_pinion)],
+            None => [None, None],
+        };
+        let start = on_gear.unwrap_or_else(|| gear.envelope.guess(distance_mm));
         let point = gear.envelope.find(&gear.blank, distance_mm, OnFlank::Height(place_mm.y), start).ok()?;
-        let mut gear_rad = start_rad;
+        let mut gear_rad = near.gear_rad;
         for _ in 0..MOST_STEPS {
-            let (gap_mm, closing_mm) = self.gap(point.point_mm, pinion_rad, gear_rad)?;
+            let Gap { gap_mm, closing_mm, generated_rad } =
+                self.gap(point.point_mm, [pinion_rad, gear_rad], on_pinion)?;
             let step_rad = gap_mm / closing_mm;
             gear_rad += step_rad;
+            on_pinion = Some(generated_rad);
             if step_rad.abs() < LAST_STEP_RAD {
-                return Some(Touch { gear_rad, closing_mm, point_mm: point.point_mm });
+                let generated_rad = [[point.head_rad, point.cradle_rad], generated_rad];
+                return Some(Touch { gear_rad, closing_mm, point_mm: point.point_mm, generated_rad });
             }
         }
         None
     }
 
-    /// Distance of a point of the gear (work frame, mm) from the pinion's flank along its normal, and how fast it falls
-    /// with the gear's angle, mm; `None` where the pinion has no flank.
-    fn gap(&self, point_mm: DVec3, pinion_rad: f64, gear_rad: f64) -> Option<(f64, f64)> {
+    /// A point of the gear (work frame, mm) beside the pinion at angles of pinion and gear; `start` are angles at which
+    /// the pinion is generated near it. `None` where the pinion has no flank.
+    fn gap(&self, point_mm: DVec3, [pinion_rad, gear_rad]: [f64; 2], start: Option<[f64; 2]>) -> Option<Gap> {
         let pinion = &self.pinion;
         let pinion_from_mount = self.mount_from_pinion(pinion_rad).inverse();
         let mount_from_gear = self.mount_from_gear(gear_rad);
@@ -154,13 +188,16 @@ impl BevelPair {
         if !has_flank(&pinion.blank, distance_mm, over_mm) {
             return None;
         }
-        let guess = pinion.envelope.guess(distance_mm);
-        let on = pinion.envelope.find(&pinion.blank, distance_mm, OnFlank::Height(over_mm), guess).ok()?;
+        let start = start.unwrap_or_else(|| pinion.envelope.guess(distance_mm));
+        let on = pinion.envelope.find(&pinion.blank, distance_mm, OnFlank::Height(over_mm), start).ok()?;
         let arc = (at_mm.z.atan2(at_mm.y) - on.point_mm.z.atan2(on.point_mm.y) + PI).rem_euclid(TAU) - PI;
         let axis = pinion_from_mount.direction(mount_from_gear.direction(DVec3::X));
         let apex_mm = pinion_from_mount.point(mount_from_gear.translation_mm);
-        let gap_mm = arc * DVec3::X.cross(at_mm).dot(on.normal);
-        Some((gap_mm, -axis.cross(at_mm - apex_mm).dot(on.normal)))
+        Some(Gap {
+            gap_mm: arc * DVec3::X.cross(at_mm).dot(on.normal),
+            closing_mm: -axis.cross(at_mm - apex_mm).dot(on.normal),
+            generated_rad: [on.head_rad, on.cradle_rad],
+        })
     }
 
     /// Place and touch of the first contact near an angle of the gear; the sign is +1 where a growing angle of the gear
@@ -171,44 +208,46 @@ impl BevelPair {
             let row = self.gear.row(along_mm).ok()?;
             Some([row.form_height_mm, row.tip_height_mm])
         };
+        let far = Near { gear_rad: start_rad, generated_rad: None };
         let mut best: Option<(DVec2, Touch)> = None;
         let mut turn = 0.0;
-        let try_at = |place: DVec2, best: &mut Option<(DVec2, Touch)>, turn: &mut f64| {
-            let Some(found) = self.touch(place, pinion_rad, start_rad) else { return false };
-            if *turn == 0.0 {
-                *turn = found.closing_mm.signum();
-            }
-            let earlier = best.as_ref().is_none_or(|(_, known)| *turn * (found.gear_rad - known.gear_rad) < 0.0);
-            if earlier {
-                *best = Some((place, found));
-            }
-            earlier
-        };
         for i in 0..PLACES[0] {
             let along_mm = half_mm * (2.0 * i as f64 / (PLACES[0] - 1) as f64 - 1.0);
             let Some([low_mm, high_mm]) = heights(along_mm) else { continue };
             for j in 0..PLACES[1] {
                 let height_mm = low_mm + (high_mm - low_mm) * j as f64 / (PLACES[1] - 1) as f64;
-                try_at(DVec2::new(along_mm, height_mm), &mut best, &mut turn);
+                let place = DVec2::new(along_mm, height_mm);
+                let Some(found) = self.touch(place, pinion_rad, far) else { continue };
+                if turn == 0.0 {
+                    turn = found.closing_mm.signum();
+                }
+                if best.as_ref().is_none_or(|(_, known)| turn * (found.gear_rad - known.gear_rad) < 0.0) {
+                    best = Some((place, found));
+                }
             }
         }
+        let (mut place, mut first) = best?;
         let mut step = DVec2::new(2.0 * half_mm / (PLACES[0] - 1) as f64, 1.0);
+        // Whether the flank ends at a place is asked last: few places touch earlier.
+        let on_flank = |place: DVec2| {
+            place.x.abs() <= half_mm && heights(place.x).is_some_and(|[low, high]| place.y >= low && place.y <= high)
+        };
         while step.max_element() > PLACE_MM {
-            let around = best.as_ref()?.0;
-            let mut moved = false;
+            let around = place;
             for (x, y) in
                 [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0)]
             {
-                let place = around + step * DVec2::new(x, y);
-                let ends = if place.x.abs() > half_mm { None } else { heights(place.x) };
-                let on_flank = ends.is_some_and(|[low_mm, high_mm]| place.y >= low_mm && place.y <= high_mm);
-                moved |= on_flank && try_at(place, &mut best, &mut turn);
+                let beside = around + step * DVec2::new(x, y);
+                let Some(found) = self.touch(beside, pinion_rad, first.near()) else { continue };
+                if turn * (found.gear_rad - first.gear_rad) < 0.0 && on_flank(beside) {
+                    (place, first) = (beside, found);
+                }
             }
-            if !moved {
+            if place == around {
                 step *= 0.5;
             }
         }
-        best.map(|(place, touch)| (place, touch, turn))
+        Some((place, first, turn))
     }
 
     /// Where the pair touches at an angle of the pinion; `start_rad` is an angle of the gear near that, and the ellipse
@@ -225,7 +264,7 @@ impl BevelPair {
     /// The ellipse over which the gap is below a thickness: the gap is g = x . H x / 2 over the tangent
     /// plane, H from differences over places beside the contact.
     fn ellipse(&self, place: DVec2, touch: &Touch, [pinion_rad, turn]: [f64; 2], thickness_mm: f64) -> Option<Ellipse> {
-        let beside = |x: f64, y: f64| self.touch(place + BEND_MM * DVec2::new(x, y), pinion_rad, touch.gear_rad);
+        let beside = |x: f64, y: f64| self.touch(place + BEND_MM * DVec2::new(x, y), pinion_rad, touch.near());
         let gap = |found: &Touch| turn * (found.gear_rad - touch.gear_rad) * found.closing_mm.abs();
         let around =
             [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (-1.0, -1.0)].map(|(x, y)| beside(x, y));
@@ -265,10 +304,10 @@ impl BevelPair {
             for j in 0..places[1] {
                 let share = j as f64 / (places[1] - 1) as f64;
                 let height_mm = row.form_height_mm + share * (row.tip_height_mm - row.form_height_mm);
-                let Some((gap_mm, ..)) = row
+                let Some(Gap { gap_mm, .. }) = row
                     .point(share)
                     .ok()
-                    .and_then(|point| self.gap(point.point_mm, contact.pinion_rad, contact.gear_rad))
+                    .and_then(|point| self.gap(point.point_mm, [contact.pinion_rad, contact.gear_rad], None))
                 else {
                     continue;
                 };

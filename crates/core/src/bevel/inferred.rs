@@ -4,10 +4,18 @@
 //! and the ratio of roll that they should have.
 //!
 //! In the plane of the root cone the machine centre, the head's middle and the mean point make a triangle: with S_r and
-//! q the head stands V = S_r sin q across and H = S_r cos q along the line to the mean point, which is R_m cos(theta_f)
-//! away, theta_f the dedendum angle. A circle through that point has the radius and there the spiral angle of the
-//! vector between them. A crown gear in that plane rolls on the gear with cos(theta_f) / sin(gamma). Both hold for
-//! settings without offset and without modified roll that let the head's circle run through the mean point.
+//! q the head stands V = S_r sin q + E_m across and H = S_r cos q along the line to the mean point, which is
+//! R_m cos(theta_f) away, theta_f the dedendum angle. A circle through that point has the radius and there the spiral
+//! angle psi of the vector between them.
+//!
+//! The mean point is generated in the middle of the roll where tool and work move along the tooth against each other
+//! there. Seen along the cradle's axis the crown gear's point moves by (E_m, R_m cos theta_f) per radian, the work's by
+//! (0, R_a R_m sin gamma); their difference runs along the tooth where
+//!
+//!     R_a = (cos theta_f - E_m tan(psi) / R_m) / sin(gamma)
+//!
+//! Without offset that is the ratio of a crown gear in the plane of the root cone. All of this holds for settings
+//! without modified roll that let the head's circle run through the mean point.
 
 use super::blank::BevelBlank;
 use super::cradle::CradleSettings;
@@ -20,7 +28,7 @@ pub struct InferredCutter {
     pub radius_mm: f64,
     /// Mean spiral angle, rad, positive.
     pub spiral_angle_rad: f64,
-    /// Ratio of roll of a crown gear in the plane of the root cone.
+    /// Ratio of roll that generates the mean point in the middle of the roll.
     pub roll_ratio: f64,
 }
 
@@ -28,12 +36,16 @@ impl InferredCutter {
     /// Of settings and a blank.
     pub fn new(settings: &CradleSettings, blank: &BevelBlank) -> Self {
         let dedendum_cos = blank.dedendum_angle_rad().cos();
+        // Both hands as one: mirrored at the plane of the axes.
+        let offset_mm = settings.blank_offset_mm * settings.cradle_angle_rad.signum();
         let head = settings.radial_setting_mm * DVec2::from_angle(settings.cradle_angle_rad.abs());
-        let to_head = head - DVec2::new(blank.mean_cone_distance_mm() * dedendum_cos, 0.0);
+        let to_head = head + DVec2::new(-blank.mean_cone_distance_mm() * dedendum_cos, offset_mm);
+        let tan_spiral = -to_head.x / to_head.y;
         Self {
             radius_mm: to_head.length(),
             spiral_angle_rad: (-to_head.x).atan2(to_head.y),
-            roll_ratio: dedendum_cos / blank.pitch_angle_rad.sin(),
+            roll_ratio: (dedendum_cos - offset_mm * tan_spiral / blank.mean_cone_distance_mm())
+                / blank.pitch_angle_rad.sin(),
         }
     }
 }

@@ -20,6 +20,7 @@
 //! the gear's flank in the moment when its normal is square to its velocity in the work, n . v = 0.
 
 pub mod blank;
+pub mod clearance;
 pub mod contact;
 pub mod cradle;
 pub mod ease_off;

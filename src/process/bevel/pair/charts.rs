@@ -1,8 +1,8 @@
 //! Charts of a bevel pair: motion error, and the bearing on the gear's flank.
 //!
 //! In: a rolled pair. Out: charts with the names of their files. The bearing is drawn on the gear's flank rolled flat:
-//! along the tooth and up over the pitch cone, heel to the right, with the path of contact and an ellipse at every
-//! other place.
+//! along the tooth and up over the pitch cone, heel to the right, with the path of contact and, at some of its places,
+//! as much of the ellipse as the flank holds.
 
 use super::findings::{ARCSEC_PER_RAD, words};
 use super::{RolledBevels, RolledSide};
@@ -15,7 +15,9 @@ const LEAST_ARCSEC: f64 = 0.02;
 /// Rows of the flank's outline.
 const OUTLINE_ROWS: usize = 24;
 /// Corners of a drawn ellipse.
-const CORNERS: usize = 48;
+const CORNERS: usize = 240;
+/// Half axes beyond this many faces are drawn as long as this: flanks that touch along a line.
+const MOST_FACES: f64 = 4.0;
 /// Places of the path from one drawn ellipse to the next.
 const STEP: usize = 4;
 
@@ -54,10 +56,11 @@ fn bearing(side: &RolledSide) -> LineChart {
     let contacts: Vec<&Contact> =
         side.running.teeth.iter().filter_map(|(_, met)| met.as_ref().map(|(contact, _)| contact)).collect();
     let path = contacts.iter().map(|contact| (contact.place_mm[0], contact.place_mm[1]));
-    let face_mm = side.pair.gear.blank.face_width_mm;
+    let most_mm = MOST_FACES * side.pair.gear.blank.face_width_mm;
+    let rows = rows(side);
     let mut ellipses = Vec::new();
     for contact in contacts.iter().step_by(STEP) {
-        ellipses.extend(ellipse(contact, face_mm));
+        ellipses.extend(ellipse(contact, most_mm, &rows));
         ellipses.push((f64::NAN, f64::NAN));
     }
     let series = |name: &str, points: Vec<(f64, f64)>| LineSeries { name: name.to_owned(), points };
@@ -69,7 +72,7 @@ fn bearing(side: &RolledSide) -> LineChart {
             value_name: "height over the pitch cone".to_owned(),
             unit: "mm".to_owned(),
             series: vec![
-                series("flank", outline(side)),
+                series("flank", outline(&rows)),
                 series("contact ellipses", ellipses),
                 series("path of contact", path.collect()),
             ],
@@ -79,8 +82,8 @@ fn bearing(side: &RolledSide) -> LineChart {
     }
 }
 
-/// The flank's edge: form line, heel, tip, toe.
-fn outline(side: &RolledSide) -> Vec<(f64, f64)> {
+/// Rows of the gear's flank: place along the tooth, heights at which it begins and ends, mm.
+fn rows(side: &RolledSide) -> Vec<(f64, [f64; 2])> {
     let gear = &side.pair.gear;
     let half_mm = 0.5 * gear.blank.face_width_mm;
     let along_mm = |i: usize| half_mm * (2.0 * i as f64 / (OUTLINE_ROWS - 1) as f64 - 1.0);
@@ -88,21 +91,36 @@ fn outline(side: &RolledSide) -> Vec<(f64, f64)> {
         let row = gear.row(along_mm(i)).ok()?;
         Some((along_mm(i), [row.form_height_mm, row.tip_height_mm]))
     };
-    let rows: Vec<(f64, [f64; 2])> = (0..OUTLINE_ROWS).filter_map(ends).collect();
+    (0..OUTLINE_ROWS).filter_map(ends).collect()
+}
+
+/// The flank's edge: form line, heel, tip, toe.
+fn outline(rows: &[(f64, [f64; 2])]) -> Vec<(f64, f64)> {
     let form = rows.iter().map(|(along_mm, ends_mm)| (*along_mm, ends_mm[0]));
     let tip = rows.iter().rev().map(|(along_mm, ends_mm)| (*along_mm, ends_mm[1]));
     form.chain(tip).chain(rows.first().map(|(along_mm, ends_mm)| (*along_mm, ends_mm[0]))).collect()
 }
 
-/// The ellipse of a contact, no longer than the face.
-fn ellipse(contact: &Contact, face_mm: f64) -> Vec<(f64, f64)> {
+/// Whether the flank has a place.
+fn holds(rows: &[(f64, [f64; 2])], (along_mm, height_mm): (f64, f64)) -> bool {
+    rows.windows(2).any(|pair| {
+        let [(from_mm, from_ends), (to_mm, to_ends)] = [pair[0], pair[1]];
+        let share = (along_mm - from_mm) / (to_mm - from_mm);
+        let [low_mm, high_mm] = [0, 1].map(|k| from_ends[k] + share * (to_ends[k] - from_ends[k]));
+        (0.0..=1.0).contains(&share) && (low_mm..=high_mm).contains(&height_mm)
+    })
+}
+
+/// The ellipse of a contact where the flank holds it; gaps elsewhere.
+fn ellipse(contact: &Contact, most_mm: f64, rows: &[(f64, [f64; 2])]) -> Vec<(f64, f64)> {
     let Some(ellipse) = contact.ellipse else { return Vec::new() };
-    let [long_mm, short_mm] = ellipse.half_axes_mm.map(|half_mm| half_mm.min(0.5 * face_mm));
+    let [long_mm, short_mm] = ellipse.half_axes_mm.map(|half_mm| half_mm.min(most_mm));
     let [long, short] = ellipse.directions;
     let corner = |i: usize| {
         let (sin, cos) = (TAU * i as f64 / CORNERS as f64).sin_cos();
         let at = |k: usize| contact.place_mm[k] + long_mm * cos * long[k] + short_mm * sin * short[k];
-        (at(0), at(1))
+        let place = (at(0), at(1));
+        if holds(rows, place) { place } else { (f64::NAN, f64::NAN) }
     };
     (0..=CORNERS).map(corner).collect()
 }

@@ -46,8 +46,13 @@ fn headline(side: &RolledSide) -> Vec<Entry> {
         ),
         Entry::headline(
             &format!("ellipse_length_{name}"),
-            &format!("contact length, {name}"),
-            half_axis(side.running.middle(), 0, 2.0, "length of the contact ellipse in the middle of a pitch"),
+            &format!("ellipse, {name}"),
+            half_axis(
+                side.running.middle(),
+                0,
+                2.0,
+                "length of the contact ellipse in the middle of a pitch, beyond the edges of the flank as well",
+            ),
         ),
     ]
 }

@@ -24,8 +24,11 @@ const FINE: usize = 2 * SIDE - 1;
 /// Rays steeper than this against an edge's normal (cosine) prove nothing. A larger value is safe: candidates that such
 /// a ray meets are undecided, and kept unless their box stays clear of the rays.
 const GRAZING_COSINE: f64 = 0.1;
-/// A candidate goes where all nine rays run out of its segment at more than this cosine. Between the rays the cosine
-/// changes by less, on regions of the sizes in use; no proof. Too small, a sweep is dropped that some ray between the
+/// A candidate goes where all nine rays run out of its segment at more than this cosine from their lowest height on. A
+/// straight edge is then run out of everywhere, and so is a round, whose middle lies below all nine. Where rays miss a
+/// round, the search ends nowhere, and nothing is known: rays farther apart than a round is wide may all miss one that
+/// the rays between them enter. Between the rays the cosine changes by less, on regions of the sizes in use; no proof.
+/// Too small, a sweep is dropped that some ray between the
 /// nine enters, and the surface stays too high there. Brute force samples nothing: the comparison with it in
 /// `tests/suite/hobbing/spatial.rs` sees such a loss on the fields it looks at, and no other.
 const LEAVING_COSINE: f64 = 0.05;
@@ -98,7 +101,7 @@ pub struct Sampled {
     pub index: u32,
     /// Rays that enter its segment or the continuation of it, as bits.
     pub entered: u32,
-    /// Rays that run out of it wherever they meet it, as bits.
+    /// Rays that run out of it at their lowest height and wherever they meet it, as bits.
     pub left: u32,
     /// Heights of the entries, mm.
     pub height_mm: [f64; RAYS],
@@ -182,7 +185,8 @@ impl pulp::NullaryFnOnce for SampledRays<'_> {
                     let (height_mm, cosine) = (roots.height_mm[l], roots.cosine[l]);
                     let sure = entered(&roots, l) && cosine >= GRAZING_COSINE;
                     fine.entered |= u32::from(sure) << place.fine;
-                    fine.left |= u32::from(!roots.falls[l] && cosine < -LEAVING_COSINE) << place.fine;
+                    let leaves = !roots.falls[l] && roots.step_mm[l].abs() < LAST_STEP && cosine < -LEAVING_COSINE;
+                    fine.left |= u32::from(leaves) << place.fine;
                     fine.height_mm[place.fine] = height_mm;
                     fine.y_mm[place.fine] = roots.y_mm[l];
                 }

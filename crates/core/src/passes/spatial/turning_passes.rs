@@ -87,7 +87,9 @@ pub struct TurningPasses {
     /// ([`SpatialTool::half_window_rad`]).
     pub half_window_rad: f64,
     first_turn: i64,
-    turns: u32,
+    /// Passes of the first turn that come before the first one that counts.
+    skipped: u32,
+    count: u32,
 }
 
 impl BladePlace {
@@ -130,7 +132,8 @@ impl BladePlace {
 }
 
 impl TurningPasses {
-    /// Passes whose blades point to the work at tool angles within the motion's range, half a window inside its ends.
+    /// Passes whose blades point to the work at tool angles within the motion's range, half a window inside its ends;
+    /// of whole turns alone.
     ///
     /// # Errors
     /// A rake face that does not hold the tool's axis, or a window of more than a turn.
@@ -152,6 +155,7 @@ impl TurningPasses {
         let [from, to] = motion.range_rad();
         let first_turn = ((from + half_window_rad) / TAU).ceil() as i64;
         let turns = (((to - half_window_rad) / TAU).floor() as i64 - first_turn).max(0) as u32;
+        let blades = places.len() as u32;
         Ok(Self {
             first_pass,
             places,
@@ -161,13 +165,31 @@ impl TurningPasses {
             rake_twist_rad_per_mm: tool.rake_twist_rad_per_mm(),
             half_window_rad,
             first_turn,
-            turns,
+            skipped: 0,
+            count: turns * blades,
         })
+    }
+
+    /// The same with the passes of turns of which the motion has a part only: of a tool that is in the work from the
+    /// first moment to the last.
+    #[must_use]
+    pub fn with_parts_of_turns(mut self) -> Self {
+        let ends_rad = self.motion.range_rad();
+        let [from, to] = [ends_rad[0] + self.half_window_rad, ends_rad[1] - self.half_window_rad];
+        // A turn's blades by their angle: how many of them come before an angle of the tool.
+        let turn_of = |angle: f64| (angle / TAU).floor();
+        let before =
+            |angle: f64| self.places.partition_point(|place| TAU * turn_of(angle) + place.lag_rad < angle) as u32;
+        let (first_turn, skipped) = (turn_of(from), before(from));
+        let whole = ((turn_of(to) - first_turn).max(0.0)) as u32 * self.places.len() as u32;
+        (self.count, self.skipped, self.first_turn) =
+            ((whole + before(to)).saturating_sub(skipped), skipped, first_turn as i64);
+        self
     }
 
     /// Number of passes.
     pub fn count(&self) -> u32 {
-        self.turns * self.places.len() as u32
+        self.count
     }
 
     /// Id after the last pass.
@@ -177,7 +199,8 @@ impl TurningPasses {
 
     /// Pass by its place in the order of time, 0 to [`Self::count`] - 1.
     pub fn pass(&self, index: u32) -> BladePass {
-        let (turn, rank) = (index / self.places.len() as u32, index % self.places.len() as u32);
+        let (blades, place) = (self.places.len() as u32, self.skipped + index);
+        let (turn, rank) = (place / blades, place % blades);
         let tool_angle_rad = TAU * (self.first_turn + i64::from(turn)) as f64 + self.places[rank as usize].lag_rad;
         BladePass { pass: self.first_pass + index, rank, tool_angle_rad }
     }
@@ -199,7 +222,7 @@ impl TurningPasses {
 
     /// Turn of the tool (counted from tool angle 0) and number of the blade behind a pass id of this set.
     pub fn blade_of(&self, pass_id: u32) -> (i64, u32) {
-        let index = pass_id - self.first_pass;
+        let index = self.skipped + pass_id - self.first_pass;
         let blades = self.places.len() as u32;
         (self.first_turn + i64::from(index / blades), self.places[(index % blades) as usize].blade)
     }
@@ -303,6 +326,37 @@ mod tests {
         }
         // Blades that look away from the axis keep their edge bit for bit.
         assert_eq!(set.edges.edge_of(0), &edge());
+    }
+
+    /// With parts of turns all blades pass that point to the work between both moments, and no others; ids keep their
+    /// order, and lead back to turn and blade.
+    #[test]
+    fn parts_of_turns_have_every_pass_between_the_ends() {
+        let angles = [0.3, 1.9, 3.1, 5.5];
+        let frames: Vec<Rigid3> = angles.iter().map(|&a| frame(a, [0.0, 1.0], [1.0, 0.0], [95.0, 0.0])).collect();
+        for (range, first_pass) in [([-0.7, 18.2], 0), ([1.4, 2.3], 7), ([4.0, 9.5], 100), ([2.0, 4.1], 3)] {
+            let motion =
+                MotionTable::new(range, &[], |_| Rigid3 { rotation: DMat3::IDENTITY, translation_mm: DVec3::ZERO });
+            let tool = Placed(frames.clone(), BladeEdges::shared(edge()), 0.4);
+            let whole = TurningPasses::new(first_pass, &tool, 1.0, motion).expect("a head");
+            let set = whole.clone().with_parts_of_turns();
+            // A blade at the angle a points along x when the tool has turned by -a, and any number of turns.
+            let mut wanted: Vec<(f64, u32)> = (-3..6)
+                .flat_map(|turn| (0..4_u32).map(move |blade| (TAU * f64::from(turn) - angles[blade as usize], blade)))
+                .filter(|&(angle, _)| angle >= range[0] + 0.4 && angle < range[1] - 0.4)
+                .collect();
+            wanted.sort_by(|a, b| a.0.total_cmp(&b.0));
+            assert_eq!(set.count() as usize, wanted.len(), "{range:?}");
+            assert!(set.count() >= whole.count());
+            for (index, (angle, blade)) in wanted.into_iter().enumerate() {
+                let pass = set.pass(index as u32);
+                assert!((pass.tool_angle_rad - angle).abs() < 1e-12, "{range:?}, pass {index}");
+                assert_eq!(pass.pass, first_pass + index as u32);
+                assert_eq!(set.place(&pass).blade, blade);
+                let (turn, of) = set.blade_of(pass.pass);
+                assert_eq!((turn, of), ((angle / TAU).floor() as i64, blade));
+            }
+        }
     }
 
     #[test]

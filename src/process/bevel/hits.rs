@@ -1,0 +1,107 @@
+//! Where blades take more than their slot: into the next tooth, or below the target of their own flanks.
+//!
+//! In: a job. Out: how deep and where, and warnings with numbers, before anything is cut. A few rays of each flank are
+//! cut by the passes of one slot alone.
+
+use super::job::BevelJob;
+use gearcut_core::cut::Backend as _;
+use gearcut_core::cut::cpu::Cpu;
+use gearcut_core::dexel::NO_PASS;
+use gearcut_core::error::Result;
+use gearcut_core::passes::SweepPlan;
+use gearcut_core::terms::Side;
+
+/// Rays along the profile and along the tooth.
+const PLACES: [usize; 2] = [12, 16];
+/// Blades that go deeper than this are worth a word, mm.
+const HIT_MM: f64 = 0.005;
+
+/// The deepest cut below the target of a flank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DeepestCut {
+    /// How deep, along the target's normal, mm; 0 where nothing goes below it.
+    pub depth_mm: f64,
+    /// Which flanks.
+    pub side: Side,
+    /// Arc from the form point in the middle of the face, and place along the tooth, mm.
+    pub at_mm: [f64; 2],
+}
+
+impl BevelJob {
+    /// How deep blades go below the flanks of a tooth while slots are cut that stand so many spaces beside its own.
+    ///
+    /// # Errors
+    /// A place that the roll does not generate.
+    pub fn deepest_cut(&self, side: Side, spaces: &[u32]) -> Result<DeepestCut> {
+        let (teeth, own) = (self.blank.teeth, self.space_of(1, side));
+        let even = |count: usize, i: usize| i as f64 / (count - 1) as f64;
+        let length_mm = self.target_of(side).length_mm();
+        let arcs_mm: Vec<f64> = (0..PLACES[0]).map(|i| length_mm * even(PLACES[0], i)).collect();
+        let rows_mm: Vec<f64> = (0..PLACES[1]).map(|i| self.blank.face_width_mm * (even(PLACES[1], i) - 0.5)).collect();
+        let rays = self.rays_over(1, side, arcs_mm, rows_mm)?;
+        let mut layer = rays.field.blank_layer();
+        for &beside in spaces {
+            for operation in 0..self.operations.len() {
+                let set = self.slots.of(operation, (own + beside) % teeth);
+                Cpu::default().cut_spatial(&rays.field, &SweepPlan::brute_force(&rays.field, set), &mut layer)?;
+            }
+        }
+        let mut deepest = DeepestCut { depth_mm: 0.0, side, at_mm: [0.0; 2] };
+        for (i, (&height_mm, &pass)) in layer.heights_mm.iter().zip(&layer.passes).enumerate() {
+            let depth_mm = -f64::from(height_mm);
+            if pass != NO_PASS && depth_mm > deepest.depth_mm {
+                let at_mm = [rays.arcs_mm[i / PLACES[1]], rays.rows_mm[i % PLACES[1]]];
+                deepest = DeepestCut { depth_mm, side, at_mm };
+            }
+        }
+        Ok(deepest)
+    }
+
+    /// The same over the flanks of both sides.
+    fn deepest_of_sides(&self, spaces: &[u32]) -> Result<DeepestCut> {
+        let [left, right] = [Side::Left, Side::Right].map(|side| self.deepest_cut(side, spaces));
+        let (left, right) = (left?, right?);
+        Ok(if right.depth_mm > left.depth_mm { right } else { left })
+    }
+
+    /// A head that hits the next tooth, in words with numbers.
+    ///
+    /// # Errors
+    /// A place that the roll does not generate.
+    pub fn next_tooth_warning(&self) -> Result<Option<String>> {
+        let DeepestCut { depth_mm, side, at_mm } = self.deepest_of_sides(&[1, self.blank.teeth - 1])?;
+        Ok((depth_mm > HIT_MM).then(|| {
+            format!(
+                "the head hits the next tooth: while one slot is cut, its blades go {depth_mm:.3} mm into the {} flank \
+                 beyond, {:.1} mm from the middle of the face along the tooth; roll less far, or use a smaller point \
+                 width or a larger cutter",
+                side.name(),
+                at_mm[1]
+            )
+        }))
+    }
+
+    /// A flank that its own blades cut away again, as on pinions with few teeth, in words with numbers. Blades that
+    /// stand out and a machine with errors are meant to leave the target, and are no undercut.
+    ///
+    /// # Errors
+    /// A place that the roll does not generate.
+    pub fn undercut_warning(&self) -> Result<Option<String>> {
+        if self.spec.settings.errors.iter().any(|(_, error)| *error != 0.0) {
+            return Ok(None);
+        }
+        let stands_out_mm = self.head.runouts_mm.iter().fold(0.0_f64, |most, runout| most.max(runout.abs()));
+        let DeepestCut { depth_mm, side, at_mm } = self.deepest_of_sides(&[0])?;
+        Ok((depth_mm > HIT_MM + stands_out_mm).then(|| {
+            let [arc_mm, along_mm] = at_mm;
+            format!(
+                "undercut: blades of the same slot go {depth_mm:.3} mm below the {} flank, {arc_mm:.2} mm from its form \
+                 point and {:.1} mm from the middle of the face towards the {}; use a smaller dedendum, larger blade \
+                 angles or more teeth",
+                side.name(),
+                along_mm.abs(),
+                if along_mm < 0.0 { "toe" } else { "heel" }
+            )
+        }))
+    }
+}
