@@ -49,7 +49,7 @@ pub fn section(job: &ShapingJob) -> PageSection {
                 ("Double strokes", format!("{} per minute", plain(machine.double_strokes_per_minute))),
                 ("Approach, overrun", format!("{}, {}", mm(machine.approach_mm), mm(machine.overrun_mm))),
                 ("Back-off on the return stroke", back_off),
-                ("Work eccentricity", format!("{} µm", plain(UM_PER_MM * machine.work_eccentricity_mm))),
+                ("Work eccentricity", format!("{} µm", plain(UM_PER_MM * machine.errors.mounting.eccentricity_mm))),
                 (
                     "Speed limits",
                     speed_limits(["work", "cutter", "centre distance"], &AXES, &dynamics::limits(&machine.limits)),
