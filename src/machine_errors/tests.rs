@@ -40,7 +40,8 @@ fn response(servo: Servo, per_s: f64) -> (f64, f64) {
 
 #[test]
 fn a_drive_follows_a_sinusoid_with_the_gain_and_phase_of_its_loop() {
-    // First order; second order below, at and above critical damping, K T = 1/4; with feed-forward.
+    // First order; second order below, at and above critical damping, K T = 1/4; with feed-forward. Between nodes 0.75 ms
+    // apart the speed's cubics are 1e-9 of it off.
     for (velocity_gain_per_s, speed_loop_s, feed_forward) in [
         (20.0, 0.0, 0.0),
         (20.0, 0.05, 0.0),
@@ -51,8 +52,8 @@ fn a_drive_follows_a_sinusoid_with_the_gain_and_phase_of_its_loop() {
     ] {
         let servo = Servo { velocity_gain_per_s, feed_forward, speed_loop_s };
         for per_s in [0.5, 8.0] {
-            let made =
-                actual(AxisErrors { servo: Some(servo), ..AxisErrors::default() }, course(3.0, &[]), sine(2.0, per_s));
+            let course = Course { cells: 4000, ..course(3.0, &[]) };
+            let made = actual(AxisErrors { servo: Some(servo), ..AxisErrors::default() }, course, sine(2.0, per_s));
             let (gain, phase) = response(servo, per_s);
             for i in 0..=60 {
                 let time_s = 0.05 * f64::from(i);

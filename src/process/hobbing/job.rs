@@ -4,6 +4,7 @@
 //! In: the checked scene. Out: [`HobbingJob`]. The last operation is the finishing one: the rack in its place is the
 //! target's.
 
+use crate::machine_errors::MachineErrors;
 use crate::material::CuttingForce;
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::actual::ActualHobbing;
@@ -51,6 +52,8 @@ pub struct HobbingJob {
     pub hob_spec: model::HobSpec,
     /// Limits of the axes.
     pub limits: HobbingAxisLimits,
+    /// What is wrong with the machine and the work on it.
+    pub errors: MachineErrors<6>,
     /// Whether axis programs are written.
     pub programs: bool,
     /// Cutting force of the work's material, where the scene names it.
@@ -113,6 +116,7 @@ impl HobbingJob {
             scene: scene.clone(),
             hob_spec: tool.clone(),
             limits: *limits,
+            errors: errors.clone(),
             programs: *programs,
             material: *material,
             curve,
