@@ -1,8 +1,8 @@
 //! Errors of machine and clamping: from the motion that the control commands to the one that the machine makes.
 //!
 //! In: the commanded motion of the axes ([`crate::machine::Motion`]), what is wrong with each of them ([`AxisErrors`]),
-//! how the work sits on its spindle ([`Mounting`]), how the tool sits on its own ([`ToolMounting`]), and how the guide
-//! along the work runs ([`Guide`]). Out: actual positions ([`ActualMotion`]) and the rigid motions that belong to the
+//! how the work sits on its spindle ([`WorkMounting`]), how the tool sits on its own ([`ToolMounting`]), and how the
+//! guide along the work runs ([`Guide`]). Out: actual positions ([`ActualMotion`]) and the rigid motions that belong to the
 //! poses. Every process asks the same way, between its linkage and its passes: tables and programs show what is
 //! commanded, the cut follows what is made, and the target stays that of the commanded motion.
 //!
@@ -32,9 +32,9 @@ mod servo;
 #[cfg(test)]
 mod tests;
 
-pub use axis::{AxisErrors, Drift, Gearbox, PeriodicError};
-pub use motion::{ActualMotion, Course, Moment};
-pub use mounting::{Guide, Mounting, ToolMounting};
+pub use axis::{AxisErrors, GearboxCycle, PeriodicError, ThermalDrift};
+pub use motion::{ActualMotion, Course, MachineMoment};
+pub use mounting::{Guide, ToolMounting, WorkMounting};
 pub use servo::Servo;
 
 /// What is wrong with a machine of N axes and the work in it.
@@ -45,7 +45,7 @@ pub struct MachineErrors<const N: usize> {
     /// The guide along the gear's axis, where the machine has one.
     pub guide: Guide,
     /// The work on its spindle.
-    pub mounting: Mounting,
+    pub mounting: WorkMounting,
 }
 
 impl<const N: usize> Default for MachineErrors<N> {
@@ -53,7 +53,7 @@ impl<const N: usize> Default for MachineErrors<N> {
         Self {
             axes: std::array::from_fn(|_| AxisErrors::default()),
             guide: Guide::default(),
-            mounting: Mounting::default(),
+            mounting: WorkMounting::default(),
         }
     }
 }

@@ -14,9 +14,9 @@ pub struct AxisErrors {
     /// How the drive follows its command; `None`: without lag.
     pub servo: Option<Servo>,
     /// How the electronic gearbox gives commands; `None`: continuously and exactly.
-    pub gearbox: Option<Gearbox>,
+    pub gearbox: Option<GearboxCycle>,
     /// How the axis drifts as the machine warms up; `None`: not at all.
-    pub drift: Option<Drift>,
+    pub drift: Option<ThermalDrift>,
 }
 
 /// An error A sin(k y + phi) of an axis at y.
@@ -32,16 +32,16 @@ pub struct PeriodicError {
 
 /// Commands once in a cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gearbox {
+pub struct GearboxCycle {
     /// Time of a cycle, s, above 0.
     pub cycle_s: f64,
     /// Step to which commands are rounded, rad or mm; 0: none.
     pub increment: f64,
 }
 
-/// Drift `rate` t, or `rate` tau (1 - exp(-t / tau)) where it settles.
+/// A drift `rate` t, or `rate` tau (1 - exp(-t / tau)) where it settles.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drift {
+pub struct ThermalDrift {
     /// Speed at the beginning, rad/s or mm/s.
     pub per_s: f64,
     /// Time constant tau, s; `None`: it goes on evenly.
@@ -63,7 +63,7 @@ impl AxisErrors {
     }
 }
 
-impl Drift {
+impl ThermalDrift {
     fn after(&self, time_s: f64) -> f64 {
         match self.time_constant_s {
             None => self.per_s * time_s,
@@ -72,7 +72,7 @@ impl Drift {
     }
 }
 
-impl Gearbox {
+impl GearboxCycle {
     /// The command in force at a time, from the exact one: reached a cycle late, straight from one to the next.
     pub(super) fn command(&self, time_s: f64, exact: impl Fn(f64) -> f64) -> f64 {
         let cycle = (time_s / self.cycle_s).floor();

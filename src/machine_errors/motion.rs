@@ -32,7 +32,7 @@ pub struct Course {
 
 /// When actual positions are asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Moment<const N: usize> {
+pub struct MachineMoment<const N: usize> {
     /// Time of the commanded motion, s.
     pub time_s: f64,
     /// Time from the beginning of the first operation, s: what drifts follow.
@@ -100,7 +100,7 @@ impl<const N: usize> ActualMotion<N> {
     }
 
     /// Where the axes are at a moment; `commanded` gives where they should be at any time, indexing left out.
-    pub fn positions(&self, moment: &Moment<N>, commanded: impl Fn(f64) -> [f64; N]) -> [f64; N] {
+    pub fn positions(&self, moment: &MachineMoment<N>, commanded: impl Fn(f64) -> [f64; N]) -> [f64; N] {
         let time_s = moment.time_s;
         let now = commanded(time_s);
         let cell = self.starts_s.partition_point(|&start_s| start_s <= time_s).max(1) - 1;

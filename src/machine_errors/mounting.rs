@@ -8,7 +8,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 /// How the work sits on its spindle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Mounting {
+pub struct WorkMounting {
     /// Distance of the gear's axis from the spindle's in the middle of the face.
     pub eccentricity_mm: f64,
     /// Direction of the gear's axis from the spindle's, counter-clockwise from phi = 0 of the gear.
@@ -47,7 +47,7 @@ pub struct Guide {
     pub tangential_bow_mm: f64,
 }
 
-impl Mounting {
+impl WorkMounting {
     /// Whether nothing is wrong.
     pub fn is_none(&self) -> bool {
         *self == Self::default()

@@ -8,8 +8,8 @@ fn course(to_s: f64, corners_s: &[f64]) -> Course {
     Course { from_s: 0.0, to_s, corners_s: corners_s.to_vec(), cells: 400 }
 }
 
-fn at(time_s: f64) -> Moment<1> {
-    Moment { time_s, since_start_s: time_s, indexed: [0.0] }
+fn at(time_s: f64) -> MachineMoment<1> {
+    MachineMoment { time_s, since_start_s: time_s, indexed: [0.0] }
 }
 
 /// The axis behind a command of its own.
@@ -131,12 +131,12 @@ fn an_axis_with_backlash_stands_still_while_its_drive_turns_back() {
 
 #[test]
 fn a_gearbox_gives_rounded_commands_a_cycle_late() {
-    let gearbox = Gearbox { cycle_s: 0.004, increment: 0.0 };
+    let gearbox = GearboxCycle { cycle_s: 0.004, increment: 0.0 };
     let made = actual(AxisErrors { gearbox: Some(gearbox), ..AxisErrors::default() }, course(1.0, &[]), ramp(5.0));
     for time_s in [0.0, 0.1, 0.3331] {
         assert!((made(time_s) - 5.0 * (time_s - 0.004)).abs() < 1e-12);
     }
-    let rounding = Gearbox { increment: 0.01, ..gearbox };
+    let rounding = GearboxCycle { increment: 0.01, ..gearbox };
     let made = actual(AxisErrors { gearbox: Some(rounding), ..AxisErrors::default() }, course(1.0, &[]), ramp(5.0));
     // At the beginning of a cycle: 5 x 0.1 rounds to itself, 5 x 0.104 = 0.52 too, 5 x 0.101 is between.
     assert!((made(0.104) - 0.5).abs() < 1e-12 && (made(0.1053) - (0.5 + 0.02 * 0.325)).abs() < 1e-12);
@@ -152,7 +152,7 @@ fn a_gearbox_gives_rounded_commands_a_cycle_late() {
 #[test]
 fn scale_waves_and_drift_add_up() {
     let periodic = vec![PeriodicError { rate: 3.0, amplitude: 1e-3, phase_rad: 0.4 }];
-    let drift = |time_constant_s| Some(Drift { per_s: 1e-4, time_constant_s });
+    let drift = |time_constant_s| Some(ThermalDrift { per_s: 1e-4, time_constant_s });
     let even = AxisErrors { scale: 2e-5, periodic, drift: drift(None), ..AxisErrors::default() };
     let made = actual(even.clone(), course(1.0, &[]), ramp(2.0));
     let expected = |time_s: f64| {
@@ -172,7 +172,7 @@ fn waves_follow_the_indexed_axis() {
         ..AxisErrors::default()
     };
     let motion = ActualMotion::new(&[errors], &course(1.0, &[]), |t| [ramp(1.0)(t)]).expect("errors");
-    let moment = Moment { time_s: 0.3, since_start_s: 9.0, indexed: [2.0] };
+    let moment = MachineMoment { time_s: 0.3, since_start_s: 9.0, indexed: [2.0] };
     let made = motion.positions(&moment, |t| [t])[0];
     assert!((made - 2.3 - 1e-3 * 2.3_f64.sin()).abs() < 1e-15);
 }
@@ -184,7 +184,7 @@ fn no_errors_are_no_motion_of_their_own() {
 
 #[test]
 fn a_leaning_gear_crosses_its_spindle_where_it_should() {
-    let mounting = Mounting {
+    let mounting = WorkMounting {
         eccentricity_mm: 0.01,
         eccentricity_angle_rad: 0.3,
         wobble_rad: 2e-4,

@@ -5,7 +5,7 @@ use super::problems::Found;
 use super::values::{Values, View};
 use crate::machine::AxisKind;
 use crate::machine_errors::{
-    AxisErrors, Drift, Gearbox, Guide, MachineErrors, Mounting, PeriodicError, Servo, ToolMounting,
+    AxisErrors, GearboxCycle, Guide, MachineErrors, PeriodicError, Servo, ThermalDrift, ToolMounting, WorkMounting,
 };
 use gearcut_core::units::UM_PER_MM;
 use std::f64::consts::TAU;
@@ -74,8 +74,8 @@ fn axis_errors(values: &Values, stem: &str, kind: AxisKind) -> Option<AxisErrors
         }),
         gearbox: view
             .number("gearbox_cycle_ms")
-            .map(|cycle_ms| Gearbox { cycle_s: cycle_ms / MS_PER_S, increment: small("gearbox_increment") }),
-        drift: view.number("drift_um_per_h").map(|um_per_h| Drift {
+            .map(|cycle_ms| GearboxCycle { cycle_s: cycle_ms / MS_PER_S, increment: small("gearbox_increment") }),
+        drift: view.number("drift_um_per_h").map(|um_per_h| ThermalDrift {
             per_s: um_per_h / UM_PER_MM / S_PER_H,
             time_constant_s: view.number("drift_time_constant_min").map(|minutes| minutes * S_PER_MIN),
         }),
@@ -83,10 +83,10 @@ fn axis_errors(values: &Values, stem: &str, kind: AxisKind) -> Option<AxisErrors
 }
 
 /// How the work sits on its spindle.
-fn mounting(values: &Values) -> Mounting {
+fn mounting(values: &Values) -> WorkMounting {
     let view = values.view("mounting");
     let um = |name: &str| view.mm_from_um(name).unwrap_or(0.0);
-    Mounting {
+    WorkMounting {
         eccentricity_mm: um("eccentricity_um"),
         eccentricity_angle_rad: view.rad("eccentricity_angle_deg").unwrap_or(0.0),
         wobble_rad: lean(view, "wobble_um_per_100mm"),

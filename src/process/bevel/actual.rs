@@ -8,7 +8,7 @@
 
 use super::rolled_axes::rolled_axes;
 use crate::machine::AxisMotion;
-use crate::machine_errors::{ActualMotion, Course, MachineErrors, Moment, Mounting, ToolMounting};
+use crate::machine_errors::{ActualMotion, Course, MachineErrors, MachineMoment, ToolMounting, WorkMounting};
 use gearcut_core::bevel::cradle::CradleSettings;
 use gearcut_core::bevel::five_axis::{FiveAxisMachine, SixAxes};
 use gearcut_core::frame::Rigid3;
@@ -40,7 +40,7 @@ pub struct ActualRoll {
     machine: FiveAxisMachine,
     roll: CommandedRoll,
     motion: Option<ActualMotion<5>>,
-    mounting: Mounting,
+    mounting: WorkMounting,
     head: ToolMounting,
     /// Middle of the face along the gear's axis, mm.
     middle_z_mm: f64,
@@ -90,7 +90,7 @@ impl ActualRoll {
                     let cradle_rad = roll.from_rad + time_s * roll.rad_per_s;
                     rolled_axes(&self.machine, &roll.settings, cradle_rad).map(|axis| axis.value())
                 };
-                let moment = Moment {
+                let moment = MachineMoment {
                     time_s,
                     since_start_s: roll.start_s + f64::from(at.slot) * roll.cycle_s + time_s,
                     indexed: [0.0, 0.0, 0.0, at.indexed_rad, 0.0],

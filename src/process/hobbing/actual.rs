@@ -9,7 +9,7 @@
 use super::linkage::HobbingLinkage;
 use super::linkage::dynamics::in_order;
 use crate::machine::Motion;
-use crate::machine_errors::{ActualMotion, Course, Guide, MachineErrors, Moment, Mounting, ToolMounting};
+use crate::machine_errors::{ActualMotion, Course, Guide, MachineErrors, MachineMoment, ToolMounting, WorkMounting};
 use gearcut_core::error::Refusal;
 use gearcut_core::frame::Rigid3;
 use gearcut_core::units::TURN_RAD;
@@ -26,7 +26,7 @@ const BEYOND_TURNS: f64 = 1.0;
 pub struct ActualHobbing {
     motion: Option<ActualMotion<6>>,
     guide: Guide,
-    mounting: Mounting,
+    mounting: WorkMounting,
     hob: ToolMounting,
     half_face_mm: f64,
     start_s: f64,
@@ -71,7 +71,7 @@ impl ActualHobbing {
         }
         let time_s = linkage.time_at_hob_angle(hob_rad);
         let commanded = |time_s: f64| in_order(&linkage.axes::<1>(time_s)).map(|axis| axis.value());
-        let moment = Moment { time_s, since_start_s: self.start_s + time_s, indexed: [0.0; 6] };
+        let moment = MachineMoment { time_s, since_start_s: self.start_s + time_s, indexed: [0.0; 6] };
         let axes = match &self.motion {
             Some(motion) => motion.positions(&moment, commanded),
             None => commanded(time_s),

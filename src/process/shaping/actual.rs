@@ -9,7 +9,7 @@
 //! 10 um, and is left out; so is what an axial offset does to the moment at which the ram passes.
 
 use crate::machine::{AxisMotion, Motion};
-use crate::machine_errors::{ActualMotion, Course, Guide, MachineErrors, Moment, Mounting};
+use crate::machine_errors::{ActualMotion, Course, Guide, MachineErrors, MachineMoment, WorkMounting};
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
 use gearcut_core::frame::Rigid2;
@@ -33,7 +33,7 @@ pub struct Commanded<'a> {
 pub struct ActualStrokes {
     motion: Option<ActualMotion<3>>,
     guide: Guide,
-    mounting: Mounting,
+    mounting: WorkMounting,
     gear: GearKind,
     half_face_mm: f64,
     start_s: f64,
@@ -107,7 +107,7 @@ impl ActualStrokes {
         let Some(motion) = &self.motion else { return CutterPose::new(self.gear, commanded.positions(stroke)) };
         let seconds_per_stroke = commanded.schedule.time_s(1.0);
         let time_s = commanded.schedule.time_s(stroke);
-        let moment = Moment { time_s, since_start_s: self.start_s + time_s, indexed: [0.0; 3] };
+        let moment = MachineMoment { time_s, since_start_s: self.start_s + time_s, indexed: [0.0; 3] };
         let positions = motion.positions(&moment, |time_s| commanded.positions(time_s / seconds_per_stroke));
         CutterPose::new(self.gear, positions)
     }

@@ -2,7 +2,7 @@
 
 use super::facts::table;
 use crate::machine::{Axis, AxisKind};
-use crate::machine_errors::{AxisErrors, Guide, MachineErrors, Mounting, ToolMounting};
+use crate::machine_errors::{AxisErrors, Guide, MachineErrors, ToolMounting, WorkMounting};
 use crate::output::report::Block;
 use crate::output::text::significant;
 use gearcut_core::units::UM_PER_MM;
@@ -59,7 +59,7 @@ fn guide_words(guide: &Guide) -> String {
     words.concat().join(", ")
 }
 
-fn mounting_words(mounting: &Mounting) -> String {
+fn mounting_words(mounting: &WorkMounting) -> String {
     let words = [
         um("eccentricity", mounting.eccentricity_mm),
         leaning(mounting.wobble_rad),
