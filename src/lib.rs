@@ -78,6 +78,7 @@
 //! - [`colormap`]: numbers as colours
 //! - [`wrap`]: texts in lines of a width
 //! - [`machine`]: the axes of a machine: kinds, units, motion, limits, peaks
+//! - [`machine_errors`]: from the commanded motion of axes to the actual one
 //! - [`material`]: cutting forces from chip thickness
 //! - [`scene`]: the scene file as checked values
 //! - [`measure`]: what is left, in numbers
@@ -110,6 +111,8 @@ pub mod job;
 pub mod library;
 #[doc(hidden)]
 pub mod machine;
+#[doc(hidden)]
+pub mod machine_errors;
 #[doc(hidden)]
 pub mod material;
 #[doc(hidden)]

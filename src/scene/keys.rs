@@ -9,6 +9,7 @@
 //! a value inside a choice, and keep ranges, units and sentences somewhere else.
 
 mod gear;
+pub mod machine_errors;
 mod material;
 mod measure;
 mod output;
@@ -171,6 +172,7 @@ pub(super) fn shared() -> impl Iterator<Item = &'static KeySection> {
         pitch_curve::SECTIONS,
         material::SECTIONS,
         process::SECTIONS,
+        machine_errors::SECTIONS,
         texture::SECTIONS,
         output::SECTIONS,
         measure::SECTIONS,

@@ -16,6 +16,7 @@ pub mod errors;
 mod foreign;
 pub mod keys;
 mod loaded;
+pub(crate) mod machine_errors;
 mod mate;
 pub mod model;
 mod overrides;

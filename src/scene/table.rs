@@ -9,8 +9,20 @@ use super::keys::{self, Addition, Group, Key, KeySection, Role, join};
 use super::process::SceneProcess;
 
 /// Order of the outermost tables in a scene file; a process's own ones that are not listed stand at the end.
-const ORDER: [&str; 11] =
-    ["", "gear", "material", "tool", "machine", "operation[]", "texture[]", "fields", "measure", "output", "picture[]"];
+const ORDER: [&str; 12] = [
+    "",
+    "gear",
+    "material",
+    "tool",
+    "machine",
+    "mounting",
+    "operation[]",
+    "texture[]",
+    "fields",
+    "measure",
+    "output",
+    "picture[]",
+];
 
 /// All sections that scenes of some processes may have.
 #[derive(Debug, Clone)]

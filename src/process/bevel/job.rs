@@ -8,6 +8,7 @@
 //! j - 1 and j, counter-clockwise. The paper's work frame has its x axis along -z; where it stands about it follows
 //! from the generated flanks. Which blades cut left flanks follows from them, too.
 
+use super::actual::{ActualRoll, SlotMoment};
 use super::operation::PreparedBevel;
 use super::scene::model::Bevel;
 use super::slots::Slots;
@@ -102,17 +103,23 @@ impl BevelJob {
         };
         let target = [flank(BladeKind::Outside)?, flank(BladeKind::Inside)?];
         let (needed_rad, middle_rad) = needed_roll(&target)?;
+        let mut start_s = 0.0;
         let operations: Vec<PreparedBevel> = spec
             .operations
             .iter()
-            .map(|operation| PreparedBevel {
-                spec: operation.clone(),
-                settings: held_back(operation.offset_mm),
-                as_set: with_errors(spec, &held_back(operation.offset_mm)),
-                roll_rad: [
-                    operation.roll_rad[0].unwrap_or(needed_rad[0] - ROLL_MARGIN_RAD),
-                    operation.roll_rad[1].unwrap_or(needed_rad[1] + ROLL_MARGIN_RAD),
-                ],
+            .map(|operation| {
+                let prepared = PreparedBevel {
+                    spec: operation.clone(),
+                    settings: held_back(operation.offset_mm),
+                    as_set: with_errors(spec, &held_back(operation.offset_mm)),
+                    roll_rad: [
+                        operation.roll_rad[0].unwrap_or(needed_rad[0] - ROLL_MARGIN_RAD),
+                        operation.roll_rad[1].unwrap_or(needed_rad[1] + ROLL_MARGIN_RAD),
+                    ],
+                    start_s,
+                };
+                start_s += f64::from(blank.teeth) * prepared.cycle_s();
+                prepared
             })
             .collect();
         head.half_window_rad = 0.0;
@@ -120,14 +127,22 @@ impl BevelJob {
             head.half_window_rad = head.half_window_rad.max(half_window_rad(operation, &head, &blank, middle_rad)?);
         }
         let (gear_from_work, left) = placed(&target)?;
+        let machine = FiveAxisMachine { mounting_mm: spec.mounting_mm };
+        let towards_work = Rigid3 { rotation: DMat3::from_rotation_z(middle_rad), translation_mm: DVec3::ZERO };
+        let middle_z_mm = -(blank.outer_cone_distance_mm - 0.5 * blank.face_width_mm) * blank.pitch_angle_rad.cos();
+        let actual = operations.iter().map(|operation| {
+            ActualRoll::new(&spec.errors, spec.head.mounting, machine, operation.commanded(), middle_z_mm)
+        });
+        let actual: Vec<ActualRoll> = actual.collect();
         let slots = Slots::new(
             &operations,
             &head,
             (spec.head.start_angle_rad, blank.teeth),
-            &|operation, slot, cradle_rad| {
-                let pose = operation.as_set.work_from_tool(cradle_rad);
-                let towards_work = Rigid3 { rotation: DMat3::from_rotation_z(middle_rad), translation_mm: DVec3::ZERO };
-                index(slot, blank.teeth).after(&gear_from_work).after(&pose).after(&towards_work)
+            &|operation, slot, cradle_rad, tool_rad| {
+                let index = index(slot, blank.teeth);
+                let indexed_rad = TURN_RAD * f64::from(slot) / f64::from(blank.teeth);
+                let moment = SlotMoment { slot, indexed_rad, cradle_rad, tool_rad };
+                actual[operation].gear_from_head(&moment, &gear_from_work, &index, &towards_work)
             },
         )?;
         let job = Self {
@@ -136,7 +151,7 @@ impl BevelJob {
             blank,
             head,
             inferred,
-            machine: FiveAxisMachine { mounting_mm: spec.mounting_mm },
+            machine,
             operations,
             target,
             needed_rad,

@@ -3,6 +3,7 @@
 //! The physics stands in [`crate::bevel`]: blank, head, machines, the flank that they generate. Here are scenes, the
 //! passes of the head's blades over all slots, flank fields, measures, files and the page.
 
+mod actual;
 pub mod axes_report;
 pub mod blank;
 pub mod body;
@@ -20,6 +21,7 @@ pub mod motion;
 pub mod operation;
 pub mod pair;
 mod report;
+mod rolled_axes;
 mod run;
 pub mod scene;
 pub mod slots;

@@ -7,8 +7,8 @@
 
 use super::job::BevelJob;
 use super::operation::PreparedBevel;
+use super::rolled_axes::rolled_axes;
 use crate::machine::{Axis, AxisKind, AxisMotion, Limits, Motion, MotionPiece};
-use gearcut_core::math::Jet;
 
 /// The linked axes.
 pub const AXES: [Axis; 5] = [
@@ -48,21 +48,8 @@ impl Motion<5> for RollMotion<'_> {
     const AXES: &'static [Axis; 5] = &AXES;
 
     fn at(&self, time_s: f64) -> [AxisMotion; 5] {
-        let settings = &self.operation.settings;
-        let [x, y, z, work, swing] = self.positions(time_s);
-        let cradle = self.cradle_rad(time_s);
-        let (sin, cos) = cradle.sin_cos();
-        let s = settings.radial_setting_mm;
-        let roll = settings.roll;
-        let by = cradle - settings.cradle_angle_rad;
-        let bend = -roll.ratio * (2.0 * roll.second_order_per_rad + 6.0 * roll.third_order_per_rad2 * by);
-        let series = [
-            Jet::<3>::from_derivatives([x, -s * sin, -s * cos]),
-            Jet::from_derivatives([y, s * cos, -s * sin]),
-            Jet::constant(z),
-            Jet::from_derivatives([work, settings.work_angle(cradle)[1], bend]),
-            Jet::constant(swing),
-        ];
+        let BevelJob { machine, .. } = self.job;
+        let series = rolled_axes(machine, &self.operation.settings, self.cradle_rad(time_s));
         series.map(|series| AxisMotion::along(series, self.operation.cradle_rad_per_s()))
     }
 

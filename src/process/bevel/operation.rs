@@ -1,5 +1,6 @@
 //! One run of the head over all slots: settings, roll, times.
 
+use super::actual::CommandedRoll;
 use super::scene::model::BevelOperation;
 use gearcut_core::bevel::cradle::CradleSettings;
 
@@ -14,6 +15,8 @@ pub struct PreparedBevel {
     pub as_set: CradleSettings,
     /// Cradle angles at which a slot's roll begins and ends, rad.
     pub roll_rad: [f64; 2],
+    /// Time from the beginning of the first operation to that of this one, s.
+    pub start_s: f64,
 }
 
 impl PreparedBevel {
@@ -25,6 +28,18 @@ impl PreparedBevel {
     /// Speed of the cradle with its sign, rad/s.
     pub fn cradle_rad_per_s(&self) -> f64 {
         self.spec.roll_speed_rad_per_s * (self.roll_rad[1] - self.roll_rad[0]).signum()
+    }
+
+    /// A slot's roll as the machine is set.
+    pub fn commanded(&self) -> CommandedRoll {
+        CommandedRoll {
+            settings: self.as_set,
+            from_rad: self.roll_rad[0],
+            rad_per_s: self.cradle_rad_per_s(),
+            roll_s: self.roll_s(),
+            cycle_s: self.cycle_s(),
+            start_s: self.start_s,
+        }
     }
 
     /// Time from one slot to the next, s.

@@ -9,6 +9,7 @@ use super::findings::whole::{ChipCharts, page_words};
 use super::gear::BevelGear;
 use super::job::BevelJob;
 use super::measure::BevelReport;
+use super::motion::AXES;
 use crate::findings::{self, Findings};
 use crate::job::rows_z_mm;
 use crate::output::folder::OutputFolder;
@@ -18,6 +19,7 @@ use crate::output::text::{plain, significant};
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::facts::table;
+use crate::steps::report::machine_errors::errors_table;
 use crate::steps::report::{PageGear, RunWords, key_number, record, texture};
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 use gearcut_core::error::Result;
@@ -272,14 +274,11 @@ fn setup(job: &BevelJob, found: &Findings) -> PageSection {
             ),
         ],
     );
-    PageSection {
-        id: "setup",
-        title: "What was cut, and how".to_owned(),
-        lead: String::new(),
-        blocks: vec![
-            Block::Drawing("Settings of the cradle machine, to scale".to_owned(), drawing::svg(&Drawn::of(job))),
-            gear,
-            table("Settings", rows),
-        ],
-    }
+    let mut blocks = vec![
+        Block::Drawing("Settings of the cradle machine, to scale".to_owned(), drawing::svg(&Drawn::of(job))),
+        gear,
+        table("Settings", rows),
+    ];
+    blocks.extend(errors_table(&job.spec.errors, &AXES, Some(job.spec.head.mounting)));
+    PageSection { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
 }

@@ -25,8 +25,9 @@ pub struct Slots {
     slots: usize,
 }
 
-/// Pose of the head in the gear for an operation, a slot and a cradle angle; the head's x axis looks at the slot.
-pub type HeadPose<'a> = &'a (dyn Fn(&PreparedBevel, u32, f64) -> Rigid3 + Sync);
+/// Pose of the head in the gear for an operation (by its place), a slot, a cradle angle and the angle that the head has
+/// turned, rad; the head's x axis looks at the slot.
+pub type HeadPose<'a> = &'a (dyn Fn(usize, u32, f64, f64) -> Rigid3 + Sync);
 
 impl Slots {
     /// Passes of operations over so many slots, with a head whose first blade stands at `start_rad` when slot 0 of each
@@ -41,11 +42,12 @@ impl Slots {
         gear_from_head: HeadPose,
     ) -> Result<Self, Refusal> {
         let tool = head.tool()?;
-        let numbered: Vec<(&PreparedBevel, u32)> =
-            operations.iter().flat_map(|operation| (0..slots).map(move |slot| (operation, slot))).collect();
+        let numbered: Vec<(usize, u32)> =
+            (0..operations.len()).flat_map(|operation| (0..slots).map(move |slot| (operation, slot))).collect();
         let sets: Vec<TurningPasses> = numbered
             .into_par_iter()
-            .map(|(operation, slot)| {
+            .map(|(number, slot)| {
+                let operation = &operations[number];
                 let speed = operation.spec.head_speed_rad_per_s;
                 let turned = start_rad + speed * operation.cycle_s() * f64::from(slot);
                 let from = turned.rem_euclid(TURN_RAD);
@@ -54,7 +56,7 @@ impl Slots {
                     |tool_rad: f64| operation.roll_rad[0] + (tool_rad - from) * operation.cradle_rad_per_s() / speed;
                 let beyond = head.half_window_rad;
                 let motion = MotionTable::new([from - beyond, to + beyond], &[], |tool_rad| {
-                    gear_from_head(operation, slot, cradle_rad(tool_rad)).inverse()
+                    gear_from_head(number, slot, cradle_rad(tool_rad), tool_rad).inverse()
                 });
                 Ok(TurningPasses::new(0, &tool, 1.0, motion)?.with_parts_of_turns())
             })

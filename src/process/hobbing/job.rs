@@ -4,8 +4,10 @@
 //! In: the checked scene. Out: [`HobbingJob`]. The last operation is the finishing one: the rack in its place is the
 //! target's.
 
+use crate::machine_errors::MachineErrors;
 use crate::material::CuttingForce;
 use crate::process::hobbing::Hob;
+use crate::process::hobbing::actual::ActualHobbing;
 use crate::process::hobbing::kept::{self, Kept};
 use crate::process::hobbing::linkage::{FeedPlan, HobbingGeometry, HobbingLaw, HobbingLinkage};
 use crate::process::hobbing::rack_generation::{Rack, RackGeneration};
@@ -37,6 +39,8 @@ pub struct PreparedHobbing {
     pub plan: FeedPlan,
     /// The six axes.
     pub linkage: HobbingLinkage,
+    /// What the machine makes of them.
+    pub actual: ActualHobbing,
 }
 
 /// Everything known before the first dexel is cut.
@@ -48,6 +52,8 @@ pub struct HobbingJob {
     pub hob_spec: model::HobSpec,
     /// Limits of the axes.
     pub limits: HobbingAxisLimits,
+    /// What is wrong with the machine and the work on it.
+    pub errors: MachineErrors<6>,
     /// Whether axis programs are written.
     pub programs: bool,
     /// Cutting force of the work's material, where the scene names it.
@@ -82,7 +88,7 @@ impl HobbingJob {
     /// Geometry that cannot be cut.
     pub fn past_hollows(scene: &Scene) -> Result<Self> {
         let gear = &scene.gear;
-        let Some(Hobbing { tool, limits, operations: specs, material, programs }) = Hobbing::of(scene) else {
+        let Some(Hobbing { tool, limits, errors, operations: specs, material, programs }) = Hobbing::of(scene) else {
             return Err(Refusal::new("tool", "this tool does not hob gears", "write [tool.hob] for hobbing").into());
         };
         let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
@@ -90,7 +96,7 @@ impl HobbingJob {
         let blank = gear.blank(curve.clone())?;
         // A hob pulled back by d leaves teeth 2 d tan(alpha_t) thicker on the pitch curve.
         let allowance_mm = gear.tooth_thickness_allowance_mm / (2.0 * gear.transverse_pressure_angle_rad().tan());
-        let mut operations = Vec::new();
+        let (mut operations, mut start_s) = (Vec::new(), 0.0);
         for spec in specs {
             let offset_mm = spec.offset_mm + allowance_mm;
             let mut geometry = HobbingGeometry::new(&hob, gear.helix_angle_rad, gear.hand.sign());
@@ -99,7 +105,9 @@ impl HobbingJob {
             let plan = FeedPlan::new(spec, offset_mm, &hob, &geometry, gear, &curve, cycle_s)?;
             let linkage =
                 HobbingLinkage::new(curve.clone(), geometry, law(spec), spec.hob_speed_rad_per_s, &plan.path)?;
-            operations.push(PreparedHobbing { spec: spec.clone(), offset_mm, plan, linkage });
+            let actual = ActualHobbing::new(errors, tool.mounting, &linkage, start_s, 0.5 * gear.face_width_mm)?;
+            start_s += linkage.end_s();
+            operations.push(PreparedHobbing { spec: spec.clone(), offset_mm, plan, linkage, actual });
         }
         let finishing_mm = operations.last().map_or(0.0, |operation| operation.offset_mm);
         let rack = rack(gear, &hob, tool.tip_radius_mm, tool.thinning_mm).pulled_back(finishing_mm);
@@ -108,6 +116,7 @@ impl HobbingJob {
             scene: scene.clone(),
             hob_spec: tool.clone(),
             limits: *limits,
+            errors: errors.clone(),
             programs: *programs,
             material: *material,
             curve,
@@ -134,8 +143,8 @@ impl HobbingJob {
     /// # Errors
     /// More passes than can be numbered.
     pub(super) fn kept(&self) -> Result<&Kept, Refusal> {
-        let linkages = || self.operations.iter().map(|operation| (operation.spec.name.as_str(), &operation.linkage));
-        let make = || Kept::new(&self.hob, linkages(), self.scene.gear.teeth);
+        let operations = || self.operations.iter().map(|of| (of.spec.name.as_str(), &of.linkage, &of.actual));
+        let make = || Kept::new(&self.hob, operations(), self.scene.gear.teeth);
         self.kept.get_or_init(make).as_ref().map_err(Clone::clone)
     }
 

@@ -4,6 +4,7 @@
 //! take longer than a thousand dexels. Whoever cuts flanks one by one gets the same passes and targets each time.
 
 use crate::process::hobbing::Hob;
+use crate::process::hobbing::actual::ActualHobbing;
 use crate::process::hobbing::flank_patch::FlankPatch;
 use crate::process::hobbing::linkage::HobbingLinkage;
 use gearcut_core::error::Refusal;
@@ -23,18 +24,18 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// Passes of operations with these names and linkages, on a gear of so many teeth.
+    /// Passes of operations with these names, linkages and errors, on a gear of so many teeth.
     ///
     /// # Errors
     /// More passes than can be numbered.
     pub fn new<'a>(
         hob: &Hob,
-        linkages: impl IntoIterator<Item = (&'a str, &'a HobbingLinkage)>,
+        of: impl IntoIterator<Item = (&'a str, &'a HobbingLinkage, &'a ActualHobbing)>,
         teeth: u32,
     ) -> Result<Self, Refusal> {
         let mut operations = Vec::new();
         let mut first_pass = 0;
-        for (name, linkage) in linkages {
+        for (name, linkage, actual) in of {
             let hob_at = |time_s: f64| linkage.axes::<1>(time_s).hob_rad.value();
             // Sweeps reach a little further than the moments at which their blades point to the work.
             let beyond_rad = hob.half_window_rad();
@@ -47,7 +48,7 @@ impl Kept {
                 ));
             }
             let corners: Vec<f64> = linkage.corners_s().iter().map(|&time_s| hob_at(time_s)).collect();
-            let motion = MotionTable::new(range_rad, &corners, |angle| linkage.head_from_work(angle));
+            let motion = MotionTable::new(range_rad, &corners, |angle| actual.head_from_work(linkage, angle));
             let passes = TurningPasses::new(first_pass, hob, hob.hand, motion)?;
             first_pass = passes.end_pass();
             operations.push(passes);

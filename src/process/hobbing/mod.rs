@@ -1,5 +1,6 @@
 //! Hobbing with five and six axes.
 
+pub mod actual;
 pub mod axes_report;
 pub mod blank;
 pub mod check;

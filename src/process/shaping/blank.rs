@@ -8,9 +8,7 @@ use crate::process::shaping::tip_relief::TipRelief;
 use gearcut_core::cut::{Backend, CutBlank};
 use gearcut_core::dexel::BlankField;
 use gearcut_core::error::{Refusal, Result};
-use gearcut_core::frame::Rigid2;
 use gearcut_core::passes::StrokeSet;
-use gearcut_core::passes::planar::strokes::StrokeLaw;
 use gearcut_core::terms::Side;
 use gearcut_core::units::TURN_RAD;
 use glam::DVec2;
@@ -26,11 +24,10 @@ impl ShapingJob {
         let back_off_mm = self.machine.back_off_mm;
         let out = self.blank.kind().tip_sign();
         let set = &operation.strokes;
-        let eccentricity_mm = self.eccentricity_mm();
         let (retraction, schedule) = (&operation.retraction, &operation.schedule);
-        let resting = set.law == StrokeLaw::Frozen;
+        let resting = set.law.rests();
         let return_middle = self.ram_times().return_middle;
-        let pose = |lambda: f64| {
+        let pose = |lambda: f64, z_mm: f64| {
             let pose = operation.pose(lambda);
             let pose = if !retraction.is_in_axes() {
                 let back = pose.center_mm.normalize_or_zero() * (out * back_off_mm);
@@ -40,7 +37,7 @@ impl ShapingJob {
             } else {
                 retraction.retracted(schedule.linkage(), &pose, schedule.phi_rad(lambda))
             };
-            Rigid2::new(pose.angle_rad, pose.center_mm - eccentricity_mm)
+            operation.actual.placed(&pose, z_mm)
         };
         (back_off_mm > 0.0).then(|| StrokeSet::returning(set.first_pass, &self.cutter, set.law, set.count(), pose))
     }

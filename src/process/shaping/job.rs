@@ -7,6 +7,7 @@
 
 use crate::material::EdgeForce;
 use crate::process::shaping::ShaperCutter;
+use crate::process::shaping::actual::{ActualStrokes, Commanded};
 use crate::process::shaping::gcode;
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::generation::Generation;
@@ -23,7 +24,6 @@ use crate::steps::planar::{CutField, PlanarGear, PlanarOperation, ProfilePoint};
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::Field;
 use gearcut_core::error::{Refusal, Result};
-use gearcut_core::frame::Rigid2;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::gear::{GearKind, PitchCurve};
 use gearcut_core::math::roots::sample_angle_rad;
@@ -47,6 +47,8 @@ pub struct PreparedOperation {
     pub schedule: StrokeSchedule,
     /// Axis program that is cut instead of the schedule, if the scene names one.
     pub program: Option<AxisProgram>,
+    /// What the machine makes of both.
+    pub actual: ActualStrokes,
     /// Poses for the dexels.
     pub strokes: StrokeSet,
     /// Return strokes over a turn, of ideal work and cutter.
@@ -58,14 +60,15 @@ pub struct PreparedOperation {
 }
 
 impl PreparedOperation {
-    /// Cutter in the gear frame at a stroke coordinate, as it is cut.
+    /// Cutter in the spindle's frame at a stroke coordinate, as the axes really stand.
     pub fn pose(&self, stroke: f64) -> CutterPose {
-        pose(self.program.as_ref(), &self.schedule, stroke)
+        self.actual.pose(self.commanded(), stroke)
     }
-}
 
-fn pose(program: Option<&AxisProgram>, schedule: &StrokeSchedule, stroke: f64) -> CutterPose {
-    program.map_or_else(|| schedule.state(stroke).pose, |program| program.at(stroke).pose(schedule.linkage().gear()))
+    /// What the axes are told.
+    fn commanded(&self) -> Commanded<'_> {
+        Commanded { schedule: &self.schedule, program: self.program.as_ref() }
+    }
 }
 
 /// Everything known before the first dexel is cut.
@@ -124,7 +127,7 @@ impl ShapingJob {
         let shared_cutter = Arc::new(cutter.clone());
         let passes: f64 = shaping.operations.len() as f64;
         let mut operations: Vec<PreparedOperation> = Vec::new();
-        let mut first_pass = 0;
+        let (mut first_pass, mut start_s) = (0, 0.0);
         // A cutter pulled back by d leaves teeth 2 d tan(alpha) thicker on the pitch curve.
         let allowance_mm = gear.tooth_thickness_allowance_mm / (2.0 * gear.pressure_angle_rad.tan());
         for spec in &shaping.operations {
@@ -143,16 +146,19 @@ impl ShapingJob {
                 )
                 .into());
             }
+            let program = spec.program.as_deref().map(|path| read_program(path, &spec, &schedule)).transpose()?;
+            let commanded = Commanded { schedule: &schedule, program: program.as_ref() };
+            let actual = ActualStrokes::new(&machine.errors, commanded, start_s, 0.5 * gear.face_width_mm);
+            start_s += schedule.time_s(count as f64);
             let law = if spec.feed_during_stroke {
                 StrokeLaw::crank(gear.face_width_mm, machine.approach_mm, machine.overrun_mm)
+            } else if actual.differs_along_tooth() {
+                StrokeLaw::Guided { half_face_mm: 0.5 * gear.face_width_mm }
             } else {
                 StrokeLaw::Frozen
             };
-            let eccentricity = eccentricity_mm(&machine);
-            let program = spec.program.as_deref().map(|path| read_program(path, &spec, &schedule)).transpose()?;
-            let strokes = StrokeSet::new(first_pass, &cutter, law, count, |lambda| {
-                let pose = pose(program.as_ref(), &schedule, lambda);
-                Rigid2::new(pose.angle_rad, pose.center_mm - eccentricity)
+            let strokes = StrokeSet::along_guide(first_pass, &cutter, law, count, |lambda, z_mm| {
+                actual.placed(&actual.pose(commanded, lambda), z_mm)
             });
             first_pass = strokes.end_pass();
             let (linkage_of_flanks, cutter) = (linkage.clone(), shared_cutter.clone());
@@ -168,6 +174,7 @@ impl ShapingJob {
                 generation,
                 schedule,
                 program,
+                actual,
                 strokes,
                 survey,
                 retraction,
@@ -192,9 +199,9 @@ impl ShapingJob {
         })
     }
 
-    /// Where the gear axis sits off the work spindle, in the gear frame, mm.
+    /// Where the gear axis sits off the work spindle in the middle of the face, mm.
     pub(crate) fn eccentricity_mm(&self) -> DVec2 {
-        eccentricity_mm(&self.machine)
+        self.machine.errors.mounting.axis_mm(0.0)
     }
 
     /// The finishing operation.
@@ -328,9 +335,4 @@ fn read_program(path: &Path, spec: &Operation, schedule: &StrokeSchedule) -> Res
         .into());
     }
     Ok(program)
-}
-
-/// The gear sits off the work spindle by the eccentricity, and turns with it: a constant shift in the gear frame.
-fn eccentricity_mm(machine: &Machine) -> DVec2 {
-    machine.work_eccentricity_mm * DVec2::from_angle(machine.work_eccentricity_angle_rad)
 }

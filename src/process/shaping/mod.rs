@@ -1,5 +1,6 @@
 //! Shaping with a pinion cutter.
 
+pub mod actual;
 pub mod axes_report;
 pub mod blank;
 pub mod check;

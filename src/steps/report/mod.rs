@@ -2,6 +2,7 @@
 
 pub mod deviations;
 pub mod facts;
+pub mod machine_errors;
 pub mod maps;
 pub mod quantities;
 pub mod texture;

@@ -8,6 +8,7 @@ mod cut;
 mod drawing;
 mod gcode;
 mod jobs;
+mod machine_errors;
 mod oracle;
 mod pair;
 mod refusals;

@@ -9,6 +9,7 @@ mod force;
 mod gcode;
 mod hollow;
 mod kept;
+mod machine_errors;
 mod metrology;
 mod oracle;
 mod papers;

@@ -101,7 +101,7 @@ fn target_rays_are_those_of_the_independent_implementation() {
 }
 
 /// Two plans of one field leave the same bytes.
-fn same_as_brute_force(name: &str, passes: &TurningPasses, field: &SpatialField, start: &Layer) -> Layer {
+pub(super) fn same_as_brute_force(name: &str, passes: &TurningPasses, field: &SpatialField, start: &Layer) -> Layer {
     let run = |plan: &SweepPlan, every_root: bool| {
         let mut layer = start.clone();
         let stats = Cpu::default().cut_spatial(field, plan, &mut layer).expect("cuts");

@@ -118,7 +118,7 @@ fn a_hob_that_hunts_and_takes_thick_chips_is_warned_about() {
 fn five_micrometres_of_runout_are_a_deviation() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("gear");
-    let settings = [&["machine.work_eccentricity_um=5", "fields.blank.spacing_mm=0.3"], &SETTINGS[3..6]].concat();
+    let settings = [&["mounting.eccentricity_um=5", "fields.blank.spacing_mm=0.3"], &SETTINGS[3..6]].concat();
     run("cut", UNDERCUT, &settings, &["--only", "report", "--out", out.to_str().expect("a path")]).done();
     let listed = listed(&out);
     assert!(listed.iter().any(|line| line.contains("deviations, no gouges")), "{listed:?}");

@@ -12,6 +12,7 @@ use gearcut::dexel::{BlankField, NO_PASS};
 use gearcut::frame::Rigid2;
 use gearcut::gear::PitchCurveShape;
 use gearcut::gear::blank_outline::BlankOutline;
+use gearcut::machine_errors::MachineErrors;
 use gearcut::math::planar_rays::FAMILIES;
 use gearcut::measure::target_outline::TargetOutline;
 use gearcut::passes::StrokeSet;
@@ -320,9 +321,10 @@ mod slow {
             assert!(mesh.is_closed(), "{name}: {:?}", mesh.edge_faults());
             assert!((2.0 * volume_mm3 / (x + y) - 1.0).abs() < 1e-3, "{name}");
             assert_eq!(guessed, 0, "{name}");
-            // A cutter that runs out by 5 um gouges as deep as that, and no deeper but for the target's chords; nothing
-            // else does.
-            let runout_mm = job.cutter_spec.runout_mm;
+            // A cutter that runs out by 5 um gouges as deep as that, and no deeper but for the target's chords; so do the
+            // errors of one scene's machine, all of them together by less than 50 um; nothing else does.
+            let errors = job.machine.errors != MachineErrors::default();
+            let runout_mm = if errors { 0.05 } else { job.cutter_spec.runout_mm };
             let damage = || report.gouges.iter().chain(&report.interference);
             assert_eq!(damage().count() > 0, runout_mm > 0.0, "{name}");
             assert!(damage().all(|d| d.depth_mm < runout_mm + 5e-4), "{name}: {:?}", damage().collect::<Vec<_>>());

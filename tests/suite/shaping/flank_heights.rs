@@ -110,7 +110,7 @@ fn candidates_equal_brute_force_where_facets_are_wide_and_shaved() {
 }
 
 /// Compares a whole field with brute force.
-fn compare_whole_field(job: &ShapingJob, field: &Field, op: &gearcut::process::shaping::PreparedOperation) {
+pub(super) fn compare_whole_field(job: &ShapingJob, field: &Field, op: &gearcut::process::shaping::PreparedOperation) {
     let plan = CutPlan::new(field, &op.strokes, &job.cutter);
     let brute = CutPlan::brute_force(field, &op.strokes, &job.cutter);
     assert!(brute.records.len() > 2 * plan.records.len());

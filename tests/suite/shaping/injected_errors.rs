@@ -94,7 +94,8 @@ fn work_eccentricity_shifts_the_whole_gear() {
     let mut scene = fine_scene();
     let shift = 0.01 * DVec2::from_angle(2.0);
     let machine = &mut Shaping::of_mut(&mut scene).expect("shaping").machine;
-    (machine.work_eccentricity_mm, machine.work_eccentricity_angle_rad) = (0.01, 2.0);
+    let mounting = &mut machine.errors.mounting;
+    (mounting.eccentricity_mm, mounting.eccentricity_angle_rad) = (0.01, 2.0);
     let faulty = ShapingJob::new(scene).expect("the gear");
     let mut worst_um = 0.0_f64;
     for (tooth, side) in FLANKS {

@@ -15,6 +15,7 @@ mod internal_refusals;
 mod internal_ring;
 mod linkage_envelope;
 mod linkage_oracle;
+mod machine_errors;
 mod oracle;
 mod paper_figures;
 mod planted;

@@ -1,8 +1,10 @@
 //! Checked values of a bevel scene to the model.
 
+use super::keys::AXES;
 use super::model::{Bevel, BevelOperation, Cones, HeadSpec, SettingsSpec};
 use crate::scene::ScenePart;
 use crate::scene::build::{cutting_force, linear_programs, stock_or_offset_mm};
+use crate::scene::machine_errors::{machine_errors, tool_mounting};
 use crate::scene::values::{Values, View};
 use gearcut_core::bevel::blank::MatingCones;
 use gearcut_core::bevel::cradle::{CradleSettings, Roll};
@@ -11,7 +13,7 @@ use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 use std::path::Path;
 
 /// Axes of the limits: word, and whether they turn.
-const AXES: [(&str, bool); 5] = [("x", false), ("y", false), ("z", false), ("a", true), ("b", true)];
+const LIMITED: [(&str, bool); 5] = [("x", false), ("y", false), ("z", false), ("a", true), ("b", true)];
 
 /// The part of a bevel scene.
 pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
@@ -20,7 +22,8 @@ pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
         .map(|index| operation(values.view(&format!("operation.{index}")), pressure_angle_rad))
         .collect();
     let programs = linear_programs(values)?;
-    let limit = |order: &str| AXES.map(|(axis, turns)| limits(values.view("machine.bevel_limits"), axis, order, turns));
+    let limit =
+        |order: &str| LIMITED.map(|(axis, turns)| limits(values.view("machine.bevel_limits"), axis, order, turns));
     let material = match values.view("material") {
         material if material.text("name").is_some() => Some(cutting_force(material)?),
         _ => None,
@@ -29,6 +32,7 @@ pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
         cones: cones(values.view("gear.bevel"))?,
         head: head(values.view("tool.face_mill"))?,
         settings: settings(values.view("machine.cradle"), values.view("machine.cradle_errors"))?,
+        errors: machine_errors(values, &AXES)?,
         mounting_mm: values.view("machine.five_axis").number("mounting_distance_mm")?,
         speed_limits: limit("speed"),
         acceleration_limits: limit("acceleration"),
@@ -67,6 +71,7 @@ fn head(head: View<'_>) -> Option<HeadSpec> {
         blades: head.whole("blades")?,
         runouts_mm: head.numbers("runouts_um")?.iter().map(|um| um / UM_PER_MM).collect(),
         start_angle_rad: head.rad("start_angle_deg")?,
+        mounting: tool_mounting(head),
     })
 }
 

@@ -8,6 +8,8 @@ mod tool;
 
 use crate::scene::keys::{Addition, KeySection};
 
+pub(super) use machine::AXES;
+
 /// Sections of its own.
 pub(super) static SECTIONS: &[&[KeySection]] =
     &[gear::SECTIONS, tool::SECTIONS, machine::SECTIONS, inspection::SECTIONS];

@@ -4,6 +4,7 @@ mod build;
 mod keys;
 pub mod model;
 
+use crate::scene::machine_errors;
 use crate::scene::problems::Found;
 use crate::scene::values::{Checked, Values};
 use crate::scene::{ProcessPart, SceneProcess, Senseless};
@@ -64,6 +65,7 @@ fn derive(values: &mut Values) {
 fn check(found: &mut Found<'_, '_, '_>) {
     let _: Option<()> = runouts(found);
     rolls(found);
+    machine_errors::check(found, &keys::AXES);
 }
 
 /// One runout for each blade.

@@ -1,5 +1,6 @@
 //! Checked values of bevel scenes: cones, head, settings, limits, operations; mm, rad, s.
 
+use crate::machine_errors::{MachineErrors, ToolMounting};
 use crate::material::CuttingForce;
 use crate::scene::Scene;
 use gearcut_core::bevel::blank::MatingCones;
@@ -15,6 +16,9 @@ pub struct Bevel {
     pub head: HeadSpec,
     /// Settings of the cradle machine.
     pub settings: SettingsSpec,
+    /// What is wrong with the axes (X, Y, Z, work, swing) and the work on its spindle; the machine has no guide along
+    /// the gear.
+    pub errors: MachineErrors<5>,
     /// Mounting distance of the six-axis machine.
     pub mounting_mm: f64,
     /// Largest speeds of X, Y, Z, A and B, mm or rad per s; `None`: not limited.
@@ -80,6 +84,8 @@ pub struct HeadSpec {
     pub runouts_mm: Vec<f64>,
     /// Angle of the first blade when the first slot begins, rad.
     pub start_angle_rad: f64,
+    /// How the head sits on its spindle.
+    pub mounting: ToolMounting,
 }
 
 /// Settings as the scene names them.

@@ -21,6 +21,7 @@ fn spec() -> model::HobSpec {
         protuberance: None,
         thinning_mm: 0.0,
         regrind_mm: 0.0,
+        mounting: crate::machine_errors::ToolMounting::default(),
     }
 }
 

@@ -3,7 +3,7 @@
 //! In: the axes of a linkage. Out: the tool frame and the head in the gear frame, with velocities; frames stand with
 //! the linkage.
 
-use super::geometry::work_from_machine;
+use super::geometry::{work_from_machine, work_from_machine_at};
 use super::{HobbingAxes, HobbingLinkage};
 use gearcut_core::frame::{Rigid3, RigidMotion3};
 use gearcut_core::math::Jet;
@@ -29,6 +29,19 @@ impl HobbingLinkage {
         let tool_from_work = self.work_from_tool(self.time_at_hob_angle(hob_rad)).inverse();
         let rotation = DMat3::from_rotation_z(self.geometry.hob_hand * hob_rad);
         Rigid3 { rotation, translation_mm: DVec3::ZERO }.after(&tool_from_work)
+    }
+
+    /// The same at a time with the axes where they really are, in the order of [`super::dynamics::AXES`]: rad and mm.
+    /// The linkage gives what is commanded.
+    pub fn work_from_tool_at(
+        &self,
+        time_s: f64,
+        [hob_rad, work_rad, x_mm, y_mm, slide_mm, shift_mm]: [f64; 6],
+    ) -> Rigid3 {
+        // Y carries the infeed: what it is off by is distance from full depth.
+        let commanded = self.axes::<1>(time_s).y_mm.value();
+        let machine_from_tool = self.geometry.machine_from_tool(hob_rad, y_mm - commanded, slide_mm, shift_mm);
+        work_from_machine_at(work_rad, x_mm, commanded).after(&machine_from_tool)
     }
 
     /// Pose with velocity, gear frame.

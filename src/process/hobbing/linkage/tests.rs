@@ -24,6 +24,7 @@ fn hob(hand: Hand) -> Hob {
         protuberance: None,
         thinning_mm: 0.0,
         regrind_mm: 0.0,
+        mounting: crate::machine_errors::ToolMounting::default(),
     };
     Hob::new(&spec, 4.0, 20_f64.to_radians()).unwrap()
 }

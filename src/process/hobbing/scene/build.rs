@@ -1,11 +1,13 @@
 //! Checked values of a hobbing scene to the model.
 
+use super::keys::AXES;
 use super::model::{
     Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, HobSize, HobSpec, Hobbing, HobbingAxisLimits,
     HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
 };
 use crate::scene::ScenePart;
 use crate::scene::build::{cutting_force, linear_programs, stock_or_offset_mm};
+use crate::scene::machine_errors::{machine_errors, tool_mounting};
 use crate::scene::values::{Values, View};
 use gearcut_core::units::TURN_RAD;
 use std::path::Path;
@@ -22,7 +24,14 @@ pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
         _ => None,
     };
     let programs = linear_programs(values)?;
-    Some(ScenePart::new(Hobbing { tool, limits: limits(values), operations: operations?, material, programs }))
+    Some(ScenePart::new(Hobbing {
+        tool,
+        limits: limits(values),
+        errors: machine_errors(values, &AXES)?,
+        operations: operations?,
+        material,
+        programs,
+    }))
 }
 
 fn hob(hob: View<'_>) -> Option<HobSpec> {
@@ -54,6 +63,7 @@ fn hob(hob: View<'_>) -> Option<HobSpec> {
         },
         thinning_mm: hob.number("thinning_mm")?,
         regrind_mm: hob.number("regrind_mm")?,
+        mounting: tool_mounting(hob),
     })
 }
 

@@ -6,6 +6,8 @@ mod tool;
 
 use crate::scene::keys::{Addition, KeySection};
 
+pub(super) use machine::AXES;
+
 /// Sections of its own.
 pub(super) static SECTIONS: &[&[KeySection]] = &[tool::SECTIONS, machine::SECTIONS, operation::SECTIONS];
 

@@ -4,6 +4,7 @@ mod build;
 mod keys;
 pub mod model;
 
+use crate::scene::machine_errors;
 use crate::scene::problems::Found;
 use crate::scene::{ProcessPart, SceneProcess, Senseless};
 use model::Hobbing;
@@ -41,9 +42,15 @@ pub static SCENE: SceneProcess = SceneProcess {
         },
     ],
     derive: |_| {},
-    check: external,
+    check,
     build: build::build,
 };
+
+/// Holds values against each other.
+fn check(found: &mut Found<'_, '_, '_>) {
+    external(found);
+    machine_errors::check(found, &keys::AXES);
+}
 
 /// Refuses what no hob reaches.
 fn external(found: &mut Found<'_, '_, '_>) {

@@ -1,5 +1,6 @@
 //! Checked values of hobbing scenes: hob, limits of the machine, operations; mm, rad, s.
 
+use crate::machine_errors::{MachineErrors, ToolMounting};
 use crate::material::CuttingForce;
 use crate::scene::Scene;
 use gearcut_core::terms::Hand;
@@ -11,6 +12,8 @@ pub struct Hobbing {
     pub tool: HobSpec,
     /// Limits of the axes, where known.
     pub limits: HobbingAxisLimits,
+    /// What is wrong with the axes (hob, work, X, Y, slide, shift), the slide's guide and the work on its spindle.
+    pub errors: MachineErrors<6>,
     /// Operations in the order they are cut; at least one. The last one defines the target flank.
     pub operations: Vec<HobbingOperation>,
     /// Cutting force of the work's material; `None` where the scene does not name it, and no force is computed.
@@ -55,6 +58,8 @@ pub struct HobSpec {
     pub thinning_mm: f64,
     /// How much the radius has shrunk by regrinding, mm.
     pub regrind_mm: f64,
+    /// How the hob sits on its spindle.
+    pub mounting: ToolMounting,
 }
 
 /// How gashes run.

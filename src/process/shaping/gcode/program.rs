@@ -142,6 +142,18 @@ impl AxisProgram {
         }
     }
 
+    /// Positions in the order of [`AXES`] and how they change per stroke, within the block that is run at a coordinate.
+    pub fn motion(&self, stroke: f64) -> [[f64; 2]; 3] {
+        let after = self.knots.partition_point(|k| k.stroke <= stroke).clamp(1, self.knots.len().max(2) - 1);
+        let at = self.at(stroke).axes();
+        let rates = self.knots.get(after).map_or([0.0; 3], |b| {
+            let a = &self.knots[after - 1];
+            let (from, to) = (a.axes(), b.axes());
+            std::array::from_fn(|axis| (to[axis] - from[axis]) / (b.stroke - a.stroke))
+        });
+        std::array::from_fn(|axis| [at[axis], rates[axis]])
+    }
+
     /// Largest displacement from a schedule at its strokes, with `continuous` also between them, mm, and the stroke
     /// coordinate.
     pub fn contour_error_mm(&self, schedule: &StrokeSchedule, tip_radius_mm: f64, continuous: bool) -> (f64, f64) {

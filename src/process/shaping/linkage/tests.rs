@@ -11,6 +11,7 @@ use std::sync::Arc;
 use proptest::prelude::*;
 
 use super::*;
+use crate::machine_errors::MachineErrors;
 use crate::process::shaping::scene::model::{
     AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, Retraction, StrokeSpacing,
     TraditionalDirection,
@@ -43,8 +44,7 @@ fn machine() -> Machine {
         overrun_mm: 5.0,
         back_off_mm: 0.5,
         retraction: Retraction::CenterLine,
-        work_eccentricity_mm: 0.0,
-        work_eccentricity_angle_rad: 0.0,
+        errors: MachineErrors::default(),
         limits: AxisLimits {
             work_speed_rad_per_s: Some(0.1),
             cutter_speed_rad_per_s: Some(0.2),

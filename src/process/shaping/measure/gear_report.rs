@@ -104,7 +104,7 @@ mod tests {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping/circular_m3_z24.toml");
         let mut scene = process::load(&path, &[]).expect("a shipped scene").scene;
         let eccentricity_mm = 0.02;
-        Shaping::of_mut(&mut scene).expect("shaping").machine.work_eccentricity_mm = eccentricity_mm;
+        Shaping::of_mut(&mut scene).expect("shaping").machine.errors.mounting.eccentricity_mm = eccentricity_mm;
         let job = ShapingJob::new(scene).expect("a gear");
         let cut = crossings(&job, job.operations.len() - 1, CrossedSurface::Strokes).expect("all flanks");
         let [left, right] = [0, 1].map(|side| cut.iter().map(|tooth| tooth[side]).collect::<Vec<_>>());

@@ -6,6 +6,7 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::scene::model::{Retraction, Tip};
 use crate::steps::report::facts::{gear_table, mm, speed_limits, table};
+use crate::steps::report::machine_errors::errors_table;
 use gearcut_core::units::UM_PER_MM;
 
 /// Tables of gear, cutter and machine.
@@ -22,7 +23,7 @@ pub fn section(job: &ShapingJob) -> PageSection {
         Retraction::CenterLine => mm(machine.back_off_mm),
         other => format!("{} {}", mm(machine.back_off_mm), other.words()),
     };
-    let blocks = vec![
+    let mut blocks = vec![
         gear_table(&job.scene.gear, &job.curve),
         table(
             "Shaper cutter",
@@ -49,7 +50,6 @@ pub fn section(job: &ShapingJob) -> PageSection {
                 ("Double strokes", format!("{} per minute", plain(machine.double_strokes_per_minute))),
                 ("Approach, overrun", format!("{}, {}", mm(machine.approach_mm), mm(machine.overrun_mm))),
                 ("Back-off on the return stroke", back_off),
-                ("Work eccentricity", format!("{} µm", plain(UM_PER_MM * machine.work_eccentricity_mm))),
                 (
                     "Speed limits",
                     speed_limits(["work", "cutter", "centre distance"], &AXES, &dynamics::limits(&machine.limits)),
@@ -57,5 +57,6 @@ pub fn section(job: &ShapingJob) -> PageSection {
             ],
         ),
     ];
+    blocks.extend(errors_table(&machine.errors, &AXES, None));
     PageSection { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
 }

@@ -1,5 +1,6 @@
 //! Checked values of a shaping scene to the model.
 
+use super::keys::AXES;
 use super::model::{
     AxisLimits, CutterSpec, Feed, GcodeDialect, Infeed, Linkage, Machine, NormalReading, Operation, Retraction,
     Shaping, StrokeSpacing, Tip, TraditionalDirection,
@@ -7,6 +8,7 @@ use super::model::{
 use crate::material::EdgeForce;
 use crate::scene::ScenePart;
 use crate::scene::build::stock_or_offset_mm;
+use crate::scene::machine_errors::machine_errors;
 use crate::scene::values::Values;
 use gearcut_core::units::UM_PER_MM;
 use std::path::Path;
@@ -81,8 +83,7 @@ fn machine(values: &Values) -> Option<Machine> {
             "auto" => Retraction::Auto,
             _ => return None,
         },
-        work_eccentricity_mm: machine.mm_from_um("work_eccentricity_um")?,
-        work_eccentricity_angle_rad: machine.rad("work_eccentricity_angle_deg")?,
+        errors: machine_errors(values, &AXES)?,
         limits: AxisLimits {
             work_speed_rad_per_s: limits.rad("work_speed_deg_per_s"),
             cutter_speed_rad_per_s: limits.rad("cutter_speed_deg_per_s"),

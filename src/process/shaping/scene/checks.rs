@@ -1,6 +1,8 @@
 //! Values of a shaping scene compared with each other.
 
+use super::keys::AXES;
 use crate::scene::keys::join;
+use crate::scene::machine_errors;
 use crate::scene::problems::Found;
 use std::f64::consts::PI;
 
@@ -16,6 +18,7 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     // A missing value ends only the check that asks for it.
     let _: [Option<()>; 4] = [cutter_core(found), cutter_thinning(found), pitch_errors(found), chips(found)];
     tip(found);
+    machine_errors::check(found, &AXES);
     for index in 0..found.values.count("operation") {
         let path = format!("operation.{index}");
         let _: [Option<()>; 6] = [

@@ -9,6 +9,7 @@ mod tool;
 use crate::scene::keys::{Addition, KeySection};
 
 pub(super) use chips::LARGEST_CHIP_SPACING_MM;
+pub(super) use machine::AXES;
 
 /// Sections of its own.
 pub(super) static SECTIONS: &[&[KeySection]] =

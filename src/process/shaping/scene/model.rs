@@ -1,5 +1,6 @@
 //! Checked values of shaping scenes: cutter, machine, operations; mm, rad, s.
 
+use crate::machine_errors::MachineErrors;
 use crate::material::EdgeForce;
 use crate::scene::Scene;
 use std::path::PathBuf;
@@ -9,7 +10,7 @@ use std::path::PathBuf;
 pub struct Shaping {
     /// The shaper cutter.
     pub tool: CutterSpec,
-    /// The machine: stroke, clearances, mounting errors, axis limits.
+    /// The machine: stroke, clearances, errors, axis limits.
     pub machine: Machine,
     /// Operations in the order they are cut; at least one. The last one defines the target flank.
     pub operations: Vec<Operation>,
@@ -102,10 +103,8 @@ pub struct Machine {
     pub back_off_mm: f64,
     /// Which way.
     pub retraction: Retraction,
-    /// Distance of the gear axis from the work spindle axis.
-    pub work_eccentricity_mm: f64,
-    /// Direction of the eccentricity in the gear frame.
-    pub work_eccentricity_angle_rad: f64,
+    /// What is wrong with its axes (work, cutter, centre distance), its ram's guide and the work on its spindle.
+    pub errors: MachineErrors<3>,
     /// Limits of the axes, where known.
     pub limits: AxisLimits,
 }

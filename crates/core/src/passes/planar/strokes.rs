@@ -4,7 +4,8 @@
 //! rotary feed may go on; what the cutter does is smooth in the **phase** of the stroke (time), not in the place along
 //! the tooth (the crank makes that relation steep near the ends of the stroke). So each row of a field has a phase tau
 //! in [-1, 1], each stroke has poses at Chebyshev nodes of tau, and everything made of them is a cubic in tau. A frozen
-//! stroke is the constant.
+//! stroke is the constant. Where a guide leads the cutter aside along the tooth, tau follows the place itself while the
+//! axes rest; with a crank the guide's shift is the cubic in tau, on usual strokes within half a per cent of it.
 //!
 //! Law of the ram: z = z_m + (L/2) cos(theta), L = approach + face + overrun, theta from 0 to pi during the cut, half
 //! of a double stroke's time; so a place z is reached at theta = arccos(2 (z - z_m) / L). The stroke's own moment is
@@ -23,6 +24,11 @@ pub const NODES: [f64; 4] =
 pub enum StrokeLaw {
     /// The pose of the stroke's own moment holds for its whole length.
     Frozen,
+    /// The axes rest during a stroke, but the guide of the ram leads the cutter to other places at other heights.
+    Guided {
+        /// Half of the face width, mm: tau = 1 is at its lower end.
+        half_face_mm: f64,
+    },
     /// Crank: the feed goes on.
     Crank {
         /// Stroke length L, mm.
@@ -50,6 +56,7 @@ impl StrokeLaw {
     pub fn tau(&self, z_mm: f64) -> f64 {
         match *self {
             Self::Frozen => 0.0,
+            Self::Guided { half_face_mm } => -z_mm / half_face_mm,
             Self::Crank { length_mm, middle_mm, half_share } => {
                 let angle = |z_mm: f64| (2.0 * (z_mm - middle_mm) / length_mm).clamp(-1.0, 1.0).acos();
                 (angle(z_mm) - angle(0.0)) / std::f64::consts::TAU / half_share
@@ -57,10 +64,27 @@ impl StrokeLaw {
         }
     }
 
+    /// Place along the tooth at a phase, mm; the middle of the face where all places are alike.
+    pub fn z_mm(&self, tau: f64) -> f64 {
+        match *self {
+            Self::Frozen => 0.0,
+            Self::Guided { half_face_mm } => -tau * half_face_mm,
+            Self::Crank { length_mm, middle_mm, half_share } => {
+                let middle = (-2.0 * middle_mm / length_mm).clamp(-1.0, 1.0).acos();
+                middle_mm + 0.5 * length_mm * (middle + tau * half_share * std::f64::consts::TAU).cos()
+            }
+        }
+    }
+
+    /// Whether the axes rest while the cutter is in the work.
+    pub fn rests(&self) -> bool {
+        !matches!(self, Self::Crank { .. })
+    }
+
     /// Fraction of a double stroke between the stroke's own moment and phase tau.
     pub fn stroke_share(&self, tau: f64) -> f64 {
         match *self {
-            Self::Frozen => 0.0,
+            Self::Frozen | Self::Guided { .. } => 0.0,
             Self::Crank { half_share, .. } => tau * half_share,
         }
     }
@@ -69,7 +93,7 @@ impl StrokeLaw {
     /// place again; 0 where the axes rest. The ram is there at theta and at 2 pi - theta.
     pub fn return_share(&self, tau: f64) -> f64 {
         match *self {
-            Self::Frozen => 0.0,
+            Self::Frozen | Self::Guided { .. } => 0.0,
             Self::Crank { length_mm, middle_mm, .. } => {
                 1.0 - (-2.0 * middle_mm / length_mm).clamp(-1.0, 1.0).acos() / std::f64::consts::PI
                     - self.stroke_share(tau)
@@ -98,7 +122,18 @@ impl StrokeSet {
         tool: &dyn PlanarTool,
         law: StrokeLaw,
         count: usize,
-        work_from_tool: impl FnMut(f64) -> Rigid2,
+        mut work_from_tool: impl FnMut(f64) -> Rigid2,
+    ) -> Self {
+        Self::along_guide(first_pass, tool, law, count, |lambda, _| work_from_tool(lambda))
+    }
+
+    /// The same where the pose is another one at every place along the tooth: `work_from_tool(lambda, z_mm)`.
+    pub fn along_guide(
+        first_pass: u32,
+        tool: &dyn PlanarTool,
+        law: StrokeLaw,
+        count: usize,
+        work_from_tool: impl FnMut(f64, f64) -> Rigid2,
     ) -> Self {
         Self::at_shares(first_pass, tool, law, count, |tau| law.stroke_share(tau), work_from_tool)
     }
@@ -109,7 +144,7 @@ impl StrokeSet {
         tool: &dyn PlanarTool,
         law: StrokeLaw,
         count: usize,
-        work_from_tool: impl FnMut(f64) -> Rigid2,
+        work_from_tool: impl FnMut(f64, f64) -> Rigid2,
     ) -> Self {
         Self::at_shares(first_pass, tool, law, count, |tau| law.return_share(tau), work_from_tool)
     }
@@ -120,18 +155,19 @@ impl StrokeSet {
         law: StrokeLaw,
         count: usize,
         share: impl Fn(f64) -> f64,
-        work_from_tool: impl FnMut(f64) -> Rigid2,
+        mut work_from_tool: impl FnMut(f64, f64) -> Rigid2,
     ) -> Self {
-        let shares: Vec<f64> = Self::node_phases(law).iter().map(|&tau| share(tau)).collect();
-        let moments = (0..count).flat_map(|stroke| shares.iter().map(move |share| stroke as f64 + share));
-        let poses = moments.map(work_from_tool).collect();
+        let nodes: Vec<[f64; 2]> = Self::node_phases(law).iter().map(|&tau| [share(tau), law.z_mm(tau)]).collect();
+        let moments =
+            (0..count).flat_map(|stroke| nodes.iter().map(move |[share, z_mm]| (stroke as f64 + share, *z_mm)));
+        let poses = moments.map(|(lambda, z_mm)| work_from_tool(lambda, z_mm)).collect();
         Self { first_pass, blades: tool.blade_count(), law, poses }
     }
 
     fn node_phases(law: StrokeLaw) -> &'static [f64] {
         match law {
             StrokeLaw::Frozen => &[0.0],
-            StrokeLaw::Crank { .. } => &NODES,
+            StrokeLaw::Guided { .. } | StrokeLaw::Crank { .. } => &NODES,
         }
     }
 
@@ -235,5 +271,14 @@ mod tests {
         assert_eq!(law.tau(0.0), 0.0);
         // A quarter of a double stroke separates the middle of the stroke from its ends.
         assert!(law.stroke_share(1.0) < 0.25);
+    }
+
+    #[test]
+    fn phases_lead_back_to_their_places() {
+        for law in [StrokeLaw::crank(30.0, 5.0, 2.0), StrokeLaw::Guided { half_face_mm: 15.0 }] {
+            for z_mm in [-15.0, -3.0, 0.0, 14.0] {
+                assert!((law.z_mm(law.tau(z_mm)) - z_mm).abs() < 1e-12, "{law:?} at {z_mm} mm");
+            }
+        }
     }
 }

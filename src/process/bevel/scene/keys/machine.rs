@@ -1,6 +1,17 @@
 //! Keys of the machines: the cradle machine's settings and their errors, the six-axis machine, limits of its axes.
 
+use crate::machine::AxisKind;
+use crate::scene::keys::machine_errors::{WORK, X, Y, linear, rotary};
 use crate::scene::keys::{Default, Key, KeySection, Kind, Range, Role};
+
+/// Axes with errors, by the last names of their sections, in the machine's order.
+pub const AXES: [(&str, AxisKind); 5] = [
+    ("x", AxisKind::Linear),
+    ("y", AxisKind::Linear),
+    ("z", AxisKind::Linear),
+    ("work", AxisKind::Rotary),
+    ("swing", AxisKind::Rotary),
+];
 
 /// A length that is 0 unless it is written.
 const fn length(name: &'static str, example: &'static str, teach: &'static str) -> Key {
@@ -131,4 +142,9 @@ pub(super) static SECTIONS: &[KeySection] = &[
         teach: "Largest speeds and accelerations of the linked axes of a six-axis bevel machine, and how far they \
             travel, where known. They hold for the roll; the way back and the indexing are left to the control.",
     },
+    X,
+    Y,
+    linear("machine.errors.z", "Errors of the slide Z, along the head's axis."),
+    WORK,
+    rotary("machine.errors.swing", "Errors of the swing axis B."),
 ];

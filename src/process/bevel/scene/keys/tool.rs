@@ -1,5 +1,6 @@
 //! Keys of the face-mill head.
 
+use crate::scene::keys::machine_errors::{TOOL_WOBBLE, TOOL_WOBBLE_ANGLE};
 use crate::scene::keys::{Default, Key, KeySection, Kind, Range, Role};
 
 /// `[tool.face_mill]`.
@@ -80,6 +81,8 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             "0.0",
             "Angle of the first blade, from the middle of the first slot, when that slot's roll begins.",
         ),
+        TOOL_WOBBLE,
+        TOOL_WOBBLE_ANGLE,
     ],
     groups: &[],
     teach: "Face-mill head with inside and outside blades in turn.",

@@ -1,9 +1,32 @@
-//! Keys of the hobbing machine: limits of its axes.
+//! Keys of the hobbing machine: limits of its axes, errors of each.
 
+use crate::machine::AxisKind;
+use crate::scene::keys::machine_errors::{GUIDE, WORK, X, Y, linear, rotary};
 use crate::scene::keys::{Key, KeySection, Role};
 
+/// Axes with errors, by the last names of their sections, in the machine's order.
+pub const AXES: [(&str, AxisKind); 6] = [
+    ("hob", AxisKind::Rotary),
+    ("work", AxisKind::Rotary),
+    ("x", AxisKind::Linear),
+    ("y", AxisKind::Linear),
+    ("slide", AxisKind::Linear),
+    ("shift", AxisKind::Linear),
+];
+
 /// `[machine.hobbing_limits]`.
-pub(super) static SECTIONS: &[KeySection] = &[KeySection {
+pub(super) static SECTIONS: &[KeySection] = &[
+    LIMITS,
+    rotary("machine.errors.hob", "Errors of the hob spindle."),
+    WORK,
+    X,
+    Y,
+    linear("machine.errors.slide", "Errors of the slide Z along the gear's axis."),
+    linear("machine.errors.shift", "Errors of the shift along the hob's axis."),
+    GUIDE,
+];
+
+const LIMITS: KeySection = KeySection {
     path: "machine.hobbing_limits",
     role: Role::Plain,
     keys: &[
@@ -26,4 +49,4 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
     groups: &[],
     teach: "Largest speeds and accelerations of the axes of a hobbing machine, where known. Slide and shift run at \
         constant feeds; their jumps are left to the control.",
-}];
+};

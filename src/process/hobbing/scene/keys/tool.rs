@@ -1,5 +1,6 @@
 //! Keys of the hob.
 
+use crate::scene::keys::machine_errors::{TOOL_RUNOUT, TOOL_RUNOUT_ANGLE, TOOL_WOBBLE, TOOL_WOBBLE_ANGLE};
 use crate::scene::keys::{Default, Group, Key, KeySection, Kind, Range, Role};
 
 /// `[tool.hob]`.
@@ -121,6 +122,10 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             "How much the hob's radius has shrunk by regrinding its rake faces; the lead stays, so the profile \
             changes.",
         ),
+        TOOL_RUNOUT,
+        TOOL_RUNOUT_ANGLE,
+        TOOL_WOBBLE,
+        TOOL_WOBBLE_ANGLE,
     ],
     groups: &[Group { names: &["lead_angle_deg", "reference_diameter_mm"], required: true }],
     teach: "Hob; module and pressure angle are the gear's, in the normal section.",

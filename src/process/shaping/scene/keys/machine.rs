@@ -1,6 +1,12 @@
-//! Keys of the machine around the cut: ram, mounting errors, limits of the axes.
+//! Keys of the machine around the cut: ram, limits of the axes, errors of each.
 
+use crate::machine::AxisKind;
+use crate::scene::keys::machine_errors::{GUIDE, WORK, linear, rotary};
 use crate::scene::keys::{Addition, Default, Key, KeySection, Kind, Range, Role};
+
+/// Axes with errors, by the last names of their sections, in the machine's order.
+pub const AXES: [(&str, AxisKind); 3] =
+    [("work", AxisKind::Rotary), ("cutter", AxisKind::Rotary), ("center_distance", AxisKind::Linear)];
 
 /// Keys of `[machine]`.
 pub(super) static ADDED: Addition = Addition {
@@ -49,28 +55,18 @@ pub(super) static ADDED: Addition = Addition {
                 tilted out of the normal so that it clears stock too, or turned only where the line of centres is not \
                 clear.",
         },
-        Key {
-            name: "work_eccentricity_um",
-            kind: Kind::Number(Range::closed(0.0, 1000.0)),
-            unit: "um",
-            default: Default::Number(0.0),
-            example: "10.0",
-            teach: "Mounting error: distance of the gear axis from the axis of the work spindle.",
-        },
-        Key {
-            name: "work_eccentricity_angle_deg",
-            kind: Kind::Number(Range::closed(-360.0, 360.0)),
-            unit: "deg",
-            default: Default::Number(0.0),
-            example: "0.0",
-            teach: "Direction of that error in the gear, counted from phi = 0.",
-        },
     ],
     groups: &[],
 };
 
 /// What is inside `[machine]`.
-pub(super) static SECTIONS: &[KeySection] = &[KeySection {
+pub(super) static SECTIONS: &[KeySection] = &[LIMITS, WORK, CUTTER, CENTER_DISTANCE, GUIDE];
+
+const CUTTER: KeySection = rotary("machine.errors.cutter", "Errors of the cutter spindle.");
+const CENTER_DISTANCE: KeySection =
+    linear("machine.errors.center_distance", "Errors of the radial axis, which sets the centre distance.");
+
+const LIMITS: KeySection = KeySection {
     path: "machine.limits",
     role: Role::Plain,
     keys: &[
@@ -101,4 +97,4 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
     groups: &[],
     teach: "Largest speeds and accelerations of the axes, with which the peaks of every operation are compared, and the \
         force of the ram.",
-}];
+};

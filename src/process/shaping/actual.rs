@@ -1,0 +1,122 @@
+//! Where the cutter really stands: the commanded axes with the errors of machine and clamping.
+//!
+//! In: the strokes of an operation or the program that is cut instead, and the machine's errors. Out: poses for the
+//! passes, at every stroke coordinate and every place along the tooth. What is commanded stays in tables, charts and
+//! programs.
+//!
+//! The gear's frame is that of its own axis: an eccentric or leaning gear sees the cutter shifted against it by the
+//! same amount. The lean itself turns the section by less than its square, 5e-7 mm on a face of 100 mm that leans by
+//! 10 um, and is left out; so is what an axial offset does to the moment at which the ram passes.
+
+use crate::machine::{AxisMotion, Motion};
+use crate::machine_errors::{ActualMotion, Course, Guide, MachineErrors, MachineMoment, WorkMounting};
+use crate::process::shaping::gcode::AxisProgram;
+use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
+use gearcut_core::frame::Rigid2;
+use gearcut_core::gear::GearKind;
+use glam::DVec2;
+
+/// Strokes before the first and after the last one at which poses are asked for: the way back of the last, and room.
+const BEYOND_STROKES: f64 = 2.0;
+
+/// What the axes are told: the strokes of the linkage, or a program in their place.
+#[derive(Debug, Clone, Copy)]
+pub struct Commanded<'a> {
+    /// The strokes.
+    pub schedule: &'a StrokeSchedule,
+    /// The program.
+    pub program: Option<&'a AxisProgram>,
+}
+
+/// Errors over the strokes of an operation.
+#[derive(Debug, Clone)]
+pub struct ActualStrokes {
+    motion: Option<ActualMotion<3>>,
+    guide: Guide,
+    mounting: WorkMounting,
+    gear: GearKind,
+    half_face_mm: f64,
+    start_s: f64,
+}
+
+impl Commanded<'_> {
+    /// Axes at a stroke coordinate: work angle and cutter angle, rad, centre distance, mm.
+    fn positions(&self, stroke: f64) -> [f64; 3] {
+        match self.program {
+            Some(program) => program.motion(stroke).map(|[position, _]| position),
+            None => {
+                let state = self.schedule.state(stroke);
+                [state.psi_c_rad, state.psi_b_rad, state.center_distance_mm]
+            }
+        }
+    }
+
+    fn motion(&self, stroke: f64) -> [AxisMotion; 3] {
+        let strokes_per_s = 1.0 / self.schedule.time_s(1.0);
+        match self.program {
+            Some(program) => program.motion(stroke).map(|[position, rate]| AxisMotion {
+                position,
+                velocity: rate * strokes_per_s,
+                acceleration: 0.0,
+            }),
+            None => self.schedule.at(stroke),
+        }
+    }
+
+    /// All strokes, with room at both ends.
+    fn course(&self) -> Course {
+        let schedule = self.schedule;
+        let last = (schedule.count() - 1) as f64 + BEYOND_STROKES;
+        let corners: Vec<f64> = match self.program {
+            Some(program) => program.knots.iter().map(|knot| knot.stroke).collect(),
+            None => schedule.corners().to_vec(),
+        };
+        let turns = (last + BEYOND_STROKES) / f64::from(schedule.strokes_per_revolution());
+        let per_turn = schedule.linkage().curve().samples_per_turn() as f64;
+        Course {
+            from_s: schedule.time_s(-BEYOND_STROKES),
+            to_s: schedule.time_s(last),
+            corners_s: corners.into_iter().map(|stroke| schedule.time_s(stroke)).collect(),
+            cells: (per_turn * turns).ceil().max(64.0) as usize,
+        }
+    }
+}
+
+impl ActualStrokes {
+    /// Errors over the strokes of an operation that begins `start_s` after the first one.
+    pub fn new(errors: &MachineErrors<3>, commanded: Commanded<'_>, start_s: f64, half_face_mm: f64) -> Self {
+        let seconds_per_stroke = commanded.schedule.time_s(1.0);
+        let at = |time_s: f64| commanded.motion(time_s / seconds_per_stroke);
+        Self {
+            motion: ActualMotion::new(&errors.axes, &commanded.course(), at),
+            guide: errors.guide,
+            mounting: errors.mounting,
+            gear: commanded.schedule.linkage().gear(),
+            half_face_mm,
+            start_s,
+        }
+    }
+
+    /// Whether sections at different places along the tooth are cut differently while the axes rest.
+    pub fn differs_along_tooth(&self) -> bool {
+        !self.guide.is_none() || self.mounting.wobble_rad != 0.0
+    }
+
+    /// Cutter in the spindle's frame at a stroke coordinate.
+    pub fn pose(&self, commanded: Commanded<'_>, stroke: f64) -> CutterPose {
+        let Some(motion) = &self.motion else { return CutterPose::new(self.gear, commanded.positions(stroke)) };
+        let seconds_per_stroke = commanded.schedule.time_s(1.0);
+        let time_s = commanded.schedule.time_s(stroke);
+        let moment = MachineMoment { time_s, since_start_s: self.start_s + time_s, indexed: [0.0; 3] };
+        let positions = motion.positions(&moment, |time_s| commanded.positions(time_s / seconds_per_stroke));
+        CutterPose::new(self.gear, positions)
+    }
+
+    /// A cutter that stands in the spindle's frame, in the gear's frame at a place along the tooth: led there by the
+    /// guide, seen from the gear's own axis.
+    pub fn placed(&self, pose: &CutterPose, z_mm: f64) -> Rigid2 {
+        let shift_mm = self.guide.shift_mm(z_mm + self.mounting.axial_offset_mm, self.half_face_mm);
+        let outwards = pose.center_mm.normalize_or(DVec2::X);
+        Rigid2::new(pose.angle_rad, pose.center_mm + outwards.rotate(shift_mm) - self.mounting.axis_mm(z_mm))
+    }
+}

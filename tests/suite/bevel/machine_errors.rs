@@ -1,0 +1,167 @@
+//! Errors of a bevel machine, its clamping and its head come out on flanks as their closed forms say: to first order a
+//! displacement d of the head against the work at the moment of contact moves the flank by n . d.
+
+use super::jobs::job;
+use gearcut::cut::cpu::Cpu;
+use gearcut::passes::SweepPlan;
+use gearcut::process::bevel::BevelJob;
+use gearcut::terms::Side;
+use glam::{DMat3, DVec2, DVec3};
+use std::f64::consts::TAU;
+
+const SCENE: &str = "five_linkage_printed";
+const ARCSEC_RAD: f64 = std::f64::consts::PI / 180.0 / 3600.0;
+
+/// A place on a flank, gear frame.
+struct Place {
+    point_mm: DVec3,
+    normal: DVec3,
+    /// Cradle angle of the contact, rad.
+    cradle_rad: f64,
+    slot: u32,
+    /// Direction of the slide Z, along the head's axis.
+    along_head: DVec3,
+}
+
+impl Place {
+    /// Height after the head has been turned about the gear's axis, rad.
+    fn turned(&self, by_rad: f64) -> f64 {
+        (by_rad * DVec3::Z.cross(self.point_mm)).dot(self.normal)
+    }
+}
+
+/// What an error changes on both flanks of a few teeth, mm.
+fn changes(sound: &BevelJob, faulty: &BevelJob, teeth: &[u32]) -> Vec<(Place, f64)> {
+    let mut found = Vec::new();
+    for &tooth in teeth {
+        for side in [Side::Left, Side::Right] {
+            let target = sound.target_of(side);
+            let arc_mm = 0.55 * target.length_mm();
+            let rows_mm = [-6.0, 0.0, 8.0];
+            let rays = sound.rays_over(tooth, side, vec![arc_mm], rows_mm.to_vec()).expect("rays");
+            let slot = sound.space_of(tooth, side);
+            let cut = |job: &BevelJob| {
+                job.cut_field(&Cpu::default(), slot, &rays.field).expect("cuts").0.last().expect("a layer").clone()
+            };
+            let (before, after) = (cut(sound), cut(faulty));
+            for (row, &along_mm) in rows_mm.iter().enumerate() {
+                let contact = target.row(along_mm).expect("a row").point(target.share_at(arc_mm)).expect("a point");
+                let ray = rays.field.ray(0, row);
+                let turn = DMat3::from_rotation_z(TAU * f64::from(slot) / f64::from(sound.blank.teeth));
+                let axis = sound.finishing().as_set.work_from_tool(contact.cradle_rad).direction(DVec3::Z);
+                let place = Place {
+                    point_mm: ray.origin_mm,
+                    normal: ray.normal,
+                    cradle_rad: contact.cradle_rad,
+                    slot,
+                    along_head: turn * sound.gear_from_work.direction(axis),
+                };
+                let index = rays.field.index(0, row);
+                found.push((place, f64::from(after.heights_mm[index]) - f64::from(before.heights_mm[index])));
+            }
+        }
+    }
+    found
+}
+
+/// To 1 % of the closed form's largest value, or 0.1 um.
+fn agree(name: &str, found: &[(Place, f64)], least_um: f64, expected: impl Fn(&Place) -> f64) {
+    let largest_um = found.iter().map(|(place, _)| 1e3 * expected(place).abs()).fold(0.0, f64::max);
+    let worst_um = found.iter().map(|(place, got)| 1e3 * (got - expected(place)).abs()).fold(0.0, f64::max);
+    println!("{name}: up to {largest_um:.3} um, worst difference {worst_um:.4} um");
+    assert!(largest_um >= least_um, "{name}: {largest_um} um are too little to see");
+    assert!(worst_um < (0.01 * largest_um).max(0.1), "{name}: {worst_um} um off of {largest_um} um");
+}
+
+#[test]
+fn errors_are_their_closed_forms() {
+    let sound = job(SCENE, &[]).expect("a gear");
+    let finishing = sound.finishing();
+    let teeth = [1, 17, 40];
+    let case = |name: &str, settings: &[&str], least_um: f64, expected: &dyn Fn(&Place) -> f64| {
+        agree(name, &changes(&sound, &job(SCENE, settings).expect("a gear"), &teeth), least_um, expected);
+    };
+    case(
+        "waves of the work spindle",
+        &["machine.errors.work.periodic_orders=[1.0]", "machine.errors.work.periodic_amplitudes_arcsec=[15.0]"],
+        5.0,
+        &|place| {
+            let indexed = TAU * f64::from(place.slot) / f64::from(sound.blank.teeth);
+            let work_rad = finishing.as_set.work_angle(place.cradle_rad)[0];
+            place.turned(15.0 * ARCSEC_RAD * (work_rad + indexed).sin())
+        },
+    );
+    let work_rad_per_s =
+        |place: &Place| finishing.as_set.work_angle(place.cradle_rad)[1] * finishing.cradle_rad_per_s();
+    case("lag of the work spindle", &["machine.errors.work.velocity_gain_per_s=600"], 3.0, &|place| {
+        place.turned(-work_rad_per_s(place) / 600.0)
+    });
+    case(
+        "eccentricity of the work",
+        &["mounting.eccentricity_um=10", "mounting.eccentricity_angle_deg=30"],
+        3.0,
+        &|place| -10e-3 * DVec2::from_angle(30_f64.to_radians()).extend(0.0).dot(place.normal),
+    );
+    case("mounting distance", &["mounting.axial_offset_um=10"], 1.0, &|place| -10e-3 * place.normal.z);
+    case("drift of the slide along the head", &["machine.errors.z.drift_um_per_h=60"], 1.0, &|place| {
+        let passed_s = (place.cradle_rad - finishing.roll_rad[0]) / finishing.cradle_rad_per_s();
+        let time_s = f64::from(place.slot) * finishing.cycle_s() + passed_s;
+        60e-3 / 3600.0 * time_s * place.along_head.dot(place.normal)
+    });
+}
+
+/// A leaning head lowers each blade's tip by as much at every place of its way: R w cos of the angle between both.
+#[test]
+fn a_leaning_head_lowers_its_blades_one_by_one() {
+    let (lean, towards_rad) = (30e-5, 0.4_f64);
+    let sound = job(SCENE, &[]).expect("a gear");
+    let towards = format!("tool.face_mill.wobble_angle_deg={}", towards_rad.to_degrees());
+    let faulty = job(SCENE, &["tool.face_mill.wobble_um_per_100mm=30", &towards]).expect("a gear");
+    let radius_mm = sound.head.radius_mm;
+    for slot in [0, 9] {
+        let [before, after] = [&sound, &faulty].map(|job| job.slots.of(0, slot));
+        for pass in (0..before.count()).step_by(37) {
+            let pass = before.pass(pass);
+            let blade_rad = before.place(&pass).angle_rad;
+            for off_rad in [-0.2, 0.0, 0.15] {
+                let tool_rad = pass.tool_angle_rad + off_rad;
+                let tip = (radius_mm * DVec2::from_angle(blade_rad + tool_rad)).extend(0.0);
+                let [exact, moved] = [before, after].map(|set| set.motion.head_from_work(tool_rad).inverse());
+                let lower_mm = -(moved.point(tip) - exact.point(tip)).dot(exact.direction(DVec3::Z));
+                let expected_mm = radius_mm * lean * (blade_rad - towards_rad).cos();
+                assert!((lower_mm - expected_mm).abs() < 1e-6, "{lower_mm} instead of {expected_mm} mm");
+            }
+        }
+    }
+}
+
+#[test]
+fn candidates_equal_brute_force_on_a_machine_with_errors() {
+    let faulty = job(
+        SCENE,
+        &[
+            "operation.finish.roll_speed_deg_per_s=20",
+            "mounting.eccentricity_um=30",
+            "mounting.wobble_um_per_100mm=60",
+            "tool.face_mill.wobble_um_per_100mm=20",
+            "machine.errors.work.periodic_orders=[40.0]",
+            "machine.errors.work.periodic_amplitudes_arcsec=[10.0]",
+            "machine.errors.x.backlash_um=10",
+            "machine.errors.y.velocity_gain_per_s=50",
+        ],
+    )
+    .expect("a gear");
+    for side in [Side::Left, Side::Right] {
+        let middle_mm = 0.5 * faulty.target_of(side).length_mm();
+        let arcs_mm = (0..16).map(|i| middle_mm + 0.05 * f64::from(i)).collect();
+        let rays = faulty.rays_over(5, side, arcs_mm, vec![-1.0, 0.0, 1.0]).expect("rays");
+        let set = faulty.slots.of(0, faulty.space_of(5, side));
+        let [few, all] = [SweepPlan::new, SweepPlan::brute_force].map(|make| {
+            let mut layer = rays.field.blank_layer();
+            gearcut::cut::Backend::cut_spatial(&Cpu::default(), &rays.field, &make(&rays.field, set), &mut layer)
+                .expect("cuts");
+            layer
+        });
+        assert!(few.passes == all.passes && few.heights_mm == all.heights_mm, "{side:?}");
+    }
+}

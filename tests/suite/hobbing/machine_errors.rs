@@ -1,0 +1,229 @@
+//! Errors of a hobbing machine, its clamping and its hob come out on flanks as their closed forms say.
+//!
+//! To first order a displacement d of the hob against the work at the moment of contact moves the flank by n . d. At
+//! the pitch point of a round gear the contact stands on the line of centres, at the work angle that is the point's
+//! polar angle. Each flank is cut twice, with the error and without it: both carry the same marks.
+
+use super::spatial::same_as_brute_force;
+use gearcut::cut::cpu::Cpu;
+use gearcut::dexel::{Layer, SpatialField};
+use gearcut::process;
+use gearcut::process::hobbing::{HobCutter, HobbingJob};
+use gearcut::terms::Side;
+use glam::{DVec2, DVec3};
+use std::f64::consts::TAU;
+use std::path::Path;
+
+/// Places along the tooth, mm.
+const ROWS_MM: [f64; 3] = [-3.0, 0.5, 3.0];
+const PITCH_MM: f64 = 36.0;
+const ARCSEC_RAD: f64 = std::f64::consts::PI / 180.0 / 3600.0;
+/// Speed of the hob, rad/s.
+const HOB_RAD_PER_S: f64 = 200.0 * TAU / 60.0;
+
+fn job(settings: &[&str]) -> HobbingJob {
+    let fine = [
+        "gear.teeth=24",
+        "gear.face_width_mm=8",
+        "tool.hob.gashes=24",
+        "operation.finish.axial_feed_mm_per_revolution=0.6",
+    ];
+    let settings: Vec<String> = fine.iter().chain(settings).map(|&s| s.to_owned()).collect();
+    let loaded = process::load(Path::new("scenes/hobbing/circular_spur.toml"), &settings).expect("a scene");
+    HobbingJob::new(&loaded.scene).expect("a job")
+}
+
+/// A place near the pitch circle.
+struct Place {
+    point_mm: DVec3,
+    normal: DVec3,
+    /// Time at which the slide passes it, s.
+    time_s: f64,
+    /// Pass that left it in the faulty gear.
+    pass: u32,
+}
+
+impl Place {
+    /// Outwards, counter-clockwise about the gear, along its axis.
+    fn directions(&self) -> [DVec3; 3] {
+        let out = self.point_mm.truncate().normalize().extend(0.0);
+        [out, DVec3::Z.cross(out), DVec3::Z]
+    }
+
+    /// Height after a shift of the hob in those directions, mm.
+    fn shifted(&self, by_mm: [f64; 3]) -> f64 {
+        self.directions().iter().zip(by_mm).map(|(along, mm)| mm * along.dot(self.normal)).sum()
+    }
+
+    fn polar_rad(&self) -> f64 {
+        self.point_mm.truncate().to_angle()
+    }
+}
+
+fn finished(job: &HobbingJob, field: &SpatialField) -> Layer {
+    let (layers, stats) = HobCutter::new(job).expect("passes").cut_field(&Cpu::default(), field).expect("cut");
+    assert_eq!(stats.unconverged, 0);
+    layers.last().expect("an operation").clone()
+}
+
+/// What an error changes near the pitch circle of both flanks of a tooth, mm.
+fn changes(sound: &HobbingJob, faulty: &HobbingJob, teeth: &[u32]) -> Vec<(Place, f64)> {
+    let cutter = HobCutter::new(sound).expect("passes");
+    let linkage = &sound.finishing().linkage;
+    let mut found = Vec::new();
+    for &tooth in teeth {
+        for side in [Side::Left, Side::Right] {
+            let target = cutter.target(tooth, side).expect("a flank");
+            let arc_mm = target.arc_at_height_mm(&sound.blank, 0.0).expect("the pitch circle");
+            let field = cutter.rays_over(target, vec![arc_mm], ROWS_MM.to_vec()).field;
+            let (before, after) = (finished(sound, &field), finished(faulty, &field));
+            for (row, &z_mm) in ROWS_MM.iter().enumerate() {
+                let ray = field.ray(0, row);
+                let index = field.index(0, row);
+                // The slide is even in time, and runs against the gear's z.
+                let slide = |time_s: f64| linkage.axes::<1>(time_s).slide_mm.value();
+                let end_s = linkage.end_s();
+                let time_s = end_s * (-z_mm - slide(0.0)) / (slide(end_s) - slide(0.0));
+                let place = Place { point_mm: ray.origin_mm, normal: ray.normal, time_s, pass: after.passes[index] };
+                found.push((place, f64::from(after.heights_mm[index]) - f64::from(before.heights_mm[index])));
+            }
+        }
+    }
+    found
+}
+
+/// To 1 % of the closed form's largest value, or 0.1 um.
+fn agree(name: &str, found: &[(Place, f64)], least_um: f64, expected: impl Fn(&Place) -> f64) {
+    let largest_um = found.iter().map(|(place, _)| 1e3 * expected(place).abs()).fold(0.0, f64::max);
+    let worst_um = found.iter().map(|(place, got)| 1e3 * (got - expected(place)).abs()).fold(0.0, f64::max);
+    println!("{name}: up to {largest_um:.3} um, worst difference {worst_um:.4} um");
+    assert!(largest_um >= least_um, "{name}: {largest_um} um are too little to see");
+    assert!(worst_um < (0.01 * largest_um).max(0.1), "{name}: {worst_um} um off of {largest_um} um");
+}
+
+#[test]
+fn errors_of_a_round_gear_are_their_closed_forms() {
+    let sound = job(&[]);
+    let teeth = [2, 13];
+    let case = |name: &str, settings: &[&str], least_um: f64, expected: &dyn Fn(&Place) -> f64| {
+        agree(name, &changes(&sound, &job(settings), &teeth), least_um, expected);
+    };
+    case(
+        "waves of the work spindle",
+        &["machine.errors.work.periodic_orders=[2.0]", "machine.errors.work.periodic_amplitudes_arcsec=[40.0]"],
+        3.0,
+        &|place| place.shifted([0.0, PITCH_MM * 40.0 * ARCSEC_RAD * (2.0 * place.polar_rad()).sin(), 0.0]),
+    );
+    // A hob that lags lets the rack stay behind: the gear runs ahead of it.
+    let lag_mm = 1.5 * HOB_RAD_PER_S * (1.0 - 0.98) / 100.0;
+    let hob = ["machine.errors.hob.velocity_gain_per_s=100", "machine.errors.hob.feed_forward=0.98"];
+    let work = ["machine.errors.work.velocity_gain_per_s=100", "machine.errors.work.feed_forward=0.98"];
+    case("lag of the hob spindle", &hob, 4.0, &|place| place.shifted([0.0, lag_mm, 0.0]));
+    case("lag of the work spindle", &work, 4.0, &|place| place.shifted([0.0, -lag_mm, 0.0]));
+    case("the same lag of both", &[hob, work].concat(), 0.0, &|_| 0.0);
+    case("scale of the radial slide", &["machine.errors.y.scale_um_per_m=300"], 3.0, &|place| {
+        place.shifted([300e-6 * PITCH_MM, 0.0, 0.0])
+    });
+    case("drift of the tangential slide", &["machine.errors.x.drift_um_per_h=300"], 3.0, &|place| {
+        place.shifted([0.0, 0.3 / 3600.0 * place.time_s, 0.0])
+    });
+    case(
+        "slide out of parallel",
+        &["machine.errors.guide.radial_um_per_100mm=200", "machine.errors.guide.tangential_um_per_100mm=-150"],
+        3.0,
+        &|place| place.shifted([200e-5 * place.point_mm.z, -150e-5 * place.point_mm.z, 0.0]),
+    );
+    let direction = |degrees: f64| DVec2::from_angle(degrees.to_radians()).extend(0.0);
+    case(
+        "eccentricity and wobble of the work",
+        &[
+            "mounting.eccentricity_um=8",
+            "mounting.eccentricity_angle_deg=70",
+            "mounting.wobble_um_per_100mm=120",
+            "mounting.wobble_angle_deg=-20",
+        ],
+        5.0,
+        &|place| -(8e-3 * direction(70.0) + 120e-5 * place.point_mm.z * direction(-20.0)).dot(place.normal),
+    );
+}
+
+/// On a helical gear what moves along the axis moves flanks as well.
+#[test]
+fn errors_along_the_axis_show_on_a_helical_gear() {
+    let helical = |settings: &[&str]| {
+        let settings: Vec<&str> = ["gear.helix_angle_deg=20"].iter().chain(settings).copied().collect();
+        job(&settings)
+    };
+    let sound = helical(&[]);
+    let case = |name: &str, settings: &[&str], expected: &dyn Fn(&Place) -> f64| {
+        agree(name, &changes(&sound, &helical(settings), &[5]), 1.0, expected);
+    };
+    case("scale of the slide", &["machine.errors.slide.scale_um_per_m=3000"], &|place| {
+        place.shifted([0.0, 0.0, 3e-3 * place.point_mm.z])
+    });
+    case("offset of the work", &["mounting.axial_offset_um=-12"], &|place| place.shifted([0.0, 0.0, 12e-3]));
+}
+
+/// The hob's axis runs round its spindle's: the pass that left a place says where it was.
+#[test]
+fn runout_of_the_hob_follows_its_angle() {
+    let sound = job(&[]);
+    let (runout_mm, angle_rad) = (4e-3, 0.5);
+    let faulty = job(&[
+        "tool.hob.runout_um=4",
+        &format!("tool.hob.runout_angle_deg={}", angle_rad * 180.0 / std::f64::consts::PI),
+    ]);
+    let cutter = HobCutter::new(&faulty).expect("passes");
+    let passes = &cutter.operations[0];
+    let geometry = faulty.finishing().linkage.geometry();
+    agree("runout of the hob", &changes(&sound, &faulty, &[2, 9]), 1.0, |place| {
+        let hob_rad = passes.pass(place.pass - passes.first_pass).tool_angle_rad;
+        let tool = geometry.machine_from_tool(hob_rad, 0.0, 0.0, 0.0).rotation;
+        let shift = runout_mm * (tool.x_axis * f64::cos(angle_rad) + tool.y_axis * f64::sin(angle_rad));
+        // Machine x is counter-clockwise about the gear, y outwards, z against the gear's.
+        place.shifted([shift.y, shift.x, -shift.z])
+    });
+}
+
+/// Errors at once, the fastest that are allowed among them.
+const MANY: [&str; 12] = [
+    "mounting.eccentricity_um=30",
+    "mounting.wobble_um_per_100mm=80",
+    "tool.hob.runout_um=20",
+    "tool.hob.wobble_um_per_100mm=60",
+    "machine.errors.guide.tangential_bow_um=15",
+    "machine.errors.hob.periodic_orders=[1.0, 8.0]",
+    "machine.errors.hob.periodic_amplitudes_arcsec=[90.0, 10.0]",
+    "machine.errors.work.periodic_orders=[100.0]",
+    "machine.errors.work.periodic_amplitudes_arcsec=[10.0]",
+    "machine.errors.work.velocity_gain_per_s=40",
+    "machine.errors.work.feed_forward=0.99",
+    "machine.errors.y.drift_um_per_h=500",
+];
+
+#[test]
+fn passes_follow_a_machine_with_errors_and_candidates_equal_brute_force() {
+    let faulty = job(&MANY);
+    let cutter = HobCutter::new(&faulty).expect("passes");
+    let operation = faulty.finishing();
+    let passes = &cutter.operations[0];
+    let off_mm = passes.motion.error_mm(40.0, |angle| operation.actual.head_from_work(&operation.linkage, angle));
+    // 10 arcsec of eight waves in a turn of the hob are 2 um on the gear; a hundredth of a micrometre is left.
+    println!("the table of the motion is {off_mm:e} mm off");
+    assert!(off_mm < 1e-5, "{off_mm:e} mm");
+    let target = cutter.target(4, Side::Right).expect("a flank");
+    let arcs_mm = (0..12).map(|i| 0.2 + 0.4 * f64::from(i)).collect();
+    let field = cutter.rays_over(target, arcs_mm, vec![-2.0, -1.0, 0.0, 1.0]).field;
+    same_as_brute_force("a machine with errors", passes, &field, &field.blank_layer());
+}
+
+#[test]
+fn waves_that_are_too_short_are_refused() {
+    let settings: Vec<String> =
+        ["machine.errors.hob.periodic_orders=[9.0]", "machine.errors.hob.periodic_amplitudes_arcsec=[1.0]"]
+            .map(str::to_owned)
+            .to_vec();
+    let loaded = process::load(Path::new("scenes/hobbing/circular_spur.toml"), &settings).expect("a scene");
+    let refused = HobbingJob::new(&loaded.scene).expect_err("nine waves in a turn of the hob").to_string();
+    assert!(refused.contains("machine.errors.hob") && refused.contains("9.0 waves"), "{refused}");
+}

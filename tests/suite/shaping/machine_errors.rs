@@ -1,0 +1,349 @@
+//! Errors of machine and clamping come out on flanks as their closed forms say, told apart left and right.
+//!
+//! To first order a displacement of the cutter against the work at the moment of contact moves the flank by its part
+//! along the normal: h = n . (d + w x (p - o)) for a shift d of the cutter's axis o and a turn w of the cutter. At the
+//! pitch point of a round gear that is h = a sin(alpha) + s t cos(alpha), for a outwards and t counter-clockwise along
+//! the pitch circle, s = 1 on left flanks and -1 on right ones. Each flank is cut twice, with the error and without it:
+//! both carry the same facets.
+
+use super::flank_heights::compare_whole_field;
+use gearcut::cut::cpu::Cpu;
+use gearcut::machine::Motion;
+use gearcut::process::shaping::ShapingJob;
+use gearcut::terms::Side;
+use glam::DVec2;
+use std::f64::consts::TAU;
+use std::path::Path;
+
+const ROUND: &str = "
+    [gear]
+    module_mm = 3.0
+    teeth = 24
+    face_width_mm = 20.0
+    [tool.shaper_cutter]
+    teeth = 20
+    [machine]
+    double_strokes_per_minute = 300.0
+    [[operation]]
+    name = \"finish\"
+    strokes_per_revolution = 3600
+    feed_during_stroke = false
+";
+const ELLIPTICAL: &str = "
+    [gear]
+    module_mm = 3.0
+    teeth = 42
+    face_width_mm = 20.0
+    [gear.pitch_curve.ellipse]
+    order = 3
+    eccentricity = 0.1348
+    [tool.shaper_cutter]
+    teeth = 20
+    [machine]
+    double_strokes_per_minute = 300.0
+    [[operation]]
+    name = \"finish\"
+    strokes_per_revolution = 3600
+    feed_during_stroke = false
+";
+const SECONDS_PER_STROKE: f64 = 60.0 / 300.0;
+const STROKES: f64 = 3600.0;
+/// Speed of the round gear's work spindle, rad/s.
+const WORK_RAD_PER_S: f64 = TAU / STROKES / SECONDS_PER_STROKE;
+const ALPHA_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
+const PITCH_MM: f64 = 36.0;
+const CUTTER_MM: f64 = 30.0;
+/// Places along the tooth, mm.
+const ROWS_MM: [f64; 3] = [-9.0, 1.0, 9.0];
+const ARCSEC_RAD: f64 = std::f64::consts::PI / 180.0 / 3600.0;
+
+fn job(text: &str, settings: &[&str]) -> ShapingJob {
+    let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
+    let scene = gearcut::process::parse(text, "scene.toml", Path::new(""), &settings).expect("a scene");
+    ShapingJob::new(scene.scene).expect("a gear")
+}
+
+/// A place on a flank.
+struct Place {
+    /// +1 left, -1 right.
+    side: f64,
+    /// Polar angle of the pitch point at contact, rad, 0 to a turn.
+    phi_rad: f64,
+    /// Stroke that comes nearest.
+    stroke: f64,
+    z_mm: f64,
+    point_mm: DVec2,
+    normal: DVec2,
+}
+
+impl Place {
+    /// Time of the contact.
+    fn time_s(&self) -> f64 {
+        self.stroke * SECONDS_PER_STROKE
+    }
+
+    /// Height after a shift at the pitch point: outwards and counter-clockwise, mm.
+    fn shifted(&self, out_mm: f64, around_mm: f64) -> f64 {
+        out_mm * ALPHA_RAD.sin() + self.side * around_mm * ALPHA_RAD.cos()
+    }
+}
+
+/// What an error changes at a few places near the pitch curve: place and change of height, mm.
+fn changes(sound: &ShapingJob, faulty: &ShapingJob, teeth: &[u32]) -> Vec<(Place, f64)> {
+    let mut found = Vec::new();
+    for &tooth in teeth {
+        for side in [Side::Left, Side::Right] {
+            let flank = sound.target_flank(tooth, side);
+            let height = |arc_mm: f64| {
+                let contact = flank.at_arc(arc_mm);
+                sound.blank.height(contact.point_mm, contact.phi_rad).0
+            };
+            // The arc at which the flank crosses the pitch curve.
+            let (mut low, mut high) = (0.0, flank.length_mm());
+            for _ in 0..50 {
+                let middle = 0.5 * (low + high);
+                if height(middle) < 0.0 { low = middle } else { high = middle }
+            }
+            let arcs = || (-2..=2).map(|i| low + 0.02 * f64::from(i));
+            let cut = |job: &ShapingJob| {
+                job.cut(&Cpu::default(), sound.field_over(flank, arcs(), ROWS_MM.to_vec())).expect("native")
+            };
+            let (a, b) = (cut(sound), cut(faulty));
+            let contact = flank.at_arc(low);
+            let phi_rad = contact.phi_rad.rem_euclid(TAU);
+            let psi_rad = sound.finishing().linkage.axes(phi_rad, 0.0).psi_c_rad.value();
+            for (row, &z_mm) in ROWS_MM.iter().enumerate() {
+                let mean = |cut: &gearcut::steps::planar::CutField| {
+                    (0..5).map(|column| f64::from(cut.layers[0].column(column, ROWS_MM.len())[row])).sum::<f64>() / 5.0
+                };
+                let place = Place {
+                    side: side.sign(),
+                    phi_rad,
+                    stroke: psi_rad / TAU * STROKES,
+                    z_mm,
+                    point_mm: contact.point_mm,
+                    normal: contact.normal,
+                };
+                found.push((place, mean(&b) - mean(&a)));
+            }
+        }
+    }
+    found
+}
+
+/// Compares with a closed form to 1 % of its largest value, or 0.1 um where that is more; with `least_um` the form itself
+/// must reach so much.
+fn agree(name: &str, found: &[(Place, f64)], least_um: f64, expected: impl Fn(&Place) -> f64) {
+    let largest_um = found.iter().map(|(place, _)| 1e3 * expected(place).abs()).fold(0.0, f64::max);
+    let worst_um = found.iter().map(|(place, got)| 1e3 * (got - expected(place)).abs()).fold(0.0, f64::max);
+    println!("{name}: up to {largest_um:.3} um, worst difference {worst_um:.4} um");
+    assert!(largest_um >= least_um, "{name}: {largest_um} um are too little to see");
+    assert!(worst_um < (0.01 * largest_um).max(0.02), "{name}: {worst_um} um off of {largest_um} um");
+}
+
+#[test]
+fn errors_of_a_round_gear_are_their_closed_forms() {
+    let sound = job(ROUND, &[]);
+    let teeth = [3, 11, 20];
+    let case = |name: &str, settings: &[&str], least_um: f64, expected: &dyn Fn(&Place) -> f64| {
+        agree(name, &changes(&sound, &job(ROUND, settings), &teeth), least_um, expected);
+    };
+    let work = |place: &Place, turn_rad: f64| place.shifted(0.0, PITCH_MM * turn_rad);
+    let cutter = |place: &Place, turn_rad: f64| place.shifted(0.0, CUTTER_MM * turn_rad);
+    case(
+        "waves of the work spindle",
+        &[
+            "machine.errors.work.periodic_orders=[3.0]",
+            "machine.errors.work.periodic_amplitudes_arcsec=[40.0]",
+            "machine.errors.work.periodic_phases_deg=[25.0]",
+        ],
+        3.0,
+        &|place| work(place, 40.0 * ARCSEC_RAD * (3.0 * place.phi_rad + 25_f64.to_radians()).sin()),
+    );
+    case(
+        "waves of the cutter spindle",
+        &["machine.errors.cutter.periodic_orders=[1.0]", "machine.errors.cutter.periodic_amplitudes_arcsec=[60.0]"],
+        3.0,
+        &|place| cutter(place, 60.0 * ARCSEC_RAD * (PITCH_MM / CUTTER_MM * place.phi_rad).sin()),
+    );
+    let distance_mm = PITCH_MM + CUTTER_MM;
+    case("scale of the centre distance", &["machine.errors.center_distance.scale_um_per_m=120"], 2.0, &|place| {
+        place.shifted(120e-6 * distance_mm, 0.0)
+    });
+    case(
+        "lead of the screw",
+        &[
+            "machine.errors.center_distance.periodic_lengths_mm=[10.0]",
+            "machine.errors.center_distance.periodic_amplitudes_um=[8.0]",
+        ],
+        1.0,
+        &|place| place.shifted(8e-3 * (TAU * distance_mm / 10.0).sin(), 0.0),
+    );
+    case(
+        "drift of the centre distance",
+        &[
+            "machine.errors.center_distance.drift_um_per_h=60",
+            "machine.errors.center_distance.drift_time_constant_min=6",
+        ],
+        1.0,
+        &|place| place.shifted(60e-3 / 3600.0 * 360.0 * (1.0 - (-place.time_s() / 360.0).exp()), 0.0),
+    );
+    case(
+        "lag of the work spindle",
+        &["machine.errors.work.velocity_gain_per_s=30", "machine.errors.work.feed_forward=0.25"],
+        5.0,
+        &|place| work(place, -0.75 * WORK_RAD_PER_S / 30.0),
+    );
+    case(
+        "lag of the cutter spindle, second order",
+        &["machine.errors.cutter.velocity_gain_per_s=30", "machine.errors.cutter.speed_loop_ms=4"],
+        5.0,
+        &|place| cutter(place, -PITCH_MM / CUTTER_MM * WORK_RAD_PER_S / 30.0),
+    );
+    case(
+        "the same lag of both",
+        &["machine.errors.work.velocity_gain_per_s=30", "machine.errors.cutter.velocity_gain_per_s=30"],
+        0.0,
+        &|_| 0.0,
+    );
+    case("backlash of the work spindle", &["machine.errors.work.backlash_arcsec=60"], 4.0, &|place| {
+        work(place, -30.0 * ARCSEC_RAD)
+    });
+    case("cycle of the gearbox", &["machine.errors.work.gearbox_cycle_ms=10"], 2.0, &|place| {
+        work(place, -0.010 * WORK_RAD_PER_S)
+    });
+    let lean = |um_per_100mm: f64, place: &Place| um_per_100mm * 1e-5 * place.z_mm;
+    for feed_during_stroke in [false, true] {
+        let feed = format!("operation.finish.feed_during_stroke={feed_during_stroke}");
+        let sound = job(ROUND, &[&feed]);
+        let case = |name: &str, settings: &[&str], expected: &dyn Fn(&Place) -> f64| {
+            let settings: Vec<&str> = settings.iter().copied().chain([feed.as_str()]).collect();
+            agree(name, &changes(&sound, &job(ROUND, &settings), &teeth), 1.0, expected);
+        };
+        case("ram out of parallel, radially", &["machine.errors.guide.radial_um_per_100mm=80"], &|place| {
+            place.shifted(lean(80.0, place), 0.0)
+        });
+        case("ram out of parallel, sideways", &["machine.errors.guide.tangential_um_per_100mm=80"], &|place| {
+            place.shifted(0.0, lean(80.0, place))
+        });
+        case("bow of the guide", &["machine.errors.guide.tangential_bow_um=6"], &|place| {
+            place.shifted(0.0, 6e-3 * (place.z_mm / 10.0).powi(2))
+        });
+        case("wobble of the work", &["mounting.wobble_um_per_100mm=60", "mounting.wobble_angle_deg=50"], &|place| {
+            -lean(60.0, place) * DVec2::from_angle(50_f64.to_radians()).dot(place.normal)
+        });
+    }
+    case(
+        "eccentricity of the work",
+        &["mounting.eccentricity_um=10", "mounting.eccentricity_angle_deg=200"],
+        5.0,
+        &|place| -10e-3 * DVec2::from_angle(200_f64.to_radians()).dot(place.normal),
+    );
+    case(
+        "offset along the axis, on a guide out of parallel",
+        &["mounting.axial_offset_um=5000", "machine.errors.guide.radial_um_per_100mm=80"],
+        2.0,
+        &|place| place.shifted(80e-5 * (place.z_mm + 5.0), 0.0),
+    );
+}
+
+/// Height after small errors of the axes: work and cutter, rad, centre distance, mm.
+fn displaced(job: &ShapingJob, place: &Place, [work_rad, cutter_rad, distance_mm]: [f64; 3]) -> f64 {
+    let state = job.finishing().schedule.state(place.stroke);
+    let out = DVec2::from_angle(state.psi_c_rad);
+    let shift_mm = distance_mm * out + state.center_distance_mm * work_rad * out.perp();
+    let turned_mm = (work_rad + cutter_rad) * (place.point_mm - state.pose.center_mm).perp();
+    (shift_mm + turned_mm).dot(place.normal)
+}
+
+/// Where axes accelerate the lag is more than v / K_v: on sinusoids the series v / K - a / K^2 begins so. Equal drives
+/// only delay the motion; what is left of it is a / (2 K^2).
+#[test]
+fn drives_lag_on_an_elliptical_gear_as_their_series_says() {
+    let sound = job(ELLIPTICAL, &[]);
+    let teeth = [2, 4, 7, 9];
+    let gain = 20.0;
+    let one = |axis: usize| {
+        let sound = &sound;
+        move |place: &Place| {
+            let motion = sound.finishing().schedule.at(place.stroke)[axis];
+            let mut errors = [0.0; 3];
+            errors[axis] = -motion.velocity / gain + motion.acceleration / gain / gain;
+            displaced(sound, place, errors)
+        }
+    };
+    for (axis, name, least_um) in [(0, "work", 10.0), (1, "cutter", 10.0), (2, "center_distance", 0.5)] {
+        let faulty = job(ELLIPTICAL, &[&format!("machine.errors.{name}.velocity_gain_per_s={gain}")]);
+        agree(&format!("lag of {name}"), &changes(&sound, &faulty, &teeth), least_um, one(axis));
+    }
+    let all =
+        ["work", "cutter", "center_distance"].map(|name| format!("machine.errors.{name}.velocity_gain_per_s={gain}"));
+    let faulty = job(ELLIPTICAL, &all.each_ref().map(String::as_str));
+    agree("equal lag of all axes", &changes(&sound, &faulty, &teeth), 0.0, |place| {
+        let motion = sound.finishing().schedule.at(place.stroke);
+        displaced(&sound, place, motion.map(|axis| 0.5 * axis.acceleration / gain / gain))
+    });
+}
+
+/// The radial axis of an elliptical gear turns back at every end of a half-axis: left of it flanks lie half the play on
+/// one side, right of it on the other.
+#[test]
+fn backlash_of_the_radial_axis_changes_sign_where_it_turns_back() {
+    let sound = job(ELLIPTICAL, &[]);
+    let faulty = job(ELLIPTICAL, &["machine.errors.center_distance.backlash_um=12"]);
+    let found = changes(&sound, &faulty, &[3, 5, 6, 9, 11, 12]);
+    let way = |place: &Place| sound.finishing().schedule.at(place.stroke)[2].velocity.signum();
+    for sign in [1.0, -1.0] {
+        assert!(found.iter().filter(|(place, _)| way(place) == sign).count() >= 6, "flanks on both sides of a turn");
+    }
+    agree("backlash of the radial axis", &found, 1.5, |place| displaced(&sound, place, [0.0, 0.0, -6e-3 * way(place)]));
+}
+
+/// Every error at once.
+const MANY: [&str; 12] = [
+    "mounting.eccentricity_um=30",
+    "mounting.wobble_um_per_100mm=80",
+    "machine.errors.guide.radial_um_per_100mm=60",
+    "machine.errors.guide.tangential_bow_um=15",
+    "machine.errors.work.periodic_orders=[1.0, 150.0]",
+    "machine.errors.work.periodic_amplitudes_arcsec=[60.0, 20.0]",
+    "machine.errors.work.velocity_gain_per_s=20",
+    "machine.errors.work.gearbox_cycle_ms=8",
+    "machine.errors.work.gearbox_increment_arcsec=20",
+    "machine.errors.center_distance.backlash_um=20",
+    "machine.errors.center_distance.drift_um_per_h=300",
+    "tool.shaper_cutter.runout_um=20",
+];
+
+#[test]
+fn candidates_equal_brute_force_on_a_machine_with_errors() {
+    for feed in ["operation.finish.feed_during_stroke=false", "operation.finish.feed_during_stroke=true"] {
+        let coarse = ["operation.finish.strokes_per_revolution=500", "fields.flank.lead_spacing_um=5000"];
+        let settings: Vec<&str> = MANY.into_iter().chain(coarse).chain([feed]).collect();
+        let faulty = job(ELLIPTICAL, &settings);
+        for (tooth, side) in [(3, Side::Left), (9, Side::Right)] {
+            let flank = faulty.target_flank(tooth, side);
+            compare_whole_field(&faulty, &faulty.flank_field(flank), faulty.finishing());
+        }
+    }
+}
+
+#[test]
+fn errors_of_nothing_change_no_byte() {
+    let zeros = [
+        "mounting.eccentricity_um=0",
+        "mounting.eccentricity_angle_deg=30",
+        "mounting.axial_offset_um=100",
+        "machine.errors.guide.radial_um_per_100mm=0",
+        "machine.errors.work.backlash_arcsec=0",
+        "machine.errors.center_distance.scale_um_per_m=0",
+    ];
+    let (sound, zero) = (job(ELLIPTICAL, &[]), job(ELLIPTICAL, &zeros));
+    let faulty = job(ELLIPTICAL, &["mounting.eccentricity_um=1"]);
+    let cut = |job: &ShapingJob| {
+        let field = job.field_over(job.target_flank(5, Side::Left), [1.0, 2.0, 3.0].into_iter(), ROWS_MM.to_vec());
+        job.cut(&Cpu::default(), field).expect("native").layers
+    };
+    assert!(cut(&sound) == cut(&zero));
+    assert!(cut(&sound) != cut(&faulty), "a micrometre is seen");
+}
