@@ -209,14 +209,14 @@ impl ToleranceSizes {
 
 /// A tolerance as the standard rounds it, um.
 fn rounded_um(um: f64) -> f64 {
-    let step = if um > 10.0 {
+    let parts = if um > 10.0 {
         1.0
     } else if um >= 5.0 {
-        0.5
+        2.0
     } else {
-        0.1
+        10.0
     };
-    (um / step).round() * step
+    (um * parts).round() / parts
 }
 
 #[cfg(test)]

@@ -56,7 +56,9 @@ const MIDDLE: f64 = 0.5 * A4_PT[0];
 const GAP: f64 = 8.0;
 /// Divisions from the zero line of a trace to its neighbour's.
 const DIVISIONS: f64 = 4.0;
-const TRACE_HEIGHT: f64 = 118.0;
+const TRACE_HEIGHT: f64 = 140.0;
+/// Size of figures under traces: a sign and six digits fit under the narrowest trace.
+const FIGURE_EM: f64 = 5.2;
 /// Smallest division of an axis, um.
 const LEAST_DIVISION_UM: f64 = 1.0;
 
@@ -97,7 +99,7 @@ impl InspectionSheet {
         let cumulative = Axis::over(self.cumulative_pitch_um.iter().flatten());
         let sides = [(LEFT, "left flanks"), (MIDDLE + GAP, "right flanks")];
         for (index, (x, side)) in sides.into_iter().enumerate() {
-            let place = Place { x, y: top, width: half, height: 52.0 };
+            let place = Place { x, y: top, width: half, height: 60.0 };
             let title = format!("Single pitch deviation fp, {side} [µm]");
             single.frame(page, place, &title);
             single.bars(page, place, &self.single_pitch_um[index]);
@@ -105,16 +107,16 @@ impl InspectionSheet {
                 let at = single.y(place, limit);
                 page.dashes(&[(x, at), (x + half, at)], Ink::Red, 0.7);
             }
-            let place = Place { y: top + 72.0, ..place };
+            let place = Place { y: top + 80.0, ..place };
             cumulative.frame(page, place, &format!("Cumulative pitch deviation Fp, {side} [µm]"));
             cumulative.line(page, place, &self.cumulative_pitch_um[index]);
         }
         let runout = Axis::over(self.runout_um.iter());
-        let place = Place { x: LEFT, y: top + 144.0, width: half, height: 52.0 };
+        let place = Place { x: LEFT, y: top + 160.0, width: half, height: 60.0 };
         runout.frame(page, place, "Runout Fr: probe in the space after each tooth [µm]");
         runout.bars(page, place, &self.runout_um);
-        self.table(page, MIDDLE + GAP, top + 138.0);
-        top + 144.0 + 52.0 + 22.0
+        self.table(page, MIDDLE + GAP, top + 162.0);
+        top + 160.0 + 60.0 + 32.0
     }
 
     /// Both signs of the limit of single pitch deviations.
@@ -211,10 +213,10 @@ fn sheet_of_traces(page: &mut VectorPage, place: Place, sheet: &TraceSheet, um: 
 fn figures(page: &mut VectorPage, (from, to): (f64, f64), top: f64, trace: &TraceColumn) {
     for (row, figure) in trace.figures.iter().enumerate() {
         let y = top + 8.0 * row as f64;
-        page.words((from, y), 6.2, Ink::Grey, Anchor::Start, &figure.name);
+        page.words((from, y), FIGURE_EM, Ink::Grey, Anchor::Start, &figure.name);
         let ink = if figure.fails() { Ink::Red } else { Ink::Black };
         let value = figure.value.map_or_else(|| "–".to_owned(), value_text);
-        page.words((to, y), 6.2, ink, Anchor::End, &value);
+        page.words((to, y), FIGURE_EM, ink, Anchor::End, &value);
     }
 }
 

@@ -146,9 +146,10 @@ pub fn write_sheet(inspection: &Inspection, scene: &Scene, found: &Findings, fol
     let sizes = found.find(SIZES).map_or_else(Vec::new, size_rows);
     let mut notes = vec![
         format!("Deviations of the surface as cut from {}.", inspection.words.target),
-        "Profile and helix along the flank's normal, middle of the face; dashed: evaluated part; pitch as arcs of the \
-         pitch curve, from the mean pitch; the worst tooth stands for each side in the table."
+        "Profile and helix along the flank's normal, in the middle; dashed: the evaluated part. Pitch: arcs of the pitch \
+         curve from the mean pitch."
             .to_owned(),
+        "The table has the worst tooth of each side.".to_owned(),
     ];
     if scene.gear.helix_angle_rad != 0.0 && inspection.verdict.no_class.is_none() {
         notes.push("Limits of profile and helix are those of the transverse section times cos βb.".to_owned());
