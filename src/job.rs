@@ -5,6 +5,7 @@
 //! curve and transverse sections, is a trait of its own ([`CylindricalGear`]): its closed body and the page's mesh of
 //! its target rest on that, and a process whose gear has neither makes these two itself.
 
+use crate::measure::round_gear::RoundGear;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
 use crate::surface::SurfaceGrid;
@@ -98,6 +99,12 @@ pub trait CylindricalGear: GearJob {
 
     /// The stock.
     fn blank(&self) -> &Blank;
+
+    /// Sizes of the target if it is a round gear; none for others, and where a flank does not reach the pitch circle.
+    ///
+    /// # Errors
+    /// The tool generates no flank there.
+    fn round_gear(&self) -> Result<Option<RoundGear>>;
 
     /// Places along the tooth at which the target's sections say all of its shape: both ends of the face where it is
     /// straight.

@@ -58,6 +58,8 @@ pub struct WindowTexture {
     /// Marks that follow each other along the tooth and along the profile: `[x, y]`; 0 along the tooth where the axes
     /// rest during strokes, so that marks run along it without end.
     pub marks: [usize; 2],
+    /// Points of a whole mark, mean over those between the first and the last edge; none where there is no whole one.
+    pub points_per_mark: [Option<f64>; 2],
     /// What was evaluated, or why nothing could be.
     pub evaluated: Result<Evaluated, String>,
 }
@@ -73,38 +75,80 @@ pub struct Evaluated {
     pub evaluation: Evaluation,
 }
 
+/// A sentence on a window's numbers, in which a number may stand: windows that differ in it alone are told together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WindowNote {
+    before: String,
+    number: Option<f64>,
+    after: String,
+}
+
+impl WindowNote {
+    fn of(text: String) -> Self {
+        Self { before: text, number: None, after: String::new() }
+    }
+
+    /// Whether it says the same but for the number.
+    pub fn is_like(&self, other: &Self) -> bool {
+        (&self.before, &self.after) == (&other.before, &other.after)
+    }
+
+    /// The sentence for the windows of these notes, which are alike.
+    pub fn text(notes: &[&Self]) -> String {
+        let Some(first) = notes.first() else { return String::new() };
+        let numbers = || notes.iter().filter_map(|note| note.number);
+        let (low, high) = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(f64::NEG_INFINITY, f64::max));
+        let [low, high] = [low, high].map(|number| format!("{number:.1}"));
+        let number = match (first.number, low == high) {
+            (None, _) => String::new(),
+            (Some(_), true) => low,
+            (Some(_), false) => format!("{low} to {high}"),
+        };
+        format!("{}{number}{}", first.before, first.after)
+    }
+}
+
 impl WindowTexture {
     /// What a reader must know before trusting its numbers.
-    pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
+    pub fn notes(&self) -> Vec<WindowNote> {
+        let mut notes = Vec::new();
         for (marks, direction) in self.marks.iter().zip(["along the tooth", "along the profile"]) {
             if (1..ENOUGH_MARKS).contains(marks) {
                 let marks = if *marks == 1 { "1 mark".to_owned() } else { format!("{marks} marks") };
-                warnings.push(format!(
+                notes.push(WindowNote::of(format!(
                     "the window holds only {marks} {direction}; {ENOUGH_MARKS} at least make its numbers representative"
-                ));
+                )));
             }
         }
         let spacings = [("along the tooth", "lead_spacing_um"), ("along the profile", "profile_spacing_um")];
-        for ((marks, count), (direction, key)) in self.marks.iter().zip(self.window.count).zip(spacings) {
-            // Parts of marks at both ends make the points of few marks look fewer than they are.
-            let points = count as f64 / *marks as f64;
-            if *marks >= ENOUGH_MARKS && points < ENOUGH_POINTS {
-                warnings.push(format!(
-                    "a mark {direction} has only {points:.1} points; \
-                     with less than {ENOUGH_POINTS} slopes are averaged over cusps, \
-                     and Sdq and Sdr come out low: make {key} smaller"
-                ));
+        for (points, (direction, key)) in self.points_per_mark.iter().zip(spacings) {
+            if let Some(points) = points.filter(|&points| points < ENOUGH_POINTS) {
+                notes.push(WindowNote {
+                    before: format!("a mark {direction} has only "),
+                    number: Some(points),
+                    after: format!(
+                        " points; with less than {ENOUGH_POINTS} slopes are averaged over cusps, and Sdq and Sdr come \
+                         out low: make {key} smaller"
+                    ),
+                });
             }
         }
         let holes = self.heights.as_ref().map_or(0, Surface::holes);
         if holes > 0 {
-            warnings.push(format!("{holes} points of the window are holes: no pass reached them, or they are cut deeper than their rays record"));
+            notes.push(WindowNote::of(format!(
+                "{holes} points of the window are holes: no pass reached them, or they are cut deeper than their rays \
+                 record"
+            )));
         }
         if let Err(reason) = &self.evaluated {
-            warnings.push(format!("the window could not be evaluated: {reason}"));
+            notes.push(WindowNote::of(format!("the window could not be evaluated: {reason}")));
         }
-        warnings
+        notes
+    }
+
+    /// The same as sentences of this window alone.
+    pub fn warnings(&self) -> Vec<String> {
+        self.notes().iter().map(|note| WindowNote::text(&[note])).collect()
     }
 }
 
@@ -159,23 +203,59 @@ pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> 
             let along_tooth = if job.marks_follow_along_tooth(operation) {
                 facets(&layer.passes[columns / 2 * rows..(columns / 2 + 1) * rows])
             } else {
-                0
+                (0, None)
             };
             let along_profile = facets(&layer.passes.iter().skip(rows / 2).step_by(rows).copied().collect::<Vec<_>>());
-            let marks = [along_tooth, along_profile];
+            let marks = [along_tooth.0, along_profile.0];
+            let points_per_mark = [along_tooth.1, along_profile.1];
             let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, window));
-            WindowTexture { window: window.clone(), operation, heights: heights.ok(), marks, evaluated }
+            WindowTexture {
+                window: window.clone(),
+                operation,
+                heights: heights.ok(),
+                marks,
+                points_per_mark,
+                evaluated,
+            }
         })
         .collect())
 }
 
-/// Facets along a line: one more than the changes of the pass that left it.
-fn facets(passes: &[u32]) -> usize {
-    passes.windows(2).filter(|pair| pair[0] != pair[1]).count() + 1
+/// Facets along a line, one more than the changes of the pass that left it, and the points of a whole one: parts of
+/// marks at both ends are not counted.
+fn facets(passes: &[u32]) -> (usize, Option<f64>) {
+    let edges: Vec<usize> = (1..passes.len()).filter(|&i| passes[i] != passes[i - 1]).collect();
+    let points = match edges.as_slice() {
+        [first, .., last] => Some((last - first) as f64 / (edges.len() - 1) as f64),
+        _ => None,
+    };
+    (edges.len() + 1, points)
 }
 
 fn evaluate(heights: &Surface, window: &Window) -> Result<Evaluated, String> {
     let (surface, chain) = Chain::of_form(window.form).apply(heights)?;
     let evaluation = Evaluation::of(&surface, &Arguments::default());
     Ok(Evaluated { surface, chain, evaluation })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_are_those_of_whole_marks() {
+        assert_eq!(facets(&[7, 7, 7]), (1, None));
+        assert_eq!(facets(&[7, 8, 8]), (2, None));
+        // Half a mark, marks of 4 and 2 points, half a mark: 3 points each, not 10 over 4.
+        assert_eq!(facets(&[1, 1, 2, 2, 2, 2, 3, 3, 4, 4]), (4, Some(3.0)));
+    }
+
+    #[test]
+    fn alike_notes_become_one_with_the_range_of_their_numbers() {
+        let note = |points| WindowNote { before: "only ".into(), number: Some(points), after: " points".into() };
+        let (a, b) = (note(3.71), note(4.42));
+        assert!(a.is_like(&b) && !a.is_like(&WindowNote::of("holes".into())));
+        assert_eq!(WindowNote::text(&[&a, &b]), "only 3.7 to 4.4 points");
+        assert_eq!(WindowNote::text(&[&a, &note(3.70)]), "only 3.7 points");
+    }
 }

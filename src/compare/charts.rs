@@ -134,6 +134,7 @@ fn chart(
         BarSeries { name: name.to_owned(), values: categories.iter().map(value).collect() }
     });
     BarChart {
+        limits: Vec::new(),
         title: format!("{path}: {}{what}", column.definition),
         category_name: longest.columns[0].definition.to_string(),
         value_name: column.key.replace('_', " "),

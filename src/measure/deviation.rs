@@ -5,7 +5,7 @@
 //! places where the flanks cross the pitch curve, as arcs of that curve, against its mean pitch, its length over the
 //! number of teeth (ISO 1328-1:2013, 4.2): single f_p and cumulative F_p. So single deviations add up to zero over the
 //! turn, and F_p is never below f_p. Road not taken: pi m as the pitch. A curve that closes a hair short of z pi m then
-//! charges all of that to the first tooth. No tolerance class is given: the standard's classes are for round gears.
+//! charges all of that to the first tooth. Limits and classes stand in [`super::verdict`].
 
 use super::crossing::Crossing;
 use gearcut_core::dexel::{Field, Layer, NO_PASS};
@@ -225,5 +225,22 @@ mod tests {
         assert!(found.total_mm() >= found.largest_single_mm() - 1e-10);
         crossings[7] = None;
         assert_eq!(pitch(&crossings, perimeter_mm), None);
+    }
+
+    /// Four teeth on 40 mm, by hand: mean pitch 10 mm, single -1, 3, -5, 3 um, cumulative 0, 3, -2, 1 um, F_p 5 um. Any
+    /// single deviation is a difference of two cumulative ones, so it cannot be larger than their range.
+    #[test]
+    fn pitch_deviations_are_those_made_by_hand() {
+        let at = |arc_mm| Some(Crossing { point_mm: DVec2::ZERO, phi_rad: 0.0, arc_mm });
+        let found = pitch(&[0.0, 10.003, 19.998, 30.001].map(at), 40.0).expect("all teeth");
+        let um = |values: &[f64]| values.iter().map(|mm| (mm * 1e6).round() / 1e3).collect::<Vec<_>>();
+        assert_eq!(um(&found.single_mm), [-1.0, 3.0, -5.0, 3.0]);
+        assert_eq!(um(&found.cumulative_mm), [0.0, 3.0, -2.0, 1.0]);
+        assert_eq!(um(&[found.largest_single_mm(), found.total_mm()]), [5.0, 5.0]);
+        // Whatever the places: the order of two teeth exchanged, one far off.
+        for arcs in [[0.0, 9.0, 21.0, 30.0], [0.0, 10.0, 20.0, 39.0], [3.0, 12.5, 20.0, 31.0]] {
+            let found = pitch(&arcs.map(at), 40.0).expect("all teeth");
+            assert!(found.total_mm() >= found.largest_single_mm() - 1e-12, "{found:?}");
+        }
     }
 }

@@ -7,13 +7,16 @@
 pub mod crossing;
 pub mod damage;
 pub mod deviation;
+pub mod flank_tolerance;
 pub mod gear_place;
 pub mod inspection;
 pub mod last_chips;
+pub mod round_gear;
 pub mod scallop;
 pub mod stock;
 pub mod target_outline;
 pub mod thickness;
+pub mod verdict;
 
 /// Surface texture, from the crate of its own.
 pub use gearcut_texture as topography;

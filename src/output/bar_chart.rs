@@ -11,6 +11,7 @@ use maud::html;
 
 use crate::output::axis::{round_range, value_text, widened};
 use crate::output::figure::{Figure, LegendEntry, MOST_SERIES, Name, Plot, Sample};
+use crate::output::line_chart::Limit;
 use crate::output::plot::{BarPlaces, LABELS_PX, PlotFrame, WIDTH_PX, px};
 use gearcut_core::Result;
 
@@ -31,6 +32,8 @@ pub struct BarChart {
     pub least_division: f64,
     /// Up to seven series.
     pub series: Vec<BarSeries>,
+    /// Values not to be passed.
+    pub limits: Vec<Limit>,
 }
 
 /// One series of bars.
@@ -79,8 +82,9 @@ impl BarChart {
     /// Values at the bottom and the top.
     fn range(&self) -> (f64, f64) {
         let values = || self.series.iter().flat_map(BarSeries::finite);
-        let range = round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max));
-        widened(range, self.least_division)
+        let extent = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
+        let (low, high) = Limit::widened_by(widened(extent, self.least_division), &self.limits);
+        widened(round_range(low, high), self.least_division)
     }
 
     fn entry(&self, index: usize, extent: f64) -> LegendEntry {
@@ -115,6 +119,9 @@ impl BarChart {
                 }
             }
             (frame.across("zero", 0.0))
+            @for limit in self.limits.iter().filter(|limit| limit.is_within(frame.range)) {
+                (frame.across("limit", limit.value))
+            }
             @for (k, mean) in self.series.iter().enumerate().filter_map(|(k, series)| Some((k, series.mean()?))) {
                 // Ground below the dashes, so that they show on bars of their own colour.
                 (frame.across("mean-ground", mean))
@@ -128,7 +135,10 @@ impl BarChart {
             title: &self.title,
             plots: vec![Plot {
                 name: Name::new(&self.value_name, frame.ticks().unit_text(&self.unit)),
-                legend: (0..self.series.len()).map(|index| self.entry(index, extent)).collect(),
+                legend: (0..self.series.len())
+                    .map(|index| self.entry(index, extent))
+                    .chain(self.limits.iter().map(|limit| limit.legend(frame.range, &self.unit)))
+                    .collect(),
                 size_px: (WIDTH_PX, frame.bottom + LABELS_PX),
                 drawing,
             }],
@@ -150,6 +160,7 @@ mod tests {
     fn bars_stand_on_zero_and_tell_their_value() {
         let chart = BarChart {
             least_division: 0.0,
+            limits: vec![Limit { name: "class 5".into(), value: 2.5 }, Limit { name: "class 11".into(), value: 52.0 }],
             title: "<b>pitch</b>".into(),
             category_name: "tooth".into(),
             categories: vec!["1".into(), "2".into(), "3".into()],
@@ -161,5 +172,8 @@ mod tests {
         assert_eq!(text.matches("<rect").count(), 3, "two bars and the frame");
         assert!(text.contains("&lt;b&gt;pitch&lt;/b&gt;") && !text.contains("<b>"));
         assert!(text.contains("tooth 3, left: −1.00 µm"), "{text}");
+        // A limit far away is named alone: drawn, it would flatten the bars.
+        assert_eq!(text.matches("class=\"limit\"").count(), 1, "{text}");
+        assert!(text.contains("class 5 2.50 µm") && text.contains("class 11 52.0 µm, outside the panel"), "{text}");
     }
 }

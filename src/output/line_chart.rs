@@ -100,7 +100,7 @@ impl LineChart {
             let drawing = html! {
                 @for &value in &ticks.values { (frame.upright("grid", x(value))) }
                 (frame.value_axis())
-                @for limit in panel.limits.iter().filter(|limit| shown(&frame, limit)) {
+                @for limit in panel.limits.iter().filter(|limit| limit.is_within(frame.range)) {
                     (frame.across("limit", limit.value))
                 }
                 @for (k, series) in panel.series.iter().enumerate() {
@@ -129,9 +129,25 @@ impl LineChart {
     }
 }
 
-/// Whether a limit lies within the values of a panel.
-fn shown(frame: &PlotFrame, limit: &Limit) -> bool {
-    (frame.range.0..=frame.range.1).contains(&limit.value)
+impl Limit {
+    /// Whether it lies between the values at the bottom and the top of a plot.
+    pub(super) fn is_within(&self, (low, high): (f64, f64)) -> bool {
+        (low..=high).contains(&self.value)
+    }
+
+    /// Lowest and highest value, and those of limits that are no further out than these are apart.
+    pub(super) fn widened_by((low, high): (f64, f64), limits: &[Self]) -> (f64, f64) {
+        let reach = high - low;
+        let near = limits.iter().filter(|limit| limit.is_within((low - reach, high + reach)));
+        near.fold((low, high), |(low, high), limit| (low.min(limit.value), high.max(limit.value)))
+    }
+
+    /// Its entry in the legend of a plot with these values at the bottom and the top.
+    pub(super) fn legend(&self, range: (f64, f64), unit: &str) -> LegendEntry {
+        let place = if self.is_within(range) { "" } else { ", outside the panel" };
+        let words = format!("{} {} {unit}{place}", self.name, value_text(self.value));
+        LegendEntry { sample: Sample::Limit, words }
+    }
 }
 
 /// Path of a curve, thinned to what can be seen.
@@ -152,24 +168,17 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 impl Panel {
-    /// Values at the bottom and the top: the curves, and those limits that at most double their extent.
+    /// Values at the bottom and the top: the curves with the least divisions, and those limits that at most triple that.
     fn range(&self) -> (f64, f64) {
         let (low, high) = extent(self.series.iter().flat_map(LineSeries::finite).map(|point| point.1));
-        let reach = high - low;
-        let near =
-            self.limits.iter().map(|limit| limit.value).filter(|value| (low - reach..=high + reach).contains(value));
-        let (low, high) = near.fold((low, high), |(low, high), value| (low.min(value), high.max(value)));
+        let (low, high) = Limit::widened_by(widened((low, high), self.least_division), &self.limits);
         widened(round_range(low, high), self.least_division)
     }
 
     fn legend(&self, frame: &PlotFrame) -> Vec<LegendEntry> {
         let curves = self.series.iter().enumerate();
         let curves = curves.map(|(k, series)| LegendEntry { sample: Sample::Line(k), words: series.name.clone() });
-        let limits = self.limits.iter().map(|limit| {
-            let place = if shown(frame, limit) { "" } else { ", outside the panel" };
-            let words = format!("{} {} {}{place}", limit.name, value_text(limit.value), self.unit);
-            LegendEntry { sample: Sample::Limit, words }
-        });
+        let limits = self.limits.iter().map(|limit| limit.legend(frame.range, &self.unit));
         curves.chain(limits).collect()
     }
 }

@@ -29,6 +29,7 @@ pub mod flank_maps;
 pub mod folder;
 mod font;
 mod heat;
+pub mod inspection_sheet;
 mod letters;
 pub mod line_chart;
 pub mod map_png;
@@ -48,6 +49,7 @@ pub mod rolling_picture;
 pub mod summary;
 pub mod table;
 pub mod text;
+pub mod vector_page;
 
 /// Surfaces in files, and the maps that are surfaces too, from the crate of their own.
 pub use gearcut_texture::files::{self as surface_files, exr_map, grid};

@@ -174,6 +174,7 @@ pub fn waves(found: &Findings) -> Option<BarChart> {
         value_name: "amplitude".to_owned(),
         unit: "″".to_owned(),
         least_division: LEAST_ARCSEC,
+        limits: Vec::new(),
         series: series.collect(),
     })
 }

@@ -213,7 +213,7 @@ fn nominal(fit: &Fit, scenes: [&Scene; 2], member: Member, shift_mm: f64) -> Res
         Member::Driver => &scenes[0].gear,
         Member::Driven => &scenes[1].gear,
     };
-    let extra_mm = 0.5 * gear.tooth_thickness_allowance_mm * fit.pitch.teeth().pressure_angle_rad.cos();
+    let extra_mm = 0.5 * gear.extra_thickness_mm() * fit.pitch.teeth().pressure_angle_rad.cos();
     let chains = nominal_section(&fit.pitch, member, addendum_mm(scenes), shift_mm, |_, _| extra_mm)?;
     Ok(SectionOfGear {
         u_mm: chains.each(|_| Vec::new()),
@@ -226,5 +226,5 @@ fn nominal(fit: &Fit, scenes: [&Scene; 2], member: Member, shift_mm: f64) -> Res
 
 /// Heights of both gears' tips over their pitch curves, mm.
 pub fn addendum_mm(scenes: [&Scene; 2]) -> [f64; 2] {
-    scenes.map(|scene| scene.gear.addendum_coefficient * scene.gear.module_mm)
+    scenes.map(|scene| scene.gear.addendum_mm())
 }

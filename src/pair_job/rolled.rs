@@ -229,8 +229,7 @@ fn master(
         })?,
     };
     let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
-    let mate = &scenes[1 - at].gear;
-    let addendum_mm = mate.addendum_coefficient * mate.module_mm;
+    let addendum_mm = scenes[1 - at].gear.addendum_mm();
     double_flank::with_master(&curve, &own, gear.kind, fit.pitch.teeth(), addendum_mm, MASTERS[at], watch)
 }
 

@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use super::model::{
-    Fields, Gear, Measure, Output, Picture, PictureColour, PictureView, Scene, TextureWindow, WindowSides,
+    DrawnLimits, Fields, Gear, Measure, Output, Picture, PictureColour, PictureView, Scene, TextureWindow, WindowSides,
 };
 use super::process::SceneProcess;
 use super::values::{Values, View};
@@ -31,6 +31,9 @@ pub(super) fn build(name: &str, process: &SceneProcess, base_dir: &Path, values:
         measure: Measure {
             profile_start_height_mm: measure.number("profile_start_height_mm"),
             profile_end_height_mm: measure.number("profile_end_height_mm"),
+            iso_1328_class: measure.whole("iso_1328_class"),
+            ball_diameter_mm: measure.number("ball_diameter_mm"),
+            limits: drawn_limits(values.view("measure.limits")),
         },
         textures: (0..values.count("texture"))
             .map(|index| texture(values.view(&format!("texture.{index}"))))
@@ -49,6 +52,20 @@ pub(super) fn build(name: &str, process: &SceneProcess, base_dir: &Path, values:
         },
         pictures: pictures?,
     })
+}
+
+fn drawn_limits(limits: View<'_>) -> DrawnLimits {
+    DrawnLimits {
+        profile_total_um: limits.number("profile_total_um"),
+        profile_form_um: limits.number("profile_form_um"),
+        profile_slope_um: limits.number("profile_slope_um"),
+        helix_total_um: limits.number("helix_total_um"),
+        helix_form_um: limits.number("helix_form_um"),
+        helix_slope_um: limits.number("helix_slope_um"),
+        single_pitch_um: limits.number("single_pitch_um"),
+        total_pitch_um: limits.number("total_pitch_um"),
+        runout_um: limits.number("runout_um"),
+    }
 }
 
 /// How far the tool stays back in an operation, mm: given, or from the stock on each flank.
@@ -93,6 +110,7 @@ fn gear(values: &Values) -> Option<Gear> {
         hand: gear.hand("hand").unwrap_or(Hand::Right),
         face_width_mm: gear.number("face_width_mm")?,
         addendum_coefficient: gear.number("addendum_coefficient")?,
+        profile_shift_coefficient: gear.number("profile_shift_coefficient")?,
         bore_diameter_mm: gear.number("bore_diameter_mm")?,
         rim_mm: gear.number("rim_mm").unwrap_or(0.0),
         tooth_thickness_allowance_mm: gear.number("tooth_thickness_allowance_mm")?,

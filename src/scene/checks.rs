@@ -14,7 +14,8 @@ const MOST_DEXELS: f64 = 1e8;
 /// Adds a problem for every contradiction between shared keys.
 pub(super) fn cross_check(found: &mut Found<'_, '_, '_>) {
     // A missing value ends only the check that asks for it.
-    let _: [Option<()>; 5] = [gear_bore(found), gear_kind(found), mate_teeth(found), profile(found), dexels(found)];
+    let _: [Option<()>; 6] =
+        [gear_bore(found), gear_kind(found), mate_teeth(found), profile(found), of_round_gears(found), dexels(found)];
     for curve in ["gear.pitch_curve", "gear.pitch_curve.mate.driver"] {
         let _: [Option<()>; 2] = [sinusoidal(found, curve), fourier(found, curve)];
     }
@@ -88,6 +89,20 @@ fn profile(found: &mut Found) -> Option<()> {
     let message = || format!("the evaluated profile ends at {end_mm} mm, not above its start at {start_mm} mm");
     let way_out = "make profile_end_height_mm larger than profile_start_height_mm";
     found.blame(start_mm >= end_mm, "measure.profile_end_height_mm", message, way_out);
+    Some(())
+}
+
+/// What only a round gear has.
+fn of_round_gears(found: &mut Found) -> Option<()> {
+    let curve = found.view("gear").variant("pitch_curve")?;
+    for (key, what, way_out) in [
+        ("iso_1328_class", "the classes of ISO 1328-1", "write what the drawing allows in [measure.limits]"),
+        ("ball_diameter_mm", "dimensions over balls", "remove it; tables/teeth.csv has the thickness of every tooth"),
+    ] {
+        let message = || format!("`measure.{key}`: {what} are for round gears, and the pitch curve is {curve}");
+        let wrong = curve != "circle" && found.values.is_written("measure", key);
+        found.blame(wrong, &join("measure", key), message, way_out);
+    }
     Some(())
 }
 

@@ -7,7 +7,7 @@
 //!
 //! What the driver's file writes is copied as written; what holds there by default holds here by default. Counts per
 //! turn of the work grow with the number of teeth, so that the feed per tooth stays. A helix changes its hand on an
-//! external mate and keeps it on a ring. Left out is what belongs to the driver alone: its bore on a ring, places on
+//! external mate and keeps it on a ring; a profile shift changes its sign. Left out is what belongs to the driver alone: its bore on a ring, places on
 //! its teeth (`[[texture]]`, `[[picture]]`, windows), programs and the name of its folder.
 
 use std::fmt::Write as _;
@@ -22,7 +22,7 @@ use gearcut_core::gear::{Driver, GearKind, PitchCurve, PitchCurveShape};
 use gearcut_core::terms::Hand;
 
 /// Keys of `[gear]` that do not pass from the driver to its mate as they are.
-const OWN_OF_GEAR: [&str; 4] = ["kind", "teeth", "hand", "rim_mm"];
+const OWN_OF_GEAR: [&str; 5] = ["kind", "teeth", "hand", "rim_mm", "profile_shift_coefficient"];
 /// Outermost tables with places on the driver's teeth.
 const PLACES: [&str; 2] = ["texture[]", "picture[]"];
 
@@ -114,7 +114,7 @@ impl Writer<'_> {
         };
         if path == "gear" {
             let kind = if self.mate.kind == GearKind::Internal { "kind = \"internal\"\n" } else { "" };
-            lines = format!("{kind}teeth = {}\n{lines}{}", self.mate.teeth, self.hand());
+            lines = format!("{kind}teeth = {}\n{lines}{}{}", self.mate.teeth, self.hand(), self.shift());
         }
         // An element of a list stands there even where it is one by default: its variants need it.
         let stands = matches!(section.role, Role::Variant | Role::List { .. });
@@ -158,6 +158,14 @@ impl Writer<'_> {
     fn scaled(&self, count: u32) -> u32 {
         let per_tooth = f64::from(count) / f64::from(self.driver.scene.gear.teeth);
         (per_tooth * f64::from(self.mate.teeth)).round() as u32
+    }
+
+    /// The opposite profile shift: both gears then roll on their pitch curves without backlash.
+    fn shift(&self) -> String {
+        match self.driver.scene.gear.profile_shift_coefficient {
+            0.0 => String::new(),
+            shift => format!("profile_shift_coefficient = {:?}\n", -shift),
+        }
     }
 
     /// The hand of a helix, opposite to the driver's outside and equal inside.

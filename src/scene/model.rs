@@ -45,12 +45,24 @@ impl Gear {
         (self.pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
     }
 
+    /// How far the blank stands over the pitch curve, towards the tips: (h_a + x) m, mm.
+    pub fn addendum_mm(&self) -> f64 {
+        (self.addendum_coefficient + self.profile_shift_coefficient) * self.module_mm
+    }
+
+    /// How much thicker than half a pitch a tooth is meant to be, transverse arc of the pitch curve: 2 x m tan(alpha_t)
+    /// and the allowance, mm.
+    pub fn extra_thickness_mm(&self) -> f64 {
+        let shift_mm = self.profile_shift_coefficient * self.module_mm;
+        2.0 * shift_mm * self.transverse_pressure_angle_rad().tan() + self.tooth_thickness_allowance_mm
+    }
+
     /// The stock round its pitch curve.
     ///
     /// # Errors
     /// A pitch curve that is curved more sharply than the addendum allows.
     pub fn blank(&self, curve: Arc<PitchCurve>) -> Result<Blank, Refusal> {
-        let addendum_mm = self.addendum_coefficient * self.module_mm;
+        let addendum_mm = self.addendum_mm();
         match self.kind {
             GearKind::External => Ok(Blank::new(curve, addendum_mm)?.with_bore(0.5 * self.bore_diameter_mm)),
             GearKind::Internal => Blank::ring(curve, addendum_mm, self.rim_mm),
@@ -82,8 +94,10 @@ pub struct Gear {
     pub hand: Hand,
     /// Face width B.
     pub face_width_mm: f64,
-    /// Addendum of the blank over the pitch curve, in modules.
+    /// Addendum of the blank over the pitch curve, in modules, without the profile shift.
     pub addendum_coefficient: f64,
+    /// Profile shift x, in modules: towards the tips.
+    pub profile_shift_coefficient: f64,
     /// Diameter of an external gear's bore; 0 for none.
     pub bore_diameter_mm: f64,
     /// Material of a ring outside the largest radius of its pitch curve; means nothing on external gears.
@@ -94,14 +108,42 @@ pub struct Gear {
     pub pitch_curve: PitchCurveShape,
 }
 
-/// Where profiles are evaluated, as heights over the pitch curve along its normal; `None`: from the form point to the
-/// tip, 5 % left out at each end.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Where profiles are evaluated, as heights over the pitch curve along its normal, and what the gear is held against.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measure {
-    /// Lower end.
+    /// Lower end; `None`: the form point, 5 % left out.
     pub profile_start_height_mm: Option<f64>,
-    /// Upper end.
+    /// Upper end; `None`: the tip, 5 % left out.
     pub profile_end_height_mm: Option<f64>,
+    /// Flank tolerance class of ISO 1328-1:2013, of round gears.
+    pub iso_1328_class: Option<u32>,
+    /// Diameter of balls over which round gears are measured; `None`: the usual one.
+    pub ball_diameter_mm: Option<f64>,
+    /// What the drawing allows.
+    pub limits: DrawnLimits,
+}
+
+/// What the drawing of a gear allows its flanks, um; `None` where it says nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DrawnLimits {
+    /// F_alpha.
+    pub profile_total_um: Option<f64>,
+    /// f_f_alpha.
+    pub profile_form_um: Option<f64>,
+    /// f_H_alpha.
+    pub profile_slope_um: Option<f64>,
+    /// F_beta.
+    pub helix_total_um: Option<f64>,
+    /// f_f_beta.
+    pub helix_form_um: Option<f64>,
+    /// f_H_beta.
+    pub helix_slope_um: Option<f64>,
+    /// f_p.
+    pub single_pitch_um: Option<f64>,
+    /// F_p.
+    pub total_pitch_um: Option<f64>,
+    /// F_r.
+    pub runout_um: Option<f64>,
 }
 
 impl Measure {

@@ -12,6 +12,7 @@ pub mod conclusion;
 pub mod cut_flanks;
 pub mod gear_maps;
 pub mod gear_surfaces;
+pub mod inspection;
 pub mod meshes;
 pub mod parts;
 pub mod pictures;

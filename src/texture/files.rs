@@ -14,7 +14,8 @@ use gearcut_core::units::UM_PER_MM;
 use rayon::prelude::*;
 
 /// What readers of the files need to know about x, y and z.
-const FRAME: &str = "x = along the tooth; y = arc length along the target profile, towards the tip; z = height over \
+const FRAME: &str = "x = along the tooth; y = arc length along the target profile of the \
+    section in the middle of the face, from its start of the involute towards the tip; z = height over \
     the target flank along its outward normal, positive = material left";
 
 /// Folder of a window's files inside the output, and the stem of their names.

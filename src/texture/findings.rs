@@ -1,7 +1,7 @@
 //! Texture of windows as findings: a section for each operation, in it one for each window.
 
 use super::files::stems;
-use super::{WindowTexture, chart};
+use super::{WindowNote, WindowTexture, chart};
 use crate::findings::{Datum, Quantity, Section, Table, TableColumn, Warning};
 use crate::job::GearJob;
 use crate::measure::topography::{Evaluation, Parameter};
@@ -34,19 +34,35 @@ pub fn findings(job: &dyn GearJob, textures: &[WindowTexture]) -> Section {
     Section::new("texture", "Surface texture (ISO 25178-2)").parts(parts)
 }
 
-/// What a reader must know before trusting the numbers of windows, each sentence about its window's section.
+/// What a reader must know before trusting the numbers of windows: a sentence for all windows of an operation that it is
+/// true of, about the window's section where it is one.
 pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
     let (stems, operations) = (stems(job, textures), job.operations());
-    let of = |(texture, stem): (&WindowTexture, &String)| -> Vec<Warning> {
-        let operation = operations[texture.operation].0;
-        let (tooth, side) = (texture.window.tooth, texture.window.side.name());
-        let told = texture.warnings().into_iter().map(|text| {
-            let text = format!("texture of tooth {tooth} {side} after {operation}: {text}");
-            Warning::note(text).about(format!("texture.{operation}.{}", key_of(stem)))
-        });
-        told.collect()
+    let noted =
+        textures.iter().zip(&stems).flat_map(|window| window.0.notes().into_iter().map(move |note| (window, note)));
+    let mut groups: Vec<Vec<((&WindowTexture, &String), WindowNote)>> = Vec::new();
+    for (window, note) in noted {
+        let alike = |group: &&mut Vec<((&WindowTexture, &String), WindowNote)>| {
+            group[0].0.0.operation == window.0.operation && group[0].1.is_like(&note)
+        };
+        match groups.iter_mut().find(alike) {
+            Some(group) => group.push((window, note)),
+            None => groups.push(vec![(window, note)]),
+        }
+    }
+    let told = |group: Vec<((&WindowTexture, &String), WindowNote)>| {
+        let operation = operations[group[0].0.0.operation].0;
+        let text = WindowNote::text(&group.iter().map(|(_, note)| note).collect::<Vec<_>>());
+        let names =
+            group.iter().map(|((texture, _), _)| format!("{} {}", texture.window.tooth, texture.window.side.name()));
+        let names = names.collect::<Vec<_>>().join(", ");
+        let section = match group.as_slice() {
+            [((_, stem), _)] => format!("texture.{operation}.{}", key_of(stem)),
+            _ => format!("texture.{operation}"),
+        };
+        Warning::note(format!("texture of tooth {names} after {operation}: {text}")).about(section)
     };
-    textures.iter().zip(&stems).flat_map(of).collect()
+    groups.into_iter().map(told).collect()
 }
 
 /// Key of a window's section: the last part of its stem.
@@ -65,7 +81,11 @@ fn window(texture: &WindowTexture, stem: &str) -> Section {
         .with("flank", Quantity::text(window.side.name(), "flank: left or right"))
         .with(
             "center_profile",
-            mm(center[1], "middle of the window as arc along the profile from the start of the involute"),
+            mm(
+                center[1],
+                "middle of the window as arc along the profile from the start of the involute, in the section in the \
+                 middle of the face",
+            ),
         )
         .with("center_lead", mm(center[0], "middle of the window along the tooth from the middle of the face"))
         .with("length_profile", mm(length[1], "length of the window along the profile"))

@@ -38,11 +38,31 @@ pub struct TraceColumn {
     pub points: Vec<(f64, f64)>,
     /// First and last evaluated place with the mean line's deviation there.
     pub mean_line: Option<[(f64, f64); 2]>,
-    /// Figures under the trace: name and value in the unit of the deviations.
-    pub figures: Vec<(String, Option<f64>)>,
+    /// Figures under the trace.
+    pub figures: Vec<TraceFigure>,
+}
+
+/// A figure under a trace, in the unit of the deviations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TraceFigure {
+    /// Its sign, such as Fα.
+    pub name: String,
+    /// None where the trace has a hole.
+    pub value: Option<f64>,
+    /// Limit of its magnitude, if it has one.
+    pub limit: Option<f64>,
+}
+
+impl TraceFigure {
+    /// Whether it is beyond its limit.
+    pub fn fails(&self) -> bool {
+        matches!((self.value, self.limit), (Some(value), Some(limit)) if value.abs() > limit)
+    }
 }
 
 const COLUMN: f64 = 84.0;
+/// Room for the limits beside the figures of the last trace.
+const LIMITS: f64 = 44.0;
 const LEFT: f64 = 42.0;
 const TOP: f64 = 26.0;
 const HEIGHT: f64 = 240.0;
@@ -58,8 +78,8 @@ pub fn sheets(sheets: &[TraceSheet]) -> Markup {
     html! { div class="sheets" { @for sheet in sheets { (sheet.markup(division)) } } }
 }
 
-/// Deviation of one division.
-fn division(sheets: &[TraceSheet]) -> f64 {
+/// Deviation of one division on all of these sheets.
+pub fn division(sheets: &[TraceSheet]) -> f64 {
     let evaluated = sheets.iter().flat_map(|sheet| &sheet.traces).flat_map(|trace| {
         let inside = |place: f64| trace.mean_line.is_none_or(|[from, to]| place >= from.0 && place <= to.0);
         trace.points.iter().filter(move |point| inside(point.0)).map(|point| point.1.abs())
@@ -77,15 +97,26 @@ impl TraceSheet {
         let y = |place: f64| TOP + HEIGHT - (place - low) / (high - low) * HEIGHT;
         let ticks = Ticks::over(low, high, 7);
         let rows = self.traces.iter().map(|trace| trace.figures.len()).max().unwrap_or(0) as f64;
-        let width = LEFT + COLUMN * self.traces.len() as f64 + 4.0;
+        let limited = self.limits().iter().any(Option::is_some);
+        let traced = LEFT + COLUMN * self.traces.len() as f64;
+        let width = traced + if limited { LIMITS } else { 4.0 };
         let content = html! {
             @for (&value, label) in ticks.values.iter().zip(&ticks.labels) {
-                line class="grid" x1=(LEFT) x2=(px(width - 4.0)) y1=(px(y(value))) y2=(px(y(value))) {}
+                line class="grid" x1=(LEFT) x2=(px(traced)) y1=(px(y(value))) y2=(px(y(value))) {}
                 text class="tick end" x=(LEFT - 6.0) y=(px(y(value) + 4.0)) { (label) }
             }
             @for (index, trace) in self.traces.iter().enumerate() {
                 @let zero = LEFT + COLUMN * (index as f64 + 0.5);
                 (self.column(trace, zero, division, y))
+            }
+            @if limited {
+                @for (row, limit) in self.limits().into_iter().enumerate() {
+                    @if let Some(limit) = limit {
+                        text class="figure-name end" x=(px(width - 2.0)) y=(px(figure_row(row))) {
+                            "≤ " (value_text(limit))
+                        }
+                    }
+                }
             }
         };
         html! {
@@ -101,6 +132,11 @@ impl TraceSheet {
                 (drawing((width, TOP + HEIGHT + 12.0 + ROW * rows), &self.title, &content))
             }
         }
+    }
+
+    /// Limits of the figures, row by row: the same under every trace.
+    fn limits(&self) -> Vec<Option<f64>> {
+        self.traces.first().map_or_else(Vec::new, |trace| trace.figures.iter().map(|figure| figure.limit).collect())
     }
 
     fn column(&self, trace: &TraceColumn, zero: f64, division: f64, y: impl Fn(f64) -> f64) -> Markup {
@@ -128,19 +164,24 @@ impl TraceSheet {
                 }
                 path class="mean-line" d=(path(&ends.map(|(place, value)| (x(value), y(place))))) {}
             }
-            @for (row, (name, value)) in trace.figures.iter().enumerate() {
-                @let at = px(bottom + 8.0 + ROW * (row as f64 + 0.75));
-                text class="figure-name" x=(px(zero - half)) y=(at) { (name) }
-                text class="figure end" x=(px(zero + half)) y=(at) {
-                    (value.map_or_else(|| "–".to_owned(), value_text))
+            @for (row, figure) in trace.figures.iter().enumerate() {
+                @let at = px(figure_row(row));
+                text class="figure-name" x=(px(zero - half)) y=(at) { (figure.name) }
+                text class=(if figure.fails() { "figure end fails" } else { "figure end" }) x=(px(zero + half)) y=(at) {
+                    (figure.value.map_or_else(|| "–".to_owned(), value_text))
                 }
             }
         }
     }
 }
 
+/// Baseline of a row of figures.
+fn figure_row(row: usize) -> f64 {
+    TOP + HEIGHT + 8.0 + ROW * (row as f64 + 0.75)
+}
+
 /// First, last, leftmost and rightmost point of each half pixel of height.
-fn thinned_upright(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+pub(in crate::output) fn thinned_upright(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut kept = Vec::new();
     for group in points.chunk_by(|a, b| (2.0 * a.1).floor() == (2.0 * b.1).floor() && a.0.is_nan() == b.0.is_nan()) {
         let last = group.len() - 1;
@@ -169,7 +210,10 @@ mod tests {
                 label: "tooth 1".into(),
                 points: vec![(0.0, -50.0), (1.0, 0.0), (2.0, largest_um), (3.0, f64::NAN), (4.0, 0.5)],
                 mean_line: Some([(1.0, 0.1), (4.0, 0.2)]),
-                figures: vec![("Fα".into(), Some(largest_um)), ("fHα".into(), None)],
+                figures: vec![
+                    TraceFigure { name: "Fα".into(), value: Some(largest_um), limit: Some(16.0) },
+                    TraceFigure { name: "fHα".into(), value: None, limit: None },
+                ],
             }],
         }
     }
@@ -182,6 +226,8 @@ mod tests {
         let text = sheets(&[sheet(0.4), sheet(17.0)]).into_string();
         assert_eq!(text.matches("1 division = 5.00 µm, material →").count(), 2, "{text}");
         assert!(text.contains("17.0") && text.contains("–"), "{text}");
+        // 17 um are more than 16 um, 0.4 um are not.
+        assert_eq!((text.matches("figure end fails").count(), text.matches("≤ 16.0").count()), (1, 2), "{text}");
     }
 
     #[test]

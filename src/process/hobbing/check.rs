@@ -10,6 +10,7 @@ use crate::process::hobbing::{HobCutter, HobbingJob, warnings};
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use crate::steps::flanks_of;
+use crate::steps::inspection;
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use rayon::prelude::*;
@@ -24,6 +25,7 @@ pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<Warning>> {
     let teeth = FormPoints::of(&cutter)?;
     sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
     check_curve::print(sheet, &job.curve, &job.scene.gear, None);
+    inspection::print(sheet, &cutter)?;
     print_hob(sheet, job);
     teeth.print(sheet);
     for operation in &operations {

@@ -94,8 +94,10 @@ impl HobbingJob {
         let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
         let hob = Hob::new(tool, gear.module_mm, gear.pressure_angle_rad)?;
         let blank = gear.blank(curve.clone())?;
-        // A hob pulled back by d leaves teeth 2 d tan(alpha_t) thicker on the pitch curve.
-        let allowance_mm = gear.tooth_thickness_allowance_mm / (2.0 * gear.transverse_pressure_angle_rad().tan());
+        // A hob pulled back by d leaves teeth 2 d tan(alpha_t) thicker on the pitch curve: by x m and the allowance.
+        let shift_mm = gear.profile_shift_coefficient * gear.module_mm;
+        let allowance_mm =
+            shift_mm + gear.tooth_thickness_allowance_mm / (2.0 * gear.transverse_pressure_angle_rad().tan());
         let (mut operations, mut start_s) = (Vec::new(), 0.0);
         for spec in specs {
             let offset_mm = spec.offset_mm + allowance_mm;

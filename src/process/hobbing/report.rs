@@ -4,6 +4,7 @@
 mod facts;
 
 use crate::findings::{self, Findings};
+use crate::measure::verdict::Verdict;
 use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
@@ -38,13 +39,14 @@ pub fn page(
     cutter: &HobCutter,
     gear: &HobbedGear,
     found: &Findings,
+    inspection: &Inspection,
     charts: Charts,
     motion: &[HobbingAxesReport],
     run: &RunWords,
     folder: &OutputFolder,
 ) -> Result<Page> {
     let job = cutter.job;
-    let mut sections = vec![deviations::section(&inspection(cutter, gear))];
+    let mut sections = vec![deviations::section(inspection)];
     sections.extend(charts.points.map(five_curves));
     sections.push(marks_section(found));
     sections.extend(texture::section(found, folder)?);
@@ -55,7 +57,7 @@ pub fn page(
         "How the linkage moves the machine over one cycle along the pitch curve, and what it asks of the axes.",
         "Accelerations, feed path",
     ));
-    sections.push(facts::section(job));
+    sections.push(facts::section(job, found));
     sections.push(record(gear.flanks.len(), &gear.work.stats, gear.work.dexels, run));
     let operation = |operation: &findings::Section| {
         let mm = |key: &str| operation.number(key).map_or_else(|| "–".to_owned(), plain);
@@ -73,8 +75,10 @@ pub fn page(
     Ok(steps::report::page(cutter, page_gear, found, &gear.maps, operation, key_numbers, sections))
 }
 
-fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
-    let standard_mm = 0.5 * PI * cutter.job.scene.gear.transverse_module_mm();
+/// What a gear inspector would find on a hobbed gear.
+pub fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear, verdict: &'a Verdict) -> Inspection<'a> {
+    let spec = &cutter.job.scene.gear;
+    let standard_mm = 0.5 * PI * spec.transverse_module_mm() + spec.extra_thickness_mm();
     let words = InspectionWords {
         profile_place: "roll from the pitch point, up to the tip",
         lead_place: "in the middle of the profile",
@@ -82,7 +86,7 @@ fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear) -> Inspection<'a> {
         target: "the surface that the last operation would leave with infinitely many gashes and an infinitely fine \
             feed",
     };
-    Inspection::new(&gear.flanks, &gear.inspection, standard_mm, words)
+    Inspection::new(&gear.flanks, &gear.inspection, standard_mm, words, verdict)
 }
 
 fn five_curves(chart: LineChart) -> PageSection {

@@ -16,8 +16,9 @@ use crate::process::CutDone;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::{HobCutter, HobbingJob};
 use crate::steps::attempts::Attempts;
+use crate::steps::inspection::Inspected;
 use crate::steps::parts::Part;
-use crate::steps::report::RunWords;
+use crate::steps::report::{RunWords, deviations};
 use crate::steps::{NO_BODY, Tools, axes, conclusion, meshes, sheets, stages, summary, write_meshes_and_pictures};
 use crate::surface::{Mesh, SurfaceGrid};
 use crate::texture;
@@ -50,7 +51,9 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     let loads = whole.as_ref().map_or_else(Vec::new, |whole| load::measure(&cutter, &whole.blank));
     let forces = whole.as_ref().map_or_else(Vec::new, |whole| force::measure(&cutter, &whole.blank));
     let motion = HobbingAxesReport::of_job(job);
+    let inspected = Inspected::new(&cutter, &gear.flanks, &gear.inspection)?;
     let measured = findings::Measured {
+        inspected: &inspected,
         motion: &motion,
         textures: &textures,
         lattices: &lattices,
@@ -99,7 +102,11 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     }
     let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
     let charts = report::Charts { loads: load_charts, forces: force_charts, points: points_chart };
-    let page = |found: &Findings| report::page(&cutter, &gear, found, charts, &motion, &words, folder);
+    let inspection = report::inspection(&cutter, &gear, &inspected.verdict);
+    if parts.has(Part::Report) {
+        attempts.of("inspection sheet", deviations::write_sheet(&inspection, &job.scene, &found, folder))?;
+    }
+    let page = |found: &Findings| report::page(&cutter, &gear, found, &inspection, charts, &motion, &words, folder);
     conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
     let out = folder.results_path(!gear.work.interrupted);
     let flanks = gear.flanks.len();

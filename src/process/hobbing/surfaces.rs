@@ -10,6 +10,7 @@ use crate::job::{
     CylindricalGear, GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, ToothFrame, rows_z_mm,
     teeth_of_extreme_radius,
 };
+use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
 use crate::process::hobbing::cutter::HobCutter;
 use crate::process::hobbing::measure::flank_report;
 use crate::process::hobbing::rack_root::RackRootPoint;
@@ -25,6 +26,7 @@ use gearcut_core::gear::PitchCurve;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::terms::Side;
 use glam::DVec2;
+use std::f64::consts::PI;
 
 /// Distance of the sections that show a helical gear's shape, mm: chords a micrometre off a helix of 20 deg on a radius
 /// of 60 mm.
@@ -103,6 +105,19 @@ impl CylindricalGear for HobCutter<'_> {
 
     fn blank(&self) -> &Blank {
         &self.job.blank
+    }
+
+    fn round_gear(&self) -> Result<Option<RoundGear>> {
+        if !is_round(&self.job.curve) {
+            return Ok(None);
+        }
+        let (gear, rack) = (&self.job.scene.gear, &self.job.target.rack);
+        let diameter_mm = |height_mm: f64| gear.transverse_module_mm() * f64::from(gear.teeth) + 2.0 * height_mm;
+        let form_mm = self.target(1, Side::Left)?.middle_form.height_mm;
+        let involute_mm = [form_mm, self.job.blank.addendum_mm].map(diameter_mm);
+        let root_mm = diameter_mm(-rack.tip_height_mm);
+        let thickness_mm = PI * rack.transverse_module_mm - 2.0 * rack.half_thickness_mm;
+        Ok(Some(RoundGear::new(gear, ToothEnds { root_mm, involute_mm }, thickness_mm)))
     }
 
     fn view_rows_z_mm(&self) -> Vec<f64> {

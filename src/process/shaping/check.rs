@@ -14,6 +14,7 @@ use crate::process::shaping::tooth_facts::ToothFacts;
 use crate::process::shaping::{findings, warnings};
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
+use crate::steps::inspection;
 use gearcut_core::error::Result;
 
 /// Prints everything; what must be known before cutting.
@@ -26,6 +27,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<Warning>> {
 
     sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
     check_curve::print(sheet, &job.curve, &job.scene.gear, Some(job.cutter.pitch_radius_mm));
+    inspection::print(sheet, job)?;
     teeth::print(sheet, job, &facts);
     let ring = findings::ring::of_job(job);
     if let Some(ring) = &ring {

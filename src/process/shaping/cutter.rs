@@ -283,6 +283,7 @@ pub(crate) mod tests {
             hand: gearcut_core::terms::Hand::Right,
             face_width_mm: 30.0,
             addendum_coefficient: 1.0,
+            profile_shift_coefficient: 0.0,
             bore_diameter_mm: 20.0,
             rim_mm: 0.0,
             tooth_thickness_allowance_mm: 0.0,

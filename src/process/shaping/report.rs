@@ -9,6 +9,7 @@ mod ring;
 mod stock;
 
 use crate::findings::{self, Findings, Quantity};
+use crate::measure::verdict::Verdict;
 use crate::output::folder::OutputFolder;
 use crate::output::report::{KeyNumber, Page};
 use crate::output::text::{plain, significant};
@@ -34,6 +35,7 @@ pub fn page(
     job: &ShapingJob,
     cut: &CutGear,
     found: &Findings,
+    inspection: &Inspection,
     motion: &[OperationAxes],
     run: &RunWords,
     folder: &OutputFolder,
@@ -41,7 +43,7 @@ pub fn page(
     let mut sections = stock::section(job, found).into_iter().collect::<Vec<_>>();
     sections.extend(ring::section(job, found));
     sections.extend(returns::section(job, found));
-    sections.push(deviations::section(&inspection(&cut.report, job.scene.gear.module_mm)));
+    sections.push(deviations::section(inspection));
     sections.extend(texture::section(found, folder)?);
     sections.push(axes::section(
         motion,
@@ -49,7 +51,7 @@ pub fn page(
         "How the linkage moves the machine over one turn of the work, and what it asks of the axes.",
         "Velocities, accelerations, relief",
     ));
-    sections.push(facts::section(job));
+    sections.push(facts::section(job, found));
     sections.push(record(cut.report.flanks.len(), &cut.work.stats, cut.work.dexels, run));
     let operations = found.parts("operations").len();
     let gear = PageGear { words: gear_words(&job.scene.gear), mesh: ViewMesh::new(job)? };
@@ -124,13 +126,15 @@ fn key_numbers(job: &ShapingJob, found: &Findings) -> Vec<KeyNumber> {
     numbers
 }
 
-/// What a gear inspector would find on a shaped gear of module `module_mm`.
-fn inspection(report: &GearReport, module_mm: f64) -> Inspection<'_> {
+/// What a gear inspector would find on a shaped gear.
+pub fn inspection<'a>(job: &ShapingJob, report: &'a GearReport, verdict: &'a Verdict) -> Inspection<'a> {
     let words = InspectionWords {
         profile_place: "u from the form point (below) to the tip",
         lead_place: "at the pitch curve",
         lead_name: "Lead",
         target: "the surface that the last operation would leave with infinitely many strokes and no error",
     };
-    Inspection::new(&report.flanks, &report.inspection, 0.5 * PI * module_mm, words)
+    let gear = &job.scene.gear;
+    let standard_mm = 0.5 * PI * gear.module_mm + gear.extra_thickness_mm();
+    Inspection::new(&report.flanks, &report.inspection, standard_mm, words, verdict)
 }

@@ -14,9 +14,10 @@ use crate::process::CutDone;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::steps::attempts::Attempts;
+use crate::steps::inspection::Inspected;
 use crate::steps::parts::Part;
 use crate::steps::planar::blank_findings;
-use crate::steps::report::RunWords;
+use crate::steps::report::{RunWords, deviations};
 use crate::steps::{Tools, Work, conclusion, meshes, stages, summary, write_meshes_and_pictures};
 use crate::texture;
 use gearcut_core::error::{Error, Result};
@@ -50,12 +51,15 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let whole = if gear.work.interrupted { None } else { blank::cut(job, backend, progress, interrupt)? };
     let motion = OperationAxes::of_job(job);
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion)?;
+    let inspected = Inspected::new(job, &gear.report.flanks, &gear.report.inspection)?;
+    sections.extend(inspected.sections(&job.scene.measure));
     sections.extend(whole.as_ref().map(|(cut, report)| blank_findings::findings(&job.planar(), cut, report)));
     sections.push(texture::findings(job, &textures));
     let ring = sections.iter().find(|section| section.key == findings::ring::KEY);
     let mut list = warnings::before(job, &motion, ring)?;
     let blank_report = whole.as_ref().map(|(_, report)| report);
     list.extend(warnings::after(job, &gear.report, &gear.chips, &gear.work, blank_report));
+    list.extend(inspected.warnings(&job.scene.measure));
     list.extend(texture::warnings(job, &textures));
     let mut found = Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -88,7 +92,11 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
         }
     }
     let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
-    let page = |found: &Findings| report::page(job, &gear, found, &motion, &words, folder);
+    let inspection = report::inspection(job, &gear.report, &inspected.verdict);
+    if parts.has(Part::Report) {
+        attempts.of("inspection sheet", deviations::write_sheet(&inspection, &job.scene, &found, folder))?;
+    }
+    let page = |found: &Findings| report::page(job, &gear, found, &inspection, &motion, &words, folder);
     conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
     let out = folder.results_path(!interrupted);
     let work = Work { interrupted, ..gear.work };

@@ -4,6 +4,8 @@
 //! normals of the pitch curve.
 
 use crate::job::{CylindricalGear, GearJob, ToothFrame, teeth_of_extreme_radius};
+use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
+use crate::measure::thickness::Thickness;
 use crate::process::shaping::job::ShapingJob;
 use crate::process::shaping::measure::flank_report;
 use crate::process::shaping::target::target_root;
@@ -86,6 +88,19 @@ impl CylindricalGear for ShapingJob {
 
     fn blank(&self) -> &Blank {
         &self.blank
+    }
+
+    fn round_gear(&self) -> Result<Option<RoundGear>> {
+        let tooth = self.target(1);
+        let [left, right] = [Side::Left, Side::Right].map(|side| tooth.pitch_crossing(side));
+        let (Some(left), Some(right), true) = (left, right, is_round(&self.curve)) else { return Ok(None) };
+        let flank = tooth.flank(Side::Left);
+        let involute_mm = [0.0, flank.length_mm()].map(|arc_mm| 2.0 * flank.at_arc(arc_mm).point_mm.length());
+        let finishing = self.finishing();
+        let center_mm = finishing.linkage.pose(0.0, finishing.spec.offset_mm).center_mm.length();
+        let root_mm = 2.0 * (center_mm - self.blank.kind().tip_sign() * self.cutter.tip_radius_mm);
+        let thickness_mm = Thickness::between(left, right).arc_mm;
+        Ok(Some(RoundGear::new(&self.scene.gear, ToothEnds { root_mm, involute_mm }, thickness_mm)))
     }
 
     fn view_rows_z_mm(&self) -> Vec<f64> {

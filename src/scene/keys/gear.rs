@@ -71,8 +71,18 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             unit: "modules",
             default: Default::Number(1.0),
             example: "1.0",
-            teach: "How far the blank's outline stands over the pitch curve, towards the tips of the teeth.",
+            teach: "How far the blank's outline stands over the pitch curve, towards the tips of the teeth, less the \
+                    profile shift.",
         },
+        Key::number(
+            "profile_shift_coefficient",
+            "modules",
+            Range::closed(-1.5, 1.5),
+            0.0,
+            "0.3",
+            "Profile shift x: teeth are 2 x m tan(alpha) thicker on the pitch curve, tips and roots stand x modules \
+             further towards the tips. Every operation gets it.",
+        ),
         Key {
             name: "bore_diameter_mm",
             kind: Kind::Number(Range::closed(0.0, 10000.0)),

@@ -1,13 +1,22 @@
 //! Deviations of the finished gear as a gear inspector knows them: profile and lead traces, pitch, runout, tooth
 //! thickness.
 
+use super::facts::gear_words;
+use crate::findings::Findings;
 use crate::measure::deviation::{Trace, TraceDeviation};
+use crate::measure::flank_tolerance::Figure;
 use crate::measure::inspection::{GearInspection, InspectedFlank};
+use crate::measure::verdict::{JudgedFigure, LimitSource, Verdict};
 use crate::output::bar_chart::{BarChart, BarSeries};
-use crate::output::line_chart::{LineChart, LineSeries, Panel};
-use crate::output::report::traces::{TraceColumn, TraceSheet};
-use crate::output::report::{Block, PageSection};
+use crate::output::folder::OutputFolder;
+use crate::output::inspection_sheet::{InspectionSheet, SheetFigure};
+use crate::output::line_chart::{Limit, LineChart, LineSeries, Panel};
+use crate::output::report::traces::{TraceColumn, TraceFigure, TraceSheet};
+use crate::output::report::{Block, PageSection, PageTable};
 use crate::output::text::significant;
+use crate::scene::Scene;
+use crate::steps::inspection::{SIZES, class_words, size_rows, verdict_words};
+use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 
@@ -15,6 +24,9 @@ use gearcut_core::units::UM_PER_MM;
 const TRACED_TEETH: u32 = 4;
 /// Smallest distance of two ticks on charts of deviations, µm: less would make rounding look like a fault.
 const LEAST_DIVISION_UM: f64 = 1.0;
+/// Total, form and slope deviation of profile and helix.
+const PROFILE: [Figure; 3] = [Figure::ProfileTotal, Figure::ProfileForm, Figure::ProfileSlope];
+const HELIX: [Figure; 3] = [Figure::HelixTotal, Figure::HelixForm, Figure::HelixSlope];
 const SIDES: [(Side, &str); 2] = [(Side::Left, "left flanks"), (Side::Right, "right flanks")];
 
 /// A flank with its traces.
@@ -32,9 +44,10 @@ pub struct Inspection<'a> {
     /// Flanks in order of teeth.
     flanks: Vec<Inspected<'a>>,
     gear: &'a GearInspection,
-    /// Thickness of each tooth less half a pitch, arcs of the pitch curve, mm.
+    /// Thickness of each tooth less half a pitch with shift and allowance, arcs of the pitch curve, mm.
     thickness_mm: Vec<Option<f64>>,
     words: InspectionWords,
+    verdict: &'a Verdict,
 }
 
 /// What a process says of its traces.
@@ -50,12 +63,13 @@ pub struct InspectionWords {
 }
 
 impl<'a> Inspection<'a> {
-    /// Of flanks in order of teeth; `standard_mm` is half a pitch, arc of the pitch curve.
+    /// Of flanks in order of teeth; `standard_mm` is half a pitch with shift and allowance, arc of the pitch curve.
     pub fn new<Own>(
         flanks: &'a [InspectedFlank<Own>],
         gear: &'a GearInspection,
         standard_mm: f64,
         words: InspectionWords,
+        verdict: &'a Verdict,
     ) -> Self {
         let inspected = |flank: &'a InspectedFlank<Own>| Inspected {
             tooth: flank.tooth,
@@ -64,7 +78,103 @@ impl<'a> Inspection<'a> {
             lead: (&flank.lead_trace, flank.lead),
         };
         let thickness_mm = gear.thickness.iter().map(|t| t.map(|t| t.arc_mm - standard_mm)).collect();
-        Self { flanks: flanks.iter().map(inspected).collect(), gear, thickness_mm, words }
+        Self { flanks: flanks.iter().map(inspected).collect(), gear, thickness_mm, words, verdict }
+    }
+
+    /// Limit of a figure's magnitude, um.
+    fn limit_um(&self, figure: Figure) -> Option<f64> {
+        self.verdict.of(figure).limit.map(|limit| limit.0)
+    }
+
+    /// What the gear is held against, in a sentence.
+    fn held_against(&self) -> String {
+        let mut sources: Vec<LimitSource> = Vec::new();
+        for (_, source) in self.verdict.figures.iter().filter_map(|judged| judged.limit) {
+            if !sources.contains(&source) {
+                sources.push(source);
+            }
+        }
+        let sources: Vec<String> = sources.into_iter().map(LimitSource::words).collect();
+        let class = match (self.verdict.class(), &self.verdict.no_class) {
+            (None, Some(why)) => format!("no class: {why}"),
+            (class, _) => format!("class reached: {}", class_words(class)),
+        };
+        match (sources.is_empty(), self.verdict.passes()) {
+            (true, _) => format!("No limits were given; {class}."),
+            (false, passes) => format!("{}: {}; {class}.", sources.join(", "), verdict_words(passes)),
+        }
+    }
+}
+
+/// The inspector's sheet on one page; `sizes` are name, sign and value of the sizes of a round gear.
+fn sheet(
+    inspection: &Inspection,
+    title: &str,
+    subtitle: &str,
+    sizes: Vec<[String; 3]>,
+    notes: Vec<String>,
+) -> InspectionSheet {
+    let um = |values: &[f64]| values.iter().map(|&mm| shown_um(mm)).collect::<Vec<_>>();
+    let pitch = &inspection.gear.pitch;
+    let of_pitch = |pick: fn(&crate::measure::deviation::PitchDeviations) -> &[f64]| {
+        [0, 1].map(|side| pitch[side].as_ref().map_or_else(Vec::new, |pitch| um(pick(pitch))))
+    };
+    let verdict = inspection.verdict;
+    InspectionSheet {
+        title: title.to_owned(),
+        subtitle: subtitle.to_owned(),
+        program: format!("gearcut {}", env!("CARGO_PKG_VERSION")),
+        sizes,
+        profiles: SIDES.map(|(side, name)| profile_sheet(inspection, side, name)),
+        helices: SIDES.map(|(side, name)| lead_sheet(inspection, side, name)),
+        single_pitch_um: of_pitch(|pitch| &pitch.single_mm),
+        cumulative_pitch_um: of_pitch(|pitch| &pitch.cumulative_mm),
+        single_pitch_limit_um: inspection.limit_um(Figure::SinglePitch),
+        runout_um: inspection.gear.runout.as_ref().map_or_else(Vec::new, |runout| um(&runout.radial_mm)),
+        figures: verdict.figures.iter().map(sheet_figure).collect(),
+        verdict: inspection.held_against(),
+        fails: verdict.passes() == Some(false),
+        notes,
+    }
+}
+
+/// Writes the inspector's sheet as `inspection.svg` and `inspection.pdf`.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_sheet(inspection: &Inspection, scene: &Scene, found: &Findings, folder: &OutputFolder) -> Result<()> {
+    let sizes = found.find(SIZES).map_or_else(Vec::new, size_rows);
+    let mut notes = vec![
+        format!("Deviations of the surface as cut from {}.", inspection.words.target),
+        "Profile and helix along the flank's normal, in the middle; dashed: the evaluated part. Pitch: arcs of the pitch \
+         curve from the mean pitch."
+            .to_owned(),
+        "The table has the worst tooth of each side.".to_owned(),
+    ];
+    if scene.gear.helix_angle_rad != 0.0 && inspection.verdict.no_class.is_none() {
+        notes.push("Limits of profile and helix are those of the transverse section times cos βb.".to_owned());
+    }
+    let sheet = sheet(inspection, &scene.name, &gear_words(&scene.gear), sizes, notes);
+    sheet.page().write(&folder.path("inspection.svg")?, &folder.path("inspection.pdf")?)
+}
+
+fn sheet_figure(judged: &JudgedFigure) -> SheetFigure {
+    let side = |index: usize| {
+        judged
+            .sides
+            .get(index)
+            .map_or_else(|| "–".to_owned(), |figure| significant(shown_um(figure.value_um / UM_PER_MM), 3))
+    };
+    SheetFigure {
+        cells: [
+            judged.figure.sign().to_owned(),
+            side(0).replace('-', "−"),
+            side(1).replace('-', "−"),
+            judged.limit.map_or_else(|| "–".to_owned(), |limit| significant(limit.0, 3)),
+            class_words(judged.class),
+            verdict_words(judged.passes()).to_owned(),
+        ],
+        fails: judged.passes() == Some(false),
     }
 }
 
@@ -78,7 +188,7 @@ pub fn section(inspection: &Inspection) -> PageSection {
         Block::Note(
             "Four teeth evenly around the gear and those with the largest total deviation of either flank. Normal \
             deviations; dashed lines bound the evaluated part, the straight line is its mean \
-            line. F total, ff form, fH slope deviation, µm."
+            line. F total, ff form, fH slope deviation, µm; ≤ the limit, where one was given."
                 .to_owned(),
         ),
         Block::Heading("Pitch, runout, tooth thickness".to_owned()),
@@ -86,10 +196,15 @@ pub fn section(inspection: &Inspection) -> PageSection {
     blocks.extend(pitch_charts(inspection));
     blocks.push(Block::Note(
         "Pitch and thickness are arcs of the pitch curve in the middle of the face. Runout is the place, along the \
-        curve's normal, of a probe that touches both flanks of a space there; a round gear's Fr. No tolerance class is \
-        given: the standard's classes are for round gears."
+        curve's normal, of a probe that touches both flanks of a space there; a round gear's Fr."
             .to_owned(),
     ));
+    blocks.push(Block::Heading("Figures and limits".to_owned()));
+    blocks.push(Block::Table(PageTable {
+        caption: format!("{} The sheet of one page: inspection.pdf beside this file.", inspection.held_against()),
+        columns: ["Figure", "Left [µm]", "Right [µm]", "Limit [µm]", "Class", "Verdict"].map(str::to_owned).into(),
+        rows: inspection.verdict.figures.iter().map(|judged| sheet_figure(judged).cells.into()).collect(),
+    }));
     PageSection {
         id: "deviations",
         title: "Deviations".to_owned(),
@@ -122,17 +237,26 @@ fn traced<'a>(
     numbers.iter().filter_map(flank).collect()
 }
 
-fn column(flank: &Inspected, (trace, deviation): (&Trace, Option<TraceDeviation>), line: &str) -> TraceColumn {
+fn column(
+    inspection: &Inspection,
+    flank: &Inspected,
+    (trace, deviation): (&Trace, Option<TraceDeviation>),
+    [total, form, slope]: [Figure; 3],
+) -> TraceColumn {
     let um = |value: f64| value * UM_PER_MM;
-    let figure = |name: &str, value: Option<f64>| (format!("{name}{line}"), value.map(shown_um));
+    let figure = |figure: Figure, value: Option<f64>| TraceFigure {
+        name: figure.sign().to_owned(),
+        value: value.map(shown_um),
+        limit: inspection.limit_um(figure),
+    };
     TraceColumn {
         label: format!("tooth {}", flank.tooth),
         points: trace.places_mm.iter().copied().zip(trace.heights_mm.iter().copied().map(um)).collect(),
         mean_line: deviation.map(|d| [0, 1].map(|end| (d.between_mm[end], um(d.mean_line_mm[end])))),
         figures: vec![
-            figure("F", deviation.map(|d| d.total_mm)),
-            figure("ff", deviation.map(|d| d.form_mm)),
-            figure("fH", deviation.map(|d| d.slope_mm)),
+            figure(total, deviation.map(|d| d.total_mm)),
+            figure(form, deviation.map(|d| d.form_mm)),
+            figure(slope, deviation.map(|d| d.slope_mm)),
         ],
     }
 }
@@ -145,7 +269,7 @@ fn profile_sheet(inspection: &Inspection, side: Side, name: &str) -> TraceSheet 
         place_unit: "mm".to_owned(),
         unit: "µm".to_owned(),
         mirrored: side == Side::Left,
-        traces: flanks.into_iter().map(|f| column(f, f.profile, "α")).collect(),
+        traces: flanks.into_iter().map(|f| column(inspection, f, f.profile, PROFILE)).collect(),
     }
 }
 
@@ -157,15 +281,22 @@ fn lead_sheet(inspection: &Inspection, side: Side, name: &str) -> TraceSheet {
         place_unit: "mm".to_owned(),
         unit: "µm".to_owned(),
         mirrored: side == Side::Left,
-        traces: flanks.into_iter().map(|f| column(f, f.lead, "β")).collect(),
+        traces: flanks.into_iter().map(|f| column(inspection, f, f.lead, HELIX)).collect(),
     }
+}
+
+/// The limit of a range, behind its value.
+fn limit_words(inspection: &Inspection, figure: Figure) -> String {
+    inspection.limit_um(figure).map_or_else(String::new, |um| format!(" (limit {} µm)", significant(um, 3)))
 }
 
 fn pitch_charts(inspection: &Inspection) -> Vec<Block> {
     let teeth = inspection.thickness_mm.len();
     let categories: Vec<String> = (1..=teeth).map(|tooth| tooth.to_string()).collect();
-    let bars = |title: &str, value_name: &str, series: Vec<BarSeries>| {
+    let bars = |title: &str, value_name: &str, series: Vec<BarSeries>, limit_um: Option<f64>| {
+        let limit = |name: &str, value: f64| Limit { name: name.to_owned(), value };
         Block::Bars(BarChart {
+            limits: limit_um.map_or_else(Vec::new, |um| vec![limit("limit", um), limit("limit", -um)]),
             least_division: LEAST_DIVISION_UM,
             title: title.to_owned(),
             category_name: "tooth".to_owned(),
@@ -210,7 +341,11 @@ fn pitch_charts(inspection: &Inspection) -> Vec<Block> {
         .filter_map(|(pitch, (_, name))| {
             let pitch = pitch.as_ref()?;
             Some(over_teeth(
-                &format!("{name}, Fp {} µm", significant(shown_um(pitch.total_mm()), 3)),
+                &format!(
+                    "{name}, Fp {} µm{}",
+                    significant(shown_um(pitch.total_mm()), 3),
+                    limit_words(inspection, Figure::TotalPitch)
+                ),
                 &pitch.cumulative_mm,
             ))
         })
@@ -221,7 +356,11 @@ fn pitch_charts(inspection: &Inspection) -> Vec<Block> {
         .iter()
         .map(|r| {
             over_teeth(
-                &format!("probe in the space after the tooth, Fr {} µm", significant(shown_um(r.total_mm()), 3)),
+                &format!(
+                    "probe in the space after the tooth, Fr {} µm{}",
+                    significant(shown_um(r.total_mm()), 3),
+                    limit_words(inspection, Figure::Runout)
+                ),
                 &r.radial_mm,
             )
         })
@@ -230,10 +369,20 @@ fn pitch_charts(inspection: &Inspection) -> Vec<Block> {
         name: "teeth".to_owned(),
         values: inspection.thickness_mm.iter().map(|t| t.map(shown_um)).collect(),
     };
-    let mut blocks =
-        vec![bars("Single pitch deviation fp", "arc from the tooth before, less π m", vec![single(0), single(1)])];
-    blocks.extend(lines("Cumulative pitch deviation", "arc from tooth 1, less its pitches", "tooth", cumulative));
+    let single_limit_um = inspection.limit_um(Figure::SinglePitch);
+    let mut blocks = vec![bars(
+        "Single pitch deviation fp",
+        "arc from the tooth before, less the mean pitch",
+        vec![single(0), single(1)],
+        single_limit_um,
+    )];
+    blocks.extend(lines("Cumulative pitch deviation", "arc from tooth 1, less its mean pitches", "tooth", cumulative));
     blocks.extend(lines("Runout", "place of the probe, outwards, about its mean", "tooth", runout));
-    blocks.push(bars("Tooth thickness", "arc of the pitch curve, less π m / 2", vec![thickness]));
+    blocks.push(bars(
+        "Tooth thickness",
+        "arc of the pitch curve, less π m / 2 with shift and allowance",
+        vec![thickness],
+        None,
+    ));
     blocks
 }

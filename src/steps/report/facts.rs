@@ -1,9 +1,11 @@
 //! What was cut: the gear in words and as a table.
 
+use crate::findings::Findings;
 use crate::machine::{Axis, Limits, Order};
 use crate::output::report::{Block, PageTable};
 use crate::output::text::plain;
 use crate::scene::model::Gear;
+use crate::steps::inspection;
 use gearcut_core::gear::{GearKind, PitchCurve};
 use gearcut_core::units::UM_PER_MM;
 
@@ -34,6 +36,16 @@ pub fn table(caption: &str, rows: Vec<(&str, String)>) -> Block {
         columns: Vec::new(),
         rows: rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect(),
     })
+}
+
+/// Sizes of a round gear as a table; none of other gears.
+pub fn round_gear_table(found: &Findings) -> Option<Block> {
+    let sizes = found.find(inspection::SIZES)?;
+    Some(Block::Table(PageTable {
+        caption: "Sizes of the round gear".to_owned(),
+        columns: ["Size", "Sign", "Value"].map(str::to_owned).into(),
+        rows: inspection::size_rows(sizes).into_iter().map(Into::into).collect(),
+    }))
 }
 
 /// A length with its unit.
@@ -75,6 +87,7 @@ pub fn gear_table(gear: &Gear, curve: &PitchCurve) -> Block {
                 GearKind::External => ("Bore", "none".to_owned()),
             },
             ("Addendum", format!("{} m", plain(gear.addendum_coefficient))),
+            ("Profile shift", format!("{} m", plain(gear.profile_shift_coefficient)).replace('-', "−")),
             ("Thickness allowance", format!("{} µm", plain(UM_PER_MM * gear.tooth_thickness_allowance_mm))),
         ],
     )

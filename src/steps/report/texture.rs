@@ -16,6 +16,9 @@ pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSec
     let operations = found.parts("texture");
     let Some((last, earlier)) = operations.split_last() else { return Ok(None) };
     let mut blocks = vec![overview(last, earlier)];
+    let path = format!("texture.{}", last.key);
+    let of_several = found.warnings.iter().filter(|warning| warning.section.as_ref() == Some(&path));
+    blocks.extend(of_several.map(|warning| Block::Note(warning.with_signs().text)));
     blocks.extend(shown(last, found, folder)?);
     for operation in earlier {
         blocks.push(Block::Folded(operation.title.clone(), shown(operation, found, folder)?));

@@ -28,6 +28,7 @@ fn bars() -> BarChart {
     second[4] = None;
     BarChart {
         least_division: 0.0,
+        limits: Vec::new(),
         title: "Unevenness of the finishing allowance".into(),
         category_name: "tooth".into(),
         categories: (1..=42).map(|tooth| tooth.to_string()).collect(),

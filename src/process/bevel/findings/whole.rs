@@ -298,6 +298,7 @@ pub fn charts(job: &BevelJob, ledger: &SlotLedger) -> ChipCharts {
             format!("{name}_chips_by_blade"),
             BarChart {
                 least_division: 0.0,
+                limits: Vec::new(),
                 title: format!("{name}: volume of a slot by blade"),
                 category_name: "blade; outside blades have even numbers".to_owned(),
                 categories: (0..blades.len()).map(|blade| blade.to_string()).collect(),

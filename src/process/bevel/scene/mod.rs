@@ -36,6 +36,7 @@ pub static SCENE: SceneProcess = SceneProcess {
         without("gear.helix_angle_deg", "the machine's settings make the spiral", "remove it"),
         without("gear.hand", "the sign of machine.cradle.cradle_angle_deg chooses the hand", "remove it"),
         without("gear.addendum_coefficient", "the addendum stands in [gear.bevel]", "write gear.bevel.addendum_mm"),
+        without("gear.profile_shift_coefficient", "the settings make the teeth", "remove it"),
         without("gear.bore_diameter_mm", "the body is the toothed ring", "remove it"),
         without("gear.rim_mm", "no gear is internal", "remove it"),
         without("gear.tooth_thickness_allowance_mm", "the head makes the slot", "set tool.face_mill.point_width_mm"),
@@ -54,6 +55,7 @@ fn derive(values: &mut Values) {
     values.put_default("gear", "kind", Checked::Text("external".to_owned()));
     for (section, key, number) in [
         ("gear", "addendum_coefficient", 1.0),
+        ("gear", "profile_shift_coefficient", 0.0),
         ("gear", "bore_diameter_mm", 0.0),
         ("gear", "tooth_thickness_allowance_mm", 0.0),
     ] {

@@ -107,6 +107,7 @@ pub(super) fn work_of_teeth(job: &HobbingJob, operation: &PreparedHobbing) -> Re
         numbered.map(|tooth| (tooth.number.to_string(), Some(100.0 * work.share(tooth.passage)))).unzip();
     Ok(BarChart {
         least_division: 0.0,
+        limits: Vec::new(),
         title: format!(
             "{} of {}: area that each hob tooth takes, space 0 ({})",
             operation.spec.name,

@@ -70,7 +70,7 @@ impl FeedPlan {
         cycle_s: f64,
     ) -> Result<Self, Refusal> {
         let tilt = geometry.head_angle_rad;
-        let gear_addendum_mm = gear.addendum_coefficient * gear.module_mm;
+        let gear_addendum_mm = gear.addendum_mm();
         let depth_mm = hob.tip_radius_mm - hob.pitch_radius_mm + gear_addendum_mm - offset_mm;
         let hob_addendum_mm = hob.tip_radius_mm - hob.pitch_radius_mm;
         let contact_x_mm = hob_addendum_mm.max(gear_addendum_mm) / gear.transverse_pressure_angle_rad().tan();

@@ -1,15 +1,16 @@
 //! What was hobbed, with what, on which machine.
 
+use crate::findings::Findings;
 use crate::output::report::PageSection;
 use crate::output::text::plain;
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::linkage::dynamics::{self, AXES};
 use crate::process::hobbing::scene::model::{GashForm, Worm};
-use crate::steps::report::facts::{gear_table, mm, speed_limits, table};
+use crate::steps::report::facts::{gear_table, mm, round_gear_table, speed_limits, table};
 use crate::steps::report::machine_errors::errors_table;
 
 /// Tables of gear, hob and machine.
-pub fn section(job: &HobbingJob) -> PageSection {
+pub fn section(job: &HobbingJob, found: &Findings) -> PageSection {
     let (hob, tool, limits) = (&job.hob, &job.hob_spec, &job.limits);
     let worm = match tool.worm {
         Worm::Involute => "involute worm (ZI)",
@@ -21,8 +22,9 @@ pub fn section(job: &HobbingJob) -> PageSection {
     };
     let names = ["hob", "work", "X", "Y", "slide", "shift"];
     let speeds = speed_limits(names, &AXES, &dynamics::limits(limits));
-    let mut blocks = vec![
-        gear_table(&job.scene.gear, &job.curve),
+    let mut blocks = vec![gear_table(&job.scene.gear, &job.curve)];
+    blocks.extend(round_gear_table(found));
+    blocks.extend([
         table(
             "Hob",
             vec![
@@ -45,7 +47,7 @@ pub fn section(job: &HobbingJob) -> PageSection {
             ],
         ),
         table("Machine", vec![("Speed limits", speeds)]),
-    ];
+    ]);
     blocks.extend(errors_table(&job.errors, &AXES, Some(tool.mounting)));
     let [from, to] = job.scene.measure.heights_mm();
     if from.is_some() || to.is_some() {

@@ -12,6 +12,7 @@ use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::measure::marks::MarkLattice;
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob, warnings};
 use crate::steps::axes::{self, AxesOfOperation as _};
+use crate::steps::inspection::Inspected;
 use crate::texture::{self, WindowTexture};
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
@@ -31,6 +32,8 @@ pub struct Measured<'a> {
     pub motion: &'a [HobbingAxesReport<'a>],
     /// Texture of windows.
     pub textures: &'a [WindowTexture],
+    /// Sizes, figures and limits.
+    pub inspected: &'a Inspected,
     /// Lattices of cutting marks.
     pub lattices: &'a [MarkLattice],
     /// The whole blank with the hob's load and its forces; none after Ctrl-C.
@@ -69,6 +72,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
         ),
     ];
     sections.extend(evaluated(job));
+    sections.extend(measured.inspected.sections(&job.scene.measure));
     if let Some((whole, loads, forces)) = measured.whole {
         sections.push(load::findings(job, loads));
         sections.extend(force::findings(job, forces));
@@ -77,6 +81,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
     let mut list = warnings::before(cutter, measured.motion)?;
     let of_blank = measured.whole.map(|(whole, loads, _)| (&whole.report, loads));
     list.extend(warnings::after(cutter, gear, of_blank));
+    list.extend(measured.inspected.warnings(&job.scene.measure));
     list.extend(texture::warnings(cutter, measured.textures));
     Ok(Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),

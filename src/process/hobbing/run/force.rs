@@ -40,6 +40,7 @@ pub fn measure(cutter: &HobCutter, blank: &HobbedBlank) -> Vec<OperationForce> {
 pub fn bars(job: &HobbingJob, forces: &[OperationForce]) -> Vec<(String, BarChart)> {
     let chart = |name: &str, force: &OperationForce| BarChart {
         least_division: 0.0,
+        limits: Vec::new(),
         title: format!("{}, {name}: cutting force by hob tooth", job.scene.name),
         category_name: "hob tooth, from the entering end".into(),
         categories: labels(job),

@@ -31,6 +31,7 @@ pub fn charts(job: &HobbingJob, loads: &[OperationLoad]) -> Vec<(String, BarChar
         .map(|(name, load, (stem, what, unit, value))| {
             let chart = BarChart {
                 least_division: 0.0,
+                limits: Vec::new(),
                 title: format!("{}, {name}: {what} by hob tooth", job.scene.name),
                 category_name: "hob tooth, from the entering end".into(),
                 categories: labels(job),

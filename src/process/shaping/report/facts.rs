@@ -1,16 +1,17 @@
 //! What was shaped, with what, on which machine.
 
+use crate::findings::Findings;
 use crate::output::report::PageSection;
 use crate::output::text::plain;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::scene::model::{Retraction, Tip};
-use crate::steps::report::facts::{gear_table, mm, speed_limits, table};
+use crate::steps::report::facts::{gear_table, mm, round_gear_table, speed_limits, table};
 use crate::steps::report::machine_errors::errors_table;
 use gearcut_core::units::UM_PER_MM;
 
 /// Tables of gear, cutter and machine.
-pub fn section(job: &ShapingJob) -> PageSection {
+pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
     let (tool, machine) = (&job.cutter_spec, &job.machine);
     let tip = match tool.tip {
         Tip::Sharp => "sharp corners".to_owned(),
@@ -23,8 +24,9 @@ pub fn section(job: &ShapingJob) -> PageSection {
         Retraction::CenterLine => mm(machine.back_off_mm),
         other => format!("{} {}", mm(machine.back_off_mm), other.words()),
     };
-    let mut blocks = vec![
-        gear_table(&job.scene.gear, &job.curve),
+    let mut blocks = vec![gear_table(&job.scene.gear, &job.curve)];
+    blocks.extend(round_gear_table(found));
+    blocks.extend([
         table(
             "Shaper cutter",
             vec![
@@ -56,7 +58,7 @@ pub fn section(job: &ShapingJob) -> PageSection {
                 ),
             ],
         ),
-    ];
+    ]);
     blocks.extend(errors_table(&machine.errors, &AXES, None));
     PageSection { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
 }

@@ -56,6 +56,7 @@ fn operation_blocks(operation: &findings::Section, finishing: &str) -> Vec<Block
     let bars = |title: String, value_name: &str, unit: &str, series: Vec<BarSeries>| {
         Block::Bars(BarChart {
             least_division: 0.0,
+            limits: Vec::new(),
             title,
             category_name: "tooth".to_owned(),
             categories: categories.clone(),

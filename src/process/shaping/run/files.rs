@@ -59,6 +59,7 @@ pub fn write(
 fn unevenness_chart(job: &ShapingJob, teeth: &[ToothAllowance], operation: &str) -> BarChart {
     BarChart {
         least_division: 0.0,
+        limits: Vec::new(),
         title: format!("{}: unevenness of the allowance after {operation}", job.scene.name),
         category_name: "tooth".to_owned(),
         categories: teeth.iter().map(|t| t.tooth.to_string()).collect(),
