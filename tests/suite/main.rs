@@ -13,6 +13,7 @@ mod gpu;
 mod hobbing;
 mod library;
 mod output;
+mod posts;
 mod program;
 mod scene;
 mod shaping;
