@@ -77,6 +77,7 @@
 //! - [`interrupt`]: Ctrl-C as a flag
 //! - [`colormap`]: numbers as colours
 //! - [`wrap`]: texts in lines of a width
+//! - [`regular_file`]: files of others, up to a size
 //! - [`machine`]: the axes of a machine: kinds, units, motion, limits, peaks
 //! - [`material`]: cutting forces from chip thickness
 //! - [`scene`]: the scene file as checked values
@@ -121,6 +122,8 @@ pub mod pair;
 pub mod pair_job;
 #[doc(hidden)]
 pub mod process;
+#[doc(hidden)]
+pub mod regular_file;
 pub mod run;
 pub mod scene;
 #[doc(hidden)]

@@ -123,8 +123,10 @@ gearcut.loaded.then((data) => {
   const cutAt = { value: 0 };
   const cutFill = { value: new THREE.Vector3() };
   const placed = "varying vec3 spot; varying vec3 seen;";
-  const spotOf = "vec4 standing = modelMatrix * vec4(position, 1.0); spot = standing.xyz; seen = (viewMatrix * standing).xyz;";
-  const beyond = "uniform vec3 cut; uniform float cutAt; bool beyond(vec3 at) { return dot(at, cut) > cutAt && dot(cut, cut) > 0.5; }";
+  const spotOf = `vec4 standing = modelMatrix * vec4(position, 1.0);
+        spot = standing.xyz; seen = (viewMatrix * standing).xyz;`;
+  const beyond = `uniform vec3 cut; uniform float cutAt;
+      bool beyond(vec3 at) { return dot(at, cut) > cutAt && dot(cut, cut) > 0.5; }`;
   const filled = "if (beyond(spot)) discard; bool inside = dot(cut, cut) > 0.5 && dot(facing, -seen) < 0.0;";
   const flankMaterial = new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
@@ -208,7 +210,7 @@ gearcut.loaded.then((data) => {
     shape.computeBoundingSphere();
     // Its own metal, a little darker, and no map.
     const material = bodyMaterial.clone();
-    material.uniforms.metal.value = new THREE.Vector3();
+    Object.assign(material.uniforms, { metal: { value: new THREE.Vector3() }, cut, cutAt, cutFill });
     mateParts = [new THREE.Mesh(shape, material), linesOf(walls(shape))];
     for (const part of mateParts) part.position.set(...mate.axis, 0);
     scene.add(...mateParts);
@@ -351,7 +353,8 @@ gearcut.loaded.then((data) => {
     if (mate) mateParts[0].material.uniforms.metal.value.set(...colour("--body-metal").map((share) => 0.8 * share));
     flankMaterial.uniforms.accent.value.set(...colour("--s1"));
     edgeMaterial.uniforms.ink.value.set(...colour("--edge"));
-    cutFill.value.set(...colour("--s3"));
+    const [metal, section] = [colour("--body-metal"), colour("--s3")];
+    cutFill.value.set(...metal.map((share, k) => 0.5 * share + 0.5 * section[k]));
     draw();
   }
   let fitted = false;
@@ -417,11 +420,19 @@ gearcut.loaded.then((data) => {
     if (section > 0 && cut.value.dot(camera.position.clone().sub(controls.target)) < 0) cut.value.negate();
     sectioned.textContent = words;
     sectioned.setAttribute("aria-pressed", String(section > 0));
+    // Lines of walls behind the section would shine through its filling.
+    for (const lines of edges) lines.visible = section === 0;
     draw();
   });
   theme();
   resize();
   choose({ quantity: chosen.quantity, flank: chosen.flank });
   const metal = flankMaterial.uniforms.metal;
-  gearcut.onStage({ data, scene, camera, controls, canvas, geometry, flankShape, metal, light, colour, overlays, draw });
+  // Room for what stands beside the gear.
+  const widen = (reach) => {
+    radius = Math.max(radius, reach);
+    actions.home();
+  };
+  const view = { scene, camera, controls, canvas, overlays, widen, draw };
+  gearcut.onStage({ ...view, data, geometry, flankShape, metal, light, cut });
 });

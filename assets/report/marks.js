@@ -1,6 +1,6 @@
 // What stands over the gear: numbers of the teeth, a scale, the axes of the gear frame.
 "use strict";
-gearcut.stage.then(({ camera, controls, canvas, flankShape, overlays, draw }) => {
+gearcut.stage.then(({ camera, controls, canvas, flankShape, cut, overlays, draw }) => {
   const { flanks } = gearcut.description;
   const sheet = document.getElementById("gear-marks");
   const pen = sheet.getContext("2d");
@@ -32,8 +32,11 @@ gearcut.stage.then(({ camera, controls, canvas, flankShape, overlays, draw }) =>
   // Every number that has room: every first, second, fifth, tenth ...
   function numbers() {
     const end = camera.position.z >= controls.target.z ? 1 : 0;
-    const places = anchors.map(({ tooth, ends }) => [tooth, ...onSheet(ends[end])]);
-    const gaps = places.slice(1).map(([, x, y], i) => Math.hypot(x - places[i][1], y - places[i][2])).sort((a, b) => a - b);
+    // On a section across the axis they stand on the section.
+    const across = (at) => (cut.value.z === 0 ? at : at.clone().setZ(0));
+    const places = anchors.map(({ tooth, ends }) => [tooth, ...onSheet(across(ends[end]))]);
+    const gaps = places.slice(1).map(([, x, y], i) => Math.hypot(x - places[i][1], y - places[i][2]));
+    gaps.sort((a, b) => a - b);
     const usual = gaps[Math.floor(gaps.length / 2)] || 100;
     const every = [1, 2, 5, 10, 20, 50, 100, 1000].find((step) => step * usual > 20);
     pen.textAlign = "center";

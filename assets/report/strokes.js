@@ -1,6 +1,6 @@
 // The cutter over the gear, stroke by stroke, with what every stroke takes.
 "use strict";
-gearcut.stage.then(({ data, scene, geometry, metal, light, draw }) => {
+gearcut.stage.then(({ data, scene, geometry, metal, light, widen, draw }) => {
   const { strokes } = gearcut.description;
   if (!strokes) return;
   const [slider, play, facts] = ["strokes", "strokes-play", "stroke-facts"].map((id) => document.getElementById(id));
@@ -28,6 +28,9 @@ gearcut.stage.then(({ data, scene, geometry, metal, light, draw }) => {
   });
   const cutter = new THREE.Mesh(geometry(strokes.cutter), material);
   cutter.visible = false;
+  cutter.geometry.computeBoundingSphere();
+  const reach = cutter.geometry.boundingSphere.radius;
+  let shown = false;
   scene.add(cutter);
 
   // Operation and stroke of a stroke counted over all operations.
@@ -40,7 +43,7 @@ gearcut.stage.then(({ data, scene, geometry, metal, light, draw }) => {
     return ["", rest, 0];
   }
 
-  // Place 0 of the slider is the finished gear alone; the others are every stroke, or every second, third ... of very many.
+  // Place 0 of the slider is the finished gear alone; the others are the strokes, of very many every second, third ...
   function show() {
     const place = Number(slider.value);
     cutter.visible = place > 0;
@@ -50,12 +53,13 @@ gearcut.stage.then(({ data, scene, geometry, metal, light, draw }) => {
     }
     const stroke = place - 1;
     const [x, y, angle, section, thickness, force, space] = of(stroke);
+    if (!shown) widen(0.75 * (Math.hypot(x, y) + reach));
+    shown = true;
     cutter.position.set(x, y, 0);
     cutter.rotation.z = angle;
     const [name, own, count] = named(stroke * strokes.every);
-    const taken = space === 0
-      ? "takes nothing"
-      : `chip ${gearcut.number(section)} mm², ${gearcut.number(thickness)} µm thick, ${Math.round(force)} N, space ${space}`;
+    const sizes = `chip ${gearcut.number(section)} mm², ${gearcut.number(thickness)} µm thick`;
+    const taken = space === 0 ? "takes nothing" : `${sizes}, ${Math.round(force)} N, space ${space}`;
     facts.textContent = `${name}: stroke ${own} of ${count - 1}, ${taken}`;
     draw();
   }

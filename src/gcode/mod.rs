@@ -14,6 +14,6 @@ mod words;
 pub use axes::beyond_limits;
 pub use digits::Digits;
 pub use lines::longest_lines;
-pub use script::{Column, Line, Ram, Script};
+pub use script::{AxisColumn, Ram, Script, StraightLine};
 pub use timed::{TimedKnot, read_timed};
 pub use words::{Word, blocks};

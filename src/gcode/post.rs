@@ -24,6 +24,7 @@ pub(super) struct Opening<'a> {
 }
 
 /// Rules of a control.
+#[expect(clippy::struct_excessive_bools, reason = "what a control wants or does not want are switches")]
 pub(super) struct Dialect {
     /// End of a file's name, without the point.
     pub extension: &'static str,

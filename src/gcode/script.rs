@@ -21,7 +21,7 @@ const COMMENT_COLUMNS: usize = 80;
 
 /// An axis of a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Column {
+pub struct AxisColumn {
     /// Its word.
     pub letter: char,
     /// Rotary axes turn on without end.
@@ -32,7 +32,7 @@ pub struct Column {
 
 /// A straight line in all axes at once.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct StraightLine {
     /// Where it ends, mm and deg, in the order of the columns.
     pub to: Vec<f64>,
     /// Reciprocal of its time, 1/min.
@@ -58,15 +58,15 @@ pub struct Script {
     /// What must be known before it is run, a comment each.
     pub head: Vec<String>,
     /// The axes, in the order of their words.
-    pub columns: Vec<Column>,
-    /// Column and position, mm, at which the tool is clear of the work wherever the other axes stand.
+    pub columns: Vec<AxisColumn>,
+    /// AxisColumn and position, mm, at which the tool is clear of the work wherever the other axes stand.
     pub clear: (usize, f64),
     /// The ram that runs along the lines, if there is one; it makes its last stroke after the last line.
     pub ram: Option<Ram>,
     /// Where the axes stand first, mm and deg.
     pub start: Vec<f64>,
     /// The lines.
-    pub lines: Vec<Line>,
+    pub lines: Vec<StraightLine>,
     /// Largest displacement that the lines may cause, mm.
     pub contour_error_mm: f64,
 }
@@ -79,7 +79,7 @@ impl Script {
     pub fn text(&self, post: Post) -> Result<String, String> {
         let dialect = post.dialect();
         let lines = dialect.parted(self)?;
-        let mut text = Text { dialect, text: String::new(), number: 0 };
+        let mut text = Text { dialect, written: String::new(), number: 0 };
         for line in (dialect.opening)(&Opening { name: &self.name, number: self.number }) {
             text.line(&line);
         }
@@ -134,7 +134,7 @@ impl Script {
         if dialect.tape_ends {
             text.line("%");
         }
-        Ok(text.text)
+        Ok(text.written)
     }
 
     fn words(&self, dialect: &Dialect, position: &[f64]) -> String {
@@ -144,7 +144,7 @@ impl Script {
 
     /// Steps between rounded positions: their sum is the sum of the path, to the last digit.
     fn steps(&self, dialect: &Dialect, from: &[f64], to: &[f64]) -> String {
-        let word = |(column, (&from, &to)): (&Column, (&f64, &f64))| {
+        let word = |(column, (&from, &to)): (&AxisColumn, (&f64, &f64))| {
             let digits = dialect.digits(column);
             let scale = 10_f64.powi(digits as i32);
             let step = (to * scale).round() - (from * scale).round();
@@ -164,7 +164,7 @@ struct Clock {
 
 impl Clock {
     /// The number of F for a line.
-    fn feed(&mut self, dialect: &Dialect, line: &Line) -> Result<String, String> {
+    fn feed(&mut self, dialect: &Dialect, line: &StraightLine) -> Result<String, String> {
         let digits = dialect.feed_digits;
         if line.per_minute > dialect.most_per_minute {
             return Err(format!(
@@ -189,11 +189,11 @@ impl Clock {
 
 impl Dialect {
     /// Digits of an axis that this control takes.
-    fn digits(&self, column: &Column) -> usize {
+    fn digits(&self, column: &AxisColumn) -> usize {
         column.digits.min(self.most_digits)
     }
 
-    fn word(&self, column: &Column, at: f64) -> String {
+    fn word(&self, column: &AxisColumn, at: f64) -> String {
         let digits = self.digits(column);
         // Negated zeros read as nonsense.
         let text = format!("{at:.digits$}");
@@ -220,7 +220,7 @@ impl Dialect {
 
     /// The first position; whole turns of rotary axes are left out where it is out of range.
     fn start(&self, script: &Script) -> Result<Vec<f64>, String> {
-        let of = |(column, &at): (&Column, &f64)| match column.kind {
+        let of = |(column, &at): (&AxisColumn, &f64)| match column.kind {
             _ if at.abs() <= self.largest_position => Ok(at),
             AxisKind::Rotary => Ok(at % 360.0),
             AxisKind::Linear => {
@@ -233,7 +233,7 @@ impl Dialect {
     }
 
     /// The lines, those that last too long for the digits of F in equal parts.
-    fn parted(&self, script: &Script) -> Result<Vec<Line>, String> {
+    fn parted(&self, script: &Script) -> Result<Vec<StraightLine>, String> {
         let mut lines = Vec::new();
         let mut from = &script.start;
         for line in &script.lines {
@@ -245,7 +245,7 @@ impl Dialect {
                 let share = part as f64 / parts;
                 let to = from.iter().zip(&line.to).map(|(from, to)| from + share * (to - from)).collect();
                 let to = if part as f64 == parts { line.to.clone() } else { to };
-                lines.push(Line { to, per_minute: line.per_minute * parts });
+                lines.push(StraightLine { to, per_minute: line.per_minute * parts });
             }
             from = &line.to;
         }
@@ -260,13 +260,13 @@ fn positive_zero(value: f64) -> f64 {
 /// A program as it grows.
 struct Text<'a> {
     dialect: &'a Dialect,
-    text: String,
+    written: String,
     number: u32,
 }
 
 impl Text<'_> {
     fn line(&mut self, line: &str) {
-        let _ = writeln!(self.text, "{line}");
+        let _ = writeln!(self.written, "{line}");
     }
 
     fn comment(&mut self, words: &str) {
@@ -288,7 +288,7 @@ impl Text<'_> {
     fn block(&mut self, words: &str) {
         if self.dialect.numbers_blocks {
             self.number += 10;
-            let _ = writeln!(self.text, "N{} {words}", self.number);
+            let _ = writeln!(self.written, "N{} {words}", self.number);
         } else {
             self.line(words);
         }

@@ -23,7 +23,7 @@ use super::job::BevelJob;
 use super::motion::{AXES, RollMotion, limits};
 use super::operation::PreparedBevel;
 use crate::findings::Warning;
-use crate::gcode::{Column, Line, Script};
+use crate::gcode::{AxisColumn, Script, StraightLine};
 use crate::machine::Axis;
 use crate::output::text::{plain, significant};
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
@@ -84,10 +84,12 @@ fn linear(job: &BevelJob, operation: &PreparedBevel, warnings: &[Warning]) -> Re
         ),
     ];
     let told = warnings.iter().map(Warning::line);
-    let column = |axis: &Axis| Column { letter: axis.letter, kind: axis.kind, digits: digits.of(axis.kind) };
+    let column = |axis: &Axis| AxisColumn { letter: axis.letter, kind: axis.kind, digits: digits.of(axis.kind) };
     let position = |knot: &BevelKnot| AXES.iter().zip(&knot.axes).map(|(axis, &at)| axis.kind.shown(at)).collect();
-    let line =
-        |pair: &[BevelKnot]| Line { to: position(&pair[1]), per_minute: 60.0 / (pair[1].time_s - pair[0].time_s) };
+    let line = |pair: &[BevelKnot]| StraightLine {
+        to: position(&pair[1]),
+        per_minute: 60.0 / (pair[1].time_s - pair[0].time_s),
+    };
     let script = Script {
         name: operation.spec.name.clone(),
         number: program_number(job, operation),

@@ -188,7 +188,7 @@ impl AxesOfOperation for OperationAxes<'_> {
     }
 
     fn write_table(&self, path: &Path) -> Result<()> {
-        strokes::write_table(path, &self.operation().retraction, self.strokes())
+        strokes::write_table(path, self.operation(), self.strokes())
     }
 
     fn charts(&self) -> &[NamedChart<LineChart>] {

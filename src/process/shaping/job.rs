@@ -34,6 +34,9 @@ use glam::DVec2;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
+/// A program under test makes this many times the strokes of the scene at most.
+const MOST_TIMES_THE_STROKES: usize = 10;
+
 /// One operation with its strokes.
 #[derive(Debug)]
 pub struct PreparedOperation {
@@ -58,6 +61,11 @@ pub struct PreparedOperation {
 }
 
 impl PreparedOperation {
+    /// How many strokes are cut: those of the program, or the scene's own.
+    pub fn count(&self) -> usize {
+        self.strokes.count()
+    }
+
     /// Cutter in the gear frame at a stroke coordinate, as it is cut.
     pub fn pose(&self, stroke: f64) -> CutterPose {
         pose(self.program.as_ref(), &self.schedule, stroke)
@@ -133,7 +141,8 @@ impl ShapingJob {
             let linkage =
                 ShapingLinkage::new(gear.kind, spec.linkage, curve.clone(), cutter.pitch_radius_mm, spec.offset_mm)?;
             let schedule = StrokeSchedule::new(&spec, &linkage, &machine)?;
-            let count = schedule.count();
+            let program = spec.program.as_deref().map(|path| read_program(path, &spec, &schedule)).transpose()?;
+            let count = program.as_ref().map_or(schedule.count(), AxisProgram::count);
             let ids = count as f64 * f64::from(cutter.teeth) * passes;
             if ids >= f64::from(u32::MAX) {
                 return Err(Refusal::new(
@@ -149,7 +158,6 @@ impl ShapingJob {
                 StrokeLaw::Frozen
             };
             let eccentricity = eccentricity_mm(&machine);
-            let program = spec.program.as_deref().map(|path| read_program(path, &spec, &schedule)).transpose()?;
             let strokes = StrokeSet::new(first_pass, &cutter, law, count, |lambda| {
                 let pose = pose(program.as_ref(), &schedule, lambda);
                 Rigid2::new(pose.angle_rad, pose.center_mm - eccentricity)
@@ -316,14 +324,21 @@ fn rim_holds(
     ))
 }
 
-/// The program that an operation is cut with.
+/// The program that an operation is cut with. Other strokes than the scene's are judged, as long as there are not many
+/// times as many: a wrong unit of F or S would otherwise ask for millions.
 fn read_program(path: &Path, spec: &Operation, schedule: &StrokeSchedule) -> Result<AxisProgram> {
     let program = gcode::read::file(path)?;
-    if program.count() != schedule.count() {
+    let most = MOST_TIMES_THE_STROKES * schedule.count();
+    if program.count() > most {
         return Err(Refusal::new(
             &format!("operation.{}.program", spec.name),
-            format!("{} makes {} strokes, the operation {}", path.display(), program.count(), schedule.count()),
-            "set strokes_per_revolution, revolutions, window_deg and infeed as they are in the program",
+            format!(
+                "{} makes {} strokes, the operation {}: more than {MOST_TIMES_THE_STROKES} times as many",
+                path.display(),
+                program.count(),
+                schedule.count()
+            ),
+            "look at S and F of the program, and at strokes_per_revolution, revolutions and infeed of the scene",
         )
         .into());
     }

@@ -2,7 +2,7 @@
 
 use super::program::{Gearbox, HobbingKnot, HobbingProgram, digits};
 use crate::findings::Warning;
-use crate::gcode::{Column, Line, Script};
+use crate::gcode::{AxisColumn, Script, StraightLine};
 use crate::machine::Axis;
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
@@ -104,12 +104,14 @@ pub fn script(
     let order: Vec<usize> = [2, 3, 4].into_iter().chain(diagonal.then_some(5)).chain([0, 1]).collect();
     let column = |&axis: &usize| {
         let Axis { letter, kind, .. } = AXES[axis];
-        Column { letter, kind, digits: if axis == 1 { work_digits } else { digits.of(kind) } }
+        AxisColumn { letter, kind, digits: if axis == 1 { work_digits } else { digits.of(kind) } }
     };
     let position =
         |knot: &HobbingKnot| order.iter().map(|&axis| AXES[axis].kind.shown(knot.axes[axis])).collect::<Vec<_>>();
-    let line =
-        |pair: &[HobbingKnot]| Line { to: position(&pair[1]), per_minute: 60.0 / (pair[1].time_s - pair[0].time_s) };
+    let line = |pair: &[HobbingKnot]| StraightLine {
+        to: position(&pair[1]),
+        per_minute: 60.0 / (pair[1].time_s - pair[0].time_s),
+    };
     head.extend(warnings.iter().map(Warning::line));
     let before = job.operations.iter().take_while(|before| before.spec.name != operation.spec.name).count();
     let [full, geared] = program_numbers(before);

@@ -1,7 +1,7 @@
 //! Axis positions as straight lines between knots, in the stroke coordinate.
 
 use crate::gcode::{Digits, beyond_limits, longest_lines};
-use crate::machine::{Limits, Order, Peak};
+use crate::machine::{AxisMotion, Limits, Order, Peak};
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
 use crate::process::shaping::scene::model::AxisLimits;
@@ -17,6 +17,8 @@ const SAMPLES_PER_PART: usize = 4;
 /// Parts of a stroke on which knots may stand. The error between knots falls with the square of their distance, at the
 /// end of an infeed with the distance: a 64th takes any of them below what is asked for steel.
 const PARTS_OF_A_STROKE: [usize; 4] = [1, 4, 16, 64];
+/// Strokes that differ by less are one: rounding of F.
+const WHOLE_STROKE: f64 = 1e-6;
 /// Shortest block, s: what block buffers of older controls keep up with.
 const SHORTEST_S: f64 = 1e-3;
 
@@ -180,6 +182,34 @@ impl AxisProgram {
             Some(b) => Knot::between(&self.knots[after - 1], b, stroke),
             None => Knot { stroke, ..self.knots[0] },
         }
+    }
+
+    /// The axes at a stroke coordinate: within a block at its speed; where two blocks meet, the step of speed is taken
+    /// within a double stroke, or within the shorter of both blocks where that is less.
+    pub fn motion(&self, stroke: f64) -> [AxisMotion; 3] {
+        let stroke_s = 60.0 / self.double_strokes_per_minute;
+        let after = self.knots.partition_point(|k| k.stroke <= stroke).clamp(1, self.knots.len().max(2) - 1);
+        let speeds = |after: usize| -> Option<([f64; 3], f64)> {
+            let (a, b) = (self.knots.get(after.checked_sub(1)?)?, self.knots.get(after)?);
+            let strokes = b.stroke - a.stroke;
+            (strokes > 0.0)
+                .then(|| (std::array::from_fn(|i| (b.axes()[i] - a.axes()[i]) / (strokes * stroke_s)), strokes))
+        };
+        let here = speeds(after);
+        // A stroke that stands on a knot begins a block.
+        let meets = (self.knots[after - 1].stroke - stroke).abs() < WHOLE_STROKE;
+        let before = if meets { speeds(after - 1) } else { None };
+        let position = self.at(stroke).axes();
+        std::array::from_fn(|i| AxisMotion {
+            position: position[i],
+            velocity: here.map_or(0.0, |(speeds, _)| speeds[i]),
+            acceleration: match (before, here) {
+                (Some((before, shorter)), Some((here, strokes))) => {
+                    (here[i] - before[i]) / (shorter.min(strokes).min(1.0) * stroke_s)
+                }
+                _ => 0.0,
+            },
+        })
     }
 
     /// Largest displacement from a schedule at its strokes, with `continuous` also between them, mm, and the stroke

@@ -1,7 +1,7 @@
 //! A program in straight lines, with everything in its head that the operator must know.
 
 use crate::findings::Warning;
-use crate::gcode::{Column, Line, Ram, Script};
+use crate::gcode::{AxisColumn, Ram, Script, StraightLine};
 use crate::machine::Axis;
 use crate::output::text::plain;
 use crate::process::shaping::gcode::{AxisProgram, Knot};
@@ -79,8 +79,8 @@ pub fn script(
         let axes = [(distance, knot.center_distance_mm), (work, -knot.psi_c_rad), (cutter, knot.psi_b_rad)];
         axes.map(|(axis, position)| axis.kind.shown(position)).to_vec()
     };
-    let column = |axis: &Axis| Column { letter: axis.letter, kind: axis.kind, digits: digits.of(axis.kind) };
-    let line = |pair: &[Knot]| Line {
+    let column = |axis: &Axis| AxisColumn { letter: axis.letter, kind: axis.kind, digits: digits.of(axis.kind) };
+    let line = |pair: &[Knot]| StraightLine {
         to: position(&pair[1]),
         per_minute: program.double_strokes_per_minute / (pair[1].stroke - pair[0].stroke),
     };
