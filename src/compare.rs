@@ -5,6 +5,7 @@
 //!
 //! | file | what |
 //! | --- | --- |
+//! | `report.html` | all of it on one page: what changed most, maps, charts, headline and summary |
 //! | `comparison.csv` | one line per quantity: unit, the values a, b, ..., differences to a, a over them, definition |
 //! | `<path>_<column>.svg` | bars of a column that asks for them, all rows |
 //! | `<path>_<column>_first_period.svg` | the rows of the pitch curve's first period (Gao et al. 2017, Fig. 10) |
@@ -19,11 +20,13 @@
 mod charts;
 mod lines;
 mod maps;
+mod page;
 mod ranked;
 mod table;
 
 use crate::findings::{Findings, Level};
 use crate::output::folder::OutputFolder;
+use crate::output::report::REPORT_FILE;
 use crate::output::text::Sheet;
 use gearcut_core::Result;
 use lines::Line;
@@ -76,19 +79,21 @@ impl Comparison {
         Ok(Self { results, lines })
     }
 
-    /// Writes table, charts and maps.
+    /// Writes table, charts, maps and page.
     ///
     /// # Errors
     /// Files that cannot be written; tables of the results that cannot be read.
     pub fn write(&self, folder: &OutputFolder) -> Result<()> {
         self.write_csv(&folder.path("comparison.csv")?)?;
-        for (name, chart) in charts::charts(&self.results) {
+        let (bars, curves) = (charts::charts(&self.results), charts::curves(&self.results)?);
+        for (name, chart) in &bars {
             chart.write_svg(&folder.path(format!("{name}.svg"))?)?;
         }
-        for (name, chart) in charts::curves(&self.results)? {
+        for (name, chart) in &curves {
             chart.write_svg(&folder.path(format!("{name}.svg"))?)?;
         }
-        self.write_maps(folder)
+        let maps = self.write_maps(folder)?;
+        page::page(self, bars, curves, maps).write(&folder.path(REPORT_FILE)?)
     }
 
     /// The table for the terminal.

@@ -77,6 +77,7 @@
 //! - [`interrupt`]: Ctrl-C as a flag
 //! - [`colormap`]: numbers as colours
 //! - [`wrap`]: texts in lines of a width
+//! - [`regular_file`]: files of others, up to a size
 //! - [`machine`]: the axes of a machine: kinds, units, motion, limits, peaks
 //! - [`machine_errors`]: from the commanded motion of axes to the actual one
 //! - [`material`]: cutting forces from chip thickness
@@ -124,6 +125,8 @@ pub mod pair;
 pub mod pair_job;
 #[doc(hidden)]
 pub mod process;
+#[doc(hidden)]
+pub mod regular_file;
 pub mod run;
 pub mod scene;
 #[doc(hidden)]

@@ -77,8 +77,12 @@ const gearcut = (() => {
     return data;
   });
 
+  // What draws the gear, for the scripts that add to it; a browser without WebGL never gets there.
+  let onStage;
+  const stage = new Promise((resolve) => { onStage = resolve; });
+
   return {
-    description, chosen, choose, loaded, paint, number, ticks, flankName,
+    description, chosen, choose, loaded, paint, number, ticks, flankName, stage, onStage,
     onChoice: (listener) => listeners.push(listener),
   };
 })();

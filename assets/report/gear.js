@@ -118,50 +118,78 @@ gearcut.loaded.then((data) => {
   // Light comes from beside the eye, so that every side that is seen is lit; maps are shaded little, to keep their
   // colours readable.
   const light = "float light = abs(dot(normalize(facing), normalize(vec3(0.25, 0.45, 1.0))));";
+  // A section: what lies beyond a plane is not drawn, and where the inside of the gear is seen then, it is filled.
+  const cut = { value: new THREE.Vector3() };
+  const cutAt = { value: 0 };
+  const cutFill = { value: new THREE.Vector3() };
+  const placed = "varying vec3 spot; varying vec3 seen;";
+  const spotOf = `vec4 standing = modelMatrix * vec4(position, 1.0);
+        spot = standing.xyz; seen = (viewMatrix * standing).xyz;`;
+  const beyond = `uniform vec3 cut; uniform float cutAt;
+      bool beyond(vec3 at) { return dot(at, cut) > cutAt && dot(cut, cut) > 0.5; }`;
+  const filled = "if (beyond(spot)) discard; bool inside = dot(cut, cut) > 0.5 && dot(facing, -seen) < 0.0;";
   const flankMaterial = new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
     uniforms: {
+      cut, cutAt, cutFill,
       atlas: { value: atlas.texture }, picked: { value: -1 }, size: { value: new THREE.Vector2(1, 1) },
       border: { value: 0.3 }, accent: { value: new THREE.Vector3() }, metal: { value: new THREE.Vector3() },
     },
     vertexShader: `
-      attribute float whose; attribute vec2 share;
+      attribute float whose; attribute vec2 share; ${placed}
       varying vec2 place; varying vec2 at; varying vec3 facing; flat varying float mine;
       void main() {
-        place = uv; at = share; mine = whose; facing = normalMatrix * normal;
+        place = uv; at = share; mine = whose; facing = normalMatrix * normal; ${spotOf}
         gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
       }`,
     fragmentShader: `
       uniform sampler2D atlas; uniform float picked; uniform vec2 size; uniform float border; uniform vec3 accent;
-      uniform vec3 metal;
+      uniform vec3 metal; uniform vec3 cutFill; ${placed} ${beyond}
       varying vec2 place; varying vec2 at; varying vec3 facing; flat varying float mine;
       void main() {
+        ${filled}
         ${light}
         vec3 colour = mine < -0.5 ? metal : texture2D(atlas, place).rgb;
         float own = mine < -0.5 ? -1.0 - mine : mine;
-        vec2 inside = min(at, size - at);
-        bool framed = abs(own - picked) < 0.5 && min(inside.x, inside.y) < border;
-        gl_FragColor = vec4(framed ? accent : colour * (0.72 + 0.28 * light), 1.0);
+        vec2 rim = min(at, size - at);
+        bool framed = abs(own - picked) < 0.5 && min(rim.x, rim.y) < border;
+        gl_FragColor = vec4(inside ? cutFill : framed ? accent : colour * (0.72 + 0.28 * light), 1.0);
       }`,
   });
   const bodyMaterial = new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
-    uniforms: { metal: flankMaterial.uniforms.metal },
+    uniforms: { metal: flankMaterial.uniforms.metal, cut, cutAt, cutFill },
     vertexShader: `
-      varying vec3 facing;
+      varying vec3 facing; ${placed}
       void main() {
-        facing = normalMatrix * normal;
+        facing = normalMatrix * normal; ${spotOf}
         gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
       }`,
     fragmentShader: `
-      uniform vec3 metal; varying vec3 facing;
-      void main() { ${light} gl_FragColor = vec4(metal * (0.45 + 0.55 * light), 1.0); }`,
+      uniform vec3 metal; uniform vec3 cutFill; varying vec3 facing; ${placed} ${beyond}
+      void main() {
+        ${filled}
+        ${light}
+        gl_FragColor = vec4(inside ? cutFill : metal * (0.45 + 0.55 * light), 1.0);
+      }`,
   });
   const bodyShape = geometry(bodyMesh);
   const flankBody = new THREE.Mesh(flankShape, flankMaterial);
   const body = new THREE.Mesh(bodyShape, bodyMaterial);
   // Thin lines where the surface bends or a flank ends; faces step back a little so that the lines lie on them.
-  const edgeMaterial = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.45 });
+  const edgeMaterial = new THREE.ShaderMaterial({
+    transparent: true,
+    uniforms: { ink: { value: new THREE.Vector3() }, cut, cutAt },
+    vertexShader: `
+      varying vec3 spot;
+      void main() {
+        spot = (modelMatrix * vec4(position, 1.0)).xyz;
+        gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+      }`,
+    fragmentShader: `
+      uniform vec3 ink; varying vec3 spot; ${beyond}
+      void main() { if (beyond(spot)) discard; gl_FragColor = vec4(ink, 0.45); }`,
+  });
   const linesOf = (shape) => new THREE.LineSegments(new THREE.EdgesGeometry(shape, 35), edgeMaterial);
   const edges = [flankShape, walls(bodyShape)].map(linesOf);
   for (const material of [flankMaterial, bodyMaterial]) {
@@ -182,7 +210,7 @@ gearcut.loaded.then((data) => {
     shape.computeBoundingSphere();
     // Its own metal, a little darker, and no map.
     const material = bodyMaterial.clone();
-    material.uniforms.metal.value = new THREE.Vector3();
+    Object.assign(material.uniforms, { metal: { value: new THREE.Vector3() }, cut, cutAt, cutFill });
     mateParts = [new THREE.Mesh(shape, material), linesOf(walls(shape))];
     for (const part of mateParts) part.position.set(...mate.axis, 0);
     scene.add(...mateParts);
@@ -304,12 +332,14 @@ gearcut.loaded.then((data) => {
 
   // One picture per frame at most, and only when something has changed.
   let waiting = false;
+  const overlays = [];
   function draw() {
     if (waiting) return;
     waiting = true;
     requestAnimationFrame(() => {
       waiting = false;
       renderer.render(scene, camera);
+      for (const over of overlays) over();
     });
   }
   const colour = (name) => {
@@ -322,7 +352,9 @@ gearcut.loaded.then((data) => {
     flankMaterial.uniforms.metal.value.set(...colour("--body-metal"));
     if (mate) mateParts[0].material.uniforms.metal.value.set(...colour("--body-metal").map((share) => 0.8 * share));
     flankMaterial.uniforms.accent.value.set(...colour("--s1"));
-    edgeMaterial.color.set(getComputedStyle(document.documentElement).getPropertyValue("--edge").trim());
+    edgeMaterial.uniforms.ink.value.set(...colour("--edge"));
+    const [metal, section] = [colour("--body-metal"), colour("--s3")];
+    cutFill.value.set(...metal.map((share, k) => 0.5 * share + 0.5 * section[k]));
     draw();
   }
   let fitted = false;
@@ -377,7 +409,30 @@ gearcut.loaded.then((data) => {
     }
     draw();
   });
+  // None, across the axis in the middle of the face, along the axis; what the eye is on the side of is taken away.
+  const sections = [[[0, 0, 0], "Section"], [[0, 0, 1], "Across"], [[0, 1, 0], "Along"]];
+  const sectioned = document.getElementById("gear-section");
+  let section = 0;
+  sectioned.addEventListener("click", () => {
+    section = (section + 1) % sections.length;
+    const [normal, words] = sections[section];
+    cut.value.set(...normal);
+    if (section > 0 && cut.value.dot(camera.position.clone().sub(controls.target)) < 0) cut.value.negate();
+    sectioned.textContent = words;
+    sectioned.setAttribute("aria-pressed", String(section > 0));
+    // Lines of walls behind the section would shine through its filling.
+    for (const lines of edges) lines.visible = section === 0;
+    draw();
+  });
   theme();
   resize();
   choose({ quantity: chosen.quantity, flank: chosen.flank });
+  const metal = flankMaterial.uniforms.metal;
+  // Room for what stands beside the gear.
+  const widen = (reach) => {
+    radius = Math.max(radius, reach);
+    actions.home();
+  };
+  const view = { scene, camera, controls, canvas, overlays, widen, draw };
+  gearcut.onStage({ ...view, data, geometry, flankShape, metal, light, cut });
 });

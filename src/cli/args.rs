@@ -53,8 +53,9 @@ pub enum Command {
         gearcut axes scenes/shaping/elliptical_normal.toml --out out/axes_of_my_gear\n\n\
         Writes a folder (out/<scene>_axes unless --out is given): axes/<operation>.csv with one row per\n\
         stroke (s, deg, mm, deg/s, mm/s, deg/s^2, mm/s^2), <operation>.ngc (G-code in straight lines,\n\
-        see docs/gcode.md), and charts of positions, velocities, accelerations and relief clearance\n\
-        over the work angle as SVG. Prints the peaks against the machine's limits.")]
+        or for a control by output.post, see docs/gcode.md), and charts of positions, velocities,\n\
+        accelerations and relief clearance over the work angle as SVG. Prints the peaks against the\n\
+        machine's limits.")]
     Axes(AxesArguments),
     /// Put results side by side.
     #[command(after_help = "Example:\n  \

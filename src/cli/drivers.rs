@@ -14,7 +14,8 @@
 pub fn without_window_system() {
     use std::os::unix::process::CommandExt;
     const FOLDER_OF_WINDOW_SYSTEM: &str = "XDG_RUNTIME_DIR";
-    if std::env::var_os(FOLDER_OF_WINDOW_SYSTEM).is_some() {
+    // An empty one is none to the driver.
+    if std::env::var_os(FOLDER_OF_WINDOW_SYSTEM).is_some_and(|folder| !folder.is_empty()) {
         return;
     }
     let mut arguments = std::env::args_os();

@@ -1,7 +1,7 @@
 //! What is printed when a command fails, and with which code it ends.
 
+use super::print::to_stderr;
 use gearcut::output::atomic::file_error;
-use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -54,8 +54,7 @@ impl Failure {
 
     /// Prints the reason on standard error.
     pub fn report(&self) -> ExitCode {
-        // Nobody is left to be told when standard error is closed.
-        let _closed = writeln!(std::io::stderr(), "{}", self.text.trim_end());
+        to_stderr(self.text.trim_end());
         self.code.into()
     }
 }

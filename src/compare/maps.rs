@@ -28,12 +28,21 @@ struct DifferenceMap {
     values_um: Vec<f32>,
 }
 
+/// A sheet as it was written.
+pub(super) struct MapSheet {
+    /// What it shows.
+    pub title: String,
+    /// The picture.
+    pub png: Vec<u8>,
+}
+
 impl Comparison {
-    /// Writes a sheet for every result after the first.
+    /// Writes a sheet for every result after the first, and gives it back for the page.
     ///
     /// # Errors
     /// Maps that cannot be read, and sheets that cannot be written.
-    pub(super) fn write_maps(&self, folder: &OutputFolder) -> Result<()> {
+    pub(super) fn write_maps(&self, folder: &OutputFolder) -> Result<Vec<MapSheet>> {
+        let mut sheets = Vec::new();
         let (first, others) = self.results.split_first().expect("two or more");
         for (other, letter) in others.iter().zip(letters().skip(1)) {
             let maps = differences(&first.folder.join(FOLDER), &other.folder.join(FOLDER))?;
@@ -48,17 +57,21 @@ impl Comparison {
                 .iter()
                 .map(|map| Thumbnail { label: &map.label, grid: &map.grid, values: &map.values_um })
                 .collect();
+            let title = format!("deviation of {} less that of {}, all flanks", other.name, first.name);
             let sheet = ContactSheet {
-                title: &format!("deviation of {} less that of {}, all flanks", other.name, first.name),
+                title: &title,
                 quantity: "difference of mean normal deviations of cells",
                 unit: "µm",
                 scale,
                 missing: "no pass came here in one of them",
                 maps: &thumbnails,
             };
-            write_contact_sheet(&folder.path(format!("difference_deviation_{letter}_minus_a.png"))?, &sheet)?;
+            let path = folder.path(format!("difference_deviation_{letter}_minus_a.png"))?;
+            write_contact_sheet(&path, &sheet)?;
+            let png = std::fs::read(&path).map_err(Error::reading(&path))?;
+            sheets.push(MapSheet { title, png });
         }
-        Ok(())
+        Ok(sheets)
     }
 }
 

@@ -12,10 +12,13 @@ use super::quantity::Quantity;
 use super::table::{ColumnChart, Datum, Table, TableColumn};
 use super::tree::{Entry, Findings, Level, Section, title_of};
 use super::warning::Warning;
+use crate::regular_file;
 use gearcut_core::{Error, Result};
 
 /// Version of the layout. A change of keys or meanings raises it; new keys that old readers may overlook do not.
 pub const SCHEMA_VERSION: u32 = 3;
+/// Largest result that is read: a gear of a thousand teeth takes some megabytes.
+const MOST_BYTES: u64 = 256 << 20;
 /// Name of the file in an output folder.
 pub const RESULTS_FILE: &str = "results.json";
 /// The layout as a JSON Schema (draft 2020-12).
@@ -52,8 +55,8 @@ impl Findings {
     /// No such file, another schema version, or a file that is not of this layout.
     pub fn read(path: &Path) -> Result<Self> {
         let file = if path.is_dir() { path.join(RESULTS_FILE) } else { path.to_owned() };
-        let bytes = std::fs::read(&file).map_err(Error::reading(&file))?;
         let refuse = |reason: String| Error::Unreadable { path: file.clone(), reason };
+        let bytes = regular_file::read(&file, MOST_BYTES).map_err(refuse)?;
         let document: Value =
             serde_json::from_slice(&bytes).map_err(|reason| refuse(format!("it is not JSON: {reason}")))?;
         match document.get("schema_version").and_then(Value::as_u64) {

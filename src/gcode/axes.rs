@@ -1,14 +1,6 @@
-//! Axes in programs: words of positions, and sentences where straight lines ask too much.
+//! Axes in programs: sentences where straight lines ask too much.
 
 use crate::machine::{Axis, Limits, Order};
-
-/// The word that sends an axis to a position, rad or mm, with so many digits after the point.
-pub fn axis_word(axis: &Axis, position: f64, digits: usize) -> String {
-    let shown = axis.kind.shown(position);
-    // Negated zeros read as nonsense.
-    let shown = if shown == 0.0 { 0.0 } else { shown };
-    format!("{}{shown:.digits$}", axis.letter)
-}
 
 /// A sentence for each limit of an axis that a program exceeds; its largest speed and acceleration in rad or mm, per s
 /// and s^2.

@@ -22,6 +22,12 @@ impl Digits {
         Self { angle: digits((step_mm / reach_mm).to_degrees()), length: digits(step_mm) }
     }
 
+    /// No more digits than a control takes.
+    #[must_use]
+    pub fn at_most(self, most: usize) -> Self {
+        Self { angle: self.angle.min(most), length: self.length.min(most) }
+    }
+
     /// Of positions of an axis.
     pub fn of(self, kind: AxisKind) -> usize {
         match kind {

@@ -6,13 +6,14 @@
 mod axes;
 mod digits;
 mod lines;
-mod text;
+mod post;
+mod script;
 mod timed;
 mod words;
 
-pub use axes::{axis_word, beyond_limits};
+pub use axes::beyond_limits;
 pub use digits::Digits;
 pub use lines::longest_lines;
-pub use text::ProgramText;
+pub use script::{AxisColumn, Ram, Script, StraightLine};
 pub use timed::{TimedKnot, read_timed};
 pub use words::{Word, blocks};

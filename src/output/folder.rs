@@ -88,6 +88,29 @@ impl OutputFolder {
         Ok(path)
     }
 
+    /// Files written so far, relative to the folder, with `/` between names, in order.
+    ///
+    /// # Errors
+    /// A subfolder cannot be read.
+    pub fn written(&self) -> Result<Vec<String>> {
+        fn inside(folder: &Path, before: &str, found: &mut Vec<String>) -> Result<()> {
+            for entry in fs::read_dir(folder).map_err(Error::reading(folder))? {
+                let entry = entry.map_err(Error::reading(folder))?;
+                let name = format!("{before}{}", entry.file_name().to_string_lossy());
+                if entry.file_type().map_err(Error::reading(folder))?.is_dir() {
+                    inside(&entry.path(), &format!("{name}/"), found)?;
+                } else {
+                    found.push(name);
+                }
+            }
+            Ok(())
+        }
+        let mut found = Vec::new();
+        inside(&self.workplace.new_files(), "", &mut found)?;
+        found.sort_unstable();
+        Ok(found)
+    }
+
     /// Writes a JSON document, indented, ending with a newline.
     ///
     /// # Errors

@@ -35,7 +35,7 @@ use gear_frame::gear_frame;
 use gearcut_core::Result;
 use viewer::Viewer;
 
-pub use blocks::{Block, PageSection};
+pub use blocks::{Block, FileLinks, PageSection};
 pub use table::PageTable;
 
 /// Name of the file in an output folder.
@@ -44,11 +44,13 @@ pub const REPORT_FILE: &str = "report.html";
 const STYLE: &str =
     concat!(include_str!("../../assets/report/page.css"), include_str!("../../assets/report/chart.css"));
 const THREE: &str = include_str!("../../assets/three/three.min.js");
-/// The page's own scripts, in order: data and colours, maps and picker, the gear.
-const SCRIPTS: [&str; 3] = [
+/// The page's own scripts, in order: data and colours, maps and picker, the gear, marks over it, its strokes.
+const SCRIPTS: [&str; 5] = [
     include_str!("../../assets/report/data.js"),
     include_str!("../../assets/report/maps.js"),
     include_str!("../../assets/report/gear.js"),
+    include_str!("../../assets/report/marks.js"),
+    include_str!("../../assets/report/strokes.js"),
 ];
 
 /// Everything on the page.
@@ -135,7 +137,7 @@ impl Page {
                         }
                         main {
                             (self.numbers())
-                            @if let Some(viewer) = &self.viewer { (gear_frame(viewer.mate.is_some())) }
+                            @if let Some(viewer) = &self.viewer { (gear_frame(viewer)) }
                             @for section in &self.sections { (section.markup()) }
                         }
                     }

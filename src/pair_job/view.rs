@@ -47,6 +47,7 @@ pub fn viewer(rolled: &RolledPair, marking_um: f64) -> Option<Viewer> {
             axis_mm: rolled.meshing.axis_2_mm().to_array(),
             turned_deg: turned_deg(rolled),
         }),
+        strokes: None,
     })
 }
 

@@ -6,7 +6,8 @@
 use std::path::{Path, PathBuf};
 
 use super::model::{
-    DrawnLimits, Fields, Gear, Measure, Output, Picture, PictureColour, PictureView, Scene, TextureWindow, WindowSides,
+    DrawnLimits, Fields, Gear, Measure, Output, Picture, PictureColour, PictureView, Post, Scene, TextureWindow,
+    WindowSides,
 };
 use super::process::SceneProcess;
 use super::values::{Values, View};
@@ -49,6 +50,13 @@ pub(super) fn build(name: &str, process: &SceneProcess, base_dir: &Path, values:
             mesh_spacing_mm: output.number("mesh_spacing_mm")?,
             folder: output.text("folder").map(PathBuf::from),
             gcode_contour_error_mm: output.mm_from_um("gcode_contour_error_um")?,
+            post: match output.text("post")? {
+                "plain" => Post::Plain,
+                "linuxcnc" => Post::LinuxCnc,
+                "siemens" => Post::Siemens,
+                "fanuc" => Post::Fanuc,
+                _ => return None,
+            },
         },
         pictures: pictures?,
     })

@@ -225,7 +225,7 @@ impl Key {
 
     /// A limit of an axis, where known.
     pub const fn limit(name: &'static str, unit: &'static str, example: &'static str, teach: &'static str) -> Self {
-        Self::optional(name, unit, Range::above(0.0, 1e7), "not limited", example, teach)
+        Self::optional(name, unit, Range::closed(1e-6, 1e7), "not limited", example, teach)
     }
 
     /// Whether it is the key `other` with more words.

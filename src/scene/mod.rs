@@ -39,7 +39,7 @@ mod write;
 pub use errors::{Problem, SceneErrors, SourcePlace};
 pub use loaded::{LoadedScene, Located, load, parse};
 pub use mate::{Mate, MateScene};
-pub use model::Scene;
+pub use model::{Post, Scene};
 pub use process::{Copied, ProcessPart, ScenePart, SceneProcess, Senseless};
 pub use table::{KeyTable, TableSection};
 pub use template::template;

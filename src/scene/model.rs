@@ -217,6 +217,21 @@ pub struct Output {
     pub folder: Option<PathBuf>,
     /// Largest displacement on the flanks that straight lines of axis programs may cause.
     pub gcode_contour_error_mm: f64,
+    /// Control for which axis programs are written.
+    pub post: Post,
+}
+
+/// The control that reads an axis program; what each asks for stands in [`crate::gcode`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Post {
+    /// None in particular: the dialect that gearcut itself reads.
+    Plain,
+    /// LinuxCNC.
+    LinuxCnc,
+    /// SINUMERIK in Siemens mode.
+    Siemens,
+    /// FANUC with the G-codes of machining centres.
+    Fanuc,
 }
 
 /// One picture of the cut gear.

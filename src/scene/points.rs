@@ -2,8 +2,6 @@
 //!
 //! Read by hand: the two numbers of a line need no quoting rules, and every problem keeps its line and column.
 
-use std::fs::File;
-use std::io::{self, Read as _};
 use std::path::Path;
 
 use super::errors::Problem;
@@ -12,6 +10,7 @@ use super::problems::Problems;
 use super::sources::line_place;
 use super::table::KeyTable;
 use super::values::{Checked, Held, Values};
+use crate::regular_file;
 
 /// Sections that may name a file.
 const SECTIONS: [&str; 2] = ["gear.pitch_curve.table", "gear.pitch_curve.mate.driver.table"];
@@ -22,27 +21,9 @@ const MOST_BYTES: u64 = 16 << 20;
 
 /// The text of a file, or why there is none.
 pub(super) fn read_text(path: &Path) -> Result<String, String> {
-    let mut bytes = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes));
-    match read {
-        Err(error) => Err(reason(&error)),
-        Ok(_) if bytes.len() as u64 > MOST_BYTES => Err(format!("it is larger than {} MB", MOST_BYTES >> 20)),
-        Ok(_) => {
-            let text =
-                String::from_utf8(bytes).map_err(|error| format!("it is not UTF-8 text: {}", error.utf8_error()))?;
-            Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
-        }
-    }
-}
-
-/// Reason in words that are the same on every system, where they are common.
-fn reason(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        io::ErrorKind::PermissionDenied => "it may not be read".to_owned(),
-        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
-        _ => error.to_string(),
-    }
+    let bytes = regular_file::read(path, MOST_BYTES)?;
+    let text = String::from_utf8(bytes).map_err(|error| format!("it is not UTF-8 text: {}", error.utf8_error()))?;
+    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
 }
 
 /// Reads the file that the scene names, if it names one, and puts its points among the values.

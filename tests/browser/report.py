@@ -29,6 +29,8 @@ def main(report, pair, pictures, chromium):
         check_text(wide)
         check_gear(wide)
         check_picker(wide)
+        check_strokes(wide)
+        check_marks_and_sections(wide)
         check_tables_and_pictures(wide)
         keep_pictures(wide, "wide_light")
         check_print(wide, pictures / "print.pdf")
@@ -280,7 +282,63 @@ def check_tables_and_pictures(opened):
     page.evaluate("document.querySelectorAll('details').forEach((folded) => { folded.open = false; })")
 
 
+def check_strokes(opened):
+    """The cutter follows the slider, and every stroke tells its chip."""
+    page = opened.page
+    slider, facts = page.locator("#strokes"), page.locator("#stroke-facts")
+    page.locator("[data-view=home]").click()
+    before = kept(opened, "gear-view")
+    count = int(slider.get_attribute("max"))
+    assert count > 10, f"{count} strokes"
+    slider.fill(str(count // 2))
+    becomes(opened, "gear-view", before, False, "the cutter does not appear")
+    said = facts.inner_text()
+    assert "stroke" in said and ("mm², " in said and " N, space " in said or "takes nothing" in said), said
+    first = kept(opened, "gear-view")
+    slider.fill(str(count // 2 + count // 5))
+    becomes(opened, "gear-view", first, False, "the cutter does not move")
+    assert facts.inner_text() != said, "another stroke tells the same"
+    opened.page.locator("#gear .viewer").screenshot(path=opened.pictures / "stroke.png")
+    slider.fill("0")
+    becomes(opened, "gear-view", before, True, "the cutter does not leave")
+
+
+def check_marks_and_sections(opened):
+    """Numbers of the teeth can be left out; sections take a part of the gear away and give it back."""
+    page = opened.page
+    page.locator("[data-view=home]").click()
+    numbered, whole = kept(opened, "gear-marks"), kept(opened, "gear-view")
+    page.locator("#tooth-numbers").click()
+    becomes(opened, "gear-marks", numbered, False, "the numbers stay")
+    page.locator("#tooth-numbers").click()
+    becomes(opened, "gear-marks", numbered, True, "the numbers do not come back")
+    for words in ["Across", "Along"]:
+        before = kept(opened, "gear-view")
+        page.locator("#gear-section").click()
+        becomes(opened, "gear-view", before, False, f"section {words} changes nothing")
+        assert page.locator("#gear-section").inner_text() == words
+        opened.page.locator("#gear .viewer").screenshot(path=opened.pictures / f"section_{words.lower()}.png")
+    page.locator("#gear-section").click()
+    becomes(opened, "gear-view", whole, True, "the gear is not whole again")
+
+
 def check_print(opened, path):
+    """On A4 there are no controls, and nothing is cut off at the side."""
+    page = opened.page
+    page.emulate_media(media="print")
+    # 186 mm at 96 px per inch: A4 less its margins.
+    page.set_viewport_size({"width": 703, "height": 1000})
+    for control in ["nav", ".stage-tools", ".roll", ".stepper", "#quantity"]:
+        assert not page.locator(control).first.is_visible(), f"{control} is printed"
+    cut_off = page.evaluate(
+        """() => [...document.querySelectorAll("main table, main svg, main img, main pre")]
+            .filter((one) => one.getClientRects().length > 0)
+            .filter((one) => one.getBoundingClientRect().right > document.documentElement.clientWidth + 1)
+            .map((one) => one.closest("section").id + ": " + one.tagName)"""
+    )
+    assert not cut_off, f"cut off on paper: {cut_off}"
+    page.emulate_media(media="screen")
+    page.set_viewport_size({"width": 1360, "height": 900})
     opened.page.pdf(path=path, format="A4", print_background=True)
     assert path.stat().st_size > 50_000, "the printed report is empty"
 

@@ -4,6 +4,8 @@
 //! than some ten seconds stands in a module `slow` beside the quick ones of its subject. `tests/run` says which part
 //! runs when.
 
+mod broken_files;
+mod dependencies;
 mod fixtures;
 
 mod bevel;
@@ -13,6 +15,7 @@ mod gpu;
 mod hobbing;
 mod library;
 mod output;
+mod posts;
 mod program;
 mod scene;
 mod shaping;

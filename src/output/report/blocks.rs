@@ -49,6 +49,37 @@ pub enum Block {
     Folded(String, Vec<Block>),
     /// Text as it is, such as a scene.
     Verbatim(String),
+    /// Files beside the page.
+    Files(Vec<FileLinks>),
+}
+
+/// Files of one kind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FileLinks {
+    /// What they hold.
+    pub what: String,
+    /// Their paths, relative to the page.
+    pub files: Vec<String>,
+    /// How many more there are.
+    pub more: usize,
+}
+
+impl FileLinks {
+    fn markup(&self) -> Markup {
+        html! {
+            dt { (self.what) }
+            dd {
+                @for file in &self.files { a href=(address(file)) { (file) } " " }
+                @if self.more > 0 { span class="note" { "and " (self.more) " more" } }
+            }
+        }
+    }
+}
+
+/// A relative path as an address: what may mean something else there is written by its bytes.
+fn address(path: &str) -> String {
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_./".contains(&byte);
+    path.bytes().map(|byte| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") }).collect()
 }
 
 impl PageSection {
@@ -92,6 +123,7 @@ impl Block {
                 details { summary { (summary) } @for block in blocks { (block.markup()) } }
             },
             Self::Verbatim(text) => html! { pre tabindex="0" { (text) } },
+            Self::Files(rows) => html! { dl class="files" { @for row in rows { (row.markup()) } } },
         }
     }
 }

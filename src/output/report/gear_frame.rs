@@ -1,9 +1,11 @@
 //! The frames of the 3D view, the picker and the map.
 
+use super::viewer::Viewer;
 use maud::{Markup, html};
 
-/// The 3D view, the picker and the map: empty frames that the scripts fill; with a mate, the means to roll.
-pub fn gear_frame(rolls: bool) -> Markup {
+/// The 3D view, the picker and the map: empty frames that the scripts fill; with a mate the means to roll, with strokes
+/// the means to follow them.
+pub fn gear_frame(viewer: &Viewer) -> Markup {
     let turn = |action: &str, words: &str, label: &str| {
         html! {
             button type="button" data-view=(action) title=(label) aria-label=(label) { (words) }
@@ -18,6 +20,7 @@ pub fn gear_frame(rolls: bool) -> Markup {
                 div class="stage" {
                     canvas id="gear-view" tabindex="0" role="application"
                         aria-label="The gear in three dimensions" aria-describedby="gear-help" {}
+                    canvas id="gear-marks" aria-hidden="true" {}
                     p id="gear-failed" class="warning" hidden { "This browser gives no WebGL 2: the gear cannot be \
                         drawn. Maps and charts work without it." }
                     div class="stage-tools" role="toolbar" aria-label="View" {
@@ -26,8 +29,20 @@ pub fn gear_frame(rolls: bool) -> Markup {
                         (turn("flank", "Flank", "View of the picked flank"))
                         (turn("closer", "+", "Closer"))
                         (turn("further", "−", "Further away"))
+                        button type="button" id="tooth-numbers" aria-pressed="true" title="Numbers of the teeth" { "No." }
+                        button type="button" id="gear-section" title="Section: across the axis, along it, none" {
+                            "Section"
+                        }
                     }
-                    @if rolls {
+                    @if viewer.strokes.is_some() {
+                        div class="roll strokes" {
+                            button type="button" id="strokes-play" aria-pressed="false" { "Play" }
+                            input id="strokes" type="range" min="0" value="0" step="1" aria-label="Stroke of the cutter"
+                                aria-describedby="stroke-facts";
+                            output id="stroke-facts" {}
+                        }
+                    }
+                    @if viewer.mate.is_some() {
                         div class="roll" {
                             button type="button" id="roll-play" aria-pressed="false" { "Roll" }
                             input id="roll" type="range" min="0" value="0" step="1" aria-label="Angle of gear A";

@@ -63,6 +63,7 @@ fn page() -> Page {
             }],
             body: crate::surface::triangles::Triangles::default(),
             mate: None,
+            strokes: None,
         }),
         sections: vec![PageSection {
             id: "all",

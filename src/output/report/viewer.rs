@@ -36,6 +36,43 @@ pub struct Viewer {
     pub body: Triangles,
     /// A gear that rolls with it.
     pub mate: Option<ViewerMate>,
+    /// The cutter that made it, stroke by stroke.
+    pub strokes: Option<ViewerStrokes>,
+}
+
+/// A cutter and where it stands at every stroke, with what the stroke takes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewerStrokes {
+    /// The cutter in its own frame; normals are the viewer's affair.
+    pub cutter: Triangles,
+    /// Operations in order, with their numbers of strokes.
+    pub operations: Vec<(String, usize)>,
+    /// Of all strokes of all operations, counted in order of time, the first one and every so many-th.
+    pub every: usize,
+    /// These strokes.
+    pub strokes: Vec<ViewerStroke>,
+}
+
+/// One stroke.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ViewerStroke {
+    /// Place of the cutter's axis in the gear frame, mm, and its angle, rad.
+    pub pose: [f32; 3],
+    /// Section of its chips in the transverse plane, mm^2.
+    pub section_mm2: f32,
+    /// Largest uncut chip thickness, um.
+    pub thickness_um: f32,
+    /// Cutting force, N.
+    pub force_n: f32,
+    /// Space of its largest chip; 0: it takes nothing.
+    pub space: u32,
+}
+
+impl ViewerStroke {
+    fn values(&self) -> [f32; 7] {
+        let [x, y, angle] = self.pose;
+        [x, y, angle, self.section_mm2, self.thickness_um, self.force_n, self.space as f32]
+    }
 }
 
 /// A second gear, without maps, and how both turn while they roll.
@@ -208,6 +245,19 @@ impl Viewer {
             let mesh = triangles(&mut block, &mate.triangles);
             json!({"mesh": mesh, "axis": mate.axis_mm, "turned": mate.turned_deg})
         });
+        let strokes = self.strokes.as_ref().map(|of| {
+            let cutter = triangles(&mut block, &of.cutter);
+            // Column by column: neighbours are alike, which zlib likes.
+            let values: Vec<[f32; 7]> = of.strokes.iter().map(ViewerStroke::values).collect();
+            let columns: Vec<f32> = (0..7).flat_map(|column| values.iter().map(move |row| row[column])).collect();
+            json!({
+                "cutter": cutter,
+                "operations": of.operations,
+                "every": of.every,
+                "count": values.len(),
+                "at": block.add_f32(&columns),
+            })
+        });
         let colours = block.add(tables().as_flattened().as_flattened().iter().copied());
         let description = json!({
             "cells": first_cell,
@@ -216,6 +266,7 @@ impl Viewer {
             "flank_mesh": flank_mesh,
             "body_mesh": body_mesh,
             "mate": mate,
+            "strokes": strokes,
             "colours": colours,
             "bytes": block.bytes.len(),
         });
@@ -309,6 +360,7 @@ mod tests {
             }],
             body: Triangles::default(),
             mate: None,
+            strokes: None,
         }
     }
 

@@ -215,8 +215,10 @@ impl AxesOfOperation for BevelAxesReport<'_> {
         self.charts.get_or_init(|| self.drawn())
     }
 
-    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(&'static str, String)>, String>> {
-        Some(gcode::text(self.job, self.operation, warnings)?.map(|text| vec![("", text)]))
+    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(String, String)>, String>> {
+        let number = gcode::program_number(self.job, self.operation);
+        let file = self.job.scene.output.post.file_name(self.name(), number);
+        Some(gcode::text(self.job, self.operation, warnings)?.map(|text| vec![(file, text)]))
     }
 }
 

@@ -23,7 +23,8 @@ use super::job::BevelJob;
 use super::motion::{AXES, RollMotion, limits};
 use super::operation::PreparedBevel;
 use crate::findings::Warning;
-use crate::gcode::{ProgramText, axis_word};
+use crate::gcode::{AxisColumn, Script, StraightLine};
+use crate::machine::Axis;
 use crate::output::text::{plain, significant};
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 
@@ -82,17 +83,29 @@ fn linear(job: &BevelJob, operation: &PreparedBevel, warnings: &[Warning]) -> Re
             significant(reached_mm * UM_PER_MM, 6)
         ),
     ];
-    let position = |knot: &BevelKnot| {
-        let words = AXES.iter().zip(&knot.axes).map(|(axis, &at)| axis_word(axis, at, digits.of(axis.kind)));
-        words.collect::<Vec<_>>().join(" ")
+    let told = warnings.iter().map(Warning::line);
+    let column = |axis: &Axis| AxisColumn { letter: axis.letter, kind: axis.kind, digits: digits.of(axis.kind) };
+    let position = |knot: &BevelKnot| AXES.iter().zip(&knot.axes).map(|(axis, &at)| axis.kind.shown(at)).collect();
+    let line = |pair: &[BevelKnot]| StraightLine {
+        to: position(&pair[1]),
+        per_minute: 60.0 / (pair[1].time_s - pair[0].time_s),
     };
-    let mut text = ProgramText::new(&head, warnings.iter().map(Warning::line));
-    text.block("G21 G90 G94");
-    text.block(&format!("G0 {}", position(&program.knots[0])));
-    for pair in program.knots.windows(2) {
-        let per_minute = 60.0 / (pair[1].time_s - pair[0].time_s);
-        text.block(&format!("G93 G1 {} F{per_minute:.9}", position(&pair[1])));
-    }
-    text.block("M30");
-    Ok(text.finish())
+    let script = Script {
+        name: operation.spec.name.clone(),
+        number: program_number(job, operation),
+        head: head.into_iter().chain(told).collect(),
+        columns: AXES.iter().map(column).collect(),
+        // The head stands back along its axis as between slots.
+        clear: (2, program::clear_mm(job, &program)),
+        ram: None,
+        start: position(&program.knots[0]),
+        lines: program.knots.windows(2).map(line).collect(),
+        contour_error_mm: asked_mm,
+    };
+    script.text(job.scene.output.post)
+}
+
+/// Number of an operation's program among those of its scene, from 1.
+pub fn program_number(job: &BevelJob, operation: &PreparedBevel) -> u32 {
+    job.operations.iter().take_while(|before| before.spec.name != operation.spec.name).count() as u32 + 1
 }

@@ -20,7 +20,7 @@ use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::facts::table;
 use crate::steps::report::machine_errors::errors_table;
-use crate::steps::report::{PageGear, RunWords, key_number, record, texture};
+use crate::steps::report::{PageGear, RunWords, files, key_number, record, texture};
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
@@ -57,6 +57,7 @@ pub fn page(
         "Axis speeds",
     ));
     sections.push(setup(job, found));
+    sections.push(files::section(folder)?);
     sections.push(record(gear.flanks.len(), &gear.work.stats, gear.work.dexels, run));
     let operation = |operation: &findings::Section| {
         let mm = |key: &str| operation.number(key).map_or_else(|| "–".to_owned(), plain);

@@ -147,9 +147,20 @@ impl AxesOfOperation for HobbingAxesReport<'_> {
         Ok(vec![("teeth", charts::work_of_teeth(self.job, self.operation())?)])
     }
 
-    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(&'static str, String)>, String>> {
+    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(String, String)>, String>> {
         let programs = gcode::texts(self.job, self.operation(), warnings)?;
-        Some(programs.map(|[full, geared]| vec![("", full), ("_gearbox", geared)]))
+        let (post, name) = (self.job.scene.output.post, self.name());
+        let numbers = gcode::program_numbers(self.index);
+        let files = [name.to_owned(), format!("{name}_gearbox")];
+        let named = |texts: [String; 2]| {
+            files
+                .iter()
+                .zip(numbers)
+                .zip(texts)
+                .map(|((file, number), text)| (post.file_name(file, number), text))
+                .collect()
+        };
+        Some(programs.map(named))
     }
 }
 

@@ -27,6 +27,7 @@ mod text;
 
 pub use program::{Gearbox, HobbingKnot, HobbingProgram, Positions};
 pub use read::read;
+pub use text::program_numbers;
 
 use crate::findings::Warning;
 use crate::output::text::{plain, significant};
@@ -59,7 +60,7 @@ fn linear(job: &HobbingJob, operation: &PreparedHobbing, warnings: &[Warning]) -
         return Err(format!(
             "blocks of {} ms leave a contour error of {} um at {time_s:.3} s, {} um are asked; ask for no less, or \
             lower hob_speed_per_minute",
-            significant(1e3 * program::shortest_block_s(linkage), 3),
+            significant(1e3 * program::shortest_block_s(job, linkage), 3),
             significant(reached_mm * UM_PER_MM, 3),
             plain(asked_mm * UM_PER_MM),
         ));
@@ -69,6 +70,8 @@ fn linear(job: &HobbingJob, operation: &PreparedHobbing, warnings: &[Warning]) -
     }
     let gearbox = Gearbox::new(linkage);
     let geared = program.geared(&gearbox, -1.0);
-    Ok([(&program, None), (&geared, Some(&gearbox))]
-        .map(|(program, gearbox)| text::text(job, operation, program, gearbox, (reached_mm, time_s), warnings)))
+    let written = |program, gearbox| {
+        text::script(job, operation, program, gearbox, (reached_mm, time_s), warnings).text(job.scene.output.post)
+    };
+    Ok([written(&program, None)?, written(&geared, Some(&gearbox))?])
 }

@@ -16,7 +16,7 @@ use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations;
 use crate::steps::report::deviations::{Inspection, InspectionWords};
-use crate::steps::report::{PageGear, RunWords, key_number, record, texture};
+use crate::steps::report::{PageGear, RunWords, blank, files, key_number, record, texture};
 use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::error::Result;
 use std::f64::consts::PI;
@@ -51,6 +51,7 @@ pub fn page(
     sections.push(marks_section(found));
     sections.extend(texture::section(found, folder)?);
     sections.extend(load_section(found, charts.loads, charts.forces));
+    sections.extend(blank::section(found));
     sections.push(axes::section(
         motion,
         found,
@@ -58,6 +59,7 @@ pub fn page(
         "Accelerations, feed path",
     ));
     sections.push(facts::section(job, found));
+    sections.push(files::section(folder)?);
     sections.push(record(gear.flanks.len(), &gear.work.stats, gear.work.dexels, run));
     let operation = |operation: &findings::Section| {
         let mm = |key: &str| operation.number(key).map_or_else(|| "–".to_owned(), plain);

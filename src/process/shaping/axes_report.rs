@@ -89,7 +89,9 @@ impl<'a> OperationAxes<'a> {
         Self {
             job,
             index,
-            peaks: program.as_ref().map_or_else(|| peaks(schedule, &limits), |program| program.peaks(&limits)),
+            peaks: program
+                .as_ref()
+                .map_or_else(|| peaks(schedule, &limits), |program| program.peaks(schedule, &limits)),
             program: program.as_ref().map(judged),
             relief: relief::smallest_relief(linkage, spec.offset_mm, job.scene.gear.pressure_angle_rad),
             largest_beta_rad,
@@ -186,15 +188,16 @@ impl AxesOfOperation for OperationAxes<'_> {
     }
 
     fn write_table(&self, path: &Path) -> Result<()> {
-        strokes::write_table(path, &self.operation().retraction, self.strokes())
+        strokes::write_table(path, self.operation(), self.strokes())
     }
 
     fn charts(&self) -> &[NamedChart<LineChart>] {
         self.charts.get_or_init(|| charts::all(self.job, self.operation(), self.strokes()))
     }
 
-    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(&'static str, String)>, String>> {
-        Some(programs::text(self.job, self.operation(), warnings)?.map(|text| vec![("", text)]))
+    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(String, String)>, String>> {
+        let file = self.job.scene.output.post.file_name(self.name(), self.index as u32 + 1);
+        Some(programs::text(self.job, self.operation(), warnings)?.map(|text| vec![(file, text)]))
     }
 }
 

@@ -37,6 +37,9 @@ use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
+/// A program under test makes this many times the strokes of the scene at most.
+const MOST_TIMES_THE_STROKES: usize = 10;
+
 /// One operation with its strokes.
 #[derive(Debug)]
 pub struct PreparedOperation {
@@ -63,6 +66,11 @@ pub struct PreparedOperation {
 }
 
 impl PreparedOperation {
+    /// How many strokes are cut: those of the program, or the scene's own.
+    pub fn count(&self) -> usize {
+        self.strokes.count()
+    }
+
     /// Cutter in the spindle's frame at a stroke coordinate, as the axes really stand.
     pub fn pose(&self, stroke: f64) -> CutterPose {
         self.actual.pose(self.commanded(), stroke)
@@ -140,7 +148,8 @@ impl ShapingJob {
             let linkage =
                 ShapingLinkage::new(gear.kind, spec.linkage, curve.clone(), cutter.pitch_radius_mm, spec.offset_mm)?;
             let schedule = StrokeSchedule::new(&spec, &linkage, &machine)?;
-            let count = schedule.count();
+            let program = spec.program.as_deref().map(|path| read_program(path, &spec, &schedule)).transpose()?;
+            let count = program.as_ref().map_or(schedule.count(), AxisProgram::count);
             let ids = count as f64 * f64::from(cutter.teeth) * passes;
             if ids >= f64::from(u32::MAX) {
                 return Err(Refusal::new(
@@ -150,7 +159,6 @@ impl ShapingJob {
                 )
                 .into());
             }
-            let program = spec.program.as_deref().map(|path| read_program(path, &spec, &schedule)).transpose()?;
             let commanded = Commanded { schedule: &schedule, program: program.as_ref() };
             let actual = ActualStrokes::new(&machine.errors, commanded, start_s, 0.5 * gear.face_width_mm);
             start_s += schedule.time_s(count as f64);
@@ -346,14 +354,21 @@ fn rim_holds(
     ))
 }
 
-/// The program that an operation is cut with.
+/// The program that an operation is cut with. Other strokes than the scene's are judged, as long as there are not many
+/// times as many: a wrong unit of F or S would otherwise ask for millions.
 fn read_program(path: &Path, spec: &Operation, schedule: &StrokeSchedule) -> Result<AxisProgram> {
     let program = gcode::read::file(path)?;
-    if program.count() != schedule.count() {
+    let most = MOST_TIMES_THE_STROKES * schedule.count();
+    if program.count() > most {
         return Err(Refusal::new(
             &format!("operation.{}.program", spec.name),
-            format!("{} makes {} strokes, the operation {}", path.display(), program.count(), schedule.count()),
-            "set strokes_per_revolution, revolutions, window_deg and infeed as they are in the program",
+            format!(
+                "{} makes {} strokes, the operation {}: more than {MOST_TIMES_THE_STROKES} times as many",
+                path.display(),
+                program.count(),
+                schedule.count()
+            ),
+            "look at S and F of the program, and at strokes_per_revolution, revolutions and infeed of the scene",
         )
         .into());
     }

@@ -4,6 +4,7 @@ pub mod actual;
 pub mod axes_report;
 pub mod blank;
 pub mod check;
+mod chip_charts;
 pub mod chips;
 pub mod cutter;
 pub mod edge_polygon;

@@ -3,10 +3,12 @@
 //! In: the job, what was cut, the findings. Out: a [`Page`]. Numbers come from the findings with their units and
 //! definitions; nothing is computed here that is not in a file beside the page.
 
+mod chips;
 mod facts;
 mod returns;
 mod ring;
 mod stock;
+mod strokes;
 
 use crate::findings::{self, Findings, Quantity};
 use crate::measure::verdict::Verdict;
@@ -22,7 +24,7 @@ use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations::{Inspection, InspectionWords};
 use crate::steps::report::facts::gear_words;
-use crate::steps::report::{PageGear, RunWords, deviations, key_number, record, texture, value_and_unit};
+use crate::steps::report::{PageGear, RunWords, blank, deviations, files, key_number, record, texture, value_and_unit};
 use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::error::Result;
 use std::f64::consts::PI;
@@ -42,6 +44,8 @@ pub fn page(
 ) -> Result<Page> {
     let mut sections = stock::section(job, found).into_iter().collect::<Vec<_>>();
     sections.extend(ring::section(job, found));
+    sections.push(chips::section(job, &cut.chips, found));
+    sections.extend(blank::section(found));
     sections.extend(returns::section(job, found));
     sections.push(deviations::section(inspection));
     sections.extend(texture::section(found, folder)?);
@@ -52,11 +56,16 @@ pub fn page(
         "Velocities, accelerations, relief",
     ));
     sections.push(facts::section(job, found));
+    sections.push(files::section(folder)?);
     sections.push(record(cut.report.flanks.len(), &cut.work.stats, cut.work.dexels, run));
     let operations = found.parts("operations").len();
     let gear = PageGear { words: gear_words(&job.scene.gear), mesh: ViewMesh::new(job)? };
     let operation = |of: &_| operation_words(of, operations);
-    Ok(steps::report::page(job, gear, found, &cut.maps, operation, key_numbers(job, found), sections))
+    let mut page = steps::report::page(job, gear, found, &cut.maps, operation, key_numbers(job, found), sections);
+    if let Some(viewer) = &mut page.viewer {
+        viewer.strokes = Some(strokes::strokes(job, &cut.chips));
+    }
+    Ok(page)
 }
 
 fn operation_words(operation: &findings::Section, count: usize) -> String {

@@ -99,6 +99,14 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 example: "\"linear\"",
                 teach: "Form of the axis programs: straight lines in inverse time, or none.",
             },
+            Key::word(
+                "post",
+                &["plain", "linuxcnc", "siemens", "fanuc"],
+                "plain",
+                "\"siemens\"",
+                "Control that reads the programs: none in particular, or LinuxCNC, SINUMERIK, FANUC with their own rules \
+                    of numbers, dwells, comments, safe start and retract (docs/gcode.md).",
+            ),
             Key {
                 name: "gcode_contour_error_um",
                 kind: Kind::Number(Range::closed(0.0001, 1000.0)),

@@ -77,9 +77,9 @@ pub trait AxesOfOperation {
         Ok(Vec::new())
     }
 
-    /// Programs, each with the end of its file's name, `warnings` in their heads; an error is the reason why there are
-    /// none, `None`: none are wanted.
-    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(&'static str, String)>, String>>;
+    /// Programs, each with the name of its file, `warnings` in their heads; an error is the reason why there are none,
+    /// `None`: none are wanted.
+    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(String, String)>, String>>;
 }
 
 /// Facts and peaks of an operation.
@@ -126,8 +126,8 @@ pub fn write_programs<O: AxesOfOperation>(
         let name = operation.name();
         match operation.programs(&head) {
             Some(Ok(programs)) => {
-                for (end, text) in programs {
-                    write_bytes_atomically(&folder.path(format!("axes/{name}{end}.ngc"))?, text.as_bytes())?;
+                for (file, text) in programs {
+                    write_bytes_atomically(&folder.path(format!("axes/{file}"))?, text.as_bytes())?;
                 }
             }
             Some(Err(why)) => {

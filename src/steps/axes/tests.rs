@@ -64,7 +64,7 @@ impl AxesOfOperation for Made {
         &[]
     }
 
-    fn programs(&self, _: &[Warning]) -> Option<Result<Vec<(&'static str, String)>, String>> {
+    fn programs(&self, _: &[Warning]) -> Option<Result<Vec<(String, String)>, String>> {
         None
     }
 }

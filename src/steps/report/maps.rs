@@ -14,7 +14,7 @@ pub fn viewer(job: &dyn GearJob, mesh: ViewMesh, maps: &GearMaps) -> Viewer {
         let map = maps.flanks.iter().find(|map| map.tooth == flank.tooth && map.side == flank.side);
         viewer_flank(flank, map.map(|map| map.grid.clone()))
     });
-    Viewer { flanks: flanks.collect(), quantities: quantities(job, maps), body: mesh.body, mate: None }
+    Viewer { flanks: flanks.collect(), quantities: quantities(job, maps), body: mesh.body, mate: None, strokes: None }
 }
 
 /// A flank of the mesh with the grid of its map.

@@ -1,7 +1,9 @@
 //! Parts of the report's page that all processes share.
 
+pub mod blank;
 pub mod deviations;
 pub mod facts;
+pub mod files;
 pub mod machine_errors;
 pub mod maps;
 pub mod quantities;

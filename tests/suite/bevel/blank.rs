@@ -203,7 +203,8 @@ fn blades_beyond_the_window_take_nothing() {
         let job = coarse(scene, &["operation.finish.roll_speed_deg_per_s=10", "fields.blank.spacing_mm=0.4"]);
         let cut = |half_window_rad: f64, row: usize| {
             let head = FaceMill { half_window_rad, ..job.head.clone() };
-            let pose = |operation: &PreparedBevel, slot: u32, cradle_rad: f64| {
+            let pose = |operation: usize, slot: u32, cradle_rad: f64, _: f64| {
+                let operation = &job.operations[operation];
                 let to_work = DMat3::from_rotation_z(job.middle_rad);
                 let to_work = Rigid3 { rotation: to_work, translation_mm: DVec3::ZERO };
                 let pose = operation.as_set.work_from_tool(cradle_rad).after(&to_work);

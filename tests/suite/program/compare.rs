@@ -110,6 +110,11 @@ fn two_results_stand_side_by_side() {
                 .expect("the folder to keep charts in");
         }
     }
+    let page = std::fs::read_to_string(written.join("report.html")).expect("written");
+    for words in ["What changed most", "smallest normal stock", "0.2500 \u{2192} 0.6500", "Side by side", "<svg"] {
+        assert!(page.contains(words), "{words} is not on the page");
+    }
+    assert!(!page.contains("<script"), "a page without a gear needs no scripts");
     for name in ["a.svg", "b.svg"] {
         assert!(written.join(format!("{stem}_{name}")).is_file(), "{name}");
     }
@@ -190,6 +195,11 @@ fn maps_of_deviations_are_subtracted() {
     }
     gearcut_in(folder.path(), &["compare", "out/traditional", "out/normal"]).done();
     let sheet = folder.path().join("out/compare_traditional_normal/difference_deviation_b_minus_a.png");
+    let page = std::fs::read_to_string(sheet.with_file_name("report.html")).expect("a page");
+    assert!(
+        page.contains("Difference maps") && page.contains("src=\"data:image/png;base64,"),
+        "the sheet is on the page"
+    );
     let picture = image::open(&sheet).expect("a sheet").into_rgb8();
     // All cells are 4 um apart, the end of the scale: the field has its one colour, as no other sheet has.
     let end = gearcut::colormap::ColourScale::Diverging { limit: 4.0 }.colour(4.0);

@@ -98,12 +98,13 @@ fn a_build_without_the_gpu_backend_says_so() {
 #[cfg(target_os = "linux")]
 #[test]
 fn devices_says_nothing_of_window_systems() {
-    let ended = std::process::Command::new(env!("CARGO_BIN_EXE_gearcut"))
-        .arg("devices")
-        .env_remove("XDG_RUNTIME_DIR")
-        .output()
-        .expect("the program is built before its tests");
-    assert!(ended.status.success());
-    let told = String::from_utf8(ended.stderr).expect("UTF-8");
-    assert!(!told.contains("XDG_RUNTIME_DIR"), "{told}");
+    let mut devices = std::process::Command::new(env!("CARGO_BIN_EXE_gearcut"));
+    devices.arg("devices");
+    for empty in [false, true] {
+        let set = if empty { devices.env("XDG_RUNTIME_DIR", "") } else { devices.env_remove("XDG_RUNTIME_DIR") };
+        let ended = set.output().expect("the program is built before its tests");
+        assert!(ended.status.success());
+        let told = String::from_utf8(ended.stderr).expect("UTF-8");
+        assert!(!told.contains("XDG_RUNTIME_DIR"), "empty {empty}: {told}");
+    }
 }

@@ -36,7 +36,13 @@ pub struct BevelProgram {
 
 /// Digits of lengths and angles: angles count at the gear's outer end.
 pub(super) fn digits(job: &BevelJob, contour_error_mm: f64) -> Digits {
-    Digits::new(contour_error_mm, job.blank.outer_cone_distance_mm)
+    job.scene.output.post.digits(contour_error_mm, job.blank.outer_cone_distance_mm)
+}
+
+/// How many of the shortest blocks a roll is tried with.
+fn most_blocks(job: &BevelJob, roll_s: f64) -> u32 {
+    let shortest_s = SHORTEST_S.max(job.scene.output.post.shortest_block_s());
+    (roll_s / shortest_s).clamp(1.0, MOST_BLOCKS) as u32
 }
 
 /// Tips of blades that look at the work, head's frame of the machine.
@@ -69,7 +75,7 @@ impl BevelProgram {
         let job = motion.job;
         let digits = digits(job, contour_error_mm);
         let roll_s = motion.operation.roll_s();
-        let blocks = (roll_s / SHORTEST_S).clamp(1.0, MOST_BLOCKS) as usize;
+        let blocks = most_blocks(job, roll_s) as usize;
         let knot = |sample: usize| {
             let time_s = roll_s * sample as f64 / (blocks * SAMPLES) as f64;
             BevelKnot { time_s, axes: motion.positions(time_s) }
@@ -101,7 +107,7 @@ impl BevelProgram {
     /// Largest displacement of the tips from the first slot's roll, mm, and when, s.
     pub fn contour_error_mm(&self, motion: &RollMotion) -> (f64, f64) {
         let roll_s = motion.operation.roll_s();
-        let count = ((roll_s / SHORTEST_S).clamp(1.0, MOST_BLOCKS) as u32) * SAMPLES as u32;
+        let count = most_blocks(motion.job, roll_s) * SAMPLES as u32;
         (0..count)
             .map(|i| {
                 let time_s = roll_s * f64::from(i) / f64::from(count);
@@ -110,6 +116,17 @@ impl BevelProgram {
             })
             .fold((0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst })
     }
+}
+
+/// How far the head withdraws so that it is clear of the blank: twice the whole depth at the heel, mm.
+fn withdrawn_mm(job: &BevelJob) -> f64 {
+    2.0 * (job.blank.outer_addendum_mm + job.blank.outer_dedendum_mm)
+}
+
+/// Place of the head along its axis at which it is clear of the blank, mm.
+pub(super) fn clear_mm(job: &BevelJob, program: &BevelProgram) -> f64 {
+    let deepest_mm = program.knots.iter().map(|knot| knot.axes[2]).fold(f64::NEG_INFINITY, f64::max);
+    (deepest_mm - withdrawn_mm(job)).floor()
 }
 
 /// Largest displacement in the work of the tips that look at it, mm.
@@ -123,8 +140,7 @@ fn displacement_mm(motion: &RollMotion, exact: &BevelKnot, other: &[f64; 5]) -> 
 fn over_all_slots(motion: &RollMotion, roll: &[BevelKnot], digits: Digits) -> Vec<BevelKnot> {
     let (job, operation) = (motion.job, motion.operation);
     let pitch_rad = TURN_RAD / f64::from(job.blank.teeth);
-    // Clear of the blank: twice the whole depth at the heel.
-    let clear_mm = 2.0 * (job.blank.outer_addendum_mm + job.blank.outer_dedendum_mm);
+    let clear_mm = withdrawn_mm(job);
     let indexed = |axes: [f64; 5], slot: u32, back_mm: f64| {
         let mut axes = axes;
         axes[2] = digits.rounded(AXES[2].kind, axes[2] - back_mm);

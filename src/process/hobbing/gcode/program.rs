@@ -102,14 +102,15 @@ impl ContactZone {
 }
 
 /// Shortest block of an operation, s.
-pub(super) fn shortest_block_s(linkage: &HobbingLinkage) -> f64 {
-    SHORTEST_S.max(SHARE_OF_CYCLE * linkage.cycle_s())
+pub(super) fn shortest_block_s(job: &HobbingJob, linkage: &HobbingLinkage) -> f64 {
+    let of_control_s = job.scene.output.post.shortest_block_s();
+    SHORTEST_S.max(of_control_s).max(SHARE_OF_CYCLE * linkage.cycle_s())
 }
 
 /// Digits of lengths and angles: angles count at the largest distance from an axis of rotation that matters.
 pub(super) fn digits(job: &HobbingJob, contour_error_mm: f64) -> Digits {
     let reach_mm = (job.curve.facts().largest_radius_mm + job.blank.addendum_mm).max(job.hob.tip_radius_mm);
-    Digits::new(contour_error_mm, reach_mm)
+    job.scene.output.post.digits(contour_error_mm, reach_mm)
 }
 
 fn exact(linkage: &HobbingLinkage, time_s: f64) -> Positions {
@@ -133,7 +134,7 @@ impl HobbingProgram {
         let linkage = &operation.linkage;
         let zone = ContactZone::new(job, operation);
         let digits = digits(job, contour_error_mm);
-        let shortest_s = shortest_block_s(linkage);
+        let shortest_s = shortest_block_s(job, linkage);
         let sampled_mm = SAMPLED_SHARE * contour_error_mm;
         let mut knots: Vec<HobbingKnot> = Vec::new();
         for corner in linkage.corners_s().windows(2) {
@@ -171,7 +172,7 @@ impl HobbingProgram {
     /// Largest displacement of the hob from an operation's linkage, mm, and when, s.
     pub fn contour_error_mm(&self, job: &HobbingJob, operation: &PreparedHobbing) -> (f64, f64) {
         let (linkage, zone) = (&operation.linkage, ContactZone::new(job, operation));
-        let shortest_s = shortest_block_s(linkage);
+        let shortest_s = shortest_block_s(job, linkage);
         let count = (linkage.end_s() / shortest_s * SAMPLES as f64).ceil() as u32;
         (0..=count)
             .into_par_iter()

@@ -1,8 +1,9 @@
-//! A hobbing program as text: what the operator must know, then the blocks.
+//! A hobbing program ready for a control: what the operator must know, then the lines.
 
 use super::program::{Gearbox, HobbingKnot, HobbingProgram, digits};
 use crate::findings::Warning;
-use crate::gcode::{ProgramText, axis_word};
+use crate::gcode::{AxisColumn, Script, StraightLine};
+use crate::machine::Axis;
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
@@ -10,15 +11,18 @@ use crate::process::hobbing::linkage::dynamics::AXES;
 use crate::process::hobbing::scene::model::HobbingKind;
 use gearcut_core::units::UM_PER_MM;
 
-/// The text of a program, with everything in its head that the operator must know.
-pub fn text(
+/// Room between hob and blank before and after a program, mm.
+const CLEAR_MM: f64 = 2.0;
+
+/// A program, with everything in its head that the operator must know.
+pub fn script(
     job: &HobbingJob,
     operation: &PreparedHobbing,
     program: &HobbingProgram,
     gearbox: Option<&Gearbox>,
     (reached_mm, time_s): (f64, f64),
     warnings: &[Warning],
-) -> String {
+) -> Script {
     let (output, linkage, spec) = (&job.scene.output, &operation.linkage, &job.scene.gear);
     let g = linkage.geometry();
     let diagonal = matches!(operation.spec.kind, HobbingKind::Diagonal { .. });
@@ -97,20 +101,43 @@ pub fn text(
     // What is left when the gearbox's share is taken off is no round number: digits enough for all three words
     // together.
     let work_digits = if gearbox.is_some() { digits.angle + 2 } else { digits.angle };
-    let position = |knot: &HobbingKnot| {
-        let word = |axis: usize| axis_word(&AXES[axis], knot.axes[axis], digits.of(AXES[axis].kind));
-        let mut words: Vec<String> = [2, 3, 4].map(word).into();
-        words.extend(diagonal.then(|| word(5)));
-        words.extend([word(0), axis_word(&AXES[1], knot.axes[1], work_digits)]);
-        words.join(" ")
+    let order: Vec<usize> = [2, 3, 4].into_iter().chain(diagonal.then_some(5)).chain([0, 1]).collect();
+    let column = |&axis: &usize| {
+        let Axis { letter, kind, .. } = AXES[axis];
+        AxisColumn { letter, kind, digits: if axis == 1 { work_digits } else { digits.of(kind) } }
     };
-    let mut text = ProgramText::new(&head, warnings.iter().map(Warning::line));
-    text.block("G21 G90 G94");
-    text.block(&format!("G0 {}", position(&program.knots[0])));
-    for pair in program.knots.windows(2) {
-        let per_minute = 60.0 / (pair[1].time_s - pair[0].time_s);
-        text.block(&format!("G93 G1 {} F{per_minute:.9}", position(&pair[1])));
+    let position =
+        |knot: &HobbingKnot| order.iter().map(|&axis| AXES[axis].kind.shown(knot.axes[axis])).collect::<Vec<_>>();
+    let line = |pair: &[HobbingKnot]| StraightLine {
+        to: position(&pair[1]),
+        per_minute: 60.0 / (pair[1].time_s - pair[0].time_s),
+    };
+    head.extend(warnings.iter().map(Warning::line));
+    let before = job.operations.iter().take_while(|before| before.spec.name != operation.spec.name).count();
+    let [full, geared] = program_numbers(before);
+    let gearbox_words = if gearbox.is_some() { " gearbox" } else { "" };
+    Script {
+        name: format!("{}{gearbox_words}", operation.spec.name),
+        number: if gearbox.is_some() { geared } else { full },
+        head,
+        columns: order.iter().map(column).collect(),
+        // The radial axis.
+        clear: (1, clear_mm(job)),
+        ram: None,
+        start: position(&program.knots[0]),
+        lines: program.knots.windows(2).map(line).collect(),
+        contour_error_mm: output.gcode_contour_error_mm,
     }
-    text.block("M30");
-    text.finish()
+}
+
+/// Numbers of both programs of an operation among those of its scene: fully interpolated, and with a gearbox.
+pub fn program_numbers(operation: usize) -> [u32; 2] {
+    let first = 2 * operation as u32 + 1;
+    [first, first + 1]
+}
+
+/// Place of the hob's pitch plane at which it is clear of the blank, however that is turned.
+fn clear_mm(job: &HobbingJob) -> f64 {
+    let tip_mm = job.hob.tip_radius_mm - job.hob.pitch_radius_mm;
+    (job.curve.facts().largest_radius_mm + job.blank.addendum_mm + tip_mm + CLEAR_MM).ceil()
 }

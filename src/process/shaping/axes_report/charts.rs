@@ -19,7 +19,12 @@ pub(super) fn all(job: &ShapingJob, operation: &PreparedOperation, rows: &[Strok
     let limits = dynamics::limits(&job.machine.limits);
     let points: Vec<(f64, [AxisMotion; 3])> = rows.iter().map(|row| (work_angle_deg(row), row.motion)).collect();
     let moving = |order: Order| panels(&AXES, 0..AXES.len(), &limits, order, &points);
-    let words = [operation.spec.name.as_str(), &job.scene.name, operation.linkage.words()];
+    // Under a program the axes are the program's.
+    let of = match operation.program {
+        Some(_) => format!("{}; the program's axes", operation.linkage.words()),
+        None => operation.linkage.words().to_owned(),
+    };
+    let words = [operation.spec.name.as_str(), &job.scene.name, &of];
     let over_work_angle =
         |what: &str, panels: Vec<Panel>| chart(words, what, ["work angle ψc", position_sign(&WORK)], panels);
     let mut charts = vec![
@@ -48,10 +53,17 @@ fn positions(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
     // In a ring the cutter turns the other way.
     let ratio = job.blank.kind().tip_sign() * f64::from(job.scene.gear.teeth) / f64::from(job.cutter.teeth);
     // A value from the positions of the axes and the polar angle of the pitch point, read as positions of `axis` are.
+    let under_test = rows.iter().any(|row| row.scene.is_some());
     let one = |value_name: &str, axis: &Axis, name: &str, value: &dyn Fn([f64; 3], f64) -> f64| {
-        let shown = |row: &StrokeRow| axis.kind.shown(value(row.motion.map(|axis| axis.position), row.phi_rad));
-        let points = rows.iter().map(|row| (work_angle_deg(row), shown(row))).collect();
-        panel([value_name, position_sign(axis)], vec![(name, points)], [])
+        let shown = |axes: [f64; 3], row: &StrokeRow| axis.kind.shown(value(axes, row.phi_rad));
+        let own = |row: &StrokeRow| (work_angle_deg(row), shown(row.motion.map(|axis| axis.position), row));
+        let points = rows.iter().map(own).collect();
+        if !under_test {
+            return panel([value_name, position_sign(axis)], vec![(name, points)], []);
+        }
+        let scene = rows.iter().filter_map(|row| row.scene.map(|axes| (WORK.kind.shown(axes[0]), shown(axes, row))));
+        let series = vec![(name, points), ("the scene's own strokes", scene.collect())];
+        panel([value_name, position_sign(axis)], series, [])
     };
     let even_rolling = match job.blank.kind() {
         GearKind::External => "cutter angle less even rolling, ψb − (z / z0) ψc",

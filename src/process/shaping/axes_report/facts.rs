@@ -21,6 +21,12 @@ pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
     };
     let per_turn = schedule.strokes_per_revolution();
     sheet.line("strokes", format!("{}{plunging}; {per_turn} per turn", schedule.count()));
+    if operation.program.is_some() {
+        sheet.line(
+            "program",
+            format!("{} strokes; tables, charts and peaks are those of the program", operation.count()),
+        );
+    }
     let feed = significant(schedule.circular_feed_mm_per_stroke(), 3);
     sheet.line("circular feed", format!("{feed} mm per double stroke, mean over the pitch curve"));
     sheet.line("time", duration_text(schedule.time_s(schedule.count() as f64)));

@@ -28,32 +28,41 @@ pub(super) struct StrokeRow {
     pub relief: ReliefRatio,
     /// Where the axes stand on the way back, where they draw the cutter back.
     pub returning: Option<[f64; 3]>,
+    /// Positions of the scene's own stroke, rad, rad, mm, where `motion` is a program's: none beyond its last one.
+    pub scene: Option<[f64; 3]>,
 }
 
-/// All strokes of an operation.
+/// All strokes of an operation: those of a program under test, if one is cut.
 pub(super) fn rows(job: &ShapingJob, operation: &PreparedOperation) -> Vec<StrokeRow> {
-    let PreparedOperation { linkage, schedule, .. } = operation;
+    let PreparedOperation { linkage, schedule, program, .. } = operation;
     let row = |stroke: usize| {
         let coordinate = stroke as f64;
         let (phi_rad, offset_mm) = (schedule.phi_rad(coordinate), schedule.offset_mm(coordinate));
         StrokeRow {
             stroke,
             time_s: schedule.time_s(coordinate),
-            motion: schedule.at(coordinate),
+            motion: program.as_ref().map_or_else(|| schedule.at(coordinate), |program| program.motion(coordinate)),
             phi_rad,
             offset_mm,
             relief: relief::relief_ratio(linkage, phi_rad, offset_mm, job.scene.gear.pressure_angle_rad),
+            scene: program
+                .as_ref()
+                .filter(|_| stroke < schedule.count())
+                .map(|_| schedule.at(coordinate).map(|axis| axis.position)),
             returning: operation.retraction.is_in_axes().then(|| return_axes(operation, &schedule.state(coordinate))),
         }
     };
-    (0..schedule.count()).map(row).collect()
+    (0..operation.count()).map(row).collect()
 }
 
-/// Writes the table; `stroke` counts from 0, as pass ids do, and angles run on beyond a turn.
-pub(super) fn write_table(path: &Path, plan: &RetractionPlan, rows: &[StrokeRow]) -> Result<()> {
+/// Writes the table; `stroke` counts from 0, as pass ids do, and angles run on beyond a turn. Under a program the axes
+/// are the program's, and the scene's own positions stand beside them.
+pub(super) fn write_table(path: &Path, operation: &PreparedOperation, rows: &[StrokeRow]) -> Result<()> {
+    let (plan, under_test) = (&operation.retraction, operation.program.is_some());
     let relief = ["left_relief_share_of_circular", "right_relief_share_of_circular", "normal_to_line_of_centres_deg"];
     let returning = if plan.is_in_axes() { &COLUMNS[..] } else { &[] };
-    let own = [vec!["stroke", "time_s"], vec!["offset_mm", "phi_deg"], [&relief[..], returning].concat()];
+    let scene = if under_test { &SCENE_COLUMNS[..] } else { &[] };
+    let own = [vec!["stroke", "time_s"], vec!["offset_mm", "phi_deg"], [&relief[..], returning, scene].concat()];
     let row = |row: &StrokeRow| {
         let stroke = Datum::from(row.stroke as u64);
         let own = [
@@ -62,6 +71,7 @@ pub(super) fn write_table(path: &Path, plan: &RetractionPlan, rows: &[StrokeRow]
             [
                 vec![row.relief.left.into(), row.relief.right.into(), row.relief.beta_rad.to_degrees().into()],
                 cells(plan, row),
+                if under_test { scene_cells(row) } else { Vec::new() },
             ]
             .concat(),
         ];
@@ -78,6 +88,16 @@ fn return_axes(operation: &PreparedOperation, state: &StrokeState) -> [f64; 3] {
 
 /// Names of the columns of the way back.
 const COLUMNS: [&str; 4] = ["retraction", "return_psi_c_deg", "return_psi_b_deg", "return_center_distance_mm"];
+
+/// Names of the columns of the scene's own positions under a program.
+const SCENE_COLUMNS: [&str; 3] = ["scene_psi_c_deg", "scene_psi_b_deg", "scene_center_distance_mm"];
+
+/// Cells of the scene's own positions.
+fn scene_cells(row: &StrokeRow) -> Vec<Datum> {
+    let shown =
+        |index: usize| row.scene.map_or(Datum::Undefined, |scene| Datum::Number(AXES[index].kind.shown(scene[index])));
+    (0..AXES.len()).map(shown).collect()
+}
 
 /// Cells of the way back.
 fn cells(plan: &RetractionPlan, row: &StrokeRow) -> Vec<Datum> {

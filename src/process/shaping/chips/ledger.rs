@@ -107,7 +107,7 @@ impl ChipLedger {
             .operations
             .iter()
             .map(|operation| {
-                let count = operation.schedule.count();
+                let count = operation.count();
                 OperationChips {
                     enters_at_depth: operation.spec.infeed == Infeed::None,
                     strokes: vec![StrokeChips::default(); count],
@@ -341,8 +341,8 @@ impl<'a> Space<'a> {
             };
             chip.measure(&self.polygon.stations, forces, &thickness_mm, &stand);
             chips.push(chip);
-            let row = pass.stroke as usize * operations[operation].schedule.count().min(MOST_ROWS)
-                / operations[operation].schedule.count();
+            let row =
+                pass.stroke as usize * operations[operation].count().min(MOST_ROWS) / operations[operation].count();
             let shown = thickness_mm.iter().map(|&h| if h < LEAST_CHIP_MM { 0.0 } else { h as f32 });
             match rows[operation].last_mut() {
                 Some((last, values)) if *last == row => raise(values, &shown.collect::<Vec<_>>()),

@@ -19,7 +19,7 @@ const NMM_PER_NM: f64 = 1e3;
 /// Chips and forces of one operation.
 pub fn chips(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Section {
     let chips = &ledger.operations[operation];
-    let schedule = &job.operations[operation].schedule;
+    let (schedule, count) = (&job.operations[operation].schedule, job.operations[operation].count());
     let peak = |what: &'static str, unit: &'static str, value: &dyn Fn(&StrokeChips) -> f64| {
         peak(job, ledger, operation, what, unit, value)
     };
@@ -30,12 +30,12 @@ pub fn chips(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Section
     };
     let width_mm = job.scene.gear.face_width_mm;
     let volume_mm3 = ledger.area_mm2(operation) * width_mm;
-    let minutes = schedule.time_s(schedule.count() as f64) / 60.0;
+    let minutes = schedule.time_s(count as f64) / 60.0;
     let largest_n = chips.largest(|s| s.cutting_n).map(|(_, stroke)| stroke.cutting_n);
     let power_w = largest_n.map(|force_n| force_n * ram_speed_mm_per_s(job) / 1e3);
     let power = "largest cutting force times the ram's largest speed, pi times stroke length times double strokes per \
                  time";
-    let count = |definition: &'static str, pick: fn(&StrokeChips) -> u32| {
+    let chips_of = |definition: &'static str, pick: fn(&StrokeChips) -> u32| {
         Quantity::count(chips.strokes.iter().map(|s| u64::from(pick(s))).sum(), "chips", definition)
     };
     Section::new("chips", "Chips and cutting forces")
@@ -88,14 +88,14 @@ pub fn chips(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Section
         )
         .with(
             "two_flank_chips",
-            count(
+            chips_of(
                 "chips that form on two sides of a cutter tooth's edge at once (tip and flank, or both flanks)",
                 |s| s.two_flank,
             ),
         )
         .with(
             "three_flank_chips",
-            count("chips that form on tip and both flanks of a cutter tooth at once", |s| s.three_flank),
+            chips_of("chips that form on tip and both flanks of a cutter tooth at once", |s| s.three_flank),
         )
 }
 

@@ -61,7 +61,7 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
     let unevenness =
         report.allowances.last().and_then(|a| summarise(a.strokes.iter().map(ToothAllowance::unevenness_mean_percent)));
     let relief = motion.iter().map(|operation| operation.relief.ratio).reduce(f64::min);
-    let cycle_s: f64 = job.operations.iter().map(|o| o.schedule.time_s(o.schedule.count() as f64)).sum();
+    let cycle_s: f64 = job.operations.iter().map(|o| o.schedule.time_s(o.count() as f64)).sum();
     let removed_mm3: f64 =
         (0..job.operations.len()).map(|index| chips.area_mm2(index)).sum::<f64>() * job.scene.gear.face_width_mm;
     // The operation in which something is largest.

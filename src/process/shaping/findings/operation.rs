@@ -73,7 +73,7 @@ pub fn operation(
             allowance.and_then(|a| by_rack(&a.envelope, a.rack_mm)),
         ));
     let (spec, schedule) = (&operation.spec, &operation.schedule);
-    let strokes = schedule.count();
+    let strokes = operation.count();
     let stock_of_teeth = allowance.into_iter().flat_map(|of| &of.strokes);
     let section = Section::new(&spec.name, format!("Operation {}", spec.name))
         .with("linkage", Quantity::text(operation.linkage.words(), "linkage of cutter and work"))

@@ -1,18 +1,26 @@
 //! Axis positions as straight lines between knots, in the stroke coordinate.
 
 use crate::gcode::{Digits, beyond_limits, longest_lines};
-use crate::machine::{Limits, Order, Peak};
+use crate::machine::{AxisMotion, Limits, Order, Peak};
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
 use crate::process::shaping::scene::model::AxisLimits;
+use crate::scene::Post;
 use gearcut_core::gear::GearKind;
 use glam::DVec2;
 
 /// Half of the arc of the cutter round the line of centres that can be in the work; a cutter of twelve teeth meets it
 /// over less.
 const ENGAGED_RAD: f64 = 1.0;
-/// Samples between two strokes where the feed goes on during them.
-const SAMPLES_PER_STROKE: usize = 4;
+/// Samples between two places where knots may stand, where the feed goes on during the strokes.
+const SAMPLES_PER_PART: usize = 4;
+/// Parts of a stroke on which knots may stand. The error between knots falls with the square of their distance, at the
+/// end of an infeed with the distance: a 64th takes any of them below what is asked for steel.
+const PARTS_OF_A_STROKE: [usize; 4] = [1, 4, 16, 64];
+/// Strokes that differ by less are one: rounding of F.
+const WHOLE_STROKE: f64 = 1e-6;
+/// Shortest block, s: what block buffers of older controls keep up with.
+const SHORTEST_S: f64 = 1e-3;
 
 /// Axis positions at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,11 +42,6 @@ pub struct AxisProgram {
     pub double_strokes_per_minute: f64,
     /// At least one.
     pub knots: Vec<Knot>,
-}
-
-/// Places per stroke at which a program is compared with the schedule.
-fn samples_per_stroke(continuous: bool) -> usize {
-    if continuous { SAMPLES_PER_STROKE } else { 1 }
 }
 
 impl Knot {
@@ -103,24 +106,55 @@ impl Knot {
 
 impl AxisProgram {
     /// Longest straight lines, one after the other, that keep every stroke of a schedule within `contour_error_mm`;
-    /// with `continuous` also what lies between the strokes, as far as blocks of one stroke can. Knots stand on whole
-    /// strokes and are rounded as they will be written.
-    pub fn fit(schedule: &StrokeSchedule, tip_radius_mm: f64, contour_error_mm: f64, continuous: bool) -> Self {
-        let per_stroke = samples_per_stroke(continuous);
+    /// with `continuous` also what lies between the strokes. Knots stand on whole strokes, or on parts of them where
+    /// whole strokes leave more than is asked: where an infeed begins or ends between two of them. They are rounded as
+    /// they will be written for `post`.
+    pub fn fit(
+        schedule: &StrokeSchedule,
+        tip_radius_mm: f64,
+        contour_error_mm: f64,
+        continuous: bool,
+        post: Post,
+    ) -> Self {
+        let shortest_s = SHORTEST_S.max(post.shortest_block_s());
+        let fitting = |parts: usize| parts == 1 || continuous && schedule.time_s(1.0) / parts as f64 >= shortest_s;
+        let mut program = None;
+        for parts in PARTS_OF_A_STROKE.into_iter().filter(|&parts| fitting(parts)) {
+            let fitted = Self::fit_parts(schedule, tip_radius_mm, contour_error_mm, continuous, post, parts);
+            let reached_mm = fitted.contour_error_mm(schedule, tip_radius_mm, continuous).0;
+            program = Some(fitted);
+            if reached_mm <= contour_error_mm {
+                break;
+            }
+        }
+        program.expect("whole strokes are always tried")
+    }
+
+    /// The same with knots on the `parts`th parts of strokes.
+    fn fit_parts(
+        schedule: &StrokeSchedule,
+        tip_radius_mm: f64,
+        contour_error_mm: f64,
+        continuous: bool,
+        post: Post,
+        parts: usize,
+    ) -> Self {
+        let per_part = if continuous { SAMPLES_PER_PART } else { 1 };
+        let per_stroke = per_part * parts;
         let gear = schedule.linkage().gear();
-        let last = schedule.count() - 1;
+        let last = (schedule.count() - 1) * parts;
         let exact: Vec<Knot> =
-            (0..=last * per_stroke).map(|sample| Knot::of(schedule, sample as f64 / per_stroke as f64)).collect();
+            (0..=last * per_part).map(|sample| Knot::of(schedule, sample as f64 / per_stroke as f64)).collect();
         let reach_mm = exact.iter().map(|k| k.center_distance_mm).fold(0.0, f64::max) + tip_radius_mm;
-        let digits = Digits::new(contour_error_mm, reach_mm);
+        let digits = post.digits(contour_error_mm, reach_mm);
         let fits = |from: usize, to: usize| {
-            let (a, b) = (exact[from * per_stroke].rounded(digits), exact[to * per_stroke].rounded(digits));
-            exact[from * per_stroke..=to * per_stroke].iter().all(|knot| {
+            let (a, b) = (exact[from * per_part].rounded(digits), exact[to * per_part].rounded(digits));
+            exact[from * per_part..=to * per_part].iter().all(|knot| {
                 Knot::between(&a, &b, knot.stroke).displacement_mm(knot, gear, tip_radius_mm) <= contour_error_mm
             })
         };
         let mut knots = vec![exact[0].rounded(digits)];
-        knots.extend(longest_lines(last, fits).into_iter().map(|end| exact[end * per_stroke].rounded(digits)));
+        knots.extend(longest_lines(last, fits).into_iter().map(|end| exact[end * per_part].rounded(digits)));
         Self { double_strokes_per_minute: 60.0 / schedule.time_s(1.0), knots }
     }
 
@@ -133,6 +167,14 @@ impl AxisProgram {
         self.knots.last().expect("a program has a first position")
     }
 
+    /// Parts of a stroke that its shortest block is one of, up to the finest of a written program.
+    fn parts_of_a_stroke(&self) -> usize {
+        let blocks = self.knots.windows(2).map(|pair| pair[1].stroke - pair[0].stroke);
+        let shortest = blocks.filter(|&strokes| strokes > 0.0).fold(1.0, f64::min);
+        let [.., finest] = PARTS_OF_A_STROKE;
+        (1.0 / shortest).round().min(finest as f64) as usize
+    }
+
     /// Axis positions at a stroke coordinate; before the first and after the last knot the motion is continued.
     pub fn at(&self, stroke: f64) -> Knot {
         let after = self.knots.partition_point(|k| k.stroke <= stroke).clamp(1, self.knots.len().max(2) - 1);
@@ -143,7 +185,7 @@ impl AxisProgram {
     }
 
     /// Positions in the order of [`AXES`] and how they change per stroke, within the block that is run at a coordinate.
-    pub fn motion(&self, stroke: f64) -> [[f64; 2]; 3] {
+    pub fn positions_and_rates(&self, stroke: f64) -> [[f64; 2]; 3] {
         let after = self.knots.partition_point(|k| k.stroke <= stroke).clamp(1, self.knots.len().max(2) - 1);
         let at = self.at(stroke).axes();
         let rates = self.knots.get(after).map_or([0.0; 3], |b| {
@@ -154,10 +196,38 @@ impl AxisProgram {
         std::array::from_fn(|axis| [at[axis], rates[axis]])
     }
 
+    /// The axes at a stroke coordinate: within a block at its speed; where two blocks meet, the step of speed is taken
+    /// within a double stroke, or within the shorter of both blocks where that is less.
+    pub fn motion(&self, stroke: f64) -> [AxisMotion; 3] {
+        let stroke_s = 60.0 / self.double_strokes_per_minute;
+        let after = self.knots.partition_point(|k| k.stroke <= stroke).clamp(1, self.knots.len().max(2) - 1);
+        let speeds = |after: usize| -> Option<([f64; 3], f64)> {
+            let (a, b) = (self.knots.get(after.checked_sub(1)?)?, self.knots.get(after)?);
+            let strokes = b.stroke - a.stroke;
+            (strokes > 0.0)
+                .then(|| (std::array::from_fn(|i| (b.axes()[i] - a.axes()[i]) / (strokes * stroke_s)), strokes))
+        };
+        let here = speeds(after);
+        // A stroke that stands on a knot begins a block.
+        let meets = (self.knots[after - 1].stroke - stroke).abs() < WHOLE_STROKE;
+        let before = if meets { speeds(after - 1) } else { None };
+        let position = self.at(stroke).axes();
+        std::array::from_fn(|i| AxisMotion {
+            position: position[i],
+            velocity: here.map_or(0.0, |(speeds, _)| speeds[i]),
+            acceleration: match (before, here) {
+                (Some((before, shorter)), Some((here, strokes))) => {
+                    (here[i] - before[i]) / (shorter.min(strokes).min(1.0) * stroke_s)
+                }
+                _ => 0.0,
+            },
+        })
+    }
+
     /// Largest displacement from a schedule at its strokes, with `continuous` also between them, mm, and the stroke
     /// coordinate.
     pub fn contour_error_mm(&self, schedule: &StrokeSchedule, tip_radius_mm: f64, continuous: bool) -> (f64, f64) {
-        let per_stroke = samples_per_stroke(continuous);
+        let per_stroke = if continuous { SAMPLES_PER_PART * self.parts_of_a_stroke() } else { 1 };
         (0..=(schedule.count() - 1) * per_stroke)
             .map(|sample| {
                 let stroke = sample as f64 / per_stroke as f64;
@@ -168,8 +238,10 @@ impl AxisProgram {
     }
 
     /// What the program asks of the axes, axis by axis: speeds within blocks, and steps of speed between blocks taken
-    /// within one double stroke, or within the shorter of both blocks where that is less; each with its stroke.
-    pub fn peaks(&self, limits: &[Limits; 3]) -> Vec<Peak> {
+    /// within one double stroke, or within the shorter of both blocks where that is less; each with its stroke. Where an
+    /// infeed of `schedule` begins or ends, the control rounds the corner, as it does for the schedule itself.
+    pub fn peaks(&self, schedule: &StrokeSchedule, limits: &[Limits; 3]) -> Vec<Peak> {
+        let rounded = |at: f64| schedule.corners().iter().any(|corner| (corner - at).abs() < 1.0);
         let stroke_s = 60.0 / self.double_strokes_per_minute;
         let mut peaks = Vec::new();
         for (index, (axis, limits)) in AXES.iter().zip(limits).enumerate() {
@@ -188,7 +260,8 @@ impl AxisProgram {
                 of.fold([0.0, 0.0], |most, next| if next[0] > most[0] { next } else { most })
             };
             let speed = largest(&mut blocks.iter().map(|[speed, _, at]| [speed.abs(), *at]));
-            let acceleration = largest(&mut blocks.windows(2).map(|pair| {
+            let joints = blocks.windows(2).filter(|pair| !rounded(pair[1][2]));
+            let acceleration = largest(&mut joints.map(|pair| {
                 let [[v, strokes, _], [next_v, next_strokes, at]] = [pair[0], pair[1]];
                 [(next_v - v).abs() / (strokes.min(next_strokes).min(1.0) * stroke_s), at]
             }));
@@ -200,9 +273,9 @@ impl AxisProgram {
     }
 
     /// What the program asks beyond the machine's limits.
-    pub fn exceeded(&self, limits: &AxisLimits) -> Vec<String> {
+    pub fn exceeded(&self, schedule: &StrokeSchedule, limits: &AxisLimits) -> Vec<String> {
         let limits = dynamics::limits(limits);
-        let peaks = self.peaks(&limits);
+        let peaks = self.peaks(schedule, &limits);
         let pairs = AXES.iter().zip(&limits).zip(peaks.chunks_exact(2));
         pairs.flat_map(|((axis, limits), of)| beyond_limits(axis, limits, [of[0].value, of[1].value])).collect()
     }

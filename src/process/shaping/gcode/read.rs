@@ -2,6 +2,7 @@
 
 use super::program::{AxisProgram, Knot};
 use crate::gcode::{Word, blocks};
+use crate::regular_file;
 use gearcut_core::error::{Error, Result};
 use std::path::Path;
 
@@ -16,11 +17,7 @@ const MOST_BYTES: u64 = 256 << 20;
 /// The file cannot be read, or what [`program`] refuses, with the file's name.
 pub fn file(path: &Path) -> Result<AxisProgram> {
     let unreadable = |reason: String| Error::Unreadable { path: path.to_owned(), reason };
-    let size = std::fs::metadata(path).map_err(Error::reading(path))?.len();
-    if size > MOST_BYTES {
-        return Err(unreadable(format!("it has {size} bytes, at most {MOST_BYTES} are read")));
-    }
-    let bytes = std::fs::read(path).map_err(Error::reading(path))?;
+    let bytes = regular_file::read(path, MOST_BYTES).map_err(unreadable)?;
     let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not text".to_owned()))?;
     program(&text).map_err(unreadable)
 }

@@ -9,10 +9,10 @@
 //! A whole stroke coordinate is the moment at which the cutting stroke passes the middle of the face.
 
 use super::program::{AxisProgram, Knot};
-use crate::gcode::Digits;
 use crate::process::shaping::linkage::StrokeSchedule;
 use crate::process::shaping::returns::RetractionPlan;
 use crate::process::shaping::returns::motion::{RamTimes, axes_of};
+use crate::scene::Post;
 
 /// Shares of the way through the face at which a moving cut is compared with the schedule.
 const CUT_SHARES: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
@@ -27,6 +27,7 @@ impl AxisProgram {
         tip_radius_mm: f64,
         contour_error_mm: f64,
         continuous: bool,
+        post: Post,
     ) -> Self {
         let cut = |stroke: usize, moment: f64| {
             let knot = Knot::of(schedule, if continuous { moment } else { stroke as f64 });
@@ -52,7 +53,7 @@ impl AxisProgram {
             }
         }
         let reach_mm = knots.iter().map(|knot| knot.center_distance_mm).fold(0.0, f64::max) + tip_radius_mm;
-        let digits = Digits::new(contour_error_mm, reach_mm);
+        let digits = post.digits(contour_error_mm, reach_mm);
         let knots = knots.iter().map(|knot| knot.rounded(digits)).collect();
         Self { double_strokes_per_minute: 60.0 / schedule.time_s(1.0), knots }
     }

@@ -175,7 +175,7 @@ impl StrokeSchedule {
     }
 
     /// Stroke coordinates at which the infeed begins or ends and axis speeds jump.
-    pub(crate) fn corners(&self) -> [f64; 2] {
+    pub fn corners(&self) -> [f64; 2] {
         self.infeed.corners()
     }
 

@@ -1,26 +1,30 @@
-//! The text of a program, with everything in its head that the operator must know.
+//! A program in straight lines, with everything in its head that the operator must know.
 
 use crate::findings::Warning;
-use crate::gcode::{Digits, ProgramText, axis_word};
+use crate::gcode::{AxisColumn, Ram, Script, StraightLine};
 use crate::machine::Axis;
 use crate::output::text::plain;
 use crate::process::shaping::gcode::{AxisProgram, Knot};
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::linkage::dynamics::AXES;
+use gearcut_core::gear::GearKind;
 
-/// A program in the linear dialect, for an operation of a job, and its largest contour error (mm) with the stroke that
-/// has it; `warnings` go into its head.
-pub fn text(
+/// Room between cutter and blank before and after a program, mm.
+const CLEAR_MM: f64 = 2.0;
+
+/// A program in straight lines, for an operation of a job, and its largest contour error (mm) with the stroke that has
+/// it; `warnings` go into its head.
+pub fn script(
     job: &ShapingJob,
     operation: &PreparedOperation,
     program: &AxisProgram,
     (error_mm, worst): (f64, f64),
     warnings: &[Warning],
-) -> String {
+) -> Script {
     let output = &job.scene.output;
     let tip_radius_mm = job.cutter.tip_radius_mm;
     let reach_mm = program.knots.iter().map(|k| k.center_distance_mm).fold(0.0, f64::max) + tip_radius_mm;
-    let digits = Digits::new(output.gcode_contour_error_mm, reach_mm);
+    let digits = output.post.digits(output.gcode_contour_error_mm, reach_mm);
     let feed = if operation.spec.feed_during_stroke {
         "CONTINUOUS: the feed runs on during the cutting stroke"
     } else {
@@ -68,24 +72,42 @@ pub fn text(
             "Relief on the return stroke is the machine's own; approach and clamping are the operator's".to_owned(),
         ]
     };
-    let head: Vec<String> = head.into_iter().chain(after).collect();
+    let told = warnings.iter().map(Warning::line);
+    let [work, cutter, distance] = &AXES;
+    // The work turns by -psi_c.
     let position = |knot: &Knot| {
-        let [work, cutter, distance] = &AXES;
-        let word = |axis: &Axis, position: f64| axis_word(axis, position, digits.of(axis.kind));
-        // The work turns by -psi_c.
-        [word(distance, knot.center_distance_mm), word(work, -knot.psi_c_rad), word(cutter, knot.psi_b_rad)].join(" ")
+        let axes = [(distance, knot.center_distance_mm), (work, -knot.psi_c_rad), (cutter, knot.psi_b_rad)];
+        axes.map(|(axis, position)| axis.kind.shown(position)).to_vec()
     };
-    let mut text = ProgramText::new(&head, warnings.iter().map(Warning::line));
-    text.block("G21 G90 G94");
-    text.block(&format!("G0 {}", position(&program.knots[0])));
-    text.block(&format!("S{} M3", plain(program.double_strokes_per_minute)));
-    for pair in program.knots.windows(2) {
-        let per_minute = program.double_strokes_per_minute / (pair[1].stroke - pair[0].stroke);
-        text.block(&format!("G93 G1 {} F{per_minute:.9}", position(&pair[1])));
+    let column = |axis: &Axis| AxisColumn { letter: axis.letter, kind: axis.kind, digits: digits.of(axis.kind) };
+    let line = |pair: &[Knot]| StraightLine {
+        to: position(&pair[1]),
+        per_minute: program.double_strokes_per_minute / (pair[1].stroke - pair[0].stroke),
+    };
+    Script {
+        name: operation.spec.name.clone(),
+        number: job.operations.iter().take_while(|before| before.spec.name != operation.spec.name).count() as u32 + 1,
+        head: head.into_iter().chain(after).chain(told).collect(),
+        columns: [distance, work, cutter].map(column).to_vec(),
+        clear: (0, clear_mm(job)),
+        ram: Some(Ram {
+            per_minute: program.double_strokes_per_minute,
+            shown: plain(program.double_strokes_per_minute),
+        }),
+        start: position(&program.knots[0]),
+        lines: program.knots.windows(2).map(line).collect(),
+        contour_error_mm: output.gcode_contour_error_mm,
     }
-    // The last stroke is made where the last block ends.
-    text.block(&format!("G4 P{:.9}", 60.0 / program.double_strokes_per_minute));
-    text.block("M5");
-    text.block("M30");
-    text.finish()
+}
+
+/// Centre distance at which the cutter is clear of the blank, however both are turned: beside it, or in the middle of a
+/// ring.
+fn clear_mm(job: &ShapingJob) -> f64 {
+    match job.blank.kind() {
+        GearKind::External => {
+            let largest_mm = job.curve.facts().largest_radius_mm + job.blank.addendum_mm;
+            (largest_mm + job.cutter.tip_radius_mm + CLEAR_MM).ceil()
+        }
+        GearKind::Internal => 0.0,
+    }
 }

@@ -28,7 +28,7 @@ pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning
 
 /// The program in straight lines, or what keeps it from being written.
 fn straight_lines(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning]) -> Result<String, String> {
-    let asked_mm = job.scene.output.gcode_contour_error_mm;
+    let (asked_mm, post) = (job.scene.output.gcode_contour_error_mm, job.scene.output.post);
     let (schedule, tip_radius_mm) = (&operation.schedule, job.cutter.tip_radius_mm);
     let continuous = operation.spec.feed_during_stroke;
     let (program, (reached_mm, stroke)) = if operation.retraction.is_in_axes() {
@@ -39,24 +39,24 @@ fn straight_lines(job: &ShapingJob, operation: &PreparedOperation, warnings: &[W
                 .to_owned());
         }
         let program =
-            AxisProgram::retracting(schedule, &operation.retraction, &ram, tip_radius_mm, asked_mm, continuous);
+            AxisProgram::retracting(schedule, &operation.retraction, &ram, tip_radius_mm, asked_mm, continuous, post);
         let error = program.cut_error_mm(schedule, tip_radius_mm, &ram, continuous);
         (program, error)
     } else {
-        let program = AxisProgram::fit(schedule, tip_radius_mm, asked_mm, continuous);
+        let program = AxisProgram::fit(schedule, tip_radius_mm, asked_mm, continuous, post);
         let error = program.contour_error_mm(schedule, tip_radius_mm, continuous);
         (program, error)
     };
     if reached_mm > asked_mm {
         return Err(format!(
-            "blocks of one double stroke leave a contour error of {} um at stroke {stroke}, {} um are asked; ask for \
-            no less, or take more strokes per revolution",
+            "the shortest blocks leave a contour error of {} um at stroke {stroke}, {} um are asked; ask for no less, \
+            or take more strokes per revolution",
             significant(reached_mm * UM_PER_MM, 3),
             plain(asked_mm * UM_PER_MM),
         ));
     }
-    match program.exceeded(&job.machine.limits).first() {
+    match program.exceeded(schedule, &job.machine.limits).first() {
         Some(first) => Err(format!("{first}; take more strokes per revolution or fewer double strokes per minute")),
-        None => Ok(linear::text(job, operation, &program, (reached_mm, stroke), warnings)),
+        None => linear::script(job, operation, &program, (reached_mm, stroke), warnings).text(post),
     }
 }

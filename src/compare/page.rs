@@ -1,0 +1,108 @@
+//! The comparison as a page: `report.html`.
+//!
+//! In: the comparison, its charts and difference maps. Out: a [`Page`] that opens offline: what changed most, the maps,
+//! the charts, and every line of headline and summary. Every detail stands in `comparison.csv` beside it.
+
+use super::lines::Line;
+use super::maps::MapSheet;
+use super::{Comparison, ranked};
+use crate::findings::{Level, Warning, unit};
+use crate::output::bar_chart::BarChart;
+use crate::output::line_chart::LineChart;
+use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
+
+/// Numbers that stand at the head of the page.
+const HEAD: usize = 4;
+
+/// The page.
+pub(super) fn page(
+    of: &Comparison,
+    bars: Vec<(String, BarChart)>,
+    curves: Vec<(String, LineChart)>,
+    maps: Vec<MapSheet>,
+) -> Page {
+    let names: Vec<&str> = of.results.iter().map(|one| one.name.as_str()).collect();
+    let ranked = ranked::ranked(&of.lines);
+    let first: Vec<&Line> = ranked.iter().take(ranked::FIRST).map(|(line, _)| *line).collect();
+    let lines = of.lines.iter().filter(|line| line.level <= Level::Summary);
+    let section = |id: &'static str, title: &str, lead: &str, blocks: Vec<Block>| PageSection {
+        id,
+        title: title.to_owned(),
+        lead: lead.to_owned(),
+        blocks,
+    };
+    let changed = if first.is_empty() {
+        Block::Note("Nothing changed.".to_owned())
+    } else {
+        Block::Table(table(of, "Changed most", first.iter().copied()))
+    };
+    let maps: Vec<Block> = maps.into_iter().map(|map| Block::Picture(map.title, map.png)).collect();
+    let charts = bars.into_iter().map(|(_, chart)| Block::Bars(chart));
+    let charts: Vec<Block> = charts.chain(curves.into_iter().map(|(_, chart)| Block::Lines(chart))).collect();
+    let sections = [
+        section(
+            "changed",
+            "What changed most",
+            "The largest differences from the first result, over the larger of both values.",
+            vec![changed],
+        ),
+        section(
+            "maps",
+            "Difference maps",
+            "Deviations of every finished flank less those of the first result, to one scale. Flanks that lie on other \
+            grids are left out.",
+            maps,
+        ),
+        section("charts", "Side by side", "", charts),
+        section(
+            "all",
+            "Headline and summary",
+            "Every other number is in comparison.csv beside this page, with unit and definition.",
+            vec![Block::Table(table(of, "Headline and summary", lines))],
+        ),
+    ];
+    let stopped = of.results.iter().filter(|one| !one.findings.complete);
+    Page {
+        what: "comparison",
+        done: "compared",
+        title: names.join(" and "),
+        subtitle: format!("results of {}", of.results[0].findings.process),
+        operations: of.results.iter().map(|one| format!("{}: scene {}", one.name, one.findings.scene)).collect(),
+        complete: true,
+        program: format!("gearcut {}", env!("CARGO_PKG_VERSION")),
+        key_numbers: first.iter().take(HEAD).map(|line| key_number(of, line)).collect(),
+        warnings: stopped
+            .map(|one| Warning::warn(format!("{} was stopped before all flanks were cut", one.name)))
+            .collect(),
+        viewer: None,
+        sections: sections.into_iter().filter(|section| !section.blocks.is_empty()).collect(),
+    }
+}
+
+fn table<'a>(of: &Comparison, caption: &str, lines: impl Iterator<Item = &'a Line>) -> PageTable {
+    let mut rows = of.printed_rows(lines).into_iter().map(|row| row.iter().map(|cell| signs(cell)).collect::<Vec<_>>());
+    let columns = rows.next().unwrap_or_default();
+    PageTable { caption: caption.to_owned(), columns, rows: rows.collect() }
+}
+
+/// A cell of the terminal with the signs of a page.
+fn signs(cell: &str) -> String {
+    match cell.strip_prefix('-') {
+        Some(number) if number.starts_with(|c: char| c.is_ascii_digit()) => format!("\u{2212}{number}"),
+        _ => unit::signs(cell),
+    }
+}
+
+fn key_number(of: &Comparison, line: &Line) -> KeyNumber {
+    let rows = of.printed_rows(std::iter::once(line));
+    let cells: Vec<String> = rows[1].iter().map(|cell| signs(cell)).collect();
+    let values = &cells[1..=of.results.len()];
+    KeyNumber {
+        name: cells[0].clone(),
+        value: values.join(" \u{2192} "),
+        unit: cells[cells.len() - 1].clone(),
+        definition: line.either().map_or_else(String::new, |quantity| quantity.definition().to_owned()),
+        note: String::new(),
+        place: None,
+    }
+}

@@ -1,0 +1,29 @@
+//! Chips and cutting forces on the page.
+
+use crate::findings::Findings;
+use crate::output::report::{Block, PageSection};
+use crate::process::shaping::ShapingJob;
+use crate::process::shaping::chip_charts::charts;
+use crate::process::shaping::chips::ChipLedger;
+use crate::steps::report::quantities;
+
+/// What the strokes of every operation take, and what that asks of cutter and machine.
+pub fn section(job: &ShapingJob, ledger: &ChipLedger, found: &Findings) -> PageSection {
+    let operations = found.parts("operations");
+    let blocks = operations.iter().enumerate().filter_map(|(index, operation)| {
+        let chips = operation.find("chips")?;
+        let [load, along] = charts(job, ledger, index).map(|(_, chart)| Block::Lines(chart));
+        let table = Block::Table(quantities::table(chips));
+        let heading = Block::Heading(format!("{}: chips and cutting forces", operation.key));
+        let folded = Block::Folded("Thickness and contact along the edge".to_owned(), vec![along]);
+        Some([heading, load, table, folded])
+    });
+    PageSection {
+        id: "chips",
+        title: "Chips and forces".to_owned(),
+        lead: "What every stroke takes, from the chip ledger, and the force and torques that follow from the material \
+            (tables/chips_<operation>.csv has every stroke, chips/ maps along the edge)."
+            .to_owned(),
+        blocks: blocks.flatten().collect(),
+    }
+}
