@@ -19,4 +19,5 @@ mod oracle;
 mod paper_figures;
 mod planted;
 mod retraction;
+mod round_gear;
 mod rubbing;
