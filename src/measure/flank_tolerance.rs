@@ -223,9 +223,9 @@ fn rounded_um(um: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Module 3, 24 teeth, 20 mm wide, by hand from the formulas: class 5 has f_p 5 + 1.2 + 0.072 = 6.272, F_p 12 + 2.1
-    /// + 0.144 + 0.55 sqrt(72) = 18.911, f_H_alpha 5.272, f_f_alpha 6.65, f_H_beta 4 + 0.05 sqrt(72) + 0.35 sqrt(20) =
-    /// 5.990, f_f_beta 4 + 0.07 sqrt(72) + 0.45 sqrt(20) = 6.606 um.
+    /// Module 3, 24 teeth, 20 mm wide, class 5 by hand from the formulas, um: f_p 6.272 (5, 1.2, 0.072), F_p 18.911 (12,
+    /// 2.1, 0.144, 4.667), f_H_alpha 5.272, f_f_alpha 6.65, f_H_beta 5.990 (4, 0.424, 1.565), f_f_beta 6.606 (4, 0.594,
+    /// 2.012).
     const SIZES: ToleranceSizes = ToleranceSizes {
         teeth: 24,
         reference_diameter_mm: 72.0,

@@ -9,10 +9,10 @@
 //!
 //! - span over k teeth `W_k = m_n cos(alpha_n) ((k - 1/2) pi + z inv(alpha_t) + 2 x_E tan(alpha_n))`; it touches at the
 //!   diameter `sqrt(d_b^2 + (W_k cos(beta_b))^2)`;
-//! - a ball of diameter D_M in a space stands with its centre at d_K = d_b / cos(alpha_K), `inv(alpha_K) = inv(alpha_t)
-//!   + D_M / (z m_n cos(alpha_n)) - eta`, eta half the space's angle on the reference circle; the dimension over two
-//!   balls is d_K + D_M, with an odd number of teeth d_K cos(pi / 2z) + D_M. In a ring D_M and eta change their sign,
-//!   and the dimension is that between balls.
+//! - a ball of diameter D_M in a space has its centre at `d_K = d_b / cos(alpha_K)`, where
+//!   `inv(alpha_K) = inv(alpha_t) + D_M / (z m_n cos(alpha_n)) - eta` and eta is half the space's angle on the reference
+//!   circle; the dimension over two balls is `d_K + D_M`, for an odd number of teeth `d_K cos(pi / 2z) + D_M`. In a ring
+//!   D_M and eta change their sign, and the dimension is that between balls.
 //!
 //! Pins in helical gears with an odd number of teeth lie otherwise than balls; the figure is that of balls.
 

@@ -40,49 +40,11 @@ impl VectorPage {
             .encoding_predefined(Name(b"Identity-H"))
             .descendant_font(cid)
             .to_unicode(unicode);
-        self.font(&mut pdf, &font, &glyphs, [cid, descriptor, file, unicode])?;
+        embed(&mut pdf, &font, &glyphs, [cid, descriptor, file, unicode])?;
         let packed = deflated(&content)?;
         pdf.stream(drawn, &packed).filter(Filter::FlateDecode);
         pdf.document_info(info).title(TextStr(&self.title)).producer(TextStr("gearcut"));
         Ok(pdf.finish())
-    }
-
-    /// The font's program, its widths, and letters of its glyphs.
-    fn font(
-        &self,
-        pdf: &mut Pdf,
-        font: &FontRef,
-        glyphs: &BTreeMap<u16, char>,
-        [cid, descriptor, file, unicode]: [Ref; 4],
-    ) -> Result<(), String> {
-        let units = font.units_per_em().ok_or("the embedded font names no units")?;
-        let thousandth = |value: f32| 1000.0 * value / units;
-        let mut cid_font = pdf.cid_font(cid);
-        cid_font.subtype(CidFontType::Type2).base_font(FONT_NAME).system_info(IDENTITY).font_descriptor(descriptor);
-        cid_font.default_width(0.0).cid_to_gid_map_predefined(Name(b"Identity"));
-        let mut widths = cid_font.widths();
-        for &glyph in glyphs.keys() {
-            widths.consecutive(glyph, [thousandth(font.h_advance_unscaled(ab_glyph::GlyphId(glyph)))]);
-        }
-        widths.finish();
-        cid_font.finish();
-        let (ascent, descent) = (thousandth(font.ascent_unscaled()), thousandth(font.descent_unscaled()));
-        pdf.font_descriptor(descriptor)
-            .name(FONT_NAME)
-            .flags(FontFlags::NON_SYMBOLIC)
-            .bbox(Rect::new(-600.0, descent, 3000.0, ascent))
-            .italic_angle(0.0)
-            .ascent(ascent)
-            .descent(descent)
-            .cap_height(1000.0 * font::CAPITAL_HEIGHT_EM as f32)
-            .stem_v(80.0)
-            .font_file2(file);
-        let packed = deflated(font::NOTO_SANS)?;
-        pdf.stream(file, &packed).filter(Filter::FlateDecode).pair(Name(b"Length1"), font::NOTO_SANS.len() as i32);
-        let mut letters = UnicodeCmap::new(Name(b"Letters"), IDENTITY);
-        glyphs.iter().for_each(|(&glyph, &letter)| letters.pair(glyph, letter));
-        pdf.cmap(unicode, &letters.finish());
-        Ok(())
     }
 
     /// What is drawn, and the letters of every glyph that is.
@@ -129,8 +91,47 @@ impl VectorPage {
                 }
             }
         }
-        Ok(content.finish().to_vec())
+        Ok(content.finish())
     }
+}
+
+/// The font's program, its widths, and letters of its glyphs.
+fn embed(
+    pdf: &mut Pdf,
+    font: &FontRef,
+    glyphs: &BTreeMap<u16, char>,
+    [cid, descriptor, file, unicode]: [Ref; 4],
+) -> Result<(), String> {
+    let units = font.units_per_em().ok_or("the embedded font names no units")?;
+    let thousandth = |value: f32| 1000.0 * value / units;
+    let mut cid_font = pdf.cid_font(cid);
+    cid_font.subtype(CidFontType::Type2).base_font(FONT_NAME).system_info(IDENTITY).font_descriptor(descriptor);
+    cid_font.default_width(0.0).cid_to_gid_map_predefined(Name(b"Identity"));
+    let mut widths = cid_font.widths();
+    for &glyph in glyphs.keys() {
+        widths.consecutive(glyph, [thousandth(font.h_advance_unscaled(ab_glyph::GlyphId(glyph)))]);
+    }
+    widths.finish();
+    cid_font.finish();
+    let (ascent, descent) = (thousandth(font.ascent_unscaled()), thousandth(font.descent_unscaled()));
+    pdf.font_descriptor(descriptor)
+        .name(FONT_NAME)
+        .flags(FontFlags::NON_SYMBOLIC)
+        .bbox(Rect::new(-600.0, descent, 3000.0, ascent))
+        .italic_angle(0.0)
+        .ascent(ascent)
+        .descent(descent)
+        .cap_height(1000.0 * font::CAPITAL_HEIGHT_EM as f32)
+        .stem_v(80.0)
+        .font_file2(file);
+    let packed = deflated(font::NOTO_SANS)?;
+    pdf.stream(file, &packed).filter(Filter::FlateDecode).pair(Name(b"Length1"), font::NOTO_SANS.len() as i32);
+    let mut letters = UnicodeCmap::new(Name(b"Letters"), IDENTITY);
+    for (&glyph, &letter) in glyphs {
+        letters.pair(glyph, letter);
+    }
+    pdf.cmap(unicode, &letters.finish());
+    Ok(())
 }
 
 fn deflated(bytes: &[u8]) -> Result<Vec<u8>, String> {

@@ -22,7 +22,9 @@ use gearcut_core::error::Result;
 use std::f64::consts::PI;
 
 /// Charts that are files of their own as well.
-pub struct Charts {
+pub struct Charts<'a> {
+    /// What an inspector finds.
+    pub inspection: &'a Inspection<'a>,
     /// Bars by hob tooth, with the names of their files; none where the run was stopped before the whole blank was cut.
     pub loads: Vec<(String, BarChart)>,
     /// Cutting force over time, with the names of their files; none where the scene does not name the material.
@@ -39,14 +41,13 @@ pub fn page(
     cutter: &HobCutter,
     gear: &HobbedGear,
     found: &Findings,
-    inspection: &Inspection,
     charts: Charts,
     motion: &[HobbingAxesReport],
     run: &RunWords,
     folder: &OutputFolder,
 ) -> Result<Page> {
     let job = cutter.job;
-    let mut sections = vec![deviations::section(inspection)];
+    let mut sections = vec![deviations::section(charts.inspection)];
     sections.extend(charts.points.map(five_curves));
     sections.push(marks_section(found));
     sections.extend(texture::section(found, folder)?);

@@ -101,12 +101,13 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
         }
     }
     let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
-    let charts = report::Charts { loads: load_charts, forces: force_charts, points: points_chart };
     let inspection = report::inspection(&cutter, &gear, &inspected.verdict);
     if parts.has(Part::Report) {
         attempts.of("inspection sheet", deviations::write_sheet(&inspection, &job.scene, &found, folder))?;
     }
-    let page = |found: &Findings| report::page(&cutter, &gear, found, &inspection, charts, &motion, &words, folder);
+    let charts =
+        report::Charts { inspection: &inspection, loads: load_charts, forces: force_charts, points: points_chart };
+    let page = |found: &Findings| report::page(&cutter, &gear, found, charts, &motion, &words, folder);
     conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
     let out = folder.results_path(!gear.work.interrupted);
     let flanks = gear.flanks.len();

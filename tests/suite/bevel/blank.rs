@@ -15,7 +15,6 @@ use gearcut::process::bevel::blank::{self, CellGrid, CutCells};
 use gearcut::process::bevel::body::body;
 use gearcut::process::bevel::chips::{self, SlotLedger};
 use gearcut::process::bevel::job::index;
-use gearcut::process::bevel::operation::PreparedBevel;
 use gearcut::process::bevel::slots::Slots;
 use gearcut::terms::Side;
 use glam::{DMat3, DVec2, DVec3};

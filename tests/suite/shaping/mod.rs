@@ -20,4 +20,5 @@ mod oracle;
 mod paper_figures;
 mod planted;
 mod retraction;
+mod round_gear;
 mod rubbing;

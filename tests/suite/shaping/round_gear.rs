@@ -1,0 +1,126 @@
+//! Round gears as their drawings state them: sizes from the generated flanks against closed forms, profile shift, an
+//! inspection against a class with its sheet.
+
+use crate::fixtures::command::{gearcut, read_json};
+use gearcut::gear::GearKind;
+use gearcut::job::CylindricalGear;
+use gearcut::measure::round_gear::RoundGear;
+use gearcut::process;
+use gearcut::process::shaping::ShapingJob;
+use gearcut::process::shaping::scene::model::Shaping;
+use gearcut::terms::Side;
+use std::f64::consts::PI;
+use std::path::Path;
+
+const ALPHA_RAD: f64 = 20.0 * PI / 180.0;
+
+fn job(scene: &str, shift: f64, cutter_shift: f64) -> ShapingJob {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping").join(scene);
+    let mut scene = process::load(&path, &[]).expect("a shipped scene").scene;
+    scene.gear.profile_shift_coefficient = shift;
+    Shaping::of_mut(&mut scene).expect("shaping").tool.profile_shift_coefficient = cutter_shift;
+    ShapingJob::new(scene).expect("a gear")
+}
+
+fn sizes(job: &ShapingJob) -> RoundGear {
+    job.round_gear().expect("flanks").expect("it is round")
+}
+
+/// The tooth that the shifted cutter generates is thicker by 2 x m tan(alpha) on the reference circle, outside and in a
+/// ring; a shift of the cutter itself thins it by as much.
+#[test]
+fn a_profile_shift_makes_the_tooth_that_its_definition_says() {
+    for (scene, kind, shifts) in [
+        ("circular_m3_z24.toml", GearKind::External, [-0.2, 0.0, 0.3, 0.6]),
+        ("internal_circle.toml", GearKind::Internal, [-0.2, 0.0, 0.1, 0.3]),
+    ] {
+        for (shift, cutter_shift) in shifts.into_iter().map(|shift| (shift, 0.0)).chain([(0.3, 0.1)]) {
+            let job = job(scene, shift, cutter_shift);
+            let (gear, round) = (&job.scene.gear, sizes(&job));
+            assert_eq!(round.kind, kind);
+            let thickness_mm = gear.module_mm * (0.5 * PI + 2.0 * (shift - cutter_shift) * ALPHA_RAD.tan())
+                + gear.tooth_thickness_allowance_mm;
+            // An allowance is put in by the law of a rack; these scenes have none.
+            assert_eq!(gear.tooth_thickness_allowance_mm, 0.0);
+            let thinned_mm = Shaping::of(&job.scene).expect("shaping").tool.thinning_mm;
+            let error_mm = round.thickness_mm - thickness_mm - thinned_mm;
+            assert!(error_mm.abs() < 1e-9, "{scene}, x {shift}, x0 {cutter_shift}: {error_mm} mm");
+            let sign = kind.tip_sign();
+            let d = gear.module_mm * f64::from(gear.teeth);
+            let tip_mm = d + 2.0 * sign * gear.module_mm * (gear.addendum_coefficient + shift);
+            assert!((round.tip_diameter_mm - tip_mm).abs() < 1e-12);
+        }
+    }
+}
+
+/// The span touches two flanks along one tangent of the base circle: the distance of the target's flanks there, point by
+/// point, is W_k.
+#[test]
+fn the_span_is_the_distance_of_the_generated_flanks() {
+    let job = job("circular_m3_z24.toml", 0.3, 0.0);
+    let round = sizes(&job);
+    let span = round.span().expect("it can be spanned");
+    // Right flank of tooth 1 and left flank of tooth k, each where its distance from the axis is the touching radius.
+    let touch_mm = 0.5 * span.touch_diameter_mm;
+    let at = |tooth: u32, side: Side| {
+        let flank = job.target_flank(tooth, side);
+        let mut range = [0.0, flank.length_mm()];
+        for _ in 0..60 {
+            let middle = 0.5 * (range[0] + range[1]);
+            range[usize::from(flank.at_arc(middle).point_mm.length() > touch_mm)] = middle;
+        }
+        flank.at_arc(range[0])
+    };
+    let (first, last) = (at(1, Side::Right), at(span.teeth, Side::Left));
+    let across = last.point_mm - first.point_mm;
+    assert!((across.length() - span.length_mm).abs() < 1e-8, "{} for {}", across.length(), span.length_mm);
+    // Both normals lie along it: flat anvils touch there.
+    assert!(across.normalize().perp_dot(last.normal).abs() < 1e-8 && across.perp_dot(first.normal).abs() < 1e-6);
+}
+
+#[test]
+fn a_gear_off_its_axis_fails_its_class_and_the_sheet_shows_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    let settings = [
+        "machine.work_eccentricity_um=6",
+        "measure.iso_1328_class=2",
+        "measure.limits.runout_um=15",
+        "fields.flank.profile_spacing_um=50",
+        "fields.flank.lead_spacing_um=5000",
+        "fields.chips.spacing_mm=0.3",
+        "fields.blank.spacing_mm=1",
+    ];
+    let settings = settings.iter().flat_map(|setting| ["--set", setting]);
+    let arguments: Vec<&str> = ["cut", "scenes/shaping/circular_m3_z24.toml", "--only", "report", "--out"]
+        .into_iter()
+        .chain([out.to_str().expect("a path")])
+        .chain(settings)
+        .collect();
+    gearcut(&arguments).done();
+    let results = read_json(&out.join("results.json"));
+    let rows = results["sections"]["inspection"]["figures"]["rows"].as_array().expect("rows");
+    let row = |symbol: &str| rows.iter().find(|row| row[0] == symbol).expect("all figures are there");
+    // F_p of a circle off its axis is 2 e / cos(alpha), 12.8 um; class 2 allows 18.911 / sqrt(8) = 6.7, rounded 6.5 um.
+    let pitch = row("F_p");
+    assert!((pitch[2].as_f64().expect("um") - 12.0 / ALPHA_RAD.cos()).abs() < 0.3, "{pitch}");
+    assert_eq!((pitch[6].as_f64(), pitch[9].as_str()), (Some(6.5), Some("fail")), "{pitch}");
+    // Runout is 2 e; the drawing allows 15 um, its class 6.
+    let runout = row("F_r");
+    assert_eq!((runout[6].as_f64(), runout[7].as_str()), (Some(15.0), Some("drawing")), "{runout}");
+    assert_eq!(runout[9].as_str(), Some("pass"), "{runout}");
+    let warnings = results["warnings"].to_string();
+    assert!(warnings.contains("total pitch deviation F_p") && !warnings.contains("runout F_r"), "{warnings}");
+    let span = &results["sections"]["round_gear"]["span"];
+    // An offset of the finishing cut none: x 0, 24 teeth, three of them: 3 cos(20 deg) (2.5 pi + 24 inv(20 deg)).
+    assert!((span["value"].as_f64().expect("mm") - 23.149_385).abs() < 1e-4, "{span}");
+    let svg = std::fs::read_to_string(out.join("inspection.svg")).expect("a sheet");
+    let drawing = roxmltree::Document::parse(&svg).expect("XML");
+    let words: Vec<&str> = drawing.descendants().filter_map(|node| node.text()).collect();
+    for word in ["Profile, left flanks", "Helix, right flanks", "Span, W_k", "fail", "Gear inspection: circular_m3_z24"]
+    {
+        assert!(words.contains(&word), "{word} is not among {words:?}");
+    }
+    let pdf = std::fs::read(out.join("inspection.pdf")).expect("a sheet");
+    assert!(pdf.starts_with(b"%PDF-1."));
+}
