@@ -34,7 +34,9 @@ gearcut.stage.then(({ camera, controls, canvas, flankShape, cut, overlays, draw 
     const end = camera.position.z >= controls.target.z ? 1 : 0;
     // On a section across the axis they stand on the section.
     const across = (at) => (cut.value.z === 0 ? at : at.clone().setZ(0));
-    const places = anchors.map(({ tooth, ends }) => [tooth, ...onSheet(across(ends[end]))]);
+    const standing = anchors.map(({ tooth, ends }) => [tooth, across(ends[end])]);
+    const left = standing.filter(([, at]) => at.dot(cut.value) <= 1e-6);
+    const places = left.map(([tooth, at]) => [tooth, ...onSheet(at)]);
     const gaps = places.slice(1).map(([, x, y], i) => Math.hypot(x - places[i][1], y - places[i][2]));
     gaps.sort((a, b) => a - b);
     const usual = gaps[Math.floor(gaps.length / 2)] || 100;

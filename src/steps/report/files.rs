@@ -40,7 +40,9 @@ pub fn section(folder: &OutputFolder) -> Result<PageSection> {
     }];
     for (name, what) in CONTENTS {
         let inside = format!("{name}/");
-        let files: Vec<&String> = written.iter().filter(|file| file.starts_with(&inside)).collect();
+        let mut files: Vec<&String> = written.iter().filter(|file| file.starts_with(&inside)).collect();
+        // What stands in the subfolder itself comes before what is deeper.
+        files.sort_by_key(|file| file.matches('/').count());
         if files.is_empty() {
             continue;
         }

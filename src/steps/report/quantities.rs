@@ -4,19 +4,32 @@ use crate::findings::{Entry, Place, Quantity, Section, unit};
 use crate::output::report::{KeyNumber, PageTable};
 use crate::output::text::{plain, significant};
 
+/// What stands where there is no value.
+const NONE: &str = "–";
+
 /// The quantities of a section as a table.
 pub fn table(section: &Section) -> PageTable {
     let rows = section.entries.iter().map(|entry| {
-        let (value, unit) = value_and_unit(&entry.quantity);
         let what = entry.quantity.why().unwrap_or(entry.quantity.definition());
         let [name, what] = [entry.heading().as_str(), what].map(unit::sentence_with_signs);
-        vec![name, format!("{value} {unit}").trim().to_owned(), place(&entry.quantity), what]
+        vec![name, value_with_unit(&entry.quantity), place(&entry.quantity), what]
     });
     PageTable {
         caption: section.title.clone(),
         columns: ["", "Value", "At", "What it is"].map(str::to_owned).into(),
         rows: rows.collect(),
     }
+}
+
+/// Number or words with the unit, as a cell; a dash without a unit where there is none.
+pub fn value_with_unit(quantity: &Quantity) -> String {
+    let (value, unit) = value_and_unit(quantity);
+    if value == NONE { value } else { format!("{value} {unit}").trim().to_owned() }
+}
+
+/// Number or words alone, where the column's name has the unit.
+pub fn value_alone(quantity: &Quantity) -> String {
+    value_and_unit(quantity).0
 }
 
 /// A number of the headline.
@@ -41,7 +54,7 @@ fn value_and_unit(quantity: &Quantity) -> (String, String) {
             plain((value * 1e3).round() / 1e3).replace('-', "−")
         }
         (Some(value), _) => significant(value, 4).replace('-', "−"),
-        (None, words) => words.unwrap_or("–").to_owned(),
+        (None, words) => words.unwrap_or(NONE).to_owned(),
     };
     (value, quantity.unit().map_or_else(String::new, |unit| unit::signs(unit).replace("arcsec", "″")))
 }

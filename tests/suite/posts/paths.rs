@@ -50,9 +50,9 @@ fn keeps_clear(post: Post, done: &Done, letter: char, clear: impl Fn(f64) -> boo
     assert!(end.iter().all(|(axis, at)| *axis == letter || last.1[axis] == *at), "{post:?}: another axis moves");
 }
 
-fn shaping(mut operation: Operation, round: bool, post: Post, error_mm: f64) -> ShapingJob {
-    operation.name = "op with-a name, µ (odd)".to_owned();
-    let mut scene = paper_scene(vec![operation]);
+fn shaping(operation: Operation, round: bool, post: Post, error_mm: f64) -> ShapingJob {
+    let name = "op with-a name, µ (odd)".to_owned();
+    let mut scene = paper_scene(vec![Operation { name, ..operation }]);
     if round {
         scene.gear.pitch_curve = PitchCurveShape::Circle;
     }
