@@ -109,7 +109,7 @@ impl Touch {
 }
 
 /// A point of the gear beside the pinion.
-struct Gap {
+struct BesidePinion {
     /// Its distance from the pinion's flank along the pinion's normal, mm.
     gap_mm: f64,
     /// How fast that falls with the gear's angle, mm.
@@ -164,7 +164,7 @@ impl BevelPair {
         let point = gear.envelope.find(&gear.blank, distance_mm, OnFlank::Height(place_mm.y), start).ok()?;
         let mut gear_rad = near.gear_rad;
         for _ in 0..MOST_STEPS {
-            let Gap { gap_mm, closing_mm, generated_rad } =
+            let BesidePinion { gap_mm, closing_mm, generated_rad } =
                 self.gap(point.point_mm, [pinion_rad, gear_rad], on_pinion)?;
             let step_rad = gap_mm / closing_mm;
             gear_rad += step_rad;
@@ -179,7 +179,7 @@ impl BevelPair {
 
     /// A point of the gear (work frame, mm) beside the pinion at angles of pinion and gear; `start` are angles at which
     /// the pinion is generated near it. `None` where the pinion has no flank.
-    fn gap(&self, point_mm: DVec3, [pinion_rad, gear_rad]: [f64; 2], start: Option<[f64; 2]>) -> Option<Gap> {
+    fn gap(&self, point_mm: DVec3, [pinion_rad, gear_rad]: [f64; 2], start: Option<[f64; 2]>) -> Option<BesidePinion> {
         let pinion = &self.pinion;
         let pinion_from_mount = self.mount_from_pinion(pinion_rad).inverse();
         let mount_from_gear = self.mount_from_gear(gear_rad);
@@ -193,7 +193,7 @@ impl BevelPair {
         let arc = (at_mm.z.atan2(at_mm.y) - on.point_mm.z.atan2(on.point_mm.y) + PI).rem_euclid(TAU) - PI;
         let axis = pinion_from_mount.direction(mount_from_gear.direction(DVec3::X));
         let apex_mm = pinion_from_mount.point(mount_from_gear.translation_mm);
-        Some(Gap {
+        Some(BesidePinion {
             gap_mm: arc * DVec3::X.cross(at_mm).dot(on.normal),
             closing_mm: -axis.cross(at_mm - apex_mm).dot(on.normal),
             generated_rad: [on.head_rad, on.cradle_rad],
@@ -304,7 +304,7 @@ impl BevelPair {
             for j in 0..places[1] {
                 let share = j as f64 / (places[1] - 1) as f64;
                 let height_mm = row.form_height_mm + share * (row.tip_height_mm - row.form_height_mm);
-                let Some(Gap { gap_mm, .. }) = row
+                let Some(BesidePinion { gap_mm, .. }) = row
                     .point(share)
                     .ok()
                     .and_then(|point| self.gap(point.point_mm, [contact.pinion_rad, contact.gear_rad], None))
