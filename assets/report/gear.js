@@ -202,7 +202,8 @@ gearcut.loaded.then((data) => {
   flankShape.computeBoundingSphere();
   const gearRadius = flankShape.boundingSphere.radius;
   const { mate } = description;
-  const origin = new THREE.Vector3();
+  // Bevel gears stand away from the middle of their axis, which is the apex.
+  const origin = new THREE.Vector3(0, 0, flankShape.boundingSphere.center.z);
   let radius = gearRadius;
   let mateParts = [];
   if (mate) {
@@ -220,7 +221,7 @@ gearcut.loaded.then((data) => {
       const ends = reaches.map(([middle, reach]) => middle + (k === 0 ? -reach : reach));
       return k === 0 ? Math.min(...ends) : Math.max(...ends);
     });
-    origin.set((low + high) / 2, 0, 0);
+    origin.setX((low + high) / 2);
     radius = (high - low) / 2;
   }
   const camera = new THREE.PerspectiveCamera(28, 1, radius / 50, radius * 60);

@@ -11,8 +11,9 @@ use gearcut_core::error::Result;
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::terms::Side;
 
-/// Rays along the profile and along the tooth.
-const PLACES: [usize; 2] = [12, 16];
+/// Rays along the profile, closer together towards the form point, where undercut is a band some tenths of a millimetre
+/// wide, and along the tooth.
+const PLACES: [usize; 2] = [24, 16];
 /// Blades that go deeper than this are worth a word, mm.
 const HIT_MM: f64 = 0.005;
 
@@ -36,7 +37,7 @@ impl BevelJob {
         let (teeth, own) = (self.blank.teeth, self.space_of(1, side));
         let even = |count: usize, i: usize| i as f64 / (count - 1) as f64;
         let length_mm = self.target_of(side).length_mm();
-        let arcs_mm: Vec<f64> = (0..PLACES[0]).map(|i| length_mm * even(PLACES[0], i)).collect();
+        let arcs_mm: Vec<f64> = (0..PLACES[0]).map(|i| length_mm * even(PLACES[0], i).powi(2)).collect();
         let rows_mm: Vec<f64> = (0..PLACES[1]).map(|i| self.blank.face_width_mm * (even(PLACES[1], i) - 0.5)).collect();
         let rays = self.rays_over(1, side, arcs_mm, rows_mm)?;
         let mut layer = rays.field.blank_layer();

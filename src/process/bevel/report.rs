@@ -79,7 +79,7 @@ fn chips(found: &Findings, (bars, lines): ChipCharts) -> Option<PageSection> {
     }
     Some(PageSection {
         id: "chips",
-        title: "Chips and the work of the blades".to_owned(),
+        title: "Chips and blades".to_owned(),
         lead: format!(
             "What the passes take from the slot behind tooth 1, in order of time. The whole ring has {} mm³ of the {} \
             mm³ of its blank left. {}",

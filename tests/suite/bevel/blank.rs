@@ -172,21 +172,19 @@ fn chips_add_up_to_what_is_missing() {
     }
 }
 
-/// Neighbours that are said to be clear change no bit of any slot's cell, and where teeth come to a point they are not
-/// said to be.
+/// Neighbours that are said to be clear change no bit of any slot's cell; a head that hits the next tooth does, and is
+/// not said to be clear.
 #[test]
 fn neighbours_that_are_said_to_be_clear_take_nothing() {
-    let wide = "tool.face_mill.point_width_mm=4";
-    for (scene, more, clear) in [
-        ("five_linkage_corrected", &[][..], true),
-        ("crown_gear", &[], true),
-        ("crown_gear", &[wide, "tool.face_mill.runouts_um=[0,0,0,20,0,0,0,0,0,0,0,0]"], false),
-    ] {
-        let fast = ["operation.finish.roll_speed_deg_per_s=20", "fields.blank.spacing_mm=0.4"];
+    let far = "machine.cradle.roll_ratio=1.0232";
+    for (scene, more, clear) in
+        [("five_linkage_corrected", &[][..], true), ("hypoid", &[], true), ("hypoid", &[far], false)]
+    {
+        let fast = ["operation.finish.roll_speed_deg_per_s=20", "fields.blank.spacing_mm=0.8"];
         let job = coarse(scene, &[&fast[..], more].concat());
         let grid = CellGrid::of_scene(&job).expect("rays");
         assert_eq!(job.neighbours_may_reach(&grid), !clear, "{scene}");
-        for slot in [0, 5, job.blank.teeth - 1] {
+        for slot in [0, job.blank.teeth - 1] {
             let [own, all] = [false, true].map(|beside| job.cut_cell(&Cpu::default(), &grid, slot, beside));
             let [own, all] = [own.expect("cuts").0, all.expect("cuts").0];
             assert_eq!(own == all, clear, "{scene}, slot {slot}");

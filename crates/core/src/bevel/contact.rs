@@ -109,9 +109,9 @@ impl Touch {
 }
 
 /// A point of the gear beside the pinion.
-struct BesidePinion {
+struct Gap {
     /// Its distance from the pinion's flank along the pinion's normal, mm.
-    gap_mm: f64,
+    open_mm: f64,
     /// How fast that falls with the gear's angle, mm.
     closing_mm: f64,
     /// Angles of head and cradle at which the pinion is generated there, rad.
@@ -164,9 +164,9 @@ impl BevelPair {
         let point = gear.envelope.find(&gear.blank, distance_mm, OnFlank::Height(place_mm.y), start).ok()?;
         let mut gear_rad = near.gear_rad;
         for _ in 0..MOST_STEPS {
-            let BesidePinion { gap_mm, closing_mm, generated_rad } =
+            let Gap { open_mm, closing_mm, generated_rad } =
                 self.gap(point.point_mm, [pinion_rad, gear_rad], on_pinion)?;
-            let step_rad = gap_mm / closing_mm;
+            let step_rad = open_mm / closing_mm;
             gear_rad += step_rad;
             on_pinion = Some(generated_rad);
             if step_rad.abs() < LAST_STEP_RAD {
@@ -179,7 +179,7 @@ impl BevelPair {
 
     /// A point of the gear (work frame, mm) beside the pinion at angles of pinion and gear; `start` are angles at which
     /// the pinion is generated near it. `None` where the pinion has no flank.
-    fn gap(&self, point_mm: DVec3, [pinion_rad, gear_rad]: [f64; 2], start: Option<[f64; 2]>) -> Option<BesidePinion> {
+    fn gap(&self, point_mm: DVec3, [pinion_rad, gear_rad]: [f64; 2], start: Option<[f64; 2]>) -> Option<Gap> {
         let pinion = &self.pinion;
         let pinion_from_mount = self.mount_from_pinion(pinion_rad).inverse();
         let mount_from_gear = self.mount_from_gear(gear_rad);
@@ -193,8 +193,8 @@ impl BevelPair {
         let arc = (at_mm.z.atan2(at_mm.y) - on.point_mm.z.atan2(on.point_mm.y) + PI).rem_euclid(TAU) - PI;
         let axis = pinion_from_mount.direction(mount_from_gear.direction(DVec3::X));
         let apex_mm = pinion_from_mount.point(mount_from_gear.translation_mm);
-        Some(BesidePinion {
-            gap_mm: arc * DVec3::X.cross(at_mm).dot(on.normal),
+        Some(Gap {
+            open_mm: arc * DVec3::X.cross(at_mm).dot(on.normal),
             closing_mm: -axis.cross(at_mm - apex_mm).dot(on.normal),
             generated_rad: [on.head_rad, on.cradle_rad],
         })
@@ -304,15 +304,15 @@ impl BevelPair {
             for j in 0..places[1] {
                 let share = j as f64 / (places[1] - 1) as f64;
                 let height_mm = row.form_height_mm + share * (row.tip_height_mm - row.form_height_mm);
-                let Some(BesidePinion { gap_mm, .. }) = row
+                let Some(Gap { open_mm, .. }) = row
                     .point(share)
                     .ok()
                     .and_then(|point| self.gap(point.point_mm, [contact.pinion_rad, contact.gear_rad], None))
                 else {
                     continue;
                 };
-                if gap_mm < nearest.0 {
-                    nearest = (gap_mm, [along_mm, height_mm]);
+                if open_mm < nearest.0 {
+                    nearest = (open_mm, [along_mm, height_mm]);
                 }
             }
         }

@@ -8,6 +8,7 @@ use super::findings::{ARCSEC_PER_RAD, words};
 use super::{RolledBevels, RolledSide};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use gearcut_core::bevel::contact::Contact;
+use gearcut_core::math::roots::halve;
 use std::f64::consts::TAU;
 
 /// Smallest distance of two ticks of motion errors, arc seconds: less is rounding, not a fault.
@@ -16,6 +17,8 @@ const LEAST_ARCSEC: f64 = 0.02;
 const OUTLINE_ROWS: usize = 24;
 /// Corners of a drawn ellipse.
 const CORNERS: usize = 240;
+/// Halvings of a side of it where the flank ends: to a thousandth of a side.
+const EDGE_HALVINGS: u32 = 10;
 /// Half axes beyond this many faces are drawn as long as this: flanks that touch along a line.
 const MOST_FACES: f64 = 4.0;
 /// Places of the path from one drawn ellipse to the next.
@@ -116,11 +119,21 @@ fn ellipse(contact: &Contact, most_mm: f64, rows: &[(f64, [f64; 2])]) -> Vec<(f6
     let Some(ellipse) = contact.ellipse else { return Vec::new() };
     let [long_mm, short_mm] = ellipse.half_axes_mm.map(|half_mm| half_mm.min(most_mm));
     let [long, short] = ellipse.directions;
-    let corner = |i: usize| {
-        let (sin, cos) = (TAU * i as f64 / CORNERS as f64).sin_cos();
+    let place = |angle_rad: f64| {
+        let (sin, cos) = angle_rad.sin_cos();
         let at = |k: usize| contact.place_mm[k] + long_mm * cos * long[k] + short_mm * sin * short[k];
-        let place = (at(0), at(1));
-        if holds(rows, place) { place } else { (f64::NAN, f64::NAN) }
+        (at(0), at(1))
     };
-    (0..=CORNERS).map(corner).collect()
+    let inside = |angle_rad: f64| holds(rows, place(angle_rad));
+    let angle = |i: usize| TAU * i as f64 / CORNERS as f64;
+    let mut points: Vec<(f64, f64)> = inside(0.0).then(|| place(0.0)).into_iter().collect();
+    for [from, to] in (0..CORNERS).map(|i| [angle(i), angle(i + 1)]) {
+        match [inside(from), inside(to)] {
+            [true, true] => points.push(place(to)),
+            [true, false] => points.extend([place(halve(inside, from, to, EDGE_HALVINGS)[0]), (f64::NAN, f64::NAN)]),
+            [false, true] => points.extend([place(halve(inside, to, from, EDGE_HALVINGS)[0]), place(to)]),
+            [false, false] => {}
+        }
+    }
+    points
 }
