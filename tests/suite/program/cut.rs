@@ -43,14 +43,20 @@ const BRIEF: [&str; 14] = [
     "fields.chips.spacing_mm=2",
 ];
 
-/// A whole result with every kind of file, cut once on two threads: folder of it, and its files.
-static WHOLE: LazyLock<(TempDir, Vec<(PathBuf, Vec<u8>)>)> = LazyLock::new(|| {
+/// A whole result with every kind of file.
+struct WholeResult {
+    folder: TempDir,
+    files: Vec<(PathBuf, Vec<u8>)>,
+}
+
+/// Cut once, on two threads, for all tests that look at it.
+static WHOLE: LazyLock<WholeResult> = LazyLock::new(|| {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().to_str().expect("a path").to_owned() + "/gear";
     let arguments = [&["cut", ROUND, "--quiet", "--backend", "cpu", "--out", &out], &COARSE[..]].concat();
     gearcut_on_threads(2, &arguments).done();
-    let written = files(Path::new(&out));
-    (folder, written)
+    let files = files(Path::new(&out));
+    WholeResult { folder, files }
 });
 
 /// A draft goes beside the whole result, on coarser dexels unless a setting says otherwise.
@@ -80,7 +86,7 @@ mod slow {
         let out_text = out.to_str().expect("a path");
         let arguments = [&["cut", ROUND, "--json", "--backend", "cpu", "--out", out_text], &COARSE[..]].concat();
         let outcome = gearcut_on_threads(1, &arguments).done();
-        assert_same_files(&WHOLE.1, &files(&out));
+        assert_same_files(&WHOLE.files, &files(&out));
         let printed: Value = serde_json::from_str(&outcome.out).expect("JSON on standard output");
         assert_eq!(printed, read_json(&out.join("results.json")));
         for line in outcome.err.lines() {
@@ -91,7 +97,7 @@ mod slow {
 
     #[test]
     fn meshes_pictures_frames_and_surfaces_are_written() {
-        let (folder, written) = &*WHOLE;
+        let WholeResult { folder, files: written } = &*WHOLE;
         let bytes = |name: &str| &written.iter().find(|(path, _)| path == Path::new(name)).expect(name).1;
         assert!(bytes("mesh/gear.stl").starts_with(b"gearcut, mm: gear of circular_m3_z24 "));
         assert!(bytes("mesh/gear.glb").starts_with(b"glTF\x02\0\0\0"));
@@ -141,7 +147,7 @@ mod slow {
             gearcut(&arguments.concat()).done();
             files(&out)
         };
-        let whole = &WHOLE.1;
+        let whole = &WHOLE.files;
         let is_number = |path: &Path| path.starts_with("tables") || path == Path::new("results.json");
         let same = |part: &[(PathBuf, Vec<u8>)], belongs: &dyn Fn(&Path) -> bool| {
             let wanted: Vec<_> = whole.iter().filter(|(path, _)| belongs(path)).cloned().collect();
