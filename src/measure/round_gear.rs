@@ -1,7 +1,7 @@
 //! Sizes of a round gear that its drawing states and a workshop measures: diameters, profile shift, span, balls.
 //!
 //! In: teeth, normal module and pressure angle, helix, the tooth's thickness on the reference circle, and where its
-//! profile begins and ends. Out: [`RoundGear`] with [`Span`] and [`OverBalls`]. A ring is the same with its spaces for
+//! profile begins and ends. Out: [`RoundGear`] with [`SpanMeasure`] and [`OverBalls`]. A ring is the same with its spaces for
 //! teeth.
 //!
 //! **Law** (ISO 21771:2007; involute function inv): with alpha_t the transverse pressure angle, beta_b the base helix,
@@ -73,7 +73,7 @@ pub struct ToothEnds {
 
 /// A span measurement.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Span {
+pub struct SpanMeasure {
     /// k.
     pub teeth: u32,
     /// W_k, mm.
@@ -171,25 +171,25 @@ impl RoundGear {
         self.kind.tip_sign() * self.generating_shift()
     }
 
-    /// Span over k teeth, in a ring across k spaces.
-    pub fn span_over(&self, teeth: u32) -> Span {
+    /// SpanMeasure over k teeth, in a ring across k spaces.
+    pub fn span_over(&self, teeth: u32) -> SpanMeasure {
         let alpha_n = self.normal_pressure_angle_rad;
         let pitches = (f64::from(teeth) - 0.5) * PI + self.z() * inv(self.transverse_pressure_angle_rad());
         let length_mm = self.normal_module_mm * alpha_n.cos() * (pitches + 2.0 * self.spanned_shift() * alpha_n.tan());
         let touch_diameter_mm = self.base_diameter_mm().hypot(length_mm * self.base_helix_cosine());
-        Span { teeth, length_mm, touch_diameter_mm }
+        SpanMeasure { teeth, length_mm, touch_diameter_mm }
     }
 
     /// The span that touches nearest to the middle of the flank, d + 2 x m_n.
     ///
     /// # Errors
     /// Why none can be taken, in words.
-    pub fn span(&self) -> Result<Span, String> {
+    pub fn span(&self) -> Result<SpanMeasure, String> {
         let sign = self.kind.tip_sign();
         let middle_mm =
             self.reference_diameter_mm() + 2.0 * sign * self.profile_shift_coefficient * self.normal_module_mm;
         let spans = (2..=self.teeth / 2).map(|k| self.span_over(k)).filter(|span| self.touches(span.touch_diameter_mm));
-        let away = |span: &Span| (span.touch_diameter_mm - middle_mm).abs();
+        let away = |span: &SpanMeasure| (span.touch_diameter_mm - middle_mm).abs();
         let best = spans.min_by(|a, b| away(a).total_cmp(&away(b)));
         let span = best.ok_or("over no number of teeth does a span touch the involutes")?;
         let sine = (1.0 - self.base_helix_cosine().powi(2)).sqrt();

@@ -7,7 +7,7 @@ use crate::findings::{Datum, Entry, Level, Quantity, Section, Table, TableColumn
 use crate::job::CylindricalGear;
 use crate::measure::inspection::{GearInspection, InspectedFlank};
 use crate::measure::round_gear::RoundGear;
-use crate::measure::verdict::{ClassReached, JudgedFigure, Verdict};
+use crate::measure::verdict::{ClassReached, GearVerdict, JudgedFigure};
 use crate::output::summary;
 use crate::output::text::{Sheet, significant};
 use crate::scene::model::Measure;
@@ -27,7 +27,7 @@ pub struct Inspected {
     /// Mean thickness of the teeth as cut, arc of the pitch curve, mm.
     pub mean_thickness_mm: Option<f64>,
     /// Figures and limits.
-    pub verdict: Verdict,
+    pub verdict: GearVerdict,
 }
 
 impl Inspected {
@@ -37,7 +37,7 @@ impl Inspected {
     /// The tool generates no flank.
     pub fn new<Own>(job: &dyn CylindricalGear, flanks: &[InspectedFlank<Own>], gear: &GearInspection) -> Result<Self> {
         let round = job.round_gear()?;
-        let verdict = Verdict::new(flanks, gear, &job.scene().measure, round.as_ref());
+        let verdict = GearVerdict::new(flanks, gear, &job.scene().measure, round.as_ref());
         let arcs_mm: Option<Vec<f64>> = gear.thickness.iter().map(|of| of.map(|of| of.arc_mm)).collect();
         let mean_thickness_mm = arcs_mm.map(|arcs| arcs.iter().sum::<f64>() / arcs.len() as f64);
         Ok(Self { round, mean_thickness_mm, verdict })
@@ -231,7 +231,7 @@ pub fn verdict_words(passes: Option<bool>) -> &'static str {
     }
 }
 
-fn figures(verdict: &Verdict) -> Section {
+fn figures(verdict: &GearVerdict) -> Section {
     let definition = "finest flank tolerance class of ISO 1328-1:2013 that all figures keep; the target is the ideal \
                       flank of the last operation, so it is what this process leaves by itself";
     let class = match (verdict.class(), &verdict.no_class) {
