@@ -1,8 +1,8 @@
 //! Sizes of a round gear that its drawing states and a workshop measures: diameters, profile shift, span, balls.
 //!
 //! In: teeth, normal module and pressure angle, helix, the tooth's thickness on the reference circle, and where its
-//! profile begins and ends. Out: [`RoundGear`] with [`SpanMeasure`] and [`OverBalls`]. A ring is the same with its spaces for
-//! teeth.
+//! profile begins and ends. Out: [`RoundGear`] with [`SpanMeasure`] and [`OverBalls`]. A ring is the same with its
+//! spaces for teeth.
 //!
 //! **Law** (ISO 21771:2007; involute function inv): with alpha_t the transverse pressure angle, beta_b the base helix,
 //! x_E the shift that the thickness stands for, `s_t = m_t pi / 2 + 2 x_E m_n tan(alpha_t)`:
@@ -10,9 +10,9 @@
 //! - span over k teeth `W_k = m_n cos(alpha_n) ((k - 1/2) pi + z inv(alpha_t) + 2 x_E tan(alpha_n))`; it touches at the
 //!   diameter `sqrt(d_b^2 + (W_k cos(beta_b))^2)`;
 //! - a ball of diameter D_M in a space has its centre at `d_K = d_b / cos(alpha_K)`, where
-//!   `inv(alpha_K) = inv(alpha_t) + D_M / (z m_n cos(alpha_n)) - eta` and eta is half the space's angle on the reference
-//!   circle; the dimension over two balls is `d_K + D_M`, for an odd number of teeth `d_K cos(pi / 2z) + D_M`. In a ring
-//!   D_M and eta change their sign, and the dimension is that between balls.
+//!   `inv(alpha_K) = inv(alpha_t) + D_M / (z m_n cos(alpha_n)) - eta` and eta is half the space's angle on the
+//!   reference circle; the dimension over two balls is `d_K + D_M`, for an odd number of teeth
+//!   `d_K cos(pi / 2z) + D_M`. In a ring D_M and eta change their sign, and the dimension is that between balls.
 //!
 //! Pins in helical gears with an odd number of teeth lie otherwise than balls; the figure is that of balls.
 
@@ -22,7 +22,8 @@ use gearcut_core::tool::involute::inv;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Usual diameter of measuring pins over the normal module: that of Van Keuren wires, 1.728 outside and 1.44 in rings
-/// (Machinery's Handbook, "Checking gear sizes by measurement over wires or pins"). They touch near the reference circle.
+/// (Machinery's Handbook, "Checking gear sizes by measurement over wires or pins"). They touch near the reference
+/// circle.
 const PIN_MODULES: [f64; 2] = [1.728, 1.44];
 
 /// Sizes of a round gear in mm; diameters are positive, also in a ring.
@@ -171,7 +172,7 @@ impl RoundGear {
         self.kind.tip_sign() * self.generating_shift()
     }
 
-    /// SpanMeasure over k teeth, in a ring across k spaces.
+    /// Span over k teeth, in a ring across k spaces.
     pub fn span_over(&self, teeth: u32) -> SpanMeasure {
         let alpha_n = self.normal_pressure_angle_rad;
         let pitches = (f64::from(teeth) - 0.5) * PI + self.z() * inv(self.transverse_pressure_angle_rad());

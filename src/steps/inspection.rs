@@ -103,7 +103,7 @@ pub fn sizes(round: &RoundGear, measure: &Measure, cut_thickness_mm: Option<f64>
         .with("active_diameter", active)
         .with(
             "active_tip_diameter",
-            mm(active_tip_mm, "d_Na: end of the active profile: measure.profile_end_height_mm, else the involute's end"),
+            mm(active_tip_mm, "d_Na: end of the active profile: profile_end_height_mm, else the involute's end"),
         )
         .with(
             "profile_shift",
@@ -122,10 +122,13 @@ pub fn sizes(round: &RoundGear, measure: &Measure, cut_thickness_mm: Option<f64>
             "tip_clearance",
             mm(
                 round.tip_clearance_mm(),
-                "c: from this gear's root to the tip of a mate of the same rack and the opposite shift, without backlash",
+                "c: from this gear's root to the tip of a mate of the same rack and opposite shift, without backlash",
             ),
         )
-        .with("thickness", mm(round.thickness_mm, "s_t: thickness of the target on the reference circle, transverse arc"));
+        .with(
+            "thickness",
+            mm(round.thickness_mm, "s_t: thickness of the target, transverse arc of the reference circle"),
+        );
     let ball_mm = measure.ball_diameter_mm.unwrap_or_else(|| round.usual_ball_mm());
     section = section.with("ball_diameter", mm(ball_mm, "D_M: balls or pins of the dimension over two of them"));
     let of_span = if ring { "W_k: span across k spaces" } else { "W_k: span over k teeth" };

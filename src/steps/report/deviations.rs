@@ -148,8 +148,8 @@ pub fn write_sheet(inspection: &Inspection, scene: &Scene, found: &Findings, fol
     let sizes = found.find(SIZES).map_or_else(Vec::new, size_rows);
     let mut notes = vec![
         format!("Deviations of the surface as cut from {}.", inspection.words.target),
-        "Profile and helix along the flank's normal, in the middle; dashed: the evaluated part. Pitch: arcs of the pitch \
-         curve from the mean pitch."
+        "Profile and helix along the flank's normal, in the middle; dashed: the evaluated part. Pitch: arcs of the \
+         pitch curve from the mean pitch."
             .to_owned(),
         "The table has the worst tooth of each side.".to_owned(),
     ];
