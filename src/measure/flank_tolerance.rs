@@ -228,8 +228,8 @@ mod tests {
     use super::*;
 
     /// Module 3, 24 teeth, 20 mm wide, class 5 by hand from the formulas, um: f_p 6.272 (5, 1.2, 0.072), F_p 18.911
-    /// (12, 2.1, 0.144, 4.667), f_H_alpha 5.272, f_f_alpha 6.65, f_H_beta 5.990 (4, 0.424, 1.565), f_f_beta 6.606 (4, 0.594,
-    /// 2.012).
+    /// (12, 2.1, 0.144, 4.667), f_H_alpha 5.272, f_f_alpha 6.65, f_H_beta 5.990 (4, 0.424, 1.565), f_f_beta 6.606
+    /// (4, 0.594, 2.012).
     const SIZES: ToleranceSizes = ToleranceSizes {
         teeth: 24,
         reference_diameter_mm: 72.0,
