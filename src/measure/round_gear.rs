@@ -229,11 +229,12 @@ impl RoundGear {
         // that is D_M cos(beta_b) / 2 of its length.
         let along_mm = self.base_diameter_mm() * alpha_k.tan() - sign * ball_mm * self.base_helix_cosine();
         let touch_diameter_mm = self.base_diameter_mm().hypot(along_mm);
-        let proud_mm = sign * (center_mm - self.tip_diameter_mm) + ball_mm;
+        // In a ring balls are held by stems, and nothing rests on them.
+        let hidden = self.kind == GearKind::External && center_mm + ball_mm <= self.tip_diameter_mm;
         if !self.touches(touch_diameter_mm) || along_mm < 0.0 {
             return Err(format!("balls of {ball_mm:.3} mm touch at {touch_diameter_mm:.3} mm, not on the involute"));
         }
-        if proud_mm <= 0.0 {
+        if hidden {
             return Err(format!("balls of {ball_mm:.3} mm do not stand out over the tips"));
         }
         Ok(OverBalls { ball_mm, dimension_mm: apart_mm + sign * ball_mm, touch_diameter_mm })
@@ -287,10 +288,11 @@ mod tests {
     fn spur_gears_have_the_figures_of_another_program() {
         let gear = gear(GearKind::External, 20, 1.0, 0.0, 0.0);
         close(gear.base_diameter_mm(), 18.7939);
-        let span = gear.span().expect("it can be spanned");
-        assert_eq!(span.teeth, 2);
+        let span = gear.span_over(2);
         close(span.length_mm, 4.7083);
         close(span.touch_diameter_mm, 19.3746);
+        // Over three teeth it touches at 20.29 mm, nearer to the reference circle.
+        assert_eq!(gear.span().expect("it can be spanned").teeth, 3);
         let over = gear.over_balls(1.7).expect("they fit");
         close(over.dimension_mm, 22.2941);
         close(over.touch_diameter_mm, 19.9594);
@@ -304,7 +306,7 @@ mod tests {
         let gear = gear(GearKind::External, 30, 1.0, 0.0, 0.0);
         let thinned = gear.with_thickness(gear.thickness_mm - 0.03);
         close(thinned.generating_shift(), -0.0412);
-        close(0.5 * (thinned.over_balls(1.7).expect("they fit").dimension_mm + 1.7), 16.1190);
+        close(0.5 * thinned.over_balls(1.7).expect("they fit").dimension_mm, 16.1190);
     }
 
     /// Module 3, 24 teeth, 25 deg, x 0.4: 42.0085 mm over five teeth (Elements of Metric Gear Technology, SDP/SI,
