@@ -30,7 +30,7 @@ pub const CLASSES: std::ops::RangeInclusive<u32> = 1..=11;
 
 /// A figure that is held against a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Figure {
+pub enum InspectionFigure {
     /// f_p.
     SinglePitch,
     /// F_p.
@@ -51,7 +51,7 @@ pub enum Figure {
     Runout,
 }
 
-impl Figure {
+impl InspectionFigure {
     /// All, in the order in which an inspector states them.
     pub const ALL: [Self; 9] = [
         Self::ProfileTotal,
@@ -167,7 +167,7 @@ impl ToleranceSizes {
     ///
     /// # Errors
     /// Why the standard gives no tolerance: a size or class out of its range.
-    pub fn tolerance_um(&self, figure: Figure, class: u32) -> Result<f64, String> {
+    pub fn tolerance_um(&self, figure: InspectionFigure, class: u32) -> Result<f64, String> {
         if !CLASSES.contains(&class) {
             return Err(format!("ISO 1328-1:2013 has the classes 1 to 11, not {class}"));
         }
@@ -181,7 +181,7 @@ impl ToleranceSizes {
     ///
     /// # Errors
     /// Why the standard gives no tolerance for a gear of this size.
-    pub fn class_of(&self, figure: Figure, value_um: f64) -> Result<Option<u32>, String> {
+    pub fn class_of(&self, figure: InspectionFigure, value_um: f64) -> Result<Option<u32>, String> {
         for class in CLASSES {
             if value_um.abs() <= self.tolerance_um(figure, class)? {
                 return Ok(Some(class));
@@ -191,18 +191,22 @@ impl ToleranceSizes {
     }
 
     /// Not rounded.
-    fn class_5_um(&self, figure: Figure) -> f64 {
+    fn class_5_um(&self, figure: InspectionFigure) -> f64 {
         let (d, m, b) = (self.reference_diameter_mm, self.normal_module_mm, self.face_width_mm);
         match figure {
-            Figure::SinglePitch => 0.001 * d + 0.4 * m + 5.0,
-            Figure::TotalPitch => 0.002 * d + 0.55 * d.sqrt() + 0.7 * m + 12.0,
-            Figure::ProfileSlope => 0.4 * m + 0.001 * d + 4.0,
-            Figure::ProfileForm => 0.55 * m + 5.0,
-            Figure::ProfileTotal => self.class_5_um(Figure::ProfileSlope).hypot(self.class_5_um(Figure::ProfileForm)),
-            Figure::HelixSlope => 0.05 * d.sqrt() + 0.35 * b.sqrt() + 4.0,
-            Figure::HelixForm => 0.07 * d.sqrt() + 0.45 * b.sqrt() + 4.0,
-            Figure::HelixTotal => self.class_5_um(Figure::HelixSlope).hypot(self.class_5_um(Figure::HelixForm)),
-            Figure::Runout => 0.9 * self.class_5_um(Figure::TotalPitch),
+            InspectionFigure::SinglePitch => 0.001 * d + 0.4 * m + 5.0,
+            InspectionFigure::TotalPitch => 0.002 * d + 0.55 * d.sqrt() + 0.7 * m + 12.0,
+            InspectionFigure::ProfileSlope => 0.4 * m + 0.001 * d + 4.0,
+            InspectionFigure::ProfileForm => 0.55 * m + 5.0,
+            InspectionFigure::ProfileTotal => {
+                self.class_5_um(InspectionFigure::ProfileSlope).hypot(self.class_5_um(InspectionFigure::ProfileForm))
+            }
+            InspectionFigure::HelixSlope => 0.05 * d.sqrt() + 0.35 * b.sqrt() + 4.0,
+            InspectionFigure::HelixForm => 0.07 * d.sqrt() + 0.45 * b.sqrt() + 4.0,
+            InspectionFigure::HelixTotal => {
+                self.class_5_um(InspectionFigure::HelixSlope).hypot(self.class_5_um(InspectionFigure::HelixForm))
+            }
+            InspectionFigure::Runout => 0.9 * self.class_5_um(InspectionFigure::TotalPitch),
         }
     }
 }
@@ -223,9 +227,9 @@ fn rounded_um(um: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Module 3, 24 teeth, 20 mm wide, class 5 by hand from the formulas, um: f_p 6.272 (5, 1.2, 0.072), F_p 18.911 (12,
-    /// 2.1, 0.144, 4.667), f_H_alpha 5.272, f_f_alpha 6.65, f_H_beta 5.990 (4, 0.424, 1.565), f_f_beta 6.606 (4, 0.594,
-    /// 2.012).
+    /// Module 3, 24 teeth, 20 mm wide, class 5 by hand from the formulas, um: f_p 6.272 (5, 1.2, 0.072), F_p 18.911
+    /// (12, 2.1, 0.144, 4.667), f_H_alpha 5.272, f_f_alpha 6.65, f_H_beta 5.990 (4, 0.424, 1.565), f_f_beta 6.606
+    /// (4, 0.594, 2.012).
     const SIZES: ToleranceSizes = ToleranceSizes {
         teeth: 24,
         reference_diameter_mm: 72.0,
@@ -235,7 +239,7 @@ mod tests {
     };
 
     fn all_um(class: u32) -> [f64; 9] {
-        Figure::ALL.map(|figure| SIZES.tolerance_um(figure, class).expect("in range"))
+        InspectionFigure::ALL.map(|figure| SIZES.tolerance_um(figure, class).expect("in range"))
     }
 
     #[test]
@@ -254,10 +258,10 @@ mod tests {
 
     #[test]
     fn the_class_is_the_finest_that_allows_the_value() {
-        assert_eq!(SIZES.class_of(Figure::SinglePitch, 6.5), Ok(Some(5)));
-        assert_eq!(SIZES.class_of(Figure::SinglePitch, -6.51), Ok(Some(6)));
-        assert_eq!(SIZES.class_of(Figure::SinglePitch, 0.0), Ok(Some(1)));
-        assert_eq!(SIZES.class_of(Figure::SinglePitch, 60.0), Ok(None));
+        assert_eq!(SIZES.class_of(InspectionFigure::SinglePitch, 6.5), Ok(Some(5)));
+        assert_eq!(SIZES.class_of(InspectionFigure::SinglePitch, -6.51), Ok(Some(6)));
+        assert_eq!(SIZES.class_of(InspectionFigure::SinglePitch, 0.0), Ok(Some(1)));
+        assert_eq!(SIZES.class_of(InspectionFigure::SinglePitch, 60.0), Ok(None));
     }
 
     #[test]
@@ -268,9 +272,9 @@ mod tests {
             (ToleranceSizes { face_width_mm: 3.0, ..SIZES }, "face width"),
             (ToleranceSizes { reference_diameter_mm: 15_001.0, ..SIZES }, "reference diameter"),
         ] {
-            let why = sizes.tolerance_um(Figure::Runout, 6).expect_err("out of range");
+            let why = sizes.tolerance_um(InspectionFigure::Runout, 6).expect_err("out of range");
             assert!(why.contains(word), "{why}");
         }
-        assert!(SIZES.tolerance_um(Figure::Runout, 12).is_err());
+        assert!(SIZES.tolerance_um(InspectionFigure::Runout, 12).is_err());
     }
 }

@@ -1,6 +1,6 @@
 //! What an inspector says of a gear: every figure of both flanks, its limit, pass or fail.
 //!
-//! In: inspected flanks and gear, what the scene holds them against, the sizes of a round gear. Out: [`Verdict`].
+//! In: inspected flanks and gear, what the scene holds them against, the sizes of a round gear. Out: [`GearVerdict`].
 //!
 //! The value of a figure is that of the worst tooth. Deviations of profile and helix are taken along the flank's normal
 //! in space, those of the standard in the transverse section, so limits of a round helical gear are multiplied by
@@ -8,7 +8,7 @@
 //! limit of the drawing goes before that of the class.
 
 use super::deviation::{PitchDeviations, Runout, TraceDeviation};
-use super::flank_tolerance::{Figure, ToleranceSizes};
+use super::flank_tolerance::{InspectionFigure, ToleranceSizes};
 use super::inspection::{GearInspection, InspectedFlank};
 use super::round_gear::RoundGear;
 use crate::scene::model::{DrawnLimits, Measure};
@@ -49,7 +49,7 @@ impl LimitSource {
 #[derive(Debug, Clone, PartialEq)]
 pub struct JudgedFigure {
     /// Which.
-    pub figure: Figure,
+    pub figure: InspectionFigure,
     /// Left and right, or one for both; empty where it was not measured.
     pub sides: Vec<SideFigure>,
     /// Limit of its magnitude, um, and whence.
@@ -82,14 +82,14 @@ impl JudgedFigure {
 
 /// All figures of a gear.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Verdict {
-    /// In the order of [`Figure::ALL`].
+pub struct GearVerdict {
+    /// In the order of [`InspectionFigure::ALL`].
     pub figures: Vec<JudgedFigure>,
     /// Why there are no classes; none where there are.
     pub no_class: Option<String>,
 }
 
-impl Verdict {
+impl GearVerdict {
     /// Of a gear; `round` are its sizes if it is round.
     pub fn new<Own>(
         flanks: &[InspectedFlank<Own>],
@@ -108,7 +108,7 @@ impl Verdict {
             None => Some("the classes of ISO 1328-1 are for round gears".to_owned()),
             Some(sizes) => sizes.beyond(),
         };
-        let judged = |figure: Figure| {
+        let judged = |figure: InspectionFigure| {
             // Normal over transverse deviations.
             let normal = match round {
                 Some(round) if figure.is_along_normal() => round.base_helix_cosine(),
@@ -126,11 +126,11 @@ impl Verdict {
             });
             judged
         };
-        Self { figures: Figure::ALL.into_iter().map(judged).collect(), no_class }
+        Self { figures: InspectionFigure::ALL.into_iter().map(judged).collect(), no_class }
     }
 
     /// One of them.
-    pub fn of(&self, figure: Figure) -> &JudgedFigure {
+    pub fn of(&self, figure: InspectionFigure) -> &JudgedFigure {
         self.figures.iter().find(|judged| judged.figure == figure).expect("all figures are judged")
     }
 
@@ -155,22 +155,22 @@ impl Verdict {
     }
 }
 
-fn drawn_um(limits: &DrawnLimits, figure: Figure) -> Option<f64> {
+fn drawn_um(limits: &DrawnLimits, figure: InspectionFigure) -> Option<f64> {
     match figure {
-        Figure::SinglePitch => limits.single_pitch_um,
-        Figure::TotalPitch => limits.total_pitch_um,
-        Figure::ProfileTotal => limits.profile_total_um,
-        Figure::ProfileForm => limits.profile_form_um,
-        Figure::ProfileSlope => limits.profile_slope_um,
-        Figure::HelixTotal => limits.helix_total_um,
-        Figure::HelixForm => limits.helix_form_um,
-        Figure::HelixSlope => limits.helix_slope_um,
-        Figure::Runout => limits.runout_um,
+        InspectionFigure::SinglePitch => limits.single_pitch_um,
+        InspectionFigure::TotalPitch => limits.total_pitch_um,
+        InspectionFigure::ProfileTotal => limits.profile_total_um,
+        InspectionFigure::ProfileForm => limits.profile_form_um,
+        InspectionFigure::ProfileSlope => limits.profile_slope_um,
+        InspectionFigure::HelixTotal => limits.helix_total_um,
+        InspectionFigure::HelixForm => limits.helix_form_um,
+        InspectionFigure::HelixSlope => limits.helix_slope_um,
+        InspectionFigure::Runout => limits.runout_um,
     }
 }
 
 /// A figure of both sides.
-fn sides<Own>(flanks: &[InspectedFlank<Own>], gear: &GearInspection, figure: Figure) -> Vec<SideFigure> {
+fn sides<Own>(flanks: &[InspectedFlank<Own>], gear: &GearInspection, figure: InspectionFigure) -> Vec<SideFigure> {
     type Pick = fn(&TraceDeviation) -> f64;
     let traced = |is_profile: bool, pick: Pick| -> Vec<SideFigure> {
         let of = |side: Side| {
@@ -192,19 +192,19 @@ fn sides<Own>(flanks: &[InspectedFlank<Own>], gear: &GearInspection, figure: Fig
         [Side::Left, Side::Right].into_iter().zip(&gear.pitch).filter_map(of).collect()
     };
     match figure {
-        Figure::SinglePitch => pitch(|pitch| {
+        InspectionFigure::SinglePitch => pitch(|pitch| {
             let numbered = (1_u32..).zip(&pitch.single_mm);
             let worst = numbered.reduce(|best, next| if next.1.abs() > best.1.abs() { next } else { best });
             worst.map_or((0.0, None), |(tooth, mm)| (*mm, Some(tooth)))
         }),
-        Figure::TotalPitch => pitch(|pitch| (pitch.total_mm(), None)),
-        Figure::ProfileTotal => traced(true, |d| d.total_mm),
-        Figure::ProfileForm => traced(true, |d| d.form_mm),
-        Figure::ProfileSlope => traced(true, |d| d.slope_mm),
-        Figure::HelixTotal => traced(false, |d| d.total_mm),
-        Figure::HelixForm => traced(false, |d| d.form_mm),
-        Figure::HelixSlope => traced(false, |d| d.slope_mm),
-        Figure::Runout => {
+        InspectionFigure::TotalPitch => pitch(|pitch| (pitch.total_mm(), None)),
+        InspectionFigure::ProfileTotal => traced(true, |d| d.total_mm),
+        InspectionFigure::ProfileForm => traced(true, |d| d.form_mm),
+        InspectionFigure::ProfileSlope => traced(true, |d| d.slope_mm),
+        InspectionFigure::HelixTotal => traced(false, |d| d.total_mm),
+        InspectionFigure::HelixForm => traced(false, |d| d.form_mm),
+        InspectionFigure::HelixSlope => traced(false, |d| d.slope_mm),
+        InspectionFigure::Runout => {
             let runout = gear.runout.as_ref().map(Runout::total_mm);
             let figure = |mm: f64| SideFigure { side: None, value_um: UM_PER_MM * mm, tooth: None };
             runout.map(figure).into_iter().collect()
@@ -271,25 +271,25 @@ mod tests {
             thickness: Vec::new(),
         };
         let mut measure = Measure { iso_1328_class: Some(5), ..Measure::default() };
-        let verdict = Verdict::new(&flanks, &gear, &measure, Some(&round(0.0)));
-        let slope = verdict.of(Figure::ProfileSlope);
+        let verdict = GearVerdict::new(&flanks, &gear, &measure, Some(&round(0.0)));
+        let slope = verdict.of(InspectionFigure::ProfileSlope);
         let worst = slope.worst().expect("measured");
         assert!((worst.value_um + 5.2).abs() < 1e-9 && worst.tooth == Some(2), "{worst:?}");
         assert_eq!((slope.limit, slope.passes()), (Some((5.5, LimitSource::Class(5))), Some(true)));
-        let failed: Vec<Figure> = verdict.failed().map(|judged| judged.figure).collect();
-        assert_eq!(failed, [Figure::SinglePitch], "7 um for 6.5");
+        let failed: Vec<InspectionFigure> = verdict.failed().map(|judged| judged.figure).collect();
+        assert_eq!(failed, [InspectionFigure::SinglePitch], "7 um for 6.5");
         assert_eq!((verdict.passes(), verdict.class()), (Some(false), Some(ClassReached::Class(6))));
         measure.limits.single_pitch_um = Some(8.0);
-        let verdict = Verdict::new(&flanks, &gear, &measure, Some(&round(0.0)));
-        assert_eq!(verdict.of(Figure::SinglePitch).limit, Some((8.0, LimitSource::Drawing)));
+        let verdict = GearVerdict::new(&flanks, &gear, &measure, Some(&round(0.0)));
+        assert_eq!(verdict.of(InspectionFigure::SinglePitch).limit, Some((8.0, LimitSource::Drawing)));
         assert_eq!(verdict.passes(), Some(true), "the drawing allows 8 um");
         // A gear that is not round has no class, and its drawing's limits alone.
-        let other = Verdict::new(&flanks, &gear, &measure, None);
+        let other = GearVerdict::new(&flanks, &gear, &measure, None);
         assert!(other.no_class.is_some() && other.class().is_none());
-        assert_eq!((other.of(Figure::ProfileSlope).limit, other.passes()), (None, Some(true)));
+        assert_eq!((other.of(InspectionFigure::ProfileSlope).limit, other.passes()), (None, Some(true)));
         // Nothing measured, nothing passed.
         let nothing = GearInspection { pitch: [None, None], runout: None, thickness: Vec::new() };
-        assert_eq!(Verdict::new(&flanks, &nothing, &measure, None).passes(), None);
+        assert_eq!(GearVerdict::new(&flanks, &nothing, &measure, None).passes(), None);
     }
 
     /// cos(beta_b) of 30 deg and 20 deg is 0.8828: sin(beta_b) = sin(beta) cos(alpha_n).
@@ -299,10 +299,10 @@ mod tests {
         let flanks = [flank(1, Side::Left, 5.0)];
         let nothing = GearInspection { pitch: [None, None], runout: None, thickness: Vec::new() };
         let measure = Measure { iso_1328_class: Some(5), ..Measure::default() };
-        let verdict = Verdict::new(&flanks, &nothing, &measure, Some(&round(beta)));
-        let limit = verdict.of(Figure::ProfileSlope).limit.expect("a class was asked for").0;
+        let verdict = GearVerdict::new(&flanks, &nothing, &measure, Some(&round(beta)));
+        let limit = verdict.of(InspectionFigure::ProfileSlope).limit.expect("a class was asked for").0;
         assert!((limit - 5.5 * 0.882_758).abs() < 1e-4, "{limit}");
         // 5.0 um along the normal are 5.66 um in the transverse section: class 6.
-        assert_eq!(verdict.of(Figure::ProfileSlope).class, Some(ClassReached::Class(6)));
+        assert_eq!(verdict.of(InspectionFigure::ProfileSlope).class, Some(ClassReached::Class(6)));
     }
 }

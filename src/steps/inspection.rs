@@ -7,7 +7,7 @@ use crate::findings::{Datum, Entry, Level, Quantity, Section, Table, TableColumn
 use crate::job::CylindricalGear;
 use crate::measure::inspection::{GearInspection, InspectedFlank};
 use crate::measure::round_gear::RoundGear;
-use crate::measure::verdict::{ClassReached, JudgedFigure, Verdict};
+use crate::measure::verdict::{ClassReached, GearVerdict, JudgedFigure};
 use crate::output::summary;
 use crate::output::text::{Sheet, significant};
 use crate::scene::model::Measure;
@@ -27,7 +27,7 @@ pub struct Inspected {
     /// Mean thickness of the teeth as cut, arc of the pitch curve, mm.
     pub mean_thickness_mm: Option<f64>,
     /// Figures and limits.
-    pub verdict: Verdict,
+    pub verdict: GearVerdict,
 }
 
 impl Inspected {
@@ -37,7 +37,7 @@ impl Inspected {
     /// The tool generates no flank.
     pub fn new<Own>(job: &dyn CylindricalGear, flanks: &[InspectedFlank<Own>], gear: &GearInspection) -> Result<Self> {
         let round = job.round_gear()?;
-        let verdict = Verdict::new(flanks, gear, &job.scene().measure, round.as_ref());
+        let verdict = GearVerdict::new(flanks, gear, &job.scene().measure, round.as_ref());
         let arcs_mm: Option<Vec<f64>> = gear.thickness.iter().map(|of| of.map(|of| of.arc_mm)).collect();
         let mean_thickness_mm = arcs_mm.map(|arcs| arcs.iter().sum::<f64>() / arcs.len() as f64);
         Ok(Self { round, mean_thickness_mm, verdict })
@@ -103,7 +103,7 @@ pub fn sizes(round: &RoundGear, measure: &Measure, cut_thickness_mm: Option<f64>
         .with("active_diameter", active)
         .with(
             "active_tip_diameter",
-            mm(active_tip_mm, "d_Na: end of the active profile: measure.profile_end_height_mm, else the involute's end"),
+            mm(active_tip_mm, "d_Na: end of the active profile: profile_end_height_mm, else the involute's end"),
         )
         .with(
             "profile_shift",
@@ -122,10 +122,13 @@ pub fn sizes(round: &RoundGear, measure: &Measure, cut_thickness_mm: Option<f64>
             "tip_clearance",
             mm(
                 round.tip_clearance_mm(),
-                "c: from this gear's root to the tip of a mate of the same rack and the opposite shift, without backlash",
+                "c: from this gear's root to the tip of a mate of the same rack and opposite shift, without backlash",
             ),
         )
-        .with("thickness", mm(round.thickness_mm, "s_t: thickness of the target on the reference circle, transverse arc"));
+        .with(
+            "thickness",
+            mm(round.thickness_mm, "s_t: thickness of the target, transverse arc of the reference circle"),
+        );
     let ball_mm = measure.ball_diameter_mm.unwrap_or_else(|| round.usual_ball_mm());
     section = section.with("ball_diameter", mm(ball_mm, "D_M: balls or pins of the dimension over two of them"));
     let of_span = if ring { "W_k: span across k spaces" } else { "W_k: span over k teeth" };
@@ -231,7 +234,7 @@ pub fn verdict_words(passes: Option<bool>) -> &'static str {
     }
 }
 
-fn figures(verdict: &Verdict) -> Section {
+fn figures(verdict: &GearVerdict) -> Section {
     let definition = "finest flank tolerance class of ISO 1328-1:2013 that all figures keep; the target is the ideal \
                       flank of the last operation, so it is what this process leaves by itself";
     let class = match (verdict.class(), &verdict.no_class) {

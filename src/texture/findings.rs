@@ -34,8 +34,8 @@ pub fn findings(job: &dyn GearJob, textures: &[WindowTexture]) -> Section {
     Section::new("texture", "Surface texture (ISO 25178-2)").parts(parts)
 }
 
-/// What a reader must know before trusting the numbers of windows: a sentence for all windows of an operation that it is
-/// true of, about the window's section where it is one.
+/// What a reader must know before trusting the numbers of windows: a sentence for all windows of an operation that it
+/// is true of, about the window's section where it is one.
 pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
     let (stems, operations) = (stems(job, textures), job.operations());
     let noted =

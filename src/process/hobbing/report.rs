@@ -4,7 +4,7 @@
 mod facts;
 
 use crate::findings::{self, Findings};
-use crate::measure::verdict::Verdict;
+use crate::measure::verdict::GearVerdict;
 use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
@@ -79,7 +79,7 @@ pub fn page(
 }
 
 /// What a gear inspector would find on a hobbed gear.
-pub fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear, verdict: &'a Verdict) -> Inspection<'a> {
+pub fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear, verdict: &'a GearVerdict) -> Inspection<'a> {
     let spec = &cutter.job.scene.gear;
     let standard_mm = 0.5 * PI * spec.transverse_module_mm() + spec.extra_thickness_mm();
     let words = InspectionWords {

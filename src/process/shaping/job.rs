@@ -307,11 +307,11 @@ impl ShapingJob {
 
 /// How much further from the pitch curve the cutter's centre stands for the gear's profile shift, mm.
 ///
-/// On a round gear teeth are then 2 x m tan(alpha) thicker on the reference circle, exactly: `inv(alpha') = inv(alpha) +
-/// 2 x tan(alpha) / (z + z0)` and `a' = a cos(alpha) / cos(alpha')` (ISO 21771:2007, a mesh without backlash), a ring's
-/// z negative. Road not taken: x m, the law of a rack, which makes teeth of module 3 with x = 0.5 on 24 teeth 0.08 mm
-/// too thick. On other gears the displacement is that of the round gear with as many teeth, and the thickness varies
-/// with the curvature by that order.
+/// On a round gear teeth are then 2 x m tan(alpha) thicker on the reference circle, exactly:
+/// `inv(alpha') = inv(alpha) + 2 x tan(alpha) / (z + z0)` and `a' = a cos(alpha) / cos(alpha')` (ISO 21771:2007, a mesh
+/// without backlash), a ring's z negative. Road not taken: x m, the law of a rack, which makes teeth of module 3 with
+/// x = 0.5 on 24 teeth some 0.08 mm too thick. On other gears the displacement is that of the round gear with as many
+/// teeth, and the thickness varies with the curvature by that order.
 fn shift_mm(gear: &Gear, cutter_teeth: u32) -> f64 {
     let shift = gear.profile_shift_coefficient;
     if shift == 0.0 {

@@ -11,7 +11,7 @@ mod stock;
 mod strokes;
 
 use crate::findings::{self, Findings, Quantity};
-use crate::measure::verdict::Verdict;
+use crate::measure::verdict::GearVerdict;
 use crate::output::folder::OutputFolder;
 use crate::output::report::{KeyNumber, Page};
 use crate::output::text::{plain, significant};
@@ -136,7 +136,7 @@ fn key_numbers(job: &ShapingJob, found: &Findings) -> Vec<KeyNumber> {
 }
 
 /// What a gear inspector would find on a shaped gear.
-pub fn inspection<'a>(job: &ShapingJob, report: &'a GearReport, verdict: &'a Verdict) -> Inspection<'a> {
+pub fn inspection<'a>(job: &ShapingJob, report: &'a GearReport, verdict: &'a GearVerdict) -> Inspection<'a> {
     let words = InspectionWords {
         profile_place: "u from the form point (below) to the tip",
         lead_place: "at the pitch curve",

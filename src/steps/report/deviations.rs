@@ -4,9 +4,9 @@
 use super::facts::gear_words;
 use crate::findings::Findings;
 use crate::measure::deviation::{Trace, TraceDeviation};
-use crate::measure::flank_tolerance::Figure;
+use crate::measure::flank_tolerance::InspectionFigure;
 use crate::measure::inspection::{GearInspection, InspectedFlank};
-use crate::measure::verdict::{JudgedFigure, LimitSource, Verdict};
+use crate::measure::verdict::{GearVerdict, JudgedFigure, LimitSource};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::inspection_sheet::{InspectionSheet, SheetFigure};
@@ -25,8 +25,10 @@ const TRACED_TEETH: u32 = 4;
 /// Smallest distance of two ticks on charts of deviations, µm: less would make rounding look like a fault.
 const LEAST_DIVISION_UM: f64 = 1.0;
 /// Total, form and slope deviation of profile and helix.
-const PROFILE: [Figure; 3] = [Figure::ProfileTotal, Figure::ProfileForm, Figure::ProfileSlope];
-const HELIX: [Figure; 3] = [Figure::HelixTotal, Figure::HelixForm, Figure::HelixSlope];
+const PROFILE: [InspectionFigure; 3] =
+    [InspectionFigure::ProfileTotal, InspectionFigure::ProfileForm, InspectionFigure::ProfileSlope];
+const HELIX: [InspectionFigure; 3] =
+    [InspectionFigure::HelixTotal, InspectionFigure::HelixForm, InspectionFigure::HelixSlope];
 const SIDES: [(Side, &str); 2] = [(Side::Left, "left flanks"), (Side::Right, "right flanks")];
 
 /// A flank with its traces.
@@ -47,7 +49,7 @@ pub struct Inspection<'a> {
     /// Thickness of each tooth less half a pitch with shift and allowance, arcs of the pitch curve, mm.
     thickness_mm: Vec<Option<f64>>,
     words: InspectionWords,
-    verdict: &'a Verdict,
+    verdict: &'a GearVerdict,
 }
 
 /// What a process says of its traces.
@@ -69,7 +71,7 @@ impl<'a> Inspection<'a> {
         gear: &'a GearInspection,
         standard_mm: f64,
         words: InspectionWords,
-        verdict: &'a Verdict,
+        verdict: &'a GearVerdict,
     ) -> Self {
         let inspected = |flank: &'a InspectedFlank<Own>| Inspected {
             tooth: flank.tooth,
@@ -82,7 +84,7 @@ impl<'a> Inspection<'a> {
     }
 
     /// Limit of a figure's magnitude, um.
-    fn limit_um(&self, figure: Figure) -> Option<f64> {
+    fn limit_um(&self, figure: InspectionFigure) -> Option<f64> {
         self.verdict.of(figure).limit.map(|limit| limit.0)
     }
 
@@ -129,7 +131,7 @@ fn sheet(
         helices: SIDES.map(|(side, name)| lead_sheet(inspection, side, name)),
         single_pitch_um: of_pitch(|pitch| &pitch.single_mm),
         cumulative_pitch_um: of_pitch(|pitch| &pitch.cumulative_mm),
-        single_pitch_limit_um: inspection.limit_um(Figure::SinglePitch),
+        single_pitch_limit_um: inspection.limit_um(InspectionFigure::SinglePitch),
         runout_um: inspection.gear.runout.as_ref().map_or_else(Vec::new, |runout| um(&runout.radial_mm)),
         figures: verdict.figures.iter().map(sheet_figure).collect(),
         verdict: inspection.held_against(),
@@ -146,8 +148,8 @@ pub fn write_sheet(inspection: &Inspection, scene: &Scene, found: &Findings, fol
     let sizes = found.find(SIZES).map_or_else(Vec::new, size_rows);
     let mut notes = vec![
         format!("Deviations of the surface as cut from {}.", inspection.words.target),
-        "Profile and helix along the flank's normal, in the middle; dashed: the evaluated part. Pitch: arcs of the pitch \
-         curve from the mean pitch."
+        "Profile and helix along the flank's normal, in the middle; dashed: the evaluated part. Pitch: arcs of the \
+         pitch curve from the mean pitch."
             .to_owned(),
         "The table has the worst tooth of each side.".to_owned(),
     ];
@@ -241,10 +243,10 @@ fn column(
     inspection: &Inspection,
     flank: &Inspected,
     (trace, deviation): (&Trace, Option<TraceDeviation>),
-    [total, form, slope]: [Figure; 3],
+    [total, form, slope]: [InspectionFigure; 3],
 ) -> TraceColumn {
     let um = |value: f64| value * UM_PER_MM;
-    let figure = |figure: Figure, value: Option<f64>| TraceFigure {
+    let figure = |figure: InspectionFigure, value: Option<f64>| TraceFigure {
         name: figure.sign().to_owned(),
         value: value.map(shown_um),
         limit: inspection.limit_um(figure),
@@ -286,7 +288,7 @@ fn lead_sheet(inspection: &Inspection, side: Side, name: &str) -> TraceSheet {
 }
 
 /// The limit of a range, behind its value.
-fn limit_words(inspection: &Inspection, figure: Figure) -> String {
+fn limit_words(inspection: &Inspection, figure: InspectionFigure) -> String {
     inspection.limit_um(figure).map_or_else(String::new, |um| format!(" (limit {} µm)", significant(um, 3)))
 }
 
@@ -344,7 +346,7 @@ fn pitch_charts(inspection: &Inspection) -> Vec<Block> {
                 &format!(
                     "{name}, Fp {} µm{}",
                     significant(shown_um(pitch.total_mm()), 3),
-                    limit_words(inspection, Figure::TotalPitch)
+                    limit_words(inspection, InspectionFigure::TotalPitch)
                 ),
                 &pitch.cumulative_mm,
             ))
@@ -359,7 +361,7 @@ fn pitch_charts(inspection: &Inspection) -> Vec<Block> {
                 &format!(
                     "probe in the space after the tooth, Fr {} µm{}",
                     significant(shown_um(r.total_mm()), 3),
-                    limit_words(inspection, Figure::Runout)
+                    limit_words(inspection, InspectionFigure::Runout)
                 ),
                 &r.radial_mm,
             )
@@ -369,7 +371,7 @@ fn pitch_charts(inspection: &Inspection) -> Vec<Block> {
         name: "teeth".to_owned(),
         values: inspection.thickness_mm.iter().map(|t| t.map(shown_um)).collect(),
     };
-    let single_limit_um = inspection.limit_um(Figure::SinglePitch);
+    let single_limit_um = inspection.limit_um(InspectionFigure::SinglePitch);
     let mut blocks = vec![bars(
         "Single pitch deviation fp",
         "arc from the tooth before, less the mean pitch",

@@ -53,8 +53,8 @@ fn a_profile_shift_makes_the_tooth_that_its_definition_says() {
     }
 }
 
-/// The span touches two flanks along one tangent of the base circle: the distance of the target's flanks there, point by
-/// point, is W_k.
+/// The span touches two flanks along one tangent of the base circle: the distance of the target's flanks there, point
+/// by point, is W_k.
 #[test]
 fn the_span_is_the_distance_of_the_generated_flanks() {
     let job = job("circular_m3_z24.toml", 0.3, 0.0);
