@@ -13,8 +13,12 @@ fn at(time_s: f64) -> MachineMoment<1> {
 }
 
 /// The axis behind a command of its own.
-fn actual(errors: AxisErrors, course: Course, command: impl Fn(f64) -> AxisMotion + Sync) -> impl Fn(f64) -> f64 {
-    let motion = ActualMotion::new(&[errors], &course, |time_s| [command(time_s)]).expect("an axis with errors");
+fn actual<F: Fn(f64) -> AxisMotion + Sync>(
+    errors: AxisErrors,
+    course: &Course,
+    command: F,
+) -> impl Fn(f64) -> f64 + use<F> {
+    let motion = ActualMotion::new(&[errors], course, |time_s| [command(time_s)]).expect("an axis with errors");
     move |time_s| motion.positions(&at(time_s), |time_s| [command(time_s).position])[0]
 }
 
@@ -53,7 +57,7 @@ fn a_drive_follows_a_sinusoid_with_the_gain_and_phase_of_its_loop() {
         let servo = Servo { velocity_gain_per_s, feed_forward, speed_loop_s };
         for per_s in [0.5, 8.0] {
             let course = Course { cells: 4000, ..course(3.0, &[]) };
-            let made = actual(AxisErrors { servo: Some(servo), ..AxisErrors::default() }, course, sine(2.0, per_s));
+            let made = actual(AxisErrors { servo: Some(servo), ..AxisErrors::default() }, &course, sine(2.0, per_s));
             let (gain, phase) = response(servo, per_s);
             for i in 0..=60 {
                 let time_s = 0.05 * f64::from(i);
@@ -68,7 +72,7 @@ fn a_drive_follows_a_sinusoid_with_the_gain_and_phase_of_its_loop() {
 fn a_drive_lags_by_its_speed_over_its_gain() {
     for (feed_forward, speed_loop_s) in [(0.0, 0.0), (0.0, 0.01), (0.4, 0.03)] {
         let servo = Servo { velocity_gain_per_s: 25.0, feed_forward, speed_loop_s };
-        let made = actual(AxisErrors { servo: Some(servo), ..AxisErrors::default() }, course(2.0, &[]), ramp(3.0));
+        let made = actual(AxisErrors { servo: Some(servo), ..AxisErrors::default() }, &course(2.0, &[]), ramp(3.0));
         for time_s in [0.0, 0.7, 2.0] {
             assert!((3.0 * time_s - made(time_s) - (1.0 - feed_forward) * 3.0 / 25.0).abs() < 1e-12);
         }
@@ -87,7 +91,7 @@ fn a_corner_of_the_command_is_forgotten_as_the_loop_decays() {
     };
     let gain = 15.0;
     let first = Servo { velocity_gain_per_s: gain, feed_forward: 0.0, speed_loop_s: 0.0 };
-    let made = actual(AxisErrors { servo: Some(first), ..AxisErrors::default() }, course(2.0, &[1.0]), command);
+    let made = actual(AxisErrors { servo: Some(first), ..AxisErrors::default() }, &course(2.0, &[1.0]), command);
     for passed in [0.001, 0.02, 0.1, 0.5] {
         let behind = 2.0 * passed - made(1.0 + passed);
         assert!((behind - 2.0 / gain * (1.0 - (-gain * passed).exp())).abs() < 1e-8, "{passed} s: {behind}");
@@ -96,7 +100,7 @@ fn a_corner_of_the_command_is_forgotten_as_the_loop_decays() {
     // step answer 1 - exp(-d t) (cos w t + d / w sin w t).
     let t = 0.05;
     let second = Servo { velocity_gain_per_s: gain, feed_forward: 0.0, speed_loop_s: t };
-    let made = actual(AxisErrors { servo: Some(second), ..AxisErrors::default() }, course(2.0, &[1.0]), command);
+    let made = actual(AxisErrors { servo: Some(second), ..AxisErrors::default() }, &course(2.0, &[1.0]), command);
     let (d, w) = (0.5 / t, (gain / t - 0.25 / t / t).sqrt());
     let h = 1e-4;
     for passed in [0.01, 0.06, 0.2] {
@@ -110,7 +114,7 @@ fn a_corner_of_the_command_is_forgotten_as_the_loop_decays() {
 fn an_axis_with_backlash_stands_still_while_its_drive_turns_back() {
     let (width, amplitude) = (0.02, 0.5);
     let errors = AxisErrors { backlash: width, ..AxisErrors::default() };
-    let made = actual(errors, course(12.0, &[]), sine(amplitude, 1.0));
+    let made = actual(errors, &course(12.0, &[]), sine(amplitude, 1.0));
     let turn = std::f64::consts::FRAC_PI_2;
     for cycle in [0.0, std::f64::consts::TAU] {
         // Rising, half the play behind; after the turn at rest until the drive has come back by the whole of it.
@@ -124,7 +128,7 @@ fn an_axis_with_backlash_stands_still_while_its_drive_turns_back() {
     // A drive with lag turns later, and so does the axis.
     let servo = Servo { velocity_gain_per_s: 10.0, feed_forward: 0.0, speed_loop_s: 0.0 };
     let errors = AxisErrors { backlash: width, servo: Some(servo), ..AxisErrors::default() };
-    let made = actual(errors, course(12.0, &[]), sine(amplitude, 1.0));
+    let made = actual(errors, &course(12.0, &[]), sine(amplitude, 1.0));
     let (gain, phase) = response(servo, 1.0);
     assert!((made(turn - phase) - (amplitude * gain - 0.5 * width)).abs() < 1e-9);
 }
@@ -132,12 +136,12 @@ fn an_axis_with_backlash_stands_still_while_its_drive_turns_back() {
 #[test]
 fn a_gearbox_gives_rounded_commands_a_cycle_late() {
     let gearbox = GearboxCycle { cycle_s: 0.004, increment: 0.0 };
-    let made = actual(AxisErrors { gearbox: Some(gearbox), ..AxisErrors::default() }, course(1.0, &[]), ramp(5.0));
+    let made = actual(AxisErrors { gearbox: Some(gearbox), ..AxisErrors::default() }, &course(1.0, &[]), ramp(5.0));
     for time_s in [0.0, 0.1, 0.3331] {
         assert!((made(time_s) - 5.0 * (time_s - 0.004)).abs() < 1e-12);
     }
     let rounding = GearboxCycle { increment: 0.01, ..gearbox };
-    let made = actual(AxisErrors { gearbox: Some(rounding), ..AxisErrors::default() }, course(1.0, &[]), ramp(5.0));
+    let made = actual(AxisErrors { gearbox: Some(rounding), ..AxisErrors::default() }, &course(1.0, &[]), ramp(5.0));
     // At the beginning of a cycle: 5 x 0.1 rounds to itself, 5 x 0.104 = 0.52 too, 5 x 0.101 is between.
     assert!((made(0.104) - 0.5).abs() < 1e-12 && (made(0.1053) - (0.5 + 0.02 * 0.325)).abs() < 1e-12);
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -154,13 +158,13 @@ fn scale_waves_and_drift_add_up() {
     let periodic = vec![PeriodicError { rate: 3.0, amplitude: 1e-3, phase_rad: 0.4 }];
     let drift = |time_constant_s| Some(ThermalDrift { per_s: 1e-4, time_constant_s });
     let even = AxisErrors { scale: 2e-5, periodic, drift: drift(None), ..AxisErrors::default() };
-    let made = actual(even.clone(), course(1.0, &[]), ramp(2.0));
+    let made = actual(even.clone(), &course(1.0, &[]), ramp(2.0));
     let expected = |time_s: f64| {
         let y = 2.0 * time_s;
         y + 2e-5 * y + 1e-3 * (3.0 * y + 0.4).sin()
     };
     assert!((made(0.7) - expected(0.7) - 0.7e-4).abs() < 1e-15);
-    let made = actual(AxisErrors { drift: drift(Some(0.5)), ..even }, course(1.0, &[]), ramp(2.0));
+    let made = actual(AxisErrors { drift: drift(Some(0.5)), ..even }, &course(1.0, &[]), ramp(2.0));
     assert!((made(0.7) - expected(0.7) - 0.5e-4 * (1.0 - (-1.4_f64).exp())).abs() < 1e-15);
 }
 

@@ -72,7 +72,7 @@ impl ActualRoll {
         let beyond_s = 0.5 * roll.roll_s;
         let course = Course { from_s: -beyond_s, to_s: roll.roll_s + beyond_s, corners_s: Vec::new(), cells: CELLS };
         let motion = ActualMotion::new(&errors.axes, &course, |time_s| {
-            let axes = rolled_axes(&machine, &roll.settings, roll.from_rad + time_s * roll.rad_per_s);
+            let axes = rolled_axes(machine, &roll.settings, roll.from_rad + time_s * roll.rad_per_s);
             axes.map(|series| AxisMotion::along(series, roll.rad_per_s))
         });
         Self { machine, roll, motion, mounting: errors.mounting, head, middle_z_mm }
@@ -88,7 +88,7 @@ impl ActualRoll {
                 let time_s = (at.cradle_rad - roll.from_rad) / roll.rad_per_s;
                 let commanded = |time_s: f64| {
                     let cradle_rad = roll.from_rad + time_s * roll.rad_per_s;
-                    rolled_axes(&self.machine, &roll.settings, cradle_rad).map(|axis| axis.value())
+                    rolled_axes(self.machine, &roll.settings, cradle_rad).map(|axis| axis.value())
                 };
                 let moment = MachineMoment {
                     time_s,

@@ -6,7 +6,7 @@ use gearcut_core::math::Jet;
 
 /// X, Y, Z, A and B at a cradle angle with two derivatives with respect to it, mm and rad: those of a circle and of the
 /// roll's polynomial.
-pub fn rolled_axes(machine: &FiveAxisMachine, settings: &CradleSettings, cradle_rad: f64) -> [Jet<3>; 5] {
+pub fn rolled_axes(machine: FiveAxisMachine, settings: &CradleSettings, cradle_rad: f64) -> [Jet<3>; 5] {
     let axes = machine.axes_of_cradle(settings, cradle_rad);
     let [x, y, z] = axes.slides_mm.to_array();
     let (sin, cos) = cradle_rad.sin_cos();
