@@ -13,10 +13,11 @@ fn at(time_s: f64) -> MachineMoment<1> {
 }
 
 /// The axis behind a command of its own.
-fn actual<C>(errors: AxisErrors, course: &Course, command: C) -> impl Fn(f64) -> f64 + use<C>
-where
-    C: Fn(f64) -> AxisMotion + Sync,
-{
+fn actual<F: Fn(f64) -> AxisMotion + Sync>(
+    errors: AxisErrors,
+    course: &Course,
+    command: F,
+) -> impl Fn(f64) -> f64 + use<F> {
     let motion = ActualMotion::new(&[errors], course, |time_s| [command(time_s)]).expect("an axis with errors");
     move |time_s| motion.positions(&at(time_s), |time_s| [command(time_s).position])[0]
 }

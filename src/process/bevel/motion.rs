@@ -48,8 +48,7 @@ impl Motion<5> for RollMotion<'_> {
     const AXES: &'static [Axis; 5] = &AXES;
 
     fn at(&self, time_s: f64) -> [AxisMotion; 5] {
-        let BevelJob { machine, .. } = self.job;
-        let series = rolled_axes(*machine, &self.operation.settings, self.cradle_rad(time_s));
+        let series = rolled_axes(self.job.machine, &self.operation.settings, self.cradle_rad(time_s));
         series.map(|series| AxisMotion::along(series, self.operation.cradle_rad_per_s()))
     }
 

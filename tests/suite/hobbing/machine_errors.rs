@@ -37,10 +37,11 @@ fn job(settings: &[&str]) -> HobbingJob {
 struct Place {
     point_mm: DVec3,
     normal: DVec3,
-    /// Time at which the slide passes it, s.
+    /// Tool angle of the pass that left it in the faulty gear, its time (s) and where the slide stood then, along the
+    /// gear's z (mm): up to half a feed from the place.
+    tool_angle_rad: f64,
     time_s: f64,
-    /// Pass that left it in the faulty gear.
-    pass: u32,
+    slide_z_mm: f64,
 }
 
 impl Place {
@@ -77,14 +78,19 @@ fn changes(sound: &HobbingJob, faulty: &HobbingJob, teeth: &[u32]) -> Vec<(Place
             let arc_mm = target.arc_at_height_mm(&sound.blank, 0.0).expect("the pitch circle");
             let field = cutter.rays_over(target, vec![arc_mm], ROWS_MM.to_vec()).field;
             let (before, after) = (finished(sound, &field), finished(faulty, &field));
-            for (row, &z_mm) in ROWS_MM.iter().enumerate() {
+            for row in 0..ROWS_MM.len() {
                 let ray = field.ray(0, row);
                 let index = field.index(0, row);
-                // The slide is even in time, and runs against the gear's z.
-                let slide = |time_s: f64| linkage.axes::<1>(time_s).slide_mm.value();
-                let end_s = linkage.end_s();
-                let time_s = end_s * (-z_mm - slide(0.0)) / (slide(end_s) - slide(0.0));
-                let place = Place { point_mm: ray.origin_mm, normal: ray.normal, time_s, pass: after.passes[index] };
+                let passes = &cutter.operations[0];
+                let tool_angle_rad = passes.pass(after.passes[index] - passes.first_pass).tool_angle_rad;
+                let time_s = linkage.time_at_hob_angle(tool_angle_rad);
+                let place = Place {
+                    point_mm: ray.origin_mm,
+                    normal: ray.normal,
+                    tool_angle_rad,
+                    time_s,
+                    slide_z_mm: -linkage.axes::<1>(time_s).slide_mm.value(),
+                };
                 found.push((place, f64::from(after.heights_mm[index]) - f64::from(before.heights_mm[index])));
             }
         }
@@ -131,7 +137,7 @@ fn errors_of_a_round_gear_are_their_closed_forms() {
         "slide out of parallel",
         &["machine.errors.guide.radial_um_per_100mm=200", "machine.errors.guide.tangential_um_per_100mm=-150"],
         3.0,
-        &|place| place.shifted([200e-5 * place.point_mm.z, -150e-5 * place.point_mm.z, 0.0]),
+        &|place| place.shifted([200e-5 * place.slide_z_mm, -150e-5 * place.slide_z_mm, 0.0]),
     );
     let direction = |degrees: f64| DVec2::from_angle(degrees.to_radians()).extend(0.0);
     case(
@@ -159,7 +165,7 @@ fn errors_along_the_axis_show_on_a_helical_gear() {
         agree(name, &changes(&sound, &helical(settings), &[5]), 1.0, expected);
     };
     case("scale of the slide", &["machine.errors.slide.scale_um_per_m=3000"], &|place| {
-        place.shifted([0.0, 0.0, 3e-3 * place.point_mm.z])
+        place.shifted([0.0, 0.0, 3e-3 * place.slide_z_mm])
     });
     case("offset of the work", &["mounting.axial_offset_um=-12"], &|place| place.shifted([0.0, 0.0, 12e-3]));
 }
@@ -168,17 +174,14 @@ fn errors_along_the_axis_show_on_a_helical_gear() {
 #[test]
 fn runout_of_the_hob_follows_its_angle() {
     let sound = job(&[]);
-    let (runout_mm, angle_rad) = (4e-3, 0.5);
+    let (runout_mm, angle_rad) = (8e-3, 0.5);
     let faulty = job(&[
-        "tool.hob.runout_um=4",
+        "tool.hob.runout_um=8",
         &format!("tool.hob.runout_angle_deg={}", angle_rad * 180.0 / std::f64::consts::PI),
     ]);
-    let cutter = HobCutter::new(&faulty).expect("passes");
-    let passes = &cutter.operations[0];
     let geometry = faulty.finishing().linkage.geometry();
     agree("runout of the hob", &changes(&sound, &faulty, &[2, 9]), 1.0, |place| {
-        let hob_rad = passes.pass(place.pass - passes.first_pass).tool_angle_rad;
-        let tool = geometry.machine_from_tool(hob_rad, 0.0, 0.0, 0.0).rotation;
+        let tool = geometry.machine_from_tool(place.tool_angle_rad, 0.0, 0.0, 0.0).rotation;
         let shift = runout_mm * (tool.x_axis * f64::cos(angle_rad) + tool.y_axis * f64::sin(angle_rad));
         // Machine x is counter-clockwise about the gear, y outwards, z against the gear's.
         place.shifted([shift.y, shift.x, -shift.z])

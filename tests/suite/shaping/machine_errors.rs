@@ -149,7 +149,8 @@ fn errors_of_a_round_gear_are_their_closed_forms() {
         agree(name, &changes(&sound, &job(ROUND, settings), &teeth), least_um, expected);
     };
     let work = |place: &Place, turn_rad: f64| place.shifted(0.0, PITCH_MM * turn_rad);
-    let cutter = |place: &Place, turn_rad: f64| place.shifted(0.0, CUTTER_MM * turn_rad);
+    // The cutter's edge stands on its gear side: what turns counter-clockwise there moves clockwise about the gear.
+    let cutter = |place: &Place, turn_rad: f64| place.shifted(0.0, -CUTTER_MM * turn_rad);
     case(
         "waves of the work spindle",
         &[
