@@ -172,24 +172,22 @@ fn chips_add_up_to_what_is_missing() {
     }
 }
 
-/// Neighbours that are said to be clear change no bit of any slot's cell; a head that hits the next tooth does, and is
-/// not said to be clear.
+/// Neighbours that are said to be clear change no bit of any slot's cell; where teeth come to a point, as at the crown
+/// gear's toe, they are not said to be.
 #[test]
 fn neighbours_that_are_said_to_be_clear_take_nothing() {
-    let far = "machine.cradle.roll_ratio=1.0232";
-    for (scene, more, clear) in
-        [("five_linkage_corrected", &[][..], true), ("hypoid", &[], true), ("hypoid", &[far], false)]
-    {
-        let fast = ["operation.finish.roll_speed_deg_per_s=20", "fields.blank.spacing_mm=0.8"];
-        let job = coarse(scene, &[&fast[..], more].concat());
+    let fast = ["operation.finish.roll_speed_deg_per_s=20", "fields.blank.spacing_mm=0.8"];
+    for scene in ["five_linkage_corrected", "hypoid"] {
+        let job = coarse(scene, &fast);
         let grid = CellGrid::of_scene(&job).expect("rays");
-        assert_eq!(job.neighbours_may_reach(&grid), !clear, "{scene}");
+        assert!(!job.neighbours_may_reach(&grid), "{scene}");
         for slot in [0, job.blank.teeth - 1] {
             let [own, all] = [false, true].map(|beside| job.cut_cell(&Cpu::default(), &grid, slot, beside));
-            let [own, all] = [own.expect("cuts").0, all.expect("cuts").0];
-            assert_eq!(own == all, clear, "{scene}, slot {slot}");
+            assert!(own.expect("cuts").0 == all.expect("cuts").0, "{scene}, slot {slot}");
         }
     }
+    let pointed = coarse("crown_gear", &fast);
+    assert!(pointed.neighbours_may_reach(&CellGrid::of_scene(&pointed).expect("rays")));
 }
 
 /// Blades farther round than the head's window stay clear of the blank: with a wider window the ends of the face, which
