@@ -1,7 +1,7 @@
 //! What ISO 1328-1:2013 allows the flanks of a round gear, class by class.
 //!
 //! In: class A, number of teeth, reference diameter d, normal module m_n, face width b, helix angle. Out:
-//! [`FlankTolerances`] in um, or why the standard gives none.
+//! tolerances of nine figures in um ([`ToleranceSizes::tolerance_um`]), or why the standard gives none.
 //!
 //! **Law** (5.3, formulas 5 to 12, in um with lengths in mm), each times sqrt(2)^(A - 5):
 //!

@@ -1,6 +1,6 @@
 //! A printed page of lines, rectangles and words: one list of strokes, written as SVG and as PDF alike.
 //!
-//! In: strokes in points (1/72 inch) from the upper left corner. Out: an SVG file, and a PDF file ([`mod@pdf`]) that
+//! In: strokes in points (1/72 inch) from the upper left corner. Out: an SVG file, and a PDF file (`pdf.rs`) that
 //! has the letters of the embedded font inside.
 //!
 //! The law: both files are made of the same list, so that paper and screen show the same. Road not taken: a converter
