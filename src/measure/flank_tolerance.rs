@@ -28,7 +28,7 @@ use std::f64::consts::SQRT_2;
 /// The classes, the finest first.
 pub const CLASSES: std::ops::RangeInclusive<u32> = 1..=11;
 
-/// A figure that is held against a limit.
+/// A figure that a limit judges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InspectionFigure {
     /// f_p.

@@ -33,7 +33,7 @@ pub struct InspectionSheet {
     pub runout_um: Vec<f64>,
     /// Figures with limits: cells of the table below.
     pub figures: Vec<SheetFigure>,
-    /// Verdict of the whole gear, and what it was held against.
+    /// Verdict of the whole gear, and the limits that it was judged by.
     pub verdict: String,
     /// Whether a limit is passed.
     pub fails: bool,

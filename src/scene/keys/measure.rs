@@ -1,4 +1,4 @@
-//! Keys of where flanks are measured, and of the limits that they are held against.
+//! Keys of where flanks are measured, and of the limits that they must keep.
 
 use super::{Default, Key, KeySection, Kind, Range, Role};
 
@@ -35,7 +35,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 name: "iso_1328_class",
                 kind: Kind::Whole { min: 1, max: 11 },
                 unit: "",
-                default: Default::LeftOut("not held against a class"),
+                default: Default::LeftOut("no class is asked for"),
                 example: "6",
                 teach: "Flank tolerance class of ISO 1328-1:2013 that a round gear must keep.",
             },
@@ -49,7 +49,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
             ),
         ],
         groups: &[],
-        teach: "Where profiles are evaluated, and what the gear is held against.",
+        teach: "Where profiles are evaluated, and the limits that the gear must keep.",
     },
     KeySection {
         path: "measure.limits",

@@ -88,7 +88,7 @@ impl<'a> Inspection<'a> {
         self.verdict.of(figure).limit.map(|limit| limit.0)
     }
 
-    /// What the gear is held against, in a sentence.
+    /// The limits that the gear is judged by, in a sentence.
     fn held_against(&self) -> String {
         let mut sources: Vec<LimitSource> = Vec::new();
         for (_, source) in self.verdict.figures.iter().filter_map(|judged| judged.limit) {

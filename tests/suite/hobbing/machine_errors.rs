@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 /// Places along the tooth, mm.
-const ROWS_MM: [f64; 3] = [-3.0, 0.5, 3.0];
+const ROWS_MM: [f64; 6] = [-3.0, -1.9, -0.8, 0.5, 1.7, 3.0];
 const PITCH_MM: f64 = 36.0;
 const ARCSEC_RAD: f64 = std::f64::consts::PI / 180.0 / 3600.0;
 /// Speed of the hob, rad/s.
@@ -67,7 +67,9 @@ fn finished(job: &HobbingJob, field: &SpatialField) -> Layer {
     layers.last().expect("an operation").clone()
 }
 
-/// What an error changes near the pitch circle of both flanks of a tooth, mm.
+/// What an error changes near the pitch circle of both flanks of a tooth, mm, where the same pass leaves the surface
+/// with it and without it. Elsewhere the heights of two marks are in the difference, and an error that grows along the
+/// tooth moves the borders of marks.
 fn changes(sound: &HobbingJob, faulty: &HobbingJob, teeth: &[u32]) -> Vec<(Place, f64)> {
     let cutter = HobCutter::new(sound).expect("passes");
     let linkage = &sound.finishing().linkage;
@@ -82,6 +84,9 @@ fn changes(sound: &HobbingJob, faulty: &HobbingJob, teeth: &[u32]) -> Vec<(Place
                 let ray = field.ray(0, row);
                 let index = field.index(0, row);
                 let passes = &cutter.operations[0];
+                if before.passes[index] != after.passes[index] {
+                    continue;
+                }
                 let tool_angle_rad = passes.pass(after.passes[index] - passes.first_pass).tool_angle_rad;
                 let time_s = linkage.time_at_hob_angle(tool_angle_rad);
                 let place = Place {
@@ -95,6 +100,7 @@ fn changes(sound: &HobbingJob, faulty: &HobbingJob, teeth: &[u32]) -> Vec<(Place
             }
         }
     }
+    assert!(3 * found.len() > teeth.len() * 2 * ROWS_MM.len(), "only {} places", found.len());
     found
 }
 

@@ -83,7 +83,7 @@ fn a_gear_off_its_axis_fails_its_class_and_the_sheet_shows_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("out");
     let settings = [
-        "machine.work_eccentricity_um=6",
+        "mounting.eccentricity_um=6",
         "measure.iso_1328_class=2",
         "measure.limits.runout_um=15",
         "fields.flank.profile_spacing_um=50",

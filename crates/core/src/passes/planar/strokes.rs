@@ -5,7 +5,8 @@
 //! the tooth (the crank makes that relation steep near the ends of the stroke). So each row of a field has a phase tau
 //! in [-1, 1], each stroke has poses at Chebyshev nodes of tau, and everything made of them is a cubic in tau. A frozen
 //! stroke is the constant. Where a guide leads the cutter aside along the tooth, tau follows the place itself while the
-//! axes rest; with a crank the guide's shift is the cubic in tau, on usual strokes within half a per cent of it.
+//! axes rest; with a crank the guide's shift is the cubic in tau: on usual strokes a slope within half a per cent, a
+//! bow within 4 %.
 //!
 //! Law of the ram: z = z_m + (L/2) cos(theta), L = approach + face + overrun, theta from 0 to pi during the cut, half
 //! of a double stroke's time; so a place z is reached at theta = arccos(2 (z - z_m) / L). The stroke's own moment is
