@@ -236,9 +236,9 @@ fn errors_of_a_round_gear_are_their_closed_forms() {
         let bow = |place: &Place| place.shifted(0.0, 6e-3 * (place.z_mm / 10.0).powi(2));
         let bowed = ["machine.errors.guide.tangential_bow_um=6"];
         if feed_during_stroke {
-            // A stroke's pose is a cubic through four phases of the crank. With 15 mm of half a stroke z^2 is
-            // 112.5 mm^2 (1 - cos(2 theta)); the parabola through theta = +-41.8 and +-13.9 deg misses it by 3 % of
-            // its 100 mm^2 at the ends of the face.
+            // A stroke's pose is a cubic through four phases of the crank, the Chebyshev nodes. Half a stroke is 13 mm,
+            // z = 13 mm sin(theta): the cubic misses z^2 by 3.8 % of that at the ends of the face at most, by 3.5 % in
+            // these rows.
             let faulty = job(ROUND, &[bowed[0], &feed]);
             let [largest_um, worst_um] = differences_um("bow in the feed", &changes(&sound, &faulty, &teeth), bow);
             assert!(largest_um > 4.0 && worst_um < 0.04 * 6.0, "{worst_um} um off of {largest_um} um");
