@@ -3,6 +3,7 @@
 //! In: a job. Out: how deep and where, and warnings with numbers, before anything is cut. A few rays of each flank are
 //! cut by the passes of one slot alone.
 
+use super::blank::CellGrid;
 use super::job::BevelJob;
 use gearcut_core::cut::Backend as _;
 use gearcut_core::cut::cpu::Cpu;
@@ -71,7 +72,10 @@ impl BevelJob {
     /// A place that the roll does not generate.
     pub fn next_tooth_warning(&self) -> Result<Option<String>> {
         let DeepestCut { depth_mm, side, at_mm } = self.deepest_of_sides(&[1, self.blank.teeth - 1])?;
-        Ok((depth_mm > HIT_MM).then(|| {
+        // A ray that goes through a thin tooth meets the slot beyond it, which its own blades cut: no hit where bounds
+        // say that blades stay in their cells.
+        let is_hit = depth_mm > HIT_MM && self.neighbours_may_reach(&CellGrid::of_scene(self)?);
+        Ok(is_hit.then(|| {
             format!(
                 "the head hits the next tooth: while one slot is cut, its blades go {depth_mm:.3} mm into the {} flank \
                  beyond, {:.1} mm from the middle of the face along the tooth; roll less far, or use a smaller point \
