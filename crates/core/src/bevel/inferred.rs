@@ -12,7 +12,9 @@
 //! there. Seen along the cradle's axis the crown gear's point moves by (E_m, R_m cos theta_f) per radian, the work's by
 //! (0, R_a R_m sin gamma); their difference runs along the tooth where
 //!
-//!     R_a = (cos theta_f - E_m tan(psi) / R_m) / sin(gamma)
+//! ```text
+//! R_a = (cos theta_f - E_m tan(psi) / R_m) / sin(gamma)
+//! ```
 //!
 //! Without offset that is the ratio of a crown gear in the plane of the root cone. All of this holds for settings
 //! without modified roll that let the head's circle run through the mean point.

@@ -334,7 +334,8 @@ mod tests {
     fn parts_of_turns_have_every_pass_between_the_ends() {
         let angles = [0.3, 1.9, 3.1, 5.5];
         let frames: Vec<Rigid3> = angles.iter().map(|&a| frame(a, [0.0, 1.0], [1.0, 0.0], [95.0, 0.0])).collect();
-        for (range, first_pass) in [([-0.7, 18.2], 0), ([1.4, 2.3], 7), ([4.0, 9.5], 100), ([2.0, 4.1], 3)] {
+        // No end falls on a blade, where rounding would decide.
+        for (range, first_pass) in [([-0.75, 18.2], 0), ([1.4, 2.3], 7), ([4.0, 9.5], 100), ([2.0, 4.1], 3)] {
             let motion =
                 MotionTable::new(range, &[], |_| Rigid3 { rotation: DMat3::IDENTITY, translation_mm: DVec3::ZERO });
             let tool = Placed(frames.clone(), BladeEdges::shared(edge()), 0.4);
