@@ -43,7 +43,7 @@ impl Commanded<'_> {
     /// Axes at a stroke coordinate: work angle and cutter angle, rad, centre distance, mm.
     fn positions(&self, stroke: f64) -> [f64; 3] {
         match self.program {
-            Some(program) => program.positions_and_rates(stroke).map(|[position, _]| position),
+            Some(program) => program.at(stroke).axes(),
             None => {
                 let state = self.schedule.state(stroke);
                 [state.psi_c_rad, state.psi_b_rad, state.center_distance_mm]
@@ -54,11 +54,14 @@ impl Commanded<'_> {
     fn motion(&self, stroke: f64) -> [AxisMotion; 3] {
         let strokes_per_s = 1.0 / self.schedule.time_s(1.0);
         match self.program {
-            Some(program) => program.positions_and_rates(stroke).map(|[position, rate]| AxisMotion {
-                position,
-                velocity: rate * strokes_per_s,
-                acceleration: 0.0,
-            }),
+            Some(program) => {
+                let (positions, rates) = (program.at(stroke).axes(), program.rates(stroke));
+                std::array::from_fn(|axis| AxisMotion {
+                    position: positions[axis],
+                    velocity: rates[axis] * strokes_per_s,
+                    acceleration: 0.0,
+                })
+            }
             None => self.schedule.at(stroke),
         }
     }

@@ -2,6 +2,7 @@
 //! displacement d of the head against the work at the moment of contact moves the flank by n . d.
 
 use super::jobs::job;
+use crate::fixtures::closed_form;
 use gearcut::cut::cpu::Cpu;
 use gearcut::passes::SweepPlan;
 use gearcut::process::bevel::BevelJob;
@@ -66,11 +67,7 @@ fn changes(sound: &BevelJob, faulty: &BevelJob, teeth: &[u32]) -> Vec<(Place, f6
 
 /// To 1 % of the closed form's largest value, or 0.1 um.
 fn agree(name: &str, found: &[(Place, f64)], least_um: f64, expected: impl Fn(&Place) -> f64) {
-    let largest_um = found.iter().map(|(place, _)| 1e3 * expected(place).abs()).fold(0.0, f64::max);
-    let worst_um = found.iter().map(|(place, got)| 1e3 * (got - expected(place)).abs()).fold(0.0, f64::max);
-    println!("{name}: up to {largest_um:.3} um, worst difference {worst_um:.4} um");
-    assert!(largest_um >= least_um, "{name}: {largest_um} um are too little to see");
-    assert!(worst_um < (0.01 * largest_um).max(0.1), "{name}: {worst_um} um off of {largest_um} um");
+    closed_form::agree(name, found, [least_um, 0.1], expected);
 }
 
 #[test]

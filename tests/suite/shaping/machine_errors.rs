@@ -7,6 +7,7 @@
 //! both carry the same facets.
 
 use super::flank_heights::compare_whole_field;
+use crate::fixtures::closed_form;
 use gearcut::cut::cpu::Cpu;
 use gearcut::machine::Motion;
 use gearcut::process::shaping::ShapingJob;
@@ -131,20 +132,9 @@ fn changes(sound: &ShapingJob, faulty: &ShapingJob, teeth: &[u32]) -> Vec<(Place
     found
 }
 
-/// Compares with a closed form to 1 % of its largest value, or 0.1 um where that is more; with `least_um` the form itself
-/// must reach so much.
+/// To 1 % of the closed form's largest value, or 0.02 um.
 fn agree(name: &str, found: &[(Place, f64)], least_um: f64, expected: impl Fn(&Place) -> f64) {
-    let [largest_um, worst_um] = differences_um(name, found, expected);
-    assert!(largest_um >= least_um, "{name}: {largest_um} um are too little to see");
-    assert!(worst_um < (0.01 * largest_um).max(0.02), "{name}: {worst_um} um off of {largest_um} um");
-}
-
-/// Largest value of a closed form, and largest difference from it, um.
-fn differences_um(name: &str, found: &[(Place, f64)], expected: impl Fn(&Place) -> f64) -> [f64; 2] {
-    let largest_um = found.iter().map(|(place, _)| 1e3 * expected(place).abs()).fold(0.0, f64::max);
-    let worst_um = found.iter().map(|(place, got)| 1e3 * (got - expected(place)).abs()).fold(0.0, f64::max);
-    println!("{name}: up to {largest_um:.3} um, worst difference {worst_um:.4} um");
-    [largest_um, worst_um]
+    closed_form::agree(name, found, [least_um, 0.02], expected);
 }
 
 #[test]
@@ -240,7 +230,8 @@ fn errors_of_a_round_gear_are_their_closed_forms() {
             // z = 13 mm sin(theta): the cubic misses z^2 by 3.8 % of that at the ends of the face at most, by 3.5 % in
             // these rows.
             let faulty = job(ROUND, &[bowed[0], &feed]);
-            let [largest_um, worst_um] = differences_um("bow in the feed", &changes(&sound, &faulty, &teeth), bow);
+            let [largest_um, worst_um] =
+                closed_form::differences_um("bow in the feed", &changes(&sound, &faulty, &teeth), bow);
             assert!(largest_um > 4.0 && worst_um < 0.04 * 6.0, "{worst_um} um off of {largest_um} um");
         } else {
             case("bow of the guide", &bowed, &bow);

@@ -54,7 +54,7 @@ impl Knot {
     }
 
     /// In the order of [`AXES`].
-    fn axes(&self) -> [f64; 3] {
+    pub fn axes(&self) -> [f64; 3] {
         [self.psi_c_rad, self.psi_b_rad, self.center_distance_mm]
     }
 
@@ -177,36 +177,37 @@ impl AxisProgram {
 
     /// Axis positions at a stroke coordinate; before the first and after the last knot the motion is continued.
     pub fn at(&self, stroke: f64) -> Knot {
-        let after = self.knots.partition_point(|k| k.stroke <= stroke).clamp(1, self.knots.len().max(2) - 1);
+        let after = self.block_at(stroke);
         match self.knots.get(after) {
             Some(b) => Knot::between(&self.knots[after - 1], b, stroke),
             None => Knot { stroke, ..self.knots[0] },
         }
     }
 
-    /// Positions in the order of [`AXES`] and how they change per stroke, within the block that is run at a coordinate.
-    pub fn positions_and_rates(&self, stroke: f64) -> [[f64; 2]; 3] {
-        let after = self.knots.partition_point(|k| k.stroke <= stroke).clamp(1, self.knots.len().max(2) - 1);
-        let at = self.at(stroke).axes();
-        let rates = self.knots.get(after).map_or([0.0; 3], |b| {
-            let a = &self.knots[after - 1];
-            let (from, to) = (a.axes(), b.axes());
-            std::array::from_fn(|axis| (to[axis] - from[axis]) / (b.stroke - a.stroke))
-        });
-        std::array::from_fn(|axis| [at[axis], rates[axis]])
+    /// Number of the knot that ends the block run at a stroke coordinate.
+    fn block_at(&self, stroke: f64) -> usize {
+        self.knots.partition_point(|k| k.stroke <= stroke).clamp(1, self.knots.len().max(2) - 1)
+    }
+
+    /// How the axes change per stroke in the block that ends at a knot, and its length in strokes; none where there is
+    /// no such block, or one without length.
+    fn rates_of(&self, after: usize) -> Option<([f64; 3], f64)> {
+        let (a, b) = (self.knots.get(after.checked_sub(1)?)?, self.knots.get(after)?);
+        let strokes = b.stroke - a.stroke;
+        (strokes > 0.0).then(|| (std::array::from_fn(|i| (b.axes()[i] - a.axes()[i]) / strokes), strokes))
+    }
+
+    /// How the axes change per stroke at a stroke coordinate, in the order of [`AXES`]: those of its block.
+    pub fn rates(&self, stroke: f64) -> [f64; 3] {
+        self.rates_of(self.block_at(stroke)).map_or([0.0; 3], |(rates, _)| rates)
     }
 
     /// The axes at a stroke coordinate: within a block at its speed; where two blocks meet, the step of speed is taken
     /// within a double stroke, or within the shorter of both blocks where that is less.
     pub fn motion(&self, stroke: f64) -> [AxisMotion; 3] {
         let stroke_s = 60.0 / self.double_strokes_per_minute;
-        let after = self.knots.partition_point(|k| k.stroke <= stroke).clamp(1, self.knots.len().max(2) - 1);
-        let speeds = |after: usize| -> Option<([f64; 3], f64)> {
-            let (a, b) = (self.knots.get(after.checked_sub(1)?)?, self.knots.get(after)?);
-            let strokes = b.stroke - a.stroke;
-            (strokes > 0.0)
-                .then(|| (std::array::from_fn(|i| (b.axes()[i] - a.axes()[i]) / (strokes * stroke_s)), strokes))
-        };
+        let after = self.block_at(stroke);
+        let speeds = |after: usize| self.rates_of(after).map(|(rates, strokes)| (rates.map(|r| r / stroke_s), strokes));
         let here = speeds(after);
         // A stroke that stands on a knot begins a block.
         let meets = (self.knots[after - 1].stroke - stroke).abs() < WHOLE_STROKE;
