@@ -78,6 +78,7 @@
 //! - [`colormap`]: numbers as colours
 //! - [`wrap`]: texts in lines of a width
 //! - [`regular_file`]: files of others, up to a size
+//! - [`random`]: normal numbers that follow from a key
 //! - [`machine`]: the axes of a machine: kinds, units, motion, limits, peaks
 //! - [`machine_errors`]: from the commanded motion of axes to the actual one
 //! - [`material`]: cutting forces from chip thickness
@@ -94,8 +95,10 @@
 //! - [`pair`]: two gears rolling on each other
 //! - [`pair_job`]: two scenes rolled on each other, and what is written about it
 //! - [`run`]: the order of a whole run
+//! - [`scatter`]: how gears of one scene scatter, layer by layer of errors
 //! - [`library`]: the few items that other programs need
 //! - [`compare`]: results side by side
+//! - [`influence`]: what errors of the machine do to a gear, and which errors a measured gear shows
 
 pub mod backend;
 #[doc(hidden)]
@@ -105,6 +108,8 @@ pub mod compare;
 pub mod findings;
 #[doc(hidden)]
 pub mod gcode;
+#[doc(hidden)]
+pub mod influence;
 pub mod interrupt;
 #[doc(hidden)]
 pub mod job;
@@ -126,8 +131,12 @@ pub mod pair_job;
 #[doc(hidden)]
 pub mod process;
 #[doc(hidden)]
+pub mod random;
+#[doc(hidden)]
 pub mod regular_file;
 pub mod run;
+#[doc(hidden)]
+pub mod scatter;
 pub mod scene;
 #[doc(hidden)]
 pub mod steps;

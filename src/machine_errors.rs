@@ -2,8 +2,8 @@
 //!
 //! In: the commanded motion of the axes ([`crate::machine::Motion`]), what is wrong with each of them ([`AxisErrors`]),
 //! how the work sits on its spindle ([`WorkMounting`]), how the tool sits on its own ([`ToolMounting`]), and how the
-//! guide along the work runs ([`Guide`]). Out: actual positions ([`ActualMotion`]) and the rigid motions that belong to the
-//! poses. Every process asks the same way, between its linkage and its passes: tables and programs show what is
+//! guide along the work runs ([`Guide`]). Out: actual positions ([`ActualMotion`]) and the rigid motions that belong to
+//! the poses. Every process asks the same way, between its linkage and its passes: tables and programs show what is
 //! commanded, the cut follows what is made, and the target stays that of the commanded motion.
 //!
 //! Law of an axis, in this order:
@@ -13,6 +13,7 @@
 //! servo     m(t)  = c(t) - e(t),  T e'' + e' + K_v e = T q'' + (1 - f) q'
 //! backlash  w(t)  = play of the width b, driven by m
 //! guide     y(t)  = w + s w + sum of A_k sin(k w + phi_k) + drift
+//! noise     y(t) + n, a new n for each passage of the tool, or n(t) of a bandwidth
 //! ```
 //!
 //! Servo: a position loop of velocity gain K_v over a speed loop that answers like a first-order element of time
@@ -26,15 +27,25 @@
 
 mod axis;
 mod backlash;
+mod balance;
+mod compliance;
+mod fast_noise;
+mod layers;
 mod motion;
 mod mounting;
+mod noise;
 mod servo;
 #[cfg(test)]
 mod tests;
 
 pub use axis::{AxisErrors, GearboxCycle, PeriodicError, ThermalDrift};
+pub use balance::{EdgeElement, balance};
+pub use compliance::{Compliance, Deflection, SideCompliance};
+pub use fast_noise::refuse_fast_noise;
+pub use layers::ErrorLayer;
 pub use motion::{ActualMotion, Course, MachineMoment};
 pub use mounting::{Guide, ToolMounting, WorkMounting};
+pub use noise::{AxisNoise, NoiseLaw};
 pub use servo::Servo;
 
 /// What is wrong with a machine of N axes and the work in it.

@@ -105,7 +105,7 @@ impl<'a> Run<'a> {
         };
         let written = || -> Result<CutDone> {
             let done = prepared.cut(&tools, frames)?;
-            let record = record::run_record(&tools, &done.work)?;
+            let record = record::run_record(&tools, &done.work, done.findings.complete)?;
             folder.write_json(RUN_RECORD, &record)?;
             Ok(done)
         };
@@ -113,7 +113,7 @@ impl<'a> Run<'a> {
         for incident in backend.incidents() {
             progress.note(&incident);
         }
-        let folder = if work.interrupted { folder.finish_partial()? } else { folder.finish()? };
+        let folder = if findings.complete { folder.finish()? } else { folder.finish_partial()? };
         Ok(Done { folder, summary, findings, interrupted: work.interrupted })
     }
 }

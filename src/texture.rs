@@ -18,6 +18,7 @@
 mod chart;
 mod files;
 mod findings;
+mod sampling;
 mod window;
 
 pub use files::write;
@@ -181,14 +182,14 @@ pub fn measure(
 /// # Errors
 /// Geometry and the backend.
 pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
+    let window = &sampling::sampled(job, backend, window)?;
     let (arcs_mm, rows_z_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.rows_z_mm());
     let (columns, rows) = (arcs_mm.len(), rows_z_mm.len());
     let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &rows_z_mm)?;
-    let first = if window.every_operation { 0 } else { layers.len() - 1 };
     Ok(layers
         .iter()
         .enumerate()
-        .skip(first)
+        .skip(shown_from(window, layers.len()))
         .map(|(operation, layer)| {
             // Where a ray ends inside a cut, its end is no surface: a flank that is gone has no texture.
             let ends_mm = -ENDS_SHARE * RAY_DEPTH_MODULES * job.scene().gear.module_mm;
@@ -219,6 +220,11 @@ pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> 
             }
         })
         .collect())
+}
+
+/// The first of so many operations that a window shows.
+fn shown_from(window: &Window, operations: usize) -> usize {
+    if window.every_operation { 0 } else { operations - 1 }
 }
 
 /// Facets along a line, one more than the changes of the pass that left it, and the points of a whole one: parts of

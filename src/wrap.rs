@@ -19,6 +19,30 @@ pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
+/// A text whose lines fit a width. A value goes on below where it begins, two blanks or more behind its label; a message
+/// goes on below its second letter. Rows of tables, with more columns than these, stay whole.
+pub fn fitted(text: &str, width: usize) -> String {
+    text.split('\n').map(|line| fitted_line(line, width)).collect::<Vec<_>>().join("\n")
+}
+
+fn fitted_line(line: &str, width: usize) -> String {
+    let lead = line.len() - line.trim_start().len();
+    let columns = line.split("  ").filter(|part| !part.trim().is_empty()).count();
+    if line.chars().count() <= width || columns > 2 {
+        return line.to_owned();
+    }
+    let value_at = if columns == 2 { line.rfind("  ").map_or(lead, |gap| gap + 2) } else { lead };
+    let (label, value) = line.split_at(value_at);
+    let column = label.chars().count();
+    let indent = if columns == 2 && column <= width / 2 { column } else { lead + 2 };
+    let parts = wrapped(value, width - indent.max(column.min(width / 2)));
+    let begun = parts
+        .iter()
+        .enumerate()
+        .map(|(i, part)| if i == 0 { format!("{label}{part}") } else { format!("{:indent$}{part}", "") });
+    begun.collect::<Vec<_>>().join("\n")
+}
+
 /// A text of others, fit to print: characters that would command the terminal are shown by their codes, line breaks and
 /// tabs apart.
 pub fn printable(text: &str) -> String {
@@ -38,6 +62,19 @@ mod tests {
         assert_eq!(wrapped("µµ µµ µµ", 5), ["µµ µµ", "µµ"]);
         assert_eq!(wrapped("unbreakable word", 4), ["unbreakable", "word"]);
     }
+
+    #[test]
+    fn values_and_messages_go_on_below_their_beginning() {
+        let text = "warning: one two three\n  label     four five six seven\n  a  b  c ddddddddddddddddddddd\nshort";
+        let fitted = fitted(text, 20);
+        assert_eq!(
+            fitted,
+            "warning: one two\n  three\n  label     four\n    five six seven\n  a  b  c ddddddddddddddddddddd\nshort"
+        );
+        let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+        assert_eq!(words(&fitted), words(text));
+    }
+
     #[test]
     fn nothing_commands_the_terminal() {
         assert_eq!(printable("a\u{1b}[31mred\u{7}\tb\r\n\u{9b}1m"), "a\\u{1b}[31mred\\u{7}\tb\\r\n\\u{9b}1m");

@@ -1,12 +1,18 @@
 //! What can be typed, and the help that teaches it: one example per command, what it writes, in which units.
 
+mod errors;
+mod pairs;
+
 use std::path::PathBuf;
 
 use gearcut::process::PROCESSES;
 use gearcut::steps::parts::Parts;
 
 use clap::builder::PossibleValuesParser;
-use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+pub use errors::{BudgetArguments, CalibrateArguments, DiagnoseArguments, FlankSide, ScatterArguments};
+pub use pairs::{ContactArguments, FlankChoice, PairArguments};
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -133,6 +139,56 @@ pub enum Command {
         tables/contact_*.csv, tables/trends_*.csv, pictures/motion_error.svg, pictures/bearing_*.svg.\n\
         See docs/bevel.md.")]
     Contact(ContactArguments),
+    /// Cut many gears of a scene with errors: how their numbers scatter, and which layer of errors makes how much.
+    #[command(after_help = "Example:\n  \
+        gearcut scatter scenes/shaping/noise.toml\n  \
+        gearcut scatter scenes/shaping/noise.toml --tooth 3 --side right --seeds 50 --out out/noise\n\n\
+        Layers of errors are axes, guide, mounting, tool, noise, stock, edge and deflection, as far as the scene has\n\
+        them. One flank is cut with none of them, with each alone, with all, and with all but each; then as many\n\
+        gears as there are seeds (machine.errors.seed = 1, 2, ...), the cutter being the same.\n\n\
+        Texture is that of a window of 0.25 mm in the middle of the flank, profile and helix are lines through it;\n\
+        pitch is taken on all teeth from the mean deviation over 0.25 mm of profile there. Heights in um.\n\n\
+        Writes a folder (out/<scene>_scatter unless --out is given): layers.csv, seeds.csv with a row for every gear,\n\
+        scatter.csv with median, 5 % and 95 % of each number. A row is written as soon as its gear is done: after a\n\
+        kill or Ctrl-C the same command goes on. See docs/errors.md.")]
+    Scatter(ScatterArguments),
+    /// Rank the errors of the machine: which micrometre or arc second costs what on the gear.
+    #[command(after_help = "Example:\n  \
+        gearcut budget scenes/shaping/circular_m3_z24.toml\n  \
+        gearcut budget scenes/shaping/machine_errors.toml --parameters mounting,machine.errors.work\n  \
+        gearcut budget scenes/hobbing/circular_spur.toml --flanks 1-left,1-right\n\n\
+        Shifts every error that the scene's process knows by a natural step to both sides, cuts the gear on few\n\
+        places, and takes the differences: what the error alone makes of an otherwise ideal gear, in um. Half the\n\
+        step tells whether twice the error does twice as much. Shaped gears take seconds, hobbed ones many minutes, or\n\
+        seconds with one tooth in --flanks; Ctrl-C keeps what is finished.\n\n\
+        Writes a folder (out/<scene>_budget unless --out is given): report.html, results.json, budget.csv with every\n\
+        figure per unit of each error, tables/influence_maps.csv with the derivative of every height.\n\
+        See docs/budget.md.")]
+    Budget(BudgetArguments),
+    /// Say which errors of the machine explain measured flanks, and what they leave over.
+    #[command(after_help = "Example:\n  \
+        gearcut diagnose scenes/shaping/circular_m3_z24.toml --measured gear.csv --noise-um 0.5\n  \
+        gearcut diagnose my.toml --measured gear.csv --noise-um 0.5 --parameters mounting,machine.errors.guide\n\n\
+        The CSV has a row for each measured place: tooth (from 1, counter-clockwise), flank (left or right), u_mm\n\
+        (arc along the profile from the form point), v_mm (along the tooth from the middle of the face), deviation_um\n\
+        (normal to the target, positive where material is). The noise is the standard deviation of each value.\n\n\
+        Fits the influences of errors to the deviations from the scene's own gear, and names those that explain more\n\
+        than noise would, with 95 % intervals; says which of them cannot be told apart, and whether what is left over\n\
+        is more than noise. A turn of the gear on the measuring machine is always fitted along.\n\n\
+        Writes a folder (out/<scene>_diagnosis unless --out is given): report.html, results.json, tables/sources.csv,\n\
+        tables/residuals.csv. See docs/budget.md.")]
+    Diagnose(DiagnoseArguments),
+    /// Fit errors of the machine to numbers that were measured on a gear.
+    #[command(after_help = "Example:\n  \
+        gearcut calibrate my.toml --measured numbers.csv --fit mounting.eccentricity_um,machine.errors.guide\n\n\
+        The CSV has a row for each measured number: quantity (its path in results.json, such as deviations.runout;\n\
+        headline.KEY for the headline), value (in the unit that it has there), uncertainty (standard). `gearcut cut\n\
+        SCENE --only numbers` writes what there is.\n\n\
+        Cuts the whole gear again and again, some ten times for each parameter: minutes. Prints shifts with 95 %\n\
+        intervals, which of them the numbers cannot identify, and the --set arguments of the fitted scene.\n\n\
+        Writes a folder (out/<scene>_calibration unless --out is given): report.html, results.json, tables/fits.csv,\n\
+        tables/numbers.csv. See docs/budget.md.")]
+    Calibrate(CalibrateArguments),
 }
 
 /// A scene and what is changed in it.
@@ -293,115 +349,6 @@ pub struct MateArguments {
     /// File to write [default: standard output].
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-}
-
-/// Arguments of `contact`.
-#[derive(Debug, Args)]
-pub struct ContactArguments {
-    /// The gear: a scene with a face-mill head.
-    pub gear: PathBuf,
-    /// The pinion that runs with it.
-    pub pinion: PathBuf,
-    /// Put another value into the gear's scene; may be repeated.
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set_gear: Vec<String>,
-    /// Put another value into the pinion's scene; may be repeated.
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set_pinion: Vec<String>,
-    /// Offset of the pinion's axis (E).
-    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub e_um: f64,
-    /// Pinion along its axis, away from the apex (P).
-    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub p_um: f64,
-    /// Gear along its axis, away from the apex (G).
-    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub g_um: f64,
-    /// Error of the shaft angle (Sigma).
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub sigma_deg: f64,
-    /// Thickness of the marking compound of contact ellipses.
-    #[arg(long, value_name = "UM", default_value_t = 6.35)]
-    pub marking_um: f64,
-    /// Folder to write [default: out/<GEAR>_with_<PINION>].
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Print results.json instead of the summary.
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Arguments of `pair`.
-#[derive(Debug, Args)]
-#[command(group = ArgGroup::new("gear B").required(true).args(["b", "mate"]))]
-pub struct PairArguments {
-    /// Gear A, the driver: a scene or a folder that `gearcut cut` wrote.
-    pub a: PathBuf,
-    /// Gear B: the same; leave it out with --mate.
-    pub b: Option<PathBuf>,
-    /// Gear B is the mate of gear A with so many teeth, cut like gear A.
-    #[arg(long, value_name = "TEETH", value_parser = clap::value_parser!(u32).range(4..=2000))]
-    pub mate: Option<u32>,
-    /// The mate is a ring with internal teeth.
-    #[arg(long, requires = "mate")]
-    pub internal: bool,
-    /// Put another value into gear A's scene; may be repeated.
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set_a: Vec<String>,
-    /// Put another value into gear B's scene; may be repeated.
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set_b: Vec<String>,
-    /// Which flanks are rolled.
-    #[arg(long, value_enum, default_value_t = FlankChoice::Cut)]
-    pub flanks: FlankChoice,
-    /// Positions in a period of the pair, 8 or more for each tooth that passes [default: 2000, or 12 for each tooth].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(64..=1_000_000))]
-    pub positions: Option<u32>,
-    /// Transverse sections that are rolled [default: 1 of spur gears; 11 of helical ones and of axes out of parallel].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=201))]
-    pub sections: Option<u32>,
-    /// Added to the centre distance at which the pitch curves close, at most a fifth of a module.
-    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub center_distance_error_um: f64,
-    /// How far gear A's pitch curve sits off its axis of rotation.
-    #[arg(long, value_name = "UM", default_value_t = 0.0)]
-    pub eccentricity_a_um: f64,
-    /// Polar angle of gear A at which it sits out.
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub eccentricity_a_at_deg: f64,
-    /// How far gear B's pitch curve sits off its axis of rotation.
-    #[arg(long, value_name = "UM", default_value_t = 0.0)]
-    pub eccentricity_b_um: f64,
-    /// Polar angle of gear B at which it sits out.
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub eccentricity_b_at_deg: f64,
-    /// Teeth by which gear B is turned on: other teeth meet.
-    #[arg(long, value_name = "TEETH", default_value_t = 0, allow_negative_numbers = true)]
-    pub phase_teeth: i64,
-    /// How far the axes come apart from end to end of the common face, in their plane (ISO/TR 10064-3).
-    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub parallelism_in_plane_um: f64,
-    /// How far they come apart across their plane.
-    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub parallelism_out_of_plane_um: f64,
-    /// Thickness of the marking compound of contact patterns.
-    #[arg(long, value_name = "UM", default_value_t = 6.0)]
-    pub marking_um: f64,
-    /// Folder to write [default: out/<A>_with_<B>].
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Print results.json instead of the summary.
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Which flanks are rolled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FlankChoice {
-    /// As cut, with every stroke and the fillets.
-    Cut,
-    /// Conjugate ones, without strokes and fillets.
-    Nominal,
 }
 
 /// Arguments of `new`.

@@ -27,7 +27,7 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
     };
     let (path, warnings) = folder::fill(&out, "axes", write).map_err(|error| Failure::of_scene(&scene, error))?;
     let written = format!("\ntables, charts and programs are in {}\n", path.join("axes").display());
-    print::to_stdout(&(sheet.into_text() + &written))?;
+    print::sheet(&(sheet.into_text() + &written))?;
     print::warnings(&warnings);
     Ok(())
 }

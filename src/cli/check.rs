@@ -15,7 +15,7 @@ pub fn run(arguments: &SceneArguments) -> Result<(), Failure> {
     let mut sheet = Sheet::default();
     let checked = process::prepare(&scene.scene).and_then(|job| job.check(&mut sheet));
     let warnings = checked.map_err(|error| Failure::of_scene(&scene, error))?;
-    print::to_stdout(&sheet.into_text())?;
+    print::sheet(&sheet.into_text())?;
     print::warnings(&warnings);
     Ok(())
 }

@@ -31,7 +31,7 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
 
     let mut sheet = Sheet::default();
     comparison.print(&mut sheet);
-    Ok(print::to_stdout(&format!("{}\npage, table and charts are in {}\n", sheet.into_text(), path.display()))?)
+    Ok(print::sheet(&format!("{}\npage, table and charts are in {}\n", sheet.into_text(), path.display()))?)
 }
 
 /// A folder beside the one that holds the results.

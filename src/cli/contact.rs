@@ -69,7 +69,7 @@ pub fn run(arguments: &ContactArguments) -> Result<(), Failure> {
     let mut sheet = Sheet::default();
     sheet.heading(&found.scene);
     summary::print(&found, &mut sheet);
-    Ok(print::to_stdout(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?)
+    Ok(print::sheet(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?)
 }
 
 fn job(loaded: &LoadedScene) -> Result<BevelJob, Failure> {

@@ -22,10 +22,11 @@ const FAILED: u8 = 1;
 const BAD_VERDICT: u8 = 3;
 
 impl Failure {
-    /// A failure of work on a scene: what geometry refuses is shown at its place in the scene file.
+    /// A failure of work on a scene: what geometry refuses is shown at its place in the scene file; an option of the
+    /// command line has no place there.
     pub fn of_scene(scene: &LoadedScene, error: Error) -> Self {
         match error {
-            Error::Refused(refusal) => scene.explain(&refusal).into(),
+            Error::Refused(refusal) if !refusal.key.starts_with("--") => scene.explain(&refusal).into(),
             other => other.into(),
         }
     }
@@ -44,6 +45,13 @@ impl Failure {
         } else {
             finished
         };
+        Self { text, code: INTERRUPTED_EXIT_CODE }
+    }
+
+    /// A run that Ctrl-C ended early and that goes on where it ended.
+    pub fn to_go_on(out: &Path, done: usize, all: usize) -> Self {
+        let text =
+            format!("stopped by Ctrl-C: {done} of {all} gears are in {}; the same command goes on", out.display());
         Self { text, code: INTERRUPTED_EXIT_CODE }
     }
 

@@ -26,21 +26,42 @@ pub fn fill<T>(
     command: &str,
     write: impl FnOnce(&OutputFolder, &Interrupt) -> Result<(Record, T)>,
 ) -> Result<(PathBuf, T)> {
+    let (path, value, _) = fill_partly(path, command, |folder, interrupt| {
+        let (record, value) = write(folder, interrupt)?;
+        interrupt.check()?;
+        Ok((record, value, true))
+    })?;
+    Ok((path, value))
+}
+
+/// The same for work of minutes, which keeps what is finished: `write` also tells whether that is all. Files that are
+/// not all go to the partial name; whether they are all is given back, too.
+///
+/// # Errors
+/// As for [`fill`]; Ctrl-C before anything is finished.
+pub fn fill_partly<T>(
+    path: &Path,
+    command: &str,
+    write: impl FnOnce(&OutputFolder, &Interrupt) -> Result<(Record, T, bool)>,
+) -> Result<(PathBuf, T, bool)> {
     let interrupt = Interrupt::listen().map_err(listening(path))?;
     let folder = open(path, command)?;
     let written = || {
-        let (more, value) = write(&folder, &interrupt)?;
-        interrupt.check()?;
+        let (more, value, complete) = write(&folder, &interrupt)?;
         let mut record = Map::new();
         record.insert("program".to_owned(), json!("gearcut"));
         record.insert("program_version".to_owned(), json!(env!("CARGO_PKG_VERSION")));
         record.insert("command".to_owned(), json!(command));
+        if !complete {
+            record.insert("complete".to_owned(), json!(false));
+        }
         record.extend(more.into_iter().map(|(key, value)| (key.to_owned(), value)));
         folder.write_json(RUN_RECORD, &Value::Object(record))?;
-        Ok(value)
+        Ok((value, complete))
     };
-    let value = written().map_err(|error| folder.explain(error))?;
-    Ok((folder.finish()?, value))
+    let (value, complete) = written().map_err(|error| folder.explain(error))?;
+    let path = if complete { folder.finish()? } else { folder.finish_partial()? };
+    Ok((path, value, complete))
 }
 
 /// What could not be listened for.

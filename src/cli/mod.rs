@@ -4,11 +4,14 @@
 
 pub mod args;
 mod axes;
+mod budget;
+mod calibrate;
 mod check;
 mod compare;
 mod contact;
 mod cut;
 mod devices;
+mod diagnose;
 mod drivers;
 mod failure;
 mod folder;
@@ -16,6 +19,7 @@ mod mate;
 mod new;
 mod pair;
 mod print;
+mod scatter;
 mod texture;
 
 use std::process::ExitCode;
@@ -39,6 +43,10 @@ pub fn run(arguments: CommandLine) -> ExitCode {
         Command::Mate(arguments) => mate::run(&arguments),
         Command::Pair(arguments) => pair::run(&arguments),
         Command::Contact(arguments) => contact::run(&arguments),
+        Command::Scatter(arguments) => scatter::run(&arguments),
+        Command::Budget(arguments) => budget::run(&arguments),
+        Command::Diagnose(arguments) => diagnose::run(&arguments),
+        Command::Calibrate(arguments) => calibrate::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

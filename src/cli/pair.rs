@@ -45,7 +45,7 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
         let mut sheet = Sheet::default();
         heading(&found, scenes.map(|scene| scene.gear.teeth), a.scene.gear.module_mm, &mut sheet);
         summary::print(&found, &mut sheet);
-        print::to_stdout(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?;
+        print::sheet(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?;
     }
     // Everything is written all the same.
     if interference.is_empty() { Ok(()) } else { Err(Failure::bad_verdict(&interference.join("; "))) }

@@ -4,8 +4,11 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 
 use gearcut::findings::Warning;
 use gearcut::findings::warning::count_words;
-use gearcut::wrap::printable;
+use gearcut::wrap::{fitted, printable};
 use gearcut::{Error, Result};
+
+/// Characters in a line of a terminal.
+const WIDTH: usize = 80;
 
 /// Prints a text. A reader that has heard enough (`gearcut schema | head`) is no failure.
 pub fn to_stdout(text: &str) -> Result<()> {
@@ -16,6 +19,12 @@ pub fn to_stdout(text: &str) -> Result<()> {
     }
 }
 
+/// Prints a sheet of facts and tables; on a terminal in lines of 80 characters, while what goes into a file keeps a line
+/// for each.
+pub fn sheet(text: &str) -> Result<()> {
+    if io::stdout().is_terminal() { to_stdout(&fitted(text, WIDTH)) } else { to_stdout(text) }
+}
+
 /// Prints warnings and how many they are on standard error, where they are seen when the report goes into a file.
 pub fn warnings(warnings: &[Warning]) {
     let lines = warnings.iter().map(Warning::line).chain([count_words(warnings)]);
@@ -24,12 +33,14 @@ pub fn warnings(warnings: &[Warning]) {
     }
 }
 
-/// Prints lines on standard error, their first word in colour where a terminal shows it. Nobody is left to be told when
-/// standard error is closed.
+/// Prints lines on standard error; on a terminal in lines of 80 characters, their first word in colour. Nobody is left
+/// to be told when standard error is closed.
 pub fn to_stderr(text: &str) {
     let told = std::env::var_os("NO_COLOR").is_none() && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
     let text = printable(text);
-    let text = if told && io::stderr().is_terminal() { painted(&text) } else { text };
+    let terminal = io::stderr().is_terminal();
+    let text = if terminal { fitted(&text, WIDTH) } else { text };
+    let text = if told && terminal { painted(&text) } else { text };
     let _closed = writeln!(io::stderr(), "{text}");
 }
 

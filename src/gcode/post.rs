@@ -1,8 +1,8 @@
 //! Posts: what each control asks of a program's text.
 //!
-//! In: which control ([`Post`]). Out: its [`Dialect`], rules as data: comments, digits, range of F, dwell, first blocks,
-//! end. The program itself is a [`super::Script`], the same for all. Each control's file names the manual that its rules
-//! come from; `tests/suite/posts` reads programs by readers that were written from those manuals alone.
+//! In: which control ([`Post`]). Out: its [`Dialect`], rules as data: comments, digits, range of F, dwell, first
+//! blocks, end. The program itself is a [`super::Script`], the same for all. Each control's file names the manual that
+//! its rules come from; `tests/suite/posts` reads programs by readers that were written from those manuals alone.
 //!
 //! Machines add their own: M codes of the ram, reference points, probing. A post writes what the control defines and
 //! leaves those to the machine's builder.

@@ -1,5 +1,6 @@
 //! What is wrong with one axis.
 
+use super::noise::AxisNoise;
 use super::servo::Servo;
 
 /// Errors of an axis; rad on rotary axes, mm on linear ones.
@@ -17,6 +18,8 @@ pub struct AxisErrors {
     pub gearbox: Option<GearboxCycle>,
     /// How the axis drifts as the machine warms up; `None`: not at all.
     pub drift: Option<ThermalDrift>,
+    /// What is left at random, each independent of the others.
+    pub noise: Vec<AxisNoise>,
 }
 
 /// An error A sin(k y + phi) of an axis at y.

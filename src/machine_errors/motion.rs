@@ -37,6 +37,9 @@ pub struct MachineMoment<const N: usize> {
     pub time_s: f64,
     /// Time from the beginning of the first operation, s: what drifts follow.
     pub since_start_s: f64,
+    /// Which passage of the tool through the work, counted from the first operation on; 0 where the tool is in the work
+    /// all the time.
+    pub passage: i64,
     /// How far each axis has been indexed besides.
     pub indexed: [f64; N],
 }
@@ -113,7 +116,8 @@ impl<const N: usize> ActualMotion<N> {
             let behind = lag.as_ref().map_or(0.0, |lag| lag.in_cell(cell, time_s - self.starts_s[cell])[0]);
             let drive = command - behind;
             let axis = play.as_ref().map_or(drive, |play| play.axis(time_s, drive));
-            errors.guided(axis + moment.indexed[index], moment.since_start_s)
+            let noise = errors.noise.iter().map(|noise| noise.at(moment.since_start_s, moment.passage));
+            errors.guided(axis + moment.indexed[index], moment.since_start_s) + noise.sum::<f64>()
         })
     }
 }

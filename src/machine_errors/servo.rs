@@ -2,8 +2,8 @@
 //!
 //! In: the commanded speed and acceleration at nodes in time. Out: the lag at any time. Law: T e'' + e' + K_v e =
 //! T q'' + (1 - f) q' (see [`super`]). Between two nodes the speed is the cubic through both speeds and accelerations;
-//! for it the solution is a cubic in time and the loop's own decay, both in closed form, so that cells may be as long as
-//! the command is smooth, whatever K_v is.
+//! for it the solution is a cubic in time and the loop's own decay, both in closed form, so that cells may be as long
+//! as the command is smooth, whatever K_v is.
 //!
 //! Road not taken: a Runge-Kutta integration. Its step has to be a tenth of 1 / K_v: a hundred steps in a double stroke
 //! instead of one.

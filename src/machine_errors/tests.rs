@@ -9,7 +9,7 @@ fn course(to_s: f64, corners_s: &[f64]) -> Course {
 }
 
 fn at(time_s: f64) -> MachineMoment<1> {
-    MachineMoment { time_s, since_start_s: time_s, indexed: [0.0] }
+    MachineMoment { time_s, since_start_s: time_s, passage: 0, indexed: [0.0] }
 }
 
 /// The axis behind a command of its own.
@@ -44,8 +44,8 @@ fn response(servo: Servo, per_s: f64) -> (f64, f64) {
 
 #[test]
 fn a_drive_follows_a_sinusoid_with_the_gain_and_phase_of_its_loop() {
-    // First order; second order below, at and above critical damping, K T = 1/4; with feed-forward. Between nodes 0.75 ms
-    // apart the speed's cubics are 1e-9 of it off.
+    // First order; second order below, at and above critical damping, K T = 1/4; with feed-forward. Between nodes 0.75
+    // ms apart the speed's cubics are 1e-9 of it off.
     for (velocity_gain_per_s, speed_loop_s, feed_forward) in [
         (20.0, 0.0, 0.0),
         (20.0, 0.05, 0.0),
@@ -79,7 +79,8 @@ fn a_drive_lags_by_its_speed_over_its_gain() {
     }
 }
 
-/// From rest to a constant speed at a corner: v / K (1 - exp(-K t)), and for the second order the step answer's integral.
+/// From rest to a constant speed at a corner: v / K (1 - exp(-K t)), and for the second order the step answer's
+/// integral.
 #[test]
 fn a_corner_of_the_command_is_forgotten_as_the_loop_decays() {
     let command = |time_s: f64| {
@@ -176,7 +177,7 @@ fn waves_follow_the_indexed_axis() {
         ..AxisErrors::default()
     };
     let motion = ActualMotion::new(&[errors], &course(1.0, &[]), |t| [ramp(1.0)(t)]).expect("errors");
-    let moment = MachineMoment { time_s: 0.3, since_start_s: 9.0, indexed: [2.0] };
+    let moment = MachineMoment { time_s: 0.3, since_start_s: 9.0, passage: 0, indexed: [2.0] };
     let made = motion.positions(&moment, |t| [t])[0];
     assert!((made - 2.3 - 1e-3 * 2.3_f64.sin()).abs() < 1e-15);
 }

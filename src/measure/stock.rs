@@ -64,8 +64,8 @@ pub fn extremes(
 }
 
 /// Stock between an earlier and a later layer over a field's chosen columns; `None` if the earlier operation reached
-/// nothing there. Where the later operation takes nothing because the earlier one has cut below the target, the stock is
-/// minus that depth.
+/// nothing there. Where the later operation takes nothing because the earlier one has cut below the target, the stock
+/// is minus that depth.
 pub fn stock(field: &Field, earlier: &Layer, later: &Layer, column_counts: impl Fn(usize) -> bool) -> Option<Stock> {
     let at = |index: usize| {
         let (before, after) = (earlier.heights_mm[index], later.heights_mm[index]);

@@ -16,8 +16,8 @@
 //! height, pass id and chip are those of the dexel nearest to the map's place. Pictures show values of whole cells,
 //! because single dexels would make moire of the feed marks: the **highest** dexel, so that no mark is lost; the
 //! **mean** stock and deviation, because an error of form or position is what remains when the marks are averaged; and
-//! the **latest** pass. Chips alone are the nearest dexel's on pictures too, and say so: they are followed for that
-//! dexel only.
+//! the **latest** pass; and the **thickest** chip of the dexels of a cell that it is followed for ([`CHIPS_OF_A_CELL`]
+//! of them across the marks: over all of them it would take longer than the cut).
 
 use super::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
 use super::folder::OutputFolder;
@@ -41,6 +41,14 @@ pub const NO_PASS_CAME: &str = "no pass came here";
 /// Quantiles between which chips are told apart: the places that a first stroke cut whole tooth spaces from would hide
 /// all others.
 pub const CHIPS_SHOWN: [f64; 2] = [0.0, 0.95];
+
+/// Dexels of a cell whose chips are followed, evenly over its columns in its middle row. A chip's thickness runs from 0
+/// at one end of a facet to its largest value at the other; marks of finishing are as long as a cell or longer, and of
+/// one that four dexels meet the thickest is at least three quarters of the largest.
+pub const CHIPS_OF_A_CELL: usize = 4;
+
+/// What maps and sheets of chips show.
+pub const CHIP_QUANTITY: &str = "uncut chip thickness, largest in cell";
 
 /// What maps need to know of an operation.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,9 +90,10 @@ pub struct FlankMaps {
     pub latest_pass: Vec<f32>,
     /// Mean height of each cell after the last operation, mm; NaN where no pass came.
     pub deviation_mm: Vec<f32>,
-    /// Column and row of the dexel that stands for each place along u and v.
-    pub dexels: [Vec<usize>; 2],
-    /// The chips that left those dexels' surface after each operation; empty where they are not known.
+    /// Columns of dexels whose chips are followed, for each place along u, and the row for each place along v.
+    chip_columns: Vec<Vec<usize>>,
+    chip_rows: Vec<usize>,
+    /// The thickest chip of each cell after each operation; empty where they are not known.
     pub chips: Vec<LastChips>,
 }
 
@@ -152,10 +161,39 @@ impl FlankMaps {
             mean_mm,
             latest_pass: layers.last().map_or_else(Vec::new, |layer| over_cells(layer, latest)),
             passes: layers.iter().map(|layer| dexels.iter().map(|&i| layer.passes[i]).collect()).collect(),
-            dexels: [&columns, &rows_of_cells].map(|cells| cells.iter().map(|(nearest, _)| *nearest).collect()),
+            chip_columns: columns.iter().map(|(_, cell)| evenly(cell)).collect(),
+            chip_rows: rows_of_cells.iter().map(|(nearest, _)| *nearest).collect(),
             chips: Vec::new(),
             grid,
         }
+    }
+
+    /// Columns and rows of the dexels whose chips [`take_chips`](Self::take_chips) wants.
+    pub fn chip_dexels(&self) -> [Vec<usize>; 2] {
+        [self.chip_columns.concat(), self.chip_rows.clone()]
+    }
+
+    /// Takes the chips that left the surface of those dexels after each operation: the thickest of each cell.
+    pub fn take_chips(&mut self, operations: &[LastChips]) {
+        let rows = self.chip_rows.len();
+        let of_cells = |chips: &LastChips| {
+            let mut thickest = LastChips::default();
+            let mut first = 0;
+            for columns in &self.chip_columns {
+                for row in 0..rows {
+                    let cell = (first..first + columns.len()).map(|column| column * rows + row);
+                    // NaN is thinner than any chip; of equals the first is taken.
+                    let thickness = |index: usize| Some(chips.thickness_mm[index]).filter(|mm| !mm.is_nan());
+                    let found = cell.reduce(|a, b| if thickness(b) > thickness(a) { b } else { a }).unwrap_or(0);
+                    thickest.thickness_mm.push(chips.thickness_mm[found]);
+                    thickest.sides.push(chips.sides[found]);
+                    thickest.passes.push(chips.passes[found]);
+                }
+                first += columns.len();
+            }
+            thickest
+        };
+        self.chips = operations.iter().map(of_cells).collect();
     }
 
     /// Stock of an operation over the last one, mm.
@@ -212,7 +250,7 @@ impl FlankMaps {
                 let thickness_um: Vec<f32> = chips.thickness_mm.iter().map(|h| h * UM_PER_MM as f32).collect();
                 let picture = MapPicture {
                     title: &format!("{name}: {flank}, the chip that left each place"),
-                    quantity: "uncut chip thickness at the nearest dexel",
+                    quantity: CHIP_QUANTITY,
                     values: &thickness_um,
                     scale: ColourScale::between_quantiles([thickness_um.as_slice()], CHIPS_SHOWN),
                     ..picture
@@ -243,8 +281,8 @@ impl FlankMaps {
                 channels.push(channel(
                     "chip_thickness_mm",
                     "mm",
-                    "uncut chip thickness of that pass there: solid material before the edge along the target's \
-                    normal, times the cosine to the edge's normal; NaN where none came",
+                    "uncut chip thickness, the largest of four dexels across the cell: solid material before the edge \
+                    along the target's normal, times the cosine to the edge's normal; NaN where none came",
                     Samples::F32(chips.thickness_mm.clone()),
                 ));
                 channels.push(channel(
@@ -319,6 +357,12 @@ impl FlankMaps {
     }
 }
 
+/// Columns spread evenly over those of a cell, all of them where they are few.
+fn evenly(cell: &std::ops::Range<usize>) -> Vec<usize> {
+    let count = cell.len().min(CHIPS_OF_A_CELL);
+    (0..count).map(|i| cell.start + (2 * i + 1) * cell.len() / (2 * count)).collect()
+}
+
 fn mean(layer: &Layer, cell: &mut dyn Iterator<Item = usize>) -> f32 {
     let add = |(sum, count): (f64, u32), i: usize| (sum + f64::from(layer.heights_mm[i]), count + 1);
     let (sum, count) = cell.fold((0.0, 0), add);
@@ -342,6 +386,39 @@ mod tests {
     use super::*;
     use gearcut_core::dexel::{Column, Field};
     use glam::DVec2;
+
+    /// Twenty columns of dexels to a cell; chips grow over every facet of eight and begin anew. The nearest dexel alone
+    /// would show their phase.
+    #[test]
+    fn a_cell_keeps_its_thickest_chip_whatever_the_phase_of_the_marks() {
+        let column = |i: u32| Column {
+            arc_mm: f64::from(i) * 0.005,
+            origin_mm: DVec2::ZERO,
+            normal: DVec2::X,
+            low_mm: -1.0,
+            blank_mm: 1.0,
+        };
+        let field = Field { columns: (0..200).map(column).collect(), rows_z_mm: vec![0.0, 0.1] };
+        let layer = field.blank_layer();
+        let mut maps = FlankMaps::sample(1, Side::Left, [&field.arcs_mm(), &field.rows_z_mm], &[layer], 0.1);
+        let [columns, rows] = maps.chip_dexels();
+        assert!(columns.is_sorted() && columns.len() <= CHIPS_OF_A_CELL * maps.grid.u.count);
+        let thickness = |column: usize| ((column * 10) % 83) as f32;
+        let all = || columns.iter().flat_map(|&column| rows.iter().map(move |_| column));
+        let chips = LastChips {
+            thickness_mm: all().map(thickness).collect(),
+            sides: all().map(|column| column as u32).collect(),
+            passes: vec![7; columns.len() * rows.len()],
+        };
+        maps.take_chips(&[chips]);
+        let (cells, nearest) = (&maps.chips[0].thickness_mm, (0..10).map(|cell| thickness(20 * cell)));
+        assert_eq!(cells.len(), maps.grid.u.count * maps.grid.v.count);
+        let whole = cells.chunks(rows.len()).skip(1).take(8);
+        assert!(whole.clone().all(|cell| cell[0] >= 0.7 * 82.0 && cell[0] == cell[1]), "{cells:?}");
+        assert!(nearest.fold(f32::INFINITY, f32::min) < 10.0, "a test that the nearest dexel fails");
+        // The part of the edge is that of the dexel that has it.
+        assert!(maps.chips[0].sides.iter().zip(cells).all(|(&column, &mm)| thickness(column as usize) == mm));
+    }
 
     /// Cells of four dexels, one of them untouched: the highest keeps the mark, the mean takes it with its share.
     #[test]

@@ -162,6 +162,7 @@ impl OutputFolder {
         if let Err(error) = published {
             return Err(self.keep(error));
         }
+        self.settle(&self.final_path)?;
         let partial = self.results_path(false);
         if is_partial(&partial) {
             self.workplace.discard(&partial).map_err(|source| Error::Io {
@@ -188,6 +189,7 @@ impl OutputFolder {
         if let Err(error) = published {
             return Err(self.keep(error));
         }
+        self.settle(&partial)?;
         self.clear(&partial)?;
         Ok(partial)
     }
@@ -204,6 +206,15 @@ impl OutputFolder {
 
     fn publish(&self, name: &Path) -> Result<()> {
         self.workplace.publish(name).map_err(Error::writing(name))
+    }
+
+    /// Forces the new name to the disk.
+    fn settle(&self, name: &Path) -> Result<()> {
+        self.workplace.settle().map_err(|source| Error::Io {
+            action: "the new results are in place, but a power cut may undo that:",
+            path: name.to_owned(),
+            source,
+        })
     }
 
     /// Removes what had the name before.

@@ -168,7 +168,8 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 impl Panel {
-    /// Values at the bottom and the top: the curves with the least divisions, and those limits that at most triple that.
+    /// Values at the bottom and the top: the curves with the least divisions, and those limits that at most triple
+    /// that.
     fn range(&self) -> (f64, f64) {
         let (low, high) = extent(self.series.iter().flat_map(LineSeries::finite).map(|point| point.1));
         let (low, high) = Limit::widened_by(widened((low, high), self.least_division), &self.limits);

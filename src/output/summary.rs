@@ -1,4 +1,5 @@
-//! Findings for the terminal: the headline, then what each section shows, then warnings by severity; at most 80 columns.
+//! Findings for the terminal: the headline, then what each section shows, then warnings by severity; at most 80
+//! columns.
 //!
 //! Neighbouring sections that show the same quantities become the rows of one table, such as the texture of all
 //! windows. What is undefined is told with its reason in the headline and left out below it.

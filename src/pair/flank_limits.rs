@@ -22,15 +22,15 @@ const AT_TIP_MM: f64 = 1e-6;
 /// Where the flanks of one side of a gear end along the line of action.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankLimits {
-    /// Form points, and ends at the tips: the driver's angle at which a tooth's is in contact, growing, and its distance
-    /// from the pitch point along v, mm; none of its own where it goes on to the tip curve.
+    /// Form points, and ends at the tips: the driver's angle at which a tooth's is in contact, growing, and its
+    /// distance from the pitch point along v, mm; none of its own where it goes on to the tip curve.
     ends: [Vec<(f64, Option<f64>)>; 2],
     period_rad: f64,
 }
 
 impl FlankLimits {
-    /// From form point and end at the tip of every flank (the gear's own frame), by the label of the driver's tooth that
-    /// touches it, and the height of the gear's tip curve.
+    /// From form point and end at the tip of every flank (the gear's own frame), by the label of the driver's tooth
+    /// that touches it, and the height of the gear's tip curve.
     ///
     /// # Errors
     /// Points whose normals do not meet the pitch curve.

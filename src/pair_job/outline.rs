@@ -5,8 +5,8 @@
 //!
 //! Points are dexels of the finished gear: nominal points and normals of the target, and the heights that the last
 //! operation left, at the scene's spacing along the profile. Roots are cut on rays of their own, closer together: what
-//! meets a fillet is a tip corner, and the sag of a chord must stay below a tenth of a micrometre. A root that is not cut
-//! through is refused: a ray that stands out of it would touch first.
+//! meets a fillet is a tip corner, and the sag of a chord must stay below a tenth of a micrometre. A root that is not
+//! cut through is refused: a ray that stands out of it would touch first.
 
 use glam::DVec2;
 use rayon::prelude::*;

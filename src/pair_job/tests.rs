@@ -47,7 +47,7 @@ fn third_order(cutter_teeth: u64, strokes: u64, allowance_mm: f64) -> LoadedScen
              [gear.pitch_curve.ellipse]\norder = 3\neccentricity = 0.1348\n\
              [tool.shaper_cutter]\nteeth = {cutter_teeth}\naddendum_coefficient = 1.25\n\
              [[operation]]\nname = \"finish\"\nstrokes_per_revolution = {strokes}\n\
-             [operation.linkage.shaping_normal]\n"
+             [operation.linkage.shaping_normal]\n[operation.infeed.none]\n"
         ),
     )
 }
@@ -60,6 +60,7 @@ fn round(name: &str, teeth: u32, kind: &str, more: &str) -> LoadedScene {
             "[gear]\nmodule_mm = 3.0\nteeth = {teeth}\nface_width_mm = 20.0\n{kind}{more}\
              [tool.shaper_cutter]\nteeth = 16\n\
              [[operation]]\nname = \"finish\"\nstrokes_per_revolution = {}\n\
+             [operation.infeed.none]\n\
              [fields.flank]\nprofile_spacing_um = 10.0\n",
             300 * teeth
         ),

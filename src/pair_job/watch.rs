@@ -1,7 +1,7 @@
 //! How far the work is, and Ctrl-C: what every long loop of a pair tells and asks after each of its units.
 //!
-//! In: where progress is shown, the flag that Ctrl-C raises. Out: [`WatchedUnits`]s; a unit that is done is counted, and no
-//! other begins once the flag is raised.
+//! In: where progress is shown, the flag that Ctrl-C raises. Out: [`WatchedUnits`]s; a unit that is done is counted,
+//! and no other begins once the flag is raised.
 //!
 //! A pair keeps nothing of what Ctrl-C ends: half a period has no transmission error.
 

@@ -1,12 +1,12 @@
 //! Loading a scene, and finding its keys again afterwards.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::errors::{Problem, SceneErrors, SourcePlace};
 use super::keys::join;
 use super::points::{read_points, read_text};
 use super::problems::{Found, Problems};
-use super::process::SceneProcess;
+use super::process::{FINISH_ALONE, SceneProcess};
 use super::sources::{At, Sources};
 use super::table::KeyTable;
 use super::tree::{KeyValue, Node, TomlValue, parse_document};
@@ -22,6 +22,8 @@ pub struct LoadedScene {
     pub scene: Scene,
     pub(super) values: Values,
     sources: Sources,
+    /// Folder of the files that it refers to.
+    base_dir: PathBuf,
 }
 
 /// Where a key's value was written, and how.
@@ -74,10 +76,11 @@ pub fn parse(
             return Err(SceneErrors::new(problems.list));
         }
     };
-    imply(&mut root, "operation", &[&[("name", "finish")]]);
+    let operations = implied_process(&root, table, overrides).map_or(FINISH_ALONE, |process| process.operations);
+    imply(&mut root, "operation", operations.iter().map(|operation| vec![("name", operation.name)]));
     // Texture windows that are not listed are chosen when the gear is known.
-    imply(&mut root, "texture", &[]);
-    imply(&mut root, "picture", PICTURES);
+    imply(&mut root, "texture", []);
+    imply(&mut root, "picture", PICTURES.map(|(name, view)| vec![("name", name), ("view", view)]));
     for (index, argument) in overrides.iter().enumerate() {
         if let Err(problem) = overrides::apply(&mut root, table, index, argument) {
             problems.list.push(problem);
@@ -104,7 +107,7 @@ pub fn parse(
     let list = problems.list;
     let stem = Path::new(file_name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
     match process.and_then(|process| build::build(stem, process, base_dir, &values)) {
-        Some(scene) if list.is_empty() => Ok(LoadedScene { scene, values, sources }),
+        Some(scene) if list.is_empty() => Ok(LoadedScene { scene, values, sources, base_dir: base_dir.to_owned() }),
         _ => Err(SceneErrors::new(list)),
     }
 }
@@ -115,33 +118,48 @@ fn chosen(root: &Node, table: &KeyTable) -> Option<&'static SceneProcess> {
     tools.iter().find_map(|tool| table.processes().iter().copied().find(|process| process.tool == tool.name))
 }
 
-/// Pictures of a scene that lists none.
-const PICTURES: &[&[(&str, &str)]] = &[
-    &[("name", "gear"), ("view", "gear")],
-    &[("name", "tooth"), ("view", "tooth")],
-    &[("name", "flank"), ("view", "flank")],
-];
+/// The process of a text before its `--set` arguments are put in: they may name operations that it implies, and one of
+/// them may be the tool that chooses it.
+fn implied_process(root: &Node, table: &KeyTable, overrides: &[String]) -> Option<&'static SceneProcess> {
+    let mut root = root.clone();
+    for (index, argument) in overrides.iter().enumerate() {
+        // Problems are told when the arguments are put in for good.
+        let _: Result<(), Problem> = overrides::apply(&mut root, table, index, argument);
+    }
+    chosen(&root, table)
+}
 
-/// Puts in a list that is not written: elements with these texts and all other defaults. A scene without operations
-/// cuts one, named finish.
-fn imply(root: &mut Node, list: &str, elements: &[&[(&str, &str)]]) {
+/// Name and view of the pictures of a scene that lists none.
+const PICTURES: [(&str, &str); 3] = [("gear", "gear"), ("tooth", "tooth"), ("flank", "flank")];
+
+/// Puts in a list that is not written: elements with these texts and all other defaults.
+fn imply<'a>(root: &mut Node, list: &str, elements: impl IntoIterator<Item = Vec<(&'a str, &'a str)>>) {
     if root.entry(list).is_some() {
         return;
     }
     let implied = |value: TomlValue| Node { value, at: At::Implied };
     let entry =
         |name: &str, value: TomlValue| KeyValue { name: name.to_owned(), name_at: At::Implied, node: implied(value) };
-    let element = |texts: &&[(&str, &str)]| {
-        let entries = texts.iter().map(|(name, text)| entry(name, TomlValue::Text((*text).to_owned())));
+    let element = |texts: Vec<(&str, &str)>| {
+        let entries = texts.into_iter().map(|(name, text)| entry(name, TomlValue::Text(text.to_owned())));
         implied(TomlValue::Table(entries.collect()))
     };
-    let elements = elements.iter().map(element).collect();
+    let elements = elements.into_iter().map(element).collect();
     if let Some(entries) = root.entries_mut() {
         entries.push(entry(list, TomlValue::List(elements)));
     }
 }
 
 impl LoadedScene {
+    /// The same text with more `--set` arguments behind those that it was read with, against the keys of `table`.
+    ///
+    /// # Errors
+    /// All problems of the scene, each with its place and a way out.
+    pub fn with_settings(&self, settings: &[String], table: &KeyTable) -> Result<Self, SceneErrors> {
+        let Sources { file, text, overrides } = &self.sources;
+        parse(text, file, &self.base_dir, &[overrides, settings].concat(), table)
+    }
+
     /// Where `key` was written; `None` for a default, a derived value or an unknown key.
     ///
     /// Operations are named by their name or by their number from 0 (`operation.rough.offset_mm`,

@@ -5,8 +5,10 @@ use super::problems::Found;
 use super::values::{Values, View};
 use crate::machine::AxisKind;
 use crate::machine_errors::{
-    AxisErrors, GearboxCycle, Guide, MachineErrors, PeriodicError, Servo, ThermalDrift, ToolMounting, WorkMounting,
+    AxisErrors, AxisNoise, GearboxCycle, Guide, MachineErrors, NoiseLaw, PeriodicError, Servo, ThermalDrift,
+    ToolMounting, WorkMounting,
 };
+use crate::random::Draws;
 use gearcut_core::units::UM_PER_MM;
 use std::f64::consts::TAU;
 
@@ -17,14 +19,15 @@ const S_PER_MIN: f64 = 60.0;
 const S_PER_H: f64 = 3600.0;
 /// mm per mm for 1 um in 100 mm.
 const PER_UM_IN_100MM: f64 = 1e-5;
+const BANDWIDTH: &str = "noise_bandwidth_hz";
 
 /// `machine.errors.work` and its like.
-fn path(stem: &str) -> String {
+pub(super) fn path(stem: &str) -> String {
     format!("machine.errors.{stem}")
 }
 
 /// Unit at the end of a key, and how many of it make a rad or mm.
-fn unit(kind: AxisKind) -> (&'static str, f64) {
+pub(super) fn unit(kind: AxisKind) -> (&'static str, f64) {
     match kind {
         AxisKind::Rotary => ("arcsec", ARCSEC_PER_RAD),
         AxisKind::Linear => ("um", UM_PER_MM),
@@ -32,7 +35,7 @@ fn unit(kind: AxisKind) -> (&'static str, f64) {
 }
 
 /// Key with the waves' orders or lengths.
-fn waves(kind: AxisKind) -> &'static str {
+pub(super) fn waves(kind: AxisKind) -> &'static str {
     match kind {
         AxisKind::Rotary => "periodic_orders",
         AxisKind::Linear => "periodic_lengths_mm",
@@ -44,12 +47,16 @@ pub(crate) fn machine_errors<const N: usize>(
     values: &Values,
     axes: &[(&str, AxisKind); N],
 ) -> Option<MachineErrors<N>> {
-    let read: Option<Vec<AxisErrors>> = axes.iter().map(|&(stem, kind)| axis_errors(values, stem, kind)).collect();
+    let seed = values.view("machine.errors").whole("seed")?;
+    let read: Option<Vec<AxisErrors>> = (0..)
+        .zip(axes)
+        .map(|(number, &(stem, kind))| axis_errors(values, stem, kind, Draws::new(seed, number)))
+        .collect();
     Some(MachineErrors { axes: read?.try_into().ok()?, guide: guide(values), mounting: mounting(values) })
 }
 
-/// Errors of the axis whose section is `[machine.errors.STEM]`.
-fn axis_errors(values: &Values, stem: &str, kind: AxisKind) -> Option<AxisErrors> {
+/// Errors of the axis whose section is `[machine.errors.STEM]`; `draws` are the axis's own.
+fn axis_errors(values: &Values, stem: &str, kind: AxisKind, draws: Draws) -> Option<AxisErrors> {
     let path = path(stem);
     let view = values.view(&path);
     let (unit, per_unit) = unit(kind);
@@ -79,6 +86,17 @@ fn axis_errors(values: &Values, stem: &str, kind: AxisKind) -> Option<AxisErrors
             per_s: um_per_h / UM_PER_MM / S_PER_H,
             time_constant_s: view.number("drift_time_constant_min").map(|minutes| minutes * S_PER_MIN),
         }),
+        noise: (small("noise") > 0.0)
+            .then(|| AxisNoise {
+                deviation: small("noise"),
+                law: match view.number(BANDWIDTH) {
+                    Some(bandwidth_hz) => NoiseLaw::InTime { bandwidth_hz },
+                    None => NoiseLaw::EachPassage,
+                },
+                draws,
+            })
+            .into_iter()
+            .collect(),
     })
 }
 
@@ -129,6 +147,20 @@ pub(crate) fn check(found: &mut Found<'_, '_, '_>, axes: &[(&str, AxisKind)]) {
     }
 }
 
+/// Adds a problem for every axis whose noise is to change from passage to passage of a `tool` that has none: it is in
+/// the work all the time.
+pub(crate) fn check_noise_in_time(found: &mut Found<'_, '_, '_>, axes: &[(&str, AxisKind)], tool: &str) {
+    for &(stem, kind) in axes {
+        let path = path(stem);
+        let name = format!("noise_{}", unit(kind).0);
+        let view = found.view(&path);
+        let wrong = view.number(&name).is_some() && view.number(BANDWIDTH).is_none();
+        let key = join(&path, &name);
+        let message = || format!("`{key}`: {tool} is in the work all the time, its noise needs a bandwidth");
+        found.blame(wrong, &key, message, &format!("write {BANDWIDTH} as well"));
+    }
+}
+
 fn check_axis(found: &mut Found, stem: &str, kind: AxisKind) {
     let path = path(stem);
     let view = found.view(&path);
@@ -145,11 +177,13 @@ fn check_axis(found: &mut Found, stem: &str, kind: AxisKind) {
     found.blame(phases != 0 && phases != wanted, &key, message, way_out);
     let alone = |name: &str, needed: &str| view.number(name).is_some() && view.number(needed).is_none();
     let increment = format!("gearbox_increment_{unit}");
+    let noise = format!("noise_{unit}");
     for (name, needed) in [
         ("feed_forward", "velocity_gain_per_s"),
         ("speed_loop_ms", "velocity_gain_per_s"),
         (increment.as_str(), "gearbox_cycle_ms"),
         ("drift_time_constant_min", "drift_um_per_h"),
+        (BANDWIDTH, noise.as_str()),
     ] {
         let key = join(&path, name);
         let message = || format!("`{key}` says nothing without {needed}");

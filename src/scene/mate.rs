@@ -7,8 +7,9 @@
 //!
 //! What the driver's file writes is copied as written; what holds there by default holds here by default. Counts per
 //! turn of the work grow with the number of teeth, so that the feed per tooth stays. A helix changes its hand on an
-//! external mate and keeps it on a ring; a profile shift changes its sign. Left out is what belongs to the driver alone: its bore on a ring, places on
-//! its teeth (`[[texture]]`, `[[picture]]`, windows), programs and the name of its folder.
+//! external mate and keeps it on a ring; a profile shift changes its sign. Left out is what belongs to the driver
+//! alone: its bore on a ring, places on its teeth (`[[texture]]`, `[[picture]]`, windows), programs and the name of its
+//! folder.
 
 use std::fmt::Write as _;
 
@@ -23,6 +24,8 @@ use gearcut_core::terms::Hand;
 
 /// Keys of `[gear]` that do not pass from the driver to its mate as they are.
 const OWN_OF_GEAR: [&str; 5] = ["kind", "teeth", "hand", "rim_mm", "profile_shift_coefficient"];
+/// Beginning of the paths of operations among the values.
+const OPERATIONS: &str = "operation.";
 /// Outermost tables with places on the driver's teeth.
 const PLACES: [&str; 2] = ["texture[]", "picture[]"];
 
@@ -102,6 +105,10 @@ impl Writer<'_> {
 
     /// What the driver's file writes of a section that stands at `path` there.
     fn section(&self, out: &mut String, process: &SceneProcess, section: &TableSection, path: &str) {
+        let implied = self.is_implied(path);
+        if implied && !self.driver.values.is_any_set(OPERATIONS) {
+            return;
+        }
         let mut lines = self.lines(process, section, path);
         let header = match section.path.strip_prefix("gear.pitch_curve") {
             Some("") => {
@@ -123,6 +130,14 @@ impl Writer<'_> {
         }
     }
 
+    /// Whether a path lies in an operation that the process put in, because the driver's file lists none. Without a
+    /// setting the mate's process puts in the same; with one, all of it is written.
+    fn is_implied(&self, path: &str) -> bool {
+        let Some(rest) = path.strip_prefix(OPERATIONS) else { return false };
+        let number = rest.split('.').next().unwrap_or_default();
+        !self.driver.values.has_section(&format!("{OPERATIONS}{number}"))
+    }
+
     /// Whether the section is the variant that holds, or no variant.
     fn holds(&self, section: &TableSection, path: &str) -> bool {
         let choice = path.rsplit_once('.').map_or("", |(choice, _)| choice);
@@ -140,9 +155,13 @@ impl Writer<'_> {
         };
         // Points that were read from a file stand for the file, which may lie in another folder.
         let points_read = |name: &str| name == "file" && values.held.contains_key(&join(path, "points_deg_mm"));
+        let implied = self.is_implied(path);
         let mut lines = String::new();
         for key in section.keys.iter().filter(|key| !stays(key.name) && !points_read(key.name)) {
-            let Some(held) = values.held.get(&join(path, key.name)).filter(|held| held.is_written()) else { continue };
+            let Some(held) = values.held.get(&join(path, key.name)) else { continue };
+            if !(held.is_written() || implied && !held.value.holds_by_itself(key.default)) {
+                continue;
+            }
             let value = match held.value {
                 Checked::Whole(count) if process.per_revolution.contains(&key.name) => {
                     Checked::Whole(self.scaled(count))

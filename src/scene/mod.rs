@@ -12,6 +12,8 @@
 pub(crate) mod build;
 mod check;
 mod checks;
+pub mod error_parameters;
+pub mod error_sources;
 pub mod errors;
 mod foreign;
 pub mod keys;
@@ -40,6 +42,6 @@ pub use errors::{Problem, SceneErrors, SourcePlace};
 pub use loaded::{LoadedScene, Located, load, parse};
 pub use mate::{Mate, MateScene};
 pub use model::{Post, Scene};
-pub use process::{Copied, ProcessPart, ScenePart, SceneProcess, Senseless};
+pub use process::{Copied, FINISH_ALONE, ProcessPart, ScenePart, SceneProcess, Senseless, StandardOperation};
 pub use table::{KeyTable, TableSection};
 pub use template::template;

@@ -108,7 +108,8 @@ pub struct Gear {
     pub pitch_curve: PitchCurveShape,
 }
 
-/// Where profiles are evaluated, as heights over the pitch curve along its normal, and the limits that the gear must keep.
+/// Where profiles are evaluated, as heights over the pitch curve along its normal, and the limits that the gear must
+/// keep.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measure {
     /// Lower end; `None`: the form point, 5 % left out.

@@ -6,9 +6,12 @@
 //! Road not taken: an enum of all processes. Every new one would have to be written into it and into each `match` over
 //! it.
 
+use super::error_sources::ErrorSource;
 use super::keys::{Addition, KeySection};
 use super::problems::Found;
 use super::values::Values;
+use crate::machine::AxisKind;
+use crate::machine_errors::ErrorLayer;
 use std::any::Any;
 use std::fmt::Debug;
 use std::ops::Deref;
@@ -31,15 +34,21 @@ pub struct SceneProcess {
     pub sections: &'static [&'static [KeySection]],
     /// Its keys in shared sections.
     pub added: &'static [&'static Addition],
+    /// Operations of a scene that lists none, in order; at least one.
+    pub operations: &'static [StandardOperation],
     /// Its keys that count per turn of the work: a mate with twice the teeth gets twice as many.
     pub per_revolution: &'static [&'static str],
     /// Its keys that belong to one gear and do not pass to its mate: windows, programs.
     pub of_one_gear: &'static [&'static str],
     /// Shared sections that hold only where they are written: no default stands in for them.
     pub on_demand: &'static [&'static str],
-    /// Keys and sections that have no sense here, and why: those of others that readers may well look for, and shared ones,
-    /// which its scenes then do not have.
+    /// Keys and sections that have no sense here, and why: those of others that readers may well look for, and shared
+    /// ones, which its scenes then do not have.
     pub senseless: &'static [Senseless],
+    /// Axes with sections of errors, by the last names of those sections.
+    pub axes: &'static [(&'static str, AxisKind)],
+    /// Its other errors: of tool, guide, clamping.
+    pub errors: &'static [&'static [ErrorSource]],
     /// Puts in defaults that follow from other keys.
     pub(crate) derive: fn(&mut Values),
     /// Holds its values against each other.
@@ -48,6 +57,18 @@ pub struct SceneProcess {
     /// missing.
     pub(crate) build: fn(&Values, &Path) -> Option<ScenePart>,
 }
+
+/// An operation that stands in for those that a scene does not list. What else holds of it, the process derives.
+#[derive(Debug)]
+pub struct StandardOperation {
+    /// Its name.
+    pub name: &'static str,
+    /// Keys that the template switches on in it, with values for the template's gear.
+    pub template: &'static [(&'static str, &'static str)],
+}
+
+/// A single cut to depth, where a process asks for nothing before it.
+pub const FINISH_ALONE: &[StandardOperation] = &[StandardOperation { name: "finish", template: &[] }];
 
 /// A key or section that has no sense in a process.
 #[derive(Debug)]
@@ -82,6 +103,12 @@ pub trait ProcessPart: Copied + Any + Debug + Send + Sync {
     /// Names of the operations in order; at least one.
     fn operation_names(&self) -> Vec<&str>;
 
+    /// Layers of errors that the scene has, in the order of [`ErrorLayer::ALL`].
+    fn error_layers(&self) -> Vec<ErrorLayer>;
+
+    /// Switches all layers of errors off but these.
+    fn keep_layers(&mut self, kept: &[ErrorLayer]);
+
     /// Distances of rays that only this process has: path of the key, distance and the largest one allowed, mm.
     fn ray_spacings(&self) -> Vec<(&'static str, [f64; 2])> {
         Vec::new()
@@ -102,6 +129,11 @@ impl ScenePart {
     pub fn get<T: ProcessPart>(&self) -> Option<&T> {
         let part: &dyn Any = self.0.as_ref();
         part.downcast_ref()
+    }
+
+    /// Switches all layers of errors off but these.
+    pub fn keep_layers(&mut self, kept: &[ErrorLayer]) {
+        self.0.keep_layers(kept);
     }
 
     /// The same, to try other values.

@@ -2,8 +2,8 @@
 //!
 //! In: the processes. Out: [`KeyTable`], against which files are checked and from which schema, reference and template
 //! are printed. The order is that of a scene file: by [`ORDER`], in it the shared sections first, then process by
-//! process. The table of a single process has what its scenes may say, and so tells which keys are another's; shared keys
-//! that have no sense in it are left out.
+//! process. The table of a single process has what its scenes may say, and so tells which keys are another's; shared
+//! keys that have no sense in it are left out.
 
 use super::keys::{self, Addition, Group, Key, KeySection, Role, join};
 use super::process::SceneProcess;

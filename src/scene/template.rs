@@ -6,10 +6,14 @@
 use std::fmt::Write as _;
 
 use super::keys::{self, Default, Key, Role};
+use super::process::StandardOperation;
 use super::table::{KeyTable, TableSection};
 
 /// Width of a comment line.
 const COMMENT_CHARS: usize = 100;
+
+/// The list whose elements the process has by itself.
+const OPERATIONS: &str = "operation[]";
 
 /// The scene for the process of this name, or `None` if the table has none.
 pub fn template(table: &KeyTable, process: &str) -> Option<String> {
@@ -23,13 +27,31 @@ pub fn template(table: &KeyTable, process: &str) -> Option<String> {
          # Lines that begin with # and no blank are keys and sections to switch on.\n\
          # `gearcut check` says what the scene means; `gearcut cut` cuts it.\n",
     );
-    for section in own.sections().iter().filter(|section| !section.path.is_empty()) {
-        write_section(&mut out, &own, section);
+    let (first, others) = process.operations.split_first()?;
+    let mut sections = own.sections().iter().filter(|section| !section.path.is_empty()).peekable();
+    while let Some(section) = sections.next() {
+        let on = if section.path == OPERATIONS { first.template } else { &[] };
+        write_section(&mut out, &own, section, on);
+        let inside = |section: &&TableSection| section.path.starts_with(OPERATIONS);
+        if inside(&section) && !sections.peek().is_some_and(inside) {
+            for operation in others {
+                write_operation(&mut out, operation);
+            }
+        }
     }
     Some(out)
 }
 
-fn write_section(out: &mut String, own: &KeyTable, section: &TableSection) {
+/// A further operation, in short: its keys are those of the first.
+fn write_operation(out: &mut String, operation: &StandardOperation) {
+    let _ = write!(out, "\n# The next operation; it may have all keys of the one before.\n[[operation]]\n");
+    for (name, value) in operation.template {
+        let _ = writeln!(out, "{name} = {value}");
+    }
+}
+
+/// One section with all its keys; those in `on` are switched on, with these values.
+fn write_section(out: &mut String, own: &KeyTable, section: &TableSection, on: &[(&str, &str)]) {
     if section.role == Role::Plain && section.keys.is_empty() {
         return;
     }
@@ -50,7 +72,11 @@ fn write_section(out: &mut String, own: &KeyTable, section: &TableSection) {
         let group = section.group_of(key.name).filter(|group| group.required);
         let first = group.is_some_and(|group| !grouped.iter().any(|name| group.names.contains(name)));
         grouped.extend(group.map(|_| key.name));
-        write_key(out, key, active && (first || stands_ready(key)));
+        let value = on.iter().find(|(name, _)| *name == key.name).map(|(_, value)| *value);
+        let rival_on = |name: &&str| on.iter().any(|(on, _)| on == name);
+        let rival = section.group_of(key.name).is_some_and(|group| group.names.iter().any(rival_on));
+        let ready = value.is_some() || first || (stands_ready(key) && !rival);
+        write_key(out, key, value, active && ready);
     }
 }
 
@@ -73,12 +99,13 @@ fn stands_ready(key: &Key) -> bool {
     !matches!(key.default, Default::LeftOut(_) | Default::OneOfGroup | Default::Derived(_))
 }
 
-fn write_key(out: &mut String, key: &Key, active: bool) {
+fn write_key(out: &mut String, key: &Key, value: Option<&str>, active: bool) {
     let mark = if active { "" } else { "#" };
-    let value = match key.default {
-        Default::Number(number) => format!("{number:?}"),
-        Default::EmptyList if active => key.default_text(),
-        Default::Whole(_) | Default::Boolean(_) | Default::Word(_) => key.default_text(),
+    let value = match (value, key.default) {
+        (Some(value), _) => value.to_owned(),
+        (None, Default::Number(number)) => format!("{number:?}"),
+        (None, Default::EmptyList) if active => key.default_text(),
+        (None, Default::Whole(_) | Default::Boolean(_) | Default::Word(_)) => key.default_text(),
         _ => key.example.to_owned(),
     };
     write_comment(out, key.teach);

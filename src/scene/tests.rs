@@ -2,7 +2,11 @@
 
 use super::keys::{Addition, Default, Key, KeySection, Kind, Range, Role};
 use super::values::{Checked, Values};
-use super::{KeyTable, ProcessPart, ScenePart, SceneProcess, Senseless, load, parse, reference, schema, template};
+use super::{
+    FINISH_ALONE, KeyTable, ProcessPart, ScenePart, SceneProcess, Senseless, StandardOperation, load, parse, reference,
+    schema, template,
+};
+use crate::machine_errors::ErrorLayer;
 use std::path::Path;
 
 /// Sawing: no linkage, keys in shared sections, one that is derived, one with a word more, one check.
@@ -41,10 +45,16 @@ static SAWING: SceneProcess = SceneProcess {
             groups: &[],
         },
     ],
+    operations: &[
+        StandardOperation { name: "top", template: &[("name", "\"top\""), ("cuts", "3")] },
+        StandardOperation { name: "bottom", template: &[("name", "\"bottom\"")] },
+    ],
     per_revolution: &["cuts"],
     of_one_gear: &[],
     on_demand: &["measure"],
     senseless: &[Senseless { path: "operation[].linkage", why: "an arm moves the saw", instead: "remove it and push" }],
+    axes: &[],
+    errors: &[],
     derive: |values| {
         let Some(teeth) = values.view("gear").whole("teeth") else { return };
         for index in 0..values.count("operation") {
@@ -83,10 +93,13 @@ static FILING: SceneProcess = SceneProcess {
         },
     ]],
     added: &[],
+    operations: FINISH_ALONE,
     per_revolution: &[],
     of_one_gear: &[],
     on_demand: &[],
     senseless: &[],
+    axes: &[],
+    errors: &[],
     derive: |_| {},
     check: |_| {},
     build: |_, _| None,
@@ -101,6 +114,12 @@ impl ProcessPart for Sawing {
     fn process(&self) -> &'static SceneProcess {
         &SAWING
     }
+
+    fn error_layers(&self) -> Vec<ErrorLayer> {
+        Vec::new()
+    }
+
+    fn keep_layers(&mut self, _: &[ErrorLayer]) {}
 
     fn operation_names(&self) -> Vec<&str> {
         self.cuts.iter().map(|(name, _)| name.as_str()).collect()
@@ -172,7 +191,8 @@ fn sections_on_demand_hold_where_they_are_written() {
 #[test]
 fn what_is_printed_comes_from_the_table() {
     let template = template(&table(), "sawing").expect("a template");
-    assert!(template.contains("#cuts = 7") && template.contains("[tool.saw]"), "{template}");
+    assert!(template.contains("\ncuts = 3  # ") && template.contains("[tool.saw]"), "{template}");
+    assert!(template.contains("\n[[operation]]\nname = \"bottom\"\n"), "{template}");
     assert!(!template.contains("by_hand") && !template.contains("[tool.file]"), "{template}");
     let reference = reference::markdown(&table());
     assert!(reference.contains("| `sawing/log.toml` | A log |\n\n## Keys\n"), "{reference}");

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::keys::join;
+use super::keys::{self, join};
 use super::sources::At;
 use gearcut_core::terms::Hand;
 use gearcut_core::units::UM_PER_MM;
@@ -19,6 +19,20 @@ pub(crate) enum Checked {
     Text(String),
     Numbers(Vec<f64>),
     Points(Vec<[f64; 2]>),
+}
+
+impl Checked {
+    /// Whether a key with this default has the value without anybody writing it, whatever the other keys say.
+    pub(super) fn holds_by_itself(&self, default: keys::Default) -> bool {
+        match (default, self) {
+            (keys::Default::Number(default), Self::Number(value)) => default == *value,
+            (keys::Default::Whole(default), Self::Whole(value)) => default == *value,
+            (keys::Default::Boolean(default), Self::Boolean(value)) => default == *value,
+            (keys::Default::Word(default), Self::Text(value)) => default == value,
+            (keys::Default::EmptyList, Self::Numbers(value)) => value.is_empty(),
+            _ => false,
+        }
+    }
 }
 
 /// A value with its place.
@@ -77,9 +91,28 @@ impl Values {
         }
     }
 
+    /// Puts in a default unless another one holds already.
+    pub fn put_if_missing(&mut self, path: &str, name: &str, value: Checked) {
+        if !self.held.contains_key(&join(path, name)) {
+            self.put_default(path, name, value);
+        }
+    }
+
+    /// Takes another variant of a choice that nobody wrote.
+    pub fn put_default_variant(&mut self, choice: &str, variant: &'static str) {
+        if !self.has_section(choice) {
+            self.variants.insert(choice.to_owned(), variant);
+        }
+    }
+
     /// Whether a section is written.
     pub fn has_section(&self, path: &str) -> bool {
         self.sections.contains_key(path)
+    }
+
+    /// Whether a value below a path is written.
+    pub(super) fn is_any_set(&self, beginning: &str) -> bool {
+        self.held.iter().any(|(path, held)| path.starts_with(beginning) && held.is_written())
     }
 
     /// Takes the defaults of a section away.

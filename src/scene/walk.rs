@@ -104,7 +104,9 @@ impl<'a> Walk<'a, '_> {
             TomlValue::List(items) if items.len() < fewest => self.problems.add(
                 at,
                 format!("`{name}` is an empty list: nothing would be cut"),
-                format!("write at least one [[{name}]], or leave the list out for a single finishing cut"),
+                format!(
+                    "write at least one [[{name}]], or leave the list out for those that the process has by itself"
+                ),
             ),
             TomlValue::List(items) => {
                 for (index, item) in items.iter().enumerate() {

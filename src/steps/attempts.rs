@@ -1,7 +1,8 @@
 //! What follows the cut: a part that fails is told, and everything else is written.
 //!
-//! In: the outcome of each part (texture, sheets, pictures, meshes, programs, page). Out: its value, or none and a fault
-//! in the run's list. A gear that is cut and measured is not lost for a picture.
+//! In: the outcome of each part (texture, sheets, pictures, meshes, programs, page). Out: its value, or none and a
+//! fault in the run's list. A gear that is cut and measured is not lost for a picture. Where the disk refused a file,
+//! the result is not whole and takes no whole one's place.
 //!
 //! Two failures end the run all the same: Ctrl-C, and a device that failed where the user wants the run to stop then.
 //! Road not taken: files of single flanks, which are written while the gear is cut. Where those fail, nothing else can
@@ -15,12 +16,13 @@ use gearcut_core::error::{Error, Result};
 pub struct Attempts<'a> {
     progress: &'a Progress,
     told: Vec<Warning>,
+    lost_files: bool,
 }
 
 impl<'a> Attempts<'a> {
     /// Nothing attempted yet; notes are shown on `progress` at once.
     pub fn new(progress: &'a Progress) -> Self {
-        Self { progress, told: Vec::new() }
+        Self { progress, told: Vec::new(), lost_files: false }
     }
 
     /// The outcome of a part; none where it failed.
@@ -32,6 +34,7 @@ impl<'a> Attempts<'a> {
             Ok(value) => Ok(Some(value)),
             Err(error @ (Error::Interrupted | Error::Device(_))) => Err(error),
             Err(error) => {
+                self.lost_files |= matches!(error, Error::Io { .. });
                 let why = error.to_string().split('\n').map(str::trim).collect::<Vec<_>>().join("; ");
                 self.tell(Warning::fault(format!("{part}: {why}; everything else is there")));
                 Ok(None)
@@ -43,6 +46,11 @@ impl<'a> Attempts<'a> {
     pub fn tell(&mut self, warning: Warning) {
         self.progress.note(&warning.text);
         self.told.push(warning);
+    }
+
+    /// Whether the disk refused something, so that what is there is less than a whole result.
+    pub fn lost_files(&self) -> bool {
+        self.lost_files
     }
 
     /// What has been told so far.
@@ -65,8 +73,12 @@ mod tests {
         let refused = Refusal::new("picture", "it shows nothing", "look elsewhere");
         assert_eq!(attempts.of::<()>("pictures", Err(refused.into())).expect("told"), None);
         assert!(attempts.of::<()>("pictures", Err(Error::Interrupted)).is_err());
+        assert!(!attempts.lost_files());
         let told = attempts.told();
         let text = "pictures: `picture`: it shows nothing; way out: look elsewhere; everything else is there";
         assert_eq!(told, [Warning::fault(text)]);
+        let full = Error::writing("gear.png")(std::io::ErrorKind::StorageFull.into());
+        assert_eq!(attempts.of::<()>("pictures", Err(full)).expect("told"), None);
+        assert!(attempts.lost_files());
     }
 }

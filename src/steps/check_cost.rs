@@ -1,16 +1,16 @@
 //! What the cut will cost: dexels, records, evaluations, rays through the blank, memory, time.
 //!
 //! Dexels follow from the lengths of all profiles and the spacing. Records and evaluations are planned for a few flanks
-//! spread over the gear, exactly as the cut would plan them, and scaled to all flanks by their dexels. Time is the sum
-//! of the parts at rates measured on one processor, named with the result.
+//! spread over the gear, exactly as the cut would plan them, and scaled to all flanks by their dexels. Time is that of
+//! the whole command: the sum of the parts at rates measured on one processor, times what some of this very work takes
+//! here ([`ComputerSpeed`]).
 
+use super::computer_speed::ComputerSpeed;
 use crate::output::progress::duration_text;
 use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Fields;
 use gearcut_core::dexel::BlankGrid;
 
-/// Processor on whose cores the rates were measured.
-pub const PROCESSOR: &str = "an AMD EPYC (Zen 5, AVX-512)";
 /// Flanks that are planned: left and right in turn, and a number that seldom divides the periods of a curve.
 pub const PLANNED_FLANKS: usize = 9;
 /// Bytes per dexel and surface: height and pass id.
@@ -50,8 +50,48 @@ pub struct BlankCost {
     pub seconds: f64,
 }
 
-/// Prints the cost of a cut.
-pub fn print(sheet: &mut Sheet, fields: &Fields, flanks: &FlankCost, blank: &BlankCost) {
+/// The time of the whole command.
+#[derive(Debug, Clone, Copy)]
+pub struct TimeCost {
+    /// Flanks cut and measured, by the rates, s of one core.
+    pub flanks_s: f64,
+    /// The whole blank and the chips.
+    pub blank_s: f64,
+    /// What is drawn and written, and texture.
+    pub beside_s: f64,
+    /// This machine against the one of the rates.
+    pub machine: ComputerSpeed,
+}
+
+impl TimeCost {
+    /// Prints the line.
+    pub fn print(&self, sheet: &mut Sheet) {
+        let cores = rayon::current_num_threads();
+        let seconds = |by_rates: f64| duration_text(by_rates * self.machine.factor() / cores as f64);
+        let whole_s = self.flanks_s + self.blank_s + self.beside_s;
+        sheet.line(
+            "time",
+            format!(
+                "some {} for all of it on {cores} threads of this machine: {} for flanks, {} for blank and chips, {} \
+                 to draw and write",
+                seconds(whole_s),
+                seconds(self.flanks_s),
+                seconds(self.blank_s),
+                seconds(self.beside_s)
+            ),
+        );
+    }
+}
+
+/// Prints the cost of a cut; `beside_s` is what else the command takes, on one core.
+pub fn print(
+    sheet: &mut Sheet,
+    fields: &Fields,
+    flanks: &FlankCost,
+    blank: &BlankCost,
+    beside_s: f64,
+    machine: ComputerSpeed,
+) {
     let cores = rayon::current_num_threads();
     sheet.heading("Cost of the cut (nothing has been cut)");
     sheet.line(
@@ -88,13 +128,5 @@ pub fn print(sheet: &mut Sheet, fields: &Fields, flanks: &FlankCost, blank: &Bla
         ),
     );
     sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {cores} threads", 1e-6 * flanks.bytes));
-    let seconds = |of_one_core: f64| of_one_core / cores as f64;
-    sheet.line(
-        "time",
-        format!(
-            "{} on {cores} threads of {PROCESSOR}, {} of it for blank and chips; files come on top",
-            duration_text(seconds(flanks.seconds + blank.seconds)),
-            duration_text(seconds(blank.seconds))
-        ),
-    );
+    TimeCost { flanks_s: flanks.seconds, blank_s: blank.seconds, beside_s, machine }.print(sheet);
 }

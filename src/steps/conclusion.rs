@@ -1,7 +1,7 @@
 //! The end of a run: programs, page and `results.json`, in this order.
 //!
-//! In: what was found, the motion of the axes, what the parts before had to tell. Out: the files. Each shows the list of
-//! warnings as far as it is known then: a program that is left out is told on the page, and a page that fails in
+//! In: what was found, the motion of the axes, what the parts before had to tell. Out: the files. Each shows the list
+//! of warnings as far as it is known then: a program that is left out is told on the page, and a page that fails in
 //! `results.json`, which closes the run.
 
 use super::Tools;
@@ -44,5 +44,6 @@ pub fn write<O: AxesOfOperation>(
         step.finish();
     }
     found.warnings = list(attempts);
+    found.complete &= !attempts.lost_files();
     folder.write_json(RESULTS_FILE, &found.to_json())
 }

@@ -1,7 +1,8 @@
 //! All flanks of a gear, cut and measured in parallel, each written and thinned out as soon as it is done.
 //!
 //! In: the job; how the process cuts and measures one flank. Out: [`CutFlanks`]: reports, maps and surfaces at
-//! their own spacings, and what pictures show. The dexels themselves are dropped flank by flank: of a gear they would fill the memory.
+//! their own spacings, and what pictures show. The dexels themselves are dropped flank by flank: of a gear they would
+//! fill the memory.
 
 use super::gear_maps::GearMaps;
 use super::parts::{Part, Parts};
@@ -85,7 +86,7 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
         let maps = needs_maps(parts).then(|| {
             let arcs_mm = rays.arcs_mm();
             let mut maps = FlankMaps::sample(tooth, side, [&arcs_mm, rays.rows_mm()], &layers, output.map_spacing_mm);
-            maps.chips = chips(&rays, &maps);
+            maps.take_chips(&chips(&rays, &maps));
             maps
         });
         let surface = needs_surfaces(job, parts).then(|| SurfaceGrid::new(&rays, &layers, output.mesh_spacing_mm));

@@ -8,6 +8,7 @@ pub mod attempts;
 pub mod axes;
 pub mod check_cost;
 pub mod check_curve;
+pub mod computer_speed;
 pub mod conclusion;
 pub mod cut_flanks;
 pub mod gear_maps;

@@ -11,7 +11,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// Files that cannot be read back for their checksums.
-pub fn run_record(tools: &Tools, work: &Work) -> Result<Value> {
+pub fn run_record(tools: &Tools, work: &Work, complete: bool) -> Result<Value> {
     let Tools { resolved, backend, backend_why, folder, parts, progress, .. } = *tools;
     let step = progress.step("checksums", 1, "folder");
     let mut checksums = Map::new();
@@ -34,7 +34,7 @@ pub fn run_record(tools: &Tools, work: &Work) -> Result<Value> {
             .map(|t| json!({"stage": t.stage, "batches": t.batches, "device_s": t.device_s}))
             .collect::<Vec<_>>(),
         "stages": stages.iter().map(|(name, wall_s)| json!({"stage": name, "wall_s": wall_s})).collect::<Vec<_>>(),
-        "complete": !work.interrupted,
+        "complete": complete,
         "dexels": work.dexels,
         "dexel_passes": work.stats.dexel_passes,
         "dexels_cut": work.stats.dexels,

@@ -6,7 +6,7 @@ use super::{Tools, map_operations};
 use crate::colormap::ColourScale;
 use crate::job::GearJob;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
-use crate::output::flank_maps::{CHIPS_SHOWN, FlankMaps, NO_PASS_CAME, OperationMaps};
+use crate::output::flank_maps::{CHIP_QUANTITY, CHIPS_SHOWN, FlankMaps, NO_PASS_CAME, OperationMaps};
 use crate::output::folder::OutputFolder;
 use gearcut_core::error::{Error, Result};
 use rayon::prelude::*;
@@ -84,7 +84,7 @@ fn write_contact_sheets(job: &dyn GearJob, gear: &GearMaps, folder: &OutputFolde
     write_sheet(
         &folder.path(format!("pictures/chip_thickness_{name}.png"))?,
         &format!("{scene}: chips that left the finished surface, all flanks"),
-        ["uncut chip thickness at the nearest dexel", "µm"],
+        [CHIP_QUANTITY, "µm"],
         ColourScale::between_quantiles(chips.iter().map(Vec::as_slice), CHIPS_SHOWN),
         maps,
         &chips,

@@ -1,14 +1,17 @@
 //! The stages of a run with what each is expected to take: for the time left of the whole command.
 //!
 //! In: the job, what is written, what the process knows of its own stages. Out: names of stages with seconds for each
-//! tooth, flank, window or picture, estimated by trial. Only their proportions count: the pace of what is done says how
+//! tooth, flank, window or picture: processor time of a whole run of the paper's gear and of a ring of 60 teeth, shared
+//! among its stages by their wall time. For the time left only the proportions count: the pace of what is done says how
 //! fast this machine and this scene are.
 //!
-//! Road not taken: the cost that `check` estimates. It follows cutting alone, and most stages draw and write.
+//! Road not taken: the cost that `check` estimates of cuts ([`super::check_cost`]). It takes a moment to plan, in which
+//! nothing would show; `check` takes from here what is not cutting.
 
-use super::parts::Part;
-use super::{Tools, needs_surfaces};
+use super::needs_surfaces;
+use super::parts::{Part, Parts};
 use crate::job::GearJob;
+use crate::scene::model::WindowSides;
 
 /// What a process takes where processes differ.
 #[derive(Debug, Clone, Copy)]
@@ -23,27 +26,44 @@ pub struct Costs<'a> {
     pub blank_s: f64,
 }
 
+/// For a texture window, s.
+const WINDOW_S: f64 = 0.15;
+
+/// How many texture windows there are: those of the scene, or both flanks of the teeth that every gear gets.
+fn windows(job: &dyn GearJob) -> f64 {
+    match job.scene().textures.as_slice() {
+        [] => 2.0 * (job.teeth_that_differ_most().len() + 1) as f64,
+        asked => asked.iter().map(|window| if window.sides == WindowSides::Both { 2.0 } else { 1.0 }).sum(),
+    }
+}
+
+/// What a whole run takes beside its cuts: measuring texture, drawing, writing, s of one core.
+pub fn beside_cutting_s(job: &dyn GearJob) -> f64 {
+    let nothing = Costs { before: &[], flank_s: 0.0, root_s: 0.0, blank_s: 0.0 };
+    plan(job, Parts::all(), None, &nothing).iter().map(|(_, seconds)| seconds).sum()
+}
+
 /// Stages of a run with expected seconds; `frames` is how many pictures of the cut as it happens are drawn.
-pub fn plan(job: &dyn GearJob, tools: &Tools, frames: Option<u32>, costs: &Costs) -> Vec<(&'static str, f64)> {
-    let (scene, parts) = (job.scene(), tools.parts);
+pub fn plan(job: &dyn GearJob, parts: Parts, frames: Option<u32>, costs: &Costs) -> Vec<(&'static str, f64)> {
+    let scene = job.scene();
     let teeth = f64::from(scene.gear.teeth);
     let share = |part: Part, seconds: f64| if parts.has(part) { seconds } else { 0.0 };
     let mut stages: Vec<(&'static str, f64)> =
         costs.before.iter().map(|(name, tooth_s)| (*name, tooth_s * teeth)).collect();
     stages.extend([
-        ("cut", 2.0 * teeth * (costs.flank_s + share(Part::Maps, 0.03) + share(Part::Meshes, 0.005))),
-        ("texture", 0.1 * scene.textures.len() as f64),
+        ("cut", 2.0 * teeth * (costs.flank_s + share(Part::Maps, 0.11) + share(Part::Meshes, 0.01))),
+        ("texture", WINDOW_S * windows(job)),
         ("cut the whole blank", costs.blank_s * teeth),
-        ("tables and charts", 0.1 + share(Part::Chips, 0.4) + share(Part::Axes, 0.8)),
-        ("sheets", share(Part::Pictures, 0.008 * teeth)),
-        ("deviation maps", share(Part::Maps, 0.012 * teeth)),
+        ("tables and charts", 0.1 + share(Part::Chips, 0.3) + share(Part::Axes, 0.4)),
+        ("sheets", share(Part::Pictures, 0.015 * teeth)),
+        ("deviation maps", share(Part::Maps, 0.025 * teeth)),
         ("roots", if needs_surfaces(job, parts) { costs.root_s * teeth } else { 0.0 }),
         ("tips", if needs_surfaces(job, parts) { 0.005 * teeth } else { 0.0 }),
         ("meshes", share(Part::Meshes, 0.02 * teeth)),
-        ("pictures", share(Part::Pictures, 1.6 * scene.pictures.len() as f64)),
+        ("pictures", share(Part::Pictures, 1.9 * scene.pictures.len() as f64)),
         ("frames", frames.map_or(0.0, |count| 0.5 * f64::from(count))),
         ("axis programs", share(Part::Axes, 0.2)),
-        ("report", share(Part::Report, 0.01 * teeth)),
+        ("report", share(Part::Report, 0.006 * teeth)),
         ("checksums", 0.1 + share(Part::Maps, 0.01 * teeth)),
     ]);
     stages

@@ -45,8 +45,8 @@ impl Triangles {
         self.positions_mm.len() as u32 - 1
     }
 
-    /// Profiles of all sections joined along the tooth; `forward`: they run counter-clockwise round the gear axis with the
-    /// teeth, clockwise with its back.
+    /// Profiles of all sections joined along the tooth; `forward`: they run counter-clockwise round the gear axis with
+    /// the teeth, clockwise with its back.
     pub fn wall(&mut self, profiles: &[SectionProfile], rows_z_mm: &[f64], forward: bool) {
         self.surface(&in_space(profiles, rows_z_mm), forward == (self.gear == GearKind::External));
     }
@@ -70,7 +70,8 @@ impl Triangles {
         }
     }
 
-    /// Flat polygons at one end of the face from triangles that, on an external gear, are counter-clockwise seen from +z.
+    /// Flat polygons at one end of the face from triangles that, on an external gear, are counter-clockwise seen from
+    /// +z.
     pub fn end(&mut self, points: &[DVec2], triangles: &[[usize; 3]], z_mm: f64, top: bool) {
         let first = self.positions_mm.len() as u32;
         for &point in points {

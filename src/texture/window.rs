@@ -32,6 +32,10 @@ pub struct Window {
     step_mm: [f64; 2],
     /// Points along the tooth and along the profile.
     pub count: [usize; 2],
+    /// What it spans along the tooth and along the profile, mm.
+    span_mm: [[f64; 2]; 2],
+    /// Whether the scene leaves the distance of points along the tooth and along the profile open.
+    pub(super) open_step: [bool; 2],
     /// F-operator.
     pub form: Form,
     /// Whether it shows what every operation left, as windows of a scene do, or the finished surface alone.
@@ -48,6 +52,26 @@ impl Window {
     /// Places along the tooth, mm from the middle of the face.
     pub fn rows_z_mm(&self) -> Vec<f64> {
         (0..self.count[0]).map(|i| self.start_mm[0] + self.step_mm[0] * i as f64).collect()
+    }
+
+    /// The same window with its points so far apart in one direction, along the tooth (0) or along the profile (1).
+    pub(super) fn with_step(&self, direction: usize, step_mm: f64) -> Self {
+        let mut finer = self.clone();
+        finer.step_mm[direction] = step_mm;
+        finer.lay();
+        finer
+    }
+
+    /// Lays the points over what it spans. What is left over of the last step is shared by both ends.
+    fn lay(&mut self) {
+        for (direction, [low, high]) in self.span_mm.into_iter().enumerate() {
+            let (length_mm, step_mm) = (high - low, self.step_mm[direction]);
+            // Half a millionth of a step more: lengths that hold whole steps shall not lose the last by rounding.
+            let steps = (length_mm / step_mm + 5e-7).floor();
+            self.count[direction] = steps as usize + 1;
+            self.start_mm[direction] = low + 0.5 * (length_mm - step_mm * steps);
+        }
+        self.start_mm[1] = self.start_mm[1].max(0.0);
     }
 
     /// Distance of points along the tooth and along the profile, mm.
@@ -156,9 +180,19 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
         spec.lead_spacing_mm.unwrap_or((length[0] / LEAD_POINTS).max(fields.lead_spacing_mm).min(length[0])),
         spec.profile_spacing_mm.unwrap_or(fields.profile_spacing_mm.min(length[1])),
     ];
-    let steps = [length[0] / step_mm[0], length[1] / step_mm[1]];
-    // Half a millionth of a step more: lengths that hold whole steps shall not lose the last by rounding.
-    let count = steps.map(|steps| (steps + 5e-7).floor() as usize + 1);
+    let mut window = Window {
+        tooth: spec.tooth,
+        side,
+        start_mm: [0.0; 2],
+        step_mm,
+        count: [0; 2],
+        span_mm: [along_tooth, profile],
+        open_step: [spec.lead_spacing_mm.is_none(), spec.profile_spacing_mm.is_none()],
+        form: spec.form,
+        every_operation: !job.scene().textures.is_empty(),
+    };
+    window.lay();
+    let count = window.count;
     for (k, name) in ["lead_spacing_um", "profile_spacing_um"].into_iter().enumerate() {
         if count[k] < 2 {
             return refuse(
@@ -175,9 +209,5 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
             );
         }
     }
-    // What is left over of the last step is shared by both ends.
-    let start = |[low, high]: [f64; 2], k: usize| low + 0.5 * ((high - low) - step_mm[k] * (count[k] - 1) as f64);
-    let start_mm = [start(along_tooth, 0), start(profile, 1).max(0.0)];
-    let every_operation = !job.scene().textures.is_empty();
-    Ok(Window { tooth: spec.tooth, side, start_mm, step_mm, count, form: spec.form, every_operation })
+    Ok(window)
 }

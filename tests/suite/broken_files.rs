@@ -1,8 +1,9 @@
 //! Broken files of every kind that is read, and the exact words with which each is refused.
 //!
-//! Every file in `tests/data/broken/` must be refused with the text beside it in `.expected`: programs (`.ngc`), results
-//! (`.results.json`), surfaces (all others). A file that once did harm stays here. To rewrite the expected texts, run the
-//! test with `GEARCUT_BLESS=1`, then read them. Broken scenes have a folder of their own (`scene::broken`).
+//! Every file in `tests/data/broken/` must be refused with the text beside it in `.expected`: programs (`.ngc`),
+//! results (`.results.json`), surfaces (all others). A file that once did harm stays here. To rewrite the expected
+//! texts, run the test with `GEARCUT_BLESS=1`, then read them. Broken scenes have a folder of their own
+//! (`scene::broken`).
 
 use gearcut::findings::Findings;
 use gearcut::output::surface_files::read_surface;

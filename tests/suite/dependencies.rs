@@ -1,7 +1,8 @@
 //! Other people's crates: under which licences they come, from where, and how many of one name.
 //!
 //! The same as `cargo deny check licenses sources bans` asks, from `cargo metadata` alone: cargo-deny itself takes
-//! minutes to build on a fresh machine. Advisories need a list that changes every day and are no test of the code.
+//! minutes to build on a fresh machine. Advisories need a list that changes every day and are no test of the code. And
+//! how builds are made: from locked versions, a release with checks for overflow.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -87,4 +88,39 @@ fn licences_that_are_not_free_are_noticed() {
     for other in ["", "GPL-3.0", "MIT AND GPL-3.0", "(MIT OR Apache-2.0) AND GPL-2.0", "LGPL-2.1-or-later"] {
         assert!(!is_free(other), "{other}");
     }
+}
+
+/// Lines of a script or page that build with cargo, without `--locked`.
+fn unlocked(text: &str, subcommands: &[&str]) -> Vec<String> {
+    let builds = |line: &&str| subcommands.iter().any(|subcommand| line.contains(&format!("cargo {subcommand} ")));
+    let unlocked = text.lines().filter(builds).filter(|line| !line.trim_start().starts_with('#'));
+    unlocked.filter(|line| !line.contains("--locked")).map(str::to_owned).collect()
+}
+
+#[test]
+fn builds_take_the_locked_versions() {
+    let read = |path: &str| std::fs::read_to_string(path).unwrap_or_else(|why| panic!("{path}: {why}"));
+    for script in [".ci/run", "tests/run", "tests/interop/run", "tests/interop/meshes", "tests/browser/run"] {
+        let found = unlocked(&read(script), &["build", "test", "run", "clippy", "doc", "bench", "install"]);
+        assert!(found.is_empty(), "{script}: {found:?}");
+    }
+    // Of the commands that pages show, `install` alone leaves the lock file out unless it is told.
+    let pages = std::fs::read_dir("docs").expect("pages").map(|entry| entry.expect("a page").path());
+    let pages = pages.filter(|path| path.extension().is_some_and(|ending| ending == "md"));
+    for page in pages.chain(["README.md".into(), "CONTRIBUTING.md".into()]) {
+        let found = unlocked(&read(page.to_str().expect("a name")), &["install"]);
+        assert!(found.is_empty(), "{}: {found:?}", page.display());
+    }
+    assert_eq!(unlocked("cargo test --workspace\n# cargo test x\ncargo test --locked", &["test"]).len(), 1);
+}
+
+/// Kernels are bounded where they are called, and other people's crates answer for themselves.
+#[test]
+fn releases_check_for_overflow_outside_of_kernels() {
+    let manifest: toml::Table = std::fs::read_to_string("Cargo.toml").expect("a manifest").parse().expect("TOML");
+    let release = &manifest["profile"]["release"];
+    assert_eq!(release["overflow-checks"].as_bool(), Some(true));
+    let without = release["package"].as_table().expect("packages").iter();
+    let without = without.filter(|(_, package)| package["overflow-checks"].as_bool() == Some(false));
+    assert_eq!(without.map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["*", "gearcut-core"]);
 }

@@ -13,6 +13,7 @@ mod floors;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod hobbing;
+mod influence;
 mod library;
 mod output;
 mod posts;

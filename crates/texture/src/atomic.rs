@@ -7,13 +7,14 @@
 //! changed to the final one. A full disk, a failing closure or a killed run therefore never leaves half a file under a
 //! name that somebody opens later.
 //!
-//! Road not taken: forcing every file to the platter (`fsync`) before renaming. It would also survive a power cut, at
-//! the price of seconds for the hundreds of maps of one run; after a power cut the run is repeated instead.
+//! Road not taken: forcing every file to the disk (`fsync`) before it gets its name. Who writes many files into one
+//! folder does that once for all of them, before the folder gets its name.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Seek, Write};
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::Path;
 
+use crate::disk_steps::{DiskStep, about_to};
 use crate::{Error, Result};
 
 /// What the contents of a file are written to.
@@ -27,7 +28,7 @@ impl<T: Write + Seek> Sink for T {}
 /// # Errors
 /// [`Error::Io`] with the system's reason, or with the reason that `fill` gave through [`io::Error::other`].
 pub fn write_atomically(path: &Path, fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>) -> Result<()> {
-    write_through(path, |file| file, fill)
+    write_through(path, |file| Announced { file, path }, fill)
 }
 
 /// Writes `path` with the given contents, completely or not at all.
@@ -36,6 +37,30 @@ pub fn write_atomically(path: &Path, fill: impl FnOnce(&mut dyn Sink) -> io::Res
 /// [`Error::Io`] with the system's reason.
 pub fn write_bytes_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
     write_atomically(path, |sink| sink.write_all(bytes))
+}
+
+/// A file whose writes are announced.
+struct Announced<'a> {
+    file: File,
+    /// The final name.
+    path: &'a Path,
+}
+
+impl Write for Announced<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        about_to(DiskStep::Write, self.path)?;
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Seek for Announced<'_> {
+    fn seek(&mut self, place: SeekFrom) -> io::Result<u64> {
+        self.file.seek(place)
+    }
 }
 
 /// [`write_atomically`] with a layer between the file and its contents; the tests put a full disk there.
@@ -49,10 +74,12 @@ fn write_through<W: Sink>(
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
+    about_to(DiskStep::Create, path).map_err(failed)?;
     let temporary = new_file_builder().tempfile_in(folder).map_err(failed)?;
     let mut writer = BufWriter::new(layer(temporary.as_file().try_clone().map_err(failed)?));
     fill(&mut writer).and_then(|()| writer.flush()).map_err(failed)?;
     drop(writer);
+    about_to(DiskStep::Rename, path).map_err(failed)?;
     temporary.persist(path).map_err(|refused| failed(refused.error))?;
     Ok(())
 }
@@ -70,7 +97,6 @@ fn new_file_builder() -> tempfile::Builder<'static, 'static> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::SeekFrom;
 
     /// A disk with room for `left_bytes` more.
     struct SmallDisk {

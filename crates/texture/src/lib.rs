@@ -11,6 +11,7 @@
 //!
 //! - `error`: errors as values, with the file and the reason
 //! - `text`: words out of a file, fit to print
+//! - `disk_steps`: the steps on the disk by which files come to be, where tests may refuse them
 //! - [`atomic`]: files that are complete or absent
 //! - [`surface`]: heights on a grid with holes
 //! - [`form`]: the F-operator
@@ -73,6 +74,8 @@
 pub mod atomic;
 pub mod chain;
 pub mod core;
+#[doc(hidden)]
+pub mod disk_steps;
 mod error;
 pub mod features;
 pub mod files;

@@ -3,9 +3,10 @@
 //!
 //! `%` stands at both ends, `O` and four digits after the first one; 8000 to 9999 may be protected. A number without a
 //! decimal point counts least increments, so that every position has one; IS-C has four digits and takes eight in all.
-//! `G93` takes F from 0.001 to 9999.999 in every block. `G4 X` with a point is in seconds, where `P` counts milliseconds.
-//! S is whole. Comments stand in round brackets, in capitals. An axis that turns beyond the range of positions is
-//! commanded in increments (`G91`), which are taken as they are, whether or not positions roll over at 360 deg.
+//! `G93` takes F from 0.001 to 9999.999 in every block. `G4 X` with a point is in seconds, where `P` counts
+//! milliseconds. S is whole. Comments stand in round brackets, in capitals. An axis that turns beyond the range of
+//! positions is commanded in increments (`G91`), which are taken as they are, whether or not positions roll over at 360
+//! deg.
 //!
 //! `G80` is left out of the first block: on gear machines it parts work and hob.
 

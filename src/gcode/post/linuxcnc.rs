@@ -1,8 +1,9 @@
 //! LinuxCNC, from its own documentation (docs/src/gcode/overview.adoc and g-code.adoc of LinuxCNC 2.8 and later).
 //!
-//! A line has at most 256 characters. A file begins and ends with `%`, or has `M2` or `M30`. Numbers may have any number
-//! of digits, some seventeen of them count. `G93` wants F in every block with `G1`. `G4 P` is in seconds. A comment that
-//! begins with MSG, DEBUG, PRINT, LOG or their like and a comma is a command. `G64 P` lets corners be rounded by so much.
+//! A line has at most 256 characters. A file begins and ends with `%`, or has `M2` or `M30`. Numbers may have any
+//! number of digits, some seventeen of them count. `G93` wants F in every block with `G1`. `G4 P` is in seconds. A
+//! comment that begins with MSG, DEBUG, PRINT, LOG or their like and a comma is a command. `G64 P` lets corners be
+//! rounded by so much.
 
 use super::{Dialect, ascii};
 

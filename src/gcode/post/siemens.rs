@@ -1,10 +1,10 @@
-//! SINUMERIK 840D sl, 828D and ONE in Siemens mode, from the programming manuals NC programming (6FC5398-2EP40, 12/2019)
-//! and Fundamentals (6FC5398-1BP40, 03/2013).
+//! SINUMERIK 840D sl, 828D and ONE in Siemens mode, from the programming manuals NC programming (6FC5398-2EP40,
+//! 12/2019) and Fundamentals (6FC5398-1BP40, 03/2013).
 //!
-//! A block has at most 512 characters with its comment and its end; a comment begins with `;`. The program's name is the
-//! file's: at most 24 letters, digits and underscores, the first two of them letters, or an underscore and a letter.
-//! Metric input is `G710`, dwell is `G4 F` in seconds, `G93` takes F in 1/min. There is no tape end in a file. Positions
-//! are rounded to the steps of MD10200 and MD10210.
+//! A block has at most 512 characters with its comment and its end; a comment begins with `;`. The program's name is
+//! the file's: at most 24 letters, digits and underscores, the first two of them letters, or an underscore and a
+//! letter. Metric input is `G710`, dwell is `G4 F` in seconds, `G93` takes F in 1/min. There is no tape end in a file.
+//! Positions are rounded to the steps of MD10200 and MD10210.
 
 use super::{Dialect, ascii};
 

@@ -68,6 +68,14 @@ impl Steps for FaultyDisk {
         if self.exchanges { Disk.exchange(one, other) } else { Ok(false) }
     }
 
+    fn sync_file(&self, path: &Path) -> io::Result<()> {
+        self.step().and_then(|()| Disk.sync_file(path))
+    }
+
+    fn sync_folder(&self, path: &Path) -> io::Result<()> {
+        self.step().and_then(|()| Disk.sync_folder(path))
+    }
+
     fn remove_folder(&self, path: &Path) -> io::Result<()> {
         let first_to_fail = self.taken.load(Ordering::SeqCst) == self.fault_at;
         if first_to_fail && self.fault == DiskFault::DeathHalfway && path.join(RUN_RECORD).exists() {
@@ -229,7 +237,7 @@ fn a_refused_step_loses_nothing() {
 fn results_without_any_name_stay_where_they_are() {
     let place = tempfile::tempdir().expect("a folder for the test");
     let path = place.path().join("gear");
-    let disk = FaultyDisk::new(3, DiskFault::Death, true);
+    let disk = FaultyDisk::new(7, DiskFault::Death, true);
     let told = run(&path, "late", true, &disk).expect_err("no rename is done").to_string();
     let hidden = place.path().join(".gear.gearcut/new");
     assert!(told.contains(&hidden.display().to_string()), "{told}");

@@ -10,6 +10,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::path::Path;
 
+use gearcut_texture::disk_steps::{DiskStep, about_to};
+
 /// What is asked of the file system.
 pub(super) trait Steps: Debug + Send + Sync {
     /// Makes a folder, with the rights that the user's umask gives.
@@ -24,6 +26,12 @@ pub(super) trait Steps: Debug + Send + Sync {
     /// Two folders exchange their names in one step; false if this system or file system cannot do that.
     fn exchange(&self, one: &Path, other: &Path) -> io::Result<bool>;
 
+    /// Forces a file to the disk.
+    fn sync_file(&self, path: &Path) -> io::Result<()>;
+
+    /// Forces the names in a folder to the disk.
+    fn sync_folder(&self, path: &Path) -> io::Result<()>;
+
     /// Removes a folder with all that is in it.
     fn remove_folder(&self, path: &Path) -> io::Result<()>;
 
@@ -37,28 +45,60 @@ pub(super) struct Disk;
 
 impl Steps for Disk {
     fn create_folder(&self, path: &Path) -> io::Result<()> {
+        about_to(DiskStep::Create, path)?;
         fs::create_dir(path)
     }
 
     fn open_lock(&self, path: &Path) -> io::Result<File> {
+        about_to(DiskStep::Create, path)?;
         OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)
     }
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
+        about_to(DiskStep::Rename, to)?;
         fs::rename(from, to)
     }
 
     fn exchange(&self, one: &Path, other: &Path) -> io::Result<bool> {
+        about_to(DiskStep::Exchange, other)?;
         exchange(one, other)
     }
 
+    fn sync_file(&self, path: &Path) -> io::Result<()> {
+        about_to(DiskStep::Sync, path)?;
+        // Windows syncs only what may be written to.
+        OpenOptions::new().write(true).open(path)?.sync_all()
+    }
+
+    fn sync_folder(&self, path: &Path) -> io::Result<()> {
+        about_to(DiskStep::Sync, path)?;
+        sync_folder(path)
+    }
+
     fn remove_folder(&self, path: &Path) -> io::Result<()> {
+        about_to(DiskStep::Remove, path)?;
         fs::remove_dir_all(path)
     }
 
     fn remove_file(&self, path: &Path) -> io::Result<()> {
+        about_to(DiskStep::Remove, path)?;
         fs::remove_file(path)
     }
+}
+
+/// `fsync` of a folder, where the file system knows it.
+#[cfg(unix)]
+fn sync_folder(path: &Path) -> io::Result<()> {
+    match File::open(path)?.sync_all() {
+        Err(unknown) if matches!(unknown.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) => Ok(()),
+        done => done,
+    }
+}
+
+/// Other systems force names to the disk by themselves.
+#[cfg(not(unix))]
+fn sync_folder(_path: &Path) -> io::Result<()> {
+    Ok(())
 }
 
 /// `renameat2` with `RENAME_EXCHANGE` (Linux 3.15), `renameatx_np` with `RENAME_SWAP` (macOS 10.12).

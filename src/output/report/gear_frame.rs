@@ -78,7 +78,7 @@ pub fn gear_frame(viewer: &Viewer) -> Markup {
             p id="gear-help" class="note" {
                 "Drag to turn; click into the view, then turn the wheel or pinch to come closer; drag with the right \
                 button to move. Keys: arrows turn, + and − come closer and go away, Home goes back. A click on a flank \
-                picks it."
+                picks it. Roots, tips and end faces carry no map: they are grey."
             }
             figure class="chart map" {
                 figcaption id="map-title" {}

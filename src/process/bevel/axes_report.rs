@@ -1,8 +1,8 @@
 //! How the six-axis machine has to move: what bevel cutting adds to the axes' tables, charts and peaks.
 //!
 //! In: a prepared [`BevelJob`]. Out: [`BevelAxesReport`] for the shared steps ([`crate::steps::axes`]): roll, times and
-//! marks for the terminal, per operation `<operation>.csv` over one slot's roll, charts of positions and speeds, how well
-//! polynomials follow the axes ([`BevelAxesReport::fits`]), and the program.
+//! marks for the terminal, per operation `<operation>.csv` over one slot's roll, charts of positions and speeds, how
+//! well polynomials follow the axes ([`BevelAxesReport::fits`]), and the program.
 
 use super::gcode;
 use super::job::BevelJob;

@@ -5,10 +5,13 @@ use super::blank::CellGrid;
 use super::findings;
 use super::job::BevelJob;
 use crate::findings::Warning;
-use crate::output::progress::duration_text;
 use crate::output::text::{Sheet, plain, significant};
 use crate::steps::axes;
-use crate::steps::check_cost::{BYTES_PER_DEXEL, PROCESSOR};
+use crate::steps::check_cost::{BYTES_PER_DEXEL, TimeCost};
+use crate::steps::computer_speed::ComputerSpeed;
+use crate::steps::stages;
+use gearcut_core::cut::Backend as _;
+use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::error::Result;
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::terms::Side;
@@ -25,6 +28,11 @@ const SEGMENTS: f64 = 4.0;
 const BYTES_PER_RAY: f64 = 52.0;
 /// Rows of a flank that are planned, about the middle of the face.
 const PLANNED_ROWS: usize = 96;
+/// Rows that are cut to calibrate the estimate.
+const CALIBRATED_ROWS: usize = 8;
+/// So much more than by the rates so few rows take, for they leave lanes of the kernel idle; found on the machine of
+/// the rates.
+const FEW_ROWS: f64 = 1.46;
 
 /// Prints everything; what must be known before cutting.
 ///
@@ -166,7 +174,37 @@ fn print_cost(sheet: &mut Sheet, job: &BevelJob) -> Result<()> {
     let bytes = largest * (threads as f64 * (BYTES_PER_RAY + BYTES_PER_DEXEL as f64 * surfaces) + 2.0 * BYTES_PER_RAY);
     sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {threads} threads", 1e-6 * bytes));
     let on_blank = rays * passes * SEGMENTS * BLANK_S_PER_EVALUATION;
-    let seconds = (dexels * RAY_S_PER_DEXEL + evaluations * CUT_S_PER_EVALUATION + on_blank) / threads as f64;
-    sheet.line("time", format!("{} on {threads} threads of {PROCESSOR}; files come on top", duration_text(seconds)));
+    let flanks_s = dexels * RAY_S_PER_DEXEL + evaluations * CUT_S_PER_EVALUATION;
+    let beside_s = stages::beside_cutting_s(job);
+    TimeCost { flanks_s, blank_s: on_blank, beside_s, machine: calibrated(job)? }.print(sheet);
     Ok(())
+}
+
+/// Some rows of both sides, planned and cut.
+fn calibrated(job: &BevelJob) -> Result<ComputerSpeed> {
+    let mut machine = ComputerSpeed::default();
+    for side in [Side::Left, Side::Right] {
+        let [arcs_mm, rows_mm] = job.places_mm(side);
+        let first = rows_mm.len().saturating_sub(CALIBRATED_ROWS) / 2;
+        let rows_mm = rows_mm[first..(first + CALIBRATED_ROWS).min(rows_mm.len())].to_vec();
+        let field = machine.piece(
+            || job.rays_over(1, side, arcs_mm, rows_mm),
+            |rays| rays.as_ref().map_or(0.0, |rays| FEW_ROWS * rays.field.len() as f64 * RAY_S_PER_DEXEL),
+        )?;
+        let field = field.field;
+        for operation in 0..job.operations.len() {
+            if !machine.wants_more() {
+                break;
+            }
+            let mut layer = field.blank_layer();
+            let cut = || {
+                let plan = SweepPlan::new(&field, job.slots.of(operation, job.space_of(1, side)));
+                Cpu::default().cut_spatial(&field, &plan, &mut layer).map(|_| plan.dexel_passes())
+            };
+            machine.piece(cut, |visits| {
+                visits.as_ref().map_or(0.0, |&visits| FEW_ROWS * visits as f64 * CUT_S_PER_EVALUATION)
+            })?;
+        }
+    }
+    Ok(machine)
 }

@@ -3,9 +3,9 @@
 //! In: a job, the rays of a slot's cell ([`super::blank`]). Out: [`SlotLedger`]: passes that took anything, and what is
 //! left on the rays as several pieces.
 //!
-//! **A pass on a ray** takes one interval: a blade is convex and its path across a ray nearly straight. The kernel finds
-//! where a ray enters the blade from below, and, on the same ray turned round, from above. A blade is open above its
-//! edges, where the head's body is: a ray that never enters from above is cleared to the face cone.
+//! **A pass on a ray** takes one interval: a blade is convex and its path across a ray nearly straight. The kernel
+//! finds where a ray enters the blade from below, and, on the same ray turned round, from above. A blade is open above
+//! its edges, where the head's body is: a ray that never enters from above is cleared to the face cone.
 //!
 //! **Thickness** t of a chip: the length that a ray loses above the new surface, times the cosine of the ray to that
 //! surface. **Force** (Altintas, Manufacturing Automation, 2012, section 2.4; see [`crate::material`]): while a blade

@@ -3,8 +3,8 @@
 //! In: settings, head and blank. Out: an SVG file to scale, with a name and a value at every setting. Lengths that are
 //! too short to be seen keep their name and value.
 //!
-//! **Views.** On the left the viewer looks against the cradle's axis z, x to the right and y up. On the right the viewer
-//! looks along y: z to the right, from the head to the work, and x up.
+//! **Views.** On the left the viewer looks against the cradle's axis z, x to the right and y up. On the right the
+//! viewer looks along y: z to the right, from the head to the work, and x up.
 
 use super::job::BevelJob;
 use gearcut_core::bevel::blank::BevelBlank;
@@ -103,8 +103,8 @@ fn entries(drawn: &Drawn) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// The paper draws the work at rest and moves the head by E_m and X_B; here the cradle rests, as on the machine, and the
-/// work stands at the opposite of both.
+/// The paper draws the work at rest and moves the head by E_m and X_B; here the cradle rests, as on the machine, and
+/// the work stands at the opposite of both.
 fn along_cradle(drawn: &Drawn) -> String {
     let of = drawn.settings;
     let head = of.radial_setting_mm * DVec2::from_angle(of.cradle_angle_rad);

@@ -28,7 +28,8 @@ use crate::machine::Axis;
 use crate::output::text::{plain, significant};
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 
-/// The program of an operation, `warnings` in its head; an error is the reason why there is none, `None`: none is wanted.
+/// The program of an operation, `warnings` in its head; an error is the reason why there is none, `None`: none is
+/// wanted.
 pub fn text(job: &BevelJob, operation: &PreparedBevel, warnings: &[Warning]) -> Option<Result<String, String>> {
     job.spec.programs.then(|| linear(job, operation, warnings))
 }

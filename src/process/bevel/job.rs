@@ -12,6 +12,7 @@ use super::actual::{ActualRoll, SlotMoment};
 use super::operation::PreparedBevel;
 use super::scene::model::Bevel;
 use super::slots::Slots;
+use crate::machine_errors::refuse_fast_noise;
 use crate::scene::Scene;
 use gearcut_core::bevel::blank::BevelBlank;
 use gearcut_core::bevel::cradle::CradleSettings;
@@ -130,6 +131,10 @@ impl BevelJob {
         let machine = FiveAxisMachine { mounting_mm: spec.mounting_mm };
         let towards_work = Rigid3 { rotation: DMat3::from_rotation_z(middle_rad), translation_mm: DVec3::ZERO };
         let middle_z_mm = -(blank.outer_cone_distance_mm - 0.5 * blank.face_width_mm) * blank.pitch_angle_rad.cos();
+        for operation in &operations {
+            let names = ["x", "y", "z", "work", "swing"];
+            refuse_fast_noise(spec.errors.axes.iter().zip(names), operation.spec.head_speed_rad_per_s / TURN_RAD)?;
+        }
         let actual = operations.iter().map(|operation| {
             ActualRoll::new(&spec.errors, spec.head.mounting, machine, operation.commanded(), middle_z_mm)
         });

@@ -4,7 +4,8 @@
 //!
 //! A twentieth of profile and face is left out at either end. The **grid** has 5 points along the profile and 9 along
 //! the tooth (AGMA 2009, ISO 17485) unless the scene asks for more, on the dexels nearest to its even places: points,
-//! normals and deviations belong to each other exactly. Deviations run along the target's normal, positive where material is left.
+//! normals and deviations belong to each other exactly. Deviations run along the target's normal, positive where
+//! material is left.
 
 use super::job::{BevelJob, index};
 use super::surfaces::MARGIN;

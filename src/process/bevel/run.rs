@@ -28,7 +28,7 @@ use gearcut_core::terms::Side;
 pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, notes } = *tools;
     let costs = stages::Costs { before: &[], flank_s: 0.4, root_s: 0.0, blank_s: 0.05 };
-    progress.plan(stages::plan(job, tools, None, &costs));
+    progress.plan(stages::plan(job, parts, None, &costs));
     // A window that lies on no flank, or too many rays through the blank, are refused before the first cut.
     CellGrid::of_scene(job)?;
     let windows = texture::windows(job)?;
@@ -83,8 +83,9 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
     }
     let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
     let page = |found: &Findings| report::page(job, &gear, found, (whole.as_ref(), charts), &motion, &words, folder);
+    found.complete = !work.interrupted;
     conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
-    let out = folder.results_path(!work.interrupted);
+    let out = folder.results_path(found.complete);
     let flanks = gear.flanks.len();
     let summary = summary::text(&job.scene.gear, &found, flanks, &work, &out, &backend.name());
     Ok(CutDone { findings: found, summary, work })

@@ -1,8 +1,8 @@
 //! Rays of flanks and what the shared steps ask of a bevel gear.
 //!
 //! All teeth have the same target, turned by the pitch: its rays are found once for each side, in space 0, and turned
-//! to the tooth that is cut. Columns stand at shares of every row's own profile (see [`gearcut_core::bevel::flank`]), arcs are
-//! those of the middle of the face.
+//! to the tooth that is cut. Columns stand at shares of every row's own profile (see [`gearcut_core::bevel::flank`]),
+//! arcs are those of the middle of the face.
 
 use super::job::{BevelJob, index};
 use crate::job::{CylindricalGear, GearJob, ToothFrame, rows_z_mm};

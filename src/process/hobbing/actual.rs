@@ -9,7 +9,9 @@
 use super::linkage::HobbingLinkage;
 use super::linkage::dynamics::in_order;
 use crate::machine::Motion;
-use crate::machine_errors::{ActualMotion, Course, Guide, MachineErrors, MachineMoment, ToolMounting, WorkMounting};
+use crate::machine_errors::{
+    ActualMotion, Course, Guide, MachineErrors, MachineMoment, ToolMounting, WorkMounting, refuse_fast_noise,
+};
 use gearcut_core::error::Refusal;
 use gearcut_core::frame::Rigid3;
 use gearcut_core::units::TURN_RAD;
@@ -20,6 +22,8 @@ use glam::{DMat3, DVec3};
 const MOST_WAVES_PER_HOB_TURN: f64 = 8.0;
 /// Time before the beginning and after the end at which poses are asked for, in turns of the hob.
 const BEYOND_TURNS: f64 = 1.0;
+/// Sections of the axes in `machine.errors`.
+const SECTIONS: [&str; 6] = ["hob", "work", "x", "y", "slide", "shift"];
 
 /// Errors over an operation.
 #[derive(Debug, Clone)]
@@ -36,7 +40,7 @@ impl ActualHobbing {
     /// Errors over an operation that begins `start_s` after the first one.
     ///
     /// # Errors
-    /// Periodic errors with more waves in a turn of the hob than passes can follow.
+    /// Periodic errors with more waves in a turn of the hob than passes can follow, and noise faster than they do.
     pub fn new(
         errors: &MachineErrors<6>,
         hob: ToolMounting,
@@ -46,6 +50,7 @@ impl ActualHobbing {
     ) -> Result<Self, Refusal> {
         refuse_fast_waves(errors, linkage)?;
         let beyond_s = BEYOND_TURNS * linkage.end_s() / (linkage.axes::<1>(linkage.end_s()).hob_rad.value() / TURN_RAD);
+        refuse_fast_noise(errors.axes.iter().zip(SECTIONS), BEYOND_TURNS / beyond_s)?;
         let cycles = (linkage.end_s() + 2.0 * beyond_s) / linkage.cycle_s();
         let course = Course {
             from_s: -beyond_s,
@@ -71,7 +76,7 @@ impl ActualHobbing {
         }
         let time_s = linkage.time_at_hob_angle(hob_rad);
         let commanded = |time_s: f64| in_order(&linkage.axes::<1>(time_s)).map(|axis| axis.value());
-        let moment = MachineMoment { time_s, since_start_s: self.start_s + time_s, indexed: [0.0; 6] };
+        let moment = MachineMoment { time_s, since_start_s: self.start_s + time_s, passage: 0, indexed: [0.0; 6] };
         let axes = match &self.motion {
             Some(motion) => motion.positions(&moment, commanded),
             None => commanded(time_s),
@@ -92,7 +97,6 @@ impl ActualHobbing {
 
 /// Refuses waves that pass by faster than the passes' polynomials can follow.
 fn refuse_fast_waves(errors: &MachineErrors<6>, linkage: &HobbingLinkage) -> Result<(), Refusal> {
-    let names = ["hob", "work", "x", "y", "slide", "shift"];
     let corners = linkage.corners_s();
     // Speeds at the corners and between show how fast axes run; slides at constant feeds show theirs anywhere.
     let moments =
@@ -100,7 +104,7 @@ fn refuse_fast_waves(errors: &MachineErrors<6>, linkage: &HobbingLinkage) -> Res
     for time_s in moments {
         let axes = linkage.at(time_s);
         let hob_turns_per_s = axes[0].velocity / TURN_RAD;
-        for ((errors, axis), name) in errors.axes.iter().zip(axes).zip(names) {
+        for ((errors, axis), name) in errors.axes.iter().zip(axes).zip(SECTIONS) {
             let waves = |rate: f64| (rate * axis.velocity / TURN_RAD / hob_turns_per_s).abs();
             if let Some(wave) = errors.periodic.iter().find(|wave| waves(wave.rate) > MOST_WAVES_PER_HOB_TURN) {
                 return Err(Refusal::new(

@@ -35,8 +35,8 @@ use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use gearcut_core::units::UM_PER_MM;
 
-/// Both programs of an operation, fully interpolated and with a gearbox, `warnings` in their heads; an error is the reason why there are none,
-/// `None`: none are wanted.
+/// Both programs of an operation, fully interpolated and with a gearbox, `warnings` in their heads; an error is the
+/// reason why there are none, `None`: none are wanted.
 pub fn texts(
     job: &HobbingJob,
     operation: &PreparedHobbing,

@@ -34,7 +34,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     let cutter = HobCutter::new(job)?;
     progress.plan(stages::plan(
         &cutter,
-        tools,
+        parts,
         None,
         &stages::Costs { before: &[("marks", 0.03)], flank_s: 0.6, root_s: 0.02, blank_s: 0.15 },
     ));
@@ -108,8 +108,9 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     let charts =
         report::Charts { inspection: &inspection, loads: load_charts, forces: force_charts, points: points_chart };
     let page = |found: &Findings| report::page(&cutter, &gear, found, charts, &motion, &words, folder);
+    found.complete = !gear.work.interrupted;
     conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
-    let out = folder.results_path(!gear.work.interrupted);
+    let out = folder.results_path(found.complete);
     let flanks = gear.flanks.len();
     let summary = summary::text(&job.scene.gear, &found, flanks, &gear.work, &out, &backend.name());
     Ok(CutDone { findings: found, summary, work: gear.work })

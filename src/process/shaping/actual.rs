@@ -9,15 +9,20 @@
 //! 10 um, and is left out; so is what an axial offset does to the moment at which the ram passes.
 
 use crate::machine::{AxisMotion, Motion};
-use crate::machine_errors::{ActualMotion, Course, Guide, MachineErrors, MachineMoment, WorkMounting};
+use crate::machine_errors::{
+    ActualMotion, AxisNoise, Course, Guide, MachineErrors, MachineMoment, NoiseLaw, WorkMounting,
+};
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
+use crate::process::shaping::scene::model::StockScatter;
 use gearcut_core::frame::Rigid2;
 use gearcut_core::gear::GearKind;
 use glam::DVec2;
 
 /// Strokes before the first and after the last one at which poses are asked for: the way back of the last, and room.
 const BEYOND_STROKES: f64 = 2.0;
+/// The way back begins this part of a double stroke after the stroke's own moment, and ends as much before the next.
+const BEFORE_STROKE: f64 = 0.25;
 
 /// What the axes are told: the strokes of the linkage, or a program in their place.
 #[derive(Debug, Clone, Copy)]
@@ -85,6 +90,23 @@ impl Commanded<'_> {
     }
 }
 
+/// Errors of an operation whose stock scatters: its centre distance does, which holds the cutter back.
+pub fn scattered(
+    errors: &MachineErrors<3>,
+    scatter: Option<StockScatter>,
+    schedule: &StrokeSchedule,
+) -> MachineErrors<3> {
+    let mut errors = errors.clone();
+    if let Some(StockScatter { deviation_mm, length_mm, draws }) = scatter {
+        let turn_s = schedule.time_s(f64::from(schedule.strokes_per_revolution()));
+        let mm_per_s = schedule.linkage().curve().perimeter_mm() / turn_s;
+        let law = length_mm.map_or(NoiseLaw::EachPassage, |length| NoiseLaw::of_time_constant(length / mm_per_s));
+        let [_, _, center_distance] = &mut errors.axes;
+        center_distance.noise.push(AxisNoise { deviation: deviation_mm, law, draws });
+    }
+    errors
+}
+
 impl ActualStrokes {
     /// Errors over the strokes of an operation that begins `start_s` after the first one.
     pub fn new(errors: &MachineErrors<3>, commanded: Commanded<'_>, start_s: f64, half_face_mm: f64) -> Self {
@@ -110,7 +132,13 @@ impl ActualStrokes {
         let Some(motion) = &self.motion else { return CutterPose::new(self.gear, commanded.positions(stroke)) };
         let seconds_per_stroke = commanded.schedule.time_s(1.0);
         let time_s = commanded.schedule.time_s(stroke);
-        let moment = MachineMoment { time_s, since_start_s: self.start_s + time_s, indexed: [0.0; 3] };
+        let strokes_before = (self.start_s / seconds_per_stroke).round();
+        let moment = MachineMoment {
+            time_s,
+            since_start_s: self.start_s + time_s,
+            passage: (strokes_before + stroke + BEFORE_STROKE).floor() as i64,
+            indexed: [0.0; 3],
+        };
         let positions = motion.positions(&moment, |time_s| commanded.positions(time_s / seconds_per_stroke));
         CutterPose::new(self.gear, positions)
     }

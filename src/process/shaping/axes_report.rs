@@ -1,9 +1,9 @@
 //! How a gear shaper has to move: what shaping adds to the axes' tables, charts and peaks.
 //!
 //! In: a prepared [`ShapingJob`]. Out: [`OperationAxes`] for the shared steps ([`crate::steps::axes`]): facts for the
-//! terminal (of a program under test its own peaks), clearance on the return stroke as findings, and in `axes/` per operation `<operation>.csv` (one row per
-//! stroke) and the charts `_positions`, `_velocities`, `_accelerations`, `_relief`, and `_retraction` where the axes
-//! draw the cutter back.
+//! terminal (of a program under test its own peaks), clearance on the return stroke as findings, and in `axes/` per
+//! operation `<operation>.csv` (one row per stroke) and the charts `_positions`, `_velocities`, `_accelerations`,
+//! `_relief`, and `_retraction` where the axes draw the cutter back.
 //!
 //! The laws stand in [`crate::process::shaping::linkage::dynamics`] and [`crate::process::shaping::linkage::relief`].
 
@@ -84,7 +84,14 @@ impl<'a> OperationAxes<'a> {
             let ram = job.ram_times();
             let ram = retraction.is_in_axes().then_some(&ram);
             let asked_mm = job.scene.output.gcode_contour_error_mm;
-            program.judged(schedule, job.cutter.tip_radius_mm, ram, asked_mm, spec.feed_during_stroke)
+            program.judged(
+                schedule,
+                job.cutter.tip_radius_mm,
+                ram,
+                asked_mm,
+                job.machine.double_strokes_per_minute,
+                spec.feed_during_stroke,
+            )
         };
         Self {
             job,
@@ -122,7 +129,7 @@ impl<'a> OperationAxes<'a> {
 
     /// What the retraction asks of the axes, where they carry it out.
     pub fn retraction_findings(&self) -> Option<Section> {
-        self.retraction.map(|motion| retraction::findings(self.job, self.operation(), &motion))
+        self.retraction.map(|motion| retraction::findings(self.operation(), &motion))
     }
 
     /// Clearance on the return stroke.

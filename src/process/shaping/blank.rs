@@ -15,8 +15,8 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 impl ShapingJob {
-    /// Poses of the return strokes of an operation: the cutter drawn back out of the gear as its retraction says. `None`
-    /// where the machine does not back off.
+    /// Poses of the return strokes of an operation: the cutter drawn back out of the gear as its retraction says.
+    /// `None` where the machine does not back off.
     ///
     /// An axis program moves the axes for the retraction itself, unless the machine's own relief does.
     pub fn return_strokes(&self, operation: usize) -> Option<StrokeSet> {

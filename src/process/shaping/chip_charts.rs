@@ -5,6 +5,7 @@ use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips};
 use crate::process::shaping::edge_polygon::EdgeSide;
+use crate::process::shaping::findings::deflection::{KINDS, of_stroke};
 use gearcut_core::units::UM_PER_MM;
 
 /// Charts and colours end at this many times the 90th percentile: first strokes into the full blank would flatten
@@ -14,45 +15,20 @@ const SHOWN_OVER_Q90: f64 = 2.0;
 /// A curve of a chart: its name and its value at a stroke.
 type Curve<'a> = (&'a str, &'a dyn Fn(&StrokeChips) -> f64);
 
-/// Charts of an operation: load per stroke, and thickness and contact along the edge.
-pub fn charts(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> [(&'static str, LineChart); 2] {
+/// Charts of an operation: load per stroke, and thickness and contact along the edge; on a machine that yields, its
+/// deflection too.
+pub fn charts(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Vec<(&'static str, LineChart)> {
     let strokes = &ledger.operations[operation].strokes;
-    let schedule = &job.operations[operation].schedule;
-    let angles_deg: Vec<f64> =
-        (0..strokes.len()).map(|stroke| schedule.state(stroke as f64).psi_c_rad.to_degrees()).collect();
+    let angles_deg = work_angles_deg(job, operation, strokes.len());
     let panel = |what: &str, unit: &str, curves: &[Curve]| {
-        let values: Vec<Vec<f64>> = curves.iter().map(|(_, value)| strokes.iter().map(value).collect()).collect();
-        let end = shown_end(values.iter().flatten().map(|v| v.abs()));
-        let beyond = (0..strokes.len()).filter(|&i| values.iter().any(|v| v[i].abs() > end)).count();
-        let largest = values.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let note = match beyond {
-            0 => String::new(),
-            1 => format!(" (1 stroke of {} {unit} not shown)", significant(largest, 3)),
-            _ => format!(" ({beyond} strokes up to {} {unit} not shown)", significant(largest, 3)),
-        };
-        let series = curves.iter().zip(&values).enumerate().map(|(index, ((name, _), values))| {
-            let shown = |&value: &f64| if value.abs() > end { f64::NAN } else { value };
-            let points = angles_deg.iter().copied().zip(values.iter().map(shown)).collect();
-            LineSeries { name: format!("{name}{}", if index == 0 { note.as_str() } else { "" }), points }
-        });
-        Panel {
-            least_division: 0.0,
-            value_name: what.to_owned(),
-            unit: unit.to_owned(),
-            series: series.collect(),
-            limits: Vec::new(),
-        }
+        let values: Vec<_> = curves.iter().map(|(name, value)| (*name, strokes.iter().map(value).collect())).collect();
+        panel(what, unit, &angles_deg, &values)
     };
-    let chart = |what: &str, panels: Vec<Panel>| LineChart {
-        title: format!("{} of {}: {what}", job.operations[operation].spec.name, job.scene.name),
-        x_name: "work angle ψc".to_owned(),
-        x_unit: "°".to_owned(),
-        panels,
-    };
+    let chart = |what: &str, panels: Vec<Panel>| chart(job, operation, what, panels);
     let side = |side: EdgeSide| move |s: &StrokeChips| s.thickest_mm[side as usize] * UM_PER_MM;
     let contact = |side: EdgeSide| move |s: &StrokeChips| s.contact_mm[side as usize];
     let [right, tip, left] = EdgeSide::ALL;
-    [
+    let mut charts = vec![
         (
             "load",
             chart(
@@ -102,7 +78,66 @@ pub fn charts(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> [(&'st
                 ],
             ),
         ),
-    ]
+    ];
+    charts.extend(deflection(job, operation, &angles_deg).map(|chart| ("deflection", chart)));
+    charts
+}
+
+/// Deflection of every stroke; nothing on a rigid machine.
+fn deflection(job: &ShapingJob, operation: usize, angles_deg: &[f64]) -> Option<LineChart> {
+    if job.operations[operation].deflections.is_empty() {
+        return None;
+    }
+    let values: Vec<[f64; 6]> = (0..angles_deg.len()).map(|stroke| of_stroke(job, operation, stroke)).collect();
+    let panel = |what: &str, unit: &str, kinds: [usize; 2]| {
+        let curve = |kind: usize| (KINDS[kind].1, values.iter().map(|of| of[kind]).collect());
+        panel(what, unit, angles_deg, &kinds.map(curve))
+    };
+    let panels = vec![
+        panel("shift of the cutter", "µm", [0, 1]),
+        panel("turn", "µrad", [2, 3]),
+        panel("material left at the pitch point", "µm", [4, 5]),
+    ];
+    Some(chart(job, operation, "deflection of cutter and work per stroke", panels))
+}
+
+fn work_angles_deg(job: &ShapingJob, operation: usize, strokes: usize) -> Vec<f64> {
+    let schedule = &job.operations[operation].schedule;
+    (0..strokes).map(|stroke| schedule.state(stroke as f64).psi_c_rad.to_degrees()).collect()
+}
+
+fn chart(job: &ShapingJob, operation: usize, what: &str, panels: Vec<Panel>) -> LineChart {
+    LineChart {
+        title: format!("{} of {}: {what}", job.operations[operation].spec.name, job.scene.name),
+        x_name: "work angle ψc".to_owned(),
+        x_unit: "°".to_owned(),
+        panels,
+    }
+}
+
+/// Curves over the work angle, outliers left out and told.
+fn panel(what: &str, unit: &str, angles_deg: &[f64], curves: &[(&str, Vec<f64>)]) -> Panel {
+    let all = || curves.iter().flat_map(|(_, values)| values.iter().copied());
+    let end = shown_end(all().map(f64::abs));
+    let beyond = (0..angles_deg.len()).filter(|&i| curves.iter().any(|(_, values)| values[i].abs() > end)).count();
+    let largest = all().fold(0.0, |most: f64, v| most.max(v.abs()));
+    let note = match beyond {
+        0 => String::new(),
+        1 => format!(" (1 stroke of {} {unit} not shown)", significant(largest, 3)),
+        _ => format!(" ({beyond} strokes up to {} {unit} not shown)", significant(largest, 3)),
+    };
+    let series = curves.iter().enumerate().map(|(index, (name, values))| {
+        let shown = |&value: &f64| if value.abs() > end { f64::NAN } else { value };
+        let points = angles_deg.iter().copied().zip(values.iter().map(shown)).collect();
+        LineSeries { name: format!("{name}{}", if index == 0 { note.as_str() } else { "" }), points }
+    });
+    Panel {
+        least_division: 0.0,
+        value_name: what.to_owned(),
+        unit: unit.to_owned(),
+        series: series.collect(),
+        limits: Vec::new(),
+    }
 }
 
 /// Where a scale ends: beyond it lie only outliers.

@@ -6,6 +6,7 @@
 //! tangent of the involute's last point, as cutters are relieved there; its exact run touches only gear tips that reach
 //! below the cutter's involute.
 
+use crate::process::shaping::edge_roughness;
 use crate::process::shaping::scene::model;
 use crate::scene::model::Gear;
 use gearcut_core::error::Refusal;
@@ -47,6 +48,9 @@ pub struct ShaperCutter {
     pub base_length_mm: f64,
     /// What lies between the left flank and the tip circle, from the flank on; the right side mirrors it.
     pub corner: Vec<CornerPart>,
+    /// The edge of an ideal tooth.
+    edge: Edge,
+    /// Edges that cut: each rough in its own way, where the scene has them rough.
     edges: BladeEdges,
     runout_mm: DVec2,
     tooth_angles_rad: Vec<f64>,
@@ -78,7 +82,7 @@ impl ShaperCutter {
     /// Cutter of a scene for a gear with this module and pressure angle.
     ///
     /// # Errors
-    /// Pointed teeth, a tip round that does not fit, a pitch error list of the wrong length.
+    /// Pointed teeth, a tip round that does not fit, a pitch error list of the wrong length, an edge that is too rough.
     pub fn new(spec: &model::CutterSpec, gear: &Gear) -> Result<Self, Refusal> {
         let (m, alpha) = (gear.module_mm, gear.pressure_angle_rad);
         let pitch_radius_mm = 0.5 * m * f64::from(spec.teeth);
@@ -211,6 +215,7 @@ impl ShaperCutter {
         segments.push(tip);
         segments.extend(left_half);
 
+        let edge = Edge::new(segments);
         let errors = &spec.pitch_errors_mm;
         if !errors.is_empty() && errors.len() != spec.teeth as usize {
             return Err(Refusal::new(
@@ -234,15 +239,19 @@ impl ShaperCutter {
             roll_range: [start_roll, end_roll],
             base_length_mm,
             corner,
-            edges: BladeEdges::shared(Edge::new(segments)),
+            edges: match &spec.edge_roughness {
+                None => BladeEdges::shared(edge.clone()),
+                Some(roughness) => edge_roughness::rough_edges(roughness, &edge, spec.teeth)?,
+            },
+            edge,
             runout_mm: spec.runout_mm * DVec2::from_angle(spec.runout_angle_rad),
             tooth_angles_rad,
         })
     }
 
-    /// The edge that all teeth share.
+    /// The edge that all teeth share, without their roughness.
     pub fn edge(&self) -> &Edge {
-        &self.edges.edges()[0]
+        &self.edge
     }
 
     /// One flank of a tooth; `side` +1: left (counter-clockwise), -1: right.
@@ -300,6 +309,7 @@ pub(crate) mod tests {
             runout_mm: 0.0,
             runout_angle_rad: 0.0,
             pitch_errors_mm: Vec::new(),
+            edge_roughness: None,
         };
         ShaperCutter::new(&spec, &gear).expect("an ordinary cutter")
     }

@@ -5,6 +5,7 @@
 
 pub mod answers;
 mod chips;
+pub mod deflection;
 mod headline;
 mod operation;
 pub mod program;

@@ -63,7 +63,10 @@ pub fn cut_gear(
             let CutField { field, layers, stats } = cut;
             Ok(CutFlank { rays: field, layers, stats, report })
         },
-        |field, maps| last_chips(job, &field.at([&maps.dexels[0], &maps.dexels[1]])),
+        |field, maps| {
+            let [columns, rows] = maps.chip_dexels();
+            last_chips(job, &field.at([&columns, &rows]))
+        },
     )?;
     let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
     let roots = cut_roots(job, backend, needs_surfaces(job, parts) && !cut.work.interrupted)?;

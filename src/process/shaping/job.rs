@@ -5,9 +5,10 @@
 //! does not grow with the number of teeth; of every tooth only the target is kept. The last operation is the finishing
 //! one: its continuous envelope is the target.
 
+use crate::machine_errors::Deflection;
 use crate::material::EdgeForce;
 use crate::process::shaping::ShaperCutter;
-use crate::process::shaping::actual::{ActualStrokes, Commanded};
+use crate::process::shaping::actual::{ActualStrokes, Commanded, scattered};
 use crate::process::shaping::gcode;
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::generation::Generation;
@@ -25,6 +26,7 @@ use crate::steps::planar::{CutField, PlanarGear, PlanarOperation, ProfilePoint};
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::Field;
 use gearcut_core::error::{Refusal, Result};
+use gearcut_core::frame::Rigid2;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::gear::{GearKind, PitchCurve};
 use gearcut_core::math::roots::{bisect, sample_angle_rad};
@@ -41,7 +43,7 @@ use std::sync::{Arc, OnceLock};
 const MOST_TIMES_THE_STROKES: usize = 10;
 
 /// One operation with its strokes.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct PreparedOperation {
     /// What the scene says.
     pub spec: Operation,
@@ -57,8 +59,10 @@ pub struct PreparedOperation {
     pub actual: ActualStrokes,
     /// Poses for the dexels.
     pub strokes: StrokeSet,
-    /// Return strokes over a turn, of ideal work and cutter.
-    pub survey: Survey,
+    /// How the cut displaces the cutter in every stroke; empty on a rigid machine.
+    pub deflections: Vec<Deflection>,
+    /// Return strokes over a turn, of ideal work and cutter; the same for a machine that yields.
+    pub survey: Arc<Survey>,
     /// Which way the cutter is drawn back for the return strokes.
     pub retraction: RetractionPlan,
     /// What is known of them before cutting, once it has been asked for.
@@ -83,7 +87,10 @@ impl PreparedOperation {
 }
 
 /// Everything known before the first dexel is cut.
-#[derive(Debug)]
+///
+/// Made from a scene it stands on a rigid machine. On one that yields, strokes are displaced by what they cut, which
+/// [`crate::process::shaping::chips::deflections`] finds and [`Self::deflected`] puts in.
+#[derive(Debug, Clone)]
 pub struct ShapingJob {
     /// The scene.
     pub scene: Scene,
@@ -149,6 +156,13 @@ impl ShapingJob {
                 ShapingLinkage::new(gear.kind, spec.linkage, curve.clone(), cutter.pitch_radius_mm, spec.offset_mm)?;
             let schedule = StrokeSchedule::new(&spec, &linkage, &machine)?;
             let program = spec.program.as_deref().map(|path| read_program(path, &spec, &schedule)).transpose()?;
+            // Times, drifts and lags are those of the program that is cut.
+            let schedule = match &program {
+                Some(program) if program.is_at_another_speed(machine.double_strokes_per_minute) => {
+                    schedule.at_speed(program.double_strokes_per_minute)
+                }
+                _ => schedule,
+            };
             let count = program.as_ref().map_or(schedule.count(), AxisProgram::count);
             let ids = count as f64 * f64::from(cutter.teeth) * passes;
             if ids >= f64::from(u32::MAX) {
@@ -160,7 +174,8 @@ impl ShapingJob {
                 .into());
             }
             let commanded = Commanded { schedule: &schedule, program: program.as_ref() };
-            let actual = ActualStrokes::new(&machine.errors, commanded, start_s, 0.5 * gear.face_width_mm);
+            let errors = scattered(&machine.errors, spec.stock_scatter, &schedule);
+            let actual = ActualStrokes::new(&errors, commanded, start_s, 0.5 * gear.face_width_mm);
             start_s += schedule.time_s(count as f64);
             let law = if spec.feed_during_stroke {
                 StrokeLaw::crank(gear.face_width_mm, machine.approach_mm, machine.overrun_mm)
@@ -177,7 +192,7 @@ impl ShapingJob {
             let generation = Arc::new(Generation { linkage: linkage_of_flanks, cutter, offset_mm: spec.offset_mm });
             let before = operations.iter().map(|before| &before.generation);
             let generations = before.chain([&generation]).cloned().collect();
-            let survey = Survey::new(generations, blank.clone(), gear.teeth, gear.module_mm);
+            let survey = Arc::new(Survey::new(generations, blank.clone(), gear.teeth, gear.module_mm));
             let retraction = RetractionPlan::new(&machine, &schedule, &survey)?;
             let returns = OnceLock::new();
             operations.push(PreparedOperation {
@@ -188,6 +203,7 @@ impl ShapingJob {
                 program,
                 actual,
                 strokes,
+                deflections: Vec::new(),
                 survey,
                 retraction,
                 returns,
@@ -209,6 +225,20 @@ impl ShapingJob {
             targets,
             scene,
         })
+    }
+
+    /// The same gear with its strokes displaced, operation by operation and stroke by stroke; return strokes, which
+    /// cut nothing, stay where they are.
+    #[must_use]
+    pub fn deflected(&self, deflections: Vec<Vec<Deflection>>) -> Self {
+        let mut job = self.clone();
+        let work_axis_mm = -job.eccentricity_mm();
+        for (operation, deflections) in job.operations.iter_mut().zip(deflections) {
+            let displaced = |stroke: usize, pose: &Rigid2| deflections[stroke].displaced(pose, work_axis_mm);
+            operation.strokes = operation.strokes.displaced(displaced);
+            operation.deflections = deflections;
+        }
+        job
     }
 
     /// Where the gear axis sits off the work spindle in the middle of the face, mm.

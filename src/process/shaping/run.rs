@@ -31,9 +31,9 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, notes } = *tools;
     progress.plan(stages::plan(
         job,
-        tools,
+        parts,
         frames,
-        &stages::Costs { before: &[("chips", 0.05)], flank_s: 0.03, root_s: 0.0, blank_s: 0.04 },
+        &stages::Costs { before: &[("chips", 0.09)], flank_s: 0.05, root_s: 0.0, blank_s: 0.06 },
     ));
     // A window that lies on no flank, too large a blank field or back-off is refused before the first cut.
     let windows = texture::windows(job)?;
@@ -97,8 +97,9 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
         attempts.of("inspection sheet", deviations::write_sheet(&inspection, &job.scene, &found, folder))?;
     }
     let page = |found: &Findings| report::page(job, &gear, found, &inspection, &motion, &words, folder);
+    found.complete = !interrupted;
     conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
-    let out = folder.results_path(!interrupted);
+    let out = folder.results_path(found.complete);
     let work = Work { interrupted, ..gear.work };
     let flanks = gear.report.flanks.len();
     let summary = summary::text(&job.scene.gear, &found, flanks, &work, &out, &backend.name());

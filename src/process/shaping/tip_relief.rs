@@ -8,8 +8,8 @@
 //! Law: a straight piece p(w) = p_0 + w d with the normal n touches where `n . (O' + chi' i (p_0 + w d)) = 0`, which is
 //! linear in w. Involute and straight piece share the normal at p_0, so the profile goes on without a corner. Its
 //! curvature does not: from hollow with (R_p - r_c) sin(alpha) on a ring to convex with
-//! r_c sin(alpha) (1 + R_p / (R_p - r_c)) by the theorem of Euler and Savary, so that the tip is relieved by about half of the sum of both curvatures
-//! times the square of the length.
+//! r_c sin(alpha) (1 + R_p / (R_p - r_c)) by the theorem of Euler and Savary, so that the tip is relieved by about half
+//! of the sum of both curvatures times the square of the length.
 //!
 //! The conjugate flank beyond the involute's end is the same formula with a negative roll: contact would go on along
 //! the line of action.

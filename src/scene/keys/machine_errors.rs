@@ -62,6 +62,14 @@ const CYCLE: Key = Key::optional(
     "2.0",
     "Cycle of the electronic gearbox: commands come once in a cycle and are reached in the next, straight between.",
 );
+const BANDWIDTH: Key = Key::optional(
+    "noise_bandwidth_hz",
+    "Hz",
+    Range::closed(1e-6, 1e6),
+    "a new value for every stroke",
+    "0.2",
+    "Bandwidth f_c of the noise, first order: its values at times dt apart have the correlation exp(-2 pi f_c dt).",
+);
 const SETTLING: Key = Key::optional(
     "drift_time_constant_min",
     "min",
@@ -93,6 +101,8 @@ static ROTARY: &[Key] = &[
         "1.0",
         "Step to which commands are rounded; needs gearbox_cycle_ms.",
     ),
+    amount("noise_arcsec", "arcsec", 3600.0, "2.0", "Standard deviation of what the axis does at random."),
+    BANDWIDTH,
 ];
 
 static LINEAR: &[Key] = &[
@@ -120,6 +130,8 @@ static LINEAR: &[Key] = &[
         "How fast the axis drifts from the beginning of the first operation on, as the machine warms up.",
     ),
     SETTLING,
+    amount("noise_um", "um", 1000.0, "0.5", "Standard deviation of what the axis does at random."),
+    BANDWIDTH,
 ];
 
 /// Errors of a rotary axis.
@@ -203,7 +215,14 @@ pub(super) static SECTIONS: &[KeySection] = &[
     KeySection {
         path: "machine.errors",
         role: Role::Plain,
-        keys: &[],
+        keys: &[Key {
+            name: "seed",
+            kind: Kind::Whole { min: 0, max: u32::MAX },
+            unit: "",
+            default: Default::Whole(1),
+            example: "1",
+            teach: "Which noise is cut: equal seeds make equal gears, another one makes another gear of the machine.",
+        }],
         groups: &[],
         teach: "What is wrong with the machine: the cut follows what its axes really do, the target stays the ideal one.",
     },

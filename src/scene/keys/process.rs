@@ -44,6 +44,6 @@ pub(super) static SECTIONS: &[KeySection] = &[
         ],
         groups: &[Group { names: &["offset_mm", "stock_per_flank_mm"], required: false }],
         teach: "One run of the cutter over the work. Operations are cut in the order written; the last one is the \
-            finishing cut and defines the target flanks. Without any, a single one named finish is cut.",
+            finishing cut and defines the target flanks. A scene without any finishes; one for shaping roughs before.",
     },
 ];

@@ -110,8 +110,8 @@ pub fn write(operation: &impl AxesOfOperation, folder: &OutputFolder) -> Result<
     Ok(())
 }
 
-/// Writes the programs of all operations into `axes/`, the faults and warnings among `warnings` in their heads (notes say
-/// how to read numbers); tells each operation that has none.
+/// Writes the programs of all operations into `axes/`, the faults and warnings among `warnings` in their heads (notes
+/// say how to read numbers); tells each operation that has none.
 ///
 /// # Errors
 /// Files that cannot be written.

@@ -2,9 +2,9 @@
 //!
 //! In: the scene's pictures; a flank as it was cut. Out: the rows of the flank that a picture shows ([`shown`]), kept
 //! when the flank's dexels are dropped (in full they are as large as a thousand pictures), and the picture. Rolled out,
-//! the normal deviation is all that is left of a flank's shape, and light from the tip grazes every feed mark alike. The
-//! factor on its heights stands in the picture. Heights are means over two pixels: single dexels would fall on a pixel
-//! or between two.
+//! the normal deviation is all that is left of a flank's shape, and light from the tip grazes every feed mark alike.
+//! The factor on its heights stands in the picture. Heights are means over two pixels: single dexels would fall on a
+//! pixel or between two.
 
 use super::{DrawnPicture, look};
 use crate::interrupt::Interrupt;

@@ -2,7 +2,7 @@
 
 use super::facts::table;
 use crate::machine::{Axis, AxisKind};
-use crate::machine_errors::{AxisErrors, Guide, MachineErrors, ToolMounting, WorkMounting};
+use crate::machine_errors::{AxisErrors, Guide, MachineErrors, NoiseLaw, ToolMounting, WorkMounting};
 use crate::output::report::Block;
 use crate::output::text::significant;
 use gearcut_core::units::UM_PER_MM;
@@ -92,6 +92,13 @@ fn axis_words(errors: &AxisErrors, kind: AxisKind) -> String {
     }
     if let Some(drift) = errors.drift {
         words.push(format!("drift {} {unit}/h at first", number(drift.per_s * per_unit * 3600.0)));
+    }
+    for noise in &errors.noise {
+        let law = match noise.law {
+            NoiseLaw::EachPassage => "in every stroke".to_owned(),
+            NoiseLaw::InTime { bandwidth_hz } => format!("up to {} Hz", number(bandwidth_hz)),
+        };
+        words.push(format!("noise {} {unit} {law}", number(noise.deviation * per_unit)));
     }
     words.join(", ")
 }

@@ -8,6 +8,9 @@ use crate::steps::gear_maps::{GearMaps, finished_heights_um, um};
 use crate::steps::map_operations;
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 
+/// What the view shows in grey.
+const GREY: &str = "Grey: no value, because no pass came there; roots, tips and end faces have none.";
+
 /// Mesh of the target, and on it: stock of every earlier operation, deviation and height of the finished surface.
 pub fn viewer(job: &dyn GearJob, mesh: ViewMesh, maps: &GearMaps) -> Viewer {
     let flanks = mesh.flanks.into_iter().map(|flank| {
@@ -43,20 +46,24 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
         .enumerate()
         .map(|(index, operation)| ViewerQuantity {
             name: format!("Stock of {} for {finishing}", operation.name),
-            definition: format!("What {} leaves over the finished surface, along the target's normal.", operation.name),
+            definition: format!(
+                "What {} leaves over the finished surface, along the target's normal, mean of each cell. {GREY}",
+                operation.name
+            ),
             unit: "mm".to_owned(),
             scale: operation.stock_scale,
-            thinning: Thinning::Middle,
-            values: over(&|map| map.stock_mm(index)),
+            thinning: Thinning::Mean,
+            values: over(&|map| map.mean_stock_mm(index)),
         })
         .collect();
     // The last of the earlier operations is what finishing meets: it comes first.
     quantities.reverse();
     quantities.push(ViewerQuantity {
         name: format!("Deviation after {finishing}"),
-        definition: "Mean normal deviation of each cell: what remains when the feed marks are averaged. Red: \
-            material left; blue: cut too deep."
-            .to_owned(),
+        definition: format!(
+            "Mean normal deviation of each cell: what remains when the feed marks are averaged. Red: material left; \
+             blue: cut too deep. {GREY}"
+        ),
         unit: "µm".to_owned(),
         scale: maps.deviation_scale,
         thinning: Thinning::Mean,
@@ -64,7 +71,7 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
     });
     quantities.push(ViewerQuantity {
         name: format!("Height after {finishing}"),
-        definition: "Normal deviation of the highest place of each cell, feed marks included.".to_owned(),
+        definition: format!("Normal deviation of the highest place of each cell, feed marks included. {GREY}"),
         unit: "µm".to_owned(),
         scale: maps.height_scale,
         thinning: Thinning::Highest,

@@ -249,8 +249,8 @@ fn an_undercut_is_as_deep_as_the_head_sweeps() {
     assert_eq!(job("crown_gear", &[]).expect("a gear").undercut_warning().expect("flanks"), None);
 }
 
-/// Candidates, which the blank does not use, leave the cell as all passes do, rays of a row being farther apart than the
-/// blades' rounds are wide.
+/// Candidates, which the blank does not use, leave the cell as all passes do, rays of a row being farther apart than
+/// the blades' rounds are wide.
 #[test]
 fn candidates_and_all_passes_leave_the_same_cell() {
     let job = job("five_linkage_corrected", &["operation.finish.roll_speed_deg_per_s=10"]).expect("a gear");

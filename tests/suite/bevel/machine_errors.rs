@@ -4,8 +4,10 @@
 use super::jobs::job;
 use crate::fixtures::closed_form;
 use gearcut::cut::cpu::Cpu;
+use gearcut::machine_errors::{AxisNoise, NoiseLaw};
 use gearcut::passes::SweepPlan;
 use gearcut::process::bevel::BevelJob;
+use gearcut::random::Draws;
 use gearcut::terms::Side;
 use glam::{DMat3, DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -100,6 +102,17 @@ fn errors_are_their_closed_forms() {
         &|place| -10e-3 * DVec2::from_angle(30_f64.to_radians()).extend(0.0).dot(place.normal),
     );
     case("mounting distance", &["mounting.axial_offset_um=10"], 1.0, &|place| -10e-3 * place.normal.z);
+    let noise = AxisNoise { deviation: 3e-3, law: NoiseLaw::InTime { bandwidth_hz: 1e-3 }, draws: Draws::new(6, 2) };
+    case(
+        "noise of the slide along the head",
+        &["machine.errors.seed=6", "machine.errors.z.noise_um=3", "machine.errors.z.noise_bandwidth_hz=1e-3"],
+        1.0,
+        &|place| {
+            let passed_s = (place.cradle_rad - finishing.roll_rad[0]) / finishing.cradle_rad_per_s();
+            let time_s = f64::from(place.slot) * finishing.cycle_s() + passed_s;
+            noise.at(time_s, 0) * place.along_head.dot(place.normal)
+        },
+    );
     case("drift of the slide along the head", &["machine.errors.z.drift_um_per_h=60"], 1.0, &|place| {
         let passed_s = (place.cradle_rad - finishing.roll_rad[0]) / finishing.cradle_rad_per_s();
         let time_s = f64::from(place.slot) * finishing.cycle_s() + passed_s;
@@ -145,6 +158,8 @@ fn candidates_equal_brute_force_on_a_machine_with_errors() {
             "machine.errors.work.periodic_amplitudes_arcsec=[10.0]",
             "machine.errors.x.backlash_um=10",
             "machine.errors.y.velocity_gain_per_s=50",
+            "machine.errors.work.noise_arcsec=10",
+            "machine.errors.work.noise_bandwidth_hz=0.3",
         ],
     )
     .expect("a gear");

@@ -159,8 +159,8 @@ fn wrong_settings_are_named_by_their_ease_off() {
     }
 }
 
-/// What a modified roll does to a flank, to the first order: at the moment d of the roll the work is turned by R_a (C d^2
-/// + D d^3) less, which moves a point by that angle times its arm about the axis.
+/// What a modified roll does to a flank, to the first order: at the moment d of the roll the work is turned by R_a (C
+/// d^2 + D d^3) less, which moves a point by that angle times its arm about the axis.
 #[test]
 fn a_modified_roll_moves_points_by_their_moment() {
     let file = data("b05_flank");

@@ -77,8 +77,8 @@ fn what_is_off_is_warned_of_with_numbers() {
     assert!(warnings.iter().any(|warning| warning.contains("the flanks need 42.2")), "{warnings:?}");
 }
 
-/// A head that is too wide cuts into the next tooth. With the ratio of roll of a gear without offset rays go through the
-/// hypoid gear's teeth and meet the slot beyond, 1 mm deep; bounds of the blades' ring say that none comes there.
+/// A head that is too wide cuts into the next tooth. With the ratio of roll of a gear without offset rays go through
+/// the hypoid gear's teeth and meet the slot beyond, 1 mm deep; bounds of the blades' ring say that none comes there.
 #[test]
 fn a_head_that_hits_the_next_tooth_is_warned_of() {
     assert_eq!(job(PRINTED, &[]).expect("a gear").next_tooth_warning().expect("flanks"), None);

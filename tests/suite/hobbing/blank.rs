@@ -325,8 +325,8 @@ mod slow {
             assert!((section.cut_mm2[0] - section.cut_mm2[1]).abs() < section.bound_mm2[0]);
             assert!((0..2).all(|f| (section.cut_mm2[f] - section.target_mm2).abs() < section.bound_mm2[f]));
             assert!(report.gouges.is_empty() && report.interference.is_empty(), "{:?}", report.gouges);
-            // No end that a pass left lies under the target; near the pitch curve none lies higher over it than feed and
-            // generating marks together. (A sharp hob corner leaves higher cusps in fillets.)
+            // No end that a pass left lies under the target; near the pitch curve none lies higher over it than feed
+            // and generating marks together. (A sharp hob corner leaves higher cusps in fillets.)
             let sharpest = job.curve.facts().curvature_extrema.iter().map(|e| e.curvature_per_mm).fold(0.0, f64::max);
             let marks_um = 1e3 * (job.finishing().plan.feed_mark_mm + job.generating_mark_mm(sharpest));
             let (mut lowest_um, mut highest_um, mut ends) = (f64::INFINITY, 0.0_f64, 0);

@@ -150,8 +150,8 @@ mod slow {
     /// Two rows and two slices.
     const NARROW: &str = "gear.face_width_mm=1";
 
-    /// Teeth are fewer than in the scenes, and faces as narrow as can be, or this would be the longest test of all: what
-    /// a body is made of is the same on each of them.
+    /// Teeth are fewer than in the scenes, and faces as narrow as can be, or this would be the longest test of all:
+    /// what a body is made of is the same on each of them.
     #[test]
     fn every_other_scene() {
         let ellipse = "operation.finish.linkage.hobbing";

@@ -13,6 +13,7 @@ mod machine_errors;
 mod metrology;
 mod oracle;
 mod papers;
+mod round_gear;
 mod section_polygon;
 mod spatial;
 mod surface;

@@ -215,8 +215,8 @@ mod slow {
         }
     }
 
-    /// Large modules with many starts, and few teeth per start: the work moves far while a blade sweeps. What candidates
-    /// leave is what all passes of the operation leave, taken without any look at where they are.
+    /// Large modules with many starts, and few teeth per start: the work moves far while a blade sweeps. What
+    /// candidates leave is what all passes of the operation leave, taken without any look at where they are.
     #[test]
     fn candidates_of_coarse_gears_leave_what_every_pass_leaves() {
         let cases = [

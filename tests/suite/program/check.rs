@@ -23,7 +23,8 @@ fn the_papers_gear_is_described() {
         "undercut                      none",
         "million dexels",
         "rays 0.1 mm apart in 1 sections; 49.1 thousand cutter teeth reach it and cross 8.7 million of them",
-        "of it for blank and chips",
+        "for blank and chips",
+        "to draw and write",
         "MB",
     ]);
     assert!(outcome.err.contains("warning: operation finish: backing off by 0.5 mm"), "{}", outcome.err);

@@ -4,10 +4,13 @@ mod axes;
 mod check;
 mod compare;
 mod cut;
+mod defaults;
+mod disk_faults;
 mod hobbing;
 mod nothing_lost;
 mod once;
 mod pair;
+mod scatter;
 #[cfg(unix)]
 mod stopped;
 mod texture;

@@ -100,7 +100,8 @@ fn coarse_legal_scenes_end_well() {
             format!("operation.rough.strokes_per_revolution={strokes}"),
             format!("operation.finish.strokes_per_revolution={strokes}"),
         ];
-        let settings = settings.iter().map(String::as_str).chain(COARSE.iter().copied());
+        let coarse_window = "texture=[{tooth=1,profile_spacing_um=200,lead_spacing_um=5000}]";
+        let settings = settings.iter().map(String::as_str).chain(COARSE.iter().copied()).chain([coarse_window]);
         let settings = settings.flat_map(|setting| ["--set", setting]);
         let arguments: Vec<&str> = ["cut", ROUND, "--set", "gear.bore_diameter_mm=10", "--out"]
             .into_iter()

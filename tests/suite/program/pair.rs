@@ -13,6 +13,7 @@ const SCENE: &str = "[gear]\nmodule_mm = 3.0\nteeth = 12\nface_width_mm = 10.0\n
     tooth_thickness_allowance_mm = -0.05\n\
     [tool.shaper_cutter]\nteeth = 16\n\
     [[operation]]\nname = \"finish\"\nstrokes_per_revolution = 720\n\
+    [operation.infeed.none]\n\
     [fields.flank]\nprofile_spacing_um = 20.0\n";
 
 /// What a pair of cut gears writes; its record tells no times.

@@ -2,7 +2,21 @@
 
 use crate::fixtures::command::{gearcut, gearcut_in};
 
-const COMMANDS: [&str; 10] = ["cut", "check", "axes", "compare", "texture", "devices", "schema", "new", "mate", "pair"];
+const COMMANDS: [&str; 13] = [
+    "cut",
+    "check",
+    "axes",
+    "compare",
+    "texture",
+    "devices",
+    "schema",
+    "new",
+    "mate",
+    "pair",
+    "budget",
+    "diagnose",
+    "calibrate",
+];
 
 #[test]
 fn help_teaches_every_command_with_an_example() {

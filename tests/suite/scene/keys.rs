@@ -95,6 +95,7 @@ fn defaults_are_allowed_and_units_stand_in_the_names() {
             "ms" => "_ms",
             "min" => "_min",
             "1/s" => "_per_s",
+            "Hz" => "_hz",
             "arcsec" => "_arcsec",
             "um/m" => "_um_per_m",
             "um/h" => "_um_per_h",

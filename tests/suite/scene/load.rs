@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use gearcut::gear::PitchCurveShape;
 use gearcut::process::hobbing::scene::model::Hobbing;
 use gearcut::process::shaping::scene::model::{
-    Feed, Infeed, Linkage, NormalReading, Shaping, Tip, TraditionalDirection,
+    Feed, Infeed, Linkage, NormalReading, Operation, Shaping, Tip, TraditionalDirection,
 };
 use gearcut::process::{PROCESSES, load, parse, table};
 use gearcut::scene::keys::Role;
@@ -91,12 +91,14 @@ name = "rough"
 offset_mm = 2.0                   # delta_d
 strokes_per_revolution = 4200
 [operation.linkage.shaping_normal]
+[operation.infeed.none]
 [[operation]]
 name = "finish"
 offset_mm = 0.0
 strokes_per_revolution = 4200
 feed_during_stroke = false        # true: the rotary feed goes on while the cutter is in the work (stroke law: crank)
 [operation.linkage.shaping_normal]
+[operation.infeed.none]
 [fields.flank]
 profile_spacing_um = 5.0
 lead_spacing_um = 50.0
@@ -106,18 +108,58 @@ lead_spacing_um = 50.0
     assert_eq!(scene, load(Path::new("scenes/shaping/elliptical_normal.toml"), &[]).expect("loads").scene);
 }
 
+/// Depth and angle of a spiral, and the overlap beyond the turn, mm and deg.
+fn spiral(operation: &Operation) -> [f64; 3] {
+    let Infeed::Spiral { depth_mm, angle_rad } = operation.infeed else { panic!("{operation:?}") };
+    [depth_mm, angle_rad.to_degrees(), operation.overlap_rad.to_degrees()]
+}
+
+fn assert_close(found: [f64; 3], wanted: [f64; 3]) {
+    assert!(found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-9), "{found:?}, {wanted:?}");
+}
+
+/// The whole depth of the teeth is 2.25 modules, 6.75 mm; roughing leaves 0.2 mm on each flank of module 3.
 #[test]
-fn the_shortest_scene_cuts_one_finishing_operation() {
+fn the_shortest_scene_roughs_on_a_spiral_and_finishes() {
     let scene = read(SHORTEST).scene;
     assert_eq!(scene.name, "test");
     assert_eq!(scene.gear.pitch_curve, PitchCurveShape::Circle);
     assert_eq!(scene.gear.face_width_mm, 30.0);
-    let [finish] = shaping(&scene).operations.as_slice() else {
+    let [rough, finish] = shaping(&scene).operations.as_slice() else {
         panic!("{} operations", shaping(&scene).operations.len())
     };
-    assert_eq!((finish.name.as_str(), finish.offset_mm), ("finish", 0.0));
+    assert_eq!((rough.name.as_str(), finish.name.as_str(), finish.offset_mm), ("rough", "finish", 0.0));
+    let offset_mm = 0.2 / 20_f64.to_radians().sin();
+    assert!((rough.offset_mm - offset_mm).abs() < 1e-12, "{}", rough.offset_mm);
+    let angle_deg = |depth_mm: f64| 90.0 * depth_mm / 6.75;
+    let deg = [6.75 - offset_mm, offset_mm].map(angle_deg);
+    assert_close(spiral(rough), [6.75 - offset_mm, deg[0], deg[0]]);
+    assert_close(spiral(finish), [offset_mm, deg[1], deg[1]]);
     assert_eq!(finish.linkage, Linkage::ShapingNormal { reading: NormalReading::Corrected });
-    assert_eq!(finish.feed, Feed::StrokesPerRevolution(2400));
+    let feeds = [rough.feed, finish.feed];
+    assert_eq!(feeds, [Feed::StrokesPerRevolution(480), Feed::StrokesPerRevolution(2400)]);
+}
+
+/// What of infeed and overlap is written holds; a window and a second cut at the same depth have nothing to feed.
+#[test]
+fn operations_feed_what_is_left_unless_they_say_otherwise() {
+    let text = format!(
+        "{SHORTEST}[[operation]]\noffset_mm = 1.5\n[[operation]]\noffset_mm = 0.75\n[operation.infeed.spiral]\n\
+         angle_deg = 45\n[[operation]]\nrevolutions = 2\n[[operation]]\n[[operation]]\nwindow_deg = [0, 90]\n\
+         [[operation]]\noffset_mm = -0.1\n[operation.infeed.none]\n"
+    );
+    let scene = read(&text).scene;
+    let [first, second, third, same, window, deeper] = shaping(&scene).operations.as_slice() else {
+        panic!("{} operations", shaping(&scene).operations.len())
+    };
+    assert_close(spiral(first), [5.25, 70.0, 70.0]);
+    assert_close(spiral(second), [0.75, 45.0, 0.0]);
+    assert_close(spiral(third), [0.75, 10.0, 0.0]);
+    for operation in [same, window, deeper] {
+        assert_eq!((operation.infeed, operation.overlap_rad), (Infeed::None, 0.0));
+    }
+    let again = read(&read(&text).resolved_toml()).scene;
+    assert_eq!(scene, again);
 }
 
 #[test]
@@ -205,7 +247,8 @@ fn the_template_loads() {
     for process in table().processes() {
         let scene = read(&template(table(), process.name).expect("a template")).scene;
         assert_eq!(scene.process_name(), process.name);
-        assert_eq!(scene.process.operation_names(), ["operation_1"]);
+        let names: &[&str] = if process.name == "shaping" { &["rough", "finish"] } else { &["operation_1"] };
+        assert_eq!(scene.process.operation_names(), names);
         assert_eq!(scene.gear.face_width_mm, 30.0);
     }
 }
@@ -279,7 +322,7 @@ fn everything_in_the_template_can_be_switched_on() {
                             continue;
                         }
                     }
-                    if let Some(needed) = needed(name(key)) {
+                    for needed in needed(name(key)) {
                         one = one.replacen(&format!("#{needed} = "), &format!("{needed} = "), 1);
                     }
                     for rival in rivals(name(key)) {
@@ -296,13 +339,18 @@ fn everything_in_the_template_can_be_switched_on() {
     }
 }
 
-/// The key without which another one of its section says nothing.
-fn needed(name: &str) -> Option<&'static str> {
+/// Keys without which another one of its section says nothing, as far as the section has them.
+fn needed(name: &str) -> &'static [&'static str] {
     match name {
-        "feed_forward" | "speed_loop_ms" => Some("velocity_gain_per_s"),
-        "gearbox_increment_arcsec" | "gearbox_increment_um" => Some("gearbox_cycle_ms"),
-        "drift_time_constant_min" => Some("drift_um_per_h"),
-        _ => None,
+        "feed_forward" | "speed_loop_ms" => &["velocity_gain_per_s"],
+        "gearbox_increment_arcsec" | "gearbox_increment_um" => &["gearbox_cycle_ms"],
+        "drift_time_constant_min" => &["drift_um_per_h"],
+        "noise_arcsec" | "noise_um" => &["noise_bandwidth_hz"],
+        "noise_bandwidth_hz" => &["noise_arcsec", "noise_um"],
+        "rq_um" => &["correlation_length_um"],
+        "correlation_length_um" => &["rq_um"],
+        "stock_scatter_length_mm" => &["stock_scatter_um"],
+        _ => &[],
     }
 }
 

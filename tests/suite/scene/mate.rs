@@ -3,7 +3,7 @@
 use crate::fixtures::command::gearcut;
 use gearcut::gear::{GearKind, PitchCurve, PitchCurveShape};
 use gearcut::process;
-use gearcut::process::shaping::scene::model::Shaping;
+use gearcut::process::shaping::scene::model::{Feed, Shaping};
 use gearcut::scene::{LoadedScene, Mate, Scene};
 use gearcut::terms::Hand;
 use std::path::Path;
@@ -103,6 +103,24 @@ fn a_helix_changes_its_hand_outside_and_keeps_it_inside() {
     );
     let hand = if driver.scene.gear.hand == Hand::Left { "left" } else { "right" };
     assert!(ring.text.contains(&format!("hand = \"{hand}\"")), "{}", ring.text);
+}
+
+/// Operations that the driver's file does not list: the mate's process has its own, or those of the driver as set.
+#[test]
+fn operations_that_nobody_wrote_pass_to_the_mate() {
+    let text = "[gear]\nmodule_mm = 3.0\nteeth = 24\n[tool.shaper_cutter]\nteeth = 20\n";
+    for settings in [&[][..], &["operation.finish.strokes_per_revolution=2424".to_owned()]] {
+        let driver = process::parse(text, "driver.toml", Path::new(""), settings).expect("a scene");
+        let (scene, _) = mate(&driver, 48, GearKind::External);
+        let [rough, finish] = Shaping::of(&scene).expect("shaping").operations.as_slice() else { panic!("two") };
+        let of_driver = &Shaping::of(&driver.scene).expect("shaping").operations;
+        for (operation, driver) in [rough, finish].into_iter().zip(of_driver) {
+            let what = (&operation.name, operation.offset_mm, operation.infeed, operation.overlap_rad);
+            assert_eq!(what, (&driver.name, driver.offset_mm, driver.infeed, driver.overlap_rad));
+        }
+        let strokes = if settings.is_empty() { 4800 } else { 4848 };
+        assert_eq!([rough.feed, finish.feed], [960, strokes].map(Feed::StrokesPerRevolution));
+    }
 }
 
 #[test]

@@ -63,9 +63,16 @@ fn a_setting_takes_the_place_of_its_rivals() {
 #[test]
 fn settings_reach_the_operation_that_nobody_wrote() {
     let text = "[gear]\nmodule_mm = 3.0\nteeth = 24\n[tool.shaper_cutter]\nteeth = 20\n";
-    let settings = ["operation.finish.strokes_per_revolution=480".to_owned()];
-    let scene = parse(text, "short.toml", Path::new(""), &settings).expect("loads").scene;
-    assert_eq!(shaping(&scene).operations[0].feed, Feed::StrokesPerRevolution(480));
+    let settings = ["operation.finish.strokes_per_revolution=481", "operation.rough.stock_per_flank_mm=0.3"];
+    let loaded = parse(text, "short.toml", Path::new(""), &settings.map(str::to_owned)).expect("loads");
+    let [rough, finish] = shaping(&loaded.scene).operations.as_slice() else { panic!("two operations") };
+    assert_eq!((rough.feed, finish.feed), (Feed::StrokesPerRevolution(480), Feed::StrokesPerRevolution(481)));
+    assert!((rough.offset_mm * 20_f64.to_radians().sin() - 0.3).abs() < 1e-12, "{}", rough.offset_mm);
+    // A tool that is set chooses what operations the scene has without any.
+    let (tool, gear) = ("tool.shaper_cutter.teeth=20".to_owned(), text.split("[tool").next().expect("a gear"));
+    let settings = [tool, "operation.rough.strokes_per_revolution=482".to_owned()];
+    let set = parse(gear, "short.toml", Path::new(""), &settings).expect("loads").scene;
+    assert_eq!(shaping(&set).operations[0].feed, Feed::StrokesPerRevolution(482));
 }
 
 #[test]

@@ -19,8 +19,8 @@ fn job(more: &[&str]) -> ShapingJob {
 }
 
 /// A round gear roughed d off has involutes of the same base circle, so that its stock is the same everywhere:
-/// a cos(alpha) (inv alpha' - inv alpha) with the centre distance a and cos(alpha') = a cos(alpha) / (a + d). The roughing's fillet
-/// leaves a multiple of that at the foot of the flanks.
+/// a cos(alpha) (inv alpha' - inv alpha) with the centre distance a and cos(alpha') = a cos(alpha) / (a + d). The
+/// roughing's fillet leaves a multiple of that at the foot of the flanks.
 #[test]
 fn the_fillet_of_roughing_rules_no_stock() {
     const OFFSET_MM: f64 = 2.0;

@@ -56,8 +56,8 @@ fn check_answers_what_is_asked_of_a_ring() {
     ]);
 }
 
-/// An external gear whose return strokes rub on stock: `check`, the results and the page offer the same tilt at the same
-/// cost.
+/// An external gear whose return strokes rub on stock: `check`, the results and the page offer the same tilt at the
+/// same cost.
 #[test]
 fn a_cut_offers_the_direction_that_clears_stock() {
     let scene = "scenes/shaping/tilted_retraction.toml";
@@ -81,8 +81,8 @@ fn a_cut_offers_the_direction_that_clears_stock() {
         value("clearing_strokes_per_minute")
     );
     assert!(found["depth_in_stock_advice"]["value"].as_str().expect("words").starts_with(told));
-    // docs/shaping.md: the whole blank finds 0.077 mm, with all strokes and not at six places to a pitch alone; -18.9 to
-    // -11.3 deg clear.
+    // docs/shaping.md: the whole blank finds 0.077 mm, with all strokes and not at six places to a pitch alone; -18.9
+    // to -11.3 deg clear.
     assert!((value("depth_in_stock") - 0.077).abs() < 0.01 && (value("clearing_tilt") + 15.1).abs() < 0.1);
     assert!(value("clearing_slowdown") > 1.0, "these axes are too slow for 400 double strokes");
     let page = std::fs::read_to_string(out.join("report.html")).expect("a page");

@@ -302,7 +302,8 @@ mod slow {
             let BlankMesh { mesh, guessed } = BlankMesh::new(&cut.field, None);
             let volume_mm3 = mesh.volume_mm3();
             let [x, y] = cut.field.volumes_mm3();
-            // The cutter's base shapes the tips of two scenes: there is no target in closed form, and nothing to damage.
+            // The cutter's base shapes the tips of two scenes: there is no target in closed form, and nothing to
+            // damage.
             let target = job.target_outline(TARGET_SPACING_MM).ok();
             let base_shapes_tips = ["fourier_concave", "internal_pair_driver"].contains(&name.as_str());
             assert_eq!(target.is_none(), base_shapes_tips, "{name}");
@@ -321,8 +322,8 @@ mod slow {
             assert!(mesh.is_closed(), "{name}: {:?}", mesh.edge_faults());
             assert!((2.0 * volume_mm3 / (x + y) - 1.0).abs() < 1e-3, "{name}");
             assert_eq!(guessed, 0, "{name}");
-            // A cutter that runs out by 5 um gouges as deep as that, and no deeper but for the target's chords; so do the
-            // errors of one scene's machine, all of them together by less than 50 um; nothing else does.
+            // A cutter that runs out by 5 um gouges as deep as that, and no deeper but for the target's chords; so do
+            // the errors of one scene's machine, all of them together by less than 50 um; nothing else does.
             let errors = job.machine.errors != MachineErrors::default();
             let runout_mm = if errors { 0.05 } else { job.cutter_spec.runout_mm };
             let damage = || report.gouges.iter().chain(&report.interference);

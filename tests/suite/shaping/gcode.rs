@@ -3,6 +3,7 @@
 use crate::fixtures::paper::*;
 use gearcut::cut::cpu::Cpu;
 use gearcut::findings::Severity;
+use gearcut::process::load;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::axes_report::OperationAxes;
 use gearcut::process::shaping::chips::ChipLedger;
@@ -169,6 +170,56 @@ fn a_program_of_another_length_is_cut_and_judged() {
     }
     let refused = under_test(50).expect_err("12 times as many").to_string();
     assert!(refused.contains("operation.cut.program") && refused.contains("600 strokes"), "{refused}");
+}
+
+/// A program for 200 double strokes per minute in a scene that says 400: times, drifts and lags are those of the scene
+/// that says 200, and power and rates with them.
+#[test]
+fn a_program_runs_at_its_own_speed() {
+    let prepared = |per_minute: u32, programs: &[tempfile::NamedTempFile]| {
+        let mut settings = vec![
+            format!("machine.double_strokes_per_minute={per_minute}"),
+            "operation.finish.strokes_per_revolution=1200".to_owned(),
+            "machine.errors.center_distance.drift_um_per_h=6000".to_owned(),
+            "machine.errors.work.velocity_gain_per_s=30".to_owned(),
+            "output.gcode_contour_error_um=0.01".to_owned(),
+        ];
+        for (name, file) in ["rough", "finish"].into_iter().zip(programs) {
+            settings.push(format!("operation.{name}.program='{}'", file.path().display()));
+        }
+        let scene = load(std::path::Path::new("scenes/shaping/order_2.toml"), &settings);
+        ShapingJob::new(scene.unwrap_or_else(|problems| panic!("{problems}")).scene).expect("a gear")
+    };
+    let (slow, fast) = (prepared(200, &[]), prepared(400, &[]));
+    let files = [0, 1].map(|operation| {
+        let file = tempfile::NamedTempFile::new().expect("a file");
+        let text = programs::text(&slow, &slow.operations[operation], &[]).expect("wanted").expect("written");
+        std::fs::write(file.path(), text).expect("written");
+        file
+    });
+    let under_test = prepared(400, &files);
+    let apart_mm = |a: &ShapingJob, b: &ShapingJob| {
+        let pose = |job: &ShapingJob, stroke: u32| job.operations[1].pose(f64::from(stroke));
+        let between = |stroke: u32| {
+            let (a, b) = (pose(a, stroke), pose(b, stroke));
+            let tip_mm = slow.cutter.tip_radius_mm;
+            a.center_mm.distance(b.center_mm) + tip_mm * (a.angle_rad - b.angle_rad).sin().abs()
+        };
+        (0..1200).step_by(7).map(between).fold(0.0, f64::max)
+    };
+    let ([same, other], seconds) = ([&slow, &fast].map(|job| apart_mm(job, &under_test)), |job: &ShapingJob| {
+        job.operations[1].schedule.time_s(1200.0)
+    });
+    println!("{same:.2e} mm off the scene of its own speed, {other:.3} mm off the scene's");
+    // 6 mm an hour over three minutes more, and over five more of roughing before.
+    assert!(same < 5e-5 && other > 0.75, "{same} mm, {other} mm");
+    assert!((seconds(&under_test) - 360.0).abs() < 1e-9 && (seconds(&fast) - 180.0).abs() < 1e-9);
+    let motion = OperationAxes::of_job(&under_test);
+    let told = program::warnings(&under_test, &motion);
+    assert!(
+        told.iter().any(|warning| warning.text.contains("S is 200") && warning.text.contains("says 400")),
+        "{told:?}"
+    );
 }
 
 #[test]

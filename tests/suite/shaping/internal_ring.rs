@@ -120,8 +120,8 @@ fn scallops_follow_the_law_of_internal_gearing() {
     }
 }
 
-/// Rows of the table in docs/internal.md: what strokes leave at the pitch point of the paper's ring, tooth 9, against the
-/// law with the curvature of the pitch curve there, and against the roughness that is printed.
+/// Rows of the table in docs/internal.md: what strokes leave at the pitch point of the paper's ring, tooth 9, against
+/// the law with the curvature of the pitch curve there, and against the roughness that is printed.
 #[test]
 fn strokes_of_the_papers_ring_leave_what_the_docs_say() {
     let job = job(ring_scene(mate_shape(None), 102, 13, vec![operation("finish", NORMAL, 0.0, 6120)]));

@@ -16,7 +16,7 @@ use glam::DVec2;
 use std::f64::consts::TAU;
 use std::path::Path;
 
-const ROUND: &str = "
+pub const ROUND: &str = "
     [gear]
     module_mm = 3.0
     teeth = 24
@@ -29,6 +29,7 @@ const ROUND: &str = "
     name = \"finish\"
     strokes_per_revolution = 3600
     feed_during_stroke = false
+    [operation.infeed.none]
 ";
 const ELLIPTICAL: &str = "
     [gear]
@@ -46,32 +47,33 @@ const ELLIPTICAL: &str = "
     name = \"finish\"
     strokes_per_revolution = 3600
     feed_during_stroke = false
+    [operation.infeed.none]
 ";
 const SECONDS_PER_STROKE: f64 = 60.0 / 300.0;
 const STROKES: f64 = 3600.0;
 /// Speed of the round gear's work spindle, rad/s.
 const WORK_RAD_PER_S: f64 = TAU / STROKES / SECONDS_PER_STROKE;
-const ALPHA_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
-const PITCH_MM: f64 = 36.0;
+pub const ALPHA_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
+pub const PITCH_MM: f64 = 36.0;
 const CUTTER_MM: f64 = 30.0;
 /// Places along the tooth, mm.
 const ROWS_MM: [f64; 3] = [-9.0, 1.0, 9.0];
-const ARCSEC_RAD: f64 = std::f64::consts::PI / 180.0 / 3600.0;
+pub const ARCSEC_RAD: f64 = std::f64::consts::PI / 180.0 / 3600.0;
 
-fn job(text: &str, settings: &[&str]) -> ShapingJob {
+pub fn job(text: &str, settings: &[&str]) -> ShapingJob {
     let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
     let scene = gearcut::process::parse(text, "scene.toml", Path::new(""), &settings).expect("a scene");
     ShapingJob::new(scene.scene).expect("a gear")
 }
 
 /// A place on a flank.
-struct Place {
+pub(super) struct Place {
     /// +1 left, -1 right.
-    side: f64,
+    pub(super) side: f64,
     /// Polar angle of the pitch point at contact, rad, 0 to a turn.
     phi_rad: f64,
     /// Stroke that comes nearest.
-    stroke: f64,
+    pub(super) stroke: f64,
     z_mm: f64,
     point_mm: DVec2,
     normal: DVec2,
@@ -90,7 +92,7 @@ impl Place {
 }
 
 /// What an error changes at a few places near the pitch curve: place and change of height, mm.
-fn changes(sound: &ShapingJob, faulty: &ShapingJob, teeth: &[u32]) -> Vec<(Place, f64)> {
+pub(super) fn changes(sound: &ShapingJob, faulty: &ShapingJob, teeth: &[u32]) -> Vec<(Place, f64)> {
     let mut found = Vec::new();
     for &tooth in teeth {
         for side in [Side::Left, Side::Right] {
@@ -307,7 +309,7 @@ fn backlash_of_the_radial_axis_changes_sign_where_it_turns_back() {
 }
 
 /// Every error at once.
-const MANY: [&str; 12] = [
+const MANY: [&str; 15] = [
     "mounting.eccentricity_um=30",
     "mounting.wobble_um_per_100mm=80",
     "machine.errors.guide.radial_um_per_100mm=60",
@@ -320,6 +322,9 @@ const MANY: [&str; 12] = [
     "machine.errors.center_distance.backlash_um=20",
     "machine.errors.center_distance.drift_um_per_h=300",
     "tool.shaper_cutter.runout_um=20",
+    "machine.errors.work.noise_arcsec=20",
+    "machine.errors.center_distance.noise_um=10",
+    "machine.errors.center_distance.noise_bandwidth_hz=3",
 ];
 
 #[test]
@@ -344,6 +349,10 @@ fn errors_of_nothing_change_no_byte() {
         "machine.errors.guide.radial_um_per_100mm=0",
         "machine.errors.work.backlash_arcsec=0",
         "machine.errors.center_distance.scale_um_per_m=0",
+        "machine.errors.seed=9",
+        "machine.errors.work.noise_arcsec=0",
+        "machine.errors.center_distance.noise_um=0",
+        "machine.errors.center_distance.noise_bandwidth_hz=3",
     ];
     let (sound, zero) = (job(ELLIPTICAL, &[]), job(ELLIPTICAL, &zeros));
     let faulty = job(ELLIPTICAL, &["mounting.eccentricity_um=1"]);

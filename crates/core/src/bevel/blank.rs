@@ -3,8 +3,8 @@
 //! In: angles of pitch, face and root cone, outer cone distance, face width, outer addendum and dedendum. Out: the
 //! tooth between them at every cone distance, and a list of what does not fit.
 //!
-//! **Places.** A point of the axial section is told by its cone distance R along the pitch cone from the pitch apex, and
-//! by its height h over the pitch cone, square to it, positive towards the tips. In the work frame it stands at
+//! **Places.** A point of the axial section is told by its cone distance R along the pitch cone from the pitch apex,
+//! and by its height h over the pitch cone, square to it, positive towards the tips. In the work frame it stands at
 //! R cos(gamma) - h sin(gamma) along the axis and R sin(gamma) + h cos(gamma) away from it. Face and root cone need not
 //! meet the pitch apex: what fixes them is addendum and dedendum at the outer cone distance.
 //!

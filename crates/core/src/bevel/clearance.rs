@@ -5,8 +5,8 @@
 //! **Law.** All blades stay in a ring: from the plane of the tips to the blades' height, inside the cone of the outside
 //! blades and outside that of the inside ones, both wider by the largest runout. A ball is clear of the ring where its
 //! centre stands beyond one of the four by more than its radius. While the cradle turns from q - h to q + h the centre
-//! moves in the head's frame by v h at most, v the sum of two circles: the cradle's arm, and the work's radius times the
-//! rate of roll. A piece and a roll that are not clear by this are halved, the larger one first, down to
+//! moves in the head's frame by v h at most, v the sum of two circles: the cradle's arm, and the work's radius times
+//! the rate of roll. A piece and a roll that are not clear by this are halved, the larger one first, down to
 //! `FINEST_MM`. Every step is a bound: what is said to be clear is clear. What stands nearer than that to the ring is
 //! said to be in it.
 

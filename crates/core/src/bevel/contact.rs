@@ -151,8 +151,8 @@ impl BevelPair {
         }
     }
 
-    /// The gear's angle near a beginning at which a point of its flank touches the pinion's; `None` where the pinion has
-    /// no flank.
+    /// The gear's angle near a beginning at which a point of its flank touches the pinion's; `None` where the pinion
+    /// has no flank.
     fn touch(&self, place_mm: DVec2, pinion_rad: f64, near: Near) -> Option<Touch> {
         let gear = &self.gear;
         let distance_mm = gear.blank.mean_cone_distance_mm() + place_mm.x;

@@ -75,9 +75,9 @@ impl PitchCurve {
     /// Pitch curve with arc lengths good to [`DEFAULT_ACCURACY_MM`].
     ///
     /// # Errors
-    /// Parameters outside their range, a radius that is not positive everywhere, a table out of order or one whose radii
-    /// would be scaled by more than [`LARGEST_UNASKED_SCALING`] unasked, or a given size whose perimeter misses pi m z
-    /// by more than [`LARGEST_CLOSURE_ERROR_MODULES`]; the refusal says which size closes.
+    /// Parameters outside their range, a radius that is not positive everywhere, a table out of order or one whose
+    /// radii would be scaled by more than [`LARGEST_UNASKED_SCALING`] unasked, or a given size whose perimeter misses
+    /// pi m z by more than [`LARGEST_CLOSURE_ERROR_MODULES`]; the refusal says which size closes.
     pub fn new(shape: &PitchCurveShape, module_mm: f64, teeth: u32) -> Result<Self, Refusal> {
         Self::with_accuracy(shape, module_mm, teeth, DEFAULT_ACCURACY_MM)
     }

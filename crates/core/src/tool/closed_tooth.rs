@@ -8,7 +8,7 @@
 //!
 //! Pieces turn by at most `PIECE_TURN_RAD`, which makes the chord a good guess for Newton's method and leaves at most
 //! one place in a piece where it runs along a ray, and they lie within `CUBIC_MM` of the cubic through their ends,
-//! which stands for them in f32 kernels.
+//! which stands for them in f32 kernels. Roughness of an edge is left out: a blank is cut some ten times coarser.
 
 use super::edge::{Edge, Segment};
 use crate::frame::Rigid2;
@@ -48,7 +48,8 @@ impl ClosedTooth {
     /// Closes an edge through the body to `closing_radius_mm` from the blade's origin.
     pub fn new(edge: &Edge, closing_radius_mm: f64) -> Self {
         let (mut pieces, mut nodes_mm, mut tangents) = (Vec::new(), Vec::new(), Vec::new());
-        for (law, segment) in edge.segments.iter().enumerate() {
+        let segments: Vec<Segment> = edge.segments.iter().map(Segment::smoothed).collect();
+        for (law, segment) in segments.iter().enumerate() {
             for range in subdivide(segment, segment.y_range_mm) {
                 let [start, middle, end] = [range[0], 0.5 * (range[0] + range[1]), range[1]].map(|y| place(segment, y));
                 nodes_mm.push(start[0]);
@@ -58,7 +59,7 @@ impl ClosedTooth {
                 pieces.push(Piece { law: law as u32, range, sagitta_mm });
             }
         }
-        let ends = [edge.segments.last(), edge.segments.first()];
+        let ends = [segments.last(), segments.first()];
         if let [Some(last), Some(first)] = ends {
             let end = place(last, last.y_range_mm[1])[0];
             let start = place(first, first.y_range_mm[0])[0];
@@ -70,7 +71,7 @@ impl ClosedTooth {
             }
         }
         let (center_mm, reach_mm) = (edge.center_mm, edge.reach_mm);
-        Self { segments: edge.segments.clone(), pieces, nodes_mm, tangents, center_mm, reach_mm }
+        Self { segments, pieces, nodes_mm, tangents, center_mm, reach_mm }
     }
 
     /// The tooth where it stands in the work; `scratch` is reused from pose to pose.

@@ -44,6 +44,11 @@ const ENTRY_MM: f64 = 1e-12;
 /// [`ENTRY_MM`] at a rate above [`LEAST_FALL`] the product is above 1e-30 mm, so that sixty steps suffice for every ray
 /// that starts within 1e6 mm of the edge.
 const ENTRY_STEPS: u32 = 60;
+/// Steps to the foot of a rough edge's normal: each leaves the product of two slopes of the one before, 0.1 at most of
+/// a shift that is below a micrometre.
+const FOOT_STEPS: u32 = 4;
+/// Panels of Simpson's rule for lengths: flanks bend by a few tenths of a radian, which leaves picometres.
+const LENGTH_PANELS: u32 = 256;
 /// Fall of the residual along a ray below which the ray runs beside the edge and does not enter it.
 const LEAST_FALL: f64 = 1e-9;
 
@@ -74,6 +79,21 @@ pub struct Segment {
     pub reach_mm: f64,
     /// Smallest and largest dx/dy on the segment.
     pub slope_range: [f64; 2],
+    /// What it would be without its roughness; `None`: it has none.
+    pub smooth: Option<SmoothEdge>,
+}
+
+/// What a rough segment is rough about.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmoothEdge {
+    /// The edge without roughness.
+    pub table: EdgeTable,
+    /// Smallest and largest dx/dy of it.
+    pub slope_range: [f64; 2],
+    /// The rough edge stays within this of it along x, mm.
+    pub depth_mm: f64,
+    /// Largest slope of the roughness against the smooth edge at the nodes of the rough table.
+    pub steepness: f64,
 }
 
 /// The chain of segments of one blade.
@@ -162,6 +182,7 @@ impl Segment {
             y_range_mm,
             reach_mm,
             slope_range: [low, high],
+            smooth: None,
         }
     }
 
@@ -177,6 +198,7 @@ impl Segment {
             y_range_mm: [-half_mm, half_mm],
             reach_mm: 2.0 * radius_mm * (0.5 * half_rad).sin() * 1.001,
             slope_range: [-half_rad.tan(), half_rad.tan()],
+            smooth: None,
         }
     }
 
@@ -214,15 +236,92 @@ impl Segment {
             y_range_mm: [-self.y_range_mm[1], -self.y_range_mm[0]],
             reach_mm: self.reach_mm,
             slope_range: [-self.slope_range[1], -self.slope_range[0]],
+            smooth: self.smooth.as_ref().map(|smooth| SmoothEdge {
+                table: smooth.table.mirrored(),
+                slope_range: [-smooth.slope_range[1], -smooth.slope_range[0]],
+                depth_mm: smooth.depth_mm,
+                steepness: smooth.steepness,
+            }),
         }
+    }
+
+    /// The segment without its roughness.
+    #[must_use]
+    pub fn smoothed(&self) -> Self {
+        match &self.smooth {
+            None => self.clone(),
+            Some(SmoothEdge { table, slope_range, .. }) => Self {
+                shape: SegmentShape::Table(table.clone()),
+                slope_range: *slope_range,
+                smooth: None,
+                ..self.clone()
+            },
+        }
+    }
+
+    /// Length along the segment without its roughness, mm.
+    pub fn length_mm(&self) -> f64 {
+        let smooth = self.smoothed();
+        let [from, to] = self.y_range_mm;
+        let width = (to - from) / f64::from(LENGTH_PANELS);
+        let stretch = |y: f64| smooth.x_and_slope(y)[1].hypot(1.0);
+        let simpson = |panel: u32| {
+            let y = from + width * f64::from(panel);
+            width / 6.0 * (stretch(y) + 4.0 * stretch(y + 0.5 * width) + stretch(y + width))
+        };
+        (0..LENGTH_PANELS).map(simpson).sum()
+    }
+
+    /// How far the segment stays within its smooth course along x, mm.
+    pub fn depth_mm(&self) -> f64 {
+        self.smooth.as_ref().map_or(0.0, |smooth| smooth.depth_mm)
+    }
+
+    /// The same segment, rough: `height(s)` gives how far it stands out along its normal (mm) at an arc length s from
+    /// its first end (mm), and the derivative of that. The edge is the cubic through heights and slopes in cells of
+    /// about `cell_mm`. An arc stays as it is.
+    #[must_use]
+    pub fn roughened(&self, cell_mm: f64, height: impl Fn(f64) -> [f64; 2]) -> Self {
+        let SegmentShape::Table(smooth) = &self.shape else { return self.clone() };
+        let [y_from, y_to] = self.y_range_mm;
+        let cells = ((y_to - y_from) / cell_mm).ceil().max(1.0) as usize;
+        let (mut arc_mm, mut before) = (0.0, y_from);
+        let stretch = |y: f64| smooth.x_and_slope(y)[1].hypot(1.0);
+        let mut steepness = 0.0_f64;
+        let nodes: Vec<[f64; 2]> = (0..=cells)
+            .map(|node| {
+                let y = y_from + (y_to - y_from) * node as f64 / cells as f64;
+                // Simpson's rule: over a cell of micrometres the edge is nearly straight.
+                arc_mm += (y - before) / 6.0 * (stretch(before) + 4.0 * stretch(0.5 * (before + y)) + stretch(y));
+                before = y;
+                // The place of the smooth edge whose normal comes out at this y: a fixed point, as the normal leans by
+                // much less than 1 and heights are small against their wavelengths.
+                let (mut foot, mut rise) = (y, 0.0);
+                let mut node = [0.0; 2];
+                for _ in 0..FOOT_STEPS {
+                    let [x, slope] = smooth.x_and_slope(foot);
+                    let stretch = slope.hypot(1.0);
+                    let [height_mm, climb] = height(arc_mm + (foot - y) * stretch);
+                    node = [x + (y - foot) * slope + height_mm * stretch, (slope + climb) / (1.0 - climb * slope)];
+                    (foot, rise) = (y + height_mm * slope / stretch, climb);
+                }
+                steepness = steepness.max(rise.abs());
+                node
+            })
+            .collect();
+        let table = EdgeTable::through(&nodes, [y_from, y_to]);
+        let depth_mm = table.largest_distance_mm(smooth);
+        let slope_range = self.slope_range;
+        let smooth = Some(SmoothEdge { table: smooth.clone(), slope_range, depth_mm, steepness });
+        Self { smooth, ..Self::from_table(self.name, self.blade_from_segment, table, self.y_range_mm) }
     }
 
     /// Where the ray `origin + h direction` (segment frame, unit direction) enters the tool through this segment or its
     /// continuation (end tangents of a table, the full circle of an arc). `None`: it never does.
     ///
     /// The residual of a convex segment is convex in h, so Newton's method from a place where it falls runs
-    /// monotonically to the entry, however far away it starts. Should it not arrive (a ray that is not a number), that is
-    /// no miss: the last place counts as the entry, and who bounds with it keeps the pass.
+    /// monotonically to the entry, however far away it starts. Should it not arrive (a ray that is not a number), that
+    /// is no miss: the last place counts as the entry, and who bounds with it keeps the pass.
     pub fn enter(&self, origin_mm: DVec2, direction: DVec2) -> Option<RayHit> {
         match &self.shape {
             SegmentShape::Arc { radius_mm } => {

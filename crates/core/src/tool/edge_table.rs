@@ -66,6 +66,12 @@ impl EdgeTable {
         let width = (y1 - y0) / count as f64;
         let nodes: Vec<[f64; 2]> =
             (0..=count).map(|i| profile.x_and_slope(y0 + width * i as f64)).collect::<Result<_, _>>()?;
+        Ok(Self::through(&nodes, [y0, y1]))
+    }
+
+    /// Table through x and dx/dy at places evenly from the first y to the last one.
+    pub fn through(nodes: &[[f64; 2]], [y0, y1]: [f64; 2]) -> Self {
+        let width = (y1 - y0) / (nodes.len() - 1) as f64;
         let cells = nodes
             .windows(2)
             .map(|node| {
@@ -74,7 +80,27 @@ impl EdgeTable {
                 [x0, s0, (3.0 * secant - 2.0 * s0 - s1) / width, (s0 + s1 - 2.0 * secant) / (width * width)]
             })
             .collect();
-        Ok(Self { y_start_mm: y0, cells_per_mm: 1.0 / width, cells })
+        Self { y_start_mm: y0, cells_per_mm: 1.0 / width, cells }
+    }
+
+    /// Largest distance from another table over the same range along x, mm: a bound, from nodes, middles and slopes of
+    /// the cells here.
+    pub fn largest_distance_mm(&self, other: &Self) -> f64 {
+        let width = 1.0 / self.cells_per_mm;
+        let at = |y: f64| {
+            let ([x, slope], [other_x, other_slope]) = (self.x_and_slope(y), other.x_and_slope(y));
+            (x - other_x, (slope - other_slope).abs())
+        };
+        (0..self.cells.len())
+            .map(|cell| {
+                let start = self.y_start_mm + width * cell as f64;
+                let [from, middle, to] = [0.0, 0.5, 1.0].map(|share| at(start + share * width));
+                // Hermite's form of the difference: the values' part lies between them, that of the slopes is
+                // t (1 - t) times something between both. The other table is one cubic there, or nearly so.
+                let (ends, slopes) = (from.0.abs().max(to.0.abs()), from.1.max(to.1));
+                middle.0.abs().max(ends + 0.25 * width * slopes)
+            })
+            .fold(0.0, f64::max)
     }
 
     /// Largest error at three places inside every cell (a Hermite cubic errs most near the middle).

@@ -4,10 +4,12 @@ mod build;
 mod keys;
 pub mod model;
 
+use crate::machine_errors::{ErrorLayer, ToolMounting};
+use crate::scene::error_sources::{self, ErrorSource, KeyForm};
 use crate::scene::machine_errors;
 use crate::scene::problems::Found;
 use crate::scene::values::{Checked, Values};
-use crate::scene::{ProcessPart, SceneProcess, Senseless};
+use crate::scene::{FINISH_ALONE, ProcessPart, SceneProcess, Senseless};
 use model::Bevel;
 
 /// Why keys of the normal force are refused, and what is there instead.
@@ -19,6 +21,18 @@ const fn without(path: &'static str, why: &'static str, instead: &'static str) -
     Senseless { path, why, instead }
 }
 
+/// Errors of the head.
+static TOOL_ERRORS: &[ErrorSource] = &[
+    error_sources::wobble("tool.face_mill"),
+    ErrorSource {
+        section: "tool.face_mill",
+        form: KeyForm::Entries { list: "runouts_um", count: "blades" },
+        unit: "um",
+        step: 4.0,
+        what: "runout of blade",
+    },
+];
+
 /// Spiral bevel gears cut with a face-mill head.
 pub static SCENE: SceneProcess = SceneProcess {
     name: "bevel",
@@ -28,6 +42,7 @@ pub static SCENE: SceneProcess = SceneProcess {
     scenes: include_str!("scenes.md"),
     sections: keys::SECTIONS,
     added: keys::ADDED,
+    operations: FINISH_ALONE,
     per_revolution: &[],
     of_one_gear: &[],
     on_demand: &["material"],
@@ -45,6 +60,8 @@ pub static SCENE: SceneProcess = SceneProcess {
         without("material.normal_force_n_per_mm2", NO_NORMAL_FORCE, CUTTING_FORCE),
         without("material.normal_edge_force_n_per_mm", NO_NORMAL_FORCE, CUTTING_FORCE),
     ],
+    axes: &keys::AXES,
+    errors: &[error_sources::MOUNTING, TOOL_ERRORS],
     derive,
     check,
     build: build::build,
@@ -68,6 +85,7 @@ fn check(found: &mut Found<'_, '_, '_>) {
     let _: Option<()> = runouts(found);
     rolls(found);
     machine_errors::check(found, &keys::AXES);
+    machine_errors::check_noise_in_time(found, &keys::AXES, "a face-mill head");
 }
 
 /// One runout for each blade.
@@ -94,6 +112,27 @@ fn rolls(found: &mut Found) {
 impl ProcessPart for Bevel {
     fn process(&self) -> &'static SceneProcess {
         &SCENE
+    }
+
+    fn error_layers(&self) -> Vec<ErrorLayer> {
+        let tool = !self.head.mounting.is_none() || self.head.runouts_mm.iter().any(|&runout| runout != 0.0);
+        let mut layers = self.errors.layers(&[(ErrorLayer::Tool, tool)]);
+        let off = self.settings.errors.iter().any(|&(_, error)| error != 0.0);
+        if off && !layers.contains(&ErrorLayer::Axes) {
+            layers.insert(0, ErrorLayer::Axes);
+        }
+        layers
+    }
+
+    fn keep_layers(&mut self, kept: &[ErrorLayer]) {
+        self.errors.keep(kept);
+        if !kept.contains(&ErrorLayer::Tool) {
+            self.head.mounting = ToolMounting::default();
+            self.head.runouts_mm.clear();
+        }
+        if !kept.contains(&ErrorLayer::Axes) {
+            self.settings.errors.iter_mut().for_each(|(_, error)| *error = 0.0);
+        }
     }
 
     fn operation_names(&self) -> Vec<&str> {

@@ -6,6 +6,9 @@
 use crate::output::text::{Sheet, significant};
 use crate::process::hobbing::HobCutter;
 use gearcut_core::Result;
+use gearcut_core::cut::Backend as _;
+use gearcut_core::cut::cpu::Cpu;
+use gearcut_core::dexel::SpatialField;
 use gearcut_core::math::planar_rays::FAMILIES;
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::passes::sections::swept_sections::SweptSection;
@@ -14,9 +17,16 @@ use gearcut_core::terms::Side;
 use rayon::prelude::*;
 
 use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FLANKS};
+use crate::steps::computer_speed::ComputerSpeed;
+use crate::steps::{check_cost, stages};
 
 /// Rows of a flank that are planned, about the middle of the face.
 const PLANNED_ROWS: usize = 96;
+/// Rows that are cut to calibrate the estimate.
+const CALIBRATED_ROWS: usize = 8;
+/// So much more than by the rates so few rows take, for they leave lanes of the kernel idle; found on the machine of
+/// the rates.
+const FEW_ROWS: f64 = 3.06;
 /// What one thread of the native backend takes for a dexel's ray, s.
 const RAY_S_PER_DEXEL: f64 = 5.5e-8;
 /// The same for the plan of a tile.
@@ -41,8 +51,34 @@ const BLANK_S_PER_RAY_PASS: f64 = 4.2e-8;
 /// # Errors
 /// A flank that the hob does not generate; a blank field that does not fit in memory.
 pub fn print(sheet: &mut Sheet, cutter: &HobCutter) -> Result<()> {
-    crate::steps::check_cost::print(sheet, &cutter.job.scene.fields, &flank_cost(cutter)?, &blank_cost(cutter)?);
+    let (fields, beside_s) = (&cutter.job.scene.fields, stages::beside_cutting_s(cutter));
+    let (flanks, blank) = (flank_cost(cutter)?, blank_cost(cutter)?);
+    check_cost::print(sheet, fields, &flanks, &blank, beside_s, calibrated(cutter)?);
     Ok(())
+}
+
+/// Some rows of flanks, planned and cut.
+fn calibrated(cutter: &HobCutter) -> Result<ComputerSpeed> {
+    let mut machine = ComputerSpeed::default();
+    let spacing_mm = cutter.job.scene.fields.lead_spacing_mm;
+    for tooth in (1..=cutter.job.scene.gear.teeth).step_by(5) {
+        let target = cutter.target(tooth, Side::Left)?;
+        let [arcs_mm, _] = cutter.places_mm(target);
+        let rows_z_mm = (0..CALIBRATED_ROWS).map(|row| spacing_mm * row as f64).collect();
+        let rays_s = |field: &SpatialField| FEW_ROWS * field.len() as f64 * RAY_S_PER_DEXEL;
+        let field = machine.piece(|| cutter.rays_over(target, arcs_mm, rows_z_mm).field, rays_s);
+        for passes in cutter.operations.iter() {
+            let plan_s = |plan: &SweepPlan| FEW_ROWS * plan.tiles.len() as f64 * PLAN_S_PER_TILE;
+            let plan = machine.piece(|| SweepPlan::new(&field, passes), plan_s);
+            let cut_s = FEW_ROWS * plan.dexel_passes() as f64 * CUT_S_PER_EVALUATION;
+            let mut layer = field.blank_layer();
+            machine.piece(|| Cpu::default().cut_spatial(&field, &plan, &mut layer), |_| cut_s)?;
+        }
+        if !machine.wants_more() {
+            break;
+        }
+    }
+    Ok(machine)
 }
 
 /// What planning a band of a flank found.

@@ -4,13 +4,18 @@ mod build;
 mod keys;
 pub mod model;
 
+use crate::machine_errors::{ErrorLayer, ToolMounting};
+use crate::scene::error_sources::{self, ErrorSource};
 use crate::scene::machine_errors;
 use crate::scene::problems::Found;
-use crate::scene::{ProcessPart, SceneProcess, Senseless};
+use crate::scene::{FINISH_ALONE, ProcessPart, SceneProcess, Senseless};
 use model::Hobbing;
 
 /// Why coefficients of the force normal to the edge have no sense.
 const NO_NORMAL_FORCE: &str = "only the force against the edge's motion is computed";
+
+/// Errors of the hob.
+static TOOL_ERRORS: &[ErrorSource] = &[error_sources::runout("tool.hob"), error_sources::wobble("tool.hob")];
 
 /// Hobbing with five and six axes.
 pub static SCENE: SceneProcess = SceneProcess {
@@ -21,6 +26,7 @@ pub static SCENE: SceneProcess = SceneProcess {
     scenes: include_str!("scenes.md"),
     sections: keys::SECTIONS,
     added: keys::ADDED,
+    operations: FINISH_ALONE,
     per_revolution: &[],
     of_one_gear: &[],
     on_demand: &["material", "measure"],
@@ -41,6 +47,8 @@ pub static SCENE: SceneProcess = SceneProcess {
             instead: "set spacing_mm and slice_spacing_mm in [fields.blank]",
         },
     ],
+    axes: &keys::AXES,
+    errors: &[error_sources::MOUNTING, error_sources::GUIDE, TOOL_ERRORS],
     derive: |_| {},
     check,
     build: build::build,
@@ -50,6 +58,7 @@ pub static SCENE: SceneProcess = SceneProcess {
 fn check(found: &mut Found<'_, '_, '_>) {
     external(found);
     machine_errors::check(found, &keys::AXES);
+    machine_errors::check_noise_in_time(found, &keys::AXES, "a hob");
 }
 
 /// Refuses what no hob reaches.
@@ -63,6 +72,17 @@ fn external(found: &mut Found<'_, '_, '_>) {
 impl ProcessPart for Hobbing {
     fn process(&self) -> &'static SceneProcess {
         &SCENE
+    }
+
+    fn error_layers(&self) -> Vec<ErrorLayer> {
+        self.errors.layers(&[(ErrorLayer::Tool, !self.tool.mounting.is_none())])
+    }
+
+    fn keep_layers(&mut self, kept: &[ErrorLayer]) {
+        self.errors.keep(kept);
+        if !kept.contains(&ErrorLayer::Tool) {
+            self.tool.mounting = ToolMounting::default();
+        }
     }
 
     fn operation_names(&self) -> Vec<&str> {

@@ -9,9 +9,9 @@ use crate::findings::{Place, Quantity, Section};
 use crate::machine::Order;
 use crate::output::line_chart::Panel;
 use crate::output::text::{Sheet, significant};
+use crate::process::shaping::PreparedOperation;
 use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::returns::motion::RetractionMotion;
-use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes::STEADY;
 use crate::steps::axes::charts::panel;
 
@@ -34,7 +34,7 @@ pub(super) fn panels(rows: &[StrokeRow]) -> Vec<Panel> {
 }
 
 /// What the retraction asks of the axes.
-pub(super) fn findings(job: &ShapingJob, operation: &PreparedOperation, motion: &RetractionMotion) -> Section {
+pub(super) fn findings(operation: &PreparedOperation, motion: &RetractionMotion) -> Section {
     let (plan, schedule) = (&operation.retraction, &operation.schedule);
     let mut section = Section::new("retraction", "Retraction by the axes")
         .with("direction", Quantity::text(plan.asked().words(), "how the cutter is drawn back for the return stroke"))
@@ -74,7 +74,7 @@ pub(super) fn findings(job: &ShapingJob, operation: &PreparedOperation, motion: 
     let why = if motion.time_s > 0.0 { NO_LIMITS } else { NO_TIME };
     let slowdown = motion.slowdown().filter(|factor| factor.is_finite());
     let total_s = schedule.time_s(schedule.count() as f64);
-    let per_minute = slowdown.map(|factor| job.machine.double_strokes_per_minute / factor);
+    let per_minute = slowdown.map(|factor| schedule.double_strokes_per_minute() / factor);
     section
         .with(
             "time_outside_face",
@@ -105,7 +105,7 @@ pub(super) fn print(axes: &OperationAxes, motion: &RetractionMotion, sheet: &mut
     sheet.line("axes travel", format!("{} {time}", travel.collect::<Vec<_>>().join(", ")));
     let cost = match motion.slowdown() {
         Some(factor) if factor.is_finite() && factor > 1.0 => {
-            let most = axes.job.machine.double_strokes_per_minute / factor;
+            let most = axes.operation().schedule.double_strokes_per_minute() / factor;
             format!("double strokes last {factor:.2} times as long: at most {most:.0} per minute")
         }
         Some(factor) if factor.is_finite() => "none: the ram is outside the face for long enough".to_owned(),
@@ -126,7 +126,7 @@ pub(super) fn warnings(axes: &OperationAxes, motion: &RetractionMotion) -> Vec<S
              per minute, give more machine.approach_mm and machine.overrun_mm, or back off by less",
             significant(1e3 * motion.needed_s.unwrap_or_default(), 3),
             significant(1e3 * motion.time_s, 3),
-            axes.job.machine.double_strokes_per_minute / factor
+            axes.operation().schedule.double_strokes_per_minute() / factor
         ));
     }
     if let Some([low, high]) = axes.operation().retraction.tilts_rad().filter(|[low, high]| low > high) {

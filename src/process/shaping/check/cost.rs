@@ -3,11 +3,14 @@
 //! For the blank and the chips, the cutter teeth that reach the blank are counted for strokes spread over all
 //! operations, and the rays that they cross.
 
+use crate::output::flank_maps::CHIPS_OF_A_CELL;
 use crate::output::text::{Sheet, significant};
 use crate::process::shaping::ShapingJob;
-use gearcut_core::Refusal;
+use gearcut_core::cut::Backend as _;
+use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::cpu::blank::TILE_RAYS;
 use gearcut_core::dexel::Field;
+use gearcut_core::error::{Refusal, Result};
 use gearcut_core::gear::blank_outline::BlankOutline;
 use gearcut_core::math::planar_rays::{FAMILIES, RayCrossings};
 use gearcut_core::passes::planar::blank_candidates::passes_at;
@@ -18,15 +21,17 @@ use gearcut_core::tool::closed_tooth::PlacedScratch;
 
 use crate::process::shaping::tooth_facts::ToothFacts;
 use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FLANKS};
+use crate::steps::computer_speed::ComputerSpeed;
+use crate::steps::{check_cost, stages};
 
 /// What one thread of the native backend takes for the plan of a tile, s.
-const PLAN_S_PER_TILE: f64 = 1.5e-4;
+const PLAN_S_PER_TILE: f64 = 6.0e-5;
 /// The same for one evaluation (dexel against pass), in groups of [`ROWS_AT_ONCE`].
-const CUT_S_PER_EVALUATION: f64 = 5.2e-9;
+const CUT_S_PER_EVALUATION: f64 = 2.1e-9;
 /// The same for measuring a dexel of one surface.
 const MEASURE_S_PER_DEXEL: f64 = 2.0e-8;
-/// The same for the chip that left a cell of a map.
-const CHIP_S_PER_MAP_CELL: f64 = 5.5e-6;
+/// The same for the chip that left a dexel of a map's cell.
+const CHIP_S_PER_RAY: f64 = 5.5e-6;
 /// Rows that the kernel takes at once, whether there are as many or not.
 const ROWS_AT_ONCE: usize = 16;
 /// Tiles that are planned on each of them.
@@ -35,20 +40,21 @@ const PLANNED_TILES: usize = 32;
 /// Strokes of each operation that are placed in the blank.
 const PLACED_STROKES: usize = 40;
 /// What one thread takes for a ray that a cutter tooth crosses, its return stroke checked, s.
-const BLANK_S_PER_RAY_PASS: f64 = 2.0e-7;
+const BLANK_S_PER_RAY_PASS: f64 = 2.4e-7;
 /// What it takes to follow the chips of a cutter tooth in one stroke, s, at the spacing [`CHIP_SPACING_MM`]; it grows
 /// with the inverse of the spacing.
-const CHIPS_S_PER_PASS: f64 = 1.6e-4;
+const CHIPS_S_PER_PASS: f64 = 5.0e-5;
 const CHIP_SPACING_MM: f64 = 0.05;
 
 /// Adds the estimate to the report.
 ///
 /// # Errors
-/// A blank field that does not fit in memory.
-pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Result<(), Refusal> {
+/// A blank field that does not fit in memory; a piece that cannot be cut.
+pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Result<()> {
     let surfaces = job.operations.len();
     let (mut rows, mut planned_columns, mut records) = (0, 0.0, 0.0);
     let (mut evaluations, mut tiles) = (0.0, 0.0);
+    let mut machine = ComputerSpeed::default();
     for (tooth, side) in facts
         .iter()
         .step_by(facts.len().div_ceil(PLANNED_FLANKS).max(1))
@@ -59,7 +65,16 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Resul
         planned_columns += field.columns.len() as f64;
         let field = if job.planar().rows_are_alike() { field.section() } else { field };
         for operation in &job.operations {
-            let plan = CutPlan::new(&field, &operation.strokes, &job.cutter);
+            let plan = machine.piece(
+                || CutPlan::new(&field, &operation.strokes, &job.cutter),
+                |plan| plan.tiles.len() as f64 * PLAN_S_PER_TILE,
+            );
+            if machine.wants_more() {
+                let idle_rows = field.rows().next_multiple_of(ROWS_AT_ONCE) as f64 / field.rows() as f64;
+                let expected_s = plan.dexel_passes() as f64 * idle_rows * CUT_S_PER_EVALUATION;
+                let mut layer = field.blank_layer();
+                machine.piece(|| Cpu::default().cut(&field, &plan, &mut layer), |_| expected_s)?;
+            }
             records += plan.records.len() as f64;
             tiles += plan.tiles.len() as f64;
             evaluations += plan.dexel_passes() as f64;
@@ -91,9 +106,10 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Resul
                 + records / planned_columns * longest * size_of::<PassRecord>() as f64),
         seconds: scale * (tiles * PLAN_S_PER_TILE + evaluations * idle_rows * CUT_S_PER_EVALUATION)
             + dexels * surfaces as f64 * MEASURE_S_PER_DEXEL
-            + map_cells * surfaces as f64 * CHIP_S_PER_MAP_CELL,
+            + map_cells * (CHIPS_OF_A_CELL * surfaces) as f64 * CHIP_S_PER_RAY,
     };
-    crate::steps::check_cost::print(sheet, &job.scene.fields, &flanks, &blank_cost(job)?);
+    let (fields, beside_s) = (&job.scene.fields, stages::beside_cutting_s(job));
+    check_cost::print(sheet, fields, &flanks, &blank_cost(job)?, beside_s, machine);
     Ok(())
 }
 

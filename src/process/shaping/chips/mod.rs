@@ -13,12 +13,16 @@
 //! Rays on a flank see only the chips that shape it, and those exactly: [`flank::last_chips`] says with how thick a
 //! chip each place of a flank was cut last.
 
+mod deciding;
+pub mod deflection;
 pub mod flank;
 pub mod ledger;
 pub mod oblique;
 pub mod section;
+mod space;
 pub mod stroke;
 
+pub use deflection::deflections;
 pub use flank::last_chips;
 pub use ledger::{ChipLedger, OperationChips, ThicknessMap};
 pub use stroke::StrokeChips;

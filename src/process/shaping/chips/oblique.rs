@@ -30,6 +30,7 @@
 //! The edge's own coefficients K_ce and K_ne stay as they are, and have no part along the edge.
 
 use crate::material::EdgeForce;
+use crate::process::shaping::edge_polygon::Station;
 use glam::DVec2;
 use std::f64::consts::FRAC_PI_4;
 
@@ -84,6 +85,15 @@ impl Shear {
 }
 
 impl ElementForce {
+    /// At every station of an edge with a conical rake face.
+    pub fn along_edge(force: &EdgeForce, top_rake_rad: f64, stations: &[Station]) -> Vec<Self> {
+        let at = |station: &Station| {
+            let face = RakeFace::on_cone(top_rake_rad, station.point_mm, station.normal);
+            Self::new(force, top_rake_rad, face)
+        };
+        stations.iter().map(at).collect()
+    }
+
     /// For a place whose rake face leans, from coefficients that hold at zero inclination and the rake `top_rake_rad`.
     pub fn new(force: &EdgeForce, top_rake_rad: f64, face: RakeFace) -> Self {
         let edge_n_per_mm = [force.cutting_edge_n_per_mm, force.normal_edge_n_per_mm];

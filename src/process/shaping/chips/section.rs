@@ -55,6 +55,10 @@ struct FamilyRays {
     by_ray: Vec<Vec<u32>>,
     zone: Vec<Vec<f64>>,
     touched: std::ops::Range<usize>,
+    /// Rays from which the last pass took material, with the number of spans that each had.
+    changed: Vec<(u32, u32)>,
+    /// Those spans, ray after ray.
+    before: Vec<Span>,
 }
 
 /// The material of one space and its neighbourhood. Frame: x mostly outwards, y mostly to larger arcs.
@@ -69,8 +73,8 @@ pub struct SpaceSection<'a> {
 }
 
 impl<'a> SpaceSection<'a> {
-    /// Uncut material between `contours_mm` (closed, section frame): inside one of them, or between two, on rays through
-    /// the window between two corners.
+    /// Uncut material between `contours_mm` (closed, section frame): inside one of them, or between two, on rays
+    /// through the window between two corners.
     pub fn new(polygon: &'a EdgePolygon, spacing_mm: f64, contours_mm: &[Vec<DVec2>], window_mm: [DVec2; 2]) -> Self {
         let [low, high] = window_mm;
         let sides = FAMILIES.map(|family| {
@@ -90,6 +94,8 @@ impl<'a> SpaceSection<'a> {
                 by_ray: vec![Vec::new(); count],
                 zone: vec![Vec::new(); count],
                 touched: 0..0,
+                changed: Vec::new(),
+                before: Vec::new(),
             }
         });
         Self { polygon, spacing_mm, sides, corners_mm: Vec::new(), deepest_mm: 0.0 }
@@ -109,6 +115,20 @@ impl<'a> SpaceSection<'a> {
             self.deepest_mm = self.deepest_mm.max(deepest_mm);
         }
         length_mm * self.spacing_mm
+    }
+
+    /// Gives back what the last cut took: the material is as if that had never been. Chip thickness can still be asked.
+    pub fn put_back(&mut self) {
+        for side in &mut self.sides {
+            let mut from = 0;
+            for (ray, count) in side.changed.drain(..) {
+                let to = from + count as usize;
+                let spans = &mut side.rays[ray as usize];
+                spans.clear();
+                spans.extend_from_slice(&side.before[from..to]);
+                from = to;
+            }
+        }
     }
 
     /// Area of material in the window by each family, mm^2, between two coordinates along the rays.
@@ -168,6 +188,8 @@ impl FamilyRays {
             self.zone[ray].clear();
         }
         self.crossings.clear();
+        self.changed.clear();
+        self.before.clear();
         let (mut first, mut last) = (usize::MAX, 0);
         let (crossings, by_ray) = (&mut self.crossings, &mut self.by_ray);
         let family = self.family;
@@ -206,6 +228,10 @@ impl FamilyRays {
                 let [from, to] = pair.map(|id| crossings[id as usize].along_mm);
                 if !intervals::overlaps(spans, from, to) {
                     continue;
+                }
+                if self.changed.last().is_none_or(|(last, _)| *last != ray as u32) {
+                    self.changed.push((ray as u32, spans.len() as u32));
+                    self.before.extend_from_slice(spans);
                 }
                 let entering = spans.partition_point(|s| s.high.at_mm <= from + LEAST_SPAN_MM);
                 if let Some(span) = spans.get(entering).filter(|s| s.low.at_mm <= from) {

@@ -32,7 +32,7 @@ pub fn chips(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Section
     let volume_mm3 = ledger.area_mm2(operation) * width_mm;
     let minutes = schedule.time_s(count as f64) / 60.0;
     let largest_n = chips.largest(|s| s.cutting_n).map(|(_, stroke)| stroke.cutting_n);
-    let power_w = largest_n.map(|force_n| force_n * ram_speed_mm_per_s(job) / 1e3);
+    let power_w = largest_n.map(|force_n| force_n * ram_speed_mm_per_s(job, operation) / 1e3);
     let power = "largest cutting force times the ram's largest speed, pi times stroke length times double strokes per \
                  time";
     let chips_of = |definition: &'static str, pick: fn(&StrokeChips) -> u32| {
@@ -104,11 +104,11 @@ pub fn entry(value: Option<f64>, unit: &'static str, definition: &'static str) -
     Quantity::number_or(value, unit, definition, NO_ENTRY)
 }
 
-/// Largest speed of the ram on its crank, mm/s.
-pub fn ram_speed_mm_per_s(job: &ShapingJob) -> f64 {
+/// Largest speed of the ram on its crank in an operation, mm/s.
+pub fn ram_speed_mm_per_s(job: &ShapingJob, operation: usize) -> f64 {
     let machine = &job.machine;
     let stroke_mm = machine.approach_mm + job.scene.gear.face_width_mm + machine.overrun_mm;
-    PI * stroke_mm * machine.double_strokes_per_minute / 60.0
+    PI * stroke_mm * job.operations[operation].schedule.double_strokes_per_minute() / 60.0
 }
 
 /// Where `value` is largest: with its stroke (counted from 0), time and work angle, the space of the stroke's largest
@@ -121,16 +121,21 @@ pub fn peak(
     unit: &'static str,
     value: &dyn Fn(&StrokeChips) -> f64,
 ) -> Quantity {
-    let schedule = &job.operations[operation].schedule;
     let definition = format!("largest {what}");
     let Some((stroke, chips)) = ledger.operations[operation].largest(value) else {
         return Quantity::undefined(unit, definition, IDLE);
     };
-    let place = Place::default()
+    Quantity::number(value(chips), unit, definition).at(stroke_place(job, ledger, operation, stroke))
+}
+
+/// Where a stroke that cuts stands: [`peak`] says with what.
+pub fn stroke_place(job: &ShapingJob, ledger: &ChipLedger, operation: usize, stroke: usize) -> Place {
+    let schedule = &job.operations[operation].schedule;
+    let chips = &ledger.operations[operation].strokes[stroke];
+    Place::default()
         .and("stroke", stroke as u64)
         .and("time_s", schedule.time_s(stroke as f64))
         .and("work_angle_deg", schedule.state(stroke as f64).psi_c_rad.to_degrees())
         .and("space", chips.space)
-        .and("cutter_tooth", chips.blade);
-    Quantity::number(value(chips), unit, definition).at(place)
+        .and("cutter_tooth", chips.blade)
 }

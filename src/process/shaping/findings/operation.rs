@@ -1,6 +1,6 @@
 //! One operation on a shaped gear: strokes, axes, chips, and the stock that it leaves.
 
-use super::{chips, program, returns, strokes, teeth};
+use super::{chips, deflection, program, returns, strokes, teeth};
 use crate::findings::{Quantity, Section};
 use crate::measure::stock::Stock;
 use crate::process::shaping::ShapingJob;
@@ -98,6 +98,7 @@ pub fn operation(
         .parts(motion.retraction_findings())
         .parts(returns::section(job, index)?)
         .part(chips::chips(job, ledger, index).table(strokes::strokes(job, ledger, index)))
+        .parts(deflection::section(job, ledger, index))
         .part(stock_range("flank_stock", "Stock on all active flanks", &over_flanks, "on all active flanks", why))
         .part(stock_range(
             "fillet_stock",

@@ -98,8 +98,8 @@ fn told(job: &ShapingJob, name: &str, judgement: &Judgement) -> Vec<Warning> {
     if judgement.is_at_another_speed() {
         let [program, scene] = judgement.strokes_per_minute;
         warnings.push(Warning::fault(format!(
-            "operation {name}: the program's S is {} double strokes per minute, the scene says {}: times and forces are \
-             those of the scene",
+            "operation {name}: the program's S is {} double strokes per minute, the scene says {}: times, speeds, \
+             drifts and lags are those of the program",
             significant(program, 6),
             significant(scene, 6)
         )));

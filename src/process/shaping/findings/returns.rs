@@ -34,7 +34,7 @@ pub fn section(job: &ShapingJob, index: usize) -> Result<Option<Section>, Refusa
     let section = Section::new("return_strokes", "Return strokes").with("direction", words);
     let section = angle(section, facts, asked, job.scene.gear.pressure_angle_rad);
     let section = surface(section, facts, asked);
-    let section = stock(section, job, facts);
+    let section = stock(section, operation.schedule.double_strokes_per_minute(), facts);
     Ok(Some(section.table(table(operation, facts))))
 }
 
@@ -86,7 +86,7 @@ fn surface(section: Section, facts: &ReturnFacts, asked: Retraction) -> Section 
 
 /// Room to all material, stock included. That return strokes rub on stock is ordinary and costs the edge, not the gear:
 /// no warning comes of it.
-fn stock(section: Section, job: &ShapingJob, facts: &ReturnFacts) -> Section {
+fn stock(section: Section, run_per_minute: f64, facts: &ReturnFacts) -> Section {
     let definition = "largest depth of the returning edge in material, stock included; 0 where it is clear";
     let depth_mm = facts.material.map_or(0.0, |room| -room.clearance.material_mm);
     let depth = Quantity::number(if depth_mm < CLEAR_MM { 0.0 } else { depth_mm }, "mm", definition);
@@ -102,13 +102,13 @@ fn stock(section: Section, job: &ShapingJob, facts: &ReturnFacts) -> Section {
                 TiltCost::Slowdown(factor) => Some(factor),
                 TiltCost::Unknown | TiltCost::NoTime => None,
             };
-            (Some(tilts_rad), slowdown, tilt_words(job, tilts_rad, cost))
+            (Some(tilts_rad), slowdown, tilt_words(run_per_minute, tilts_rad, cost))
         }
     };
     let deg = |pick: fn([f64; 2]) -> f64, definition: &'static str| {
         Quantity::number_or(tilts_rad.map(|tilts| pick(tilts).to_degrees()), "deg", definition, NO_OFFER)
     };
-    let per_minute = slowdown.map(|factor| job.machine.double_strokes_per_minute / factor);
+    let per_minute = slowdown.map(|factor| run_per_minute / factor);
     let last = "factor by which double strokes would have to last longer with that direction";
     answered(section, "depth_in_stock", "rubs on stock", depth, advice)
         .with(
@@ -125,14 +125,13 @@ fn stock(section: Section, job: &ShapingJob, facts: &ReturnFacts) -> Section {
 }
 
 /// The direction that clears stock, and what it costs in stroke time.
-fn tilt_words(job: &ShapingJob, tilts_rad: [f64; 2], cost: TiltCost) -> String {
+fn tilt_words(per_minute: f64, tilts_rad: [f64; 2], cost: TiltCost) -> String {
     let cost = match cost {
         TiltCost::Unknown => "machine.limits does not say at what cost in time".to_owned(),
         TiltCost::NoTime => "approach and overrun leave the axes no time".to_owned(),
-        TiltCost::Slowdown(factor) if factor > 1.0 => format!(
-            "double strokes then last {factor:.2} times as long, at most {:.0} per minute",
-            job.machine.double_strokes_per_minute / factor
-        ),
+        TiltCost::Slowdown(factor) if factor > 1.0 => {
+            format!("double strokes then last {factor:.2} times as long, at most {:.0} per minute", per_minute / factor)
+        }
         TiltCost::Slowdown(_) => "it costs no time".to_owned(),
     };
     let tilt_deg = 0.5 * (tilts_rad[0] + tilts_rad[1]).to_degrees();

@@ -2,6 +2,7 @@
 //!
 //! An operation has thousands of strokes, so the rows stand in the file alone.
 
+use super::deflection;
 use crate::findings::{Datum, Table, TableColumn};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips};
@@ -17,10 +18,17 @@ pub fn strokes(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Table
         let angle_deg = prepared.schedule.state(coordinate).psi_c_rad.to_degrees();
         let mut row: Vec<Datum> =
             vec![(stroke as u64).into(), prepared.schedule.time_s(coordinate).into(), angle_deg.into()];
-        row.extend(cells(job, s));
+        row.extend(cells(job, s, prepared.schedule.double_strokes_per_minute()));
+        if !prepared.deflections.is_empty() {
+            row.extend(deflection::of_stroke(job, operation, stroke).map(Datum::from));
+        }
         row
     });
-    Table::new("strokes", "Chips of every stroke", columns())
+    let mut columns = columns();
+    if !prepared.deflections.is_empty() {
+        columns.extend(deflection::KINDS.map(|(key, _, unit, definition)| TableColumn::new(key, unit, definition)));
+    }
+    Table::new("strokes", "Chips of every stroke", columns)
         .with_rows(rows)
         .rows_in_file(&format!("chips_{}", prepared.spec.name))
 }
@@ -55,8 +63,8 @@ fn columns() -> Vec<TableColumn> {
     ]
 }
 
-/// What follows stroke, time and angle.
-fn cells(job: &ShapingJob, s: &StrokeChips) -> Vec<Datum> {
+/// What follows stroke, time and angle, at so many double strokes per minute.
+fn cells(job: &ShapingJob, s: &StrokeChips, per_minute: f64) -> Vec<Datum> {
     let width_mm = job.scene.gear.face_width_mm;
     let of_busy = |value: u32| if s.is_idle() { Datum::Undefined } else { value.into() };
     let contact_mm = s.contact_length_mm();
@@ -76,6 +84,6 @@ fn cells(job: &ShapingJob, s: &StrokeChips) -> Vec<Datum> {
     row.extend(
         [s.cutting_n, s.radial_n, s.tangential_n, s.work_torque_nmm / 1e3, s.cutter_torque_nmm / 1e3].map(Datum::from),
     );
-    row.push((s.area_mm2 * width_mm * job.machine.double_strokes_per_minute / 1e3).into());
+    row.push((s.area_mm2 * width_mm * per_minute / 1e3).into());
     row
 }

@@ -2,9 +2,9 @@
 //! twice, and how fast the ram runs.
 //!
 //! In: the program and the schedule of its operation. Out: [`Judgement`]. Law: a stroke of the program is the stroke of
-//! the schedule that it lies nearest to, if it lies nearer to it than a quarter of the way to its neighbours or than the
-//! contour error that is asked for; a stroke of the schedule that no stroke of the program is, is missing. Strokes are
-//! thus counted one by one, however many of them follow each other.
+//! the schedule that it lies nearest to, if it lies nearer to it than a quarter of the way to its neighbours or than
+//! the contour error that is asked for; a stroke of the schedule that no stroke of the program is, is missing. Strokes
+//! are thus counted one by one, however many of them follow each other.
 //!
 //! Road not taken: what each stroke removes from the blank ([`crate::steps::planar::stroke_faults`]). It needs no
 //! schedule, but five missing strokes in a row leave one large chip.
@@ -39,19 +39,29 @@ impl Judgement {
     /// Whether the ram runs at another speed than the scene says.
     pub fn is_at_another_speed(&self) -> bool {
         let [program, scene] = self.strokes_per_minute;
-        (program / scene - 1.0).abs() > SAME_SPEED
+        differ(program, scene)
     }
 }
 
+fn differ(one_per_minute: f64, other_per_minute: f64) -> bool {
+    (one_per_minute / other_per_minute - 1.0).abs() > SAME_SPEED
+}
+
 impl AxisProgram {
+    /// Whether its ram runs at another speed than the scene says.
+    pub fn is_at_another_speed(&self, asked_per_minute: f64) -> bool {
+        differ(self.double_strokes_per_minute, asked_per_minute)
+    }
+
     /// The program against a schedule; `ram` where its axes draw the cutter back, so that it is compared while it cuts.
-    /// `contour_error_mm` is what a program may be off.
+    /// `contour_error_mm` is what a program may be off, `asked_per_minute` the scene's double strokes.
     pub fn judged(
         &self,
         schedule: &StrokeSchedule,
         tip_radius_mm: f64,
         ram: Option<&RamTimes>,
         contour_error_mm: f64,
+        asked_per_minute: f64,
         continuous: bool,
     ) -> Judgement {
         let (distance_mm, distance_at) = match ram {
@@ -87,7 +97,7 @@ impl AxisProgram {
             }
         }
         let missing = (0..made.len()).filter(|&stroke| !made[stroke]).collect();
-        let strokes_per_minute = [self.double_strokes_per_minute, 60.0 / schedule.time_s(1.0)];
+        let strokes_per_minute = [self.double_strokes_per_minute, asked_per_minute];
         Judgement { distance_mm, distance_at, missing, doubled, off, strokes_per_minute }
     }
 }

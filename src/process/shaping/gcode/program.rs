@@ -239,8 +239,8 @@ impl AxisProgram {
     }
 
     /// What the program asks of the axes, axis by axis: speeds within blocks, and steps of speed between blocks taken
-    /// within one double stroke, or within the shorter of both blocks where that is less; each with its stroke. Where an
-    /// infeed of `schedule` begins or ends, the control rounds the corner, as it does for the schedule itself.
+    /// within one double stroke, or within the shorter of both blocks where that is less; each with its stroke. Where
+    /// an infeed of `schedule` begins or ends, the control rounds the corner, as it does for the schedule itself.
     pub fn peaks(&self, schedule: &StrokeSchedule, limits: &[Limits; 3]) -> Vec<Peak> {
         let rounded = |at: f64| schedule.corners().iter().any(|corner| (corner - at).abs() < 1.0);
         let stroke_s = 60.0 / self.double_strokes_per_minute;

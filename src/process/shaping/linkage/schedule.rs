@@ -40,6 +40,7 @@ pub struct StrokeSchedule {
     count: usize,
     start_phi_rad: f64,
     strokes_per_revolution: u32,
+    double_strokes_per_minute: f64,
     seconds_per_stroke: f64,
 }
 
@@ -134,6 +135,7 @@ impl StrokeSchedule {
             per_stroke,
             count: infeed.plunge_strokes() + rolling as usize,
             strokes_per_revolution,
+            double_strokes_per_minute: dspm,
             seconds_per_stroke: 60.0 / dspm,
         })
     }
@@ -157,6 +159,17 @@ impl StrokeSchedule {
     /// strokes per revolution.
     pub fn circular_feed_mm_per_stroke(&self) -> f64 {
         self.linkage.curve().perimeter_mm() / f64::from(self.strokes_per_revolution)
+    }
+
+    /// The same strokes at another speed of the ram: that of a program that is cut in their place.
+    #[must_use]
+    pub fn at_speed(self, double_strokes_per_minute: f64) -> Self {
+        Self { double_strokes_per_minute, seconds_per_stroke: 60.0 / double_strokes_per_minute, ..self }
+    }
+
+    /// Speed of the ram.
+    pub fn double_strokes_per_minute(&self) -> f64 {
+        self.double_strokes_per_minute
     }
 
     /// Time of a stroke coordinate from the beginning of stroke 0, s.

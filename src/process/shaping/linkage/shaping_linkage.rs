@@ -38,9 +38,9 @@ impl ShapingLinkage {
     /// Linkage for offsets from 0 to `offset_mm` (the largest that will be used; inverse queries are fastest there).
     ///
     /// # Errors
-    /// A pitch radius or offset that is not finite, r_c <= 0 or r_c + offset <= 0, or a curvature so sharp that the work
-    /// would have to turn back: the cutter's pitch circle (with the offset) does not fit into a hollow of the curve, or
-    /// into the ring.
+    /// A pitch radius or offset that is not finite, r_c <= 0 or r_c + offset <= 0, or a curvature so sharp that the
+    /// work would have to turn back: the cutter's pitch circle (with the offset) does not fit into a hollow of the
+    /// curve, or into the ring.
     pub fn new(
         gear: GearKind,
         kind: Linkage,

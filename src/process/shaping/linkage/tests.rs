@@ -11,7 +11,7 @@ use std::sync::Arc;
 use proptest::prelude::*;
 
 use super::*;
-use crate::machine_errors::MachineErrors;
+use crate::machine_errors::{Compliance, MachineErrors};
 use crate::process::shaping::scene::model::{
     AxisLimits, Feed, Infeed, Linkage, Machine, NormalReading, Operation, Retraction, StrokeSpacing,
     TraditionalDirection,
@@ -45,6 +45,7 @@ fn machine() -> Machine {
         back_off_mm: 0.5,
         retraction: Retraction::CenterLine,
         errors: MachineErrors::default(),
+        compliance: Compliance::default(),
         limits: AxisLimits {
             work_speed_rad_per_s: Some(0.1),
             cutter_speed_rad_per_s: Some(0.2),
@@ -58,6 +59,7 @@ fn operation(offset_mm: f64, strokes: u32) -> Operation {
     Operation {
         name: "rough".to_owned(),
         offset_mm,
+        stock_scatter: None,
         linkage: NORMAL,
         feed: Feed::StrokesPerRevolution(strokes),
         spacing: StrokeSpacing::WorkAngle,

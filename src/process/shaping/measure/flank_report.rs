@@ -50,8 +50,8 @@ pub struct ShapedFlank {
     pub form: FlankLimit,
     /// Tip.
     pub tip: FlankLimit,
-    /// Stock of every operation but the last over the finished surface, on the active flank: the evaluated profile above
-    /// the operation's own fillet. `None` where the operation reached nothing.
+    /// Stock of every operation but the last over the finished surface, on the active flank: the evaluated profile
+    /// above the operation's own fillet. `None` where the operation reached nothing.
     pub stock: Vec<Option<Stock>>,
     /// The same below it, where the operation's fillet stands on the finished flank.
     pub fillet_stock: Vec<Option<Stock>>,

@@ -2,6 +2,7 @@
 
 pub mod below_finished;
 pub mod crossing;
+pub mod flank_deflection;
 pub mod flank_report;
 pub mod gear_report;
 pub mod unevenness;

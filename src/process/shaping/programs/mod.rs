@@ -12,7 +12,8 @@ use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::scene::model::{GcodeDialect, Linkage, NormalReading};
 use gearcut_core::units::UM_PER_MM;
 
-/// The program of an operation, `warnings` in its head; an error is the reason why there is none, `None`: none is wanted.
+/// The program of an operation, `warnings` in its head; an error is the reason why there is none, `None`: none is
+/// wanted.
 pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning]) -> Option<Result<String, String>> {
     if job.gcode == GcodeDialect::None {
         return None;

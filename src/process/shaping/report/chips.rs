@@ -12,11 +12,19 @@ pub fn section(job: &ShapingJob, ledger: &ChipLedger, found: &Findings) -> PageS
     let operations = found.parts("operations");
     let blocks = operations.iter().enumerate().filter_map(|(index, operation)| {
         let chips = operation.find("chips")?;
-        let [load, along] = charts(job, ledger, index).map(|(_, chart)| Block::Lines(chart));
-        let table = Block::Table(quantities::table(chips));
+        let mut charts = charts(job, ledger, index).into_iter().map(|(_, chart)| Block::Lines(chart));
         let heading = Block::Heading(format!("{}: chips and cutting forces", operation.key));
-        let folded = Block::Folded("Thickness and contact along the edge".to_owned(), vec![along]);
-        Some([heading, load, table, folded])
+        let mut blocks = vec![heading];
+        blocks.extend(charts.next());
+        blocks.push(Block::Table(quantities::table(chips)));
+        let along: Vec<Block> = charts.next().into_iter().collect();
+        blocks.push(Block::Folded("Thickness and contact along the edge".to_owned(), along));
+        if let Some(deflection) = operation.find("deflection") {
+            blocks.push(Block::Heading(format!("{}: deflection of cutter and work", operation.key)));
+            blocks.extend(charts);
+            blocks.push(Block::Table(quantities::table(deflection)));
+        }
+        Some(blocks)
     });
     PageSection {
         id: "chips",

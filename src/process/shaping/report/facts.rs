@@ -5,7 +5,7 @@ use crate::output::report::PageSection;
 use crate::output::text::plain;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
-use crate::process::shaping::scene::model::{Retraction, Tip};
+use crate::process::shaping::scene::model::{EdgeRoughness, Retraction, Tip};
 use crate::steps::report::facts::{gear_table, mm, round_gear_table, speed_limits, table};
 use crate::steps::report::machine_errors::errors_table;
 use gearcut_core::units::UM_PER_MM;
@@ -19,6 +19,14 @@ pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
         Tip::Chamfer { height_mm, angle_rad } => {
             format!("chamfers {} high at {}°", mm(height_mm), plain(angle_rad.to_degrees()))
         }
+    };
+    let edges = match &tool.edge_roughness {
+        None => "smooth".to_owned(),
+        Some(EdgeRoughness::Spectrum { rq_mm, correlation_mm, seed }) => {
+            let [rq_um, correlation_um] = [rq_mm, correlation_mm].map(|mm| plain(UM_PER_MM * mm));
+            format!("rough: Rq {rq_um} µm, correlation length {correlation_um} µm, seed {seed}")
+        }
+        Some(EdgeRoughness::Profile(path)) => format!("rough: profile {}", path.display()),
     };
     let back_off = match machine.retraction {
         Retraction::CenterLine => mm(machine.back_off_mm),
@@ -38,6 +46,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
                 ("Profile shift", format!("{} m", plain(tool.profile_shift_coefficient))),
                 ("Thinning", format!("{} µm", plain(UM_PER_MM * tool.thinning_mm))),
                 ("Tip", tip),
+                ("Cutting edges", edges),
                 ("Top rake", format!("{}°", plain(tool.rake_angle_rad.to_degrees()))),
                 ("Runout", format!("{} µm", plain(UM_PER_MM * tool.runout_mm))),
                 (

@@ -1,7 +1,7 @@
 //! The cutter stroke by stroke, for the page's 3D view: where it stands, and what each stroke takes.
 //!
-//! The cutter is drawn over the gear's upper face, at the upper end of its stroke, where it hides no flank and its teeth
-//! stand over the spaces that they cut; its height is a drawing's, not the tool's.
+//! The cutter is drawn over the gear's upper face, at the upper end of its stroke, where it hides no flank and its
+//! teeth stand over the spaces that they cut; its height is a drawing's, not the tool's.
 
 use crate::output::report::viewer::{ViewerStroke, ViewerStrokes};
 use crate::process::shaping::ShapingJob;

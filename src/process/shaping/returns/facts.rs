@@ -14,7 +14,7 @@ use crate::process::shaping::scene::model::Retraction;
 use gearcut_core::error::Refusal;
 
 /// What is known of return strokes.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct ReturnFacts {
     /// Room over one period of the pitch curve.
     pub period: Vec<PlacedRoom>,

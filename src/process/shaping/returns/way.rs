@@ -1,7 +1,7 @@
 //! The cutter's way in one operation, and how fast a depth can grow along it.
 //!
-//! In: poses that follow each other closely. Out: from a pose and a point of the work, how many poses it takes until the
-//! point can stand so much deeper in a cutter tooth.
+//! In: poses that follow each other closely. Out: from a pose and a point of the work, how many poses it takes until
+//! the point can stand so much deeper in a cutter tooth.
 //!
 //! The depth of a point changes by no more than the point moves against the tooth. From one pose to the next that is
 //! the turn between the poses times the distance from a pivot, and what the pivot itself slips; over k poses, with the

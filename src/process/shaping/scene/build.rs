@@ -1,26 +1,34 @@
 //! Checked values of a shaping scene to the model.
 
-use super::keys::AXES;
+use super::keys::{AXES, EDGE_ROUGHNESS};
 use super::model::{
-    AxisLimits, CutterSpec, Feed, GcodeDialect, Infeed, Linkage, Machine, NormalReading, Operation, Retraction,
-    Shaping, StrokeSpacing, Tip, TraditionalDirection,
+    AxisLimits, CutterSpec, EdgeRoughness, Feed, GcodeDialect, Infeed, Linkage, Machine, NormalReading, Operation,
+    Retraction, Shaping, StockScatter, StrokeSpacing, Tip, TraditionalDirection,
 };
+use crate::machine_errors::{Compliance, SideCompliance};
 use crate::material::EdgeForce;
+use crate::random::Draws;
 use crate::scene::ScenePart;
 use crate::scene::build::stock_or_offset_mm;
 use crate::scene::machine_errors::machine_errors;
-use crate::scene::values::Values;
+use crate::scene::values::{Values, View};
 use gearcut_core::units::UM_PER_MM;
 use std::path::Path;
+
+/// Number of the first operation's source of random numbers: axes have those from 0 on.
+const STOCK_SOURCE: u32 = 100;
+/// mm/N for 1 um/kN.
+const MM_PER_N_IN_UM_PER_KN: f64 = 1e-6;
+/// rad/(N mm) for 1 urad/(N m).
+const RAD_PER_NMM_IN_URAD_PER_NM: f64 = 1e-9;
 
 /// Shaping: cutter, machine and operations.
 pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
     let pressure_angle_rad = values.view("gear").rad("pressure_angle_deg")?;
-    let operations: Option<Vec<Operation>> = (0..values.count("operation"))
-        .map(|index| operation(values, &format!("operation.{index}"), base_dir, pressure_angle_rad))
-        .collect();
+    let operations: Option<Vec<Operation>> =
+        (0..values.count("operation")).map(|index| operation(values, index, base_dir, pressure_angle_rad)).collect();
     Some(ScenePart::new(Shaping {
-        tool: shaper_cutter(values)?,
+        tool: shaper_cutter(values, base_dir)?,
         machine: machine(values)?,
         operations: operations?,
         material: material(values)?,
@@ -44,7 +52,7 @@ fn material(values: &Values) -> Option<EdgeForce> {
     })
 }
 
-fn shaper_cutter(values: &Values) -> Option<CutterSpec> {
+fn shaper_cutter(values: &Values, base_dir: &Path) -> Option<CutterSpec> {
     let cutter = values.view("tool.shaper_cutter");
     let round = values.view("tool.shaper_cutter.tip.round");
     let chamfer = values.view("tool.shaper_cutter.tip.chamfer");
@@ -64,7 +72,18 @@ fn shaper_cutter(values: &Values) -> Option<CutterSpec> {
         runout_mm: cutter.mm_from_um("runout_um")?,
         runout_angle_rad: cutter.rad("runout_angle_deg")?,
         pitch_errors_mm: cutter.numbers("pitch_errors_um")?.iter().map(|um| um / UM_PER_MM).collect(),
+        edge_roughness: edge_roughness(values, base_dir),
     })
+}
+
+fn edge_roughness(values: &Values, base_dir: &Path) -> Option<EdgeRoughness> {
+    let roughness = values.view(EDGE_ROUGHNESS);
+    if let Some(name) = roughness.text("profile") {
+        return Some(EdgeRoughness::Profile(base_dir.join(name)));
+    }
+    let rq_mm = roughness.mm_from_um("rq_um").filter(|&rq_mm| rq_mm > 0.0)?;
+    let correlation_mm = roughness.mm_from_um("correlation_length_um")?;
+    Some(EdgeRoughness::Spectrum { rq_mm, correlation_mm, seed: roughness.whole("seed")? })
 }
 
 fn machine(values: &Values) -> Option<Machine> {
@@ -84,6 +103,7 @@ fn machine(values: &Values) -> Option<Machine> {
             _ => return None,
         },
         errors: machine_errors(values, &AXES)?,
+        compliance: compliance(values),
         limits: AxisLimits {
             work_speed_rad_per_s: limits.rad("work_speed_deg_per_s"),
             cutter_speed_rad_per_s: limits.rad("cutter_speed_deg_per_s"),
@@ -96,7 +116,21 @@ fn machine(values: &Values) -> Option<Machine> {
     })
 }
 
-fn operation(values: &Values, path: &str, base_dir: &Path, pressure_angle_rad: f64) -> Option<Operation> {
+fn compliance(values: &Values) -> Compliance {
+    let view = values.view("machine.compliance");
+    let side = |side: &str| {
+        let of = |name: &str| view.number(&format!("{side}_{name}")).unwrap_or(0.0);
+        SideCompliance {
+            radial_mm_per_n: of("radial_um_per_kn") * MM_PER_N_IN_UM_PER_KN,
+            tangential_mm_per_n: of("tangential_um_per_kn") * MM_PER_N_IN_UM_PER_KN,
+            torsional_rad_per_nmm: of("torsional_urad_per_nm") * RAD_PER_NMM_IN_URAD_PER_NM,
+        }
+    };
+    Compliance { tool: side("tool"), work: side("work") }
+}
+
+fn operation(values: &Values, index: usize, base_dir: &Path, pressure_angle_rad: f64) -> Option<Operation> {
+    let path = &format!("operation.{index}");
     let operation = values.view(path);
     let feed = match operation.number("circular_feed_mm_per_stroke") {
         Some(feed_mm) => Feed::CircularMmPerStroke(feed_mm),
@@ -109,6 +143,7 @@ fn operation(values: &Values, path: &str, base_dir: &Path, pressure_angle_rad: f
     Some(Operation {
         name: operation.text("name")?.to_owned(),
         offset_mm: stock_or_offset_mm(operation, pressure_angle_rad)?,
+        stock_scatter: stock_scatter(values, operation, index, pressure_angle_rad),
         linkage: linkage(values, path, operation.variant("linkage")?)?,
         feed,
         spacing: match operation.text("stroke_spacing")? {
@@ -123,6 +158,15 @@ fn operation(values: &Values, path: &str, base_dir: &Path, pressure_angle_rad: f
         infeed: infeed(values, path, operation.variant("infeed")?)?,
         feed_during_stroke: operation.boolean("feed_during_stroke")?,
         program: operation.text("program").map(|name| base_dir.join(name)),
+    })
+}
+
+fn stock_scatter(values: &Values, operation: View<'_>, index: usize, pressure_angle_rad: f64) -> Option<StockScatter> {
+    let stock_mm = operation.mm_from_um("stock_scatter_um").filter(|&stock_mm| stock_mm > 0.0)?;
+    Some(StockScatter {
+        deviation_mm: stock_mm / pressure_angle_rad.sin(),
+        length_mm: operation.number("stock_scatter_length_mm"),
+        draws: Draws::new(values.view("machine.errors").whole("seed")?, STOCK_SOURCE + index as u32),
     })
 }
 

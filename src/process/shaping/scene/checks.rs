@@ -1,6 +1,8 @@
 //! Values of a shaping scene compared with each other.
 
-use super::keys::AXES;
+use super::defaults::reach_mm;
+use super::keys::{AXES, EDGE_ROUGHNESS};
+use crate::scene::build::stock_or_offset_mm;
 use crate::scene::keys::join;
 use crate::scene::machine_errors;
 use crate::scene::problems::Found;
@@ -18,18 +20,33 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     // A missing value ends only the check that asks for it.
     let _: [Option<()>; 4] = [cutter_core(found), cutter_thinning(found), pitch_errors(found), chips(found)];
     tip(found);
+    edge_roughness(found);
     machine_errors::check(found, &AXES);
     for index in 0..found.values.count("operation") {
         let path = format!("operation.{index}");
-        let _: [Option<()>; 6] = [
+        let _: [Option<()>; 7] = [
             window(found, &path),
             offset(found, &path),
             strokes(found, &path),
             feed(found, &path),
             time_spacing(found, &path),
             infeed(found, &path),
+            scatter(found, &path),
         ];
     }
+}
+
+/// A root mean square says nothing without a length, nor a length without it.
+fn edge_roughness(found: &mut Found) {
+    let view = found.view(EDGE_ROUGHNESS);
+    let written = ["rq_um", "correlation_length_um"].map(|name| view.number(name).is_some());
+    let (key, missing) = match written {
+        [true, false] => (join(EDGE_ROUGHNESS, "rq_um"), "correlation_length_um"),
+        [false, true] => (join(EDGE_ROUGHNESS, "correlation_length_um"), "rq_um"),
+        _ => return,
+    };
+    let message = || format!("`{key}` says nothing without {missing}");
+    found.blame(true, &key, message, &format!("write {missing} as well, or remove it"));
 }
 
 fn cutter_core(found: &mut Found) -> Option<()> {
@@ -112,16 +129,10 @@ fn window(found: &mut Found, path: &str) -> Option<()> {
 }
 
 fn offset(found: &mut Found, path: &str) -> Option<()> {
-    let (gear, cutter) = (found.view("gear"), found.view("tool.shaper_cutter"));
-    let shift = cutter.number("profile_shift_coefficient")?.max(0.0);
-    let reach = gear.number("addendum_coefficient")? + cutter.number("addendum_coefficient")? + shift;
-    let reach_mm = reach * gear.number("module_mm")?;
+    let reach_mm = reach_mm(found.values)?;
     let operation = found.view(path);
-    let (name, offset_mm) = if let Some(stock_mm) = operation.number("stock_per_flank_mm") {
-        ("stock_per_flank_mm", stock_mm / gear.number("pressure_angle_deg")?.to_radians().sin())
-    } else {
-        ("offset_mm", operation.number("offset_mm")?)
-    };
+    let offset_mm = stock_or_offset_mm(operation, found.view("gear").rad("pressure_angle_deg")?)?;
+    let name = if operation.number("stock_per_flank_mm").is_some() { "stock_per_flank_mm" } else { "offset_mm" };
     let message = || {
         format!(
             "an offset of {offset_mm:.3} mm keeps the cutter out of the blank: it reaches {reach_mm:.3} mm deep at \
@@ -187,5 +198,16 @@ fn infeed(found: &mut Found, path: &str) -> Option<()> {
     let message = || format!("the infeed takes {angle_deg} deg, but the operation rolls over only {turn_deg} deg");
     let way_out = "feed over a smaller angle, or roll over more: revolutions, overlap_deg";
     found.blame(angle_deg >= turn_deg, &join(&inside, "angle_deg"), message, way_out);
+    Some(())
+}
+
+/// A length over which nothing scatters says nothing.
+fn scatter(found: &mut Found, path: &str) -> Option<()> {
+    let operation = found.view(path);
+    operation.number("stock_scatter_length_mm")?;
+    let key = join(path, "stock_scatter_length_mm");
+    let message = || format!("`{key}` says nothing without stock_scatter_um");
+    let alone = operation.number("stock_scatter_um").is_none();
+    found.blame(alone, &key, message, "write stock_scatter_um as well, or remove it");
     Some(())
 }

@@ -2,12 +2,26 @@
 
 mod build;
 mod checks;
+mod defaults;
 mod keys;
 pub mod model;
 
-use crate::scene::values::{Checked, Values};
-use crate::scene::{ProcessPart, SceneProcess, Senseless};
+use crate::machine_errors::{Compliance, ErrorLayer};
+use crate::scene::error_sources::{self, ErrorSource, KeyForm};
+use crate::scene::{ProcessPart, SceneProcess, Senseless, StandardOperation};
 use model::Shaping;
+
+/// Errors of the cutter.
+static TOOL_ERRORS: &[ErrorSource] = &[
+    error_sources::runout("tool.shaper_cutter"),
+    ErrorSource {
+        section: "tool.shaper_cutter",
+        form: KeyForm::Entries { list: "pitch_errors_um", count: "teeth" },
+        unit: "um",
+        step: 4.0,
+        what: "pitch of cutter tooth",
+    },
+];
 
 /// Shaping with a pinion cutter.
 pub static SCENE: SceneProcess = SceneProcess {
@@ -18,6 +32,13 @@ pub static SCENE: SceneProcess = SceneProcess {
     scenes: include_str!("scenes.md"),
     sections: keys::SECTIONS,
     added: keys::ADDED,
+    operations: &[
+        StandardOperation {
+            name: "rough",
+            template: &[("name", "\"rough\""), ("stock_per_flank_mm", "0.2"), ("strokes_per_revolution", "840")],
+        },
+        StandardOperation { name: "finish", template: &[("name", "\"finish\""), ("strokes_per_revolution", "4200")] },
+    ],
     per_revolution: &["strokes_per_revolution"],
     of_one_gear: &["window_deg", "program"],
     on_demand: &[],
@@ -29,7 +50,9 @@ pub static SCENE: SceneProcess = SceneProcess {
         },
         Senseless { path: "gear.hand", why: "the ram strokes along the gear's axis", instead: "remove it" },
     ],
-    derive,
+    axes: &keys::AXES,
+    errors: &[error_sources::MOUNTING, error_sources::GUIDE, TOOL_ERRORS],
+    derive: defaults::derive,
     check: checks::check,
     build: build::build,
 };
@@ -39,27 +62,39 @@ impl ProcessPart for Shaping {
         &SCENE
     }
 
+    fn error_layers(&self) -> Vec<ErrorLayer> {
+        let tool = self.tool.runout_mm != 0.0 || self.tool.pitch_errors_mm.iter().any(|&error| error != 0.0);
+        let own = [
+            (ErrorLayer::Tool, tool),
+            (ErrorLayer::Stock, self.operations.iter().any(|operation| operation.stock_scatter.is_some())),
+            (ErrorLayer::Edge, self.tool.edge_roughness.is_some()),
+            (ErrorLayer::Deflection, !self.machine.compliance.is_none()),
+        ];
+        self.machine.errors.layers(&own)
+    }
+
+    fn keep_layers(&mut self, kept: &[ErrorLayer]) {
+        self.machine.errors.keep(kept);
+        if !kept.contains(&ErrorLayer::Tool) {
+            self.tool.runout_mm = 0.0;
+            self.tool.pitch_errors_mm.clear();
+        }
+        if !kept.contains(&ErrorLayer::Stock) {
+            self.operations.iter_mut().for_each(|operation| operation.stock_scatter = None);
+        }
+        if !kept.contains(&ErrorLayer::Edge) {
+            self.tool.edge_roughness = None;
+        }
+        if !kept.contains(&ErrorLayer::Deflection) {
+            self.machine.compliance = Compliance::default();
+        }
+    }
+
     fn operation_names(&self) -> Vec<&str> {
         self.operations.iter().map(|operation| operation.name.as_str()).collect()
     }
 
     fn ray_spacings(&self) -> Vec<(&'static str, [f64; 2])> {
         vec![("fields.chips.spacing_mm", [self.chip_spacing_mm, keys::LARGEST_CHIP_SPACING_MM])]
-    }
-}
-
-/// Spacing of the chips' rays, strokes per revolution.
-fn derive(values: &mut Values) {
-    let gear = values.view("gear");
-    let (module_mm, teeth) = (gear.number("module_mm"), gear.whole("teeth"));
-    if let Some(module_mm) = module_mm {
-        values.put_default("fields.chips", "spacing_mm", Checked::Number((module_mm / 60.0).max(0.002)));
-    }
-    let Some(teeth) = teeth else { return };
-    for index in 0..values.count("operation") {
-        let path = format!("operation.{index}");
-        if !values.is_written(&path, "circular_feed_mm_per_stroke") {
-            values.put_default(&path, "strokes_per_revolution", Checked::Whole(100 * teeth));
-        }
     }
 }

@@ -1,7 +1,8 @@
 //! Checked values of shaping scenes: cutter, machine, operations; mm, rad, s.
 
-use crate::machine_errors::MachineErrors;
+use crate::machine_errors::{Compliance, MachineErrors};
 use crate::material::EdgeForce;
+use crate::random::Draws;
 use crate::scene::Scene;
 use std::path::PathBuf;
 
@@ -69,6 +70,24 @@ pub struct CutterSpec {
     /// Cumulative pitch error of each cutter tooth on the pitch circle, mm, positive counter-clockwise; empty or one
     /// value per tooth.
     pub pitch_errors_mm: Vec<f64>,
+    /// Roughness of its edges along the flanks.
+    pub edge_roughness: Option<EdgeRoughness>,
+}
+
+/// Roughness of cutting edges along the cutter's flanks.
+#[derive(Debug, Clone, PartialEq)]
+pub enum EdgeRoughness {
+    /// A random one on every flank, normal, of the autocovariance Rq^2 exp(-(s / l)^2).
+    Spectrum {
+        /// Rq: its standard deviation.
+        rq_mm: f64,
+        /// l: arc along the edge at which the autocovariance has fallen to 1/e.
+        correlation_mm: f64,
+        /// Which cutter.
+        seed: u32,
+    },
+    /// A measured one, the same on all flanks, from a table.
+    Profile(PathBuf),
 }
 
 /// Tip corners of the cutter.
@@ -105,6 +124,8 @@ pub struct Machine {
     pub retraction: Retraction,
     /// What is wrong with its axes (work, cutter, centre distance), its ram's guide and the work on its spindle.
     pub errors: MachineErrors<3>,
+    /// How far cutter and work give way to the forces of the cut.
+    pub compliance: Compliance,
     /// Limits of the axes, where known.
     pub limits: AxisLimits,
 }
@@ -157,6 +178,17 @@ pub struct AxisLimits {
     pub cutting_force_n: Option<f64>,
 }
 
+/// Scatter of the stock that an operation leaves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StockScatter {
+    /// Standard deviation of the offset: that of the stock normal to flanks / sin(pressure angle).
+    pub deviation_mm: f64,
+    /// Arc of pitch curve over which its correlation falls to 1/e; `None`: another offset with every stroke.
+    pub length_mm: Option<f64>,
+    /// Where its numbers come from.
+    pub draws: Draws,
+}
+
 /// One run of a linkage over the work.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Operation {
@@ -166,6 +198,8 @@ pub struct Operation {
     pub offset_mm: f64,
     /// Which linkage moves the axes.
     pub linkage: Linkage,
+    /// How the stock scatters that it leaves; `None`: not at all.
+    pub stock_scatter: Option<StockScatter>,
     /// How many strokes.
     pub feed: Feed,
     /// What advances equally from stroke to stroke.

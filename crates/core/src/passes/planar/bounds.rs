@@ -16,6 +16,8 @@
 //! lowest certain surface stays in front of that tangent by more than the edge can bulge between two samples is not
 //! touched. The same look culls a whole time interval of strokes at once ([`super::time_intervals`]): there the tangent
 //! must stay away by as much as any of the strokes moves the blade.
+//!
+//! A rough segment is not convex. It is bounded by its smooth course, moved out and in by the depth of its roughness.
 
 use super::near::NearPass;
 use super::samples::{PassSamples, Sampling};
@@ -25,6 +27,7 @@ use crate::frame::Rigid2;
 use crate::tool::edge::{Segment, SegmentShape};
 use arrayvec::ArrayVec;
 use glam::DVec2;
+use std::borrow::Cow;
 
 /// Safety on every bound of a second derivative. C is taken at the samples; between them the edge's curvature, the
 /// angle of the ray and the height may raise it. No proof says that they raise it by less than half: what stands for it
@@ -99,8 +102,12 @@ pub struct MotionBound {
 
 /// Segments with what the bounds need of them.
 pub struct SegmentBounds<'a> {
-    /// Segments of all edges, one edge after another.
-    pub segments: &'a [Segment],
+    /// Segments of all edges, one edge after another, without their roughness.
+    pub segments: Cow<'a, [Segment]>,
+    /// How far each stays within that course along x, mm.
+    depths_mm: Vec<f64>,
+    /// Smallest and largest dx/dy of each, roughness included.
+    slope_ranges: Vec<[f64; 2]>,
     /// Largest curvature of each, 1/mm.
     curvatures_per_mm: Vec<f64>,
     /// x range of each in its own frame, mm.
@@ -129,10 +136,15 @@ impl<'a> SegmentBounds<'a> {
                 [low - bulge_mm, high + bulge_mm]
             }
         };
+        let rough = segments.iter().any(|segment| segment.smooth.is_some());
+        let smooth: Cow<[Segment]> =
+            if rough { segments.iter().map(Segment::smoothed).collect() } else { Cow::Borrowed(segments) };
         Self {
-            segments,
-            curvatures_per_mm: segments.iter().map(curvature).collect(),
-            x_ranges_mm: segments.iter().map(x_range).collect(),
+            depths_mm: segments.iter().map(Segment::depth_mm).collect(),
+            slope_ranges: segments.iter().map(|segment| segment.slope_range).collect(),
+            curvatures_per_mm: smooth.iter().map(curvature).collect(),
+            x_ranges_mm: smooth.iter().map(x_range).collect(),
+            segments: smooth,
         }
     }
 
@@ -142,7 +154,7 @@ impl<'a> SegmentBounds<'a> {
         let Segment { blade_from_segment, y_range_mm, .. } = &self.segments[segment];
         let [x_low, x_high] = self.x_ranges_mm[segment];
         // A ray through the joint of two segments meets the box of both.
-        let margin_mm = margin_mm + ROUNDING_MM;
+        let margin_mm = margin_mm + self.depths_mm[segment] + ROUNDING_MM;
         let turn = DVec2::new(blade_from_segment.rotation.x, -blade_from_segment.rotation.y);
         rays.iter().any(|ray| {
             let o = turn.rotate(ray.origin_mm - blade_from_segment.translation_mm);
@@ -183,7 +195,7 @@ impl<'a> SegmentBounds<'a> {
         let segment = &self.segments[segment_index];
         let frame = &segment.blade_from_segment;
         let turn = DVec2::new(frame.rotation.x, -frame.rotation.y);
-        let curvature = self.curvatures_per_mm[segment_index];
+        let (curvature, depth_mm) = (self.curvatures_per_mm[segment_index], self.depths_mm[segment_index]);
         let reach_mm2 = sampling.cell_mm * sampling.cell_mm + travel_mm * travel_mm;
         // Over a distance d the edge's normal turns by k_e d. Twice that is given, as the aimed point moves along the
         // edge by more than d where ray and edge are steep to each other: a safety without proof, as that of the
@@ -209,7 +221,7 @@ impl<'a> SegmentBounds<'a> {
             let length = stretch.sqrt();
             let surface = sampling.turn_per_mm * (1.0 + 2.0 * slope + height_mm.abs() * sampling.turn_per_mm);
             let bulge_mm = CURVATURE_SAFETY * (curvature * stretch + surface) * reach_mm2 / 8.0;
-            residual_mm > length * (bulge_mm + motion_bound.distance_mm + ROUNDING_MM)
+            residual_mm > length * (bulge_mm + motion_bound.distance_mm + depth_mm + ROUNDING_MM)
                 && -n.dot(normal) > grazing * length
         })
     }
@@ -220,7 +232,7 @@ impl<'a> SegmentBounds<'a> {
         let segment_from_blade = segment.blade_from_segment.inverse();
         let phases = &near.blade_from_work;
         let samples = sampling.places.len() * phases.len();
-        let (mut heights_mm, mut curvature) = (ArrayVec::new(), 0.0_f64);
+        let (mut heights_mm, mut curvature, mut least_cos) = (ArrayVec::new(), 0.0_f64, 1.0_f64);
         let (mut y_low, mut y_high) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut missed, mut away) = (false, 0);
         for ray in sampling.places {
@@ -228,7 +240,7 @@ impl<'a> SegmentBounds<'a> {
                 let origin = segment_from_blade.point(blade_from_work.point(ray.origin_mm));
                 let direction = segment_from_blade.direction(blade_from_work.direction(ray.normal));
                 let leaves = |slope: f64| direction.x - slope * direction.y > LEAVING_SLOPE;
-                if segment.slope_range.iter().all(|&slope| leaves(slope)) {
+                if self.slope_ranges[segment_index].iter().all(|&slope| leaves(slope)) {
                     away += 1;
                     continue;
                 }
@@ -238,6 +250,7 @@ impl<'a> SegmentBounds<'a> {
                     continue;
                 };
                 let cos = -hit.normal.dot(direction);
+                least_cos = least_cos.min(cos);
                 let tan2 = 1.0 / (cos * cos) - 1.0;
                 let turn = sampling.turn_per_mm;
                 let stretch = 1.0 + (hit.height_mm * turn).abs();
@@ -263,12 +276,14 @@ impl<'a> SegmentBounds<'a> {
         if missed || away > 0 {
             return Verdict::Undecided;
         }
-        let lowest = heights_mm.iter().copied().fold(f64::INFINITY, f64::min);
-        let highest = heights_mm.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        // What roughness moves an entry by, along the ray and along the edge.
+        let rough_mm = CURVATURE_SAFETY * self.depths_mm[segment_index] / least_cos;
+        let lowest = heights_mm.iter().copied().fold(f64::INFINITY, f64::min) - rough_mm;
+        let highest = heights_mm.iter().copied().fold(f64::NEG_INFINITY, f64::max) + rough_mm;
         if lowest <= sampling.floor_mm {
             return if highest < sampling.floor_mm - FLOOR_MM { Verdict::Clear } else { Verdict::Undecided };
         }
-        let tolerance_mm = END_SHARE * (y_high - y_low) + END_MM;
+        let tolerance_mm = END_SHARE * (y_high - y_low) + END_MM + rough_mm;
         let [y_start, y_end] = segment.y_range_mm;
         if y_low - tolerance_mm > y_end || y_high + tolerance_mm < y_start {
             return Verdict::Clear;
@@ -282,7 +297,7 @@ impl<'a> SegmentBounds<'a> {
             .map(|h| CURVATURE_SAFETY * (h[0] - 2.0 * h[1] + h[2]).abs() / 8.0)
             .fold(0.0, f64::max);
         let certain = y_low - tolerance_mm > y_start && y_high + tolerance_mm < y_end;
-        let error_mm = along_profile_mm + along_stroke_mm + ROUNDING_MM;
+        let error_mm = along_profile_mm + along_stroke_mm + rough_mm + ROUNDING_MM;
         Verdict::Bounded(PassSamples { pass, segment: segment_index, heights_mm, error_mm, certain })
     }
 }

@@ -4,7 +4,7 @@
 //! No assumption about which tooth cuts which space: runout, pitch errors, several turns and plunges need no special
 //! case.
 
-use super::strokes::StrokeSet;
+use super::strokes::{StrokePath, StrokeSet};
 use crate::frame::Rigid2;
 use crate::tool::PlanarTool;
 use crate::tool::blade_edges::BladeEdges;
@@ -94,7 +94,8 @@ fn bound_poses(poses: &[Rigid2]) -> ArrayVec<Rigid2, MAX_PHASES> {
     if let [pose] = poses {
         return std::iter::once(*pose).collect();
     }
-    super::strokes::poses_at(poses, &BOUND_PHASES).into_iter().collect()
+    let path = StrokePath::through(poses);
+    BOUND_PHASES.iter().map(|&tau| path.at(tau)).collect()
 }
 
 /// Height at which the lowest of some passes meets a ray of the gear frame at the middle of the stroke, above `low_mm`;

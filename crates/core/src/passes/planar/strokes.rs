@@ -14,6 +14,7 @@
 
 use crate::frame::Rigid2;
 use crate::tool::PlanarTool;
+use arrayvec::ArrayVec;
 use glam::DVec2;
 
 /// Nodes of the cubic in tau (Chebyshev of the first kind on [-1, 1]).
@@ -150,6 +151,14 @@ impl StrokeSet {
         Self::at_shares(first_pass, tool, law, count, |tau| law.return_share(tau), work_from_tool)
     }
 
+    /// The same strokes with the tool elsewhere: `displaced(stroke, work_from_tool)` for every pose of every stroke.
+    #[must_use]
+    pub fn displaced(&self, displaced: impl Fn(usize, &Rigid2) -> Rigid2) -> Self {
+        let nodes = self.phases().len();
+        let poses = self.poses.iter().enumerate().map(|(index, pose)| displaced(index / nodes, pose));
+        Self { poses: poses.collect(), ..*self }
+    }
+
     fn at_shares(
         first_pass: u32,
         tool: &dyn PlanarTool,
@@ -188,12 +197,14 @@ impl StrokeSet {
         &self.poses[stroke * nodes..(stroke + 1) * nodes]
     }
 
-    /// Pose of one stroke at phase `tau`: the cubics through its nodes.
+    /// How the pose of one stroke runs with the phase: the cubics through its nodes.
+    pub fn path(&self, stroke: usize) -> StrokePath {
+        StrokePath::through(self.poses(stroke))
+    }
+
+    /// Pose of one stroke at phase `tau`.
     pub fn pose_at(&self, stroke: usize, tau: f64) -> Rigid2 {
-        match self.poses(stroke) {
-            [pose] => *pose,
-            poses => poses_at(poses, &[tau])[0],
-        }
+        self.path(stroke).at(tau)
     }
 
     /// Id of a pass.
@@ -228,21 +239,28 @@ pub fn cubic_through(values: &[f64]) -> [f64; 4] {
     [c0 - c2, c1 - 3.0 * c3, 2.0 * c2, 4.0 * c3]
 }
 
-/// Poses at some phases from those at the nodes.
-pub(super) fn poses_at(poses: &[Rigid2], taus: &[f64]) -> Vec<Rigid2> {
-    let entry = |pick: fn(&Rigid2) -> f64| cubic_through(&poses.iter().map(pick).collect::<Vec<_>>());
-    let entries = [
-        entry(|p| p.rotation.x),
-        entry(|p| p.rotation.y),
-        entry(|p| p.translation_mm.x),
-        entry(|p| p.translation_mm.y),
-    ];
-    taus.iter()
-        .map(|&tau| {
-            let [c, s, x, y] = entries.map(|e| e[0] + tau * (e[1] + tau * (e[2] + tau * e[3])));
-            Rigid2 { rotation: DVec2::new(c, s), translation_mm: DVec2::new(x, y) }
-        })
-        .collect()
+/// The pose of a stroke as cubics in the phase: both entries of the rotation, both of the translation.
+#[derive(Debug, Clone, Copy)]
+pub struct StrokePath([[f64; 4]; 4]);
+
+impl StrokePath {
+    /// Through poses at the nodes; the one pose of a frozen stroke.
+    pub fn through(poses: &[Rigid2]) -> Self {
+        let entry =
+            |pick: fn(&Rigid2) -> f64| cubic_through(&poses.iter().map(pick).collect::<ArrayVec<_, { NODES.len() }>>());
+        Self([
+            entry(|p| p.rotation.x),
+            entry(|p| p.rotation.y),
+            entry(|p| p.translation_mm.x),
+            entry(|p| p.translation_mm.y),
+        ])
+    }
+
+    /// Pose at a phase.
+    pub fn at(&self, tau: f64) -> Rigid2 {
+        let [c, s, x, y] = self.0.map(|e| e[0] + tau * (e[1] + tau * (e[2] + tau * e[3])));
+        Rigid2 { rotation: DVec2::new(c, s), translation_mm: DVec2::new(x, y) }
+    }
 }
 
 fn chebyshev_polynomial(k: usize, x: f64) -> f64 {

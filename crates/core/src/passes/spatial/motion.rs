@@ -115,8 +115,8 @@ impl MotionTable {
         Rigid3 { rotation: DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]), translation_mm: DVec3::new(x, y, z) }
     }
 
-    /// How far a point of the work moves in the head at most per radian of the tool, mm, and how far the work turns, rad:
-    /// bounds from the polynomials' coefficients over all panels, whatever gear and feeds they stand for.
+    /// How far a point of the work moves in the head at most per radian of the tool, mm, and how far the work turns,
+    /// rad: bounds from the polynomials' coefficients over all panels, whatever gear and feeds they stand for.
     pub fn largest_rates(&self, point_mm: DVec3) -> [f64; 2] {
         let of_panel = |(panel, ends): (&PosePanel, &[f64])| {
             let mut rates = [0.0; 2];

@@ -103,8 +103,9 @@ impl SweepRecord {
 
 impl SweepRecord {
     /// Moments, distances from the tool's axis less the segment's, and places along the blade's y less the segment's,
-    /// of eight points (of the rays, at these heights), after some steps, and the last steps of the moments. A step gains
-    /// as many digits as the tool turns faster than the work; whoever needs the places themselves looks at the last one.
+    /// of eight points (of the rays, at these heights), after some steps, and the last steps of the moments. A step
+    /// gains as many digits as the tool turns faster than the work; whoever needs the places themselves looks at the
+    /// last one.
     #[inline(always)]
     pub fn places(&self, rays: &Rays, height_mm: &Lanes, steps: usize) -> [Lanes; 4] {
         let paths = paths(self, rays);

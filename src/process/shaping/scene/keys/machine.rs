@@ -60,11 +60,42 @@ pub(super) static ADDED: Addition = Addition {
 };
 
 /// What is inside `[machine]`.
-pub(super) static SECTIONS: &[KeySection] = &[LIMITS, WORK, CUTTER, CENTER_DISTANCE, GUIDE];
+pub(super) static SECTIONS: &[KeySection] = &[LIMITS, COMPLIANCE, WORK, CUTTER, CENTER_DISTANCE, GUIDE];
 
 const CUTTER: KeySection = rotary("machine.errors.cutter", "Errors of the cutter spindle.");
 const CENTER_DISTANCE: KeySection =
     linear("machine.errors.center_distance", "Errors of the radial axis, which sets the centre distance.");
+
+/// A compliance: not negative, at most a hundred times that of a slender machine.
+const fn compliance(name: &'static str, unit: &'static str, example: &'static str, teach: &'static str) -> Key {
+    Key::optional(name, unit, Range::closed(0.0, 10_000.0), "rigid", example, teach)
+}
+
+const COMPLIANCE: KeySection = KeySection {
+    path: "machine.compliance",
+    role: Role::Plain,
+    keys: &[
+        compliance(
+            "tool_radial_um_per_kn",
+            "um/kN",
+            "8.0",
+            "Compliance of cutter, spindle and ram along the line of centres; 100 N/um are 10 um/kN.",
+        ),
+        compliance("tool_tangential_um_per_kn", "um/kN", "8.0", "The same across the line of centres."),
+        compliance(
+            "tool_torsional_urad_per_nm",
+            "urad/(N m)",
+            "1.0",
+            "Turn of the cutter spindle per torque; 1 N m/arcsec are 4.85 urad/(N m).",
+        ),
+        compliance("work_radial_um_per_kn", "um/kN", "4.0", "Compliance of work, clamping and table along it."),
+        compliance("work_tangential_um_per_kn", "um/kN", "4.0", "The same across it."),
+        compliance("work_torsional_urad_per_nm", "urad/(N m)", "0.5", "Turn of the work spindle per torque."),
+    ],
+    groups: &[],
+    teach: "How far cutter and work give way to the forces of the cut, stroke by stroke: deflected strokes leave \
+        other flanks. No compliance has a default: measure it, one side fixed and the other one pushed.",
+};
 
 const LIMITS: KeySection = KeySection {
     path: "machine.limits",

@@ -3,19 +3,24 @@
 use crate::scene::keys::{Addition, Default, Group, Key, KeySection, Kind, Range, Role};
 
 /// A depth of an infeed.
-const fn depth(name: &'static str, example: &'static str, teach: &'static str) -> Key {
-    Key { name, kind: Kind::Number(Range::above(0.0, 100.0)), unit: "mm", default: Default::Required, example, teach }
+const fn depth(name: &'static str, default: Default, example: &'static str, teach: &'static str) -> Key {
+    Key { name, kind: Kind::Number(Range::above(0.0, 100.0)), unit: "mm", default, example, teach }
 }
 
+/// What is said of the depth of a single infeed.
+const DEPTH: &str = "Depth to feed; the whole tooth depth is 2.25 modules.";
+
 /// Work angle over which an infeed takes place.
-const ANGLE: Key = Key {
-    name: "angle_deg",
-    kind: Kind::Number(Range::above(0.0, 3600.0)),
-    unit: "deg",
-    default: Default::Required,
-    example: "90.0",
-    teach: "Work angle over which the depth is fed.",
-};
+const fn angle(default: Default) -> Key {
+    Key {
+        name: "angle_deg",
+        kind: Kind::Number(Range::above(0.0, 3600.0)),
+        unit: "deg",
+        default,
+        example: "90.0",
+        teach: "Work angle over which the depth is fed.",
+    }
+}
 
 /// Strokes of a plunge.
 const STROKES: Key = Key {
@@ -35,7 +40,7 @@ pub(super) static ADDED: Addition = Addition {
             name: "strokes_per_revolution",
             kind: Kind::Whole { min: 8, max: 1_000_000 },
             unit: "",
-            default: Default::Derived("100 x teeth of the gear"),
+            default: Default::Derived("100 x teeth of the gear; 20 for the roughing of a scene without operations"),
             example: "4200",
             teach: "Double strokes in one turn of the work; 100 per tooth is a fine finishing cut, 20 a rough one.",
         },
@@ -47,6 +52,23 @@ pub(super) static ADDED: Addition = Addition {
             example: "0.3",
             teach: "Mean arc of pitch curve per double stroke, as shops set it.",
         },
+        Key::optional(
+            "stock_scatter_um",
+            "um",
+            Range::closed(0.0, 1000.0),
+            "even stock",
+            "15.0",
+            "Standard deviation of the stock that the operation leaves on flanks, normal to them, about \
+                stock_per_flank_mm: its infeed scatters by as much / sin(pressure angle).",
+        ),
+        Key::optional(
+            "stock_scatter_length_mm",
+            "mm",
+            Range::closed(0.001, 10_000.0),
+            "from stroke to stroke",
+            "20.0",
+            "Arc of pitch curve over which that scatter loses its correlation (1/e): from place to place.",
+        ),
         Key {
             name: "stroke_spacing",
             kind: Kind::Word(&["work_angle", "arc", "time"]),
@@ -76,7 +98,7 @@ pub(super) static ADDED: Addition = Addition {
             name: "overlap_deg",
             kind: Kind::Number(Range::closed(0.0, 360.0)),
             unit: "deg",
-            default: Default::Number(0.0),
+            default: Default::Derived("the angle of a spiral infeed that is not written either, else 0"),
             example: "5.0",
             teach: "Work angle cut beyond the whole turns, so that the end runs over the start.",
         },
@@ -144,29 +166,38 @@ pub(super) static SECTIONS: &[KeySection] = &[
     },
     KeySection {
         path: "operation[].infeed",
-        role: Role::Choice { default: Some("none"), what: "infeed" },
+        role: Role::Choice { default: Some("spiral"), what: "infeed" },
         keys: &[],
         groups: &[],
-        teach: "How the cutter gets to depth.",
+        teach: "How the cutter gets to depth. An operation with a window_deg, and one that goes no deeper than those \
+            before it, stands at depth from the first stroke on unless it says otherwise.",
     },
     KeySection {
         path: "operation[].infeed.none",
         role: Role::Variant,
         keys: &[],
         groups: &[],
-        teach: "At depth from the first stroke on.",
+        teach: "At depth from the first stroke on: from the blank, that stroke takes whole tooth spaces at once.",
     },
     KeySection {
         path: "operation[].infeed.plunge",
         role: Role::Variant,
-        keys: &[depth("depth_mm", "6.75", "Depth to feed; the whole tooth depth is 2.25 modules."), STROKES],
+        keys: &[depth("depth_mm", Default::Required, "6.75", DEPTH), STROKES],
         groups: &[],
         teach: "Radially at the start angle, without rolling.",
     },
     KeySection {
         path: "operation[].infeed.spiral",
         role: Role::Variant,
-        keys: &[depth("depth_mm", "6.75", "Depth to feed; the whole tooth depth is 2.25 modules."), ANGLE],
+        keys: &[
+            depth(
+                "depth_mm",
+                Default::Derived("what is left to feed, from the blank or the operation before"),
+                "6.75",
+                DEPTH,
+            ),
+            angle(Default::Derived("a quarter turn for the whole tooth depth, less for less")),
+        ],
         groups: &[],
         teach: "Evenly while rolling over the first part of the turn. Cut as much overlap, or the start stays shallow.",
     },
@@ -174,10 +205,10 @@ pub(super) static SECTIONS: &[KeySection] = &[
         path: "operation[].infeed.plunge_and_roll",
         role: Role::Variant,
         keys: &[
-            depth("plunge_depth_mm", "4.0", "Depth plunged at the start angle."),
+            depth("plunge_depth_mm", Default::Required, "4.0", "Depth plunged at the start angle."),
             STROKES,
-            depth("roll_depth_mm", "2.75", "Depth fed afterwards while rolling."),
-            ANGLE,
+            depth("roll_depth_mm", Default::Required, "2.75", "Depth fed afterwards while rolling."),
+            angle(Default::Required),
         ],
         groups: &[],
         teach: "Part by plunging, the rest while rolling.",

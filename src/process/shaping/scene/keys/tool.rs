@@ -1,6 +1,9 @@
 //! Keys of the shaper cutter.
 
-use crate::scene::keys::{Default, Key, KeySection, Kind, Range, Role};
+use crate::scene::keys::{Default, Group, Key, KeySection, Kind, Range, Role};
+
+/// Section of the edges' roughness.
+pub const EDGE_ROUGHNESS: &str = "tool.shaper_cutter.edge_roughness";
 
 /// `[tool.shaper_cutter]` and what is inside it.
 pub(super) static SECTIONS: &[KeySection] = &[
@@ -88,6 +91,47 @@ pub(super) static SECTIONS: &[KeySection] = &[
         ],
         groups: &[],
         teach: "Shaper cutter by its profile projected on the transverse plane.",
+    },
+    KeySection {
+        path: EDGE_ROUGHNESS,
+        role: Role::Plain,
+        keys: &[
+            Key::optional(
+                "rq_um",
+                "um",
+                Range::closed(0.0, 20.0),
+                "smooth edges",
+                "0.4",
+                "Rq, root mean square height of the edge's roughness; needs correlation_length_um.",
+            ),
+            Key::optional(
+                "correlation_length_um",
+                "um",
+                Range::closed(3.0, 1000.0),
+                "none",
+                "25.0",
+                "Arc l along the edge at which the autocovariance Rq^2 exp(-(s / l)^2) has fallen to 1/e.",
+            ),
+            Key {
+                name: "seed",
+                kind: Kind::Whole { min: 0, max: u32::MAX },
+                unit: "",
+                default: Default::Whole(1),
+                example: "1",
+                teach: "Which cutter: each flank of each tooth has a roughness of its own.",
+            },
+            Key {
+                name: "profile",
+                kind: Kind::Path,
+                unit: "",
+                default: Default::LeftOut("none"),
+                example: "\"edge.csv\"",
+                teach: "Measured profile instead, the same on all flanks: a table headed position_um,height_um \
+                    (or _mm, _nm), the position from the tip corner along the flank, heights out of the tooth.",
+            },
+        ],
+        groups: &[Group { names: &["rq_um", "profile"], required: false }],
+        teach: "Roughness of the cutter's edges along its flanks: every stroke copies what touches the gear.",
     },
     KeySection {
         path: "tool.shaper_cutter.tip",

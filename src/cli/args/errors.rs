@@ -1,0 +1,96 @@
+//! What can be typed behind the commands that ask what errors of machine and tool do.
+
+use super::SceneArguments;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Arguments of `scatter`.
+#[derive(Debug, Args)]
+pub struct ScatterArguments {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Number of gears; 0: the table of layers alone.
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    pub seeds: u32,
+    /// Tooth whose flank is looked at, from 1.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub tooth: u32,
+    /// Which of its flanks.
+    #[arg(long, value_enum, default_value_t = FlankSide::Left)]
+    pub side: FlankSide,
+    /// Folder to write or to go on with [default: out/<scene>_scatter].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Show no progress.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// A flank of a tooth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FlankSide {
+    /// The left one.
+    Left,
+    /// The right one.
+    Right,
+}
+
+/// Arguments of `calibrate`.
+#[derive(Debug, Args)]
+pub struct CalibrateArguments {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Measured numbers (CSV).
+    #[arg(long, value_name = "FILE")]
+    pub measured: PathBuf,
+    /// Errors to fit, by key, section or whole name, such as mounting.eccentricity_um@90.
+    #[arg(long, value_name = "KEYS", value_delimiter = ',', required = true)]
+    pub fit: Vec<String>,
+    /// Folder to write [default: out/<scene>_calibration].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `diagnose`.
+#[derive(Debug, Args)]
+pub struct DiagnoseArguments {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Measured deviations (CSV).
+    #[arg(long, value_name = "FILE")]
+    pub measured: PathBuf,
+    /// Standard deviation of the noise in each measured value, marks of strokes included.
+    #[arg(long, value_name = "UM")]
+    pub noise_um: f64,
+    /// Folder to write [default: out/<scene>_diagnosis].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Errors to try, by key, section or whole name [default: all; the first entry of lists].
+    #[arg(long, value_name = "KEYS", value_delimiter = ',')]
+    pub parameters: Vec<String>,
+}
+
+/// Arguments of `budget`.
+#[derive(Debug, Args)]
+pub struct BudgetArguments {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Folder to write [default: out/<scene>_budget].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Errors to shift, by key, section or whole name, such as mounting or tool.shaper_cutter.runout_um@90 [default:
+    /// all; the first entry of lists].
+    #[arg(long, value_name = "KEYS", value_delimiter = ',')]
+    pub parameters: Vec<String>,
+    /// Cut these flanks alone, such as 1-left,7-right; pitch is left out then [default: both flanks of four teeth, and
+    /// the middle of all others].
+    #[arg(long, value_name = "FLANKS", value_delimiter = ',')]
+    pub flanks: Vec<String>,
+    /// Make whole cuts as well, and write the influence on every number that they report to tables/numbers.csv.
+    #[arg(long)]
+    pub numbers: bool,
+}

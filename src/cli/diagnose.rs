@@ -1,0 +1,58 @@
+//! `gearcut diagnose`: which errors explain a measured gear.
+
+use std::path::PathBuf;
+
+use gearcut::backend::{BackendWish, OnFailure, choose};
+use gearcut::influence::diagnose::{self, Diagnosis, ErrorModel};
+use gearcut::influence::measured;
+use gearcut::output::progress::{Progress, ProgressMode};
+use gearcut::output::text::{Sheet, plain};
+use gearcut::{Refusal, Result, process};
+use serde_json::json;
+
+use super::args::DiagnoseArguments;
+use super::failure::Failure;
+use super::{folder, print};
+
+/// Runs the command.
+pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
+    let noise_um = arguments.noise_um;
+    if !(noise_um.is_finite() && noise_um > 0.0) {
+        let problem = format!("{noise_um} um is no standard deviation");
+        return Err(Refusal::new("--noise-um", problem, "give a number above 0").into());
+    }
+    let loaded = process::load(&arguments.scene.scene, &arguments.scene.settings)?;
+    let points = measured::read(&arguments.measured)?;
+    let name = &loaded.scene.name;
+    let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_diagnosis")));
+    let progress = Progress::new(ProgressMode::choose(false, false));
+    let backend = choose(BackendWish::Cpu, OnFailure::default())?.backend;
+    let names = &arguments.parameters;
+    let filled = folder::fill(&out, "diagnose", |folder, interrupt| {
+        let model = ErrorModel::new(&loaded, &points, names, backend.as_ref(), &progress, interrupt)?;
+        let measured_um: Vec<f64> = points.iter().map(|point| point.deviation_um).collect();
+        let found = Diagnosis::new(&model, &measured_um, noise_um)?;
+        let tree = diagnose::findings(&loaded.scene, &model, &points, noise_um, &found);
+        diagnose::write(&loaded.scene, &model, &found, &tree, folder)?;
+        let record = vec![
+            ("measured", json!(arguments.measured)),
+            ("noise_um", json!(noise_um)),
+            ("parameters", json!(names)),
+            ("scene", json!(loaded.resolved_toml())),
+        ];
+        Ok((record, (model, found, tree)))
+    });
+    let (path, (model, found, tree)) = filled.map_err(|error| Failure::of_scene(&loaded, error))?;
+    let gear = &loaded.scene.gear;
+    let mut sheet = Sheet::default();
+    let places = points.len();
+    sheet.heading(&format!(
+        "{name}: {} teeth, module {} mm, {places} measured places",
+        gear.teeth,
+        plain(gear.module_mm)
+    ));
+    diagnose::sheet(&model, &found, &tree, &mut sheet);
+    print::sheet(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?;
+    print::warnings(&tree.warnings);
+    Ok(())
+}

@@ -1,0 +1,115 @@
+//! What a unit of an error adds to the heights of a gear: central differences of simulated cuts.
+//!
+//! In: a scene, places on its flanks, a parameter. Out: [`Influence`]: (h(p + s) - h(p - s)) / 2 s at every place, and
+//! two checks: the same with half the step, and how much h bends between both sides. Where the scene has no word for p
+//! - s (backlash below 0) the difference is taken forwards.
+
+use super::gear_grid::GearGrid;
+use crate::process;
+use crate::scene::LoadedScene;
+use crate::scene::error_parameters::{ErrorParameter, Shifted};
+use gearcut_core::cut::Backend;
+use gearcut_core::error::{Error, Result};
+
+/// Differences up to this share of the largest influence are no matter: marks of strokes and the second order of
+/// errors of usual size stay below.
+const LINEAR_SHARE: f64 = 0.02;
+/// Nor are differences of heights up to this, um: marks of strokes that come to stand elsewhere.
+const LINEAR_UM: f64 = 0.05;
+
+/// The influence of one parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Influence {
+    /// The parameter.
+    pub parameter: ErrorParameter,
+    /// What a unit of it adds at every place, um.
+    pub um_per_unit: Vec<f64>,
+    /// Whether the scene can only shift it upwards.
+    pub upwards_only: bool,
+    /// Largest difference from what half the step gives, um per unit; 0 until it is asked for.
+    pub half_step_um: f64,
+    /// Largest bend |h(p + s) - 2 h(p) + h(p - s)| / 2 s, um per unit; 0 where it is shifted upwards only.
+    pub bend_um: f64,
+}
+
+impl Influence {
+    /// The influence of a parameter on a scene whose gear has the heights `before_um`.
+    ///
+    /// # Errors
+    /// The scene refuses the shifted value; geometry; the backend's.
+    pub fn new(
+        loaded: &LoadedScene,
+        grid: &GearGrid,
+        before_um: &[f64],
+        parameter: &ErrorParameter,
+        backend: &dyn Backend,
+    ) -> Result<Self> {
+        let step = parameter.step;
+        let above = shifted_um(loaded, grid, parameter, step, backend)?.unwrap_or_default();
+        let half_step_um = 0.0;
+        let parameter = parameter.clone();
+        let Some(below) = shifted_um(loaded, grid, &parameter, -step, backend)? else {
+            let um_per_unit = above.iter().zip(before_um).map(|(a, b)| (a - b) / step).collect();
+            return Ok(Self { parameter, um_per_unit, upwards_only: true, half_step_um, bend_um: 0.0 });
+        };
+        let um_per_unit = above.iter().zip(&below).map(|(a, b)| 0.5 * (a - b) / step).collect();
+        let bends = above.iter().zip(before_um).zip(&below).map(|((a, now), b)| 0.5 * (a - 2.0 * now + b) / step);
+        Ok(Self { parameter, um_per_unit, upwards_only: false, half_step_um, bend_um: largest(bends) })
+    }
+
+    /// The same, compared with what half the step gives.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn checked(
+        self,
+        loaded: &LoadedScene,
+        grid: &GearGrid,
+        before_um: &[f64],
+        backend: &dyn Backend,
+    ) -> Result<Self> {
+        let halved = self.parameter.clone().with_step(0.5 * self.parameter.step);
+        let half = Self::new(loaded, grid, before_um, &halved, backend)?;
+        let half_step_um = largest(self.um_per_unit.iter().zip(&half.um_per_unit).map(|(a, b)| a - b));
+        Ok(Self { half_step_um, ..self })
+    }
+
+    /// Largest influence, um per unit.
+    pub fn largest_um(&self) -> f64 {
+        largest(self.um_per_unit.iter().copied())
+    }
+
+    /// Whether twice the error does twice as much: neither half the step nor the other side says otherwise.
+    pub fn is_linear(&self) -> bool {
+        let allowed_um = (LINEAR_SHARE * self.largest_um()).max(LINEAR_UM / self.parameter.step);
+        self.half_step_um <= allowed_um && self.bend_um <= allowed_um
+    }
+}
+
+/// Heights with a parameter shifted, um; `None` where the scene has no word for it.
+fn shifted_um(
+    loaded: &LoadedScene,
+    grid: &GearGrid,
+    parameter: &ErrorParameter,
+    by: f64,
+    backend: &dyn Backend,
+) -> Result<Option<Vec<f64>>> {
+    let mut shifted = Shifted::new(loaded);
+    if !shifted.shift(parameter, by) {
+        return Ok(None);
+    }
+    grid.heights_um(&read(&shifted)?.scene, backend).map(Some)
+}
+
+/// The shifted scene; what it refuses is an error of the work.
+///
+/// # Errors
+/// A value that the scene may not have.
+pub fn read(shifted: &Shifted) -> Result<LoadedScene> {
+    shifted.read(process::table()).map_err(|errors| Error::Scene(Box::new(errors)))
+}
+
+/// Largest size of the values that there are.
+pub fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max)
+}

@@ -1,0 +1,114 @@
+//! The page of a diagnosis: `report.html`; and all that is written.
+
+use super::findings::sized;
+use super::{Diagnosis, ErrorModel};
+use crate::findings::{Findings, RESULTS_FILE, Warning, unit};
+use crate::output::bar_chart::{BarChart, BarSeries};
+use crate::output::folder::OutputFolder;
+use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
+use crate::output::table::write_tables;
+use crate::output::text::significant;
+use crate::scene::Scene;
+use crate::steps::report::facts::gear_words;
+use crate::steps::report::quantities;
+use gearcut_core::error::Result;
+
+/// Ticks of the chart stand at least so far apart, %.
+const LEAST_PERCENT: f64 = 0.1;
+
+/// Writes everything but the run record.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write(
+    scene: &Scene,
+    model: &ErrorModel,
+    found: &Diagnosis,
+    tree: &Findings,
+    folder: &OutputFolder,
+) -> Result<()> {
+    write_tables(tree, folder)?;
+    page(scene, model, found, tree).write(&folder.path(REPORT_FILE)?)?;
+    folder.write_json(RESULTS_FILE, &tree.to_json())
+}
+
+fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings) -> Page {
+    let mut named = Vec::new();
+    if found.named.is_empty() {
+        named.push(Block::Note("No error that the scene can name explains more than noise would.".to_owned()));
+    } else {
+        named.push(Block::Table(sources(model, found)));
+        named.push(Block::Bars(chart(model, found)));
+    }
+    let left = tree.find("diagnosis").map(|section| Block::Table(quantities::table(section)));
+    let section = |id, title: &str, lead: &str, blocks| PageSection {
+        id,
+        title: title.to_owned(),
+        lead: lead.to_owned(),
+        blocks,
+    };
+    Page {
+        what: "diagnosis",
+        title: tree.scene.clone(),
+        subtitle: format!("{} measured places, {} errors tried", found.residuals_um.len(), model.sources.len()),
+        operations: vec![gear_words(&scene.gear)],
+        complete: true,
+        done: "all errors tried",
+        program: format!("gearcut {}", tree.program_version),
+        key_numbers: tree.headline.iter().map(quantities::key_number).collect(),
+        warnings: tree.warnings.iter().map(Warning::with_signs).collect(),
+        viewer: None,
+        sections: vec![
+            section(
+                "sources",
+                "Errors that explain the flanks",
+                "Fitted to the measured deviations, with 95 % intervals. Sizes count from those of the scene.",
+                named,
+            ),
+            section(
+                "left-over",
+                "What is left over",
+                "What no error explains, against the stated noise. Place by place it stands in tables/residuals.csv.",
+                left.into_iter().collect(),
+            ),
+        ],
+    }
+}
+
+fn sources(model: &ErrorModel, found: &Diagnosis) -> PageTable {
+    let mut rows = Vec::new();
+    for named in &found.named {
+        let source = &model.sources[named.source];
+        let same: Vec<String> = named.same_as.iter().map(|&other| model.sources[other].title()).collect();
+        for (parameter, fitted) in source.parameters.iter().zip(&named.fitted) {
+            rows.push(vec![
+                parameter.title.clone(),
+                "fitted".to_owned(),
+                sized(*fitted, &unit::signs(parameter.unit)).replace("+-", "±").replace('-', "−"),
+                format!("{} %", significant(100.0 * named.alone, 3)),
+                if same.is_empty() { "–".to_owned() } else { same.join("; ") },
+            ]);
+        }
+    }
+    PageTable {
+        caption: "Named errors".to_owned(),
+        columns: ["Error", "", "Size", "Alone", "Not told apart from"].map(str::to_owned).into(),
+        rows,
+    }
+}
+
+fn chart(model: &ErrorModel, found: &Diagnosis) -> BarChart {
+    BarChart {
+        title: "Fitted: what each error alone explains of the squared deviations".to_owned(),
+        category_name: "error".to_owned(),
+        categories: found.named.iter().map(|named| model.sources[named.source].title()).collect(),
+        value_name: "share".to_owned(),
+        unit: "%".to_owned(),
+        least_division: LEAST_PERCENT,
+        series: vec![BarSeries {
+            name: "explained by it alone".to_owned(),
+            values: found.named.iter().map(|named| Some(100.0 * named.alone)).collect(),
+        }],
+        limits: Vec::new(),
+    }
+}

@@ -1,0 +1,186 @@
+//! Where a yielding tool comes to rest in the cut: the balance of cutting forces with a machine that gives way.
+//!
+//! In: the compliance C and the edge elements in contact, each with the thickness h of its chip at a known displacement
+//! and with what the coordinates q move it along its normal ([`EdgeElement`]). Out: the displacement q at which the
+//! forces of the chip that is then cut hold it there.
+//!
+//! Law, over elements of the edge: h = h_0 + m . (q - q_0), the force along the normal f(h) = k h + e r(h), the balance
+//! `q = C (A - sum of f m)`. k and e are the element's chip and edge coefficients (K_n b, K_ne b), A what the rest of
+//! the cut pushes with. The edge force exists only while a chip is cut, and a force that jumps has no balance where it
+//! jumps: a tool pushed out by an edge that just cuts falls back onto it. So r rises evenly from 0 at h = 0 to 1 at the
+//! least chip that counts ([`LEAST_CHIP_MM`]).
+//!
+//! f never falls with h. With F the integral of f, `E(q) = q . C^-1 q / 2 + sum of F(h) - A . q` is strictly convex:
+//! there is one balance and no other, **whatever the compliance**. Newton's steps on E, halved where they do not lower
+//! it, find it in a few steps, for E is quadratic piece by piece. Coordinates are scaled by the square root of C; one
+//! that does not yield stays at 0.
+//!
+//! Road not taken: q <- C Q(q) over and over. It converges only while compliance times stiffness of the cut is below 1.
+//! Steel has K_n of 2 N/um per mm of edge: with 10 um/kN that ends at 50 mm of edge in the cut.
+
+use gearcut_core::cut::LEAST_CHIP_MM;
+use glam::{DMat4, DVec4};
+
+/// Newton steps at most: each piece of the force law is left at most once in practice, five steps are usual.
+const MOST_STEPS: usize = 60;
+/// Halvings of a step.
+const HALVINGS: usize = 40;
+/// A step this small against the displacement is rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// An element of the edge in contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EdgeElement {
+    /// Thickness of its chip at the displacement where it was looked at, mm.
+    pub thickness_mm: f64,
+    /// How far each coordinate moves it into the material along its normal.
+    pub moves: DVec4,
+    /// Force along the normal per thickness: K_n b, N/mm.
+    pub chip_n_per_mm: f64,
+    /// Force along the normal of an edge that cuts: K_ne b, N.
+    pub edge_n: f64,
+}
+
+impl EdgeElement {
+    /// Force along the normal, its rate by thickness, its integral: N, N/mm, N mm.
+    fn force(&self, h_mm: f64) -> [f64; 3] {
+        if h_mm <= 0.0 {
+            return [0.0; 3];
+        }
+        let (k, e) = (self.chip_n_per_mm, self.edge_n);
+        let chip = [k * h_mm, k, 0.5 * k * h_mm * h_mm];
+        let share = h_mm / LEAST_CHIP_MM;
+        let edge = if share < 1.0 {
+            [e * share, e / LEAST_CHIP_MM, 0.5 * e * share * h_mm]
+        } else {
+            [e, 0.0, e * (h_mm - 0.5 * LEAST_CHIP_MM)]
+        };
+        [chip[0] + edge[0], chip[1] + edge[1], chip[2] + edge[2]]
+    }
+}
+
+/// The displacement in balance: elements seen at the displacement `seen`, a load that does not follow it (N, N mm), the
+/// diagonal of C.
+pub fn balance(diagonal: DVec4, elements: &[EdgeElement], seen: DVec4, load: DVec4) -> DVec4 {
+    // q = S s with S = sqrt(C).
+    let root = DVec4::from_array(diagonal.to_array().map(f64::sqrt));
+    let push = root * load;
+    let energy = |s: DVec4| {
+        let q = root * s;
+        let of_chips: f64 = elements.iter().map(|e| e.force(e.thickness_mm + e.moves.dot(q - seen))[2]).sum();
+        0.5 * s.length_squared() + of_chips - push.dot(s)
+    };
+    let scaled = |value: f64, root: f64| if root > 0.0 { value / root } else { 0.0 };
+    let mut s = DVec4::from_array(std::array::from_fn(|i| scaled(seen[i], root[i])));
+    let mut now = energy(s);
+    for _ in 0..MOST_STEPS {
+        let q = root * s;
+        let (mut gradient, mut hessian) = (s - push, DMat4::IDENTITY);
+        for element in elements {
+            let [force, rate, _] = element.force(element.thickness_mm + element.moves.dot(q - seen));
+            let m = root * element.moves;
+            gradient += force * m;
+            if rate > 0.0 {
+                let column = |i: usize| rate * m[i] * m;
+                hessian += DMat4::from_cols(column(0), column(1), column(2), column(3));
+            }
+        }
+        let step = -(hessian.inverse() * gradient);
+        // The energy is flat to rounding before its slope is.
+        let falls = gradient.dot(step);
+        if step.length() <= ROUNDING * (1.0 + s.length()) || falls >= 0.0 {
+            return root * (s + step);
+        }
+        let mut share = 1.0;
+        let mut halvings = 0;
+        loop {
+            let next = energy(s + share * step);
+            if next <= now + 1e-4 * share * falls || halvings == HALVINGS {
+                (s, now) = (s + share * step, next);
+                break;
+            }
+            share *= 0.5;
+            halvings += 1;
+        }
+        if halvings == HALVINGS {
+            break;
+        }
+    }
+    root * s
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec4Swizzles;
+
+    fn element(thickness_mm: f64, moves: DVec4, chip_n_per_mm: f64, edge_n: f64) -> EdgeElement {
+        EdgeElement { thickness_mm, moves, chip_n_per_mm, edge_n }
+    }
+
+    /// d = C F_0 / (1 + C k) for a chip whose force is F_0 + k (h - h_0), the machine seen anywhere.
+    #[test]
+    fn one_element_rests_where_the_closed_form_says() {
+        for (c, k, h, edge_n) in [(1e-5, 4e3, 0.05, 0.0), (1e-5, 4e4, 0.05, 90.0), (1e-3, 4e5, 0.2, 20.0)] {
+            let moves = -DVec4::X;
+            let exact_mm = c * (k * h + edge_n) / (1.0 + c * k);
+            for seen_mm in [0.0, 0.3 * exact_mm, 1.2 * exact_mm] {
+                let seen = DVec4::X * seen_mm;
+                let q = balance(DVec4::X * c, &[element(h - seen_mm, moves, k, edge_n)], seen, DVec4::ZERO);
+                assert!((q.x / exact_mm - 1.0).abs() < 1e-12 && q.yzw() == glam::DVec3::ZERO, "{q} for {exact_mm}");
+            }
+        }
+    }
+
+    /// An edge force that a yielding machine cannot hold: the edge just touches, with the share of it that is needed.
+    #[test]
+    fn a_tool_that_is_pushed_out_by_its_edge_alone_rubs() {
+        let (c, h, edge_n) = (1e-3, 0.01, 40.0);
+        let q = balance(DVec4::X * c, &[element(h, -DVec4::X, 0.0, edge_n)], DVec4::ZERO, DVec4::ZERO);
+        let left_mm = h - q.x;
+        assert!(left_mm > 0.0 && left_mm < LEAST_CHIP_MM, "{left_mm}");
+        assert!((q.x / c / (edge_n * left_mm / LEAST_CHIP_MM) - 1.0).abs() < 1e-9);
+    }
+
+    /// Many elements in all four coordinates against small steps towards C Q(q), which need no derivative, where those
+    /// converge and where q <- C Q(q) does not.
+    #[test]
+    fn many_elements_rest_where_small_steps_lead() {
+        let diagonal = DVec4::new(1.2e-5, 1e-5, 1e-9, 5e-10);
+        let load = DVec4::new(300.0, -200.0, 4e3, 9e3);
+        for scale in [0.1, 1.0, 30.0] {
+            let diagonal = scale * diagonal;
+            let elements: Vec<EdgeElement> = (0..300)
+                .map(|i| {
+                    let (a, b) = (0.37 * f64::from(i), 0.011 * f64::from(i));
+                    let n = glam::DVec2::from_angle(a.sin() + std::f64::consts::PI);
+                    let moves = DVec4::new(n.x, n.y, 30.0 * b.cos(), 60.0 * n.y);
+                    element(0.03 * (1.0 + a.cos()) * b, moves, 90.0, if i % 3 == 0 { 2.0 } else { 0.0 })
+                })
+                .collect();
+            let wanted = |q: DVec4| {
+                let on = |e: &EdgeElement| e.force(e.thickness_mm + e.moves.dot(q))[0] * e.moves;
+                diagonal * (load - elements.iter().map(on).sum::<DVec4>())
+            };
+            let mut slow = DVec4::ZERO;
+            for _ in 0..2_000_000 {
+                let step = 1e-4 * (wanted(slow) - slow);
+                slow += step;
+                if step.length() < 1e-15 {
+                    break;
+                }
+            }
+            let q = balance(diagonal, &elements, DVec4::ZERO, load);
+            let off = (q - slow).abs() / slow.abs().max(DVec4::splat(1e-9));
+            println!("{q} {slow}");
+            assert!(off.max_element() < 1e-6, "{q} {slow} at {scale}");
+            // Seen from elsewhere, the same.
+            let seen = 0.5 * q;
+            let moved: Vec<EdgeElement> = elements
+                .iter()
+                .map(|e| EdgeElement { thickness_mm: e.thickness_mm + e.moves.dot(seen), ..*e })
+                .collect();
+            assert!((balance(diagonal, &moved, seen, load) - q).abs().max_element() < 1e-12);
+        }
+    }
+}

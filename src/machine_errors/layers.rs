@@ -1,0 +1,83 @@
+//! Errors in layers: what can be switched off together, so that each can be cut alone, and all but one.
+//!
+//! A layer is a kind of cause that a shop would work on by itself. What a process has of its own (tool, stock, cutting
+//! edge) it switches itself.
+
+use super::{AxisErrors, Guide, MachineErrors, WorkMounting};
+
+/// A layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ErrorLayer {
+    /// What axes do wrong the same way in every gear.
+    Axes,
+    /// The guide along the gear.
+    Guide,
+    /// The work on its spindle.
+    Mounting,
+    /// Runout, wobble and pitch of the tool.
+    Tool,
+    /// What axes do at random.
+    Noise,
+    /// Scatter of the stock that operations leave.
+    Stock,
+    /// Roughness of the cutting edges.
+    Edge,
+    /// Displacement of tool and work by the forces of the cut.
+    Deflection,
+}
+
+impl ErrorLayer {
+    /// All of them.
+    pub const ALL: [Self; 8] =
+        [Self::Axes, Self::Guide, Self::Mounting, Self::Tool, Self::Noise, Self::Stock, Self::Edge, Self::Deflection];
+
+    /// In a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Axes => "axes",
+            Self::Guide => "guide",
+            Self::Mounting => "mounting",
+            Self::Tool => "tool",
+            Self::Noise => "noise",
+            Self::Stock => "stock",
+            Self::Edge => "edge",
+            Self::Deflection => "deflection",
+        }
+    }
+}
+
+impl<const N: usize> MachineErrors<N> {
+    /// Layers that there are, those of the process's `own` among them, in the order of [`ErrorLayer::ALL`].
+    pub fn layers(&self, own: &[(ErrorLayer, bool)]) -> Vec<ErrorLayer> {
+        let same_in_every_gear = |axis: &AxisErrors| !AxisErrors { noise: Vec::new(), ..axis.clone() }.is_none();
+        let there = |layer: ErrorLayer| match layer {
+            ErrorLayer::Axes => self.axes.iter().any(same_in_every_gear),
+            ErrorLayer::Guide => !self.guide.is_none(),
+            ErrorLayer::Mounting => !self.mounting.is_none(),
+            ErrorLayer::Noise => self.axes.iter().any(|axis| !axis.noise.is_empty()),
+            ErrorLayer::Tool | ErrorLayer::Stock | ErrorLayer::Edge | ErrorLayer::Deflection => {
+                own.contains(&(layer, true))
+            }
+        };
+        ErrorLayer::ALL.into_iter().filter(|&layer| there(layer)).collect()
+    }
+
+    /// Switches all layers off but these.
+    pub fn keep(&mut self, kept: &[ErrorLayer]) {
+        let off = |layer: ErrorLayer| !kept.contains(&layer);
+        for axis in &mut self.axes {
+            if off(ErrorLayer::Noise) {
+                axis.noise.clear();
+            }
+            if off(ErrorLayer::Axes) {
+                *axis = AxisErrors { noise: std::mem::take(&mut axis.noise), ..AxisErrors::default() };
+            }
+        }
+        if off(ErrorLayer::Guide) {
+            self.guide = Guide::default();
+        }
+        if off(ErrorLayer::Mounting) {
+            self.mounting = WorkMounting::default();
+        }
+    }
+}

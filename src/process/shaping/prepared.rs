@@ -1,0 +1,75 @@
+//! A shaping scene as the commands know it: checked and moved as commanded, cut as the machine yields.
+//!
+//! In: the job of a rigid machine. Out: what commands ask of a process. Where the machine has compliance, the first
+//! command that cuts finds the deflections of all strokes, and the gear that follows from them is kept.
+
+use super::axes_report::OperationAxes;
+use super::chips::deflections;
+use super::section::CutSection;
+use super::{ShapingJob, check, findings, run, warnings};
+use crate::findings::Warning;
+use crate::interrupt::Interrupt;
+use crate::job::GearJob;
+use crate::output::folder::OutputFolder;
+use crate::output::text::Sheet;
+use crate::process::{CutDone, ProcessJob};
+use crate::steps::{Tools, axes};
+use gearcut_core::error::{Error, Result};
+use std::sync::OnceLock;
+
+/// The job of a scene, and the same with its strokes displaced.
+pub(super) struct PreparedShaping {
+    rigid: ShapingJob,
+    /// Boxed: a job is large, and most scenes have no second one.
+    yielding: OnceLock<Box<ShapingJob>>,
+}
+
+impl PreparedShaping {
+    pub(super) fn new(rigid: ShapingJob) -> Self {
+        Self { rigid, yielding: OnceLock::new() }
+    }
+
+    /// The gear as it is cut; `advance` is called after every stroke and says whether to go on.
+    fn cut_gear(&self, advance: &(dyn Fn() -> bool + Sync)) -> Result<&ShapingJob> {
+        if self.rigid.machine.compliance.is_none() {
+            return Ok(&self.rigid);
+        }
+        if let Some(job) = self.yielding.get() {
+            return Ok(job);
+        }
+        let found = deflections(&self.rigid, advance)?.ok_or(Error::Interrupted)?;
+        Ok(self.yielding.get_or_init(|| Box::new(self.rigid.deflected(found))))
+    }
+}
+
+impl ProcessJob for PreparedShaping {
+    fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
+        let count = if self.rigid.machine.compliance.is_none() { 0 } else { CutSection::strokes(&self.rigid) };
+        let step = (count > 0).then(|| tools.progress.step("deflection", count as u64, "strokes"));
+        let job = self.cut_gear(&|| {
+            if let Some(step) = &step {
+                step.advance(1);
+            }
+            !tools.interrupt.is_raised()
+        })?;
+        if let Some(step) = step {
+            step.finish();
+        }
+        run::run(job, tools, frames)
+    }
+
+    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Warning>> {
+        check::print(sheet, &self.rigid)
+    }
+
+    fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()> {
+        visit(self.cut_gear(&|| true)?)
+    }
+
+    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {
+        let motion = OperationAxes::of_job(&self.rigid);
+        let ring = findings::ring::of_job(&self.rigid);
+        let warnings = warnings::before(&self.rigid, &motion, ring.as_ref())?;
+        axes::command(&motion, warnings, folder, interrupt, sheet)
+    }
+}

@@ -1,0 +1,62 @@
+//! Each layer of errors alone, all together, all but one.
+
+use super::FlankWish;
+use super::numbers::{Values, measure};
+use crate::interrupt::Interrupt;
+use crate::machine_errors::ErrorLayer;
+use crate::output::progress::Progress;
+use crate::scene::Scene;
+use gearcut_core::cut::Backend;
+use gearcut_core::error::Result;
+use rayon::prelude::*;
+
+/// A gear with some of its layers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayerCase {
+    /// In words: `ideal machine`, `noise alone`, `all`, `all but noise`.
+    pub name: String,
+    /// Layers that are on.
+    pub kept: Vec<ErrorLayer>,
+}
+
+/// The cases of a scene with these layers: none, each alone, all, all but each.
+pub fn cases(layers: &[ErrorLayer]) -> Vec<LayerCase> {
+    let alone = layers.iter().map(|&layer| LayerCase { name: format!("{} alone", layer.name()), kept: vec![layer] });
+    let but = |without: ErrorLayer| layers.iter().copied().filter(|&layer| layer != without).collect();
+    let without = layers.iter().map(|&layer| LayerCase { name: format!("all but {}", layer.name()), kept: but(layer) });
+    let mut cases = vec![LayerCase { name: "ideal machine".to_owned(), kept: Vec::new() }];
+    cases.extend(alone);
+    cases.push(LayerCase { name: "all".to_owned(), kept: layers.to_vec() });
+    // Of one layer, none is left without it; of two, each stands alone without the other.
+    if layers.len() > 2 {
+        cases.extend(without);
+    }
+    cases
+}
+
+/// Cuts and measures the cases.
+///
+/// # Errors
+/// Geometry, the backend; Ctrl-C.
+pub fn measure_cases(
+    scene: &Scene,
+    cases: &[LayerCase],
+    flank: FlankWish,
+    backend: &dyn Backend,
+    (progress, interrupt): (&Progress, &Interrupt),
+) -> Result<Vec<Values>> {
+    let step = progress.step("layers", cases.len() as u64, "gears");
+    let found = cases
+        .par_iter()
+        .map(|case| {
+            interrupt.check()?;
+            let mut scene = scene.clone();
+            scene.process.keep_layers(&case.kept);
+            let values = measure(&scene, flank, backend);
+            step.advance(1);
+            values
+        })
+        .collect();
+    step.finish();
+    found
+}

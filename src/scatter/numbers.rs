@@ -1,0 +1,181 @@
+//! The numbers of a gear that are compared: texture, profile and helix of one flank, pitch and evenness of all.
+//!
+//! In: a scene and a flank. Out: [`NUMBERS`] in their order; none where a number does not exist.
+//!
+//! The window of texture is 0.25 mm long in both directions in the middle of the evaluated profile and of the face;
+//! its form is taken off by a polynomial of second order. Profile and helix are lines through that place. Pitch and
+//! stock are means of normal deviations over 0.25 mm of profile there, as a ball would feel them, over cos(alpha):
+//! single rays of a rough flank would give its roughness.
+
+use super::FlankWish;
+use crate::job::{GearJob, rows_z_mm};
+use crate::measure::deviation::{PitchDeviations, Trace};
+use crate::measure::topography::Form;
+use crate::process;
+use crate::scene::Scene;
+use crate::scene::model::{TextureWindow, WindowSides};
+use crate::texture::{cut_window, windows};
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::{Layer, NO_PASS};
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
+
+/// Length of the window and of the part of a profile whose mean stands for a place, mm.
+const WINDOW_MM: f64 = 0.25;
+/// Points of the window along the profile, 2.5 um apart, and along the tooth, where marks of shaping run straight.
+const WINDOW_STEPS: [f64; 2] = [100.0, 10.0];
+/// Distance of points on profiles, mm.
+const PROFILE_STEP_MM: f64 = 0.01;
+/// Distance of points on helices, mm; their ends leave out 5 % of the face.
+const HELIX_STEP_MM: f64 = 0.5;
+const HELIX_SHARE: f64 = 0.9;
+/// Rays whose mean stands for a place.
+const PLACE_RAYS: usize = 11;
+
+/// A number of a gear.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Number {
+    /// Name, its unit at the end.
+    pub key: &'static str,
+    /// What it is.
+    pub definition: &'static str,
+}
+
+const fn number(key: &'static str, definition: &'static str) -> Number {
+    Number { key, definition }
+}
+
+/// All of them, in order.
+pub const NUMBERS: [Number; 13] = [
+    number("Sa_um", "arithmetical mean height (ISO 25178-2)"),
+    number("Sq_um", "root mean square height"),
+    number("Sk_um", "core height"),
+    number("Spk_um", "reduced peak height"),
+    number("Svk_um", "reduced valley depth"),
+    number("F_alpha_um", "total profile deviation"),
+    number("f_H_alpha_um", "profile slope deviation"),
+    number("f_f_alpha_um", "profile form deviation"),
+    number("F_beta_um", "total helix deviation"),
+    number("f_H_beta_um", "helix slope deviation"),
+    number("f_p_um", "largest single pitch deviation of the flank's side"),
+    number("F_p_um", "total cumulative pitch deviation of the flank's side"),
+    number(
+        "unevenness_percent",
+        "largest difference of the first operation's stock left and right of a tooth, over the mean of both",
+    ),
+];
+
+/// A gear's values of [`NUMBERS`].
+pub type Values = Vec<Option<f64>>;
+
+/// Cuts what is needed of a gear and measures it.
+///
+/// # Errors
+/// A tooth that the gear does not have; geometry; the backend.
+pub fn measure(scene: &Scene, flank: FlankWish, backend: &dyn Backend) -> Result<Values> {
+    if !(1..=scene.gear.teeth).contains(&flank.tooth) {
+        let problem = format!("tooth {} is asked for, the gear has {}", flank.tooth, scene.gear.teeth);
+        return Err(Refusal::new("gear.teeth", problem, "ask for a tooth from 1 to the number of teeth").into());
+    }
+    let mut scene = scene.clone();
+    scene.textures = vec![TextureWindow {
+        tooth: flank.tooth,
+        sides: if flank.side == Side::Left { WindowSides::Left } else { WindowSides::Right },
+        center_profile_mm: None,
+        center_lead_mm: 0.0,
+        length_profile_mm: Some(WINDOW_MM),
+        length_lead_mm: Some(WINDOW_MM),
+        profile_spacing_mm: Some(WINDOW_MM / WINDOW_STEPS[0]),
+        lead_spacing_mm: Some(WINDOW_MM / WINDOW_STEPS[1]),
+        form: Form::Poly2,
+    }];
+    let mut values = Values::new();
+    process::prepare(&scene)?.with_gear(&mut |gear| {
+        values = of_gear(gear, flank, backend)?;
+        Ok(())
+    })?;
+    Ok(values)
+}
+
+fn of_gear(gear: &dyn GearJob, flank: FlankWish, backend: &dyn Backend) -> Result<Values> {
+    let mut values = texture(gear, backend)?;
+    let FlankWish { tooth, side } = flank;
+    let [from_mm, to_mm] = gear.evaluated_profile_mm(tooth, side)?;
+    let steps = ((to_mm - from_mm) / PROFILE_STEP_MM).ceil().max(2.0);
+    let arcs_mm: Vec<f64> = (0..=steps as usize).map(|i| from_mm + (to_mm - from_mm) * i as f64 / steps).collect();
+    let layers = gear.cut_flank(backend, tooth, side, &arcs_mm, &[0.0])?;
+    let profile = Trace { places_mm: arcs_mm, heights_mm: heights_mm(last(&layers)) }.deviation([from_mm, to_mm]);
+    values.extend([
+        profile.map(|of| of.total_mm * UM_PER_MM),
+        profile.map(|of| of.slope_mm * UM_PER_MM),
+        profile.map(|of| of.form_mm * UM_PER_MM),
+    ]);
+    let rows_mm = rows_z_mm(HELIX_SHARE * gear.scene().gear.face_width_mm, HELIX_STEP_MM);
+    let layers = gear.cut_flank(backend, tooth, side, &[0.5 * (from_mm + to_mm)], &rows_mm)?;
+    let ends_mm = [rows_mm[0], rows_mm[rows_mm.len() - 1]];
+    let helix = Trace { places_mm: rows_mm, heights_mm: heights_mm(last(&layers)) }.deviation(ends_mm);
+    values.extend([helix.map(|of| of.total_mm * UM_PER_MM), helix.map(|of| of.slope_mm * UM_PER_MM)]);
+    values.extend(of_all_teeth(gear, side, backend)?);
+    Ok(values)
+}
+
+fn last(layers: &[Layer]) -> &Layer {
+    layers.last().expect("a job has at least one operation")
+}
+
+/// Heights of a layer, mm; not a number where no pass came.
+fn heights_mm(layer: &Layer) -> Vec<f64> {
+    let heights = layer.heights_mm.iter().zip(&layer.passes);
+    heights.map(|(&height, &pass)| if pass == NO_PASS { f64::NAN } else { f64::from(height) }).collect()
+}
+
+fn texture(gear: &dyn GearJob, backend: &dyn Backend) -> Result<Values> {
+    let window = windows(gear)?.remove(0);
+    let textures = cut_window(gear, backend, &window)?;
+    let evaluated = textures.last().and_then(|texture| texture.evaluated.as_ref().ok());
+    let value = |symbol: &str| {
+        let parameters = &evaluated?.evaluation.parameters;
+        parameters.iter().find(|parameter| parameter.symbol == symbol)?.value.as_ref().ok().copied()
+    };
+    Ok(["Sa", "Sq", "Sk", "Spk", "Svk"].map(value).to_vec())
+}
+
+/// Single and total pitch deviation, unevenness.
+fn of_all_teeth(gear: &dyn GearJob, side: Side, backend: &dyn Backend) -> Result<[Option<f64>; 3]> {
+    let teeth = gear.scene().gear.teeth;
+    // Mean normal deviation of the first operation and of the last one at the place of every tooth.
+    let place = |tooth: u32, side: Side| -> Result<[f64; 2]> {
+        let [from_mm, to_mm] = gear.evaluated_profile_mm(tooth, side)?;
+        let start_mm = 0.5 * (from_mm + to_mm - WINDOW_MM);
+        let arcs_mm: Vec<f64> =
+            (0..PLACE_RAYS).map(|i| start_mm + WINDOW_MM * i as f64 / (PLACE_RAYS - 1) as f64).collect();
+        let layers = gear.cut_flank(backend, tooth, side, &arcs_mm, &[0.0])?;
+        let mean = |layer: &Layer| heights_mm(layer).iter().sum::<f64>() / PLACE_RAYS as f64;
+        Ok([mean(&layers[0]), mean(last(&layers))])
+    };
+    let of_side = |side: Side| (1..=teeth).map(|tooth| place(tooth, side)).collect::<Result<Vec<[f64; 2]>>>();
+    let own = of_side(side)?;
+    let cosine = gear.scene().gear.pressure_angle_rad.cos();
+    let along_mm: Vec<f64> = own.iter().map(|[_, finished]| finished / cosine).collect();
+    let count = along_mm.len();
+    let pitch = PitchDeviations {
+        single_mm: (0..count).map(|tooth| along_mm[tooth] - along_mm[(tooth + count - 1) % count]).collect(),
+        cumulative_mm: along_mm.iter().map(|at| at - along_mm[0]).collect(),
+    };
+    let known = |value: f64| value.is_finite().then_some(value);
+    let pitches = [pitch.largest_single_mm(), pitch.total_mm()].map(|mm| known(mm * UM_PER_MM));
+    let uneven = if gear.operations().len() > 1 {
+        let other = of_side(if side == Side::Left { Side::Right } else { Side::Left })?;
+        let stock = |[rough, finished]: &[f64; 2]| rough - finished;
+        let percents = own.iter().zip(&other).map(|(own, other)| {
+            let (a, b) = (stock(own), stock(other));
+            if a + b > 0.0 { 200.0 * (a - b).abs() / (a + b) } else { f64::NAN }
+        });
+        // One tooth without stock makes the number meaningless.
+        percents.reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }).and_then(known)
+    } else {
+        None
+    };
+    Ok([pitches[0], pitches[1], uneven])
+}

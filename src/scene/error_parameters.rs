@@ -1,0 +1,138 @@
+//! The errors of a scene as parameters, numbers that can be shifted.
+//!
+//! In: a scene and the tables of its process ([`super::error_sources`]). Out: its [`ErrorParameter`]s, and [`Shifted`]
+//! scenes as `--set` arguments. They go through the reader as any other scene, so that nothing can be shifted beyond
+//! what a scene may say.
+//!
+//! An error of some size in some direction is two parameters, its parts along 0 and 90 degrees, and so is a wave, its
+//! sine and cosine part. Size and direction are no parameters where the size is 0: every direction is the same there.
+
+mod shifted;
+
+use super::LoadedScene;
+use super::error_sources::{ErrorSource, KeyForm, of_axis};
+use super::keys::join;
+use super::machine_errors;
+use crate::machine::AxisKind;
+pub use shifted::Shifted;
+
+/// A number that can be shifted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ErrorParameter {
+    /// Its key, and behind `@` which part of it: `mounting.eccentricity_um@90`.
+    pub id: String,
+    /// The error that it is a part of: its key without the part.
+    pub source: String,
+    /// What it is, in words.
+    pub title: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Natural step, in that unit.
+    pub step: f64,
+    change: Change,
+}
+
+impl ErrorParameter {
+    /// The same with another step.
+    #[must_use]
+    pub fn with_step(self, step: f64) -> Self {
+        Self { step, ..self }
+    }
+}
+
+/// What a shift does to the values of a scene; keys are whole paths.
+#[derive(Debug, Clone, PartialEq)]
+enum Change {
+    Number { key: String, least: f64 },
+    Toward { size: String, angle: String, degrees: f64 },
+    Wave { waves: String, amplitudes: String, phases: String, at: f64, phase_deg: f64 },
+    Lag { key: String },
+    Entry { key: String, index: usize, count: usize },
+}
+
+/// Parameters of all errors that the scene's process knows. Of lists with an entry for each blade the first one stands
+/// for all, unless `whole_lists`.
+pub fn error_parameters(loaded: &LoadedScene, whole_lists: bool) -> Vec<ErrorParameter> {
+    let process = loaded.scene.process.process();
+    let mut found = Vec::new();
+    for source in process.errors.iter().copied().flatten() {
+        parameters(loaded, source.section, source.what, source, AxisKind::Linear, whole_lists, &mut found);
+    }
+    for &(stem, kind) in process.axes {
+        let section = machine_errors::path(stem);
+        let name = stem.replace('_', " ");
+        for source in of_axis(kind) {
+            let what = format!("{name}: {}", source.what);
+            parameters(loaded, &section, &what, source, kind, whole_lists, &mut found);
+        }
+    }
+    found
+}
+
+/// Parameters of one error, whose keys stand in a section.
+fn parameters(
+    loaded: &LoadedScene,
+    section: &str,
+    what: &str,
+    source: &ErrorSource,
+    kind: AxisKind,
+    whole_lists: bool,
+    found: &mut Vec<ErrorParameter>,
+) {
+    let view = loaded.values.view(section);
+    let mut add = |source_id: String, part: String, title: String, change: Change| {
+        let id = format!("{source_id}{part}");
+        found.push(ErrorParameter { id, source: source_id, title, unit: source.unit, step: source.step, change });
+    };
+    match source.form {
+        KeyForm::Number(name) | KeyForm::Amount(name) => {
+            let key = join(section, name);
+            let least = if matches!(source.form, KeyForm::Amount(_)) { 0.0 } else { f64::NEG_INFINITY };
+            add(key.clone(), String::new(), what.to_owned(), Change::Number { key, least });
+        }
+        KeyForm::Vector { size, angle } => {
+            for degrees in [0.0, 90.0] {
+                let (size, angle) = (join(section, size), join(section, angle));
+                let title = format!("{what}, {degrees} deg");
+                add(size.clone(), format!("@{degrees}"), title, Change::Toward { size, angle, degrees });
+            }
+        }
+        KeyForm::Waves { natural } => {
+            let (unit, _) = machine_errors::unit(kind);
+            let name = machine_errors::waves(kind);
+            let (waves, amplitudes) = (join(section, name), join(section, &format!("periodic_amplitudes_{unit}")));
+            let mut places = view.numbers(name).unwrap_or_default().to_vec();
+            places.extend(natural);
+            places.sort_by(f64::total_cmp);
+            places.dedup();
+            for at in places {
+                for (phase_deg, part) in [(0.0, "sine"), (90.0, "cosine")] {
+                    let title = match kind {
+                        AxisKind::Rotary => format!("{what} {at} {part}"),
+                        AxisKind::Linear => format!("{what} {at} mm {part}"),
+                    };
+                    let change = Change::Wave {
+                        waves: waves.clone(),
+                        amplitudes: amplitudes.clone(),
+                        phases: join(section, "periodic_phases_deg"),
+                        at,
+                        phase_deg,
+                    };
+                    add(format!("{amplitudes}@{at}"), format!("/{phase_deg}"), title, change);
+                }
+            }
+        }
+        KeyForm::Lag => {
+            let key = join(section, "velocity_gain_per_s");
+            add(key.clone(), String::new(), what.to_owned(), Change::Lag { key });
+        }
+        KeyForm::Entries { list, count } => {
+            let key = join(section, list);
+            let count = view.whole(count).unwrap_or(0) as usize;
+            for index in 0..if whole_lists { count } else { count.min(1) } {
+                let change = Change::Entry { key: key.clone(), index, count };
+                add(key.clone(), format!("@{}", index + 1), format!("{what} {}", index + 1), change);
+            }
+        }
+    }
+}

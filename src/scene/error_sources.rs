@@ -1,0 +1,128 @@
+//! Errors that scenes of a process can name, as tables of numbers that can be shifted a little.
+//!
+//! A line for each error key, in the shared lists here and in each process: its keys, how they become numbers, unit,
+//! natural step, what it is. A new error key joins by its line. [`super::error_parameters`] makes the numbers of a
+//! scene from them. Road not taken: every number among the keys of a scene. Most of them say what is to be cut, and a
+//! key alone does not tell how large a usual error is.
+
+use crate::machine::AxisKind;
+
+/// An error that scenes of a process can name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorSource {
+    /// Section of its keys.
+    pub section: &'static str,
+    /// Its keys in that section, and how they become parameters.
+    pub form: KeyForm,
+    /// Unit of its parameters.
+    pub unit: &'static str,
+    /// Natural step, in that unit: of the size that such an error has on a good machine, and far above rounding.
+    pub step: f64,
+    /// What it is, in a few words.
+    pub what: &'static str,
+}
+
+/// How the keys of an error become parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum KeyForm {
+    /// A number of any sign.
+    Number(&'static str),
+    /// A number that is not negative.
+    Amount(&'static str),
+    /// A size and its direction, deg: parts along 0 and 90 degrees.
+    Vector {
+        /// Key of the size.
+        size: &'static str,
+        /// Key of the direction.
+        angle: &'static str,
+    },
+    /// Waves in lists: sine and cosine part of each. Their keys follow from the kind of the axis.
+    Waves {
+        /// Orders or lengths that are tried beside those that the scene names.
+        natural: &'static [f64],
+    },
+    /// The velocity gain of a drive, as its time lag 1000 / K_v, ms; 0 without the key.
+    Lag,
+    /// A list with an entry for each of so many blades.
+    Entries {
+        /// Key of the list.
+        list: &'static str,
+        /// Key of the number of entries, in the same section.
+        count: &'static str,
+    },
+}
+
+const fn line(section: &'static str, form: KeyForm, unit: &'static str, step: f64, what: &'static str) -> ErrorSource {
+    ErrorSource { section, form, unit, step, what }
+}
+
+const fn vector(
+    section: &'static str,
+    [size, angle]: [&'static str; 2],
+    unit: &'static str,
+    step: f64,
+    what: &'static str,
+) -> ErrorSource {
+    line(section, KeyForm::Vector { size, angle }, unit, step, what)
+}
+
+/// Keys of a runout, and of a wobble.
+const RUNOUT: [&str; 2] = ["runout_um", "runout_angle_deg"];
+const WOBBLE: [&str; 2] = ["wobble_um_per_100mm", "wobble_angle_deg"];
+
+/// Runout of the tool whose section this is.
+pub const fn runout(section: &'static str) -> ErrorSource {
+    vector(section, RUNOUT, "um", 4.0, "tool runout")
+}
+
+/// Wobble of the tool whose section this is.
+pub const fn wobble(section: &'static str) -> ErrorSource {
+    vector(section, WOBBLE, "um/100 mm", 10.0, "tool wobble")
+}
+
+/// How the work sits on its spindle.
+pub static MOUNTING: &[ErrorSource] = &[
+    vector("mounting", ["eccentricity_um", "eccentricity_angle_deg"], "um", 4.0, "work eccentricity"),
+    vector("mounting", WOBBLE, "um/100 mm", 10.0, "work wobble"),
+    line("mounting", KeyForm::Number("axial_offset_um"), "um", 20.0, "work axial offset"),
+];
+
+/// How the guide along the gear's axis runs.
+pub static GUIDE: &[ErrorSource] = &[
+    line("machine.errors.guide", KeyForm::Number("radial_um_per_100mm"), "um/100 mm", 20.0, "guide: radial slope"),
+    line(
+        "machine.errors.guide",
+        KeyForm::Number("tangential_um_per_100mm"),
+        "um/100 mm",
+        20.0,
+        "guide: tangential slope",
+    ),
+    line("machine.errors.guide", KeyForm::Number("radial_bow_um"), "um", 2.0, "guide: radial bow"),
+    line("machine.errors.guide", KeyForm::Number("tangential_bow_um"), "um", 2.0, "guide: tangential bow"),
+];
+
+/// Errors of a rotary axis, its section left empty. Once and twice a turn: eccentric and leaning wheels and scales.
+static ROTARY: &[ErrorSource] = &[
+    line("", KeyForm::Waves { natural: &[1.0, 2.0] }, "arcsec", 5.0, "wave"),
+    line("", KeyForm::Amount("backlash_arcsec"), "arcsec", 5.0, "backlash"),
+    line("", KeyForm::Lag, "ms", 2.0, "lag"),
+    line("", KeyForm::Amount("gearbox_cycle_ms"), "ms", 2.0, "gearbox cycle"),
+];
+
+/// Errors of a linear axis, its section left empty. The leads of its screws are known to its scene alone.
+static LINEAR: &[ErrorSource] = &[
+    line("", KeyForm::Number("scale_um_per_m"), "um/m", 20.0, "scale"),
+    line("", KeyForm::Waves { natural: &[] }, "um", 2.0, "wave"),
+    line("", KeyForm::Amount("backlash_um"), "um", 4.0, "backlash"),
+    line("", KeyForm::Lag, "ms", 2.0, "lag"),
+    line("", KeyForm::Amount("gearbox_cycle_ms"), "ms", 2.0, "gearbox cycle"),
+    line("", KeyForm::Number("drift_um_per_h"), "um/h", 60.0, "drift"),
+];
+
+/// Errors of an axis of a kind, their sections left empty.
+pub(super) fn of_axis(kind: AxisKind) -> &'static [ErrorSource] {
+    match kind {
+        AxisKind::Rotary => ROTARY,
+        AxisKind::Linear => LINEAR,
+    }
+}

@@ -1,0 +1,77 @@
+//! How fast this machine computes, against the one on which the rates of estimates were measured.
+//!
+//! In: pieces of the work that is to be estimated, each with the seconds that the rates say. Out: the factor between
+//! the processor time that they took and those seconds. Processor time, not wall time: other programs that run at the
+//! same time change the one only.
+//!
+//! Road not taken: a benchmark of its own. It would say nothing of the mix of planning and cutting that this scene asks
+//! for.
+
+use std::time::Duration;
+
+/// Processor time for pieces of work, s: enough for a factor, and nobody waits for it.
+const BUDGET_S: f64 = 0.15;
+
+/// Pieces of work that were timed.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ComputerSpeed {
+    expected_s: f64,
+    taken_s: f64,
+}
+
+impl ComputerSpeed {
+    /// Does a piece and times it; `expected_s` says of what it gave how long it takes by the rates.
+    pub fn piece<T>(&mut self, work: impl FnOnce() -> T, expected_s: impl FnOnce(&T) -> f64) -> T {
+        let before = processor_time();
+        let done = work();
+        self.taken_s += processor_time().saturating_sub(before).as_secs_f64();
+        self.expected_s += expected_s(&done);
+        done
+    }
+
+    /// Whether there is time for more pieces.
+    pub fn wants_more(&self) -> bool {
+        self.taken_s < BUDGET_S
+    }
+
+    /// Seconds on this machine for a second by the rates; 1 where nothing was timed.
+    pub fn factor(&self) -> f64 {
+        if self.expected_s > 0.0 && self.taken_s > 0.0 { self.taken_s / self.expected_s } else { 1.0 }
+    }
+}
+
+/// Processor time of this thread.
+#[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
+fn processor_time() -> Duration {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    // Neither is negative.
+    Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or(0))
+}
+
+/// Where the system has no such clock, wall time stands in for it.
+#[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
+fn processor_time() -> Duration {
+    static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
+    START.get_or_init(std::time::Instant::now).elapsed()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_factor_is_time_taken_over_time_expected() {
+        let mut speed = ComputerSpeed::default();
+        assert!(speed.wants_more() && speed.factor() == 1.0);
+        let spin = |rounds: u64| (0..rounds).fold(1.0_f64, |x, i| (x + i as f64).sqrt());
+        let x = speed.piece(|| spin(3_000_000), |_| 1e-3);
+        let once = speed;
+        speed.piece(|| spin(3_000_000), |_| 1e-3);
+        assert!(x > 0.0 && once.taken_s > 0.0 && speed.taken_s > once.taken_s);
+        assert!((once.factor() - once.taken_s / 1e-3).abs() < 1e-9);
+        // A thread that sleeps takes no processor time.
+        let mut idle = ComputerSpeed::default();
+        idle.piece(|| std::thread::sleep(Duration::from_millis(60)), |()| 0.06);
+        assert!(cfg!(windows) || idle.factor() < 0.5, "{}", idle.factor());
+    }
+}

@@ -1,0 +1,7 @@
+//! Influences of errors, and what is fitted by them.
+
+mod budget;
+mod calibrate;
+mod command;
+mod diagnose;
+mod round;

@@ -1,0 +1,108 @@
+//! `gearcut scatter`: rows that a stop does not take, equal bytes on any number of threads, refusals.
+
+use crate::fixtures::command::{gearcut, gearcut_on_threads};
+use std::fs;
+use std::path::Path;
+#[cfg(unix)]
+use std::process::{Command, Stdio};
+#[cfg(unix)]
+use std::time::{Duration, Instant};
+
+const SCENE: [&str; 7] = [
+    "scatter",
+    "scenes/shaping/noise.toml",
+    "--quiet",
+    "--set",
+    "operation.finish.strokes_per_revolution=480",
+    "--set",
+    "operation.rough.strokes_per_revolution=240",
+];
+
+fn scatter(out: &Path, threads: u32, more: &[&str]) -> (i32, String) {
+    let out = out.to_str().expect("a path");
+    let done = gearcut_on_threads(threads, &[&SCENE[..], &["--out", out], more].concat());
+    (done.code, done.out + &done.err)
+}
+
+fn read(out: &Path, name: &str) -> String {
+    fs::read_to_string(out.join(name)).expect("a file")
+}
+
+#[test]
+fn gears_scatter_alike_on_any_number_of_threads_and_after_a_stop() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (whole, stopped) = (folder.path().join("whole"), folder.path().join("stopped"));
+    let (code, said) = scatter(&whole, 1, &["--seeds", "4"]);
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains("noise alone") && said.contains("all but edge") && said.contains("4 gears"), "{said}");
+    assert_eq!(scatter(&stopped, 2, &["--seeds", "2"]).0, 0);
+    let rows = read(&stopped, "seeds.csv");
+    assert_eq!(rows.lines().count(), 3);
+    // As a kill leaves it: a line without its end.
+    fs::write(stopped.join("seeds.csv"), rows.clone() + "3,0.1,0.2").expect("written");
+    assert_eq!(scatter(&stopped, 2, &["--seeds", "4"]).0, 0);
+    for name in ["seeds.csv", "layers.csv", "scatter.csv", "run.json"] {
+        assert_eq!(read(&whole, name), read(&stopped, name), "{name}");
+    }
+    assert!(read(&whole, "seeds.csv").starts_with(&rows));
+    let values = |line: &str| line.split(',').skip(1).map(str::to_owned).collect::<Vec<_>>();
+    let seeds: Vec<Vec<String>> = read(&whole, "seeds.csv").lines().skip(1).map(values).collect();
+    assert!(seeds.iter().all(|row| row.iter().all(|value| value.parse::<f64>().is_ok_and(f64::is_finite))));
+    assert!(seeds[0] != seeds[1] && seeds[1] != seeds[2]);
+    // Layers are cut with the scene's own seed, which is the first.
+    let all = read(&whole, "layers.csv").lines().find(|line| line.starts_with("all,")).map(values);
+    assert_eq!(all.as_ref(), seeds.first());
+    // Another scene does not go into the same folder, nor does another command's.
+    let (code, said) = scatter(&whole, 1, &["--seeds", "4", "--tooth", "2"]);
+    assert!(code == 1 && said.contains("another scene, flank or version"), "{said}");
+    fs::write(whole.join("run.json"), "{\"command\": \"pair\"}").expect("written");
+    let (code, said) = scatter(&whole, 1, &["--seeds", "4"]);
+    assert!(code == 1 && said.contains("another command"), "{said}");
+}
+
+#[test]
+fn scenes_without_errors_and_teeth_that_are_not_there_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("none");
+    let sound = gearcut(&["scatter", "scenes/shaping/circular_m3_z24.toml", "--out", out.to_str().expect("a path")]);
+    assert!(sound.code == 1 && sound.err.contains("no errors"), "{}", sound.err);
+    let (code, said) = scatter(&out, 1, &["--tooth", "25"]);
+    assert!(code == 1 && said.contains("the gear has 24"), "{said}");
+}
+
+/// Starts a run of many gears, waits for some of them, and ends it by a signal; gives its exit code, if it has one.
+#[cfg(unix)]
+fn ended_by(signal: &str, out: &Path) -> Option<i32> {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_gearcut"))
+        .args([&SCENE[..], &["--out", out.to_str().expect("a path"), "--seeds", "1000"]].concat())
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stderr(Stdio::null())
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("started");
+    let started = Instant::now();
+    let rows = || fs::read_to_string(out.join("seeds.csv")).map_or(0, |text| text.lines().count());
+    while rows() < 4 {
+        assert!(started.elapsed() < Duration::from_secs(300), "no gears in five minutes");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().expect("a signal").success());
+    child.wait().expect("ended").code()
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_finished_outlives_ctrl_c_and_a_kill() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (whole, stopped) = (folder.path().join("whole"), folder.path().join("stopped"));
+    assert_eq!(ended_by("-INT", &stopped), Some(130));
+    let kept = read(&stopped, "seeds.csv").lines().count();
+    assert!(kept >= 4, "{kept} lines");
+    assert_eq!(ended_by("-KILL", &stopped), None, "killed");
+    assert!(read(&stopped, "seeds.csv").lines().count() >= kept);
+    assert!(!stopped.join("scatter.csv").exists(), "nothing is told of gears that are not there");
+    let seeds = ["--seeds", "3"];
+    assert_eq!(scatter(&stopped, 2, &seeds).0, 0);
+    assert_eq!(scatter(&whole, 2, &seeds).0, 0);
+    assert_eq!(read(&whole, "scatter.csv"), read(&stopped, "scatter.csv"));
+}
