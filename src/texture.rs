@@ -30,7 +30,7 @@ use crate::job::{GearJob, RAY_DEPTH_MODULES};
 use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
 use crate::output::progress::Progress;
 use gearcut_core::cut::Backend;
-use gearcut_core::dexel::NO_PASS;
+use gearcut_core::dexel::{Layer, NO_PASS};
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 use rayon::prelude::*;
@@ -182,14 +182,20 @@ pub fn measure(
 /// # Errors
 /// Geometry and the backend.
 pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
-    let window = &sampling::sampled(job, backend, window)?;
-    let (arcs_mm, rows_z_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.rows_z_mm());
-    let (columns, rows) = (arcs_mm.len(), rows_z_mm.len());
-    let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &rows_z_mm)?;
+    let cut = |window: &Window| {
+        let arcs_mm: Vec<f64> = window.arcs_mm().collect();
+        job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &window.rows_z_mm())
+    };
+    let layers = cut(window)?;
+    let (window, layers) = match sampling::finer(job, backend, window, &layers)? {
+        Some(finer) => (finer.clone(), cut(&finer)?),
+        None => (window.clone(), layers),
+    };
+    let [rows, columns] = window.count;
     Ok(layers
         .iter()
         .enumerate()
-        .skip(shown_from(window, layers.len()))
+        .skip(shown_from(&window, layers.len()))
         .map(|(operation, layer)| {
             // Where a ray ends inside a cut, its end is no surface: a flank that is gone has no texture.
             let ends_mm = -ENDS_SHARE * RAY_DEPTH_MODULES * job.scene().gear.module_mm;
@@ -202,14 +208,14 @@ pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> 
             let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);
             let heights = Surface::new(rows, columns, dx, dy, heights_um);
             let along_tooth = if job.marks_follow_along_tooth(operation) {
-                facets(&layer.passes[columns / 2 * rows..(columns / 2 + 1) * rows])
+                facets(&middle_line(layer, window.count, 0))
             } else {
                 (0, None)
             };
-            let along_profile = facets(&layer.passes.iter().skip(rows / 2).step_by(rows).copied().collect::<Vec<_>>());
+            let along_profile = facets(&middle_line(layer, window.count, 1));
             let marks = [along_tooth.0, along_profile.0];
             let points_per_mark = [along_tooth.1, along_profile.1];
-            let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, window));
+            let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, &window));
             WindowTexture {
                 window: window.clone(),
                 operation,
@@ -225,6 +231,16 @@ pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> 
 /// The first of so many operations that a window shows.
 fn shown_from(window: &Window, operations: usize) -> usize {
     if window.every_operation { 0 } else { operations - 1 }
+}
+
+/// Passes along the middle line of a window that has so many points along the tooth and along the profile: the line
+/// along the tooth (0) or along the profile (1).
+fn middle_line(layer: &Layer, [rows, columns]: [usize; 2], direction: usize) -> Vec<u32> {
+    if direction == 0 {
+        layer.passes[columns / 2 * rows..][..rows].to_vec()
+    } else {
+        layer.passes[rows / 2..].iter().copied().step_by(rows).collect()
+    }
 }
 
 /// Facets along a line, one more than the changes of the pass that left it, and the points of a whole one: parts of

@@ -4,17 +4,24 @@
 
 /// Text broken between words into lines of at most `width` characters; a longer word stays whole.
 pub fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
+    hanging("", text, 0, width)
+}
+
+/// Text behind a label, broken between words; the lines after the first are indented.
+fn hanging(label: &str, text: &str, indent: usize, width: usize) -> Vec<String> {
+    let mut lines = vec![label.to_owned()];
+    let mut bare = true; // whether the last line has no word yet
     for word in text.split(' ') {
         let last = lines.last_mut().expect("one line at least");
-        if last.is_empty() {
+        if bare {
             last.push_str(word);
         } else if last.chars().count() + 1 + word.chars().count() <= width {
             last.push(' ');
             last.push_str(word);
         } else {
-            lines.push(word.to_owned());
+            lines.push(format!("{:indent$}{word}", ""));
         }
+        bare &= word.is_empty();
     }
     lines
 }
@@ -35,12 +42,7 @@ fn fitted_line(line: &str, width: usize) -> String {
     let (label, value) = line.split_at(value_at);
     let column = label.chars().count();
     let indent = if columns == 2 && column <= width / 2 { column } else { lead + 2 };
-    let parts = wrapped(value, width - indent.max(column.min(width / 2)));
-    let begun = parts
-        .iter()
-        .enumerate()
-        .map(|(i, part)| if i == 0 { format!("{label}{part}") } else { format!("{:indent$}{part}", "") });
-    begun.collect::<Vec<_>>().join("\n")
+    hanging(label, value, indent, width).join("\n")
 }
 
 /// A text of others, fit to print: characters that would command the terminal are shown by their codes, line breaks and

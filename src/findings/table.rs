@@ -33,7 +33,7 @@ pub struct Table {
 pub struct TableColumn {
     /// Key.
     pub key: Cow<'static, str>,
-    /// Unit; none for words.
+    /// Unit; none for words, and for numbers whose units another column names row by row.
     pub unit: Option<Cow<'static, str>>,
     /// What its values are.
     pub definition: Cow<'static, str>,
@@ -155,8 +155,13 @@ impl TableColumn {
             None | Some("1") => self.key.to_string(),
             Some(unit) if self.key.ends_with(unit) => self.key.to_string(),
             Some("%") => format!("{}_percent", self.key),
-            Some(unit) => format!("{}_{}", self.key, unit.replace(['^', ' '], "").replace('/', "_per_")),
+            Some(unit) => format!("{}_{}", self.key, unit.replace(['^', ' ', '(', ')'], "").replace('/', "_per_")),
         }
+    }
+
+    /// A column of numbers of many units; a column of words says in which unit each row is.
+    pub fn by_row(key: impl Into<Cow<'static, str>>, definition: &'static str) -> Self {
+        Self { key: key.into(), unit: None, definition: definition.into(), why: None, chart: None }
     }
 
     /// A column of words.

@@ -18,37 +18,57 @@
 //! | the report: everything on one page that opens offline | [`report`] |
 //! | progress and Ctrl-C | [`progress`], [`crate::interrupt`] |
 
+#[doc(hidden)]
 pub mod apng;
+#[doc(hidden)]
 pub mod atomic;
 mod axis;
+#[doc(hidden)]
 pub mod bar_chart;
 mod canvas;
+#[doc(hidden)]
 pub mod contact_sheet;
 mod figure;
+#[doc(hidden)]
 pub mod flank_maps;
+#[doc(hidden)]
 pub mod folder;
 mod font;
 mod heat;
+#[doc(hidden)]
 pub mod inspection_sheet;
 mod letters;
 pub mod line_chart;
+#[doc(hidden)]
 pub mod map_png;
+#[doc(hidden)]
 pub mod mesh_file;
+#[doc(hidden)]
 pub mod mesh_glb;
+#[doc(hidden)]
 pub mod mesh_ply;
+#[doc(hidden)]
 pub mod mesh_stl;
 mod plot;
 pub mod progress;
+#[doc(hidden)]
 pub mod range_chart;
 mod raster;
+#[doc(hidden)]
 pub mod ratio_chart;
 mod relief;
+#[doc(hidden)]
 pub mod render_png;
+#[doc(hidden)]
 pub mod report;
+#[doc(hidden)]
 pub mod rolling_picture;
+#[doc(hidden)]
 pub mod summary;
 pub mod table;
+#[doc(hidden)]
 pub mod text;
+#[doc(hidden)]
 pub mod vector_page;
 
 /// Surfaces in files, and the maps that are surfaces too, from the crate of their own.

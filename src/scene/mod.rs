@@ -12,10 +12,13 @@
 pub(crate) mod build;
 mod check;
 mod checks;
+#[doc(hidden)]
 pub mod error_parameters;
+#[doc(hidden)]
 pub mod error_sources;
 pub mod errors;
 mod foreign;
+#[doc(hidden)]
 pub mod keys;
 mod loaded;
 pub(crate) mod machine_errors;
@@ -25,7 +28,9 @@ mod overrides;
 mod points;
 pub(crate) mod problems;
 mod process;
+#[doc(hidden)]
 pub mod reference;
+#[doc(hidden)]
 pub mod schema;
 mod sources;
 mod suggest;
@@ -40,8 +45,12 @@ mod write;
 
 pub use errors::{Problem, SceneErrors, SourcePlace};
 pub use loaded::{LoadedScene, Located, load, parse};
+#[doc(hidden)]
 pub use mate::{Mate, MateScene};
 pub use model::{Post, Scene};
+#[doc(hidden)]
 pub use process::{Copied, FINISH_ALONE, ProcessPart, ScenePart, SceneProcess, Senseless, StandardOperation};
+#[doc(hidden)]
 pub use table::{KeyTable, TableSection};
+#[doc(hidden)]
 pub use template::template;

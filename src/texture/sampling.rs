@@ -1,9 +1,9 @@
 //! How finely a window is sampled whose scene leaves that open.
 //!
-//! In: a window at the spacing of the flank's own dexels. Out: the same window, or one with more points in a direction
-//! in which marks follow each other with fewer than [`ENOUGH_POINTS`] points each. Law: two lines of dexels through the
-//! middle of the window, one along the profile and one along the tooth, are cut and the points of their marks counted;
-//! the step shrinks by what is missing, until it is enough.
+//! In: a window at the spacing of the flank's own dexels, cut. Out: one with more points in a direction in which marks
+//! follow each other with fewer than [`ENOUGH_POINTS`] points each, or none where they have enough. Law: the points of
+//! marks are counted on two lines through the middle of the window, one along the profile and one along the tooth; the
+//! step shrinks by what is missing and the line is cut anew, until it is enough.
 //!
 //! A window that would then have too many points, or points much finer than the flank's dexels (a draft, coarse by
 //! intention), stays as it is, and a note tells what its slopes are worth ([`super::WindowTexture::notes`]).
@@ -12,9 +12,10 @@
 //! of several teeth cross, none in closed form.
 
 use super::window::Window;
-use super::{ENOUGH_POINTS, facets, shown_from};
+use super::{ENOUGH_POINTS, facets, middle_line, shown_from};
 use crate::job::GearJob;
 use gearcut_core::cut::Backend;
+use gearcut_core::dexel::Layer;
 use gearcut_core::error::Result;
 
 /// Points of a window that was made finer: some 50 MB while it is evaluated, on every core.
@@ -24,29 +25,42 @@ const MOST_POINTS: usize = 500_000;
 const MOST_TIMES_FINER: f64 = 10.0;
 /// The step becomes so much smaller than what is missing says: marks differ along a line.
 const ROOM: f64 = 1.1;
-/// Times that a line is cut anew: where marks are shorter than points are apart, the first count is too high.
+/// Times that marks are counted: where they are shorter than points are apart, the first count is too high.
 const ATTEMPTS: usize = 3;
 
-/// The window as it is cut.
+/// A finer window than the one that left these layers, if it needs one.
 ///
 /// # Errors
 /// Geometry and the backend.
-pub(super) fn sampled(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> Result<Window> {
-    let mut sampled = window.clone();
+pub(super) fn finer(
+    job: &dyn GearJob,
+    backend: &dyn Backend,
+    window: &Window,
+    layers: &[Layer],
+) -> Result<Option<Window>> {
+    let mut sampled = None;
     for direction in [0, 1] {
         if !window.open_step[direction] {
             continue;
         }
         let finest_mm = window.spacing_mm()[direction] / MOST_TIMES_FINER;
-        let mut finer = sampled.clone();
-        for _ in 0..ATTEMPTS {
-            let step_mm = finer.spacing_mm()[direction];
-            let Some(points) = fewest_points(job, backend, &finer, direction)? else { break };
+        let mut finer = sampled.as_ref().unwrap_or(window).clone();
+        for attempt in 0..ATTEMPTS {
+            let as_cut = attempt == 0 && sampled.is_none();
+            let lines: Vec<Vec<u32>> = if as_cut {
+                layers.iter().map(|layer| middle_line(layer, finer.count, direction)).collect()
+            } else {
+                cut_lines(job, backend, &finer, direction)?
+            };
+            let points = fewest_points(job, &finer, direction, &lines);
+            let Some(points) = points else { break };
             if points >= ENOUGH_POINTS {
-                sampled = finer;
+                if !as_cut {
+                    sampled = Some(finer);
+                }
                 break;
             }
-            let step_mm = step_mm * points / (ROOM * ENOUGH_POINTS);
+            let step_mm = finer.spacing_mm()[direction] * points / (ROOM * ENOUGH_POINTS);
             finer = finer.with_step(direction, step_mm);
             if step_mm < finest_mm || finer.count[0] * finer.count[1] > MOST_POINTS {
                 break;
@@ -56,9 +70,8 @@ pub(super) fn sampled(job: &dyn GearJob, backend: &dyn Backend, window: &Window)
     Ok(sampled)
 }
 
-/// Points of a whole mark on a line through the middle of the window, the fewest of the operations that it shows; none
-/// where no whole mark lies on it.
-fn fewest_points(job: &dyn GearJob, backend: &dyn Backend, window: &Window, direction: usize) -> Result<Option<f64>> {
+/// Passes along the middle line of a window, cut alone.
+fn cut_lines(job: &dyn GearJob, backend: &dyn Backend, window: &Window, direction: usize) -> Result<Vec<Vec<u32>>> {
     let (mut arcs_mm, mut rows_z_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.rows_z_mm());
     if direction == 0 {
         arcs_mm = vec![arcs_mm[arcs_mm.len() / 2]];
@@ -66,7 +79,13 @@ fn fewest_points(job: &dyn GearJob, backend: &dyn Backend, window: &Window, dire
         rows_z_mm = vec![rows_z_mm[rows_z_mm.len() / 2]];
     }
     let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &rows_z_mm)?;
-    let shown = layers.iter().enumerate().skip(shown_from(window, layers.len()));
+    Ok(layers.into_iter().map(|layer| layer.passes).collect())
+}
+
+/// Points of a whole mark on a line, the fewest of the operations that a window shows; none where no whole mark lies on
+/// it.
+fn fewest_points(job: &dyn GearJob, window: &Window, direction: usize, lines: &[Vec<u32>]) -> Option<f64> {
+    let shown = lines.iter().enumerate().skip(shown_from(window, lines.len()));
     let points = shown.filter(|(operation, _)| direction == 1 || job.marks_follow_along_tooth(*operation));
-    Ok(points.filter_map(|(_, layer)| facets(&layer.passes).1).reduce(f64::min))
+    points.filter_map(|(_, passes)| facets(passes).1).reduce(f64::min)
 }

@@ -78,13 +78,13 @@ fn influences(budget: &Budget) -> Table {
         TableColumn::words("parameter", "key of the error, and behind @ which part of it"),
         TableColumn::words("error", "what it is"),
         TableColumn::words("unit", "unit of the parameter"),
-        TableColumn::new("step", "unit", "natural step of the parameter; it is shifted by as much to both sides"),
+        TableColumn::by_row("step", "natural step of the parameter; it is shifted by as much to both sides"),
         TableColumn::new("per_step", "um", "predicted: largest normal deviation that the step leaves"),
     ];
     if let Some(line) = budget.lines.first() {
         columns.extend(line.per_unit.named().map(|(key, definition, _)| TableColumn {
-            definition: format!("predicted: what a unit of it alone makes on an ideal gear: {definition}").into(),
-            ..TableColumn::new(key, "um/unit", "").or("pitch and thickness need all flanks")
+            definition: format!("predicted: um that a unit of it alone makes on an ideal gear: {definition}").into(),
+            ..TableColumn::by_row(format!("{key}_um_per_unit"), "").or("pitch and thickness need all flanks")
         }));
     }
     columns.extend([
@@ -143,7 +143,9 @@ fn maps(budget: &Budget) -> Table {
     ];
     columns.extend(budget.lines.iter().map(|line| TableColumn {
         definition: format!("predicted: normal deviation for a unit of {}", line.influence.parameter.title).into(),
-        ..TableColumn::new(line.influence.parameter.id.clone(), "um/unit", "").or("no pass came there")
+        unit: Some(per(line.influence.parameter.unit).into()),
+        // Keys have no dots: these part the steps of a path through the findings.
+        ..TableColumn::new(line.influence.parameter.id.replace(['.', '@'], "_"), "", "").or("no pass came there")
     }));
     let mut rows = Vec::new();
     let mut place = 0;
@@ -160,18 +162,23 @@ fn maps(budget: &Budget) -> Table {
     Table::new("maps", "Influence maps", columns).with_rows(rows).rows_in_file("influence_maps")
 }
 
+/// Micrometres per unit.
+fn per(unit: &str) -> String {
+    if unit.contains('/') { format!("um/({unit})") } else { format!("um/{unit}") }
+}
+
 /// A row for each parameter and each reported number that it moves.
 fn numbers(budget: &Budget) -> Table {
     let columns = vec![
         TableColumn::words("parameter", "key of the error, and behind @ which part of it"),
         TableColumn::words("quantity", "path of the number in results.json; headline.KEY for those of its headline"),
-        TableColumn::words("unit", "unit of the number"),
-        TableColumn::new("value", "its unit", "predicted: by the scene as it is"),
-        TableColumn::new("derivative", "per unit", "predicted: what it gains for a unit of the error, both directions")
+        TableColumn::words("unit", "unit of the number; derivatives are for one unit of the error"),
+        TableColumn::by_row("value", "predicted: by the scene as it is"),
+        TableColumn::by_row("derivative", "predicted: what it gains for a unit of the error, both directions")
             .or("one of the directions is not there"),
-        TableColumn::new("upwards", "per unit", "predicted: the same from the scene's value upwards")
+        TableColumn::by_row("upwards", "predicted: the same from the scene's value upwards")
             .or("the number vanishes there"),
-        TableColumn::new("downwards", "per unit", "predicted: the same from below to the scene's value")
+        TableColumn::by_row("downwards", "predicted: the same from below to the scene's value")
             .or("the number vanishes there, or the scene has no word for less"),
     ];
     let rows = budget.reported.iter().map(|of| {

@@ -77,8 +77,8 @@ fn fits(found: &Calibration) -> Table {
     let columns = vec![
         TableColumn::words("parameter", "key of the error, and behind @ which part of it"),
         TableColumn::words("kind", "fitted: chosen so that the predicted numbers come near the measured ones"),
-        TableColumn::new("shift", "unit", "shift beyond the scene").or(why),
-        TableColumn::new("half_width", "unit", "half the width of its 95 % interval").or(why),
+        TableColumn::by_row("shift", "shift beyond the scene").or(why),
+        TableColumn::by_row("half_width", "half the width of its 95 % interval").or(why),
         TableColumn::words("unit", "unit of both"),
     ];
     let rows = found.fitted.iter().map(|(parameter, fitted)| {
@@ -95,11 +95,11 @@ fn fits(found: &Calibration) -> Table {
 
 fn numbers(found: &Calibration) -> Table {
     let columns = vec![
-        TableColumn::words("quantity", "path in results.json"),
-        TableColumn::new("measured", "its unit", "measured value"),
-        TableColumn::new("uncertainty", "its unit", "its standard uncertainty"),
-        TableColumn::new("scene", "its unit", "predicted: by the scene as it is"),
-        TableColumn::new("fitted", "its unit", "fitted: by the scene with the fitted parameters"),
+        TableColumn::words("quantity", "path in results.json, which says its unit"),
+        TableColumn::by_row("measured", "measured value"),
+        TableColumn::by_row("uncertainty", "its standard uncertainty"),
+        TableColumn::by_row("scene", "predicted: by the scene as it is"),
+        TableColumn::by_row("fitted", "fitted: by the scene with the fitted parameters"),
     ];
     let rows = found.numbers.iter().map(|(measured, [before, after])| {
         vec![

@@ -2,6 +2,7 @@
 
 use super::round::{CUTTER_MM, PITCH_MM, SCENE, loaded};
 use crate::fixtures::command::{gearcut_in, read_json};
+use crate::fixtures::json_schema::assert_is_results;
 use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
 use gearcut::influence::budget::chosen;
 use gearcut::influence::calibrate::{Calibration, MeasuredNumber};
@@ -72,6 +73,7 @@ fn the_command_prints_a_fitted_scene_and_refuses_unknown_numbers() {
     assert!(done.err.contains("as many numbers are fitted as measured"), "{}", done.err);
     let out = folder.path().join("out/round_calibration");
     let results = read_json(&out.join("results.json"));
+    assert_is_results(&results);
     let shift = results["headline"]["fit_1"]["value"].as_f64().expect("a number");
     assert!((shift - 4.0).abs() < 0.5, "{results:#}");
     calibrate("deviations.runaut,18.0,0.2\n").failed(1, &["deviations.runaut", "results.json"]);

@@ -2,6 +2,7 @@
 
 use super::round::SCENE;
 use crate::fixtures::command::{gearcut_in, read_json};
+use crate::fixtures::json_schema::assert_is_results;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -23,14 +24,16 @@ fn a_budget_ranks_errors_and_writes_its_tables() {
     assert!(done.out.lines().all(|line| line.chars().count() <= 80), "{}", done.out);
     let out = folder.path().join("out/round_budget");
     let table = std::fs::read_to_string(out.join("budget.csv")).expect("a table");
-    assert!(table.starts_with("parameter,error,unit,step_unit,per_step_um,largest_um_per_unit,F_alpha"), "{table}");
+    assert!(table.starts_with("parameter,error,unit,step,per_step_um,largest_um_per_unit,F_alpha"), "{table}");
     // Eccentricity and wobble have two parts each; an offset along the axis does nothing to spur teeth.
     assert_eq!(table.lines().count(), 1 + 2 + 2 + 1 + 4, "{table}");
     assert!(table.lines().last().is_some_and(|line| line.starts_with("mounting.axial_offset_um")), "{table}");
-    assert!(heads(&out.join("tables/influence_maps.csv")).contains("mounting.eccentricity_um@0_um_per_unit"));
+    assert!(heads(&out.join("tables/influence_maps.csv")).contains("mounting_eccentricity_um_0_um_per_um"));
     assert_eq!(read_json(&out.join("run.json"))["command"], "budget");
     assert!(std::fs::read_to_string(out.join("report.html")).expect("a page").contains("What costs what"));
-    assert_eq!(read_json(&out.join("results.json"))["complete"], true);
+    let results = read_json(&out.join("results.json"));
+    assert_is_results(&results);
+    assert_eq!(results["complete"], true);
 }
 
 #[test]
@@ -66,6 +69,7 @@ fn a_diagnosis_names_a_slope_and_refuses_what_is_not_measured() {
     assert!(done.out.lines().all(|line| line.chars().count() <= 80), "{}", done.out);
     let out = folder.path().join("out/round_diagnosis");
     let results = read_json(&out.join("results.json"));
+    assert_is_results(&results);
     assert_eq!(results["headline"]["sources"]["value"], 1, "{results:#}");
     let sources = std::fs::read_to_string(out.join("tables/sources.csv")).expect("a table");
     let size: f64 =

@@ -103,6 +103,8 @@ fn defaults_are_allowed_and_units_stand_in_the_names() {
             "N" => "_n",
             "N/mm^2" => "_n_per_mm2",
             "N/mm" => "_n_per_mm",
+            "um/kN" => "_um_per_kn",
+            "urad/(N m)" => "_urad_per_nm",
             "pixels" => "_px",
             "modules" => "_coefficient",
             "" | "relative to R" | "1/turn" => "",

@@ -298,8 +298,9 @@ fn rays_that_lose_thin_chips_settle() {
 
 #[test]
 fn a_first_stroke_at_full_depth_is_refused_with_its_size() {
-    let text = ROUND.split("[operation.infeed.spiral]").next().expect("a scene");
-    let refusal = deflections(&job(text, &SOFT), &|| true).expect_err("a plug of whole tooth spaces").to_string();
+    let text =
+        ROUND.split("[operation.infeed.spiral]").next().expect("a scene").to_owned() + "[operation.infeed.none]\n";
+    let refusal = deflections(&job(&text, &SOFT), &|| true).expect_err("a plug of whole tooth spaces").to_string();
     println!("{refusal}");
     assert!(refusal.contains("operation finish, stroke 0") && refusal.contains("um away"), "{refusal}");
 }
