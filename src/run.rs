@@ -84,7 +84,7 @@ impl<'a> Run<'a> {
         let quiet = Progress::new(ProgressMode::Quiet);
         let progress = progress.unwrap_or(&quiet);
         let backend = choice.backend.as_ref();
-        let folder = OutputFolder::create(out)?;
+        let folder = OutputFolder::create_of(out, "cut", &parts.names())?;
         let resolved = scene.resolved_toml();
         // Times and threads stand in the run record alone: the same scene gives the same bytes.
         let run = serde_json::json!({

@@ -26,7 +26,7 @@ pub use pairs::{ContactArguments, FlankChoice, PairArguments};
         gearcut cut scenes/shaping/elliptical_normal.toml     cut it and measure it\n  \
         gearcut new shaping --out my_gear.toml                a commented scene of your own\n\n\
         Exit codes: 0 done; 1 refused or failed, with the reason; 2 wrong usage; 3 done and written, but the verdict\n\
-        is bad (cut: a fault; pair: a tip stands in the mate); 130 stopped by Ctrl-C."
+        is bad (a fault; pair: a tip stands in the mate); 130 stopped by Ctrl-C."
 )]
 pub struct CommandLine {
     /// What to do.

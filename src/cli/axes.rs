@@ -29,5 +29,5 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
     let written = format!("\ntables, charts and programs are in {}\n", path.join("axes").display());
     print::sheet(&(sheet.into_text() + &written))?;
     print::warnings(&warnings);
-    Ok(())
+    Failure::verdict(&warnings)
 }

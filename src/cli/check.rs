@@ -1,7 +1,7 @@
 //! `gearcut check`: what a scene means, before anything is cut.
 //!
 //! One part per question: is this the pitch curve I meant, what does the tool do to the teeth, can the machine follow,
-//! what will the cut cost.
+//! what will the cut cost. A scene whose cut will be faulty is told so by the exit code as well.
 
 use super::args::SceneArguments;
 use super::failure::Failure;
@@ -17,5 +17,5 @@ pub fn run(arguments: &SceneArguments) -> Result<(), Failure> {
     let warnings = checked.map_err(|error| Failure::of_scene(&scene, error))?;
     print::sheet(&sheet.into_text())?;
     print::warnings(&warnings);
-    Ok(())
+    Failure::verdict(&warnings)
 }

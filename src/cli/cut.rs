@@ -2,9 +2,7 @@
 
 use std::path::PathBuf;
 
-use gearcut::Findings;
 use gearcut::backend::{BackendWish, OnFailure, choose};
-use gearcut::findings::Severity;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::scene::Scene;
@@ -74,19 +72,7 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
     if done.interrupted {
         return Err(Failure::ended_early(&done.folder, &out));
     }
-    verdict(&done.findings)
-}
-
-/// The verdict on a run that is done and written: a fault is told once more, and by the exit code.
-fn verdict(findings: &Findings) -> Result<(), Failure> {
-    let mut faults = findings.warnings.iter().filter(|warning| warning.severity == Severity::Fault);
-    let Some(first) = faults.next() else { return Ok(()) };
-    let more = match faults.count() {
-        0 => String::new(),
-        1 => "; and 1 more fault".to_owned(),
-        count => format!("; and {count} more faults"),
-    };
-    Err(Failure::bad_verdict(&format!("{}{more}", first.text)))
+    Failure::verdict(&done.findings.warnings)
 }
 
 /// How much further apart a draft's dexels stand along profiles and teeth, where several cross a feed mark.

@@ -1,6 +1,7 @@
 //! What is printed when a command fails, and with which code it ends.
 
 use super::print::to_stderr;
+use gearcut::findings::{Severity, Warning};
 use gearcut::output::atomic::file_error;
 use std::path::Path;
 use std::process::ExitCode;
@@ -53,6 +54,18 @@ impl Failure {
         let text =
             format!("stopped by Ctrl-C: {done} of {all} gears are in {}; the same command goes on", out.display());
         Self { text, code: INTERRUPTED_EXIT_CODE }
+    }
+
+    /// The verdict on work that is done: a fault is told once more, and by the exit code.
+    pub fn verdict(warnings: &[Warning]) -> Result<(), Self> {
+        let mut faults = warnings.iter().filter(|warning| warning.severity == Severity::Fault);
+        let Some(first) = faults.next() else { return Ok(()) };
+        let more = match faults.count() {
+            0 => String::new(),
+            1 => "; and 1 more fault".to_owned(),
+            count => format!("; and {count} more faults"),
+        };
+        Err(Self::bad_verdict(&format!("{}{more}", first.text)))
     }
 
     /// Work that is done and written, with a finding that nobody should miss.

@@ -45,7 +45,7 @@ pub fn fill_partly<T>(
     write: impl FnOnce(&OutputFolder, &Interrupt) -> Result<(Record, T, bool)>,
 ) -> Result<(PathBuf, T, bool)> {
     let interrupt = Interrupt::listen().map_err(listening(path))?;
-    let folder = open(path, command)?;
+    let folder = OutputFolder::create_of(path, command, &[])?;
     let written = || {
         let (more, value, complete) = write(&folder, &interrupt)?;
         let mut record = Map::new();
@@ -68,20 +68,6 @@ pub fn fill_partly<T>(
 pub fn listening(path: &Path) -> impl FnOnce(std::io::Error) -> Error {
     let path = path.to_owned();
     move |source| Error::Io { action: "cannot listen for Ctrl-C before writing", path, source }
-}
-
-fn open(path: &Path, command: &str) -> Result<OutputFolder> {
-    let written_by = std::fs::read(path.join(RUN_RECORD))
-        .ok()
-        .and_then(|text| serde_json::from_slice::<Value>(&text).ok())
-        .map(|record| record.get("command").and_then(Value::as_str).unwrap_or("cut").to_owned());
-    match written_by {
-        Some(other) if other != command => Err(Error::Output {
-            path: path.to_owned(),
-            reason: format!("the folder holds what `gearcut {other}` wrote; choose another one with --out"),
-        }),
-        _ => OutputFolder::create(path),
-    }
 }
 
 /// Name of a folder that may be given as `.`, `out/a/` or by the results file in it.

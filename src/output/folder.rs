@@ -5,8 +5,8 @@
 //! [`OutputFolder::finish_partial`] is.
 //!
 //! The rules:
-//! - A complete result is replaced by a complete one only, in one step, and not before that is whole. What Ctrl-C
-//!   leaves of a run goes to `NAME.partial`; the next complete run removes it.
+//! - A complete result is replaced by a complete one with the same parts at least, in one step, and not before that is
+//!   whole. What Ctrl-C leaves of a run goes to `NAME.partial`; the next complete run removes it.
 //! - What gearcut did not write is never replaced: `run.json` proves what it wrote. Whatever else has the name is
 //!   refused before any work is done.
 //! - One run at a time writes to a name; a second one is refused.
@@ -30,6 +30,7 @@ use std::path::{Path, PathBuf};
 
 use crate::output::atomic::write_bytes_atomically;
 use gearcut_core::{Error, Result};
+use serde_json::Value;
 use steps::{Disk, Steps};
 use workplace::{Workplace, with_ending};
 
@@ -57,6 +58,30 @@ impl OutputFolder {
     /// the place cannot be written to.
     pub fn create(final_path: &Path) -> Result<Self> {
         Self::create_by(final_path, Box::new(Disk))
+    }
+
+    /// [`create`](Self::create) for what a command writes: these parts, if it writes results in parts.
+    ///
+    /// # Errors
+    /// As for `create`; another command wrote the folder, or it holds a complete result with more parts.
+    pub fn create_of(final_path: &Path, command: &str, parts: &[&str]) -> Result<Self> {
+        let refuse = |reason: String| Err(Error::Output { path: final_path.to_owned(), reason });
+        if let Some(record) = record_of(final_path) {
+            let other = record.get("command").and_then(Value::as_str).unwrap_or("cut");
+            if other != command {
+                return refuse(format!("the folder holds what `gearcut {other}` wrote; choose another one with --out"));
+            }
+            let written = record.get("written").and_then(Value::as_array).into_iter().flatten();
+            let lost: Vec<&str> = written.filter_map(Value::as_str).filter(|part| !parts.contains(part)).collect();
+            if !is_partial(final_path) && !lost.is_empty() {
+                return refuse(format!(
+                    "the folder holds a complete result with more than this run would write ({}); choose another \
+                     folder with --out, or remove this one",
+                    lost.join(", ")
+                ));
+            }
+        }
+        Self::create(final_path)
     }
 
     /// [`create`](Self::create) on any file system.
@@ -115,7 +140,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn write_json(&self, relative: impl AsRef<Path>, document: &serde_json::Value) -> Result<()> {
+    pub fn write_json(&self, relative: impl AsRef<Path>, document: &Value) -> Result<()> {
         write_bytes_atomically(&self.path(relative)?, format!("{document:#}\n").as_bytes())
     }
 
@@ -291,13 +316,13 @@ fn is_ours(folder: &Path) -> bool {
 
 /// Whether gearcut wrote the folder and Ctrl-C ended it early.
 fn is_partial(folder: &Path) -> bool {
-    record_of(folder).is_some_and(|record| record.get("complete") == Some(&serde_json::Value::Bool(false)))
+    record_of(folder).is_some_and(|record| record.get("complete") == Some(&Value::Bool(false)))
 }
 
 /// The folder's `run.json`, if it names gearcut as the program that wrote it.
-fn record_of(folder: &Path) -> Option<serde_json::Value> {
+fn record_of(folder: &Path) -> Option<Value> {
     let text = fs::read(folder.join(RUN_RECORD)).ok()?;
-    let record: serde_json::Value = serde_json::from_slice(&text).ok()?;
+    let record: Value = serde_json::from_slice(&text).ok()?;
     (record.get("program")? == "gearcut").then_some(record)
 }
 

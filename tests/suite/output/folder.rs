@@ -56,6 +56,26 @@ fn an_earlier_run_is_replaced_whole() {
     assert_eq!(names_in(place.path()), ["first_cut"]);
 }
 
+/// Numbers alone, or a draft, do not take the place of a whole result; nor does another command.
+#[test]
+fn a_complete_result_is_not_replaced_by_less() {
+    let place = tempfile::tempdir().expect("a folder for the test");
+    let path = place.path().join("gear");
+    let run = |parts: &[&str], complete: bool| {
+        let folder = OutputFolder::create_of(&path, "cut", parts)?;
+        let record = json!({"program": "gearcut", "command": "cut", "written": parts, "complete": complete});
+        folder.write_json("run.json", &record)?;
+        if complete { folder.finish() } else { folder.finish_partial() }
+    };
+    run(&["numbers"], true).expect("free name");
+    run(&["numbers", "maps"], true).expect("as much and more");
+    let told = message(run(&["numbers"], true));
+    assert!(told.contains("(maps)") && told.contains("--out"), "{told}");
+    assert!(message(OutputFolder::create_of(&path, "axes", &[])).contains("gearcut cut"));
+    run(&["numbers", "maps"], true).expect("the same again");
+    run(&["numbers", "maps"], false).expect("a partial result stands beside it");
+}
+
 #[test]
 fn a_failed_run_leaves_the_earlier_one_alone() {
     let place = tempfile::tempdir().expect("a folder for the test");

@@ -14,8 +14,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-const SETTINGS: [&str; 8] = [
+const SETTINGS: [&str; 9] = [
     "gear.teeth=9",
+    "operation.rough.strokes_per_revolution=60",
     "gear.bore_diameter_mm=5",
     "fields.flank.profile_spacing_um=300",
     "fields.flank.lead_spacing_um=10000",
@@ -130,14 +131,14 @@ fn at_steps(fault: Fault, parts: Parts, chosen: impl Fn(usize, usize) -> bool) -
         assert!(done.expect("a sound disk"));
         (files(&out), steps)
     };
-    let ((early, _), (late, steps)) = (whole(90), whole(180));
-    assert!(early.len() == late.len() && !holds(&place.path().join("whole_90"), &late));
+    let ((early, _), (late, steps)) = (whole(60), whole(90));
+    assert!(early.len() == late.len() && !holds(&place.path().join("whole_60"), &late));
     let mut runs = 0;
     for n in (0..steps).filter(|&n| chosen(n, steps)) {
         let place = tempfile::tempdir().expect("a folder");
         let out = place.path().join("gear");
         put(&early, &out);
-        let (outcome, taken) = with_fault(place.path(), fault, n, || cut(180, parts, &out));
+        let (outcome, taken) = with_fault(place.path(), fault, n, || cut(90, parts, &out));
         assert!(taken > n, "step {n} of {steps} was not met");
         let told = match &outcome {
             Ok(complete) => format!("complete: {complete}"),
@@ -176,12 +177,12 @@ mod slow {
         }
     }
 
-    /// Everything is written: each step from the end of the cut to the names, and every 50th before.
+    /// Everything is written: each step from the end of the cut to the names, and every 100th before.
     #[test]
     fn runs_that_write_everything_lose_nothing_either() {
         let all = Parts::of([Part::Maps, Part::Meshes, Part::Axes, Part::Report]);
         for fault in [Fault::Death, Fault::OneWrite] {
-            let runs = at_steps(fault, all, |n, steps| n + 10 > steps || n % 50 == 0);
+            let runs = at_steps(fault, all, |n, steps| n + 10 > steps || n % 100 == 0);
             assert!(runs > 10, "{runs}");
         }
     }
