@@ -62,8 +62,13 @@ impl Line {
         self.quantities.iter().flatten().next()
     }
 
+    /// The last step of its path.
+    pub(super) fn key(&self) -> &str {
+        self.name.rsplit('.').next().unwrap_or(&self.name)
+    }
+
     fn is_place(&self) -> bool {
-        PLACES.contains(&self.name.rsplit('.').next().unwrap_or(&self.name))
+        PLACES.contains(&self.key())
     }
 
     /// The first value and that of each result after it, where both are numbers of one unit and no places.

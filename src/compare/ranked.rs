@@ -2,10 +2,12 @@
 //!
 //! In: the lines. Out: those of headline and summary by their change, the largest first. A change is the largest
 //! difference from the first result over the larger of both values, or over what is worth telling in that unit where
-//! both are smaller: 10 nm beside 1 nm is no change.
+//! both are smaller: 10 nm beside 1 nm is no change. Of lines with one key or with the same values (a number of the
+//! headline stands below its path as well, and one quantity below every operation) the one that changed most is there.
 
 use super::lines::Line;
 use crate::findings::{Level, Quantity};
+use std::collections::HashSet;
 
 /// Lines that are printed first.
 pub(super) const FIRST: usize = 10;
@@ -26,6 +28,12 @@ pub(super) fn ranked(lines: &[Line]) -> Vec<(&Line, f64)> {
     let read = lines.iter().filter(|line| line.level <= Level::Summary);
     let mut ranked: Vec<(&Line, f64)> = read.filter_map(|line| Some((line, change(line)?))).collect();
     ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let (mut keys, mut values) = (HashSet::new(), HashSet::new());
+    ranked.retain(|(line, _)| {
+        let bits: Vec<Option<u64>> = line.quantities.iter().map(|of| of.as_ref()?.value().map(f64::to_bits)).collect();
+        let (new_key, new_values) = (keys.insert(line.key().to_owned()), values.insert(bits));
+        new_key && new_values
+    });
     ranked
 }
 

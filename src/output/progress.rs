@@ -245,7 +245,8 @@ fn share(done: u64, total: u64) -> f64 {
 /// ", 12 s left, 40 s in all"; the whole command alone where the step has no estimate of its own.
 fn left_words(step_s: Option<f64>, whole_s: Option<f64>) -> String {
     let step = step_s.map(|s| format!(", {} left", duration_text(s)));
-    let whole = whole_s.map(|s| format!(", {} left in all", duration_text(s)));
+    // Two estimates: the whole command takes no less than the step.
+    let whole = whole_s.map(|s| format!(", {} left in all", duration_text(s.max(step_s.unwrap_or(0.0)))));
     format!("{}{}", step.unwrap_or_default(), whole.unwrap_or_default())
 }
 

@@ -4,8 +4,14 @@
 
 use std::fmt::Write as _;
 
+use crate::wrap::wrapped;
+
 /// Where values begin on labelled lines, in characters.
 pub const VALUE_COLUMN: usize = 32;
+/// Characters of a line within which tables keep if they can.
+const LINE: usize = 80;
+/// Blanks between the columns of a table, and between those of one that would be too wide.
+const GAPS: [usize; 2] = [3, 2];
 
 /// Text that grows line by line.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -32,19 +38,42 @@ impl Sheet {
         let _ = writeln!(self.text, "  {words}");
     }
 
-    /// A table, indented under the heading: words to the left, numbers to the right, as wide as their widest cell.
+    /// A table, indented under the heading: words to the left, numbers to the right, as wide as their widest cell. Where
+    /// lines would be too long, the first row, which names the columns, is broken between words, and columns stand
+    /// closer.
     pub fn table(&mut self, rows: &[Vec<String>]) {
         let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-        let width =
-            |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max();
-        let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();
-        for row in rows {
-            let mut line = String::from(" ");
-            for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
-                let _ = if column == 0 { write!(line, " {cell:<width$}") } else { write!(line, "   {cell:>width$}") };
-            }
-            let _ = writeln!(self.text, "{}", line.trim_end());
+        let width = |rows: &[Vec<String>], column: usize| {
+            rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        let whole: Vec<usize> = (0..columns).map(|column| width(rows, column)).collect();
+        let line = |widths: &[usize], gap: usize| 2 + widths.iter().sum::<usize>() + gap * columns.saturating_sub(1);
+        let Some((head, body)) = rows.split_first().filter(|_| line(&whole, GAPS[0]) > LINE) else {
+            rows.iter().for_each(|row| self.row(row, &whole, GAPS[0]));
+            return;
+        };
+        let longest_word = |cell: &String| cell.split(' ').map(|word| word.chars().count()).max().unwrap_or(0);
+        let widths: Vec<usize> =
+            (0..columns).map(|column| width(body, column).max(head.get(column).map_or(0, longest_word))).collect();
+        let gap = if line(&widths, GAPS[0]) > LINE { GAPS[1] } else { GAPS[0] };
+        let names: Vec<Vec<String>> = head.iter().zip(&widths).map(|(cell, &width)| wrapped(cell, width)).collect();
+        let high = names.iter().map(Vec::len).max().unwrap_or(0);
+        for k in 0..high {
+            // Names end in the last line above their columns.
+            let part = |name: &Vec<String>| (k + name.len()).checked_sub(high).map_or("", |at| &name[at]).to_owned();
+            self.row(&names.iter().map(part).collect::<Vec<_>>(), &widths, gap);
         }
+        body.iter().for_each(|row| self.row(row, &widths, gap));
+    }
+
+    /// One line of a table.
+    fn row(&mut self, cells: &[String], widths: &[usize], gap: usize) {
+        let mut line = String::from(" ");
+        for (column, (cell, width)) in cells.iter().zip(widths).enumerate() {
+            let _ =
+                if column == 0 { write!(line, " {cell:<width$}") } else { write!(line, "{:gap$}{cell:>width$}", "") };
+        }
+        let _ = writeln!(self.text, "{}", line.trim_end());
     }
 
     /// The text, ending with a newline.
@@ -96,6 +125,16 @@ mod tests {
         sheet.table(&[vec!["axis".into(), "peak".into()], vec!["work spindle".into(), "5.7 deg/s".into()]]);
         let expected =
             "Machine\n  strokes                       4200\n  axis                peak\n  work spindle   5.7 deg/s\n";
+        assert_eq!(sheet.into_text(), expected);
+    }
+
+    #[test]
+    fn names_of_columns_are_broken_where_a_table_would_be_too_wide() {
+        let mut sheet = Sheet::default();
+        let row = |cells: [&str; 4]| cells.map(str::to_owned).to_vec();
+        let bar = "|################################|";
+        sheet.table(&[row(["a", "retraction angle of it", "", ""]), row(["1", "0.00 deg", bar, bar])]);
+        let expected = format!("     retraction\n          angle\n  a       of it\n  1    0.00 deg  {bar}  {bar}\n");
         assert_eq!(sheet.into_text(), expected);
     }
 }

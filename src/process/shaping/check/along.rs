@@ -8,8 +8,8 @@ use crate::output::text::Sheet;
 
 /// Rows at even distances, at most.
 const ROWS: usize = 12;
-/// Characters of a full bar.
-const WIDTH: usize = 20;
+/// Characters of a full bar that stands alone, and beside others: lines keep within those of a terminal.
+const WIDTHS: [usize; 2] = [16, 8];
 
 /// A column that is shown.
 pub struct Shown {
@@ -52,13 +52,14 @@ pub fn print(sheet: &mut Sheet, table: &Table, shown: &[Shown]) {
         let bar = of.full.map(|_| String::new());
         std::iter::once(of.heading.to_owned()).chain(bar)
     });
-    let line = |row: usize| shown.iter().flat_map(move |of| cells(table, row, of)).collect::<Vec<_>>();
+    let width = WIDTHS[usize::from(shown.iter().filter(|of| of.full.is_some()).count() > 1)];
+    let line = |row: usize| shown.iter().flat_map(move |of| cells(table, row, of, width)).collect::<Vec<_>>();
     let lines: Vec<Vec<String>> = std::iter::once(heading.collect()).chain(rows.into_iter().map(line)).collect();
     sheet.table(&lines);
 }
 
-/// Value, and bar if it has one.
-fn cells(table: &Table, row: usize, of: &Shown) -> Vec<String> {
+/// Value, and bar if it has one, so many characters wide.
+fn cells(table: &Table, row: usize, of: &Shown, width: usize) -> Vec<String> {
     let Some(column) = table.column(of.key) else { return Vec::new() };
     let unit = table.columns[column].unit.as_deref().filter(|&unit| unit != "1").unwrap_or_default();
     let number = table.rows[row][column].number();
@@ -68,7 +69,7 @@ fn cells(table: &Table, row: usize, of: &Shown) -> Vec<String> {
     };
     let bar = of.full.map(|full| {
         let share = if full > 0.0 { number.unwrap_or(0.0) / full } else { 0.0 };
-        format!("|{:<WIDTH$}|", "#".repeat((WIDTH as f64 * share.clamp(0.0, 1.0)).round() as usize))
+        format!("|{:<width$}|", "#".repeat((width as f64 * share.clamp(0.0, 1.0)).round() as usize))
     });
     std::iter::once(value).chain(bar).collect()
 }
