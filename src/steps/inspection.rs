@@ -181,10 +181,10 @@ const SIGNS: [(&str, &str); 20] = [
     ("span_teeth", "k"),
     ("span", "W_k"),
     ("over_balls", "M_d"),
-    ("thickness_as_cut", "s_t as cut"),
-    ("generating_profile_shift_as_cut", "x_E as cut"),
-    ("span_as_cut", "W_k as cut"),
-    ("over_balls_as_cut", "M_d as cut"),
+    ("thickness_as_cut", "s_t"),
+    ("generating_profile_shift_as_cut", "x_E"),
+    ("span_as_cut", "W_k"),
+    ("over_balls_as_cut", "M_d"),
 ];
 
 /// Title, sign and value with unit of each size, for people.
@@ -195,7 +195,8 @@ pub fn size_rows(sizes: &Section) -> Vec<[String; 3]> {
         let value = match (quantity.value(), quantity.why()) {
             (Some(value), _) if quantity.is_count() => format!("{value}"),
             (Some(value), _) if quantity.unit() == Some("mm") => format!("{value:.4} mm"),
-            (Some(value), _) => format!("{value:.4}"),
+            // A rounded zero has no sign.
+            (Some(value), _) => format!("{:.4}", (1e4 * value).round() / 1e4 + 0.0),
             (None, why) => format!("none: {}", why.unwrap_or_default()),
         };
         [entry.heading(), sign.to_owned(), value]
