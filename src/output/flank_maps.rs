@@ -16,12 +16,14 @@
 //! height, pass id and chip are those of the dexel nearest to the map's place. Pictures show values of whole cells,
 //! because single dexels would make moire of the feed marks: the **highest** dexel, so that no mark is lost; the
 //! **mean** stock and deviation, because an error of form or position is what remains when the marks are averaged; and
-//! the **latest** pass; and the **thickest** chip of the dexels of a cell that it is followed for ([`CHIPS_OF_A_CELL`]
-//! of them across the marks: over all of them it would take longer than the cut).
+//! the **latest** pass; and the **thickest** chip of the dexels of a cell that it is followed for
+//! ([`CHIPS_OF_A_CELL`](super::map_cells::CHIPS_OF_A_CELL) of them across the marks: over all of them it would take
+//! longer than the cut).
 
 use super::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
 use super::folder::OutputFolder;
 use super::grid::{MapAxis, MapGrid};
+use super::map_cells::{Cell, cells_along, chip_columns};
 use super::map_png::{MapPicture, write_map_png};
 use crate::colormap::ColourScale;
 use crate::measure::LastChips;
@@ -41,11 +43,6 @@ pub const NO_PASS_CAME: &str = "no pass came here";
 /// Quantiles between which chips are told apart: the places that a first stroke cut whole tooth spaces from would hide
 /// all others.
 pub const CHIPS_SHOWN: [f64; 2] = [0.0, 0.95];
-
-/// Dexels of a cell whose chips are followed, evenly over its columns in its middle row. A chip's thickness runs from 0
-/// at one end of a facet to its largest value at the other; marks of finishing are as long as a cell or longer, and of
-/// one that four dexels meet the thickest is at least three quarters of the largest.
-pub const CHIPS_OF_A_CELL: usize = 4;
 
 /// What maps and sheets of chips show.
 pub const CHIP_QUANTITY: &str = "uncut chip thickness, largest in cell";
@@ -117,51 +114,32 @@ impl FlankMaps {
             u: axis("u", "along the profile from the form point", 0.0, lengths[0]),
             v: axis("v", "along the tooth from the middle of the face", rows_z_mm[0], lengths[1]),
         };
-        // Dexels of each cell of an axis: those nearer to its place than to the next one, at least the nearest.
-        let cells = |axis: &MapAxis, places: &[f64]| -> Vec<(usize, std::ops::Range<usize>)> {
-            (0..axis.count)
-                .map(|i| {
-                    let place_mm = axis.place_mm(i);
-                    let after = places.partition_point(|&p| p < place_mm);
-                    let nearest = [after.saturating_sub(1), after.min(places.len() - 1)]
-                        .into_iter()
-                        .min_by(|&a, &b| (places[a] - place_mm).abs().total_cmp(&(places[b] - place_mm).abs()))
-                        .unwrap_or(0);
-                    let from = places.partition_point(|&p| p < place_mm - 0.5 * spacing_mm);
-                    let to = places.partition_point(|&p| p < place_mm + 0.5 * spacing_mm);
-                    (nearest, from.min(nearest)..to.max(nearest + 1))
-                })
-                .collect()
-        };
-        let (columns, rows_of_cells) = (cells(&grid.u, arcs_mm), cells(&grid.v, rows_z_mm));
+        let (columns, rows_of_cells) = (cells_along(&grid.u, arcs_mm), cells_along(&grid.v, rows_z_mm));
         let dexels: Vec<usize> = columns
             .iter()
             .flat_map(|(column, _)| rows_of_cells.iter().map(move |(row, _)| column * rows + row))
             .collect();
-        // One value for all dexels of a cell that a pass has touched.
-        let over_cells = |layer: &Layer, value: fn(&Layer, &mut dyn Iterator<Item = usize>) -> f32| -> Vec<f32> {
-            columns
-                .iter()
-                .flat_map(|(_, columns)| {
-                    rows_of_cells.iter().map(move |(_, along)| {
-                        let cell = columns.clone().flat_map(|column| along.clone().map(move |row| column * rows + row));
-                        value(layer, &mut cell.filter(|&i| layer.passes[i] != NO_PASS))
-                    })
-                })
-                .collect()
+        let all_cells =
+            || columns.iter().flat_map(|(_, across)| rows_of_cells.iter().map(move |(_, along)| (across, along)));
+        let cells: Vec<Vec<Cell>> = layers
+            .iter()
+            .map(|layer| all_cells().map(|(across, along)| Cell::of(layer, rows, across, along)).collect())
+            .collect();
+        let of_cells = |value: fn(&Cell) -> f32| -> Vec<Vec<f32>> {
+            cells.iter().map(|cells| cells.iter().map(value).collect()).collect()
         };
-        let mean_mm: Vec<Vec<f32>> = layers.iter().map(|layer| over_cells(layer, mean)).collect();
+        let mean_mm = of_cells(|cell| cell.mean_mm);
         let height = |layer: &Layer, i: usize| if layer.passes[i] == NO_PASS { f32::NAN } else { layer.heights_mm[i] };
         Self {
             tooth,
             side,
             heights_mm: layers.iter().map(|layer| dexels.iter().map(|&i| height(layer, i)).collect()).collect(),
-            highest_mm: layers.iter().map(|layer| over_cells(layer, highest)).collect(),
+            highest_mm: of_cells(|cell| cell.highest_mm),
             deviation_mm: mean_mm.last().cloned().unwrap_or_default(),
             mean_mm,
-            latest_pass: layers.last().map_or_else(Vec::new, |layer| over_cells(layer, latest)),
+            latest_pass: of_cells(|cell| cell.latest_pass).pop().unwrap_or_default(),
             passes: layers.iter().map(|layer| dexels.iter().map(|&i| layer.passes[i]).collect()).collect(),
-            chip_columns: columns.iter().map(|(_, cell)| evenly(cell)).collect(),
+            chip_columns: columns.iter().map(|(_, cell)| chip_columns(cell)).collect(),
             chip_rows: rows_of_cells.iter().map(|(nearest, _)| *nearest).collect(),
             chips: Vec::new(),
             grid,
@@ -357,32 +335,13 @@ impl FlankMaps {
     }
 }
 
-/// Columns spread evenly over those of a cell, all of them where they are few.
-fn evenly(cell: &std::ops::Range<usize>) -> Vec<usize> {
-    let count = cell.len().min(CHIPS_OF_A_CELL);
-    (0..count).map(|i| cell.start + (2 * i + 1) * cell.len() / (2 * count)).collect()
-}
-
-fn mean(layer: &Layer, cell: &mut dyn Iterator<Item = usize>) -> f32 {
-    let add = |(sum, count): (f64, u32), i: usize| (sum + f64::from(layer.heights_mm[i]), count + 1);
-    let (sum, count) = cell.fold((0.0, 0), add);
-    (sum / f64::from(count)) as f32
-}
-
-fn highest(layer: &Layer, cell: &mut dyn Iterator<Item = usize>) -> f32 {
-    cell.map(|i| layer.heights_mm[i]).fold(f32::NAN, f32::max)
-}
-
-fn latest(layer: &Layer, cell: &mut dyn Iterator<Item = usize>) -> f32 {
-    cell.map(|i| layer.passes[i] as f32).fold(f32::NAN, f32::max)
-}
-
 fn channel(name: &str, unit: &str, definition: &str, samples: Samples) -> MapChannel {
     MapChannel { name: name.to_owned(), unit: unit.to_owned(), definition: definition.to_owned(), samples }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::map_cells::CHIPS_OF_A_CELL;
     use super::*;
     use gearcut_core::dexel::{Column, Field};
     use glam::DVec2;

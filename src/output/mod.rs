@@ -40,6 +40,8 @@ pub mod inspection_sheet;
 mod letters;
 pub mod line_chart;
 #[doc(hidden)]
+pub mod map_cells;
+#[doc(hidden)]
 pub mod map_png;
 #[doc(hidden)]
 pub mod mesh_file;

@@ -49,7 +49,9 @@ impl Sheet {
         let whole: Vec<usize> = (0..columns).map(|column| width(rows, column)).collect();
         let line = |widths: &[usize], gap: usize| 2 + widths.iter().sum::<usize>() + gap * columns.saturating_sub(1);
         let Some((head, body)) = rows.split_first().filter(|_| line(&whole, GAPS[0]) > LINE) else {
-            rows.iter().for_each(|row| self.row(row, &whole, GAPS[0]));
+            for row in rows {
+                self.row(row, &whole, GAPS[0]);
+            }
             return;
         };
         let longest_word = |cell: &String| cell.split(' ').map(|word| word.chars().count()).max().unwrap_or(0);
@@ -63,7 +65,9 @@ impl Sheet {
             let part = |name: &Vec<String>| (k + name.len()).checked_sub(high).map_or("", |at| &name[at]).to_owned();
             self.row(&names.iter().map(part).collect::<Vec<_>>(), &widths, gap);
         }
-        body.iter().for_each(|row| self.row(row, &widths, gap));
+        for row in body {
+            self.row(row, &widths, gap);
+        }
     }
 
     /// One line of a table.

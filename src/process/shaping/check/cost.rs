@@ -3,7 +3,7 @@
 //! For the blank and the chips, the cutter teeth that reach the blank are counted for strokes spread over all
 //! operations, and the rays that they cross.
 
-use crate::output::flank_maps::CHIPS_OF_A_CELL;
+use crate::output::map_cells::CHIPS_OF_A_CELL;
 use crate::output::text::{Sheet, significant};
 use crate::process::shaping::ShapingJob;
 use gearcut_core::cut::Backend as _;
