@@ -49,7 +49,7 @@ impl<'a> Drawn<'a> {
 }
 
 /// A view: millimetres to pixels.
-struct View {
+struct DrawingView {
     origin_px: DVec2,
     px_per_mm: f64,
     out: String,
@@ -114,7 +114,7 @@ fn along_cradle(drawn: &Drawn) -> String {
     let r = drawn.radius_mm;
     let ring = [-RING_RAD, RING_RAD].map(|angle| apex + outer_mm * DVec2::from_angle(angle));
     let ends = [head - r, head + r, apex + outer_mm * DVec2::new(1.1, 0.0), apex];
-    let mut view = View::around(&[&ends[..], &ring].concat());
+    let mut view = DrawingView::around(&[&ends[..], &ring].concat());
     view.axes(["x", "y"], 1.15 * outer_mm);
     // The crown gear's ring that the blank rolls on.
     for (radius_mm, dash) in [(inner_mm, "3 3"), (outer_mm, "3 3")] {
@@ -174,7 +174,7 @@ fn across(drawn: &Drawn) -> String {
     let mut places: Vec<DVec2> = section(1.0).into_iter().chain(section(-1.0)).collect();
     places.extend(corners);
     places.extend([DVec2::ZERO, apex + 1.1 * heel * axis]);
-    let mut view = View::around(&places);
+    let mut view = DrawingView::around(&places);
     view.axes(["z", "x"], 0.9 * heel);
     view.line([apex - 0.1 * heel * axis, apex + 1.1 * heel * axis], (WORK, 1.2, "12 4 2 4"));
     view.polygon(
@@ -196,7 +196,7 @@ fn across(drawn: &Drawn) -> String {
     view.out
 }
 
-impl View {
+impl DrawingView {
     /// A view that shows all places.
     fn around(places: &[DVec2]) -> Self {
         let low = places.iter().copied().fold(DVec2::splat(f64::INFINITY), DVec2::min);

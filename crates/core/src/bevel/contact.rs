@@ -86,7 +86,7 @@ pub struct Ellipse {
 }
 
 /// A point of the gear's flank while it touches.
-struct Touch {
+struct BevelTouch {
     gear_rad: f64,
     /// Distance by which the flanks come nearer per radian of the gear, mm.
     closing_mm: f64,
@@ -98,21 +98,21 @@ struct Touch {
 
 /// Where a search for a touch begins.
 #[derive(Clone, Copy)]
-struct Near {
+struct TouchStart {
     gear_rad: f64,
     /// Angles of head and cradle of gear and pinion near the place, where they are known.
     generated_rad: Option<[[f64; 2]; 2]>,
 }
 
-impl Touch {
+impl BevelTouch {
     /// A beginning for places beside this one.
-    fn near(&self) -> Near {
-        Near { gear_rad: self.gear_rad, generated_rad: Some(self.generated_rad) }
+    fn near(&self) -> TouchStart {
+        TouchStart { gear_rad: self.gear_rad, generated_rad: Some(self.generated_rad) }
     }
 }
 
 /// A point of the gear beside the pinion.
-struct Gap {
+struct FlankGap {
     /// Its distance from the pinion's flank along the pinion's normal, mm.
     open_mm: f64,
     /// How fast that falls with the gear's angle, mm.
@@ -159,7 +159,7 @@ impl BevelPair {
     ///
     /// # Errors
     /// Both have flanks, and the angle is not found.
-    fn touch(&self, place_mm: DVec2, pinion_rad: f64, near: Near) -> Result<Option<Touch>, NotConverged> {
+    fn touch(&self, place_mm: DVec2, pinion_rad: f64, near: TouchStart) -> Result<Option<BevelTouch>, NotConverged> {
         let gear = &self.gear;
         let distance_mm = gear.blank.mean_cone_distance_mm() + place_mm.x;
         let [on_gear, mut on_pinion] = match near.generated_rad {
@@ -181,14 +181,14 @@ impl BevelPair {
             }
             let generated_rad = [[point.head_rad, point.cradle_rad], gap.generated_rad];
             let (closing_mm, point_mm) = (gap.closing_mm, point.point_mm);
-            ControlFlow::Break(Some(Touch { gear_rad: to, closing_mm, point_mm, generated_rad }))
+            ControlFlow::Break(Some(BevelTouch { gear_rad: to, closing_mm, point_mm, generated_rad }))
         };
         iterate("the angle at which a point of the gear touches the pinion", near.gear_rad, MOST_STEPS, turned)
     }
 
     /// A point of the gear (work frame, mm) beside the pinion at angles of pinion and gear; `start` are angles at which
     /// the pinion is generated near it. `None` where the pinion has no flank.
-    fn gap(&self, point_mm: DVec3, [pinion_rad, gear_rad]: [f64; 2], start: Option<[f64; 2]>) -> Option<Gap> {
+    fn gap(&self, point_mm: DVec3, [pinion_rad, gear_rad]: [f64; 2], start: Option<[f64; 2]>) -> Option<FlankGap> {
         let pinion = &self.pinion;
         let pinion_from_mount = self.mount_from_pinion(pinion_rad).inverse();
         let mount_from_gear = self.mount_from_gear(gear_rad);
@@ -202,7 +202,7 @@ impl BevelPair {
         let arc = (at_mm.z.atan2(at_mm.y) - on.point_mm.z.atan2(on.point_mm.y) + PI).rem_euclid(TAU) - PI;
         let axis = pinion_from_mount.direction(mount_from_gear.direction(DVec3::X));
         let apex_mm = pinion_from_mount.point(mount_from_gear.translation_mm);
-        Some(Gap {
+        Some(FlankGap {
             open_mm: arc * DVec3::X.cross(at_mm).dot(on.normal),
             closing_mm: -axis.cross(at_mm - apex_mm).dot(on.normal),
             generated_rad: [on.head_rad, on.cradle_rad],
@@ -211,14 +211,14 @@ impl BevelPair {
 
     /// Place and touch of the first contact near an angle of the gear; the sign is +1 where a growing angle of the gear
     /// closes gaps. `None`: no places touch.
-    fn first(&self, pinion_rad: f64, start_rad: f64) -> Result<Option<(DVec2, Touch, f64)>, NotConverged> {
+    fn first(&self, pinion_rad: f64, start_rad: f64) -> Result<Option<(DVec2, BevelTouch, f64)>, NotConverged> {
         let half_mm = 0.5 * self.gear.blank.face_width_mm;
         let heights = |along_mm: f64| {
             let row = self.gear.row(along_mm).ok()?;
             Some([row.form_height_mm, row.tip_height_mm])
         };
-        let far = Near { gear_rad: start_rad, generated_rad: None };
-        let mut best: Option<(DVec2, Touch)> = None;
+        let far = TouchStart { gear_rad: start_rad, generated_rad: None };
+        let mut best: Option<(DVec2, BevelTouch)> = None;
         let mut turn = 0.0;
         for i in 0..PLACES[0] {
             let along_mm = half_mm * (2.0 * i as f64 / (PLACES[0] - 1) as f64 - 1.0);
@@ -275,12 +275,12 @@ impl BevelPair {
     fn ellipse(
         &self,
         place: DVec2,
-        touch: &Touch,
+        touch: &BevelTouch,
         [pinion_rad, turn]: [f64; 2],
         thickness_mm: f64,
     ) -> Result<Option<Ellipse>, NotConverged> {
         let beside = |x: f64, y: f64| self.touch(place + BEND_MM * DVec2::new(x, y), pinion_rad, touch.near());
-        let gap = |found: &Touch| turn * (found.gear_rad - touch.gear_rad) * found.closing_mm.abs();
+        let gap = |found: &BevelTouch| turn * (found.gear_rad - touch.gear_rad) * found.closing_mm.abs();
         let around = [
             beside(1.0, 0.0)?,
             beside(-1.0, 0.0)?,
@@ -325,7 +325,7 @@ impl BevelPair {
             for j in 0..places[1] {
                 let share = j as f64 / (places[1] - 1) as f64;
                 let height_mm = row.form_height_mm + share * (row.tip_height_mm - row.form_height_mm);
-                let Some(Gap { open_mm, .. }) = row
+                let Some(FlankGap { open_mm, .. }) = row
                     .point(share)
                     .ok()
                     .and_then(|point| self.gap(point.point_mm, [contact.pinion_rad, contact.gear_rad], None))

@@ -87,7 +87,7 @@ pub fn deflections(
                 spaces.iter_mut().filter_map(|space| space.begin(operation, stroke)).collect();
             let commanded = middle_pose(job, operation, stroke);
             let before = of_strokes.last().copied().unwrap_or_default();
-            let rest = Stroke { job, teeth: &teeth, commanded, limit_mm };
+            let rest = YieldingStroke { job, teeth: &teeth, commanded, limit_mm };
             let settled = rest.settle(&mut cut, before).map_err(|unsettled| unsettled.told(job, operation, stroke))?;
             let pose = settled.displaced(&commanded, teeth.work_axis_mm);
             cut.par_iter_mut().for_each(|space| space.take_away(&pose, &teeth));
@@ -121,7 +121,7 @@ struct SpaceInWork<'a> {
 
 /// A look at the chips of a stroke: elements in contact, and what the forces along inclined edges push with.
 #[derive(Default)]
-struct Look {
+struct StrokeLook {
     elements: Vec<EdgeElement>,
     load: DVec4,
 }
@@ -141,8 +141,8 @@ impl SpaceInWork<'_> {
     }
 
     /// Measures the chips of this space's own teeth and gives them back.
-    fn look(&mut self, work_from_tool: &Rigid2, teeth: &Teeth) -> Look {
-        let mut look = Look::default();
+    fn look(&mut self, work_from_tool: &Rigid2, teeth: &Teeth) -> StrokeLook {
+        let mut look = StrokeLook::default();
         for index in self.now.clone() {
             let pass = self.space.passes[index];
             if !pass.own {
@@ -169,7 +169,7 @@ impl SpaceInWork<'_> {
     }
 }
 
-impl Look {
+impl StrokeLook {
     fn add(&mut self, teeth: &Teeth, thickness_mm: &[f64], work_from_blade: &Rigid2, tool_axis_mm: DVec2) {
         let stations = teeth.polygon.stations.iter().zip(&teeth.forces).zip(thickness_mm);
         for ((station, force), &thickness_mm) in stations.filter(|(_, thickness_mm)| **thickness_mm > 0.0) {
@@ -192,7 +192,7 @@ impl Look {
 }
 
 /// One stroke of a machine that yields.
-struct Stroke<'a> {
+struct YieldingStroke<'a> {
     job: &'a ShapingJob,
     teeth: &'a Teeth<'a>,
     commanded: Rigid2,
@@ -209,7 +209,7 @@ enum Unsettled {
     NoBalance(NotConverged),
 }
 
-impl Stroke<'_> {
+impl YieldingStroke<'_> {
     /// The displacement in balance with the chips that are then cut, from one that is thought to be near.
     fn settle(&self, cut: &mut [&mut SpaceInWork], near: Deflection) -> Result<Deflection, Unsettled> {
         let diagonal = self.job.machine.compliance.diagonal();
@@ -218,7 +218,7 @@ impl Stroke<'_> {
         let mut still_mm = 0.0;
         for _ in 0..MOST_LOOKS {
             let pose = Deflection::of_coordinates(q).displaced(&self.commanded, self.teeth.work_axis_mm);
-            let looks: Vec<Look> = cut.par_iter_mut().map(|space| space.look(&pose, self.teeth)).collect();
+            let looks: Vec<StrokeLook> = cut.par_iter_mut().map(|space| space.look(&pose, self.teeth)).collect();
             let load = looks.iter().map(|look| look.load).sum();
             let elements: Vec<EdgeElement> = looks.into_iter().flat_map(|look| look.elements).collect();
             let wanted = balance(diagonal, &elements, q, load).map_err(Unsettled::NoBalance)?;

@@ -87,7 +87,7 @@ impl Swept {
     /// depth that is `enough` ends the search.
     pub fn covered_mm(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2, enough: [f64; 2]) -> [f64; 2] {
         let (here, own) = (index(place), &self.ways[0]);
-        let probe = Probe { distance: &self.distance, blade: tool_from_blade.rotation, p };
+        let probe = SeenPoint { distance: &self.distance, blade: tool_from_blade.rotation, p };
         let mut deepest = Deepest { depth_mm: f64::NEG_INFINITY, at: here };
         // From the stroke outwards: what it has cut itself is found first.
         let left = probe.walk(own, Poses::until(here), &mut deepest, enough[1]);
@@ -107,7 +107,7 @@ impl Swept {
     /// search.
     pub fn covered_before_mm(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2, enough_mm: f64) -> f64 {
         let (before, own) = (index(place) - 1, &self.ways[0]);
-        let probe = Probe { distance: &self.distance, blade: tool_from_blade.rotation, p };
+        let probe = SeenPoint { distance: &self.distance, blade: tool_from_blade.rotation, p };
         let mut deepest = Deepest { depth_mm: f64::NEG_INFINITY, at: before };
         probe.walk(own, Poses::until(before), &mut deepest, enough_mm);
         let past_mm = probe.between_poses_mm(own, deepest, &(first(before)..=before), enough_mm);
@@ -115,7 +115,7 @@ impl Swept {
     }
 
     /// The depth over all poses of the earlier operations where it is more than `deepest_mm`, unless that is enough.
-    fn earlier_mm(&self, here: usize, probe: &Probe, mut deepest_mm: f64, enough_mm: f64) -> f64 {
+    fn earlier_mm(&self, here: usize, probe: &SeenPoint, mut deepest_mm: f64, enough_mm: f64) -> f64 {
         for way in &self.ways[1..] {
             if deepest_mm >= enough_mm {
                 break;
@@ -132,7 +132,7 @@ impl Swept {
 }
 
 /// A point of the work, seen from one cutter tooth.
-struct Probe<'a> {
+struct SeenPoint<'a> {
     distance: &'a ToothDistance,
     /// Direction of the tooth on the cutter.
     blade: DVec2,
@@ -171,7 +171,7 @@ impl Poses {
     }
 }
 
-impl Probe<'_> {
+impl SeenPoint<'_> {
     fn depth_mm(&self, pose: &Rigid2) -> f64 {
         let blade = pose.rotation.rotate(self.blade);
         -self.distance.at_mm(DVec2::new(blade.x, -blade.y).rotate(self.p - pose.translation_mm))
