@@ -2,6 +2,7 @@
 //! and no files or folders import each other in a circle.
 
 mod circles;
+mod columns;
 mod imports;
 
 use circles::circles;

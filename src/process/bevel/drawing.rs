@@ -63,7 +63,8 @@ pub fn svg(drawn: &Drawn) -> String {
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
          height=\"{height}\" font-family=\"DejaVu Sans, Noto Sans, Helvetica, Arial, sans-serif\" font-size=\"14\">\n\
-         <title>Settings of the cradle machine</title>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n\
+         <title>Settings of the cradle machine</title>\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n\
          <defs><marker id=\"e\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"7\" markerHeight=\"7\" \
          orient=\"auto-start-reverse\"><path d=\"M0 1 9 5 0 9z\" fill=\"context-stroke\"/></marker></defs>\n"
     );
@@ -260,8 +261,8 @@ impl DrawingView {
         let marker = if arrow { " marker-end=\"url(#e)\"" } else { "" };
         let _ = writeln!(
             self.out,
-            "<path d=\"M{:.1} {:.1}A{radius:.1} {radius:.1} 0 0 {sweep} {:.1} {:.1}\" fill=\"none\" stroke=\"{colour}\" \
-             stroke-width=\"{width}\" stroke-dasharray=\"{dash}\"{marker}/>",
+            "<path d=\"M{:.1} {:.1}A{radius:.1} {radius:.1} 0 0 {sweep} {:.1} {:.1}\" fill=\"none\" \
+             stroke=\"{colour}\" stroke-width=\"{width}\" stroke-dasharray=\"{dash}\"{marker}/>",
             a.x, a.y, b.x, b.y
         );
     }

@@ -88,30 +88,6 @@ impl Envelope {
         (self.surface.point_mm(head_rad, 0.0) - in_tool).dot(self.surface.normal(head_rad))
     }
 
-    /// Point of the fillet that belongs to the same angles, and its lean: the blade angle where it joins the flank, a
-    /// right angle where it joins the bottom.
-    pub fn fillet_at(&self, head_rad: f64, cradle_rad: f64) -> (FlankPoint, f64) {
-        let motion = self.settings.motion(cradle_rad);
-        let pose = motion.pose;
-        let center_mm = self.surface.corner_center_mm(head_rad);
-        let velocity = pose.rotation.transpose() * motion.velocity_at(pose.point(center_mm));
-        let away = velocity.dot(DVec3::new(head_rad.cos(), head_rad.sin(), 0.0));
-        // -s cos(lean) away - sin(lean) v_z = 0.
-        let mut lean_rad = (-self.surface.kind.sign() * away).atan2(velocity.z);
-        if lean_rad < 0.0 {
-            lean_rad += std::f64::consts::PI;
-        }
-        let normal = self.surface.normal_of_corner(head_rad, lean_rad);
-        let point = FlankPoint {
-            point_mm: pose.point(center_mm - self.surface.corner_radius_mm * normal),
-            normal: pose.direction(normal),
-            head_rad,
-            cradle_rad,
-            edge_mm: 0.0,
-        };
-        (point, lean_rad)
-    }
-
     /// Angles about the head's axis and of the cradle near which a point at a cone distance is generated, rad: where
     /// the circle of the points, seen along the cradle's axis, crosses the circle of the cone distance, at the moment
     /// when that crossing lies on the line along which the head touches the root cone.
