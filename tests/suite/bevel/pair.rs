@@ -196,3 +196,13 @@ fn a_modified_roll_moves_points_by_their_moment() {
         }
     }
 }
+
+/// Flanks that do not meet are no error of the search: nothing is found, and the motion over a pitch says so.
+#[test]
+fn flanks_that_do_not_meet_are_told() {
+    let far = pair(0.0, 500.0);
+    let [pinion_rad, gear_rad] = far.middle_rad().expect("a middle");
+    assert_eq!(far.contact(pinion_rad, gear_rad, MARKING_MM), Ok(None));
+    let refusal = far.motion(1.0, 3, MARKING_MM).expect_err("they do not meet");
+    assert!(refusal.problem.contains("both flanks do not meet near"), "{refusal}");
+}
