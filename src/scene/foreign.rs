@@ -48,7 +48,7 @@ pub(super) fn refuse_foreign(
             format!(
                 "{}, or write {} instead of {}",
                 senseless.map_or("remove it", |senseless| senseless.instead),
-                named(&|owner| owner.tool_header().to_string(), " or "),
+                named(&|owner| owner.tool_header(), " or "),
                 process.tool_header()
             ),
         );

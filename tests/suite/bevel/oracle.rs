@@ -278,8 +278,8 @@ fn settings_come_back_from_axes() {
 }
 
 /// Point of the fillet that belongs to angles about the head's axis and of the cradle, work frame, and its lean: the
-/// blade angle where it joins the flank, a right angle where it joins the bottom. By the law of the envelope's head:
-/// all normals of the round go through its middle, so that its velocity alone counts.
+/// blade angle where it joins the flank, a right angle where it joins the bottom. All normals
+/// of the round go through its middle c, so that its velocity alone counts: the lean follows from n . (v + w x c) = 0.
 fn fillet_at(envelope: &Envelope, head_rad: f64, cradle_rad: f64) -> (DVec3, f64) {
     let motion = envelope.settings.motion(cradle_rad);
     let center_mm = envelope.surface.corner_center_mm(head_rad);

@@ -1,13 +1,13 @@
 //! The envelope of a cutting surface over the roll: where the head leaves the flank in the limit of many blades.
 //!
-//! In: settings of the machine and a cutting surface. Out: points and normals of the generated flank and of its fillet.
+//! In: settings of the machine and a cutting surface. Out: points and normals of the generated flank.
 //!
 //! **Law.** A point of the surface is on the envelope in the moment when its normal is square to its velocity in the
 //! work. Along a straight edge the normal n is the same, and the velocity v + w x r is linear in the place u on the
-//! edge: u = -n . (v + w x r0) / (n . (w x d)), r0 the point in the plane of the tips, d the edge's direction. In the
-//! round all normals go through its middle c, so that its velocity alone counts: the lean follows from n . (v + w x c)
-//! = 0. What is left are two unknowns, the angle theta about the head's axis and the cradle angle q, for the two
-//! coordinates that a point of the flank is asked for by; Newton's method finds them to rounding.
+//! edge: u = -n . (v + w x r0) / (n . (w x d)), r0 the point in the plane of the tips, d the edge's direction. What is
+//! left are two unknowns, the angle theta about the head's axis and the cradle angle q, for the two coordinates that a
+//! point of the flank is asked for by; Newton's method finds them to rounding. The fillet, made by the round of the
+//! corner, is nobody's target: rays through the blank show it.
 //!
 //! Source: Litvin and Fuentes, Gear Geometry and Applied Theory (2004), chapters 6 and 22.
 
