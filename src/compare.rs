@@ -96,17 +96,31 @@ impl Comparison {
         page::page(self, bars, curves, maps).write(&folder.path(REPORT_FILE)?)
     }
 
+    /// What is said where no number changed, and of the numbers of headline and summary that stand in some results and
+    /// not in others; empty where there is nothing to say.
+    fn beside_changes(&self, changed: bool) -> Vec<String> {
+        let count = self.lines.iter().filter(|line| line.level <= Level::Summary && line.is_one_sided()).count();
+        let nothing = if count == 0 { "nothing changed" } else { "nothing changed of what all results have" };
+        let one_sided = match count {
+            0 => None,
+            1 => Some("1 number stands in some of the results only".to_owned()),
+            _ => Some(format!("{count} numbers stand in some of the results only")),
+        };
+        (!changed).then(|| nothing.to_owned()).into_iter().chain(one_sided).collect()
+    }
+
     /// The table for the terminal.
     pub fn print(&self, sheet: &mut Sheet) {
         let names: Vec<&str> = self.results.iter().map(|one| one.name.as_str()).collect();
         let (last, others) = names.split_last().expect("two or more");
         sheet.heading(&format!("{} and {last}", others.join(", ")));
         let ranked = ranked::ranked(&self.lines);
-        if ranked.is_empty() {
-            sheet.words("nothing changed");
-        } else {
+        if !ranked.is_empty() {
             sheet.heading("Changed most");
             sheet.table(&self.printed_rows(ranked.iter().take(ranked::FIRST).map(|(line, _)| *line)));
+        }
+        for words in self.beside_changes(!ranked.is_empty()) {
+            sheet.words(&words);
         }
         sheet.heading("All");
         sheet.table(&self.printed_rows(self.lines.iter().filter(|line| line.level <= Level::Summary)));

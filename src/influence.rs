@@ -16,7 +16,7 @@ pub mod derivative;
 pub mod diagnose;
 pub mod figures;
 pub mod gear_grid;
-pub mod least_squares;
+pub mod interval;
 pub mod measured;
 pub mod measured_table;
 pub mod numbers;

@@ -26,8 +26,8 @@ fn hanging(label: &str, text: &str, indent: usize, width: usize) -> Vec<String> 
     lines
 }
 
-/// A text whose lines fit a width. A value goes on below where it begins, two blanks or more behind its label; a message
-/// goes on below its second letter. Rows of tables, with more columns than these, stay whole.
+/// A text whose lines fit a width. A value goes on below where it begins, two blanks or more behind its label; a
+/// message goes on below its second letter. Rows of tables, with more columns than these, stay whole.
 pub fn fitted(text: &str, width: usize) -> String {
     text.split('\n').map(|line| fitted_line(line, width)).collect::<Vec<_>>().join("\n")
 }

@@ -1,7 +1,8 @@
 """Face milling of one slot by booleans of meshes, with manifold3d: the peer of gearcut's bevel cutting.
 
 Case: the finishing cut of scenes/bevel/five_linkage_printed.toml (62 teeth, 16 blades), the slot behind tooth 1, at the
-positions that gearcut itself writes: blade and cradle angle of every pass that takes anything, tables/chips_by_pass.csv.
+positions that gearcut itself writes: blade and cradle angle of every pass that takes anything
+(tables/chips_by_pass.csv).
 The sweep of a blade through the blank is a closed mesh (its sections joined), and the sweeps are subtracted from the
 slot's part of the blank one after the other in the order of time, or all at once.
 
@@ -96,7 +97,8 @@ def blank(polar, distances):
     """The slot's part of the blank: `polar` is the middle of the slot at cone distances, gear frame."""
     def place(distance, over, angle):
         radius = distance * math.sin(PITCH) + over * math.cos(PITCH)
-        return (radius * math.cos(angle), radius * math.sin(angle), -(distance * math.cos(PITCH) - over * math.sin(PITCH)))
+        along = distance * math.cos(PITCH) - over * math.sin(PITCH)
+        return (radius * math.cos(angle), radius * math.sin(angle), -along)
 
     rings = []
     for distance, middle in zip(distances, polar):
@@ -126,7 +128,8 @@ def main():
     to = np.array([OUTER - 0.5 * FACE, 0.0]) - head
     middle = math.atan2(to[1], to[0]) - cradle
     # The flanks say how far the slot is turned: the largest distance of their points from the tool's cones is least.
-    mean = in_work(np.array([[[mean_radius * math.cos(middle), mean_radius * math.sin(middle), 0.0]]]), np.array([cradle]))[0, 0]
+    tip = np.array([[[mean_radius * math.cos(middle), mean_radius * math.sin(middle), 0.0]]])
+    mean = in_work(tip, np.array([cradle]))[0, 0]
     turn = math.atan2(-mean[1], -mean[2]) - np.polyval(over, OUTER - 0.5 * FACE)
     turn = fitted(points, normals, turn, mean_radius, middle)
     origins, directions = work_from_gear(points, turn), work_from_gear(normals, turn)

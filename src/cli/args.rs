@@ -159,8 +159,8 @@ pub enum Command {
         gearcut budget scenes/hobbing/circular_spur.toml --flanks 1-left,1-right\n\n\
         Shifts every error that the scene's process knows by a natural step to both sides, cuts the gear on few\n\
         places, and takes the differences: what the error alone makes of an otherwise ideal gear, in um. Half the\n\
-        step tells whether twice the error does twice as much. Shaped gears take seconds, hobbed ones many minutes, or\n\
-        seconds with one tooth in --flanks; Ctrl-C keeps what is finished.\n\n\
+        step tells whether twice the error does twice as much. Shaped gears take seconds, hobbed ones many minutes,\n\
+        or seconds with one tooth in --flanks; Ctrl-C keeps what is finished.\n\n\
         Writes a folder (out/<scene>_budget unless --out is given): report.html, results.json, budget.csv with every\n\
         figure per unit of each error, tables/influence_maps.csv with the derivative of every height.\n\
         See docs/budget.md.")]

@@ -19,8 +19,8 @@ pub fn to_stdout(text: &str) -> Result<()> {
     }
 }
 
-/// Prints a sheet of facts and tables; on a terminal in lines of 80 characters, while what goes into a file keeps a line
-/// for each.
+/// Prints a sheet of facts and tables; on a terminal in lines of 80 characters, while what goes into a file keeps a
+/// line for each.
 pub fn sheet(text: &str) -> Result<()> {
     if io::stdout().is_terminal() { to_stdout(&fitted(text, WIDTH)) } else { to_stdout(text) }
 }

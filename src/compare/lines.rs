@@ -67,6 +67,13 @@ impl Line {
         self.name.rsplit('.').next().unwrap_or(&self.name)
     }
 
+    /// Whether some results have a number here and others none.
+    pub(super) fn is_one_sided(&self) -> bool {
+        let known = |of: &Option<Quantity>| of.as_ref().is_some_and(|quantity| quantity.value().is_some());
+        let count = self.quantities.iter().filter(|of| known(of)).count();
+        count > 0 && count < self.quantities.len()
+    }
+
     fn is_place(&self) -> bool {
         PLACES.contains(&self.key())
     }

@@ -25,36 +25,31 @@ pub(super) fn page(
     let ranked = ranked::ranked(&of.lines);
     let first: Vec<&Line> = ranked.iter().take(ranked::FIRST).map(|(line, _)| *line).collect();
     let lines = of.lines.iter().filter(|line| line.level <= Level::Summary);
-    let section = |id: &'static str, title: &str, lead: &str, blocks: Vec<Block>| PageSection {
-        id,
-        title: title.to_owned(),
-        lead: lead.to_owned(),
-        blocks,
-    };
-    let changed = if first.is_empty() {
-        Block::Note("Nothing changed.".to_owned())
-    } else {
-        Block::Table(table(of, "Changed most", first.iter().copied()))
-    };
+    let mut changed = Vec::new();
+    if !first.is_empty() {
+        changed.push(Block::Table(table(of, "Changed most", first.iter().copied())));
+    }
+    let words = of.beside_changes(!first.is_empty());
+    changed.extend((!words.is_empty()).then(|| Block::Note(format!("{}.", words.join("; ")))));
     let maps: Vec<Block> = maps.into_iter().map(|map| Block::Picture(map.title, map.png)).collect();
     let charts = bars.into_iter().map(|(_, chart)| Block::Bars(chart));
     let charts: Vec<Block> = charts.chain(curves.into_iter().map(|(_, chart)| Block::Lines(chart))).collect();
     let sections = [
-        section(
+        PageSection::new(
             "changed",
             "What changed most",
             "The largest differences from the first result, over the larger of both values.",
-            vec![changed],
+            changed,
         ),
-        section(
+        PageSection::new(
             "maps",
             "Difference maps",
             "Deviations of every finished flank less those of the first result, to one scale. Flanks that lie on other \
             grids are left out.",
             maps,
         ),
-        section("charts", "Side by side", "", charts),
-        section(
+        PageSection::new("charts", "Side by side", "", charts),
+        PageSection::new(
             "all",
             "Headline and summary",
             "Every other number is in comparison.csv beside this page, with unit and definition.",

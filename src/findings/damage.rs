@@ -55,13 +55,13 @@ pub fn warning(places: &[Damage], gouge_mm: f64, by: impl Fn(&Damage) -> String)
     let sides = if count == 1 { "1 side of a tooth is".to_owned() } else { format!("{count} sides of teeth are") };
     Some(if deepest.depth_mm > gouge_mm {
         Warning::fault(format!(
-            "{sides} cut below the target: {by} gouged {place} by {depth_um:.1} um; a gouge is deeper than {gouge_um:.1} \
-             um"
+            "{sides} cut below the target: {by} gouged {place} by {depth_um:.1} um; a gouge is deeper than \
+             {gouge_um:.1} um"
         ))
     } else {
         Warning::warn(format!(
-            "{sides} cut below the target, by {depth_um:.1} um at most ({by}, {place}): deviations, no gouges, which are \
-             deeper than {gouge_um:.1} um"
+            "{sides} cut below the target, by {depth_um:.1} um at most ({by}, {place}): deviations, no gouges, which \
+             are deeper than {gouge_um:.1} um"
         ))
     })
 }

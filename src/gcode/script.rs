@@ -111,7 +111,7 @@ impl Script {
             text.block("G91");
         }
         let mut from = &self.start;
-        let mut clock = Clock::default();
+        let mut clock = BlockTimes::default();
         for line in &lines {
             let position =
                 if incremental { self.steps(dialect, from, &line.to) } else { self.words(dialect, &line.to) };
@@ -157,12 +157,12 @@ impl Script {
 
 /// Moments of block ends, as asked and as the written words say them, min.
 #[derive(Debug, Default)]
-struct Clock {
+struct BlockTimes {
     asked: f64,
     written: f64,
 }
 
-impl Clock {
+impl BlockTimes {
     /// The number of F for a line.
     fn feed(&mut self, dialect: &Dialect, line: &StraightLine) -> Result<String, String> {
         let digits = dialect.feed_digits;

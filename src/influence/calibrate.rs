@@ -18,7 +18,7 @@ mod measured;
 mod write;
 
 use super::derivative::read;
-use super::least_squares::{Basis, interval, norm};
+use super::interval::interval;
 use super::numbers::{Numbers, numbers};
 use crate::backend::Choice;
 use crate::interrupt::Interrupt;
@@ -26,6 +26,7 @@ use crate::output::progress::Progress;
 use crate::scene::LoadedScene;
 use crate::scene::error_parameters::{ErrorParameter, Shifted};
 use gearcut_core::error::{Refusal, Result};
+use gearcut_core::math::column_basis::{ColumnBasis, norm};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 pub use measured::{MeasuredNumber, read_numbers};
@@ -168,7 +169,7 @@ impl Calibration {
         step.finish();
         // What the others say as well is nobody's: a parameter is identified beside all of them.
         let beside_others = |index: usize| {
-            let mut others = Basis::default();
+            let mut others = ColumnBasis::default();
             for (_, column) in columns.iter().enumerate().filter(|(other, _)| *other != index) {
                 let _dependent = norm(column) > DEAD && others.take(column);
             }
@@ -176,7 +177,7 @@ impl Calibration {
         };
         let identified: Vec<bool> =
             (0..count).map(|index| norm(&columns[index]) > DEAD && beside_others(index)).collect();
-        let mut basis = Basis::default();
+        let mut basis = ColumnBasis::default();
         let taken: Vec<bool> = columns.iter().map(|column| norm(column) > DEAD && basis.take(column)).collect();
         let solution = basis.solve(&trial.residuals(&here));
         let freedom = measured.len().saturating_sub(basis.columns());
@@ -212,8 +213,8 @@ impl Calibration {
 const DEAD: f64 = 0.05;
 
 /// The columns that say anything.
-fn alive(columns: &[Vec<f64>]) -> Basis {
-    let mut basis = Basis::default();
+fn alive(columns: &[Vec<f64>]) -> ColumnBasis {
+    let mut basis = ColumnBasis::default();
     for column in columns.iter().filter(|column| norm(column) > DEAD) {
         let _dependent = basis.take(column);
     }
@@ -223,7 +224,7 @@ fn alive(columns: &[Vec<f64>]) -> Basis {
 /// Least squares of residuals by columns, in natural steps, held back by damping; columns that say nothing stay at 0.
 fn damped(columns: &[Vec<f64>], residuals: &[f64], damping: f64) -> Vec<f64> {
     let count = columns.len();
-    let mut basis = Basis::default();
+    let mut basis = ColumnBasis::default();
     let mut taken = Vec::new();
     for (index, column) in columns.iter().enumerate() {
         let size = norm(column);

@@ -19,8 +19,9 @@ mod findings;
 mod model;
 mod page;
 
-use super::least_squares::{Basis, interval, norm};
+use super::interval::interval;
 use gearcut_core::error::{Refusal, Result};
+use gearcut_core::math::column_basis::{ColumnBasis, DEPENDENT, norm};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 pub use findings::{findings, sheet};
@@ -102,7 +103,7 @@ impl Diagnosis {
         let sized = |i: usize| [solution.values[i], width * solution.covariance[i][i].sqrt()];
         let whole = fit.basis(&[]).left_of(&off);
         let mut named = Vec::new();
-        let mut taken = Basis::default();
+        let mut taken = ColumnBasis::default();
         let mut place = usize::from(taken.take(&turn));
         for &source in &chosen {
             let mut fitted = Vec::new();
@@ -155,8 +156,8 @@ struct Selection<'a> {
 
 impl Selection<'_> {
     /// The turn and the columns of these sources.
-    fn basis(&self, sources: &[usize]) -> Basis {
-        let mut basis = Basis::default();
+    fn basis(&self, sources: &[usize]) -> ColumnBasis {
+        let mut basis = ColumnBasis::default();
         for column in
             std::iter::once(self.turn).chain(sources.iter().flat_map(|&i| self.columns[i].iter().map(Vec::as_slice)))
         {
@@ -182,10 +183,10 @@ impl Selection<'_> {
             let basis = self.basis(&chosen);
             let (rest, _) = basis.beside(self.off);
             let gains = open.iter().enumerate().map(|(place, &source)| {
-                let mut own = Basis::default();
+                let mut own = ColumnBasis::default();
                 for column in &self.columns[source] {
                     let (beside, _) = basis.beside(column);
-                    if norm(&beside) > super::least_squares::DEPENDENT * norm(column) {
+                    if norm(&beside) > DEPENDENT * norm(column) {
                         let _dependent = own.take(&beside);
                     }
                 }

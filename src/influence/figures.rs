@@ -43,7 +43,7 @@ impl Figures {
         let sides = [Side::Left, Side::Right].map(|side| around(grid, heights, side));
         // Pitch and thickness are those of all teeth.
         let all = sides.iter().all(|around| around.len() == grid.teeth as usize);
-        let pitch = sides.each_ref().map(|around| pitch(around));
+        let pitch = sides.each_ref().map(|around| PitchDeviations::of_places(around));
         let of_pitch = |of: fn(&PitchDeviations) -> f64| if all { largest(pitch.iter().map(of)) } else { f64::NAN };
         let thicker: Vec<f64> = sides[0].iter().zip(&sides[1]).map(|(left, right)| left - right).collect();
         Self {
@@ -96,14 +96,6 @@ fn whole(places_mm: Vec<f64>, heights_mm: Vec<f64>) -> Option<TraceDeviation> {
 fn around(grid: &GearGrid, heights: &[f64], side: Side) -> Vec<f64> {
     let of_side = grid.split(heights).filter(|(flank, _)| flank.side == side);
     of_side.map(|(flank, of)| of[flank.middle()] * flank.around_per_height(flank.middle())).collect()
-}
-
-fn pitch(around: &[f64]) -> PitchDeviations {
-    let before = |tooth: usize| around[if tooth == 0 { around.len() - 1 } else { tooth - 1 }];
-    PitchDeviations {
-        single_mm: (0..around.len()).map(|tooth| around[tooth] - before(tooth)).collect(),
-        cumulative_mm: around.iter().map(|place| place - around[0]).collect(),
-    }
 }
 
 fn of_largest_size(values: impl Iterator<Item = f64>) -> f64 {

@@ -1,8 +1,9 @@
 //! Measured deviations of flanks, and where they stand among places that can be cut.
 //!
 //! In: a CSV file with the columns `tooth`, `flank`, `u_mm`, `v_mm` and `deviation_um`, in any order, others beside
-//! them. Out: [`MeasuredPoint`]s, and a grid of few places with the weights that lead from its heights to the measured places
-//! ([`MeasuredPlaces`]): flanks with many places are cut on a coarser grid, between which influences are bilinear.
+//! them. Out: [`MeasuredPoint`]s, and a grid of few places with the weights that lead from its heights to the
+//! measured places ([`MeasuredPlaces`]): flanks with many places are cut on a coarser grid, between which influences
+//! are bilinear.
 
 use super::gear_grid::{FlankGrid, GearGrid, evenly};
 use super::measured_table::MeasuredTable;

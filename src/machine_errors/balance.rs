@@ -12,21 +12,25 @@
 //!
 //! f never falls with h. With F the integral of f, `E(q) = q . C^-1 q / 2 + sum of F(h) - A . q` is strictly convex:
 //! there is one balance and no other, **whatever the compliance**. Newton's steps on E, halved where they do not lower
-//! it, find it in a few steps, for E is quadratic piece by piece. Coordinates are scaled by the square root of C; one
-//! that does not yield stays at 0.
+//! it, find it in a few steps, for E is quadratic piece by piece: its Hessian is at least that of the machine, so that
+//! every step points downhill and a share of it lowers E. What ends otherwise is an error with numbers. Coordinates are
+//! scaled by the square root of C; one that does not yield stays at 0.
 //!
 //! Road not taken: q <- C Q(q) over and over. It converges only while compliance times stiffness of the cut is below 1.
 //! Steel has K_n of 2 N/um per mm of edge: with 10 um/kN that ends at 50 mm of edge in the cut.
 
 use gearcut_core::cut::LEAST_CHIP_MM;
+use gearcut_core::error::NotConverged;
 use glam::{DMat4, DVec4};
 
 /// Newton steps at most: each piece of the force law is left at most once in practice, five steps are usual.
-const MOST_STEPS: usize = 60;
+const MOST_STEPS: u32 = 60;
 /// Halvings of a step.
 const HALVINGS: usize = 40;
 /// A step this small against the displacement is rounding.
 const ROUNDING: f64 = 1e-13;
+/// A fall of the energy this small against its parts is rounding: a sum of some hundred parts.
+const FLAT: f64 = 1e-14;
 
 /// An element of the edge in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,7 +65,11 @@ impl EdgeElement {
 
 /// The displacement in balance: elements seen at the displacement `seen`, a load that does not follow it (N, N mm), the
 /// diagonal of C.
-pub fn balance(diagonal: DVec4, elements: &[EdgeElement], seen: DVec4, load: DVec4) -> DVec4 {
+///
+/// # Errors
+/// No balance within [`MOST_STEPS`] steps: forces that are not numbers. Lengths in the error are those of scaled
+/// coordinates, square roots of N mm.
+pub fn balance(diagonal: DVec4, elements: &[EdgeElement], seen: DVec4, load: DVec4) -> Result<DVec4, NotConverged> {
     // q = S s with S = sqrt(C).
     let root = DVec4::from_array(diagonal.to_array().map(f64::sqrt));
     let push = root * load;
@@ -73,7 +81,16 @@ pub fn balance(diagonal: DVec4, elements: &[EdgeElement], seen: DVec4, load: DVe
     let scaled = |value: f64, root: f64| if root > 0.0 { value / root } else { 0.0 };
     let mut s = DVec4::from_array(std::array::from_fn(|i| scaled(seen[i], root[i])));
     let mut now = energy(s);
-    for _ in 0..MOST_STEPS {
+    let mut lost = NotConverged {
+        what: "the balance of the cut with a machine that yields",
+        after: 0,
+        last: s.length(),
+        last_step: f64::INFINITY,
+        residual: f64::NAN,
+    };
+    // What the last step would still lower the energy by, and where it leads.
+    let (mut fall, mut bottom) = (f64::NAN, s);
+    while lost.after < MOST_STEPS {
         let q = root * s;
         let (mut gradient, mut hessian) = (s - push, DMat4::IDENTITY);
         for element in elements {
@@ -88,25 +105,31 @@ pub fn balance(diagonal: DVec4, elements: &[EdgeElement], seen: DVec4, load: DVe
         let step = -(hessian.inverse() * gradient);
         // The energy is flat to rounding before its slope is.
         let falls = gradient.dot(step);
+        (fall, bottom) = (-falls, s + step);
         if step.length() <= ROUNDING * (1.0 + s.length()) || falls >= 0.0 {
-            return root * (s + step);
+            return Ok(root * bottom);
         }
         let mut share = 1.0;
         let mut halvings = 0;
-        loop {
+        let next = loop {
             let next = energy(s + share * step);
-            if next <= now + 1e-4 * share * falls || halvings == HALVINGS {
-                (s, now) = (s + share * step, next);
-                break;
+            if next <= now + 1e-4 * share * falls {
+                break Some(next);
+            }
+            if halvings == HALVINGS {
+                break None;
             }
             share *= 0.5;
             halvings += 1;
-        }
-        if halvings == HALVINGS {
-            break;
-        }
+        };
+        lost.after += 1;
+        (lost.residual, lost.last_step) = (gradient.length(), share * step.length());
+        let Some(next) = next else { break };
+        (s, now) = (s + share * step, next);
+        lost.last = s.length();
     }
-    root * s
+    let parts = now.abs() + 0.5 * s.length_squared() + push.dot(s).abs();
+    if fall <= FLAT * parts { Ok(root * bottom) } else { Err(lost) }
 }
 
 #[cfg(test)]
@@ -126,7 +149,8 @@ mod tests {
             let exact_mm = c * (k * h + edge_n) / (1.0 + c * k);
             for seen_mm in [0.0, 0.3 * exact_mm, 1.2 * exact_mm] {
                 let seen = DVec4::X * seen_mm;
-                let q = balance(DVec4::X * c, &[element(h - seen_mm, moves, k, edge_n)], seen, DVec4::ZERO);
+                let element = element(h - seen_mm, moves, k, edge_n);
+                let q = balance(DVec4::X * c, &[element], seen, DVec4::ZERO).unwrap();
                 assert!((q.x / exact_mm - 1.0).abs() < 1e-12 && q.yzw() == glam::DVec3::ZERO, "{q} for {exact_mm}");
             }
         }
@@ -136,7 +160,7 @@ mod tests {
     #[test]
     fn a_tool_that_is_pushed_out_by_its_edge_alone_rubs() {
         let (c, h, edge_n) = (1e-3, 0.01, 40.0);
-        let q = balance(DVec4::X * c, &[element(h, -DVec4::X, 0.0, edge_n)], DVec4::ZERO, DVec4::ZERO);
+        let q = balance(DVec4::X * c, &[element(h, -DVec4::X, 0.0, edge_n)], DVec4::ZERO, DVec4::ZERO).unwrap();
         let left_mm = h - q.x;
         assert!(left_mm > 0.0 && left_mm < LEAST_CHIP_MM, "{left_mm}");
         assert!((q.x / c / (edge_n * left_mm / LEAST_CHIP_MM) - 1.0).abs() < 1e-9);
@@ -170,7 +194,7 @@ mod tests {
                     break;
                 }
             }
-            let q = balance(diagonal, &elements, DVec4::ZERO, load);
+            let q = balance(diagonal, &elements, DVec4::ZERO, load).unwrap();
             let off = (q - slow).abs() / slow.abs().max(DVec4::splat(1e-9));
             println!("{q} {slow}");
             assert!(off.max_element() < 1e-6, "{q} {slow} at {scale}");
@@ -180,7 +204,15 @@ mod tests {
                 .iter()
                 .map(|e| EdgeElement { thickness_mm: e.thickness_mm + e.moves.dot(seen), ..*e })
                 .collect();
-            assert!((balance(diagonal, &moved, seen, load) - q).abs().max_element() < 1e-12);
+            assert!((balance(diagonal, &moved, seen, load).unwrap() - q).abs().max_element() < 1e-12);
         }
+    }
+    /// What has no balance is no displacement: it ends with an error and its numbers, not with the last try.
+    #[test]
+    fn forces_that_are_no_numbers_end_with_an_error() {
+        let lost = balance(DVec4::ONE, &[element(f64::NAN, -DVec4::X, 1e4, 5.0)], DVec4::ZERO, DVec4::ZERO);
+        let lost = lost.unwrap_err();
+        assert!(lost.residual.is_nan() && lost.after == 1, "{lost}");
+        assert!(lost.to_string().contains("the balance of the cut with a machine that yields is not found"), "{lost}");
     }
 }

@@ -8,12 +8,13 @@ use super::axis::AxisErrors;
 use super::backlash::Play;
 use super::servo::{Lag, Rates, SpeedCell};
 use crate::machine::AxisMotion;
+use gearcut_core::math::roots::halve;
 use rayon::prelude::*;
 
 /// Speeds below this, rad/s or mm/s, are those of a drive at rest: rounding.
 const RESTING: f64 = 1e-12;
 /// Halvings of a cell in search of a turning point.
-const HALVINGS: usize = 60;
+const HALVINGS: u32 = 60;
 /// Just inside of a cell's end, as a share of the cell: what holds at a corner belongs to the next cell.
 const INSIDE: f64 = 1e-9;
 
@@ -157,24 +158,22 @@ fn play(
     };
     let at = |cell: usize, time_s: f64| (time_s, position(time_s) - behind(cell, time_s)[0]);
     let first = (0..bounds.len()).map(|cell| sign(cell, bounds[cell][0])).find(|&sign| sign != 0.0);
-    let mut way = first.unwrap_or(0.0);
-    let start = way;
+    let mut direction = first.unwrap_or(0.0);
+    let start = direction;
     let mut turns = vec![at(0, bounds[0][0])];
     for (cell, &[from_s, to_s]) in bounds.iter().enumerate() {
         // A cell may hold two turns: its middle is looked at as well.
         let places = [from_s, 0.5 * (from_s + to_s), to_s];
         for (index, &time_s) in places.iter().enumerate() {
             let now = sign(cell, time_s);
-            if now == 0.0 || now == way {
+            if now == 0.0 || now == direction {
                 continue;
             }
-            let (mut low, mut high) = (places[index.max(1) - 1], time_s);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                if sign(cell, middle) == now { high = middle } else { low = middle }
-            }
-            turns.push(at(cell, high));
-            way = now;
+            // The sign before it, or rest, holds up to the turn.
+            let before_s = places[index.max(1) - 1];
+            let [_, turn_s] = halve(|time_s| sign(cell, time_s) != now, before_s, time_s, HALVINGS);
+            turns.push(at(cell, turn_s));
+            direction = now;
         }
     }
     Play::new(width, start, turns)

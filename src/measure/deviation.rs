@@ -109,6 +109,16 @@ pub struct PitchDeviations {
 }
 
 impl PitchDeviations {
+    /// Of the flanks of one side in order of teeth, by how far each stands from its nominal place along the circle, in
+    /// the unit of the places.
+    pub fn of_places(places: &[f64]) -> Self {
+        let before = |tooth: usize| places[if tooth == 0 { places.len() - 1 } else { tooth - 1 }];
+        Self {
+            single_mm: (0..places.len()).map(|tooth| places[tooth] - before(tooth)).collect(),
+            cumulative_mm: places.iter().map(|place| place - places[0]).collect(),
+        }
+    }
+
     /// Largest |f_p|, mm.
     pub fn largest_single_mm(&self) -> f64 {
         self.single_mm.iter().map(|f| f.abs()).fold(0.0, f64::max)

@@ -95,11 +95,11 @@ impl InspectionSheet {
     /// Single and cumulative pitch deviations and runout; where they end.
     fn pitch(&self, page: &mut VectorPage, top: f64) -> f64 {
         let half = MIDDLE - LEFT - GAP;
-        let single = Axis::over(self.single_pitch_um.iter().flatten().chain(&self.limits()));
-        let cumulative = Axis::over(self.cumulative_pitch_um.iter().flatten());
+        let single = ValueAxis::over(self.single_pitch_um.iter().flatten().chain(&self.limits()));
+        let cumulative = ValueAxis::over(self.cumulative_pitch_um.iter().flatten());
         let sides = [(LEFT, "left flanks"), (MIDDLE + GAP, "right flanks")];
         for (index, (x, side)) in sides.into_iter().enumerate() {
-            let place = Place { x, y: top, width: half, height: 60.0 };
+            let place = ChartBox { x, y: top, width: half, height: 60.0 };
             let title = format!("Single pitch deviation fp, {side} [µm]");
             single.frame(page, place, &title);
             single.bars(page, place, &self.single_pitch_um[index]);
@@ -107,12 +107,12 @@ impl InspectionSheet {
                 let at = single.y(place, limit);
                 page.dashes(&[(x, at), (x + half, at)], Ink::Red, 0.7);
             }
-            let place = Place { y: top + 80.0, ..place };
+            let place = ChartBox { y: top + 80.0, ..place };
             cumulative.frame(page, place, &format!("Cumulative pitch deviation Fp, {side} [µm]"));
             cumulative.line(page, place, &self.cumulative_pitch_um[index]);
         }
-        let runout = Axis::over(self.runout_um.iter());
-        let place = Place { x: LEFT, y: top + 160.0, width: half, height: 60.0 };
+        let runout = ValueAxis::over(self.runout_um.iter());
+        let place = ChartBox { x: LEFT, y: top + 160.0, width: half, height: 60.0 };
         runout.frame(page, place, "Runout Fr: probe in the space after each tooth [µm]");
         runout.bars(page, place, &self.runout_um);
         self.table(page, MIDDLE + GAP, top + 162.0);
@@ -162,13 +162,13 @@ fn traces(page: &mut VectorPage, top: f64, name: &str, sheets: &[TraceSheet; 2])
         page.words((x, top + 6.0), 8.0, Ink::Black, Anchor::Start, &format!("{name}, {side} flanks"));
         let scale = format!("1 division = {} µm, material {arrow}", value_text(um));
         page.words((x + half, top + 6.0), 6.4, Ink::Grey, Anchor::End, &scale);
-        let frame = Place { x: x + 20.0, y: top + 19.0, width: half - 50.0, height: TRACE_HEIGHT };
+        let frame = ChartBox { x: x + 20.0, y: top + 19.0, width: half - 50.0, height: TRACE_HEIGHT };
         sheet_of_traces(page, frame, sheet, um);
     }
     top + 19.0 + TRACE_HEIGHT + 8.0 * rows as f64 + 14.0
 }
 
-fn sheet_of_traces(page: &mut VectorPage, place: Place, sheet: &TraceSheet, um: f64) {
+fn sheet_of_traces(page: &mut VectorPage, place: ChartBox, sheet: &TraceSheet, um: f64) {
     let all = || sheet.traces.iter().flat_map(|trace| trace.points.iter().map(|point| point.0));
     let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
     if low >= high {
@@ -222,7 +222,7 @@ fn figures(page: &mut VectorPage, (from, to): (f64, f64), top: f64, trace: &Trac
 
 /// A rectangle of the page, points.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct ChartBox {
     x: f64,
     y: f64,
     width: f64,
@@ -230,13 +230,13 @@ struct Place {
 }
 
 /// A value axis about zero, the same for all charts that are compared.
-struct Axis {
+struct ValueAxis {
     /// Value at the top; its negative is at the bottom.
     reach_um: f64,
     step_um: f64,
 }
 
-impl Axis {
+impl ValueAxis {
     fn over<'a>(values: impl Iterator<Item = &'a f64>) -> Self {
         let largest = values.copied().filter(|value| value.is_finite()).fold(0.0, |most: f64, um| most.max(um.abs()));
         let step_um = round_step((largest / 2.0).max(LEAST_DIVISION_UM));
@@ -244,11 +244,11 @@ impl Axis {
         Self { reach_um: step_um * steps, step_um }
     }
 
-    fn y(&self, place: Place, value: f64) -> f64 {
+    fn y(&self, place: ChartBox, value: f64) -> f64 {
         place.y + 10.0 + (place.height - 10.0) * 0.5 * (1.0 - value / self.reach_um)
     }
 
-    fn frame(&self, page: &mut VectorPage, place: Place, title: &str) {
+    fn frame(&self, page: &mut VectorPage, place: ChartBox, title: &str) {
         page.words((place.x, place.y + 4.0), 7.0, Ink::Black, Anchor::Start, title);
         let steps = (self.reach_um / self.step_um).round() as i32;
         for step in -steps..=steps {
@@ -261,7 +261,7 @@ impl Axis {
         }
     }
 
-    fn bars(&self, page: &mut VectorPage, place: Place, values: &[f64]) {
+    fn bars(&self, page: &mut VectorPage, place: ChartBox, values: &[f64]) {
         let slot = slot(page, place, values);
         for (index, &value) in values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
             let [zero, end] = [0.0, value].map(|value| self.y(place, value));
@@ -270,7 +270,7 @@ impl Axis {
         }
     }
 
-    fn line(&self, page: &mut VectorPage, place: Place, values: &[f64]) {
+    fn line(&self, page: &mut VectorPage, place: ChartBox, values: &[f64]) {
         let slot = slot(page, place, values);
         let at = |(index, &value): (usize, &f64)| (place.x + slot * (index as f64 + 0.5), self.y(place, value));
         page.path(&values.iter().enumerate().map(at).collect::<Vec<_>>(), Ink::Blue, 0.9);
@@ -278,7 +278,7 @@ impl Axis {
 }
 
 /// Width of a tooth's place; labels the first and the last tooth, or says that nothing was measured.
-fn slot(page: &mut VectorPage, place: Place, values: &[f64]) -> f64 {
+fn slot(page: &mut VectorPage, place: ChartBox, values: &[f64]) -> f64 {
     let below = place.y + place.height + 7.0;
     if values.is_empty() {
         page.words((place.x + 4.0, below), 6.0, Ink::Grey, Anchor::Start, "not measured");
@@ -298,9 +298,9 @@ mod tests {
 
     #[test]
     fn axes_are_equal_left_and_right_and_have_a_floor() {
-        let noise = Axis::over([0.02, -0.04].iter());
+        let noise = ValueAxis::over([0.02, -0.04].iter());
         assert_eq!((noise.step_um, noise.reach_um), (1.0, 2.0));
-        let both = Axis::over([3.0, f64::NAN, -11.0].iter());
+        let both = ValueAxis::over([3.0, f64::NAN, -11.0].iter());
         assert_eq!((both.step_um, both.reach_um), (10.0, 20.0));
     }
 }

@@ -64,7 +64,7 @@ pub enum Anchor {
 
 /// A piece of the page; places in points from the upper left corner.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Stroke {
+pub(super) enum PagePiece {
     /// A line through points; broken where one is not finite.
     Path { points: Vec<(f64, f64)>, ink: Ink, width: f64, dashed: bool },
     /// A filled rectangle: left, top, width, height.
@@ -77,7 +77,7 @@ pub(super) enum Stroke {
 #[derive(Debug, Clone, PartialEq)]
 pub struct VectorPage {
     title: String,
-    pub(super) strokes: Vec<Stroke>,
+    pub(super) strokes: Vec<PagePiece>,
 }
 
 impl VectorPage {
@@ -88,12 +88,12 @@ impl VectorPage {
 
     /// A line through points.
     pub fn path(&mut self, points: &[(f64, f64)], ink: Ink, width: f64) {
-        self.strokes.push(Stroke::Path { points: points.to_vec(), ink, width, dashed: false });
+        self.strokes.push(PagePiece::Path { points: points.to_vec(), ink, width, dashed: false });
     }
 
     /// A dashed line.
     pub fn dashes(&mut self, points: &[(f64, f64)], ink: Ink, width: f64) {
-        self.strokes.push(Stroke::Path { points: points.to_vec(), ink, width, dashed: true });
+        self.strokes.push(PagePiece::Path { points: points.to_vec(), ink, width, dashed: true });
     }
 
     /// A frame.
@@ -104,13 +104,13 @@ impl VectorPage {
 
     /// A filled rectangle.
     pub fn block(&mut self, corner: (f64, f64), size: (f64, f64), ink: Ink) {
-        self.strokes.push(Stroke::Block { corner, size, ink });
+        self.strokes.push(PagePiece::Block { corner, size, ink });
     }
 
     /// Words on a baseline.
     pub fn words(&mut self, at: (f64, f64), size: f64, ink: Ink, anchor: Anchor, words: &str) {
         let words = words.replace(char::is_control, " ");
-        self.strokes.push(Stroke::Words { at, size, ink, anchor, words });
+        self.strokes.push(PagePiece::Words { at, size, ink, anchor, words });
     }
 
     /// Writes the page as `<stem>.svg` and `<stem>.pdf`.
@@ -146,7 +146,7 @@ pub(super) fn words_pt(words: &str, size: f64) -> std::result::Result<f64, Strin
     text_width_px(words, size)
 }
 
-impl Stroke {
+impl PagePiece {
     fn svg(&self) -> Markup {
         match self {
             Self::Path { points, ink, width, dashed } => html! {

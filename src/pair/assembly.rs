@@ -162,12 +162,6 @@ impl Meshing {
         Ok(Self { pitch, sections, eccentricity_mm, center_distance_error_mm })
     }
 
-    /// The same gears at another centre distance: `error_mm` is added to the closing one.
-    #[must_use]
-    pub fn at_center_distance(&self, error_mm: f64) -> Self {
-        Self { center_distance_error_mm: error_mm, ..self.clone() }
-    }
-
     /// What is added to the closing centre distance, mm.
     pub fn center_distance_error_mm(&self) -> f64 {
         self.center_distance_error_mm

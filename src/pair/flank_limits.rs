@@ -69,8 +69,8 @@ impl FlankLimits {
             let ends = &self.ends[end];
             let after = ends.partition_point(|(at, _)| *at < phi);
             let [before, after] = [ends[(after + ends.len() - 1) % ends.len()], ends[after % ends.len()]];
-            let way = (after.0 - before.0).rem_euclid(self.period_rad);
-            let share = if way > 0.0 { (phi - before.0).rem_euclid(self.period_rad) / way } else { 0.0 };
+            let span_rad = (after.0 - before.0).rem_euclid(self.period_rad);
+            let share = if span_rad > 0.0 { (phi - before.0).rem_euclid(self.period_rad) / span_rad } else { 0.0 };
             match (before.1, after.1) {
                 (Some(from), Some(to)) => Some(from + share * (to - from)),
                 // Beside a flank that goes on to its tip the other's end holds: the tip curve ends the path sooner.

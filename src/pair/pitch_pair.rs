@@ -298,12 +298,12 @@ impl PitchPair {
         // Below the pitch curve the normal out of the tooth climbs to it, above it the other one falls to it.
         let from_root = self.height(member, on.point_mm, guess_rad)?.0 < 0.0;
         let towards = if from_root { 1.0 } else { -1.0 };
-        let at = |way_mm: f64| self.height(member, on.point_mm + towards * way_mm * on.normal, guess_rad);
-        let before = |way_mm: f64| Ok((at(way_mm)?.0 < 0.0) == from_root);
-        let way_mm = passing(self.pitch_mm(), before, || {
+        let at = |along_mm: f64| self.height(member, on.point_mm + towards * along_mm * on.normal, guess_rad);
+        let before = |along_mm: f64| Ok((at(along_mm)?.0 < 0.0) == from_root);
+        let along_mm = passing(self.pitch_mm(), before, || {
             format!("the normal of a {} flank does not meet the pitch curve", side.name())
         })?;
-        Ok((at(way_mm)?.1, -towards * way_mm * out))
+        Ok((at(along_mm)?.1, -towards * along_mm * out))
     }
 
     /// Driver's angle at which a flank's contact lies on the tip curve of a gear: the pitch curve moved by `height_mm`

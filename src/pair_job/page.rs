@@ -39,12 +39,6 @@ pub fn page(
         let found = lines.iter().find(|(own, _)| *own == name);
         found.map(|(_, chart)| Block::Lines(chart.clone()))
     };
-    let section = |id: &'static str, title: &str, lead: &str, blocks: Vec<Block>| PageSection {
-        id,
-        title: title.to_owned(),
-        lead: lead.to_owned(),
-        blocks,
-    };
     let table = |path: &str| found.find(path).map(|section| Block::Table(quantities::table(section)));
     let part = |blocks: Vec<Option<Block>>| blocks.into_iter().flatten().collect::<Vec<_>>();
     let rolling =
@@ -54,14 +48,14 @@ pub fn page(
     contact.extend(patterns.flatten());
     contact.extend(part(vec![table("contact.right"), table("contact.left")]));
     let sections = vec![
-        section(
+        PageSection::new(
             "ratio",
             "Ratio",
             "What the pair is for: the ratio of the speeds that the pitch curves ask for, and the one that the flanks \
             achieve.",
             part(vec![chart("ratio"), table("ratio"), Some(rolling)]),
         ),
-        section(
+        PageSection::new(
             "transmission-error",
             "Transmission error",
             "Rotation of B less the one asked for, without load. Long waves are longer than two teeth; the rest comes \
@@ -73,27 +67,27 @@ pub fn page(
                 table("transmission_error.left"),
             ]),
         ),
-        section(
+        PageSection::new(
             "backlash",
             "Backlash",
             "What B can turn while A is held, at the pitch point across the line of centres and normal to the flanks. \
             Below zero the pair jams.",
             part(vec![chart("backlash"), table("backlash")]),
         ),
-        section(
+        PageSection::new(
             "contact",
             "Contact",
             "Where flanks come nearer to each other than the marking compound is thick. Heights count from the pitch \
             curve, u from the form point.",
             contact,
         ),
-        section(
+        PageSection::new(
             "interference",
             "Interference",
             "How deep tip corners stand in the mate where the pitch curves want them; below zero they stay clear.",
             part(vec![table("interference")]),
         ),
-        section(
+        PageSection::new(
             "double-flank",
             "Double-flank rolling",
             "The centre distance at which both flanks touch, less the nominal one.",
@@ -104,7 +98,7 @@ pub fn page(
                 table("double_flank.master_B"),
             ]),
         ),
-        section(
+        PageSection::new(
             "center-distance",
             "Centre distance",
             "What 10 µm more do. Round gears turn as evenly at any distance; non-circular ones do not.",

@@ -27,25 +27,31 @@ pub(super) fn refuse_foreign(
     for path in blamed {
         let path_in_table = general(&path);
         let others = table.processes().iter().filter(|other| other.name != process.name);
-        for owner in others.filter(|other| KeyTable::new(&[other]).knows(&path_in_table)).take(1) {
-            let senseless = process.senseless.iter().find(|senseless| senseless.holds(&path_in_table));
-            problems.add(
-                &values.place_of(&path),
-                format!(
-                    "`{}` belongs to {}; this scene is for {}{}",
-                    path_in_table.replace("[]", ""),
-                    owner.name,
-                    process.name,
-                    senseless.map_or(String::new(), |senseless| format!(", where {}", senseless.why))
-                ),
-                format!(
-                    "{}, or write {} instead of {}",
-                    senseless.map_or("remove it", |senseless| senseless.instead),
-                    owner.tool_header(),
-                    process.tool_header()
-                ),
-            );
+        let owners: Vec<&&SceneProcess> =
+            others.filter(|other| KeyTable::new(&[other]).knows(&path_in_table)).collect();
+        if owners.is_empty() {
+            continue;
         }
+        let named = |name: &dyn Fn(&SceneProcess) -> String, joint: &str| {
+            owners.iter().map(|owner| name(owner)).collect::<Vec<_>>().join(joint)
+        };
+        let senseless = process.senseless.iter().find(|senseless| senseless.holds(&path_in_table));
+        problems.add(
+            &values.place_of(&path),
+            format!(
+                "`{}` belongs to {}; this scene is for {}{}",
+                path_in_table.replace("[]", ""),
+                named(&|owner| owner.name.to_string(), " and "),
+                process.name,
+                senseless.map_or(String::new(), |senseless| format!(", where {}", senseless.why))
+            ),
+            format!(
+                "{}, or write {} instead of {}",
+                senseless.map_or("remove it", |senseless| senseless.instead),
+                named(&|owner| owner.tool_header(), " or "),
+                process.tool_header()
+            ),
+        );
     }
     values.held.retain(|path, _| !foreign(path));
     values.variants.retain(|path, _| !foreign(path));

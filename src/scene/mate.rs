@@ -92,7 +92,8 @@ impl Writer<'_> {
         let process = self.driver.scene.process.process();
         let own = KeyTable::new(&[process]);
         let mut out = format!(
-            "# The gear that runs with {}, written by gearcut {}: the distance of the axes is solved so that it closes.\n\
+            "# The gear that runs with {}, written by gearcut {}: the distance of the axes is solved so that it \
+             closes.\n\
              # Tool, machine and operations are the driver's; what belongs to the driver's teeth alone is left out.\n",
             self.driver.scene.name,
             env!("CARGO_PKG_VERSION"),

@@ -49,7 +49,7 @@ pub struct CutFlanks<R> {
 }
 
 /// What is left of a flank when its dexels are dropped.
-struct Kept<R> {
+struct KeptFlank<R> {
     report: R,
     maps: Option<FlankMaps>,
     surface: Option<SurfaceGrid>,
@@ -101,7 +101,7 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
         }
         step.advance(1);
         let dexels = layers.iter().map(|layer| layer.heights_mm.len() as u64).sum();
-        Ok(Some(Kept { report, maps, surface, pictured, stats, dexels }))
+        Ok(Some(KeptFlank { report, maps, surface, pictured, stats, dexels }))
     })?;
     step.finish();
     let interrupted = finished.iter().any(Option::is_none);

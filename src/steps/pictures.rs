@@ -19,7 +19,7 @@ use crate::output::render_png::{Legend, RenderPicture, write_render_png};
 use crate::scene::model::{Picture, PictureColour, PictureView};
 use crate::surface::Mesh;
 use crate::surface::mesh::ScalarValues;
-use crate::surface::render::{Bodies, CLAY, Camera, Lights, Look, Rendered, Shape, render};
+use crate::surface::render::{Appearance, Bodies, CLAY, Camera, Lights, Rendered, Shape, render};
 use flank::{PicturedFlanks, draw_flank};
 use gearcut_core::dexel::NO_PASS;
 use gearcut_core::error::{Error, Result};
@@ -99,7 +99,7 @@ impl DrawnPicture {
 }
 
 /// What colours show on a mesh; nothing where it has no such quantity.
-fn look(job: &dyn GearJob, colour: PictureColour, mesh: &Mesh) -> (Look, Option<Legend<'static>>) {
+fn look(job: &dyn GearJob, colour: PictureColour, mesh: &Mesh) -> (Appearance, Option<Legend<'static>>) {
     let (name, quantity, unit) = match colour {
         PictureColour::Clay => return (CLAY, None),
         PictureColour::Stock => ("stock_mm", "normal stock before the last operation", "mm"),
@@ -115,7 +115,7 @@ fn look(job: &dyn GearJob, colour: PictureColour, mesh: &Mesh) -> (Look, Option<
             ColourScale::sequential_over([cut.as_slice()])
         }
     };
-    (Look::Scalar { name, scale }, Some(Legend { quantity, unit, scale }))
+    (Appearance::Scalar { name, scale }, Some(Legend { quantity, unit, scale }))
 }
 
 fn draw_solid(

@@ -57,7 +57,7 @@ pub fn gear_solid(outline: &Outline, back: &Back) -> Result<Mesh, Refusal> {
     let mut lofted: Vec<Vec<[u32; 3]>> = vec![Vec::new(); outline.parts.len()];
     for c in 0..columns {
         let next = (c + 1) % columns;
-        // Between two flanks, roots and tips own the seam: the flank ends at its own last point.
+        // Between two flanks, roots and tips own the line where they meet: the flank ends at its own last point.
         let (a, b) = (outline.columns[c].part, outline.columns[next].part);
         let part = if outline.parts[b].starts_with("tooth") { a } else { b };
         for r in 1..rows {

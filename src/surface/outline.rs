@@ -79,7 +79,7 @@ pub fn flank_name(tooth: u32, side: Side) -> String {
 
 /// Columns that no pass reached, on their way to become the blank's own outline.
 #[derive(Debug, Default)]
-struct Gap {
+struct UncutColumns {
     /// Part that the outline's points will belong to.
     part: Option<usize>,
 }
@@ -90,7 +90,7 @@ impl Outline {
         let rows_z_mm = common_rows(surfaces);
         let has_stock = surfaces.teeth.iter().all(|t| t.right.stock_mm.is_some());
         let mut outline = Self { rows_z_mm, columns: Vec::new(), parts: Vec::new(), has_stock };
-        let mut gap = Gap::default();
+        let mut gap = UncutColumns::default();
         let teeth = &surfaces.teeth;
         let count = teeth.len();
         for (index, tooth) in teeth.iter().enumerate() {
@@ -161,7 +161,7 @@ impl Outline {
     }
 
     /// Appends columns of a grid in the given order. Those that no pass reached become the blank's outline.
-    fn append(&mut self, grid: &SurfaceGrid, order: &[usize], blank: &Blank, gap: &mut Gap) {
+    fn append(&mut self, grid: &SurfaceGrid, order: &[usize], blank: &Blank, gap: &mut UncutColumns) {
         let part = self.parts.len() - 1;
         let uncut = |column: usize| (0..grid.rows()).all(|row| grid.is_uncut(column, row));
         for (i, &column) in order.iter().enumerate() {
@@ -239,7 +239,7 @@ impl Outline {
     }
 
     /// From the last column back to the first one.
-    fn close(&mut self, blank: &Blank, gap: &Gap) {
+    fn close(&mut self, blank: &Blank, gap: &UncutColumns) {
         let near = |a: &OutlineColumn, b: &OutlineColumn| {
             a.points_mm.iter().zip(&b.points_mm).any(|(a, b)| a.distance(*b) < NEAREST_MM)
         };

@@ -2,8 +2,8 @@
 
 No errors, no requests, a gear that turns, maps that follow the picker.
 
-In: the report of a gear and that of a pair, a folder for screenshots, the browser. Out: screenshots of wide, narrow, light, dark and printed pages
-for a look; exit code 1 with the reason when something is wrong.
+In: the report of a gear and that of a pair, a folder for screenshots, the browser. Out: screenshots of wide,
+narrow, light, dark and printed pages for a look; exit code 1 with the reason when something is wrong.
 """
 
 import pathlib

@@ -2,7 +2,5 @@
 
 /// Micrometres in a millimetre.
 pub const UM_PER_MM: f64 = 1e3;
-/// Nanometres in a millimetre.
-pub const NM_PER_MM: f64 = 1e6;
 /// Whole turn in radians.
 pub const TURN_RAD: f64 = std::f64::consts::TAU;

@@ -142,7 +142,7 @@ struct SliceVisits {
 
 /// Memory that is used over and over.
 #[derive(Default)]
-struct Memory {
+struct SliceBuffers {
     band: SectionBand,
     section: SweptSection,
     outline: LooseOutline,
@@ -167,7 +167,7 @@ impl SliceVisits {
         let no_tiles = |f: usize| (0..grid.rows[f].count.div_ceil(TILE_RAYS)).map(|_| Vec::new()).collect();
         let mut visits: Vec<Self> =
             slices.iter().map(|_| Self { headings: Vec::new(), tiles: [0, 1].map(no_tiles) }).collect();
-        let mut memory = Memory::default();
+        let mut memory = SliceBuffers::default();
         for pass in passes {
             if sections.culls()
                 && !memory.band.set(sections, pass, [slices_z_mm[0], slices_z_mm[slices_z_mm.len() - 1]])
@@ -189,9 +189,9 @@ impl SliceVisits {
         pass: usize,
         z_mm: f64,
         left: &[SpanTable; 2],
-        memory: &mut Memory,
+        memory: &mut SliceBuffers,
     ) {
-        let Memory { band, section, outline, reach, crossings, near } = memory;
+        let SliceBuffers { band, section, outline, reach, crossings, near } = memory;
         let mut followed = false;
         if sections.culls() {
             match band.bounds(sections, z_mm, outline, section) {

@@ -51,14 +51,14 @@ pub fn remove(surface: &Surface, form: Form) -> Result<(Surface, Option<String>)
         Form::Poly2 | Form::Poly2PlusCylinder => 6,
     };
     let frame = UnitCoordinates::of(surface);
-    let fit = Fit::new(surface, &frame, terms)?;
+    let fit = FittedPolynomial::new(surface, &frame, terms)?;
     if form != Form::Poly2PlusCylinder {
         return Ok((fit.residual(surface, &frame), None));
     }
     let cylinder = Cylinder::refined(surface, &frame, &fit)?;
     let note = cylinder.note();
     let taken = cylinder.subtracted(surface, &frame);
-    let fit = Fit::new(&taken, &frame, 6)?;
+    let fit = FittedPolynomial::new(&taken, &frame, 6)?;
     Ok((fit.residual(&taken, &frame), Some(note)))
 }
 
@@ -90,9 +90,9 @@ fn basis(x: f64, y: f64) -> [f64; 6] {
 }
 
 /// Coefficients of the polynomial.
-struct Fit([f64; 6]);
+struct FittedPolynomial([f64; 6]);
 
-impl Fit {
+impl FittedPolynomial {
     fn new(surface: &Surface, frame: &UnitCoordinates, terms: usize) -> Result<Self, String> {
         let sums: [f64; 27] = surface.sum_rows(|row, heights| {
             let y = frame.y(row);
@@ -194,7 +194,7 @@ struct Cylinder {
 }
 
 impl Cylinder {
-    fn refined(surface: &Surface, frame: &UnitCoordinates, fit: &Fit) -> Result<Self, String> {
+    fn refined(surface: &Surface, frame: &UnitCoordinates, fit: &FittedPolynomial) -> Result<Self, String> {
         let [hx, hy] = frame.half_um;
         let c = fit.0;
         // Principal curvatures of the polynomial in um.
@@ -206,7 +206,7 @@ impl Cylinder {
         let mut best = Self { curvature, angle }.held_upright(frame);
         let misfit = |cylinder: Self| -> Result<f64, String> {
             let taken = cylinder.subtracted(surface, frame);
-            let left = Fit::new(&taken, frame, 6)?.residual(&taken, frame);
+            let left = FittedPolynomial::new(&taken, frame, 6)?.residual(&taken, frame);
             Ok(left.sum_rows(|_, row| [row.iter().filter(|z| !z.is_nan()).map(|z| z * z).sum()])[0])
         };
         let mut least = misfit(best)?;

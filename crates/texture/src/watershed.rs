@@ -1,6 +1,6 @@
 //! Hills of a surface: watershed, and Wolf pruning of those that are too low.
 //!
-//! Every point belongs to the hill that its steepest way up leads to. Two neighbouring hills meet in a saddle, the
+//! Every point belongs to the hill that its steepest path up leads to. Two neighbouring hills meet in a saddle, the
 //! highest pass between them. Wolf pruning takes the hill that rises least over its highest saddle and gives it to the
 //! neighbour there, until all rise at least by the threshold. Going through the saddles from the highest down and
 //! letting the lower of two peaks end at the saddle where they first meet does the same in one sweep (the rise that is
@@ -132,8 +132,8 @@ impl Grid {
 
     /// The hill of every point, and the peak of every hill.
     fn climb(&self) -> (Vec<u32>, Vec<usize>) {
-        let mut way: Vec<u32> = vec![HOLE; self.z.len()];
-        way.par_chunks_mut(self.width).enumerate().skip(1).take(self.ny).for_each(|(y, row)| {
+        let mut uphill: Vec<u32> = vec![HOLE; self.z.len()];
+        uphill.par_chunks_mut(self.width).enumerate().skip(1).take(self.ny).for_each(|(y, row)| {
             for (x, step) in row.iter_mut().enumerate().skip(1).take(self.nx) {
                 let index = y * self.width + x;
                 if self.z[index] == f64::NEG_INFINITY {
@@ -149,19 +149,19 @@ impl Grid {
             }
         });
         let mut peaks = Vec::new();
-        let mut hill_of = vec![HOLE; way.len()];
-        for (index, &up) in way.iter().enumerate() {
+        let mut hill_of = vec![HOLE; uphill.len()];
+        for (index, &up) in uphill.iter().enumerate() {
             if up as usize == index {
                 hill_of[index] = peaks.len() as u32;
                 peaks.push(index);
             }
         }
         let mut path = Vec::new();
-        for start in 0..way.len() {
+        for start in 0..uphill.len() {
             let mut index = start;
-            while way[index] != HOLE && hill_of[index] == HOLE {
+            while uphill[index] != HOLE && hill_of[index] == HOLE {
                 path.push(index);
-                index = way[index] as usize;
+                index = uphill[index] as usize;
             }
             let hill = hill_of[index];
             for step in path.drain(..) {

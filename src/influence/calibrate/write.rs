@@ -152,12 +152,11 @@ fn page(scene: &Scene, found: &Calibration, tree: &Findings) -> Page {
         key_numbers: tree.headline.iter().map(quantities::key_number).collect(),
         warnings: tree.warnings.iter().map(Warning::with_signs).collect(),
         viewer: None,
-        sections: vec![PageSection {
-            id: "numbers",
-            title: "Measured and fitted".to_owned(),
-            lead: "Fitted numbers were made to agree; they are no evidence for the model beyond what is left over."
-                .to_owned(),
+        sections: vec![PageSection::new(
+            "numbers",
+            "Measured and fitted",
+            "Fitted numbers were made to agree; they are no evidence for the model beyond what is left over.",
             blocks,
-        }],
+        )],
     }
 }

@@ -41,12 +41,6 @@ fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings) -
         named.push(Block::Bars(chart(model, found)));
     }
     let left = tree.find("diagnosis").map(|section| Block::Table(quantities::table(section)));
-    let section = |id, title: &str, lead: &str, blocks| PageSection {
-        id,
-        title: title.to_owned(),
-        lead: lead.to_owned(),
-        blocks,
-    };
     Page {
         what: "diagnosis",
         title: tree.scene.clone(),
@@ -59,13 +53,13 @@ fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings) -
         warnings: tree.warnings.iter().map(Warning::with_signs).collect(),
         viewer: None,
         sections: vec![
-            section(
+            PageSection::new(
                 "sources",
                 "Errors that explain the flanks",
                 "Fitted to the measured deviations, with 95 % intervals. Sizes count from those of the scene.",
                 named,
             ),
-            section(
+            PageSection::new(
                 "left-over",
                 "What is left over",
                 "What no error explains, against the stated noise. Place by place it stands in tables/residuals.csv.",

@@ -22,6 +22,13 @@ pub struct PageSection {
     pub blocks: Vec<Block>,
 }
 
+impl PageSection {
+    /// A part of the page.
+    pub fn new(id: &'static str, title: impl Into<String>, lead: impl Into<String>, blocks: Vec<Block>) -> Self {
+        Self { id, title: title.into(), lead: lead.into(), blocks }
+    }
+}
+
 /// A piece of a section.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Block {

@@ -29,7 +29,9 @@ pub fn gear_frame(viewer: &Viewer) -> Markup {
                         (turn("flank", "Flank", "View of the picked flank"))
                         (turn("closer", "+", "Closer"))
                         (turn("further", "−", "Further away"))
-                        button type="button" id="tooth-numbers" aria-pressed="true" title="Numbers of the teeth" { "No." }
+                        button type="button" id="tooth-numbers" aria-pressed="true" title="Numbers of the teeth" {
+                            "No."
+                        }
                         button type="button" id="gear-section" title="Section: across the axis, along it, none" {
                             "Section"
                         }

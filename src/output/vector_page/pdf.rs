@@ -4,7 +4,7 @@
 //! own, and a table leads back to letters, so that words can be searched and copied. No date and no name of a machine
 //! is in the file: the same page has the same bytes.
 
-use super::{A4_PT, Anchor, Stroke, VectorPage, words_pt};
+use super::{A4_PT, Anchor, PagePiece, VectorPage, words_pt};
 use crate::output::font;
 use ab_glyph::{Font, FontRef};
 use flate2::Compression;
@@ -53,7 +53,7 @@ impl VectorPage {
         let up = |y: f64| (A4_PT[1] - y) as f32;
         for stroke in &self.strokes {
             match stroke {
-                Stroke::Path { points, ink, width, dashed } => {
+                PagePiece::Path { points, ink, width, dashed } => {
                     let [r, g, b] = ink.rgb().map(|part| f32::from(part) / 255.0);
                     content.set_stroke_rgb(r, g, b).set_line_width(*width as f32);
                     let dashes: &[f32] = if *dashed { &[3.0, 2.4] } else { &[] };
@@ -67,12 +67,12 @@ impl VectorPage {
                         content.stroke();
                     }
                 }
-                Stroke::Block { corner, size, ink } => {
+                PagePiece::Block { corner, size, ink } => {
                     let [r, g, b] = ink.rgb().map(|part| f32::from(part) / 255.0);
                     content.set_fill_rgb(r, g, b);
                     content.rect(corner.0 as f32, up(corner.1 + size.1), size.0 as f32, size.1 as f32).fill_nonzero();
                 }
-                Stroke::Words { at, size, ink, anchor, words } => {
+                PagePiece::Words { at, size, ink, anchor, words } => {
                     let width = words_pt(words, *size)?;
                     let x = match anchor {
                         Anchor::Start => at.0,

@@ -45,8 +45,8 @@ fn side_section(options: &PairOptions, rolled: &RolledPair, at: usize) -> Sectio
     };
     let path = match options.source {
         FlankSource::Cut => {
-            "smallest of the contact ratios of all moments: path of contact between tip curves and form points over the \
-            base pitch"
+            "smallest of the contact ratios of all moments: path of contact between tip curves and form points over \
+            the base pitch"
         }
         FlankSource::Nominal => {
             "smallest of the contact ratios of all moments: path of contact between the tip curves over the base pitch"

@@ -189,7 +189,7 @@ impl RowLedger {
         let spiral_rad = [Side::Left, Side::Right].map(|side| job.target_of(side).row(along_mm)?.spiral_angle_rad());
         let [on_left, on_right] = spiral_rad;
         let cos_spiral = (0.5 * (on_left? + on_right?)).cos();
-        let rays = RowRays::new(job, grid, slot, row);
+        let rays = SlotRowRays::new(job, grid, slot, row);
         let end = |at_mm| End { at_mm, pass: NO_PASS, normal: [0.0; 2] };
         let uncut = vec![Span { low: end(grid.low_mm), high: end(rays.top_mm) }];
         let mut left: Vec<Vec<Span>> = vec![uncut; grid.columns];
@@ -254,13 +254,13 @@ fn slope(cuts: &PassCuts, column: usize) -> f64 {
 type PassCuts = [Option<[f64; 2]>];
 
 /// The rays of a row, from below and from above.
-struct RowRays {
+struct SlotRowRays {
     /// Upwards from the root cone, downwards from the face cone: one column, rows round the axis.
     fields: [SpatialField; 2],
     top_mm: f64,
 }
 
-impl RowRays {
+impl SlotRowRays {
     fn new(job: &BevelJob, grid: &CellGrid, slot: u32, row: usize) -> Self {
         let up = grid.field_of_rows(job, slot, row..row + 1);
         let (_, top_mm) = grid.ray(job, 0, row);

@@ -49,7 +49,7 @@ impl<'a> Drawn<'a> {
 }
 
 /// A view: millimetres to pixels.
-struct View {
+struct DrawingView {
     origin_px: DVec2,
     px_per_mm: f64,
     out: String,
@@ -63,7 +63,8 @@ pub fn svg(drawn: &Drawn) -> String {
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
          height=\"{height}\" font-family=\"DejaVu Sans, Noto Sans, Helvetica, Arial, sans-serif\" font-size=\"14\">\n\
-         <title>Settings of the cradle machine</title>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n\
+         <title>Settings of the cradle machine</title>\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n\
          <defs><marker id=\"e\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"7\" markerHeight=\"7\" \
          orient=\"auto-start-reverse\"><path d=\"M0 1 9 5 0 9z\" fill=\"context-stroke\"/></marker></defs>\n"
     );
@@ -114,7 +115,7 @@ fn along_cradle(drawn: &Drawn) -> String {
     let r = drawn.radius_mm;
     let ring = [-RING_RAD, RING_RAD].map(|angle| apex + outer_mm * DVec2::from_angle(angle));
     let ends = [head - r, head + r, apex + outer_mm * DVec2::new(1.1, 0.0), apex];
-    let mut view = View::around(&[&ends[..], &ring].concat());
+    let mut view = DrawingView::around(&[&ends[..], &ring].concat());
     view.axes(["x", "y"], 1.15 * outer_mm);
     // The crown gear's ring that the blank rolls on.
     for (radius_mm, dash) in [(inner_mm, "3 3"), (outer_mm, "3 3")] {
@@ -174,7 +175,7 @@ fn across(drawn: &Drawn) -> String {
     let mut places: Vec<DVec2> = section(1.0).into_iter().chain(section(-1.0)).collect();
     places.extend(corners);
     places.extend([DVec2::ZERO, apex + 1.1 * heel * axis]);
-    let mut view = View::around(&places);
+    let mut view = DrawingView::around(&places);
     view.axes(["z", "x"], 0.9 * heel);
     view.line([apex - 0.1 * heel * axis, apex + 1.1 * heel * axis], (WORK, 1.2, "12 4 2 4"));
     view.polygon(
@@ -196,7 +197,7 @@ fn across(drawn: &Drawn) -> String {
     view.out
 }
 
-impl View {
+impl DrawingView {
     /// A view that shows all places.
     fn around(places: &[DVec2]) -> Self {
         let low = places.iter().copied().fold(DVec2::splat(f64::INFINITY), DVec2::min);
@@ -260,8 +261,8 @@ impl View {
         let marker = if arrow { " marker-end=\"url(#e)\"" } else { "" };
         let _ = writeln!(
             self.out,
-            "<path d=\"M{:.1} {:.1}A{radius:.1} {radius:.1} 0 0 {sweep} {:.1} {:.1}\" fill=\"none\" stroke=\"{colour}\" \
-             stroke-width=\"{width}\" stroke-dasharray=\"{dash}\"{marker}/>",
+            "<path d=\"M{:.1} {:.1}A{radius:.1} {radius:.1} 0 0 {sweep} {:.1} {:.1}\" fill=\"none\" \
+             stroke=\"{colour}\" stroke-width=\"{width}\" stroke-dasharray=\"{dash}\"{marker}/>",
             a.x, a.y, b.x, b.y
         );
     }

@@ -329,8 +329,8 @@ fn errors(job: &BevelJob, gear: &BevelGear) -> Result<Section> {
         };
         let words = Quantity::text(
             format!("{}; next {}", said(&first), said(&second)),
-            "settings whose error, each by itself, explains most of the deviations of the grid, and root mean square of \
-            what it leaves",
+            "settings whose error, each by itself, explains most of the deviations of the grid, and root mean square \
+            of what it leaves",
         );
         section = section
             .shown(&format!("{side}_explained"), &format!("tooth 1 {side}"), words)

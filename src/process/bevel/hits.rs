@@ -100,9 +100,9 @@ impl BevelJob {
         Ok((depth_mm > HIT_MM + stands_out_mm).then(|| {
             let [arc_mm, along_mm] = at_mm;
             format!(
-                "undercut: blades of the same slot go {depth_mm:.3} mm below the {} flank, {arc_mm:.2} mm from its form \
-                 point and {:.1} mm from the middle of the face towards the {}; use a smaller dedendum, larger blade \
-                 angles or more teeth",
+                "undercut: blades of the same slot go {depth_mm:.3} mm below the {} flank, {arc_mm:.2} mm from its \
+                 form point and {:.1} mm from the middle of the face towards the {}; use a smaller dedendum, larger \
+                 blade angles or more teeth",
                 side.name(),
                 along_mm.abs(),
                 if along_mm < 0.0 { "toe" } else { "heel" }

@@ -66,8 +66,8 @@ fn hunting(job: &HobbingJob) -> Option<String> {
     let common = greatest_common_divisor(starts, teeth);
     (common > 1).then(|| {
         format!(
-            "{starts} starts and {teeth} teeth share the divisor {common}: each start always cuts the same tooth spaces, \
-             and the hob's pitch errors stay on the gear"
+            "{starts} starts and {teeth} teeth share the divisor {common}: each start always cuts the same tooth \
+             spaces, and the hob's pitch errors stay on the gear"
         )
     })
 }

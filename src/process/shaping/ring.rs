@@ -20,7 +20,7 @@
 
 mod corners;
 
-pub use corners::CornerWay;
+pub use corners::CornerPath;
 
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
@@ -66,11 +66,11 @@ pub struct RingTooth {
     pub relief_mm: [Option<f64>; 2],
     /// The cutter's tip corners on their way into the space behind the tooth, and out of it; `None` where the target's
     /// outline is not known.
-    pub corners: Option<[CornerWay; 2]>,
+    pub corners: Option<[CornerPath; 2]>,
 }
 
 impl RingTooth {
-    fn new(job: &ShapingJob, tooth: u32, corners: Option<[CornerWay; 2]>) -> Self {
+    fn new(job: &ShapingJob, tooth: u32, corners: Option<[CornerPath; 2]>) -> Self {
         let phi_rad = job.curve.phi_at_arc(PI * job.scene.gear.module_mm * (f64::from(tooth) - 0.5));
         let flanks = SIDES.map(|side| job.target_flank(tooth, side));
         let addendum_mm = job.blank.addendum_mm;
@@ -108,13 +108,6 @@ pub fn rolling_teeth(radius_mm: f64, module_mm: f64) -> u32 {
 /// Module at which the pitch circle of a cutter is as large as the osculating circle, mm.
 pub fn rolling_module_mm(radius_mm: f64, cutter_teeth: u32) -> f64 {
     2.0 * radius_mm / f64::from(cutter_teeth)
-}
-
-/// Height over the pitch curve up to which an involute that goes down to its base circle generates a ring of a radius,
-/// mm.
-pub fn generated_height_mm(radius_mm: f64, cutter_pitch_radius_mm: f64, pressure_angle_rad: f64) -> f64 {
-    let (sine, cosine) = pressure_angle_rad.sin_cos();
-    radius_mm - (radius_mm * cosine).hypot((radius_mm - cutter_pitch_radius_mm) * sine)
 }
 
 /// Fewest cutter teeth that generate a ring of a radius up to a height over its pitch curve; `None` where no cutter
@@ -214,11 +207,11 @@ impl PrintedUndercut {
     }
 }
 
-/// The tightest way of a tip corner.
+/// The tightest path of a tip corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TightestCorner {
-    /// Its way.
-    pub way: CornerWay,
+    /// Its path.
+    pub path: CornerPath,
     /// The tooth before the space.
     pub tooth: u32,
     /// Whether the corner is on its way into the space; otherwise out of it.
@@ -246,7 +239,7 @@ pub struct RingFacts {
     pub highest_start: ToothPlace,
     /// Flanks of the whole gear whose beginning the cutter's tip cuts away.
     pub undercut_flanks: u32,
-    /// Tightest way of a tip corner; `None` where the target's outline is not known.
+    /// Tightest path of a tip corner; `None` where the target's outline is not known.
     pub tightest_corner: Option<TightestCorner>,
     /// The printed condition of undercut.
     pub printed: PrintedUndercut,
@@ -307,9 +300,9 @@ fn flanks(
 }
 
 fn tightest_corner(teeth: &[RingTooth]) -> Option<TightestCorner> {
-    let ways = teeth.iter().flat_map(|of| {
-        let ways = of.corners.into_iter().flat_map(|ways| ways.into_iter().zip([true, false]));
-        ways.map(|(way, entering)| TightestCorner { way, tooth: of.tooth, entering })
+    let paths = teeth.iter().flat_map(|of| {
+        let paths = of.corners.into_iter().flat_map(|paths| paths.into_iter().zip([true, false]));
+        paths.map(|(path, entering)| TightestCorner { path, tooth: of.tooth, entering })
     });
-    ways.reduce(|a, b| if b.way.clearance_mm < a.way.clearance_mm { b } else { a })
+    paths.reduce(|a, b| if b.path.clearance_mm < a.path.clearance_mm { b } else { a })
 }

@@ -162,7 +162,8 @@ fn below_target(report: &GearReport) -> Vec<Warning> {
     if let Some((flank, deepest)) = deep().min_by(|a, b| a.1.value_mm.total_cmp(&b.1.value_mm)) {
         let at_least = if flank.own.below_range > 0 { "at least " } else { "" };
         warnings.push(Warning::warn(format!(
-            "{} flanks are cut below the target, tooth {} {} by {at_least}{} um, {:.2} mm above the start of the involute",
+            "{} flanks are cut below the target, tooth {} {} by {at_least}{} um, {:.2} mm above the start of the \
+             involute",
             deep().count(),
             flank.tooth,
             flank.side.name(),
@@ -183,8 +184,8 @@ fn rubbing(job: &ShapingJob, report: &BlankReport) -> Option<Warning> {
         _ => "set another machine.retraction or machine.back_off_mm",
     };
     Some(Warning::warn(format!(
-        "operation {}: after stroke {} the returning cutter stands {} um deep in tooth {} {}, and in {} mm3 of the gear in \
-         all: {way_out}; gearcut check says where it clears",
+        "operation {}: after stroke {} the returning cutter stands {} um deep in tooth {} {}, and in {} mm3 of the \
+         gear in all: {way_out}; gearcut check says where it clears",
         job.operations[deepest.operation].spec.name,
         deepest.stroke,
         significant(UM_PER_MM * deepest.depth_mm, 3),

@@ -224,7 +224,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
             teach: "Which noise is cut: equal seeds make equal gears, another one makes another gear of the machine.",
         }],
         groups: &[],
-        teach: "What is wrong with the machine: the cut follows what its axes really do, the target stays the ideal one.",
+        teach: "What is wrong with the machine: the cut follows what its axes really do, the target stays the \
+            ideal one.",
     },
     KeySection {
         path: "mounting",

@@ -66,7 +66,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
             Key::drawn_limit("runout_um", "Largest runout F_r."),
         ],
         groups: &[],
-        teach: "Limits of the drawing. On a round gear they go before those of the class; other gears have no class, and \
-            their limits stand here.",
+        teach: "Limits of the drawing. On a round gear they go before those of the class; other gears have no class, \
+            and their limits stand here.",
     },
 ];

@@ -104,8 +104,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 &["plain", "linuxcnc", "siemens", "fanuc"],
                 "plain",
                 "\"siemens\"",
-                "Control that reads the programs: none in particular, or LinuxCNC, SINUMERIK, FANUC with their own rules \
-                    of numbers, dwells, comments, safe start and retract (docs/gcode.md).",
+                "Control that reads the programs: none in particular, or LinuxCNC, SINUMERIK, FANUC with their own \
+                    rules of numbers, dwells, comments, safe start and retract (docs/gcode.md).",
             ),
             Key {
                 name: "gcode_contour_error_um",

@@ -216,8 +216,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 unit: "",
                 default: Default::Required,
                 example: "34",
-                teach: "Number of teeth of the driver. After one turn of this gear the driver must look the same as before \
-                    it.",
+                teach: "Number of teeth of the driver. After one turn of this gear the driver must look the same as \
+                    before it.",
             },
             Key {
                 name: "start_deg",
@@ -229,8 +229,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
             },
         ],
         groups: &[],
-        teach: "The gear that runs with a driver: r2 = a - r1, for an internal gear r2 = a + r1. The distance of the axes \
-            a is solved so that the curve closes.",
+        teach: "The gear that runs with a driver: r2 = a - r1, for an internal gear r2 = a + r1. The distance of the \
+            axes a is solved so that the curve closes.",
     },
     KeySection {
         path: "gear.pitch_curve.mate.driver",

@@ -108,8 +108,8 @@ pub fn warnings(gear: &PlanarGear, report: &BlankReport) -> Vec<Warning> {
     }
     if let Some(first) = report.stroke_faults.first() {
         warnings.push(Warning::warn(format!(
-            "{} strokes seem to be missing, made twice or without a cut, from what each removed: the first is stroke {} of \
-             operation {} ({})",
+            "{} strokes seem to be missing, made twice or without a cut, from what each removed: the first is stroke \
+             {} of operation {} ({})",
             report.stroke_faults.len(),
             first.fault.stroke,
             name(first.operation),

@@ -32,7 +32,7 @@ const HELIX: [InspectionFigure; 3] =
 const SIDES: [(Side, &str); 2] = [(Side::Left, "left flanks"), (Side::Right, "right flanks")];
 
 /// A flank with its traces.
-struct Inspected<'a> {
+struct TracedFlank<'a> {
     tooth: u32,
     side: Side,
     /// Profile in the middle of the face, and its deviations.
@@ -44,7 +44,7 @@ struct Inspected<'a> {
 /// What a gear inspector has found on a gear.
 pub struct Inspection<'a> {
     /// Flanks in order of teeth.
-    flanks: Vec<Inspected<'a>>,
+    flanks: Vec<TracedFlank<'a>>,
     gear: &'a GearInspection,
     /// Thickness of each tooth less half a pitch with shift and allowance, arcs of the pitch curve, mm.
     thickness_mm: Vec<Option<f64>>,
@@ -73,7 +73,7 @@ impl<'a> Inspection<'a> {
         words: InspectionWords,
         verdict: &'a GearVerdict,
     ) -> Self {
-        let inspected = |flank: &'a InspectedFlank<Own>| Inspected {
+        let inspected = |flank: &'a InspectedFlank<Own>| TracedFlank {
             tooth: flank.tooth,
             side: flank.side,
             profile: (&flank.profile_trace, flank.profile),
@@ -224,8 +224,8 @@ fn shown_um(value_mm: f64) -> f64 {
 fn traced<'a>(
     inspection: &'a Inspection,
     side: Side,
-    total: impl Fn(&Inspected) -> Option<f64>,
-) -> Vec<&'a Inspected<'a>> {
+    total: impl Fn(&TracedFlank) -> Option<f64>,
+) -> Vec<&'a TracedFlank<'a>> {
     let teeth = inspection.thickness_mm.len() as u32;
     let mut numbers: Vec<u32> = (0..TRACED_TEETH.min(teeth)).map(|k| 1 + k * teeth / TRACED_TEETH.min(teeth)).collect();
     for of in [Side::Left, Side::Right] {
@@ -241,7 +241,7 @@ fn traced<'a>(
 
 fn column(
     inspection: &Inspection,
-    flank: &Inspected,
+    flank: &TracedFlank,
     (trace, deviation): (&Trace, Option<TraceDeviation>),
     [total, form, slope]: [InspectionFigure; 3],
 ) -> TraceColumn {

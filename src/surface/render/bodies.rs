@@ -19,7 +19,7 @@ const CREASE_RAD: f64 = std::f64::consts::FRAC_PI_6;
 
 /// How a body looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Look {
+pub enum Appearance {
     /// One colour, linear light, with a highlight of this strength.
     Plain {
         /// Red, green, blue; 0 to 1.
@@ -37,9 +37,9 @@ pub enum Look {
 }
 
 /// Clay.
-pub const CLAY: Look = Look::Plain { colour: [0.50, 0.475, 0.44], gloss: 0.05 };
+pub const CLAY: Appearance = Appearance::Plain { colour: [0.50, 0.475, 0.44], gloss: 0.05 };
 /// Steel of a tool.
-pub const STEEL: Look = Look::Plain { colour: [0.30, 0.36, 0.44], gloss: 0.6 };
+pub const STEEL: Appearance = Appearance::Plain { colour: [0.30, 0.36, 0.44], gloss: 0.6 };
 
 /// Bodies ready for rays, without colours.
 pub struct Shape<'a> {
@@ -74,7 +74,7 @@ impl<'a> Shape<'a> {
 pub struct Bodies<'a> {
     shape: &'a Shape<'a>,
     /// How each body looks.
-    looks: Vec<Look>,
+    looks: Vec<Appearance>,
 }
 
 /// What a ray finds.
@@ -99,7 +99,7 @@ pub struct BodyHit {
 
 impl<'a> Bodies<'a> {
     /// Bodies with a look for each.
-    pub fn new(shape: &'a Shape<'a>, looks: Vec<Look>) -> Self {
+    pub fn new(shape: &'a Shape<'a>, looks: Vec<Appearance>) -> Self {
         Self { shape, looks }
     }
 
@@ -141,8 +141,8 @@ impl<'a> Bodies<'a> {
             ScalarValues::F32(_) => None,
         });
         let (colour, gloss, value) = match look {
-            Look::Plain { colour, gloss } => (colour, gloss, f32::NAN),
-            Look::Scalar { name, scale } => {
+            Appearance::Plain { colour, gloss } => (colour, gloss, f32::NAN),
+            Appearance::Scalar { name, scale } => {
                 let value = match mesh.scalar(name).filter(|_| measured).map(|scalar| &scalar.values) {
                     Some(ScalarValues::F32(values)) => {
                         let sum: f64 = (0..3).map(|k| weights[k] * f64::from(values[vertices[k]])).sum();
@@ -258,7 +258,7 @@ mod tests {
         mesh.scalars.push(crate::surface::flanks::pass_scalar((0..128).collect()));
         let scale = ColourScale::Sequential { low: 0.0, high: 10.0 };
         let shape = Shape::new(vec![&mesh]);
-        let bodies = Bodies::new(&shape, vec![Look::Scalar { name: "height_um", scale }]);
+        let bodies = Bodies::new(&shape, vec![Appearance::Scalar { name: "height_um", scale }]);
         let found = bodies.first(DVec3::new(30.0, 0.0, 2.0), DVec3::NEG_X).expect("meets the wall");
         assert!((found.distance_mm - 20.0).abs() < 1e-9);
         assert!((found.value - 2.0).abs() < 1e-5);

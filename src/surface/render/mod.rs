@@ -15,6 +15,6 @@ pub mod bvh;
 pub mod camera;
 pub mod light;
 
-pub use bodies::{Bodies, CLAY, Look, STEEL, Shape};
+pub use bodies::{Appearance, Bodies, CLAY, STEEL, Shape};
 pub use camera::Camera;
 pub use light::{Lights, Rendered, render};

@@ -170,7 +170,7 @@ fn cut_flanks_touch_where_the_contact_is_found() {
             [&gear.target[BladeKind::Outside.index()], &pinion.target[BladeKind::Inside.index()]].map(Clone::clone);
         let pair = BevelPair { gear: gear_flank, pinion: pinion_flank, mounting };
         let [pinion_rad, gear_rad] = pair.middle_rad().expect("a middle");
-        let contact = pair.contact(pinion_rad, gear_rad, MARKING_MM).expect("they meet");
+        let contact = pair.contact(pinion_rad, gear_rad, MARKING_MM).expect("a search that ends").expect("they meet");
         // Axes of both members in one frame: the gear's leans by its pitch angle, the pinion's by its own the other
         // way.
         let [gear_lean, pinion_lean] = [&gear, &pinion].map(|job| DMat3::from_rotation_y(-job.blank.pitch_angle_rad));

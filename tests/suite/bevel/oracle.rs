@@ -140,7 +140,10 @@ fn the_blank_and_what_the_settings_say_of_the_cutter() {
     let mm = number(&file["tol"], "mm");
     close("mean cone distance", blank.mean_cone_distance_mm(), number(&file, "mean_cone_distance"), mm);
     close("module", blank.outer_module_mm(), number(&file, "outer_module_gear"), mm);
-    close("root line", blank.root_apex_offset_mm(), number(&file, "root_plane_offset_from_apex"), mm);
+    // How far the line of the roots passes the pitch apex, towards the back.
+    let (sin, cos) = blank.dedendum_angle_rad().sin_cos();
+    let root_line_mm = blank.outer_dedendum_mm * cos - blank.outer_cone_distance_mm * sin;
+    close("root line", root_line_mm, number(&file, "root_plane_offset_from_apex"), mm);
     let inferred = InferredCutter::new(&settings, &blank);
     close("radius", inferred.radius_mm, number(&file, "rc_inferred"), mm);
     close("spiral angle", inferred.spiral_angle_rad.to_degrees(), number(&file, "spiral_inferred_deg"), mm);
@@ -274,6 +277,23 @@ fn settings_come_back_from_axes() {
     assert!(machine.cradle_of(&roll[..1], 0.9, 0.7).is_err());
 }
 
+/// Point of the fillet that belongs to angles about the head's axis and of the cradle, work frame, and its lean: the
+/// blade angle where it joins the flank, a right angle where it joins the bottom. All normals
+/// of the round go through its middle c, so that its velocity alone counts: the lean follows from n . (v + w x c) = 0.
+fn fillet_at(envelope: &Envelope, head_rad: f64, cradle_rad: f64) -> (DVec3, f64) {
+    let motion = envelope.settings.motion(cradle_rad);
+    let center_mm = envelope.surface.corner_center_mm(head_rad);
+    let velocity = motion.pose.rotation.transpose() * motion.velocity_at(motion.pose.point(center_mm));
+    let away = velocity.dot(DVec3::new(head_rad.cos(), head_rad.sin(), 0.0));
+    // -s cos(lean) away - sin(lean) v_z = 0.
+    let mut lean_rad = (-envelope.surface.kind.sign() * away).atan2(velocity.z);
+    if lean_rad < 0.0 {
+        lean_rad += std::f64::consts::PI;
+    }
+    let normal = envelope.surface.normal_of_corner(head_rad, lean_rad);
+    (motion.pose.point(center_mm - envelope.surface.corner_radius_mm * normal), lean_rad)
+}
+
 /// Points of the fillet are the torus's at their moment, and moments beside it leave them in the material that stays:
 /// the torus touches its envelope from inside.
 #[test]
@@ -293,14 +313,14 @@ fn the_fillet_is_touched_by_the_round() {
         let mut leans = 0;
         for i in 0..200 {
             let cradle_rad = cradle_rad + 0.002 * f64::from(i - 100);
-            let (point, lean_rad) = envelope.fillet_at(head_rad, cradle_rad);
+            let (point_mm, lean_rad) = fillet_at(&envelope, head_rad, cradle_rad);
             if lean_rad < surface.blade_angle_rad || lean_rad > std::f64::consts::FRAC_PI_2 {
                 continue;
             }
             leans += 1;
-            assert!(beyond_mm(point.point_mm, cradle_rad).abs() < 1e-12);
+            assert!(beyond_mm(point_mm, cradle_rad).abs() < 1e-12);
             for step in [-3e-3, -1e-3, 1e-3, 3e-3] {
-                let beside_mm = beyond_mm(point.point_mm, cradle_rad + step);
+                let beside_mm = beyond_mm(point_mm, cradle_rad + step);
                 assert!(beside_mm > 1e-7, "{}: {beside_mm:e} mm at {step}", kind.name());
             }
         }

@@ -122,7 +122,7 @@ fn a_crowned_pinion_touches_in_the_ellipse_of_its_curvature() {
 fn no_other_points_are_nearer_than_the_contact() {
     let pair = pair(-1.5, 0.0);
     let [pinion_rad, gear_rad] = pair.middle_rad().expect("a middle");
-    let contact = pair.contact(pinion_rad, gear_rad, MARKING_MM).expect("they touch");
+    let contact = pair.contact(pinion_rad, gear_rad, MARKING_MM).expect("a search that ends").expect("they touch");
     let (nearest_mm, place_mm) = pair.nearest_mm(&contact, [150, 300]);
     println!("nearest {nearest_mm:e} mm at {place_mm:?}, contact at {:?}", contact.place_mm);
     // Half a step of the grid beside the contact the gap is 8e-6 mm.
@@ -195,4 +195,14 @@ fn a_modified_roll_moves_points_by_their_moment() {
             assert!(largest_mm > 5e-6, "{largest_mm:e} mm");
         }
     }
+}
+
+/// Flanks that do not meet are no error of the search: nothing is found, and the motion over a pitch says so.
+#[test]
+fn flanks_that_do_not_meet_are_told() {
+    let far = pair(0.0, 500.0);
+    let [pinion_rad, gear_rad] = far.middle_rad().expect("a middle");
+    assert_eq!(far.contact(pinion_rad, gear_rad, MARKING_MM), Ok(None));
+    let refusal = far.motion(1.0, 3, MARKING_MM).expect_err("they do not meet");
+    assert!(refusal.problem.contains("both flanks do not meet near"), "{refusal}");
 }

@@ -349,8 +349,8 @@ mod slow {
                 }
             }
             println!(
-                "{scene}: {ends} ends, {lowest_um:.4} um and more over the target, at most {highest_um:.2} at the pitch \
-                curve; marks {marks_um:.2}"
+                "{scene}: {ends} ends, {lowest_um:.4} um and more over the target, at most {highest_um:.2} at the \
+                pitch curve; marks {marks_um:.2}"
             );
             // 0.2 um: chords of the outline over hollow fillets lie in the material's stead. Marks are formulas for the
             // pitch line.

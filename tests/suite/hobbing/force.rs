@@ -179,7 +179,8 @@ mod slow {
                 let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
                 let square = ratios.iter().map(|r| (r - 1.0).powi(2)).sum::<f64>() / ratios.len() as f64;
                 println!(
-                    "rays {spacing} mm apart, {name}: {} chips, ratio {:.3} {:.3} {:.3} {:.3} {:.3}, mean {mean:.4}, rms {:.4}",
+                    "rays {spacing} mm apart, {name}: {} chips, ratio {:.3} {:.3} {:.3} {:.3} {:.3}, \
+                     mean {mean:.4}, rms {:.4}",
                     ratios.len(),
                     at(0.0),
                     at(0.05),

@@ -340,3 +340,20 @@ fn hobbed_gears_stand_side_by_side_with_the_load_of_every_hob_tooth() {
         .failed(1, &["plain was made by hobbing and normal by shaping", "one process"]);
     gearcut_in(folder.path(), &["compare", "out/plain"]).failed(2, &["2"]);
 }
+
+/// Numbers that one side alone has are no "nothing changed": they are counted.
+#[test]
+fn numbers_of_one_side_are_counted() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let mut more = results(3.98, 0.65);
+    let mut known = number(1.5, "um");
+    known["level"] = json!("headline");
+    more["headline"]["gouge"] = known;
+    for (name, document) in [("before", &results(3.98, 0.65)), ("same", &results(3.98, 0.65)), ("after", &more)] {
+        put(&folder, name, document);
+    }
+    let same = gearcut_in(folder.path(), &["compare", "out/before", "out/same"]).done();
+    same.says(&["nothing changed"]);
+    let after = gearcut_in(folder.path(), &["compare", "out/before", "out/after"]).done();
+    after.says(&["nothing changed of what all results have", "1 number stands in some of the results only"]);
+}

@@ -426,3 +426,16 @@ fn stale(path: &str, wanted: &str, command: &str) {
     let found = fs::read_to_string(path).unwrap_or_default().replace("\r\n", "\n");
     assert!(found == wanted, "{path} is stale: run `{command}`");
 }
+
+/// A section that two other processes read is said to be both's.
+#[test]
+fn a_foreign_section_names_all_who_read_it() {
+    let written = ["check", "scenes/bevel/crown_gear.toml", "--set", "measure.profile_start_height_mm=1.0"];
+    crate::fixtures::command::gearcut(&written).failed(
+        1,
+        &[
+            "belongs to shaping and hobbing; this scene is for bevel",
+            "write [tool.shaper_cutter] or [tool.hob] instead",
+        ],
+    );
+}

@@ -11,7 +11,7 @@ use gearcut::process::shaping::cutter::CornerPart;
 use gearcut::process::shaping::generation::Generation;
 use gearcut::process::shaping::linkage::ShapingLinkage;
 use gearcut::process::shaping::linkage::relief::relief_ratio;
-use gearcut::process::shaping::ring::{PrintedUndercut, RingFacts, generated_height_mm, generating_teeth};
+use gearcut::process::shaping::ring::{PrintedUndercut, RingFacts, generating_teeth};
 use gearcut::process::shaping::scene::model::{Shaping, Tip};
 use gearcut::process::shaping::target::{FlankEnd, TargetFlank};
 use gearcut::process::shaping::tip_relief::TipRelief;
@@ -20,6 +20,13 @@ use gearcut::terms::Side;
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
+
+/// Height over the pitch curve up to which an involute that goes down to its base circle generates a ring of a radius,
+/// mm.
+fn generated_height_mm(radius_mm: f64, cutter_pitch_radius_mm: f64, pressure_angle_rad: f64) -> f64 {
+    let (sine, cosine) = pressure_angle_rad.sin_cos();
+    radius_mm - (radius_mm * cosine).hypot((radius_mm - cutter_pitch_radius_mm) * sine)
+}
 
 fn linkage() -> ShapingLinkage {
     ShapingLinkage::new(GearKind::Internal, NORMAL, Arc::new(oracle_mate()), 13.0, 0.0).unwrap()
@@ -408,7 +415,7 @@ fn the_facts_of_the_ring_are_the_oracles() {
     let facts = RingFacts::new(&ShapingJob::new(paper_ring(1020)).expect("the paper's ring"));
     assert_eq!(facts.rolling_teeth, 72, "rho_min is 72.306 mm");
     // The oracle finds no gouge: corners come clear, and no flank is undercut.
-    assert!(facts.tightest_corner.expect("known").way.clearance_mm > 0.0, "{:?}", facts.tightest_corner);
+    assert!(facts.tightest_corner.expect("known").path.clearance_mm > 0.0, "{:?}", facts.tightest_corner);
     assert_eq!(facts.undercut_flanks, 0);
     let local = &case["generated_addendum_limit"];
     let short = facts.shortest_involute.expect("13 teeth are few");
@@ -435,7 +442,7 @@ fn the_largest_cutter_that_clears_does_and_larger_ones_do_not() {
     assert_eq!(told, 30);
     // One tooth more fouls by a third of a micrometre, less than the corners' places resolve; two more cut.
     for (teeth, clears) in [(told - 4, true), (told, true), (told + 2, false)] {
-        let tightest = ring(teeth).tightest_corner.expect("known").way;
+        let tightest = ring(teeth).tightest_corner.expect("known").path;
         println!("{teeth} teeth: {tightest:?}");
         assert_eq!(tightest.clearance_mm > 0.0, clears, "{teeth} teeth: {tightest:?}");
     }
@@ -451,7 +458,7 @@ fn tips_beside_the_space_are_told_before_cutting() {
     };
     for (teeth, interferes) in [(20, false), (34, true)] {
         let job = ring(teeth);
-        let tightest = RingFacts::new(&job).tightest_corner.expect("known").way;
+        let tightest = RingFacts::new(&job).tightest_corner.expect("known").path;
         let field = job.planar().blank_field().expect("fits");
         let cut = job.cut_blank(&Cpu::default(), field, &|| true).expect("native").expect("not stopped");
         let target = job.target_outline(0.02).expect("known");

@@ -27,10 +27,10 @@ fn a_cutter_too_large_for_the_curve() {
     let found = refusal(&scene(60, oval, "[tool.shaper_cutter]\nteeth = 38\n"));
     assert_eq!(
         found,
-        "error: ring.toml:9:9: `tool.shaper_cutter.teeth` = 38: at polar angle -0.134 deg the pitch curve has the radius \
-        of curvature 35.314 mm; the cutter's pitch radius with the offset, 38.000 mm, does not roll there\n  \
-        9 | teeth = 38\n    |         ^^\n  way out: take a cutter with fewer teeth, a smaller offset, or a pitch curve \
-        with more room inside"
+        "error: ring.toml:9:9: `tool.shaper_cutter.teeth` = 38: at polar angle -0.134 deg the pitch curve has the \
+        radius of curvature 35.314 mm; the cutter's pitch radius with the offset, 38.000 mm, does not roll there\n  \
+        9 | teeth = 38\n    |         ^^\n  way out: take a cutter with fewer teeth, a smaller offset, or a pitch \
+        curve with more room inside"
     );
     // As large as the ring, and larger: not taken for a cutter beyond the axis.
     for teeth in [60, 80] {
@@ -44,9 +44,9 @@ fn a_rim_thinner_than_the_teeth() {
     let found = refusal(&scene(60, "rim_mm = 2.0\n", "[tool.shaper_cutter]\nteeth = 20\n"));
     assert_eq!(
         found,
-        "error: ring.toml:5:10: `gear.rim_mm` = 2.0: the rim of 2 mm is thinner than the teeth are deep: the cutter reaches \
-        62.500 mm from the gear axis, the ring 62.000 mm\n  5 | rim_mm = 2.0\n    |          ^^^\n  way out: make it \
-        thicker than 2.500 mm; 5 modules are usual"
+        "error: ring.toml:5:10: `gear.rim_mm` = 2.0: the rim of 2 mm is thinner than the teeth are deep: the cutter \
+        reaches 62.500 mm from the gear axis, the ring 62.000 mm\n  5 | rim_mm = 2.0\n    |          ^^^\n  way out: \
+        make it thicker than 2.500 mm; 5 modules are usual"
     );
 }
 
@@ -59,15 +59,15 @@ fn a_curve_that_does_not_close() {
     );
     assert!(found.ends_with("mm; leave the key out and it is solved"), "{found}");
     // A mate whose driver looks different after a turn of the ring.
-    let mate = "[gear.pitch_curve.mate]\ndriver_teeth = 40\n[gear.pitch_curve.mate.driver.sinusoidal_ratio]\norder = 1\n\
-        mean_ratio = 1.0\nratio_amplitude = 0.3\n";
+    let mate = "[gear.pitch_curve.mate]\ndriver_teeth = 40\n[gear.pitch_curve.mate.driver.sinusoidal_ratio]\n\
+        order = 1\nmean_ratio = 1.0\nratio_amplitude = 0.3\n";
     let found = refusal(&scene(102, mate, "[tool.shaper_cutter]\nteeth = 20\n"));
     assert_eq!(
         found,
-        "error: ring.toml:6:16: `gear.pitch_curve.mate.driver_teeth` = 40: one turn of the mate is 2.550000 turns of its \
-        driver, after which the driver looks different: the mate's curve does not close\n  6 | driver_teeth = 40\n    \
-        |                ^^\n  way out: choose tooth numbers whose quotient is a whole number of the driver's repeats in \
-        one turn"
+        "error: ring.toml:6:16: `gear.pitch_curve.mate.driver_teeth` = 40: one turn of the mate is 2.550000 turns of \
+        its driver, after which the driver looks different: the mate's curve does not close\n  \
+        6 | driver_teeth = 40\n    |                ^^\n  way out: choose tooth numbers whose quotient is a whole \
+        number of the driver's repeats in one turn"
     );
 }
 

@@ -81,7 +81,7 @@ fn corners_leave_a_torus() {
 }
 
 /// The window that follows from the work's place holds all of it; beyond the window no blade cuts; and a window of a
-/// whole turn has no seam.
+/// whole turn closes without a step.
 #[test]
 fn blades_cut_within_their_window() {
     let field = cone(1.0, &above_the_corner(), &even(-0.4, 0.4, 100));

@@ -124,13 +124,6 @@ impl BevelBlank {
         self.outer_dedendum_mm - (self.outer_cone_distance_mm - cone_distance_mm) * self.dedendum_angle_rad().tan()
     }
 
-    /// How far the line of the roots passes the pitch apex, towards the back, mm: by so much a head whose tips' plane
-    /// goes through the apex at the root angle cuts too shallow.
-    pub fn root_apex_offset_mm(&self) -> f64 {
-        let (sin, cos) = self.dedendum_angle_rad().sin_cos();
-        self.outer_dedendum_mm * cos - self.outer_cone_distance_mm * sin
-    }
-
     /// Place of the axial section from cone distance and height: along the axis and away from it, mm.
     pub fn axial_mm(&self, [cone_distance_mm, height_mm]: [f64; 2]) -> DVec2 {
         DVec2::from_angle(self.pitch_angle_rad).rotate(DVec2::new(cone_distance_mm, height_mm))

@@ -2,7 +2,8 @@
 //!
 //! In: a flank of the gear, the flank of the pinion that runs on it, and how both are mounted. Out: for every angle of
 //! the pinion the angle of the gear at which they touch, the place on the gear's flank, the contact ellipse at a
-//! thickness of marking compound, and from a row of them the motion error.
+//! thickness of marking compound, and from a row of them the motion error. Flanks that do not meet are no error, but
+//! nothing; a search that does not end is an error with its numbers.
 //!
 //! **Law.** Turn the gear until a point P of its flank touches the pinion's flank: that angle is a function of P, and
 //! the first contact is its extremum over the flank. For each point one unknown is sought by Newton's method; the
@@ -19,8 +20,10 @@ use super::envelope::OnFlank;
 use super::flank::BevelFlank;
 use crate::error::{NotConverged, Refusal};
 use crate::frame::Rigid3;
+use crate::math::convergence::{Step, iterate};
 use glam::{DMat2, DMat3, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
 
 /// A step of the gear below this is the last, rad: a hundred-thousandth of an arc second.
 const LAST_STEP_RAD: f64 = 1e-13;
@@ -83,7 +86,7 @@ pub struct Ellipse {
 }
 
 /// A point of the gear's flank while it touches.
-struct Touch {
+struct BevelTouch {
     gear_rad: f64,
     /// Distance by which the flanks come nearer per radian of the gear, mm.
     closing_mm: f64,
@@ -95,21 +98,21 @@ struct Touch {
 
 /// Where a search for a touch begins.
 #[derive(Clone, Copy)]
-struct Near {
+struct TouchStart {
     gear_rad: f64,
     /// Angles of head and cradle of gear and pinion near the place, where they are known.
     generated_rad: Option<[[f64; 2]; 2]>,
 }
 
-impl Touch {
+impl BevelTouch {
     /// A beginning for places beside this one.
-    fn near(&self) -> Near {
-        Near { gear_rad: self.gear_rad, generated_rad: Some(self.generated_rad) }
+    fn near(&self) -> TouchStart {
+        TouchStart { gear_rad: self.gear_rad, generated_rad: Some(self.generated_rad) }
     }
 }
 
 /// A point of the gear beside the pinion.
-struct Gap {
+struct FlankGap {
     /// Its distance from the pinion's flank along the pinion's normal, mm.
     open_mm: f64,
     /// How fast that falls with the gear's angle, mm.
@@ -151,9 +154,12 @@ impl BevelPair {
         }
     }
 
-    /// The gear's angle near a beginning at which a point of its flank touches the pinion's; `None` where the pinion
-    /// has no flank.
-    fn touch(&self, place_mm: DVec2, pinion_rad: f64, near: Near) -> Option<Touch> {
+    /// The gear's angle near a beginning at which a point of its flank touches the pinion's; `None` where the roll
+    /// generates no such point of the gear, or the pinion has no flank.
+    ///
+    /// # Errors
+    /// Both have flanks, and the angle is not found.
+    fn touch(&self, place_mm: DVec2, pinion_rad: f64, near: TouchStart) -> Result<Option<BevelTouch>, NotConverged> {
         let gear = &self.gear;
         let distance_mm = gear.blank.mean_cone_distance_mm() + place_mm.x;
         let [on_gear, mut on_pinion] = match near.generated_rad {
@@ -161,25 +167,28 @@ impl BevelPair {
             None => [None, None],
         };
         let start = on_gear.unwrap_or_else(|| gear.envelope.guess(distance_mm));
-        let point = gear.envelope.find(&gear.blank, distance_mm, OnFlank::Height(place_mm.y), start).ok()?;
-        let mut gear_rad = near.gear_rad;
-        for _ in 0..MOST_STEPS {
-            let Gap { open_mm, closing_mm, generated_rad } =
-                self.gap(point.point_mm, [pinion_rad, gear_rad], on_pinion)?;
-            let step_rad = open_mm / closing_mm;
-            gear_rad += step_rad;
-            on_pinion = Some(generated_rad);
-            if step_rad.abs() < LAST_STEP_RAD {
-                let generated_rad = [[point.head_rad, point.cradle_rad], generated_rad];
-                return Some(Touch { gear_rad, closing_mm, point_mm: point.point_mm, generated_rad });
+        let on_flank = OnFlank::Height(place_mm.y);
+        let Ok(point) = gear.envelope.find(&gear.blank, distance_mm, on_flank, start) else { return Ok(None) };
+        let turned = |gear_rad: f64| {
+            let Some(gap) = self.gap(point.point_mm, [pinion_rad, gear_rad], on_pinion) else {
+                return ControlFlow::Break(None);
+            };
+            let step_rad = gap.open_mm / gap.closing_mm;
+            let to = if step_rad.is_finite() { gear_rad + step_rad } else { f64::NAN };
+            on_pinion = Some(gap.generated_rad);
+            if step_rad.abs() >= LAST_STEP_RAD || step_rad.is_nan() {
+                return ControlFlow::Continue(Step { to, residual: gap.open_mm });
             }
-        }
-        None
+            let generated_rad = [[point.head_rad, point.cradle_rad], gap.generated_rad];
+            let (closing_mm, point_mm) = (gap.closing_mm, point.point_mm);
+            ControlFlow::Break(Some(BevelTouch { gear_rad: to, closing_mm, point_mm, generated_rad }))
+        };
+        iterate("the angle at which a point of the gear touches the pinion", near.gear_rad, MOST_STEPS, turned)
     }
 
     /// A point of the gear (work frame, mm) beside the pinion at angles of pinion and gear; `start` are angles at which
     /// the pinion is generated near it. `None` where the pinion has no flank.
-    fn gap(&self, point_mm: DVec3, [pinion_rad, gear_rad]: [f64; 2], start: Option<[f64; 2]>) -> Option<Gap> {
+    fn gap(&self, point_mm: DVec3, [pinion_rad, gear_rad]: [f64; 2], start: Option<[f64; 2]>) -> Option<FlankGap> {
         let pinion = &self.pinion;
         let pinion_from_mount = self.mount_from_pinion(pinion_rad).inverse();
         let mount_from_gear = self.mount_from_gear(gear_rad);
@@ -193,7 +202,7 @@ impl BevelPair {
         let arc = (at_mm.z.atan2(at_mm.y) - on.point_mm.z.atan2(on.point_mm.y) + PI).rem_euclid(TAU) - PI;
         let axis = pinion_from_mount.direction(mount_from_gear.direction(DVec3::X));
         let apex_mm = pinion_from_mount.point(mount_from_gear.translation_mm);
-        Some(Gap {
+        Some(FlankGap {
             open_mm: arc * DVec3::X.cross(at_mm).dot(on.normal),
             closing_mm: -axis.cross(at_mm - apex_mm).dot(on.normal),
             generated_rad: [on.head_rad, on.cradle_rad],
@@ -201,15 +210,15 @@ impl BevelPair {
     }
 
     /// Place and touch of the first contact near an angle of the gear; the sign is +1 where a growing angle of the gear
-    /// closes gaps.
-    fn first(&self, pinion_rad: f64, start_rad: f64) -> Option<(DVec2, Touch, f64)> {
+    /// closes gaps. `None`: no places touch.
+    fn first(&self, pinion_rad: f64, start_rad: f64) -> Result<Option<(DVec2, BevelTouch, f64)>, NotConverged> {
         let half_mm = 0.5 * self.gear.blank.face_width_mm;
         let heights = |along_mm: f64| {
             let row = self.gear.row(along_mm).ok()?;
             Some([row.form_height_mm, row.tip_height_mm])
         };
-        let far = Near { gear_rad: start_rad, generated_rad: None };
-        let mut best: Option<(DVec2, Touch)> = None;
+        let far = TouchStart { gear_rad: start_rad, generated_rad: None };
+        let mut best: Option<(DVec2, BevelTouch)> = None;
         let mut turn = 0.0;
         for i in 0..PLACES[0] {
             let along_mm = half_mm * (2.0 * i as f64 / (PLACES[0] - 1) as f64 - 1.0);
@@ -217,7 +226,7 @@ impl BevelPair {
             for j in 0..PLACES[1] {
                 let height_mm = low_mm + (high_mm - low_mm) * j as f64 / (PLACES[1] - 1) as f64;
                 let place = DVec2::new(along_mm, height_mm);
-                let Some(found) = self.touch(place, pinion_rad, far) else { continue };
+                let Some(found) = self.touch(place, pinion_rad, far)? else { continue };
                 if turn == 0.0 {
                     turn = found.closing_mm.signum();
                 }
@@ -226,7 +235,7 @@ impl BevelPair {
                 }
             }
         }
-        let (mut place, mut first) = best?;
+        let Some((mut place, mut first)) = best else { return Ok(None) };
         let mut step = DVec2::new(2.0 * half_mm / (PLACES[0] - 1) as f64, 1.0);
         // Whether the flank ends at a place is asked last: few places touch earlier.
         let on_flank = |place: DVec2| {
@@ -238,7 +247,7 @@ impl BevelPair {
                 [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0)]
             {
                 let beside = around + step * DVec2::new(x, y);
-                let Some(found) = self.touch(beside, pinion_rad, first.near()) else { continue };
+                let Some(found) = self.touch(beside, pinion_rad, first.near())? else { continue };
                 if turn * (found.gear_rad - first.gear_rad) < 0.0 && on_flank(beside) {
                     (place, first) = (beside, found);
                 }
@@ -247,28 +256,40 @@ impl BevelPair {
                 step *= 0.5;
             }
         }
-        Some((place, first, turn))
+        Ok(Some((place, first, turn)))
     }
 
     /// Where the pair touches at an angle of the pinion; `start_rad` is an angle of the gear near that, and the ellipse
-    /// is that of `thickness_mm` of marking compound.
+    /// is that of `thickness_mm` of marking compound. `None`: the flanks do not meet.
     ///
     /// # Errors
-    /// The flanks do not meet.
-    pub fn contact(&self, pinion_rad: f64, start_rad: f64, thickness_mm: f64) -> Result<Contact, NotConverged> {
-        let (place, touch, turn) = self.first(pinion_rad, start_rad).ok_or_else(|| not_met(start_rad))?;
-        let ellipse = self.ellipse(place, &touch, [pinion_rad, turn], thickness_mm);
-        Ok(Contact { pinion_rad, gear_rad: touch.gear_rad, place_mm: place.into(), closing: turn, ellipse })
+    /// Both have flanks somewhere, and the angle at which they touch is not found.
+    pub fn contact(&self, pinion_rad: f64, start_rad: f64, thickness_mm: f64) -> Result<Option<Contact>, NotConverged> {
+        let Some((place, touch, turn)) = self.first(pinion_rad, start_rad)? else { return Ok(None) };
+        let ellipse = self.ellipse(place, &touch, [pinion_rad, turn], thickness_mm)?;
+        Ok(Some(Contact { pinion_rad, gear_rad: touch.gear_rad, place_mm: place.into(), closing: turn, ellipse }))
     }
 
     /// The ellipse over which the gap is below a thickness: the gap is g = x . H x / 2 over the tangent
-    /// plane, H from differences over places beside the contact.
-    fn ellipse(&self, place: DVec2, touch: &Touch, [pinion_rad, turn]: [f64; 2], thickness_mm: f64) -> Option<Ellipse> {
+    /// plane, H from differences over places beside the contact; `None` at the edge of a flank.
+    fn ellipse(
+        &self,
+        place: DVec2,
+        touch: &BevelTouch,
+        [pinion_rad, turn]: [f64; 2],
+        thickness_mm: f64,
+    ) -> Result<Option<Ellipse>, NotConverged> {
         let beside = |x: f64, y: f64| self.touch(place + BEND_MM * DVec2::new(x, y), pinion_rad, touch.near());
-        let gap = |found: &Touch| turn * (found.gear_rad - touch.gear_rad) * found.closing_mm.abs();
-        let around =
-            [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (-1.0, -1.0)].map(|(x, y)| beside(x, y));
-        let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = around else { return None };
+        let gap = |found: &BevelTouch| turn * (found.gear_rad - touch.gear_rad) * found.closing_mm.abs();
+        let around = [
+            beside(1.0, 0.0)?,
+            beside(-1.0, 0.0)?,
+            beside(0.0, 1.0)?,
+            beside(0.0, -1.0)?,
+            beside(1.0, 1.0)?,
+            beside(-1.0, -1.0)?,
+        ];
+        let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = around else { return Ok(None) };
         // Second differences in the two directions of places, which are no right-angled axes.
         let [aa, cc, ee] = [gap(&a) + gap(&b), gap(&c) + gap(&d), gap(&e) + gap(&f)];
         let mixed = 0.5 * (ee - aa - cc);
@@ -286,10 +307,10 @@ impl BevelPair {
         // Twice the angle of the axis along which the gap opens fastest.
         let short = DVec2::from_angle(0.5 * across.to_angle());
         let half_axis_mm = |bend: f64| if bend > 0.0 { (2.0 * thickness_mm / bend).sqrt() } else { f64::INFINITY };
-        Some(Ellipse {
+        Ok(Some(Ellipse {
             half_axes_mm: [mean - half, mean + half].map(half_axis_mm),
             directions: [short.perp(), short].map(|axis| (BEND_MM * (back * axis)).to_array()),
-        })
+        }))
     }
 
     /// Smallest distance of the gear's flank from the pinion's while they touch, over so many places along the tooth
@@ -304,7 +325,7 @@ impl BevelPair {
             for j in 0..places[1] {
                 let share = j as f64 / (places[1] - 1) as f64;
                 let height_mm = row.form_height_mm + share * (row.tip_height_mm - row.form_height_mm);
-                let Some(Gap { open_mm, .. }) = row
+                let Some(FlankGap { open_mm, .. }) = row
                     .point(share)
                     .ok()
                     .and_then(|point| self.gap(point.point_mm, [contact.pinion_rad, contact.gear_rad], None))
@@ -323,7 +344,7 @@ impl BevelPair {
     /// meet, and the motion error of each in rad: the gear's angle less that of a constant ratio, zero in the middle.
     ///
     /// # Errors
-    /// The flanks do not meet in the middle.
+    /// The flanks do not meet in the middle, or a search does not end.
     pub fn motion_of_teeth(
         &self,
         pitches: f64,
@@ -334,14 +355,15 @@ impl BevelPair {
         let ratio = f64::from(self.pinion.blank.teeth) / f64::from(self.gear.blank.teeth);
         let range_rad = pitches * TAU / f64::from(self.pinion.blank.teeth);
         let middle = self.contact(pinion_rad, gear_rad, thickness_mm).map_err(lost)?;
+        let middle = middle.ok_or_else(|| not_met(pinion_rad))?;
         let at = |i| {
             let by = range_rad * (f64::from(i) / f64::from(count - 1) - 0.5);
             // The gear turns the other way.
             let even_rad = middle.gear_rad - ratio * by;
-            let contact = self.contact(pinion_rad + by, even_rad, thickness_mm).ok()?;
-            Some((contact, contact.gear_rad - even_rad))
+            let contact = self.contact(pinion_rad + by, even_rad, thickness_mm).map_err(lost)?;
+            Ok(contact.map(|contact| (contact, contact.gear_rad - even_rad)))
         };
-        Ok((0..count).map(at).collect())
+        (0..count).map(at).collect()
     }
 
     /// The same where they meet all the time.
@@ -351,22 +373,20 @@ impl BevelPair {
     pub fn motion(&self, pitches: f64, count: u32, thickness_mm: f64) -> Result<Vec<(Contact, f64)>, Refusal> {
         let [pinion_rad, _] = self.middle_rad()?;
         let found = self.motion_of_teeth(pitches, count, thickness_mm)?;
-        found.into_iter().map(|met| met.ok_or_else(|| lost(not_met(pinion_rad)))).collect()
+        found.into_iter().map(|met| met.ok_or_else(|| not_met(pinion_rad))).collect()
     }
 }
 
-fn not_met(angle_rad: f64) -> NotConverged {
-    NotConverged {
-        what: "a contact of both flanks",
-        after: MOST_STEPS,
-        last: angle_rad,
-        last_step: f64::INFINITY,
-        residual: f64::INFINITY,
-    }
+fn not_met(pinion_rad: f64) -> Refusal {
+    Refusal::new(
+        "pair",
+        format!("both flanks do not meet near {:.4} deg of the pinion", pinion_rad.to_degrees()),
+        "check the mounting and both scenes",
+    )
 }
 
 fn lost(lost: NotConverged) -> Refusal {
-    Refusal::new("pair", lost.to_string(), "check the mounting: the flanks do not meet there")
+    Refusal::new("pair", lost.to_string(), "check the mounting and the settings of both: flanks are there")
 }
 
 /// Whether a blank has teeth at a cone distance and height; roots are looked for where the roll generates them.

@@ -20,13 +20,18 @@ use super::cradle::CradleSettings;
 use super::envelope::{Envelope, FlankPoint, OnFlank};
 use super::flank::BevelFlank;
 use crate::error::{NotConverged, Refusal};
+use crate::math::convergence::{Step, iterate};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
 
 /// A step along the normal below this is the last, mm.
 const LAST_STEP_MM: f64 = 1e-11;
 /// Steps at most; it takes three or four.
 const MOST_STEPS: u32 = 30;
+/// A distance this small in the middle of the grid is turned away for the last time, mm: what that leaves is a small
+/// share of it, far below the errors of measurements.
+const FITTED_MM: f64 = 1e-9;
 /// Errors of settings at which sensitivities are taken: mm, rad, ratio. Deviations of a hundredth of a millimetre are
 /// still proportional to a thousandth of themselves.
 const LENGTH_STEP_MM: f64 = 0.01;
@@ -168,16 +173,27 @@ pub fn ease_off_mm(
         }
     }
     let middle = points[points.len() / 2];
-    // The turn that takes the middle's distance away, by its arc.
-    let mut turn_rad = 0.0;
-    for _ in 0..3 {
-        let off_mm = distance_mm(&middle, other, blank, turn_rad).map_err(lost)?;
-        let radius_mm = middle.point_mm.with_x(0.0).length();
-        let angle = middle.point_mm.z.atan2(middle.point_mm.y);
-        let along = middle.normal.dot(DVec3::new(0.0, -angle.sin(), angle.cos()));
-        turn_rad -= off_mm / along / radius_mm;
-    }
+    let turn_rad = fitting_turn_rad(&middle, other, blank).map_err(lost)?;
     points.iter().map(|point| distance_mm(point, other, blank, turn_rad).map_err(lost)).collect()
+}
+
+/// Turn of the other flank that takes its distance from a point away, rad: by the point's arc, which the distance
+/// follows but for the flanks' slopes against each other, so that every step leaves a small share of the one before.
+fn fitting_turn_rad(at: &FlankPoint, other: &Envelope, blank: &BevelBlank) -> Result<f64, NotConverged> {
+    let arm_mm = DVec3::X.cross(at.point_mm).dot(at.normal);
+    let step = |turn_rad: f64| {
+        let off_mm = match distance_mm(at, other, blank, turn_rad) {
+            Ok(off_mm) => off_mm,
+            Err(lost) => return ControlFlow::Break(Err(lost)),
+        };
+        let to = turn_rad - off_mm / arm_mm;
+        if off_mm.abs() <= FITTED_MM {
+            ControlFlow::Break(Ok(to))
+        } else {
+            ControlFlow::Continue(Step { to, residual: off_mm })
+        }
+    };
+    iterate("the turn of a flank onto another one", 0.0, MOST_STEPS, step)?
 }
 
 /// Settings that explain measured deviations, best first; deviations stand on the same grid as in [`ease_off_mm`], mm.

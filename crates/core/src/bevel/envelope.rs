@@ -1,13 +1,13 @@
 //! The envelope of a cutting surface over the roll: where the head leaves the flank in the limit of many blades.
 //!
-//! In: settings of the machine and a cutting surface. Out: points and normals of the generated flank and of its fillet.
+//! In: settings of the machine and a cutting surface. Out: points and normals of the generated flank.
 //!
 //! **Law.** A point of the surface is on the envelope in the moment when its normal is square to its velocity in the
 //! work. Along a straight edge the normal n is the same, and the velocity v + w x r is linear in the place u on the
-//! edge: u = -n . (v + w x r0) / (n . (w x d)), r0 the point in the plane of the tips, d the edge's direction. In the
-//! round all normals go through its middle c, so that its velocity alone counts: the lean follows from n . (v + w x c)
-//! = 0. What is left are two unknowns, the angle theta about the head's axis and the cradle angle q, for the two
-//! coordinates that a point of the flank is asked for by; Newton's method finds them to rounding.
+//! edge: u = -n . (v + w x r0) / (n . (w x d)), r0 the point in the plane of the tips, d the edge's direction. What is
+//! left are two unknowns, the angle theta about the head's axis and the cradle angle q, for the two coordinates that a
+//! point of the flank is asked for by; Newton's method finds them to rounding. The fillet, made by the round of the
+//! corner, is nobody's target: rays through the blank show it.
 //!
 //! Source: Litvin and Fuentes, Gear Geometry and Applied Theory (2004), chapters 6 and 22.
 
@@ -86,30 +86,6 @@ impl Envelope {
         let in_tool = self.settings.work_from_tool(cradle_rad).inverse().point(point_mm);
         let head_rad = in_tool.y.atan2(in_tool.x);
         (self.surface.point_mm(head_rad, 0.0) - in_tool).dot(self.surface.normal(head_rad))
-    }
-
-    /// Point of the fillet that belongs to the same angles, and its lean: the blade angle where it joins the flank, a
-    /// right angle where it joins the bottom.
-    pub fn fillet_at(&self, head_rad: f64, cradle_rad: f64) -> (FlankPoint, f64) {
-        let motion = self.settings.motion(cradle_rad);
-        let pose = motion.pose;
-        let center_mm = self.surface.corner_center_mm(head_rad);
-        let velocity = pose.rotation.transpose() * motion.velocity_at(pose.point(center_mm));
-        let away = velocity.dot(DVec3::new(head_rad.cos(), head_rad.sin(), 0.0));
-        // -s cos(lean) away - sin(lean) v_z = 0.
-        let mut lean_rad = (-self.surface.kind.sign() * away).atan2(velocity.z);
-        if lean_rad < 0.0 {
-            lean_rad += std::f64::consts::PI;
-        }
-        let normal = self.surface.normal_of_corner(head_rad, lean_rad);
-        let point = FlankPoint {
-            point_mm: pose.point(center_mm - self.surface.corner_radius_mm * normal),
-            normal: pose.direction(normal),
-            head_rad,
-            cradle_rad,
-            edge_mm: 0.0,
-        };
-        (point, lean_rad)
     }
 
     /// Angles about the head's axis and of the cradle near which a point at a cone distance is generated, rad: where

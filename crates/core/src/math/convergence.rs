@@ -11,9 +11,19 @@
 //! - [`super::planar_rays`] is the inner loop of whole blanks: it stays within the ends of a part of a curve and halves
 //!   it to the last bit should Newton's method not arrive;
 //! - `passes::spatial::sweep`: a polynomial is inverted by a fixed number of steps, tested over all arguments;
-//! - outside of the core, `process::hobbing::linkage::marks` reduces a lattice (whole numbers, whose lengths shrink by
-//!   a factor), and `gearcut-texture`, which does not know this crate, has two searches that end with an error of their
-//!   own (`form`, `gaussian`).
+//! - `tool::edge`: the foot of a rough edge's normal by four steps, each of which leaves a tenth at most of the one
+//!   before, of a shift below a micrometre;
+//! - `bevel::envelope` (Newton's method in two unknowns) and `bevel::ease_off` (a flank on another one's normal) end
+//!   with [`NotConverged`]; the place of a first contact in `bevel::contact` is a search by halved steps over a bounded
+//!   flank, and takes only places that touch earlier;
+//! - outside of the core, `machine_errors::balance` (Newton's method in four unknowns on a strictly convex energy) ends
+//!   with [`NotConverged`]; `process::shaping::chips::deflection` looks at a stroke 40 times at most and refuses one
+//!   that still moves; `influence::calibrate` takes only steps that lower the sum of squares, 12 rounds at most, and
+//!   says whether it has settled; `pair::double_flank` widens its bracket until it holds the tight mesh or is wider
+//!   than the teeth reach, which is refused; `process::hobbing::linkage::marks` reduces a lattice (whole numbers, whose
+//!   lengths shrink by a factor);
+//! - `gearcut-texture`, which does not know this crate, has two searches that end with an error of their own (`form`,
+//!   `gaussian`).
 
 use crate::error::NotConverged;
 use std::ops::ControlFlow;

@@ -1,6 +1,7 @@
 //! Mathematics that knows no gears: Taylor series, roots and extrema (see [`convergence`]), integrals, splines, rays
 //! against closed curves.
 
+pub mod column_basis;
 pub mod convergence;
 pub mod extremum;
 pub mod jet;

@@ -194,13 +194,13 @@ fn find(first: &[usize], bounds: &[f64], value: f64) -> usize {
 }
 
 /// Gauss-Legendre rule and, for each node, the integral from -1 of its Lagrange polynomial in powers of x.
-struct Basis {
+struct GaussRule {
     nodes: [f64; NODES],
     weights: [f64; NODES],
     powers: [[f64; NODES + 1]; NODES],
 }
 
-impl Basis {
+impl GaussRule {
     /// Coefficient of the Legendre polynomial of degree k in the expansion of the node values.
     fn legendre_coefficient(&self, k: usize, values: &[f64; NODES]) -> f64 {
         let sum: f64 = (0..NODES).map(|i| self.weights[i] * values[i] * legendre(k, self.nodes[i]).0).sum();
@@ -220,7 +220,7 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
 
 /// The panel basis. Lagrange polynomial i is sum over k of (k + 1/2) w_i P_k(x_i) P_k(x), and the integral of P_k from
 /// -1 is (P_{k+1} - P_{k-1}) / (2 k + 1).
-fn integrated_lagrange_basis() -> Result<Basis, NotConverged> {
+fn integrated_lagrange_basis() -> Result<GaussRule, NotConverged> {
     let mut nodes = [0.0; NODES];
     let mut weights = [0.0; NODES];
     for i in 0..NODES {
@@ -254,7 +254,7 @@ fn integrated_lagrange_basis() -> Result<Basis, NotConverged> {
             }
         }
     }
-    Ok(Basis { nodes, weights, powers })
+    Ok(GaussRule { nodes, weights, powers })
 }
 
 #[cfg(test)]

@@ -10,8 +10,8 @@ use gearcut_core::bevel::face_mill::{BladeKind, FaceMill};
 use gearcut_core::units::UM_PER_MM;
 
 /// How the force of a blade is defined.
-const LAW: &str = "K_c times the section of the chip in the rake face plus K_ce times the length of edge in engagement; \
-    means over the blade's travel through a row of rays";
+const LAW: &str = "K_c times the section of the chip in the rake face plus K_ce times the length of edge in \
+    engagement; means over the blade's travel through a row of rays";
 const NOTHING: &str = "the operation takes nothing";
 const NO_MATERIAL: &str = "the scene names no material: write [material]";
 /// N mm in a joule.

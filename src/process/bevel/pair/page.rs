@@ -18,11 +18,8 @@ pub fn page(jobs: [&BevelJob; 2], rolled: &RolledBevels, found: &Findings, chart
         found.map(|(_, chart)| Block::Lines(chart.clone()))
     };
     let quantities_of = |path: &str| found.find(path).map(|section| Block::Table(quantities::table(section)));
-    let section = |id: &'static str, title: &str, lead: String, blocks: Vec<Option<Block>>| PageSection {
-        id,
-        title: title.to_owned(),
-        lead,
-        blocks: blocks.into_iter().flatten().collect(),
+    let section = |id: &'static str, title: &str, lead: String, blocks: Vec<Option<Block>>| {
+        PageSection::new(id, title, lead, blocks.into_iter().flatten().collect())
     };
     let mut sections = vec![section(
         "motion-error",

@@ -15,8 +15,8 @@ const LAW: &str = "K_c times the section of the chip in the rake face plus K_ce 
     hob's axis over the tip's radius";
 /// How far rays know it.
 const ACCURACY: &str = "of one slice: the length of edge is at most sqrt(2) ray distances off for each stretch of edge \
-    that rays of one direction count, and without bias in the mean; the section of a chip 3 mm long and 0.1 mm thick is \
-    17 % off, root mean square, by rays 0.3 mm apart and 5 % by rays 0.15 mm apart; largest values of many \
+    that rays of one direction count, and without bias in the mean; the section of a chip 3 mm long and 0.1 mm thick \
+    is 17 % off, root mean square, by rays 0.3 mm apart and 5 % by rays 0.15 mm apart; largest values of many \
     slices are therefore too high rather than too low";
 /// Curves of single teeth on the chart over time.
 const SHOWN_TEETH: usize = 6;
@@ -153,7 +153,8 @@ fn of_operation(job: &HobbingJob, name: &str, force: &OperationForce) -> Section
             Quantity::number_or(
                 mean_n,
                 "N",
-                "work of all hob teeth over their travel in the cut: mean force of a cutting tooth, referred to the tip",
+                "work of all hob teeth over their travel in the cut: mean force of a cutting tooth, referred to the \
+                 tip",
                 nothing,
             ),
         )

@@ -28,7 +28,7 @@ use super::space::{LEAST_AREA_MM2, Space, SpacePass, contours, middle_pose};
 use crate::machine_errors::{Deflection, EdgeElement, balance};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_polygon::EdgePolygon;
-use gearcut_core::error::Refusal;
+use gearcut_core::error::{NotConverged, Refusal};
 use gearcut_core::frame::Rigid2;
 use gearcut_core::tool::{CuttingTool, PlanarTool};
 use gearcut_core::units::UM_PER_MM;
@@ -87,7 +87,7 @@ pub fn deflections(
                 spaces.iter_mut().filter_map(|space| space.begin(operation, stroke)).collect();
             let commanded = middle_pose(job, operation, stroke);
             let before = of_strokes.last().copied().unwrap_or_default();
-            let rest = Stroke { job, teeth: &teeth, commanded, limit_mm };
+            let rest = YieldingStroke { job, teeth: &teeth, commanded, limit_mm };
             let settled = rest.settle(&mut cut, before).map_err(|unsettled| unsettled.told(job, operation, stroke))?;
             let pose = settled.displaced(&commanded, teeth.work_axis_mm);
             cut.par_iter_mut().for_each(|space| space.take_away(&pose, &teeth));
@@ -121,7 +121,7 @@ struct SpaceInWork<'a> {
 
 /// A look at the chips of a stroke: elements in contact, and what the forces along inclined edges push with.
 #[derive(Default)]
-struct Look {
+struct StrokeLook {
     elements: Vec<EdgeElement>,
     load: DVec4,
 }
@@ -141,8 +141,8 @@ impl SpaceInWork<'_> {
     }
 
     /// Measures the chips of this space's own teeth and gives them back.
-    fn look(&mut self, work_from_tool: &Rigid2, teeth: &Teeth) -> Look {
-        let mut look = Look::default();
+    fn look(&mut self, work_from_tool: &Rigid2, teeth: &Teeth) -> StrokeLook {
+        let mut look = StrokeLook::default();
         for index in self.now.clone() {
             let pass = self.space.passes[index];
             if !pass.own {
@@ -169,7 +169,7 @@ impl SpaceInWork<'_> {
     }
 }
 
-impl Look {
+impl StrokeLook {
     fn add(&mut self, teeth: &Teeth, thickness_mm: &[f64], work_from_blade: &Rigid2, tool_axis_mm: DVec2) {
         let stations = teeth.polygon.stations.iter().zip(&teeth.forces).zip(thickness_mm);
         for ((station, force), &thickness_mm) in stations.filter(|(_, thickness_mm)| **thickness_mm > 0.0) {
@@ -192,7 +192,7 @@ impl Look {
 }
 
 /// One stroke of a machine that yields.
-struct Stroke<'a> {
+struct YieldingStroke<'a> {
     job: &'a ShapingJob,
     teeth: &'a Teeth<'a>,
     commanded: Rigid2,
@@ -200,14 +200,16 @@ struct Stroke<'a> {
 }
 
 /// A stroke that finds no balance.
-struct Unsettled {
-    /// Largest displacement of a point of the edge, mm.
-    displaced_mm: f64,
-    /// What the last look still changed, mm; nothing where the displacement is just too large.
-    still_mm: Option<f64>,
+enum Unsettled {
+    /// The balance displaces a point of the edge by more than the limit.
+    TooFar { displaced_mm: f64 },
+    /// The last look still changed it.
+    StillMoving { displaced_mm: f64, still_mm: f64 },
+    /// The chips of a look have no balance.
+    NoBalance(NotConverged),
 }
 
-impl Stroke<'_> {
+impl YieldingStroke<'_> {
     /// The displacement in balance with the chips that are then cut, from one that is thought to be near.
     fn settle(&self, cut: &mut [&mut SpaceInWork], near: Deflection) -> Result<Deflection, Unsettled> {
         let diagonal = self.job.machine.compliance.diagonal();
@@ -216,10 +218,10 @@ impl Stroke<'_> {
         let mut still_mm = 0.0;
         for _ in 0..MOST_LOOKS {
             let pose = Deflection::of_coordinates(q).displaced(&self.commanded, self.teeth.work_axis_mm);
-            let looks: Vec<Look> = cut.par_iter_mut().map(|space| space.look(&pose, self.teeth)).collect();
+            let looks: Vec<StrokeLook> = cut.par_iter_mut().map(|space| space.look(&pose, self.teeth)).collect();
             let load = looks.iter().map(|look| look.load).sum();
             let elements: Vec<EdgeElement> = looks.into_iter().flat_map(|look| look.elements).collect();
-            let wanted = balance(diagonal, &elements, q, load);
+            let wanted = balance(diagonal, &elements, q, load).map_err(Unsettled::NoBalance)?;
             // A chip so thin that the rays no longer see it pushes no more, and is seen again when the cutter falls
             // back: with half a step at every turn it comes to rest where the chip is lost.
             let pull = wanted - q;
@@ -234,14 +236,10 @@ impl Stroke<'_> {
             if still_mm < SETTLED_MM {
                 let displaced_mm = self.moved_mm(wanted);
                 let settled = Ok(Deflection::of_coordinates(q));
-                return if displaced_mm <= self.limit_mm {
-                    settled
-                } else {
-                    Err(Unsettled { displaced_mm, still_mm: None })
-                };
+                return if displaced_mm <= self.limit_mm { settled } else { Err(Unsettled::TooFar { displaced_mm }) };
             }
         }
-        Err(Unsettled { displaced_mm: self.moved_mm(q), still_mm: Some(still_mm) })
+        Err(Unsettled::StillMoving { displaced_mm: self.moved_mm(q), still_mm })
     }
 
     /// How far each coordinate moves a point of the edge at most: 1, or mm for a rad.
@@ -266,26 +264,27 @@ impl Stroke<'_> {
 impl Unsettled {
     fn told(&self, job: &ShapingJob, operation: usize, stroke: usize) -> Refusal {
         let name = &job.operations[operation].spec.name;
-        let displaced_um = UM_PER_MM * self.displaced_mm;
-        match self.still_mm {
-            None => Refusal::new(
-                "machine.compliance",
+        let (problem, way_out) = match self {
+            Self::TooFar { displaced_mm } => (
                 format!(
-                    "operation {name}, stroke {stroke}: the cut pushes the cutter {displaced_um:.0} um away, more than \
-                    a tenth of the module"
+                    "the cut pushes the cutter {:.0} um away, more than a tenth of the module",
+                    UM_PER_MM * displaced_mm
                 ),
                 "let the cutter in gradually (operation.infeed, more strokes_per_revolution), or look at the \
                 compliances",
             ),
-            Some(still_mm) => Refusal::new(
-                "machine.compliance",
+            Self::StillMoving { displaced_mm, still_mm } => (
                 format!(
-                    "operation {name}, stroke {stroke}: the deflection does not settle: {displaced_um:.2} um, still \
-                    changing by {:.2} um after {MOST_LOOKS} looks",
+                    "the deflection does not settle: {:.2} um, still changing by {:.2} um after {MOST_LOOKS} looks",
+                    UM_PER_MM * displaced_mm,
                     UM_PER_MM * still_mm
                 ),
                 "take a smaller fields.chips.spacing_mm, more strokes_per_revolution, or smaller compliances",
             ),
-        }
+            Self::NoBalance(lost) => {
+                (lost.to_string(), "look at the compliances and at the coefficients of [material]")
+            }
+        };
+        Refusal::new("machine.compliance", format!("operation {name}, stroke {stroke}: {problem}"), way_out)
     }
 }

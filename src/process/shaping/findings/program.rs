@@ -58,7 +58,8 @@ pub fn not_of_the_gear(job: &ShapingJob, motion: &[OperationAxes]) -> Option<Str
     let (name, judgement) = worst;
     (judgement.distance_mm > asked_mm).then(|| {
         format!(
-            "known of the scene's own strokes alone; the program of {name} that cuts this gear lies up to {} mm off them",
+            "known of the scene's own strokes alone; the program of {name} that cuts this gear lies up to {} mm off \
+             them",
             significant(judgement.distance_mm, 3)
         )
     })

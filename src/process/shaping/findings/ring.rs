@@ -9,7 +9,7 @@ use super::answers::answered;
 use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn};
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::ring::{CornerWay, RingFacts, RingTooth, ToothPlace, rolling_module_mm, rolling_teeth};
+use crate::process::shaping::ring::{CornerPath, RingFacts, RingTooth, ToothPlace, rolling_module_mm, rolling_teeth};
 use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
 
@@ -175,11 +175,11 @@ fn corners(section: Section, facts: &RingFacts) -> Section {
         let unknown = Quantity::undefined("mm", definition, NO_OUTLINE);
         return answered(section, "tip_corner_clearance", "tip corners", unknown, "see the whole blank of a run");
     };
-    let CornerWay { clearance_mm, phi_rad } = tightest.way;
+    let CornerPath { clearance_mm, phi_rad } = tightest.path;
     let place = Place::default()
         .and("polar_angle_deg", phi_rad.to_degrees())
         .and("space_after_tooth", tightest.tooth)
-        .and("way", if tightest.entering { "in" } else { "out" });
+        .and("path", if tightest.entering { "in" } else { "out" });
     let advice = if clearance_mm < 0.0 {
         "use a cutter with fewer teeth, a smaller tool.shaper_cutter.addendum_coefficient or gear.addendum_coefficient"
     } else {
@@ -248,7 +248,7 @@ fn table(facts: &RingFacts, cutter_teeth: u32, module_mm: f64) -> Table {
         row.push(printed.into());
         row.extend(of.involute_mm.map(Datum::from));
         row.extend(of.relief_mm.map(|mm| Datum::from(mm.map(|mm| UM_PER_MM * mm))));
-        row.extend([0, 1].map(|way| Datum::from(of.corners.map(|ways| ways[way].clearance_mm))));
+        row.extend([0, 1].map(|path| Datum::from(of.corners.map(|paths| paths[path].clearance_mm))));
         row.push(module_limit_mm.into());
         row.push(any_radius_mm.map(|radius_mm| facts.printed.module_limit_mm(radius_mm)).into());
         row

@@ -86,13 +86,13 @@ pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, op
         mm("D_y", "y of D"),
         mm(
             "AB",
-            "chord from A (this operation) to B (as finishing alone leaves it), left flank, on the pitch curve; negative \
-             where A lies inside the finished tooth",
+            "chord from A (this operation) to B (as finishing alone leaves it), left flank, on the pitch curve; \
+             negative where A lies inside the finished tooth",
         ),
         mm(
             "CD",
-            "chord from C (as finishing alone leaves it) to D (this operation), right flank, on the pitch curve; negative \
-             where D lies inside the finished tooth",
+            "chord from C (as finishing alone leaves it) to D (this operation), right flank, on the pitch curve; \
+             negative where D lies inside the finished tooth",
         ),
         TableColumn::new("unevenness_mean_denominator", "%", "|AB - CD| over the mean of AB and CD")
             .or(missing)

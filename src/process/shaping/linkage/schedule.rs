@@ -177,8 +177,8 @@ impl StrokeSchedule {
         stroke * self.seconds_per_stroke
     }
 
-    /// Work angles of the first and the last stroke, rad: where the cut begins and ends.
-    pub fn seam_rad(&self) -> [f64; 2] {
+    /// Work angles of the first and the last stroke, rad: where the witness mark begins and ends.
+    pub fn witness_rad(&self) -> [f64; 2] {
         [self.state(0.0).psi_c_rad, self.state((self.count - 1) as f64).psi_c_rad]
     }
 

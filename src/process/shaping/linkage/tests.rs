@@ -155,7 +155,8 @@ proptest! {
         phis in prop::collection::vec(-20.0..20.0f64, 20),
     ) {
         let (r_c, curve) = (share * curve.size_mm(), Arc::new(curve));
-        if let Ok(linkage) = ShapingLinkage::new(GearKind::External, KINDS[kind], Arc::clone(&curve), r_c, offset * r_c) {
+        let shared = Arc::clone(&curve);
+        if let Ok(linkage) = ShapingLinkage::new(GearKind::External, KINDS[kind], shared, r_c, offset * r_c) {
             for (phi, offset_mm) in phis.into_iter().zip([0.0, offset * r_c].into_iter().cycle()) {
                 let axes = linkage.axes(phi, offset_mm);
                 let psi_c = axes.psi_c_rad.value();

@@ -15,8 +15,8 @@ use gearcut_core::dexel::NO_PASS;
 
 /// Share of the flank left out at either end when the scene does not say where profiles are evaluated, and of the face.
 const DEFAULT_MARGIN: f64 = 0.05;
-/// Strokes at either end of an operation that count as its seam.
-const SEAM_STROKES: usize = 2;
+/// Strokes at either end of an operation that make its witness mark.
+const WITNESS_STROKES: usize = 2;
 
 /// Where a flank begins or ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -124,27 +124,27 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
         }),
     });
 
-    // The seam: strokes at either end of the finishing operation, plunging strokes among them.
+    // The witness mark: strokes at either end of the finishing operation, plunging strokes among them.
     let operation = job.finishing();
     let count = operation.strokes.count();
-    let first_ordinary = operation.schedule.plunge_count() + SEAM_STROKES;
-    let in_seam = |pass: u32| {
+    let first_ordinary = operation.schedule.plunge_count() + WITNESS_STROKES;
+    let makes_mark = |pass: u32| {
         (pass >= operation.strokes.first_pass && pass != NO_PASS).then(|| {
             let (stroke, _) = operation.strokes.stroke_and_blade(pass);
-            stroke < first_ordinary || stroke + SEAM_STROKES >= count
+            stroke < first_ordinary || stroke + WITNESS_STROKES >= count
         })
     };
-    let highest = |seam: bool| {
+    let highest = |mark: bool| {
         extremes(
             field,
             |column| inside(field.columns[column].arc_mm),
-            |index| (in_seam(finished.passes[index]) == Some(seam)).then_some(finished.heights_mm[index]),
+            |index| (makes_mark(finished.passes[index]) == Some(mark)).then_some(finished.heights_mm[index]),
         )
         .map(|[_, high]| high)
     };
-    let witness = highest(true).map(|seam| {
+    let witness = highest(true).map(|mark| {
         let rest_mm = highest(false).map_or(0.0, |rest| rest.value_mm);
-        Extreme { value_mm: (seam.value_mm - rest_mm).max(0.0), ..seam }
+        Extreme { value_mm: (mark.value_mm - rest_mm).max(0.0), ..mark }
     });
     let profile_trace = Trace::along_profile(field, finished, middle);
     let lead_arc_mm = pitch_arc_mm.unwrap_or(0.5 * (evaluated_mm[0] + evaluated_mm[1]));

@@ -159,15 +159,15 @@ fn search(
     mut look: impl FnMut([usize; 2], f64) -> bool,
 ) {
     /// A part of the edge of a tooth, first and last place, and whether all of it is known to be inside.
-    struct Part {
+    struct EdgePart {
         blade: usize,
         first: usize,
         last: usize,
         inside: bool,
     }
-    let whole = |blade: usize| Part { blade, first: 0, last: arcs_mm.len() - 1, inside: false };
-    let mut parts: VecDeque<Part> = (0..blades).map(whole).collect();
-    while let Some(Part { blade, first, last, mut inside }) = parts.pop_front() {
+    let whole = |blade: usize| EdgePart { blade, first: 0, last: arcs_mm.len() - 1, inside: false };
+    let mut parts: VecDeque<EdgePart> = (0..blades).map(whole).collect();
+    while let Some(EdgePart { blade, first, last, mut inside }) = parts.pop_front() {
         let middle = first.midpoint(last);
         let reach_mm = (arcs_mm[middle] - arcs_mm[first]).max(arcs_mm[last] - arcs_mm[middle]);
         let outside_mm = if inside { f64::NEG_INFINITY } else { outside_mm([blade, middle]) };
@@ -177,10 +177,10 @@ fn search(
             continue;
         }
         if middle > first {
-            parts.push_back(Part { blade, first, last: middle - 1, inside });
+            parts.push_back(EdgePart { blade, first, last: middle - 1, inside });
         }
         if middle < last {
-            parts.push_back(Part { blade, first: middle + 1, last, inside });
+            parts.push_back(EdgePart { blade, first: middle + 1, last, inside });
         }
     }
 }

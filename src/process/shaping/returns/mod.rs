@@ -8,10 +8,10 @@ pub mod clearance;
 pub mod facts;
 pub mod motion;
 mod overlap;
+mod path;
 pub mod plan;
 pub mod survey;
 pub mod swept;
 pub mod tooth_distance;
-mod way;
 
 pub use plan::RetractionPlan;

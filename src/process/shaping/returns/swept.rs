@@ -8,10 +8,10 @@
 //! Without that h = (sin a / 8) (1 / rho + 1 / r_c) ds^2 would be missing, 0.1 um at the pitch point for module 3 and
 //! 0.4 um towards the tip.
 //!
-//! Poses that cannot come up to the deepest so far are passed over, by the bound that is derived in `way.rs`.
+//! Poses that cannot come up to the deepest so far are passed over, by the bound that is derived in `path.rs`.
 
+use super::path::CutterPath;
 use super::tooth_distance::ToothDistance;
-use super::way::Way;
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::linkage::CutterPose;
 use gearcut_core::frame::Rigid2;
@@ -30,7 +30,7 @@ const REACH: usize = 6 * POSES_PER_PITCH;
 pub struct Swept {
     cutter_teeth: u32,
     /// Ways of the operation itself and of those before it.
-    ways: Vec<Way>,
+    paths: Vec<CutterPath>,
     distance: ToothDistance,
     poses_per_turn: usize,
 }
@@ -46,17 +46,17 @@ impl Swept {
     ) -> Self {
         let poses_per_turn = POSES_PER_PITCH * teeth as usize;
         let before = REACH as f64;
-        let way = |pose: &dyn Fn(f64) -> CutterPose| {
+        let path = |pose: &dyn Fn(f64) -> CutterPose| {
             let at = |index: usize| {
                 let pose = pose((index as f64 - before) * TURN_RAD / poses_per_turn as f64);
                 Rigid2::new(pose.angle_rad, pose.center_mm)
             };
             let poses = (0..poses_per_turn + 2 * REACH).map(at).collect();
-            Way::new(poses, cutter.tip_radius_mm)
+            CutterPath::new(poses, cutter.tip_radius_mm)
         };
         Self {
             cutter_teeth: cutter.teeth,
-            ways: std::iter::once(way(pose)).chain(earlier.iter().map(|pose| way(pose))).collect(),
+            paths: std::iter::once(path(pose)).chain(earlier.iter().map(|pose| path(pose))).collect(),
             distance: ToothDistance::new(cutter),
             poses_per_turn,
         }
@@ -74,7 +74,7 @@ impl Swept {
 
     /// Pose of the operation's stroke at a place, gear from cutter.
     pub fn pose(&self, place: usize) -> &Rigid2 {
-        &self.ways[0].poses[index(place)]
+        &self.paths[0].poses[index(place)]
     }
 
     /// Places of the cutter's teeth on the cutter.
@@ -86,8 +86,8 @@ impl Swept {
     /// How deep a point stands in the pose that covers it deepest: over all poses, and over those up to the stroke. A
     /// depth that is `enough` ends the search.
     pub fn covered_mm(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2, enough: [f64; 2]) -> [f64; 2] {
-        let (here, own) = (index(place), &self.ways[0]);
-        let probe = Probe { distance: &self.distance, blade: tool_from_blade.rotation, p };
+        let (here, own) = (index(place), &self.paths[0]);
+        let probe = SeenPoint { distance: &self.distance, blade: tool_from_blade.rotation, p };
         let mut deepest = Deepest { depth_mm: f64::NEG_INFINITY, at: here };
         // From the stroke outwards: what it has cut itself is found first.
         let left = probe.walk(own, Poses::until(here), &mut deepest, enough[1]);
@@ -106,8 +106,8 @@ impl Swept {
     /// How deep a point stands in the pose before the stroke that covers it deepest. A depth that is `enough` ends the
     /// search.
     pub fn covered_before_mm(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2, enough_mm: f64) -> f64 {
-        let (before, own) = (index(place) - 1, &self.ways[0]);
-        let probe = Probe { distance: &self.distance, blade: tool_from_blade.rotation, p };
+        let (before, own) = (index(place) - 1, &self.paths[0]);
+        let probe = SeenPoint { distance: &self.distance, blade: tool_from_blade.rotation, p };
         let mut deepest = Deepest { depth_mm: f64::NEG_INFINITY, at: before };
         probe.walk(own, Poses::until(before), &mut deepest, enough_mm);
         let past_mm = probe.between_poses_mm(own, deepest, &(first(before)..=before), enough_mm);
@@ -115,24 +115,24 @@ impl Swept {
     }
 
     /// The depth over all poses of the earlier operations where it is more than `deepest_mm`, unless that is enough.
-    fn earlier_mm(&self, here: usize, probe: &Probe, mut deepest_mm: f64, enough_mm: f64) -> f64 {
-        for way in &self.ways[1..] {
+    fn earlier_mm(&self, here: usize, probe: &SeenPoint, mut deepest_mm: f64, enough_mm: f64) -> f64 {
+        for path in &self.paths[1..] {
             if deepest_mm >= enough_mm {
                 break;
             }
             let mut deepest = Deepest { depth_mm: f64::NEG_INFINITY, at: here };
             for poses in [Poses::until(here), Poses::after(here)] {
-                probe.walk(way, poses, &mut deepest, enough_mm);
+                probe.walk(path, poses, &mut deepest, enough_mm);
             }
             let all = first(here)..=here + REACH;
-            deepest_mm = deepest_mm.max(probe.between_poses_mm(way, deepest, &all, enough_mm));
+            deepest_mm = deepest_mm.max(probe.between_poses_mm(path, deepest, &all, enough_mm));
         }
         deepest_mm
     }
 }
 
 /// A point of the work, seen from one cutter tooth.
-struct Probe<'a> {
+struct SeenPoint<'a> {
     distance: &'a ToothDistance,
     /// Direction of the tooth on the cutter.
     blade: DVec2,
@@ -171,16 +171,16 @@ impl Poses {
     }
 }
 
-impl Probe<'_> {
+impl SeenPoint<'_> {
     fn depth_mm(&self, pose: &Rigid2) -> f64 {
         let blade = pose.rotation.rotate(self.blade);
         -self.distance.at_mm(DVec2::new(blade.x, -blade.y).rotate(self.p - pose.translation_mm))
     }
 
     /// Looks for deeper poses until one is deep enough; gives those that are left.
-    fn walk(&self, way: &Way, mut poses: Poses, deepest: &mut Deepest, enough_mm: f64) -> Poses {
+    fn walk(&self, path: &CutterPath, mut poses: Poses, deepest: &mut Deepest, enough_mm: f64) -> Poses {
         while poses.left > 0 && deepest.depth_mm < enough_mm {
-            let pose = &way.poses[poses.next];
+            let pose = &path.poses[poses.next];
             // No pose covers a point deeper than its tip circle does.
             let most_mm = self.distance.tip_radius_mm - self.p.distance(pose.translation_mm);
             let depth_mm = if most_mm > deepest.depth_mm { self.depth_mm(pose) } else { most_mm };
@@ -188,19 +188,25 @@ impl Probe<'_> {
                 *deepest = Deepest { depth_mm, at: poses.next };
                 poses.pass(1);
             } else {
-                poses.pass(way.poses_to_gain(poses.next, self.p, deepest.depth_mm - depth_mm));
+                poses.pass(path.poses_to_gain(poses.next, self.p, deepest.depth_mm - depth_mm));
             }
         }
         poses
     }
 
-    /// The depth where it is largest, on the way from pose to pose of a span; as it is where that is enough.
-    fn between_poses_mm(&self, way: &Way, deepest: Deepest, span: &RangeInclusive<usize>, enough_mm: f64) -> f64 {
+    /// The depth where it is largest, between poses, from pose to pose of a span; as it is where that is enough.
+    fn between_poses_mm(
+        &self,
+        path: &CutterPath,
+        deepest: Deepest,
+        span: &RangeInclusive<usize>,
+        enough_mm: f64,
+    ) -> f64 {
         let Deepest { depth_mm, at } = deepest;
         if depth_mm >= enough_mm || at <= *span.start() || at >= *span.end() {
             return depth_mm;
         }
-        let around = [&way.poses[at - 1], &way.poses[at], &way.poses[at + 1]];
+        let around = [&path.poses[at - 1], &path.poses[at], &path.poses[at + 1]];
         let [before_mm, after_mm] = [around[0], around[2]].map(|pose| self.depth_mm(pose));
         let bend_mm = 2.0 * depth_mm - before_mm - after_mm;
         if bend_mm <= 0.0 {
@@ -243,16 +249,22 @@ mod tests {
     }
 
     /// The depth with every pose looked at, and the parabola through the deepest three.
-    fn deepest_of_all_mm(swept: &Swept, way: &Way, poses: std::ops::Range<usize>, blade: &Rigid2, p: DVec2) -> f64 {
+    fn deepest_of_all_mm(
+        swept: &Swept,
+        path: &CutterPath,
+        poses: std::ops::Range<usize>,
+        blade: &Rigid2,
+        p: DVec2,
+    ) -> f64 {
         let depth = |pose: &Rigid2| -swept.distance.at_mm(pose.after(blade).inverse().point(p));
-        let depths: Vec<f64> = way.poses[poses.clone()].iter().map(depth).collect();
+        let depths: Vec<f64> = path.poses[poses.clone()].iter().map(depth).collect();
         let at = (0..depths.len()).max_by(|&a, &b| depths[a].total_cmp(&depths[b])).expect("poses");
         let bend_mm =
             if at == 0 || at + 1 == depths.len() { 0.0 } else { 2.0 * depths[at] - depths[at - 1] - depths[at + 1] };
         if bend_mm <= 0.0 {
             return depths[at];
         }
-        let around = [-1, 0, 1].map(|off: isize| &way.poses[(poses.start + at).wrapping_add_signed(off)]);
+        let around = [-1, 0, 1].map(|off: isize| &path.poses[(poses.start + at).wrapping_add_signed(off)]);
         depth(&between(around, 0.5 * (depths[at + 1] - depths[at - 1]) / bend_mm)).max(depths[at])
     }
 
@@ -279,9 +291,9 @@ mod tests {
                         let p = pose.after(&blade).point(on_tooth);
                         let past = first(here)..here + 1;
                         let all = first(here)..here + REACH + 1;
-                        let rough_mm = deepest_of_all_mm(&swept, &swept.ways[1], all.clone(), &blade, p);
-                        let past_mm = deepest_of_all_mm(&swept, &swept.ways[0], past, &blade, p).max(rough_mm);
-                        let all_mm = deepest_of_all_mm(&swept, &swept.ways[0], all, &blade, p).max(past_mm);
+                        let rough_mm = deepest_of_all_mm(&swept, &swept.paths[1], all.clone(), &blade, p);
+                        let past_mm = deepest_of_all_mm(&swept, &swept.paths[0], past, &blade, p).max(rough_mm);
+                        let all_mm = deepest_of_all_mm(&swept, &swept.paths[0], all, &blade, p).max(past_mm);
                         let found = swept.covered_mm(place, &blade, p, [f64::INFINITY; 2]);
                         for (found, expected) in found.into_iter().zip([all_mm, past_mm]) {
                             let off_mm = found - expected;

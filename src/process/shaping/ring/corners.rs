@@ -1,10 +1,10 @@
-//! The way of the cutter's tip corners into a space of the ring and out of it.
+//! The path of the cutter's tip corners into a space of the ring and out of it.
 //!
 //! In: the finishing linkage, the rounds at the cutter's tip, the target's outline. Out: for every space of a period,
-//! and for both ways, the smallest distance of a corner from the teeth. Law: a corner goes in and out of its space past
-//! the tips of the teeth beside it. Inside it touches the fillet that it makes; the clearance is the smallest distance
-//! from where it has left the blank's outline on. Where its path runs through material, it cuts there what no envelope
-//! of the flanks has shaped, and the clearance is minus the depth.
+//! and for both paths, the smallest distance of a corner from the teeth. Law: a corner goes in and out of its space
+//! past the tips of the teeth beside it. Inside it touches the fillet that it makes; the clearance is the smallest
+//! distance from where it has left the blank's outline on. Where its path runs through material, it cuts there what no
+//! envelope of the flanks has shaped, and the clearance is minus the depth.
 
 use crate::measure::damage::LEAST_DEPTH_MM;
 use crate::measure::target_outline::TargetOutline;
@@ -22,9 +22,9 @@ const PLACES_PER_PITCH: i32 = 64;
 /// A corner is looked for this far from the teeth, in modules: more than half of a space at the tips.
 const FARTHEST_MODULES: f64 = 2.0;
 
-/// The tightest place of a corner's way.
+/// The tightest place of a corner's path.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CornerWay {
+pub struct CornerPath {
     /// Smallest distance from the teeth, mm; minus the depth where it cuts into them.
     pub clearance_mm: f64,
     /// Polar angle of the pitch point then, rad.
@@ -36,24 +36,24 @@ type Round = (DVec2, f64);
 
 /// Of the spaces behind the first `teeth` teeth: on the way in, and out. `None` where the target's outline is not
 /// known.
-pub(super) fn of_period(job: &ShapingJob, teeth: u32) -> Option<Vec<[CornerWay; 2]>> {
+pub(super) fn of_period(job: &ShapingJob, teeth: u32) -> Option<Vec<[CornerPath; 2]>> {
     let target = job.target_outline(TARGET_SPACING_MM).ok()?;
     let own = job.cutter.corner.iter().filter_map(|part| match *part {
         CornerPart::Round { center_mm, radius_mm, .. } => Some((center_mm, radius_mm)),
         CornerPart::Chamfer { .. } => None,
     });
     let rounds: Vec<Round> = own.flat_map(|(at, radius)| [(at, radius), (DVec2::new(at.x, -at.y), radius)]).collect();
-    let ways = |space: u32| [-1, 1].map(|direction| way(job, &target, &rounds, space, direction));
-    Some((1..=teeth).into_par_iter().map(ways).collect())
+    let paths = |space: u32| [-1, 1].map(|direction| path(job, &target, &rounds, space, direction));
+    Some((1..=teeth).into_par_iter().map(paths).collect())
 }
 
-/// One way, from the middle of the space outwards: backwards in time on the way in.
-fn way(job: &ShapingJob, target: &TargetOutline, rounds: &[Round], space: u32, direction: i32) -> CornerWay {
+/// One path, from the middle of the space outwards: backwards in time on the way in.
+fn path(job: &ShapingJob, target: &TargetOutline, rounds: &[Round], space: u32, direction: i32) -> CornerPath {
     let (linkage, offset_mm) = (&job.finishing().linkage, job.finishing().spec.offset_mm);
     let pitch_mm = PI * job.scene.gear.module_mm;
     let farthest_mm = FARTHEST_MODULES * job.scene.gear.module_mm;
-    let mut air = CornerWay { clearance_mm: farthest_mm, phi_rad: 0.0 };
-    let mut cut = CornerWay { clearance_mm: -LEAST_DEPTH_MM, phi_rad: 0.0 };
+    let mut air = CornerPath { clearance_mm: farthest_mm, phi_rad: 0.0 };
+    let mut cut = CornerPath { clearance_mm: -LEAST_DEPTH_MM, phi_rad: 0.0 };
     // Height over the blank's outline and distance from the teeth at the place before, of every round.
     let mut before: Vec<Option<[f64; 2]>> = vec![None; rounds.len()];
     // Half a turn of the cutter: where it nearly fills the ring, its teeth leave it late.
@@ -77,7 +77,7 @@ fn way(job: &ShapingJob, target: &TargetOutline, rounds: &[Round], space: u32, d
             };
             let here = [over_mm, distance_mm - radius_mm];
             if here[1] < cut.clearance_mm {
-                cut = CornerWay { clearance_mm: here[1], phi_rad };
+                cut = CornerPath { clearance_mm: here[1], phi_rad };
             }
             // Just where it leaves the outline, between two places.
             let leaving_mm = before.filter(|before| before[0] < 0.0 && over_mm >= 0.0).map(|before| {
@@ -87,7 +87,7 @@ fn way(job: &ShapingJob, target: &TargetOutline, rounds: &[Round], space: u32, d
             let outside_mm = if over_mm >= 0.0 { here[1] } else { f64::INFINITY };
             let clearance_mm = leaving_mm.unwrap_or(f64::INFINITY).min(outside_mm);
             if clearance_mm < air.clearance_mm {
-                air = CornerWay { clearance_mm, phi_rad };
+                air = CornerPath { clearance_mm, phi_rad };
             }
             *before = Some(here);
         }

@@ -192,10 +192,10 @@ fn linkage(values: &Values, path: &str, law: &str) -> Option<Linkage> {
     })
 }
 
-fn infeed(values: &Values, path: &str, way: &str) -> Option<Infeed> {
-    let path = format!("{path}.infeed.{way}");
+fn infeed(values: &Values, path: &str, law: &str) -> Option<Infeed> {
+    let path = format!("{path}.infeed.{law}");
     let infeed = values.view(&path);
-    Some(match way {
+    Some(match law {
         "none" => Infeed::None,
         "plunge" => Infeed::Plunge { depth_mm: infeed.number("depth_mm")?, strokes: infeed.whole("strokes")? },
         "spiral" => Infeed::Spiral { depth_mm: infeed.number("depth_mm")?, angle_rad: infeed.rad("angle_deg")? },

@@ -85,7 +85,7 @@ struct SliceCut<'a> {
 
 /// Memory that is used over and over.
 #[derive(Default)]
-struct Memory {
+struct SweepBuffers {
     band: SectionBand,
     section: SweptSection,
     outline: LooseOutline,
@@ -104,7 +104,7 @@ fn cut_block(
     sections: &SweptSections,
     advance: &(dyn Fn() -> bool + Sync),
 ) -> Option<Vec<(Vec<PassChip>, BlankStats)>> {
-    let mut memory = Memory::default();
+    let mut memory = SweepBuffers::default();
     let z_range_mm = [slices[0].z_mm, slices[slices.len() - 1].z_mm];
     let shares = slices.len();
     for share in 0..shares {
@@ -123,8 +123,8 @@ fn cut_block(
 }
 
 impl SliceCut<'_> {
-    fn cut(&mut self, grid: &BlankGrid, sections: &SweptSections, pass: usize, memory: &mut Memory) {
-        let Memory { band, section, outline, reach, near, tile: scratch, surfaces } = memory;
+    fn cut(&mut self, grid: &BlankGrid, sections: &SweptSections, pass: usize, memory: &mut SweepBuffers) {
+        let SweepBuffers { band, section, outline, reach, near, tile: scratch, surfaces } = memory;
         let mut followed = false;
         if sections.culls() {
             match band.bounds(sections, self.z_mm, outline, section) {

@@ -46,8 +46,8 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             Range::closed(-500.0, 500.0),
             0.0,
             "0.0",
-            "Offset a of the pair's axes, the same in both scenes; 0 on spiral bevel gears. Positive where the pinion's \
-            axis stands at the larger y of the gear's machine.",
+            "Offset a of the pair's axes, the same in both scenes; 0 on spiral bevel gears. Positive where the \
+            pinion's axis stands at the larger y of the gear's machine.",
         ),
     ],
     groups: &[],

@@ -71,8 +71,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 Range::closed(-5.0, 5.0),
                 0.0,
                 "0.0",
-                "Coefficient C of the modified roll, per rad: the work turns by R_a (d - C d^2 - D d^3) while the cradle \
-                turns by d from the middle of the roll.",
+                "Coefficient C of the modified roll, per rad: the work turns by R_a (d - C d^2 - D d^3) while the \
+                cradle turns by d from the middle of the roll.",
             ),
             Key::number(
                 "modified_roll_d",

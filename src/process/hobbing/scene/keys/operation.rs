@@ -174,8 +174,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 &["slide", "resultant"],
                 "slide",
                 "\"slide\"",
-                "What axial_feed_mm_per_revolution counts: the slide's travel, which spaces the feed marks, or slide and \
-                the shift's part along the gear's axis together, as the paper keeps constant.",
+                "What axial_feed_mm_per_revolution counts: the slide's travel, which spaces the feed marks, or slide \
+                and the shift's part along the gear's axis together, as the paper keeps constant.",
             ),
             Key::number(
                 "return_mm_per_s",

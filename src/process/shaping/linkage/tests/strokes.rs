@@ -7,7 +7,7 @@ use crate::machine::Motion as _;
 use crate::process::shaping::scene::model::{AxisLimits, Feed, Infeed, StrokeSpacing};
 
 #[test]
-fn counts_windows_and_seams() {
+fn counts_windows_and_witness_marks() {
     let mut run = operation(2.0, 360);
     assert_eq!(schedule(&run).count(), 360);
     run.window_rad = Some([1f64.to_radians(), 119f64.to_radians()]);
@@ -17,7 +17,7 @@ fn counts_windows_and_seams() {
         let expected = f64::from(i + 1) * TAU / 360.0;
         assert!((strokes.state(f64::from(i)).psi_c_rad - expected).abs() < 1e-12);
     }
-    let [first, last] = strokes.seam_rad();
+    let [first, last] = strokes.witness_rad();
     assert!((first - 1f64.to_radians()).abs() < 1e-12 && (last - 119f64.to_radians()).abs() < 1e-12);
     run.revolutions = 2;
     assert_eq!(

@@ -126,6 +126,6 @@ const LIMITS: KeySection = KeySection {
         ),
     ],
     groups: &[],
-    teach: "Largest speeds and accelerations of the axes, with which the peaks of every operation are compared, and the \
-        force of the ram.",
+    teach: "Largest speeds and accelerations of the axes, with which the peaks of every operation are compared, and \
+        the force of the ram.",
 };

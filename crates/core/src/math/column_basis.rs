@@ -1,27 +1,26 @@
-//! Linear least squares with columns that come one after the other, and its statistics.
+//! Linear least squares with columns that come one after the other, and the covariance of the solution.
 //!
 //! In: columns and a right side, both over the noise's standard deviation, so that residuals are standard normal where
-//! the model holds. Out: an orthonormal basis that grows ([`Basis`]), what columns would explain beyond it, and the
-//! solution with its covariance ([`Solution`]).
+//! the model holds. Out: an orthonormal basis that grows ([`ColumnBasis`]), what columns would explain beyond it, and
+//! the solution with its covariance ([`ColumnSolution`]).
 //!
 //! Modified Gram-Schmidt, twice, which keeps the basis orthogonal to rounding (Björck, *Numerical Methods for Least
-//! Squares Problems*, 1996, 2.4.5 and 2.4.7). Road not taken: the normal equations, which square the condition; a crate
-//! for linear algebra, where nalgebra asks for twenty versions of glam in the lock file, for the sake of these lines.
-
-use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+//! Squares Problems*, 1996, 2.4.5 and 2.4.7).
+//!
+//! **Why there are two.** [`super::least_squares`] takes equations one by one, keeps nothing but a triangle, and
+//! refuses unknowns that are not determined. Here unknowns come one by one while all equations are there: one that the
+//! others say already is left out instead, and every vector can be asked what of it they do not explain.
+//!
+//! Road not taken: the normal equations, which square the condition; a crate for linear algebra, where nalgebra asks
+//! for twenty versions of glam in the lock file, for the sake of these lines.
 
 /// What is left of a column beside the basis, as a share of it, below which it counts as a part of what is there: far
 /// above rounding and the errors of differences, far below what noise can tell apart.
 pub const DEPENDENT: f64 = 1e-4;
 
-/// Chance below the upper end of a 95 % interval.
-const UPPER_END: f64 = 0.975;
-/// Degrees from which Student's t is taken as normal; its quantiles are not found any more in the millions.
-const MANY_DEGREES: usize = 1000;
-
 /// An orthonormal basis of columns, with how they are made of it.
 #[derive(Debug, Clone, Default)]
-pub struct Basis {
+pub struct ColumnBasis {
     /// Unit vectors.
     units: Vec<Vec<f64>>,
     /// Each accepted column in terms of the unit vectors up to its own: the upper triangle R, column by column.
@@ -30,7 +29,7 @@ pub struct Basis {
 
 /// The coefficients of the columns of a basis.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Solution {
+pub struct ColumnSolution {
     /// Coefficients.
     pub values: Vec<f64>,
     /// Their covariance for residuals of variance 1.
@@ -41,7 +40,7 @@ pub struct Solution {
     pub freedom: usize,
 }
 
-impl Basis {
+impl ColumnBasis {
     /// How many columns it has.
     pub fn columns(&self) -> usize {
         self.units.len()
@@ -80,7 +79,7 @@ impl Basis {
     }
 
     /// Least squares of `values` by the columns.
-    pub fn solve(&self, values: &[f64]) -> Solution {
+    pub fn solve(&self, values: &[f64]) -> ColumnSolution {
         let (rest, shares) = self.beside(values);
         let count = self.columns();
         // R x = Q^T y, from the last row up; the columns of the inverse of R likewise.
@@ -97,23 +96,13 @@ impl Basis {
         let covariance = (0..count)
             .map(|i| (0..count).map(|j| inverse.iter().map(|column| column[i] * column[j]).sum()).collect())
             .collect();
-        Solution {
+        ColumnSolution {
             values: back(&shares),
             covariance,
             chi_square: dot(&rest, &rest),
             freedom: values.len().saturating_sub(count),
         }
     }
-}
-
-/// Half the width of a 95 % interval over the standard deviation: Student's t of so many degrees. From a thousand
-/// degrees on it is the normal distribution's, 0.1 % less, and without freedom, where the deviation is stated and not
-/// found.
-pub fn interval(freedom: usize) -> f64 {
-    if freedom == 0 || freedom >= MANY_DEGREES {
-        return Normal::standard().inverse_cdf(UPPER_END);
-    }
-    StudentsT::new(0.0, 1.0, freedom as f64).expect("freedom is above 0").inverse_cdf(UPPER_END)
 }
 
 /// Length of a vector.
@@ -132,10 +121,10 @@ mod tests {
     /// Longley-like by hand: y = 1 + 2 x at x = 0, 1, 2, with residuals 1, -2, 1, which are orthogonal to both columns.
     #[test]
     fn a_line_through_three_points_is_the_one_by_hand() {
-        let mut basis = Basis::default();
+        let mut basis = ColumnBasis::default();
         assert!(basis.take(&[1.0, 1.0, 1.0]) && basis.take(&[0.0, 1.0, 2.0]));
         assert!(!basis.take(&[3.0, 5.0, 7.0]), "it is a combination of both");
-        let Solution { values, covariance, chi_square, freedom } = basis.solve(&[2.0, 1.0, 6.0]);
+        let ColumnSolution { values, covariance, chi_square, freedom } = basis.solve(&[2.0, 1.0, 6.0]);
         assert!((values[0] - 1.0).abs() < 1e-14 && (values[1] - 2.0).abs() < 1e-14, "{values:?}");
         // (X^T X)^-1 = [[3, 3], [3, 5]]^-1 = [[5, -3], [-3, 3]] / 6.
         let expected = [[5.0 / 6.0, -0.5], [-0.5, 0.5]];
@@ -145,23 +134,14 @@ mod tests {
         assert!((chi_square - 6.0).abs() < 1e-13 && freedom == 1);
     }
 
-    /// Abramowitz and Stegun, *Handbook of Mathematical Functions*, 1964, table 26.10.
-    #[test]
-    fn intervals_are_those_of_tables() {
-        for (freedom, expected) in [(1, 12.706), (5, 2.571), (30, 2.042), (120, 1.980), (1_000_000, 1.960), (0, 1.960)]
-        {
-            assert!((interval(freedom) - expected).abs() < 6e-4, "{freedom}: {}", interval(freedom));
-        }
-    }
-
     /// Läuchli's columns: the normal equations lose their difference at this epsilon, the basis keeps it.
     #[test]
     fn nearly_equal_columns_are_told_apart_as_far_as_they_can_be() {
         let epsilon = 1e-3;
-        let mut basis = Basis::default();
+        let mut basis = ColumnBasis::default();
         assert!(basis.take(&[1.0, epsilon, 0.0]) && basis.take(&[1.0, 0.0, epsilon]));
-        let Solution { values, .. } = basis.solve(&[2.0, epsilon, epsilon]);
+        let ColumnSolution { values, .. } = basis.solve(&[2.0, epsilon, epsilon]);
         assert!(values.iter().all(|value| (value - 1.0).abs() < 1e-9), "{values:?}");
-        assert!(!Basis { ..basis.clone() }.take(&[2.0, epsilon, epsilon]));
+        assert!(!ColumnBasis { ..basis.clone() }.take(&[2.0, epsilon, epsilon]));
     }
 }

@@ -1,11 +1,11 @@
-//! The cutter's way in one operation, and how fast a depth can grow along it.
+//! The cutter's path in one operation, and how fast a depth can grow along it.
 //!
 //! In: poses that follow each other closely. Out: from a pose and a point of the work, how many poses it takes until
 //! the point can stand so much deeper in a cutter tooth.
 //!
 //! The depth of a point changes by no more than the point moves against the tooth. From one pose to the next that is
 //! the turn between the poses times the distance from a pivot, and what the pivot itself slips; over k poses, with the
-//! largest turn t, slip s and way w of the pivot from pose to pose, and the distance D from the pivot here,
+//! largest turn t, slip s and step w of the pivot from pose to pose, and the distance D from the pivot here,
 //!
 //! ```text
 //! |depth(i + k) - depth(i)| <= k s + t (k D + w k (k - 1) / 2)
@@ -19,9 +19,9 @@ use glam::DVec2;
 /// A pole farther from the cutter's axis than so many of its tip radii is no pivot: the poses hardly turn.
 const FARTHEST_PIVOT: f64 = 2.0;
 
-/// The cutter's way over one turn and a little before and after, for one operation.
+/// The cutter's path over one turn and a little before and after, for one operation.
 #[derive(Debug)]
-pub(super) struct Way {
+pub(super) struct CutterPath {
     pub(super) poses: Vec<Rigid2>,
     /// Between each pose and the next, gear frame.
     pivots_mm: Vec<DVec2>,
@@ -29,11 +29,11 @@ pub(super) struct Way {
     turn: f64,
     /// Largest slip of a pivot.
     slip_mm: f64,
-    /// Largest way from pivot to pivot.
+    /// Largest step from pivot to pivot.
     pivot_step_mm: f64,
 }
 
-impl Way {
+impl CutterPath {
     /// Of poses (gear from cutter) that follow each other closely.
     pub(super) fn new(poses: Vec<Rigid2>, tip_radius_mm: f64) -> Self {
         // Tool-from-gear as complex numbers: p becomes a (p - o).
@@ -92,16 +92,16 @@ mod tests {
                 let pose = pose(f64::from(index) * TURN_RAD / poses_per_turn);
                 Rigid2::new(pose.angle_rad, pose.center_mm)
             };
-            let way = Way::new((0..48 * gear.teeth).map(at).collect(), job.cutter.tip_radius_mm);
+            let path = CutterPath::new((0..48 * gear.teeth).map(at).collect(), job.cutter.tip_radius_mm);
             // Pivots are poles: they do not slip, and stay near each other.
-            assert!(way.slip_mm < 1e-9 && way.pivot_step_mm < gear.module_mm, "{name}: {way:?}");
+            assert!(path.slip_mm < 1e-9 && path.pivot_step_mm < gear.module_mm, "{name}: {path:?}");
             let mut tightest = f64::INFINITY;
-            for at in (400..way.poses.len() - 400).step_by(97) {
+            for at in (400..path.poses.len() - 400).step_by(97) {
                 for (i, angle) in [0.0, 0.3, 1.0, 2.0, 3.0, 4.0, 5.0].into_iter().enumerate() {
-                    let p = way.pivots_mm[at] + i as f64 * DVec2::from_angle(angle);
-                    let on_tool = |index: usize| way.poses[index].inverse().point(p);
+                    let p = path.pivots_mm[at] + i as f64 * DVec2::from_angle(angle);
+                    let on_tool = |index: usize| path.poses[index].inverse().point(p);
                     for gap_mm in [0.001, 0.03, 0.4, 2.0] {
-                        let poses = way.poses_to_gain(at, p, gap_mm).min(200);
+                        let poses = path.poses_to_gain(at, p, gap_mm).min(200);
                         for other in (1..poses).flat_map(|k| [at - k, at + k]) {
                             let moved_mm = on_tool(at).distance(on_tool(other));
                             assert!(moved_mm <= gap_mm, "{name} {at} {p}: {moved_mm} in {poses}");
