@@ -15,6 +15,7 @@
 //! | drawn bodies, one or many | [`render_png`], [`apng`] |
 //! | sections of gears in mesh | [`rolling_picture`] |
 //! | charts, on the page and as SVG files | [`bar_chart`], [`line_chart`], [`range_chart`], [`ratio_chart`] |
+//! | charts with a scale for each number | [`bar_panels`], [`strip_chart`] |
 //! | the report: everything on one page that opens offline | [`report`] |
 //! | progress and Ctrl-C | [`progress`], [`crate::interrupt`] |
 
@@ -22,6 +23,7 @@ pub mod apng;
 pub mod atomic;
 mod axis;
 pub mod bar_chart;
+pub mod bar_panels;
 mod canvas;
 pub mod contact_sheet;
 mod figure;
@@ -46,6 +48,7 @@ mod relief;
 pub mod render_png;
 pub mod report;
 pub mod rolling_picture;
+pub mod strip_chart;
 pub mod summary;
 pub mod table;
 pub mod text;
