@@ -47,8 +47,9 @@ fn headline(found: &Scatter) -> Vec<Entry> {
     let spreads = found.spreads();
     let mut entries: Vec<Entry> = FIRST
         .iter()
-        .map(|key| {
-            let number = place_of(key);
+        .map(|key| (key, place_of(key)))
+        .filter(|&(_, number)| found.cases.iter().any(|(_, values)| values[number].is_some()))
+        .map(|(key, number)| {
             let Number { symbol, unit, definition, .. } = NUMBERS[number];
             let why = "it does not exist in this gear";
             let quantity = match (found.gears, spreads[number]) {
@@ -76,8 +77,9 @@ fn warnings(found: &Scatter) -> Vec<Warning> {
     let random = |layer: &ErrorLayer| layer.is_random();
     let any = found.cases.iter().any(|(case, _)| case.kept.iter().any(random));
     let alike = (!any).then(|| Warning::note("nothing in the scene is random: every seed makes the same gear"));
-    let missing =
-        |number: &(usize, &Number)| found.gears.is_some_and(|gears| found.values(number.0).count() < gears as usize);
+    let missing = |number: &(usize, &Number)| {
+        found.gears.is_some_and(|gears| (1..gears as usize).contains(&found.values(number.0).count()))
+    };
     let missing: Vec<&str> = NUMBERS.iter().enumerate().filter(missing).map(|(_, number)| number.symbol).collect();
     let missing = (!missing.is_empty()).then(|| {
         let words =
