@@ -89,6 +89,14 @@ mod tests {
         let compliance = "cutter radially 8 um/kN, cutter tangentially 8 um/kN, cutter spindle 1 urad/(N m), work \
             radially 4 um/kN, work tangentially 4 um/kN, work spindle 0.5 urad/(N m)";
         assert_eq!(layers("deflection"), [pair("deflection", compliance)]);
-        assert_eq!(layers("machine_errors").len(), 4);
+        let lags = "work spindle: wave of 6 arcsec, wave of 2 arcsec, K_v 30 /s, 0 % fed forward; cutter spindle: K_v \
+            33 /s, 0 % fed forward; centre distance: backlash 4 um, K_v 30 /s, 0 % fed forward, drift 30 um/h at first";
+        let errors = [
+            pair("axes", lags),
+            pair("guide", "sideways 25 um in 100 mm; bow radially 2 um"),
+            pair("mounting", "eccentricity 5 um; wobble 10 um in 100 mm"),
+            pair("tool", "runout 3 um"),
+        ];
+        assert_eq!(layers("machine_errors"), errors);
     }
 }
