@@ -2,25 +2,36 @@
 //!
 //! In: a scene with errors. Out: numbers of one flank and of the gear's pitch ([`numbers`]) with every layer alone,
 //! with all of them, and with all but one ([`layers`]); and the same numbers for many seeds ([`seeds`]), as median and
-//! interval ([`statistics`]).
+//! interval ([`statistics`]). They are a [`Scatter`], which makes [`findings()`] once; terminal, `results.json`, tables
+//! and page ([`page`]) show those.
 //!
 //! A gear is prepared for each seed as a scene with that seed, so that a row is what `gearcut cut` would find with
-//! `--set machine.errors.seed=...`. Rows are kept as they are found ([`rows`]): a run that was killed goes on where it
-//! ended.
+//! `--set machine.errors.seed=...`. Rows are kept as they are found ([`rows`], [`folder`]): a run that was killed goes
+//! on where it ended.
 //!
 //! Road not taken: whole gears. A flank with its texture takes a hundredth of the time, and two hundred gears a night.
 
+mod findings;
+pub mod folder;
 pub mod layers;
 pub mod numbers;
+pub mod page;
 pub mod rows;
 pub mod seeds;
 pub mod statistics;
-pub mod tables;
+mod text;
 
 #[cfg(test)]
 mod tests;
 
 use gearcut_core::terms::Side;
+use layers::LayerCase;
+use numbers::{NUMBERS, Values};
+use rows::Rows;
+use statistics::Spread;
+
+pub use findings::findings;
+pub use text::printed;
 
 /// The flank that is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,4 +40,35 @@ pub struct FlankWish {
     pub tooth: u32,
     /// Which of its flanks.
     pub side: Side,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scatter {
+    /// Where texture, profile and helix were looked at.
+    pub flank: FlankWish,
+    /// Gears with some layers, and their numbers.
+    pub cases: Vec<(LayerCase, Values)>,
+    /// How many gears were asked for; none where nothing is random, or nobody asked.
+    pub gears: Option<u32>,
+    /// Numbers by seed; those beyond the gears that were asked for stay from an earlier run.
+    pub rows: Rows,
+}
+
+impl Scatter {
+    /// Values of a number over the gears that were asked for, by seed.
+    pub fn values(&self, number: usize) -> impl Iterator<Item = (u32, f64)> {
+        let gears = self.gears.unwrap_or(0);
+        self.rows.range(..=gears).filter_map(move |(&seed, values)| Some((seed, values[number]?)))
+    }
+
+    /// Median and interval of every number over those gears.
+    pub fn spreads(&self) -> Vec<Option<Spread>> {
+        (0..NUMBERS.len()).map(|number| Spread::of(self.values(number).map(|(_, value)| value))).collect()
+    }
+
+    /// The value of a number in the case with this name.
+    pub fn in_case(&self, name: &str, number: usize) -> Option<f64> {
+        self.cases.iter().find(|(case, _)| case.name == name).and_then(|(_, values)| values[number])
+    }
 }

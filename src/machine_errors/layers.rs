@@ -31,6 +31,25 @@ impl ErrorLayer {
     pub const ALL: [Self; 8] =
         [Self::Axes, Self::Guide, Self::Mounting, Self::Tool, Self::Noise, Self::Stock, Self::Edge, Self::Deflection];
 
+    /// What it is, in a sentence without its end.
+    pub fn definition(self) -> &'static str {
+        match self {
+            Self::Axes => "what axes do wrong the same way in every gear",
+            Self::Guide => "the guide along the gear",
+            Self::Mounting => "the work on its spindle",
+            Self::Tool => "runout, wobble and pitch of the tool",
+            Self::Noise => "what axes do at random",
+            Self::Stock => "scatter of the stock that operations leave",
+            Self::Edge => "roughness of the cutting edges",
+            Self::Deflection => "displacement of tool and work by the forces of the cut",
+        }
+    }
+
+    /// Whether it is another one in every gear.
+    pub fn is_random(self) -> bool {
+        matches!(self, Self::Noise | Self::Stock)
+    }
+
     /// In a word.
     pub fn name(self) -> &'static str {
         match self {

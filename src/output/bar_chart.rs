@@ -7,7 +7,7 @@
 
 use std::path::Path;
 
-use maud::html;
+use maud::{Markup, html};
 
 use crate::output::axis::{round_range, value_text, widened};
 use crate::output::figure::{Figure, LegendEntry, MOST_SERIES, Name, Plot, Sample};
@@ -79,14 +79,6 @@ impl BarChart {
         ))
     }
 
-    /// Values at the bottom and the top.
-    fn range(&self) -> (f64, f64) {
-        let values = || self.series.iter().flat_map(BarSeries::finite);
-        let extent = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
-        let (low, high) = Limit::widened_by(widened(extent, self.least_division), &self.limits);
-        widened(round_range(low, high), self.least_division)
-    }
-
     fn entry(&self, index: usize, extent: f64) -> LegendEntry {
         let series = &self.series[index];
         let mean = series.mean().map_or_else(
@@ -98,26 +90,11 @@ impl BarChart {
 
     /// The chart laid out.
     pub(super) fn figure(&self) -> Figure<'_> {
-        let frame = PlotFrame::new(236.0, self.range());
+        let frame = PlotFrame::new(236.0, range(&self.series, self.least_division, &self.limits));
         let slots = BarPlaces { frame: &frame, categories: &self.categories, series: self.series.len() };
-        let width = slots.bar_px();
         let drawing = html! {
             (frame.value_axis())
-            @for (k, series) in self.series.iter().enumerate() {
-                g class=(format!("bars s{k}")) {
-                    @for (index, (value, category)) in series.values.iter().zip(&self.categories).enumerate() {
-                        @if let Some(value) = value.filter(|value| value.is_finite()) {
-                            @let (top, bottom) = (frame.y(value.max(0.0)), frame.y(value.min(0.0)));
-                            rect x=(px(slots.left(index, k))) y=(px(top)) width=(px(width)) height=(px(bottom - top)) {
-                                title {
-                                    (self.category_name) " " (category) ", " (series.name) ": "
-                                    (value_text(value)) " " (self.unit)
-                                }
-                            }
-                        }
-                    }
-                }
-            }
+            (bars(&slots, &self.series, &self.category_name, &self.unit))
             (frame.across("zero", 0.0))
             @for limit in self.limits.iter().filter(|limit| limit.is_within(frame.range)) {
                 (frame.across("limit", limit.value))
@@ -145,6 +122,35 @@ impl BarChart {
             x_name: Name::new(&self.category_name, String::new()),
         }
     }
+}
+
+/// The bars of all series, from zero.
+pub(super) fn bars(slots: &BarPlaces, series: &[BarSeries], category_name: &str, unit: &str) -> Markup {
+    let (frame, width) = (slots.frame, slots.bar_px());
+    html! {
+        @for (k, series) in series.iter().enumerate() {
+            g class=(format!("bars s{k}")) {
+                @for (index, (value, category)) in series.values.iter().zip(slots.categories).enumerate() {
+                    @if let Some(value) = value.filter(|value| value.is_finite()) {
+                        @let (top, bottom) = (frame.y(value.max(0.0)), frame.y(value.min(0.0)));
+                        rect x=(px(slots.left(index, k))) y=(px(top)) width=(px(width)) height=(px(bottom - top)) {
+                            title {
+                                (category_name) " " (category) ", " (series.name) ": " (value_text(value)) " " (unit)
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Values at the bottom and the top of bars: zero, the bars, and limits that are not too far away.
+pub(super) fn range(series: &[BarSeries], least_division: f64, limits: &[Limit]) -> (f64, f64) {
+    let values = || series.iter().flat_map(BarSeries::finite);
+    let extent = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
+    let (low, high) = Limit::widened_by(widened(extent, least_division), limits);
+    widened(round_range(low, high), least_division)
 }
 
 /// Zero instead of what adding up numbers of this size leaves of zero.

@@ -15,6 +15,7 @@
 //! | drawn bodies, one or many | [`render_png`], [`apng`] |
 //! | sections of gears in mesh | [`rolling_picture`] |
 //! | charts, on the page and as SVG files | [`bar_chart`], [`line_chart`], [`range_chart`], [`ratio_chart`] |
+//! | charts with a scale for each number | [`bar_panels`], [`strip_chart`] |
 //! | the report: everything on one page that opens offline | [`report`] |
 //! | progress and Ctrl-C | [`progress`], [`crate::interrupt`] |
 
@@ -25,6 +26,8 @@ pub mod atomic;
 mod axis;
 #[doc(hidden)]
 pub mod bar_chart;
+#[doc(hidden)]
+pub mod bar_panels;
 mod canvas;
 #[doc(hidden)]
 pub mod contact_sheet;
@@ -65,6 +68,8 @@ pub mod render_png;
 pub mod report;
 #[doc(hidden)]
 pub mod rolling_picture;
+#[doc(hidden)]
+pub mod strip_chart;
 #[doc(hidden)]
 pub mod summary;
 pub mod table;

@@ -19,14 +19,28 @@ pub struct LayerCase {
     pub kept: Vec<ErrorLayer>,
 }
 
+/// Name of the case without any layer.
+pub const IDEAL: &str = "ideal machine";
+/// Name of the case with all of them.
+pub const ALL: &str = "all";
+
+/// Name of the case with one layer.
+pub fn alone(layer: ErrorLayer) -> String {
+    format!("{} alone", layer.name())
+}
+
+/// Name of the case with all layers but one.
+pub fn all_but(layer: ErrorLayer) -> String {
+    format!("all but {}", layer.name())
+}
+
 /// The cases of a scene with these layers: none, each alone, all, all but each.
 pub fn cases(layers: &[ErrorLayer]) -> Vec<LayerCase> {
-    let alone = layers.iter().map(|&layer| LayerCase { name: format!("{} alone", layer.name()), kept: vec![layer] });
     let but = |without: ErrorLayer| layers.iter().copied().filter(|&layer| layer != without).collect();
-    let without = layers.iter().map(|&layer| LayerCase { name: format!("all but {}", layer.name()), kept: but(layer) });
-    let mut cases = vec![LayerCase { name: "ideal machine".to_owned(), kept: Vec::new() }];
-    cases.extend(alone);
-    cases.push(LayerCase { name: "all".to_owned(), kept: layers.to_vec() });
+    let without = layers.iter().map(|&layer| LayerCase { name: all_but(layer), kept: but(layer) });
+    let mut cases = vec![LayerCase { name: IDEAL.to_owned(), kept: Vec::new() }];
+    cases.extend(layers.iter().map(|&layer| LayerCase { name: alone(layer), kept: vec![layer] }));
+    cases.push(LayerCase { name: ALL.to_owned(), kept: layers.to_vec() });
     // Of one layer, none is left without it; of two, each stands alone without the other.
     if layers.len() > 2 {
         cases.extend(without);
@@ -34,27 +48,27 @@ pub fn cases(layers: &[ErrorLayer]) -> Vec<LayerCase> {
     cases
 }
 
-/// Cuts and measures the cases.
+/// Cuts and measures the cases; each is given back with its numbers.
 ///
 /// # Errors
 /// Geometry, the backend; Ctrl-C.
 pub fn measure_cases(
     scene: &Scene,
-    cases: &[LayerCase],
+    cases: Vec<LayerCase>,
     flank: FlankWish,
     backend: &dyn Backend,
     (progress, interrupt): (&Progress, &Interrupt),
-) -> Result<Vec<Values>> {
+) -> Result<Vec<(LayerCase, Values)>> {
     let step = progress.step("layers", cases.len() as u64, "gears");
     let found = cases
-        .par_iter()
+        .into_par_iter()
         .map(|case| {
             interrupt.check()?;
             let mut scene = scene.clone();
             scene.process.keep_layers(&case.kept);
-            let values = measure(&scene, flank, backend);
+            let values = measure(&scene, flank, backend)?;
             step.advance(1);
-            values
+            Ok((case, values))
         })
         .collect();
     step.finish();

@@ -8,6 +8,7 @@
 //! single rays of a rough flank would give its roughness.
 
 use super::FlankWish;
+use crate::findings::TableColumn;
 use crate::job::{GearJob, rows_z_mm};
 use crate::measure::deviation::{PitchDeviations, Trace};
 use crate::measure::topography::Form;
@@ -36,34 +37,51 @@ const PLACE_RAYS: usize = 11;
 /// A number of a gear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Number {
-    /// Name, its unit at the end.
+    /// Key.
     pub key: &'static str,
+    /// What it is called on a page.
+    pub symbol: &'static str,
+    /// Unit.
+    pub unit: &'static str,
     /// What it is.
     pub definition: &'static str,
 }
 
-const fn number(key: &'static str, definition: &'static str) -> Number {
-    Number { key, definition }
+impl Number {
+    /// Its column in a table, whose head is its name in files.
+    pub fn column(&self) -> TableColumn {
+        TableColumn::new(self.key, self.unit, self.definition).or(NONE)
+    }
+}
+
+/// Why a number may not exist.
+const NONE: &str = "no pass came to a place that it needs, or no operation leaves stock for another one";
+
+const fn um(key: &'static str, symbol: &'static str, definition: &'static str) -> Number {
+    Number { key, symbol, unit: "um", definition }
 }
 
 /// All of them, in order.
 pub const NUMBERS: [Number; 13] = [
-    number("Sa_um", "arithmetical mean height (ISO 25178-2)"),
-    number("Sq_um", "root mean square height"),
-    number("Sk_um", "core height"),
-    number("Spk_um", "reduced peak height"),
-    number("Svk_um", "reduced valley depth"),
-    number("F_alpha_um", "total profile deviation"),
-    number("f_H_alpha_um", "profile slope deviation"),
-    number("f_f_alpha_um", "profile form deviation"),
-    number("F_beta_um", "total helix deviation"),
-    number("f_H_beta_um", "helix slope deviation"),
-    number("f_p_um", "largest single pitch deviation of the flank's side"),
-    number("F_p_um", "total cumulative pitch deviation of the flank's side"),
-    number(
-        "unevenness_percent",
-        "largest difference of the first operation's stock left and right of a tooth, over the mean of both",
-    ),
+    um("Sa", "Sa", "arithmetical mean height (ISO 25178-2)"),
+    um("Sq", "Sq", "root mean square height"),
+    um("Sk", "Sk", "core height"),
+    um("Spk", "Spk", "reduced peak height"),
+    um("Svk", "Svk", "reduced valley depth"),
+    um("F_alpha", "F_α", "total profile deviation"),
+    um("f_H_alpha", "f_Hα", "profile slope deviation"),
+    um("f_f_alpha", "f_fα", "profile form deviation"),
+    um("F_beta", "F_β", "total helix deviation"),
+    um("f_H_beta", "f_Hβ", "helix slope deviation"),
+    um("f_p", "f_p", "largest single pitch deviation of the flank's side"),
+    um("F_p", "F_p", "total cumulative pitch deviation of the flank's side"),
+    Number {
+        key: "unevenness",
+        symbol: "unevenness",
+        unit: "%",
+        definition: "largest difference of the first operation's stock left and right of a tooth, over the mean of \
+                     both",
+    },
 ];
 
 /// A gear's values of [`NUMBERS`].

@@ -25,8 +25,8 @@ pub struct RowFile {
 
 /// First line: the seed and the numbers.
 fn header() -> String {
-    let keys: Vec<&str> = std::iter::once("seed").chain(NUMBERS.iter().map(|number| number.key)).collect();
-    keys.join(",")
+    let heads = NUMBERS.iter().map(|number| number.column().head());
+    std::iter::once("seed".to_owned()).chain(heads).collect::<Vec<_>>().join(",")
 }
 
 /// One row, its end included.
@@ -35,8 +35,8 @@ fn line(seed: u32, values: &Values) -> String {
     for value in values {
         line.push(',');
         if let Some(value) = value {
-            // The shortest number that reads back as the same.
-            let _ = write!(line, "{value}");
+            // As tables are written: the shortest number that reads back as the same.
+            let _ = write!(line, "{value:?}");
         }
     }
     line + "\n"

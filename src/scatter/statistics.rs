@@ -1,5 +1,8 @@
 //! Median and interval of a number over gears.
 
+/// Shares of the values below the ends of an interval.
+pub const INTERVAL: [f64; 2] = [0.05, 0.95];
+
 /// Median, 5 % and 95 % of some values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spread {
@@ -19,7 +22,7 @@ impl Spread {
         let mut values: Vec<f64> = values.into_iter().collect();
         values.sort_by(f64::total_cmp);
         let at = |share: f64| quantile(&values, share);
-        Some(Self { count: values.len(), low: at(0.05)?, median: at(0.5)?, high: at(0.95)? })
+        Some(Self { count: values.len(), low: at(INTERVAL[0])?, median: at(0.5)?, high: at(INTERVAL[1])? })
     }
 }
 

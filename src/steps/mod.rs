@@ -14,6 +14,7 @@ pub mod cut_flanks;
 pub mod gear_maps;
 pub mod gear_surfaces;
 pub mod inspection;
+pub mod machine_errors;
 pub mod meshes;
 pub mod parts;
 pub mod pictures;

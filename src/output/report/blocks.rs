@@ -5,8 +5,10 @@ use super::table::PageTable;
 use super::texture::{self, TextureBlock};
 use super::traces::{self, TraceSheet};
 use crate::output::bar_chart::BarChart;
+use crate::output::bar_panels::BarPanels;
 use crate::output::line_chart::LineChart;
 use crate::output::range_chart::RangeChart;
+use crate::output::strip_chart::StripChart;
 use maud::{Markup, html};
 
 /// A part of the page with its own heading.
@@ -40,6 +42,10 @@ pub enum Block {
     Lines(LineChart),
     /// Bars.
     Bars(BarChart),
+    /// Bars in panels.
+    Panels(BarPanels),
+    /// Dots along lines.
+    Strips(StripChart),
     /// Bars from low to high.
     Ranges(RangeChart),
     /// The inspector's sheets, side by side.
@@ -110,6 +116,8 @@ impl Block {
             Self::Note(words) => html! { p class="note" { (words) } },
             Self::Lines(chart) => chart.figure().html(),
             Self::Bars(chart) => chart.figure().html(),
+            Self::Panels(chart) => chart.figure().html(),
+            Self::Strips(chart) => chart.figure().html(),
             Self::Ranges(chart) => chart.figure().html(),
             Self::Traces(sheets) => traces::sheets(sheets),
             Self::Table(table) => table.markup(),

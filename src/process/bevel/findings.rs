@@ -9,10 +9,13 @@ use super::chips::SlotLedger;
 use super::gear::BevelGear;
 use super::job::BevelJob;
 use super::measure::{self, BevelReport};
+use super::motion::AXES;
 use crate::findings::warning::ranked;
 use crate::findings::{Datum, Entry, Findings, Place, Quantity, Section, Table, TableColumn, Warning};
+use crate::machine_errors::ErrorLayer;
 use crate::output::text::significant;
 use crate::steps::axes::{self, AxesOfOperation as _};
+use crate::steps::machine_errors::{self, size, tool_words};
 use crate::texture::{self, WindowTexture};
 use gearcut_core::bevel::ease_off::{Explained, Setting};
 use gearcut_core::error::Result;
@@ -58,6 +61,7 @@ pub fn findings(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> R
         errors(job, gear)?,
         blades(job, gear),
     ];
+    sections.extend(errors_of_machine(job));
     if let Some((blank, ledger)) = whole {
         sections.extend([whole::blank(job, blank), whole::chips(job, ledger)]);
     }
@@ -294,6 +298,22 @@ fn marks(job: &BevelJob) -> Result<Section> {
         );
     }
     Ok(section)
+}
+
+/// The layers of errors that are on; none of an ideal machine.
+fn errors_of_machine(job: &BevelJob) -> Option<Section> {
+    let spec = &job.spec;
+    let settings = spec.settings.errors.iter().flat_map(|&(setting, error)| match setting {
+        Setting::RollRatio => size(setting.name(), error, ""),
+        setting if setting.is_angle() => size(setting.name(), error.to_degrees(), "deg"),
+        _ => size(setting.name(), error, "mm"),
+    });
+    let settings = settings.map(|words| words.trim_end().to_owned()).collect::<Vec<_>>().join(", ");
+    let mut own = vec![(ErrorLayer::Axes, settings), (ErrorLayer::Tool, tool_words(&spec.head.mounting))];
+    if spec.head.runouts_mm.iter().any(|&runout| runout != 0.0) {
+        own.push((ErrorLayer::Tool, "runouts given for each blade".to_owned()));
+    }
+    machine_errors::section(&spec.errors, &AXES, &own)
 }
 
 /// Settings whose errors explain the deviations of tooth 1.

@@ -9,7 +9,6 @@ use super::findings::whole::{ChipCharts, page_words};
 use super::gear::BevelGear;
 use super::job::BevelJob;
 use super::measure::BevelReport;
-use super::motion::AXES;
 use crate::findings::{self, Findings};
 use crate::job::rows_z_mm;
 use crate::output::folder::OutputFolder;
@@ -19,8 +18,7 @@ use crate::output::text::{plain, significant};
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::facts::table;
-use crate::steps::report::machine_errors::errors_table;
-use crate::steps::report::{PageGear, RunWords, files, key_number, record, texture};
+use crate::steps::report::{PageGear, RunWords, files, key_number, machine_errors, record, texture};
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
@@ -48,6 +46,7 @@ pub fn page(
     folder: &OutputFolder,
 ) -> Result<Page> {
     let mut sections = vec![deviations(job, gear), slot(gear), blades(found)];
+    sections.extend(machine_errors::section(found));
     sections.extend(chips(found, charts));
     sections.extend(texture::section(found, folder)?);
     sections.push(axes::section(
@@ -275,11 +274,10 @@ fn setup(job: &BevelJob, found: &Findings) -> PageSection {
             ),
         ],
     );
-    let mut blocks = vec![
+    let blocks = vec![
         Block::Drawing("Settings of the cradle machine, to scale".to_owned(), drawing::svg(&Drawn::of(job))),
         gear,
         table("Settings", rows),
     ];
-    blocks.extend(errors_table(&job.spec.errors, &AXES, Some(job.spec.head.mounting)));
     PageSection { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
 }

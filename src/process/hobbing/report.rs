@@ -16,7 +16,7 @@ use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations;
 use crate::steps::report::deviations::{Inspection, InspectionWords};
-use crate::steps::report::{PageGear, RunWords, blank, files, key_number, record, texture};
+use crate::steps::report::{PageGear, RunWords, blank, files, key_number, machine_errors, record, texture};
 use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::error::Result;
 use std::f64::consts::PI;
@@ -48,6 +48,7 @@ pub fn page(
 ) -> Result<Page> {
     let job = cutter.job;
     let mut sections = vec![deviations::section(charts.inspection)];
+    sections.extend(machine_errors::section(found));
     sections.extend(charts.points.map(five_curves));
     sections.push(marks_section(found));
     sections.extend(texture::section(found, folder)?);

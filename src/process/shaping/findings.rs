@@ -7,6 +7,7 @@ pub mod answers;
 mod chips;
 pub mod deflection;
 mod headline;
+pub mod machine_errors;
 mod operation;
 pub mod program;
 pub mod returns;
@@ -31,7 +32,7 @@ use operation::operation;
 /// Why there is no pitch deviation.
 const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve";
 
-/// Operations, deviations and teeth; what was known of a ring before cutting.
+/// Operations, deviations and teeth; errors of the machine, and what was known of a ring before cutting.
 ///
 /// # Errors
 /// A back-off so large that the retraction leads to no pose.
@@ -55,7 +56,7 @@ pub fn sections(
             .table(tables::teeth(&teeth))
             .parts(teeth),
     ];
-    Ok(sections.into_iter().chain(ring::of_job(job)).collect())
+    Ok(sections.into_iter().chain(machine_errors::errors(job)).chain(ring::of_job(job)).collect())
 }
 
 /// What a gear inspector states of the whole gear.

@@ -24,7 +24,9 @@ use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations::{Inspection, InspectionWords};
 use crate::steps::report::facts::gear_words;
-use crate::steps::report::{PageGear, RunWords, blank, deviations, files, key_number, record, texture, value_and_unit};
+use crate::steps::report::{
+    PageGear, RunWords, blank, deviations, files, key_number, machine_errors, record, texture, value_and_unit,
+};
 use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::error::Result;
 use std::f64::consts::PI;
@@ -48,6 +50,7 @@ pub fn page(
     sections.extend(blank::section(found));
     sections.extend(returns::section(job, found));
     sections.push(deviations::section(inspection));
+    sections.extend(machine_errors::section(found));
     sections.extend(texture::section(found, folder)?);
     sections.push(axes::section(
         motion,

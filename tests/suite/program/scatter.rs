@@ -41,7 +41,9 @@ fn gears_scatter_alike_on_any_number_of_threads_and_after_a_stop() {
     // As a kill leaves it: a line without its end.
     fs::write(stopped.join("seeds.csv"), rows.clone() + "3,0.1,0.2").expect("written");
     assert_eq!(scatter(&stopped, 2, &["--seeds", "4"]).0, 0);
-    for name in ["seeds.csv", "layers.csv", "scatter.csv", "run.json"] {
+    for name in
+        ["seeds.csv", "layers.csv", "scatter.csv", "run.json", "results.json", "report.html", "pictures/scatter.svg"]
+    {
         assert_eq!(read(&whole, name), read(&stopped, name), "{name}");
     }
     assert!(read(&whole, "seeds.csv").starts_with(&rows));
@@ -52,10 +54,22 @@ fn gears_scatter_alike_on_any_number_of_threads_and_after_a_stop() {
     // Layers are cut with the scene's own seed, which is the first.
     let all = read(&whole, "layers.csv").lines().find(|line| line.starts_with("all,")).map(values);
     assert_eq!(all.as_ref(), seeds.first());
+    // Sa is the first number: of four gears its median is the mean of the two in the middle.
+    let mut sa: Vec<f64> = seeds.iter().map(|row| row[0].parse().expect("a number")).collect();
+    sa.sort_by(f64::total_cmp);
+    let scatter_csv = read(&whole, "scatter.csv");
+    let median = scatter_csv.lines().find_map(|line| line.strip_prefix("50.0,")).expect("a row of medians");
+    let median: f64 = median.split(',').next().and_then(|sa| sa.parse().ok()).expect("a number");
+    assert!((median - 0.5 * (sa[1] + sa[2])).abs() < 1e-12 * median, "{median} of {sa:?}");
+    let results: serde_json::Value = serde_json::from_str(&read(&whole, "results.json")).expect("JSON");
+    assert_eq!(results["headline"]["Sa"]["value"].as_f64(), Some(median));
+    let report = read(&whole, "report.html");
+    assert!(report.contains("all but it") && report.contains("every dot is a seed"));
+    assert_eq!(report.matches("<circle").count(), 9 * 4, "a dot for each gear and number; F_beta is 0 in all gears");
     // Another scene does not go into the same folder, nor does another command's.
     let (code, said) = scatter(&whole, 1, &["--seeds", "4", "--tooth", "2"]);
     assert!(code == 1 && said.contains("another scene, flank or version"), "{said}");
-    fs::write(whole.join("run.json"), "{\"command\": \"pair\"}").expect("written");
+    fs::write(whole.join("run.json"), "{\"program\": \"gearcut\", \"command\": \"pair\"}").expect("written");
     let (code, said) = scatter(&whole, 1, &["--seeds", "4"]);
     assert!(code == 1 && said.contains("another command"), "{said}");
 }
@@ -70,9 +84,10 @@ fn scenes_without_errors_and_teeth_that_are_not_there_are_refused() {
     assert!(code == 1 && said.contains("the gear has 24"), "{said}");
 }
 
-/// Starts a run of many gears, waits for some of them, and ends it by a signal; gives its exit code, if it has one.
+/// Starts a run of many gears, waits for some of them, does something, and ends it by a signal; gives its exit code, if
+/// it has one.
 #[cfg(unix)]
-fn ended_by(signal: &str, out: &Path) -> Option<i32> {
+fn ended_by(signal: &str, out: &Path, meanwhile: impl FnOnce()) -> Option<i32> {
     let mut child = Command::new(env!("CARGO_BIN_EXE_gearcut"))
         .args([&SCENE[..], &["--out", out.to_str().expect("a path"), "--seeds", "1000"]].concat())
         .current_dir(env!("CARGO_MANIFEST_DIR"))
@@ -86,6 +101,7 @@ fn ended_by(signal: &str, out: &Path) -> Option<i32> {
         assert!(started.elapsed() < Duration::from_secs(300), "no gears in five minutes");
         std::thread::sleep(Duration::from_millis(50));
     }
+    meanwhile();
     assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().expect("a signal").success());
     child.wait().expect("ended").code()
 }
@@ -95,11 +111,18 @@ fn ended_by(signal: &str, out: &Path) -> Option<i32> {
 fn what_is_finished_outlives_ctrl_c_and_a_kill() {
     let folder = tempfile::tempdir().expect("a folder");
     let (whole, stopped) = (folder.path().join("whole"), folder.path().join("stopped"));
-    assert_eq!(ended_by("-INT", &stopped), Some(130));
+    // A second run to the same folder is refused, and leaves the first one and its rows alone.
+    let second = || {
+        let (code, said) = scatter(&stopped, 1, &["--seeds", "2"]);
+        assert!(code == 1 && said.contains("another run of gearcut (process"), "{said}");
+        assert!(read(&stopped, "seeds.csv").lines().count() >= 4);
+    };
+    assert_eq!(ended_by("-INT", &stopped, second), Some(130));
     let kept = read(&stopped, "seeds.csv").lines().count();
     assert!(kept >= 4, "{kept} lines");
-    assert_eq!(ended_by("-KILL", &stopped), None, "killed");
+    assert_eq!(ended_by("-KILL", &stopped, || ()), None, "killed");
     assert!(read(&stopped, "seeds.csv").lines().count() >= kept);
+    assert!(read(&stopped, "run.json").contains("\"complete\": false"));
     assert!(!stopped.join("scatter.csv").exists(), "nothing is told of gears that are not there");
     let seeds = ["--seeds", "3"];
     assert_eq!(scatter(&stopped, 2, &seeds).0, 0);

@@ -7,7 +7,6 @@ use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::linkage::dynamics::{self, AXES};
 use crate::process::hobbing::scene::model::{GashForm, Worm};
 use crate::steps::report::facts::{gear_table, mm, round_gear_table, speed_limits, table};
-use crate::steps::report::machine_errors::errors_table;
 
 /// Tables of gear, hob and machine.
 pub fn section(job: &HobbingJob, found: &Findings) -> PageSection {
@@ -48,7 +47,6 @@ pub fn section(job: &HobbingJob, found: &Findings) -> PageSection {
         ),
         table("Machine", vec![("Speed limits", speeds)]),
     ]);
-    blocks.extend(errors_table(&job.errors, &AXES, Some(tool.mounting)));
     let [from, to] = job.scene.measure.heights_mm();
     if from.is_some() || to.is_some() {
         let from = from.map_or_else(|| "the form point, 5 % left out".to_owned(), mm);

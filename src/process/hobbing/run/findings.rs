@@ -3,9 +3,11 @@
 use super::{blank, flank_table, force, load, marks, points};
 use crate::findings::warning::ranked;
 use crate::findings::{Entry, Findings, Place, Quantity, Section};
+use crate::machine_errors::ErrorLayer;
 use crate::measure::deviation::PitchDeviations;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::job::PreparedHobbing;
+use crate::process::hobbing::linkage::dynamics::AXES;
 use crate::process::hobbing::measure::flank_report::HobbedReport;
 use crate::process::hobbing::measure::hob_force::OperationForce;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
@@ -13,6 +15,7 @@ use crate::process::hobbing::measure::marks::MarkLattice;
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob, warnings};
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::steps::inspection::Inspected;
+use crate::steps::machine_errors::{self, tool_words};
 use crate::texture::{self, WindowTexture};
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
@@ -71,6 +74,8 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
             ),
         ),
     ];
+    let tool = (ErrorLayer::Tool, tool_words(&job.hob_spec.mounting));
+    sections.extend(machine_errors::section(&job.errors, &AXES, &[tool]));
     sections.extend(evaluated(job));
     sections.extend(measured.inspected.sections(&job.scene.measure));
     if let Some((whole, loads, forces)) = measured.whole {

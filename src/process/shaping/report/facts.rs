@@ -1,13 +1,13 @@
 //! What was shaped, with what, on which machine.
 
-use crate::findings::Findings;
+use crate::findings::{Findings, unit};
 use crate::output::report::PageSection;
 use crate::output::text::plain;
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::findings::machine_errors::edge_words;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
-use crate::process::shaping::scene::model::{EdgeRoughness, Retraction, Tip};
+use crate::process::shaping::scene::model::{Retraction, Tip};
 use crate::steps::report::facts::{gear_table, mm, round_gear_table, speed_limits, table};
-use crate::steps::report::machine_errors::errors_table;
 use gearcut_core::units::UM_PER_MM;
 
 /// Tables of gear, cutter and machine.
@@ -20,14 +20,8 @@ pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
             format!("chamfers {} high at {}°", mm(height_mm), plain(angle_rad.to_degrees()))
         }
     };
-    let edges = match &tool.edge_roughness {
-        None => "smooth".to_owned(),
-        Some(EdgeRoughness::Spectrum { rq_mm, correlation_mm, seed }) => {
-            let [rq_um, correlation_um] = [rq_mm, correlation_mm].map(|mm| plain(UM_PER_MM * mm));
-            format!("rough: Rq {rq_um} µm, correlation length {correlation_um} µm, seed {seed}")
-        }
-        Some(EdgeRoughness::Profile(path)) => format!("rough: profile {}", path.display()),
-    };
+    let rough = |edge| format!("rough: {}", unit::sentence_with_signs(&edge_words(edge)));
+    let edges = tool.edge_roughness.as_ref().map_or_else(|| "smooth".to_owned(), rough);
     let back_off = match machine.retraction {
         Retraction::CenterLine => mm(machine.back_off_mm),
         other => format!("{} {}", mm(machine.back_off_mm), other.words()),
@@ -68,6 +62,5 @@ pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
             ],
         ),
     ]);
-    blocks.extend(errors_table(&machine.errors, &AXES, None));
     PageSection { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
 }

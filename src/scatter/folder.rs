@@ -1,0 +1,81 @@
+//! The folder of gears that are cut one after the other: it goes on where the last run ended.
+//!
+//! In: its name and the record of what it holds. Out: a place for rows, and at the end everything else.
+//!
+//! The law: rows stand under the final name as soon as they are found, beside a record that says what they are; a kill
+//! takes none of them. Everything else is written under the hidden name ([`OutputFolder`]) and takes the final one in
+//! one step, rows included. The lock of that hidden name is held from the first look at the folder to the last: a
+//! second run to the same name is refused.
+//!
+//! Road not taken: rows under the hidden name. The next run removes what a killed one left there.
+
+use crate::output::atomic::write_bytes_atomically;
+use crate::output::folder::{OutputFolder, RUN_RECORD};
+use gearcut_core::error::{Error, Result};
+use serde_json::{Map, Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// File of the rows.
+const ROWS: &str = "seeds.csv";
+
+/// A folder that grows.
+#[derive(Debug)]
+pub struct ScatterFolder {
+    path: PathBuf,
+    record: Map<String, Value>,
+    hidden: OutputFolder,
+}
+
+impl ScatterFolder {
+    /// Makes the folder, or takes it as an earlier run with the same record left it. The record tells program, version
+    /// and command, and what the rows belong to.
+    ///
+    /// # Errors
+    /// Another run writes there; the folder holds something else; it cannot be made.
+    pub fn open(path: &Path, record: Map<String, Value>) -> Result<Self> {
+        let hidden = OutputFolder::create(path)?;
+        let refuse = |reason: &str| Err(Error::Output { path: path.to_owned(), reason: reason.to_owned() });
+        // What is no record of gearcut's has been refused above; what is left is an empty folder, or none.
+        let there = fs::read(path.join(RUN_RECORD)).ok();
+        match there.and_then(|text| serde_json::from_slice::<Map<String, Value>>(&text).ok()) {
+            Some(mut there) => {
+                there.remove("complete");
+                if there.get("command") != record.get("command") {
+                    return refuse(
+                        "the folder holds what another command of gearcut wrote; choose another one with --out",
+                    );
+                }
+                if there != record {
+                    return refuse(
+                        "the folder holds gears of another scene, flank or version; choose another one with --out",
+                    );
+                }
+            }
+            None => {
+                fs::create_dir_all(path).map_err(Error::writing(path))?;
+                let mut unfinished = record.clone();
+                unfinished.insert("complete".to_owned(), json!(false));
+                let text = format!("{:#}\n", Value::Object(unfinished));
+                write_bytes_atomically(&path.join(RUN_RECORD), text.as_bytes())?;
+            }
+        }
+        Ok(Self { path: path.to_owned(), record, hidden })
+    }
+
+    /// Where rows grow.
+    pub fn rows(&self) -> PathBuf {
+        self.path.join(ROWS)
+    }
+
+    /// Lets `write` write everything, rows included, and puts it in the place of what was there.
+    ///
+    /// # Errors
+    /// Files that cannot be written: what was there stays.
+    pub fn finish(self, write: impl FnOnce(&OutputFolder) -> Result<()>) -> Result<PathBuf> {
+        let written = write(&self.hidden);
+        let written = written.and_then(|()| self.hidden.write_json(RUN_RECORD, &Value::Object(self.record)));
+        written.map_err(|error| self.hidden.explain(error))?;
+        self.hidden.finish()
+    }
+}

@@ -1,0 +1,194 @@
+//! The page of layers and seeds: `report.html`; and all that is written.
+
+use super::Scatter;
+use super::findings::place_of;
+use super::layers::{ALL, IDEAL, all_but, alone};
+use super::numbers::{NUMBERS, Number};
+use crate::findings::{Datum, Findings, RESULTS_FILE, Table, Warning, unit};
+use crate::machine_errors::ErrorLayer;
+use crate::output::bar_chart::BarSeries;
+use crate::output::bar_panels::{BarPanel, BarPanels};
+use crate::output::folder::OutputFolder;
+use crate::output::line_chart::Limit;
+use crate::output::report::{Block, FileLinks, Page, PageSection, PageTable, REPORT_FILE};
+use crate::output::strip_chart::{Strip, StripChart};
+use crate::output::table::write_tables;
+use crate::output::text::{plain, significant};
+use crate::scene::Scene;
+use crate::steps::report::facts::gear_words;
+use crate::steps::report::quantities;
+use gearcut_core::error::Result;
+
+/// Charts of layers: name of the file, what it shows, its numbers.
+const CHARTS: [(&str, &str, &[&str]); 3] = [
+    ("layers_texture", "Texture", &["Sa", "Sk", "Spk", "Svk"]),
+    ("layers_form", "Profile and helix", &["F_alpha", "f_H_alpha", "F_beta"]),
+    ("layers_pitch", "Pitch and stock", &["f_p", "F_p", "unevenness"]),
+];
+
+/// Smallest distance of two ticks: a nanometre, a thousandth of a percent. What is less is rounding.
+const LEAST_DIVISION: f64 = 1e-3;
+/// Digits in tables.
+const DIGITS: u32 = 3;
+/// What is smaller is rounding, um and percent.
+const ROUNDING: f64 = 1e-6;
+
+/// Writes everything but the run record.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write(scene: &Scene, scatter: &Scatter, found: &Findings, folder: &OutputFolder) -> Result<()> {
+    write_tables(found, folder)?;
+    for (file, ..) in CHARTS {
+        if let Some(chart) = layers_chart(scatter, file) {
+            chart.write_svg(&folder.path(format!("pictures/{file}.svg"))?)?;
+        }
+    }
+    if let Some(chart) = gears_chart(scatter) {
+        chart.write_svg(&folder.path("pictures/scatter.svg")?)?;
+    }
+    let mut files = folder.written()?;
+    files.push(RESULTS_FILE.to_owned());
+    page(scene, scatter, found, files).write(&folder.path(REPORT_FILE)?)?;
+    folder.write_json(RESULTS_FILE, &found.to_json())
+}
+
+/// The layers of the scene.
+fn layers(scatter: &Scatter) -> &[ErrorLayer] {
+    scatter.cases.iter().find(|(case, _)| case.name == ALL).map_or(&[], |(case, _)| &case.kept)
+}
+
+/// One of [`CHARTS`]: for every layer what it makes alone and what is left without it; none if no gear has its numbers.
+fn layers_chart(scatter: &Scatter, file: &str) -> Option<BarPanels> {
+    let (_, what, keys) = CHARTS.into_iter().find(|(name, ..)| *name == file)?;
+    let layers = layers(scatter);
+    let panel = |key: &&str| {
+        let number = place_of(key);
+        let Number { symbol, unit, .. } = NUMBERS[number];
+        let value = |case: &str| scatter.in_case(case, number).map(without_rounding);
+        let series = |name: &str, case: fn(ErrorLayer) -> String| BarSeries {
+            name: name.to_owned(),
+            values: layers.iter().map(|&layer| value(&case(layer))).collect(),
+        };
+        let all = [series("alone", alone), series("all but it", all_but)];
+        let shown = all.into_iter().filter(|series| series.values.iter().any(Option::is_some)).collect::<Vec<_>>();
+        let limit = |case: &str| Some(Limit { name: case.to_owned(), value: value(case)? });
+        // What no layer makes is in the table.
+        let made = shown.iter().flat_map(|series| &series.values).any(|value| value.is_some_and(|value| value != 0.0));
+        made.then(|| BarPanel {
+            value_name: symbol.to_owned(),
+            unit: unit::signs(unit),
+            least_division: LEAST_DIVISION,
+            series: shown,
+            limits: [ALL, IDEAL].into_iter().filter_map(limit).collect(),
+        })
+    };
+    let panels: Vec<BarPanel> = keys.iter().filter_map(panel).collect();
+    (!panels.is_empty()).then(|| BarPanels {
+        title: format!("{what}: each layer of errors alone, and all but it"),
+        category_name: "layer".to_owned(),
+        categories: layers.iter().map(|layer| layer.name().to_owned()).collect(),
+        panels,
+    })
+}
+
+/// Every gear as a dot; none where there are no gears.
+fn gears_chart(scatter: &Scatter) -> Option<StripChart> {
+    let spreads = scatter.spreads();
+    let strip = |key: &&str| {
+        let number = place_of(key);
+        let spread = spreads[number]?;
+        let dots: Vec<(u32, f64)> = scatter.values(number).collect();
+        dots.iter().any(|dot| without_rounding(dot.1) != 0.0).then(|| Strip {
+            name: NUMBERS[number].symbol.to_owned(),
+            unit: unit::signs(NUMBERS[number].unit),
+            least_division: LEAST_DIVISION,
+            dots,
+            interval: [spread.low, spread.median, spread.high],
+            interval_name: "5 to 95 %".to_owned(),
+        })
+    };
+    let strips: Vec<Strip> = CHARTS.iter().flat_map(|(.., keys)| keys.iter()).filter_map(strip).collect();
+    (!strips.is_empty()).then(|| StripChart {
+        title: format!("{} gears of the same machine", scatter.gears.unwrap_or(0)),
+        dot_name: "seed".to_owned(),
+        strips,
+    })
+}
+
+/// The page.
+fn page(scene: &Scene, scatter: &Scatter, found: &Findings, files: Vec<String>) -> Page {
+    let charts = CHARTS.iter().filter_map(|(file, ..)| layers_chart(scatter, file)).map(Block::Panels);
+    let table = |path: &str, key: &str| found.find(path).and_then(|section| section.table_of(key)).map(page_table);
+    let mut sections = vec![PageSection {
+        id: "layers",
+        title: "Layers of errors".to_owned(),
+        lead: "Predicted by simulation: the same gear with each layer of errors alone, with all of them, and with all \
+            but one. Layers do not add up: a flank keeps what cuts deepest. What is left without a layer shows what \
+            working on it would bring."
+            .to_owned(),
+        blocks: charts.chain(table("layers", "cases").map(Block::Table)).collect(),
+    }];
+    if let Some(chart) = gears_chart(scatter) {
+        sections.push(PageSection {
+            id: "gears",
+            title: "Gears of many seeds".to_owned(),
+            lead:
+                "Predicted by simulation: other gears off the same machine. To cut one of them whole, give its seed: \
+                gearcut cut with --set machine.errors.seed=..."
+                    .to_owned(),
+            blocks: std::iter::once(Block::Strips(chart)).chain(table("scatter", "spread").map(Block::Table)).collect(),
+        });
+    }
+    sections.push(PageSection {
+        id: "files",
+        title: "Files".to_owned(),
+        lead: String::new(),
+        blocks: vec![Block::Files(vec![FileLinks { what: "Beside this page".to_owned(), files, more: 0 }])],
+    });
+    let gears = scatter.gears.map_or_else(String::new, |gears| format!(", {gears} gears"));
+    Page {
+        what: "error layers and scatter",
+        title: found.scene.clone(),
+        subtitle: format!(
+            "{} layers of errors{gears}; tooth {} {}",
+            layers(scatter).len(),
+            scatter.flank.tooth,
+            scatter.flank.side.name()
+        ),
+        operations: vec![gear_words(&scene.gear)],
+        complete: found.complete,
+        done: "all gears cut",
+        program: format!("gearcut {}", found.program_version),
+        key_numbers: found.headline.iter().map(quantities::key_number).collect(),
+        warnings: found.warnings.iter().map(Warning::with_signs).collect(),
+        viewer: None,
+        sections,
+    }
+}
+
+/// Zero for what is less than rounding.
+fn without_rounding(value: f64) -> f64 {
+    if value.abs() < ROUNDING { 0.0 } else { value }
+}
+
+/// A table with numbers in rows: there are more of them than of what is compared.
+fn page_table(table: &Table) -> PageTable {
+    let cell = |value: Option<f64>| match value {
+        None => "–".to_owned(),
+        Some(value) => significant(without_rounding(value), DIGITS).replace('-', "−"),
+    };
+    let heads = table.rows.iter().map(|row| match &row[0] {
+        Datum::Number(share) => format!("{} %", plain(*share)),
+        name => name.name(),
+    });
+    let rows = NUMBERS.iter().map(|number| {
+        let values = table.numbers(number.key).map(cell);
+        [number.symbol.to_owned(), unit::signs(number.unit)].into_iter().chain(values).collect()
+    });
+    PageTable {
+        caption: table.title.clone(),
+        columns: ["Number", "Unit"].map(str::to_owned).into_iter().chain(heads).collect(),
+        rows: rows.collect(),
+    }
+}

@@ -1,0 +1,126 @@
+//! What is wrong with the machine, layer by layer, in words: the errors that a cut followed, as findings.
+//!
+//! In: the errors that all machines may have, and in words what only the process knows. Out: a section with an entry
+//! for every layer that is on; none of a machine without errors. What a layer does to the gear is not told here: a cut has
+//! all of them at once, and `gearcut scatter` cuts the gear with each alone.
+
+use crate::findings::{Quantity, Section};
+use crate::machine::{Axis, AxisKind};
+use crate::machine_errors::{AxisErrors, ErrorLayer, Guide, MachineErrors, NoiseLaw, ToolMounting, WorkMounting};
+use crate::output::text::significant;
+use gearcut_core::units::UM_PER_MM;
+
+/// Key of the section.
+pub const KEY: &str = "machine_errors";
+/// mm per mm as um in 100 mm.
+const UM_IN_100MM: f64 = 1e5;
+
+/// The layers that are on; `own` has what only the process knows, layer by layer, in words.
+pub fn section<const N: usize>(
+    errors: &MachineErrors<N>,
+    axes: &[Axis; N],
+    own: &[(ErrorLayer, String)],
+) -> Option<Section> {
+    let of_axes = |words: fn(&AxisErrors, AxisKind) -> Vec<String>| {
+        let named = errors.axes.iter().zip(axes).map(|(of, axis)| (axis.name, words(of, axis.kind).join(", ")));
+        named.filter(|(_, words)| !words.is_empty()).map(|(name, words)| format!("{name}: {words}")).collect()
+    };
+    let mut section = Section::new(KEY, "Errors of the machine");
+    for layer in ErrorLayer::ALL {
+        let mut words: Vec<String> = match layer {
+            ErrorLayer::Axes => of_axes(same_in_every_gear),
+            ErrorLayer::Noise => of_axes(noise),
+            ErrorLayer::Guide => guide(&errors.guide),
+            ErrorLayer::Mounting => mounting(&errors.mounting),
+            ErrorLayer::Tool | ErrorLayer::Stock | ErrorLayer::Edge | ErrorLayer::Deflection => Vec::new(),
+        };
+        words
+            .extend(own.iter().filter(|(of, words)| *of == layer && !words.is_empty()).map(|(_, words)| words.clone()));
+        if !words.is_empty() {
+            section = section.with(layer.name(), Quantity::text(words.join("; "), layer.definition()));
+        }
+    }
+    (!section.entries.is_empty()).then_some(section)
+}
+
+/// How a tool sits on its spindle; nothing where it sits well.
+pub fn tool_words(tool: &ToolMounting) -> String {
+    [um("runout", tool.runout_mm), slope("wobble", tool.wobble_rad)].concat().join(", ")
+}
+
+/// A length, where it is not 0.
+pub fn um(name: &str, value_mm: f64) -> Vec<String> {
+    size(name, value_mm * UM_PER_MM, "um")
+}
+
+/// A size with its unit, where it is not 0.
+pub fn size(name: &str, value: f64, unit: &str) -> Vec<String> {
+    if value == 0.0 { Vec::new() } else { vec![format!("{name} {} {unit}", number(value))] }
+}
+
+/// Four digits, without zeros behind the point: as a scene gives it.
+fn number(value: f64) -> String {
+    let text = significant(value, 4);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+fn slope(name: &str, value: f64) -> Vec<String> {
+    size(name, value * UM_IN_100MM, "um in 100 mm")
+}
+
+fn guide(guide: &Guide) -> Vec<String> {
+    let words = [
+        slope("radially", guide.radial_slope),
+        slope("sideways", guide.tangential_slope),
+        um("bow radially", guide.radial_bow_mm),
+        um("bow sideways", guide.tangential_bow_mm),
+    ];
+    words.concat()
+}
+
+fn mounting(mounting: &WorkMounting) -> Vec<String> {
+    let words = [
+        um("eccentricity", mounting.eccentricity_mm),
+        slope("wobble", mounting.wobble_rad),
+        um("axial offset", mounting.axial_offset_mm),
+    ];
+    words.concat()
+}
+
+/// Unit of an axis's errors, and how many of it are a radian or a millimetre.
+fn unit(kind: AxisKind) -> (&'static str, f64) {
+    match kind {
+        AxisKind::Rotary => ("arcsec", 1f64.to_degrees() * 3600.0),
+        AxisKind::Linear => ("um", UM_PER_MM),
+    }
+}
+
+fn same_in_every_gear(errors: &AxisErrors, kind: AxisKind) -> Vec<String> {
+    let (unit, per_unit) = unit(kind);
+    let mut words = size("scale", errors.scale * 1e6, "um/m");
+    words.extend(errors.periodic.iter().flat_map(|wave| size("wave of", wave.amplitude * per_unit, unit)));
+    words.extend(size("backlash", errors.backlash * per_unit, unit));
+    if let Some(servo) = errors.servo {
+        let forward = 100.0 * servo.feed_forward;
+        words.push(format!("K_v {} /s, {} % fed forward", number(servo.velocity_gain_per_s), number(forward)));
+    }
+    if let Some(gearbox) = errors.gearbox {
+        words.push(format!("gearbox cycle {} ms", number(1e3 * gearbox.cycle_s)));
+    }
+    if let Some(drift) = errors.drift {
+        words.push(format!("drift {} {unit}/h at first", number(drift.per_s * per_unit * 3600.0)));
+    }
+    words
+}
+
+fn noise(errors: &AxisErrors, kind: AxisKind) -> Vec<String> {
+    let (unit, per_unit) = unit(kind);
+    let one = |noise: &crate::machine_errors::AxisNoise| {
+        let law = match noise.law {
+            NoiseLaw::EachPassage => "in every stroke".to_owned(),
+            NoiseLaw::InTime { bandwidth_hz } => format!("up to {} Hz", number(bandwidth_hz)),
+        };
+        format!("{} {unit} {law}", number(noise.deviation * per_unit))
+    };
+    errors.noise.iter().map(one).collect()
+}
