@@ -28,6 +28,14 @@ pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
         }
         Some(EdgeRoughness::Profile(path)) => format!("rough: profile {}", path.display()),
     };
+    let edges = match &tool.edge_rounding {
+        None => edges,
+        Some(rounding) => {
+            let [radius_um, chip_um] = [rounding.radius_mm, rounding.minimum_chip_mm()].map(|mm| plain(UM_PER_MM * mm));
+            let recovery = plain(rounding.recovery_share);
+            format!("{edges}; radius {radius_um} µm, thinnest chip {chip_um} µm, share that springs back {recovery}")
+        }
+    };
     let back_off = match machine.retraction {
         Retraction::CenterLine => mm(machine.back_off_mm),
         other => format!("{} {}", mm(machine.back_off_mm), other.words()),
