@@ -2,7 +2,8 @@
 //!
 //! In: the passes near a field in order of time, and a column of its rays. Out: those of them that can decide, with the
 //! segments of the edge that the rays can meet. A pass decides if it may lie lowest, or lowest of all before one that
-//! may. The others lower surfaces too, but surfaces that are gone when the last chip is cut.
+//! may. The others lower surfaces too, but surfaces that are gone when the last chip is cut. Where edges plough, other
+//! passes are asked for: all that may come below a bound ([`super::ploughing`]).
 //!
 //! Bounds of the height that a pass leaves on the column's rays choose. Most passes need none: few come close to the
 //! surface that is left, and one look at the edge says of the others that they stay above it. What is left is bounded

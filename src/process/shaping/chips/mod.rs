@@ -11,7 +11,8 @@
 //! or later.
 //!
 //! Rays on a flank see only the chips that shape it, and those exactly: [`flank::last_chips`] says with how thick a
-//! chip each place of a flank was cut last.
+//! chip each place of a flank was cut last. Where edges are rounded, what is left depends on the order of passes, and
+//! is found here as well.
 
 mod deciding;
 pub mod deflection;
