@@ -22,14 +22,25 @@ pub enum ErrorLayer {
     Stock,
     /// Roughness of the cutting edges.
     Edge,
+    /// What rounded cutting edges do not cut.
+    Ploughing,
     /// Displacement of tool and work by the forces of the cut.
     Deflection,
 }
 
 impl ErrorLayer {
     /// All of them.
-    pub const ALL: [Self; 8] =
-        [Self::Axes, Self::Guide, Self::Mounting, Self::Tool, Self::Noise, Self::Stock, Self::Edge, Self::Deflection];
+    pub const ALL: [Self; 9] = [
+        Self::Axes,
+        Self::Guide,
+        Self::Mounting,
+        Self::Tool,
+        Self::Noise,
+        Self::Stock,
+        Self::Edge,
+        Self::Ploughing,
+        Self::Deflection,
+    ];
 
     /// What it is, in a sentence without its end.
     pub fn definition(self) -> &'static str {
@@ -41,6 +52,7 @@ impl ErrorLayer {
             Self::Noise => "what axes do at random",
             Self::Stock => "scatter of the stock that operations leave",
             Self::Edge => "roughness of the cutting edges",
+            Self::Ploughing => "strokes that meet less than a thinnest chip and push it aside",
             Self::Deflection => "displacement of tool and work by the forces of the cut",
         }
     }
@@ -60,6 +72,7 @@ impl ErrorLayer {
             Self::Noise => "noise",
             Self::Stock => "stock",
             Self::Edge => "edge",
+            Self::Ploughing => "ploughing",
             Self::Deflection => "deflection",
         }
     }
@@ -74,9 +87,11 @@ impl<const N: usize> MachineErrors<N> {
             ErrorLayer::Guide => !self.guide.is_none(),
             ErrorLayer::Mounting => !self.mounting.is_none(),
             ErrorLayer::Noise => self.axes.iter().any(|axis| !axis.noise.is_empty()),
-            ErrorLayer::Tool | ErrorLayer::Stock | ErrorLayer::Edge | ErrorLayer::Deflection => {
-                own.contains(&(layer, true))
-            }
+            ErrorLayer::Tool
+            | ErrorLayer::Stock
+            | ErrorLayer::Edge
+            | ErrorLayer::Ploughing
+            | ErrorLayer::Deflection => own.contains(&(layer, true)),
         };
         ErrorLayer::ALL.into_iter().filter(|&layer| there(layer)).collect()
     }

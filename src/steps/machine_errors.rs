@@ -1,8 +1,8 @@
 //! What is wrong with the machine, layer by layer, in words: the errors that a cut followed, as findings.
 //!
 //! In: the errors that all machines may have, and in words what only the process knows. Out: a section with an entry
-//! for every layer that is on; none of a machine without errors. What a layer does to the gear is not told here: a cut has
-//! all of them at once, and `gearcut scatter` cuts the gear with each alone.
+//! for every layer that is on; none of a machine without errors. What a layer does to the gear is not told here: a cut
+//! has all of them at once, and `gearcut scatter` cuts the gear with each alone.
 
 use crate::findings::{Quantity, Section};
 use crate::machine::{Axis, AxisKind};
@@ -32,7 +32,11 @@ pub fn section<const N: usize>(
             ErrorLayer::Noise => of_axes(noise),
             ErrorLayer::Guide => guide(&errors.guide),
             ErrorLayer::Mounting => mounting(&errors.mounting),
-            ErrorLayer::Tool | ErrorLayer::Stock | ErrorLayer::Edge | ErrorLayer::Deflection => Vec::new(),
+            ErrorLayer::Tool
+            | ErrorLayer::Stock
+            | ErrorLayer::Edge
+            | ErrorLayer::Ploughing
+            | ErrorLayer::Deflection => Vec::new(),
         };
         words
             .extend(own.iter().filter(|(of, words)| *of == layer && !words.is_empty()).map(|(_, words)| words.clone()));

@@ -310,6 +310,7 @@ pub(crate) mod tests {
             runout_angle_rad: 0.0,
             pitch_errors_mm: Vec::new(),
             edge_roughness: None,
+            edge_rounding: None,
         };
         ShaperCutter::new(&spec, &gear).expect("an ordinary cutter")
     }

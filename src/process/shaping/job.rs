@@ -22,8 +22,7 @@ use crate::process::shaping::target::{TargetFlank, target_root};
 use crate::process::shaping::tooth_target::ToothTarget;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
-use crate::steps::planar::{CutField, PlanarGear, PlanarOperation, ProfilePoint};
-use gearcut_core::cut::Backend;
+use crate::steps::planar::{PlanarGear, PlanarOperation, ProfilePoint};
 use gearcut_core::dexel::Field;
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::frame::Rigid2;
@@ -324,14 +323,6 @@ impl ShapingJob {
     pub fn root_field(&self, space: u32) -> Field {
         let planar = self.planar();
         planar.root_field(&target_root(self.target_generation(), i64::from(space), planar.root_spacing_mm()))
-    }
-
-    /// Runs all operations over a field.
-    ///
-    /// # Errors
-    /// The backend's.
-    pub fn cut(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
-        self.planar().cut(backend, field)
     }
 }
 

@@ -349,6 +349,8 @@ fn needed(name: &str) -> &'static [&'static str] {
         "noise_bandwidth_hz" => &["noise_arcsec", "noise_um"],
         "rq_um" => &["correlation_length_um"],
         "correlation_length_um" => &["rq_um"],
+        "radius_um" => &["minimum_chip_share"],
+        "minimum_chip_share" => &["radius_um"],
         "stock_scatter_length_mm" => &["stock_scatter_um"],
         _ => &[],
     }

@@ -23,6 +23,7 @@ mod noise;
 mod oracle;
 mod paper_figures;
 mod planted;
+mod ploughing;
 mod retraction;
 mod round_gear;
 mod rubbing;

@@ -2,7 +2,8 @@
 //!
 //! In: the passes near a field in order of time, and a column of its rays. Out: those of them that can decide, with the
 //! segments of the edge that the rays can meet. A pass decides if it may lie lowest, or lowest of all before one that
-//! may. The others lower surfaces too, but surfaces that are gone when the last chip is cut.
+//! may. The others lower surfaces too, but surfaces that are gone when the last chip is cut. Where edges plough, other
+//! passes are asked for: all that may come below a bound ([`super::ploughing`]).
 //!
 //! Bounds of the height that a pass leaves on the column's rays choose. Most passes need none: few come close to the
 //! surface that is left, and one look at the edge says of the others that they stay above it. What is left is bounded
@@ -17,6 +18,7 @@ use gearcut_core::frame::Rigid2;
 use gearcut_core::passes::planar::near::{MAX_PHASES, NearPass, near_passes};
 use gearcut_core::tool::edge::{Edge, Segment, SegmentShape};
 use glam::DVec2;
+use std::ops::Range;
 
 /// Hits this far beyond a segment's end still count, as in the kernels, mm.
 pub(super) const END_OVERLAP_MM: f64 = 1e-9;
@@ -52,21 +54,38 @@ pub(super) struct Reaching {
     heights_mm: [f64; 2],
 }
 
-/// The blade's segments, each with the motion into its frame.
+/// A segment of the smooth edge that all blades share.
+pub(super) struct SharedSegment<'a> {
+    segment: &'a Segment,
+    pub segment_from_blade: Rigid2,
+    /// How far blades stay within it along x, mm.
+    depth_mm: f64,
+}
+
+/// The blades' segments.
 pub(super) struct Segments<'a> {
     edge: &'a Edge,
-    parts: Vec<(&'a Segment, Rigid2)>,
+    parts: Vec<SharedSegment<'a>>,
+    /// Largest depth of all parts, mm.
+    depth_mm: f64,
 }
 
 impl<'a> Segments<'a> {
-    pub fn new(edge: &'a Edge) -> Self {
-        let parts = edge.segments.iter().map(|segment| (segment, segment.blade_from_segment.inverse())).collect();
-        Self { edge, parts }
+    /// Those of a smooth edge, and how far the edges of blades, segment by segment, stay within it: none for blades
+    /// that are smooth themselves.
+    pub fn new(edge: &'a Edge, of_blades: &[Edge]) -> Self {
+        let part = |(index, segment): (usize, &'a Segment)| {
+            let depth_mm = of_blades.iter().map(|edge| edge.segments[index].depth_mm()).fold(0.0, f64::max);
+            SharedSegment { segment, segment_from_blade: segment.blade_from_segment.inverse(), depth_mm }
+        };
+        let parts: Vec<SharedSegment> = edge.segments.iter().enumerate().map(part).collect();
+        let depth_mm = parts.iter().map(|part| part.depth_mm).fold(0.0, f64::max);
+        Self { edge, parts, depth_mm }
     }
 
-    /// The segments of a set, each with the motion into its frame.
-    pub fn of(&self, set: SegmentSet) -> impl Iterator<Item = &(&Segment, Rigid2)> {
-        self.parts.iter().enumerate().filter(move |(index, _)| set & (1 << index) != 0).map(|(_, part)| part)
+    /// The segments of a set, with their places in the edge.
+    pub fn of(&self, set: SegmentSet) -> impl Iterator<Item = (usize, &SharedSegment<'a>)> {
+        self.parts.iter().enumerate().filter(move |(index, _)| set & (1 << index) != 0)
     }
 
     /// Segments whose places across a column's rays lie in their range somewhere along a pass.
@@ -74,10 +93,11 @@ impl<'a> Segments<'a> {
         let mut set = 0;
         for blade_from_work in &pass.blade_from_work {
             let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
-            if direction.perp_dot(self.edge.center_mm - origin).abs() > self.edge.reach_mm + pass.travel_mm {
+            let reach_mm = self.edge.reach_mm + self.depth_mm + pass.travel_mm;
+            if direction.perp_dot(self.edge.center_mm - origin).abs() > reach_mm {
                 continue;
             }
-            for (index, (segment, segment_from_blade)) in self.parts.iter().enumerate() {
+            for (index, SharedSegment { segment, segment_from_blade, .. }) in self.parts.iter().enumerate() {
                 let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
                 let ends = [2.0 * ray.low_mm, ray.blank_mm].map(|h| o.y + h * n.y);
                 let [from, to] = [segment.y_range_mm[0] - pass.travel_mm, segment.y_range_mm[1] + pass.travel_mm];
@@ -95,7 +115,7 @@ impl<'a> Segments<'a> {
     /// enters no lower than the highest of their entries, nor lower than all those of the segments that the rays can
     /// meet (others are not looked at), and just there if that one lies on its segment. Between the phases at which
     /// this is looked at heights follow a parabola nearly, which passes its samples by an eighth of their second
-    /// difference; half of it is allowed for.
+    /// difference; half of it is allowed for. Rough edges stay within their depth of the smooth ones.
     fn reaching(&self, near: usize, pass: &Near, ray: &Column, segments: SegmentSet) -> Option<Reaching> {
         let at_phases =
             pass.blade_from_work.iter().map(|blade_from_work| self.entry_mm(blade_from_work, ray, segments));
@@ -116,7 +136,7 @@ impl<'a> Segments<'a> {
     /// Whether a pass surely leaves a column's rays higher than `height_mm`: at every phase it is looked at they run
     /// into each of its segments from there on, by one look at the edge instead of a root.
     fn stays_above(&self, pass: &Near, ray: &Column, segments: SegmentSet, height_mm: f64) -> bool {
-        self.of(segments).all(|(segment, segment_from_blade)| {
+        self.of(segments).all(|(_, SharedSegment { segment, segment_from_blade, depth_mm })| {
             let mut residuals_mm: ArrayVec<f64, MAX_PHASES> = ArrayVec::new();
             for blade_from_work in &pass.blade_from_work {
                 let o = segment_from_blade.point(blade_from_work.point(ray.origin_mm));
@@ -125,7 +145,7 @@ impl<'a> Segments<'a> {
                 residuals_mm.push(residual_mm);
             }
             let bend_mm = if let [a, b, c] = residuals_mm[..] { (a - 2.0 * b + c).abs() } else { 0.0 };
-            residuals_mm.iter().all(|&residual_mm| residual_mm > 0.5 * bend_mm + TOLERANCE_MM)
+            residuals_mm.iter().all(|&residual_mm| residual_mm > 0.5 * bend_mm + TOLERANCE_MM + depth_mm)
         })
     }
 
@@ -134,19 +154,21 @@ impl<'a> Segments<'a> {
     fn entry_mm(&self, blade_from_work: &Rigid2, ray: &Column, set: SegmentSet) -> [f64; 2] {
         let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
         let (mut inside_mm, mut lowest_mm, mut sure_mm) = (f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY);
-        for (segment, segment_from_blade) in self.of(set) {
+        for (_, SharedSegment { segment, segment_from_blade, depth_mm }) in self.of(set) {
             let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
-            let Some(hit) = segment.enter(o, n) else { continue };
             let [from, to] = segment.y_range_mm;
+            // The edge as far out as any blade's, and as far in.
+            let out = DVec2::new(*depth_mm, 0.0);
+            let Some(hit) = segment.enter(o - out, n) else { continue };
             let on_segment = (from..=to).contains(&hit.y_mm);
             // The whole circle of a corner's arc lies in the tool, not round it.
             if on_segment || matches!(segment.shape, SegmentShape::Table(_)) {
                 inside_mm = inside_mm.max(hit.height_mm);
             }
             lowest_mm = lowest_mm.min(hit.height_mm);
-            if on_segment && hit.height_mm > 2.0 * ray.low_mm {
-                sure_mm = sure_mm.min(hit.height_mm);
-            }
+            let deepest = if *depth_mm > 0.0 { segment.enter(o + out, n) } else { Some(hit) };
+            let sure = deepest.filter(|hit| (from..=to).contains(&hit.y_mm) && hit.height_mm > 2.0 * ray.low_mm);
+            sure_mm = sure.map_or(sure_mm, |hit| sure_mm.min(hit.height_mm));
         }
         [lowest_mm.max(inside_mm), sure_mm]
     }
@@ -155,10 +177,12 @@ impl<'a> Segments<'a> {
 /// What is known of a pass over a column.
 #[derive(Debug, Clone, Copy)]
 enum Look {
-    /// Nothing; at most that it stays above a height.
+    /// Nothing.
     None,
     /// It meets no ray of the column.
     Misses,
+    /// These segments may meet the rays, but surely higher than this, mm.
+    Above(SegmentSet, f64),
     /// Its bounds.
     Bounded(Reaching),
 }
@@ -178,16 +202,23 @@ impl<'a> ColumnPasses<'a> {
 
     /// A pass's bounds, unless it misses the column or surely stays above a height.
     fn below(&mut self, pass: usize, height_mm: f64) -> Option<Reaching> {
-        if let Look::None = self.looks[pass] {
-            let near = &self.near[pass];
-            let set = self.segments.meeting(near, self.ray);
-            if set != 0 && self.segments.stays_above(near, self.ray, set, height_mm) {
-                return None;
-            }
-            let reaching = if set == 0 { None } else { self.segments.reaching(pass, near, self.ray, set) };
-            self.looks[pass] = reaching.map_or(Look::Misses, Look::Bounded);
-        }
-        if let Look::Bounded(reaching) = self.looks[pass] { Some(reaching) } else { None }
+        let near = &self.near[pass];
+        let set = match self.looks[pass] {
+            Look::None => self.segments.meeting(near, self.ray),
+            Look::Above(set, above_mm) if above_mm < height_mm => set,
+            Look::Misses | Look::Above(..) => return None,
+            Look::Bounded(reaching) => return Some(reaching),
+        };
+        let (look, reaching) = if set == 0 {
+            (Look::Misses, None)
+        } else if self.segments.stays_above(near, self.ray, set, height_mm) {
+            (Look::Above(set, height_mm), None)
+        } else {
+            let reaching = self.segments.reaching(pass, near, self.ray, set);
+            (reaching.map_or(Look::Misses, Look::Bounded), reaching)
+        };
+        self.looks[pass] = look;
+        reaching
     }
 
     /// The lowest that any of some passes surely leaves, asked in their order: those that stay above it need no bounds.
@@ -197,22 +228,33 @@ impl<'a> ColumnPasses<'a> {
         })
     }
 
-    /// All of the first `end` passes that reach the column.
+    /// The lowest that any of some passes surely leaves, or `from_mm`.
+    pub fn surely_left_by(&mut self, passes: Range<usize>, from_mm: f64) -> f64 {
+        let coarse_mm = self.surely_left_mm(passes.clone().step_by(STRIDE), from_mm);
+        self.surely_left_mm(passes, coarse_mm)
+    }
+
+    /// Those of some passes that may come as low as a height on any of the column's rays.
+    pub fn reaching_below(&mut self, passes: Range<usize>, height_mm: f64) -> Vec<Reaching> {
+        let below = passes.filter_map(|pass| self.below(pass, height_mm));
+        below.filter(|pass| pass.heights_mm[0] <= height_mm).collect()
+    }
+
+    /// All of some passes that reach the column.
     #[cfg(test)]
-    pub fn all(&self, end: usize) -> Vec<Reaching> {
+    pub fn all(&self, passes: Range<usize>) -> Vec<Reaching> {
         let bounds = |pass: usize| {
             let near = &self.near[pass];
             let set = self.segments.meeting(near, self.ray);
             if set == 0 { None } else { self.segments.reaching(pass, near, self.ray, set) }
         };
-        (0..end).filter_map(bounds).collect()
+        passes.filter_map(bounds).collect()
     }
 }
 
 /// Those of the first `end` passes that can decide the last chip.
 pub(super) fn deciding(column: &mut ColumnPasses, end: usize) -> Vec<Reaching> {
-    let coarse_mm = column.surely_left_mm((0..end).step_by(STRIDE), column.ray.blank_mm);
-    let left_mm = column.surely_left_mm(0..end, coarse_mm);
+    let left_mm = column.surely_left_by(0..end, column.ray.blank_mm);
     let may_rule = |look: &Look| matches!(look, Look::Bounded(pass) if pass.heights_mm[0] <= left_mm);
     let ruling = column.looks[..end].iter().position(may_rule).zip(column.looks[..end].iter().rposition(may_rule));
     let Some((first, last)) = ruling else { return Vec::new() };

@@ -17,34 +17,28 @@
 //! target (c is four times the height of a scallop, t at most a half on the surface that is left), so thickness runs
 //! from 0 at one end of a facet through c in its middle to 2 c at the other.
 
-use super::deciding::{
-    ColumnPasses, END_OVERLAP_MM, Near, Reaching, SegmentSet, Segments, deciding, passes_near, residual_mm,
-};
+use super::deciding::{ColumnPasses, Reaching, deciding};
+use super::ploughing;
+use super::rays::{FieldPasses, RaySurface};
 use crate::measure::LastChips;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_polygon::EdgeSide;
-use gearcut_core::dexel::field::{Column, Field, NO_PASS};
-use gearcut_core::frame::Rigid2;
-use gearcut_core::passes::planar::strokes::StrokePath;
-use gearcut_core::tool::{CuttingTool, PlanarTool};
+use gearcut_core::dexel::field::Field;
 
 /// Part of the edge as maps have it: 0 for none.
 pub fn side_code(side: Option<EdgeSide>) -> u32 {
     side.map_or(0, |side| side as u32 + 1)
 }
 
-/// What a ray knows at some moment.
-#[derive(Debug, Clone, Copy)]
-struct RaySurface {
-    height_mm: f64,
-    thickness_mm: f64,
-    side: Option<EdgeSide>,
-    pass: u32,
-}
-
 /// Chips that left the surface after each operation, in their order.
 pub fn last_chips(job: &ShapingJob, field: &Field) -> Vec<LastChips> {
-    last_chips_of(job, field, deciding)
+    match &job.cutter_spec.edge_rounding {
+        None => last_chips_of(job, field, deciding),
+        Some(rounding) => {
+            let ploughed = ploughing::surfaces(job, field, rounding);
+            ploughed.after.iter().map(|surfaces| last_chips_on(surfaces, ploughed.copies)).collect()
+        }
+    }
 }
 
 /// The same of those passes that `choose` takes of a column's, up to one of them.
@@ -53,39 +47,27 @@ fn last_chips_of(
     field: &Field,
     choose: impl Fn(&mut ColumnPasses, usize) -> Vec<Reaching>,
 ) -> Vec<LastChips> {
-    let rows_z_mm: &[f64] = if job.planar().rows_are_alike() { &[0.0] } else { &field.rows_z_mm };
-    let segments = Segments::new(job.cutter.edge());
-    let blades: Vec<Rigid2> = (0..job.cutter.blade_count()).map(|b| job.cutter.tool_from_blade(b).inverse()).collect();
-    let near = passes_near(job, field);
-    // Phases of all operations, row by row.
-    let phases: Vec<Vec<f64>> =
-        rows_z_mm.iter().map(|&z_mm| job.operations.iter().map(|o| o.strokes.law.tau(z_mm)).collect()).collect();
+    let passes = FieldPasses::of_smooth_edges(job, field);
     let mut after: Vec<Vec<RaySurface>> = vec![Vec::new(); job.operations.len()];
     for ray in &field.columns {
-        let mut column = ColumnPasses::new(&segments, &near, ray);
+        let mut column = passes.over(ray);
         for (operation, after) in after.iter_mut().enumerate() {
-            let so_far = near.partition_point(|pass| pass.operation <= operation);
-            let path = |chosen: Reaching| {
-                let pass = &near[chosen.near];
-                (chosen, pass, job.operations[pass.operation].strokes.path(pass.stroke))
-            };
-            let chosen: Vec<(Reaching, &Near, StrokePath)> =
-                choose(&mut column, so_far).into_iter().map(path).collect();
-            for phases in &phases {
-                let mut surface =
-                    RaySurface { height_mm: ray.blank_mm, thickness_mm: f64::NAN, side: None, pass: NO_PASS };
-                for (chosen, pass, path) in &chosen {
-                    let work_from_tool = path.at(phases[pass.operation]);
-                    let blade_from_work = blades[pass.blade as usize].after(&work_from_tool.inverse());
-                    let id = job.operations[pass.operation].strokes.pass_id(pass.stroke, pass.blade);
-                    segments.lower(&mut surface, &blade_from_work, ray, id, chosen.segments);
+            let chosen = passes.chosen(choose(&mut column, passes.of_operation(operation).end));
+            for row in passes.rows() {
+                let mut surface = RaySurface::uncut(ray);
+                for pass in &chosen {
+                    let Some(entry) = passes.entry(pass, row, ray, surface.height_mm) else { continue };
+                    let height_mm = entry.height_mm.max(ray.low_mm);
+                    if height_mm < surface.height_mm {
+                        let thickness_mm = (surface.height_mm - height_mm) * entry.cosine;
+                        surface = RaySurface { height_mm, thickness_mm, side: Some(entry.side), pass: pass.id };
+                    }
                 }
                 after.push(surface);
             }
         }
     }
-    let copies = field.rows() / rows_z_mm.len();
-    after.into_iter().map(|surfaces| last_chips_on(&surfaces, copies)).collect()
+    after.into_iter().map(|surfaces| last_chips_on(&surfaces, passes.copies)).collect()
 }
 
 /// What the surfaces of a section say, repeated on as many rows.
@@ -95,33 +77,6 @@ fn last_chips_on(surfaces: &[RaySurface], copies: usize) -> LastChips {
         thickness_mm: all().map(|s| s.thickness_mm as f32).collect(),
         sides: all().map(|s| side_code(s.side)).collect(),
         passes: all().map(|s| s.pass).collect(),
-    }
-}
-
-impl Segments<'_> {
-    /// Takes one pass from a ray.
-    fn lower(&self, surface: &mut RaySurface, blade_from_work: &Rigid2, ray: &Column, pass: u32, set: SegmentSet) {
-        let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
-        // Kernels follow rays down to twice their lowest height and record the lowest one there.
-        let below_mm = 2.0 * ray.low_mm;
-        let mut lowest: Option<(f64, f64, EdgeSide)> = None;
-        for (segment, segment_from_blade) in self.of(set) {
-            let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
-            if residual_mm(segment, o, n, surface.height_mm).is_some_and(|residual_mm| residual_mm > 0.0) {
-                continue;
-            }
-            let [from, to] = [segment.y_range_mm[0] - END_OVERLAP_MM, segment.y_range_mm[1] + END_OVERLAP_MM];
-            let Some(hit) = segment.enter(o, n).filter(|hit| (from..=to).contains(&hit.y_mm)) else { continue };
-            if hit.height_mm > below_mm && lowest.is_none_or(|(h, ..)| hit.height_mm < h) {
-                lowest = Some((hit.height_mm, hit.normal.dot(n).abs(), EdgeSide::of(segment.name)));
-            }
-        }
-        let Some((height_mm, cosine, side)) = lowest else { return };
-        let height_mm = height_mm.max(ray.low_mm);
-        if height_mm < surface.height_mm {
-            let thickness_mm = (surface.height_mm - height_mm) * cosine;
-            *surface = RaySurface { height_mm, thickness_mm, side: Some(side), pass };
-        }
     }
 }
 
@@ -146,7 +101,7 @@ mod tests {
             let columns: Vec<usize> = (0..field.columns.len()).step_by(31).collect();
             let field = field.at([&columns, &[0, 100, 300, 500, 600]]);
             let chosen = last_chips(&job, &field);
-            let of_all = last_chips_of(&job, &field, |column, so_far| column.all(so_far));
+            let of_all = last_chips_of(&job, &field, |column, so_far| column.all(0..so_far));
             for (chosen, of_all) in chosen.iter().zip(&of_all) {
                 let bits = |chips: &LastChips| chips.thickness_mm.iter().map(|h| h.to_bits()).collect::<Vec<_>>();
                 assert_eq!((&chosen.passes, bits(chosen)), (&of_all.passes, bits(of_all)));
@@ -155,7 +110,7 @@ mod tests {
             last_chips_of(&job, &field, |column, so_far| {
                 let deciding = deciding(column, so_far);
                 let [a, k] = counted.get();
-                counted.set([a + column.all(so_far).len(), k + deciding.len()]);
+                counted.set([a + column.all(0..so_far).len(), k + deciding.len()]);
                 deciding
             });
             let [a, k] = counted.get();

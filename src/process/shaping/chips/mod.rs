@@ -11,13 +11,16 @@
 //! or later.
 //!
 //! Rays on a flank see only the chips that shape it, and those exactly: [`flank::last_chips`] says with how thick a
-//! chip each place of a flank was cut last.
+//! chip each place of a flank was cut last. Where edges are rounded, what is left depends on the order of passes, and
+//! is found here as well.
 
 mod deciding;
 pub mod deflection;
 pub mod flank;
 pub mod ledger;
 pub mod oblique;
+mod ploughing;
+mod rays;
 pub mod section;
 mod space;
 pub mod stroke;
@@ -25,4 +28,5 @@ pub mod stroke;
 pub use deflection::deflections;
 pub use flank::last_chips;
 pub use ledger::{ChipLedger, OperationChips, ThicknessMap};
+pub(in crate::process::shaping) use ploughing::layers as ploughed_layers;
 pub use stroke::StrokeChips;

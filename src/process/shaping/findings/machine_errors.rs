@@ -5,7 +5,7 @@ use crate::machine_errors::{Compliance, ErrorLayer};
 use crate::output::text::plain;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::AXES;
-use crate::process::shaping::scene::model::{EdgeRoughness, Shaping};
+use crate::process::shaping::scene::model::{EdgeRoughness, EdgeRounding, Shaping};
 use crate::steps::machine_errors::{section, size, um};
 use gearcut_core::units::UM_PER_MM;
 
@@ -28,6 +28,7 @@ pub fn errors(job: &ShapingJob) -> Option<Section> {
         (ErrorLayer::Tool, tool.join(", ")),
         (ErrorLayer::Stock, stock.collect::<Vec<_>>().join("; ")),
         (ErrorLayer::Edge, model.tool.edge_roughness.as_ref().map_or_else(String::new, edge_words)),
+        (ErrorLayer::Ploughing, model.tool.edge_rounding.as_ref().map_or_else(String::new, rounding_words)),
         (ErrorLayer::Deflection, compliance_words(&model.machine.compliance)),
     ];
     section(&model.machine.errors, &AXES, &own)
@@ -42,6 +43,13 @@ pub fn edge_words(edge: &EdgeRoughness) -> String {
         }
         EdgeRoughness::Profile(path) => format!("profile {}", path.display()),
     }
+}
+
+/// A rounded edge.
+pub fn rounding_words(rounding: &EdgeRounding) -> String {
+    let [radius_um, chip_um] = [rounding.radius_mm, rounding.minimum_chip_mm()].map(|mm| plain(UM_PER_MM * mm));
+    let recovery = plain(rounding.recovery_share);
+    format!("radius {radius_um} um, thinnest chip {chip_um} um, share that springs back {recovery}")
 }
 
 /// mm/N as um/kN, rad/(N mm) as urad/(N m).
@@ -89,6 +97,8 @@ mod tests {
         let compliance = "cutter radially 8 um/kN, cutter tangentially 8 um/kN, cutter spindle 1 urad/(N m), work \
             radially 4 um/kN, work tangentially 4 um/kN, work spindle 0.5 urad/(N m)";
         assert_eq!(layers("deflection"), [pair("deflection", compliance)]);
+        let rounded = layers("ploughing");
+        assert!(rounded.last().is_some_and(|(key, words)| key == "ploughing" && words.contains("thinnest chip")));
         let lags = "work spindle: wave of 6 arcsec, wave of 2 arcsec, K_v 30 /s, 0 % fed forward; cutter spindle: K_v \
             33 /s, 0 % fed forward; centre distance: backlash 4 um, K_v 30 /s, 0 % fed forward, drift 30 um/h at first";
         let errors = [

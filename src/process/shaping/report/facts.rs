@@ -4,7 +4,7 @@ use crate::findings::{Findings, unit};
 use crate::output::report::PageSection;
 use crate::output::text::plain;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::findings::machine_errors::edge_words;
+use crate::process::shaping::findings::machine_errors::{edge_words, rounding_words};
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::scene::model::{Retraction, Tip};
 use crate::steps::report::facts::{gear_table, mm, round_gear_table, speed_limits, table};
@@ -22,6 +22,10 @@ pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
     };
     let rough = |edge| format!("rough: {}", unit::sentence_with_signs(&edge_words(edge)));
     let edges = tool.edge_roughness.as_ref().map_or_else(|| "smooth".to_owned(), rough);
+    let edges = match &tool.edge_rounding {
+        None => edges,
+        Some(rounding) => format!("{edges}; {}", unit::sentence_with_signs(&rounding_words(rounding))),
+    };
     let back_off = match machine.retraction {
         Retraction::CenterLine => mm(machine.back_off_mm),
         other => format!("{} {}", mm(machine.back_off_mm), other.words()),

@@ -1,9 +1,9 @@
 //! Checked values of a shaping scene to the model.
 
-use super::keys::{AXES, EDGE_ROUGHNESS};
+use super::keys::{AXES, EDGE_ROUGHNESS, EDGE_ROUNDING};
 use super::model::{
-    AxisLimits, CutterSpec, EdgeRoughness, Feed, GcodeDialect, Infeed, Linkage, Machine, NormalReading, Operation,
-    Retraction, Shaping, StockScatter, StrokeSpacing, Tip, TraditionalDirection,
+    AxisLimits, CutterSpec, EdgeRoughness, EdgeRounding, Feed, GcodeDialect, Infeed, Linkage, Machine, NormalReading,
+    Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip, TraditionalDirection,
 };
 use crate::machine_errors::{Compliance, SideCompliance};
 use crate::material::EdgeForce;
@@ -73,6 +73,7 @@ fn shaper_cutter(values: &Values, base_dir: &Path) -> Option<CutterSpec> {
         runout_angle_rad: cutter.rad("runout_angle_deg")?,
         pitch_errors_mm: cutter.numbers("pitch_errors_um")?.iter().map(|um| um / UM_PER_MM).collect(),
         edge_roughness: edge_roughness(values, base_dir),
+        edge_rounding: edge_rounding(values),
     })
 }
 
@@ -84,6 +85,15 @@ fn edge_roughness(values: &Values, base_dir: &Path) -> Option<EdgeRoughness> {
     let rq_mm = roughness.mm_from_um("rq_um").filter(|&rq_mm| rq_mm > 0.0)?;
     let correlation_mm = roughness.mm_from_um("correlation_length_um")?;
     Some(EdgeRoughness::Spectrum { rq_mm, correlation_mm, seed: roughness.whole("seed")? })
+}
+
+fn edge_rounding(values: &Values) -> Option<EdgeRounding> {
+    let rounding = values.view(EDGE_ROUNDING);
+    Some(EdgeRounding {
+        radius_mm: rounding.mm_from_um("radius_um")?,
+        minimum_chip_share: rounding.number("minimum_chip_share")?,
+        recovery_share: rounding.number("recovery_share")?,
+    })
 }
 
 fn machine(values: &Values) -> Option<Machine> {

@@ -1,7 +1,7 @@
 //! Values of a shaping scene compared with each other.
 
 use super::defaults::reach_mm;
-use super::keys::{AXES, EDGE_ROUGHNESS};
+use super::keys::{AXES, EDGE_ROUGHNESS, EDGE_ROUNDING};
 use crate::scene::build::stock_or_offset_mm;
 use crate::scene::keys::join;
 use crate::scene::machine_errors;
@@ -20,7 +20,8 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     // A missing value ends only the check that asks for it.
     let _: [Option<()>; 4] = [cutter_core(found), cutter_thinning(found), pitch_errors(found), chips(found)];
     tip(found);
-    edge_roughness(found);
+    together(found, EDGE_ROUGHNESS, ["rq_um", "correlation_length_um"]);
+    together(found, EDGE_ROUNDING, ["radius_um", "minimum_chip_share"]);
     machine_errors::check(found, &AXES);
     for index in 0..found.values.count("operation") {
         let path = format!("operation.{index}");
@@ -36,13 +37,12 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     }
 }
 
-/// A root mean square says nothing without a length, nor a length without it.
-fn edge_roughness(found: &mut Found) {
-    let view = found.view(EDGE_ROUGHNESS);
-    let written = ["rq_um", "correlation_length_um"].map(|name| view.number(name).is_some());
-    let (key, missing) = match written {
-        [true, false] => (join(EDGE_ROUGHNESS, "rq_um"), "correlation_length_um"),
-        [false, true] => (join(EDGE_ROUGHNESS, "correlation_length_um"), "rq_um"),
+/// One of two keys says nothing without the other: a root mean square without a length, a radius without a share.
+fn together(found: &mut Found, section: &str, names: [&'static str; 2]) {
+    let view = found.view(section);
+    let (key, missing) = match names.map(|name| view.number(name).is_some()) {
+        [true, false] => (join(section, names[0]), names[1]),
+        [false, true] => (join(section, names[1]), names[0]),
         _ => return,
     };
     let message = || format!("`{key}` says nothing without {missing}");

@@ -68,6 +68,7 @@ impl ProcessPart for Shaping {
             (ErrorLayer::Tool, tool),
             (ErrorLayer::Stock, self.operations.iter().any(|operation| operation.stock_scatter.is_some())),
             (ErrorLayer::Edge, self.tool.edge_roughness.is_some()),
+            (ErrorLayer::Ploughing, self.tool.edge_rounding.is_some()),
             (ErrorLayer::Deflection, !self.machine.compliance.is_none()),
         ];
         self.machine.errors.layers(&own)
@@ -84,6 +85,9 @@ impl ProcessPart for Shaping {
         }
         if !kept.contains(&ErrorLayer::Edge) {
             self.tool.edge_roughness = None;
+        }
+        if !kept.contains(&ErrorLayer::Ploughing) {
+            self.tool.edge_rounding = None;
         }
         if !kept.contains(&ErrorLayer::Deflection) {
             self.machine.compliance = Compliance::default();

@@ -72,6 +72,19 @@ pub struct CutterSpec {
     pub pitch_errors_mm: Vec<f64>,
     /// Roughness of its edges along the flanks.
     pub edge_roughness: Option<EdgeRoughness>,
+    /// Rounding of its edges across; `None`: sharp ones.
+    pub edge_rounding: Option<EdgeRounding>,
+}
+
+/// Rounding of cutting edges, which take no chip thinner than a share of their radius.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EdgeRounding {
+    /// r_beta.
+    pub radius_mm: f64,
+    /// k: thinnest chip over the radius.
+    pub minimum_chip_share: f64,
+    /// Share of what is not cut that springs back behind the edge.
+    pub recovery_share: f64,
 }
 
 /// Roughness of cutting edges along the cutter's flanks.

@@ -4,6 +4,8 @@ use crate::scene::keys::{Default, Group, Key, KeySection, Kind, Range, Role};
 
 /// Section of the edges' roughness.
 pub const EDGE_ROUGHNESS: &str = "tool.shaper_cutter.edge_roughness";
+/// Section of the edges' rounding.
+pub const EDGE_ROUNDING: &str = "tool.shaper_cutter.edge_rounding";
 
 /// `[tool.shaper_cutter]` and what is inside it.
 pub(super) static SECTIONS: &[KeySection] = &[
@@ -132,6 +134,39 @@ pub(super) static SECTIONS: &[KeySection] = &[
         ],
         groups: &[Group { names: &["rq_um", "profile"], required: false }],
         teach: "Roughness of the cutter's edges along its flanks: every stroke copies what touches the gear.",
+    },
+    KeySection {
+        path: EDGE_ROUNDING,
+        role: Role::Plain,
+        keys: &[
+            Key::optional(
+                "radius_um",
+                "um",
+                Range::above(0.0, 200.0),
+                "sharp edges",
+                "5.0",
+                "Radius r_beta of the cutting edge across its length; needs minimum_chip_share.",
+            ),
+            Key::optional(
+                "minimum_chip_share",
+                "",
+                Range::above(0.0, 1.0),
+                "none",
+                "0.3",
+                "Thickness h_min of the thinnest chip that is cut, over the radius; thinner ones are ploughed under.",
+            ),
+            Key {
+                name: "recovery_share",
+                kind: Kind::Number(Range::closed(0.0, 1.0)),
+                unit: "",
+                default: Default::Number(1.0),
+                example: "1.0",
+                teach: "Share of what is ploughed that springs back behind the edge; the rest stays pressed down.",
+            },
+        ],
+        groups: &[],
+        teach: "Rounding of the cutter's edges: strokes that meet less than a thinnest chip cut nothing. Flanks, roots \
+            and tips are then followed in strict order of strokes.",
     },
     KeySection {
         path: "tool.shaper_cutter.tip",

@@ -1,0 +1,28 @@
+//! What all operations leave on a field of rays: the lowest of all passes, or what rounded edges make of them.
+//!
+//! In: a job and a field on a flank, a root or a tip. Out: its layers. With sharp edges the order of passes does not
+//! matter, and the backend's kernels find the lowest one. Rounded edges ask for the order: they are followed here in
+//! f64, whatever the backend. The whole blank is cut by the kernels alone.
+
+use super::ShapingJob;
+use super::chips::ploughed_layers;
+use crate::steps::planar::CutField;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::Field;
+use gearcut_core::error::Result;
+
+impl ShapingJob {
+    /// Runs all operations over a field.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
+        match &self.cutter_spec.edge_rounding {
+            None => self.planar().cut(backend, field),
+            Some(rounding) => {
+                let (layers, stats) = ploughed_layers(self, &field, rounding);
+                Ok(CutField { field, layers, stats })
+            }
+        }
+    }
+}
