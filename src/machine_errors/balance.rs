@@ -67,7 +67,7 @@ impl EdgeElement {
 /// diagonal of C.
 ///
 /// # Errors
-/// No balance within [`MOST_STEPS`] steps: forces that are not numbers. Lengths in the error are those of scaled
+/// No balance within 60 steps: forces that are not numbers. Lengths in the error are those of scaled
 /// coordinates, square roots of N mm.
 pub fn balance(diagonal: DVec4, elements: &[EdgeElement], seen: DVec4, load: DVec4) -> Result<DVec4, NotConverged> {
     // q = S s with S = sqrt(C).
