@@ -95,10 +95,10 @@
 //! - [`pair`]: two gears rolling on each other
 //! - [`pair_job`]: two scenes rolled on each other, and what is written about it
 //! - [`run`]: the order of a whole run
+//! - [`influence`]: what errors of the machine do to a gear, and which errors a measured gear shows
 //! - [`scatter`]: how gears of one scene scatter, layer by layer of errors
 //! - [`library`]: the few items that other programs need
 //! - [`compare`]: results side by side
-//! - [`influence`]: what errors of the machine do to a gear, and which errors a measured gear shows
 
 pub mod backend;
 #[doc(hidden)]

@@ -4,11 +4,12 @@
 //!
 //! The window of texture is 0.25 mm long in both directions in the middle of the evaluated profile and of the face;
 //! its form is taken off by a polynomial of second order. Profile and helix are lines through that place. Pitch and
-//! stock are means of normal deviations over 0.25 mm of profile there, as a ball would feel them, over cos(alpha):
-//! single rays of a rough flank would give its roughness.
+//! stock are means of normal deviations over 0.25 mm of profile there, as a ball would feel them: single rays of a rough
+//! flank would give its roughness. For pitch they are turned into shifts along the circle through the place.
 
 use super::FlankWish;
 use crate::findings::TableColumn;
+use crate::influence::gear_grid::FlankGrid;
 use crate::job::{GearJob, rows_z_mm};
 use crate::measure::deviation::{PitchDeviations, Trace};
 use crate::measure::topography::Form;
@@ -174,13 +175,13 @@ fn of_all_teeth(gear: &dyn GearJob, side: Side, backend: &dyn Backend) -> Result
     };
     let of_side = |side: Side| (1..=teeth).map(|tooth| place(tooth, side)).collect::<Result<Vec<[f64; 2]>>>();
     let own = of_side(side)?;
-    let cosine = gear.scene().gear.pressure_angle_rad.cos();
-    let along_mm: Vec<f64> = own.iter().map(|[_, finished]| finished / cosine).collect();
-    let count = along_mm.len();
-    let pitch = PitchDeviations {
-        single_mm: (0..count).map(|tooth| along_mm[tooth] - along_mm[(tooth + count - 1) % count]).collect(),
-        cumulative_mm: along_mm.iter().map(|at| at - along_mm[0]).collect(),
+    let around = |(tooth, [_, finished_mm]): (u32, &[f64; 2])| -> Result<f64> {
+        let [from_mm, to_mm] = gear.evaluated_profile_mm(tooth, side)?;
+        let place = FlankGrid::new(gear, tooth, side, vec![0.5 * (from_mm + to_mm)], vec![0.0])?;
+        Ok(finished_mm * place.around_per_height(0))
     };
+    let places_mm = (1..=teeth).zip(&own).map(around).collect::<Result<Vec<f64>>>()?;
+    let pitch = PitchDeviations::of_places(&places_mm);
     let known = |value: f64| value.is_finite().then_some(value);
     let pitches = [pitch.largest_single_mm(), pitch.total_mm()].map(|mm| known(mm * UM_PER_MM));
     let uneven = if gear.operations().len() > 1 {
