@@ -138,7 +138,7 @@ mod tests {
         let row = |cells: [&str; 4]| cells.map(str::to_owned).to_vec();
         let bar = "|################################|";
         sheet.table(&[row(["a", "retraction angle of it", "", ""]), row(["1", "0.00 deg", bar, bar])]);
-        let expected = format!("     retraction\n          angle\n  a       of it\n  1    0.00 deg  {bar}  {bar}\n");
+        let expected = format!("     retraction\n       angle of\n  a          it\n  1    0.00 deg  {bar}  {bar}\n");
         assert_eq!(sheet.into_text(), expected);
     }
 }

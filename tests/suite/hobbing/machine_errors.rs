@@ -8,10 +8,13 @@ use super::spatial::same_as_brute_force;
 use crate::fixtures::closed_form;
 use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::{Layer, SpatialField};
+use gearcut::job::GearJob;
 use gearcut::machine_errors::{AxisNoise, NoiseLaw};
 use gearcut::process;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::random::Draws;
+use gearcut::scatter::FlankWish;
+use gearcut::scatter::numbers::{NUMBERS, measure};
 use gearcut::terms::Side;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -260,4 +263,43 @@ fn waves_that_are_too_short_are_refused() {
     let loaded = process::load(Path::new("scenes/hobbing/circular_spur.toml"), &settings).expect("a scene");
     let refused = HobbingJob::new(&loaded.scene).expect_err("nine waves in a turn of the hob").to_string();
     assert!(refused.contains("machine.errors.hob") && refused.contains("9.0 waves"), "{refused}");
+}
+
+/// An eccentric helical gear: normals turn with the helix, so that a pitch taken by the normal pressure angle alone would
+/// be too small by cos(beta). About its axis a tooth is off by e sin(psi) / cos(alpha_t), alpha_t at the place's radius.
+#[test]
+fn scatter_finds_the_pitch_of_an_eccentric_helical_gear() {
+    const ECCENTRICITY_UM: f64 = 40.0;
+    let settings = [
+        "gear.teeth=15",
+        "gear.helix_angle_deg=30",
+        "gear.hand='right'",
+        "gear.face_width_mm=4",
+        "gear.profile_shift_coefficient=0.3",
+        "tool.hob.starts=1",
+        "operation.finish.axial_feed_mm_per_revolution=1",
+        "mounting.eccentricity_um=40",
+    ];
+    let settings: Vec<String> = settings.map(str::to_owned).to_vec();
+    let scene = process::load(Path::new("scenes/hobbing/circular_spur.toml"), &settings).expect("a scene").scene;
+    let flank = FlankWish { tooth: 1, side: Side::Left };
+    let values = measure(&scene, flank, &Cpu::default()).expect("a gear");
+    let of = |key: &str| {
+        let number = NUMBERS.iter().position(|number| number.key == key).expect("a number");
+        values[number].expect("a value")
+    };
+    let mut place_mm = 0.0;
+    let mut find = |gear: &dyn GearJob| {
+        let middle_mm = 0.5 * gear.evaluated_profile_mm(1, Side::Left)?.iter().sum::<f64>();
+        let (known_mm, rows) = gear.target_points(1, Side::Left, 0.01, &[0.0])?;
+        place_mm = rows[0][known_mm.partition_point(|&mm| mm < middle_mm)].origin_mm.truncate().length();
+        Ok(())
+    };
+    process::prepare(&scene).and_then(|job| job.with_gear(&mut find)).expect("a job");
+    let base_mm = 0.5 * scene.gear.transverse_module_mm() * 15.0 * scene.gear.transverse_pressure_angle_rad().cos();
+    let wanted_um = 2.0 * ECCENTRICITY_UM / (base_mm / place_mm);
+    // Of fifteen teeth none needs to stand at the top of the wave: the range is cos(pi / 30) of it at least.
+    let found_um = of("F_p");
+    println!("F_p {found_um} um, {wanted_um} um by hand");
+    assert!((0.99..1.01).contains(&(found_um / wanted_um)), "{found_um} um, {wanted_um} um expected");
 }
