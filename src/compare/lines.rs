@@ -15,6 +15,8 @@ const PLACES: [&str; 3] = ["tooth", "center_profile", "center_lead"];
 pub(super) struct Line {
     /// Path in the tree; the key alone in the headline.
     pub name: String,
+    /// What people call it.
+    pub title: String,
     /// How far up the first result that has it shows it.
     pub level: Level,
     /// One per result, in order; none where it has no such path.
@@ -29,7 +31,8 @@ pub(super) fn lines(results: &[Compared]) -> Vec<Line> {
         for (index, one) in results.iter().enumerate() {
             for (name, entry) in named(&one.findings, headline) {
                 let line = *at.entry(name.clone()).or_insert_with(|| {
-                    lines.push(Line { name, level: entry.level, quantities: vec![None; results.len()] });
+                    let (title, quantities) = (entry.heading(), vec![None; results.len()]);
+                    lines.push(Line { name, title, level: entry.level, quantities });
                     lines.len() - 1
                 });
                 lines[line].quantities[index] = Some(entry.quantity.clone());

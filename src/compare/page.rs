@@ -6,6 +6,7 @@
 use super::lines::Line;
 use super::maps::MapSheet;
 use super::{Comparison, ranked};
+use crate::findings::warning::count_words;
 use crate::findings::{Level, Warning, unit};
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
@@ -57,6 +58,10 @@ pub(super) fn page(
         ),
     ];
     let stopped = of.results.iter().filter(|one| !one.findings.complete);
+    let stopped = stopped.map(|one| Warning::warn(format!("{} was stopped before all flanks were cut", one.name)));
+    // A page without a word of them would call results with faults sound.
+    let warned = of.results.iter().filter(|one| !one.findings.warnings.is_empty());
+    let warned = warned.map(|one| Warning::note(format!("{} has {}", one.name, count_words(&one.findings.warnings))));
     Page {
         what: "comparison",
         done: "compared",
@@ -66,9 +71,7 @@ pub(super) fn page(
         complete: true,
         program: format!("gearcut {}", env!("CARGO_PKG_VERSION")),
         key_numbers: first.iter().take(HEAD).map(|line| key_number(of, line)).collect(),
-        warnings: stopped
-            .map(|one| Warning::warn(format!("{} was stopped before all flanks were cut", one.name)))
-            .collect(),
+        warnings: stopped.chain(warned).collect(),
         viewer: None,
         sections: sections.into_iter().filter(|section| !section.blocks.is_empty()).collect(),
     }
@@ -93,11 +96,15 @@ fn key_number(of: &Comparison, line: &Line) -> KeyNumber {
     let cells: Vec<String> = rows[1].iter().map(|cell| signs(cell)).collect();
     let values = &cells[1..=of.results.len()];
     KeyNumber {
-        name: cells[0].clone(),
+        name: line.title.clone(),
         value: values.join(" \u{2192} "),
         unit: cells[cells.len() - 1].clone(),
         definition: line.either().map_or_else(String::new, |quantity| quantity.definition().to_owned()),
-        note: String::new(),
+        note: if line.name == line.key() {
+            String::new()
+        } else {
+            line.name.replace('.', " \u{203a} ").replace('_', " ")
+        },
         place: None,
     }
 }
