@@ -63,6 +63,7 @@ pub fn after(
 ) -> Vec<Warning> {
     let mut warnings = forces(job, chips);
     warnings.extend(below_target(report));
+    warnings.extend(unsettled(report));
     let untouched = report.flanks.iter().map(|flank| flank.untouched).sum();
     warnings.extend(work.warnings(untouched, "part of the flanks is still the blank"));
     if let Some(blank) = blank {
@@ -171,6 +172,17 @@ fn below_target(report: &GearReport) -> Vec<Warning> {
         )));
     }
     warnings
+}
+
+/// Flanks that cross the pitch curve nowhere that can be stated.
+fn unsettled(report: &GearReport) -> Option<Warning> {
+    let (tooth, side) = report.unsettled.first()?;
+    Some(Warning::fault(format!(
+        "{} flanks jump where they meet the pitch curve, first that of tooth {tooth} {}: their pitch, thickness and \
+         allowance are not known",
+        report.unsettled.len(),
+        side.name()
+    )))
 }
 
 /// Return strokes that enter surfaces that stay.
