@@ -57,9 +57,17 @@ pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport
     let teeth = job.scene.gear.teeth;
     let last = job.operations.len() - 1;
     let mut unsettled = BTreeSet::new();
+    let lost: BTreeSet<(u32, Side)> =
+        flanks.iter().filter(|flank| flank.own.is_lost).map(|flank| (flank.tooth, flank.side)).collect();
+    // Where a flank is cut away, what strokes leave elsewhere is not its crossing.
     let mut crossings_of = |operation: usize, surface: CrossedSurface| {
-        let found = crossings(job, operation, surface);
-        unsettled.extend(found.unsettled);
+        let mut found = crossings(job, operation, surface);
+        if surface != CrossedSurface::Envelope {
+            for &(tooth, side) in &lost {
+                found.teeth[tooth as usize - 1][usize::from(side == Side::Right)] = None;
+            }
+        }
+        unsettled.extend(found.unsettled.into_iter().filter(|flank| !lost.contains(flank)));
         found.teeth
     };
     let envelope = crossings_of(last, CrossedSurface::Envelope);

@@ -112,9 +112,9 @@ pub fn crossings(job: &ShapingJob, operation: usize, surface: CrossedSurface) ->
             })
         })
         .collect();
-    let sides = (1_u32..).zip(&found).flat_map(|(tooth, [left, right])| {
-        [(tooth, Side::Left, left.is_err()), (tooth, Side::Right, right.is_err())]
-    });
+    let sides = (1_u32..)
+        .zip(&found)
+        .flat_map(|(tooth, [left, right])| [(tooth, Side::Left, left.is_err()), (tooth, Side::Right, right.is_err())]);
     let unsettled = sides.filter(|of| of.2).map(|(tooth, side, _)| (tooth, side)).collect();
     Crossings { teeth: found.into_iter().map(|tooth| tooth.map(|side| side.ok().flatten())).collect(), unsettled }
 }
