@@ -26,7 +26,8 @@ const UPPER_SHARE: f64 = 0.1;
 
 /// A blade's region, through its body to the tool's axis, as a polygon in the blade frame.
 struct Region {
-    nodes_mm: Vec<DVec2>,
+    /// Its corners, mm.
+    outline: Vec<DVec2>,
     center_mm: DVec2,
     radius_mm: f64,
 }
@@ -36,9 +37,9 @@ impl Region {
         if p.distance(self.center_mm) > self.radius_mm {
             return false;
         }
-        let before = self.nodes_mm.iter().cycle().skip(self.nodes_mm.len() - 1);
+        let before = self.outline.iter().cycle().skip(self.outline.len() - 1);
         let crossed = before
-            .zip(&self.nodes_mm)
+            .zip(&self.outline)
             .filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x));
         crossed.count() % 2 == 1
     }
@@ -62,11 +63,11 @@ pub fn lower(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool, layer: &
                 tooth.placed(&Rigid2::new(0.0, DVec2::ZERO), &mut PlacedScratch::default()).nodes_mm().to_vec();
             let center_mm = 0.5 * edge.center_mm;
             let radius_mm = nodes_mm.iter().map(|node| node.distance(center_mm)).fold(0.0, f64::max);
-            Region { nodes_mm, center_mm, radius_mm }
+            Region { outline: nodes_mm, center_mm, radius_mm }
         })
         .collect();
     // Inside of all edges: the body alone.
-    let body_mm = regions.iter().flat_map(|region| &region.nodes_mm).map(|node| node.length()).filter(|r| *r > 1e-6);
+    let body_mm = regions.iter().flat_map(|region| &region.outline).map(|node| node.length()).filter(|r| *r > 1e-6);
     let body_mm = body_mm.fold(f64::INFINITY, f64::min);
     let near = near_passes(strokes, tool, center_mm, reach_mm);
     let mount_mm = tool.tool_from_blade(0).translation_mm;

@@ -146,8 +146,8 @@ fn program(b_sign: f64, change: impl Fn(u32) -> f64) -> String {
         let work_deg = 360.0 / f64::from(STROKES) * f64::from(stroke);
         format!("X{} C{} B{}", 66.0 + change(stroke), -work_deg, b_sign * work_deg * 24.0 / 20.0)
     };
-    let lines = (1..STROKES).map(|stroke| format!("G93 G1 {} F400\n", place(stroke))).collect::<String>();
-    format!("G21 G90 G94\nG0 {}\nS400 M3\n{lines}M5\nM30\n", place(0))
+    let lines: Vec<String> = (1..STROKES).map(|stroke| format!("G93 G1 {} F400", place(stroke))).collect();
+    format!("G21 G90 G94\nG0 {}\nS400 M3\n{}\nM5\nM30\n", place(0), lines.join("\n"))
 }
 
 /// Cuts the round scene by a program; the gear must be told to be damaged, and everything must be there.
