@@ -205,7 +205,7 @@ fn cut(linkage: &str, settings: &[String]) -> Found<Gear> {
             Ok(finished.evaluation.value("Sa").ok_or("no Sa")?)
         })
         .collect::<Found<Vec<f64>>>()?;
-    let (rough, finish) = (crossings(&job, 0, CrossedSurface::Strokes)?, crossings(&job, 1, CrossedSurface::Strokes)?);
+    let [rough, finish] = [0, 1].map(|operation| crossings(&job, operation, CrossedSurface::Strokes).teeth);
     let period = allowances(&rough, &finish).into_iter().take(PERIOD);
     let uneven = summarise(period.map(|tooth| tooth.unevenness_mean_percent())).ok_or("no allowance")?;
     let (short, long) = sa_um.split_at(2 * TEETH.len());

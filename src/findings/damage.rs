@@ -46,22 +46,29 @@ pub fn damage(
 }
 
 /// What is said of cuts below the target: a fault where they are gouges, deeper than `gouge_mm`. `by` says what made
-/// one.
-pub fn warning(places: &[Damage], gouge_mm: f64, by: impl Fn(&Damage) -> String) -> Option<Warning> {
+/// one; `flank_mm` is the deepest cut that the rays of flanks found, which stand closer than the blank's: the deeper of
+/// both is graded.
+pub fn warning(places: &[Damage], flank_mm: f64, gouge_mm: f64, by: impl Fn(&Damage) -> String) -> Option<Warning> {
     let deepest = places.iter().max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm))?;
     let [depth_um, gouge_um] = [deepest.depth_mm, gouge_mm].map(|mm| UM_PER_MM * mm);
     let place = format!("tooth {} {}, {}", deepest.place.tooth, deepest.place.side.name(), deepest.place.zone.name());
     let (count, by) = (places.len(), by(deepest));
     let sides = if count == 1 { "1 side of a tooth is".to_owned() } else { format!("{count} sides of teeth are") };
-    Some(if deepest.depth_mm > gouge_mm {
+    let flanks_um = format!("{:.1}", UM_PER_MM * flank_mm);
+    let on_flanks = if flank_mm > deepest.depth_mm && flanks_um != format!("{depth_um:.1}") {
+        format!(", rays of flanks say {flanks_um} um")
+    } else {
+        String::new()
+    };
+    Some(if deepest.depth_mm.max(flank_mm) > gouge_mm {
         Warning::fault(format!(
-            "{sides} cut below the target: {by} gouged {place} by {depth_um:.1} um; a gouge is deeper than \
+            "{sides} cut below the target: {by} gouged {place} by {depth_um:.1} um{on_flanks}; a gouge is deeper than \
              {gouge_um:.1} um"
         ))
     } else {
         Warning::warn(format!(
-            "{sides} cut below the target, by {depth_um:.1} um at most ({by}, {place}): deviations, no gouges, which \
-             are deeper than {gouge_um:.1} um"
+            "{sides} cut below the target, by {depth_um:.1} um at most ({by}, {place}){on_flanks}: deviations, no \
+             gouges, which are deeper than {gouge_um:.1} um"
         ))
     })
 }
@@ -83,10 +90,7 @@ pub fn damage_table(pass: [TableColumn; 2], rows: impl IntoIterator<Item = Vec<D
     let none = "a stroke has no place on the gear";
     let number = |key, unit, definition| TableColumn::new(key, unit, definition).or(none);
     let mut columns = vec![
-        TableColumn::words(
-            "kind",
-            "what is wrong: a deviation, a gouge, interference, rubbing on the way back, a faulty stroke",
-        ),
+        TableColumn::words("kind", "what is wrong: a deviation, a gouge, interference, rubbing on the way back"),
         TableColumn::words("operation", "operation that did it"),
         TableColumn::new("tooth", "1", "tooth, from 1"),
         TableColumn::words("side", "side of the tooth: left or right"),

@@ -72,11 +72,11 @@ impl<const N: usize> Reader<'_, N> {
                 ('G', _) => return refuse("this G is not read; known are G0, G1, G21, G90, G93, G94"),
                 ('M', 20 | 300) => self.ended = true,
                 ('M', _) => return refuse("this M is not read; known are M2, M30"),
-                ('F', _) if word.number > 0.0 => per_minute = Some(word.number),
+                ('F', _) if word.number > 0.0 => per_minute = Some(word.rate()?),
                 ('F', _) => return refuse("a feed must be above zero"),
                 (letter, _) => match self.axes.iter().position(|axis| axis.letter == letter) {
                     Some(axis) => {
-                        self.position[axis] = Some(word.number);
+                        self.position[axis] = Some(word.position(self.axes[axis].kind)?);
                         moves = true;
                     }
                     None => {

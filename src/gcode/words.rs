@@ -1,4 +1,18 @@
-//! Words of a program: letters with numbers, block by block, comments left out.
+//! Words of a program: letters with numbers, block by block, comments left out; and how large the numbers may be.
+//!
+//! A number that no machine has is refused where it is read: behind it distances overflow, and nothing that is said of
+//! the program is true.
+
+use crate::machine::AxisKind;
+use std::ops::RangeInclusive;
+
+/// Largest magnitude of a position along an axis, mm: some ten times the largest gears that are cut.
+const MOST_MM: f64 = 1e5;
+/// Largest magnitude of an angle, deg: a degree for each of the strokes that a scene may have, a hundred times over. An
+/// f64 still tells 1e-7 deg there.
+const MOST_DEG: f64 = 1e9;
+/// Speeds, feeds and times of a program, in their units: wide of anything that turns, far from overflow.
+const RATES: RangeInclusive<f64> = 1e-9..=1e9;
 
 /// A word: letter, number, and the text for messages.
 pub struct Word<'a> {
@@ -8,6 +22,37 @@ pub struct Word<'a> {
     pub number: f64,
     /// As it stands in the program.
     pub text: &'a str,
+}
+
+impl Word<'_> {
+    /// Its number as a position of an axis, mm or deg.
+    ///
+    /// # Errors
+    /// No machine goes there.
+    pub fn position(&self, kind: AxisKind) -> Result<f64, String> {
+        let (most, unit) = match kind {
+            AxisKind::Linear => (MOST_MM, "mm"),
+            AxisKind::Rotary => (MOST_DEG, "deg"),
+        };
+        if self.number.abs() <= most {
+            Ok(self.number)
+        } else {
+            Err(self.beyond(&format!("{:e} to {most:e} {unit}", -most)))
+        }
+    }
+
+    /// Its number as a speed, a feed or a time, above zero.
+    ///
+    /// # Errors
+    /// It is so small or large that what follows from it has no end.
+    pub fn rate(&self) -> Result<f64, String> {
+        let [least, most] = [RATES.start(), RATES.end()];
+        if RATES.contains(&self.number) { Ok(self.number) } else { Err(self.beyond(&format!("{least:e} to {most:e}"))) }
+    }
+
+    fn beyond(&self, range: &str) -> String {
+        format!("word `{}`: the number {:e} is out of range; {range} is allowed", cut(self.text), self.number)
+    }
 }
 
 /// Takes block after block; `block` tells whether the program has ended. Gives the number of lines, and whether an end

@@ -59,7 +59,8 @@ fn header(file: &MeshFile) -> String {
     for scalar in &mesh.scalars {
         line(&format!("comment {} [{}]: {}", scalar.name, scalar.unit, scalar.definition));
     }
-    for part in &mesh.parts {
+    // A part of a gear that is cut away has no triangles.
+    for part in mesh.parts.iter().filter(|part| !part.triangles.is_empty()) {
         line(&format!("comment triangles {} to {}: {}", part.triangles.start, part.triangles.end - 1, part.name));
     }
     line(&format!("element vertex {}", mesh.positions_mm.len()));

@@ -18,7 +18,8 @@ use gearcut_core::gear::GearKind;
 pub const SIZES: &str = "round_gear";
 /// Key of the figures.
 pub const INSPECTION: &str = "inspection";
-const NOT_MEASURED: &str = "it was not measured: a flank was not cut completely or does not cross the pitch curve";
+const NOT_MEASURED: &str =
+    "it was not measured: a flank was not cut completely, is cut away, or does not cross the pitch curve";
 
 /// What an inspector says of a cut gear.
 pub struct Inspected {

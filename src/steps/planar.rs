@@ -10,7 +10,7 @@
 pub mod blank;
 pub mod blank_findings;
 pub mod blank_report;
-pub mod stroke_faults;
+mod covered;
 
 use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, rows_z_mm};
 use crate::scene::Scene;
@@ -188,6 +188,7 @@ impl PlanarGear<'_> {
             let plan = CutPlan::new(field, operation.strokes, self.tool);
             let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
             stats += backend.cut(field, &plan, &mut layer)?;
+            covered::lower(field, operation.strokes, self.tool, &mut layer);
             layers.push(layer);
         }
         Ok((layers, stats))

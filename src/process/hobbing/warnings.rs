@@ -187,6 +187,6 @@ fn damaged(job: &HobbingJob, report: &HobbedBlankReport) -> Vec<Warning> {
     let gouge_mm = gouge_mm(job.scene.gear.module_mm);
     [&report.gouges, &report.interference]
         .into_iter()
-        .filter_map(|places| damage::warning(places, gouge_mm, by))
+        .filter_map(|places| damage::warning(places, 0.0, gouge_mm, by))
         .collect()
 }

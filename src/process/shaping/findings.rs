@@ -30,7 +30,7 @@ use gearcut_core::units::UM_PER_MM;
 use operation::operation;
 
 /// Why there is no pitch deviation.
-const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve";
+const NOT_CROSSED: &str = "a flank was not cut, is cut away, or does not cross the pitch curve";
 
 /// Operations, deviations and teeth; errors of the machine, and what was known of a ring before cutting.
 ///
@@ -45,7 +45,9 @@ pub fn sections(
     let operations = (0..job.operations.len()).map(|index| operation(job, report, ledger, &motion[index], index));
     let operations: Vec<Section> = operations.collect::<Result<_, _>>()?;
     let period = "teeth after which the pitch curve repeats: the first period of tables and charts";
-    let teeth: Vec<Section> = (1..=job.scene.gear.teeth).map(|tooth| teeth::finished_tooth(report, tooth)).collect();
+    let other_gear = program::not_of_the_gear(job, motion);
+    let tooth = |tooth| teeth::finished_tooth(report, tooth, other_gear.as_deref());
+    let teeth: Vec<Section> = (1..=job.scene.gear.teeth).map(tooth).collect();
     let flank_table = tables::flanks(&report.flanks, &operations[..operations.len() - 1], &teeth);
     let sections = [
         Section::new("operations", "Operations").parts(operations),

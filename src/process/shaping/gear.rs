@@ -71,7 +71,7 @@ pub fn cut_gear(
     let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
     let roots = cut_roots(job, backend, needs_surfaces(job, parts) && !cut.work.interrupted)?;
     let (root_reports, roots): (Vec<RootReport>, Vec<Option<SurfaceGrid>>) = roots.into_iter().unzip();
-    let report = gear_report::measure(job, cut.reports, root_reports)?;
+    let report = gear_report::measure(job, cut.reports, root_reports);
     let roots = roots.into_iter().flatten().collect();
     let work = Work { elapsed: started.elapsed(), ..cut.work };
     Ok(CutGear { report, chips, maps: cut.maps, surfaces: cut.surfaces, pictured: cut.pictured, roots, work })

@@ -48,7 +48,10 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let mut attempts = Attempts::new(progress);
     let textures = texture::measure(job, &windows, backend, progress, interrupt);
     let textures = attempts.of("texture", textures)?.unwrap_or_default();
-    let whole = if gear.work.interrupted { None } else { blank::cut(job, backend, progress, interrupt)? };
+    let blank = if gear.work.interrupted { Ok(None) } else { blank::cut(job, backend, progress, interrupt) };
+    let blank = attempts.of("whole blank", blank)?;
+    let mut interrupted = matches!(blank, Some(None));
+    let whole = blank.flatten();
     let motion = OperationAxes::of_job(job);
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion)?;
     let inspected = Inspected::new(job, &gear.report.flanks, &gear.report.inspection)?;
@@ -74,9 +77,8 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     if parts.has(Part::Texture) {
         attempts.of("files of texture", texture::write(job, &textures, folder, notes))?;
     }
-    let mut interrupted = whole.is_none();
-    if let Some((cut, _)) = &whole {
-        if parts.has(Part::Meshes) {
+    if !interrupted {
+        if let Some((cut, _)) = whole.as_ref().filter(|_| parts.has(Part::Meshes)) {
             attempts.of("mesh of the blank", meshes::write_blank(job, cut, folder))?;
         }
         let (flanks, roots) = (take(&mut gear.surfaces), take(&mut gear.roots));

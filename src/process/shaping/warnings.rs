@@ -6,14 +6,15 @@
 
 use super::chips::ChipLedger;
 use super::findings::{program, returns, ring};
-use super::measure::GearReport;
 use super::measure::below_finished::below_finished;
+use super::measure::{FlankReport, GearReport};
 use super::scene::model::Retraction;
 use super::tooth_facts::{self, ToothFacts};
 use super::{ShapingJob, axes_report::OperationAxes};
 use crate::findings::warning::ranked;
 use crate::findings::{Section, Warning};
 use crate::measure::damage::gouge_mm;
+use crate::measure::stock::Extreme;
 use crate::output::text::significant;
 use crate::steps::planar::blank_findings;
 use crate::steps::planar::blank_report::BlankReport;
@@ -62,11 +63,17 @@ pub fn after(
     blank: Option<&BlankReport>,
 ) -> Vec<Warning> {
     let mut warnings = forces(job, chips);
-    warnings.extend(below_target(report));
+    let depth_mm = deepest_evaluated(report).map_or(0.0, |(_, deepest)| -deepest.value_mm);
+    // The blank names what made the damage; where it says nothing, the flanks do.
+    if !blank.is_some_and(|blank| !blank.gouges.is_empty() || !blank.interference.is_empty()) {
+        warnings.extend(below_target(job, report));
+    }
+    warnings.extend(beyond_record(report));
+    warnings.extend(unsettled(report));
     let untouched = report.flanks.iter().map(|flank| flank.untouched).sum();
     warnings.extend(work.warnings(untouched, "part of the flanks is still the blank"));
     if let Some(blank) = blank {
-        warnings.extend(blank_findings::warnings(&job.planar(), blank));
+        warnings.extend(blank_findings::warnings(&job.planar(), blank, depth_mm));
         warnings.extend(rubbing(job, blank));
     }
     warnings
@@ -148,30 +155,61 @@ fn forces(job: &ShapingJob, chips: &ChipLedger) -> Vec<Warning> {
     warnings
 }
 
-/// Flanks whose heights lie below the target, and those that their rays do not tell to the end.
-fn below_target(report: &GearReport) -> Vec<Warning> {
-    let mut warnings = Vec::new();
+/// Dexels that do not tell how deep they were cut.
+fn beyond_record(report: &GearReport) -> Option<Warning> {
     let below: u64 = report.flanks.iter().map(|f| f.own.below_range).sum();
-    if below > 0 {
-        warnings.push(Warning::warn(format!(
-            "{below} dexels were cut deeper than their rays record: heights there are upper bounds"
-        )));
-    }
-    let cuts = || report.flanks.iter().filter_map(|flank| Some((flank, flank.own.undercut?)));
-    let deep = || cuts().filter(|(_, deepest)| deepest.value_mm < -BELOW_TARGET_MM);
-    if let Some((flank, deepest)) = deep().min_by(|a, b| a.1.value_mm.total_cmp(&b.1.value_mm)) {
-        let at_least = if flank.own.below_range > 0 { "at least " } else { "" };
-        warnings.push(Warning::warn(format!(
-            "{} flanks are cut below the target, tooth {} {} by {at_least}{} um, {:.2} mm above the start of the \
-             involute",
-            deep().count(),
-            flank.tooth,
-            flank.side.name(),
-            significant(-deepest.value_mm * UM_PER_MM, 3),
-            deepest.arc_mm
-        )));
-    }
-    warnings
+    (below > 0).then(|| {
+        Warning::warn(format!("{below} dexels were cut deeper than their rays record: heights there are upper bounds"))
+    })
+}
+
+/// The flank that is cut deepest below the target, and where.
+fn deepest_below(report: &GearReport) -> Option<(&FlankReport, Extreme)> {
+    let cuts = report.flanks.iter().filter_map(|flank| Some((flank, flank.own.undercut?)));
+    cuts.min_by(|a, b| a.1.value_mm.total_cmp(&b.1.value_mm))
+}
+
+/// The same on evaluated profiles: below them an undercut belongs to the gear as it is generated.
+fn deepest_evaluated(report: &GearReport) -> Option<(&FlankReport, Extreme)> {
+    let lowest = |flank: &FlankReport| {
+        if flank.own.is_lost { flank.own.undercut } else { flank.own.finished.map(|[lowest, _]| lowest) }
+    };
+    let cuts = report.flanks.iter().filter_map(|flank| Some((flank, lowest(flank)?)));
+    cuts.min_by(|a, b| a.1.value_mm.total_cmp(&b.1.value_mm))
+}
+
+/// Flanks whose heights lie below the target: a fault where an evaluated profile has a gouge.
+fn below_target(job: &ShapingJob, report: &GearReport) -> Option<Warning> {
+    let gouge_mm = gouge_mm(job.scene.gear.module_mm);
+    let gouge = deepest_evaluated(report).filter(|(_, deepest)| -deepest.value_mm > gouge_mm);
+    let is_gouge = gouge.is_some();
+    let deepest = gouge.or_else(|| deepest_below(report));
+    let (flank, deepest) = deepest.filter(|(_, deepest)| deepest.value_mm < -BELOW_TARGET_MM)?;
+    let cut = report.flanks.iter().filter_map(|flank| flank.own.undercut);
+    let count = cut.filter(|deepest| deepest.value_mm < -BELOW_TARGET_MM).count();
+    let at_least = if flank.own.below_range > 0 { "at least " } else { "" };
+    let text = format!(
+        "{count} flanks are cut below the target, tooth {} {} by {at_least}{} um, {:.2} mm above the start of the \
+         involute: {}deeper than {} um",
+        flank.tooth,
+        flank.side.name(),
+        significant(-deepest.value_mm * UM_PER_MM, 3),
+        deepest.arc_mm,
+        if is_gouge { "a gouge is " } else { "on evaluated profiles a gouge is " },
+        significant(gouge_mm * UM_PER_MM, 3)
+    );
+    Some(if is_gouge { Warning::fault(text) } else { Warning::warn(text) })
+}
+
+/// Flanks that cross the pitch curve nowhere that can be stated.
+fn unsettled(report: &GearReport) -> Option<Warning> {
+    let (tooth, side) = report.unsettled.first()?;
+    Some(Warning::fault(format!(
+        "{} flanks jump where they meet the pitch curve, first that of tooth {tooth} {}: their pitch, thickness and \
+         allowance are not known",
+        report.unsettled.len(),
+        side.name()
+    )))
 }
 
 /// Return strokes that enter surfaces that stay.

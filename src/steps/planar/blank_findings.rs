@@ -1,4 +1,4 @@
-//! The whole gear, from rays through the blank: volumes, damage, rubbing, strokes.
+//! The whole gear, from rays through the blank: volumes, damage, rubbing.
 
 use super::PlanarGear;
 use super::blank_report::BlankReport;
@@ -8,11 +8,7 @@ use crate::measure::damage::{Damage, gouge_mm};
 use crate::steps::whole_blank::{self, mean};
 use gearcut_core::cut::CutBlank;
 use gearcut_core::gear::GearKind;
-use gearcut_core::terms::Side;
 
-/// What is counted.
-const STROKE_FAULTS: &str = "strokes that are missing, did not cut or were made twice, told from what each stroke \
-                             removed; operations whose chips are smaller than ten cells of the grid are not judged";
 /// Why there is no target.
 const NO_TARGET: &str = "the target's outline is not known in closed form: the cutter's base shapes the tips";
 
@@ -25,11 +21,6 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
     };
     let rubbing =
         |stays: bool| -> Vec<Damage> { report.rubbing.iter().filter(|r| r.stays == stays).map(|r| r.damage).collect() };
-    let faults = if report.strokes_judged.contains(&true) {
-        Quantity::count(report.stroke_faults.len() as u64, "strokes", STROKE_FAULTS)
-    } else {
-        Quantity::undefined("strokes", STROKE_FAULTS, "no operation takes chips as large as ten cells of the grid")
-    };
     let slices = (cut.field.slices.len(), "transverse sections; one stands for the whole face where all are equal");
     let volumes = [report.blank_mm3, report.left_mm3];
     whole_blank::findings(gear.blank.kind(), cut.field.grid.spacing_mm(), slices, volumes, &report.operations)
@@ -59,7 +50,6 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
                  outline along the rays",
             ),
         )
-        .shown("stroke_faults", "faulty strokes", faults)
         .with("gouge_from", gouge_from(gear.scene.gear.module_mm))
         .with(
             "ray_passes_visited",
@@ -94,8 +84,8 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
         ))
 }
 
-/// What a reader must know of damage and strokes.
-pub fn warnings(gear: &PlanarGear, report: &BlankReport) -> Vec<Warning> {
+/// What a reader must know of damage; `flank_mm` is the deepest cut below the target on the rays of flanks.
+pub fn warnings(gear: &PlanarGear, report: &BlankReport, flank_mm: f64) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let gouge_mm = gouge_mm(gear.scene.gear.module_mm);
     let name = |operation: usize| gear.operations[operation].name;
@@ -103,23 +93,16 @@ pub fn warnings(gear: &PlanarGear, report: &BlankReport) -> Vec<Warning> {
     if report.end_face.is_none() {
         warnings.push(Warning::note(format!("cuts below the target are not looked for: {NO_TARGET}")));
     }
-    for places in [&report.gouges, &report.interference] {
-        warnings.extend(damage::warning(places, gouge_mm, by));
-    }
-    if let Some(first) = report.stroke_faults.first() {
-        warnings.push(Warning::warn(format!(
-            "{} strokes seem to be missing, made twice or without a cut, from what each removed: the first is stroke \
-             {} of operation {} ({})",
-            report.stroke_faults.len(),
-            first.fault.stroke,
-            name(first.operation),
-            first.fault.kind.name().replace('_', " ")
-        )));
+    // The rays of flanks do not say which operation it was: the deeper damage of the blank is taken for theirs.
+    let depth_mm = |places: &[Damage]| places.iter().map(|d| d.depth_mm).fold(0.0, f64::max);
+    let interferes = depth_mm(&report.interference) > depth_mm(&report.gouges);
+    for (places, is_deeper) in [(&report.gouges, !interferes), (&report.interference, interferes)] {
+        warnings.extend(damage::warning(places, if is_deeper { flank_mm } else { 0.0 }, gouge_mm, by));
     }
     warnings
 }
 
-/// Every place of damage, rubbing and every fault of a stroke.
+/// Every place of damage and rubbing.
 fn all_damage(gear: &PlanarGear, report: &BlankReport) -> Table {
     let row = |kind: &str, d: &Damage| {
         let mut row = damage_row(kind, gear.operations[d.operation].name, d);
@@ -131,23 +114,11 @@ fn all_damage(gear: &PlanarGear, report: &BlankReport) -> Table {
     let interference = report.interference.iter().map(|d| row(damage::kind(d, gouge_mm, "interference"), d));
     let rubbing =
         report.rubbing.iter().map(|r| row(if r.stays { "rubbing_on_gear" } else { "rubbing_on_stock" }, &r.damage));
-    let strokes = report.stroke_faults.iter().map(|f| {
-        let mut row: Vec<Datum> = vec![
-            f.fault.kind.name().into(),
-            gear.operations[f.operation].name.into(),
-            f.space.into(),
-            Side::Left.name().into(),
-            "space behind the tooth".into(),
-        ];
-        row.extend([const { Datum::Undefined }; 6]);
-        row.extend([Datum::from(f.fault.stroke as u64), Datum::Undefined]);
-        row
-    });
     let pass = [
         TableColumn::new("stroke", "1", "stroke, from 0"),
-        TableColumn::new("cutter_tooth", "1", "cutter tooth, from 0").or("the fault is the whole stroke's"),
+        TableColumn::new("cutter_tooth", "1", "cutter tooth, from 0"),
     ];
-    damage_table(pass, gouges.chain(interference).chain(rubbing).chain(strokes))
+    damage_table(pass, gouges.chain(interference).chain(rubbing))
 }
 
 /// Damage where there is no target.

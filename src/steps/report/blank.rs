@@ -1,12 +1,11 @@
-//! The whole gear from rays through the blank, on the page: volumes, gouges, interference, rubbing, faulty strokes.
+//! The whole gear from rays through the blank, on the page: volumes, gouges, interference, rubbing.
 
 use super::quantities;
 use crate::findings::{Findings, Place, Quantity, Section, unit};
 use crate::output::report::{Block, PageSection, PageTable};
 
 /// Quantities of the whole that say what was made; how the rays stand is a matter of `results.json`.
-const OF_THE_GEAR: [&str; 6] =
-    ["blank_volume", "left_volume", "end_face_area", "target_end_face_area", "stroke_faults", "gouge_from"];
+const OF_THE_GEAR: [&str; 5] = ["blank_volume", "left_volume", "end_face_area", "target_end_face_area", "gouge_from"];
 
 /// The section; none where the whole blank was not cut.
 pub fn section(found: &Findings) -> Option<PageSection> {

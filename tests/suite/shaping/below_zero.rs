@@ -61,7 +61,7 @@ fn an_oval_roughed_too_close_is_told_with_tooth_and_depth() {
         "operation.finish.strokes_per_revolution=4200",
     ];
     let job = job("scenes/shaping/elliptical_traditional.toml", &settings);
-    let of = |operation, surface| crossings(&job, operation, surface).expect("flanks");
+    let of = |operation, surface| crossings(&job, operation, surface).teeth;
     let envelope = allowances(&of(0, CrossedSurface::Envelope), &of(1, CrossedSurface::Envelope));
     let strokes = allowances(&of(0, CrossedSurface::Strokes), &of(1, CrossedSurface::OwnStrokes));
     let chords = |of: &gearcut::process::shaping::measure::unevenness::ToothAllowance| [of.ab_mm(), of.cd_mm()];

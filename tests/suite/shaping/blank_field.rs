@@ -4,6 +4,7 @@
 use crate::fixtures::clipping::clipped;
 use crate::fixtures::command::shipped_scenes;
 use crate::fixtures::paper::*;
+use crate::fixtures::stroke_faults::{StrokeFaultKind, lone_strokes};
 use gearcut::cut::CutBlank;
 use gearcut::cut::cpu::Cpu;
 use gearcut::cut::cpu::blank;
@@ -22,7 +23,6 @@ use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::scene::model::Scene;
 use gearcut::steps::planar::blank_report;
 use gearcut::steps::planar::blank_report::BlankReport;
-use gearcut::steps::planar::stroke_faults::StrokeFaultKind;
 use gearcut::surface::BlankMesh;
 use glam::DVec2;
 
@@ -160,7 +160,8 @@ fn volumes_balance_and_sections_are_the_targets() {
         // micrometres; the rest is what rays 0.1 mm apart miss.
         assert!(off_mm2.abs() < end_face.bound_mm2[f] && (0.0..0.5).contains(&off_mm2));
     }
-    assert!(clean.gouges.is_empty() && clean.interference.is_empty() && clean.stroke_faults.is_empty());
+    assert!(clean.gouges.is_empty() && clean.interference.is_empty());
+    assert!(lone_strokes(&job.planar(), &cut, &clean).is_empty());
     // A ledger without one pass is out of balance.
     let passes = &mut cut.cuts[1].removed_mm3;
     let dropped = passes.iter().position(|pass| pass[0] > 0.1).expect("some pass cuts");
@@ -265,7 +266,9 @@ fn gouges_are_found_and_named() {
             })
             .collect();
         replace_strokes(&mut job, operation, &list);
-        let report = blank_report::measure(&job.planar(), &cut(&job), Some(&target));
+        let cut = cut(&job);
+        let report = blank_report::measure(&job.planar(), &cut, Some(&target));
+        let lone = lone_strokes(&job.planar(), &cut, &report);
         let damage = if operation == 1 { &report.gouges } else { &report.interference };
         let other = if operation == 1 { &report.interference } else { &report.gouges };
         for (k, &at) in faulty.iter().enumerate() {
@@ -283,7 +286,7 @@ fn gouges_are_found_and_named() {
             found += 1;
         }
         assert!(damage.iter().all(|d| faulty.contains(&(d.stroke as u32))), "run {run}: {damage:?}");
-        assert!(other.is_empty() && report.stroke_faults.is_empty(), "run {run}: {:?}", report.stroke_faults);
+        assert!(other.is_empty() && lone.is_empty(), "run {run}: {lone:?}");
     }
     assert_eq!(found, 30);
 }
@@ -308,6 +311,7 @@ mod slow {
             let base_shapes_tips = ["fourier_concave", "internal_pair_driver"].contains(&name.as_str());
             assert_eq!(target.is_none(), base_shapes_tips, "{name}");
             let report = blank_report::measure(&job.planar(), &cut, target.as_ref());
+            let lone = lone_strokes(&job.planar(), &cut, &report);
             println!(
                 "{name}: {} slices, {} triangles, {guessed} guessed, volume {:.5} of the rays', {} gouges, {} \
                 interference, {} rubs, faults {:?}",
@@ -317,7 +321,7 @@ mod slow {
                 report.gouges.len(),
                 report.interference.len(),
                 report.rubbing.len(),
-                report.stroke_faults,
+                lone,
             );
             assert!(mesh.is_closed(), "{name}: {:?}", mesh.edge_faults());
             assert!((2.0 * volume_mm3 / (x + y) - 1.0).abs() < 1e-3, "{name}");
@@ -329,7 +333,7 @@ mod slow {
             let damage = || report.gouges.iter().chain(&report.interference);
             assert_eq!(damage().count() > 0, runout_mm > 0.0, "{name}");
             assert!(damage().all(|d| d.depth_mm < runout_mm + 5e-4), "{name}: {:?}", damage().collect::<Vec<_>>());
-            assert!(report.stroke_faults.is_empty(), "{name}: {:?}", report.stroke_faults);
+            assert!(lone.is_empty(), "{name}: {lone:?}");
         }
     }
 
@@ -344,7 +348,9 @@ mod slow {
             Shaping::of_mut(&mut scene).expect("shaping").tool.pitch_errors_mm =
                 (0..20).map(|b| if b == blade { shift_mm } else { 0.0 }).collect();
             let job = job(scene);
-            let report = blank_report::measure(&job.planar(), &cut(&job), Some(&target));
+            let cut = cut(&job);
+            let report = blank_report::measure(&job.planar(), &cut, Some(&target));
+            let lone = lone_strokes(&job.planar(), &cut, &report);
             // Cutter tooth b cuts the spaces b, b + 20, b + 40 of 42 in turn against its own count: each of them is
             // damaged on one side, as deep as the shift along the flank's normal.
             assert!(!report.gouges.is_empty(), "run {run}");
@@ -354,11 +360,7 @@ mod slow {
             let deepest = report.gouges.iter().map(|d| d.depth_mm).fold(0.0, f64::max);
             let normal_mm = shift_mm.abs() * 20_f64.to_radians().cos();
             assert!((0.8..1.3).contains(&(deepest / normal_mm)), "run {run}: {deepest} of {normal_mm}");
-            assert!(
-                report.stroke_faults.is_empty() && report.interference.is_empty(),
-                "run {run}: {:?}",
-                report.stroke_faults
-            );
+            assert!(lone.is_empty() && report.interference.is_empty(), "run {run}: {lone:?}");
         }
     }
 
@@ -384,9 +386,11 @@ mod slow {
                 list.extend(std::iter::repeat_n(Stroke { at: f64::from(at), push_mm: 0.0 }, copies));
             }
             replace_strokes(&mut job, operation, &list);
-            let report = blank_report::measure(&job.planar(), &cut(&job), Some(&target));
-            assert_eq!(report.stroke_faults.len(), 10, "run {run}: {:?}", report.stroke_faults);
-            for (k, (fault, &at)) in report.stroke_faults.iter().zip(&faulty).enumerate() {
+            let cut = cut(&job);
+            let report = blank_report::measure(&job.planar(), &cut, Some(&target));
+            let lone = lone_strokes(&job.planar(), &cut, &report);
+            assert_eq!(lone.len(), 10, "run {run}: {lone:?}");
+            for (k, (fault, &at)) in lone.iter().zip(&faulty).enumerate() {
                 // Strokes are numbered as the machine made them.
                 let shift = if doubled { k + 1 } else { 0 };
                 let expected = if doubled { at as usize + shift } else { at as usize - k };

@@ -47,11 +47,21 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
     let flanks = &report.flanks;
     let last_stock = job.operations.len().checked_sub(2);
     let stock = |flank: &FlankReport| last_stock.and_then(|index| flank.own.stock[index]);
-    let why = if last_stock.is_none() { SINGLE } else { "no flank was cut" };
     let none = "no flank was cut";
+    let why = if last_stock.is_none() {
+        SINGLE
+    } else {
+        "no flank has a stock: they were not cut or reached, or are cut away"
+    };
+    let uneven = if last_stock.is_none() { SINGLE } else { "no tooth has an allowance on both flanks" };
     let form = |flank: &FlankReport| Some(Extreme { value_mm: flank.own.form.height_mm, arc_mm: 0.0, z_mm: 0.0 });
     let scallop = |flank: &FlankReport| {
-        flank.own.scallops.map(|s| Extreme { value_mm: s.largest.height_mm, arc_mm: s.largest.arc_mm, z_mm: 0.0 })
+        // Below the target there is no height of a cusp over it.
+        flank.own.scallops.filter(|s| s.largest.height_mm >= 0.0).map(|s| Extreme {
+            value_mm: s.largest.height_mm,
+            arc_mm: s.largest.arc_mm,
+            z_mm: 0.0,
+        })
     };
     let undercut =
         flanks.iter().filter(|f| f.own.form.end == FlankEnd::Undercut || f.own.tip.end == FlankEnd::Undercut).count();
@@ -133,7 +143,8 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
                 1e3,
                 "um",
                 "normal deviation of the highest cusp between two strokes' facets on the evaluated profiles",
-                "no cusp between facets of three dexels and more was met: the dexels are too coarse for the feed",
+                "no cusp above the target between facets of three dexels and more was met: the dexels are too coarse for the \
+                 feed, or the flanks lie below the target",
             ),
         ),
         Entry::headline(
@@ -235,7 +246,7 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
             percent(
                 unevenness.map(|u| u.max_percent),
                 "largest |AB - CD| over the mean of AB and CD, all teeth, as cut",
-                why,
+                uneven,
             ),
         ),
         Entry::headline(
@@ -244,7 +255,7 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
             percent(
                 unevenness.map(|u| u.mean_percent),
                 "mean of |AB - CD| over the mean of AB and CD, all teeth, as cut",
-                why,
+                uneven,
             ),
         ),
     ]

@@ -61,7 +61,7 @@ fn flank_of(report: &GearReport, tooth: u32, side: Side) -> Option<&FlankReport>
 pub fn tooth_stock(report: &GearReport, operation: usize, tooth: u32) -> Section {
     let range = |side: Side, title: &str| {
         let stock = flank_of(report, tooth, side).and_then(|f| Some((Some(f), (*f.own.stock.get(operation)?)?)));
-        let why = "the flank was not cut or not reached";
+        let why = "the flank was not cut or not reached, or is cut away";
         stock_range(side.name(), title, &stock.into_iter().collect::<Vec<_>>(), "on the active flank", why)
     };
     Section::new(format!("tooth_{tooth:02}"), format!("tooth {tooth}"))
@@ -72,7 +72,7 @@ pub fn tooth_stock(report: &GearReport, operation: usize, tooth: u32) -> Section
 /// Allowances that an operation left, tooth by tooth, in `tables/allowance_<operation>.csv`; empty and without a file
 /// where it is the last one.
 pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, operation: &str) -> Table {
-    let missing = "a surface does not cross the pitch curve with its involute";
+    let missing = "a surface does not cross the pitch curve with its involute, or the flank is cut away";
     let mm = |key, definition| TableColumn::new(key, "mm", definition).or(missing);
     let columns = vec![
         TableColumn::new("tooth", "1", "number of the tooth, from 1"),
@@ -134,16 +134,20 @@ pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, op
     if allowance.is_some() { table.in_file(&format!("allowance_{operation}")) } else { table }
 }
 
-/// One finished tooth.
-pub fn finished_tooth(report: &GearReport, tooth: u32) -> Section {
+/// One finished tooth; `other_gear` says why what is known of the scene's own strokes does not hold for this gear.
+pub fn finished_tooth(report: &GearReport, tooth: u32, other_gear: Option<&str>) -> Section {
     let row = tooth as usize - 1;
     let thickness = report.inspection.thickness.get(row).copied().flatten();
     let mm = |value: Option<f64>, definition: &'static str, why| Quantity::number_or(value, "mm", definition, why);
-    let crossing = "a flank does not cross the pitch curve, or nothing is left between both";
+    let crossing = "a flank does not cross the pitch curve or is cut away, or nothing is left between both";
     Section::new(format!("tooth_{tooth:02}"), format!("tooth {tooth}"))
         .with(
             "tip_land",
-            mm(report.tip_lands_mm.get(row).copied(), "width of the tip between the flanks", "not computed"),
+            mm(
+                report.tip_lands_mm.get(row).copied().filter(|_| other_gear.is_none()),
+                "width of the tip between the flanks",
+                other_gear.unwrap_or("not computed"),
+            ),
         )
         .with(
             "thickness_arc",
@@ -159,7 +163,7 @@ pub fn finished_tooth(report: &GearReport, tooth: u32) -> Section {
                 report.inspection.runout.as_ref().map(|r| r.radial_mm[row] * 1e3),
                 "um",
                 "place of a probe in the space after the tooth along the pitch curve's normal, positive outwards",
-                "a flank was not cut or does not cross the pitch curve",
+                "a flank was not cut, is cut away, or does not cross the pitch curve",
             ),
         )
         .part(finished_flank(report, tooth, Side::Left))
@@ -179,7 +183,11 @@ fn end_words(end: FlankEnd) -> &'static str {
 fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
     let flank = flank_of(report, tooth, side);
     let not_cut = "the run was stopped before this flank was cut";
-    let why = |reason: &'static str| if flank.is_some() { reason } else { not_cut };
+    let why = |reason: &'static str| match flank {
+        Some(flank) if flank.own.is_lost => BELOW_RANGE,
+        Some(_) => reason,
+        None => not_cut,
+    };
     let number = |value: Option<f64>, unit: &'static str, definition: &'static str, reason: &'static str| {
         Quantity::number_or(value, unit, definition, why(reason))
     };
@@ -214,7 +222,12 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
     let pitch = report.inspection.pitch[side_index].as_ref();
     let row = tooth as usize - 1;
     let pitch_um = |value: Option<f64>, definition: &'static str| {
-        Quantity::number_or(value.map(|v| v * 1e3), "um", definition, "a flank does not cross the pitch curve")
+        Quantity::number_or(
+            value.map(|v| v * 1e3),
+            "um",
+            definition,
+            "a flank does not cross the pitch curve, or is cut away",
+        )
     };
     let finished = flank.and_then(|f| f.own.finished);
     // Where rays end inside the cut, the lowest height is where they end.

@@ -6,8 +6,8 @@
 //! the contour error that is asked for; a stroke of the schedule that no stroke of the program is, is missing. Strokes
 //! are thus counted one by one, however many of them follow each other.
 //!
-//! Road not taken: what each stroke removes from the blank ([`crate::steps::planar::stroke_faults`]). It needs no
-//! schedule, but five missing strokes in a row leave one large chip.
+//! Road not taken: what each stroke removes from the blank. It needs no schedule, but five missing strokes in a row
+//! leave one large chip, and few strokes on few teeth leave chips that differ as if one were missing between them.
 
 use super::program::{AxisProgram, Knot};
 use crate::process::shaping::linkage::StrokeSchedule;

@@ -2,6 +2,7 @@
 
 use super::program::{AxisProgram, Knot};
 use crate::gcode::{Word, blocks};
+use crate::machine::AxisKind;
 use crate::regular_file;
 use gearcut_core::error::{Error, Result};
 use std::path::Path;
@@ -40,6 +41,8 @@ struct State {
 
 /// Axis letters in the order of [`State::position`].
 const AXES: [char; 3] = ['X', 'C', 'B'];
+/// How they move.
+const KINDS: [AxisKind; 3] = [AxisKind::Linear, AxisKind::Rotary, AxisKind::Rotary];
 
 /// Axis positions of a program in the dialect of [`super`].
 ///
@@ -102,17 +105,18 @@ impl State {
                     if self.ram_runs && self.strokes_per_minute != Some(word.number) {
                         return refuse("the ram's speed changes while it runs, which is not read");
                     }
-                    self.strokes_per_minute = Some(word.number);
+                    self.strokes_per_minute = Some(word.rate()?);
                 }
                 'F' => {
                     if word.number <= 0.0 {
                         return refuse("a feed must be above zero");
                     }
-                    per_minute = Some((word.number, word.text));
+                    per_minute = Some((word.rate()?, word.text));
                 }
+                'P' if word.number > 0.0 => dwell_s = Some((word.rate()?, word.text)),
                 'P' => dwell_s = Some((word.number, word.text)),
                 letter => match AXES.iter().position(|&axis| axis == letter) {
-                    Some(axis) => target[axis] = Some(word.number),
+                    Some(axis) => target[axis] = Some(word.position(KINDS[axis])?),
                     None => {
                         return refuse(
                             "this letter is not read; axes are X (centre distance), C (work) and B (cutter)",

@@ -11,7 +11,7 @@ use crate::measure::stock::{Extreme, RESOLUTION_MM, Stock, extremes, stock};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use crate::steps::planar::CutField;
-use gearcut_core::dexel::NO_PASS;
+use gearcut_core::dexel::{Layer, NO_PASS};
 
 /// Share of the flank left out at either end when the scene does not say where profiles are evaluated, and of the face.
 const DEFAULT_MARGIN: f64 = 0.05;
@@ -66,6 +66,9 @@ pub struct ShapedFlank {
     pub witness: Option<Extreme>,
     /// Dexels that were cut deeper than their rays record.
     pub below_range: u64,
+    /// The evaluated profile was cut deeper than its rays record, half a module under the target: heights there are
+    /// upper bounds, and nothing that follows from them is stated.
+    pub is_lost: bool,
 }
 
 /// Arcs between which profiles and textures are evaluated, mm from the form point: as the scene says, else without 5 %
@@ -157,12 +160,13 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
     let lead_trace = Trace::along_tooth(field, finished, lead_column);
     let (v_first, v_last) = (field.rows_z_mm[0], field.rows_z_mm[rows - 1]);
     let v_margin = DEFAULT_MARGIN * (v_last - v_first);
-    let below_range = (0..field.columns.len())
-        .map(|column| {
-            let low = field.columns[column].low_mm as f32;
-            finished.column(column, rows).iter().filter(|&&h| h <= low).count() as u64
-        })
-        .sum();
+    let below_in = |layer: &Layer, column: usize| {
+        let low = field.columns[column].low_mm as f32;
+        layer.column(column, rows).iter().filter(|&&h| h <= low).count() as u64
+    };
+    let below_range = (0..field.columns.len()).map(|column| below_in(finished, column)).sum();
+    let is_lost =
+        (0..field.columns.len()).any(|column| inside(field.columns[column].arc_mm) && below_in(finished, column) > 0);
     // Where the involute of every earlier operation begins on this flank; its fillet stands below.
     let begins_mm: Vec<f64> = (0..layers.len() - 1).map(|operation| begins_mm(job, operation, flank)).collect();
     let arc_mm = |column: usize| field.columns[column].arc_mm;
@@ -179,21 +183,26 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
     let own = ShapedFlank {
         form: limit(0.0, flank.form_end),
         tip: limit(length_mm, flank.tip_end),
-        stock: earlier().map(|(operation, layer)| stock(field, layer, finished, active(operation))).collect(),
-        fillet_stock: earlier().map(|(operation, layer)| stock(field, layer, finished, fillet(operation))).collect(),
-        finished: evaluated,
+        stock: earlier()
+            .map(|(operation, layer)| stock(field, layer, finished, active(operation)).filter(|_| !is_lost))
+            .collect(),
+        fillet_stock: earlier()
+            .map(|(operation, layer)| stock(field, layer, finished, fillet(operation)).filter(|_| !is_lost))
+            .collect(),
+        finished: evaluated.filter(|_| !is_lost),
         undercut: deepest.filter(|low| low.value_mm < -RESOLUTION_MM),
-        scallops,
-        witness,
+        scallops: scallops.filter(|_| !is_lost),
+        witness: witness.filter(|_| !is_lost),
         below_range,
+        is_lost,
     };
     InspectedFlank {
         tooth: flank.tooth,
         side: flank.side,
         length_mm,
         evaluated_mm,
-        profile: profile_trace.deviation(evaluated_mm),
-        lead: lead_trace.deviation([v_first + v_margin, v_last - v_margin]),
+        profile: profile_trace.deviation(evaluated_mm).filter(|_| !own.is_lost),
+        lead: lead_trace.deviation([v_first + v_margin, v_last - v_margin]).filter(|_| !own.is_lost),
         profile_trace,
         lead_trace,
         untouched: finished.passes.iter().filter(|&&pass| pass == NO_PASS).count() as u64,

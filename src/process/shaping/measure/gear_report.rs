@@ -8,7 +8,8 @@ use crate::measure::inspection::GearInspection;
 use crate::measure::stock::{Stock, stock};
 use crate::process::shaping::ShapingJob;
 use crate::steps::planar::CutField;
-use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
+use std::collections::BTreeSet;
 
 /// Allowances of one operation over the finished gear.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,42 +46,54 @@ pub struct GearReport {
     pub allowances: Vec<OperationAllowance>,
     /// Pitch, runout and thickness of what the strokes leave.
     pub inspection: GearInspection,
+    /// Flanks on which what some strokes leave has no crossing with the pitch curve that can be found.
+    pub unsettled: Vec<(u32, Side)>,
     /// Teeth after which the pitch curve repeats.
     pub period_teeth: u32,
 }
 
 /// Measures what belongs to the whole gear; `flanks` and `roots` as far as they were cut.
-///
-/// # Errors
-/// What the strokes leave on some flank is not found.
-pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport>) -> Result<GearReport> {
+pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport>) -> GearReport {
     let teeth = job.scene.gear.teeth;
     let last = job.operations.len() - 1;
-    let envelope = crossings(job, last, CrossedSurface::Envelope)?;
-    let finished = crossings(job, last, CrossedSurface::Strokes)?;
+    let mut unsettled = BTreeSet::new();
+    let lost: BTreeSet<(u32, Side)> =
+        flanks.iter().filter(|flank| flank.own.is_lost).map(|flank| (flank.tooth, flank.side)).collect();
+    // Where a flank is cut away, what strokes leave elsewhere is not its crossing.
+    let mut crossings_of = |operation: usize, surface: CrossedSurface| {
+        let mut found = crossings(job, operation, surface);
+        if surface != CrossedSurface::Envelope {
+            for &(tooth, side) in &lost {
+                found.teeth[tooth as usize - 1][usize::from(side == Side::Right)] = None;
+            }
+        }
+        unsettled.extend(found.unsettled.into_iter().filter(|flank| !lost.contains(flank)));
+        found.teeth
+    };
+    let envelope = crossings_of(last, CrossedSurface::Envelope);
+    let finished = crossings_of(last, CrossedSurface::Strokes);
     // B and C of every operation: against what finishing alone leaves, cuts that went below it keep their sign. Where
     // it does not reach a flank, that is finished as it is.
-    let own = if last > 0 { crossings(job, last, CrossedSurface::OwnStrokes)? } else { Vec::new() };
+    let own = if last > 0 { crossings_of(last, CrossedSurface::OwnStrokes) } else { Vec::new() };
     let own: Vec<_> = own.iter().zip(&finished).map(|(own, all)| [own[0].or(all[0]), own[1].or(all[1])]).collect();
     let allowances = (0..last)
-        .map(|operation| {
-            Ok(OperationAllowance {
-                operation,
-                rack_mm: rack_allowance_mm(job, operation),
-                envelope: allowances(&crossings(job, operation, CrossedSurface::Envelope)?, &envelope),
-                strokes: allowances(&crossings(job, operation, CrossedSurface::Strokes)?, &own),
-            })
+        .map(|operation| OperationAllowance {
+            operation,
+            rack_mm: rack_allowance_mm(job, operation),
+            envelope: allowances(&crossings_of(operation, CrossedSurface::Envelope), &envelope),
+            strokes: allowances(&crossings_of(operation, CrossedSurface::Strokes), &own),
         })
-        .collect::<Result<_>>()?;
+        .collect();
     let [left, right] = [0, 1].map(|side| finished.iter().map(|tooth| tooth[side]).collect::<Vec<_>>());
-    Ok(GearReport {
+    GearReport {
         flanks,
         roots,
         tip_lands_mm: (1..=teeth).map(|tooth| job.target(tooth).tip_land_mm).collect(),
         allowances,
         inspection: GearInspection::of_crossings(&job.blank, [&left, &right], job.scene.gear.pressure_angle_rad),
+        unsettled: unsettled.into_iter().collect(),
         period_teeth: job.curve.period_teeth(teeth),
-    })
+    }
 }
 
 /// Stock in one root, on rays long enough.
@@ -106,7 +119,7 @@ mod tests {
         let eccentricity_mm = 0.02;
         Shaping::of_mut(&mut scene).expect("shaping").machine.errors.mounting.eccentricity_mm = eccentricity_mm;
         let job = ShapingJob::new(scene).expect("a gear");
-        let cut = crossings(&job, job.operations.len() - 1, CrossedSurface::Strokes).expect("all flanks");
+        let cut = crossings(&job, job.operations.len() - 1, CrossedSurface::Strokes).teeth;
         let [left, right] = [0, 1].map(|side| cut.iter().map(|tooth| tooth[side]).collect::<Vec<_>>());
         let alpha = job.scene.gear.pressure_angle_rad;
         let runout = runout(&job.blank, &left, &right, alpha).expect("all cross");

@@ -7,7 +7,7 @@
 use super::crossing::{envelope_crossing, stroke_crossing};
 use crate::measure::crossing::Crossing;
 use crate::process::shaping::ShapingJob;
-use gearcut_core::error::Result;
+use gearcut_core::error::NotConverged;
 use gearcut_core::terms::Side;
 use gearcut_core::units::TURN_RAD;
 use rayon::prelude::*;
@@ -81,29 +81,42 @@ fn chord_mm(from: &Crossing, to: &Crossing) -> f64 {
 /// Crossings of a tooth's left and right flank with the pitch curve.
 pub type ToothCrossings = [Option<Crossing>; 2];
 
+/// Crossings of all teeth with one surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Crossings {
+    /// Tooth by tooth; none where the surface does not cross the curve, and where its crossing is not found.
+    pub teeth: Vec<ToothCrossings>,
+    /// Flanks whose crossing is not found: the surface jumps where it meets the curve.
+    pub unsettled: Vec<(u32, Side)>,
+}
+
 /// Where the surface that an operation leaves crosses the pitch curve, tooth by tooth.
 ///
-/// # Errors
-/// What the strokes leave on some flank is not found.
-pub fn crossings(job: &ShapingJob, operation: usize, surface: CrossedSurface) -> Result<Vec<ToothCrossings>> {
+/// Strokes far off their places leave surfaces that jump along the curve; there a crossing is not defined. Such flanks
+/// are named, and the rest of the gear is measured.
+pub fn crossings(job: &ShapingJob, operation: usize, surface: CrossedSurface) -> Crossings {
     let finishing = job.operations.len() - 1;
-    (1..=job.scene.gear.teeth)
+    let found: Vec<[Result<Option<Crossing>, NotConverged>; 2]> = (1..=job.scene.gear.teeth)
         .into_par_iter()
         .map(|tooth| {
-            let on = |side: Side| -> Result<_> {
+            [Side::Left, Side::Right].map(|side| {
                 let first = match surface {
                     CrossedSurface::Envelope => return Ok(envelope_crossing(job, operation, tooth, side)),
                     CrossedSurface::Strokes => 0,
                     CrossedSurface::OwnStrokes => operation,
                 };
                 match envelope_crossing(job, finishing, tooth, side) {
-                    Some(start) => Ok(stroke_crossing(job, first..operation + 1, side, start)?),
+                    Some(start) => stroke_crossing(job, first..operation + 1, side, start),
                     None => Ok(None),
                 }
-            };
-            Ok([on(Side::Left)?, on(Side::Right)?])
+            })
         })
-        .collect()
+        .collect();
+    let sides = (1_u32..)
+        .zip(&found)
+        .flat_map(|(tooth, [left, right])| [(tooth, Side::Left, left.is_err()), (tooth, Side::Right, right.is_err())]);
+    let unsettled = sides.filter(|of| of.2).map(|(tooth, side, _)| (tooth, side)).collect();
+    Crossings { teeth: found.into_iter().map(|tooth| tooth.map(|side| side.ok().flatten())).collect(), unsettled }
 }
 
 /// Allowances of all teeth between what an operation leaves and what the finishing one leaves.
