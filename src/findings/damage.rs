@@ -67,8 +67,8 @@ pub fn warning(places: &[Damage], flank_mm: f64, gouge_mm: f64, by: impl Fn(&Dam
         ))
     } else {
         Warning::warn(format!(
-            "{sides} cut below the target, by {depth_um:.1} um at most ({by}, {place}){on_flanks}: deviations, no gouges, which are \
-             deeper than {gouge_um:.1} um"
+            "{sides} cut below the target, by {depth_um:.1} um at most ({by}, {place}){on_flanks}: deviations, no gouges, which \
+             are deeper than {gouge_um:.1} um"
         ))
     })
 }
