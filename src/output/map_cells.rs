@@ -1,8 +1,8 @@
 //! Cells of a map: which dexels are theirs, and what is shown of these.
 //!
-//! In: places of dexels and of the map, layers of dexels. Out: for each cell the dexels that are nearer to its place than
-//! to another one, their highest and mean height and their latest pass, and the columns whose chips are followed. One
-//! look at every dexel gives all of it: a gear has a hundred million.
+//! In: places of dexels and of the map, layers of dexels. Out: for each cell the dexels that are nearer to its place
+//! than to another one, their highest and mean height and their latest pass, and the columns whose chips are followed.
+//! One look at every dexel gives all of it: a gear has a hundred million.
 
 use super::grid::MapAxis;
 use gearcut_core::dexel::{Layer, NO_PASS};

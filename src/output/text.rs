@@ -38,9 +38,9 @@ impl Sheet {
         let _ = writeln!(self.text, "  {words}");
     }
 
-    /// A table, indented under the heading: words to the left, numbers to the right, as wide as their widest cell. Where
-    /// lines would be too long, the first row, which names the columns, is broken between words, and columns stand
-    /// closer.
+    /// A table, indented under the heading: words to the left, numbers to the right, as wide as their widest cell.
+    /// Where lines would be too long, the first row, which names the columns, is broken between words, and columns
+    /// stand closer.
     pub fn table(&mut self, rows: &[Vec<String>]) {
         let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
         let width = |rows: &[Vec<String>], column: usize| {

@@ -4,8 +4,8 @@
 //!
 //! The window of texture is 0.25 mm long in both directions in the middle of the evaluated profile and of the face;
 //! its form is taken off by a polynomial of second order. Profile and helix are lines through that place. Pitch and
-//! stock are means of normal deviations over 0.25 mm of profile there, as a ball would feel them: single rays of a rough
-//! flank would give its roughness. For pitch they are turned into shifts along the circle through the place.
+//! stock are means of normal deviations over 0.25 mm of profile there, as a ball would feel them: single rays of a
+//! rough flank would give its roughness. For pitch they are turned into shifts along the circle through the place.
 
 use super::FlankWish;
 use crate::findings::TableColumn;

@@ -25,14 +25,14 @@ const PROBES: usize = 9;
 const UPPER_SHARE: f64 = 0.1;
 
 /// A blade's region, through its body to the tool's axis, as a polygon in the blade frame.
-struct Region {
+struct BladeRegion {
     /// Its corners, mm.
     outline: Vec<DVec2>,
     center_mm: DVec2,
     radius_mm: f64,
 }
 
-impl Region {
+impl BladeRegion {
     fn holds(&self, p: DVec2) -> bool {
         if p.distance(self.center_mm) > self.radius_mm {
             return false;
@@ -53,7 +53,7 @@ pub fn lower(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool, layer: &
         |column: &Column| [UPPER_SHARE * column.low_mm, column.low_mm].map(|h| column.origin_mm + h * column.normal);
     let center_mm = ends(middle)[1];
     let reach_mm = columns.iter().flat_map(ends).map(|end| end.distance(center_mm)).fold(0.0, f64::max);
-    let regions: Vec<Region> = tool
+    let regions: Vec<BladeRegion> = tool
         .edges()
         .edges()
         .iter()
@@ -63,7 +63,7 @@ pub fn lower(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool, layer: &
                 tooth.placed(&Rigid2::new(0.0, DVec2::ZERO), &mut PlacedScratch::default()).nodes_mm().to_vec();
             let center_mm = 0.5 * edge.center_mm;
             let radius_mm = nodes_mm.iter().map(|node| node.distance(center_mm)).fold(0.0, f64::max);
-            Region { outline: nodes_mm, center_mm, radius_mm }
+            BladeRegion { outline: nodes_mm, center_mm, radius_mm }
         })
         .collect();
     // Inside of all edges: the body alone.

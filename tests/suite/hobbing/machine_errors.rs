@@ -265,8 +265,9 @@ fn waves_that_are_too_short_are_refused() {
     assert!(refused.contains("machine.errors.hob") && refused.contains("9.0 waves"), "{refused}");
 }
 
-/// An eccentric helical gear: normals turn with the helix, so that a pitch taken by the normal pressure angle alone would
-/// be too small by cos(beta). About its axis a tooth is off by e sin(psi) / cos(alpha_t), alpha_t at the place's radius.
+/// An eccentric helical gear: normals turn with the helix, so that a pitch taken by the normal pressure angle alone
+/// would be too small by cos(beta). About its axis a tooth is off by e sin(psi) / cos(alpha_t), alpha_t at the place's
+/// radius.
 #[test]
 fn scatter_finds_the_pitch_of_an_eccentric_helical_gear() {
     const ECCENTRICITY_UM: f64 = 40.0;

@@ -53,7 +53,7 @@ pub fn layers(job: &ShapingJob, field: &Field, rounding: &EdgeRounding) -> (Vec<
 }
 
 /// Which passes are followed.
-struct Choice {
+struct PassChoice {
     /// The first bound, from what is surely left and the thickness of the thinnest chip, mm.
     first_bound_mm: fn(f64, f64) -> f64,
     /// Those of an operation's passes that may come below a bound.
@@ -61,13 +61,13 @@ struct Choice {
 }
 
 /// Those that are needed.
-const NEEDED: Choice = Choice {
+const NEEDED: PassChoice = PassChoice {
     first_bound_mm: |left_mm, chip_mm| left_mm + chip_mm,
     passes: |column, passes, bound_mm| column.reaching_below(passes, bound_mm),
 };
 
 /// The same with other passes.
-fn surfaces_of(job: &ShapingJob, field: &Field, rounding: &EdgeRounding, choice: &Choice) -> Ploughed {
+fn surfaces_of(job: &ShapingJob, field: &Field, rounding: &EdgeRounding, choice: &PassChoice) -> Ploughed {
     let passes = FieldPasses::new(job, field);
     let of_column = |ray: &Column| {
         let mut column = passes.over(ray);
@@ -159,10 +159,11 @@ mod tests {
     }
 
     /// Brute force: all passes, from the surface that the operation found.
-    const ALL: Choice = Choice { first_bound_mm: |_, _| f64::INFINITY, passes: |column, passes, _| column.all(passes) };
+    const ALL: PassChoice =
+        PassChoice { first_bound_mm: |_, _| f64::INFINITY, passes: |column, passes, _| column.all(passes) };
 
     /// How many surfaces differ, as bits, from those of all passes; and how many passes were looked at.
-    fn compared(job: &ShapingJob, rounding: &EdgeRounding, choice: &Choice) -> (usize, [u64; 2]) {
+    fn compared(job: &ShapingJob, rounding: &EdgeRounding, choice: &PassChoice) -> (usize, [u64; 2]) {
         let (mut differing, mut looked) = (0, [0, 0]);
         for (tooth, side) in [(1, Side::Left), (8, Side::Right)] {
             let field = job.flank_field(job.target_flank(tooth, side));
@@ -226,7 +227,7 @@ mod tests {
     fn a_pass_that_is_forgotten_is_noticed() {
         let job = job(PAPER, &["operation.finish.strokes_per_revolution=1260"]);
         let rounding = EdgeRounding { radius_mm: 0.005, minimum_chip_share: 0.3, recovery_share: 1.0 };
-        let forgetful = Choice {
+        let forgetful = PassChoice {
             passes: |column, passes, bound_mm| {
                 let below = column.reaching_below(passes, bound_mm).into_iter();
                 below.filter(|pass| pass.near % 5 != 0).collect()

@@ -143,8 +143,8 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
                 1e3,
                 "um",
                 "normal deviation of the highest cusp between two strokes' facets on the evaluated profiles",
-                "no cusp above the target between facets of three dexels and more was met: the dexels are too coarse for \
-                 the feed, or the flanks lie below the target",
+                "no cusp above the target between facets of three dexels and more was met: the dexels are too coarse \
+                 for the feed, or the flanks lie below the target",
             ),
         ),
         Entry::headline(
