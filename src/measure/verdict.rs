@@ -105,7 +105,9 @@ impl GearVerdict {
             helix_angle_rad: round.helix_angle_rad,
         });
         let no_class = match &sizes {
-            None => Some("the classes of ISO 1328-1 are for round gears".to_owned()),
+            None => {
+                Some("the classes of ISO 1328-1 are for round gears whose flanks reach the pitch circle".to_owned())
+            }
             Some(sizes) => sizes.beyond(),
         };
         let judged = |figure: InspectionFigure| {
