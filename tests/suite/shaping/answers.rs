@@ -49,10 +49,10 @@ fn check_answers_what_is_asked_of_a_ring() {
         "tip corners                   0.99",
         "limit of the module           11.12 mm",
         "retraction angle              9.81",
-        "share of the limit",
-        "printed condition, share",
+        "Along the curve: largest cutter, radius of curvature, limit of the module",
+        "Along the curve: undercut",
         "on the way out",
-        "left set back",
+        "how far the base sets the tip back",
     ]);
 }
 
