@@ -41,7 +41,7 @@ impl Comparison {
             let mut row = vec![line.name.replace('_', " ")];
             row.extend(line.quantities.iter().map(|quantity| printed(quantity.as_ref())));
             if two {
-                let number = |value: Option<f64>| value.map_or_else(String::new, |value| significant(value, 4));
+                let number = |value: Option<f64>| value.map_or_else(String::new, shown);
                 row.extend(line.differences().chain(line.ratios()).map(number));
             }
             row.push(match line.either().and_then(Quantity::unit) {
@@ -52,6 +52,13 @@ impl Comparison {
         });
         [titles].into_iter().chain(rows).collect()
     }
+}
+
+/// A value this small is rounding in every unit that results have, and so is a ratio; the exact one is in the file.
+const ROUNDING: f64 = 1e-9;
+
+fn shown(value: f64) -> String {
+    if value.abs() < ROUNDING { "0".to_owned() } else { significant(value, 4) }
 }
 
 fn cells(line: &Line) -> Vec<Datum> {
@@ -69,7 +76,7 @@ fn cells(line: &Line) -> Vec<Datum> {
 fn printed(quantity: Option<&Quantity>) -> String {
     let Some(quantity) = quantity else { return "none".to_owned() };
     match (quantity.value(), quantity.words()) {
-        (Some(value), _) => significant(value, 4),
+        (Some(value), _) => shown(value),
         // Places are told at length in the file.
         (None, Some(words)) if words.chars().count() > LONGEST_WORDS => "told in the file".to_owned(),
         (None, Some(words)) => words.to_owned(),
