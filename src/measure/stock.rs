@@ -55,6 +55,12 @@ pub fn extremes(
             }
         }
     }
+    places(field, [low, high])
+}
+
+/// Lowest and highest value with their dexels as extremes; `None` where no dexel had one.
+fn places(field: &Field, [low, high]: [(f32, usize); 2]) -> Option<[Extreme; 2]> {
+    let rows = field.rows();
     let place = |(value, index): (f32, usize)| Extreme {
         value_mm: f64::from(value),
         arc_mm: field.columns[index / rows].arc_mm,
@@ -67,15 +73,30 @@ pub fn extremes(
 /// nothing there. Where the later operation takes nothing because the earlier one has cut below the target, the stock
 /// is minus that depth.
 pub fn stock(field: &Field, earlier: &Layer, later: &Layer, column_counts: impl Fn(usize) -> bool) -> Option<Stock> {
-    let at = |index: usize| {
-        let (before, after) = (earlier.heights_mm[index], later.heights_mm[index]);
-        let untaken = earlier.passes[index] == later.passes[index];
-        let below = untaken && f64::from(before) < -RESOLUTION_MM;
-        (earlier.passes[index] != NO_PASS).then_some(if below { before } else { before - after })
-    };
     let rows = field.rows();
-    let [smallest, largest] = extremes(field, &column_counts, at)?;
-    let chosen = || (0..field.len()).filter(|index| column_counts(index / rows));
-    let (sum, dexels) = chosen().filter_map(at).fold((0.0, 0_u64), |(sum, n), value| (sum + f64::from(value), n + 1));
-    Some(Stock { smallest, largest, mean_mm: sum / dexels as f64, dexels, untouched: chosen().count() as u64 - dexels })
+    let (mut low, mut high) = ((f32::INFINITY, 0), (f32::NEG_INFINITY, 0));
+    let (mut sum, mut dexels, mut untouched) = (0.0, 0, 0);
+    // One look at every dexel: a gear has a hundred million.
+    for column in (0..field.columns.len()).filter(|&column| column_counts(column)) {
+        for index in column * rows..(column + 1) * rows {
+            let pass = earlier.passes[index];
+            if pass == NO_PASS {
+                untouched += 1;
+                continue;
+            }
+            let (before, after) = (earlier.heights_mm[index], later.heights_mm[index]);
+            let below = pass == later.passes[index] && f64::from(before) < -RESOLUTION_MM;
+            let value = if below { before } else { before - after };
+            sum += f64::from(value);
+            dexels += 1;
+            if value < low.0 {
+                low = (value, index);
+            }
+            if value > high.0 {
+                high = (value, index);
+            }
+        }
+    }
+    let [smallest, largest] = places(field, [low, high])?;
+    Some(Stock { smallest, largest, mean_mm: sum / dexels as f64, dexels, untouched })
 }

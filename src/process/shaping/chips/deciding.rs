@@ -7,172 +7,18 @@
 //!
 //! Bounds of the height that a pass leaves on the column's rays choose. Most passes need none: few come close to the
 //! surface that is left, and one look at the edge says of the others that they stay above it. What is left is bounded
-//! first by a pass in sixteen; then each pass is asked once. The chips equal those of all passes bit for bit (test in
-//! [`super::flank`]). Road not taken: halving the rows of a column with bounds of their own. They cost more than a look
-//! at the edge for each row (75 s for 60 s on the paper's gear with the feed going on).
+//! first by the pass that lies lowest on the column before and by a pass in sixteen; then each pass is asked once, and
+//! most are answered for by the group of columns ([`super::column_group`]). The chips equal those of all passes bit for
+//! bit (test in [`super::flank`]). Road not taken: halving the rows of a column with bounds of their own. They cost more
+//! than a look at the edge for each row (75 s for 60 s on the paper's gear with the feed going on).
 
-use crate::process::shaping::{PreparedOperation, ShapingJob};
-use arrayvec::ArrayVec;
-use gearcut_core::dexel::field::{Column, Field};
-use gearcut_core::frame::Rigid2;
-use gearcut_core::passes::planar::near::{MAX_PHASES, NearPass, near_passes};
-use gearcut_core::tool::edge::{Edge, Segment, SegmentShape};
-use glam::DVec2;
+use super::column_group::ColumnGroup;
+use super::segments::{Near, Reaching, SegmentSet, Segments};
+use gearcut_core::dexel::field::Column;
 use std::ops::Range;
 
-/// Hits this far beyond a segment's end still count, as in the kernels, mm.
-pub(super) const END_OVERLAP_MM: f64 = 1e-9;
-/// What the bounds of a pass's heights are widened by, mm.
-const TOLERANCE_MM: f64 = 1e-6;
 /// One pass in so many is asked first: the one next to the lowest stands a few micrometres above it.
 const STRIDE: usize = 16;
-
-/// One pass that comes near the field.
-pub(super) struct Near {
-    pub operation: usize,
-    pub stroke: usize,
-    pub blade: u32,
-    /// Poses of the work in the blade frame at both ends and in the middle of its travel along the face, or the only
-    /// one.
-    blade_from_work: ArrayVec<Rigid2, MAX_PHASES>,
-    /// How far the blade moves meanwhile, mm.
-    travel_mm: f64,
-}
-
-/// A set of the blade's segments, one bit each.
-pub(super) type SegmentSet = u64;
-
-/// A pass whose edge can meet a column's rays.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Reaching {
-    /// Place among the passes near the field.
-    pub near: usize,
-    /// Segments that can meet the rays.
-    pub segments: SegmentSet,
-    /// Lowest and highest height that the pass leaves on any of the column's rays, mm; the highest is infinite where it
-    /// may miss one.
-    heights_mm: [f64; 2],
-}
-
-/// A segment of the smooth edge that all blades share.
-pub(super) struct SharedSegment<'a> {
-    segment: &'a Segment,
-    pub segment_from_blade: Rigid2,
-    /// How far blades stay within it along x, mm.
-    depth_mm: f64,
-}
-
-/// The blades' segments.
-pub(super) struct Segments<'a> {
-    edge: &'a Edge,
-    parts: Vec<SharedSegment<'a>>,
-    /// Largest depth of all parts, mm.
-    depth_mm: f64,
-}
-
-impl<'a> Segments<'a> {
-    /// Those of a smooth edge, and how far the edges of blades, segment by segment, stay within it: none for blades
-    /// that are smooth themselves.
-    pub fn new(edge: &'a Edge, of_blades: &[Edge]) -> Self {
-        let part = |(index, segment): (usize, &'a Segment)| {
-            let depth_mm = of_blades.iter().map(|edge| edge.segments[index].depth_mm()).fold(0.0, f64::max);
-            SharedSegment { segment, segment_from_blade: segment.blade_from_segment.inverse(), depth_mm }
-        };
-        let parts: Vec<SharedSegment> = edge.segments.iter().enumerate().map(part).collect();
-        let depth_mm = parts.iter().map(|part| part.depth_mm).fold(0.0, f64::max);
-        Self { edge, parts, depth_mm }
-    }
-
-    /// The segments of a set, with their places in the edge.
-    pub fn of(&self, set: SegmentSet) -> impl Iterator<Item = (usize, &SharedSegment<'a>)> {
-        self.parts.iter().enumerate().filter(move |(index, _)| set & (1 << index) != 0)
-    }
-
-    /// Segments whose places across a column's rays lie in their range somewhere along a pass.
-    fn meeting(&self, pass: &Near, ray: &Column) -> SegmentSet {
-        let mut set = 0;
-        for blade_from_work in &pass.blade_from_work {
-            let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
-            let reach_mm = self.edge.reach_mm + self.depth_mm + pass.travel_mm;
-            if direction.perp_dot(self.edge.center_mm - origin).abs() > reach_mm {
-                continue;
-            }
-            for (index, SharedSegment { segment, segment_from_blade, .. }) in self.parts.iter().enumerate() {
-                let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
-                let ends = [2.0 * ray.low_mm, ray.blank_mm].map(|h| o.y + h * n.y);
-                let [from, to] = [segment.y_range_mm[0] - pass.travel_mm, segment.y_range_mm[1] + pass.travel_mm];
-                if ends[0].max(ends[1]) >= from - END_OVERLAP_MM && ends[0].min(ends[1]) <= to + END_OVERLAP_MM {
-                    set |= 1 << index;
-                }
-            }
-        }
-        set
-    }
-
-    /// A pass over a column: which segments can meet its rays, and how high it leaves them.
-    ///
-    /// The tool lies inside each of its flanks and lands with the tangents at their ends, for its edge is convex: it
-    /// enters no lower than the highest of their entries, nor lower than all those of the segments that the rays can
-    /// meet (others are not looked at), and just there if that one lies on its segment. Between the phases at which
-    /// this is looked at heights follow a parabola nearly, which passes its samples by an eighth of their second
-    /// difference; half of it is allowed for. Rough edges stay within their depth of the smooth ones.
-    fn reaching(&self, near: usize, pass: &Near, ray: &Column, segments: SegmentSet) -> Option<Reaching> {
-        let at_phases =
-            pass.blade_from_work.iter().map(|blade_from_work| self.entry_mm(blade_from_work, ray, segments));
-        let samples: ArrayVec<[f64; 2], MAX_PHASES> = at_phases.collect();
-        // Below twice the ray's lowest height nothing is recorded.
-        if samples.iter().all(|s| !s[0].is_finite() || s[0] <= 2.0 * ray.low_mm) {
-            return None;
-        }
-        let bend = |bound: usize| match samples.as_slice() {
-            [a, b, c] if [a, b, c].iter().all(|s| s[bound].is_finite()) => (a[bound] - 2.0 * b[bound] + c[bound]).abs(),
-            _ => 0.0,
-        };
-        let low_mm = samples.iter().map(|s| s[0]).fold(f64::INFINITY, f64::min) - 0.5 * bend(0) - TOLERANCE_MM;
-        let high_mm = samples.iter().map(|s| s[1]).fold(f64::NEG_INFINITY, f64::max) + 0.5 * bend(1) + TOLERANCE_MM;
-        Some(Reaching { near, segments, heights_mm: [low_mm, high_mm].map(|h| h.max(ray.low_mm)) })
-    }
-
-    /// Whether a pass surely leaves a column's rays higher than `height_mm`: at every phase it is looked at they run
-    /// into each of its segments from there on, by one look at the edge instead of a root.
-    fn stays_above(&self, pass: &Near, ray: &Column, segments: SegmentSet, height_mm: f64) -> bool {
-        self.of(segments).all(|(_, SharedSegment { segment, segment_from_blade, depth_mm })| {
-            let mut residuals_mm: ArrayVec<f64, MAX_PHASES> = ArrayVec::new();
-            for blade_from_work in &pass.blade_from_work {
-                let o = segment_from_blade.point(blade_from_work.point(ray.origin_mm));
-                let n = segment_from_blade.direction(blade_from_work.direction(ray.normal));
-                let Some(residual_mm) = residual_mm(segment, o, n, height_mm) else { return false };
-                residuals_mm.push(residual_mm);
-            }
-            let bend_mm = if let [a, b, c] = residuals_mm[..] { (a - 2.0 * b + c).abs() } else { 0.0 };
-            residuals_mm.iter().all(|&residual_mm| residual_mm > 0.5 * bend_mm + TOLERANCE_MM + depth_mm)
-        })
-    }
-
-    /// Bounds of the height at which a ray enters the tool through one of the given segments: no lower than the first
-    /// (infinite: it does not), and the second if it surely enters.
-    fn entry_mm(&self, blade_from_work: &Rigid2, ray: &Column, set: SegmentSet) -> [f64; 2] {
-        let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
-        let (mut inside_mm, mut lowest_mm, mut sure_mm) = (f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY);
-        for (_, SharedSegment { segment, segment_from_blade, depth_mm }) in self.of(set) {
-            let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
-            let [from, to] = segment.y_range_mm;
-            // The edge as far out as any blade's, and as far in.
-            let out = DVec2::new(*depth_mm, 0.0);
-            let Some(hit) = segment.enter(o - out, n) else { continue };
-            let on_segment = (from..=to).contains(&hit.y_mm);
-            // The whole circle of a corner's arc lies in the tool, not round it.
-            if on_segment || matches!(segment.shape, SegmentShape::Table(_)) {
-                inside_mm = inside_mm.max(hit.height_mm);
-            }
-            lowest_mm = lowest_mm.min(hit.height_mm);
-            let deepest = if *depth_mm > 0.0 { segment.enter(o + out, n) } else { Some(hit) };
-            let sure = deepest.filter(|hit| (from..=to).contains(&hit.y_mm) && hit.height_mm > 2.0 * ray.low_mm);
-            sure_mm = sure.map_or(sure_mm, |hit| sure_mm.min(hit.height_mm));
-        }
-        [lowest_mm.max(inside_mm), sure_mm]
-    }
-}
 
 /// What is known of a pass over a column.
 #[derive(Debug, Clone, Copy)]
@@ -192,26 +38,35 @@ pub(super) struct ColumnPasses<'a> {
     segments: &'a Segments<'a>,
     near: &'a [Near],
     ray: &'a Column,
+    group: &'a mut ColumnGroup,
     looks: Vec<Look>,
 }
 
 impl<'a> ColumnPasses<'a> {
-    pub fn new(segments: &'a Segments<'a>, near: &'a [Near], ray: &'a Column) -> Self {
-        Self { segments, near, ray, looks: vec![Look::None; near.len()] }
+    /// A column of a group.
+    pub fn new(segments: &'a Segments<'a>, near: &'a [Near], ray: &'a Column, group: &'a mut ColumnGroup) -> Self {
+        Self { segments, near, ray, group, looks: vec![Look::None; near.len()] }
     }
 
     /// A pass's bounds, unless it misses the column or surely stays above a height.
     fn below(&mut self, pass: usize, height_mm: f64) -> Option<Reaching> {
-        let near = &self.near[pass];
-        let set = match self.looks[pass] {
-            Look::None => self.segments.meeting(near, self.ray),
-            Look::Above(set, above_mm) if above_mm < height_mm => set,
-            Look::Misses | Look::Above(..) => return None,
+        match self.looks[pass] {
+            Look::Misses => return None,
+            Look::Above(_, above_mm) if above_mm >= height_mm => return None,
             Look::Bounded(reaching) => return Some(reaching),
+            Look::None | Look::Above(..) => {}
+        }
+        let near = &self.near[pass];
+        if self.group.stays_above(self.segments, pass, near, height_mm) {
+            return None;
+        }
+        let set = match self.looks[pass] {
+            Look::Above(set, _) => set,
+            _ => self.segments.meeting(near, self.ray, 0.0),
         };
         let (look, reaching) = if set == 0 {
             (Look::Misses, None)
-        } else if self.segments.stays_above(near, self.ray, set, height_mm) {
+        } else if self.segments.stays_above(near, self.ray, set, height_mm, 0.0) {
             (Look::Above(set, height_mm), None)
         } else {
             let reaching = self.segments.reaching(pass, near, self.ray, set);
@@ -222,16 +77,24 @@ impl<'a> ColumnPasses<'a> {
     }
 
     /// The lowest that any of some passes surely leaves, asked in their order: those that stay above it need no bounds.
-    fn surely_left_mm(&mut self, passes: impl Iterator<Item = usize>, from_mm: f64) -> f64 {
-        passes.fold(from_mm, |left_mm, pass| {
-            self.below(pass, left_mm).map_or(left_mm, |reaching| left_mm.min(reaching.heights_mm[1]))
+    /// With it the pass that leaves it, if it lies below `from_mm`.
+    fn surely_left_mm(&mut self, passes: impl Iterator<Item = usize>, from_mm: f64) -> (f64, Option<usize>) {
+        passes.fold((from_mm, None), |(left_mm, by), pass| match self.below(pass, left_mm) {
+            Some(reaching) if reaching.heights_mm[1] < left_mm => (reaching.heights_mm[1], Some(pass)),
+            _ => (left_mm, by),
         })
     }
 
     /// The lowest that any of some passes surely leaves, or `from_mm`.
     pub fn surely_left_by(&mut self, passes: Range<usize>, from_mm: f64) -> f64 {
-        let coarse_mm = self.surely_left_mm(passes.clone().step_by(STRIDE), from_mm);
-        self.surely_left_mm(passes, coarse_mm)
+        let before = self.group.lowest_pass(&passes);
+        let first = before.into_iter().chain(passes.clone().step_by(STRIDE));
+        let (coarse_mm, by_coarse) = self.surely_left_mm(first, from_mm);
+        let (left_mm, by) = self.surely_left_mm(passes.clone(), coarse_mm);
+        if let Some(lowest) = by.or(by_coarse) {
+            self.group.is_lowest(&passes, lowest);
+        }
+        left_mm
     }
 
     /// Those of some passes that may come as low as a height on any of the column's rays.
@@ -245,7 +108,7 @@ impl<'a> ColumnPasses<'a> {
     pub fn all(&self, passes: Range<usize>) -> Vec<Reaching> {
         let bounds = |pass: usize| {
             let near = &self.near[pass];
-            let set = self.segments.meeting(near, self.ray);
+            let set = self.segments.meeting(near, self.ray, 0.0);
             if set == 0 { None } else { self.segments.reaching(pass, near, self.ray, set) }
         };
         passes.filter_map(bounds).collect()
@@ -259,43 +122,7 @@ pub(super) fn deciding(column: &mut ColumnPasses, end: usize) -> Vec<Reaching> {
     let ruling = column.looks[..end].iter().position(may_rule).zip(column.looks[..end].iter().rposition(may_rule));
     let Some((first, last)) = ruling else { return Vec::new() };
     // The surface that the first of them meets was left shortly before.
-    let before_mm = column.surely_left_mm((0..first).rev(), column.ray.blank_mm);
+    let before_mm = column.surely_left_mm((0..first).rev(), column.ray.blank_mm).0;
     let asked = (0..=last).filter_map(|pass| column.below(pass, before_mm));
     asked.filter(|pass| pass.heights_mm[0] <= before_mm).collect()
-}
-
-/// All passes of all operations near a field, in order of time.
-pub(super) fn passes_near(job: &ShapingJob, field: &Field) -> Vec<Near> {
-    let (center_mm, reach_mm) = Field::circle(&field.columns);
-    let of_operation = |(operation, prepared): (usize, &PreparedOperation)| {
-        let near = near_passes(&prepared.strokes, &job.cutter, center_mm, reach_mm);
-        near.into_iter().map(move |pass| {
-            let middle = *pass.middle();
-            let motion_mm = |pose: &Rigid2| {
-                let turn = (pose.rotation - middle.rotation).length();
-                pose.point(center_mm).distance(middle.point(center_mm)) + turn * reach_mm
-            };
-            let travel_mm = pass.blade_from_work.iter().map(motion_mm).fold(0.0, f64::max);
-            let NearPass { stroke, blade, blade_from_work } = pass;
-            Near { operation, stroke, blade, blade_from_work, travel_mm }
-        })
-    };
-    job.operations.iter().enumerate().flat_map(of_operation).collect()
-}
-
-/// How far a ray stands in front of a segment at a height, mm, if it runs into the segment from there on; negative
-/// behind it. Segments are convex, and so is this in the height: where it is positive the ray enters higher up, if at
-/// all.
-pub(super) fn residual_mm(segment: &Segment, o: DVec2, n: DVec2, height_mm: f64) -> Option<f64> {
-    let at = o + height_mm * n;
-    match segment.shape {
-        SegmentShape::Table(_) => {
-            let [x, slope] = segment.x_and_slope(at.y);
-            (n.x < slope * n.y).then_some(at.x - x)
-        }
-        SegmentShape::Arc { radius_mm } => {
-            let from_center = at + DVec2::new(radius_mm, 0.0);
-            (n.dot(from_center) < 0.0).then(|| from_center.length() - radius_mm)
-        }
-    }
 }

@@ -17,13 +17,15 @@
 //! target (c is four times the height of a scallop, t at most a half on the surface that is left), so thickness runs
 //! from 0 at one end of a facet through c in its middle to 2 c at the other.
 
-use super::deciding::{ColumnPasses, Reaching, deciding};
+use super::column_group::ColumnGroup;
+use super::deciding::{ColumnPasses, deciding};
 use super::ploughing;
-use super::rays::{FieldPasses, RaySurface};
+use super::rays::{Chosen, FieldPasses, RaySurface};
+use super::segments::Reaching;
 use crate::measure::LastChips;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_polygon::EdgeSide;
-use gearcut_core::dexel::field::Field;
+use gearcut_core::dexel::field::{Column, Field};
 
 /// Part of the edge as maps have it: 0 for none.
 pub fn side_code(side: Option<EdgeSide>) -> u32 {
@@ -49,25 +51,48 @@ fn last_chips_of(
 ) -> Vec<LastChips> {
     let passes = FieldPasses::of_smooth_edges(job, field);
     let mut after: Vec<Vec<RaySurface>> = vec![Vec::new(); job.operations.len()];
-    for ray in &field.columns {
-        let mut column = passes.over(ray);
-        for (operation, after) in after.iter_mut().enumerate() {
-            let chosen = passes.chosen(choose(&mut column, passes.of_operation(operation).end));
-            for row in passes.rows() {
-                let mut surface = RaySurface::uncut(ray);
-                for pass in &chosen {
-                    let Some(entry) = passes.entry(pass, row, ray, surface.height_mm) else { continue };
-                    let height_mm = entry.height_mm.max(ray.low_mm);
-                    if height_mm < surface.height_mm {
-                        let thickness_mm = (surface.height_mm - height_mm) * entry.cosine;
-                        surface = RaySurface { height_mm, thickness_mm, side: Some(entry.side), pass: pass.id };
-                    }
-                }
-                after.push(surface);
+    for columns in ColumnGroup::groups(&field.columns) {
+        let mut group = passes.group(columns);
+        for ray in columns {
+            let mut column = passes.over(&mut group, ray);
+            for (operation, after) in after.iter_mut().enumerate() {
+                let chosen = passes.chosen(choose(&mut column, passes.of_operation(operation).end));
+                let mut likely = chosen.len() / 2;
+                after.extend(passes.rows().map(|row| last_cut(&passes, &chosen, row, ray, &mut likely)));
             }
         }
     }
     after.into_iter().map(|surfaces| last_chips_on(&surfaces, passes.copies)).collect()
+}
+
+/// What some passes leave on a ray in a row: the first of those that come lowest, and before it the surface of those
+/// before it. Asked first is `likely`, the one of the row before, so that a look at the edge tells of most others that
+/// they stay above; the last one found takes its place.
+fn last_cut(passes: &FieldPasses, chosen: &[Chosen], row: usize, ray: &Column, likely: &mut usize) -> RaySurface {
+    let enters = |index: usize, surface_mm: f64| {
+        if chosen[index].lowest_mm >= surface_mm {
+            return None;
+        }
+        let entry = passes.entry(&chosen[index], row, ray, surface_mm)?;
+        Some((index, entry.height_mm.max(ray.low_mm), entry))
+    };
+    let uncut = RaySurface::uncut(ray);
+    let asked_first = chosen.get(*likely).and_then(|_| enters(*likely, uncut.height_mm));
+    let lowest = (0..chosen.len()).fold(asked_first, |lowest, index| {
+        let Some((by, lowest_mm, _)) = lowest else { return enters(index, uncut.height_mm) };
+        // Of those that come equally low the first one cut.
+        let surface_mm = if index < by { lowest_mm.next_up() } else { lowest_mm };
+        enters(index, surface_mm).filter(|&(_, height_mm, _)| height_mm < surface_mm).or(lowest)
+    });
+    let Some((last, height_mm, entry)) = lowest.filter(|&(_, height_mm, _)| height_mm < uncut.height_mm) else {
+        return uncut;
+    };
+    *likely = last;
+    let before_mm = (0..last).rev().fold(uncut.height_mm, |before_mm, index| {
+        enters(index, before_mm).map_or(before_mm, |(_, height_mm, _)| height_mm.min(before_mm))
+    });
+    let thickness_mm = (before_mm - height_mm) * entry.cosine;
+    RaySurface { height_mm, thickness_mm, side: Some(entry.side), pass: chosen[last].id }
 }
 
 /// What the surfaces of a section say, repeated on as many rows.

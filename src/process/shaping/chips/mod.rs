@@ -14,6 +14,7 @@
 //! chip each place of a flank was cut last. Where edges are rounded, what is left depends on the order of passes, and
 //! is found here as well.
 
+mod column_group;
 mod deciding;
 pub mod deflection;
 pub mod flank;
@@ -22,6 +23,7 @@ pub mod oblique;
 mod ploughing;
 mod rays;
 pub mod section;
+mod segments;
 mod space;
 pub mod stroke;
 

@@ -15,8 +15,10 @@
 //!
 //! Road not taken: one list of passes for all operations. The surface that an operation finds is known ray by ray.
 
-use super::deciding::{ColumnPasses, Reaching};
+use super::column_group::ColumnGroup;
+use super::deciding::ColumnPasses;
 use super::rays::{Chosen, FieldPasses, RaySurface};
+use super::segments::Reaching;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_rounding::Meeting;
 use crate::process::shaping::scene::model::EdgeRounding;
@@ -69,8 +71,8 @@ const NEEDED: PassChoice = PassChoice {
 /// The same with other passes.
 fn surfaces_of(job: &ShapingJob, field: &Field, rounding: &EdgeRounding, choice: &PassChoice) -> Ploughed {
     let passes = FieldPasses::new(job, field);
-    let of_column = |ray: &Column| {
-        let mut column = passes.over(ray);
+    let of_column = |group: &mut ColumnGroup, ray: &Column| {
+        let mut column = passes.over(group, ray);
         let mut rows = vec![RaySurface::uncut(ray); passes.rows().len()];
         let (mut after, mut looks) = (Vec::new(), 0);
         for operation in 0..job.operations.len() {
@@ -94,7 +96,12 @@ fn surfaces_of(job: &ShapingJob, field: &Field, rounding: &EdgeRounding, choice:
         }
         (after, looks)
     };
-    let columns: Vec<(Vec<Vec<RaySurface>>, u64)> = field.columns.par_iter().map(of_column).collect();
+    let of_group = |columns: &&[Column]| {
+        let mut group = passes.group(columns);
+        columns.iter().map(|ray| of_column(&mut group, ray)).collect::<Vec<_>>()
+    };
+    let groups = ColumnGroup::groups(&field.columns);
+    let columns: Vec<(Vec<Vec<RaySurface>>, u64)> = groups.par_iter().flat_map_iter(of_group).collect();
     let mut ploughed = Ploughed { after: vec![Vec::new(); job.operations.len()], copies: passes.copies, looks: 0 };
     for (of_operations, looks) in columns {
         ploughed.looks += looks;

@@ -4,9 +4,9 @@
 //! which a ray enters the cutter's tooth, in f64. Which of them are looked at, and what becomes of the surface, is for
 //! the callers: the chips that left a flank ([`super::flank`]) and edges that plough ([`super::ploughing`]).
 
-use super::deciding::{
-    ColumnPasses, END_OVERLAP_MM, Near, Reaching, SegmentSet, Segments, SharedSegment, passes_near, residual_mm,
-};
+use super::column_group::ColumnGroup;
+use super::deciding::ColumnPasses;
+use super::segments::{END_OVERLAP_MM, Near, Reaching, SegmentSet, Segments, SharedSegment, passes_near, residual_mm};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_polygon::EdgeSide;
 use gearcut_core::dexel::field::{Column, Field, NO_PASS};
@@ -55,6 +55,8 @@ pub(super) struct Chosen {
     blade: u32,
     path: StrokePath,
     segments: SegmentSet,
+    /// It leaves no ray of the column lower than this, mm.
+    pub lowest_mm: f64,
 }
 
 /// Passes near a field.
@@ -96,9 +98,14 @@ impl<'a> FieldPasses<'a> {
         }
     }
 
-    /// The passes over one column.
-    pub fn over<'b>(&'b self, ray: &'b Column) -> ColumnPasses<'b> {
-        ColumnPasses::new(&self.segments, &self.near, ray)
+    /// Nothing known yet of the passes over a group of columns.
+    pub fn group(&self, columns: &[Column]) -> ColumnGroup {
+        ColumnGroup::new(columns, self.near.len())
+    }
+
+    /// The passes over one column of a group.
+    pub fn over<'b>(&'b self, group: &'b mut ColumnGroup, ray: &'b Column) -> ColumnPasses<'b> {
+        ColumnPasses::new(&self.segments, &self.near, ray, group)
     }
 
     /// Rows that differ.
@@ -118,7 +125,7 @@ impl<'a> FieldPasses<'a> {
             let &Near { operation, stroke, blade, .. } = &self.near[reaching.near];
             let strokes = &self.job.operations[operation].strokes;
             let (id, path) = (strokes.pass_id(stroke, blade), strokes.path(stroke));
-            Chosen { id, operation, blade, path, segments: reaching.segments }
+            Chosen { id, operation, blade, path, segments: reaching.segments, lowest_mm: reaching.heights_mm[0] }
         };
         reaching.into_iter().map(ready).collect()
     }
@@ -132,10 +139,14 @@ impl<'a> FieldPasses<'a> {
         let below_mm = 2.0 * ray.low_mm;
         let mut lowest: Option<EdgeEntry> = None;
         let edge = &self.edges[pass.blade as usize % self.edges.len()];
-        for (index, SharedSegment { segment_from_blade, .. }) in self.segments.of(pass.segments) {
+        for (index, part) in self.segments.of(pass.segments) {
             let segment = &edge.segments[index];
+            let SharedSegment { segment_from_blade, .. } = part;
             let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
             if residual_mm(segment, o, n, surface_mm).is_some_and(|residual_mm| residual_mm > 0.0) {
+                if part.holds_smooth_tool() {
+                    return None;
+                }
                 continue;
             }
             let [from, to] = [segment.y_range_mm[0] - END_OVERLAP_MM, segment.y_range_mm[1] + END_OVERLAP_MM];

@@ -131,12 +131,11 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
     let operation = job.finishing();
     let count = operation.strokes.count();
     let first_ordinary = operation.schedule.plunge_count() + WITNESS_STROKES;
-    let makes_mark = |pass: u32| {
-        (pass >= operation.strokes.first_pass && pass != NO_PASS).then(|| {
-            let (stroke, _) = operation.strokes.stroke_and_blade(pass);
-            stroke < first_ordinary || stroke + WITNESS_STROKES >= count
-        })
-    };
+    // Ids grow stroke by stroke: strokes are ranges of ids, and no dexel's pass is divided by the number of blades.
+    let id = |stroke: usize| operation.strokes.pass_id(stroke, 0);
+    let ordinary = id(first_ordinary)..id(count.saturating_sub(WITNESS_STROKES));
+    let makes_mark =
+        |pass: u32| (pass >= operation.strokes.first_pass && pass != NO_PASS).then(|| !ordinary.contains(&pass));
     let highest = |mark: bool| {
         extremes(
             field,

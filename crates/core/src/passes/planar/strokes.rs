@@ -232,7 +232,7 @@ pub fn cubic_through(values: &[f64]) -> [f64; 4] {
     // Chebyshev coefficients by the discrete cosine sum over the first-kind nodes, then T0..T3 written out in powers.
     let mut chebyshev = [0.0; 4];
     for (k, coefficient) in chebyshev.iter_mut().enumerate() {
-        let sum: f64 = NODES.iter().zip(values).map(|(&node, &value)| value * chebyshev_polynomial(k, node)).sum();
+        let sum: f64 = CHEBYSHEV[k].iter().zip(values).map(|(polynomial, value)| value * polynomial).sum();
         *coefficient = sum * if k == 0 { 0.25 } else { 0.5 };
     }
     let [c0, c1, c2, c3] = chebyshev;
@@ -263,9 +263,19 @@ impl StrokePath {
     }
 }
 
-fn chebyshev_polynomial(k: usize, x: f64) -> f64 {
-    [1.0, x, 2.0 * x * x - 1.0, x * (4.0 * x * x - 3.0)][k]
-}
+/// Chebyshev polynomials T0 to T3 at the nodes: every pose of every sweep that planning looks at asks for them.
+const CHEBYSHEV: [[f64; NODES.len()]; NODES.len()] = {
+    let mut at_nodes = [[1.0; NODES.len()]; NODES.len()];
+    let mut node = 0;
+    while node < NODES.len() {
+        let x = NODES[node];
+        at_nodes[1][node] = x;
+        at_nodes[2][node] = 2.0 * x * x - 1.0;
+        at_nodes[3][node] = x * (4.0 * x * x - 3.0);
+        node += 1;
+    }
+    at_nodes
+};
 
 #[cfg(test)]
 mod tests {

@@ -92,27 +92,17 @@ impl MotionTable {
     }
 
     fn pose(&self, tool_angle_rad: f64, panels: Range<usize>) -> Rigid3 {
-        // Panels are nearly even: from where the one looked for would stand if they were.
-        let ([from, to], last) = (self.range_rad(), panels.end - 1);
-        let guess = ((tool_angle_rad - from) / (to - from) * self.panels.len() as f64) as usize;
-        let mut index = guess.clamp(panels.start, last);
-        while index > panels.start && tool_angle_rad < self.ends_rad[index] {
-            index -= 1;
-        }
-        while index < last && tool_angle_rad >= self.ends_rad[index + 1] {
-            index += 1;
-        }
-        let (start, end) = (self.ends_rad[index], self.ends_rad[index + 1]);
-        let u = (2.0 * tool_angle_rad - start - end) / (end - start);
-        let panel = &self.panels[index];
-        let mut entries = panel[TERMS - 1];
-        for term in panel[..TERMS - 1].iter().rev() {
-            for (entry, coefficient) in entries.iter_mut().zip(term) {
-                *entry = *entry * u + coefficient;
-            }
-        }
-        let [a, b, c, d, e, f, g, h, i, x, y, z] = entries;
+        let (panel, u) = panel_at(&self.ends_rad, tool_angle_rad, panels);
+        let [a, b, c, d, e, f, g, h, i, x, y, z] = horner(&self.panels[panel], u);
         Rigid3 { rotation: DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]), translation_mm: DVec3::new(x, y, z) }
+    }
+
+    /// The way of one point of the work in the head.
+    pub fn path(&self, point_mm: DVec3) -> PointPath<'_> {
+        let of_term = |[a, b, c, d, e, f, g, h, i, x, y, z]: [f64; ENTRIES]| {
+            (DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]) * point_mm + DVec3::new(x, y, z)).to_array()
+        };
+        PointPath { ends_rad: &self.ends_rad, panels: self.panels.iter().map(|panel| panel.map(of_term)).collect() }
     }
 
     /// How far a point of the work moves in the head at most per radian of the tool, mm, and how far the work turns,
@@ -152,6 +142,49 @@ impl MotionTable {
             })
             .reduce(|| 0.0, f64::max)
     }
+}
+
+/// Where a point of the work stands in the head at any tool angle: three polynomials where a pose has twelve, for who
+/// asks about one point at many angles.
+#[derive(Debug, Clone)]
+pub struct PointPath<'a> {
+    ends_rad: &'a [f64],
+    panels: Vec<[[f64; 3]; TERMS]>,
+}
+
+impl PointPath<'_> {
+    /// Place in the head, mm: that of the pose, but for rounding.
+    pub fn at(&self, tool_angle_rad: f64) -> DVec3 {
+        let (panel, u) = panel_at(self.ends_rad, tool_angle_rad, 0..self.panels.len());
+        DVec3::from_array(horner(&self.panels[panel], u))
+    }
+}
+
+/// The panel among some whose law holds at a tool angle, and where in it, -1 to 1; beyond their ends the last one.
+fn panel_at(ends_rad: &[f64], tool_angle_rad: f64, panels: Range<usize>) -> (usize, f64) {
+    // Panels are nearly even: from where the one looked for would stand if they were.
+    let (count, last) = (ends_rad.len() - 1, panels.end - 1);
+    let guess = ((tool_angle_rad - ends_rad[0]) / (ends_rad[count] - ends_rad[0]) * count as f64) as usize;
+    let mut index = guess.clamp(panels.start, last);
+    while index > panels.start && tool_angle_rad < ends_rad[index] {
+        index -= 1;
+    }
+    while index < last && tool_angle_rad >= ends_rad[index + 1] {
+        index += 1;
+    }
+    let (start, end) = (ends_rad[index], ends_rad[index + 1]);
+    (index, (2.0 * tool_angle_rad - start - end) / (end - start))
+}
+
+/// Values of polynomials in u, lowest terms first.
+fn horner<const VALUES: usize>(terms: &[[f64; VALUES]; TERMS], u: f64) -> [f64; VALUES] {
+    let mut values = terms[TERMS - 1];
+    for term in terms[..TERMS - 1].iter().rev() {
+        for (value, coefficient) in values.iter_mut().zip(term) {
+            *value = *value * u + coefficient;
+        }
+    }
+    values
 }
 
 fn entries(pose: &Rigid3) -> [f64; ENTRIES] {
@@ -210,6 +243,12 @@ mod tests {
         assert_eq!(table.pieces([0.9, 17.2]), 0..2);
         assert_eq!(table.pieces([17.3, 90.0]), 2..3);
         assert_eq!([0, 1].map(|piece| table.piece_rad(piece)), [[f64::NEG_INFINITY, 1.0], [1.0, 17.3]]);
+        for point in [DVec3::ZERO, DVec3::new(80.0, -60.0, 12.0)] {
+            let path = table.path(point);
+            for angle in (0..90).map(|i| -3.1 + 0.5 * f64::from(i)) {
+                assert!(path.at(angle).distance(table.head_from_work(angle).point(point)) < 1e-12);
+            }
+        }
         // The measure is alive: another motion is seen.
         assert!(table.error_mm(150.0, |angle| pose(angle + 1e-9)) > 1e-9);
     }

@@ -178,8 +178,9 @@ impl Sweep {
         let t_range = if from < -range && to > range { [-LARGEST_T, LARGEST_T] } else { [from, to] };
         let (mut turns, mut places) = ([[0.0; 4]; 9], [[0.0; 4]; 3]);
         let largest_u = half_angle(range)[0];
-        for (node, &share) in NODES.iter().enumerate() {
-            let delta = 2.0 * t_at(largest_u * share).atan();
+        // The nodes stand in pairs about the middle.
+        let [outer, inner] = [NODES[3], NODES[2]].map(|share| 2.0 * t_at(largest_u * share).atan());
+        for (node, delta) in [-outer, -inner, inner, outer].into_iter().enumerate() {
             let head_from_work = head_from_work(swept + delta);
             let turn = (from_head * head_from_work.rotation).to_cols_array();
             let origin = head_from_work.point(origin_mm) - DVec3::new(0.0, 0.0, place.axial_mm);

@@ -17,6 +17,7 @@
 //!
 //! [`MotionTable::largest_rates`]: super::motion::MotionTable::largest_rates
 
+use super::motion::PointPath;
 use super::sweep::LARGEST_T;
 use super::turning_passes::{BladePass, TurningPasses};
 use glam::DVec3;
@@ -59,7 +60,9 @@ pub fn near_passes(set: &TurningPasses, whole: &Ball, parts: &[Ball]) -> Vec<Bla
     let room = Room::of_blades(set);
     let moving = |ball: &Ball, within: &[[f64; 2]]| {
         let speed_mm = speed_mm + turn_rad * ball.center_mm.distance(whole.center_mm);
-        MovingBall { ball: *ball, speed_mm, near_rad: near_angles(set, &room, ball, speed_mm, within) }
+        let path = set.motion.path(ball.center_mm);
+        let near_rad = near_angles(&path, &room, ball, speed_mm, within);
+        MovingBall { ball: *ball, path, speed_mm, near_rad }
     };
     let whole = moving(whole, &[set.motion.range_rad()]);
     let parts: Vec<_> = parts.iter().map(|part| moving(part, &whole.near_rad)).collect();
@@ -70,8 +73,10 @@ pub fn near_passes(set: &TurningPasses, whole: &Ball, parts: &[Ball]) -> Vec<Bla
 }
 
 /// A ball in the work, as the head sees it.
-struct MovingBall {
+struct MovingBall<'a> {
     ball: Ball,
+    /// The way of its centre.
+    path: PointPath<'a>,
     /// How far its centre moves at most per radian of the tool, mm.
     speed_mm: f64,
     /// Tool angles at which it is in the room that the blades sweep, rad: intervals in order.
@@ -109,12 +114,12 @@ fn is_fine(half_rad: f64, ball: &Ball, speed_mm: f64) -> bool {
 
 /// Tool angles of some intervals in order at which a ball may be in the room of all blades, wherever they stand: most
 /// passes work on other teeth, and are told from these angles alone.
-fn near_angles(set: &TurningPasses, room: &Room, ball: &Ball, speed_mm: f64, within: &[[f64; 2]]) -> Vec<[f64; 2]> {
+fn near_angles(path: &PointPath, room: &Room, ball: &Ball, speed_mm: f64, within: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut near: Vec<[f64; 2]> = Vec::new();
     let mut open: Vec<[f64; 2]> = within.iter().rev().copied().collect();
     while let Some([from, to]) = open.pop() {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let at = set.motion.head_from_work(middle).point(ball.center_mm);
+        let at = path.at(middle);
         let around_mm = ball.radius_mm + speed_mm * half + MARGIN_MM;
         let distance_mm = at.truncate().length();
         if distance_mm - around_mm > room.radii_mm[1]
@@ -138,7 +143,7 @@ fn near_angles(set: &TurningPasses, room: &Room, ball: &Ball, speed_mm: f64, wit
 
 /// Whether a pass's blade may hold a point of a ball.
 fn may_hold(set: &TurningPasses, pass: &BladePass, moving: &MovingBall) -> bool {
-    let MovingBall { ball, speed_mm, near_rad } = moving;
+    let MovingBall { ball, path, speed_mm, near_rad } = moving;
     let (place, edge) = (set.place(pass), set.edge(pass));
     let middle_mm = place.radial_mm + edge.center_mm.x;
     let [innermost_mm, tip_mm] = [middle_mm - edge.reach_mm, middle_mm + edge.reach_mm];
@@ -157,7 +162,7 @@ fn may_hold(set: &TurningPasses, pass: &BladePass, moving: &MovingBall) -> bool 
         .collect();
     while let Some([from, to]) = open.pop() {
         let (swept, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let at = set.motion.head_from_work(pass.tool_angle_rad + set.turn * swept).point(ball.center_mm);
+        let at = path.at(pass.tool_angle_rad + set.turn * swept);
         let around_mm = ball.radius_mm + speed_mm * half + MARGIN_MM;
         let distance_mm = at.truncate().length();
         let y_mm = place.y_sign * (at.z - place.axial_mm);

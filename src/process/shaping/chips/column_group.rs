@@ -1,0 +1,99 @@
+//! Passes over columns that stand next to each other: most are out of the question for all of them at once.
+//!
+//! In: some columns of a field, and the passes near it, one after another, with a height. Out: whether a pass surely
+//! leaves all rays of all columns higher than that.
+//!
+//! **The law.** The points of one height on the columns' rays lie within a distance a of those on a ray in the middle,
+//! from the lowest place that is looked at up to the blank. Segments that rays within a of the middle one cannot meet
+//! are left out; in front of the others the middle ray must stand further away than the columns differ
+//! ([`Segments::stays_above`]). Of some thousand passes near a flank all but the few dozen whose blades come within a of
+//! the surface are answered for so, once for a group instead of once for a column.
+//!
+//! The answer is kept for each pass: the height that it surely stays above, and the lowest for which this could not be
+//! said. It decides about time alone: a pass that is not answered for is looked at column by column.
+
+use super::segments::{Near, Segments};
+use gearcut_core::dexel::field::Column;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Columns of a group lie within this length of the profile, mm. It decides about time alone: a wide group answers for
+/// more columns, a narrow one about passes that come closer.
+const WIDTH_MM: f64 = 0.4;
+
+/// What is known of the passes over a group of columns.
+pub(super) struct ColumnGroup {
+    /// A ray in the middle, as long as the longest of the columns' rays.
+    middle: Column,
+    /// How far points of the columns' rays lie from the point of the same height on the middle one, mm.
+    apart_mm: f64,
+    passes: Vec<GroupLook>,
+    /// The pass that lies lowest of some, on the column that was looked at last.
+    lowest: BTreeMap<(usize, usize), usize>,
+}
+
+/// What is known of a pass.
+#[derive(Clone, Copy)]
+struct GroupLook {
+    /// It surely stays above this on all columns, mm.
+    above_mm: f64,
+    /// Of this height and higher ones it could not be said, mm.
+    open_mm: f64,
+}
+
+impl ColumnGroup {
+    /// Of so many passes nothing is known.
+    pub fn new(columns: &[Column], passes: usize) -> Self {
+        let low_mm = columns.iter().map(|column| column.low_mm).fold(f64::INFINITY, f64::min);
+        let blank_mm = columns.iter().map(|column| column.blank_mm).fold(f64::NEG_INFINITY, f64::max);
+        let middle = Column { low_mm, blank_mm, ..columns[columns.len() / 2] };
+        let farthest_mm = (2.0 * low_mm).abs().max(blank_mm.abs());
+        let apart_mm = columns.iter().map(|column| {
+            column.origin_mm.distance(middle.origin_mm) + farthest_mm * column.normal.distance(middle.normal)
+        });
+        let nothing = GroupLook { above_mm: f64::NEG_INFINITY, open_mm: f64::INFINITY };
+        Self { apart_mm: apart_mm.fold(0.0, f64::max), middle, passes: vec![nothing; passes], lowest: BTreeMap::new() }
+    }
+
+    /// Columns in order, in groups.
+    pub fn groups(columns: &[Column]) -> Vec<&[Column]> {
+        let (mut groups, mut rest) = (Vec::new(), columns);
+        while let [first, ..] = rest {
+            let count = rest.partition_point(|column| column.arc_mm <= first.arc_mm + WIDTH_MM).max(1);
+            let (group, others) = rest.split_at(count);
+            groups.push(group);
+            rest = others;
+        }
+        groups
+    }
+
+    /// Whether a pass surely stays above a height on all columns, as far as a look at the middle ray can say.
+    pub fn stays_above(&mut self, segments: &Segments, pass: usize, near: &Near, height_mm: f64) -> bool {
+        let look = &mut self.passes[pass];
+        if height_mm <= look.above_mm {
+            return true;
+        }
+        if height_mm >= look.open_mm {
+            return false;
+        }
+        let set = segments.meeting(near, &self.middle, self.apart_mm);
+        let above_mm = if set == 0 { f64::INFINITY } else { height_mm };
+        let stays = set == 0 || segments.stays_above(near, &self.middle, set, height_mm, self.apart_mm);
+        if stays {
+            look.above_mm = above_mm;
+        } else {
+            look.open_mm = height_mm;
+        }
+        stays
+    }
+
+    /// The pass that lay lowest of some on the column before, if one has been looked at.
+    pub fn lowest_pass(&self, passes: &Range<usize>) -> Option<usize> {
+        self.lowest.get(&(passes.start, passes.end)).copied()
+    }
+
+    /// Keeps the pass that lies lowest of some.
+    pub fn is_lowest(&mut self, passes: &Range<usize>, lowest: usize) {
+        self.lowest.insert((passes.start, passes.end), lowest);
+    }
+}
