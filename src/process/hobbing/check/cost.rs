@@ -20,13 +20,10 @@ use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FL
 use crate::steps::computer_speed::ComputerSpeed;
 use crate::steps::{check_cost, stages};
 
-/// Rows of a flank that are planned, about the middle of the face.
+/// Rows of a flank that are planned, and cut to calibrate the estimate, about the middle of the face. Fewer would not
+/// do: what a plan costs however small its field is would count too much, and over fewer than half of a tile's rows
+/// planning has no third row to tell bent heights from straight ones, and keeps thousands of passes.
 const PLANNED_ROWS: usize = 96;
-/// Rows that are cut to calibrate the estimate.
-const CALIBRATED_ROWS: usize = 8;
-/// So much more than by the rates so few rows take, for they leave lanes of the kernel idle; found on the machine of
-/// the rates.
-const FEW_ROWS: f64 = 3.06;
 /// What one thread of the native backend takes for a dexel's ray, s.
 const RAY_S_PER_DEXEL: f64 = 5.5e-8;
 /// The same for the plan of a tile.
@@ -60,17 +57,15 @@ pub fn print(sheet: &mut Sheet, cutter: &HobCutter) -> Result<()> {
 /// Some rows of flanks, planned and cut.
 fn calibrated(cutter: &HobCutter) -> Result<ComputerSpeed> {
     let mut machine = ComputerSpeed::default();
-    let spacing_mm = cutter.job.scene.fields.lead_spacing_mm;
     for tooth in (1..=cutter.job.scene.gear.teeth).step_by(5) {
         let target = cutter.target(tooth, Side::Left)?;
         let [arcs_mm, _] = cutter.places_mm(target);
-        let rows_z_mm = (0..CALIBRATED_ROWS).map(|row| spacing_mm * row as f64).collect();
-        let rays_s = |field: &SpatialField| FEW_ROWS * field.len() as f64 * RAY_S_PER_DEXEL;
-        let field = machine.piece(|| cutter.rays_over(target, arcs_mm, rows_z_mm).field, rays_s);
+        let rays_s = |field: &SpatialField| field.len() as f64 * RAY_S_PER_DEXEL;
+        let field = machine.piece(|| cutter.rays_over(target, arcs_mm, planned_rows_mm(cutter)).field, rays_s);
         for passes in cutter.operations.iter() {
-            let plan_s = |plan: &SweepPlan| FEW_ROWS * plan.tiles.len() as f64 * PLAN_S_PER_TILE;
+            let plan_s = |plan: &SweepPlan| plan.tiles.len() as f64 * PLAN_S_PER_TILE;
             let plan = machine.piece(|| SweepPlan::new(&field, passes), plan_s);
-            let cut_s = FEW_ROWS * plan.dexel_passes() as f64 * CUT_S_PER_EVALUATION;
+            let cut_s = plan.dexel_passes() as f64 * CUT_S_PER_EVALUATION;
             let mut layer = field.blank_layer();
             machine.piece(|| Cpu::default().cut_spatial(&field, &plan, &mut layer), |_| cut_s)?;
         }
@@ -79,6 +74,13 @@ fn calibrated(cutter: &HobCutter) -> Result<ComputerSpeed> {
         }
     }
     Ok(machine)
+}
+
+/// Rows about the middle of the face.
+fn planned_rows_mm(cutter: &HobCutter) -> Vec<f64> {
+    let spacing_mm = cutter.job.scene.fields.lead_spacing_mm;
+    let rows = ((cutter.job.scene.gear.face_width_mm / spacing_mm).round() as usize + 1).min(PLANNED_ROWS);
+    (0..rows).map(|i| spacing_mm * (i as f64 - 0.5 * (rows - 1) as f64)).collect()
 }
 
 /// What planning a band of a flank found.
@@ -91,11 +93,8 @@ struct Planned {
 
 fn plan(cutter: &HobCutter, tooth: u32, side: Side) -> Result<Planned> {
     let target = cutter.target(tooth, side)?;
-    let fields = &cutter.job.scene.fields;
     let [arcs_mm, _] = cutter.places_mm(target);
-    let rows = ((cutter.job.scene.gear.face_width_mm / fields.lead_spacing_mm).round() as usize + 1).min(PLANNED_ROWS);
-    let rows_z_mm = (0..rows).map(|i| fields.lead_spacing_mm * (i as f64 - 0.5 * (rows - 1) as f64)).collect();
-    let field = cutter.rays_over(target, arcs_mm, rows_z_mm).field;
+    let field = cutter.rays_over(target, arcs_mm, planned_rows_mm(cutter)).field;
     let mut sum = Planned { dexels: field.len() as f64, tiles: 0.0, records: 0.0, evaluations: 0.0 };
     for passes in cutter.operations.iter() {
         let plan = SweepPlan::new(&field, passes);
