@@ -32,6 +32,7 @@ pub(super) fn derive(values: &mut Values) {
     if let Some(module_mm) = module_mm {
         values.put_default("fields.chips", "spacing_mm", Checked::Number((module_mm / 60.0).max(0.002)));
     }
+    let _: Option<()> = blank_slices(values);
     let _: Option<()> = standard_roughing(values);
     for index in 0..values.count("operation") {
         let path = format!("operation.{index}");
@@ -52,6 +53,28 @@ pub(super) fn reach_mm(values: &Values) -> Option<f64> {
     let shift = cutter.number("profile_shift_coefficient")?.max(0.0);
     let reach = gear.number("addendum_coefficient")? + cutter.number("addendum_coefficient")? + shift;
     Some(reach * gear.number("module_mm")?)
+}
+
+/// Distance of the blank's slices where the axes rest during all strokes and guide or clamping shift the cutter along
+/// the face: evenly, so that both ends of the face say all of its sections, or on a parabola, which needs the middle as
+/// well. Every other slice would be cut for a section that lies between those.
+fn blank_slices(values: &mut Values) -> Option<()> {
+    let feeds = |index: usize| values.view(&format!("operation.{index}")).boolean("feed_during_stroke") == Some(true);
+    let is_there = |section: &str, keys: &[&str]| {
+        keys.iter().any(|key| values.view(section).number(key).is_some_and(|number| number != 0.0))
+    };
+    let guide = "machine.errors.guide";
+    let bent = is_there(guide, &["radial_bow_um", "tangential_bow_um"]);
+    let leans = is_there(guide, &["radial_um_per_100mm", "tangential_um_per_100mm"])
+        || is_there("mounting", &["wobble_um_per_100mm"]);
+    if !(bent || leans) || (0..values.count("operation")).any(feeds) {
+        return None;
+    }
+    let face_mm = values.view("gear").number("face_width_mm")?;
+    let slices_mm = if bent { 0.5 * face_mm } else { face_mm };
+    let usual_mm = values.view("fields.blank").number("slice_spacing_mm")?;
+    values.put_default("fields.blank", "slice_spacing_mm", Checked::Number(slices_mm.max(usual_mm)));
+    Some(())
 }
 
 /// Stock and feed of the roughing that stands in for operations that are not written.
