@@ -4,7 +4,7 @@
 //! In: a scene, whose error keys are numbers that can be shifted ([`crate::scene::error_parameters`]). Out: the
 //! derivative of the heights of its flanks with respect to each ([`derivative`]), and figures of such maps
 //! ([`figures`]). [`budget`] ranks what costs what; [`diagnose`] finds the errors that explain [measured] flanks;
-//! [`calibrate`] fits them to measured [numbers].
+//! [`calibrate`] fits them to measured [numbers], surfaces and [charts].
 //!
 //! Gears are cut on few rays ([`gear_grid`]): errors of machines act smoothly over a flank, and the marks of strokes
 //! stand in all heights alike and fall out of differences. Road not taken: whole runs. They take a hundred times as
@@ -12,6 +12,7 @@
 
 pub mod budget;
 pub mod calibrate;
+pub mod charts;
 pub mod derivative;
 pub mod diagnose;
 pub mod figures;

@@ -21,7 +21,7 @@ mod findings;
 mod sampling;
 mod window;
 
-pub use files::write;
+pub use files::{NamedWindow, SURFACE_NOTE, named_windows, write};
 pub use findings::{findings, quantities, warnings};
 pub use window::{Window, windows};
 

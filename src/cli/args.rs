@@ -178,16 +178,21 @@ pub enum Command {
         Writes a folder (out/<scene>_diagnosis unless --out is given): report.html, results.json, tables/sources.csv,\n\
         tables/residuals.csv. See docs/budget.md.")]
     Diagnose(DiagnoseArguments),
-    /// Fit errors of the machine to numbers that were measured on a gear.
+    /// Fit errors of the machine to what was measured on a gear: numbers, surfaces, inspection charts.
     #[command(after_help = "Example:\n  \
-        gearcut calibrate my.toml --measured numbers.csv --fit mounting.eccentricity_um,machine.errors.guide\n\n\
-        The CSV has a row for each measured number: quantity (its path in results.json, such as deviations.runout;\n\
-        headline.KEY for the headline), value (in the unit that it has there), uncertainty (standard). `gearcut cut\n\
-        SCENE --only numbers` writes what there is.\n\n\
-        Cuts the whole gear again and again, some ten times for each parameter: minutes. Prints shifts with 95 %\n\
-        intervals, which of them the numbers cannot identify, and the --set arguments of the fitted scene.\n\n\
+        gearcut calibrate my.toml --measured numbers.csv --fit mounting.eccentricity_um,machine.errors.guide\n  \
+        gearcut calibrate my.toml --measured out/my/inspection_charts.csv --noise-um 0.3 --fit mounting\n  \
+        gearcut calibrate my.toml --measured flank.x3p --surface-percent 5 --fit tool.shaper_cutter.edge_roughness.rq_um\n\n\
+        A CSV of numbers has a row for each: quantity (its path in results.json, such as deviations.runout;\n\
+        headline.KEY for the headline), value (in the unit that it has there), uncertainty (standard). Charts and\n\
+        figures are read as `gearcut cut` writes them (inspection_charts.csv, tables/inspection.csv), places as\n\
+        `gearcut diagnose` reads them. A surface belongs to a [[texture]] window of the scene: the one that its notes\n\
+        name, the only one, or FILE@finish.tooth_03_left.\n\n\
+        Cuts again and again, some ten times for each parameter: whole gears for numbers (minutes), windows or places\n\
+        alone where nothing else was measured. Prints shifts with 95 % intervals, which of them the measured values\n\
+        cannot identify, and the --set arguments of the fitted scene. Ctrl-C keeps the rounds that are done.\n\n\
         Writes a folder (out/<scene>_calibration unless --out is given): report.html, results.json, tables/fits.csv,\n\
-        tables/numbers.csv. See docs/budget.md.")]
+        tables/numbers.csv, tables/lines.csv, tables/places.csv. See docs/budget.md.")]
     Calibrate(CalibrateArguments),
 }
 

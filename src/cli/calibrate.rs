@@ -1,57 +1,94 @@
-//! `gearcut calibrate`: errors of a scene fitted to measured numbers.
+//! `gearcut calibrate`: errors of a scene fitted to what was measured of its gear.
 
 use std::path::PathBuf;
 
 use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::influence::budget::chosen;
-use gearcut::influence::calibrate::{self, Calibration};
+use gearcut::influence::calibrate::{self, Calibrated, Calibration, Measured, MeasuredNumber, MeasuredWish};
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::output::summary;
-use gearcut::output::text::{Sheet, plain};
-use gearcut::{Result, process};
+use gearcut::output::text::{Sheet, plain, significant};
+use gearcut::scene::LoadedScene;
+use gearcut::{Refusal, Result, process};
 use serde_json::json;
 
 use super::args::CalibrateArguments;
 use super::failure::Failure;
 use super::{folder, print};
 
-/// Runs the command.
+/// Runs the command; what Ctrl-C ended early is a failure that tells where its results are.
 pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     let loaded = process::load(&arguments.scene.scene, &arguments.scene.settings)?;
     let parameters = chosen(&loaded, &arguments.fit)?;
-    let measured = calibrate::read_numbers(&arguments.measured)?;
+    let measured = read(&loaded, arguments).map_err(|error| Failure::of_scene(&loaded, error))?;
     let name = &loaded.scene.name;
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_calibration")));
     let progress = Progress::new(ProgressMode::choose(false, false));
     let choice = choose(BackendWish::Cpu, OnFailure::default())?;
-    let filled = folder::fill(&out, "calibrate", |folder, interrupt| {
+    let filled = folder::fill_partly(&out, "calibrate", |folder, interrupt| {
         let found = Calibration::new(&loaded, &parameters, &measured, &choice, &progress, interrupt)?;
-        let tree = calibrate::findings(&loaded.scene, &found);
-        calibrate::write(&loaded.scene, &found, &tree, folder)?;
+        let tree = calibrate::findings(&loaded.scene, &measured, &found);
+        calibrate::write(&loaded.scene, &measured, &found, &tree, folder)?;
         let record = vec![
             ("measured", json!(arguments.measured)),
+            ("noise_um", json!(arguments.noise_um)),
+            ("surface_percent", json!(arguments.surface_percent)),
+            ("surface_numbers", json!(arguments.surface_numbers)),
             ("fit", json!(arguments.fit)),
             ("settings", json!(found.settings)),
             ("scene", json!(loaded.resolved_toml())),
         ];
-        Ok((record, (found, tree)))
+        let complete = found.complete;
+        Ok((record, (found, tree), complete))
     });
-    let (path, (found, tree)) = filled.map_err(|error| Failure::of_scene(&loaded, error))?;
+    let (path, (found, tree), complete) = filled.map_err(|error| Failure::of_scene(&loaded, error))?;
     let gear = &loaded.scene.gear;
     let mut sheet = Sheet::default();
     sheet.heading(&format!("{name}: {} teeth, module {} mm; fitted", gear.teeth, plain(gear.module_mm)));
+    sheet.words("fitted: shifts beyond the scene, with 95 % intervals");
     for (parameter, fitted) in &found.fitted {
         let value = fitted.map_or_else(
             || "cannot be identified".to_owned(),
-            |[shift, half]| format!("{shift:.3} +- {half:.3} {} beyond the scene", parameter.unit),
+            |[shift, half]| format!("{} +- {} {}", significant(shift, 4), significant(half, 2), parameter.unit),
         );
         summary::line(&mut sheet, &parameter.title, &value);
     }
+    if !measured.numbers.is_empty() {
+        sheet.heading("Numbers");
+        let shown = |value: f64| significant(value, 4);
+        let heads = ["quantity", "measured", "predicted", "fitted"].map(str::to_owned);
+        let row = |(number, of): (&MeasuredNumber, &Calibrated)| {
+            vec![number.quantity.clone(), shown(of.measured), shown(of.predicted), shown(of.fitted)]
+        };
+        let rows = measured.numbers.iter().zip(&found.values).map(row);
+        sheet.table(&std::iter::once(heads.to_vec()).chain(rows).collect::<Vec<_>>());
+    }
     if !found.settings.is_empty() {
-        sheet.heading("The fitted scene");
+        sheet.heading("The fitted scene; fitted: these arguments make it");
         found.settings.iter().for_each(|setting| sheet.words(&format!("--set '{setting}'")));
     }
     print::sheet(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?;
     print::warnings(&tree.warnings);
-    Ok(())
+    if complete { Ok(()) } else { Err(Failure::ended_early(&path, &out)) }
+}
+
+/// What was measured, laid on the scene's gear.
+fn read(loaded: &LoadedScene, arguments: &CalibrateArguments) -> Result<Measured> {
+    for (option, value) in [("--noise-um", arguments.noise_um), ("--surface-percent", arguments.surface_percent)] {
+        if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
+            let problem = format!("{value} is no standard uncertainty");
+            return Err(Refusal::new(option, problem, "give a number above 0").into());
+        }
+    }
+    let wish = MeasuredWish {
+        noise_um: arguments.noise_um,
+        surface_percent: arguments.surface_percent,
+        symbols: arguments.surface_numbers.clone(),
+    };
+    let mut measured = Measured::default();
+    process::prepare(&loaded.scene)?.with_gear(&mut |gear| {
+        measured = Measured::read(gear, &arguments.measured, &wish)?;
+        Ok(())
+    })?;
+    Ok(measured)
 }

@@ -14,7 +14,7 @@ use super::args::DiagnoseArguments;
 use super::failure::Failure;
 use super::{folder, print};
 
-/// Runs the command.
+/// Runs the command; what Ctrl-C ended early is a failure that tells where its results are.
 pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
     let noise_um = arguments.noise_um;
     if !(noise_um.is_finite() && noise_um > 0.0) {
@@ -28,7 +28,7 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
     let progress = Progress::new(ProgressMode::choose(false, false));
     let backend = choose(BackendWish::Cpu, OnFailure::default())?.backend;
     let names = &arguments.parameters;
-    let filled = folder::fill(&out, "diagnose", |folder, interrupt| {
+    let filled = folder::fill_partly(&out, "diagnose", |folder, interrupt| {
         let model = ErrorModel::new(&loaded, &points, names, backend.as_ref(), &progress, interrupt)?;
         let measured_um: Vec<f64> = points.iter().map(|point| point.deviation_um).collect();
         let found = Diagnosis::new(&model, &measured_um, noise_um)?;
@@ -40,9 +40,10 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
             ("parameters", json!(names)),
             ("scene", json!(loaded.resolved_toml())),
         ];
-        Ok((record, (model, found, tree)))
+        let complete = model.complete;
+        Ok((record, (model, found, tree), complete))
     });
-    let (path, (model, found, tree)) = filled.map_err(|error| Failure::of_scene(&loaded, error))?;
+    let (path, (model, found, tree), complete) = filled.map_err(|error| Failure::of_scene(&loaded, error))?;
     let gear = &loaded.scene.gear;
     let mut sheet = Sheet::default();
     let places = points.len();
@@ -54,5 +55,5 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
     diagnose::sheet(&model, &found, &tree, &mut sheet);
     print::sheet(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?;
     print::warnings(&tree.warnings);
-    Ok(())
+    if complete { Ok(()) } else { Err(Failure::ended_early(&path, &out)) }
 }

@@ -141,19 +141,15 @@ pub fn budget(
 pub fn chosen(loaded: &LoadedScene, names: &[String]) -> Result<Vec<ErrorParameter>, Refusal> {
     let all = error_parameters(loaded, !names.is_empty());
     if names.is_empty() {
-        return Ok(all);
+        return Ok(all.into_iter().filter(ErrorParameter::is_usual).collect());
     }
-    let means = |name: &str, parameter: &ErrorParameter| {
-        let rest = parameter.id.strip_prefix(name);
-        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '@', '/']))
-    };
-    if let Some(unknown) = names.iter().find(|name| !all.iter().any(|parameter| means(name, parameter))) {
+    if let Some(unknown) = names.iter().find(|name| !all.iter().any(|parameter| parameter.is_meant_by(name))) {
         let mut sources: Vec<&str> = all.iter().map(|parameter| parameter.source.as_str()).collect();
         sources.dedup();
         let problem = format!("`{unknown}` is no error of this process");
         return Err(Refusal::new("--parameters", problem, format!("choose among {}", sources.join(", "))));
     }
-    Ok(all.into_iter().filter(|parameter| names.iter().any(|name| means(name, parameter))).collect())
+    Ok(all.into_iter().filter(|parameter| names.iter().any(|name| parameter.is_meant_by(name))).collect())
 }
 
 fn whole_flanks(scene: &Scene, asked: &[(u32, Side)]) -> Result<Vec<(u32, Side)>, Refusal> {

@@ -1,35 +1,37 @@
-//! Keys of a scene fitted to measured numbers.
+//! Keys of a scene fitted to what was measured of its gear.
 //!
-//! In: a scene, numbers of its results as they were measured, each with its standard uncertainty, and the names of the
-//! parameters that may change. Out: [`Calibration`]: fitted sizes with intervals, which of them the numbers say nothing
-//! about, and all numbers before and after.
+//! In: a scene; numbers of its results, numbers of surfaces and lines of inspection charts as they were measured, with
+//! standard uncertainties ([`Measured`]); and the names of the parameters that may change. Out: [`Calibration`]: fitted
+//! sizes with intervals, which of them the measured values say nothing about, and all values before and after.
 //!
 //! **Law.** The sum of ((measured - predicted) / uncertainty)^2 is made least by the method of Levenberg and Marquardt
 //! (Marquardt, *An Algorithm for Least-Squares Estimation of Nonlinear Parameters*, 1963): each step is the linear
 //! least squares of the residuals by the derivatives at hand, with one more row sqrt(damping) for each parameter
-//! counted in its natural steps. Derivatives are central differences of whole cuts. Intervals are those of the linear
-//! fit at the end.
+//! counted in its natural steps. Derivatives are central differences of cuts; what is random keeps its seed, so that
+//! both sides of a difference have the same noise. Intervals are those of the linear fit at the end.
 //!
 //! A parameter whose derivatives are nothing, or a combination of the others', cannot be identified, and is said to:
-//! its shift means nothing then. Road not taken: a crate for nonlinear least squares. They bring a matrix library with
-//! them, and the linear fit that diagnoses use is all that is needed.
+//! its shift means nothing then. After Ctrl-C the fit is that of the rounds that are done. Road not taken: a crate for
+//! nonlinear least squares. They bring a matrix library with them, and the linear fit that diagnoses use is all that is
+//! needed.
 
 mod measured;
+mod surface;
+mod trial;
 mod write;
 
-use super::derivative::read;
 use super::interval::interval;
-use super::numbers::{Numbers, numbers};
 use crate::backend::Choice;
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use crate::scene::LoadedScene;
-use crate::scene::error_parameters::{ErrorParameter, Shifted};
-use gearcut_core::error::{Refusal, Result};
+use crate::scene::error_parameters::ErrorParameter;
+use gearcut_core::error::{Error, Result};
 use gearcut_core::math::column_basis::{ColumnBasis, norm};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use trial::Trial;
 
-pub use measured::{MeasuredNumber, read_numbers};
+pub use measured::{Measured, MeasuredNumber, MeasuredWish, read_numbers};
 pub use write::{findings, write};
 
 /// Most rounds: each takes two cuts for every parameter and one or more besides. A fit that needs more is none.
@@ -49,124 +51,80 @@ const MOST_DAMPING: f64 = 1e6;
 pub struct Calibration {
     /// Parameters with their shifts from the scene and half their intervals; `None`: they cannot be identified.
     pub fitted: Vec<(ErrorParameter, Option<[f64; 2]>)>,
-    /// Measured numbers with what the scene predicted for them, and what the fitted scene does.
-    pub numbers: Vec<(MeasuredNumber, [f64; 2])>,
+    /// Measured numbers, then the places of measured lines, with what the scene predicted for them, and what the fitted
+    /// scene does.
+    pub values: Vec<Calibrated>,
     /// `--set` arguments that make the scene the fitted one.
     pub settings: Vec<String>,
     /// Squared residuals over the uncertainties.
     pub chi_square: f64,
-    /// Measured numbers less parameters that could be identified.
+    /// Measured values less what measuring machines add, and less parameters that could be identified.
     pub freedom: usize,
     /// Chance of residuals as large from the uncertainties alone; `None` without freedom.
     pub chance: Option<f64>,
-    /// Whether the last round still moved them.
+    /// Whether the last round moved them no more.
     pub settled: bool,
+    /// Whether Ctrl-C left it all its rounds.
+    pub complete: bool,
 }
 
-/// What is cut again and again.
-struct Trial<'a> {
-    loaded: &'a LoadedScene,
-    parameters: &'a [ErrorParameter],
-    measured: &'a [MeasuredNumber],
-    choice: &'a Choice,
-    interrupt: &'a Interrupt,
+/// A measured value and what is said of it, in its unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Calibrated {
+    /// As it was measured; of lines without what a measuring machine adds.
+    pub measured: f64,
+    /// By the scene as it is.
+    pub predicted: f64,
+    /// By the fitted scene.
+    pub fitted: f64,
 }
 
-impl Trial<'_> {
-    /// The scene with shifted parameters; `None` where it has no word for them.
-    fn shifted(&self, shifts: &[f64]) -> Option<Shifted<'_>> {
-        let mut shifted = Shifted::new(self.loaded);
-        let all = self.parameters.iter().zip(shifts).all(|(parameter, &by)| shifted.shift(parameter, by));
-        all.then_some(shifted)
-    }
-
-    /// Predicted values of the measured numbers.
-    fn predicted(&self, shifts: &[f64]) -> Result<Option<Vec<f64>>> {
-        let Some(shifted) = self.shifted(shifts) else { return Ok(None) };
-        let found = numbers(&read(&shifted)?, self.choice, self.interrupt)?;
-        let one = |measured: &MeasuredNumber| value_of(&found, measured);
-        self.measured.iter().map(one).collect::<Result<Vec<f64>, Refusal>>().map(Some).map_err(Into::into)
-    }
-
-    /// Residuals over the uncertainties.
-    fn residuals(&self, predicted: &[f64]) -> Vec<f64> {
-        let one = |(measured, predicted): (&MeasuredNumber, &f64)| (measured.value - predicted) / measured.uncertainty;
-        self.measured.iter().zip(predicted).map(one).collect()
-    }
-
-    /// Derivatives of the predicted values by one parameter, for a natural step, over the uncertainties.
-    fn column(&self, shifts: &[f64], here: &[f64], index: usize) -> Result<Vec<f64>> {
-        let step = self.parameters[index].step;
-        let at = |by: f64| {
-            let mut moved = shifts.to_vec();
-            moved[index] += by;
-            self.predicted(&moved)
-        };
-        let (above, below) = (at(step)?, at(-step)?);
-        let width = f64::from(u8::from(above.is_some()) + u8::from(below.is_some()));
-        let (above, below) = (above.unwrap_or_else(|| here.to_vec()), below.unwrap_or_else(|| here.to_vec()));
-        let rows = above.iter().zip(&below).zip(self.measured);
-        Ok(rows.map(|((a, b), measured)| (a - b) / width.max(1.0) / measured.uncertainty).collect())
-    }
+/// Where a fit stands.
+struct Fit {
+    shifts: Vec<f64>,
+    /// Predicted there.
+    here: Vec<f64>,
+    /// Squared residuals.
+    left: f64,
+    /// Derivatives of the last round that has all of them.
+    columns: Vec<Vec<f64>>,
+    settled: bool,
 }
 
-fn value_of(found: &Numbers, measured: &MeasuredNumber) -> Result<f64, Refusal> {
-    found.get(&measured.quantity).map(|(value, _)| *value).ok_or_else(|| {
-        Refusal::new(
-            "--measured",
-            format!("`{}` is no number of this scene's results", measured.quantity),
-            "name numbers by their paths in results.json, those of its headline as headline.KEY; `gearcut cut SCENE \
-             --only numbers` writes one",
-        )
-    })
-}
-
-impl Calibration {
-    /// Fits parameters to measured numbers.
-    ///
-    /// # Errors
-    /// Numbers that the results do not have; values that the scene may not have; geometry; Ctrl-C.
-    pub fn new(
-        loaded: &LoadedScene,
-        parameters: &[ErrorParameter],
-        measured: &[MeasuredNumber],
-        choice: &Choice,
-        progress: &Progress,
-        interrupt: &Interrupt,
-    ) -> Result<Self> {
-        let trial = Trial { loaded, parameters, measured, choice, interrupt };
+impl Fit {
+    /// Goes on round by round until nothing more is to be gained.
+    fn run(&mut self, trial: &Trial, parameters: &[ErrorParameter]) -> Result<()> {
         let count = parameters.len();
-        let mut shifts = vec![0.0; count];
-        let before = trial.predicted(&shifts)?.expect("nothing is shifted");
-        let mut here = before.clone();
-        let mut left = norm(&trial.residuals(&here)).powi(2);
-        let (mut damping, mut settled) = (FIRST_DAMPING, false);
-        let step = progress.step("fit", MOST_ROUNDS as u64, "rounds at most");
-        let mut columns = Vec::new();
+        let mut damping = FIRST_DAMPING;
         for _ in 0..MOST_ROUNDS {
-            columns = (0..count).map(|index| trial.column(&shifts, &here, index)).collect::<Result<Vec<_>>>()?;
-            step.advance(1);
-            let residuals = trial.residuals(&here);
+            let column = |index| trial.column(&self.shifts, &self.here, index);
+            self.columns = (0..count).map(column).collect::<Result<Vec<_>>>()?;
+            let residuals = trial.residuals(&self.here);
             // The derivatives of the intervals are those at the end.
-            settled = left - alive(&columns).left_of(&residuals) < SETTLED;
-            let before_round = left;
-            while !settled && left >= before_round && damping < MOST_DAMPING {
-                let by = damped(&columns, &residuals, damping);
-                let moved: Vec<f64> = (0..count).map(|i| shifts[i] + by[i] * parameters[i].step).collect();
+            self.settled = self.left - alive(&self.columns).left_of(&residuals) < SETTLED;
+            let before_round = self.left;
+            while !self.settled && self.left >= before_round && damping < MOST_DAMPING {
+                let by = damped(&self.columns, &residuals, damping);
+                let moved: Vec<f64> = (0..count).map(|i| self.shifts[i] + by[i] * parameters[i].step).collect();
                 let there = trial.predicted(&moved)?;
                 let better = there.map(|there| (norm(&trial.residuals(&there)).powi(2), there));
-                if let Some((least, there)) = better.filter(|(least, _)| *least < left) {
-                    (left, here, shifts) = (least, there, moved);
+                if let Some((least, there)) = better.filter(|(least, _)| *least < self.left) {
+                    (self.left, self.here, self.shifts) = (least, there, moved);
                     damping /= DAMPING_FACTOR;
                 } else {
                     damping *= DAMPING_FACTOR;
                 }
             }
-            if left >= before_round {
+            if self.left >= before_round {
                 break;
             }
         }
-        step.finish();
+        Ok(())
+    }
+
+    /// Which parameters the columns say anything of, beside all others.
+    fn identified(&self) -> Vec<bool> {
+        let columns = &self.columns;
         // What the others say as well is nobody's: a parameter is identified beside all of them.
         let beside_others = |index: usize| {
             let mut others = ColumnBasis::default();
@@ -175,14 +133,42 @@ impl Calibration {
             }
             others.take(&columns[index])
         };
-        let identified: Vec<bool> =
-            (0..count).map(|index| norm(&columns[index]) > DEAD && beside_others(index)).collect();
+        (0..columns.len()).map(|index| norm(&columns[index]) > DEAD && beside_others(index)).collect()
+    }
+}
+
+impl Calibration {
+    /// Fits parameters to what was measured.
+    ///
+    /// # Errors
+    /// Numbers and places that the gear does not have; values that the scene may not have; geometry; Ctrl-C in the first
+    /// round.
+    pub fn new(
+        loaded: &LoadedScene,
+        parameters: &[ErrorParameter],
+        measured: &Measured,
+        choice: &Choice,
+        progress: &Progress,
+        interrupt: &Interrupt,
+    ) -> Result<Self> {
+        let count = parameters.len();
+        // A round takes two cuts for each parameter and mostly one for its step.
+        let step = progress.step("fit", (1 + MOST_ROUNDS * (2 * count + 1)) as u64, "cuts at most");
+        let trial = Trial::new(loaded, parameters, measured, choice, interrupt, &step)?;
+        let shifts = vec![0.0; count];
+        let before = trial.predicted(&shifts)?.expect("nothing is shifted");
+        let left = norm(&trial.residuals(&before)).powi(2);
+        let mut fit = Fit { shifts, here: before.clone(), left, columns: Vec::new(), settled: false };
+        let complete = match fit.run(&trial, parameters) {
+            Err(Error::Interrupted) if !fit.columns.is_empty() => false,
+            other => other.map(|()| true)?,
+        };
         let mut basis = ColumnBasis::default();
-        let taken: Vec<bool> = columns.iter().map(|column| norm(column) > DEAD && basis.take(column)).collect();
-        let solution = basis.solve(&trial.residuals(&here));
-        let freedom = measured.len().saturating_sub(basis.columns());
+        let taken: Vec<bool> = fit.columns.iter().map(|column| norm(column) > DEAD && basis.take(column)).collect();
+        let solution = basis.solve(&trial.residuals(&fit.here));
+        let freedom = trial.count().saturating_sub(basis.columns());
         // Without freedom the stated uncertainties are all that is known.
-        let spread = if freedom > 0 { (left / freedom as f64).max(1.0).sqrt() } else { 1.0 };
+        let spread = if freedom > 0 { (fit.left / freedom as f64).max(1.0).sqrt() } else { 1.0 };
         let width = spread * interval(freedom);
         let mut place = 0;
         let mut half_widths = Vec::new();
@@ -190,21 +176,25 @@ impl Calibration {
             half_widths.push(taken.then(|| width * solution.covariance[place][place].sqrt() * parameter.step));
             place += usize::from(taken);
         }
-        let fitted = parameters.iter().zip(&identified).zip(shifts.iter().zip(half_widths)).map(
-            |((parameter, &identified), (&shift, half))| {
+        let fitted = parameters.iter().zip(fit.identified()).zip(fit.shifts.iter().zip(half_widths)).map(
+            |((parameter, identified), (&shift, half))| {
                 (parameter.clone(), half.filter(|_| identified).map(|half| [shift, half]))
             },
         );
         let noise = (freedom > 0).then(|| ChiSquared::new(freedom as f64).expect("freedom is above 0"));
-        Ok(Self {
+        let found = Self {
             fitted: fitted.collect(),
-            numbers: measured.iter().cloned().zip(before.into_iter().zip(here).map(|(a, b)| [a, b])).collect(),
-            settings: trial.shifted(&shifts).map_or_else(Vec::new, |shifted| shifted.settings()),
-            chi_square: left,
+            values: trial.compared(&before, &fit.here),
+            settings: trial.shifted(&fit.shifts).map_or_else(Vec::new, |shifted| shifted.settings()),
+            chi_square: fit.left,
             freedom,
-            chance: noise.map(|noise| noise.sf(left)),
-            settled,
-        })
+            chance: noise.map(|noise| noise.sf(fit.left)),
+            settled: fit.settled,
+            complete,
+        };
+        drop(trial);
+        step.finish();
+        Ok(found)
     }
 }
 

@@ -13,10 +13,13 @@ use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 use glam::DVec3;
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// Places along profile and tooth of a flank that is looked at as a whole, odd numbers, so that there is a middle: the
 /// shortest waves of errors in use are several times as long as the distance between places.
 pub const WHOLE_FLANK: [usize; 2] = [21, 9];
+/// Radians in a second of arc.
+const RAD_PER_ARCSEC: f64 = PI / 180.0 / 3600.0;
 /// Share of the face that is left out at either end.
 const FACE_MARGIN: f64 = 0.05;
 /// Places along a profile at which points of the target are asked for; between them they are linear. Points and
@@ -150,6 +153,18 @@ fn cut(gear: &dyn GearJob, backend: &dyn Backend, flank: &FlankGrid) -> Result<V
     let um =
         |(&height_mm, &pass): (&f32, &u32)| if pass == NO_PASS { f64::NAN } else { UM_PER_MM * f64::from(height_mm) };
     Ok(finished.heights_mm.iter().zip(&finished.passes).map(um).collect())
+}
+
+/// What a turn of the gear counter-clockwise adds at the places of a grid, um per arc second.
+pub fn turn_um_per_arcsec(grid: &GearGrid) -> Vec<f64> {
+    let of_flank = |flank: &FlankGrid| -> Vec<f64> {
+        let at = |place: usize| {
+            let radius_mm = flank.rays[place].origin_mm.truncate().length();
+            UM_PER_MM * RAD_PER_ARCSEC * radius_mm / flank.around_per_height(place)
+        };
+        (0..flank.places()).map(at).collect()
+    };
+    grid.flanks.iter().flat_map(of_flank).collect()
 }
 
 /// So many places from one to the other, both included; the middle if it is one.

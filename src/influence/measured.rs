@@ -6,7 +6,7 @@
 //! are bilinear.
 
 use super::gear_grid::{FlankGrid, GearGrid, evenly};
-use super::measured_table::MeasuredTable;
+use super::measured_table::{MeasuredRow, MeasuredTable};
 use crate::job::GearJob;
 use gearcut_core::error::{Error, Refusal, Result};
 use gearcut_core::terms::Side;
@@ -17,7 +17,7 @@ use std::path::Path;
 /// [`super::gear_grid::WHOLE_FLANK`].
 const MOST_PLACES: [usize; 2] = [33, 17];
 /// Places nearer to each other than this are one, mm.
-const SAME_MM: f64 = 1e-6;
+pub(super) const SAME_MM: f64 = 1e-6;
 
 /// A measured place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,25 +34,42 @@ pub struct MeasuredPoint {
     pub deviation_um: f64,
 }
 
-/// Reads measured deviations.
+/// Columns of a table of measured places.
+pub const COLUMNS: [&str; 6] = ["tooth", "flank", "u_mm", "v_mm", "deviation_um", "chart"];
+/// The chart of cumulative pitch deviations.
+pub const PITCH: &str = "pitch";
+
+impl MeasuredPoint {
+    /// Tooth and side of a row with [`COLUMNS`].
+    ///
+    /// # Errors
+    /// Cells that are not what their column says.
+    pub fn flank_of(row: &MeasuredRow<6>) -> Result<(u32, Side)> {
+        let side = [Side::Left, Side::Right].into_iter().find(|side| side.name() == row.cell(1));
+        let tooth = row.cell(0).parse().map_err(|_| row.wrong(0, "the number of a tooth"))?;
+        Ok((tooth, side.ok_or_else(|| row.wrong(1, "left or right"))?))
+    }
+
+    /// A row with [`COLUMNS`].
+    ///
+    /// # Errors
+    /// Cells that are not what their column says.
+    pub fn of(row: &MeasuredRow<6>) -> Result<Self> {
+        let (tooth, side) = Self::flank_of(row)?;
+        Ok(Self { tooth, side, u_mm: row.number(2)?, v_mm: row.number(3)?, deviation_um: row.number(4)? })
+    }
+}
+
+/// Reads measured deviations. The charts of an inspection have them as well, in a column `chart`: of these, profiles and
+/// helices are taken, and pitch is left out, for the profiles have it.
 ///
 /// # Errors
 /// A file that cannot be read; columns that are missing; cells that are not what their column says; no rows.
 pub fn read(path: &Path) -> Result<Vec<MeasuredPoint>> {
-    let table = MeasuredTable::read(path, ["tooth", "flank", "u_mm", "v_mm", "deviation_um"])?;
+    let table = MeasuredTable::read(path, COLUMNS, &["chart"])?;
     // What was not measured has no value.
-    let rows = table.rows.iter().filter(|row| !row.cell(4).is_empty());
-    let points = rows.map(|row| {
-        let side = [Side::Left, Side::Right].into_iter().find(|side| side.name() == row.cell(1));
-        Ok(MeasuredPoint {
-            tooth: row.cell(0).parse().map_err(|_| row.wrong(0, "the number of a tooth"))?,
-            side: side.ok_or_else(|| row.wrong(1, "left or right"))?,
-            u_mm: row.number(2)?,
-            v_mm: row.number(3)?,
-            deviation_um: row.number(4)?,
-        })
-    });
-    let points: Vec<MeasuredPoint> = points.collect::<Result<_>>()?;
+    let rows = table.rows.iter().filter(|row| !row.cell(4).is_empty() && row.cell(5) != PITCH);
+    let points: Vec<MeasuredPoint> = rows.map(MeasuredPoint::of).collect::<Result<_>>()?;
     if points.is_empty() {
         let reason = "no row has a deviation_um".to_owned();
         return Err(Error::Unreadable { path: path.to_owned(), reason });
@@ -76,27 +93,9 @@ impl MeasuredPlaces {
     /// Teeth that the gear does not have, places off its flanks, flanks that the tool does not generate.
     pub fn new(gear: &dyn GearJob, points: &[MeasuredPoint]) -> Result<Self> {
         let teeth = gear.scene().gear.teeth;
-        let half_mm = 0.5 * gear.scene().gear.face_width_mm + SAME_MM;
         let mut flanks: BTreeMap<(u32, Side), Vec<usize>> = BTreeMap::new();
         for (index, point) in points.iter().enumerate() {
-            if !(1..=teeth).contains(&point.tooth) {
-                let problem = format!("tooth {} was measured, the gear has {teeth}", point.tooth);
-                return Err(Refusal::new("--measured", problem, "teeth count from 1, counter-clockwise").into());
-            }
-            let length_mm = gear.profile_length_mm(point.tooth, point.side)? + SAME_MM;
-            if !(-SAME_MM..=length_mm).contains(&point.u_mm) || point.v_mm.abs() > half_mm {
-                let problem = format!(
-                    "u {} mm, v {} mm of tooth {} {} is off the flank: u goes from 0 to {length_mm:.4} mm, v from \
-                     {:.4} to {half_mm:.4} mm",
-                    point.u_mm,
-                    point.v_mm,
-                    point.tooth,
-                    point.side.name(),
-                    -half_mm
-                );
-                let way_out = "u is the arc from the form point, v counts from the middle of the face";
-                return Err(Refusal::new("--measured", problem, way_out).into());
-            }
+            refuse_off_flank(gear, point)?;
             flanks.entry((point.tooth, point.side)).or_default().push(index);
         }
         let mut grids = Vec::new();
@@ -137,6 +136,43 @@ impl MeasuredPlaces {
         };
         self.around.iter().map(mean).collect()
     }
+}
+
+/// Refuses a tooth that the gear does not have.
+///
+/// # Errors
+/// There is no such tooth.
+pub fn refuse_tooth(gear: &dyn GearJob, tooth: u32) -> Result<()> {
+    let teeth = gear.scene().gear.teeth;
+    if (1..=teeth).contains(&tooth) {
+        return Ok(());
+    }
+    let problem = format!("tooth {tooth} was measured, the gear has {teeth}");
+    Err(Refusal::new("--measured", problem, "teeth count from 1, counter-clockwise").into())
+}
+
+/// Refuses a place that is off its flank.
+///
+/// # Errors
+/// It is; the tool does not generate the flank.
+pub fn refuse_off_flank(gear: &dyn GearJob, point: &MeasuredPoint) -> Result<()> {
+    refuse_tooth(gear, point.tooth)?;
+    let half_mm = 0.5 * gear.scene().gear.face_width_mm + SAME_MM;
+    let length_mm = gear.profile_length_mm(point.tooth, point.side)? + SAME_MM;
+    if (-SAME_MM..=length_mm).contains(&point.u_mm) && point.v_mm.abs() <= half_mm {
+        return Ok(());
+    }
+    let problem = format!(
+        "u {} mm, v {} mm of tooth {} {} is off the flank: u goes from 0 to {length_mm:.4} mm, v from {:.4} to \
+         {half_mm:.4} mm",
+        point.u_mm,
+        point.v_mm,
+        point.tooth,
+        point.side.name(),
+        -half_mm
+    );
+    let way_out = "u is the arc from the form point, v counts from the middle of the face";
+    Err(Refusal::new("--measured", problem, way_out).into())
 }
 
 /// The place at or before a value in an increasing list, and how far the value is on the way to the next one, 0 to 1.

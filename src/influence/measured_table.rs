@@ -27,17 +27,17 @@ pub struct MeasuredRow<const N: usize> {
 }
 
 impl<const N: usize> MeasuredTable<N> {
-    /// Reads a table with these columns.
+    /// Reads a table with these columns; `optional` ones among them may be missing, and have empty cells then.
     ///
     /// # Errors
     /// A file that cannot be read or is no CSV; columns that are missing; no rows.
-    pub fn read(path: &Path, names: [&'static str; N]) -> Result<Self> {
+    pub fn read(path: &Path, names: [&'static str; N], optional: &[&str]) -> Result<Self> {
         let unreadable = |reason: String| Error::Unreadable { path: path.to_owned(), reason };
         let text = regular_file::read(path, LARGEST_FILE).map_err(unreadable)?;
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_slice());
+        let mut reader = reader(&text);
         let heads = reader.headers().map_err(|reason| unreadable(reason.to_string()))?.clone();
         let place = |name: &str| heads.iter().position(|head| head == name);
-        if let Some(missing) = names.iter().find(|name| place(name).is_none()) {
+        if let Some(missing) = names.iter().find(|name| !optional.contains(name) && place(name).is_none()) {
             let all = names.join(", ");
             return Err(unreadable(format!("it has no column {missing}; its first line must have {all}")));
         }
@@ -53,6 +53,21 @@ impl<const N: usize> MeasuredTable<N> {
         }
         Ok(Self { rows })
     }
+}
+
+/// Columns that a table has.
+///
+/// # Errors
+/// A file that cannot be read or is no CSV.
+pub fn heads(path: &Path) -> Result<Vec<String>> {
+    let unreadable = |reason: String| Error::Unreadable { path: path.to_owned(), reason };
+    let text = regular_file::read(path, LARGEST_FILE).map_err(unreadable)?;
+    let heads = reader(&text).headers().map_err(|reason| unreadable(reason.to_string()))?.clone();
+    Ok(heads.iter().map(str::to_owned).collect())
+}
+
+fn reader(text: &[u8]) -> csv::Reader<&[u8]> {
+    csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text)
 }
 
 impl<const N: usize> MeasuredRow<N> {

@@ -1,19 +1,28 @@
 //! Every number that a cut of a scene reports, by its path.
 //!
 //! In: a scene. Out: the numbers of its findings: those of the headline as `headline.KEY`, those of sections by the
-//! path of `results.json`. The gear is cut as by `gearcut cut --only numbers`; its folder vanishes.
+//! path of `results.json`, figures of the inspection by `inspection.figures.FIGURE.left`. The gear is cut as by `gearcut cut --only numbers`; its folder vanishes.
 
 use crate::backend::Choice;
+use crate::findings::{Quantity, Section, Table};
 use crate::interrupt::Interrupt;
+use crate::output::progress::{Progress, ProgressMode};
 use crate::process;
 use crate::run::Run;
 use crate::scene::LoadedScene;
 use crate::steps::parts::Parts;
+use crate::texture;
 use gearcut_core::error::{Error, Result};
+use gearcut_core::terms::Side;
 use std::collections::BTreeMap;
 
 /// Paths with numbers and their units.
 pub type Numbers = BTreeMap<String, (f64, String)>;
+
+/// Beginning of the paths of what texture windows say.
+pub const TEXTURE: &str = "texture.";
+/// Key of the first column of tables whose rows are named figures.
+const FIGURE: &str = "figure";
 
 /// Numbers of a scene.
 ///
@@ -26,18 +35,57 @@ pub fn numbers(loaded: &LoadedScene, choice: &Choice, interrupt: &Interrupt) -> 
     let found = run.into_folder(&folder.path().join("numbers"))?.findings;
     interrupt.check()?;
     let mut numbers = Numbers::new();
-    let mut add = |path: String, quantity: &crate::findings::Quantity| {
-        if let Some(value) = quantity.value() {
-            numbers.insert(path, (value, quantity.unit().unwrap_or_default().to_owned()));
-        }
-    };
     for entry in &found.headline {
-        add(format!("headline.{}", entry.key), &entry.quantity);
+        add(&mut numbers, format!("headline.{}", entry.key), &entry.quantity);
     }
-    found.walk(&mut |path, section| {
-        for entry in &section.entries {
-            add(format!("{path}.{}", entry.key), &entry.quantity);
-        }
-    });
+    found.walk(&mut |path, section| add_section(&mut numbers, path, section));
     Ok(numbers)
+}
+
+/// The same numbers of a scene's texture windows alone, of those flanks that are asked for: nothing else is cut.
+///
+/// # Errors
+/// As for [`numbers`].
+pub fn texture_numbers(
+    loaded: &LoadedScene,
+    flanks: &[(u32, Side)],
+    choice: &Choice,
+    interrupt: &Interrupt,
+) -> Result<Numbers> {
+    let mut numbers = Numbers::new();
+    let quiet = Progress::new(ProgressMode::Quiet);
+    process::prepare(&loaded.scene)?.with_gear(&mut |gear| {
+        let mut windows = texture::windows(gear)?;
+        windows.retain(|window| flanks.contains(&(window.tooth, window.side)));
+        let textures = texture::measure(gear, &windows, choice.backend.as_ref(), &quiet, interrupt)?;
+        interrupt.check()?;
+        let section = texture::findings(gear, &textures);
+        section.walk(&section.key, &mut |path, section| add_section(&mut numbers, path, section));
+        Ok(())
+    })?;
+    Ok(numbers)
+}
+
+fn add(numbers: &mut Numbers, path: String, quantity: &Quantity) {
+    if let Some(value) = quantity.value() {
+        numbers.insert(path, (value, quantity.unit().unwrap_or_default().to_owned()));
+    }
+}
+
+/// Quantities of a section, and the cells of its tables of figures as `TABLE.FIGURE.COLUMN`.
+fn add_section(numbers: &mut Numbers, path: &str, section: &Section) {
+    for entry in &section.entries {
+        add(numbers, format!("{path}.{}", entry.key), &entry.quantity);
+    }
+    let of_figures = |table: &&Table| table.columns.first().is_some_and(|column| column.key == FIGURE);
+    for table in section.tables.iter().filter(of_figures) {
+        for row in &table.rows {
+            for (column, cell) in table.columns.iter().zip(row).skip(1) {
+                if let Some(value) = cell.number() {
+                    let unit = column.unit.as_deref().unwrap_or_default().to_owned();
+                    numbers.insert(format!("{path}.{}.{}.{}", table.key, row[0].name(), column.key), (value, unit));
+                }
+            }
+        }
+    }
 }

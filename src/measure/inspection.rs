@@ -20,6 +20,8 @@ pub struct InspectedFlank<Own> {
     pub length_mm: f64,
     /// Arcs between which profiles are evaluated, mm.
     pub evaluated_mm: [f64; 2],
+    /// Where both traces run.
+    pub lines: TracedLines,
     /// Heights along the profile in the middle of the face.
     pub profile_trace: Trace,
     /// Its deviations.
@@ -32,6 +34,18 @@ pub struct InspectedFlank<Own> {
     pub untouched: u64,
     /// What only the process that cut it measures.
     pub own: Own,
+}
+
+/// Where the traces of a flank run: every process names the places of its own traces as its inspectors do, and all of
+/// them stand here as arcs and places along the tooth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TracedLines {
+    /// Arcs from the form point of the places of the profile, mm.
+    pub arcs_mm: Vec<f64>,
+    /// Place of the profile along the tooth from the middle of the face, mm.
+    pub profile_v_mm: f64,
+    /// Arc of the line along the tooth, mm.
+    pub lead_arc_mm: f64,
 }
 
 /// What is measured from tooth to tooth.

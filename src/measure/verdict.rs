@@ -218,6 +218,7 @@ fn sides<Own>(flanks: &[InspectedFlank<Own>], gear: &GearInspection, figure: Ins
 mod tests {
     use super::*;
     use crate::measure::deviation::Trace;
+    use crate::measure::inspection::TracedLines;
     use gearcut_core::gear::GearKind;
 
     /// A flank whose profile rises by `slope_um` over its length and whose helix is straight.
@@ -233,6 +234,7 @@ mod tests {
             evaluated_mm: [0.0, 10.0],
             profile: profile_trace.deviation([0.0, 10.0]),
             lead: lead_trace.deviation([0.0, 10.0]),
+            lines: TracedLines { arcs_mm: places_mm, profile_v_mm: 0.0, lead_arc_mm: 5.0 },
             profile_trace,
             lead_trace,
             untouched: 0,

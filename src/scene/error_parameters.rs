@@ -10,9 +10,10 @@
 mod shifted;
 
 use super::LoadedScene;
-use super::error_sources::{ErrorSource, KeyForm, of_axis};
+use super::error_sources::{ErrorSource, KeyForm, Tried, of_axis};
 use super::keys::join;
 use super::machine_errors;
+use super::values::Held;
 use crate::machine::AxisKind;
 pub use shifted::Shifted;
 
@@ -29,10 +30,43 @@ pub struct ErrorParameter {
     pub unit: &'static str,
     /// Natural step, in that unit.
     pub step: f64,
+    /// When it is shifted.
+    pub tried: Tried,
+    /// Section of its keys.
+    section: String,
+    /// Whether the scene has its key.
+    is_there: bool,
     change: Change,
 }
 
 impl ErrorParameter {
+    /// Whether it is among all errors, where nobody names any.
+    pub fn is_usual(&self) -> bool {
+        match self.tried {
+            Tried::Always => true,
+            Tried::WhereItIs => self.is_there,
+            Tried::ByName => false,
+        }
+    }
+
+    /// Whether a name means it: its whole name, its key, or a section of keys. What is not tried always must be meant
+    /// by more than a section that holds others.
+    pub fn is_meant_by(&self, name: &str) -> bool {
+        let rest = self.id.strip_prefix(name);
+        let least = match self.tried {
+            Tried::Always => "",
+            Tried::WhereItIs if self.is_there => "",
+            Tried::WhereItIs => &self.section,
+            Tried::ByName => &self.source,
+        };
+        name.starts_with(least) && rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '@', '/']))
+    }
+
+    /// Whether it is the size of something random.
+    pub fn is_random(&self) -> bool {
+        self.tried == Tried::ByName
+    }
+
     /// The same with another step.
     #[must_use]
     pub fn with_step(self, step: f64) -> Self {
@@ -56,7 +90,14 @@ pub fn error_parameters(loaded: &LoadedScene, whole_lists: bool) -> Vec<ErrorPar
     let process = loaded.scene.process.process();
     let mut found = Vec::new();
     for source in process.errors.iter().copied().flatten() {
-        parameters(loaded, source.section, source.what, source, AxisKind::Linear, whole_lists, &mut found);
+        let Some(list) = source.section.strip_suffix("[]") else {
+            parameters(loaded, source.section, source.what, source, AxisKind::Linear, whole_lists, &mut found);
+            continue;
+        };
+        for (index, name) in loaded.scene.process.operation_names().into_iter().enumerate() {
+            let (section, what) = (format!("{list}.{index}"), format!("{name}: {}", source.what));
+            parameters(loaded, &section, &what, source, AxisKind::Linear, whole_lists, &mut found);
+        }
     }
     for &(stem, kind) in process.axes {
         let section = machine_errors::path(stem);
@@ -81,8 +122,17 @@ fn parameters(
 ) {
     let view = loaded.values.view(section);
     let mut add = |source_id: String, part: String, title: String, change: Change| {
-        let id = format!("{source_id}{part}");
-        found.push(ErrorParameter { id, source: source_id, title, unit: source.unit, step: source.step, change });
+        found.push(ErrorParameter {
+            id: format!("{source_id}{part}"),
+            is_there: loaded.values.held.get(&source_id).is_some_and(Held::is_written),
+            source: source_id,
+            title,
+            unit: source.unit,
+            step: source.step,
+            tried: source.tried,
+            section: section.to_owned(),
+            change,
+        });
     };
     match source.form {
         KeyForm::Number(name) | KeyForm::Amount(name) => {

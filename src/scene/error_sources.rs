@@ -10,7 +10,7 @@ use crate::machine::AxisKind;
 /// An error that scenes of a process can name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorSource {
-    /// Section of its keys.
+    /// Section of its keys; `operation[]` stands for each operation.
     pub section: &'static str,
     /// Its keys in that section, and how they become parameters.
     pub form: KeyForm,
@@ -20,6 +20,21 @@ pub struct ErrorSource {
     pub step: f64,
     /// What it is, in a few words.
     pub what: &'static str,
+    /// When it is shifted.
+    pub tried: Tried,
+}
+
+/// When an error is shifted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tried {
+    /// Among all errors.
+    Always,
+    /// Among all errors where the scene has its key, and where its section or key is named: what the cut itself does,
+    /// which not every scene asks for.
+    WhereItIs,
+    /// Where its key is named: the size of something random. The seed stays, so that what the shift does is not hidden
+    /// by what another seed would do (common random numbers); the influence is that of this seed.
+    ByName,
 }
 
 /// How the keys of an error become parameters.
@@ -52,8 +67,21 @@ pub enum KeyForm {
     },
 }
 
+impl ErrorSource {
+    /// An error that is tried among all.
+    pub const fn new(section: &'static str, form: KeyForm, unit: &'static str, step: f64, what: &'static str) -> Self {
+        Self { section, form, unit, step, what, tried: Tried::Always }
+    }
+
+    /// The same, tried at other times.
+    #[must_use]
+    pub const fn tried(self, tried: Tried) -> Self {
+        Self { tried, ..self }
+    }
+}
+
 const fn line(section: &'static str, form: KeyForm, unit: &'static str, step: f64, what: &'static str) -> ErrorSource {
-    ErrorSource { section, form, unit, step, what }
+    ErrorSource::new(section, form, unit, step, what)
 }
 
 const fn vector(
@@ -107,6 +135,7 @@ static ROTARY: &[ErrorSource] = &[
     line("", KeyForm::Amount("backlash_arcsec"), "arcsec", 5.0, "backlash"),
     line("", KeyForm::Lag, "ms", 2.0, "lag"),
     line("", KeyForm::Amount("gearbox_cycle_ms"), "ms", 2.0, "gearbox cycle"),
+    line("", KeyForm::Amount("noise_arcsec"), "arcsec", 1.0, "noise").tried(Tried::ByName),
 ];
 
 /// Errors of a linear axis, its section left empty. The leads of its screws are known to its scene alone.
@@ -117,6 +146,7 @@ static LINEAR: &[ErrorSource] = &[
     line("", KeyForm::Lag, "ms", 2.0, "lag"),
     line("", KeyForm::Amount("gearbox_cycle_ms"), "ms", 2.0, "gearbox cycle"),
     line("", KeyForm::Number("drift_um_per_h"), "um/h", 60.0, "drift"),
+    line("", KeyForm::Amount("noise_um"), "um", 0.5, "noise").tried(Tried::ByName),
 ];
 
 /// Errors of an axis of a kind, their sections left empty.

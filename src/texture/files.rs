@@ -1,6 +1,6 @@
 //! Files and pictures of the windows.
 
-use super::{WindowTexture, chart};
+use super::{Window, WindowTexture, chart, shown_from, windows};
 use crate::colormap::ColourScale;
 use crate::job::GearJob;
 use crate::measure::topography::Surface;
@@ -10,6 +10,7 @@ use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::map_png::{MapPicture, Relief, write_relief_png};
 use crate::output::surface_files::{Format, SurfaceFile, write_surface};
 use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 use rayon::prelude::*;
 
@@ -18,28 +19,67 @@ const FRAME: &str = "x = along the tooth; y = arc length along the target profil
     section in the middle of the face, from its start of the involute towards the tip; z = height over \
     the target flank along its outward normal, positive = material left";
 
-/// Folder of a window's files inside the output, and the stem of their names.
-pub fn stem(job: &dyn GearJob, texture: &WindowTexture, index: usize) -> String {
-    let operation = job.operations()[texture.operation].0;
-    let (tooth, side) = (texture.window.tooth, texture.window.side.name());
-    // Windows of a scene may lie on the same flank: their number tells them apart.
-    let number = if index == 0 { String::new() } else { format!("_{}", index + 1) };
-    format!("texture/{operation}/tooth_{tooth:02}_{side}{number}")
+/// Name of the note that says which surface a file holds.
+pub const SURFACE_NOTE: &str = "surface";
+
+/// What of a window after an operation names its files and its section.
+type Named = (usize, u32, Side);
+
+/// Folders inside the output with the stems of the names of files, of windows after operations in their order.
+fn stems_of(job: &dyn GearJob, named: &[Named]) -> Vec<String> {
+    let operations = job.operations();
+    let stem = |(i, (operation, tooth, side)): (usize, &Named)| {
+        let index = named[..i].iter().filter(|other| **other == named[i]).count();
+        // Windows of a scene may lie on the same flank: their number tells them apart.
+        let number = if index == 0 { String::new() } else { format!("_{}", index + 1) };
+        format!("texture/{}/tooth_{tooth:02}_{}{number}", operations[*operation].0, side.name())
+    };
+    named.iter().enumerate().map(stem).collect()
 }
 
 /// Stems of all textures, in their order.
 pub fn stems(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<String> {
-    textures
+    let named = |texture: &WindowTexture| (texture.operation, texture.window.tooth, texture.window.side);
+    stems_of(job, &textures.iter().map(named).collect::<Vec<_>>())
+}
+
+/// A window after one of the operations that it shows, by the names that its results have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedWindow {
+    /// The window.
+    pub window: Window,
+    /// Path of its section in the findings.
+    pub path: String,
+    /// What its files call it.
+    pub words: String,
+}
+
+/// All windows after all operations that they show, nothing cut.
+///
+/// # Errors
+/// As for [`windows`].
+pub fn named_windows(job: &dyn GearJob) -> Result<Vec<NamedWindow>> {
+    let count = job.operations().len();
+    let windows = windows(job)?;
+    let shown: Vec<(Named, &Window)> = windows
         .iter()
-        .enumerate()
-        .map(|(i, texture)| {
-            let same = |other: &&WindowTexture| {
-                (other.operation, other.window.tooth, other.window.side)
-                    == (texture.operation, texture.window.tooth, texture.window.side)
-            };
-            stem(job, texture, textures[..i].iter().filter(same).count())
+        .flat_map(|window| {
+            let first = shown_from(window, count);
+            (first..count).map(move |operation| ((operation, window.tooth, window.side), window))
         })
-        .collect()
+        .collect();
+    let stems = stems_of(job, &shown.iter().map(|(named, _)| *named).collect::<Vec<_>>());
+    let named = shown.into_iter().zip(stems).map(|((named, window), stem)| NamedWindow {
+        window: window.clone(),
+        path: stem.replace('/', "."),
+        words: words(job, named.0, window),
+    });
+    Ok(named.collect())
+}
+
+/// What files say of their surface.
+fn words(job: &dyn GearJob, operation: usize, window: &Window) -> String {
+    format!("{}: tooth {}, {} flank", job.operations()[operation].0, window.tooth, window.side.name())
 }
 
 /// Writes files and pictures of all windows; `notes` are the scene and the run record.
@@ -64,8 +104,7 @@ fn write_one(
     notes: &[(String, String)],
 ) -> Result<()> {
     let window = &texture.window;
-    let operation = job.operations()[texture.operation].0;
-    let what = format!("{operation}: tooth {}, {} flank", window.tooth, window.side.name());
+    let what = words(job, texture.operation, window);
     let Some(heights) = &texture.heights else { return Ok(()) };
     let [x, y] = window.start_mm;
     let mut all = vec![
@@ -76,7 +115,7 @@ fn write_one(
                 involute"
             ),
         ),
-        ("surface".to_owned(), what.clone()),
+        (SURFACE_NOTE.to_owned(), what.clone()),
     ];
     all.extend_from_slice(notes);
     let file = SurfaceFile { surface: heights.clone(), notes: all };

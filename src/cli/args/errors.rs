@@ -42,9 +42,18 @@ pub struct CalibrateArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Measured numbers (CSV).
-    #[arg(long, value_name = "FILE")]
-    pub measured: PathBuf,
+    /// What was measured: numbers, places or charts (CSV), a surface (X3P, SDF, ...); several times for several files.
+    #[arg(long, value_name = "FILE", required = true)]
+    pub measured: Vec<String>,
+    /// Standard uncertainty of every deviation on a chart and of every figure of an inspection.
+    #[arg(long, value_name = "UM")]
+    pub noise_um: Option<f64>,
+    /// Standard uncertainty of the numbers of surfaces, per cent of each.
+    #[arg(long, value_name = "PERCENT")]
+    pub surface_percent: Option<f64>,
+    /// Numbers that are taken from surfaces, by the symbols of ISO 25178-2.
+    #[arg(long, value_name = "SYMBOLS", value_delimiter = ',', default_values = ["Sa", "Sk", "Spk", "Svk"])]
+    pub surface_numbers: Vec<String>,
     /// Errors to fit, by key, section or whole name, such as mounting.eccentricity_um@90.
     #[arg(long, value_name = "KEYS", value_delimiter = ',', required = true)]
     pub fit: Vec<String>,

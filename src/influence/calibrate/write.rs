@@ -1,7 +1,8 @@
 //! A calibration as findings, and all that is written.
 
-use super::Calibration;
+use super::{Calibrated, Calibration, Measured};
 use crate::findings::{Datum, Entry, Findings, Quantity, RESULTS_FILE, Section, Table, TableColumn, Warning};
+use crate::influence::charts::MeasuredLine;
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::table::write_tables;
@@ -15,7 +16,7 @@ use gearcut_core::error::Result;
 const UNEXPLAINED_BY_CHANCE: f64 = 1e-3;
 
 /// The tree.
-pub fn findings(scene: &Scene, found: &Calibration) -> Findings {
+pub fn findings(scene: &Scene, measured: &Measured, found: &Calibration) -> Findings {
     let headline = found.fitted.iter().enumerate().map(|(index, (parameter, fitted))| {
         let definition = match fitted {
             Some([_, half]) => format!(
@@ -26,7 +27,7 @@ pub fn findings(scene: &Scene, found: &Calibration) -> Findings {
             ),
             None => format!("fitted: shift of {} beyond the scene", parameter.id),
         };
-        let why = "the measured numbers do not say it: its derivatives are nothing, or those of the others";
+        let why = "the measured values do not say it: its derivatives are nothing, or those of the others";
         let quantity = Quantity::number_or(fitted.map(|[shift, _]| shift), parameter.unit, definition, why);
         Entry::headline(&format!("fit_{}", index + 1), &parameter.title, quantity)
     });
@@ -35,32 +36,44 @@ pub fn findings(scene: &Scene, found: &Calibration) -> Findings {
             let what = "fitted: sum of the squared residuals over the uncertainties";
             Quantity::number(found.chi_square, "1", what)
         })
-        .with("freedom", Quantity::count(found.freedom as u64, "1", "measured numbers less fitted ones"))
+        .with(
+            "freedom",
+            Quantity::count(found.freedom as u64, "1", "measured values less fitted ones, and one for each line"),
+        )
         .with("chance", {
-            let what = "chance of residuals as large from the uncertainties alone: chi-square";
+            let what = "fitted: chance of residuals as large from the uncertainties alone: chi-square";
             Quantity::number_or(found.chance, "1", what, "as many numbers are fitted as measured")
         })
         .table(fits(found))
-        .table(numbers(found));
+        .table(numbers(measured, found));
+    let section = if measured.lines.is_empty() {
+        section
+    } else {
+        section.table(lines(measured, found)).table(places(measured, found))
+    };
     Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         process: scene.process_name().to_owned(),
         scene: scene.name.clone(),
-        complete: true,
+        complete: found.complete,
         headline: headline.collect(),
-        warnings: warnings(found),
+        warnings: warnings(measured, found),
         sections: vec![section],
     }
 }
 
-fn warnings(found: &Calibration) -> Vec<Warning> {
+fn warnings(measured: &Measured, found: &Calibration) -> Vec<Warning> {
+    let stopped = (!found.complete).then(|| {
+        Warning::warn("stopped by Ctrl-C: fitted by the rounds that were done; intervals are of the last one")
+    });
     let lost = found.fitted.iter().filter(|(_, fitted)| fitted.is_none()).map(|(parameter, _)| {
         Warning::warn(format!(
-            "{} cannot be identified: the measured numbers say nothing of it, or no more than of the others together",
+            "{} cannot be identified: the measured values say nothing of it, or no more than of the others together",
             parameter.id
         ))
     });
-    let moving = (!found.settled).then(|| Warning::warn("the fit has not settled: its numbers are no least squares"));
+    let moving = (found.complete && !found.settled)
+        .then(|| Warning::warn("the fit has not settled: its numbers are no least squares"));
     let left = found.chance.filter(|chance| *chance < UNEXPLAINED_BY_CHANCE).map(|chance| {
         Warning::warn(format!(
             "unexplained: uncertainties alone leave residuals as large in {} of 1000 cases; something else is wrong",
@@ -69,14 +82,15 @@ fn warnings(found: &Calibration) -> Vec<Warning> {
     });
     let bare = (found.freedom == 0)
         .then(|| Warning::note("as many numbers are fitted as measured: that they agree says nothing about the model"));
-    lost.chain(moving).chain(left).chain(bare).collect()
+    let files = measured.notes.iter().map(|note| Warning::note(note.clone()));
+    stopped.into_iter().chain(lost).chain(moving).chain(left).chain(bare).chain(files).collect()
 }
 
 fn fits(found: &Calibration) -> Table {
-    let why = "the measured numbers do not say it";
+    let why = "the measured values do not say it";
     let columns = vec![
         TableColumn::words("parameter", "key of the error, and behind @ which part of it"),
-        TableColumn::words("kind", "fitted: chosen so that the predicted numbers come near the measured ones"),
+        TableColumn::words("kind", "fitted: chosen so that the predicted values come near the measured ones"),
         TableColumn::by_row("shift", "shift beyond the scene").or(why),
         TableColumn::by_row("half_width", "half the width of its 95 % interval").or(why),
         TableColumn::words("unit", "unit of both"),
@@ -93,48 +107,131 @@ fn fits(found: &Calibration) -> Table {
     Table::new("fits", "Fitted parameters", columns).with_rows(rows).in_file("fits")
 }
 
-fn numbers(found: &Calibration) -> Table {
+fn numbers(measured: &Measured, found: &Calibration) -> Table {
     let columns = vec![
         TableColumn::words("quantity", "path in results.json, which says its unit"),
-        TableColumn::by_row("measured", "measured value"),
-        TableColumn::by_row("uncertainty", "its standard uncertainty"),
+        TableColumn::by_row("value", "measured: value"),
+        TableColumn::by_row("uncertainty", "measured: its standard uncertainty"),
         TableColumn::by_row("scene", "predicted: by the scene as it is"),
         TableColumn::by_row("fitted", "fitted: by the scene with the fitted parameters"),
     ];
-    let rows = found.numbers.iter().map(|(measured, [before, after])| {
-        vec![
-            measured.quantity.as_str().into(),
-            measured.value.into(),
-            measured.uncertainty.into(),
-            (*before).into(),
-            (*after).into(),
-        ]
+    let rows = measured.numbers.iter().zip(&found.values).map(|(number, of)| {
+        let quantity = number.quantity.as_str().into();
+        vec![quantity, of.measured.into(), number.uncertainty.into(), of.predicted.into(), of.fitted.into()]
     });
     Table::new("numbers", "Measured numbers", columns).with_rows(rows).in_file("numbers")
+}
+
+/// Lines with their values.
+fn by_line<'a>(
+    measured: &'a Measured,
+    found: &'a Calibration,
+) -> impl Iterator<Item = (&'a MeasuredLine, &'a [Calibrated])> {
+    let mut rest = &found.values[measured.numbers.len()..];
+    measured.lines.iter().map(move |line| {
+        let (own, others) = rest.split_at(line.points.len());
+        rest = others;
+        (line, own)
+    })
+}
+
+/// A row for each line.
+fn lines(measured: &Measured, found: &Calibration) -> Table {
+    let columns = vec![
+        TableColumn::words("line", "line of a chart"),
+        TableColumn::new("places", "1", "measured: places on it"),
+        TableColumn::new("measured", "um", "measured: root mean square about the mean of the line, or a turn"),
+        TableColumn::new("off_scene", "um", "predicted: root mean square of what the scene as it is leaves of it"),
+        TableColumn::new("off_fitted", "um", "fitted: the same of the scene with the fitted parameters"),
+    ];
+    let rows = by_line(measured, found).map(|(line, own)| {
+        let rms = |of: fn(&Calibrated) -> f64| {
+            (own.iter().map(|one| of(one).powi(2)).sum::<f64>() / own.len() as f64).sqrt().into()
+        };
+        vec![
+            Datum::Word(line.title()),
+            (own.len() as u64).into(),
+            rms(|of| of.measured),
+            rms(|of| of.measured - of.predicted),
+            rms(|of| of.measured - of.fitted),
+        ]
+    });
+    Table::new("lines", "Measured lines", columns).with_rows(rows).in_file("lines")
+}
+
+/// A row for each place of the lines.
+fn places(measured: &Measured, found: &Calibration) -> Table {
+    let columns = vec![
+        TableColumn::words("chart", "profile, helix, pitch; places: loose ones"),
+        TableColumn::new("tooth", "1", "tooth, from 1"),
+        TableColumn::words("flank", "left or right"),
+        TableColumn::new("u", "mm", "arc along the profile from the form point")
+            .or("pitch is taken on the pitch curve"),
+        TableColumn::new("v", "mm", "place along the tooth from the middle of the face").or("pitch is taken there"),
+        TableColumn::new("measured", "um", "measured: deviation from the mean of its line, or but for a turn"),
+        TableColumn::new("scene", "um", "predicted: the same by the scene as it is"),
+        TableColumn::new("fitted", "um", "fitted: the same by the scene with the fitted parameters"),
+    ];
+    let rows = by_line(measured, found).flat_map(|(line, own)| {
+        line.points.iter().zip(own).map(|(point, of)| {
+            let known = |mm: f64| Datum::from(Some(mm).filter(|mm| mm.is_finite()));
+            vec![
+                line.chart.name().into(),
+                point.tooth.into(),
+                point.side.name().into(),
+                known(point.u_mm),
+                known(point.v_mm),
+                of.measured.into(),
+                of.predicted.into(),
+                of.fitted.into(),
+            ]
+        })
+    });
+    Table::new("places", "Places of the measured lines", columns).with_rows(rows).rows_in_file("places")
 }
 
 /// Writes everything but the run record.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(scene: &Scene, found: &Calibration, tree: &Findings, folder: &OutputFolder) -> Result<()> {
+pub fn write(
+    scene: &Scene,
+    measured: &Measured,
+    found: &Calibration,
+    tree: &Findings,
+    folder: &OutputFolder,
+) -> Result<()> {
     write_tables(tree, folder)?;
-    page(scene, found, tree).write(&folder.path(REPORT_FILE)?)?;
+    page(scene, measured, found, tree).write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &tree.to_json())
 }
 
-fn page(scene: &Scene, found: &Calibration, tree: &Findings) -> Page {
+fn page(scene: &Scene, measured: &Measured, found: &Calibration, tree: &Findings) -> Page {
     let shown = |value: f64| significant(value, 4).replace('-', "−");
-    let rows = found.numbers.iter().map(|(measured, [before, after])| {
-        let both = format!("{} ± {}", shown(measured.value), shown(measured.uncertainty));
-        vec![measured.quantity.clone(), both, shown(*before), shown(*after)]
-    });
-    let numbers = PageTable {
-        caption: "Measured numbers".to_owned(),
-        columns: ["Quantity", "Measured", "Predicted by the scene", "Fitted"].map(str::to_owned).into(),
-        rows: rows.collect(),
-    };
-    let mut blocks = vec![Block::Table(numbers)];
+    let mut blocks = Vec::new();
+    if !measured.numbers.is_empty() {
+        let rows = measured.numbers.iter().zip(&found.values).map(|(number, of)| {
+            let both = format!("{} ± {}", shown(of.measured), shown(number.uncertainty));
+            vec![number.quantity.clone(), both, shown(of.predicted), shown(of.fitted)]
+        });
+        blocks.push(Block::Table(PageTable {
+            caption: "Measured numbers".to_owned(),
+            columns: ["Quantity", "Measured", "Predicted by the scene", "Fitted"].map(str::to_owned).into(),
+            rows: rows.collect(),
+        }));
+    }
+    if let Some(table) = tree.find("calibration").and_then(|section| section.table_of("lines")) {
+        let rows = table.rows.iter().map(|row| {
+            let um = |cell: &Datum| cell.number().map_or_else(String::new, shown);
+            std::iter::once(row[0].name()).chain(row[2..].iter().map(um)).collect()
+        });
+        let columns = ["Line", "Measured [µm]", "Left by the scene, predicted [µm]", "Left, fitted [µm]"];
+        blocks.push(Block::Table(PageTable {
+            caption: "Measured lines, root mean squares about their means".to_owned(),
+            columns: columns.map(str::to_owned).into(),
+            rows: rows.collect(),
+        }));
+    }
     blocks.extend(tree.find("calibration").map(|section| Block::Table(quantities::table(section))));
     if !found.settings.is_empty() {
         let settings: Vec<String> = found.settings.iter().map(|setting| format!("--set '{setting}'")).collect();
@@ -144,9 +241,9 @@ fn page(scene: &Scene, found: &Calibration, tree: &Findings) -> Page {
     Page {
         what: "calibration",
         title: tree.scene.clone(),
-        subtitle: format!("{} parameters fitted to {} measured numbers", found.fitted.len(), found.numbers.len()),
+        subtitle: format!("{} parameters fitted to {} measured values", found.fitted.len(), found.values.len()),
         operations: vec![gear_words(&scene.gear)],
-        complete: true,
+        complete: found.complete,
         done: "fitted",
         program: format!("gearcut {}", tree.program_version),
         key_numbers: tree.headline.iter().map(quantities::key_number).collect(),

@@ -73,7 +73,7 @@ pub fn findings(
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         process: scene.process_name().to_owned(),
         scene: scene.name.clone(),
-        complete: true,
+        complete: model.complete,
         headline,
         warnings: warnings(model, found),
         sections: vec![section],
@@ -87,6 +87,12 @@ fn title(model: &ErrorModel, source: usize) -> String {
 fn warnings(model: &ErrorModel, found: &Diagnosis) -> Vec<Warning> {
     let names = |sources: &[usize]| sources.iter().map(|&source| title(model, source)).collect::<Vec<_>>().join("; ");
     let mut warnings = Vec::new();
+    if !model.complete {
+        warnings.push(Warning::warn(format!(
+            "stopped by Ctrl-C: only {} errors were tried; one of the others may explain these deviations better",
+            model.sources.len()
+        )));
+    }
     if found.unexplained_um > 0.0 {
         warnings.push(Warning::warn(format!(
             "unexplained: {} um are left beyond the stated noise; no error that the scene can name makes them",

@@ -2,6 +2,7 @@
 
 use crate::influence::budget::chosen;
 use crate::influence::derivative::Influence;
+use crate::influence::gear_grid::turn_um_per_arcsec;
 use crate::influence::measured::{MeasuredPlaces, MeasuredPoint};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
@@ -10,11 +11,6 @@ use crate::scene::LoadedScene;
 use crate::scene::error_parameters::ErrorParameter;
 use gearcut_core::cut::Backend;
 use gearcut_core::error::{Error, Refusal, Result};
-use gearcut_core::units::UM_PER_MM;
-use std::f64::consts::PI;
-
-/// Radians in a second of arc.
-const RAD_PER_ARCSEC: f64 = PI / 180.0 / 3600.0;
 
 /// A scene's errors as columns over measured places.
 #[derive(Debug, Clone)]
@@ -27,6 +23,8 @@ pub struct ErrorModel {
     pub sources: Vec<ModelledSource>,
     /// Parameters that could not be shifted, and why.
     pub refused: Vec<(ErrorParameter, String)>,
+    /// Whether all parameters were tried; after Ctrl-C only sources that were tried as a whole are there.
+    pub complete: bool,
 }
 
 /// A source of errors with its columns.
@@ -53,7 +51,8 @@ impl ErrorModel {
     /// Influences of the errors with these names (all, if none is given) at measured places.
     ///
     /// # Errors
-    /// Places that the gear does not have; geometry that cannot be cut; places where no pass came; Ctrl-C.
+    /// The size of something random, which has no map of its own; places that the gear does not have; geometry that cannot be cut; places where no pass came; Ctrl-C before any error was
+    /// tried.
     pub fn new(
         loaded: &LoadedScene,
         points: &[MeasuredPoint],
@@ -63,6 +62,12 @@ impl ErrorModel {
         interrupt: &Interrupt,
     ) -> Result<Self> {
         let parameters = chosen(loaded, names)?;
+        if let Some(random) = parameters.iter().find(|parameter| parameter.is_random()) {
+            let problem =
+                format!("{} is the size of something random, which makes another map in every gear", random.id);
+            let way_out = "a diagnosis finds what repeats; `gearcut calibrate` fits it to numbers of texture";
+            return Err(Refusal::new("--parameters", problem, way_out).into());
+        }
         let mut places = None;
         process::prepare(&loaded.scene)?.with_gear(&mut |gear| {
             places = Some(MeasuredPlaces::new(gear, points)?);
@@ -82,17 +87,15 @@ impl ErrorModel {
             );
             return Err(Refusal::new("--measured", problem, "leave out places that the scene does not cut").into());
         }
-        let turn = places.grid.flanks.iter().flat_map(|flank| {
-            (0..flank.places()).map(|place| {
-                let radius_mm = flank.rays[place].origin_mm.truncate().length();
-                UM_PER_MM * RAD_PER_ARCSEC * radius_mm / flank.around_per_height(place)
-            })
-        });
-        let um_per_arcsec = places.at_points(&turn.collect::<Vec<f64>>());
-        let mut model = Self { before_um, um_per_arcsec, sources: Vec::new(), refused: Vec::new() };
+        let um_per_arcsec = places.at_points(&turn_um_per_arcsec(&places.grid));
+        let mut model = Self { before_um, um_per_arcsec, sources: Vec::new(), refused: Vec::new(), complete: true };
         let step = progress.step("influence", parameters.len() as u64, "parameters");
         for parameter in parameters {
-            interrupt.check()?;
+            if interrupt.is_raised() {
+                model.complete = false;
+                model.leave_out_source_of(&parameter);
+                break;
+            }
             match Influence::new(loaded, &places.grid, &cut_um, &parameter, backend) {
                 Ok(influence) => model.add(parameter, places.at_points(&influence.um_per_unit)),
                 Err(Error::Scene(errors)) => model.refused.push((parameter, errors.to_string())),
@@ -102,7 +105,15 @@ impl ErrorModel {
             step.advance(1);
         }
         step.finish();
+        if !model.complete && model.sources.is_empty() {
+            return Err(Error::Interrupted);
+        }
         Ok(model)
+    }
+
+    /// Takes a source away of which not all parameters were tried.
+    fn leave_out_source_of(&mut self, untried: &ErrorParameter) {
+        self.sources.retain(|source| source.key != untried.source);
     }
 
     fn add(&mut self, parameter: ErrorParameter, um_per_unit: Vec<f64>) {

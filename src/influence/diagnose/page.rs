@@ -46,7 +46,7 @@ fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings) -
         title: tree.scene.clone(),
         subtitle: format!("{} measured places, {} errors tried", found.residuals_um.len(), model.sources.len()),
         operations: vec![gear_words(&scene.gear)],
-        complete: true,
+        complete: model.complete,
         done: "all errors tried",
         program: format!("gearcut {}", tree.program_version),
         key_numbers: tree.headline.iter().map(quantities::key_number).collect(),

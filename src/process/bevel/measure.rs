@@ -10,7 +10,7 @@
 use super::job::{BevelJob, index};
 use super::surfaces::MARGIN;
 use crate::measure::deviation::Trace;
-use crate::measure::inspection::InspectedFlank;
+use crate::measure::inspection::{InspectedFlank, TracedLines};
 use gearcut_core::bevel::ease_off::{Explained, explain};
 use gearcut_core::bevel::face_mill::FaceMill;
 use gearcut_core::cut::Backend;
@@ -148,6 +148,11 @@ pub fn measure(job: &BevelJob, tooth: u32, side: Side, rays: &FreeRays, layers: 
         length_mm: target.length_mm(),
         evaluated_mm: ends(arcs_mm, &columns),
         profile: profile_trace.deviation(ends(arcs_mm, &columns)),
+        lines: TracedLines {
+            arcs_mm: arcs_mm.clone(),
+            profile_v_mm: rows_mm[middle_row],
+            lead_arc_mm: arcs_mm[middle_column],
+        },
         profile_trace,
         lead: lead_trace.deviation(ends(rows_mm, &rows)),
         lead_trace,

@@ -1,11 +1,13 @@
 //! Deviations of the finished gear as a gear inspector knows them: profile and lead traces, pitch, runout, tooth
 //! thickness.
 
+mod charts;
+
 use super::facts::gear_words;
 use crate::findings::Findings;
 use crate::measure::deviation::{Trace, TraceDeviation};
 use crate::measure::flank_tolerance::InspectionFigure;
-use crate::measure::inspection::{GearInspection, InspectedFlank};
+use crate::measure::inspection::{GearInspection, InspectedFlank, TracedLines};
 use crate::measure::verdict::{GearVerdict, JudgedFigure, LimitSource};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
@@ -35,6 +37,8 @@ const SIDES: [(Side, &str); 2] = [(Side::Left, "left flanks"), (Side::Right, "ri
 struct TracedFlank<'a> {
     tooth: u32,
     side: Side,
+    /// Where both traces run.
+    lines: &'a TracedLines,
     /// Profile in the middle of the face, and its deviations.
     profile: (&'a Trace, Option<TraceDeviation>),
     /// Line along the tooth, and its deviations.
@@ -76,6 +80,7 @@ impl<'a> Inspection<'a> {
         let inspected = |flank: &'a InspectedFlank<Own>| TracedFlank {
             tooth: flank.tooth,
             side: flank.side,
+            lines: &flank.lines,
             profile: (&flank.profile_trace, flank.profile),
             lead: (&flank.lead_trace, flank.lead),
         };
@@ -140,7 +145,7 @@ fn sheet(
     }
 }
 
-/// Writes the inspector's sheet as `inspection.svg` and `inspection.pdf`.
+/// Writes the inspector's sheet as `inspection.svg` and `inspection.pdf`, and its lines as `inspection_charts.csv`.
 ///
 /// # Errors
 /// Files that cannot be written.
@@ -157,7 +162,8 @@ pub fn write_sheet(inspection: &Inspection, scene: &Scene, found: &Findings, fol
         notes.push("Limits of profile and helix are those of the transverse section times cos βb.".to_owned());
     }
     let sheet = sheet(inspection, &scene.name, &gear_words(&scene.gear), sizes, notes);
-    sheet.page().write(&folder.path("inspection.svg")?, &folder.path("inspection.pdf")?)
+    sheet.page().write(&folder.path("inspection.svg")?, &folder.path("inspection.pdf")?)?;
+    charts::write(inspection, &folder.path("inspection_charts.csv")?)
 }
 
 fn sheet_figure(judged: &JudgedFigure) -> SheetFigure {

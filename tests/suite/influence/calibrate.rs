@@ -5,7 +5,7 @@ use crate::fixtures::command::{gearcut_in, read_json};
 use crate::fixtures::json_schema::assert_is_results;
 use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
 use gearcut::influence::budget::chosen;
-use gearcut::influence::calibrate::{Calibration, MeasuredNumber};
+use gearcut::influence::calibrate::{Calibration, Measured, MeasuredNumber};
 use gearcut::influence::numbers::numbers;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
@@ -45,8 +45,8 @@ fn errors_of_a_round_gear_are_fitted_to_its_runout_and_thickness() {
         ["mounting.eccentricity_um@0", "machine.errors.center_distance.scale_um_per_m", "mounting.axial_offset_um"];
     let parameters = chosen(&loaded, &[eccentric, scale, offset].map(str::to_owned)).expect("parameters");
     let quiet = Progress::new(ProgressMode::Quiet);
-    let found = Calibration::new(&loaded, &parameters, &measured(&choice), &choice, &quiet, &Interrupt::default())
-        .expect("cut");
+    let measured = Measured::of_numbers(measured(&choice));
+    let found = Calibration::new(&loaded, &parameters, &measured, &choice, &quiet, &Interrupt::default()).expect("cut");
     assert!(found.settled, "{found:?}");
     let of = |id: &str| found.fitted.iter().find(|(parameter, _)| parameter.id == id).expect("asked for").1;
     let [shift, half] = of(eccentric).expect("the runout says it");
@@ -65,17 +65,58 @@ fn the_command_prints_a_fitted_scene_and_refuses_unknown_numbers() {
     let calibrate = |rows: &str| {
         std::fs::write(folder.path().join("numbers.csv"), format!("quantity,value,uncertainty\n{rows}"))
             .expect("written");
-        let arguments = ["calibrate", "round.toml", "--measured", "numbers.csv", "--fit", "mounting.eccentricity_um@0"];
+        let fit = "mounting.eccentricity_um@0,mounting.axial_offset_um";
+        let arguments = ["calibrate", "round.toml", "--measured", "numbers.csv", "--fit", fit];
         let arguments: Vec<&str> = arguments.into_iter().chain(settings.iter().map(String::as_str)).collect();
         gearcut_in(folder.path(), &arguments)
     };
-    let done = calibrate("deviations.runout,18.0,0.2\n").done().says(&["fitted", "--set 'mounting.eccentricity_um="]);
+    let words = ["fitted", "--set 'mounting.eccentricity_um=", "cannot be identified", "predicted"];
+    let done = calibrate("deviations.runout,18.0,0.2\n").done().says(&words);
+    assert!(done.out.lines().all(|line| line.chars().count() <= 80), "{}", done.out);
     assert!(done.err.contains("as many numbers are fitted as measured"), "{}", done.err);
     let out = folder.path().join("out/round_calibration");
     let results = read_json(&out.join("results.json"));
     assert_is_results(&results);
     let shift = results["headline"]["fit_1"]["value"].as_f64().expect("a number");
     assert!((shift - 4.0).abs() < 0.5, "{results:#}");
+    everything_is_marked(&results);
+    // An offset along the axis does nothing to spur teeth: it has no size, and is named.
+    let offset = &results["headline"]["fit_2"];
+    assert!(offset["value"].is_null() && offset["why"].is_string(), "{offset:#}");
+    assert!(done.err.contains("mounting.axial_offset_um cannot be identified"), "{}", done.err);
+    let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
+    for words in ["mounting.axial_offset_um cannot be identified", "Predicted by the scene", ">Fitted<", "fitted"] {
+        assert!(page.contains(words), "no {words:?} on the page");
+    }
+    // What it writes is read again.
+    let again = ["calibrate", "round.toml", "--measured", "out/round_calibration/tables/numbers.csv", "--out", "again"];
+    let again = [&again[..], &["--fit", "mounting.eccentricity_um@0"]].concat();
+    let again: Vec<&str> = again.into_iter().chain(settings.iter().map(String::as_str)).collect();
+    gearcut_in(folder.path(), &again).done().says(&["deviations.runout"]);
     calibrate("deviations.runaut,18.0,0.2\n").failed(1, &["deviations.runaut", "results.json"]);
     calibrate("deviations.runout,18.0,0\n").failed(1, &["uncertainty", "above 0"]);
+}
+
+/// Every number of a calibration says in its definition whether it was measured, fitted or predicted.
+fn everything_is_marked(results: &serde_json::Value) {
+    let marked = |words: &str| ["fitted", "predicted", "measured"].iter().any(|mark| words.starts_with(mark));
+    let mut numbers = 0;
+    let mut look = |what: &serde_json::Value| {
+        if what.get("value").is_some() || what["unit"].is_string() {
+            numbers += 1;
+            assert!(marked(what["definition"].as_str().unwrap_or_default()), "{what:#}");
+        }
+    };
+    results["headline"].as_object().expect("numbers").values().for_each(&mut look);
+    for (key, part) in results["sections"]["calibration"].as_object().expect("a section") {
+        if key.starts_with('$') {
+            continue;
+        }
+        match part.get("columns").and_then(serde_json::Value::as_array) {
+            // Words (parameter, unit, quantity) have no unit; numbers without one have theirs in another column.
+            Some(columns) => columns.iter().for_each(&mut look),
+            None => look(part),
+        }
+    }
+    assert!(numbers > 4, "{numbers} numbers are too few: {results:#}");
 }

@@ -4,4 +4,7 @@ mod budget;
 mod calibrate;
 mod command;
 mod diagnose;
+mod measured_files;
+mod parameters;
 mod round;
+mod spatial;

@@ -24,13 +24,13 @@ const fn without(path: &'static str, why: &'static str, instead: &'static str) -
 /// Errors of the head.
 static TOOL_ERRORS: &[ErrorSource] = &[
     error_sources::wobble("tool.face_mill"),
-    ErrorSource {
-        section: "tool.face_mill",
-        form: KeyForm::Entries { list: "runouts_um", count: "blades" },
-        unit: "um",
-        step: 4.0,
-        what: "runout of blade",
-    },
+    ErrorSource::new(
+        "tool.face_mill",
+        KeyForm::Entries { list: "runouts_um", count: "blades" },
+        "um",
+        4.0,
+        "runout of blade",
+    ),
 ];
 
 /// Spiral bevel gears cut with a face-mill head.

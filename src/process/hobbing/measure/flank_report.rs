@@ -12,7 +12,7 @@
 //! line of action.
 
 use crate::measure::deviation::Trace;
-use crate::measure::inspection::InspectedFlank;
+use crate::measure::inspection::{InspectedFlank, TracedLines};
 use crate::process::hobbing::HobbedFlank;
 use gearcut_core::dexel::NO_PASS;
 use gearcut_core::terms::Side;
@@ -100,6 +100,11 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
         length_mm: arcs_mm.last().copied().unwrap_or(0.0),
         evaluated_mm: evaluated_mm(flank.target.length_mm(), flank.measured_ends_mm),
         profile: deviation(&profile_trace, columns.clone()),
+        lines: TracedLines {
+            arcs_mm: arcs_mm.clone(),
+            profile_v_mm: rows_z_mm[middle_row],
+            lead_arc_mm: arcs_mm[middle_column],
+        },
         profile_trace,
         lead: deviation(&helix_trace, rows.clone()),
         lead_trace: helix_trace,

@@ -5,7 +5,7 @@
 //! come from the dexels; begin and end from the closed form.
 
 use crate::measure::deviation::Trace;
-use crate::measure::inspection::InspectedFlank;
+use crate::measure::inspection::{InspectedFlank, TracedLines};
 use crate::measure::scallop::{Cusp, cusps};
 use crate::measure::stock::{Extreme, RESOLUTION_MM, Stock, extremes, stock};
 use crate::process::shaping::ShapingJob;
@@ -202,6 +202,11 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
         evaluated_mm,
         profile: profile_trace.deviation(evaluated_mm).filter(|_| !own.is_lost),
         lead: lead_trace.deviation([v_first + v_margin, v_last - v_margin]).filter(|_| !own.is_lost),
+        lines: TracedLines {
+            arcs_mm: profile_trace.places_mm.clone(),
+            profile_v_mm: field.rows_z_mm[middle],
+            lead_arc_mm: field.columns[lead_column].arc_mm,
+        },
         profile_trace,
         lead_trace,
         untouched: finished.passes.iter().filter(|&&pass| pass == NO_PASS).count() as u64,

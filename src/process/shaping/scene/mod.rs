@@ -7,20 +7,47 @@ mod keys;
 pub mod model;
 
 use crate::machine_errors::{Compliance, ErrorLayer};
-use crate::scene::error_sources::{self, ErrorSource, KeyForm};
+use crate::scene::error_sources::{self, ErrorSource, KeyForm, Tried};
 use crate::scene::{ProcessPart, SceneProcess, Senseless, StandardOperation};
 use model::Shaping;
 
 /// Errors of the cutter.
 static TOOL_ERRORS: &[ErrorSource] = &[
     error_sources::runout("tool.shaper_cutter"),
-    ErrorSource {
-        section: "tool.shaper_cutter",
-        form: KeyForm::Entries { list: "pitch_errors_um", count: "teeth" },
-        unit: "um",
-        step: 4.0,
-        what: "pitch of cutter tooth",
-    },
+    ErrorSource::new(
+        "tool.shaper_cutter",
+        KeyForm::Entries { list: "pitch_errors_um", count: "teeth" },
+        "um",
+        4.0,
+        "pitch of cutter tooth",
+    ),
+];
+
+/// A compliance of the machine.
+const fn compliance(key: &'static str, unit: &'static str, step: f64, what: &'static str) -> ErrorSource {
+    ErrorSource::new("machine.compliance", KeyForm::Amount(key), unit, step, what).tried(Tried::WhereItIs)
+}
+
+/// A number of the cutter's rounded edges. How much of what is ploughed springs back is none: its usual value, all of
+/// it, is the end of its range.
+const fn rounding(key: &'static str, unit: &'static str, step: f64, what: &'static str) -> ErrorSource {
+    ErrorSource::new(keys::EDGE_ROUNDING, KeyForm::Amount(key), unit, step, what).tried(Tried::WhereItIs)
+}
+
+/// What the cut itself does, and what is random in it.
+static CUT_ERRORS: &[ErrorSource] = &[
+    compliance("tool_radial_um_per_kn", "um/kN", 1.0, "tool compliance, radial"),
+    compliance("tool_tangential_um_per_kn", "um/kN", 1.0, "tool compliance, tangential"),
+    compliance("tool_torsional_urad_per_nm", "urad/(N m)", 0.2, "tool compliance, torsional"),
+    compliance("work_radial_um_per_kn", "um/kN", 1.0, "work compliance, radial"),
+    compliance("work_tangential_um_per_kn", "um/kN", 1.0, "work compliance, tangential"),
+    compliance("work_torsional_urad_per_nm", "urad/(N m)", 0.2, "work compliance, torsional"),
+    rounding("radius_um", "um", 0.5, "edge radius"),
+    rounding("minimum_chip_share", "1", 0.05, "thinnest chip over edge radius"),
+    ErrorSource::new(keys::EDGE_ROUGHNESS, KeyForm::Amount("rq_um"), "um", 0.1, "edge roughness Rq")
+        .tried(Tried::ByName),
+    ErrorSource::new("operation[]", KeyForm::Amount("stock_scatter_um"), "um", 2.0, "stock scatter")
+        .tried(Tried::ByName),
 ];
 
 /// Shaping with a pinion cutter.
@@ -51,7 +78,7 @@ pub static SCENE: SceneProcess = SceneProcess {
         Senseless { path: "gear.hand", why: "the ram strokes along the gear's axis", instead: "remove it" },
     ],
     axes: &keys::AXES,
-    errors: &[error_sources::MOUNTING, error_sources::GUIDE, TOOL_ERRORS],
+    errors: &[error_sources::MOUNTING, error_sources::GUIDE, TOOL_ERRORS, CUT_ERRORS],
     derive: defaults::derive,
     check: checks::check,
     build: build::build,

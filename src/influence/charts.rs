@@ -1,0 +1,249 @@
+//! Measured deviations as lines of inspection charts and as loose places, and what a gear is predicted to show there.
+//!
+//! In: a CSV file as gearcut writes it for its own inspections (`inspection_charts.csv`), or with places alone. Out:
+//! [`MeasuredLine`]s, and [`LaidCharts`]: the same lines on the flanks of a gear.
+//!
+//! **Law.** A measuring machine does not know where zero is. A profile or helix stands anywhere on its chart, and so do
+//! the cumulative pitch deviations of a side: what is compared are deviations from the mean of the line, of the measured
+//! and of the predicted one alike. Loose places are compared but for a turn of the gear on the measuring machine.
+//! Profiles and helices are cut at their own places, pitch where the flanks of the target cross the pitch curve; to
+//! first order a flank that stands h higher there crosses the curve h / (t . n) further on, t being the curve's tangent.
+
+use super::gear_grid::{FlankGrid, GearGrid, turn_um_per_arcsec};
+use super::measured::{COLUMNS, MeasuredPlaces, MeasuredPoint, PITCH, SAME_MM, refuse_off_flank, refuse_tooth};
+use super::measured_table::MeasuredTable;
+use crate::job::GearJob;
+use crate::scene::Scene;
+use gearcut_core::cut::Backend;
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::terms::Side;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::Path;
+
+/// Places along a profile among which its crossing with the pitch curve is looked for; between them it is straight.
+const CROSSING_PLACES: f64 = 256.0;
+
+/// What a line is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Chart {
+    /// Loose places.
+    Places,
+    /// Along the profile.
+    Profile,
+    /// Along the tooth.
+    Helix,
+    /// Cumulative pitch deviations of all flanks of a side.
+    Pitch,
+}
+
+impl Chart {
+    /// As files and tables call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Places => "places",
+            Self::Profile => "profile",
+            Self::Helix => "helix",
+            Self::Pitch => PITCH,
+        }
+    }
+
+    fn of(name: &str) -> Option<Self> {
+        [Self::Profile, Self::Helix, Self::Pitch].into_iter().find(|chart| chart.name() == name)
+    }
+}
+
+/// A line of a chart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredLine {
+    /// What it is.
+    pub chart: Chart,
+    /// Its places, in order along it; those of pitch have no u and v.
+    pub points: Vec<MeasuredPoint>,
+}
+
+impl MeasuredLine {
+    /// What it is and where, in words.
+    pub fn title(&self) -> String {
+        let MeasuredPoint { tooth, side, .. } = self.points[0];
+        match self.chart {
+            Chart::Places => "places".to_owned(),
+            Chart::Profile | Chart::Helix => format!("{} of tooth {tooth} {}", self.chart.name(), side.name()),
+            Chart::Pitch => format!("pitch of {} flanks", side.name()),
+        }
+    }
+
+    fn refuse(&self, problem: &str, way_out: &str) -> Refusal {
+        Refusal::new("--measured", format!("{} {problem}", self.title()), way_out)
+    }
+}
+
+/// Reads lines of charts, or loose places where the file has no column `chart`.
+///
+/// # Errors
+/// A file that cannot be read; columns that are missing; cells that are not what their column says; lines that do not
+/// run along the flank, or with fewer than two places.
+pub fn read_lines(path: &Path) -> Result<Vec<MeasuredLine>> {
+    let table = MeasuredTable::read(path, COLUMNS, &["chart"])?;
+    let mut lines: BTreeMap<(Chart, u32, Side), Vec<MeasuredPoint>> = BTreeMap::new();
+    for row in table.rows.iter().filter(|row| !row.cell(4).is_empty()) {
+        let chart = match row.cell(5) {
+            "" => Chart::Places,
+            name => Chart::of(name).ok_or_else(|| row.wrong(5, "profile, helix or pitch"))?,
+        };
+        let (tooth, side) = MeasuredPoint::flank_of(row)?;
+        let (key, point) = match chart {
+            Chart::Places => ((chart, 0, Side::Left), MeasuredPoint::of(row)?),
+            Chart::Profile | Chart::Helix => ((chart, tooth, side), MeasuredPoint::of(row)?),
+            Chart::Pitch => {
+                let deviation_um = row.number(4)?;
+                ((chart, 0, side), MeasuredPoint { tooth, side, u_mm: f64::NAN, v_mm: f64::NAN, deviation_um })
+            }
+        };
+        lines.entry(key).or_default().push(point);
+    }
+    let line = |((chart, _, _), points): ((Chart, u32, Side), Vec<MeasuredPoint>)| {
+        let mut line = MeasuredLine { chart, points };
+        let along = |point: &MeasuredPoint| match chart {
+            Chart::Places => 0.0,
+            Chart::Profile => point.u_mm,
+            Chart::Helix => point.v_mm,
+            Chart::Pitch => f64::from(point.tooth),
+        };
+        line.points.sort_by(|a, b| along(a).total_cmp(&along(b)));
+        if line.points.len() < 2 {
+            return Err(line.refuse("has a single place", "a line says nothing without a second one").into());
+        }
+        if chart != Chart::Places && line.points.windows(2).any(|pair| along(&pair[1]) - along(&pair[0]) < SAME_MM) {
+            return Err(line.refuse("has two values at one place", "write each place once").into());
+        }
+        let across = |point: &MeasuredPoint| if chart == Chart::Profile { point.v_mm } else { point.u_mm };
+        let wanders = |point: &MeasuredPoint| (across(point) - across(&line.points[0])).abs() > SAME_MM;
+        if matches!(chart, Chart::Profile | Chart::Helix) && line.points.iter().any(wanders) {
+            let way_out = "a profile runs at one v, a helix at one u; leave the column chart out for loose places";
+            return Err(line.refuse("does not run along the flank", way_out).into());
+        }
+        Ok(line)
+    };
+    let lines: Vec<MeasuredLine> = lines.into_iter().map(line).collect::<Result<_>>()?;
+    if lines.is_empty() {
+        return Err(Refusal::new("--measured", "no row has a deviation_um", "measure some places").into());
+    }
+    Ok(lines)
+}
+
+/// Lines on the flanks of a gear.
+#[derive(Debug, Clone)]
+pub struct LaidCharts {
+    grid: GearGrid,
+    lines: Vec<LaidLine>,
+}
+
+/// A line among the heights of the grid.
+#[derive(Debug, Clone)]
+struct LaidLine {
+    title: String,
+    heights: Range<usize>,
+    /// Loose places stand between those of the grid.
+    places: Option<MeasuredPlaces>,
+    /// Predicted deviation for a height of 1.
+    per_height: Vec<f64>,
+    /// What the measuring machine adds and nobody knows: a constant, or a turn.
+    free: Vec<f64>,
+}
+
+impl LaidCharts {
+    /// Lays lines on a gear.
+    ///
+    /// # Errors
+    /// Places that the gear does not have, flanks that the tool does not generate, pitch of a gear without a pitch
+    /// curve.
+    pub fn new(gear: &dyn GearJob, lines: &[MeasuredLine]) -> Result<Self> {
+        let mut grid = GearGrid { teeth: gear.scene().gear.teeth, flanks: Vec::new() };
+        let mut laid = Vec::new();
+        for line in lines {
+            let (before, count) = (grid.places(), line.points.len());
+            let (mut places, mut per_height, mut free) = (None, vec![1.0; count], vec![1.0; count]);
+            let MeasuredPoint { tooth, side, u_mm, v_mm, .. } = line.points[0];
+            if matches!(line.chart, Chart::Profile | Chart::Helix) {
+                line.points.iter().try_for_each(|point| refuse_off_flank(gear, point))?;
+            }
+            let all = |of: fn(&MeasuredPoint) -> f64| line.points.iter().map(of).collect::<Vec<f64>>();
+            match line.chart {
+                Chart::Places => {
+                    let of = MeasuredPlaces::new(gear, &line.points)?;
+                    free = of.at_points(&turn_um_per_arcsec(&of.grid));
+                    grid.flanks.extend(of.grid.flanks.iter().cloned());
+                    places = Some(of);
+                }
+                Chart::Profile => grid.flanks.push(FlankGrid::new(gear, tooth, side, all(|p| p.u_mm), vec![v_mm])?),
+                Chart::Helix => grid.flanks.push(FlankGrid::new(gear, tooth, side, vec![u_mm], all(|p| p.v_mm))?),
+                Chart::Pitch => {
+                    for (point, per_height) in line.points.iter().zip(&mut per_height) {
+                        let (flank, along) = at_pitch_curve(gear, point)?;
+                        *per_height = along;
+                        grid.flanks.push(flank);
+                    }
+                }
+            }
+            laid.push(LaidLine { title: line.title(), heights: before..grid.places(), places, per_height, free });
+        }
+        Ok(Self { grid, lines: laid })
+    }
+
+    /// Deviations that the gear of a scene has on every line, um, less what the measuring machine adds.
+    ///
+    /// # Errors
+    /// Geometry that cannot be cut; the backend's; places where no pass comes.
+    pub fn predicted_um(&self, scene: &Scene, backend: &dyn Backend) -> Result<Vec<Vec<f64>>> {
+        let heights_um = self.grid.heights_um(scene, backend)?;
+        let of_line = |(index, line): (usize, &LaidLine)| {
+            let own = &heights_um[line.heights.clone()];
+            let um = match &line.places {
+                Some(places) => places.at_points(own),
+                None => own.iter().zip(&line.per_height).map(|(height, per_height)| height * per_height).collect(),
+            };
+            if um.iter().any(|um| um.is_nan()) {
+                let problem = format!("no pass comes to a place of {}", line.title);
+                return Err(Refusal::new("--measured", problem, "leave out places that the scene does not cut").into());
+            }
+            Ok(self.known(index, &um))
+        };
+        self.lines.iter().enumerate().map(of_line).collect()
+    }
+
+    /// What is left of the deviations of a line without what the measuring machine may have added.
+    pub fn known(&self, line: usize, um: &[f64]) -> Vec<f64> {
+        let free = &self.lines[line].free;
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let size = dot(free, um) / dot(free, free);
+        um.iter().zip(free).map(|(um, free)| um - size * free).collect()
+    }
+}
+
+/// The place of a flank in the middle of the face where its target crosses the pitch curve, and how far along the curve
+/// it goes when it rises by 1.
+fn at_pitch_curve(gear: &dyn GearJob, point: &MeasuredPoint) -> Result<(FlankGrid, f64)> {
+    let MeasuredPoint { tooth, side, .. } = *point;
+    refuse_tooth(gear, tooth)?;
+    let refuse = |problem: String| Refusal::new("--measured", problem, "leave out the chart of pitch");
+    let cylinder = gear.cylindrical().ok_or_else(|| refuse("the gear has no pitch curve".to_owned()))?;
+    let blank = cylinder.blank();
+    let spacing_mm = gear.profile_length_mm(tooth, side)? / CROSSING_PLACES;
+    let (arcs_mm, rows) = gear.target_points(tooth, side, spacing_mm, &[0.0])?;
+    let foot = |i: usize| {
+        let place_mm = rows[0][i].origin_mm.truncate();
+        blank.height(place_mm, place_mm.to_angle())
+    };
+    let heights_mm: Vec<f64> = (0..arcs_mm.len()).map(|i| foot(i).0).collect();
+    let above = heights_mm.partition_point(|&height| height < 0.0);
+    if above == 0 || above == heights_mm.len() {
+        let problem = format!("tooth {tooth} {} does not cross the pitch curve", side.name());
+        return Err(refuse(problem).into());
+    }
+    let share = heights_mm[above - 1] / (heights_mm[above - 1] - heights_mm[above]);
+    let u_mm = arcs_mm[above - 1] + share * (arcs_mm[above] - arcs_mm[above - 1]);
+    let flank = FlankGrid::new(gear, tooth, side, vec![u_mm], vec![0.0])?;
+    let along = 1.0 / cylinder.curve().frame(foot(above).1).tangent.dot(flank.rays[0].normal.truncate());
+    Ok((flank, along))
+}

@@ -1,0 +1,252 @@
+//! What gearcut writes of a gear is read back without editing, and gives the errors with which the gear was cut.
+
+use super::round::{SCENE, backend, loaded};
+use crate::fixtures::command::{gearcut_in, read_json};
+use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
+use gearcut::cut::cpu::Cpu;
+use gearcut::cut::sweep_chips::SweepsCut;
+use gearcut::cut::{Backend, BlankCut, BlankOperation, CutStats};
+use gearcut::dexel::{BlankField, Field, Layer, SpatialField};
+use gearcut::influence::budget::chosen;
+use gearcut::influence::calibrate::{Calibration, Measured};
+use gearcut::influence::charts::{Chart, LaidCharts, MeasuredLine};
+use gearcut::influence::measured::MeasuredPoint;
+use gearcut::influence::numbers::{numbers, texture_numbers};
+use gearcut::interrupt::Interrupt;
+use gearcut::output::progress::{Progress, ProgressMode};
+use gearcut::passes::sections::swept_sections::SweptSections;
+use gearcut::passes::{CutPlan, SweepPlan};
+use gearcut::process;
+use gearcut::terms::Side;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+const COARSE: [&str; 6] = [
+    "operation.finish.strokes_per_revolution=480",
+    "fields.flank.profile_spacing_um=80",
+    "fields.flank.lead_spacing_um=2500",
+    "fields.blank.spacing_mm=1.0",
+    "fields.blank.slice_spacing_mm=20",
+    "fields.chips.spacing_mm=0.4",
+];
+
+/// A folder with the scene of a round gear, and its command with coarse settings and more arguments.
+struct Shop(tempfile::TempDir);
+
+impl Shop {
+    fn new(more: &str) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("round.toml"), format!("{SCENE}{more}")).expect("written");
+        Self(folder)
+    }
+
+    fn run(&self, command: &str, settings: &[&str], arguments: &[&str]) -> crate::fixtures::command::Outcome {
+        let set = COARSE.iter().chain(settings).flat_map(|setting| ["--set", setting]);
+        let all: Vec<&str> = [command, "round.toml"].into_iter().chain(set).chain(arguments.iter().copied()).collect();
+        gearcut_in(self.0.path(), &all)
+    }
+
+    /// Shift and half interval of a fitted parameter.
+    fn fitted(&self, out: &str, id: &str) -> [f64; 2] {
+        let table = std::fs::read_to_string(self.0.path().join(out).join("tables/fits.csv")).expect("a table");
+        let row = table.lines().find(|line| line.starts_with(&format!("{id},"))).unwrap_or_else(|| panic!("{table}"));
+        let cells: Vec<&str> = row.split(',').collect();
+        [2, 3].map(|column| cells[column].parse().unwrap_or_else(|_| panic!("{id} has no size: {table}")))
+    }
+}
+
+/// A gear with an eccentricity of 9 um in the direction of 30 deg and a sideways slope of the guide: its inspection is
+/// read as it was written, by both commands, and the errors come back. Signs are those of the charts: a slope of the
+/// other sign is outside of the interval by far.
+#[test]
+fn an_inspection_gives_back_the_errors_of_its_gear() {
+    let shop = Shop::new("");
+    let errors = [
+        "mounting.eccentricity_um=9",
+        "mounting.eccentricity_angle_deg=30",
+        "machine.errors.guide.tangential_um_per_100mm=25",
+    ];
+    shop.run("cut", &errors, &["--only", "report", "--out", "cut"]).done();
+    let fit = "mounting.eccentricity_um,machine.errors.guide.tangential_um_per_100mm";
+    let charts = ["--measured", "cut/inspection_charts.csv", "--noise-um", "0.2"];
+    let calibrate = |settings: &[&str], out: &str, more: &[&str]| {
+        shop.run("calibrate", settings, &[&["--out", out], more].concat()).done().says(&["fitted"]);
+    };
+    calibrate(&[], "by_charts", &[&charts[..], &["--fit", fit]].concat());
+    let expected = [
+        ("mounting.eccentricity_um@0", 9.0 * 30_f64.to_radians().cos()),
+        ("mounting.eccentricity_um@90", 9.0 * 30_f64.to_radians().sin()),
+        ("machine.errors.guide.tangential_um_per_100mm", 25.0),
+    ];
+    for (id, expected) in expected {
+        let [shift, half] = shop.fitted("by_charts", id);
+        // The charts are the model's own: what is left is second order and rounding, the interval that of the noise.
+        assert!((shift - expected).abs() < half && (shift / expected - 1.0).abs() < 0.01, "{id}: {shift} +- {half}");
+        assert!(half < 0.1 * expected, "{id}: +- {half}");
+    }
+    let lines = std::fs::read_to_string(shop.0.path().join("by_charts/tables/lines.csv")).expect("a table");
+    assert!(lines.starts_with("line,places,measured_um,off_scene_um,off_fitted_um"), "{lines}");
+    for words in ["profile of tooth 1 left", "helix of tooth 13 right", "pitch of left flanks"] {
+        assert!(lines.contains(words), "no {words}: {lines}");
+    }
+    // Figures alone: a scene that starts with a little of the error shows the fit its direction.
+    let guide = "machine.errors.guide.tangential_um_per_100mm";
+    let start = [errors[0], errors[1], "machine.errors.guide.tangential_um_per_100mm=20"];
+    let figures = ["--measured", "cut/tables/inspection.csv", "--noise-um", "0.2", "--fit", guide];
+    calibrate(&start, "by_figures", &figures);
+    let [shift, half] = shop.fitted("by_figures", guide);
+    assert!((shift - 5.0).abs() < half.min(0.1), "{shift} +- {half}");
+    let named = shop.run("diagnose", &[], &[&charts[..], &["--parameters", "mounting,machine.errors.guide"]].concat());
+    named.done().says(&["work eccentricity", "guide: tangential slope"]);
+    for (arguments, words) in [
+        (&["--measured", "cut/inspection_charts.csv"][..], "--noise-um"),
+        (&["--measured", "cut/nothing.csv", "--noise-um", "1"], "nothing.csv"),
+        (&["--measured", "cut/report.html", "--surface-percent", "5"], "not an X3P"),
+        (&["--measured", "cut/inspection_charts.csv", "--noise-um=-1"], "above 0"),
+    ] {
+        shop.run("calibrate", &[], &[arguments, &["--fit", fit]].concat()).failed(1, &[words]);
+    }
+}
+
+const WINDOW: &str = "
+    [tool.shaper_cutter.edge_roughness]
+    rq_um = 0.2
+    correlation_length_um = 25.0
+    [[texture]]
+    tooth = 3
+    side = \"left\"
+    length_profile_mm = 0.5
+    length_lead_mm = 0.5
+    profile_spacing_um = 5.0
+    lead_spacing_um = 250.0
+";
+
+/// The surface of a gear whose edges are twice as rough gives back their roughness: seeds are equal, so that the course
+/// of the edges is.
+#[test]
+fn a_surface_gives_back_the_roughness_of_the_edges() {
+    let shop = Shop::new(WINDOW);
+    shop.run("cut", &["tool.shaper_cutter.edge_roughness.rq_um=0.4"], &["--only", "texture", "--out", "cut"]).done();
+    let key = "tool.shaper_cutter.edge_roughness.rq_um";
+    let surface = ["--measured", "cut/texture/finish/tooth_03_left.x3p", "--surface-percent", "3", "--fit", key];
+    shop.run("calibrate", &[], &surface).done().says(&["texture.finish.tooth_03_left.parameters.Sa"]);
+    let [shift, half] = shop.fitted("out/round_calibration", key);
+    assert!((shift - 0.2).abs() < 0.002 && half > 0.0 && half < 0.05, "{shift} +- {half} um");
+    let results = read_json(&shop.0.path().join("out/round_calibration/results.json"));
+    assert_eq!(results["warnings"], serde_json::json!([]), "the window is the scene's own");
+    let gone = [&surface[..1], &["cut/texture/finish/tooth_03_left.x3p@finish.tooth_04_left"], &surface[2..]].concat();
+    shop.run("calibrate", &[], &gone).failed(1, &["finish.tooth_04_left", "finish.tooth_03_left"]);
+    // What is random is no error of form.
+    let random = ["--measured", "cut/points.csv", "--noise-um", "1", "--parameters", key];
+    std::fs::write(shop.0.path().join("cut/points.csv"), "tooth,flank,u_mm,v_mm,deviation_um\n1,left,2,0,0\n")
+        .expect("written");
+    shop.run("diagnose", &[], &random).failed(1, &["random"]);
+}
+
+/// Windows that are cut alone have the numbers of the whole result.
+#[test]
+fn windows_cut_alone_have_the_numbers_of_the_result() {
+    let settings: Vec<String> = COARSE.iter().map(|&setting| setting.to_owned()).collect();
+    let scene = format!("{SCENE}{WINDOW}");
+    let loaded = process::parse(&scene, "round.toml", Path::new(""), &settings).expect("a scene");
+    let choice = choose(BackendWish::Cpu, OnFailure::default()).expect("the processor");
+    let whole = numbers(&loaded, &choice, &Interrupt::default()).expect("cut");
+    let alone = texture_numbers(&loaded, &[(3, Side::Left)], &choice, &Interrupt::default()).expect("cut");
+    assert!(alone.len() > 30 && alone.iter().all(|(path, value)| whole.get(path) == Some(value)), "{alone:?}");
+    let of_texture = whole.keys().filter(|path| path.starts_with("texture.")).count();
+    assert_eq!(alone.len(), of_texture);
+}
+
+/// The processor, with Ctrl-C at one of its cuts.
+struct Stopping {
+    cuts_left: AtomicUsize,
+    interrupt: Interrupt,
+}
+
+impl Backend for Stopping {
+    fn name(&self) -> String {
+        "stopping".to_owned()
+    }
+
+    fn cut(&self, field: &Field, plan: &CutPlan, layer: &mut Layer) -> gearcut::Result<CutStats> {
+        if self.cuts_left.fetch_sub(1, Ordering::SeqCst) == 1 {
+            self.interrupt.raise();
+        }
+        backend().cut(field, plan, layer)
+    }
+
+    fn cut_blank(
+        &self,
+        field: &mut BlankField,
+        operation: &BlankOperation,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> gearcut::Result<Option<BlankCut>> {
+        backend().cut_blank(field, operation, advance)
+    }
+
+    fn cut_blank_sweeps(
+        &self,
+        field: &mut BlankField,
+        sections: &SweptSections,
+        passes: Range<u32>,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> gearcut::Result<Option<SweepsCut>> {
+        backend().cut_blank_sweeps(field, sections, passes, advance)
+    }
+
+    fn cut_spatial(&self, field: &SpatialField, plan: &SweepPlan, layer: &mut Layer) -> gearcut::Result<CutStats> {
+        Cpu::default().cut_spatial(field, plan, layer)
+    }
+}
+
+/// Ctrl-C keeps the rounds that are done, and what none is done of is an interruption.
+#[test]
+fn a_fit_that_is_stopped_keeps_its_rounds() {
+    let loaded = loaded(&[]);
+    let parameters = chosen(&loaded, &["machine.errors.guide.tangential_um_per_100mm".to_owned()]).expect("a guide");
+    let slope_um_per_mm = 0.3 * 20_f64.to_radians().cos();
+    let point = |v_mm: f64| MeasuredPoint {
+        tooth: 5,
+        side: Side::Left,
+        u_mm: 2.5,
+        v_mm,
+        deviation_um: 7.0 + slope_um_per_mm * v_mm,
+    };
+    let line = MeasuredLine { chart: Chart::Helix, points: (-4..=4).map(|i| point(2.0 * f64::from(i))).collect() };
+    let measured = Measured { lines: vec![line.clone()], noise_um: 0.1, ..Measured::default() };
+    let fit = |cuts: usize| {
+        let interrupt = Interrupt::default();
+        let backend = Stopping { cuts_left: AtomicUsize::new(cuts), interrupt: interrupt.clone() };
+        let choice = Choice { backend: Box::new(backend), why: String::new() };
+        let quiet = Progress::new(ProgressMode::Quiet);
+        Calibration::new(&loaded, &parameters, &measured, &choice, &quiet, &interrupt)
+    };
+    // The scene, both sides of a difference, the step.
+    let stopped = fit(4).expect("a round");
+    assert!(!stopped.complete && !stopped.settled, "{stopped:?}");
+    let whole = fit(usize::MAX).expect("cut");
+    assert!(whole.complete && whole.settled, "{whole:?}");
+    for found in [&stopped, &whole] {
+        let [shift, half] = found.fitted[0].1.expect("the helix says it");
+        // Nine places of 0.1 um over sum(v^2) = 240 mm^2; 7 degrees of freedom.
+        let expected = 2.365 * 0.1 / 240_f64.sqrt() / 20_f64.to_radians().cos() * 100.0;
+        assert!((shift - 30.0).abs() < 0.3 && (half / expected - 1.0).abs() < 0.02, "{shift} +- {half}, {expected}");
+        assert_eq!(found.freedom, 7);
+    }
+    assert!(matches!(fit(2), Err(gearcut::Error::Interrupted)));
+    // Planted: the zero of the chart is nobody's; without it the line would be 7 um off.
+    let mut raised = line;
+    raised.points.iter_mut().for_each(|point| point.deviation_um += 50.0);
+    let mut known = Vec::new();
+    process::prepare(&loaded.scene)
+        .expect("a gear")
+        .with_gear(&mut |gear| {
+            let um: Vec<f64> = raised.points.iter().map(|point| point.deviation_um).collect();
+            known = LaidCharts::new(gear, &[raised.clone()])?.known(0, &um);
+            Ok(())
+        })
+        .expect("a flank");
+    let mean: f64 = known.iter().sum();
+    assert!(mean.abs() < 1e-9 && (known[8] - 8.0 * slope_um_per_mm).abs() < 1e-9, "{known:?}");
+}
