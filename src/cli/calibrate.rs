@@ -49,7 +49,10 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     for (parameter, fitted) in &found.fitted {
         let value = fitted.map_or_else(
             || "cannot be identified".to_owned(),
-            |[shift, half]| format!("{} +- {} {}", significant(shift, 4), significant(half, 2), parameter.unit),
+            |[shift, half]| {
+                let unit = if parameter.unit == "1" { "" } else { parameter.unit };
+                format!("{} +- {} {unit}", significant(shift, 4), significant(half, 2)).trim_end().to_owned()
+            },
         );
         summary::line(&mut sheet, &parameter.title, &value);
     }

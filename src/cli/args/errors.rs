@@ -48,7 +48,7 @@ pub struct CalibrateArguments {
     /// Standard uncertainty of every deviation on a chart and of every figure of an inspection.
     #[arg(long, value_name = "UM")]
     pub noise_um: Option<f64>,
-    /// Standard uncertainty of the numbers of surfaces, per cent of each.
+    /// Standard uncertainty of the numbers of surfaces, per cent of each, of heights at least of Sa.
     #[arg(long, value_name = "PERCENT")]
     pub surface_percent: Option<f64>,
     /// Numbers that are taken from surfaces, by the symbols of ISO 25178-2.

@@ -27,7 +27,7 @@ pub struct MeasuredNumber {
 pub struct MeasuredWish {
     /// Standard uncertainty of every value on a chart and of every figure of an inspection, um.
     pub noise_um: Option<f64>,
-    /// Standard uncertainty of numbers of surfaces, per cent of their values.
+    /// Standard uncertainty of numbers of surfaces, per cent of their values; of heights at least of Sa.
     pub surface_percent: Option<f64>,
     /// Parameters that are taken from surfaces, by symbol.
     pub symbols: Vec<String>,

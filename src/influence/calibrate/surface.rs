@@ -2,7 +2,9 @@
 //!
 //! In: a surface file, the windows of the scene, symbols of ISO 25178-2. Out: numbers by their paths in `results.json`.
 //! The window is the one that the file names in its notes (gearcut's own do), the scene's only one, or the one behind
-//! `@`. Its F-operator is applied; windows have no filters, so that none is applied to the surface either.
+//! `@`. Its F-operator is applied; windows have no filters, so that none is applied to the surface either. The stated
+//! share is the uncertainty of each number, of heights at least that of Sa: what is nearly nothing (Svk of feed marks) is
+//! not known any better.
 //!
 //! Road not taken: heights point by point. Nobody finds a window again to a micrometre, and noise makes other heights in
 //! every window of equal numbers.
@@ -51,11 +53,12 @@ pub(super) fn read(
                 Refusal::new("--surface-numbers", problem, format!("choose among {}", all.join(", ")))
             })?;
         let value = parameter.value.clone().map_err(|why| unreadable(format!("it has no {symbol}: {why}")))?;
-        if value == 0.0 {
+        let least = if parameter.unit == "um" { evaluation.value("Sa").unwrap_or_default() } else { 0.0 };
+        let uncertainty = 0.01 * percent * value.abs().max(least);
+        if uncertainty == 0.0 {
             return Err(unreadable(format!("{symbol} is 0, and so would be its uncertainty")));
         }
-        let quantity = format!("{}.parameters.{symbol}", found.path);
-        Ok(MeasuredNumber { quantity, value, uncertainty: 0.01 * percent * value.abs() })
+        Ok(MeasuredNumber { quantity: format!("{}.parameters.{symbol}", found.path), value, uncertainty })
     };
     let numbers = wish.symbols.iter().map(number).collect::<Result<Vec<_>>>()?;
     let size_mm = file.surface.size_mm();

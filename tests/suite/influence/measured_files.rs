@@ -127,10 +127,13 @@ const WINDOW: &str = "
 #[test]
 fn a_surface_gives_back_the_roughness_of_the_edges() {
     let shop = Shop::new(WINDOW);
-    shop.run("cut", &["tool.shaper_cutter.edge_roughness.rq_um=0.4"], &["--only", "texture", "--out", "cut"]).done();
+    // Many strokes: numbers of a few marks jump when a stroke comes to lie over its neighbour.
+    let fine = "operation.finish.strokes_per_revolution=1200";
+    let rough = [fine, "tool.shaper_cutter.edge_roughness.rq_um=0.4"];
+    shop.run("cut", &rough, &["--only", "texture", "--out", "cut"]).done();
     let key = "tool.shaper_cutter.edge_roughness.rq_um";
     let surface = ["--measured", "cut/texture/finish/tooth_03_left.x3p", "--surface-percent", "3", "--fit", key];
-    shop.run("calibrate", &[], &surface).done().says(&["texture.finish.tooth_03_left.parameters.Sa"]);
+    shop.run("calibrate", &[fine], &surface).done().says(&["texture.finish.tooth_03_left.parameters.Sa"]);
     let [shift, half] = shop.fitted("out/round_calibration", key);
     assert!((shift - 0.2).abs() < 0.002 && half > 0.0 && half < 0.05, "{shift} +- {half} um");
     let results = read_json(&shop.0.path().join("out/round_calibration/results.json"));
@@ -143,6 +146,60 @@ fn a_surface_gives_back_the_roughness_of_the_edges() {
         .expect("written");
     shop.run("diagnose", &[], &random).failed(1, &["random"]);
 }
+
+/// What the cut does comes back like an error: a compliance from the charts, the thinnest chip from a surface. Radius and
+/// share of the thinnest chip are known as their product alone, and neither is identified beside the other.
+#[test]
+fn compliance_and_ploughing_come_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let soft = SCENE.replace("teeth = 24", "teeth = 12").replace(
+        "[machine]",
+        "[fields.chips]\nspacing_mm = 0.2\n[machine.compliance]\ntool_radial_um_per_kn = 4.0\n[machine]",
+    );
+    let spiral = soft
+        .replace("strokes_per_revolution = 2400", "strokes_per_revolution = 240")
+        .replace("[operation.infeed.none]", "[operation.infeed.spiral]\ndepth_mm = 7.0\nangle_deg = 90.0");
+    std::fs::write(folder.path().join("soft.toml"), spiral).expect("written");
+    let edge = "[tool.shaper_cutter.edge_rounding]\nradius_um = 5.0\nminimum_chip_share = 0.3\n";
+    let plough = format!("{SCENE}{edge}{PLOUGHED}").replace("= 2400", "= 480");
+    std::fs::write(folder.path().join("plough.toml"), plough).expect("written");
+    let run = |arguments: &[&str]| gearcut_in(folder.path(), arguments);
+    let compliance = "machine.compliance.tool_radial_um_per_kn";
+    run(&["cut", "soft.toml", "--only", "report", "--out", "cut", "--set", &format!("{compliance}=8")]).done();
+    let charts = ["--measured", "cut/inspection_charts.csv", "--noise-um", "0.2", "--fit", compliance, "--out", "a"];
+    run(&[&["calibrate", "soft.toml"], &charts[..]].concat()).done();
+    let share = "tool.shaper_cutter.edge_rounding.minimum_chip_share";
+    run(&["cut", "plough.toml", "--only", "texture", "--out", "ploughed", "--set", &format!("{share}=0.4")]).done();
+    let surface = ["--measured", "ploughed/texture/finish/tooth_03_left.x3p", "--surface-percent", "2"];
+    let alone = [&["calibrate", "plough.toml"], &surface[..], &["--fit", share, "--out", "b"]].concat();
+    run(&alone).done();
+    for (out, id, expected) in [("a", compliance, 4.0), ("b", share, 0.1)] {
+        let table = std::fs::read_to_string(folder.path().join(out).join("tables/fits.csv")).expect("a table");
+        let cells: Vec<&str> = table.lines().nth(1).expect("a row").split(',').collect();
+        let [shift, half] = [2, 3].map(|column| cells[column].parse::<f64>().expect("a number"));
+        assert!((shift - expected).abs() < half && half < 0.3 * expected, "{id}: {shift} +- {half}");
+    }
+    let both = [&["calibrate", "plough.toml"], &surface[..], &["--surface-numbers", "Sa", "--out", "c"]].concat();
+    let both = run(&[&both[..], &["--fit", "tool.shaper_cutter.edge_rounding"]].concat()).done();
+    assert!(both.err.contains("minimum_chip_share cannot be identified"), "{}", both.err);
+}
+
+const PLOUGHED: &str = "
+    [[texture]]
+    tooth = 3
+    side = \"left\"
+    length_profile_mm = 3.0
+    length_lead_mm = 0.5
+    profile_spacing_um = 10.0
+    lead_spacing_um = 250.0
+    [fields.flank]
+    profile_spacing_um = 80.0
+    lead_spacing_um = 5000.0
+    [fields.blank]
+    spacing_mm = 1.0
+    [fields.chips]
+    spacing_mm = 0.4
+";
 
 /// Windows that are cut alone have the numbers of the whole result.
 #[test]

@@ -363,3 +363,35 @@ fn errors_of_nothing_change_no_byte() {
     assert!(cut(&sound) == cut(&zero));
     assert!(cut(&sound) != cut(&faulty), "a micrometre is seen");
 }
+
+/// Where the axes rest, slices of the blank stand where a shift along the face is told: both ends, the middle of a bow as
+/// well; as the scene says, if it does. What is left of the blank is that of slices ten times as dense, to a part in ten
+/// thousand of what the errors move.
+#[test]
+fn slices_of_the_blank_follow_the_guide() {
+    let slope = "machine.errors.guide.radial_um_per_100mm=200";
+    let (bow, wobble) = ("machine.errors.guide.radial_bow_um=40", "mounting.wobble_um_per_100mm=100");
+    let left = |settings: &[&str]| {
+        let coarse = ["operation.finish.strokes_per_revolution=240", "fields.blank.spacing_mm=0.5"];
+        let settings: Vec<String> = coarse.iter().chain(settings).map(|&setting| setting.to_owned()).collect();
+        let loaded = gearcut::process::parse(ROUND, "round.toml", Path::new(""), &settings).expect("a scene");
+        let job = ShapingJob::new(loaded.scene).expect("a job");
+        let field = job.planar().blank_field().expect("rays");
+        let slices = field.slices.len();
+        let cut = job.cut_blank(&Cpu::default(), field, &|| true).expect("cut").expect("not stopped");
+        let [x, y] = cut.left_mm3[0];
+        (slices, 0.5 * (x + y))
+    };
+    let (alike, ideal_mm3) = left(&[]);
+    assert_eq!(alike, 1);
+    let feeds = "operation.finish.feed_during_stroke=true";
+    assert_eq!(left(&[feeds, slope]).0, 9, "the feed goes on: every 2.5 mm of 20");
+    let dense = "fields.blank.slice_spacing_mm=1";
+    for (errors, slices) in [(&[slope][..], 2), (&[wobble], 2), (&[slope, bow], 3)] {
+        let ((found, few_mm3), (all, many_mm3)) = (left(errors), left(&[errors, &[dense]].concat()));
+        assert_eq!((found, all), (slices, 21), "{errors:?}");
+        // A bow of b moves sections by b (z / h)^2, 1/3 of it in the mean, where three slices say 1/2.
+        let bent_mm3 = if slices == 3 { (1.0 / 2.0 - 1.0 / 3.0) * 0.040 * TAU * 36.0 * 20.0 } else { 0.0 };
+        assert!((few_mm3 - many_mm3).abs() < bent_mm3 + 1e-4 * ideal_mm3, "{errors:?}: {few_mm3}, {many_mm3} mm3");
+    }
+}

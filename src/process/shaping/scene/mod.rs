@@ -36,14 +36,14 @@ const fn rounding(key: &'static str, unit: &'static str, step: f64, what: &'stat
 
 /// What the cut itself does, and what is random in it.
 static CUT_ERRORS: &[ErrorSource] = &[
-    compliance("tool_radial_um_per_kn", "um/kN", 1.0, "tool compliance, radial"),
-    compliance("tool_tangential_um_per_kn", "um/kN", 1.0, "tool compliance, tangential"),
-    compliance("tool_torsional_urad_per_nm", "urad/(N m)", 0.2, "tool compliance, torsional"),
-    compliance("work_radial_um_per_kn", "um/kN", 1.0, "work compliance, radial"),
-    compliance("work_tangential_um_per_kn", "um/kN", 1.0, "work compliance, tangential"),
-    compliance("work_torsional_urad_per_nm", "urad/(N m)", 0.2, "work compliance, torsional"),
+    compliance("tool_radial_um_per_kn", "um/kN", 1.0, "compliance: tool, radial"),
+    compliance("tool_tangential_um_per_kn", "um/kN", 1.0, "compliance: tool, tangential"),
+    compliance("tool_torsional_urad_per_nm", "urad/(N m)", 0.2, "compliance: tool, torsional"),
+    compliance("work_radial_um_per_kn", "um/kN", 1.0, "compliance: work, radial"),
+    compliance("work_tangential_um_per_kn", "um/kN", 1.0, "compliance: work, tangential"),
+    compliance("work_torsional_urad_per_nm", "urad/(N m)", 0.2, "compliance: work, torsional"),
     rounding("radius_um", "um", 0.5, "edge radius"),
-    rounding("minimum_chip_share", "1", 0.05, "thinnest chip over edge radius"),
+    rounding("minimum_chip_share", "1", 0.05, "thinnest chip over radius"),
     ErrorSource::new(keys::EDGE_ROUGHNESS, KeyForm::Amount("rq_um"), "um", 0.1, "edge roughness Rq")
         .tried(Tried::ByName),
     ErrorSource::new("operation[]", KeyForm::Amount("stock_scatter_um"), "um", 2.0, "stock scatter")
