@@ -90,7 +90,7 @@ fn read(loaded: &LoadedScene, arguments: &CalibrateArguments) -> Result<Measured
     };
     let mut measured = Measured::default();
     process::prepare(&loaded.scene)?.with_gear(&mut |gear| {
-        measured = Measured::read(gear, &arguments.measured, &wish)?;
+        measured = calibrate::read(gear, &arguments.measured, &wish)?;
         Ok(())
     })?;
     Ok(measured)

@@ -15,6 +15,7 @@
 //! nonlinear least squares. They bring a matrix library with them, and the linear fit that diagnoses use is all that is
 //! needed.
 
+mod files;
 mod measured;
 mod surface;
 mod trial;
@@ -31,7 +32,8 @@ use gearcut_core::math::column_basis::{ColumnBasis, norm};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use trial::Trial;
 
-pub use measured::{Measured, MeasuredNumber, MeasuredWish, read_numbers};
+pub use files::read;
+pub use measured::{Measured, MeasuredNumber, MeasuredWish};
 pub use write::{findings, write};
 
 /// Most rounds: each takes two cuts for every parameter and one or more besides. A fit that needs more is none.
@@ -80,7 +82,7 @@ pub struct Calibrated {
 }
 
 /// Where a fit stands.
-struct Fit {
+struct FitState {
     shifts: Vec<f64>,
     /// Predicted there.
     here: Vec<f64>,
@@ -91,7 +93,7 @@ struct Fit {
     settled: bool,
 }
 
-impl Fit {
+impl FitState {
     /// Goes on round by round until nothing more is to be gained.
     fn run(&mut self, trial: &Trial, parameters: &[ErrorParameter]) -> Result<()> {
         let count = parameters.len();
@@ -158,7 +160,7 @@ impl Calibration {
         let shifts = vec![0.0; count];
         let before = trial.predicted(&shifts)?.expect("nothing is shifted");
         let left = norm(&trial.residuals(&before)).powi(2);
-        let mut fit = Fit { shifts, here: before.clone(), left, columns: Vec::new(), settled: false };
+        let mut fit = FitState { shifts, here: before.clone(), left, columns: Vec::new(), settled: false };
         let complete = match fit.run(&trial, parameters) {
             Err(Error::Interrupted) if !fit.columns.is_empty() => false,
             other => other.map(|()| true)?,

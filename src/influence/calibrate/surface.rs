@@ -3,8 +3,8 @@
 //! In: a surface file, the windows of the scene, symbols of ISO 25178-2. Out: numbers by their paths in `results.json`.
 //! The window is the one that the file names in its notes (gearcut's own do), the scene's only one, or the one behind
 //! `@`. Its F-operator is applied; windows have no filters, so that none is applied to the surface either. The stated
-//! share is the uncertainty of each number, of heights at least that of Sa: what is nearly nothing (Svk of feed marks) is
-//! not known any better.
+//! share is the uncertainty of each number, of heights at least that of Sa: what is nearly nothing (Svk of feed marks)
+//! is not known any better.
 //!
 //! Road not taken: heights point by point. Nobody finds a window again to a micrometre, and noise makes other heights in
 //! every window of equal numbers.
