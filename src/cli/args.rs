@@ -182,7 +182,7 @@ pub enum Command {
     #[command(after_help = "Example:\n  \
         gearcut calibrate my.toml --measured numbers.csv --fit mounting.eccentricity_um,machine.errors.guide\n  \
         gearcut calibrate my.toml --measured out/my/inspection_charts.csv --noise-um 0.3 --fit mounting\n  \
-        gearcut calibrate my.toml --measured flank.x3p --surface-percent 5 --fit tool.shaper_cutter.edge_roughness.rq_um\n\n\
+        gearcut calibrate my.toml --measured flank.x3p --surface-percent 5 --fit machine.errors.work.noise_arcsec\n\n\
         A CSV of numbers has a row for each: quantity (its path in results.json, such as deviations.runout;\n\
         headline.KEY for the headline), value (in the unit that it has there), uncertainty (standard). Charts and\n\
         figures are read as `gearcut cut` writes them (inspection_charts.csv, tables/inspection.csv), places as\n\

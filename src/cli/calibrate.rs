@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::influence::budget::chosen;
-use gearcut::influence::calibrate::{self, Calibrated, Calibration, Measured, MeasuredNumber, MeasuredWish};
+use gearcut::influence::calibrate::{self, Calibrated, Calibration, MeasuredGear, MeasuredNumber, MeasuredWish};
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::output::summary;
 use gearcut::output::text::{Sheet, plain, significant};
@@ -76,7 +76,7 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
 }
 
 /// What was measured, laid on the scene's gear.
-fn read(loaded: &LoadedScene, arguments: &CalibrateArguments) -> Result<Measured> {
+fn read(loaded: &LoadedScene, arguments: &CalibrateArguments) -> Result<MeasuredGear> {
     for (option, value) in [("--noise-um", arguments.noise_um), ("--surface-percent", arguments.surface_percent)] {
         if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
             let problem = format!("{value} is no standard uncertainty");
@@ -88,7 +88,7 @@ fn read(loaded: &LoadedScene, arguments: &CalibrateArguments) -> Result<Measured
         surface_percent: arguments.surface_percent,
         symbols: arguments.surface_numbers.clone(),
     };
-    let mut measured = Measured::default();
+    let mut measured = MeasuredGear::default();
     process::prepare(&loaded.scene)?.with_gear(&mut |gear| {
         measured = calibrate::read(gear, &arguments.measured, &wish)?;
         Ok(())

@@ -1,8 +1,8 @@
 //! Keys of a scene fitted to what was measured of its gear.
 //!
 //! In: a scene; numbers of its results, numbers of surfaces and lines of inspection charts as they were measured, with
-//! standard uncertainties ([`Measured`]); and the names of the parameters that may change. Out: [`Calibration`]: fitted
-//! sizes with intervals, which of them the measured values say nothing about, and all values before and after.
+//! standard uncertainties ([`MeasuredGear`]); and the names of the parameters that may change. Out: [`Calibration`]:
+//! fitted sizes with intervals, which of them the measured values say nothing about, and all values before and after.
 //!
 //! **Law.** The sum of ((measured - predicted) / uncertainty)^2 is made least by the method of Levenberg and Marquardt
 //! (Marquardt, *An Algorithm for Least-Squares Estimation of Nonlinear Parameters*, 1963): each step is the linear
@@ -33,7 +33,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use trial::Trial;
 
 pub use files::read;
-pub use measured::{Measured, MeasuredNumber, MeasuredWish};
+pub use measured::{MeasuredGear, MeasuredNumber, MeasuredWish};
 pub use write::{findings, write};
 
 /// Most rounds: each takes two cuts for every parameter and one or more besides. A fit that needs more is none.
@@ -53,8 +53,8 @@ const MOST_DAMPING: f64 = 1e6;
 pub struct Calibration {
     /// Parameters with their shifts from the scene and half their intervals; `None`: they cannot be identified.
     pub fitted: Vec<(ErrorParameter, Option<[f64; 2]>)>,
-    /// Measured numbers, then the places of measured lines, with what the scene predicted for them, and what the fitted
-    /// scene does.
+    /// Measured numbers, then the places of measured lines, with what the scene predicted for them, and what the
+    /// fitted scene does.
     pub values: Vec<Calibrated>,
     /// `--set` arguments that make the scene the fitted one.
     pub settings: Vec<String>,
@@ -143,12 +143,12 @@ impl Calibration {
     /// Fits parameters to what was measured.
     ///
     /// # Errors
-    /// Numbers and places that the gear does not have; values that the scene may not have; geometry; Ctrl-C in the first
-    /// round.
+    /// Numbers and places that the gear does not have; values that the scene may not have; geometry; Ctrl-C in the
+    /// first round.
     pub fn new(
         loaded: &LoadedScene,
         parameters: &[ErrorParameter],
-        measured: &Measured,
+        measured: &MeasuredGear,
         choice: &Choice,
         progress: &Progress,
         interrupt: &Interrupt,

@@ -4,10 +4,11 @@
 //! [`MeasuredLine`]s, and [`LaidCharts`]: the same lines on the flanks of a gear.
 //!
 //! **Law.** A measuring machine does not know where zero is. A profile or helix stands anywhere on its chart, and so do
-//! the cumulative pitch deviations of a side: what is compared are deviations from the mean of the line, of the measured
-//! and of the predicted one alike. Loose places are compared but for a turn of the gear on the measuring machine.
-//! Profiles and helices are cut at their own places, pitch where the flanks of the target cross the pitch curve; to
-//! first order a flank that stands h higher there crosses the curve h / (t . n) further on, t being the curve's tangent.
+//! the cumulative pitch deviations of a side: what is compared are deviations from the mean of the line, of the
+//! measured and of the predicted one alike. Loose places are compared but for a turn of the gear on the measuring
+//! machine. Profiles and helices are cut at their own places, pitch where the flanks of the target cross the pitch
+//! curve; to first order a flank that stands h higher there crosses the curve h / (t . n) further on, t being the
+//! curve's tangent.
 
 use super::gear_grid::{FlankGrid, GearGrid, turn_um_per_arcsec};
 use super::measured::{COLUMNS, MeasuredPlaces, MeasuredPoint, PITCH, SAME_MM, refuse_off_flank, refuse_tooth};

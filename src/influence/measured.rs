@@ -60,8 +60,8 @@ impl MeasuredPoint {
     }
 }
 
-/// Reads measured deviations. The charts of an inspection have them as well, in a column `chart`: of these, profiles and
-/// helices are taken, and pitch is left out, for the profiles have it.
+/// Reads measured deviations. The charts of an inspection have them as well, in a column `chart`: of these, profiles
+/// and helices are taken, and pitch is left out, for the profiles have it.
 ///
 /// # Errors
 /// A file that cannot be read; columns that are missing; cells that are not what their column says; no rows.

@@ -1,8 +1,8 @@
 //! Every number that a cut of a scene reports, by its path.
 //!
 //! In: a scene. Out: the numbers of its findings: those of the headline as `headline.KEY`, those of sections by the
-//! path of `results.json`, figures of the inspection by `inspection.figures.FIGURE.left`. The gear is cut as by `gearcut
-//! cut --only numbers`; its folder vanishes. Windows of texture can be had alone.
+//! path of `results.json`, figures of the inspection by `inspection.figures.FIGURE.left`. The gear is cut as by
+//! `gearcut cut --only numbers`; its folder vanishes. Windows of texture can be had alone.
 
 use crate::backend::Choice;
 use crate::findings::{Quantity, Section, Table};

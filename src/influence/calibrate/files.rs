@@ -1,9 +1,9 @@
 //! Files of what was measured: numbers, figures and charts of inspections, surfaces.
 //!
-//! In: files by their names. Out: [`Measured`]. What a file is follows from its ending and its columns; every table and
-//! surface that gearcut writes of an inspection or a texture window is read back as it is.
+//! In: files by their names. Out: [`MeasuredGear`]. What a file is follows from its ending and its columns; every table
+//! and surface that gearcut writes of an inspection or a texture window is read back as it is.
 
-use super::measured::{Measured, MeasuredNumber, MeasuredWish};
+use super::measured::{MeasuredGear, MeasuredNumber, MeasuredWish};
 use super::surface;
 use crate::influence::charts::read_lines;
 use crate::influence::measured_table::{MeasuredTable, heads};
@@ -17,8 +17,8 @@ use std::path::Path;
 /// # Errors
 /// Files that cannot be read or are none of these; uncertainties that nobody gives; windows that the scene does not
 /// have; a number that is given twice.
-pub fn read(gear: &dyn GearJob, files: &[String], wish: &MeasuredWish) -> Result<Measured> {
-    let mut all = Measured { noise_um: wish.noise_um.unwrap_or_default(), ..Measured::default() };
+pub fn read(gear: &dyn GearJob, files: &[String], wish: &MeasuredWish) -> Result<MeasuredGear> {
+    let mut all = MeasuredGear { noise_um: wish.noise_um.unwrap_or_default(), ..MeasuredGear::default() };
     for file in files {
         let path = Path::new(file);
         match MeasuredKind::of(path) {

@@ -1,6 +1,6 @@
 //! What was measured of a gear: numbers, those of surfaces among them, and lines of inspection charts.
 //!
-//! In: values with their uncertainties. Out: [`Measured`]. Files fill it (`files.rs`).
+//! In: values with their uncertainties. Out: [`MeasuredGear`]. Files fill it (`files.rs`).
 
 use crate::influence::charts::MeasuredLine;
 
@@ -28,7 +28,7 @@ pub struct MeasuredWish {
 
 /// Everything that was measured.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Measured {
+pub struct MeasuredGear {
     /// Numbers, those of surfaces among them.
     pub numbers: Vec<MeasuredNumber>,
     /// Lines of charts.
@@ -39,7 +39,7 @@ pub struct Measured {
     pub notes: Vec<String>,
 }
 
-impl Measured {
+impl MeasuredGear {
     /// Numbers alone.
     pub fn of_numbers(numbers: Vec<MeasuredNumber>) -> Self {
         Self { numbers, ..Self::default() }

@@ -6,8 +6,8 @@
 //! share is the uncertainty of each number, of heights at least that of Sa: what is nearly nothing (Svk of feed marks)
 //! is not known any better.
 //!
-//! Road not taken: heights point by point. Nobody finds a window again to a micrometre, and noise makes other heights in
-//! every window of equal numbers.
+//! Road not taken: heights point by point. Nobody finds a window again to a micrometre, and noise makes other heights
+//! in every window of equal numbers.
 
 use super::measured::{MeasuredNumber, MeasuredWish};
 use crate::job::GearJob;

@@ -1,11 +1,11 @@
 //! What is cut again and again while keys are fitted: a scene with shifted parameters, and all that was measured of it.
 //!
-//! In: shifts. Out: predicted values in the order of the measured ones: numbers, then the lines of charts place by place,
-//! without what a measuring machine adds to them ([`crate::influence::charts`]). Only what the measured values ask for is
-//! cut: texture windows, places of charts, or the whole gear.
+//! In: shifts. Out: predicted values in the order of the measured ones: numbers, then the lines of charts place by
+//! place, without what a measuring machine adds to them ([`crate::influence::charts`]). Only what the measured values
+//! ask for is cut: texture windows, places of charts, or the whole gear.
 
 use super::Calibrated;
-use super::measured::{Measured, MeasuredNumber};
+use super::measured::{MeasuredGear, MeasuredNumber};
 use crate::backend::Choice;
 use crate::influence::charts::LaidCharts;
 use crate::influence::derivative::read;
@@ -22,7 +22,7 @@ use gearcut_core::terms::Side;
 pub(super) struct Trial<'a> {
     loaded: &'a LoadedScene,
     parameters: &'a [ErrorParameter],
-    measured: &'a Measured,
+    measured: &'a MeasuredGear,
     charts: Option<LaidCharts>,
     /// Flanks of the texture windows, where numbers of them are all that is asked for.
     windows: Option<Vec<(u32, Side)>>,
@@ -42,7 +42,7 @@ impl<'a> Trial<'a> {
     pub fn new(
         loaded: &'a LoadedScene,
         parameters: &'a [ErrorParameter],
-        measured: &'a Measured,
+        measured: &'a MeasuredGear,
         choice: &'a Choice,
         interrupt: &'a Interrupt,
         cuts: &'a ProgressStep<'a>,

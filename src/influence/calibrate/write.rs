@@ -1,6 +1,6 @@
 //! A calibration as findings, and all that is written.
 
-use super::{Calibrated, Calibration, Measured};
+use super::{Calibrated, Calibration, MeasuredGear};
 use crate::findings::{Datum, Entry, Findings, Quantity, RESULTS_FILE, Section, Table, TableColumn, Warning};
 use crate::influence::charts::MeasuredLine;
 use crate::output::folder::OutputFolder;
@@ -16,7 +16,7 @@ use gearcut_core::error::Result;
 const UNEXPLAINED_BY_CHANCE: f64 = 1e-3;
 
 /// The tree.
-pub fn findings(scene: &Scene, measured: &Measured, found: &Calibration) -> Findings {
+pub fn findings(scene: &Scene, measured: &MeasuredGear, found: &Calibration) -> Findings {
     let headline = found.fitted.iter().enumerate().map(|(index, (parameter, fitted))| {
         let definition = match fitted {
             Some([_, half]) => format!(
@@ -62,7 +62,7 @@ pub fn findings(scene: &Scene, measured: &Measured, found: &Calibration) -> Find
     }
 }
 
-fn warnings(measured: &Measured, found: &Calibration) -> Vec<Warning> {
+fn warnings(measured: &MeasuredGear, found: &Calibration) -> Vec<Warning> {
     let stopped = (!found.complete).then(|| {
         Warning::warn("stopped by Ctrl-C: fitted by the rounds that were done; intervals are of the last one")
     });
@@ -107,7 +107,7 @@ fn fits(found: &Calibration) -> Table {
     Table::new("fits", "Fitted parameters", columns).with_rows(rows).in_file("fits")
 }
 
-fn numbers(measured: &Measured, found: &Calibration) -> Table {
+fn numbers(measured: &MeasuredGear, found: &Calibration) -> Table {
     let columns = vec![
         TableColumn::words("quantity", "path in results.json, which says its unit"),
         TableColumn::by_row("value", "measured: value"),
@@ -124,7 +124,7 @@ fn numbers(measured: &Measured, found: &Calibration) -> Table {
 
 /// Lines with their values.
 fn by_line<'a>(
-    measured: &'a Measured,
+    measured: &'a MeasuredGear,
     found: &'a Calibration,
 ) -> impl Iterator<Item = (&'a MeasuredLine, &'a [Calibrated])> {
     let mut rest = &found.values[measured.numbers.len()..];
@@ -136,7 +136,7 @@ fn by_line<'a>(
 }
 
 /// A row for each line.
-fn lines(measured: &Measured, found: &Calibration) -> Table {
+fn lines(measured: &MeasuredGear, found: &Calibration) -> Table {
     let columns = vec![
         TableColumn::words("line", "line of a chart"),
         TableColumn::new("places", "1", "measured: places on it"),
@@ -160,7 +160,7 @@ fn lines(measured: &Measured, found: &Calibration) -> Table {
 }
 
 /// A row for each place of the lines.
-fn places(measured: &Measured, found: &Calibration) -> Table {
+fn places(measured: &MeasuredGear, found: &Calibration) -> Table {
     let columns = vec![
         TableColumn::words("chart", "profile, helix, pitch; places: loose ones"),
         TableColumn::new("tooth", "1", "tooth, from 1"),
@@ -196,7 +196,7 @@ fn places(measured: &Measured, found: &Calibration) -> Table {
 /// Files that cannot be written.
 pub fn write(
     scene: &Scene,
-    measured: &Measured,
+    measured: &MeasuredGear,
     found: &Calibration,
     tree: &Findings,
     folder: &OutputFolder,
@@ -206,7 +206,7 @@ pub fn write(
     folder.write_json(RESULTS_FILE, &tree.to_json())
 }
 
-fn page(scene: &Scene, measured: &Measured, found: &Calibration, tree: &Findings) -> Page {
+fn page(scene: &Scene, measured: &MeasuredGear, found: &Calibration, tree: &Findings) -> Page {
     let shown = |value: f64| significant(value, 4).replace('-', "−");
     let mut blocks = Vec::new();
     if !measured.numbers.is_empty() {

@@ -51,8 +51,8 @@ impl ErrorModel {
     /// Influences of the errors with these names (all, if none is given) at measured places.
     ///
     /// # Errors
-    /// The size of something random, which has no map of its own; places that the gear does not have; geometry that cannot be cut; places where no pass came; Ctrl-C before any error was
-    /// tried.
+    /// The size of something random, which has no map of its own; places that the gear does not have; geometry that
+    /// cannot be cut; places where no pass came; Ctrl-C before any error was tried.
     pub fn new(
         loaded: &LoadedScene,
         points: &[MeasuredPoint],

@@ -5,7 +5,7 @@ use crate::fixtures::command::{gearcut_in, read_json};
 use crate::fixtures::json_schema::assert_is_results;
 use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
 use gearcut::influence::budget::chosen;
-use gearcut::influence::calibrate::{Calibration, Measured, MeasuredNumber};
+use gearcut::influence::calibrate::{Calibration, MeasuredGear, MeasuredNumber};
 use gearcut::influence::numbers::numbers;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
@@ -45,7 +45,7 @@ fn errors_of_a_round_gear_are_fitted_to_its_runout_and_thickness() {
         ["mounting.eccentricity_um@0", "machine.errors.center_distance.scale_um_per_m", "mounting.axial_offset_um"];
     let parameters = chosen(&loaded, &[eccentric, scale, offset].map(str::to_owned)).expect("parameters");
     let quiet = Progress::new(ProgressMode::Quiet);
-    let measured = Measured::of_numbers(measured(&choice));
+    let measured = MeasuredGear::of_numbers(measured(&choice));
     let found = Calibration::new(&loaded, &parameters, &measured, &choice, &quiet, &Interrupt::default()).expect("cut");
     assert!(found.settled, "{found:?}");
     let of = |id: &str| found.fitted.iter().find(|(parameter, _)| parameter.id == id).expect("asked for").1;

@@ -8,7 +8,7 @@ use gearcut::cut::sweep_chips::SweepsCut;
 use gearcut::cut::{Backend, BlankCut, BlankOperation, CutStats};
 use gearcut::dexel::{BlankField, Field, Layer, SpatialField};
 use gearcut::influence::budget::chosen;
-use gearcut::influence::calibrate::{Calibration, Measured};
+use gearcut::influence::calibrate::{Calibration, MeasuredGear};
 use gearcut::influence::charts::{Chart, LaidCharts, MeasuredLine};
 use gearcut::influence::measured::MeasuredPoint;
 use gearcut::influence::numbers::{numbers, texture_numbers};
@@ -147,8 +147,8 @@ fn a_surface_gives_back_the_roughness_of_the_edges() {
     shop.run("diagnose", &[], &random).failed(1, &["random"]);
 }
 
-/// What the cut does comes back like an error: a compliance from the charts, the thinnest chip from a surface. Radius and
-/// share of the thinnest chip are known as their product alone, and neither is identified beside the other.
+/// What the cut does comes back like an error: a compliance from the charts, the thinnest chip from a surface. Radius
+/// and share of the thinnest chip are known as their product alone, and neither is identified beside the other.
 #[test]
 fn compliance_and_ploughing_come_back() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -271,7 +271,7 @@ fn a_fit_that_is_stopped_keeps_its_rounds() {
         deviation_um: 7.0 + slope_um_per_mm * v_mm,
     };
     let line = MeasuredLine { chart: Chart::Helix, points: (-4..=4).map(|i| point(2.0 * f64::from(i))).collect() };
-    let measured = Measured { lines: vec![line.clone()], noise_um: 0.1, ..Measured::default() };
+    let measured = MeasuredGear { lines: vec![line.clone()], noise_um: 0.1, ..MeasuredGear::default() };
     let fit = |cuts: usize| {
         let interrupt = Interrupt::default();
         let backend = Stopping { cuts_left: AtomicUsize::new(cuts), interrupt: interrupt.clone() };

@@ -364,9 +364,9 @@ fn errors_of_nothing_change_no_byte() {
     assert!(cut(&sound) != cut(&faulty), "a micrometre is seen");
 }
 
-/// Where the axes rest, slices of the blank stand where a shift along the face is told: both ends, the middle of a bow as
-/// well; as the scene says, if it does. What is left of the blank is that of slices ten times as dense, to a part in ten
-/// thousand of what the errors move.
+/// Where the axes rest, slices of the blank stand where a shift along the face is told: both ends, the middle of a bow
+/// as well; as the scene says, if it does. What is left of the blank is that of slices ten times as dense, to a part in
+/// ten thousand, but for the share of the bow.
 #[test]
 fn slices_of_the_blank_follow_the_guide() {
     let slope = "machine.errors.guide.radial_um_per_100mm=200";

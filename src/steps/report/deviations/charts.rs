@@ -2,8 +2,8 @@
 //!
 //! In: an inspection. Out: a row for each place of the profiles and helices that the sheet shows, in their evaluated
 //! parts, and one for each flank of the cumulative pitch deviations. Profiles and helices stand at the flank's own
-//! places u and v, whatever the process calls the places of its traces; their deviations are normal ones, those of pitch
-//! arcs of the pitch curve. What is not measured has no row.
+//! places u and v, whatever the process calls the places of its traces; their deviations are normal ones, those of
+//! pitch arcs of the pitch curve. What is not measured has no row.
 
 use super::{Inspection, SIDES, TracedFlank, traced};
 use crate::findings::Datum;
