@@ -208,7 +208,16 @@ pub fn write(
 
 fn page(scene: &Scene, measured: &MeasuredGear, found: &Calibration, tree: &Findings) -> Page {
     let shown = |value: f64| significant(value, 4).replace('-', "−");
-    let mut blocks = Vec::new();
+    let fits = found.fitted.iter().map(|(parameter, fitted)| {
+        let both = fitted.map(|[shift, half]| format!("{} ± {}", shown(shift), significant(half, 2)));
+        let value = both.unwrap_or_else(|| "cannot be identified".to_owned());
+        vec![parameter.title.clone(), value, parameter.unit.to_owned()]
+    });
+    let mut blocks = vec![Block::Table(PageTable {
+        caption: "Fitted parameters, shifts beyond the scene with 95 % intervals".to_owned(),
+        columns: ["Parameter", "Fitted", "Unit"].map(str::to_owned).into(),
+        rows: fits.collect(),
+    })];
     if !measured.numbers.is_empty() {
         let rows = measured.numbers.iter().zip(&found.values).map(|(number, of)| {
             let both = format!("{} ± {}", shown(of.measured), shown(number.uncertainty));
