@@ -154,7 +154,7 @@ fn marks_are_the_same_on_every_grid() {
     let torn = torn(&keys, &["operation.finish.feed_during_stroke=true"]);
     let flank = (7, Side::Right);
     let (arcs_mm, rows_mm) = (places(1.0, 3.0, 0.02), places(-2.0, 2.0, 0.05));
-    let few_arcs_mm: Vec<f64> = arcs_mm.iter().copied().step_by(5).rev().collect();
+    let few_arcs_mm: Vec<f64> = arcs_mm.iter().copied().skip(40).step_by(5).rev().collect();
     let few_rows_mm: Vec<f64> = rows_mm.iter().copied().skip(7).step_by(11).collect();
     let [all, few] = [(&arcs_mm, &rows_mm), (&few_arcs_mm, &few_rows_mm)]
         .map(|(arcs_mm, rows_mm)| layers(&torn, flank, arcs_mm, rows_mm).remove(0).heights_mm);
@@ -172,7 +172,7 @@ fn marks_are_the_same_on_every_grid() {
             lower += usize::from(all[at] < smooth[0].heights_mm[at] - 1e-6);
         }
     }
-    assert!(compared == 21 * 7 && lower > 20, "{compared} places, {lower} of them in marks");
+    assert!(compared == 13 * 7 && lower > 15, "{compared} places, {lower} of them in marks");
 }
 
 #[test]
