@@ -1,8 +1,8 @@
-//! Normal numbers that follow from a key.
+//! Random numbers that follow from a key.
 //!
 //! In: a seed, the source that asks (an axis, an edge), and which of its numbers it asks for. Out: a number of the
-//! standard normal distribution, always the same one for the same key. Nothing is counted on the way, so that neither
-//! the order of questions nor the number of threads matters.
+//! standard normal distribution, or a row of even numbers, always the same for the same key. Nothing is counted on the
+//! way, so that neither the order of questions nor the number of threads matters.
 //!
 //! Law: the key, all 32 bytes of it, is that of the stream cipher ChaCha with 8 rounds (Bernstein, *ChaCha, a variant
 //! of Salsa20*, 2008), whose first 16 bytes are two even numbers; they make one normal number (Box and Muller, *A note
@@ -26,8 +26,8 @@ impl Draws {
         Self { seed, source }
     }
 
-    /// A number of mean 0 and variance 1.
-    pub fn normal(&self, which: [i64; 2]) -> f64 {
+    /// Numbers spread evenly above 0 and up to 1, one after the other.
+    pub fn even(&self, which: [i64; 2]) -> impl FnMut() -> f64 + use<> {
         let mut key = [0; 32];
         let words = [i64::from(self.seed), i64::from(self.source), which[0], which[1]];
         for (bytes, word) in key.chunks_exact_mut(8).zip(words) {
@@ -35,7 +35,12 @@ impl Draws {
         }
         let mut stream = ChaCha8Rng::from_seed(key);
         // 53 bits, above 0 and up to 1.
-        let mut even = || ((stream.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64;
+        move || ((stream.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A number of mean 0 and variance 1.
+    pub fn normal(&self, which: [i64; 2]) -> f64 {
+        let mut even = self.even(which);
         let (radius, turn) = ((-2.0 * even().ln()).sqrt(), even());
         radius * (TAU * turn).cos()
     }

@@ -24,13 +24,15 @@ pub enum ErrorLayer {
     Edge,
     /// What rounded cutting edges do not cut.
     Ploughing,
+    /// Pits and scratches of a built-up edge.
+    Tearing,
     /// Displacement of tool and work by the forces of the cut.
     Deflection,
 }
 
 impl ErrorLayer {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Axes,
         Self::Guide,
         Self::Mounting,
@@ -39,6 +41,7 @@ impl ErrorLayer {
         Self::Stock,
         Self::Edge,
         Self::Ploughing,
+        Self::Tearing,
         Self::Deflection,
     ];
 
@@ -53,13 +56,14 @@ impl ErrorLayer {
             Self::Stock => "scatter of the stock that operations leave",
             Self::Edge => "roughness of the cutting edges",
             Self::Ploughing => "strokes that meet less than a thinnest chip and push it aside",
+            Self::Tearing => "pits and scratches that a built-up edge tears into flanks",
             Self::Deflection => "displacement of tool and work by the forces of the cut",
         }
     }
 
     /// Whether it is another one in every gear.
     pub fn is_random(self) -> bool {
-        matches!(self, Self::Noise | Self::Stock)
+        matches!(self, Self::Noise | Self::Stock | Self::Tearing)
     }
 
     /// In a word.
@@ -73,6 +77,7 @@ impl ErrorLayer {
             Self::Stock => "stock",
             Self::Edge => "edge",
             Self::Ploughing => "ploughing",
+            Self::Tearing => "tearing",
             Self::Deflection => "deflection",
         }
     }
@@ -82,18 +87,14 @@ impl<const N: usize> MachineErrors<N> {
     /// Layers that there are, those of the process's `own` among them, in the order of [`ErrorLayer::ALL`].
     pub fn layers(&self, own: &[(ErrorLayer, bool)]) -> Vec<ErrorLayer> {
         let same_in_every_gear = |axis: &AxisErrors| !AxisErrors { noise: Vec::new(), ..axis.clone() }.is_none();
-        let there = |layer: ErrorLayer| match layer {
-            ErrorLayer::Axes => self.axes.iter().any(same_in_every_gear),
-            ErrorLayer::Guide => !self.guide.is_none(),
-            ErrorLayer::Mounting => !self.mounting.is_none(),
-            ErrorLayer::Noise => self.axes.iter().any(|axis| !axis.noise.is_empty()),
-            ErrorLayer::Tool
-            | ErrorLayer::Stock
-            | ErrorLayer::Edge
-            | ErrorLayer::Ploughing
-            | ErrorLayer::Deflection => own.contains(&(layer, true)),
-        };
-        ErrorLayer::ALL.into_iter().filter(|&layer| there(layer)).collect()
+        let of_all_machines = [
+            (ErrorLayer::Axes, self.axes.iter().any(same_in_every_gear)),
+            (ErrorLayer::Guide, !self.guide.is_none()),
+            (ErrorLayer::Mounting, !self.mounting.is_none()),
+            (ErrorLayer::Noise, self.axes.iter().any(|axis| !axis.noise.is_empty())),
+        ];
+        let there = |layer: &ErrorLayer| of_all_machines.iter().chain(own).any(|of| *of == (*layer, true));
+        ErrorLayer::ALL.into_iter().filter(there).collect()
     }
 
     /// Switches all layers off but these.

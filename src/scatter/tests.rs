@@ -61,6 +61,7 @@ fn layers_of_a_scene_are_switched_one_by_one() {
         ("scenes/bevel/machine_errors.toml", &[ErrorLayer::Axes, ErrorLayer::Mounting, ErrorLayer::Tool]),
         ("scenes/shaping/deflection.toml", &[ErrorLayer::Deflection]),
         ("scenes/shaping/ploughing.toml", &[ErrorLayer::Ploughing]),
+        ("scenes/shaping/built_up_edge.toml", &[ErrorLayer::Tearing]),
         ("scenes/shaping/circular_m3_z24.toml", &[]),
     ] {
         let full = load(scene);

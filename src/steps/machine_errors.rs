@@ -23,23 +23,20 @@ pub fn section<const N: usize>(
 ) -> Option<Section> {
     let of_axes = |words: fn(&AxisErrors, AxisKind) -> Vec<String>| {
         let named = errors.axes.iter().zip(axes).map(|(of, axis)| (axis.name, words(of, axis.kind).join(", ")));
-        named.filter(|(_, words)| !words.is_empty()).map(|(name, words)| format!("{name}: {words}")).collect()
+        let told = named.filter(|(_, words)| !words.is_empty()).map(|(name, words)| format!("{name}: {words}"));
+        told.collect::<Vec<_>>().join("; ")
     };
+    let of_all_machines = [
+        (ErrorLayer::Axes, of_axes(same_in_every_gear)),
+        (ErrorLayer::Noise, of_axes(noise)),
+        (ErrorLayer::Guide, guide(&errors.guide).join("; ")),
+        (ErrorLayer::Mounting, mounting(&errors.mounting).join("; ")),
+    ];
     let mut section = Section::new(KEY, "Errors of the machine");
     for layer in ErrorLayer::ALL {
-        let mut words: Vec<String> = match layer {
-            ErrorLayer::Axes => of_axes(same_in_every_gear),
-            ErrorLayer::Noise => of_axes(noise),
-            ErrorLayer::Guide => guide(&errors.guide),
-            ErrorLayer::Mounting => mounting(&errors.mounting),
-            ErrorLayer::Tool
-            | ErrorLayer::Stock
-            | ErrorLayer::Edge
-            | ErrorLayer::Ploughing
-            | ErrorLayer::Deflection => Vec::new(),
-        };
-        words
-            .extend(own.iter().filter(|(of, words)| *of == layer && !words.is_empty()).map(|(_, words)| words.clone()));
+        let all = of_all_machines.iter().chain(own);
+        let words: Vec<&str> =
+            all.filter(|(of, words)| *of == layer && !words.is_empty()).map(|(_, words)| words.as_str()).collect();
         if !words.is_empty() {
             section = section.with(layer.name(), Quantity::text(words.join("; "), layer.definition()));
         }

@@ -1,4 +1,5 @@
-//! What all operations leave on a field of rays: the lowest of all passes, or what rounded edges make of them.
+//! What all operations leave on a field of rays: the lowest of all passes, or what rounded edges make of them; on
+//! flanks, what a built-up edge tears out of that.
 //!
 //! In: a job and a field on a flank, a root or a tip. Out: its layers. With sharp edges the order of passes does not
 //! matter, and the backend's kernels find the lowest one. Rounded edges ask for the order: they are followed here in
@@ -10,6 +11,7 @@ use crate::steps::planar::CutField;
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::Field;
 use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
 
 impl ShapingJob {
     /// Runs all operations over a field.
@@ -24,5 +26,17 @@ impl ShapingJob {
                 Ok(CutField { field, layers, stats })
             }
         }
+    }
+
+    /// Runs all operations over a field on a flank of a tooth (1 to z), the marks of a built-up edge included.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_on_flank(&self, backend: &dyn Backend, flank: (u32, Side), field: Field) -> Result<CutField> {
+        let mut cut = self.cut(backend, field)?;
+        if let Some(edge) = &self.cutter_spec.built_up_edge {
+            self.tear(edge, flank, &mut cut);
+        }
+        Ok(cut)
     }
 }

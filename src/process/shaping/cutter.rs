@@ -311,6 +311,7 @@ pub(crate) mod tests {
             pitch_errors_mm: Vec::new(),
             edge_roughness: None,
             edge_rounding: None,
+            built_up_edge: None,
         };
         ShaperCutter::new(&spec, &gear).expect("an ordinary cutter")
     }

@@ -58,7 +58,7 @@ pub fn cut_gear(
         folder,
         |tooth, side| {
             let target = job.target_flank(tooth, side);
-            let cut = job.cut(backend, job.flank_field(target))?;
+            let cut = job.cut_on_flank(backend, (tooth, side), job.flank_field(target))?;
             let report = flank_report::measure(job, target, &cut);
             let CutField { field, layers, stats } = cut;
             Ok(CutFlank { rays: field, layers, stats, report })

@@ -3,6 +3,7 @@
 pub mod actual;
 pub mod axes_report;
 pub mod blank;
+mod built_up_edge;
 pub mod check;
 mod chip_charts;
 pub mod chips;
@@ -28,6 +29,7 @@ pub mod scene;
 pub mod section;
 mod surfaces;
 pub mod target;
+mod tearing;
 pub mod tip_relief;
 pub mod tooth_facts;
 pub mod tooth_target;

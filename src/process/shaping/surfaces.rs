@@ -73,7 +73,7 @@ impl GearJob for ShapingJob {
         rows_z_mm: &[f64],
     ) -> Result<Vec<Layer>> {
         let field = self.field_over(self.target_flank(tooth, side), arcs_mm.iter().copied(), rows_z_mm.to_vec());
-        Ok(self.cut(backend, field)?.layers)
+        Ok(self.cut_on_flank(backend, (tooth, side), field)?.layers)
     }
 
     fn cylindrical(&self) -> Option<&dyn CylindricalGear> {

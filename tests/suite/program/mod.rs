@@ -6,6 +6,7 @@ mod compare;
 mod cut;
 mod defaults;
 mod disk_faults;
+mod error_layers;
 mod hobbing;
 mod nothing_lost;
 mod once;

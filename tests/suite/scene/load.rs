@@ -351,6 +351,25 @@ fn needed(name: &str) -> &'static [&'static str] {
         "correlation_length_um" => &["rq_um"],
         "radius_um" => &["minimum_chip_share"],
         "minimum_chip_share" => &["radius_um"],
+        "density_per_mm2"
+        | "speeds_m_per_min"
+        | "full_speeds_m_per_min"
+        | "chip_um"
+        | "chip_exponent"
+        | "depth_um"
+        | "width_um"
+        | "scratch_share"
+        | "scratch_length_um" => &[
+            "density_per_mm2",
+            "speeds_m_per_min",
+            "full_speeds_m_per_min",
+            "chip_um",
+            "chip_exponent",
+            "depth_um",
+            "width_um",
+            "scratch_share",
+            "scratch_length_um",
+        ],
         "stock_scatter_length_mm" => &["stock_scatter_um"],
         _ => &[],
     }

@@ -27,3 +27,4 @@ mod ploughing;
 mod retraction;
 mod round_gear;
 mod rubbing;
+mod tearing;

@@ -6,6 +6,9 @@
 use crate::output::map_cells::CHIPS_OF_A_CELL;
 use crate::output::text::{Sheet, significant};
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::chips::ploughed_layers;
+use crate::process::shaping::scene::model::EdgeRounding;
+use crate::process::shaping::tearing::LOOKUP_MM;
 use gearcut_core::cut::Backend as _;
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::cpu::blank::TILE_RAYS;
@@ -37,6 +40,13 @@ const ROWS_AT_ONCE: usize = 16;
 /// Tiles that are planned on each of them.
 const PLANNED_TILES: usize = 32;
 
+/// The same for one pass that is looked at on one ray where edges are rounded and passes followed in strict order, the
+/// choice of passes included: 1.2 to 2.5e-6 s were found on six gears (docs/edge.md).
+const FOLLOW_S_PER_LOOK: f64 = 1.6e-6;
+/// The same for a mark of a built-up edge that rays see: the chip that left its place.
+const MARK_S: f64 = 5.0e-5;
+/// Columns and rows of a flank on which passes are followed for the estimate.
+const FOLLOWED: [usize; 2] = [6, 4];
 /// Strokes of each operation that are placed in the blank.
 const PLACED_STROKES: usize = 40;
 /// What one thread takes for a ray that a cutter tooth crosses, its return stroke checked, s.
@@ -54,6 +64,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Resul
     let surfaces = job.operations.len();
     let (mut rows, mut planned_columns, mut records) = (0, 0.0, 0.0);
     let (mut evaluations, mut tiles) = (0.0, 0.0);
+    let mut followed = Followed::default();
     let mut machine = ComputerSpeed::default();
     for (tooth, side) in facts
         .iter()
@@ -64,6 +75,9 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Resul
         rows = field.rows();
         planned_columns += field.columns.len() as f64;
         let field = if job.planar().rows_are_alike() { field.section() } else { field };
+        if let Some(rounding) = &job.cutter_spec.edge_rounding {
+            followed.add(job, &field, rounding, &mut machine);
+        }
         for operation in &job.operations {
             let plan = machine.piece(
                 || CutPlan::new(&field, &operation.strokes, &job.cutter),
@@ -104,13 +118,59 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Resul
         bytes: rayon::current_num_threads() as f64
             * (largest * (BYTES_PER_DEXEL * surfaces) as f64
                 + records / planned_columns * longest * size_of::<PassRecord>() as f64),
-        seconds: scale * (tiles * PLAN_S_PER_TILE + evaluations * idle_rows * CUT_S_PER_EVALUATION)
-            + dexels * surfaces as f64 * MEASURE_S_PER_DEXEL
-            + map_cells * (CHIPS_OF_A_CELL * surfaces) as f64 * CHIP_S_PER_RAY,
+        seconds: dexels * surfaces as f64 * MEASURE_S_PER_DEXEL
+            + marks_s(job, facts)
+            + match &job.cutter_spec.edge_rounding {
+                None => {
+                    scale * (tiles * PLAN_S_PER_TILE + evaluations * idle_rows * CUT_S_PER_EVALUATION)
+                        + map_cells * (CHIPS_OF_A_CELL * surfaces) as f64 * CHIP_S_PER_RAY
+                }
+                Some(_) => {
+                    let rays = all_columns * rows_cut as f64 + map_cells * CHIPS_OF_A_CELL as f64;
+                    rays * followed.looks_per_ray() * FOLLOW_S_PER_LOOK
+                }
+            },
     };
     let (fields, beside_s) = (&job.scene.fields, stages::beside_cutting_s(job));
     check_cost::print(sheet, fields, &flanks, &blank_cost(job)?, beside_s, machine);
     Ok(())
+}
+
+/// Passes that were followed in strict order for the estimate.
+#[derive(Default)]
+struct Followed {
+    looks: f64,
+    rays: f64,
+}
+
+impl Followed {
+    /// Follows them on some rays of a field.
+    fn add(&mut self, job: &ShapingJob, field: &Field, rounding: &EdgeRounding, machine: &mut ComputerSpeed) {
+        let some =
+            |count: usize, most: usize| -> Vec<usize> { (0..count).step_by(count.div_ceil(most).max(1)).collect() };
+        let sample = field.at([&some(field.columns.len(), FOLLOWED[0]), &some(field.rows(), FOLLOWED[1])]);
+        self.rays += sample.len() as f64;
+        // The clock is that of one thread.
+        let Ok(alone) = rayon::ThreadPoolBuilder::new().num_threads(1).build() else { return };
+        let follow = || ploughed_layers(job, &sample, rounding).1.dexel_passes as f64;
+        self.looks += alone.install(|| machine.piece(follow, |looks| looks * FOLLOW_S_PER_LOOK));
+    }
+
+    /// By all operations.
+    fn looks_per_ray(&self) -> f64 {
+        self.looks / self.rays.max(1.0)
+    }
+}
+
+/// Marks of a built-up edge: those that rows of dexels see, s. Places of straight strokes are asked for once.
+fn marks_s(job: &ShapingJob, facts: &[ToothFacts]) -> f64 {
+    let Some(edge) = &job.cutter_spec.built_up_edge else { return 0.0 };
+    let seen = |length_mm: f64| (length_mm / job.scene.fields.lead_spacing_mm).min(1.0);
+    let share = edge.scratch_share * seen(edge.scratch_length_mm) + (1.0 - edge.scratch_share) * seen(edge.width_mm);
+    let to_a_mm = edge.density_per_mm2 * job.scene.gear.face_width_mm * share * job.operations.len() as f64;
+    let lengths_mm = facts.iter().flat_map(ToothFacts::flanks).map(|(_, flank)| flank.length_mm).sum::<f64>();
+    let most = if job.planar().rows_are_alike() { 1.0 / LOOKUP_MM } else { f64::INFINITY };
+    lengths_mm * to_a_mm.min(most) * MARK_S
 }
 
 /// Rays through the blank and the cutter teeth that cross them.

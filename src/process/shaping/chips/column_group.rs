@@ -55,13 +55,13 @@ impl ColumnGroup {
         Self { apart_mm: apart_mm.fold(0.0, f64::max), middle, passes: vec![nothing; passes], lowest: BTreeMap::new() }
     }
 
-    /// Columns in order, in groups.
-    pub fn groups(columns: &[Column]) -> Vec<&[Column]> {
+    /// Columns in order, in groups, with the number of the first one of each.
+    pub fn groups(columns: &[Column]) -> Vec<(usize, &[Column])> {
         let (mut groups, mut rest) = (Vec::new(), columns);
         while let [first, ..] = rest {
             let count = rest.partition_point(|column| column.arc_mm <= first.arc_mm + WIDTH_MM).max(1);
             let (group, others) = rest.split_at(count);
-            groups.push(group);
+            groups.push((columns.len() - rest.len(), group));
             rest = others;
         }
         groups

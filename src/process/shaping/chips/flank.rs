@@ -20,7 +20,7 @@
 use super::column_group::ColumnGroup;
 use super::deciding::{ColumnPasses, deciding};
 use super::ploughing;
-use super::rays::{Chosen, FieldPasses, RaySurface};
+use super::rays::{Chosen, FieldPasses, Pairing, RaySurface};
 use super::segments::Reaching;
 use crate::measure::LastChips;
 use crate::process::shaping::ShapingJob;
@@ -34,10 +34,19 @@ pub fn side_code(side: Option<EdgeSide>) -> u32 {
 
 /// Chips that left the surface after each operation, in their order.
 pub fn last_chips(job: &ShapingJob, field: &Field) -> Vec<LastChips> {
+    last_chips_on_rays(job, field, Pairing::All)
+}
+
+/// The same at single places: of each column the ray in the row of the same number.
+pub fn last_chips_at(job: &ShapingJob, field: &Field) -> Vec<LastChips> {
+    last_chips_on_rays(job, field, Pairing::Diagonal)
+}
+
+fn last_chips_on_rays(job: &ShapingJob, field: &Field, pairing: Pairing) -> Vec<LastChips> {
     match &job.cutter_spec.edge_rounding {
-        None => last_chips_of(job, field, deciding),
+        None => last_chips_of(job, field, pairing, deciding),
         Some(rounding) => {
-            let ploughed = ploughing::surfaces(job, field, rounding);
+            let ploughed = ploughing::surfaces(job, field, pairing, rounding);
             ploughed.after.iter().map(|surfaces| last_chips_on(surfaces, ploughed.copies)).collect()
         }
     }
@@ -47,18 +56,19 @@ pub fn last_chips(job: &ShapingJob, field: &Field) -> Vec<LastChips> {
 fn last_chips_of(
     job: &ShapingJob,
     field: &Field,
+    pairing: Pairing,
     choose: impl Fn(&mut ColumnPasses, usize) -> Vec<Reaching>,
 ) -> Vec<LastChips> {
-    let passes = FieldPasses::of_smooth_edges(job, field);
+    let passes = FieldPasses::of_smooth_edges(job, field, pairing);
     let mut after: Vec<Vec<RaySurface>> = vec![Vec::new(); job.operations.len()];
-    for columns in ColumnGroup::groups(&field.columns) {
+    for (first, columns) in ColumnGroup::groups(&field.columns) {
         let mut group = passes.group(columns);
-        for ray in columns {
+        for (index, ray) in (first..).zip(columns) {
             let mut column = passes.over(&mut group, ray);
             for (operation, after) in after.iter_mut().enumerate() {
                 let chosen = passes.chosen(choose(&mut column, passes.of_operation(operation).end));
                 let mut likely = chosen.len() / 2;
-                after.extend(passes.rows().map(|row| last_cut(&passes, &chosen, row, ray, &mut likely)));
+                after.extend(passes.rows(index).map(|row| last_cut(&passes, &chosen, row, ray, &mut likely)));
             }
         }
     }
@@ -113,6 +123,34 @@ mod tests {
     use gearcut_core::terms::Side;
     use std::path::Path;
 
+    /// Bits of what is known of some rays.
+    fn bits(chips: &LastChips, rays: impl Iterator<Item = usize>) -> Vec<(u32, u32)> {
+        rays.map(|ray| (chips.thickness_mm[ray].to_bits(), chips.passes[ray])).collect()
+    }
+
+    #[test]
+    fn single_places_have_the_chips_of_their_columns_and_rows() {
+        let feed = ["operation.rough.feed_during_stroke=true", "operation.finish.feed_during_stroke=true"];
+        let rounding =
+            ["radius_um=5", "minimum_chip_share=0.2"].map(|key| format!("tool.shaper_cutter.edge_rounding.{key}"));
+        for (settings, rounded) in [(&feed[..0], false), (&feed[..], false), (&feed[..], true)] {
+            let rounding = rounding.iter().filter(|_| rounded).cloned();
+            let settings: Vec<String> = settings.iter().map(|&key| key.to_owned()).chain(rounding).collect();
+            let scene = load(Path::new("scenes/shaping/elliptical_normal.toml"), &settings).expect("the shipped scene");
+            let job = ShapingJob::new(scene.scene).expect("the shipped gear");
+            let field = job.flank_field(job.target_flank(4, Side::Left));
+            let columns: Vec<usize> = (0..7).map(|i| 100 * i + 90).collect();
+            let rows: Vec<usize> = (0..7).map(|i| 99 - 13 * i).collect();
+            let field = field.at([&columns, &rows]);
+            let (all, single) = (last_chips(&job, &field), last_chips_at(&job, &field));
+            for (all, single) in all.iter().zip(&single) {
+                assert_eq!(bits(all, (0..7).map(|i| 8 * i)), bits(single, 0..7));
+                assert_eq!(single.passes.len(), 7);
+            }
+            assert_eq!(bits(&all[1], 0..7).iter().all(|ray| *ray == bits(&all[1], 0..1)[0]), settings.is_empty());
+        }
+    }
+
     #[test]
     fn the_passes_that_decide_leave_the_chips_of_all() {
         let mut scene = load(Path::new("scenes/shaping/elliptical_normal.toml"), &[]).expect("the shipped scene").scene;
@@ -126,13 +164,13 @@ mod tests {
             let columns: Vec<usize> = (0..field.columns.len()).step_by(31).collect();
             let field = field.at([&columns, &[0, 100, 300, 500, 600]]);
             let chosen = last_chips(&job, &field);
-            let of_all = last_chips_of(&job, &field, |column, so_far| column.all(0..so_far));
+            let of_all = last_chips_of(&job, &field, Pairing::All, |column, so_far| column.all(0..so_far));
             for (chosen, of_all) in chosen.iter().zip(&of_all) {
                 let bits = |chips: &LastChips| chips.thickness_mm.iter().map(|h| h.to_bits()).collect::<Vec<_>>();
                 assert_eq!((&chosen.passes, bits(chosen)), (&of_all.passes, bits(of_all)));
             }
             let counted = std::cell::Cell::new([0, 0]);
-            last_chips_of(&job, &field, |column, so_far| {
+            last_chips_of(&job, &field, Pairing::All, |column, so_far| {
                 let deciding = deciding(column, so_far);
                 let [a, k] = counted.get();
                 counted.set([a + column.all(0..so_far).len(), k + deciding.len()]);

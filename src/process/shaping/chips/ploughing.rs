@@ -17,7 +17,7 @@
 
 use super::column_group::ColumnGroup;
 use super::deciding::ColumnPasses;
-use super::rays::{Chosen, FieldPasses, RaySurface};
+use super::rays::{Chosen, FieldPasses, Pairing, RaySurface};
 use super::segments::Reaching;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_rounding::Meeting;
@@ -38,13 +38,13 @@ pub(super) struct Ploughed {
 }
 
 /// Follows all passes over a field.
-pub(super) fn surfaces(job: &ShapingJob, field: &Field, rounding: &EdgeRounding) -> Ploughed {
-    surfaces_of(job, field, rounding, &NEEDED)
+pub(super) fn surfaces(job: &ShapingJob, field: &Field, pairing: Pairing, rounding: &EdgeRounding) -> Ploughed {
+    surfaces_of(job, field, pairing, rounding, &NEEDED)
 }
 
 /// What every operation leaves on a field, as the kernels' layers are.
 pub fn layers(job: &ShapingJob, field: &Field, rounding: &EdgeRounding) -> (Vec<Layer>, CutStats) {
-    let Ploughed { after, copies, looks } = surfaces(job, field, rounding);
+    let Ploughed { after, copies, looks } = surfaces(job, field, Pairing::All, rounding);
     let rays = after.first().map_or(0, Vec::len);
     let layer = |surfaces: Vec<RaySurface>| {
         let heights_mm = surfaces.iter().map(|surface| surface.height_mm as f32).collect();
@@ -69,11 +69,18 @@ const NEEDED: PassChoice = PassChoice {
 };
 
 /// The same with other passes.
-fn surfaces_of(job: &ShapingJob, field: &Field, rounding: &EdgeRounding, choice: &PassChoice) -> Ploughed {
-    let passes = FieldPasses::new(job, field);
-    let of_column = |group: &mut ColumnGroup, ray: &Column| {
+fn surfaces_of(
+    job: &ShapingJob,
+    field: &Field,
+    pairing: Pairing,
+    rounding: &EdgeRounding,
+    choice: &PassChoice,
+) -> Ploughed {
+    let passes = FieldPasses::new(job, field, pairing);
+    let of_column = |group: &mut ColumnGroup, index: usize, ray: &Column| {
         let mut column = passes.over(group, ray);
-        let mut rows = vec![RaySurface::uncut(ray); passes.rows().len()];
+        let places = passes.rows(index);
+        let mut rows = vec![RaySurface::uncut(ray); places.len()];
         let (mut after, mut looks) = (Vec::new(), 0);
         for operation in 0..job.operations.len() {
             let of_operation = passes.of_operation(operation);
@@ -87,7 +94,7 @@ fn surfaces_of(job: &ShapingJob, field: &Field, rounding: &EdgeRounding, choice:
                 let follow = |(row, found): (usize, &RaySurface)| {
                     follow(&passes, &chosen, (row, ray), *found, bound_mm, rounding)
                 };
-                match rows.iter().enumerate().map(follow).collect::<Result<Vec<_>, TooLow>>() {
+                match places.clone().zip(&rows).map(follow).collect::<Result<Vec<_>, TooLow>>() {
                     Ok(rows) => break rows,
                     Err(TooLow { needed_mm }) => bound_mm = needed_mm.max(bound_mm + (bound_mm - left_mm)),
                 }
@@ -96,9 +103,9 @@ fn surfaces_of(job: &ShapingJob, field: &Field, rounding: &EdgeRounding, choice:
         }
         (after, looks)
     };
-    let of_group = |columns: &&[Column]| {
+    let of_group = |&(first, columns): &(usize, &[Column])| {
         let mut group = passes.group(columns);
-        columns.iter().map(|ray| of_column(&mut group, ray)).collect::<Vec<_>>()
+        (first..).zip(columns).map(|(index, ray)| of_column(&mut group, index, ray)).collect::<Vec<_>>()
     };
     let groups = ColumnGroup::groups(&field.columns);
     let columns: Vec<(Vec<Vec<RaySurface>>, u64)> = groups.par_iter().flat_map_iter(of_group).collect();
@@ -177,7 +184,8 @@ mod tests {
             let columns: Vec<usize> = (0..field.columns.len()).step_by(41).collect();
             let last = field.rows() - 1;
             let field = field.at([&columns, &[0, last / 3, last]]);
-            let [chosen, of_all] = [choice, &ALL].map(|choice| surfaces_of(job, &field, rounding, choice));
+            let [chosen, of_all] =
+                [choice, &ALL].map(|choice| surfaces_of(job, &field, Pairing::All, rounding, choice));
             let bits = |of: &Ploughed| -> Vec<(u64, u64, u32)> {
                 let surfaces = of.after.iter().flatten();
                 surfaces.map(|s| (s.height_mm.to_bits(), s.thickness_mm.to_bits(), s.pass)).collect()

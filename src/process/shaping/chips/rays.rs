@@ -71,20 +71,30 @@ pub(super) struct FieldPasses<'a> {
     phases: Vec<Vec<f64>>,
     /// How many rows of the field each of those stands for.
     pub copies: usize,
+    pairing: Pairing,
+}
+
+/// Which rays of a field there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pairing {
+    /// In every column one in each row.
+    All,
+    /// In every column one, in the row of the same number.
+    Diagonal,
 }
 
 impl<'a> FieldPasses<'a> {
     /// As the cutter's edges are.
-    pub fn new(job: &'a ShapingJob, field: &Field) -> Self {
-        Self::with_edges(job, field, job.cutter.edges().edges())
+    pub fn new(job: &'a ShapingJob, field: &Field, pairing: Pairing) -> Self {
+        Self::with_edges(job, field, pairing, job.cutter.edges().edges())
     }
 
     /// With edges that are smooth along their length.
-    pub fn of_smooth_edges(job: &'a ShapingJob, field: &Field) -> Self {
-        Self::with_edges(job, field, std::slice::from_ref(job.cutter.edge()))
+    pub fn of_smooth_edges(job: &'a ShapingJob, field: &Field, pairing: Pairing) -> Self {
+        Self::with_edges(job, field, pairing, std::slice::from_ref(job.cutter.edge()))
     }
 
-    fn with_edges(job: &'a ShapingJob, field: &Field, edges: &'a [Edge]) -> Self {
+    fn with_edges(job: &'a ShapingJob, field: &Field, pairing: Pairing, edges: &'a [Edge]) -> Self {
         let rows_z_mm: &[f64] = if job.planar().rows_are_alike() { &[0.0] } else { &field.rows_z_mm };
         let phases = |&z_mm: &f64| job.operations.iter().map(|o| o.strokes.law.tau(z_mm)).collect();
         Self {
@@ -94,7 +104,8 @@ impl<'a> FieldPasses<'a> {
             near: passes_near(job, field),
             blades: (0..job.cutter.blade_count()).map(|b| job.cutter.tool_from_blade(b).inverse()).collect(),
             phases: rows_z_mm.iter().map(phases).collect(),
-            copies: field.rows() / rows_z_mm.len(),
+            copies: if pairing == Pairing::All { field.rows() / rows_z_mm.len() } else { 1 },
+            pairing,
         }
     }
 
@@ -108,9 +119,12 @@ impl<'a> FieldPasses<'a> {
         ColumnPasses::new(&self.segments, &self.near, ray, group)
     }
 
-    /// Rows that differ.
-    pub fn rows(&self) -> Range<usize> {
-        0..self.phases.len()
+    /// Rows of a column that differ.
+    pub fn rows(&self, column: usize) -> Range<usize> {
+        match self.pairing {
+            Pairing::Diagonal if self.phases.len() > 1 => column..column + 1,
+            _ => 0..self.phases.len(),
+        }
     }
 
     /// Places of an operation's passes among those near the field.

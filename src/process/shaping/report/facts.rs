@@ -4,8 +4,8 @@ use crate::findings::{Findings, unit};
 use crate::output::report::PageSection;
 use crate::output::text::plain;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::findings::machine_errors::{edge_words, rounding_words};
 use crate::process::shaping::linkage::dynamics::{self, AXES};
+use crate::process::shaping::scene::layers::{built_up_words, edge_words, rounding_words};
 use crate::process::shaping::scene::model::{Retraction, Tip};
 use crate::steps::report::facts::{gear_table, mm, round_gear_table, speed_limits, table};
 use gearcut_core::units::UM_PER_MM;
@@ -22,10 +22,9 @@ pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
     };
     let rough = |edge| format!("rough: {}", unit::sentence_with_signs(&edge_words(edge)));
     let edges = tool.edge_roughness.as_ref().map_or_else(|| "smooth".to_owned(), rough);
-    let edges = match &tool.edge_rounding {
-        None => edges,
-        Some(rounding) => format!("{edges}; {}", unit::sentence_with_signs(&rounding_words(rounding))),
-    };
+    let others = [tool.edge_rounding.as_ref().map(rounding_words), tool.built_up_edge.as_ref().map(built_up_words)];
+    let others = others.iter().flatten().map(|words| unit::sentence_with_signs(words));
+    let edges = std::iter::once(edges).chain(others).collect::<Vec<_>>().join("; ");
     let back_off = match machine.retraction {
         Retraction::CenterLine => mm(machine.back_off_mm),
         other => format!("{} {}", mm(machine.back_off_mm), other.words()),

@@ -1,9 +1,9 @@
 //! Checked values of a shaping scene to the model.
 
-use super::keys::{AXES, EDGE_ROUGHNESS, EDGE_ROUNDING};
+use super::keys::{AXES, BUILT_UP_EDGE, EDGE_ROUGHNESS, EDGE_ROUNDING};
 use super::model::{
-    AxisLimits, CutterSpec, EdgeRoughness, EdgeRounding, Feed, GcodeDialect, Infeed, Linkage, Machine, NormalReading,
-    Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip, TraditionalDirection,
+    AxisLimits, BuiltUpEdge, CutterSpec, EdgeRoughness, EdgeRounding, Feed, GcodeDialect, Infeed, Linkage, Machine,
+    NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip, TraditionalDirection,
 };
 use crate::machine_errors::{Compliance, SideCompliance};
 use crate::material::EdgeForce;
@@ -19,6 +19,8 @@ use std::path::Path;
 const STOCK_SOURCE: u32 = 100;
 /// mm/N for 1 um/kN.
 const MM_PER_N_IN_UM_PER_KN: f64 = 1e-6;
+/// mm/s for 1 m/min.
+const MM_PER_S_IN_M_PER_MIN: f64 = 1000.0 / 60.0;
 /// rad/(N mm) for 1 urad/(N m).
 const RAD_PER_NMM_IN_URAD_PER_NM: f64 = 1e-9;
 
@@ -74,6 +76,7 @@ fn shaper_cutter(values: &Values, base_dir: &Path) -> Option<CutterSpec> {
         pitch_errors_mm: cutter.numbers("pitch_errors_um")?.iter().map(|um| um / UM_PER_MM).collect(),
         edge_roughness: edge_roughness(values, base_dir),
         edge_rounding: edge_rounding(values),
+        built_up_edge: built_up_edge(values),
     })
 }
 
@@ -93,6 +96,26 @@ fn edge_rounding(values: &Values) -> Option<EdgeRounding> {
         radius_mm: rounding.mm_from_um("radius_um")?,
         minimum_chip_share: rounding.number("minimum_chip_share")?,
         recovery_share: rounding.number("recovery_share")?,
+    })
+}
+
+fn built_up_edge(values: &Values) -> Option<BuiltUpEdge> {
+    let edge = values.view(BUILT_UP_EDGE);
+    let (&[from, to], &[full_from, full_to]) =
+        (edge.numbers("speeds_m_per_min")?, edge.numbers("full_speeds_m_per_min")?)
+    else {
+        return None;
+    };
+    Some(BuiltUpEdge {
+        density_per_mm2: edge.number("density_per_mm2")?,
+        speeds_mm_per_s: [from, full_from, full_to, to].map(|m_per_min| m_per_min * MM_PER_S_IN_M_PER_MIN),
+        chip_mm: edge.mm_from_um("chip_um")?,
+        chip_exponent: edge.number("chip_exponent")?,
+        depth_mm: edge.mm_from_um("depth_um")?,
+        width_mm: edge.mm_from_um("width_um")?,
+        scratch_share: edge.number("scratch_share")?,
+        scratch_length_mm: edge.mm_from_um("scratch_length_um")?,
+        seed: values.view("machine.errors").whole("seed")?,
     })
 }
 

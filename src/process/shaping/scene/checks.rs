@@ -1,7 +1,7 @@
 //! Values of a shaping scene compared with each other.
 
 use super::defaults::reach_mm;
-use super::keys::{AXES, EDGE_ROUGHNESS, EDGE_ROUNDING};
+use super::keys::{AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, EDGE_ROUGHNESS, EDGE_ROUNDING};
 use crate::scene::build::stock_or_offset_mm;
 use crate::scene::keys::join;
 use crate::scene::machine_errors;
@@ -20,8 +20,10 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     // A missing value ends only the check that asks for it.
     let _: [Option<()>; 4] = [cutter_core(found), cutter_thinning(found), pitch_errors(found), chips(found)];
     tip(found);
-    together(found, EDGE_ROUGHNESS, ["rq_um", "correlation_length_um"]);
-    together(found, EDGE_ROUNDING, ["radius_um", "minimum_chip_share"]);
+    together(found, EDGE_ROUGHNESS, &["rq_um", "correlation_length_um"]);
+    together(found, EDGE_ROUNDING, &["radius_um", "minimum_chip_share"]);
+    together(found, BUILT_UP_EDGE, &BUILT_UP_EDGE_KEYS);
+    speeds(found);
     machine_errors::check(found, &AXES);
     for index in 0..found.values.count("operation") {
         let path = format!("operation.{index}");
@@ -37,16 +39,34 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     }
 }
 
-/// One of two keys says nothing without the other: a root mean square without a length, a radius without a share.
-fn together(found: &mut Found, section: &str, names: [&'static str; 2]) {
+/// Each of some keys says nothing without the others: a root mean square without a length, a radius without a share.
+fn together(found: &mut Found, section: &str, names: &[&'static str]) {
     let view = found.view(section);
-    let (key, missing) = match names.map(|name| view.number(name).is_some()) {
-        [true, false] => (join(section, names[0]), names[1]),
-        [false, true] => (join(section, names[1]), names[0]),
-        _ => return,
+    let is_there = |name: &&&str| view.number(name).is_some() || view.numbers(name).is_some();
+    let (Some(there), Some(missing)) = (names.iter().find(is_there), names.iter().find(|name| !is_there(name))) else {
+        return;
     };
+    let key = join(section, there);
     let message = || format!("`{key}` says nothing without {missing}");
     found.blame(true, &key, message, &format!("write {missing} as well, or remove it"));
+}
+
+/// Marks are densest between speeds at which there are any.
+fn speeds(found: &mut Found) {
+    let view = found.view(BUILT_UP_EDGE);
+    let (Some(&[from, to]), Some(&[full_from, full_to])) =
+        (view.numbers("speeds_m_per_min"), view.numbers("full_speeds_m_per_min"))
+    else {
+        return;
+    };
+    let key = join(BUILT_UP_EDGE, "speeds_m_per_min");
+    let message = || format!("the speeds [{from}, {to}] m/min have no width");
+    found.blame(from >= to, &key, message, "write the smaller speed first, and another one after it");
+    let key = join(BUILT_UP_EDGE, "full_speeds_m_per_min");
+    let message =
+        || format!("the speeds [{full_from}, {full_to}] m/min do not lie in order between {from} and {to} m/min");
+    let wrong = from < to && !(from <= full_from && full_from <= full_to && full_to <= to);
+    found.blame(wrong, &key, message, "take speeds inside of speeds_m_per_min, the smaller one first");
 }
 
 fn cutter_core(found: &mut Found) -> Option<()> {

@@ -4,6 +4,7 @@ mod build;
 mod checks;
 mod defaults;
 mod keys;
+pub mod layers;
 pub mod model;
 
 use crate::machine_errors::{Compliance, ErrorLayer};
@@ -90,34 +91,13 @@ impl ProcessPart for Shaping {
     }
 
     fn error_layers(&self) -> Vec<ErrorLayer> {
-        let tool = self.tool.runout_mm != 0.0 || self.tool.pitch_errors_mm.iter().any(|&error| error != 0.0);
-        let own = [
-            (ErrorLayer::Tool, tool),
-            (ErrorLayer::Stock, self.operations.iter().any(|operation| operation.stock_scatter.is_some())),
-            (ErrorLayer::Edge, self.tool.edge_roughness.is_some()),
-            (ErrorLayer::Ploughing, self.tool.edge_rounding.is_some()),
-            (ErrorLayer::Deflection, !self.machine.compliance.is_none()),
-        ];
-        self.machine.errors.layers(&own)
+        self.machine.errors.layers(&layers::OWN.each_ref().map(|own| (own.layer, own.is_on(self))))
     }
 
     fn keep_layers(&mut self, kept: &[ErrorLayer]) {
         self.machine.errors.keep(kept);
-        if !kept.contains(&ErrorLayer::Tool) {
-            self.tool.runout_mm = 0.0;
-            self.tool.pitch_errors_mm.clear();
-        }
-        if !kept.contains(&ErrorLayer::Stock) {
-            self.operations.iter_mut().for_each(|operation| operation.stock_scatter = None);
-        }
-        if !kept.contains(&ErrorLayer::Edge) {
-            self.tool.edge_roughness = None;
-        }
-        if !kept.contains(&ErrorLayer::Ploughing) {
-            self.tool.edge_rounding = None;
-        }
-        if !kept.contains(&ErrorLayer::Deflection) {
-            self.machine.compliance = Compliance::default();
+        for own in layers::OWN.iter().filter(|own| !kept.contains(&own.layer)) {
+            (own.off)(self);
         }
     }
 

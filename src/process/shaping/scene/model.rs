@@ -74,6 +74,31 @@ pub struct CutterSpec {
     pub edge_roughness: Option<EdgeRoughness>,
     /// Rounding of its edges across; `None`: sharp ones.
     pub edge_rounding: Option<EdgeRounding>,
+    /// What builds up on its edges and tears flanks; `None`: nothing does.
+    pub built_up_edge: Option<BuiltUpEdge>,
+}
+
+/// Pits and scratches that fragments of a built-up edge tear into flanks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BuiltUpEdge {
+    /// lambda_0: marks to a mm2 where cutting speed and chip favour them most.
+    pub density_per_mm2: f64,
+    /// v_1 to v_4: cutting speeds at which marks begin, are densest from and to, and end.
+    pub speeds_mm_per_s: [f64; 4],
+    /// h_0: thickness of the chip where the density reaches its full value.
+    pub chip_mm: f64,
+    /// p: how the density goes with the thickness on the other side of it.
+    pub chip_exponent: f64,
+    /// Mean depth of marks in their middle.
+    pub depth_mm: f64,
+    /// Mean width of marks across the stroke.
+    pub width_mm: f64,
+    /// Share of marks that are scratches; the others are pits.
+    pub scratch_share: f64,
+    /// Mean length of scratches along the stroke.
+    pub scratch_length_mm: f64,
+    /// Which marks.
+    pub seed: u32,
 }
 
 /// Rounding of cutting edges, which take no chip thinner than a share of their radius.

@@ -6,6 +6,22 @@ use crate::scene::keys::{Default, Group, Key, KeySection, Kind, Range, Role};
 pub const EDGE_ROUGHNESS: &str = "tool.shaper_cutter.edge_roughness";
 /// Section of the edges' rounding.
 pub const EDGE_ROUNDING: &str = "tool.shaper_cutter.edge_rounding";
+/// Section of what builds up on edges.
+pub const BUILT_UP_EDGE: &str = "tool.shaper_cutter.built_up_edge";
+/// Its keys, each of which needs all others.
+pub const BUILT_UP_EDGE_KEYS: [&str; 9] = [
+    "density_per_mm2",
+    "speeds_m_per_min",
+    "full_speeds_m_per_min",
+    "chip_um",
+    "chip_exponent",
+    "depth_um",
+    "width_um",
+    "scratch_share",
+    "scratch_length_um",
+];
+/// Cutting speeds, m/min.
+const SPEEDS: Range = Range::closed(0.0, 1000.0);
 
 /// `[tool.shaper_cutter]` and what is inside it.
 pub(super) static SECTIONS: &[KeySection] = &[
@@ -167,6 +183,90 @@ pub(super) static SECTIONS: &[KeySection] = &[
         groups: &[],
         teach: "Rounding of the cutter's edges: strokes that meet less than a thinnest chip cut nothing. Flanks, roots \
             and tips are then followed in strict order of strokes.",
+    },
+    KeySection {
+        path: BUILT_UP_EDGE,
+        role: Role::Plain,
+        keys: &[
+            Key::optional(
+                "density_per_mm2",
+                "/mm2",
+                Range::above(0.0, 1000.0),
+                "no marks",
+                "20.0",
+                "Marks to a square millimetre of flank where cutting speed and chip favour them most; needs all other \
+                keys of the section.",
+            ),
+            Key {
+                name: "speeds_m_per_min",
+                kind: Kind::Pair(SPEEDS),
+                unit: "m/min",
+                default: Default::LeftOut("none"),
+                example: "[2.0, 60.0]",
+                teach: "Cutting speeds between which an edge builds up; there are no marks outside of them.",
+            },
+            Key {
+                name: "full_speeds_m_per_min",
+                kind: Kind::Pair(SPEEDS),
+                unit: "m/min",
+                default: Default::LeftOut("none"),
+                example: "[10.0, 30.0]",
+                teach: "Cutting speeds between which marks are densest; towards speeds_m_per_min the density falls in \
+                    straight lines.",
+            },
+            Key::optional(
+                "chip_um",
+                "um",
+                Range::above(0.0, 1000.0),
+                "none",
+                "0.5",
+                "Thickness h_0 of the chip that left a place, from which on its density is full, or up to which, by \
+                the exponent's sign.",
+            ),
+            Key::optional(
+                "chip_exponent",
+                "",
+                Range::closed(-4.0, 4.0),
+                "none",
+                "1.0",
+                "p: behind a chip h thick the density is min(1, (h / h_0)^p) of the full one.",
+            ),
+            Key::optional(
+                "depth_um",
+                "um",
+                Range::above(0.0, 100.0),
+                "none",
+                "2.0",
+                "Mean depth of marks in their middle; depths are exponential.",
+            ),
+            Key::optional(
+                "width_um",
+                "um",
+                Range::above(0.0, 500.0),
+                "none",
+                "40.0",
+                "Mean width of marks along the profile; widths and lengths are even between 0 and twice their means.",
+            ),
+            Key::optional(
+                "scratch_share",
+                "",
+                Range::closed(0.0, 1.0),
+                "none",
+                "0.4",
+                "Share of marks that are scratches; the others are pits, in the mean as long as wide.",
+            ),
+            Key::optional(
+                "scratch_length_um",
+                "um",
+                Range::above(0.0, 5000.0),
+                "none",
+                "300.0",
+                "Mean length of scratches along the stroke.",
+            ),
+        ],
+        groups: &[],
+        teach: "Pits and scratches that fragments of a built-up edge tear into flanks (docs/edge.md). No key has a \
+            default. Which marks, machine.errors.seed says.",
     },
     KeySection {
         path: "tool.shaper_cutter.tip",
