@@ -7,7 +7,7 @@ mod keys;
 pub mod layers;
 pub mod model;
 
-use crate::machine_errors::{Compliance, ErrorLayer};
+use crate::machine_errors::ErrorLayer;
 use crate::scene::error_sources::{self, ErrorSource, KeyForm, Tried};
 use crate::scene::{ProcessPart, SceneProcess, Senseless, StandardOperation};
 use model::Shaping;
@@ -46,6 +46,10 @@ static CUT_ERRORS: &[ErrorSource] = &[
     rounding("radius_um", "um", 0.5, "edge radius"),
     rounding("minimum_chip_share", "1", 0.05, "thinnest chip over radius"),
     ErrorSource::new(keys::EDGE_ROUGHNESS, KeyForm::Amount("rq_um"), "um", 0.1, "edge roughness Rq")
+        .tried(Tried::ByName),
+    ErrorSource::new(keys::BUILT_UP_EDGE, KeyForm::Amount("density_per_mm2"), "1/mm2", 5.0, "marks of a built-up edge")
+        .tried(Tried::ByName),
+    ErrorSource::new(keys::BUILT_UP_EDGE, KeyForm::Amount("depth_um"), "um", 0.1, "depth of these marks")
         .tried(Tried::ByName),
     ErrorSource::new("operation[]", KeyForm::Amount("stock_scatter_um"), "um", 2.0, "stock scatter")
         .tried(Tried::ByName),
