@@ -17,8 +17,8 @@
 //! wide in the mean; width and length are even between nothing and twice their means, d is exponential, which assumes
 //! nothing but its mean; all three are independent. Marks that overlap add up. For half axes a and b: integral d pi a b
 //! / 2, of the square d^2 pi a b / 3. By Campbell's theorem (Rice, *Mathematical analysis of random noise*, Bell System
-//! Technical Journal 23, 1944) the flank is lowered by lambda E(d) pi E(a) E(b) / 2 in the mean, with the variance lambda
-//! E(d^2) pi E(a) E(b) / 3, E(d^2) = 2 E(d)^2.
+//! Technical Journal 23, 1944) the flank is lowered by lambda E(d) pi E(a) E(b) / 2 in the mean, with the variance
+//! lambda E(d^2) pi E(a) E(b) / 3, E(d^2) = 2 E(d)^2.
 //!
 //! **Same marks on any grid.** A flank is divided into cells of [`CELL_MM`], counted from its form point and the middle
 //! of the face. Each cell has a key of its own, and its marks follow from that.
@@ -37,7 +37,7 @@ pub type Place = [f64; 2];
 
 /// A mark that may be there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mark {
+pub struct TornMark {
     /// Its middle.
     pub place_mm: Place,
     /// Depth in the middle, mm.
@@ -48,7 +48,7 @@ pub struct Mark {
     pub lot: f64,
 }
 
-impl Mark {
+impl TornMark {
     /// How deep it is at a place, mm; nothing outside its rim.
     pub fn depth_at_mm(&self, place_mm: Place) -> f64 {
         let from_middle = |axis: usize| (place_mm[axis] - self.place_mm[axis]) / self.half_mm[axis];
@@ -85,8 +85,8 @@ impl BuiltUpEdge {
         [0, 1].map(|axis| 2.0 * pit[axis].max(scratch[axis]))
     }
 
-    /// By how much a flank is lowered in the mean, mm, and the root mean square of the heights about it, where marks are
-    /// densest: Campbell's theorem.
+    /// By how much a flank is lowered in the mean, mm, and the root mean square of the heights about it, where marks
+    /// are densest: Campbell's theorem.
     pub fn mean_and_rq_mm(&self) -> [f64; 2] {
         let area_mm2 = |is_scratch: bool| self.half_mm(is_scratch).iter().product::<f64>() * PI;
         let share = self.scratch_share;
@@ -96,7 +96,7 @@ impl BuiltUpEdge {
     }
 
     /// All marks that may lie between two places of a flank, and some beyond them.
-    pub fn marks(&self, draws: &Draws, flank: i64, [from_mm, to_mm]: [Place; 2]) -> Vec<Mark> {
+    pub fn marks(&self, draws: &Draws, flank: i64, [from_mm, to_mm]: [Place; 2]) -> Vec<TornMark> {
         let cell = |mm: f64| (mm / CELL_MM).floor() as i64;
         let mut marks = Vec::new();
         for column in cell(from_mm[0])..=cell(to_mm[0]) {
@@ -113,7 +113,7 @@ impl BuiltUpEdge {
                     let depth_mm = -self.depth_mm * even().ln();
                     let mean_mm = self.half_mm(even() <= self.scratch_share);
                     let half_mm = mean_mm.map(|mean_mm| 2.0 * even() * mean_mm);
-                    marks.push(Mark { place_mm, depth_mm, half_mm, lot: even() });
+                    marks.push(TornMark { place_mm, depth_mm, half_mm, lot: even() });
                 }
             }
         }
@@ -161,7 +161,8 @@ pub(super) mod tests {
         depths_mm
     }
 
-    /// Mean and variance over 300 surfaces of 4 mm by 3 mm against Campbell's theorem; the standard error is that of the
+    /// Mean and variance over 300 surfaces of 4 mm by 3 mm against Campbell's theorem; the standard error is that of
+    /// the
     /// surfaces, which are independent.
     #[test]
     fn heights_have_the_mean_and_the_variance_of_campbell() {

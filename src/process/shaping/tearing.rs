@@ -1,9 +1,10 @@
 //! Pits and scratches on cut flanks: which marks of a built-up edge are there, and the surface with them.
 //!
-//! In: a job, a flank and what operations leave on a field of its rays. Out: the same lower where marks lie. The marks of
-//! an operation are those of [`super::built_up_edge`]; each asks at its middle which pass cut there last, how thick the
-//! chip was ([`super::chips::last_chips_at`]) and how fast the ram ran, and is there if its lot is below both shares.
-//! A pass of a later operation takes it away. Whatever shows flanks cuts them here, so that maps, windows and meshes see
+//! In: a job, a flank and what operations leave on a field of its rays. Out: the same lower where marks lie. The marks
+//! of an operation are those of [`super::built_up_edge`]; each asks at its middle which pass cut there last, how thick
+//! the chip was ([`super::chips::last_chips_at`]) and how fast the ram ran; it is there if its lot is below the product
+//! of both shares. A pass of a later operation takes it away.
+//! Whatever shows flanks cuts them here, so that maps, windows and meshes see
 //! the same marks; roots and tips have none.
 //!
 //! Law of the ram as for strokes ([`gearcut_core::passes::planar::strokes`]): z = z_m + (L / 2) cos(theta), so that
@@ -13,7 +14,7 @@
 //! that of marks that are found on a surface, which is what can be counted.
 
 use super::ShapingJob;
-use super::built_up_edge::{Mark, Place};
+use super::built_up_edge::{Place, TornMark};
 use super::chips::last_chips_at;
 use super::scene::model::BuiltUpEdge;
 use crate::random::Draws;
@@ -30,12 +31,12 @@ pub(super) const LOOKUP_MM: f64 = 0.005;
 const SOURCE: u32 = 2000;
 
 /// Places of a field's columns and rows on a flank, in any order.
-struct Grid {
+struct SeenPlaces {
     arcs_mm: Vec<f64>,
     rows_z_mm: Vec<f64>,
 }
 
-impl Grid {
+impl SeenPlaces {
     /// The least and the greatest of both.
     fn ends_mm(&self) -> [Place; 2] {
         let end = |of: fn(f64, f64) -> f64| {
@@ -45,7 +46,7 @@ impl Grid {
     }
 
     /// Columns and rows that a mark may reach.
-    fn reached_by(&self, mark: &Mark) -> [Vec<usize>; 2] {
+    fn reached_by(&self, mark: &TornMark) -> [Vec<usize>; 2] {
         let places = [&self.arcs_mm, &self.rows_z_mm];
         [0, 1].map(|axis| {
             let reached = |&index: &usize| (places[axis][index] - mark.place_mm[axis]).abs() < mark.half_mm[axis];
@@ -54,7 +55,7 @@ impl Grid {
     }
 
     /// Lowers a surface where marks lie.
-    fn lower<'a>(&self, field: &Field, marks: impl Iterator<Item = &'a Mark>, layer: &mut Layer) {
+    fn lower<'a>(&self, field: &Field, marks: impl Iterator<Item = &'a TornMark>, layer: &mut Layer) {
         let rows = self.rows_z_mm.len();
         // Sums in the order of the marks, so that a place has the same one on every grid.
         let mut depths_mm = vec![0.0; layer.heights_mm.len()];
@@ -88,7 +89,12 @@ impl ShapingJob {
 
     /// Marks of all operations that the rays of a field can see, where the cutting speed allows them, in order of their
     /// arcs; with their operations.
-    fn possible_marks(&self, edge: &BuiltUpEdge, (tooth, side): (u32, Side), grid: &Grid) -> Vec<(usize, Mark)> {
+    fn possible_marks(
+        &self,
+        edge: &BuiltUpEdge,
+        (tooth, side): (u32, Side),
+        grid: &SeenPlaces,
+    ) -> Vec<(usize, TornMark)> {
         let reach_mm = edge.reach_mm();
         let half_face_mm = 0.5 * self.scene.gear.face_width_mm;
         let ends_mm = [[0.0, self.target_flank(tooth, side).length_mm()], [-half_face_mm, half_face_mm]];
@@ -98,9 +104,9 @@ impl ShapingJob {
         };
         let corners = [corner(first, -1.0), corner(last, 1.0)];
         let on_flank =
-            |mark: &Mark| (0..2).all(|axis| (ends_mm[axis][0]..=ends_mm[axis][1]).contains(&mark.place_mm[axis]));
+            |mark: &TornMark| (0..2).all(|axis| (ends_mm[axis][0]..=ends_mm[axis][1]).contains(&mark.place_mm[axis]));
         let flank = 2 * i64::from(tooth) + i64::from(side == Side::Left);
-        let mut marks: Vec<(usize, Mark)> = (0..self.operations.len())
+        let mut marks: Vec<(usize, TornMark)> = (0..self.operations.len())
             .flat_map(|operation| {
                 let draws = Draws::new(edge.seed, SOURCE + operation as u32);
                 edge.marks(&draws, flank, corners).into_iter().map(move |mark| (operation, mark))
@@ -116,7 +122,7 @@ impl ShapingJob {
 
     /// Puts the marks of a built-up edge on a cut flank.
     pub(super) fn tear(&self, edge: &BuiltUpEdge, (tooth, side): (u32, Side), cut: &mut CutField) {
-        let grid = Grid { arcs_mm: cut.field.arcs_mm(), rows_z_mm: cut.field.rows_z_mm.clone() };
+        let grid = SeenPlaces { arcs_mm: cut.field.arcs_mm(), rows_z_mm: cut.field.rows_z_mm.clone() };
         let marks = self.possible_marks(edge, (tooth, side), &grid);
         if marks.is_empty() {
             return;
@@ -135,7 +141,7 @@ impl ShapingJob {
         let probes = self.field_over(self.target_flank(tooth, side), along(0), along(1).collect());
         let chips = last_chips_at(self, &probes);
         for (chips, layer) in chips.iter().zip(&mut cut.layers) {
-            let is_there = |&(index, (operation, mark)): &(usize, &(usize, Mark))| {
+            let is_there = |&(index, (operation, mark)): &(usize, &(usize, TornMark))| {
                 let index = place_of_mark[index];
                 let strokes = &self.operations[*operation].strokes;
                 let speed_mm_per_s = self.cutting_speed_mm_per_s(*operation, mark.place_mm[1]);

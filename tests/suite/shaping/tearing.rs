@@ -85,7 +85,8 @@ fn flanks_are_lowered_as_campbell_has_it() {
     }
 }
 
-/// Stroke of 27 mm, its middle 1.5 mm above that of the face, 300 a minute: v = 424 mm/s sqrt(1 - ((z - 1.5) / 13.5)^2).
+/// Stroke of 27 mm, its middle 1.5 mm above that of the face, 300 a minute: v = 424 mm/s sqrt(1 - ((z - 1.5) /
+/// 13.5)^2).
 fn speed_m_per_min(z_mm: f64) -> f64 {
     0.06 * PI * 27.0 * 5.0 * (1.0 - ((z_mm - 1.5) / 13.5).powi(2)).max(0.0).sqrt()
 }
@@ -98,7 +99,8 @@ fn marks_are_as_dense_as_the_speed_of_the_ram_allows() {
     let rows_mm = places(-10.0, 10.0, 0.1);
     let depths = depths_um(&torn(&keys, &settings), 12, &places(0.5, 4.5, 0.05), &rows_mm);
     let share = |z_mm: f64| ((speed_m_per_min(z_mm) - 20.0) / 2.0).clamp(0.0, 1.0);
-    // A mark covers places up to 0.3 mm away; weighted with its shape, the mean share there is that of its middle, as far
+    // A mark covers places up to 0.3 mm away; weighted with its shape, the mean share there is that of its middle, as
+    // far
     // as the share runs straight.
     let (mut bands, mut free) = (0, 0);
     for band in rows_mm.chunks(10) {
