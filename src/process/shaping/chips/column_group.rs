@@ -6,8 +6,8 @@
 //! **The law.** The points of one height on the columns' rays lie within a distance a of those on a ray in the middle,
 //! from the lowest place that is looked at up to the blank. Segments that rays within a of the middle one cannot meet
 //! are left out; in front of the others the middle ray must stand further away than the columns differ
-//! ([`Segments::stays_above`]). Of some thousand passes near a flank all but the few dozen whose blades come within a of
-//! the surface are answered for so, once for a group instead of once for a column.
+//! ([`Segments::stays_above`]). Of some thousand passes near a flank all but the few dozen whose blades come within a
+//! of the surface are answered for so, once for a group instead of once for a column.
 //!
 //! The answer is kept for each pass: the height that it surely stays above, and the lowest for which this could not be
 //! said. It decides about time alone: a pass that is not answered for is looked at column by column.
@@ -42,8 +42,8 @@ struct GroupLook {
 }
 
 impl ColumnGroup {
-    /// Of so many passes nothing is known.
-    pub fn new(columns: &[Column], passes: usize) -> Self {
+    /// Of so many passes nothing is known but which of them lay lowest on a group before.
+    pub fn new(columns: &[Column], passes: usize, before: Option<Self>) -> Self {
         let low_mm = columns.iter().map(|column| column.low_mm).fold(f64::INFINITY, f64::min);
         let blank_mm = columns.iter().map(|column| column.blank_mm).fold(f64::NEG_INFINITY, f64::max);
         let middle = Column { low_mm, blank_mm, ..columns[columns.len() / 2] };
@@ -52,7 +52,12 @@ impl ColumnGroup {
             column.origin_mm.distance(middle.origin_mm) + farthest_mm * column.normal.distance(middle.normal)
         });
         let nothing = GroupLook { above_mm: f64::NEG_INFINITY, open_mm: f64::INFINITY };
-        Self { apart_mm: apart_mm.fold(0.0, f64::max), middle, passes: vec![nothing; passes], lowest: BTreeMap::new() }
+        Self {
+            apart_mm: apart_mm.fold(0.0, f64::max),
+            middle,
+            passes: vec![nothing; passes],
+            lowest: before.map(|group| group.lowest).unwrap_or_default(),
+        }
     }
 
     /// Columns in order, in groups, with the number of the first one of each.

@@ -9,8 +9,8 @@
 //! surface that is left, and one look at the edge says of the others that they stay above it. What is left is bounded
 //! first by the pass that lies lowest on the column before and by a pass in sixteen; then each pass is asked once, and
 //! most are answered for by the group of columns ([`super::column_group`]). The chips equal those of all passes bit for
-//! bit (test in [`super::flank`]). Road not taken: halving the rows of a column with bounds of their own. They cost more
-//! than a look at the edge for each row (75 s for 60 s on the paper's gear with the feed going on).
+//! bit (test in [`super::flank`]). Road not taken: halving the rows of a column with bounds of their own. They cost
+//! more than a look at the edge for each row (75 s for 60 s on the paper's gear with the feed going on).
 
 use super::column_group::ColumnGroup;
 use super::segments::{Near, Reaching, SegmentSet, Segments};

@@ -61,8 +61,9 @@ fn last_chips_of(
 ) -> Vec<LastChips> {
     let passes = FieldPasses::of_smooth_edges(job, field, pairing);
     let mut after: Vec<Vec<RaySurface>> = vec![Vec::new(); job.operations.len()];
+    let mut before = None;
     for (first, columns) in ColumnGroup::groups(&field.columns) {
-        let mut group = passes.group(columns);
+        let mut group = passes.group(columns, before.take());
         for (index, ray) in (first..).zip(columns) {
             let mut column = passes.over(&mut group, ray);
             for (operation, after) in after.iter_mut().enumerate() {
@@ -71,6 +72,7 @@ fn last_chips_of(
                 after.extend(passes.rows(index).map(|row| last_cut(&passes, &chosen, row, ray, &mut likely)));
             }
         }
+        before = Some(group);
     }
     after.into_iter().map(|surfaces| last_chips_on(&surfaces, passes.copies)).collect()
 }

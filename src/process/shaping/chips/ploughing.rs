@@ -104,7 +104,7 @@ fn surfaces_of(
         (after, looks)
     };
     let of_group = |&(first, columns): &(usize, &[Column])| {
-        let mut group = passes.group(columns);
+        let mut group = passes.group(columns, None);
         (first..).zip(columns).map(|(index, ray)| of_column(&mut group, index, ray)).collect::<Vec<_>>()
     };
     let groups = ColumnGroup::groups(&field.columns);

@@ -109,9 +109,9 @@ impl<'a> FieldPasses<'a> {
         }
     }
 
-    /// Nothing known yet of the passes over a group of columns.
-    pub fn group(&self, columns: &[Column]) -> ColumnGroup {
-        ColumnGroup::new(columns, self.near.len())
+    /// Nothing known yet of the passes over a group of columns but which of them lay lowest on the group before.
+    pub fn group(&self, columns: &[Column], before: Option<ColumnGroup>) -> ColumnGroup {
+        ColumnGroup::new(columns, self.near.len(), before)
     }
 
     /// The passes over one column of a group.

@@ -53,6 +53,8 @@ pub(super) struct SharedSegment<'a> {
     pub segment_from_blade: Rigid2,
     /// How far blades stay within it along x, mm.
     depth_mm: f64,
+    /// How much nearer a ray can stand in front of it than another one, as a share of how far they lie apart.
+    nearer: f64,
 }
 
 impl SharedSegment<'_> {
@@ -70,9 +72,7 @@ impl SharedSegment<'_> {
     /// Whether the segment surely stays behind a height on a column's rays, and on rays within `apart_mm` of these, at
     /// every phase of a pass.
     fn is_behind(&self, pass: &Near, ray: &Column, height_mm: f64, apart_mm: f64) -> bool {
-        let Self { segment, segment_from_blade, depth_mm } = self;
-        let steepest = segment.slope_range.map(f64::abs).into_iter().fold(0.0, f64::max);
-        let nearer_mm = apart_mm * steepest.hypot(1.0);
+        let Self { segment, segment_from_blade, depth_mm, nearer } = self;
         let mut residuals_mm: ArrayVec<f64, MAX_PHASES> = ArrayVec::new();
         for blade_from_work in &pass.blade_from_work {
             let o = segment_from_blade.point(blade_from_work.point(ray.origin_mm));
@@ -81,7 +81,7 @@ impl SharedSegment<'_> {
             residuals_mm.push(residual_mm);
         }
         let bend_mm = if let [a, b, c] = residuals_mm[..] { (a - 2.0 * b + c).abs() } else { 0.0 };
-        let margin_mm = 0.5 * bend_mm + TOLERANCE_MM + depth_mm + nearer_mm;
+        let margin_mm = 0.5 * bend_mm + TOLERANCE_MM + depth_mm + apart_mm * nearer;
         residuals_mm.iter().all(|&residual_mm| residual_mm > margin_mm)
     }
 }
@@ -100,7 +100,9 @@ impl<'a> Segments<'a> {
     pub fn new(edge: &'a Edge, of_blades: &[Edge]) -> Self {
         let part = |(index, segment): (usize, &'a Segment)| {
             let depth_mm = of_blades.iter().map(|edge| edge.segments[index].depth_mm()).fold(0.0, f64::max);
-            SharedSegment { segment, segment_from_blade: segment.blade_from_segment.inverse(), depth_mm }
+            let steepest = segment.slope_range.map(f64::abs).into_iter().fold(0.0, f64::max);
+            let segment_from_blade = segment.blade_from_segment.inverse();
+            SharedSegment { segment, segment_from_blade, depth_mm, nearer: steepest.hypot(1.0) }
         };
         let parts: Vec<SharedSegment> = edge.segments.iter().enumerate().map(part).collect();
         let depth_mm = parts.iter().map(|part| part.depth_mm).fold(0.0, f64::max);
@@ -184,7 +186,7 @@ impl<'a> Segments<'a> {
         let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
         let (mut inside_mm, mut lowest_mm, mut sure_mm) = (f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY);
         for (_, part) in self.of(set) {
-            let SharedSegment { segment, segment_from_blade, depth_mm } = part;
+            let SharedSegment { segment, segment_from_blade, depth_mm, .. } = part;
             let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
             let [from, to] = segment.y_range_mm;
             // The edge as far out as any blade's, and as far in.
