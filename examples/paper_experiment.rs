@@ -1,8 +1,8 @@
 //! What could have made the roughness that Gao et al. (2017, section 3.2) measured: hypotheses fitted to one number and
 //! asked for the others. The table in docs/experiment.md.
 //!
-//! `cargo run --release --example paper_experiment -- [FOLDER [HYPOTHESIS]]` writes `paper_experiment.csv` into FOLDER (default
-//! `out/paper_experiment`) and prints the table: some eight minutes of processor time.
+//! `cargo run --release --example paper_experiment -- [FOLDER [HYPOTHESIS]]` writes `paper_experiment.csv` into FOLDER
+//! (default `out/paper_experiment`) and prints the table: some eight minutes of processor time.
 //!
 //! Law: each hypothesis has one parameter. It is fitted by bisection so that the mean Sa of six windows (both flanks of
 //! teeth 3, 7 and 11) of the normally roughed gear is the measured 1.26 um; what is random is cut with four seeds. The
