@@ -1,8 +1,8 @@
 //! How gears of one scene scatter, and which layer of errors makes how much of each number.
 //!
 //! In: a scene with errors. Out: numbers of one flank and of the gear's pitch ([`numbers`]) with every layer alone,
-//! with all of them, and with all but one ([`layers`]); and the same numbers for many seeds ([`seeds`]), as median and
-//! interval ([`statistics`]). They are a [`Scatter`], which makes [`findings()`] once; terminal, `results.json`, tables
+//! with all of them, and with all but one ([`layers`]); and the same numbers for many seeds ([`seeds`]), whose gears may
+//! differ within tolerances ([`tolerance`]), as median and interval ([`statistics`]). They are a [`Scatter`], which makes [`findings()`] once; terminal, `results.json`, tables
 //! and page ([`page`]) show those.
 //!
 //! A gear is prepared for each seed as a scene with that seed, so that a row is what `gearcut cut` would find with
@@ -20,6 +20,7 @@ pub mod rows;
 pub mod seeds;
 pub mod statistics;
 mod text;
+pub mod tolerance;
 
 #[cfg(test)]
 mod tests;
@@ -29,6 +30,7 @@ use layers::LayerCase;
 use numbers::{NUMBERS, Values};
 use rows::Rows;
 use statistics::Spread;
+use tolerance::Tolerance;
 
 pub use findings::findings;
 pub use text::printed;
@@ -51,6 +53,8 @@ pub struct Scatter {
     pub cases: Vec<(LayerCase, Values)>,
     /// How many gears were asked for; none where nothing is random, or nobody asked.
     pub gears: Option<u32>,
+    /// What differs from gear to gear within limits.
+    pub tolerances: Vec<Tolerance>,
     /// Numbers by seed; those beyond the gears that were asked for stay from an earlier run.
     pub rows: Rows,
 }

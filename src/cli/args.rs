@@ -142,10 +142,12 @@ pub enum Command {
     /// Cut many gears of a scene with errors: how their numbers scatter, and which layer of errors makes how much.
     #[command(after_help = "Example:\n  \
         gearcut scatter scenes/shaping/noise.toml\n  \
-        gearcut scatter scenes/shaping/noise.toml --tooth 3 --side right --seeds 50 --out out/noise\n\n\
+        gearcut scatter scenes/shaping/noise.toml --tooth 3 --side right --seeds 50 --out out/noise\n  \
+        gearcut scatter scenes/shaping/noise.toml --tolerance mounting.work_eccentricity_um=0..10\n\n\
         Layers of errors are axes, guide, mounting, tool, noise, stock, edge, ploughing, tearing and deflection, as\n\
         far as the scene has them. One flank is cut with none of them, with each alone, with all, and with all but\n\
-        each; then as many gears as there are seeds (machine.errors.seed = 1, 2, ...), the cutter being the same.\n\n\
+        each; then as many gears as there are seeds (machine.errors.seed = 1, 2, ...), the cutter being the same.\n\
+        Keys that are given a tolerance have another value in each of these gears, anywhere between the limits.\n\n\
         Texture is that of a window of 0.25 mm in the middle of the flank, profile and helix are lines through it;\n\
         pitch is taken on all teeth from the mean deviation over 0.25 mm of profile there. Heights in um.\n\n\
         Writes a folder (out/<scene>_scatter unless --out is given): layers.csv, seeds.csv with a row for every gear,\n\

@@ -12,6 +12,7 @@ use gearcut::scatter::folder::ScatterFolder;
 use gearcut::scatter::layers::{cases, measure_cases};
 use gearcut::scatter::rows::{self, RowFile, Rows};
 use gearcut::scatter::seeds::measure_seeds;
+use gearcut::scatter::tolerance::{self, Tolerance};
 use gearcut::scatter::{FlankWish, Scatter, findings, page, printed};
 use gearcut::scene::LoadedScene;
 use gearcut::{Error, Refusal, Side, process};
@@ -27,9 +28,11 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
     let loaded = process::load(&arguments.scene.scene, &arguments.scene.settings)?;
     let scene = &loaded.scene;
     let layers = scene.process.error_layers();
-    if layers.is_empty() {
+    let tolerances = checked(arguments)?;
+    if layers.is_empty() && tolerances.is_empty() {
         let problem = "the scene has no errors: all its gears are alike";
-        let way_out = "write [machine.errors...], [mounting] or errors of the tool; see docs/errors.md";
+        let way_out = "write [machine.errors...], [mounting] or errors of the tool, or give a --tolerance; see \
+            docs/errors.md";
         return Err(Failure::without_place(&scene.name, &Refusal::new("machine.errors", problem, way_out)));
     }
     let side = match arguments.side {
@@ -40,11 +43,12 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{}_scatter", scene.name)));
     let interrupt = Interrupt::listen().map_err(listening(&out))?;
     let progress = Progress::new(ProgressMode::choose(arguments.quiet, false));
-    let folder = ScatterFolder::open(&out, record(&loaded, flank))?;
+    let folder = ScatterFolder::open(&out, record(&loaded, flank, tolerances))?;
     let watch = (&progress, &interrupt);
     let of_scene = |error| Failure::of_scene(&loaded, error);
     let cases = measure_cases(scene, cases(&layers), flank, &Cpu::default(), watch).map_err(of_scene)?;
-    let gears = Some(arguments.seeds).filter(|&gears| gears > 0 && layers.iter().any(|layer| layer.is_random()));
+    let differs = !tolerances.is_empty() || layers.iter().any(|layer| layer.is_random());
+    let gears = Some(arguments.seeds).filter(|&gears| gears > 0 && differs);
     let rows = match gears {
         Some(gears) => seeds(arguments, gears, flank, &folder, watch).map_err(of_scene)?,
         None => Rows::new(),
@@ -54,7 +58,7 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
         rows::write(&folder.rows(), &rows)?;
         return Err(Failure::to_go_on(&out, done, gears as usize));
     }
-    let found = Scatter { flank, cases, gears, rows };
+    let found = Scatter { flank, cases, gears, tolerances: tolerances.to_vec(), rows };
     let tree = findings(scene, &found);
     let path = folder.finish(|folder| page::write(scene, &found, &tree, folder))?;
     print::sheet(&format!("{}\neverything is in {}\n", printed(scene, &found), path.display()))?;
@@ -74,19 +78,39 @@ fn seeds(
     let with_seed = |seed: u32| {
         let mut settings = arguments.scene.settings.clone();
         settings.push(format!("machine.errors.seed={seed}"));
+        settings.extend(tolerance::settings(&arguments.tolerances, seed));
         Ok(process::load(&arguments.scene.scene, &settings).map_err(|errors| Error::Scene(Box::new(errors)))?.scene)
     };
     measure_seeds((known, &file), gears, with_seed, flank, &Cpu::default(), watch)
 }
 
+/// The tolerances, each of which makes a gear at both of its limits.
+fn checked(arguments: &ScatterArguments) -> Result<&[Tolerance], Failure> {
+    let tolerances = &arguments.tolerances;
+    for (place, tolerance) in tolerances.iter().enumerate() {
+        let Tolerance { key, limits } = tolerance;
+        if tolerances[..place].iter().any(|other| other.key == *key) {
+            let refusal = Refusal::new(key, "it has two tolerances", "leave one of them");
+            return Err(Failure::without_place("--tolerance", &refusal));
+        }
+        for limit in limits {
+            let settings = [&arguments.scene.settings[..], &[tolerance.setting(*limit)]].concat();
+            process::load(&arguments.scene.scene, &settings)?;
+        }
+    }
+    Ok(tolerances)
+}
+
 /// What the rows of a folder belong to.
-fn record(scene: &LoadedScene, flank: FlankWish) -> Map<String, Value> {
+fn record(scene: &LoadedScene, flank: FlankWish, tolerances: &[Tolerance]) -> Map<String, Value> {
+    let limits: Map<String, Value> = tolerances.iter().map(|of| (of.key.clone(), json!(of.limits))).collect();
     let entries = [
         ("program", json!("gearcut")),
         ("program_version", json!(env!("CARGO_PKG_VERSION"))),
         ("command", json!("scatter")),
         ("tooth", json!(flank.tooth)),
         ("side", json!(flank.side.name())),
+        ("tolerances", json!(limits)),
         ("scene", json!(scene.resolved_toml())),
     ];
     entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()

@@ -4,6 +4,7 @@ use super::Scatter;
 use super::layers::{ALL, all_but, alone};
 use super::numbers::{NUMBERS, Number};
 use super::statistics::{INTERVAL, Spread};
+use super::tolerance::Tolerance;
 use crate::findings::{Datum, Entry, Findings, Quantity, Section, Table, TableColumn, Warning};
 use crate::machine_errors::ErrorLayer;
 use crate::scene::Scene;
@@ -76,7 +77,8 @@ fn headline(found: &Scatter) -> Vec<Entry> {
 fn warnings(found: &Scatter) -> Vec<Warning> {
     let random = |layer: &ErrorLayer| layer.is_random();
     let any = found.cases.iter().any(|(case, _)| case.kept.iter().any(random));
-    let alike = (!any).then(|| Warning::note("nothing in the scene is random: every seed makes the same gear"));
+    let alike = (!any && found.tolerances.is_empty())
+        .then(|| Warning::note("nothing in the scene is random: every seed makes the same gear"));
     let missing = |number: &(usize, &Number)| {
         found.gears.is_some_and(|gears| (1..gears as usize).contains(&found.values(number.0).count()))
     };
@@ -125,8 +127,40 @@ fn scatter(found: &Scatter) -> Section {
     let mut seeds = Table::new("seeds", "Gears", columns(first)).with_rows(rows).rows_in_file("seeds");
     seeds.file = Some("seeds.csv".to_owned());
     let gears = u64::from(found.gears.unwrap_or(0));
-    Section::new("scatter", "Gears of many seeds")
+    let section = Section::new("scatter", "Gears of many seeds")
         .with("gears", Quantity::count(gears, "gears", "gears over which median and interval are taken, seeds from 1"))
         .table(spread)
-        .table(seeds)
+        .table(seeds);
+    drawn(found).into_iter().fold(section, Section::table)
+}
+
+/// Limits of what differs from gear to gear, and its value in every gear; no table where nothing does.
+fn drawn(found: &Scatter) -> Vec<Table> {
+    if found.tolerances.is_empty() {
+        return Vec::new();
+    }
+    let key = || TableColumn::words("key", "key of the scene; its name says the unit");
+    let columns = vec![
+        key(),
+        TableColumn::words("low", "smallest value, in the key's unit"),
+        TableColumn::words("high", "largest value, in the key's unit"),
+    ];
+    let rows = found
+        .tolerances
+        .iter()
+        .map(|Tolerance { key, limits: [low, high] }| vec![key.as_str().into(), (*low).into(), (*high).into()]);
+    let mut limits = Table::new("tolerances", "What differs from gear to gear", columns).with_rows(rows);
+    limits.file = Some("tolerances.csv".to_owned());
+    let columns = vec![
+        TableColumn::new("seed", "1", "seed of the gear"),
+        key(),
+        TableColumn::words("value", "value in this gear, in the key's unit: as likely as any other within the limits"),
+    ];
+    let rows = found.rows.keys().flat_map(|&seed| {
+        let of_gear = found.tolerances.iter().enumerate();
+        of_gear.map(move |(place, of)| vec![seed.into(), of.key.as_str().into(), of.value(place, seed).into()])
+    });
+    let mut values = Table::new("drawn", "Values of every gear", columns).with_rows(rows).rows_in_file("drawn");
+    values.file = Some("drawn.csv".to_owned());
+    vec![limits, values]
 }

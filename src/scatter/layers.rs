@@ -34,11 +34,14 @@ pub fn all_but(layer: ErrorLayer) -> String {
     format!("all but {}", layer.name())
 }
 
-/// The cases of a scene with these layers: none, each alone, all, all but each.
+/// The cases of a scene with these layers: none, each alone, all, all but each; without layers none alone.
 pub fn cases(layers: &[ErrorLayer]) -> Vec<LayerCase> {
     let but = |without: ErrorLayer| layers.iter().copied().filter(|&layer| layer != without).collect();
     let without = layers.iter().map(|&layer| LayerCase { name: all_but(layer), kept: but(layer) });
     let mut cases = vec![LayerCase { name: IDEAL.to_owned(), kept: Vec::new() }];
+    if layers.is_empty() {
+        return cases;
+    }
     cases.extend(layers.iter().map(|&layer| LayerCase { name: alone(layer), kept: vec![layer] }));
     cases.push(LayerCase { name: ALL.to_owned(), kept: layers.to_vec() });
     // Of one layer, none is left without it; of two, each stands alone without the other.

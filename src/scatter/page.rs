@@ -133,10 +133,7 @@ fn page(scene: &Scene, scatter: &Scatter, found: &Findings, files: Vec<String>) 
         sections.push(PageSection {
             id: "gears",
             title: "Gears of many seeds".to_owned(),
-            lead:
-                "Predicted by simulation: other gears off the same machine. To cut one of them whole, give its seed: \
-                gearcut cut with --set machine.errors.seed=..."
-                    .to_owned(),
+            lead: gears_lead(scatter),
             blocks: std::iter::once(Block::Strips(chart)).chain(table("scatter", "spread").map(Block::Table)).collect(),
         });
     }
@@ -165,6 +162,23 @@ fn page(scene: &Scene, scatter: &Scatter, found: &Findings, files: Vec<String>) 
         viewer: None,
         sections,
     }
+}
+
+/// What the gears are, and how to cut one of them whole.
+fn gears_lead(scatter: &Scatter) -> String {
+    let how = "To cut one of them whole, give its seed: gearcut cut with --set machine.errors.seed=...";
+    if scatter.tolerances.is_empty() {
+        return format!("Predicted by simulation: other gears off the same machine. {how}");
+    }
+    let limits = scatter.tolerances.iter().map(|of| {
+        let [low, high] = of.limits.map(plain);
+        format!("{} from {low} to {high}", of.key)
+    });
+    let limits = limits.collect::<Vec<_>>().join(", ");
+    format!(
+        "Predicted by simulation: other gears off the same machine, with {limits}, every value as likely. {how}, and \
+        its values in drawn.csv"
+    )
 }
 
 /// Zero for what is less than rounding.

@@ -2,6 +2,7 @@
 
 use super::SceneArguments;
 use clap::{Args, ValueEnum};
+use gearcut::scatter::tolerance::Tolerance;
 use std::path::PathBuf;
 
 /// Arguments of `scatter`.
@@ -13,6 +14,10 @@ pub struct ScatterArguments {
     /// Number of gears; 0: the table of layers alone.
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     pub seeds: u32,
+    /// A key of the scene that differs from gear to gear, every value between its limits being as likely; may be given
+    /// several times.
+    #[arg(long = "tolerance", value_name = "KEY=LOW..HIGH")]
+    pub tolerances: Vec<Tolerance>,
     /// Tooth whose flank is looked at, from 1.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub tooth: u32,
