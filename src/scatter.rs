@@ -1,9 +1,9 @@
 //! How gears of one scene scatter, and which layer of errors makes how much of each number.
 //!
 //! In: a scene with errors. Out: numbers of one flank and of the gear's pitch ([`numbers`]) with every layer alone,
-//! with all of them, and with all but one ([`layers`]); and the same numbers for many seeds ([`seeds`]), whose gears may
-//! differ within tolerances ([`tolerance`]), as median and interval ([`statistics`]). They are a [`Scatter`], which makes [`findings()`] once; terminal, `results.json`, tables
-//! and page ([`page`]) show those.
+//! with all of them, and with all but one ([`layers`]); and the same numbers for many seeds ([`seeds`]), whose gears
+//! may differ within tolerances ([`tolerance`]), as median and interval ([`statistics`]). They are a [`Scatter`],
+//! which makes [`findings()`] once; terminal, `results.json`, tables and page ([`page`]) show those.
 //!
 //! A gear is prepared for each seed as a scene with that seed, so that a row is what `gearcut cut` would find with
 //! `--set machine.errors.seed=...`. Rows are kept as they are found ([`rows`], [`folder`]): a run that was killed goes

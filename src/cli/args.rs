@@ -143,7 +143,7 @@ pub enum Command {
     #[command(after_help = "Example:\n  \
         gearcut scatter scenes/shaping/noise.toml\n  \
         gearcut scatter scenes/shaping/noise.toml --tooth 3 --side right --seeds 50 --out out/noise\n  \
-        gearcut scatter scenes/shaping/noise.toml --tolerance mounting.work_eccentricity_um=0..10\n\n\
+        gearcut scatter scenes/shaping/noise.toml --tolerance mounting.eccentricity_um=0..10\n\n\
         Layers of errors are axes, guide, mounting, tool, noise, stock, edge, ploughing, tearing and deflection, as\n\
         far as the scene has them. One flank is cut with none of them, with each alone, with all, and with all but\n\
         each; then as many gears as there are seeds (machine.errors.seed = 1, 2, ...), the cutter being the same.\n\

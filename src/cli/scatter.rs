@@ -90,7 +90,7 @@ fn checked(arguments: &ScatterArguments) -> Result<&[Tolerance], Failure> {
     for (place, tolerance) in tolerances.iter().enumerate() {
         let Tolerance { key, limits } = tolerance;
         if tolerances[..place].iter().any(|other| other.key == *key) {
-            let refusal = Refusal::new(key, "it has two tolerances", "leave one of them");
+            let refusal = Refusal::new(key, format!("`{key}` has two tolerances"), "leave one of them");
             return Err(Failure::without_place("--tolerance", &refusal));
         }
         for limit in limits {

@@ -17,7 +17,7 @@ const SOURCE: u32 = u32::MAX;
 /// A key and the limits of its value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tolerance {
-    /// Path of the key, such as `mounting.work_eccentricity_um`.
+    /// Path of the key, such as `mounting.eccentricity_um`.
     pub key: String,
     /// Smallest and largest value, in the key's unit.
     pub limits: [f64; 2],
@@ -27,8 +27,7 @@ impl FromStr for Tolerance {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let form =
-            || format!("`{text}` is no tolerance: write KEY=LOW..HIGH, such as mounting.work_eccentricity_um=0..10");
+        let form = || format!("`{text}` is no tolerance: write KEY=LOW..HIGH, such as mounting.eccentricity_um=0..10");
         let (key, limits) = text.split_once('=').ok_or_else(form)?;
         let (low, high) = limits.split_once("..").ok_or_else(form)?;
         let number = |limit: &str| limit.trim().parse::<f64>().ok().filter(|limit| limit.is_finite()).ok_or_else(form);

@@ -1,6 +1,9 @@
 //! `gearcut scatter`: rows that a stop does not take, equal bytes on any number of threads, refusals.
 
 use crate::fixtures::command::{gearcut, gearcut_on_threads};
+use gearcut::process::load;
+use gearcut::process::shaping::ShapingJob;
+use gearcut::terms::Side;
 use std::fs;
 use std::path::Path;
 #[cfg(unix)]
@@ -74,45 +77,51 @@ fn gears_scatter_alike_on_any_number_of_threads_and_after_a_stop() {
     assert!(code == 1 && said.contains("another command"), "{said}");
 }
 
-/// An eccentric gear has deviations e sin(phi) along its normals at the pitch circle, e / cos(alpha) around it: F_p is
-/// 2 e / cos(alpha) but for the teeth's distance from the extremes, at most half a pitch of 15 deg each.
+/// A gear that is cut true and turns off its axis has deviations e sin(phi) along its normals, and e sin(phi) / cos(a)
+/// around it, a the pressure angle on the circle through the middle of the flanks, where pitch is taken, r_b / r =
+/// cos(a). F_p is 2 e / cos(a) but for the teeth's distance from the extremes, at most half a pitch of 15 deg each.
 #[test]
 fn gears_within_a_tolerance_have_the_pitch_deviations_of_their_eccentricities() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("gears");
     let path = out.to_str().expect("a path");
-    let tolerance = ["--tolerance", "mounting.work_eccentricity_um=4..20"];
+    let tolerance = ["--tolerance", "mounting.eccentricity_um=4..20"];
     let scene = ["scatter", "scenes/shaping/circular_m3_z24.toml", "--quiet", "--seeds", "3", "--out", path];
-    let coarse = ["--set", "operation.finish.strokes_per_revolution=960"];
-    let said = gearcut(&[&scene[..], &coarse, &tolerance].concat()).done().out;
+    let strokes = ["--set", "operation.finish.strokes_per_revolution=960"];
+    let said = gearcut(&[&scene[..], &strokes, &tolerance].concat()).done().out;
     assert!(said.contains("3 gears"), "{said}");
     let drawn = read(&out, "drawn.csv");
     let drawn: Vec<Vec<&str>> = drawn.lines().skip(1).map(|line| line.split(',').collect()).collect();
     let seeds = read(&out, "seeds.csv");
     let place = seeds.lines().next().expect("heads").split(',').position(|head| head.starts_with("F_p")).expect("F_p");
     assert_eq!(drawn.len(), 3);
+    let scene_file = load(Path::new("scenes/shaping/circular_m3_z24.toml"), &[]).expect("a shipped scene");
+    let job = ShapingJob::new(scene_file.scene).expect("a gear");
+    let flank = job.target_flank(1, Side::Left);
+    let base_mm = 36.0 * 20_f64.to_radians().cos();
+    let cosine = base_mm / flank.at_arc(0.5 * flank.length_mm()).point_mm.length();
     for (drawn, row) in drawn.iter().zip(seeds.lines().skip(1)) {
         let row: Vec<&str> = row.split(',').collect();
-        assert_eq!((drawn[0], drawn[1]), (row[0], "mounting.work_eccentricity_um"));
+        assert_eq!((drawn[0], drawn[1]), (row[0], "mounting.eccentricity_um"));
         let number = |text: &str| text.parse::<f64>().expect("a number");
         let (eccentricity_um, found_um) = (number(drawn[2]), number(row[place]));
         assert!((4.0..=20.0).contains(&eccentricity_um));
-        let share = found_um / (2.0 * eccentricity_um / 20_f64.to_radians().cos());
+        let share = found_um / (2.0 * eccentricity_um / cosine);
         println!("{eccentricity_um} um: F_p {found_um} um, {share} of the closed form");
-        assert!(share > 7.5_f64.to_radians().cos() - 0.01 && share < 1.01, "{share}");
+        assert!(share > 7.5_f64.to_radians().cos() - 0.002 && share < 1.002, "{share}");
     }
     assert!(drawn[0][2] != drawn[1][2] && drawn[1][2] != drawn[2][2]);
     let report = read(&out, "report.html");
-    assert!(report.contains("mounting.work_eccentricity_um from 4 to 20"));
+    assert!(report.contains("mounting.eccentricity_um from 4 to 20"));
     // Other limits do not go into the same folder, and limits that make no gear are refused before any is cut.
-    let other = ["--tolerance", "mounting.work_eccentricity_um=4..21"];
-    gearcut(&[&scene[..], &coarse, &other].concat()).failed(1, &["another scene, flank or version"]);
-    for wrong in ["mounting.work_eccentricity=0..1", "gear.module_mm=-1..2", "gear.teeth=1"] {
-        let outcome = gearcut(&[&scene[..], &coarse, &["--tolerance", wrong]].concat());
+    let other = ["--tolerance", "mounting.eccentricity_um=4..21"];
+    gearcut(&[&scene[..], &strokes, &other].concat()).failed(1, &["another scene, flank or version"]);
+    for wrong in ["mounting.eccentric=0..1", "gear.module_mm=-1..2", "gear.teeth=1"] {
+        let outcome = gearcut(&[&scene[..], &strokes, &["--tolerance", wrong]].concat());
         assert!(outcome.code == 1 || outcome.code == 2, "{wrong}: {}", outcome.err);
     }
-    let twice = [&scene[..], &coarse, &tolerance, &tolerance].concat();
-    gearcut(&twice).failed(1, &["mounting.work_eccentricity_um", "two tolerances"]);
+    let twice = [&scene[..], &strokes, &tolerance, &tolerance].concat();
+    gearcut(&twice).failed(1, &["mounting.eccentricity_um", "two tolerances"]);
 }
 
 #[test]
