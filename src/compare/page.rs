@@ -6,7 +6,7 @@
 use super::lines::Line;
 use super::maps::MapSheet;
 use super::{Comparison, ranked};
-use crate::findings::warning::count_words;
+use crate::findings::warning::{Severity, count_words};
 use crate::findings::{Level, Warning, unit};
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
@@ -61,7 +61,12 @@ pub(super) fn page(
     let stopped = stopped.map(|one| Warning::warn(format!("{} was stopped before all flanks were cut", one.name)));
     // A page without a word of them would call results with faults sound.
     let warned = of.results.iter().filter(|one| !one.findings.warnings.is_empty());
-    let warned = warned.map(|one| Warning::note(format!("{} has {}", one.name, count_words(&one.findings.warnings))));
+    let warned = warned.map(|one| {
+        let warnings = &one.findings.warnings;
+        let words = format!("{} has {}", one.name, count_words(warnings));
+        let faulty = warnings.iter().any(|warning| warning.severity == Severity::Fault);
+        if faulty { Warning::warn(words) } else { Warning::note(words) }
+    });
     Page {
         what: "comparison",
         done: "compared",

@@ -164,7 +164,11 @@ impl Page {
 
     fn head(&self) -> Markup {
         let warned = count_words(&self.warnings);
-        let grave = self.warnings.iter().any(|warning| warning.severity > Severity::Note);
+        let class = match self.warnings.iter().map(|warning| warning.severity).max() {
+            Some(Severity::Fault) => "faulty",
+            Some(Severity::Warning) => "bad",
+            Some(Severity::Note) | None => "good",
+        };
         html! {
             header class="top" {
                 p class="brand" { strong { "gearcut" } " " (self.what) }
@@ -180,7 +184,7 @@ impl Page {
                     @if self.warnings.is_empty() {
                         li class="good" { (warned) }
                     } @else {
-                        li class=(if grave { "bad" } else { "good" }) { a href="#warnings" { (warned) } }
+                        li class=(class) { a href="#warnings" { (warned) } }
                     }
                 }
             }

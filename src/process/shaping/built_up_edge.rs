@@ -6,7 +6,7 @@
 //!
 //! **Density.** Marks are a Poisson process over the flank with the density
 //!
-//!     lambda(v, h) = lambda_0 W(v) min(1, (h / h_0)^p)
+//! `lambda(v, h) = lambda_0 W(v) min(1, (h / h_0)^p)`
 //!
 //! in the cutting speed v and the thickness h of the chip that left the place. W rises in a straight line from 0 at v_1
 //! to 1 at v_2 and falls from v_3 to v_4. It is drawn by thinning (Lewis and Shedler, *Simulation of nonhomogeneous

@@ -4,6 +4,7 @@
 //! first order a shift of the cutter at that moment, a outwards and t counter-clockwise, makes h = n . (a out + t
 //! around).
 
+use crate::fixtures::shaped_gear::shaped_gear;
 use gearcut::cut::cpu::Cpu;
 use gearcut::influence::gear_grid::{FlankGrid, GearGrid};
 use gearcut::process;
@@ -14,21 +15,7 @@ use std::path::Path;
 
 pub const PITCH_MM: f64 = 36.0;
 pub const CUTTER_MM: f64 = 30.0;
-pub const SCENE: &str = "
-    [gear]
-    module_mm = 3.0
-    teeth = 24
-    face_width_mm = 20.0
-    [tool.shaper_cutter]
-    teeth = 20
-    [machine]
-    double_strokes_per_minute = 300.0
-    [[operation]]
-    name = \"finish\"
-    strokes_per_revolution = 2400
-    feed_during_stroke = false
-    [operation.infeed.none]
-";
+pub const SCENE: &str = shaped_gear!("teeth = 24", 2400, "[operation.infeed.none]");
 
 pub fn loaded(settings: &[String]) -> LoadedScene {
     process::parse(SCENE, "round.toml", Path::new(""), settings).expect("a scene")

@@ -4,6 +4,7 @@
 use super::flank_heights::compare_whole_field;
 use super::machine_errors::{changes, job};
 use crate::fixtures::closed_form;
+use crate::fixtures::shaped_gear::shaped_gear;
 use gearcut::cut::cpu::Cpu;
 use gearcut::machine_errors::Deflection;
 use gearcut::process::shaping::ShapingJob;
@@ -13,24 +14,8 @@ use glam::DVec4;
 use std::path::Path;
 
 /// A round gear, fed in over half a turn.
-pub(super) const ROUND: &str = "
-    [gear]
-    module_mm = 3.0
-    teeth = 24
-    face_width_mm = 20.0
-    [tool.shaper_cutter]
-    teeth = 20
-    [machine]
-    double_strokes_per_minute = 300.0
-    [[operation]]
-    name = \"finish\"
-    strokes_per_revolution = 480
-    overlap_deg = 30.0
-    feed_during_stroke = false
-    [operation.infeed.spiral]
-    depth_mm = 6.75
-    angle_deg = 90.0
-";
+pub(super) const ROUND: &str =
+    shaped_gear!("teeth = 24", 480, "overlap_deg = 30.0\n[operation.infeed.spiral]\ndepth_mm = 6.75\nangle_deg = 90.0");
 /// All six compliances.
 pub(super) const SOFT: [&str; 6] = [
     "machine.compliance.tool_radial_um_per_kn=9",
@@ -66,7 +51,7 @@ pub(super) fn with<'a>(settings: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
 fn a_plunging_stroke_rests_where_the_closed_form_says() {
     let text = ROUND
         .replace("[operation.infeed.spiral]", "[operation.infeed.plunge]")
-        .replace("depth_mm = 6.75\n    angle_deg = 90.0", "depth_mm = 6.0\n    strokes = 300");
+        .replace("depth_mm = 6.75\nangle_deg = 90.0", "depth_mm = 6.0\n    strokes = 300");
     let text = text.replace("overlap_deg = 30.0", "window_deg = [0.0, 0.6]");
     let forces = [
         "material.normal_edge_force_n_per_mm=0",
@@ -139,25 +124,11 @@ fn the_ledger_of_the_displaced_strokes_has_the_forces_that_displace_them() {
 }
 
 const CRANK: [&str; 1] = ["operation.finish.feed_during_stroke=true"];
-const RING: &str = "
-    [gear]
-    kind = \"internal\"
-    module_mm = 3.0
-    teeth = 48
-    face_width_mm = 20.0
-    [tool.shaper_cutter]
-    teeth = 20
-    [machine]
-    double_strokes_per_minute = 300.0
-    [[operation]]
-    name = \"finish\"
-    strokes_per_revolution = 960
-    overlap_deg = 30.0
-    feed_during_stroke = false
-    [operation.infeed.spiral]
-    depth_mm = 6.75
-    angle_deg = 90.0
-";
+const RING: &str = shaped_gear!(
+    "kind = \"internal\"\nteeth = 48",
+    960,
+    "overlap_deg = 30.0\n[operation.infeed.spiral]\ndepth_mm = 6.75\nangle_deg = 90.0"
+);
 
 /// Flanks stand where the deflection of the stroke that makes them at the pitch point says, told apart left and right.
 #[test]

@@ -8,6 +8,7 @@
 
 use super::flank_heights::compare_whole_field;
 use crate::fixtures::closed_form;
+use crate::fixtures::shaped_gear::shaped_gear;
 use gearcut::cut::cpu::Cpu;
 use gearcut::machine::Motion;
 use gearcut::process::shaping::ShapingJob;
@@ -16,39 +17,12 @@ use glam::DVec2;
 use std::f64::consts::TAU;
 use std::path::Path;
 
-pub const ROUND: &str = "
-    [gear]
-    module_mm = 3.0
-    teeth = 24
-    face_width_mm = 20.0
-    [tool.shaper_cutter]
-    teeth = 20
-    [machine]
-    double_strokes_per_minute = 300.0
-    [[operation]]
-    name = \"finish\"
-    strokes_per_revolution = 3600
-    feed_during_stroke = false
-    [operation.infeed.none]
-";
-const ELLIPTICAL: &str = "
-    [gear]
-    module_mm = 3.0
-    teeth = 42
-    face_width_mm = 20.0
-    [gear.pitch_curve.ellipse]
-    order = 3
-    eccentricity = 0.1348
-    [tool.shaper_cutter]
-    teeth = 20
-    [machine]
-    double_strokes_per_minute = 300.0
-    [[operation]]
-    name = \"finish\"
-    strokes_per_revolution = 3600
-    feed_during_stroke = false
-    [operation.infeed.none]
-";
+pub const ROUND: &str = shaped_gear!("teeth = 24", 3600, "[operation.infeed.none]");
+const ELLIPTICAL: &str = shaped_gear!(
+    "teeth = 42\n[gear.pitch_curve.ellipse]\norder = 3\neccentricity = 0.1348",
+    3600,
+    "[operation.infeed.none]"
+);
 const SECONDS_PER_STROKE: f64 = 60.0 / 300.0;
 const STROKES: f64 = 3600.0;
 /// Speed of the round gear's work spindle, rad/s.
