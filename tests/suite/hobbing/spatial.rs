@@ -187,6 +187,27 @@ fn candidates_of_roots_in_single_sections_leave_what_all_passes_leave() {
     }
 }
 
+/// Fields of few columns or rows, as roots and texture windows have them: the search for passes halves them wherever
+/// there is something to halve, loses nothing, and keeps no more of the passes than on a tile that is full.
+#[test]
+fn narrow_fields_are_culled_and_lose_nothing() {
+    let (case, passes, _, file) = patch("p09_patch_s2_axial");
+    let (space, flank) = (file["space"].as_i64().expect("space"), number(&file, "flank"));
+    let line = |from: f64, step: f64, count: usize| (0..count).map(|i| from + step * i as f64).collect::<Vec<_>>();
+    let sizes =
+        [[1, 1], [1, 40], [2, 2], [3, 5], [4, 9], [5, 4], [8, 16], [9, 17], [13, 3], [16, 7], [17, 2], [17, 33]];
+    for [columns, rows] in sizes {
+        for [sigma, z] in [[-14.0, 0.7], [8.0, -1.0]] {
+            let field = case.patch(space, flank, &line(sigma, 0.05, columns), &line(z, 0.05, rows));
+            let name = format!("{columns} by {rows} at {sigma}, {z}");
+            same_as_brute_force(&name, &passes, &field, &field.blank_layer());
+            let per_dexel = SweepPlan::new(&field, &passes).dexel_passes() as f64 / field.len() as f64;
+            println!("{name}: {per_dexel:.1} passes per dexel");
+            assert!(per_dexel < 8.0, "{name}: {per_dexel} passes per dexel");
+        }
+    }
+}
+
 mod slow {
     use super::*;
 

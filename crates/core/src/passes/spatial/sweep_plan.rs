@@ -15,7 +15,7 @@ use super::sweep_near::{Ball, near_passes};
 use super::sweep_regions::{RAYS, Region, SIDE};
 use super::sweep_samples::{Sampled, SweepCandidate, SweepFrame};
 use super::sweep_starts::find_starts;
-use super::sweep_tile::{CELLS, SweepTile};
+use super::sweep_tile::{CELLS, SweepTile, cells_between};
 use super::turning_passes::TurningPasses;
 use crate::dexel::{Ray, SpatialField};
 use crate::tool::edge::Segment;
@@ -257,15 +257,20 @@ impl SweepPlanner<'_> {
     ) {
         let mut cells = vec![0_u16; frame.candidates.len()];
         let mut kept = Vec::new();
-        for (at, (part, sampled)) in parts.iter().enumerate() {
+        let from = [region.columns.at[0], region.rows.at[0]];
+        for (part, sampled) in parts {
+            let cells_of: [u16; 4] = std::array::from_fn(|bit| {
+                let columns = region.columns.between(&part.columns, bit / 2);
+                let rows = region.rows.between(&part.rows, bit % 2);
+                cells_between(from, [columns, rows])
+            });
             for (sampled, alive) in self.bounds(part, frame).keep(sampled, upper_bound_mm).0 {
                 let cells = &mut cells[sampled.index as usize];
                 if *cells == 0 {
                     kept.push(sampled.index);
                 }
                 for bit in (0..4).filter(|bit| alive >> bit & 1 == 1) {
-                    let [column, row] = [2 * (at / 2) + bit / 2, 2 * (at % 2) + bit % 2];
-                    *cells |= 1 << (CELLS * column + row);
+                    *cells |= cells_of[bit];
                 }
             }
         }

@@ -37,9 +37,26 @@ pub struct LineSpan {
 
 impl LineSpan {
     fn new(from: usize, count: usize, tile: usize, last: usize) -> Self {
-        let to = (from + count * tile).min(last);
-        let middle = from + if count > 1 { count / 2 * tile } else { tile / 2 };
-        Self { at: [from, middle.min(to), to], count, tile, last }
+        // The one line of a tile of one has no cell in common with the next tile.
+        let to = if count == 1 && tile <= 1 { from } else { (from + count * tile).min(last) };
+        let mut middle = from + if count > 1 { count / 2 * tile } else { tile / 2 };
+        // Of a thin tile that line is sampled at which its first half, which is all of it, will be halved.
+        while count == 1 && middle > from && middle >= to {
+            middle = from + (middle - from) / 2;
+        }
+        Self { at: [from, middle, to], count, tile, last }
+    }
+
+    /// Whether it is a tile with no line beyond its first half: there is nothing to halve.
+    pub fn is_thin(&self) -> bool {
+        self.count == 1 && self.at[2] <= self.at[0] + self.tile / 2
+    }
+
+    /// Dexels of a tile between first and middle (0) or middle and last line (1) of a part of it: the last line is the
+    /// next part's, where there is one.
+    pub fn between(&self, part: &Self, half: usize) -> Range<usize> {
+        let [from, to] = [part.at[half], part.at[half + 1]];
+        from..if to + 1 == self.dexels().end { to + 1 } else { to }.max(from + 1)
     }
 
     /// Its dexels, tile by tile.
@@ -53,7 +70,7 @@ impl LineSpan {
         self.at[0]..(self.at[0] + self.count * self.tile).min(self.last + 1)
     }
 
-    /// Parts to both sides of the middle line.
+    /// Parts to both sides of the middle line; of a thin tile the first holds all lines.
     pub fn halves(&self) -> [Self; 2] {
         let [from, middle, _] = self.at;
         let (counts, tile) = if self.count > 1 {
@@ -142,12 +159,12 @@ impl<'a> Region<'a> {
     }
 
     /// Which directions are halved: both, or the longer one; facets are some two and a half times as long as wide. A
-    /// tile is halved in both.
+    /// tile is halved in both, where it has lines in both halves.
     pub fn split(&self) -> [bool; 2] {
         let [width_mm, length_mm] = self.extent_mm();
         let (wide, long) = (self.columns.count > 1, self.rows.count > 1);
         if self.is_tile() {
-            return [true; 2];
+            return [!self.columns.is_thin(), !self.rows.is_thin()];
         }
         [wide && (!long || 5.0 * width_mm > length_mm), long && (!wide || length_mm > 1.25 * width_mm)]
     }

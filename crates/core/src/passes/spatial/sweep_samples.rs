@@ -265,7 +265,8 @@ impl Region<'_> {
         for i in 0..=usize::from(split[0]) {
             for j in 0..=usize::from(split[1]) {
                 let span = |direction: usize, part: usize| {
-                    if split[direction] { halves[direction][part] } else { [self.columns, self.rows][direction] }
+                    let whole = [self.columns, self.rows][direction];
+                    if split[direction] || self.is_tile() { halves[direction][part] } else { whole }
                 };
                 let grid = |direction: usize, part: usize| {
                     if split[direction] { [2 * part, 2 * part + 1, 2 * part + 2] } else { [0, 2, 4] }

@@ -26,12 +26,23 @@ pub struct SweepTile {
 impl SweepTile {
     /// Cell of a dexel: bit of [`super::sweep::SweepRecord::cells`].
     pub fn cell(&self, column: usize, row: usize) -> usize {
-        let (columns, rows) = (TILE_COLUMNS / CELLS, TILE_ROWS / CELLS);
-        CELLS * ((column - self.columns.start) / columns) + (row - self.rows.start) / rows
+        cell_of([self.columns.start, self.rows.start], [column, row])
     }
 
     /// Column and row of the middle ray.
     pub fn middle(&self) -> [usize; 2] {
         [&self.columns, &self.rows].map(|lines| usize::midpoint(lines.start, lines.end - 1))
     }
+}
+
+fn cell_of(from: [usize; 2], [column, row]: [usize; 2]) -> usize {
+    let (columns, rows) = (TILE_COLUMNS / CELLS, TILE_ROWS / CELLS);
+    CELLS * ((column - from[0]) / columns) + (row - from[1]) / rows
+}
+
+/// Cells, as bits, of some columns and rows of a tile that begins at this column and row.
+pub(super) fn cells_between(from: [usize; 2], [columns, rows]: [Range<usize>; 2]) -> u16 {
+    columns
+        .flat_map(|column| rows.clone().map(move |row| cell_of(from, [column, row])))
+        .fold(0, |cells, cell| cells | 1 << cell)
 }
