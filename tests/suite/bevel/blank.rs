@@ -216,7 +216,7 @@ fn blades_beyond_the_window_take_nothing() {
         let window_rad = job.head.half_window_rad;
         let last = CellGrid::of_scene(&job).expect("rays").rows() - 1;
         for row in [0, last] {
-            let [own, wide, narrow] = [window_rad, window_rad + 0.15, 0.6 * window_rad].map(|window| cut(window, row));
+            let [own, wide, narrow] = [window_rad, window_rad + 0.15, 0.1 * window_rad].map(|window| cut(window, row));
             let off_mm = |other: &Layer| {
                 let heights = own.heights_mm.iter().zip(&other.heights_mm);
                 heights.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max)

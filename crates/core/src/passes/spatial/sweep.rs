@@ -127,8 +127,8 @@ impl SweepRecord {
 
 impl Sweep {
     /// Sweep of a pass in a piece of the motion as seen from a tile with its origin at `origin_mm` (gear frame) and
-    /// nothing further than `reach_mm` from it. `None`: the blade holds the origin at no moment of its sweep, or the
-    /// whole tile at no moment of the piece.
+    /// nothing further than `reach_mm` from it. `None`: the blade holds the tile at no moment of its sweep, or at none
+    /// of the piece.
     pub fn new(set: &TurningPasses, pass: &BladePass, piece: u32, origin_mm: DVec3, reach_mm: f64) -> Option<Self> {
         let place = set.place(pass);
         let twist = set.rake_twist_rad_per_mm;
@@ -138,6 +138,12 @@ impl Sweep {
             let at = head_from_work(swept).point(origin_mm);
             (within_half_a_turn(at.y.atan2(at.x) - twist * blade_y(at.z) - swept), at)
         };
+        // Moments that a tile can ask for, from the one at which the rake face holds its origin.
+        let range = |radius_mm: f64| {
+            (REACH_SHARE * reach_mm / (radius_mm - reach_mm).max(LEAST_DISTANCE * radius_mm)).min(LARGEST_T)
+        };
+        // The window is that of all points of the tile, not of its origin alone.
+        let window_rad = |at: DVec3| set.half_window_rad + 2.0 * range(at.x.hypot(at.y)).atan();
         // The rake face follows the point, which moves some hundredths as fast: the secant of what is missing.
         let mut at = DVec3::ZERO;
         let mut before: Option<[f64; 2]> = None;
@@ -147,7 +153,7 @@ impl Sweep {
             let rate = before.map_or(-1.0, |[angle, less]| (missing - less) / (swept - angle));
             before = Some([swept, missing]);
             let to = swept - missing / rate;
-            if to.abs() > set.half_window_rad {
+            if to.abs() > set.half_window_rad && to.abs() > window_rad(at) {
                 ControlFlow::Break(None)
             } else if missing.abs() < LAST_MISSING_RAD {
                 ControlFlow::Break(Some(to))
@@ -158,7 +164,7 @@ impl Sweep {
         // What is missing falls over the whole sweep: secants that do not settle leave it to halving.
         let swept = moment.unwrap_or_else(|_| {
             let ahead = |swept: f64| missing_at(swept).0 > 0.0;
-            let ends = [-set.half_window_rad, set.half_window_rad];
+            let ends = [-1.0, 1.0].map(|sign| sign * window_rad(at));
             let found = (ahead(ends[0]) && !ahead(ends[1])).then(|| bisect(ahead, ends[0], ends[1]))?;
             at = missing_at(found).1;
             Some(found)
@@ -168,7 +174,7 @@ impl Sweep {
         let axes = DMat3::from_cols(DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0), place.y_sign * DVec3::Z);
         let from_head = axes.transpose();
         let radius_mm = at.x.hypot(at.y);
-        let range = (REACH_SHARE * reach_mm / (radius_mm - reach_mm).max(LEAST_DISTANCE * radius_mm)).min(LARGEST_T);
+        let range = range(radius_mm);
         let [from, to] = set.motion.piece_rad(piece).map(|angle| set.turn * (angle - pass.tool_angle_rad));
         let t_at_swept = |angle: f64| (0.5 * (angle - swept)).clamp(-0.25 * PI, 0.25 * PI).tan();
         let [from, to] = [t_at_swept(from.min(to)) - CORNER_OVERLAP, t_at_swept(from.max(to)) + CORNER_OVERLAP];

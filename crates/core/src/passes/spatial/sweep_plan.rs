@@ -1,6 +1,6 @@
 //! Tiles of a spatial field and the sweeps that can leave the lowest surface on them.
 //!
-//! A field is halved in both directions again and again, down to tiles of 16 by 32 dexels and then to their cells of 4
+//! A field is halved in both directions again and again, down to tiles of at most 16 by 32 dexels and their cells of 4
 //! by 8. At every level the sweeps that the level above has kept for the region are sampled on nine rays, and those
 //! that another one surely undercuts are culled (see `sweep_samples`, `sweep_bounds`). The search begins with the
 //! passes whose blades may hold a point of the field (`sweep_near`). On a third-order gear of 50 mm

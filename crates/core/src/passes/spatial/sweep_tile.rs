@@ -5,7 +5,7 @@ use std::ops::Range;
 
 /// Columns of a tile at most.
 pub const TILE_COLUMNS: usize = 16;
-/// Rows of a tile at most: whole chunks of every backend.
+/// Rows of a tile at most, a power of two: whole chunks of every backend.
 pub const TILE_ROWS: usize = 32;
 /// Cells of a tile along each side: a record is told in which it can be lowest.
 pub const CELLS: usize = 4;
