@@ -1,5 +1,7 @@
 //! The chip with which every place of a flank got its surface.
 
+use gearcut_core::dexel::NO_PASS;
+
 /// The last chips on a field after one operation, column by column (rows contiguous).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LastChips {
@@ -7,6 +9,13 @@ pub struct LastChips {
     pub thickness_mm: Vec<f32>,
     /// Part of the edge: 0 none, 1 right, 2 tip, 3 left.
     pub sides: Vec<u32>,
-    /// The pass; [`gearcut_core::dexel::NO_PASS`] where none came.
+    /// The pass; [`NO_PASS`] where none came.
     pub passes: Vec<u32>,
+}
+
+impl LastChips {
+    /// So many places that no pass came to.
+    pub fn none(places: usize) -> Self {
+        Self { thickness_mm: vec![f32::NAN; places], sides: vec![0; places], passes: vec![NO_PASS; places] }
+    }
 }

@@ -16,14 +16,14 @@
 //! height, pass id and chip are those of the dexel nearest to the map's place. Pictures show values of whole cells,
 //! because single dexels would make moire of the feed marks: the **highest** dexel, so that no mark is lost; the
 //! **mean** stock and deviation, because an error of form or position is what remains when the marks are averaged; and
-//! the **latest** pass; and the **thickest** chip of the dexels of a cell that it is followed for
-//! ([`CHIPS_OF_A_CELL`](super::map_cells::CHIPS_OF_A_CELL) of them across the marks: over all of them it would take
-//! longer than the cut).
+//! the **latest** pass; and the chip at the **thick end** of the longest mark in a cell ([`super::chip_places`]: over
+//! all dexels of a cell the thickest would take longer than the cut).
 
+use super::chip_places::{ChipPlaces, chip_columns, each_once};
 use super::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
 use super::folder::OutputFolder;
 use super::grid::{MapAxis, MapGrid};
-use super::map_cells::{Cell, cells_along, chip_columns};
+use super::map_cells::{Cell, cells_along};
 use super::map_png::{MapPicture, write_map_png};
 use crate::colormap::ColourScale;
 use crate::measure::LastChips;
@@ -45,7 +45,7 @@ pub const NO_PASS_CAME: &str = "no pass came here";
 pub const CHIPS_SHOWN: [f64; 2] = [0.0, 0.95];
 
 /// What maps and sheets of chips show.
-pub const CHIP_QUANTITY: &str = "uncut chip thickness, largest in cell";
+pub const CHIP_QUANTITY: &str = "uncut chip thickness, thick end of marks";
 
 /// What maps need to know of an operation.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,19 +146,21 @@ impl FlankMaps {
         }
     }
 
-    /// Columns and rows of the dexels whose chips [`take_chips`](Self::take_chips) wants.
-    pub fn chip_dexels(&self) -> [Vec<usize>; 2] {
-        [self.chip_columns.concat(), self.chip_rows.clone()]
+    /// Dexels of the field whose chips [`take_chips`](Self::take_chips) wants; `layers` are those of the maps.
+    pub fn chip_places(&self, layers: &[Layer], field_rows: usize) -> ChipPlaces {
+        ChipPlaces::thickest(layers, field_rows, &self.chip_columns, &self.chip_rows)
     }
 
-    /// Takes the chips that left the surface of those dexels after each operation: the thickest of each cell.
+    /// Takes the chips that left the surface of those dexels after each operation: the one that is known of each cell.
     pub fn take_chips(&mut self, operations: &[LastChips]) {
-        let rows = self.chip_rows.len();
+        let followed = each_once(&self.chip_rows);
+        let rows = followed.len();
+        let row_of_cells: Vec<usize> = self.chip_rows.iter().map(|row| followed.partition_point(|r| r < row)).collect();
         let of_cells = |chips: &LastChips| {
             let mut thickest = LastChips::default();
             let mut first = 0;
             for columns in &self.chip_columns {
-                for row in 0..rows {
+                for &row in &row_of_cells {
                     let cell = (first..first + columns.len()).map(|column| column * rows + row);
                     // NaN is thinner than any chip; of equals the first is taken.
                     let thickness = |index: usize| Some(chips.thickness_mm[index]).filter(|mm| !mm.is_nan());
@@ -341,7 +343,7 @@ fn channel(name: &str, unit: &str, definition: &str, samples: Samples) -> MapCha
 
 #[cfg(test)]
 mod tests {
-    use super::super::map_cells::CHIPS_OF_A_CELL;
+    use super::super::chip_places::CHIPS_OF_A_CELL;
     use super::*;
     use gearcut_core::dexel::{Column, Field};
     use glam::DVec2;
@@ -358,17 +360,23 @@ mod tests {
             blank_mm: 1.0,
         };
         let field = Field { columns: (0..200).map(column).collect(), rows_z_mm: vec![0.0, 0.1] };
-        let layer = field.blank_layer();
-        let mut maps = FlankMaps::sample(1, Side::Left, [&field.arcs_mm(), &field.rows_z_mm], &[layer], 0.1);
-        let [columns, rows] = maps.chip_dexels();
+        let mut layer = field.blank_layer();
+        for (index, pass) in layer.passes.iter_mut().enumerate() {
+            *pass = (index / 2 * 10 / 83) as u32;
+        }
+        let layers = [layer];
+        let mut maps = FlankMaps::sample(1, Side::Left, [&field.arcs_mm(), &field.rows_z_mm], &layers, 0.1);
+        let places = maps.chip_places(&layers, 2);
+        let (columns, rows) = (&places.columns, &places.rows);
         assert!(columns.is_sorted() && columns.len() <= CHIPS_OF_A_CELL * maps.grid.u.count);
         let thickness = |column: usize| ((column * 10) % 83) as f32;
-        let all = || columns.iter().flat_map(|&column| rows.iter().map(move |_| column));
-        let chips = LastChips {
-            thickness_mm: all().map(thickness).collect(),
-            sides: all().map(|column| column as u32).collect(),
-            passes: vec![7; columns.len() * rows.len()],
-        };
+        let mut chips = LastChips::none(columns.len() * rows.len());
+        for (index, &column) in columns.iter().enumerate() {
+            for row in (0..rows.len()).filter(|&row| places.wants(0, [index, row])) {
+                let at = index * rows.len() + row;
+                (chips.thickness_mm[at], chips.sides[at], chips.passes[at]) = (thickness(column), column as u32, 7);
+            }
+        }
         maps.take_chips(&[chips]);
         let (cells, nearest) = (&maps.chips[0].thickness_mm, (0..10).map(|cell| thickness(20 * cell)));
         assert_eq!(cells.len(), maps.grid.u.count * maps.grid.v.count);

@@ -1,17 +1,12 @@
 //! Cells of a map: which dexels are theirs, and what is shown of these.
 //!
 //! In: places of dexels and of the map, layers of dexels. Out: for each cell the dexels that are nearer to its place
-//! than to another one, their highest and mean height and their latest pass, and the columns whose chips are followed.
+//! than to another one, their highest and mean height and their latest pass.
 //! One look at every dexel gives all of it: a gear has a hundred million.
 
 use super::grid::MapAxis;
 use gearcut_core::dexel::{Layer, NO_PASS};
 use std::ops::Range;
-
-/// Dexels of a cell whose chips are followed, evenly over its columns in its middle row. A chip's thickness runs from 0
-/// at one end of a facet to its largest value at the other; marks of finishing are as long as a cell or longer, and of
-/// one that four dexels meet the thickest is at least three quarters of the largest.
-pub const CHIPS_OF_A_CELL: usize = 4;
 
 /// Dexels of each cell of an axis, and the nearest one: those nearer to its place than to the next one, at least the
 /// nearest. In: the axis, and where the dexels stand along it, mm.
@@ -29,12 +24,6 @@ pub fn cells_along(axis: &MapAxis, places: &[f64]) -> Vec<(usize, Range<usize>)>
             (nearest, from.min(nearest)..to.max(nearest + 1))
         })
         .collect()
-}
-
-/// Columns of a cell whose chips are followed, evenly spread; all of them where they are few.
-pub fn chip_columns(cell: &Range<usize>) -> Vec<usize> {
-    let count = cell.len().min(CHIPS_OF_A_CELL);
-    (0..count).map(|i| cell.start + (2 * i + 1) * cell.len() / (2 * count)).collect()
 }
 
 /// What a cell of a layer shows, of those of its dexels that a pass has touched; NaN where there is none.

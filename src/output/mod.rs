@@ -29,6 +29,7 @@ pub mod bar_chart;
 #[doc(hidden)]
 pub mod bar_panels;
 mod canvas;
+pub(crate) mod chip_places;
 #[doc(hidden)]
 pub mod contact_sheet;
 mod figure;
@@ -42,8 +43,7 @@ mod heat;
 pub mod inspection_sheet;
 mod letters;
 pub mod line_chart;
-#[doc(hidden)]
-pub mod map_cells;
+mod map_cells;
 #[doc(hidden)]
 pub mod map_png;
 #[doc(hidden)]

@@ -70,7 +70,7 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
     interrupt: &Interrupt,
     folder: Option<FlankFiles<'_>>,
     cut_one: impl Fn(u32, Side) -> Result<CutFlank<G, R>> + Sync,
-    chips: impl Fn(&G, &FlankMaps) -> Vec<LastChips> + Sync,
+    chips: impl Fn(&G, &[Layer], &FlankMaps) -> Vec<LastChips> + Sync,
 ) -> Result<CutFlanks<R>> {
     let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
     let started = Instant::now();
@@ -86,7 +86,7 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
         let maps = needs_maps(parts).then(|| {
             let arcs_mm = rays.arcs_mm();
             let mut maps = FlankMaps::sample(tooth, side, [&arcs_mm, rays.rows_mm()], &layers, output.map_spacing_mm);
-            maps.take_chips(&chips(&rays, &maps));
+            maps.take_chips(&chips(&rays, &layers, &maps));
             maps
         });
         let surface = needs_surfaces(job, parts).then(|| SurfaceGrid::new(&rays, &layers, output.mesh_spacing_mm));

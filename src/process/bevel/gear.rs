@@ -47,7 +47,7 @@ pub fn cut_gear(
         let report = measure::measure(job, tooth, side, &rays, &layers)?;
         Ok(CutFlank { rays, layers, stats, report })
     };
-    let cut = cut_flanks(job, progress, interrupt, folder, cut_one, |_, _| Vec::new())?;
+    let cut = cut_flanks(job, progress, interrupt, folder, cut_one, |_, _, _| Vec::new())?;
     if cut.reports.is_empty() {
         return Err(Error::Interrupted);
     }

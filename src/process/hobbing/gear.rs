@@ -62,7 +62,7 @@ pub fn cut_gear(
             let HobbedFlank { rays, layers, stats, .. } = flank;
             Ok(CutFlank { rays, layers, stats, report: (report, points) })
         },
-        |_, _| Vec::new(),
+        |_, _, _| Vec::new(),
     )?;
     if cut.reports.is_empty() {
         return Err(Error::Interrupted);

@@ -3,7 +3,7 @@
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::chips::{ChipLedger, last_chips};
+use crate::process::shaping::chips::{ChipLedger, last_chips_on_map};
 use crate::process::shaping::measure::gear_report::{RootReport, root_stock};
 use crate::process::shaping::measure::{GearReport, flank_report, gear_report};
 use crate::steps::cut_flanks::{CutFlank, cut_flanks};
@@ -63,10 +63,7 @@ pub fn cut_gear(
             let CutField { field, layers, stats } = cut;
             Ok(CutFlank { rays: field, layers, stats, report })
         },
-        |field, maps| {
-            let [columns, rows] = maps.chip_dexels();
-            last_chips(job, &field.at([&columns, &rows]))
-        },
+        |field, layers, maps| last_chips_on_map(job, field, &maps.chip_places(layers, field.rows())),
     )?;
     let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
     let roots = cut_roots(job, backend, needs_surfaces(job, parts) && !cut.work.interrupted)?;

@@ -185,7 +185,7 @@ fn cut(job: &ConicalJob, tools: Option<&Tools>) -> CutFlanks<()> {
         Ok(CutFlank { rays, layers, stats: gearcut::cut::CutStats::default(), report: () })
     };
     let folder = tools.map(|tools| (tools.folder, tools.notes, tools.parts));
-    cut_flanks(job, &progress, &interrupt, folder, cut_one, |_, _| Vec::new()).expect("cuts")
+    cut_flanks(job, &progress, &interrupt, folder, cut_one, |_, _, _| Vec::new()).expect("cuts")
 }
 
 #[test]

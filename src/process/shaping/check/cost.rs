@@ -3,7 +3,7 @@
 //! For the blank and the chips, the cutter teeth that reach the blank are counted for strokes spread over all
 //! operations, and the rays that they cross.
 
-use crate::output::map_cells::CHIPS_OF_A_CELL;
+use crate::output::chip_places::CHIPS_OF_A_CELL;
 use crate::output::text::{Sheet, significant};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::ploughed_layers;
@@ -33,8 +33,8 @@ const PLAN_S_PER_TILE: f64 = 6.0e-5;
 const CUT_S_PER_EVALUATION: f64 = 2.1e-9;
 /// The same for measuring a dexel of one surface.
 const MEASURE_S_PER_DEXEL: f64 = 2.0e-8;
-/// The same for the chip that left a dexel of a map's cell.
-const CHIP_S_PER_RAY: f64 = 5.5e-6;
+/// The same for the chip of a map's cell.
+const CHIP_S_PER_CELL: f64 = 1.2e-5;
 /// Rows that the kernel takes at once, whether there are as many or not.
 const ROWS_AT_ONCE: usize = 16;
 /// Tiles that are planned on each of them.
@@ -123,10 +123,11 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Resul
             + match &job.cutter_spec.edge_rounding {
                 None => {
                     scale * (tiles * PLAN_S_PER_TILE + evaluations * idle_rows * CUT_S_PER_EVALUATION)
-                        + map_cells * (CHIPS_OF_A_CELL * surfaces) as f64 * CHIP_S_PER_RAY
+                        + map_cells * surfaces as f64 * CHIP_S_PER_CELL
                 }
                 Some(_) => {
-                    let rays = all_columns * rows_cut as f64 + map_cells * CHIPS_OF_A_CELL as f64;
+                    let followed_of_a_cell = if rows_cut == 1 { 1.0 } else { CHIPS_OF_A_CELL as f64 };
+                    let rays = all_columns * rows_cut as f64 + map_cells * followed_of_a_cell;
                     rays * followed.looks_per_ray() * FOLLOW_S_PER_LOOK
                 }
             },

@@ -23,6 +23,7 @@ use super::ploughing;
 use super::rays::{Chosen, FieldPasses, Pairing, RaySurface};
 use super::segments::Reaching;
 use crate::measure::LastChips;
+use crate::output::chip_places::ChipPlaces;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_polygon::EdgeSide;
 use gearcut_core::dexel::field::{Column, Field};
@@ -34,17 +35,48 @@ pub fn side_code(side: Option<EdgeSide>) -> u32 {
 
 /// Chips that left the surface after each operation, in their order.
 pub fn last_chips(job: &ShapingJob, field: &Field) -> Vec<LastChips> {
-    last_chips_on_rays(job, field, Pairing::All)
+    last_chips_on_rays(job, field, Pairing::All, |_, _| true)
 }
 
 /// The same at single places: of each column the ray in the row of the same number.
 pub fn last_chips_at(job: &ShapingJob, field: &Field) -> Vec<LastChips> {
-    last_chips_on_rays(job, field, Pairing::Diagonal)
+    last_chips_on_rays(job, field, Pairing::Diagonal, |_, _| true)
 }
 
-fn last_chips_on_rays(job: &ShapingJob, field: &Field, pairing: Pairing) -> Vec<LastChips> {
+/// The same at the places of a map, as if no pass had come to those that are not asked for.
+pub fn last_chips_on_map(job: &ShapingJob, field: &Field, places: &ChipPlaces) -> Vec<LastChips> {
+    // Columns of which nothing is asked for are left out.
+    let followed: Vec<usize> = (0..places.columns.len()).filter(|&column| places.wants_any(column)).collect();
+    let columns: Vec<usize> = followed.iter().map(|&column| places.columns[column]).collect();
+    let field = field.at([&columns, &places.rows]);
+    let wants = |operation: usize, [column, row]: [usize; 2]| places.wants(operation, [followed[column], row]);
+    let chips = last_chips_on_rays(job, &field, Pairing::All, wants);
+    let rows = places.rows.len();
+    let on_all_columns = |(operation, chips): (usize, LastChips)| {
+        let mut all = LastChips::none(places.columns.len() * rows);
+        for (index, &column) in followed.iter().enumerate() {
+            for row in (0..rows).filter(|&row| wants(operation, [index, row])) {
+                let (from, to) = (index * rows + row, column * rows + row);
+                all.thickness_mm[to] = chips.thickness_mm[from];
+                all.sides[to] = chips.sides[from];
+                all.passes[to] = chips.passes[from];
+            }
+        }
+        all
+    };
+    chips.into_iter().enumerate().map(on_all_columns).collect()
+}
+
+/// Chips on those rays that `wants` says after which operation, by their columns and rows; the others are uncut, or
+/// cut where edges plough.
+fn last_chips_on_rays(
+    job: &ShapingJob,
+    field: &Field,
+    pairing: Pairing,
+    wants: impl Fn(usize, [usize; 2]) -> bool,
+) -> Vec<LastChips> {
     match &job.cutter_spec.edge_rounding {
-        None => last_chips_of(job, field, pairing, deciding),
+        None => last_chips_of(job, field, pairing, deciding, wants),
         Some(rounding) => {
             let ploughed = ploughing::surfaces(job, field, pairing, rounding);
             ploughed.after.iter().map(|surfaces| last_chips_on(surfaces, ploughed.copies)).collect()
@@ -58,6 +90,7 @@ fn last_chips_of(
     field: &Field,
     pairing: Pairing,
     choose: impl Fn(&mut ColumnPasses, usize) -> Vec<Reaching>,
+    wants: impl Fn(usize, [usize; 2]) -> bool,
 ) -> Vec<LastChips> {
     let passes = FieldPasses::of_smooth_edges(job, field, pairing);
     let mut after: Vec<Vec<RaySurface>> = vec![Vec::new(); job.operations.len()];
@@ -67,9 +100,20 @@ fn last_chips_of(
         for (index, ray) in (first..).zip(columns) {
             let mut column = passes.over(&mut group, ray);
             for (operation, after) in after.iter_mut().enumerate() {
+                let rows = passes.rows(index);
+                if !rows.clone().any(|row| wants(operation, [index, row])) {
+                    after.extend(rows.map(|_| RaySurface::uncut(ray)));
+                    continue;
+                }
                 let chosen = passes.chosen(choose(&mut column, passes.of_operation(operation).end));
                 let mut likely = chosen.len() / 2;
-                after.extend(passes.rows(index).map(|row| last_cut(&passes, &chosen, row, ray, &mut likely)));
+                after.extend(rows.map(|row| {
+                    if wants(operation, [index, row]) {
+                        last_cut(&passes, &chosen, row, ray, &mut likely)
+                    } else {
+                        RaySurface::uncut(ray)
+                    }
+                }));
             }
         }
         before = Some(group);
@@ -120,8 +164,10 @@ fn last_chips_on(surfaces: &[RaySurface], copies: usize) -> LastChips {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::flank_maps::FlankMaps;
     use crate::process::load;
     use crate::process::shaping::scene::model::Shaping;
+    use gearcut_core::cut::cpu::Cpu;
     use gearcut_core::terms::Side;
     use std::path::Path;
 
@@ -153,6 +199,37 @@ mod tests {
         }
     }
 
+    /// A map's chips are those of its places; and of a cell they are nearly the thickest of all that might be followed.
+    #[test]
+    fn a_map_follows_the_thickest_chip_of_its_cells() {
+        let feed = ["operation.rough.feed_during_stroke=true", "operation.finish.feed_during_stroke=true"];
+        for settings in [&[][..], &feed] {
+            let settings: Vec<String> = settings.iter().map(|&key: &&str| key.to_owned()).collect();
+            let scene = load(Path::new("scenes/shaping/elliptical_normal.toml"), &settings).expect("the shipped scene");
+            let job = ShapingJob::new(scene.scene).expect("the shipped gear");
+            let field = job.flank_field(job.target_flank(4, Side::Left));
+            let cut = job.cut_on_flank(&Cpu::default(), (4, Side::Left), field).expect("cuts");
+            let field = cut.field;
+            let arcs_mm: Vec<f64> = field.columns.iter().map(|column| column.arc_mm).collect();
+            let spacing_mm = job.scene.output.map_spacing_mm;
+            let maps = FlankMaps::sample(4, Side::Left, [&arcs_mm, &field.rows_z_mm], &cut.layers, spacing_mm);
+            let places = maps.chip_places(&cut.layers, field.rows());
+            let all = last_chips(&job, &field.at([&places.columns, &places.rows]));
+            let [mut one, mut four] = [maps.clone(), maps];
+            one.take_chips(&last_chips_on_map(&job, &field, &places));
+            four.take_chips(&all);
+            for ((one, four), least) in one.chips.iter().zip(&four.chips).zip([0.7, 0.9]) {
+                let cells = one.thickness_mm.iter().zip(&four.thickness_mm).filter(|(_, four)| !four.is_nan());
+                let shares: Vec<f64> = cells.map(|(&one, &four)| f64::from(one / four)).collect();
+                let same = shares.iter().filter(|&&share| share == 1.0).count();
+                let mean = shares.iter().sum::<f64>() / shares.len() as f64;
+                println!("{settings:?}: {same} of {} cells, mean share {mean:.3}", shares.len());
+                let [least, same] = [least, same as f64 / shares.len() as f64];
+                assert!(same > least && mean > 0.5 * (1.0 + least), "{same} of the cells, {mean}");
+            }
+        }
+    }
+
     #[test]
     fn the_passes_that_decide_leave_the_chips_of_all() {
         let mut scene = load(Path::new("scenes/shaping/elliptical_normal.toml"), &[]).expect("the shipped scene").scene;
@@ -166,18 +243,24 @@ mod tests {
             let columns: Vec<usize> = (0..field.columns.len()).step_by(31).collect();
             let field = field.at([&columns, &[0, 100, 300, 500, 600]]);
             let chosen = last_chips(&job, &field);
-            let of_all = last_chips_of(&job, &field, Pairing::All, |column, so_far| column.all(0..so_far));
+            let of_all = last_chips_of(&job, &field, Pairing::All, |column, so_far| column.all(0..so_far), |_, _| true);
             for (chosen, of_all) in chosen.iter().zip(&of_all) {
                 let bits = |chips: &LastChips| chips.thickness_mm.iter().map(|h| h.to_bits()).collect::<Vec<_>>();
                 assert_eq!((&chosen.passes, bits(chosen)), (&of_all.passes, bits(of_all)));
             }
             let counted = std::cell::Cell::new([0, 0]);
-            last_chips_of(&job, &field, Pairing::All, |column, so_far| {
-                let deciding = deciding(column, so_far);
-                let [a, k] = counted.get();
-                counted.set([a + column.all(0..so_far).len(), k + deciding.len()]);
-                deciding
-            });
+            last_chips_of(
+                &job,
+                &field,
+                Pairing::All,
+                |column, so_far| {
+                    let deciding = deciding(column, so_far);
+                    let [a, k] = counted.get();
+                    counted.set([a + column.all(0..so_far).len(), k + deciding.len()]);
+                    deciding
+                },
+                |_, _| true,
+            );
             let [a, k] = counted.get();
             (all, kept) = (all + a, kept + k);
         }

@@ -29,7 +29,7 @@ pub mod stroke;
 
 pub use deflection::deflections;
 pub use flank::last_chips;
-pub(in crate::process::shaping) use flank::last_chips_at;
+pub(in crate::process::shaping) use flank::{last_chips_at, last_chips_on_map};
 pub use ledger::{ChipLedger, OperationChips, ThicknessMap};
 pub(in crate::process::shaping) use ploughing::layers as ploughed_layers;
 pub use stroke::StrokeChips;
