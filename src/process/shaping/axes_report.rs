@@ -142,7 +142,8 @@ impl<'a> OperationAxes<'a> {
         let ratio =
             "smallest relief clearance of a flank divided by that of a circular gear, back-off times sin(alpha)";
         let clearance_um = UM_PER_MM * self.relief.clearance_mm(self.job.machine.back_off_mm);
-        let clearance = "smallest clearance of a flank on the return stroke, along its normal";
+        let clearance = "smallest clearance of a flank on the return stroke along its normal, to first order in the \
+             back-off; the survey of return strokes has the distance of the edges themselves";
         let beta = "largest angle between the line of centres and the normal of the pitch curve";
         let beta_at = Place::default().and("polar_angle_deg", self.largest_beta_phi_rad.to_degrees());
         Section::new("relief", "Clearance on the return stroke")

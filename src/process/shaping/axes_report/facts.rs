@@ -52,7 +52,7 @@ pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
     sheet.line(
         "smallest relief",
         format!(
-            "{} um for {} mm back-off {relief_place}, {:.0} % of a circular gear's",
+            "{} um to first order for {} mm back-off {relief_place}, {:.0} % of a circular gear's",
             significant(UM_PER_MM * axes.relief.clearance_mm(back_off_mm), 3),
             plain(back_off_mm),
             100.0 * axes.relief.ratio,

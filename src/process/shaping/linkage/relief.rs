@@ -126,7 +126,8 @@ impl SmallestRelief {
             ReliefVerdict::Clears => None,
             ReliefVerdict::Tight => Some(format!(
                 "backing off by {back_off_mm} mm along the line of centres clears {place} by only {clearance_um:.1} \
-                um, {:.0} % of what a circular gear gets: back off further, or along the normal of the pitch curve",
+                um to first order, {:.0} % of what a circular gear gets: back off further, or along the normal of the \
+                pitch curve",
                 100.0 * self.ratio
             )),
             ReliefVerdict::Rubs => Some(format!(
