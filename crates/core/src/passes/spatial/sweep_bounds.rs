@@ -26,6 +26,7 @@ use super::sweep_samples::{Sampled, SweepCandidate, SweepFrame};
 use crate::dexel::SpatialField;
 use crate::tool::edge::Segment;
 use pulp::Arch;
+use std::ops::Range;
 
 /// Safety on second differences, for what varies inside a cell. No proof: see the head of this file.
 const BEND_SAFETY: f64 = 1.5;
@@ -205,11 +206,20 @@ impl RegionBounds<'_> {
         &self.segments[self.frame.records[sampled.index as usize].segment as usize]
     }
 
-    /// Candidates of the frame that can come near the region below an upper bound at all.
-    pub fn near(&self, upper_bound_mm: f64) -> Vec<SweepCandidate> {
-        let candidates = &self.frame.candidates;
-        let indices: Vec<u32> = (0..candidates.len() as u32).collect();
-        self.meeting(indices, upper_bound_mm).into_iter().map(|index| candidates[index as usize]).collect()
+    /// Of sweeps, each in the frame with one candidate, those that can come near the region below an upper bound:
+    /// their place in the frame with every segment of their blades that can, `segments_of` it.
+    pub fn near(
+        &self,
+        upper_bound_mm: f64,
+        segments_of: impl Fn(&SweepCandidate) -> Range<usize>,
+    ) -> Vec<(usize, usize)> {
+        let all: Vec<u32> = (0..self.frame.candidates.len() as u32).collect();
+        let boxes = self.boxes(&all, upper_bound_mm);
+        let of_sweep = |(sweep, bounds): (usize, RakeFaceBox)| {
+            let segments = segments_of(&self.frame.candidates[sweep]);
+            segments.filter(move |&segment| bounds.meets(&self.segments[segment])).map(move |segment| (sweep, segment))
+        };
+        boxes.into_iter().enumerate().flat_map(of_sweep).collect()
     }
 
     /// Those of some candidates (by their place in the frame, in order) whose segments meet what the rays pass between
@@ -218,8 +228,7 @@ impl RegionBounds<'_> {
         let candidates = &self.frame.candidates;
         let sweep = |index: &u32| candidates[*index as usize].sweep();
         let firsts: Vec<u32> = indices.chunk_by(|a, b| sweep(a) == sweep(b)).map(|of_sweep| of_sweep[0]).collect();
-        let mut boxes = Vec::with_capacity(firsts.len());
-        Arch::new().dispatch(RakeFaceBoxes { bounds: self, firsts: &firsts, upper_bound_mm, boxes: &mut boxes });
+        let boxes = self.boxes(&firsts, upper_bound_mm);
         let mut of_sweep = firsts.iter().map(sweep).zip(&boxes).peekable();
         indices.retain(|index| {
             while of_sweep.peek().is_some_and(|(of, _)| *of != sweep(index)) {
@@ -229,6 +238,13 @@ impl RegionBounds<'_> {
             bounds.meets(&self.segments[candidates[*index as usize].segment])
         });
         indices
+    }
+
+    /// Boxes of sweeps, each by one of its candidates.
+    fn boxes(&self, firsts: &[u32], upper_bound_mm: f64) -> Vec<RakeFaceBox> {
+        let mut boxes = Vec::with_capacity(firsts.len());
+        Arch::new().dispatch(RakeFaceBoxes { bounds: self, firsts, upper_bound_mm, boxes: &mut boxes });
+        boxes
     }
 }
 

@@ -9,14 +9,14 @@
 //!
 //! Equality with brute force over all passes is tested bit for bit.
 
-use super::sweep::SweepRecord;
+use super::sweep::{Sweep, SweepRecord};
 use super::sweep_bounds::RegionBounds;
 use super::sweep_near::{Ball, near_passes};
 use super::sweep_regions::{RAYS, Region, SIDE};
 use super::sweep_samples::{Sampled, SweepCandidate, SweepFrame};
 use super::sweep_starts::find_starts;
 use super::sweep_tile::{CELLS, SweepTile, cells_between};
-use super::turning_passes::TurningPasses;
+use super::turning_passes::{BladePass, TurningPasses};
 use crate::dexel::{Ray, SpatialField};
 use crate::tool::edge::Segment;
 use glam::DVec3;
@@ -125,22 +125,18 @@ impl SweepPlanner<'_> {
             }
             Considered::All => (0..self.set.count()).map(|index| self.set.pass(index)).collect(),
         };
-        let near: Vec<SweepCandidate> = near
-            .into_iter()
-            .flat_map(|pass| self.set.pieces(&pass).map(move |piece| (pass, piece)))
-            .flat_map(|(pass, piece)| {
-                let segments = self.set.edges.segments_of(self.set.place(&pass).blade);
-                segments.map(move |segment| SweepCandidate { pass, piece, segment })
-            })
-            .collect();
+        let sweeps = near.into_iter().flat_map(|pass| self.set.pieces(&pass).map(move |piece| (pass, piece)));
         if self.passes == Considered::Candidates {
             let highest_mm = f64::from(self.field.blank_mm.iter().copied().fold(0.0, f32::max));
-            let frame = self.frame(origin_mm, reach_mm, &near).0;
-            let near = self.bounds(&whole, &frame).near(highest_mm);
-            let frame = self.frame(origin_mm, reach_mm, &near).0;
+            let frame = self.near_frame(&whole, (origin_mm, reach_mm), sweeps, highest_mm);
             let sampled = whole.sample(&frame, self.segments());
             self.halve(&whole, &frame, &sampled, highest_mm, &mut plan);
         } else {
+            let near: Vec<SweepCandidate> = sweeps
+                .flat_map(|(pass, piece)| {
+                    self.segments_of(&pass).map(move |segment| SweepCandidate { pass, piece, segment })
+                })
+                .collect();
             for columns in whole.columns.tiles() {
                 for rows in whole.rows.tiles() {
                     self.tile(columns.clone(), rows, &near, &vec![ALL_CELLS; near.len()], &mut plan);
@@ -148,6 +144,37 @@ impl SweepPlanner<'_> {
             }
         }
         plan
+    }
+
+    /// Records of those segments of some sweeps that can come near the field at all: each sweep is made once, and most
+    /// segments of a blade need no record.
+    fn near_frame(
+        &self,
+        whole: &Region,
+        (origin_mm, reach_mm): (DVec3, f64),
+        sweeps: impl Iterator<Item = (BladePass, u32)>,
+        highest_mm: f64,
+    ) -> SweepFrame {
+        let mut one_each = SweepFrame { origin_mm, reach_mm, candidates: Vec::new(), records: Vec::new() };
+        let mut made = Vec::new();
+        for (pass, piece) in sweeps {
+            let Some(sweep) = Sweep::new(self.set, &pass, piece, origin_mm, reach_mm) else { continue };
+            let segment = self.segments_of(&pass).start;
+            one_each.records.push(sweep.record(pass.pass, segment, &self.segments()[segment]));
+            one_each.candidates.push(SweepCandidate { pass, piece, segment });
+            made.push(sweep);
+        }
+        let near = self.bounds(whole, &one_each).near(highest_mm, |candidate| self.segments_of(&candidate.pass));
+        let candidate = |&(sweep, segment): &(usize, usize)| SweepCandidate { segment, ..one_each.candidates[sweep] };
+        let record = |&(sweep, segment): &(usize, usize)| {
+            made[sweep].record(one_each.candidates[sweep].pass.pass, segment, &self.segments()[segment])
+        };
+        SweepFrame {
+            origin_mm,
+            reach_mm,
+            candidates: near.iter().map(candidate).collect(),
+            records: near.iter().map(record).collect(),
+        }
     }
 
     fn halve(
@@ -231,6 +258,11 @@ impl SweepPlanner<'_> {
             .flat_map(|columns| ranges(self.field.rows()).map(move |rows| (columns.clone(), rows)))
             .map(|(columns, rows)| self.ball(columns, rows))
             .collect()
+    }
+
+    /// Segments of a pass's blade.
+    fn segments_of(&self, pass: &BladePass) -> Range<usize> {
+        self.set.edges.segments_of(self.set.place(pass).blade)
     }
 
     fn segments(&self) -> &Arc<[Segment]> {
