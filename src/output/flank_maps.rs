@@ -16,7 +16,7 @@
 //! height, pass id and chip are those of the dexel nearest to the map's place. Pictures show values of whole cells,
 //! because single dexels would make moire of the feed marks: the **highest** dexel, so that no mark is lost; the
 //! **mean** stock and deviation, because an error of form or position is what remains when the marks are averaged; and
-//! the **latest** pass; and the chip at the **thick end** of the longest mark in a cell ([`super::chip_places`]: over
+//! the **latest** pass; and the chip at the **thick end** of the longest mark in a cell (`chip_places`: over
 //! all dexels of a cell the thickest would take longer than the cut).
 
 use super::chip_places::{ChipPlaces, chip_columns, each_once};

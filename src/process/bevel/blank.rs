@@ -223,7 +223,7 @@ impl BevelJob {
             let mut layer = field.blank_layer();
             for (operation, cell) in layers.iter_mut().enumerate() {
                 for &by in &slots[..if beside { 3 } else { 1 }] {
-                    let plan = SweepPlan::brute_force(&field, self.slots.of(operation, by));
+                    let plan = SweepPlan::of_near_passes(&field, self.slots.of(operation, by));
                     stats += backend.cut_spatial(&field, &plan, &mut layer)?;
                 }
                 cell.heights_mm.extend_from_slice(&layer.heights_mm);

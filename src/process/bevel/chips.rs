@@ -305,7 +305,7 @@ struct PassByPass<'a> {
 
 impl<'a> PassByPass<'a> {
     fn new(field: &'a SpatialField, set: &TurningPasses) -> Self {
-        let plan = SweepPlan::brute_force(field, set);
+        let plan = SweepPlan::of_near_passes(field, set);
         let mut records: BTreeMap<u32, Vec<(usize, Range<usize>)>> = BTreeMap::new();
         for (tile, of_tile) in plan.tiles.iter().enumerate() {
             let mut first = of_tile.records.start;

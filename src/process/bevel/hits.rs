@@ -45,7 +45,7 @@ impl BevelJob {
         for &beside in spaces {
             for operation in 0..self.operations.len() {
                 let set = self.slots.of(operation, (own + beside) % teeth);
-                Cpu::default().cut_spatial(&rays.field, &SweepPlan::brute_force(&rays.field, set), &mut layer)?;
+                Cpu::default().cut_spatial(&rays.field, &SweepPlan::of_near_passes(&rays.field, set), &mut layer)?;
             }
         }
         let mut deepest = DeepestCut { depth_mm: 0.0, side, at_mm: [0.0; 2] };

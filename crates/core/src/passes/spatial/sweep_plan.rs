@@ -15,7 +15,7 @@ use super::sweep_near::{Ball, near_passes};
 use super::sweep_regions::{RAYS, Region, SIDE};
 use super::sweep_samples::{Sampled, SweepCandidate, SweepFrame};
 use super::sweep_starts::find_starts;
-use super::sweep_tile::{CELLS, SweepTile, cells_between};
+use super::sweep_tile::{CELLS, SweepTile, TILE_ROWS, cells_between};
 use super::turning_passes::{BladePass, TurningPasses};
 use crate::dexel::{Ray, SpatialField};
 use crate::tool::edge::Segment;
@@ -53,7 +53,13 @@ impl SweepPlan {
         SweepPlanner { field, set, passes: Considered::Candidates }.plan()
     }
 
-    /// Plan with every segment of every pass that can reach the field at all: what candidates are compared with.
+    /// Plan with every segment of every pass that can reach the field at all, in tiles as large as they may be: for few
+    /// passes, over rays so far apart that nothing would be culled.
+    pub fn of_near_passes(field: &SpatialField, set: &TurningPasses) -> Self {
+        SweepPlanner { field, set, passes: Considered::NearUnculled }.plan()
+    }
+
+    /// The same in the tiles of the candidates: what these are compared with.
     pub fn brute_force(field: &SpatialField, set: &TurningPasses) -> Self {
         SweepPlanner { field, set, passes: Considered::Near }.plan()
     }
@@ -98,6 +104,8 @@ enum Considered {
     Candidates,
     /// All whose blades come near the field.
     Near,
+    /// The same, in tiles as large as they may be.
+    NearUnculled,
     /// All.
     All,
 }
@@ -108,7 +116,10 @@ impl SweepPlanner<'_> {
         if self.field.is_empty() {
             return plan;
         }
-        let whole = Region::whole(self.field);
+        let whole = match self.passes {
+            Considered::NearUnculled => Region::in_tiles(self.field, TILE_ROWS),
+            _ => Region::whole(self.field),
+        };
         let (origin_mm, reach_mm) = self.surroundings(&whole.dexels());
         let parts = || {
             let parts = self.parts();
@@ -119,7 +130,7 @@ impl SweepPlanner<'_> {
                 let (whole, parts) = parts();
                 near_passes(self.set, &whole, &parts)
             }
-            Considered::Near => {
+            Considered::Near | Considered::NearUnculled => {
                 let whole = parts().0;
                 near_passes(self.set, &whole, &[whole])
             }

@@ -114,16 +114,21 @@ pub struct Region<'a> {
 }
 
 impl<'a> Region<'a> {
-    /// All of a field.
+    /// All of a field, in tiles short enough for culling.
     pub fn whole(field: &'a SpatialField) -> Self {
-        let span = |lines: usize, tile: usize| LineSpan::new(0, lines.div_ceil(tile), tile, lines - 1);
         let along_mm = |row: usize| field.ray(0, row).origin_mm;
         let apart_mm = if field.rows() > 1 { along_mm(0).distance(along_mm(1)) } else { 0.0 };
         let mut tile = TILE_ROWS;
         while tile > 1 && tile as f64 * apart_mm > LONGEST_TILE_MM {
             tile /= 2;
         }
-        Self::new(field, span(field.columns(), TILE_COLUMNS), span(field.rows(), tile))
+        Self::in_tiles(field, tile)
+    }
+
+    /// All of a field, in tiles of so many rows.
+    pub fn in_tiles(field: &'a SpatialField, rows: usize) -> Self {
+        let span = |lines: usize, tile: usize| LineSpan::new(0, lines.div_ceil(tile), tile, lines - 1);
+        Self::new(field, span(field.columns(), TILE_COLUMNS), span(field.rows(), rows))
     }
 
     pub fn new(field: &'a SpatialField, columns: LineSpan, rows: LineSpan) -> Self {
