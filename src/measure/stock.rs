@@ -10,6 +10,9 @@ use gearcut_core::dexel::{Field, Layer, NO_PASS};
 /// together.
 pub const RESOLUTION_MM: f64 = 1e-6;
 
+/// Dexels that are compared at once.
+const LANES: usize = 16;
+
 /// A value and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extreme {
@@ -58,6 +61,27 @@ pub fn extremes(
     places(field, [low, high])
 }
 
+/// Lowest height of a field; `None` if it has no dexel.
+pub fn lowest(field: &Field, heights_mm: &[f32]) -> Option<Extreme> {
+    let rows = field.rows();
+    let mut low = (f32::INFINITY, 0);
+    for (column, heights_mm) in heights_mm.chunks(rows).enumerate() {
+        // Several dexels at once: a gear has a hundred million.
+        let mut lanes = [f32::INFINITY; LANES];
+        for chunk in heights_mm.chunks(LANES) {
+            for (least, &height_mm) in lanes.iter_mut().zip(chunk) {
+                *least = if height_mm < *least { height_mm } else { *least };
+            }
+        }
+        let least = lanes.into_iter().fold(f32::INFINITY, f32::min);
+        if least < low.0 {
+            let row = heights_mm.iter().position(|&height_mm| height_mm == least).unwrap_or(0);
+            low = (least, column * rows + row);
+        }
+    }
+    (low.0 < f32::INFINITY).then(|| places(field, [low, low]))?.map(|[low, _]| low)
+}
+
 /// Lowest and highest value with their dexels as extremes; `None` where no dexel had one.
 fn places(field: &Field, [low, high]: [(f32, usize); 2]) -> Option<[Extreme; 2]> {
     let rows = field.rows();
@@ -99,4 +123,32 @@ pub fn stock(field: &Field, earlier: &Layer, later: &Layer, column_counts: impl 
     }
     let [smallest, largest] = places(field, [low, high])?;
     Some(Stock { smallest, largest, mean_mm: sum / dexels as f64, dexels, untouched })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gearcut_core::dexel::Column;
+    use glam::DVec2;
+
+    /// Columns of 37 dexels, two of them lowest: the first counts, as one look at each after the other finds it.
+    #[test]
+    fn the_lowest_dexel_is_that_of_one_look_at_each() {
+        let column = |i: u32| Column {
+            arc_mm: f64::from(i),
+            origin_mm: DVec2::ZERO,
+            normal: DVec2::X,
+            low_mm: -1.0,
+            blank_mm: 1.0,
+        };
+        let field = Field { columns: (0..5).map(column).collect(), rows_z_mm: (0..37).map(f64::from).collect() };
+        let mut heights_mm: Vec<f32> = (0..field.len()).map(|i| ((i * 73) % 101) as f32).collect();
+        for at in [3 * 37 + 36, 2 * 37 + 17, 2 * 37 + 18] {
+            heights_mm[at] = -0.5;
+            let one_by_one = extremes(&field, |_| true, |index| Some(heights_mm[index])).map(|[low, _]| low);
+            assert_eq!(lowest(&field, &heights_mm), one_by_one);
+            assert_eq!(one_by_one.map(|low| low.value_mm), Some(-0.5));
+        }
+        assert_eq!(lowest(&Field { columns: Vec::new(), ..field }, &[]), None);
+    }
 }

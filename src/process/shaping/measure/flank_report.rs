@@ -7,7 +7,7 @@
 use crate::measure::deviation::Trace;
 use crate::measure::inspection::{InspectedFlank, TracedLines};
 use crate::measure::scallop::{Cusp, cusps};
-use crate::measure::stock::{Extreme, RESOLUTION_MM, Stock, extremes, stock};
+use crate::measure::stock::{Extreme, RESOLUTION_MM, Stock, extremes, lowest, stock};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use crate::steps::planar::CutField;
@@ -115,7 +115,7 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
         |column| inside(field.columns[column].arc_mm),
         |index| (finished.passes[index] != NO_PASS).then_some(finished.heights_mm[index]),
     );
-    let deepest = extremes(field, |_| true, |index| Some(finished.heights_mm[index])).map(|[low, _]| low);
+    let deepest = lowest(field, &finished.heights_mm);
 
     let cusps: Vec<Cusp> = cusps(field, finished, middle).into_iter().filter(|cusp| inside(cusp.arc_mm)).collect();
     let pitch_arc_mm = flank.at_height(&job.blank, 0.0).map(|(arc, _)| arc);
