@@ -85,8 +85,6 @@ pub struct FlankMaps {
     pub passes: Vec<Vec<u32>>,
     /// Latest pass of each cell after the last operation; NaN where none came. As f32, ids are exact up to 16 million.
     pub latest_pass: Vec<f32>,
-    /// Mean height of each cell after the last operation, mm; NaN where no pass came.
-    pub deviation_mm: Vec<f32>,
     /// Columns of dexels whose chips are followed, for each place along u, and the row for each place along v.
     chip_columns: Vec<Vec<usize>>,
     chip_rows: Vec<usize>,
@@ -135,7 +133,6 @@ impl FlankMaps {
             side,
             heights_mm: layers.iter().map(|layer| dexels.iter().map(|&i| height(layer, i)).collect()).collect(),
             highest_mm: of_cells(|cell| cell.highest_mm),
-            deviation_mm: mean_mm.last().cloned().unwrap_or_default(),
             mean_mm,
             latest_pass: of_cells(|cell| cell.latest_pass).pop().unwrap_or_default(),
             passes: layers.iter().map(|layer| dexels.iter().map(|&i| layer.passes[i]).collect()).collect(),
@@ -157,7 +154,7 @@ impl FlankMaps {
         let rows = followed.len();
         let row_of_cells: Vec<usize> = self.chip_rows.iter().map(|row| followed.partition_point(|r| r < row)).collect();
         let of_cells = |chips: &LastChips| {
-            let mut thickest = LastChips::default();
+            let mut thickest = LastChips::with_capacity(self.chip_columns.len() * row_of_cells.len());
             let mut first = 0;
             for columns in &self.chip_columns {
                 for &row in &row_of_cells {
@@ -176,6 +173,11 @@ impl FlankMaps {
         self.chips = operations.iter().map(of_cells).collect();
     }
 
+    /// Mean height of each cell after the last operation, mm; NaN where no pass came.
+    pub fn deviation_mm(&self) -> &[f32] {
+        self.mean_mm.last().map_or(&[], Vec::as_slice)
+    }
+
     /// Stock of an operation over the last one, mm.
     pub fn stock_mm(&self, operation: usize) -> Vec<f32> {
         let last = self.heights_mm.len() - 1;
@@ -184,7 +186,7 @@ impl FlankMaps {
 
     /// Mean stock of each cell of an operation over the last one, mm.
     pub fn mean_stock_mm(&self, operation: usize) -> Vec<f32> {
-        self.mean_mm[operation].iter().zip(&self.deviation_mm).map(|(a, b)| a - b).collect()
+        self.mean_mm[operation].iter().zip(self.deviation_mm()).map(|(a, b)| a - b).collect()
     }
 
     /// `tooth_07_left`.
@@ -270,7 +272,7 @@ impl FlankMaps {
                     "1",
                     "part of the cutter's edge that took it: 0 none, 1 right flank, 2 tip with its corners, 3 left \
                     flank",
-                    Samples::U32(chips.sides.clone()),
+                    Samples::U32(chips.sides.iter().copied().map(u32::from).collect()),
                 ));
                 channels.sort_by(|a, b| a.name.cmp(&b.name));
             }
@@ -315,7 +317,7 @@ impl FlankMaps {
         notes: &[(String, String)],
     ) -> Result<()> {
         let stem = self.file_stem();
-        let values_um: Vec<f32> = self.deviation_mm.iter().map(|h| h * UM_PER_MM as f32).collect();
+        let values_um: Vec<f32> = self.deviation_mm().iter().map(|h| h * UM_PER_MM as f32).collect();
         let picture = MapPicture {
             missing: NO_PASS_CAME,
             title: &format!("Deviation after {last}: tooth {}, {} flank", self.tooth, self.side.name()),
@@ -327,7 +329,7 @@ impl FlankMaps {
         };
         write_map_png(&folder.path(format!("deviation/{stem}.png"))?, &picture)?;
         let definition = "mean normal deviation of the cell's dexels after the last operation";
-        let channel = channel("deviation_mm", "mm", definition, Samples::F32(self.deviation_mm.clone()));
+        let channel = channel("deviation_mm", "mm", definition, Samples::F32(self.deviation_mm().to_vec()));
         self.write_exr(&folder.path(format!("deviation/{stem}.exr"))?, vec![channel], notes)
     }
 
@@ -374,7 +376,7 @@ mod tests {
         for (index, &column) in columns.iter().enumerate() {
             for row in (0..rows.len()).filter(|&row| places.wants(0, [index, row])) {
                 let at = index * rows.len() + row;
-                (chips.thickness_mm[at], chips.sides[at], chips.passes[at]) = (thickness(column), column as u32, 7);
+                (chips.thickness_mm[at], chips.sides[at], chips.passes[at]) = (thickness(column), column as u8, 7);
             }
         }
         maps.take_chips(&[chips]);
@@ -384,7 +386,7 @@ mod tests {
         assert!(whole.clone().all(|cell| cell[0] >= 0.7 * 82.0 && cell[0] == cell[1]), "{cells:?}");
         assert!(nearest.fold(f32::INFINITY, f32::min) < 10.0, "a test that the nearest dexel fails");
         // The part of the edge is that of the dexel that has it.
-        assert!(maps.chips[0].sides.iter().zip(cells).all(|(&column, &mm)| thickness(column as usize) == mm));
+        assert!(maps.chips[0].sides.iter().zip(cells).all(|(&column, &mm)| thickness(usize::from(column)) == mm));
     }
 
     /// Cells of four dexels, one of them untouched: the highest keeps the mark, the mean takes it with its share.
@@ -409,11 +411,11 @@ mod tests {
         // The cell at u 0.1, v -0.05 holds the columns at 0.05 (half way, upper cell) and 0.1, and the first row:
         // dexels 4 and 8.
         assert_eq!(maps.highest_mm[0][2], 8.0);
-        assert_eq!(maps.deviation_mm[2], 6.0);
+        assert_eq!(maps.deviation_mm()[2], 6.0);
         // The cell at u 0.1, v 0.05 holds rows 1 and 2 of both columns: 5 (untouched), 6, 9, 10.
         assert_eq!(maps.highest_mm[0][3], 10.0);
         assert_eq!((maps.latest_pass[2], maps.latest_pass[3]), (7.0, 8.0));
         assert_eq!((maps.mean_mm[0][2], maps.mean_stock_mm(0)[2]), (6.0, 0.0));
-        assert!((maps.deviation_mm[3] - 25.0 / 3.0).abs() < 1e-6);
+        assert!((maps.deviation_mm()[3] - 25.0 / 3.0).abs() < 1e-6);
     }
 }

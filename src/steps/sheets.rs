@@ -65,7 +65,7 @@ fn write_contact_sheets(job: &dyn GearJob, gear: &GearMaps, folder: &OutputFolde
         ["mean normal deviation of cell", "µm"],
         gear.deviation_scale,
         maps,
-        &maps.iter().map(|map| um(&map.deviation_mm)).collect::<Vec<_>>(),
+        &maps.iter().map(|map| um(map.deviation_mm())).collect::<Vec<_>>(),
     )?;
     let passes: Vec<Vec<f32>> = maps.iter().map(|m| passes_from_first(&m.latest_pass)).collect();
     write_sheet(

@@ -67,7 +67,7 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
         unit: "µm".to_owned(),
         scale: maps.deviation_scale,
         thinning: Thinning::Mean,
-        values: over(&|map| um(&map.deviation_mm)),
+        values: over(&|map| um(map.deviation_mm())),
     });
     quantities.push(ViewerQuantity {
         name: format!("Height after {finishing}"),

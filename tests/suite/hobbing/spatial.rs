@@ -196,10 +196,13 @@ fn narrow_fields_are_culled_and_lose_nothing() {
     let line = |from: f64, step: f64, count: usize| (0..count).map(|i| from + step * i as f64).collect::<Vec<_>>();
     let sizes =
         [[1, 1], [1, 40], [2, 2], [3, 5], [4, 9], [5, 4], [8, 16], [9, 17], [13, 3], [16, 7], [17, 2], [17, 33]];
-    for [columns, rows] in sizes {
+    let near = sizes.map(|size| (size, 0.05));
+    // Rows so far apart that tiles have four of them, two or one.
+    let far = [0.3, 0.6, 1.0].map(|apart_mm| ([9, 7], apart_mm));
+    for ([columns, rows], apart_mm) in near.into_iter().chain(far) {
         for [sigma, z] in [[-14.0, 0.7], [8.0, -1.0]] {
-            let field = case.patch(space, flank, &line(sigma, 0.05, columns), &line(z, 0.05, rows));
-            let name = format!("{columns} by {rows} at {sigma}, {z}");
+            let field = case.patch(space, flank, &line(sigma, 0.05, columns), &line(z, apart_mm, rows));
+            let name = format!("{columns} by {rows}, {apart_mm} mm apart, at {sigma}, {z}");
             same_as_brute_force(&name, &passes, &field, &field.blank_layer());
             let per_dexel = SweepPlan::new(&field, &passes).dexel_passes() as f64 / field.len() as f64;
             println!("{name}: {per_dexel:.1} passes per dexel");

@@ -223,7 +223,7 @@ fn surfaces_are_points_and_normals_in_space() {
         // Alive: a cone of another angle or a slot elsewhere is seen.
         assert!(grid.points_mm.iter().all(|&p| (job.height_mm(side, p + 1e-5 * normal) - left_mm(side)).abs() > 5e-6));
     }
-    let deviations = &done.maps.flanks[0].deviation_mm;
+    let deviations = done.maps.flanks[0].deviation_mm();
     assert!(deviations.iter().all(|&d| (f64::from(d) - left_mm(Side::Left)).abs() < 1e-7));
 }
 

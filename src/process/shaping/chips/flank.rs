@@ -29,8 +29,8 @@ use crate::process::shaping::edge_polygon::EdgeSide;
 use gearcut_core::dexel::field::{Column, Field};
 
 /// Part of the edge as maps have it: 0 for none.
-pub fn side_code(side: Option<EdgeSide>) -> u32 {
-    side.map_or(0, |side| side as u32 + 1)
+pub fn side_code(side: Option<EdgeSide>) -> u8 {
+    side.map_or(0, |side| side as u8 + 1)
 }
 
 /// Chips that left the surface after each operation, in their order.
