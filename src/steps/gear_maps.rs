@@ -24,7 +24,7 @@ pub struct GearMaps {
 impl GearMaps {
     /// Finds the colours.
     pub fn new(flanks: Vec<FlankMaps>) -> Self {
-        let deviation_scale = match ColourScale::diverging_over(flanks.iter().map(|map| map.deviation_mm())) {
+        let deviation_scale = match ColourScale::diverging_over(flanks.iter().map(FlankMaps::deviation_mm)) {
             ColourScale::Diverging { limit } => {
                 ColourScale::Diverging { limit: (limit * UM_PER_MM as f32).max(LEAST_DEVIATION_UM) }
             }
