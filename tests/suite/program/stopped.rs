@@ -182,16 +182,6 @@ fn killed_at_any_time(command: &[&str], percents: &[u32]) {
     assert_eq!(names_in(folder.path()), ["gear"], "the last run swept up after the others");
 }
 
-#[test]
-fn cuts_killed_at_any_time_leave_a_whole_result() {
-    killed_at_any_time(&[&["cut", ROUND, "--quiet", "--backend", "cpu"], &COARSE[..]].concat(), &[50, 95]);
-}
-
-#[test]
-fn axis_tables_killed_at_any_time_stay_whole() {
-    killed_at_any_time(&["axes", ROUND], &[5, 40, 60, 80, 90, 95, 98, 100]);
-}
-
 /// The limit on the size of files stands for the full disk: both make `write` fail in the middle of a file.
 #[test]
 fn a_write_that_fails_names_the_file_and_leaves_the_earlier_result() {
@@ -235,32 +225,6 @@ fn ctrl_c_leaves_nothing_of_axis_tables() {
 const COARSE_PAIR: [&str; 6] = ["pair", ROUND, "--mate", "36", "--set-a", "fields.flank.profile_spacing_um=50"];
 
 #[test]
-fn ctrl_c_ends_a_pair_at_once_in_every_stage() {
-    for stage in ["cut gear A", "roll", "pictures"] {
-        let folder = tempfile::tempdir().expect("a folder");
-        let out = folder.path().join("rolled");
-        let mut child = program()
-            .args(COARSE_PAIR)
-            .args(["--positions", "2000", "--json", "--out"])
-            .arg(&out)
-            .spawn()
-            .expect("it starts");
-        let mut events = BufReader::new(child.stderr.take().expect("piped")).lines().map_while(Result::ok);
-        let begins = |line: String| line.contains("step_started") && line.contains(&format!("\"{stage}\""));
-        assert!(events.any(begins), "{stage} never began");
-        let clock = Instant::now();
-        let rest = std::thread::spawn(move || events.last());
-        assert_eq!(ctrl_c(child).status.code(), Some(130), "in {stage}");
-        let took = clock.elapsed();
-        // A second on an idle machine; others may compute as well.
-        assert!(took < Duration::from_secs(5), "{stage} went on for {took:?}");
-        let told = rest.join().expect("a reader").expect("a last line");
-        assert!(told.contains("stopped"), "{told}");
-        assert_eq!(names_in(folder.path()), Vec::<String>::new(), "in {stage}");
-    }
-}
-
-#[test]
 fn ctrl_c_leaves_no_temporary_name_of_a_saved_surface() {
     let folder = tempfile::tempdir().expect("a folder");
     let input = folder.path().join("ramp.npy");
@@ -295,5 +259,41 @@ mod slow {
     #[test]
     fn pairs_killed_at_any_time_leave_a_whole_result() {
         killed_at_any_time(&[&COARSE_PAIR[..], &["--positions", "900"]].concat(), &[30, 95]);
+    }
+
+    #[test]
+    fn cuts_killed_at_any_time_leave_a_whole_result() {
+        killed_at_any_time(&[&["cut", ROUND, "--quiet", "--backend", "cpu"], &COARSE[..]].concat(), &[50, 95]);
+    }
+
+    #[test]
+    fn axis_tables_killed_at_any_time_stay_whole() {
+        killed_at_any_time(&["axes", ROUND], &[5, 40, 60, 80, 90, 95, 98, 100]);
+    }
+
+    #[test]
+    fn ctrl_c_ends_a_pair_at_once_in_every_stage() {
+        for stage in ["cut gear A", "roll", "pictures"] {
+            let folder = tempfile::tempdir().expect("a folder");
+            let out = folder.path().join("rolled");
+            let mut child = program()
+                .args(COARSE_PAIR)
+                .args(["--positions", "2000", "--json", "--out"])
+                .arg(&out)
+                .spawn()
+                .expect("it starts");
+            let mut events = BufReader::new(child.stderr.take().expect("piped")).lines().map_while(Result::ok);
+            let begins = |line: String| line.contains("step_started") && line.contains(&format!("\"{stage}\""));
+            assert!(events.any(begins), "{stage} never began");
+            let clock = Instant::now();
+            let rest = std::thread::spawn(move || events.last());
+            assert_eq!(ctrl_c(child).status.code(), Some(130), "in {stage}");
+            let took = clock.elapsed();
+            // A second on an idle machine; others may compute as well.
+            assert!(took < Duration::from_secs(5), "{stage} went on for {took:?}");
+            let told = rest.join().expect("a reader").expect("a last line");
+            assert!(told.contains("stopped"), "{told}");
+            assert_eq!(names_in(folder.path()), Vec::<String>::new(), "in {stage}");
+        }
     }
 }
