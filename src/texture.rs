@@ -25,6 +25,7 @@ pub use files::{NamedWindow, SURFACE_NOTE, named_windows, write};
 pub use findings::{findings, quantities, warnings};
 pub use window::{Window, windows};
 
+use crate::findings::Severity;
 use crate::interrupt::Interrupt;
 use crate::job::{GearJob, RAY_DEPTH_MODULES};
 use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
@@ -79,6 +80,7 @@ pub struct Evaluated {
 /// A sentence on a window's numbers, in which a number may stand: windows that differ in it alone are told together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindowNote {
+    severity: Severity,
     before: String,
     number: Option<f64>,
     after: String,
@@ -86,7 +88,12 @@ pub struct WindowNote {
 
 impl WindowNote {
     fn of(text: String) -> Self {
-        Self { before: text, number: None, after: String::new() }
+        Self { severity: Severity::Note, before: text, number: None, after: String::new() }
+    }
+
+    /// How much it weighs: numbers that come out wrong are a warning.
+    pub fn severity(&self) -> Severity {
+        self.severity
     }
 
     /// Whether it says the same but for the number.
@@ -125,6 +132,7 @@ impl WindowTexture {
         for (points, (direction, key)) in self.points_per_mark.iter().zip(spacings) {
             if let Some(points) = points.filter(|&points| points < ENOUGH_POINTS) {
                 notes.push(WindowNote {
+                    severity: Severity::Warning,
                     before: format!("a mark {direction} has only "),
                     number: Some(points),
                     after: format!(
@@ -274,7 +282,12 @@ mod tests {
 
     #[test]
     fn alike_notes_become_one_with_the_range_of_their_numbers() {
-        let note = |points| WindowNote { before: "only ".into(), number: Some(points), after: " points".into() };
+        let note = |points| WindowNote {
+            severity: Severity::Warning,
+            before: "only ".into(),
+            number: Some(points),
+            after: " points".into(),
+        };
         let (a, b) = (note(3.71), note(4.42));
         assert!(a.is_like(&b) && !a.is_like(&WindowNote::of("holes".into())));
         assert_eq!(WindowNote::text(&[&a, &b]), "only 3.7 to 4.4 points");

@@ -37,6 +37,8 @@ gearcut.loaded.then((data) => {
     return { pen, width, height };
   }
 
+  // Ends along u, mm, between which the chosen quantity is judged on a flank that has a map.
+  const evaluated = (flank) => quantities[chosen.quantity].evaluated[flank.map.index];
   const edges = (axis) => [axis.start - axis.step / 2, axis.start + axis.step * (axis.count - 0.5)];
   const frame = { left: 40, right: 8, top: 6, bottom: 22 };
   let shown = null;
@@ -81,6 +83,15 @@ gearcut.loaded.then((data) => {
     pen.textAlign = "center";
     pen.fillText("u [mm]", 0, 0);
     pen.restore();
+    for (const end of evaluated(flank)) {
+      if (end <= u[0] || end >= u[1]) continue;
+      pen.setLineDash([6, 5]);
+      pen.beginPath();
+      pen.moveTo(box.x, y(end)); pen.lineTo(box.x + box.w, y(end));
+      pen.strokeStyle = "#fff"; pen.lineWidth = 3; pen.stroke();
+      pen.strokeStyle = "#111"; pen.lineWidth = 1; pen.stroke();
+      pen.setLineDash([]);
+    }
     shown = { box, u, v, flank, values };
     drawCross(pen, x, y);
   }
@@ -169,16 +180,27 @@ gearcut.loaded.then((data) => {
     const flank = flanks[chosen.flank];
     if (!flank.map) return;
     const { first, u, v } = flank.map;
-    let [low, high, sum, count] = [Infinity, -Infinity, 0, 0];
-    for (const value of data.valuesOf(chosen.quantity).subarray(first, first + u.count * v.count)) {
-      if (Number.isNaN(value)) continue;
-      [low, high, sum, count] = [Math.min(low, value), Math.max(high, value), sum + value, count + 1];
+    const [from, to] = evaluated(flank);
+    let [low, high, sum, count, below] = [Infinity, -Infinity, 0, 0, NaN];
+    const values = data.valuesOf(chosen.quantity);
+    for (let i = 0; i < u.count; i += 1) {
+      const place = u.start + i * u.step;
+      // Cells that reach over an end hold something of what lies beyond it.
+      const inside = place - u.step / 2 >= from && place + u.step / 2 <= to;
+      for (const value of values.subarray(first + i * v.count, first + (i + 1) * v.count)) {
+        if (Number.isNaN(value)) continue;
+        if (inside) [low, high, sum, count] = [Math.min(low, value), Math.max(high, value), sum + value, count + 1];
+        else if (place < from && !(value < below)) below = value;
+      }
     }
-    const lines = count ? [["smallest here", low], ["mean", sum / count], ["largest here", high]] : [["values", NaN]];
-    for (const [name, value] of lines) {
+    const lines = [["evaluated, u", `${number(from)} to ${number(to)} mm`]];
+    if (count) lines.push(["smallest", reading(low)], ["mean", reading(sum / count)], ["largest", reading(high)]);
+    else lines.push(["values", "none"]);
+    if (!Number.isNaN(below)) lines.push(["largest below, fillet", reading(below)]);
+    for (const [name, words] of lines) {
       const [term, number_] = [document.createElement("dt"), document.createElement("dd")];
       term.textContent = name;
-      number_.textContent = reading(value);
+      number_.textContent = words;
       list.append(term, number_);
     }
   }

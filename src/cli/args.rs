@@ -80,7 +80,7 @@ pub enum Command {
     /// Evaluate the texture of a surface, measured or cut: ISO 25178-2 and ISO 21920-2 parameters.
     #[command(after_help = "Example:\n  \
         gearcut texture out/elliptical_normal/texture/finish/tooth_03_left.x3p\n  \
-        gearcut texture measured.sdf --form poly2 --s-filter-um 8 --l-filter-um 800 --crop-um 400\n  \
+        gearcut texture measured.sdf --form plane --s-filter-um 8 --l-filter-um 800 --crop-um 400\n  \
         gearcut texture heights.npy --spacing-um 2 5 --line y=500 --json\n  \
         gearcut texture measured.sur --save measured.x3p\n\n\
         Reads X3P, SDF (binary and ASCII), SUR, NPY, CSV and gearcut's EXR maps; heights become um\n\
@@ -295,8 +295,8 @@ pub struct TextureArguments {
     /// Distance of points along x and y, for files that carry none; one value holds for both.
     #[arg(long, value_name = "DX [DY]", num_args = 1..=2)]
     pub spacing_um: Vec<f64>,
-    /// F-operator: what is taken off before texture is evaluated.
-    #[arg(long, value_enum, default_value_t = FormChoice::Plane)]
+    /// F-operator: what is taken off before texture is evaluated; the default is that of texture windows in scenes.
+    #[arg(long, value_enum, default_value_t = FormChoice::Poly2)]
     pub form: FormChoice,
     /// Nesting index of the S-filter: shorter waves are taken off (Gaussian, ISO 16610-61).
     #[arg(long, value_name = "UM")]

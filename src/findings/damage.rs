@@ -3,6 +3,7 @@
 use super::{Datum, Place, Quantity, Section, Table, TableColumn, Warning};
 use crate::measure::damage::{Damage, LEAST_DEPTH_MM, gouge_mm};
 use gearcut_core::units::UM_PER_MM;
+use std::collections::BTreeSet;
 
 /// All places of one kind of damage together; each of them is a row of [`damage_table`].
 ///
@@ -26,7 +27,7 @@ pub fn damage(
             .and("z_mm", d.z_mm);
         Quantity::number(d.depth_mm, "mm", depth).at(made_by(place, d))
     });
-    let count = places.len() as u64;
+    let count = sides_of_teeth(places) as u64;
     Section::new(key, title)
         .shown(
             "places",
@@ -45,6 +46,11 @@ pub fn damage(
         )
 }
 
+/// How many sides of teeth these places lie on: a side has three zones, and operations damage it each for themselves.
+fn sides_of_teeth(places: &[Damage]) -> usize {
+    places.iter().map(|damage| (damage.place.tooth, damage.place.side)).collect::<BTreeSet<_>>().len()
+}
+
 /// What is said of cuts below the target: a fault where they are gouges, deeper than `gouge_mm`. `by` says what made
 /// one; `flank_mm` is the deepest cut that the rays of flanks found, which stand closer than the blank's: the deeper of
 /// both is graded.
@@ -52,7 +58,7 @@ pub fn warning(places: &[Damage], flank_mm: f64, gouge_mm: f64, by: impl Fn(&Dam
     let deepest = places.iter().max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm))?;
     let [depth_um, gouge_um] = [deepest.depth_mm, gouge_mm].map(|mm| UM_PER_MM * mm);
     let place = format!("tooth {} {}, {}", deepest.place.tooth, deepest.place.side.name(), deepest.place.zone.name());
-    let (count, by) = (places.len(), by(deepest));
+    let (count, by) = (sides_of_teeth(places), by(deepest));
     let sides = if count == 1 { "1 side of a tooth is".to_owned() } else { format!("{count} sides of teeth are") };
     let flanks_um = format!("{:.1}", UM_PER_MM * flank_mm);
     let on_flanks = if flank_mm > deepest.depth_mm && flanks_um != format!("{depth_um:.1}") {

@@ -155,6 +155,7 @@ pub fn missing_in_slice(
     operation_of: impl Fn(u32) -> Option<usize>,
 ) -> Vec<Finding> {
     let grid = &field.grid;
+    let step_mm = 0.5 * gear.module_mm;
     let (width_mm, z_mm) = (grid.slice_widths_mm()[slice], grid.slices_z_mm[slice]);
     let mut findings = Vec::new();
     for (f, family) in FAMILIES.into_iter().enumerate() {
@@ -163,13 +164,7 @@ pub fn missing_in_slice(
         for (ray, spans) in field.slices[slice].rays[f].iter().enumerate() {
             let gaps = intervals::missing(&wanted[ray], spans);
             for [low, high] in gaps.into_iter().filter(|[low, high]| high - low > LEAST_DEPTH_MM) {
-                let at = |along: f64| family.point(along, row.at_mm(ray));
-                let depth = |p: DVec2| -target.distance_mm(p, 0.5 * gear.module_mm).unwrap_or(0.0);
-                let deepest = [at(low), at(0.5 * (low + high)), at(high)]
-                    .map(|p| (depth(p), p))
-                    .into_iter()
-                    .reduce(|a, b| if b.0 > a.0 { b } else { a })
-                    .expect("three points");
+                let deepest = deepest_of(target, step_mm, [low, high].map(|along| family.point(along, row.at_mm(ray))));
                 let Some(pass) = pass_beside(spans, low, high) else { continue };
                 let Some(operation) = operation_of(pass) else { continue };
                 findings.push(Finding {
@@ -187,10 +182,55 @@ pub fn missing_in_slice(
     findings
 }
 
+/// Deepest of the places along a gap, its ends and middle among them and no further apart than `step_mm`: depth under
+/// the outline and place. Depths of neighbours differ by no more than their distance, so what lies between two of them
+/// is at most a quarter of a module deeper.
+fn deepest_of(target: &TargetOutline, step_mm: f64, [low_mm, high_mm]: [DVec2; 2]) -> (f64, DVec2) {
+    let steps = 2 * (0.5 * low_mm.distance(high_mm) / step_mm).ceil().max(1.0) as u32;
+    let places = (0..=steps).map(|step| low_mm.lerp(high_mm, f64::from(step) / f64::from(steps)));
+    let depths = places.filter_map(|place| Some((-target.distance_mm(place, f64::INFINITY)?, place)));
+    depths.reduce(|best, next| if next.0 > best.0 { next } else { best }).unwrap_or((0.0, low_mm))
+}
+
 /// Pass that left the surface at an end of a gap. Where the target is gone from end to end the ray knows no pass; the
 /// rays across it, which end in what is left, do.
 fn pass_beside(spans: &[intervals::Span], low_mm: f64, high_mm: f64) -> Option<u32> {
     let above = spans.iter().find(|s| s.low.at_mm == high_mm).map(|s| s.low.pass);
     let below = spans.iter().find(|s| s.high.at_mm == low_mm).map(|s| s.high.pass);
     above.into_iter().chain(below).find(|&pass| pass != NO_PASS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::process;
+    use gearcut_core::dexel::blank_field::Slice;
+    use gearcut_core::dexel::{BlankGrid, intervals::Span};
+    use gearcut_core::gear::Back;
+    use gearcut_core::math::planar_rays::RayRow;
+    use std::path::Path;
+
+    /// A square of 20 mm through whose middle a pass has cut a slot of 16 mm, nowhere less than 2 mm from the outline:
+    /// several modules deep, and told as deep as it is.
+    #[test]
+    fn a_cut_through_the_body_is_as_deep_as_it_lies_under_the_target() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping/circular_m3_z24.toml");
+        let gear = process::load(&path, &[]).expect("a shipped scene").scene.gear;
+        let corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(|(x, y)| DVec2::new(x, y));
+        let target = TargetOutline::new(corners.to_vec(), Back::bore(0.0));
+        let row = |count| RayRow { first_mm: 10.0, spacing_mm: 1.0, count };
+        let grid = BlankGrid { rows: [row(1), row(0)], slices_z_mm: vec![0.0], face_width_mm: 1.0 };
+        let normal = [0.0; 2];
+        let end = |at_mm, pass| intervals::End { at_mm, pass, normal };
+        let spans = vec![
+            Span { low: end(0.0, NO_PASS), high: end(2.0, 7) },
+            Span { low: end(18.0, 7), high: end(20.0, NO_PASS) },
+        ];
+        let field = BlankField { grid, slices: vec![Slice { rays: [vec![spans], Vec::new()] }] };
+        let found = missing_in_slice(&field, 0, &target, &gear, |_| Some(0));
+        assert_eq!(found.len(), 1);
+        assert_eq!((found[0].depth_mm, found[0].point_mm), (10.0, DVec2::new(10.0, 10.0)));
+        let place = |_: &Finding| GearPlace { tooth: 1, side: Side::Left, zone: Zone::Root, height_mm: 0.0 };
+        assert_eq!(collect(found.into_iter(), place, |_, _| (0, 0)).len(), 1, "and is not passed over");
+    }
 }

@@ -74,10 +74,13 @@ fn of_points(points: &[(f64, f64)]) -> Option<TraceDeviation> {
         return None;
     }
     let n = points.len() as f64;
-    let (x_mean, y_mean) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + p.1 / n));
+    // From the first height on, so that equal ones have no slope at all.
+    let first_mm = points[0].1;
+    let (x_mean, above_mean) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + (p.1 - first_mm) / n));
+    let y_mean = first_mm + above_mean;
     let (xx, xy) = points.iter().fold((0.0, 0.0), |(xx, xy), p| {
         let dx = p.0 - x_mean;
-        (xx + dx * dx, xy + dx * (p.1 - y_mean))
+        (xx + dx * dx, xy + dx * (p.1 - first_mm - above_mean))
     });
     let slope = xy / xx;
     let range = |value: &dyn Fn(&(f64, f64)) -> f64| {

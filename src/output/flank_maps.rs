@@ -13,11 +13,11 @@
 //! Pass, chip thickness and part of the edge are channels of every EXR under `maps/`.
 //!
 //! Maps have a spacing of their own (the scene's `output.map_spacing_mm`), wider than facets. In EXR files stock,
-//! height, pass id and chip are those of the dexel nearest to the map's place. Pictures show values of whole cells,
+//! height and pass id are those of the dexel nearest to the map's place. Pictures show values of whole cells,
 //! because single dexels would make moire of the feed marks: the **highest** dexel, so that no mark is lost; the
 //! **mean** stock and deviation, because an error of form or position is what remains when the marks are averaged; and
-//! the **latest** pass; and the chip at the **thick end** of the longest mark in a cell (`chip_places`: over
-//! all dexels of a cell the thickest would take longer than the cut).
+//! the **latest** pass. The chip is, in EXR files and pictures alike, that at the **thick end** of the longest mark in
+//! a cell (`chip_places`: over all dexels of a cell the thickest would take longer than the cut).
 
 use super::chip_places::{ChipPlaces, chip_columns, each_once};
 use super::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
@@ -83,6 +83,9 @@ pub struct FlankMaps {
     pub mean_mm: Vec<Vec<f32>>,
     /// Pass that left it, after each operation.
     pub passes: Vec<Vec<u32>>,
+    /// Arcs along the profile between which the values after each operation are those of the flank, mm: below lies the
+    /// fillet, which is deep or thick for reasons of its own.
+    pub evaluated_mm: Vec<[f64; 2]>,
     /// Latest pass of each cell after the last operation; NaN where none came. As f32, ids are exact up to 16 million.
     pub latest_pass: Vec<f32>,
     /// Columns of dexels whose chips are followed, for each place along u, and the row for each place along v.
@@ -94,7 +97,7 @@ pub struct FlankMaps {
 
 impl FlankMaps {
     /// Takes the dexels nearest to the places of a map with `spacing_mm`; dexels stand at `arcs_mm` along the profile
-    /// and `rows_z_mm` along the tooth.
+    /// and `rows_z_mm` along the tooth. All of the profile is the flank's, until somebody knows better.
     pub fn sample(
         tooth: u32,
         side: Side,
@@ -134,6 +137,7 @@ impl FlankMaps {
             heights_mm: layers.iter().map(|layer| dexels.iter().map(|&i| height(layer, i)).collect()).collect(),
             highest_mm: of_cells(|cell| cell.highest_mm),
             mean_mm,
+            evaluated_mm: vec![[0.0, lengths[0]]; layers.len()],
             latest_pass: of_cells(|cell| cell.latest_pass).pop().unwrap_or_default(),
             passes: layers.iter().map(|layer| dexels.iter().map(|&i| layer.passes[i]).collect()).collect(),
             chip_columns: columns.iter().map(|(_, cell)| chip_columns(cell)).collect(),

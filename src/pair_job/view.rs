@@ -27,9 +27,13 @@ pub fn viewer(rolled: &RolledPair, marking_um: f64) -> Option<Viewer> {
         .iter()
         .map(|flank| pattern(rolled, Member::Driver, flank.side, i64::from(flank.tooth), marking_um))
         .unzip();
+    // Whole flanks: a cell more at either end.
+    // Whole flanks: from cell to cell and one more at either end.
+    let evaluated_mm = grids.iter().map(|MapGrid { u, .. }| [u.start_mm - u.step_mm, u.place_mm(u.count)]).collect();
     Some(Viewer {
         flanks: a.flanks.into_iter().zip(grids).map(|(flank, grid)| viewer_flank(flank, Some(grid))).collect(),
         quantities: vec![ViewerQuantity {
+            evaluated_mm,
             name: "Contact pattern of gear A".to_owned(),
             definition: format!(
                 "Smallest gap to gear B while the flank's side drives. Grey: it stays farther away than the marking of \

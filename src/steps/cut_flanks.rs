@@ -29,6 +29,8 @@ pub struct CutFlank<G, R> {
     pub layers: Vec<Layer>,
     /// What the backend met.
     pub stats: CutStats,
+    /// Arcs along the profile between which what each operation left is flank and no fillet, mm.
+    pub evaluated_mm: Vec<[f64; 2]>,
     /// What the process measured on it.
     pub report: R,
 }
@@ -82,10 +84,11 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
         if interrupt.is_raised() {
             return Ok(None);
         }
-        let CutFlank { rays, layers, stats, report } = cut_one(tooth, side)?;
+        let CutFlank { rays, layers, stats, evaluated_mm, report } = cut_one(tooth, side)?;
         let maps = needs_maps(parts).then(|| {
             let arcs_mm = rays.arcs_mm();
             let mut maps = FlankMaps::sample(tooth, side, [&arcs_mm, rays.rows_mm()], &layers, output.map_spacing_mm);
+            maps.evaluated_mm.clone_from(&evaluated_mm);
             maps.take_chips(&chips(&rays, &layers, &maps));
             maps
         });

@@ -33,6 +33,7 @@ use crate::job::GearJob;
 use crate::output::flank_maps::OperationMaps;
 use crate::output::folder::OutputFolder;
 use crate::output::progress::Progress;
+use crate::output::text::significant;
 use crate::surface::Mesh;
 use attempts::Attempts;
 use gearcut_core::cut::{Backend, CutStats};
@@ -58,6 +59,18 @@ pub struct Work {
 }
 
 impl Work {
+    /// Passes that a dexel which was cut met, mean: of those that one row stands for, only that row's count.
+    pub fn passes_per_dexel(&self) -> f64 {
+        self.stats.dexel_passes as f64 / self.stats.dexels.max(1) as f64
+    }
+
+    /// Number of dexels and passes of each, as the terminal and the page say it.
+    pub fn dexels_in_words(&self) -> String {
+        let (millions, per_dexel) = (self.dexels as f64 / 1e6, significant(self.passes_per_dexel(), 3));
+        let alike = if self.stats.dexels < self.dexels { "; rows are alike, so one was cut for all" } else { "" };
+        format!("{millions:.1} million, {per_dexel} passes each{alike}")
+    }
+
     /// What a reader of the results must know of how flanks were cut: `untouched` dexels were reached by no pass, and
     /// `why` says so for the process.
     pub fn warnings(&self, untouched: u64, why: &str) -> Vec<Warning> {

@@ -38,7 +38,7 @@ pub fn run_record(tools: &Tools, work: &Work, complete: bool) -> Result<Value> {
         "dexels": work.dexels,
         "dexel_passes": work.stats.dexel_passes,
         "dexels_cut": work.stats.dexels,
-        "dexel_passes_per_dexel_cut": work.stats.dexel_passes as f64 / work.stats.dexels.max(1) as f64,
+        "dexel_passes_per_dexel_cut": work.passes_per_dexel(),
         "wall_time_s": work.elapsed.as_secs_f64(),
         "threads": rayon::current_num_threads(),
         "sha256": checksums,

@@ -21,11 +21,8 @@ pub fn text(gear: &Gear, findings: &Findings, flanks: usize, work: &Work, out: &
     ));
     summary::print(findings, &mut sheet);
     sheet.heading("Run");
-    let per_dexel = significant(work.stats.dexel_passes as f64 / work.stats.dexels.max(1) as f64, 3);
-    let alike = if work.stats.dexels < work.dexels { "; rows are alike, so one was cut for all" } else { "" };
-    let millions = work.dexels as f64 / 1e6;
     summary::line(&mut sheet, "backend", backend);
-    summary::line(&mut sheet, "dexels", &format!("{millions:.1} million, {per_dexel} passes each{alike}"));
+    summary::line(&mut sheet, "dexels", &work.dexels_in_words());
     let seconds = significant(work.elapsed.as_secs_f64(), 3);
     summary::line(&mut sheet, "cut, measured and mapped in", &format!("{seconds} s"));
     sheet.line("written to", out.display().to_string());

@@ -112,11 +112,8 @@ pub fn gear_solid(outline: &Outline, back: &Back) -> Result<Mesh, Refusal> {
     if !mesh.is_closed() {
         return Err(Refusal::new(
             "output.mesh_spacing_mm",
-            format!(
-                "the outline of the cut gear crosses itself, so that its body is not closed: {:?}",
-                mesh.edge_faults()
-            ),
-            "use a smaller mesh spacing",
+            "the outline of the cut gear crosses itself, so that its body is not closed",
+            "use a smaller mesh spacing; a gear that is cut below its target may have no such outline at all",
         ));
     }
     Ok(mesh)

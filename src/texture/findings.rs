@@ -60,7 +60,9 @@ pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
             [((_, stem), _)] => format!("texture.{operation}.{}", key_of(stem)),
             _ => format!("texture.{operation}"),
         };
-        Warning::note(format!("texture of tooth {names} after {operation}: {text}")).about(section)
+        let severity = group[0].1.severity();
+        let text = format!("texture of tooth {names} after {operation}: {text}");
+        Warning { severity, text, section: Some(section) }
     };
     groups.into_iter().map(told).collect()
 }

@@ -250,6 +250,7 @@ def check_picker(opened):
     page.select_option("#quantity", index=0)
     changes(page.locator("button.place").first.click, "a key number's place")
     assert page.evaluate("document.activeElement.id") == "gear-view", "the key number does not lead to the gear"
+    check_evaluated(page)
     # A click into the middle of the flank that is looked at picks it on the gear, too.
     before = kept(opened, "gear-view")
     page.locator("[data-view=flank]").click()
@@ -265,6 +266,20 @@ def check_picker(opened):
     canvas.click()
     shows_title = "(title) => document.getElementById('map-title').textContent === title"
     page.wait_for_function(shows_title, arg=title, timeout=20_000)
+
+
+def check_evaluated(page):
+    """Beside the map stands the stock of the flank that the key numbers judge; the fillet's is told apart."""
+    numbers = page.evaluate(
+        """() => Object.fromEntries([...document.querySelectorAll("#flank-numbers dt")]
+            .map((term) => [term.textContent, parseFloat(term.nextSibling.textContent)]))"""
+    )
+    smallest, largest = (
+        float(page.locator("#key-numbers .value").nth(place).inner_text().split()[0]) for place in (0, 1)
+    )
+    # Means of cells lie between the smallest and the largest dexel; the page shows three digits of them.
+    assert smallest * 0.995 <= numbers["smallest"] <= numbers["largest"] <= largest * 1.005, f"{numbers}, {largest}"
+    assert numbers["largest below, fillet"] > largest, f"the fillet has no more than {largest} mm"
 
 
 def check_tables_and_pictures(opened):

@@ -59,6 +59,7 @@ fn page() -> Page {
                 unit: HOSTILE.into(),
                 scale: crate::colormap::ColourScale::Diverging { limit: 1.0 },
                 thinning: viewer::Thinning::Mean,
+                evaluated_mm: vec![[0.0, 1.0]],
                 values: vec![vec![0.0, 1.0, f32::NAN, -1.0]],
             }],
             body: crate::surface::triangles::Triangles::default(),

@@ -114,6 +114,8 @@ pub struct ViewerQuantity {
     pub scale: ColourScale,
     /// How a cell stands for several.
     pub thinning: Thinning,
+    /// Arcs along the profile that smallest, mean and largest value are taken between, mm, for each of these flanks.
+    pub evaluated_mm: Vec<[f64; 2]>,
     /// Values; NaN where there is none.
     pub values: Vec<Vec<f32>>,
 }
@@ -183,7 +185,7 @@ impl Viewer {
             let grid = flank.grid.is_some().then(|| &thin[cut]);
             let map = grid.map(|grid| {
                 let axis = |axis: &MapAxis| json!({"start": axis.start_mm, "step": axis.step_mm, "count": axis.count});
-                json!({"first": first_cell, "u": axis(&grid.u), "v": axis(&grid.v)})
+                json!({"index": cut, "first": first_cell, "u": axis(&grid.u), "v": axis(&grid.v)})
             });
             if let Some(grid) = grid {
                 first_cell += grid.count();
@@ -224,6 +226,7 @@ impl Viewer {
                     "low": low,
                     "high": high,
                     "scale": [scale_low, scale_high],
+                    "evaluated": quantity.evaluated_mm,
                     "colours": usize::from(matches!(quantity.scale, ColourScale::Diverging { .. })),
                     "at": at,
                 })
@@ -356,6 +359,7 @@ mod tests {
                 unit: "mm".into(),
                 scale: ColourScale::Sequential { low: 0.0, high: 1.0 },
                 thinning: Thinning::Highest,
+                evaluated_mm: (0..flanks).map(|_| [0.0, 1.0]).collect(),
                 values: (0..flanks).map(|_| (0..u * v).map(&value).collect()).collect(),
             }],
             body: Triangles::default(),

@@ -45,7 +45,8 @@ pub fn cut_gear(
         let rays = job.rays(tooth, side)?;
         let (layers, stats) = job.cut_field(backend, job.space_of(tooth, side), &rays.field)?;
         let report = measure::measure(job, tooth, side, &rays, &layers)?;
-        Ok(CutFlank { rays, layers, stats, report })
+        let evaluated_mm = vec![report.evaluated_mm; layers.len()];
+        Ok(CutFlank { rays, layers, stats, evaluated_mm, report })
     };
     let cut = cut_flanks(job, progress, interrupt, folder, cut_one, |_, _, _| Vec::new())?;
     if cut.reports.is_empty() {

@@ -57,7 +57,7 @@ pub fn page(
     ));
     sections.push(setup(job, found));
     sections.push(files::section(folder)?);
-    sections.push(record(gear.flanks.len(), &gear.work.stats, gear.work.dexels, run));
+    sections.push(record(gear.flanks.len(), &gear.work, run));
     let operation = |operation: &findings::Section| {
         let mm = |key: &str| operation.number(key).map_or_else(|| "–".to_owned(), plain);
         format!("{}: {}, head held back by {} mm", operation.key, operation.words("linkage"), mm("offset"))

@@ -60,7 +60,8 @@ pub fn cut_gear(
             let report = flank_report::measure(tooth, side, &flank);
             let points = offset_curves::measure(cutter, backend, tooth, side)?;
             let HobbedFlank { rays, layers, stats, .. } = flank;
-            Ok(CutFlank { rays, layers, stats, report: (report, points) })
+            let evaluated_mm = vec![report.evaluated_mm; layers.len()];
+            Ok(CutFlank { rays, layers, stats, evaluated_mm, report: (report, points) })
         },
         |_, _, _| Vec::new(),
     )?;

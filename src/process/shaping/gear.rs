@@ -61,7 +61,8 @@ pub fn cut_gear(
             let cut = job.cut_on_flank(backend, (tooth, side), job.flank_field(target))?;
             let report = flank_report::measure(job, target, &cut);
             let CutField { field, layers, stats } = cut;
-            Ok(CutFlank { rays: field, layers, stats, report })
+            let evaluated_mm = report.own.active_mm.iter().copied().chain([report.evaluated_mm]).collect();
+            Ok(CutFlank { rays: field, layers, stats, evaluated_mm, report })
         },
         |field, layers, maps| last_chips_on_map(job, field, &maps.chip_places(layers, field.rows())),
     )?;

@@ -60,7 +60,7 @@ pub fn page(
     ));
     sections.push(facts::section(job, found));
     sections.push(files::section(folder)?);
-    sections.push(record(cut.report.flanks.len(), &cut.work.stats, cut.work.dexels, run));
+    sections.push(record(cut.report.flanks.len(), &cut.work, run));
     let operations = found.parts("operations").len();
     let gear = PageGear { words: gear_words(&job.scene.gear), mesh: ViewMesh::new(job)? };
     let operation = |of: &_| operation_words(of, operations);

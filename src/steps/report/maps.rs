@@ -41,6 +41,8 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
     let last = operations.len() - 1;
     let finishing = &operations[last].name;
     let over = |values: &dyn Fn(&FlankMaps) -> Vec<f32>| maps.flanks.iter().map(values).collect::<Vec<_>>();
+    let evaluated_mm =
+        |operation: usize| maps.flanks.iter().map(|map| map.evaluated_mm[operation]).collect::<Vec<[f64; 2]>>();
     let mut quantities: Vec<ViewerQuantity> = operations[..last]
         .iter()
         .enumerate()
@@ -53,6 +55,7 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
             unit: "mm".to_owned(),
             scale: operation.stock_scale,
             thinning: Thinning::Mean,
+            evaluated_mm: evaluated_mm(index),
             values: over(&|map| map.mean_stock_mm(index)),
         })
         .collect();
@@ -67,6 +70,7 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
         unit: "µm".to_owned(),
         scale: maps.deviation_scale,
         thinning: Thinning::Mean,
+        evaluated_mm: evaluated_mm(last),
         values: over(&|map| um(map.deviation_mm())),
     });
     quantities.push(ViewerQuantity {
@@ -75,6 +79,7 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
         unit: "µm".to_owned(),
         scale: maps.height_scale,
         thinning: Thinning::Highest,
+        evaluated_mm: evaluated_mm(last),
         values: over(&finished_heights_um),
     });
     quantities

@@ -14,9 +14,10 @@ use crate::job::GearJob;
 use crate::output::progress::duration_text;
 use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
 use crate::output::text::{plain, significant};
+use crate::steps::Work;
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::view_mesh::ViewMesh;
-use gearcut_core::cut::{CutStats, KERNEL_UM};
+use gearcut_core::cut::KERNEL_UM;
 
 /// What the run says of itself on the page. Times are left out: the same scene gives the same page.
 #[derive(Debug, Clone, Copy)]
@@ -120,9 +121,8 @@ pub fn peak_table(operation: &findings::Section) -> PageTable {
 }
 
 /// What is needed to repeat the run.
-pub fn record(flanks: usize, stats: &CutStats, dexels: u64, run: &RunWords) -> PageSection {
+pub fn record(flanks: usize, work: &Work, run: &RunWords) -> PageSection {
     let row = |name: &str, value: String| vec![name.to_owned(), value];
-    let per_dexel = stats.dexel_passes as f64 / dexels.max(1) as f64;
     let table = PageTable {
         caption: "Run".to_owned(),
         columns: Vec::new(),
@@ -130,7 +130,7 @@ pub fn record(flanks: usize, stats: &CutStats, dexels: u64, run: &RunWords) -> P
             row("Program", format!("gearcut {}", env!("CARGO_PKG_VERSION"))),
             row("Backend", format!("{} ({})", run.backend, run.backend_why)),
             row("Flanks cut", flanks.to_string()),
-            row("Dexels", format!("{:.2} million, {} passes each", dexels as f64 / 1e6, significant(per_dexel, 3))),
+            row("Dexels", work.dexels_in_words()),
         ],
     };
     PageSection {

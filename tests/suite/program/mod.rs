@@ -4,6 +4,7 @@ mod axes;
 mod check;
 mod compare;
 mod cut;
+mod damaged_programs;
 mod defaults;
 mod disk_faults;
 mod error_layers;

@@ -86,7 +86,11 @@ fn cases() -> Vec<Case> {
     };
     // Strokes removed: one, five, 120, anywhere.
     for (count, from) in [(1, 1), (1, 100), (1, 417), (1, 838), (2, 300), (5, 200), (5, 700), (20, 50), (120, 400)] {
-        let words = format!("{count} of the scene's strokes are missing from the program, the first is stroke {from}");
+        let words = if count == 1 {
+            format!("1 of the scene's strokes is missing from the program, stroke {from}")
+        } else {
+            format!("{count} of the scene's strokes are missing from the program, the first is stroke {from}")
+        };
         add(
             format!("{count} removed from {from} on"),
             Fault,
@@ -99,7 +103,11 @@ fn cases() -> Vec<Case> {
     }
     // Strokes made twice.
     for (count, from) in [(1, 1), (1, 250), (1, 800), (3, 400), (12, 600)] {
-        let words = format!("{count} strokes of the program are made twice");
+        let words = if count == 1 {
+            "1 stroke of the program is made twice".to_owned()
+        } else {
+            format!("{count} strokes of the program are made twice")
+        };
         add(
             format!("{count} doubled from {from} on"),
             Fault,
@@ -116,7 +124,7 @@ fn cases() -> Vec<Case> {
         add(
             format!("stroke {stroke} half a feed ahead"),
             Fault,
-            "1 strokes of the program are none of the scene's".to_owned(),
+            "1 stroke of the program is none of the scene's".to_owned(),
             Box::new(move |mut program| {
                 let (a, b) = (program.knots[stroke], program.knots[stroke + 1]);
                 program.knots[stroke].psi_c_rad = 0.5 * (a.psi_c_rad + b.psi_c_rad);

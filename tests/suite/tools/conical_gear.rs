@@ -182,7 +182,8 @@ fn cut(job: &ConicalJob, tools: Option<&Tools>) -> CutFlanks<()> {
     let cut_one = |_, side| {
         let rays = job.all_rays(side);
         let layers = vec![job.cut(&rays)];
-        Ok(CutFlank { rays, layers, stats: gearcut::cut::CutStats::default(), report: () })
+        let evaluated_mm = vec![[0.0, f64::INFINITY]];
+        Ok(CutFlank { rays, layers, stats: gearcut::cut::CutStats::default(), evaluated_mm, report: () })
     };
     let folder = tools.map(|tools| (tools.folder, tools.notes, tools.parts));
     cut_flanks(job, &progress, &interrupt, folder, cut_one, |_, _, _| Vec::new()).expect("cuts")

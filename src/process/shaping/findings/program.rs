@@ -86,15 +86,28 @@ fn told(job: &ShapingJob, name: &str, judgement: &Judgement) -> Vec<Warning> {
         let damages = distance_mm > gouge_mm(job.scene.gear.module_mm);
         warnings.push(if damages { Warning::fault(text) } else { Warning::warn(text) });
     }
-    for (strokes, what) in [
-        (&judgement.missing, "of the scene's strokes are missing from the program"),
-        (&judgement.doubled, "strokes of the program are made twice"),
-        (&judgement.off, "strokes of the program are none of the scene's"),
+    for (strokes, one, several) in [
+        (
+            &judgement.missing,
+            "1 of the scene's strokes is missing from the program",
+            "of the scene's strokes are missing from the program",
+        ),
+        (&judgement.doubled, "1 stroke of the program is made twice", "strokes of the program are made twice"),
+        (
+            &judgement.off,
+            "1 stroke of the program is none of the scene's",
+            "strokes of the program are none of the scene's",
+        ),
     ] {
-        if let Some(first) = strokes.first() {
-            let count = strokes.len();
-            warnings.push(Warning::fault(format!("operation {name}: {count} {what}, the first is stroke {first}")));
-        }
+        warnings.extend(match strokes.as_slice() {
+            [] => None,
+            [stroke] => Some(Warning::fault(format!("operation {name}: {one}, stroke {stroke}"))),
+            [first, ..] => {
+                let count = strokes.len();
+                let text = format!("operation {name}: {count} {several}, the first is stroke {first}");
+                Some(Warning::fault(text))
+            }
+        });
     }
     if judgement.is_at_another_speed() {
         let [program, scene] = judgement.strokes_per_minute;

@@ -57,6 +57,8 @@ pub struct ShapedFlank {
     pub fillet_stock: Vec<Option<Stock>>,
     /// Smallest and largest normal deviation of the finished surface on the evaluated profile.
     pub finished: Option<[Extreme; 2]>,
+    /// Arcs between which the surface of each earlier operation is its flank and no fillet, mm; stock is judged there.
+    pub active_mm: Vec<[f64; 2]>,
     /// Deepest cut below the target anywhere on the flank (undercut, gouge), if deeper than the dexels' resolution.
     pub undercut: Option<Extreme>,
     /// Scallops in the middle of the face.
@@ -167,15 +169,16 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
     let is_lost =
         (0..field.columns.len()).any(|column| inside(field.columns[column].arc_mm) && below_in(finished, column) > 0);
     // Where the involute of every earlier operation begins on this flank; its fillet stands below.
-    let begins_mm: Vec<f64> = (0..layers.len() - 1).map(|operation| begins_mm(job, operation, flank)).collect();
+    let from_mm = |operation: usize| begins_mm(job, operation, flank).max(evaluated_mm[0]);
+    let active_mm: Vec<[f64; 2]> =
+        (0..layers.len() - 1).map(|operation| [from_mm(operation), evaluated_mm[1]]).collect();
     let arc_mm = |column: usize| field.columns[column].arc_mm;
-    let from_mm = |operation: usize| begins_mm[operation].max(evaluated_mm[0]);
     let active = |operation: usize| {
-        let from_mm = from_mm(operation);
-        move |column: usize| arc_mm(column) >= from_mm && arc_mm(column) <= evaluated_mm[1]
+        let [from_mm, to_mm] = active_mm[operation];
+        move |column: usize| (from_mm..=to_mm).contains(&arc_mm(column))
     };
     let fillet = |operation: usize| {
-        let from_mm = from_mm(operation);
+        let [from_mm, _] = active_mm[operation];
         move |column: usize| arc_mm(column) < from_mm
     };
     let earlier = || layers[..layers.len() - 1].iter().enumerate();
@@ -189,6 +192,7 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
             .map(|(operation, layer)| stock(field, layer, finished, fillet(operation)).filter(|_| !is_lost))
             .collect(),
         finished: evaluated.filter(|_| !is_lost),
+        active_mm,
         undercut: deepest.filter(|low| low.value_mm < -RESOLUTION_MM),
         scallops: scallops.filter(|_| !is_lost),
         witness: witness.filter(|_| !is_lost),
