@@ -56,10 +56,11 @@ impl Raster {
     /// The picture as a PNG file.
     ///
     /// Fast compression: a gear has a thousand pictures, and the last tenth of their bytes would take five times as
-    /// long. The filter is chosen row by row: equal rows and slow changes both become zeros.
+    /// long. One filter for all rows makes equal rows and slow changes zeros; a choice row by row takes nearly twice as
+    /// long for a twentieth of the bytes.
     pub(super) fn png(&self) -> Result<Vec<u8>, String> {
         let mut bytes = Vec::new();
-        PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive)
+        PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Paeth)
             .write_image(&self.rgb, self.size_px.0, self.size_px.1, ExtendedColorType::Rgb8)
             .map_err(|error| error.to_string())?;
         Ok(bytes)

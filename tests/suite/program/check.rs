@@ -76,6 +76,10 @@ mod slow {
                     "{}",
                     outcome.out
                 );
+                // Words are broken where a terminal's line ends; bars cannot be.
+                let bars = outcome.out.lines().filter(|line| line.ends_with('|'));
+                let wide: Vec<&str> = bars.filter(|line| line.chars().count() > 80).collect();
+                assert!(wide.is_empty(), "{}: {wide:#?}", scene.display());
                 count += 1;
             }
             assert_eq!(count, process.scenes.lines().count(), "scenes for {}", process.name);

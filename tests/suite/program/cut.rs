@@ -67,13 +67,19 @@ fn a_draft_is_coarse_and_takes_no_result_away() {
     let scene = root.join("scenes/shaping/circular_m3_z24.toml");
     let scene = scene.to_str().expect("a path");
     let arguments = ["cut", scene, "--draft", "--backend", "cpu", "--set", "fields.blank.spacing_mm=0.7"];
-    crate::fixtures::command::gearcut_in(folder.path(), &arguments).done().says(&["flanks cut"]);
+    let run = crate::fixtures::command::gearcut_in(folder.path(), &arguments).done();
+    assert!(run.out.contains("flanks cut"), "{}", run.out);
     let out = folder.path().join("out/circular_m3_z24_draft");
     let record = read_json(&out.join("run.json"));
     assert_eq!(record["written"], serde_json::json!(["numbers", "report"]));
     let resolved = record["scene"].as_str().expect("the scene");
     assert!(resolved.contains("profile_spacing_um = 40.0") && resolved.contains("spacing_mm = 0.7"), "{resolved}");
-    assert!(out.join("report.html").exists() && !out.join("pictures").exists() && !out.join("maps").exists());
+    assert!(!out.join("pictures").exists() && !out.join("maps").exists());
+    // What the terminal says of the work, the page says too.
+    let [from, to] = ["dexels  ", " passes each"].map(|words| run.out.rfind(words).expect("a line on dexels"));
+    let dexels = run.out[from..to].trim_start_matches("dexels").trim_start();
+    let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
+    assert!(page.contains(&format!("{dexels} passes each")), "{dexels}");
 }
 
 mod slow {

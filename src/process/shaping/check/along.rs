@@ -8,8 +8,10 @@ use crate::output::text::Sheet;
 
 /// Rows at even distances, at most.
 const ROWS: usize = 12;
-/// Characters of a full bar that stands alone, and beside others: lines keep within those of a terminal.
+/// Characters of a full bar that stands alone, and beside others or many columns: lines fit a terminal of 80.
 const WIDTHS: [usize; 2] = [16, 8];
+/// Columns of values that leave room for the wide bar.
+const MOST_BESIDE_A_WIDE_BAR: usize = 5;
 
 /// A column that is shown.
 pub struct Shown {
@@ -52,7 +54,8 @@ pub fn print(sheet: &mut Sheet, table: &Table, shown: &[Shown]) {
         let bar = of.full.map(|_| String::new());
         std::iter::once(of.heading.to_owned()).chain(bar)
     });
-    let width = WIDTHS[usize::from(shown.iter().filter(|of| of.full.is_some()).count() > 1)];
+    let with_bars = shown.iter().filter(|of| of.full.is_some()).count();
+    let width = WIDTHS[usize::from(with_bars > 1 || shown.len() > MOST_BESIDE_A_WIDE_BAR)];
     let line = |row: usize| shown.iter().flat_map(move |of| cells(table, row, of, width)).collect::<Vec<_>>();
     let lines: Vec<Vec<String>> = std::iter::once(heading.collect()).chain(rows.into_iter().map(line)).collect();
     sheet.table(&lines);
