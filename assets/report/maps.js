@@ -156,7 +156,7 @@ gearcut.loaded.then((data) => {
     pen.fillStyle = css("--soft");
     pen.textAlign = "center";
     if (high > low) {
-      for (const [value, label] of ticks(low, high, 4)) {
+      for (const [value, label] of ticks(low, high, 5)) {
         const x = inset + ((value - low) / (high - low)) * (width - 2 * inset);
         pen.fillRect(x, 4 + thick, 1, 4);
         pen.fillText(label, x, 4 + thick + 17);
@@ -196,7 +196,7 @@ gearcut.loaded.then((data) => {
     const lines = [["evaluated, u", `${number(from)} to ${number(to)} mm`]];
     if (count) lines.push(["smallest", reading(low)], ["mean", reading(sum / count)], ["largest", reading(high)]);
     else lines.push(["values", "none"]);
-    if (!Number.isNaN(below)) lines.push(["largest below, fillet", reading(below)]);
+    if (!Number.isNaN(below)) lines.push(["largest below that", reading(below)]);
     for (const [name, words] of lines) {
       const [term, number_] = [document.createElement("dt"), document.createElement("dd")];
       term.textContent = name;

@@ -279,7 +279,7 @@ def check_evaluated(page):
     )
     # Means of cells lie between the smallest and the largest dexel; the page shows three digits of them.
     assert smallest * 0.995 <= numbers["smallest"] <= numbers["largest"] <= largest * 1.005, f"{numbers}, {largest}"
-    assert numbers["largest below, fillet"] > largest, f"the fillet has no more than {largest} mm"
+    assert numbers["largest below that"] > largest, f"the fillet has no more than {largest} mm"
 
 
 def check_tables_and_pictures(opened):

@@ -90,7 +90,7 @@ pub fn gear_frame(viewer: &Viewer) -> Markup {
                 output id="map-readout" class="readout-line" aria-live="polite" {}
                 p id="map-help" class="note" { "Point at a place, or move the cross with the arrow keys, to read its \
                     value. Up is u: along the profile from the form point (the root side) to the tip. Dashed: the \
-                    ends of what is evaluated; below lies fillet." }
+                    ends of what is evaluated." }
             }
             figure class="chart sheet" {
                 figcaption { "All flanks, to one scale" }

@@ -5,6 +5,7 @@ mod answers;
 mod below_zero;
 mod blank_field;
 mod chips;
+mod covered;
 mod deflection;
 mod deflection_polygons;
 mod edge_roughness;

@@ -90,7 +90,12 @@ impl State {
                             "a tapping cycle on most controls, and a one-block gear on one; neither is read",
                         );
                     }
-                    _ => return refuse("this G is not read; known are G0, G1, G4, G21, G90, G93, G94"),
+                    _ => {
+                        return refuse(
+                            "this G is not read; known are G0, G1, G4, G21, G90, G93, G94; a program for a control \
+                            is tested as output.post = \"plain\" writes it",
+                        );
+                    }
                 },
                 'M' => match (word.number * 10.0).round() as i64 {
                     30 => start = true,
