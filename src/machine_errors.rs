@@ -29,6 +29,7 @@ mod axis;
 mod backlash;
 mod balance;
 mod compliance;
+mod edge_element;
 mod fast_noise;
 mod layers;
 mod motion;
@@ -39,8 +40,9 @@ mod servo;
 mod tests;
 
 pub use axis::{AxisErrors, GearboxCycle, PeriodicError, ThermalDrift};
-pub use balance::{EdgeElement, balance};
+pub use balance::{NoBalance, balance};
 pub use compliance::{Compliance, Deflection, SideCompliance};
+pub use edge_element::EdgeElement;
 pub use fast_noise::refuse_fast_noise;
 pub use layers::ErrorLayer;
 pub use motion::{ActualMotion, Course, MachineMoment};

@@ -10,18 +10,22 @@
 //! jumps: a tool pushed out by an edge that just cuts falls back onto it. So r rises evenly from 0 at h = 0 to 1 at the
 //! least chip that counts ([`LEAST_CHIP_MM`]).
 //!
-//! f never falls with h. With F the integral of f, `E(q) = q . C^-1 q / 2 + sum of F(h) - A . q` is strictly convex:
+//! Where f never falls with h, `E(q) = q . C^-1 q / 2 + sum of F(h) - A . q`, F the integral of f, is strictly convex:
 //! there is one balance and no other, **whatever the compliance**. Newton's steps on E, halved where they do not lower
 //! it, find it in a few steps, for E is quadratic piece by piece: its Hessian is at least that of the machine, so that
 //! every step points downhill and a share of it lowers E. What ends otherwise is an error with numbers. Coordinates are
 //! scaled by the square root of C; one that does not yield stays at 0.
 //!
+//! Oblique flanks of a cutter with much negative rake can have f that falls. E stays convex while all that falls
+//! together is less stiff than the machine; beyond, balances are several or none, and the cut is refused.
+//!
 //! Road not taken: q <- C Q(q) over and over. It converges only while compliance times stiffness of the cut is below 1.
 //! Steel has K_n of 2 N/um per mm of edge: with 10 um/kN that ends at 50 mm of edge in the cut.
 
-use gearcut_core::cut::LEAST_CHIP_MM;
+use super::edge_element::EdgeElement;
 use gearcut_core::error::NotConverged;
 use glam::{DMat4, DVec4};
+use std::fmt;
 
 /// Newton steps at most: each piece of the force law is left at most once in practice, five steps are usual.
 const MOST_STEPS: u32 = 60;
@@ -32,46 +36,63 @@ const ROUNDING: f64 = 1e-13;
 /// A fall of the energy this small against its parts is rounding: a sum of some hundred parts.
 const FLAT: f64 = 1e-14;
 
-/// An element of the edge in contact.
+/// Why there is no displacement in balance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EdgeElement {
-    /// Thickness of its chip at the displacement where it was looked at, mm.
-    pub thickness_mm: f64,
-    /// How far each coordinate moves it into the material along its normal.
-    pub moves: DVec4,
-    /// Force along the normal per thickness: K_n b, N/mm.
-    pub chip_n_per_mm: f64,
-    /// Force along the normal of an edge that cuts: K_ne b, N.
-    pub edge_n: f64,
+pub enum NoBalance {
+    /// Forces fall with the thickness of the chip, by more than the machine is stiff.
+    NotConvex,
+    /// Newton's steps do not end: forces that are not numbers.
+    NotFound(NotConverged),
 }
 
-impl EdgeElement {
-    /// Force along the normal, its rate by thickness, its integral: N, N/mm, N mm.
-    fn force(&self, h_mm: f64) -> [f64; 3] {
-        if h_mm <= 0.0 {
-            return [0.0; 3];
+impl fmt::Display for NoBalance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotConvex => write!(
+                f,
+                "the cut pushes less the thicker its chips are, and the machine yields by more than that: there are \
+                 several balances or none"
+            ),
+            Self::NotFound(lost) => lost.fmt(f),
         }
-        let (k, e) = (self.chip_n_per_mm, self.edge_n);
-        let chip = [k * h_mm, k, 0.5 * k * h_mm * h_mm];
-        let share = h_mm / LEAST_CHIP_MM;
-        let edge = if share < 1.0 {
-            [e * share, e / LEAST_CHIP_MM, 0.5 * e * share * h_mm]
-        } else {
-            [e, 0.0, e * (h_mm - 0.5 * LEAST_CHIP_MM)]
-        };
-        [chip[0] + edge[0], chip[1] + edge[1], chip[2] + edge[2]]
     }
+}
+
+/// Whether the energy is strictly convex, wherever the elements stand: its least Hessian is positive definite. `root`
+/// scales the coordinates.
+fn is_convex(root: DVec4, elements: &[EdgeElement]) -> bool {
+    let mut least = DMat4::IDENTITY;
+    for element in elements {
+        let rate = element.least_rate();
+        if rate < 0.0 {
+            let m = root * element.moves;
+            least += DMat4::from_cols(rate * m.x * m, rate * m.y * m, rate * m.z * m, rate * m.w * m);
+        }
+    }
+    // All pivots of Gauss's elimination are positive, those and no other matrices are.
+    let mut rows = least.to_cols_array_2d();
+    (0..4).all(|i| {
+        let pivot_row = rows[i];
+        for row in rows.iter_mut().skip(i + 1) {
+            let share = row[i] / pivot_row[i];
+            row.iter_mut().zip(pivot_row).for_each(|(value, above)| *value -= share * above);
+        }
+        pivot_row[i] > 0.0
+    })
 }
 
 /// The displacement in balance: elements seen at the displacement `seen`, a load that does not follow it (N, N mm), the
 /// diagonal of C.
 ///
 /// # Errors
-/// No balance within 60 steps: forces that are not numbers. Lengths in the error are those of scaled
-/// coordinates, square roots of N mm.
-pub fn balance(diagonal: DVec4, elements: &[EdgeElement], seen: DVec4, load: DVec4) -> Result<DVec4, NotConverged> {
+/// Forces that fall with the thickness of the chip by more than the machine is stiff; no balance within 60 steps:
+/// forces that are not numbers. Lengths in the error are those of scaled coordinates, square roots of N mm.
+pub fn balance(diagonal: DVec4, elements: &[EdgeElement], seen: DVec4, load: DVec4) -> Result<DVec4, NoBalance> {
     // q = S s with S = sqrt(C).
     let root = DVec4::from_array(diagonal.to_array().map(f64::sqrt));
+    if !is_convex(root, elements) {
+        return Err(NoBalance::NotConvex);
+    }
     let push = root * load;
     let energy = |s: DVec4| {
         let q = root * s;
@@ -97,7 +118,7 @@ pub fn balance(diagonal: DVec4, elements: &[EdgeElement], seen: DVec4, load: DVe
             let [force, rate, _] = element.force(element.thickness_mm + element.moves.dot(q - seen));
             let m = root * element.moves;
             gradient += force * m;
-            if rate > 0.0 {
+            if rate != 0.0 {
                 let column = |i: usize| rate * m[i] * m;
                 hessian += DMat4::from_cols(column(0), column(1), column(2), column(3));
             }
@@ -129,12 +150,13 @@ pub fn balance(diagonal: DVec4, elements: &[EdgeElement], seen: DVec4, load: DVe
         lost.last = s.length();
     }
     let parts = now.abs() + 0.5 * s.length_squared() + push.dot(s).abs();
-    if fall <= FLAT * parts { Ok(root * bottom) } else { Err(lost) }
+    if fall <= FLAT * parts { Ok(root * bottom) } else { Err(NoBalance::NotFound(lost)) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use gearcut_core::cut::LEAST_CHIP_MM;
     use glam::Vec4Swizzles;
 
     fn element(thickness_mm: f64, moves: DVec4, chip_n_per_mm: f64, edge_n: f64) -> EdgeElement {
@@ -207,11 +229,39 @@ mod tests {
             assert!((balance(diagonal, &moved, seen, load).unwrap() - q).abs().max_element() < 1e-12);
         }
     }
+
+    /// A force that falls with the thickness leaves one balance while the machine is stiffer, d = C F_0 / (1 + C k) as
+    /// ever, and is refused beyond. Alone or together: ten elements fall ten times as fast, and those that rise
+    /// elsewhere do not make up for it.
+    #[test]
+    fn forces_that_fall_faster_than_the_machine_is_stiff_are_refused() {
+        let (c, h) = (1e-3, 0.05);
+        let of = |count: usize, chip_n_per_mm: f64, edge_n: f64| {
+            let rising = element(h, DVec4::Y, 4e4, 30.0);
+            let mut elements = vec![element(h, -DVec4::X, chip_n_per_mm, edge_n); count];
+            elements.push(rising);
+            balance(DVec4::X * c, &elements, DVec4::ZERO, DVec4::ZERO)
+        };
+        for (count, k) in [(1, -0.9 / c), (10, -0.09 / c)] {
+            let exact_mm = c * count as f64 * k * h / (1.0 + c * count as f64 * k);
+            let found_mm = of(count, k, 0.0).unwrap().x;
+            assert!((found_mm / exact_mm - 1.0).abs() < 1e-9, "{found_mm} for {exact_mm}");
+        }
+        for (count, k) in [(1, -1.1 / c), (10, -0.11 / c)] {
+            assert_eq!(of(count, k, 0.0), Err(NoBalance::NotConvex), "{count} elements");
+        }
+        // An edge that pulls: without the material it stays out, and once in it stays in.
+        let pull_n = -2.0 * LEAST_CHIP_MM / c;
+        assert_eq!(of(1, 0.0, pull_n), Err(NoBalance::NotConvex));
+        assert!(of(1, 0.0, 0.4 * pull_n).is_ok());
+        assert!(of(1, f64::NAN, f64::NAN).is_err());
+    }
+
     /// What has no balance is no displacement: it ends with an error and its numbers, not with the last try.
     #[test]
     fn forces_that_are_no_numbers_end_with_an_error() {
         let lost = balance(DVec4::ONE, &[element(f64::NAN, -DVec4::X, 1e4, 5.0)], DVec4::ZERO, DVec4::ZERO);
-        let lost = lost.unwrap_err();
+        let Err(NoBalance::NotFound(lost)) = lost else { panic!("{lost:?}") };
         assert!(lost.residual.is_nan() && lost.after == 1, "{lost}");
         assert!(lost.to_string().contains("the balance of the cut with a machine that yields is not found"), "{lost}");
     }

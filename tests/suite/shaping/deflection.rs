@@ -11,7 +11,6 @@ use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::chips::{ChipLedger, deflections};
 use gearcut::process::shaping::measure::flank_deflection::at_pitch_point_mm;
 use glam::DVec4;
-use std::path::Path;
 
 /// A round gear, fed in over half a turn.
 pub(super) const ROUND: &str =
@@ -265,32 +264,4 @@ fn rays_that_lose_thin_chips_settle() {
     let (coarse_mm, fine_mm) = (largest_mm("fields.chips.spacing_mm=1"), largest_mm("fields.chips.spacing_mm=0.05"));
     println!("{coarse_mm} mm, with fine rays {fine_mm}");
     assert!((coarse_mm / fine_mm - 1.0).abs() < 0.3);
-}
-
-#[test]
-fn a_first_stroke_at_full_depth_is_refused_with_its_size() {
-    let text =
-        ROUND.split("[operation.infeed.spiral]").next().expect("a scene").to_owned() + "[operation.infeed.none]\n";
-    let refusal = deflections(&job(&text, &SOFT), &|| true).expect_err("a plug of whole tooth spaces").to_string();
-    println!("{refusal}");
-    assert!(refusal.contains("operation finish, stroke 0") && refusal.contains("um away"), "{refusal}");
-}
-
-#[test]
-fn compliances_are_checked_and_belong_to_shaping() {
-    let refused = |text: &str, setting: &str| {
-        let told = gearcut::process::parse(text, "scene.toml", Path::new(""), &[setting.to_owned()]);
-        told.expect_err("refused").to_string()
-    };
-    for value in ["-1", "nan", "1e6", "\"soft\""] {
-        let told = refused(ROUND, &format!("machine.compliance.tool_radial_um_per_kn={value}"));
-        assert!(told.contains("machine.compliance.tool_radial_um_per_kn"), "{told}");
-    }
-    let hobbing = include_str!("../../../scenes/hobbing/machine_errors.toml");
-    let bevel = include_str!("../../../scenes/bevel/machine_errors.toml");
-    for text in [hobbing, bevel] {
-        let told = refused(text, "machine.compliance.tool_radial_um_per_kn=8");
-        println!("{told}");
-        assert!(told.contains("machine.compliance") && told.contains("shaper_cutter"), "{told}");
-    }
 }

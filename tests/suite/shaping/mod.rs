@@ -8,6 +8,7 @@ mod chips;
 mod covered;
 mod deflection;
 mod deflection_polygons;
+mod deflection_refused;
 mod edge_roughness;
 mod flank_chips;
 mod flank_heights;

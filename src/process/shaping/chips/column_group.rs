@@ -102,3 +102,54 @@ impl ColumnGroup {
         self.lowest.insert((passes.start, passes.end), lowest);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::deciding::{ColumnPasses, deciding};
+    use super::super::segments::passes_near;
+    use super::*;
+    use crate::process::load;
+    use crate::process::shaping::ShapingJob;
+    use gearcut_core::terms::Side;
+    use std::path::Path;
+
+    /// Columns of some groups of which a group with `share` of its margin loses a pass that decides on the last chip;
+    /// and all columns. What decides is what columns say that are looked at one by one.
+    fn columns_that_lose(share: f64) -> [usize; 2] {
+        let scene = load(Path::new("scenes/shaping/elliptical_normal.toml"), &[]).expect("the shipped scene");
+        let job = ShapingJob::new(scene.scene).expect("the shipped gear");
+        let field = job.flank_field(job.target_flank(4, Side::Left));
+        let places: Vec<usize> = (0..field.columns.len()).step_by(4).collect();
+        let field = field.at([&places, &[0]]);
+        let near = passes_near(&job, &field);
+        let segments = Segments::new(job.cutter.edge(), std::slice::from_ref(job.cutter.edge()));
+        let decide = |group: &mut ColumnGroup, ray: &Column| -> Vec<usize> {
+            let mut passes = ColumnPasses::new(&segments, &near, ray, group);
+            deciding(&mut passes, near.len()).iter().map(|reaching| reaching.near).collect()
+        };
+        let (mut lost, mut all) = (0, 0);
+        for (_, columns) in ColumnGroup::groups(&field.columns).into_iter().step_by(5) {
+            assert!(columns.len() > 3, "a group of {} columns", columns.len());
+            let mut group = ColumnGroup::new(columns, near.len(), None);
+            assert!(group.apart_mm > 0.1, "{} mm", group.apart_mm);
+            group.apart_mm *= share;
+            for ray in columns {
+                let alone = decide(&mut ColumnGroup::new(std::slice::from_ref(ray), near.len(), None), ray);
+                let in_group = decide(&mut group, ray);
+                all += 1;
+                lost += usize::from(alone.iter().any(|pass| !in_group.contains(pass)));
+            }
+        }
+        [lost, all]
+    }
+
+    /// Planted: without the margin passes that decide are answered for. Half of it loses none here: it counts how far
+    /// rays lie apart from twice their lowest height on, where few surfaces are.
+    #[test]
+    fn a_group_whose_margin_is_too_small_loses_chips() {
+        let [whole, none] = [1.0, 0.0].map(columns_that_lose);
+        println!("whole margin {whole:?}, none {none:?}");
+        assert!(whole[0] == 0 && whole[1] > 20, "{whole:?}");
+        assert!(none[0] > none[1] / 2, "{none:?}");
+    }
+}

@@ -25,10 +25,10 @@
 use super::oblique::ElementForce;
 use super::section::SpaceSection;
 use super::space::{LEAST_AREA_MM2, Space, SpacePass, contours, middle_pose};
-use crate::machine_errors::{Deflection, EdgeElement, balance};
+use crate::machine_errors::{Deflection, EdgeElement, NoBalance, balance};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_polygon::EdgePolygon;
-use gearcut_core::error::{NotConverged, Refusal};
+use gearcut_core::error::Refusal;
 use gearcut_core::frame::Rigid2;
 use gearcut_core::tool::{CuttingTool, PlanarTool};
 use gearcut_core::units::UM_PER_MM;
@@ -206,7 +206,7 @@ enum Unsettled {
     /// The last look still changed it.
     StillMoving { displaced_mm: f64, still_mm: f64 },
     /// The chips of a look have no balance.
-    NoBalance(NotConverged),
+    NoBalance(NoBalance),
 }
 
 impl YieldingStroke<'_> {
@@ -281,9 +281,10 @@ impl Unsettled {
                 ),
                 "take a smaller fields.chips.spacing_mm, more strokes_per_revolution, or smaller compliances",
             ),
-            Self::NoBalance(lost) => {
-                (lost.to_string(), "look at the compliances and at the coefficients of [material]")
-            }
+            Self::NoBalance(lost) => (
+                lost.to_string(),
+                "look at the compliances, the coefficients of [material] and the cutter's rake angle",
+            ),
         };
         Refusal::new("machine.compliance", format!("operation {name}, stroke {stroke}: {problem}"), way_out)
     }
