@@ -3,6 +3,8 @@
 //! In: values with their uncertainties. Out: [`MeasuredGear`]. Files fill it (`files.rs`).
 
 use crate::influence::charts::MeasuredLine;
+use crate::influence::numbers::TEXTURE;
+use std::collections::BTreeMap;
 
 /// A measured number.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,5 +45,19 @@ impl MeasuredGear {
     /// Numbers alone.
     pub fn of_numbers(numbers: Vec<MeasuredNumber>) -> Self {
         Self { numbers, ..Self::default() }
+    }
+
+    /// Surfaces of which several numbers were measured, with these numbers: Sa, Sk, Spk and Svk of a window rise and
+    /// fall together from one random flank to the next, and the fit takes them as independent. Of n numbers that do so
+    /// wholly it counts one observation n times: intervals are too narrow by sqrt(n), by no more whatever the
+    /// correlations are, for no eigenvalue of n numbers' correlation matrix is above n.
+    pub fn of_one_surface(&self) -> BTreeMap<&str, Vec<&str>> {
+        let mut surfaces: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+        let numbers = self.numbers.iter().filter_map(|number| number.quantity.strip_prefix(TEXTURE)?.rsplit_once('.'));
+        for (path, symbol) in numbers {
+            surfaces.entry(path.strip_suffix(".parameters").unwrap_or(path)).or_default().push(symbol);
+        }
+        surfaces.retain(|_, symbols| symbols.len() > 1);
+        surfaces
     }
 }

@@ -82,8 +82,16 @@ fn warnings(measured: &MeasuredGear, found: &Calibration) -> Vec<Warning> {
     });
     let bare = (found.freedom == 0)
         .then(|| Warning::note("as many numbers are fitted as measured: that they agree says nothing about the model"));
+    let together = measured.of_one_surface().into_iter().map(|(surface, symbols)| {
+        Warning::warn(format!(
+            "{} of {surface} come from one surface, and are fitted as if each had been measured on a surface of its \
+             own: intervals of what they say may be too narrow, by a factor of up to {}",
+            symbols.join(", "),
+            significant((symbols.len() as f64).sqrt(), 2)
+        ))
+    });
     let files = measured.notes.iter().map(|note| Warning::note(note.clone()));
-    stopped.into_iter().chain(lost).chain(moving).chain(left).chain(bare).chain(files).collect()
+    stopped.into_iter().chain(lost).chain(moving).chain(left).chain(bare).chain(together).chain(files).collect()
 }
 
 fn fits(found: &Calibration) -> Table {

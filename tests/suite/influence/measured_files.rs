@@ -133,11 +133,27 @@ fn a_surface_gives_back_the_roughness_of_the_edges() {
     shop.run("cut", &rough, &["--only", "texture", "--out", "cut"]).done();
     let key = "tool.shaper_cutter.edge_roughness.rq_um";
     let surface = ["--measured", "cut/texture/finish/tooth_03_left.x3p", "--surface-percent", "3", "--fit", key];
-    shop.run("calibrate", &[fine], &surface).done().says(&["texture.finish.tooth_03_left.parameters.Sa"]);
+    let done = shop.run("calibrate", &[fine], &surface).done();
+    let done = done.says(&["texture.finish.tooth_03_left.parameters.Sa"]);
     let [shift, half] = shop.fitted("out/round_calibration", key);
     assert!((shift - 0.2).abs() < 0.002 && half > 0.0 && half < 0.05, "{shift} +- {half} um");
     let results = read_json(&shop.0.path().join("out/round_calibration/results.json"));
-    assert_eq!(results["warnings"], serde_json::json!([]), "the window is the scene's own");
+    // The window is the scene's own; its numbers are no independent ones, and the output says so.
+    let warnings = results["warnings"].as_array().expect("a list");
+    let told = warnings.iter().map(|warning| warning["text"].as_str().expect("words")).collect::<Vec<_>>();
+    assert_eq!(told.len(), 1, "{told:?}");
+    let words = "Sa, Sk, Spk, Svk of finish.tooth_03_left come from one surface";
+    assert!(told[0].contains(words) && told[0].contains("a factor of up to 2.0"), "{told:?}");
+    let printed = done.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(printed.contains(words), "{}", done.err);
+    let page = std::fs::read_to_string(shop.0.path().join("out/round_calibration/report.html")).expect("a page");
+    assert!(page.contains(words), "the page does not say it");
+    // One number of it is one observation.
+    let alone = [&surface[..], &["--surface-numbers", "Sa", "--out", "one"]].concat();
+    let done = shop.run("calibrate", &[fine], &alone).done();
+    assert!(!done.err.contains("one surface"), "{}", done.err);
+    let [shift, half] = shop.fitted("one", key);
+    assert!((shift - 0.2).abs() < 0.002 && half > 0.0, "{shift} +- {half} um");
     let gone = [&surface[..1], &["cut/texture/finish/tooth_03_left.x3p@finish.tooth_04_left"], &surface[2..]].concat();
     shop.run("calibrate", &[], &gone).failed(1, &["finish.tooth_04_left", "finish.tooth_03_left"]);
     // What is random is no error of form.
