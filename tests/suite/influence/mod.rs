@@ -8,3 +8,4 @@ mod measured_files;
 mod parameters;
 mod round;
 mod spatial;
+mod turning_tools;

@@ -60,7 +60,7 @@ pub fn contacts(grid: &GearGrid) -> Vec<Contact> {
     grid.flanks.iter().flat_map(of_flank).collect()
 }
 
-fn contact(place_mm: DVec3, normal: DVec3) -> Contact {
+pub(super) fn contact(place_mm: DVec3, normal: DVec3) -> Contact {
     let (point_mm, normal) = (place_mm.truncate(), normal.truncate());
     // |p + l n| = r; the pitch point is the nearer of both solutions.
     let (b, c) = (point_mm.dot(normal), point_mm.length_squared() - PITCH_MM * PITCH_MM);

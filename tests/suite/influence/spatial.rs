@@ -19,16 +19,17 @@ use std::path::Path;
 const PITCH_MM: f64 = 36.0;
 
 /// Some flanks of a shipped scene and its heights there.
-struct Gear {
-    loaded: LoadedScene,
+pub(super) struct Gear {
+    pub(super) loaded: LoadedScene,
     grid: GearGrid,
     before_um: Vec<f64>,
 }
 
 /// A place with its normal.
-struct Place {
-    point_mm: DVec3,
-    normal: DVec3,
+pub(super) struct Place {
+    pub(super) point_mm: DVec3,
+    pub(super) normal: DVec3,
+    pub(super) side: Side,
 }
 
 impl Place {
@@ -46,8 +47,18 @@ impl Gear {
     fn new(
         scene: &str,
         settings: &[&str],
-        (teeth, rows_mm): (&[u32], &[f64]),
+        places: (&[u32], &[f64]),
         arc_mm: impl Fn(&dyn GearJob, u32, Side) -> f64,
+    ) -> Self {
+        Self::at_arcs(scene, settings, places, |gear, tooth, side| vec![arc_mm(gear, tooth, side)])
+    }
+
+    /// The same at several arcs.
+    pub(super) fn at_arcs(
+        scene: &str,
+        settings: &[&str],
+        (teeth, rows_mm): (&[u32], &[f64]),
+        arcs_mm: impl Fn(&dyn GearJob, u32, Side) -> Vec<f64>,
     ) -> Self {
         let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
         let loaded = process::load(Path::new(&format!("scenes/{scene}.toml")), &settings).expect("a scene");
@@ -56,7 +67,7 @@ impl Gear {
         let done = prepared.with_gear(&mut |gear| {
             for &tooth in teeth {
                 for side in [Side::Left, Side::Right] {
-                    let arcs_mm = vec![arc_mm(gear, tooth, side)];
+                    let arcs_mm = arcs_mm(gear, tooth, side);
                     flanks.push(FlankGrid::new(gear, tooth, side, arcs_mm, rows_mm.to_vec())?);
                 }
             }
@@ -69,13 +80,20 @@ impl Gear {
     }
 
     /// Influence of a parameter at all places, for its natural step, mm.
-    fn influences(&self, id: &str) -> (f64, Vec<(Place, f64)>) {
-        let all = error_parameters(&self.loaded, false);
+    pub(super) fn influences(&self, id: &str) -> (f64, Vec<(Place, f64)>) {
+        self.influences_by(id, 1.0)
+    }
+
+    /// The same for a share of its natural step.
+    pub(super) fn influences_by(&self, id: &str, share: f64) -> (f64, Vec<(Place, f64)>) {
+        let all = error_parameters(&self.loaded, true);
         let parameter = all.into_iter().find(|of| of.id == id).unwrap_or_else(|| panic!("{id} is no parameter"));
+        let step = share * parameter.step;
+        let parameter = parameter.with_step(step);
         let found = Influence::new(&self.loaded, &self.grid, &self.before_um, &parameter, &Cpu::default())
             .unwrap_or_else(|error| panic!("{id}: {error}"));
-        let rays = self.grid.flanks.iter().flat_map(|flank| &flank.rays);
-        let places = rays.map(|ray| Place { point_mm: ray.origin_mm, normal: ray.normal });
+        let rays = self.grid.flanks.iter().flat_map(|flank| flank.rays.iter().map(|ray| (flank.side, ray)));
+        let places = rays.map(|(side, ray)| Place { point_mm: ray.origin_mm, normal: ray.normal, side });
         let mm = found.um_per_unit.iter().map(|um| 1e-3 * um * parameter.step);
         (parameter.step, places.zip(mm).collect())
     }
