@@ -23,8 +23,8 @@ pub fn run(arguments: &BudgetArguments) -> Result<(), Failure> {
     let options = BudgetOptions { parameters: arguments.parameters.clone(), flanks, numbers: arguments.numbers };
     let progress = Progress::new(ProgressMode::choose(false, false));
     let choice = choose(BackendWish::Cpu, OnFailure::default())?;
-    let filled = folder::fill_partly(&out, "budget", |folder, interrupt| {
-        let found = budget::budget(&loaded, &options, &choice, &progress, interrupt)?;
+    let filled = folder::fill_partly(&out, "budget", |folder, interrupt, known| {
+        let found = budget::budget(&loaded, &options, &choice, &progress, interrupt, known)?;
         let tree = budget::findings(&loaded.scene, &found);
         budget::write(&loaded.scene, &found, &tree, folder)?;
         let record = vec![("parameters", json!(options.parameters)), ("scene", json!(loaded.resolved_toml()))];

@@ -25,8 +25,8 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_calibration")));
     let progress = Progress::new(ProgressMode::choose(false, false));
     let choice = choose(BackendWish::Cpu, OnFailure::default())?;
-    let filled = folder::fill_partly(&out, "calibrate", |folder, interrupt| {
-        let found = Calibration::new(&loaded, &parameters, &measured, &choice, &progress, interrupt)?;
+    let filled = folder::fill_partly(&out, "calibrate", |folder, interrupt, known| {
+        let found = Calibration::new(&loaded, &parameters, &measured, &choice, &progress, interrupt, known)?;
         let tree = calibrate::findings(&loaded.scene, &measured, &found);
         calibrate::write(&loaded.scene, &measured, &found, &tree, folder)?;
         let record = vec![

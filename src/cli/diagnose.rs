@@ -28,8 +28,8 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
     let progress = Progress::new(ProgressMode::choose(false, false));
     let backend = choose(BackendWish::Cpu, OnFailure::default())?.backend;
     let names = &arguments.parameters;
-    let filled = folder::fill_partly(&out, "diagnose", |folder, interrupt| {
-        let model = ErrorModel::new(&loaded, &points, names, backend.as_ref(), &progress, interrupt)?;
+    let filled = folder::fill_partly(&out, "diagnose", |folder, interrupt, known| {
+        let model = ErrorModel::new(&loaded, &points, names, backend.as_ref(), &progress, interrupt, known)?;
         let measured_um: Vec<f64> = points.iter().map(|point| point.deviation_um).collect();
         let found = Diagnosis::new(&model, &measured_um, noise_um)?;
         let tree = diagnose::findings(&loaded.scene, &model, &points, noise_um, &found);

@@ -8,6 +8,8 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use super::print::to_stderr;
+use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::folder::{OutputFolder, RUN_RECORD};
 use gearcut::{Error, Result};
@@ -26,42 +28,76 @@ pub fn fill<T>(
     command: &str,
     write: impl FnOnce(&OutputFolder, &Interrupt) -> Result<(Record, T)>,
 ) -> Result<(PathBuf, T)> {
-    let (path, value, _) = fill_partly(path, command, |folder, interrupt| {
-        let (record, value) = write(folder, interrupt)?;
+    let interrupt = Interrupt::listen().map_err(listening(path))?;
+    let folder = OutputFolder::create_of(path, command, &[])?;
+    let written = || {
+        let (record, value) = write(&folder, &interrupt)?;
         interrupt.check()?;
-        Ok((record, value, true))
-    })?;
-    Ok((path, value))
+        write_record(&folder, command, true, record)?;
+        Ok(value)
+    };
+    let value = written().map_err(|error| folder.explain(error))?;
+    Ok((folder.finish()?, value))
 }
 
 /// The same for work of minutes, which keeps what is finished: `write` also tells whether that is all. Files that are
-/// not all go to the partial name; whether they are all is given back, too.
+/// not all go to the partial name; whether they are all is given back, too. Under that name cuts grow meanwhile: after
+/// Ctrl-C or a kill the next run takes up those that it would make itself.
 ///
 /// # Errors
 /// As for [`fill`]; Ctrl-C before anything is finished.
 pub fn fill_partly<T>(
     path: &Path,
     command: &str,
-    write: impl FnOnce(&OutputFolder, &Interrupt) -> Result<(Record, T, bool)>,
+    write: impl FnOnce(&OutputFolder, &Interrupt, &KnownCuts) -> Result<(Record, T, bool)>,
 ) -> Result<(PathBuf, T, bool)> {
     let interrupt = Interrupt::listen().map_err(listening(path))?;
     let folder = OutputFolder::create_of(path, command, &[])?;
+    let known = KnownCuts::growing_in(&folder.results_path(false), record_of(command, false))?;
     let written = || {
-        let (more, value, complete) = write(&folder, &interrupt)?;
-        let mut record = Map::new();
-        record.insert("program".to_owned(), json!("gearcut"));
-        record.insert("program_version".to_owned(), json!(env!("CARGO_PKG_VERSION")));
-        record.insert("command".to_owned(), json!(command));
+        let (more, value, complete) = write(&folder, &interrupt, &known)?;
+        write_record(&folder, command, complete, more)?;
         if !complete {
-            record.insert("complete".to_owned(), json!(false));
+            known.write(&folder)?;
         }
-        record.extend(more.into_iter().map(|(key, value)| (key.to_owned(), value)));
-        folder.write_json(RUN_RECORD, &Value::Object(record))?;
         Ok((value, complete))
     };
-    let (value, complete) = written().map_err(|error| folder.explain(error))?;
-    let path = if complete { folder.finish()? } else { folder.finish_partial()? };
-    Ok((path, value, complete))
+    let written = written().map_err(|error| folder.explain(error));
+    let [made, taken] = known.made_and_taken();
+    if taken > 0 {
+        to_stderr(&format!("note: {taken} cuts are those of a run that was stopped; {made} were made now"));
+    }
+    match written {
+        // The file of cuts is closed before its folder gets another name: systems refuse that while it is open.
+        Ok((value, complete)) => {
+            drop(known);
+            let path = if complete { folder.finish()? } else { folder.finish_partial()? };
+            Ok((path, value, complete))
+        }
+        Err(Error::Interrupted) => Err(Error::Interrupted),
+        Err(failed) => {
+            known.forget()?;
+            Err(failed)
+        }
+    }
+}
+
+/// The beginning of a run record.
+fn record_of(command: &str, complete: bool) -> Map<String, Value> {
+    let mut record = Map::new();
+    record.insert("program".to_owned(), json!("gearcut"));
+    record.insert("program_version".to_owned(), json!(env!("CARGO_PKG_VERSION")));
+    record.insert("command".to_owned(), json!(command));
+    if !complete {
+        record.insert("complete".to_owned(), json!(false));
+    }
+    record
+}
+
+fn write_record(folder: &OutputFolder, command: &str, complete: bool, more: Record) -> Result<()> {
+    let mut record = record_of(command, complete);
+    record.extend(more.into_iter().map(|(key, value)| (key.to_owned(), value)));
+    folder.write_json(RUN_RECORD, &Value::Object(record))
 }
 
 /// What could not be listened for.

@@ -10,7 +10,7 @@ use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::scatter::folder::ScatterFolder;
 use gearcut::scatter::layers::{cases, measure_cases};
-use gearcut::scatter::rows::{self, RowFile, Rows};
+use gearcut::scatter::rows::{self, Rows};
 use gearcut::scatter::seeds::measure_seeds;
 use gearcut::scatter::tolerance::{self, Tolerance};
 use gearcut::scatter::{FlankWish, Scatter, findings, page, printed};
@@ -74,7 +74,7 @@ fn seeds(
     folder: &ScatterFolder,
     watch: (&Progress, &Interrupt),
 ) -> Result<Rows, Error> {
-    let (file, known) = RowFile::open(&folder.rows())?;
+    let (file, known) = rows::open(&folder.rows())?;
     let with_seed = |seed: u32| {
         let mut settings = arguments.scene.settings.clone();
         settings.push(format!("machine.errors.seed={seed}"));

@@ -4,7 +4,7 @@
 //! largest deviation that a natural step of each leaves, for a micrometre, an arc second and a micrometre per hour
 //! cannot be compared.
 //!
-//! What Ctrl-C interrupts keeps the parameters that are finished.
+//! What Ctrl-C interrupts keeps the parameters that are finished, and all cuts ([`super::known_cuts`]).
 
 mod findings;
 mod page;
@@ -13,6 +13,7 @@ mod reported;
 use super::derivative::Influence;
 use super::figures::Figures;
 use super::gear_grid::GearGrid;
+use super::known_cuts::{KnownCuts, digest};
 use super::numbers::numbers;
 use crate::backend::Choice;
 use crate::interrupt::Interrupt;
@@ -73,7 +74,7 @@ impl BudgetLine {
     }
 }
 
-/// Finds the influence of every parameter that is asked for.
+/// Finds the influence of every parameter that is asked for; cuts that are known are not made again.
 ///
 /// # Errors
 /// Parameters and flanks that are not there; geometry that cannot be cut; the backend's; Ctrl-C before anything is
@@ -84,6 +85,7 @@ pub fn budget(
     choice: &Choice,
     progress: &Progress,
     interrupt: &Interrupt,
+    known: &KnownCuts,
 ) -> Result<Budget> {
     let backend = choice.backend.as_ref();
     let parameters = chosen(loaded, &options.parameters)?;
@@ -94,7 +96,9 @@ pub fn budget(
         Ok(())
     })?;
     let grid = grid.expect("a job shows its gear");
-    let before_um = grid.heights_um(&loaded.scene, backend)?;
+    let asked = digest(&("heights", &grid, choice.backend.name()));
+    let heights_um = |scene: &Scene| known.all_of(scene, &asked, || grid.heights_um(scene, backend));
+    let before_um = heights_um(&loaded.scene)?;
     let numbers = if options.numbers { Some(numbers(loaded, choice, interrupt)?) } else { None };
     let step = progress.step("influence", parameters.len() as u64, "parameters");
     let (mut lines, mut refused, mut reported, mut complete) = (Vec::new(), Vec::new(), Vec::new(), true);
@@ -103,10 +107,11 @@ pub fn budget(
             complete = false;
             break;
         }
-        let found = Influence::new(loaded, &grid, &before_um, &parameter, backend)
-            .and_then(|influence| influence.checked(loaded, &grid, &before_um, backend))
+        let found = Influence::by(loaded, &before_um, &parameter, &heights_um)
+            .and_then(|influence| influence.checked(loaded, &before_um, &heights_um))
             .and_then(|influence| {
-                let changed = numbers.as_ref().map(|of| reported::reported(loaded, &parameter, of, choice, interrupt));
+                let changed =
+                    numbers.as_ref().map(|of| reported::reported(loaded, &parameter, of, (choice, known), interrupt));
                 Ok((influence, changed.transpose()?.unwrap_or_default()))
             });
         match found {

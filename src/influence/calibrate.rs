@@ -11,7 +11,8 @@
 //! both sides of a difference have the same noise. Intervals are those of the linear fit at the end.
 //!
 //! A parameter whose derivatives are nothing, or a combination of the others', cannot be identified, and is said to:
-//! its shift means nothing then. After Ctrl-C the fit is that of the rounds that are done. Road not taken: a crate for
+//! its shift means nothing then. After Ctrl-C the fit is that of the rounds that are done; cuts
+//! are kept, and the next run goes the same way through them ([`super::known_cuts`]). Road not taken: a crate for
 //! nonlinear least squares. They bring a matrix library with them, and the linear fit that diagnoses use is all that is
 //! needed.
 
@@ -22,6 +23,7 @@ mod trial;
 mod write;
 
 use super::interval::interval;
+use super::known_cuts::KnownCuts;
 use crate::backend::Choice;
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
@@ -140,7 +142,7 @@ impl FitState {
 }
 
 impl Calibration {
-    /// Fits parameters to what was measured.
+    /// Fits parameters to what was measured; cuts that are known are not made again.
     ///
     /// # Errors
     /// Numbers and places that the gear does not have; values that the scene may not have; geometry; Ctrl-C in the
@@ -152,11 +154,12 @@ impl Calibration {
         choice: &Choice,
         progress: &Progress,
         interrupt: &Interrupt,
+        known: &KnownCuts,
     ) -> Result<Self> {
         let count = parameters.len();
         // A round takes two cuts for each parameter and mostly one for its step.
         let step = progress.step("fit", (1 + MOST_ROUNDS * (2 * count + 1)) as u64, "cuts at most");
-        let trial = Trial::new(loaded, parameters, measured, choice, interrupt, &step)?;
+        let trial = Trial::new(loaded, parameters, measured, (choice, known), interrupt, &step)?;
         let shifts = vec![0.0; count];
         let before = trial.predicted(&shifts)?.expect("nothing is shifted");
         let left = norm(&trial.residuals(&before)).powi(2);

@@ -6,8 +6,8 @@
 
 use super::gear_grid::GearGrid;
 use crate::process;
-use crate::scene::LoadedScene;
 use crate::scene::error_parameters::{ErrorParameter, Shifted};
+use crate::scene::{LoadedScene, Scene};
 use gearcut_core::cut::Backend;
 use gearcut_core::error::{Error, Result};
 
@@ -16,6 +16,9 @@ use gearcut_core::error::{Error, Result};
 const LINEAR_SHARE: f64 = 0.02;
 /// Nor are differences of heights up to this, um: marks of strokes that come to stand elsewhere.
 const LINEAR_UM: f64 = 0.05;
+
+/// Heights of a scene's gear, um.
+pub type HeightsOf<'a> = dyn Fn(&Scene) -> Result<Vec<f64>> + 'a;
 
 /// The influence of one parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,11 +47,24 @@ impl Influence {
         parameter: &ErrorParameter,
         backend: &dyn Backend,
     ) -> Result<Self> {
+        Self::by(loaded, before_um, parameter, &|scene| grid.heights_um(scene, backend))
+    }
+
+    /// The same where `heights_um` gives the heights of a scene's gear.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn by(
+        loaded: &LoadedScene,
+        before_um: &[f64],
+        parameter: &ErrorParameter,
+        heights_um: &HeightsOf,
+    ) -> Result<Self> {
         let step = parameter.step;
-        let above = shifted_um(loaded, grid, parameter, step, backend)?.unwrap_or_default();
+        let above = shifted_um(loaded, parameter, step, heights_um)?.unwrap_or_default();
         let half_step_um = 0.0;
         let parameter = parameter.clone();
-        let Some(below) = shifted_um(loaded, grid, &parameter, -step, backend)? else {
+        let Some(below) = shifted_um(loaded, &parameter, -step, heights_um)? else {
             let um_per_unit = above.iter().zip(before_um).map(|(a, b)| (a - b) / step).collect();
             return Ok(Self { parameter, um_per_unit, upwards_only: true, half_step_um, bend_um: 0.0 });
         };
@@ -61,15 +77,9 @@ impl Influence {
     ///
     /// # Errors
     /// As for [`Self::new`].
-    pub fn checked(
-        self,
-        loaded: &LoadedScene,
-        grid: &GearGrid,
-        before_um: &[f64],
-        backend: &dyn Backend,
-    ) -> Result<Self> {
+    pub fn checked(self, loaded: &LoadedScene, before_um: &[f64], heights_um: &HeightsOf) -> Result<Self> {
         let halved = self.parameter.clone().with_step(0.5 * self.parameter.step);
-        let half = Self::new(loaded, grid, before_um, &halved, backend)?;
+        let half = Self::by(loaded, before_um, &halved, heights_um)?;
         let half_step_um = largest(self.um_per_unit.iter().zip(&half.um_per_unit).map(|(a, b)| a - b));
         Ok(Self { half_step_um, ..self })
     }
@@ -89,16 +99,15 @@ impl Influence {
 /// Heights with a parameter shifted, um; `None` where the scene has no word for it.
 fn shifted_um(
     loaded: &LoadedScene,
-    grid: &GearGrid,
     parameter: &ErrorParameter,
     by: f64,
-    backend: &dyn Backend,
+    heights_um: &HeightsOf,
 ) -> Result<Option<Vec<f64>>> {
     let mut shifted = Shifted::new(loaded);
     if !shifted.shift(parameter, by) {
         return Ok(None);
     }
-    grid.heights_um(&read(&shifted)?.scene, backend).map(Some)
+    heights_um(&read(&shifted)?.scene).map(Some)
 }
 
 /// The shifted scene; what it refuses is an error of the work.

@@ -6,6 +6,7 @@
 //! | what | where |
 //! | --- | --- |
 //! | complete or absent: one file, one folder | [`atomic`], [`folder`] |
+//! | rows that a stop does not take | [`growing`] |
 //! | tables | [`table`] |
 //! | findings for the terminal | [`summary`] |
 //! | text for the terminal | [`text`] |
@@ -38,6 +39,8 @@ pub mod flank_maps;
 #[doc(hidden)]
 pub mod folder;
 mod font;
+#[doc(hidden)]
+pub mod growing;
 mod heat;
 #[doc(hidden)]
 pub mod inspection_sheet;

@@ -9,10 +9,10 @@
 //!
 //! Road not taken: rows under the hidden name. The next run removes what a killed one left there.
 
-use crate::output::atomic::write_bytes_atomically;
 use crate::output::folder::{OutputFolder, RUN_RECORD};
+use crate::output::growing::begin;
 use gearcut_core::error::{Error, Result};
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -52,13 +52,7 @@ impl ScatterFolder {
                     );
                 }
             }
-            None => {
-                fs::create_dir_all(path).map_err(Error::writing(path))?;
-                let mut unfinished = record.clone();
-                unfinished.insert("complete".to_owned(), json!(false));
-                let text = format!("{:#}\n", Value::Object(unfinished));
-                write_bytes_atomically(&path.join(RUN_RECORD), text.as_bytes())?;
-            }
+            None => begin(path, &record)?,
         }
         Ok(Self { path: path.to_owned(), record, hidden })
     }

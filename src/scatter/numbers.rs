@@ -13,6 +13,7 @@ use crate::influence::gear_grid::FlankGrid;
 use crate::job::{GearJob, rows_z_mm};
 use crate::measure::deviation::{PitchDeviations, Trace};
 use crate::measure::topography::Form;
+use crate::output::growing::RowValues;
 use crate::process;
 use crate::scene::Scene;
 use crate::scene::model::{TextureWindow, WindowSides};
@@ -86,7 +87,7 @@ pub const NUMBERS: [Number; 13] = [
 ];
 
 /// A gear's values of [`NUMBERS`].
-pub type Values = Vec<Option<f64>>;
+pub type Values = RowValues;
 
 /// Cuts what is needed of a gear and measures it.
 ///

@@ -2,7 +2,7 @@
 
 use super::FlankWish;
 use super::numbers::measure;
-use super::rows::{RowFile, Rows};
+use super::rows::{Rows, SeedFile};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use crate::scene::Scene;
@@ -16,7 +16,7 @@ use rayon::prelude::*;
 /// # Errors
 /// Geometry, the backend, the file. Ctrl-C is no error: what is finished is returned.
 pub fn measure_seeds(
-    (rows, file): (Rows, &RowFile),
+    (rows, file): (Rows, &SeedFile),
     seeds: u32,
     scene: impl Fn(u32) -> Result<Scene> + Sync,
     flank: FlankWish,
@@ -33,7 +33,7 @@ pub fn measure_seeds(
                 return Ok(None);
             }
             let values = measure(&scene(seed)?, flank, backend)?;
-            file.add(seed, &values)?;
+            file.add(&seed, &values)?;
             step.advance(1);
             Ok(Some((seed, values)))
         })

@@ -113,6 +113,11 @@ pub trait ProcessPart: Copied + Any + Debug + Send + Sync {
     fn ray_spacings(&self) -> Vec<(&'static str, [f64; 2])> {
         Vec::new()
     }
+
+    /// Files that are read when the scene is made ready: what they hold belongs to the scene.
+    fn files_read(&self) -> Vec<&Path> {
+        Vec::new()
+    }
 }
 
 /// Such a part whose type only its process knows.

@@ -5,8 +5,10 @@
 
 use crate::backend::Choice;
 use crate::influence::derivative::read;
+use crate::influence::known_cuts::{KnownCuts, digest};
 use crate::influence::numbers::{Numbers, numbers};
 use crate::interrupt::Interrupt;
+use crate::output::growing::RowValues;
 use crate::scene::LoadedScene;
 use crate::scene::error_parameters::{ErrorParameter, Shifted};
 use gearcut_core::error::Result;
@@ -39,29 +41,35 @@ pub fn reported(
     loaded: &LoadedScene,
     parameter: &ErrorParameter,
     before: &Numbers,
-    choice: &Choice,
+    (choice, known): (&Choice, &KnownCuts),
     interrupt: &Interrupt,
 ) -> Result<Vec<ReportedInfluence>> {
-    let at = |by: f64| -> Result<Option<Numbers>> {
+    let asked = digest(&("numbers", before.keys().collect::<Vec<_>>(), choice.backend.name()));
+    // The numbers that the scene has, in their order, with the parameter shifted.
+    let at = |by: f64| -> Result<Option<RowValues>> {
         let mut shifted = Shifted::new(loaded);
         if !shifted.shift(parameter, by) {
             return Ok(None);
         }
-        numbers(&read(&shifted)?, choice, interrupt).map(Some)
+        let there = read(&shifted)?;
+        let cut = || {
+            let found = numbers(&there, choice, interrupt)?;
+            Ok(before.keys().map(|path| Some(found.get(path)?.0)).collect())
+        };
+        known.of(&there.scene, &asked, cut).map(Some)
     };
     let (above, below) = (at(parameter.step)?, at(-parameter.step)?);
-    let slope = |other: &Option<Numbers>, path: &String, value: f64, by: f64| {
-        let (there, _) = other.as_ref()?.get(path)?;
-        let change = there - value;
+    let slope = |other: &Option<RowValues>, place: usize, value: f64, by: f64| {
+        let change = other.as_ref()?[place]? - value;
         Some(if change.abs() > ROUNDING * value.abs().max(1.0) { change / by } else { 0.0 })
     };
-    let influences = before.iter().map(|(path, (value, unit))| ReportedInfluence {
+    let influences = before.iter().enumerate().map(|(place, (path, (value, unit)))| ReportedInfluence {
         parameter: parameter.id.clone(),
         quantity: path.clone(),
         unit: unit.clone(),
         value: *value,
-        upwards: slope(&above, path, *value, parameter.step),
-        downwards: slope(&below, path, *value, -parameter.step),
+        upwards: slope(&above, place, *value, parameter.step),
+        downwards: slope(&below, place, *value, -parameter.step),
     });
     let moves = |of: &ReportedInfluence| [of.upwards, of.downwards].into_iter().flatten().any(|slope| slope != 0.0);
     Ok(influences.filter(moves).collect())

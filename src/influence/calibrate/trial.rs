@@ -9,6 +9,7 @@ use super::measured::{MeasuredGear, MeasuredNumber};
 use crate::backend::Choice;
 use crate::influence::charts::LaidCharts;
 use crate::influence::derivative::read;
+use crate::influence::known_cuts::{KnownCuts, digest};
 use crate::influence::numbers::{Numbers, TEXTURE, numbers, texture_numbers};
 use crate::interrupt::Interrupt;
 use crate::output::progress::ProgressStep;
@@ -30,6 +31,9 @@ pub(super) struct Trial<'a> {
     values: Vec<f64>,
     uncertainties: Vec<f64>,
     choice: &'a Choice,
+    known: &'a KnownCuts,
+    /// What is asked of every cut.
+    asked: String,
     interrupt: &'a Interrupt,
     cuts: &'a ProgressStep<'a>,
 }
@@ -43,7 +47,7 @@ impl<'a> Trial<'a> {
         loaded: &'a LoadedScene,
         parameters: &'a [ErrorParameter],
         measured: &'a MeasuredGear,
-        choice: &'a Choice,
+        (choice, known): (&'a Choice, &'a KnownCuts),
         interrupt: &'a Interrupt,
         cuts: &'a ProgressStep<'a>,
     ) -> Result<Self> {
@@ -62,7 +66,21 @@ impl<'a> Trial<'a> {
         }
         uncertainties.resize(values.len(), measured.noise_um);
         let windows = measured.numbers.iter().map(|number| flank_of(&number.quantity)).collect();
-        Ok(Self { loaded, parameters, measured, charts, windows, values, uncertainties, choice, interrupt, cuts })
+        let asked = digest(&("measured", measured, choice.backend.name()));
+        Ok(Self {
+            loaded,
+            parameters,
+            measured,
+            charts,
+            windows,
+            values,
+            uncertainties,
+            choice,
+            known,
+            asked,
+            interrupt,
+            cuts,
+        })
     }
 
     /// The scene with shifted parameters; `None` where it has no word for them.
@@ -77,11 +95,18 @@ impl<'a> Trial<'a> {
         self.interrupt.check()?;
         let Some(shifted) = self.shifted(shifts) else { return Ok(None) };
         let scene = read(&shifted)?;
+        let values = self.known.all_of(&scene.scene, &self.asked, || self.cut(&scene))?;
+        self.cuts.advance(1);
+        Ok(Some(values))
+    }
+
+    /// Cuts what the measured values ask for.
+    fn cut(&self, scene: &LoadedScene) -> Result<Vec<f64>> {
         let mut values = Vec::new();
         if !self.measured.numbers.is_empty() {
             let found = match &self.windows {
-                Some(flanks) => texture_numbers(&scene, flanks, self.choice, self.interrupt)?,
-                None => numbers(&scene, self.choice, self.interrupt)?,
+                Some(flanks) => texture_numbers(scene, flanks, self.choice, self.interrupt)?,
+                None => numbers(scene, self.choice, self.interrupt)?,
             };
             for measured in &self.measured.numbers {
                 values.push(value_of(&found, measured)?);
@@ -90,8 +115,7 @@ impl<'a> Trial<'a> {
         if let Some(charts) = &self.charts {
             values.extend(charts.predicted_um(&scene.scene, self.choice.backend.as_ref())?.concat());
         }
-        self.cuts.advance(1);
-        Ok(Some(values))
+        Ok(values)
     }
 
     /// Residuals over the uncertainties.

@@ -3,12 +3,13 @@
 use crate::influence::budget::chosen;
 use crate::influence::derivative::Influence;
 use crate::influence::gear_grid::turn_um_per_arcsec;
+use crate::influence::known_cuts::{KnownCuts, digest};
 use crate::influence::measured::{MeasuredPlaces, MeasuredPoint};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use crate::process;
-use crate::scene::LoadedScene;
 use crate::scene::error_parameters::ErrorParameter;
+use crate::scene::{LoadedScene, Scene};
 use gearcut_core::cut::Backend;
 use gearcut_core::error::{Error, Refusal, Result};
 
@@ -48,7 +49,8 @@ impl ModelledSource {
 }
 
 impl ErrorModel {
-    /// Influences of the errors with these names (all, if none is given) at measured places.
+    /// Influences of the errors with these names (all, if none is given) at measured places; cuts that are known are
+    /// not made again.
     ///
     /// # Errors
     /// The size of something random, which has no map of its own; places that the gear does not have; geometry that
@@ -60,6 +62,7 @@ impl ErrorModel {
         backend: &dyn Backend,
         progress: &Progress,
         interrupt: &Interrupt,
+        known: &KnownCuts,
     ) -> Result<Self> {
         let parameters = chosen(loaded, names)?;
         if let Some(random) = parameters.iter().find(|parameter| parameter.is_random()) {
@@ -74,7 +77,9 @@ impl ErrorModel {
             Ok(())
         })?;
         let places = places.expect("a job shows its gear");
-        let cut_um = places.grid.heights_um(&loaded.scene, backend)?;
+        let asked = digest(&("heights", &places.grid, backend.name()));
+        let heights_um = |scene: &Scene| known.all_of(scene, &asked, || places.grid.heights_um(scene, backend));
+        let cut_um = heights_um(&loaded.scene)?;
         let before_um = places.at_points(&cut_um);
         if let Some(untouched) = before_um.iter().position(|um| um.is_nan()) {
             let point = points[untouched];
@@ -96,7 +101,7 @@ impl ErrorModel {
                 model.leave_out_source_of(&parameter);
                 break;
             }
-            match Influence::new(loaded, &places.grid, &cut_um, &parameter, backend) {
+            match Influence::by(loaded, &cut_um, &parameter, &heights_um) {
                 Ok(influence) => model.add(parameter, places.at_points(&influence.um_per_unit)),
                 Err(Error::Scene(errors)) => model.refused.push((parameter, errors.to_string())),
                 Err(Error::Refused(refusal)) => model.refused.push((parameter, refusal.problem)),

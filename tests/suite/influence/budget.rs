@@ -4,8 +4,8 @@ use super::round::{CUTTER_MM, Contact, PITCH_MM, backend, contacts, grid, loaded
 use gearcut::influence::derivative::Influence;
 use gearcut::influence::figures::Figures;
 use gearcut::influence::gear_grid::GearGrid;
-use gearcut::scene::LoadedScene;
 use gearcut::scene::error_parameters::{ErrorParameter, Shifted, error_parameters};
+use gearcut::scene::{LoadedScene, Scene};
 use gearcut::terms::Side;
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
@@ -141,7 +141,8 @@ fn half_a_step_tells_what_is_not_linear() {
     let round = Round::new();
     let checked = |parameter: &ErrorParameter| {
         let influence = round.influence(parameter);
-        influence.checked(&round.loaded, &round.grid, &round.before_um, &backend()).expect("cut")
+        let heights_um = |scene: &Scene| round.grid.heights_um(scene, &backend());
+        influence.checked(&round.loaded, &round.before_um, &heights_um).expect("cut")
     };
     let eccentric = parameter(&round.loaded, "mounting.eccentricity_um@0");
     assert!(checked(&eccentric).is_linear());

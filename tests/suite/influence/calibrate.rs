@@ -6,6 +6,7 @@ use crate::fixtures::json_schema::assert_is_results;
 use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
 use gearcut::influence::budget::chosen;
 use gearcut::influence::calibrate::{Calibration, MeasuredGear, MeasuredNumber};
+use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::influence::numbers::numbers;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
@@ -46,7 +47,8 @@ fn errors_of_a_round_gear_are_fitted_to_its_runout_and_thickness() {
     let parameters = chosen(&loaded, &[eccentric, scale, offset].map(str::to_owned)).expect("parameters");
     let quiet = Progress::new(ProgressMode::Quiet);
     let measured = MeasuredGear::of_numbers(measured(&choice));
-    let found = Calibration::new(&loaded, &parameters, &measured, &choice, &quiet, &Interrupt::default()).expect("cut");
+    let (go_on, nothing) = (Interrupt::default(), KnownCuts::default());
+    let found = Calibration::new(&loaded, &parameters, &measured, &choice, &quiet, &go_on, &nothing).expect("cut");
     assert!(found.settled, "{found:?}");
     let of = |id: &str| found.fitted.iter().find(|(parameter, _)| parameter.id == id).expect("asked for").1;
     let [shift, half] = of(eccentric).expect("the runout says it");

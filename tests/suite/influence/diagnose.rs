@@ -3,6 +3,7 @@
 use super::round::{backend, grid, loaded};
 use gearcut::influence::diagnose::{Diagnosis, ErrorModel};
 use gearcut::influence::gear_grid::GearGrid;
+use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::influence::measured::MeasuredPoint;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
@@ -52,7 +53,8 @@ fn points(grid: &GearGrid, deviations_um: &[f64], take: impl Fn(&MeasuredPoint) 
 fn model(loaded: &LoadedScene, points: &[MeasuredPoint], names: &[&str]) -> ErrorModel {
     let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
     let quiet = Progress::new(ProgressMode::Quiet);
-    ErrorModel::new(loaded, points, &names, &backend(), &quiet, &Interrupt::default()).expect("cut")
+    ErrorModel::new(loaded, points, &names, &backend(), &quiet, &Interrupt::default(), &KnownCuts::default())
+        .expect("cut")
 }
 
 fn keys(model: &ErrorModel, sources: impl IntoIterator<Item = usize>) -> Vec<&str> {

@@ -1,26 +1,13 @@
 //! What gearcut writes of a gear is read back without editing, and gives the errors with which the gear was cut.
 
-use super::round::{SCENE, backend, loaded};
+use super::round::SCENE;
 use crate::fixtures::command::{gearcut_in, read_json};
-use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
-use gearcut::cut::cpu::Cpu;
-use gearcut::cut::sweep_chips::SweepsCut;
-use gearcut::cut::{Backend, BlankCut, BlankOperation, CutStats};
-use gearcut::dexel::{BlankField, Field, Layer, SpatialField};
-use gearcut::influence::budget::chosen;
-use gearcut::influence::calibrate::{Calibration, MeasuredGear};
-use gearcut::influence::charts::{Chart, LaidCharts, MeasuredLine};
-use gearcut::influence::measured::MeasuredPoint;
+use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::influence::numbers::{numbers, texture_numbers};
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
-use gearcut::passes::sections::swept_sections::SweptSections;
-use gearcut::passes::{CutPlan, SweepPlan};
 use gearcut::process;
 use gearcut::terms::Side;
-use std::ops::Range;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 const COARSE: [&str; 6] = [
     "operation.finish.strokes_per_revolution=480",
@@ -229,97 +216,4 @@ fn windows_cut_alone_have_the_numbers_of_the_result() {
     assert!(alone.len() > 30 && alone.iter().all(|(path, value)| whole.get(path) == Some(value)), "{alone:?}");
     let of_texture = whole.keys().filter(|path| path.starts_with("texture.")).count();
     assert_eq!(alone.len(), of_texture);
-}
-
-/// The processor, with Ctrl-C at one of its cuts.
-struct Stopping {
-    cuts_left: AtomicUsize,
-    interrupt: Interrupt,
-}
-
-impl Backend for Stopping {
-    fn name(&self) -> String {
-        "stopping".to_owned()
-    }
-
-    fn cut(&self, field: &Field, plan: &CutPlan, layer: &mut Layer) -> gearcut::Result<CutStats> {
-        if self.cuts_left.fetch_sub(1, Ordering::SeqCst) == 1 {
-            self.interrupt.raise();
-        }
-        backend().cut(field, plan, layer)
-    }
-
-    fn cut_blank(
-        &self,
-        field: &mut BlankField,
-        operation: &BlankOperation,
-        advance: &(dyn Fn() -> bool + Sync),
-    ) -> gearcut::Result<Option<BlankCut>> {
-        backend().cut_blank(field, operation, advance)
-    }
-
-    fn cut_blank_sweeps(
-        &self,
-        field: &mut BlankField,
-        sections: &SweptSections,
-        passes: Range<u32>,
-        advance: &(dyn Fn() -> bool + Sync),
-    ) -> gearcut::Result<Option<SweepsCut>> {
-        backend().cut_blank_sweeps(field, sections, passes, advance)
-    }
-
-    fn cut_spatial(&self, field: &SpatialField, plan: &SweepPlan, layer: &mut Layer) -> gearcut::Result<CutStats> {
-        Cpu::default().cut_spatial(field, plan, layer)
-    }
-}
-
-/// Ctrl-C keeps the rounds that are done, and what none is done of is an interruption.
-#[test]
-fn a_fit_that_is_stopped_keeps_its_rounds() {
-    let loaded = loaded(&[]);
-    let parameters = chosen(&loaded, &["machine.errors.guide.tangential_um_per_100mm".to_owned()]).expect("a guide");
-    let slope_um_per_mm = 0.3 * 20_f64.to_radians().cos();
-    let point = |v_mm: f64| MeasuredPoint {
-        tooth: 5,
-        side: Side::Left,
-        u_mm: 2.5,
-        v_mm,
-        deviation_um: 7.0 + slope_um_per_mm * v_mm,
-    };
-    let line = MeasuredLine { chart: Chart::Helix, points: (-4..=4).map(|i| point(2.0 * f64::from(i))).collect() };
-    let measured = MeasuredGear { lines: vec![line.clone()], noise_um: 0.1, ..MeasuredGear::default() };
-    let fit = |cuts: usize| {
-        let interrupt = Interrupt::default();
-        let backend = Stopping { cuts_left: AtomicUsize::new(cuts), interrupt: interrupt.clone() };
-        let choice = Choice { backend: Box::new(backend), why: String::new() };
-        let quiet = Progress::new(ProgressMode::Quiet);
-        Calibration::new(&loaded, &parameters, &measured, &choice, &quiet, &interrupt)
-    };
-    // The scene, both sides of a difference, the step.
-    let stopped = fit(4).expect("a round");
-    assert!(!stopped.complete && !stopped.settled, "{stopped:?}");
-    let whole = fit(usize::MAX).expect("cut");
-    assert!(whole.complete && whole.settled, "{whole:?}");
-    for found in [&stopped, &whole] {
-        let [shift, half] = found.fitted[0].1.expect("the helix says it");
-        // Nine places of 0.1 um over sum(v^2) = 240 mm^2; 7 degrees of freedom.
-        let expected = 2.365 * 0.1 / 240_f64.sqrt() / 20_f64.to_radians().cos() * 100.0;
-        assert!((shift - 30.0).abs() < 0.3 && (half / expected - 1.0).abs() < 0.02, "{shift} +- {half}, {expected}");
-        assert_eq!(found.freedom, 7);
-    }
-    assert!(matches!(fit(2), Err(gearcut::Error::Interrupted)));
-    // Planted: the zero of the chart is nobody's; without it the line would be 7 um off.
-    let mut raised = line;
-    raised.points.iter_mut().for_each(|point| point.deviation_um += 50.0);
-    let mut known = Vec::new();
-    process::prepare(&loaded.scene)
-        .expect("a gear")
-        .with_gear(&mut |gear| {
-            let um: Vec<f64> = raised.points.iter().map(|point| point.deviation_um).collect();
-            known = LaidCharts::new(gear, &[raised.clone()])?.known(0, &um);
-            Ok(())
-        })
-        .expect("a flank");
-    let mean: f64 = known.iter().sum();
-    assert!(mean.abs() < 1e-9 && (known[8] - 8.0 * slope_um_per_mm).abs() < 1e-9, "{known:?}");
 }

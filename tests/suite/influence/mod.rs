@@ -6,6 +6,8 @@ mod command;
 mod diagnose;
 mod measured_files;
 mod parameters;
+mod resumed;
 mod round;
 mod spatial;
+mod stopped_fit;
 mod turning_tools;

@@ -10,7 +10,8 @@ pub mod model;
 use crate::machine_errors::ErrorLayer;
 use crate::scene::error_sources::{self, ErrorSource, KeyForm, Tried};
 use crate::scene::{ProcessPart, SceneProcess, Senseless, StandardOperation};
-use model::Shaping;
+use model::{EdgeRoughness, Shaping};
+use std::path::Path;
 
 /// Errors of the cutter.
 static TOOL_ERRORS: &[ErrorSource] = &[
@@ -92,6 +93,14 @@ pub static SCENE: SceneProcess = SceneProcess {
 impl ProcessPart for Shaping {
     fn process(&self) -> &'static SceneProcess {
         &SCENE
+    }
+
+    fn files_read(&self) -> Vec<&Path> {
+        let profile = self.tool.edge_roughness.iter().filter_map(|roughness| match roughness {
+            EdgeRoughness::Profile(path) => Some(path.as_path()),
+            EdgeRoughness::Spectrum { .. } => None,
+        });
+        profile.chain(self.operations.iter().filter_map(|operation| operation.program.as_deref())).collect()
     }
 
     fn error_layers(&self) -> Vec<ErrorLayer> {
