@@ -7,6 +7,7 @@
 //! Road not taken: a benchmark of its own. It would say nothing of the mix of planning and cutting that this scene asks
 //! for.
 
+use std::ops::AddAssign;
 use std::time::Duration;
 
 /// Processor time for pieces of work, s: enough for a factor, and nobody waits for it.
@@ -38,9 +39,22 @@ impl ComputerSpeed {
         self.taken_s < BUDGET_S
     }
 
+    /// Processor time that the pieces took, s.
+    pub fn taken_s(&self) -> f64 {
+        self.taken_s
+    }
+
     /// Seconds on this machine for a second by the rates; nearly 1 where little was timed.
     pub fn factor(&self) -> f64 {
         (self.taken_s + ASSUMED_S) / (self.expected_s + ASSUMED_S)
+    }
+}
+
+/// Pieces that several threads timed count together.
+impl AddAssign for ComputerSpeed {
+    fn add_assign(&mut self, other: Self) {
+        self.expected_s += other.expected_s;
+        self.taken_s += other.taken_s;
     }
 }
 
@@ -74,6 +88,9 @@ mod tests {
         assert!(x > 0.0 && once.taken_s > 0.0 && speed.taken_s > once.taken_s);
         let wanted = (once.taken_s + ASSUMED_S) / (1e-3 + ASSUMED_S);
         assert!((once.factor() - wanted).abs() < 1e-9);
+        let mut both = once;
+        both += once;
+        assert_eq!([both.expected_s, both.taken_s], [2.0 * once.expected_s, 2.0 * once.taken_s]);
         let slow = ComputerSpeed { expected_s: 1.0, taken_s: 2.0 };
         assert!((slow.factor() - 2.0).abs() < 0.06, "{}", slow.factor());
         // A thread that sleeps takes no processor time.

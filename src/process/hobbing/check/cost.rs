@@ -1,10 +1,12 @@
 //! The cost of a hobbing scene.
 //!
-//! Flanks are planned in a band about the middle of the face. For the blank, the sweeps that reach a slice are found
-//! for some passes and slices, and the rays that they cross are counted.
+//! Flanks are planned in a band about the middle of the face, a third of the profile on each but the first, which is
+//! whole and cut as well. For the blank, the sweeps that reach a slice are found for some passes and slices, and the
+//! rays that they cross are counted.
 
 use crate::output::text::{Sheet, significant};
 use crate::process::hobbing::HobCutter;
+use crate::process::hobbing::warnings::greatest_common_divisor;
 use gearcut_core::Result;
 use gearcut_core::cut::Backend as _;
 use gearcut_core::cut::cpu::Cpu;
@@ -20,10 +22,15 @@ use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FL
 use crate::steps::computer_speed::ComputerSpeed;
 use crate::steps::{check_cost, stages};
 
-/// Rows of a flank that are planned, and cut to calibrate the estimate, about the middle of the face. Fewer would not
+/// Rows of a flank that are planned, about the middle of the face. Fewer would not
 /// do: what a plan costs however small its field is would count too much, and over fewer than half of a tile's rows
 /// planning has no third row to tell bent heights from straight ones, and keeps thousands of passes.
 const PLANNED_ROWS: usize = 96;
+/// Parts of a profile of which each planned flank shows one, in turn.
+const PARTS: usize = 3;
+/// The first planned flank is taken whole, cut as well, and timed to calibrate the estimate; so is every one with fewer
+/// dexels. A third would not do: what a plan costs however small its field is would count too much.
+const FEW_DEXELS: usize = 20_000;
 /// What one thread of the native backend takes for a dexel's ray, s.
 const RAY_S_PER_DEXEL: f64 = 5.5e-8;
 /// The same for the plan of a tile.
@@ -35,13 +42,13 @@ const MEASURE_S_PER_DEXEL: f64 = 1e-8;
 /// Bytes of a dexel's ray: two vectors and the blank's height.
 const BYTES_PER_RAY: usize = 52;
 
-/// Slices and passes of an operation that are looked at, at most.
+/// Slices and passes of an operation that are looked at, at most; of the passes some hundreds come near the blank.
 const SLICES: usize = 5;
-const PASSES: usize = 400;
+const PASSES: u32 = 8000;
 /// What it takes to find whether a sweep reaches a slice, s.
-const BLANK_S_PER_SECTION: f64 = 1.2e-6;
+const BLANK_S_PER_SECTION: f64 = 0.8e-6;
 /// What a ray that a sweep reaches takes, s.
-const BLANK_S_PER_RAY_PASS: f64 = 4.2e-8;
+const BLANK_S_PER_RAY_PASS: f64 = 2.8e-8;
 
 /// Adds the estimate to the report.
 ///
@@ -49,31 +56,9 @@ const BLANK_S_PER_RAY_PASS: f64 = 4.2e-8;
 /// A flank that the hob does not generate; a blank field that does not fit in memory.
 pub fn print(sheet: &mut Sheet, cutter: &HobCutter) -> Result<()> {
     let (fields, beside_s) = (&cutter.job.scene.fields, stages::beside_cutting_s(cutter));
-    let (flanks, blank) = (flank_cost(cutter)?, blank_cost(cutter)?);
-    check_cost::print(sheet, fields, &flanks, &blank, beside_s, calibrated(cutter)?);
+    let ((flanks, machine), blank) = (flank_cost(cutter)?, blank_cost(cutter)?);
+    check_cost::print(sheet, fields, &flanks, &blank, beside_s, machine);
     Ok(())
-}
-
-/// Some rows of flanks, planned and cut.
-fn calibrated(cutter: &HobCutter) -> Result<ComputerSpeed> {
-    let mut machine = ComputerSpeed::default();
-    for tooth in (1..=cutter.job.scene.gear.teeth).step_by(5) {
-        let target = cutter.target(tooth, Side::Left)?;
-        let [arcs_mm, _] = cutter.places_mm(target);
-        let rays_s = |field: &SpatialField| field.len() as f64 * RAY_S_PER_DEXEL;
-        let field = machine.piece(|| cutter.rays_over(target, arcs_mm, planned_rows_mm(cutter)).field, rays_s);
-        for passes in cutter.operations.iter() {
-            let plan_s = |plan: &SweepPlan| plan.tiles.len() as f64 * PLAN_S_PER_TILE;
-            let plan = machine.piece(|| SweepPlan::new(&field, passes), plan_s);
-            let cut_s = plan.dexel_passes() as f64 * CUT_S_PER_EVALUATION;
-            let mut layer = field.blank_layer();
-            machine.piece(|| Cpu::default().cut_spatial(&field, &plan, &mut layer), |_| cut_s)?;
-        }
-        if !machine.wants_more() {
-            break;
-        }
-    }
-    Ok(machine)
 }
 
 /// Rows about the middle of the face.
@@ -83,38 +68,63 @@ fn planned_rows_mm(cutter: &HobCutter) -> Vec<f64> {
     (0..rows).map(|i| spacing_mm * (i as f64 - 0.5 * (rows - 1) as f64)).collect()
 }
 
-/// What planning a band of a flank found.
-struct Planned {
+/// What planning a part of a flank's band found.
+struct PlannedPart {
     dexels: f64,
     tiles: f64,
     records: f64,
     evaluations: f64,
+    /// What it took, where it was cut too.
+    machine: ComputerSpeed,
 }
 
-fn plan(cutter: &HobCutter, tooth: u32, side: Side) -> Result<Planned> {
+/// Plans a part of a flank, or all of it and cuts it.
+fn plan(cutter: &HobCutter, number: usize, (tooth, side): (u32, Side)) -> Result<PlannedPart> {
     let target = cutter.target(tooth, side)?;
     let [arcs_mm, _] = cutter.places_mm(target);
-    let field = cutter.rays_over(target, arcs_mm, planned_rows_mm(cutter)).field;
-    let mut sum = Planned { dexels: field.len() as f64, tiles: 0.0, records: 0.0, evaluations: 0.0 };
+    let rows_mm = planned_rows_mm(cutter);
+    let is_cut = number == 0 || arcs_mm.len() * rows_mm.len() < FEW_DEXELS;
+    let end = |part: usize| part * arcs_mm.len() / PARTS;
+    let part = if is_cut { 0..arcs_mm.len() } else { end(number % PARTS)..end(number % PARTS + 1) };
+    let arcs_mm = arcs_mm[part].to_vec();
+    let mut machine = ComputerSpeed::default();
+    let rays_s = |field: &SpatialField| field.len() as f64 * RAY_S_PER_DEXEL;
+    let field = machine.piece(|| cutter.rays_over(target, arcs_mm, rows_mm).field, rays_s);
+    let mut sum = PlannedPart { dexels: field.len() as f64, tiles: 0.0, records: 0.0, evaluations: 0.0, machine };
     for passes in cutter.operations.iter() {
-        let plan = SweepPlan::new(&field, passes);
+        let plan_s = |plan: &SweepPlan| plan.tiles.len() as f64 * PLAN_S_PER_TILE;
+        let plan = sum.machine.piece(|| SweepPlan::new(&field, passes), plan_s);
+        let evaluations = plan.dexel_passes() as f64;
+        if is_cut {
+            let mut layer = field.blank_layer();
+            let cut_s = evaluations * CUT_S_PER_EVALUATION;
+            sum.machine.piece(|| Cpu::default().cut_spatial(&field, &plan, &mut layer), |_| cut_s)?;
+        }
         sum.tiles += plan.tiles.len() as f64;
         sum.records += plan.records.len() as f64;
-        sum.evaluations += plan.dexel_passes() as f64;
+        sum.evaluations += evaluations;
+    }
+    if !is_cut {
+        sum.machine = ComputerSpeed::default();
     }
     Ok(sum)
 }
 
-fn flank_cost(cutter: &HobCutter) -> Result<FlankCost> {
+/// With it, how fast this machine plans and cuts.
+fn flank_cost(cutter: &HobCutter) -> Result<(FlankCost, ComputerSpeed)> {
     let job = cutter.job;
     let (gear, fields) = (&job.scene.gear, &job.scene.fields);
     let surfaces = job.operations.len() as f64;
     let every = (gear.teeth as usize).div_ceil(PLANNED_FLANKS);
     let teeth: Vec<(u32, Side)> =
         (1..=gear.teeth).step_by(every).zip([Side::Left, Side::Right].into_iter().cycle()).collect();
-    let planned: Vec<Planned> =
-        teeth.into_par_iter().map(|(tooth, side)| plan(cutter, tooth, side)).collect::<Result<_>>()?;
-    let sum = |of: fn(&Planned) -> f64| planned.iter().map(of).sum::<f64>();
+    let planned: Vec<PlannedPart> =
+        teeth.into_par_iter().enumerate().map(|(number, flank)| plan(cutter, number, flank)).collect::<Result<_>>()?;
+    let mut machine = ComputerSpeed::default();
+    for part in &planned {
+        machine += part.machine;
+    }
+    let sum = |of: fn(&PlannedPart) -> f64| planned.iter().map(of).sum::<f64>();
     let rows = (gear.face_width_mm / fields.lead_spacing_mm).round() + 1.0;
     let per_flank: Vec<f64> = (1..=gear.teeth)
         .into_par_iter()
@@ -130,7 +140,7 @@ fn flank_cost(cutter: &HobCutter) -> Result<FlankCost> {
     let evaluations = scale * sum(|p| p.evaluations);
     let bytes_of_rays = largest * (BYTES_PER_RAY as f64 + BYTES_PER_DEXEL as f64 * surfaces);
     let bytes_of_records = records / dexels * largest * size_of::<SweepRecord>() as f64;
-    Ok(FlankCost {
+    let cost = FlankCost {
         flanks: per_flank.len(),
         largest,
         dexels,
@@ -142,7 +152,8 @@ fn flank_cost(cutter: &HobCutter) -> Result<FlankCost> {
         seconds: dexels * (RAY_S_PER_DEXEL + surfaces * MEASURE_S_PER_DEXEL)
             + scale * sum(|p| p.tiles) * PLAN_S_PER_TILE
             + evaluations * CUT_S_PER_EVALUATION,
-    })
+    };
+    Ok((cost, machine))
 }
 
 /// Rays through the blank and the sweeps that cross them.
@@ -152,8 +163,12 @@ fn blank_cost(cutter: &HobCutter) -> Result<BlankCost> {
     let every_slice = slices.div_ceil(SLICES);
     let (mut sections, mut ray_passes) = (0.0, 0.0);
     for operation in 0..cutter.operations.len() {
-        let passes = cutter.sections(operation, true)?;
-        let every = passes.len().div_ceil(PASSES).max(1);
+        let set = &cutter.operations[operation];
+        // Blades follow one another in turn: a step that shares no divisor with their number meets all of them.
+        let blades = set.places.len() as u32;
+        let least = set.count().div_ceil(PASSES).max(1);
+        let every = (least..=least + blades).find(|&every| greatest_common_divisor(every, blades) == 1).unwrap_or(1);
+        let passes = cutter.some_sections(operation, every, true)?;
         let found: Vec<[f64; 2]> = grid
             .slices_z_mm
             .par_iter()
@@ -161,7 +176,7 @@ fn blank_cost(cutter: &HobCutter) -> Result<BlankCost> {
             .step_by(every_slice)
             .map_init(SweptSection::default, |section, &z_mm| {
                 let mut found = [0.0; 2];
-                for pass in (0..passes.len()).step_by(every) {
+                for pass in 0..passes.len() {
                     if !passes.section(pass, z_mm, section) {
                         continue;
                     }
@@ -174,7 +189,7 @@ fn blank_cost(cutter: &HobCutter) -> Result<BlankCost> {
                 found
             })
             .collect();
-        let scale = every as f64 * slices as f64 / found.len() as f64;
+        let scale = f64::from(every) * slices as f64 / found.len() as f64;
         sections += scale * found.iter().map(|[sections, _]| sections).sum::<f64>();
         ray_passes += scale * found.iter().map(|[_, rays]| rays).sum::<f64>();
     }

@@ -126,6 +126,20 @@ impl SweptSections {
     /// # Errors
     /// Blades that do not look away from the tool's axis: sections are closed towards it, through the tool's body.
     pub fn new(set: &TurningPasses, reach_mm: f64, face_width_mm: f64, cull: bool) -> Result<Self, Refusal> {
+        Self::of_every(1, set, reach_mm, face_width_mm, cull)
+    }
+
+    /// The same of the first pass and every so many after it: a sample, for estimates.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_every(
+        every: u32,
+        set: &TurningPasses,
+        reach_mm: f64,
+        face_width_mm: f64,
+        cull: bool,
+    ) -> Result<Self, Refusal> {
         if let Some(place) = set.places.iter().find(|place| place.looks != DVec2::X || place.radial_mm != 0.0) {
             return Err(Refusal::new(
                 "tool",
@@ -134,8 +148,9 @@ impl SweptSections {
             ));
         }
         let mut outlines: Vec<EdgeOutline> = set.edges.edges().iter().map(EdgeOutline::new).collect();
+        let sampled = set.count().div_ceil(every.max(1));
         let passes: Vec<Sweeping> =
-            (0..set.count()).into_par_iter().map(|i| Sweeping::new(set, &set.pass(i))).collect();
+            (0..sampled).into_par_iter().map(|i| Sweeping::new(set, &set.pass(i * every.max(1)))).collect();
         // Seen along the gear axis the rake face may show its other side: inside is on the left there too.
         if passes.first().is_some_and(Sweeping::is_turned_over) {
             outlines = outlines.into_iter().map(EdgeOutline::reversed).collect();
