@@ -53,21 +53,19 @@ pub struct BlankCost {
 /// The time of the whole command.
 #[derive(Debug, Clone, Copy)]
 pub struct TimeCost {
-    /// Flanks cut and measured, by the rates, s of one core.
+    /// Flanks cut and measured, s of one core of this machine.
     pub flanks_s: f64,
     /// The whole blank and the chips.
     pub blank_s: f64,
     /// What is drawn and written, and texture.
     pub beside_s: f64,
-    /// This machine against the one of the rates.
-    pub machine: ComputerSpeed,
 }
 
 impl TimeCost {
     /// Prints the line.
     pub fn print(&self, sheet: &mut Sheet) {
         let cores = rayon::current_num_threads();
-        let seconds = |by_rates: f64| duration_text(by_rates * self.machine.factor() / cores as f64);
+        let seconds = |of_one_core: f64| duration_text(of_one_core / cores as f64);
         let whole_s = self.flanks_s + self.blank_s + self.beside_s;
         sheet.line(
             "time",
@@ -83,7 +81,7 @@ impl TimeCost {
     }
 }
 
-/// Prints the cost of a cut; `beside_s` is what else the command takes, on one core.
+/// Prints the cost of a cut, seconds by the rates; `beside_s` is what else the command takes, on one core.
 pub fn print(
     sheet: &mut Sheet,
     fields: &Fields,
@@ -97,12 +95,12 @@ pub fn print(
     sheet.line(
         "flank fields",
         format!(
-            "{} of at most {:.2} million dexels, {} by {} um; {:.1} million in all",
+            "{} of at most {:.2} million dexels, {} by {} um; {} million in all",
             flanks.flanks,
             1e-6 * flanks.largest,
             plain(1e3 * fields.profile_spacing_mm),
             plain(1e3 * fields.lead_spacing_mm),
-            1e-6 * flanks.dexels
+            significant(1e-6 * flanks.dexels, 3)
         ),
     );
     sheet.line(
@@ -128,5 +126,6 @@ pub fn print(
         ),
     );
     sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {cores} threads", 1e-6 * flanks.bytes));
-    TimeCost { flanks_s: flanks.seconds, blank_s: blank.seconds, beside_s, machine }.print(sheet);
+    let [flanks_s, blank_s, beside_s] = [flanks.seconds, blank.seconds, beside_s].map(|s| s * machine.factor());
+    TimeCost { flanks_s, blank_s, beside_s }.print(sheet);
 }

@@ -12,27 +12,21 @@ use crate::steps::computer_speed::ComputerSpeed;
 use crate::steps::stages;
 use gearcut_core::cut::Backend as _;
 use gearcut_core::cut::cpu::Cpu;
+use gearcut_core::dexel::FreeRays;
 use gearcut_core::error::Result;
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::terms::Side;
 
-/// What one thread of the native backend takes for a dexel's ray and its measures, s.
-const RAY_S_PER_DEXEL: f64 = 8e-8;
+/// What one thread of the native backend takes for a dexel's ray, s.
+const RAY_S_PER_DEXEL: f64 = 1.1e-7;
+/// The same for measuring a dexel of one surface.
+const MEASURE_S_PER_DEXEL: f64 = 3e-8;
 /// The same for one evaluation (dexel against record).
-const CUT_S_PER_EVALUATION: f64 = 5e-8;
-/// The same on rays of the blank, where all segments of all passes that come near are looked at.
-const BLANK_S_PER_EVALUATION: f64 = 2e-8;
-/// Segments of a blade: back, tip, round, flank.
-const SEGMENTS: f64 = 4.0;
+const CUT_S_PER_EVALUATION: f64 = 6.7e-8;
 /// Bytes of a dexel's ray: two vectors and the blank's height.
 const BYTES_PER_RAY: f64 = 52.0;
-/// Rows of a flank that are planned, about the middle of the face.
+/// Rows of a flank that are planned and cut for the estimate, about the middle of the face.
 const PLANNED_ROWS: usize = 96;
-/// Rows that are cut to calibrate the estimate.
-const CALIBRATED_ROWS: usize = 8;
-/// So much more than by the rates so few rows take, for they leave lanes of the kernel idle; found on the machine of
-/// the rates.
-const FEW_ROWS: f64 = 1.46;
 
 /// Prints everything; what must be known before cutting.
 ///
@@ -121,33 +115,19 @@ fn print_head(sheet: &mut Sheet, job: &BevelJob) {
 
 fn print_cost(sheet: &mut Sheet, job: &BevelJob) -> Result<()> {
     let fields = job.scene.fields;
-    let (mut dexels, mut evaluations) = (0.0, 0.0);
-    let mut largest = 0.0_f64;
-    for side in [Side::Left, Side::Right] {
-        let [arcs_mm, rows_mm] = job.places_mm(side);
-        let flank = (arcs_mm.len() * rows_mm.len()) as f64;
-        let first = rows_mm.len().saturating_sub(PLANNED_ROWS) / 2;
-        let planned = rows_mm[first..(first + PLANNED_ROWS).min(rows_mm.len())].to_vec();
-        let field = job.rays_over(1, side, arcs_mm, planned)?.field;
-        let visits = (0..job.operations.len())
-            .map(|operation| SweepPlan::new(&field, job.slots.of(operation, job.space_of(1, side))).dexel_passes());
-        let teeth = f64::from(job.blank.teeth);
-        evaluations += teeth * flank / field.len() as f64 * visits.sum::<u64>() as f64;
-        dexels += teeth * flank;
-        largest = largest.max(flank);
-    }
+    let PlannedSides { dexels, evaluations, largest, machine } = PlannedSides::of(job)?;
     let surfaces = job.operations.len() as f64;
     let threads = rayon::current_num_threads();
     sheet.heading("Cost of the cut (nothing has been cut)");
     sheet.line(
         "flank fields",
         format!(
-            "{} of at most {:.2} million dexels, {} by {} um; {:.1} million in all",
+            "{} of at most {:.2} million dexels, {} by {} um; {} million in all",
             2 * job.blank.teeth,
             1e-6 * largest,
             plain(1e3 * fields.profile_spacing_mm),
             plain(1e3 * fields.lead_spacing_mm),
-            1e-6 * dexels
+            significant(1e-6 * dexels, 3)
         ),
     );
     sheet.line(
@@ -173,38 +153,66 @@ fn print_cost(sheet: &mut Sheet, job: &BevelJob) -> Result<()> {
     // The rays of both sides are kept.
     let bytes = largest * (threads as f64 * (BYTES_PER_RAY + BYTES_PER_DEXEL as f64 * surfaces) + 2.0 * BYTES_PER_RAY);
     sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {threads} threads", 1e-6 * bytes));
-    let on_blank = rays * passes * SEGMENTS * BLANK_S_PER_EVALUATION;
-    let flanks_s = dexels * RAY_S_PER_DEXEL + evaluations * CUT_S_PER_EVALUATION;
-    let beside_s = stages::beside_cutting_s(job);
-    TimeCost { flanks_s, blank_s: on_blank, beside_s, machine: calibrated(job)? }.print(sheet);
+    let flanks_s = dexels * (RAY_S_PER_DEXEL + surfaces * MEASURE_S_PER_DEXEL) + evaluations * CUT_S_PER_EVALUATION;
+    let [flanks_s, beside_s] = [flanks_s, stages::beside_cutting_s(job)].map(|s| s * machine.factor());
+    TimeCost { flanks_s, blank_s: blank_s(job, &grid)?, beside_s }.print(sheet);
     Ok(())
 }
 
-/// Some rows of both sides, planned and cut.
-fn calibrated(job: &BevelJob) -> Result<ComputerSpeed> {
-    let mut machine = ComputerSpeed::default();
-    for side in [Side::Left, Side::Right] {
-        let [arcs_mm, rows_mm] = job.places_mm(side);
-        let first = rows_mm.len().saturating_sub(CALIBRATED_ROWS) / 2;
-        let rows_mm = rows_mm[first..(first + CALIBRATED_ROWS).min(rows_mm.len())].to_vec();
-        let field = machine.piece(
-            || job.rays_over(1, side, arcs_mm, rows_mm),
-            |rays| rays.as_ref().map_or(0.0, |rays| FEW_ROWS * rays.field.len() as f64 * RAY_S_PER_DEXEL),
-        )?;
-        let field = field.field;
-        for operation in 0..job.operations.len() {
-            if !machine.wants_more() {
-                break;
+/// What planning and cutting bands of both sides found.
+struct PlannedSides {
+    /// Of all flanks.
+    dexels: f64,
+    /// Of all flanks.
+    evaluations: f64,
+    /// Dexels of the largest flank.
+    largest: f64,
+    /// What the bands took.
+    machine: ComputerSpeed,
+}
+
+impl PlannedSides {
+    fn of(job: &BevelJob) -> Result<Self> {
+        let teeth = f64::from(job.blank.teeth);
+        let mut all = Self { dexels: 0.0, evaluations: 0.0, largest: 0.0, machine: ComputerSpeed::default() };
+        for side in [Side::Left, Side::Right] {
+            let [arcs_mm, rows_mm] = job.places_mm(side);
+            let flank = (arcs_mm.len() * rows_mm.len()) as f64;
+            let first = rows_mm.len().saturating_sub(PLANNED_ROWS) / 2;
+            let planned = rows_mm[first..(first + PLANNED_ROWS).min(rows_mm.len())].to_vec();
+            let rays_s = |rays: &FreeRays| rays.field.len() as f64 * RAY_S_PER_DEXEL;
+            let rays = || job.rays_over(1, side, arcs_mm, planned);
+            let field = all.machine.piece(rays, |rays| rays.as_ref().map_or(0.0, rays_s))?.field;
+            let mut visits = 0.0;
+            for operation in 0..job.operations.len() {
+                let mut layer = field.blank_layer();
+                let cut = || {
+                    let plan = SweepPlan::new(&field, job.slots.of(operation, job.space_of(1, side)));
+                    Cpu::default().cut_spatial(&field, &plan, &mut layer).map(|_| plan.dexel_passes() as f64)
+                };
+                let cut_s = |visits: &f64| visits * CUT_S_PER_EVALUATION;
+                visits += all.machine.piece(cut, |visits| visits.as_ref().map_or(0.0, cut_s))?;
             }
-            let mut layer = field.blank_layer();
-            let cut = || {
-                let plan = SweepPlan::new(&field, job.slots.of(operation, job.space_of(1, side)));
-                Cpu::default().cut_spatial(&field, &plan, &mut layer).map(|_| plan.dexel_passes())
-            };
-            machine.piece(cut, |visits| {
-                visits.as_ref().map_or(0.0, |&visits| FEW_ROWS * visits as f64 * CUT_S_PER_EVALUATION)
-            })?;
+            all.evaluations += teeth * flank / field.len() as f64 * visits;
+            all.dexels += teeth * flank;
+            all.largest = all.largest.max(flank);
         }
+        Ok(all)
     }
-    Ok(machine)
+}
+
+/// What cutting the whole blank takes, s of one core of this machine: a slot's cell on few of its rows is cut, so that
+/// it does not matter how many of the passes come near.
+fn blank_s(job: &BevelJob, grid: &CellGrid) -> Result<f64> {
+    let last = grid.rows() - 1;
+    let mut some = vec![0, last / 2, last];
+    some.dedup();
+    let of_some = |values: &[f64]| some.iter().map(|&row| values[row]).collect();
+    let cell =
+        CellGrid { distances_mm: of_some(&grid.distances_mm), middles_rad: of_some(&grid.middles_rad), ..grid.clone() };
+    let beside = job.neighbours_may_reach(&cell);
+    let share = some.len() as f64 / (grid.rows() as f64 * f64::from(job.blank.teeth));
+    let mut machine = ComputerSpeed::default();
+    machine.piece(|| job.cut_cell(&Cpu::default(), &cell, 0, beside), |_| 0.0)?;
+    Ok(machine.taken_s() / share)
 }

@@ -4,15 +4,16 @@
 //! operations, and the rays that they cross.
 
 use crate::output::chip_places::CHIPS_OF_A_CELL;
+use crate::output::flank_maps::FlankMaps;
 use crate::output::text::{Sheet, significant};
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::chips::ploughed_layers;
+use crate::process::shaping::chips::{last_chips_on_map, ploughed_layers};
 use crate::process::shaping::scene::model::EdgeRounding;
 use crate::process::shaping::tearing::LOOKUP_MM;
 use gearcut_core::cut::Backend as _;
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::cpu::blank::TILE_RAYS;
-use gearcut_core::dexel::Field;
+use gearcut_core::dexel::{Field, RayGrid as _};
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::gear::blank_outline::BlankOutline;
 use gearcut_core::math::planar_rays::{FAMILIES, RayCrossings};
@@ -25,6 +26,7 @@ use gearcut_core::tool::closed_tooth::PlacedScratch;
 use crate::process::shaping::tooth_facts::ToothFacts;
 use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FLANKS};
 use crate::steps::computer_speed::ComputerSpeed;
+use crate::steps::planar::CutField;
 use crate::steps::{check_cost, stages};
 
 /// What one thread of the native backend takes for the plan of a tile, s.
@@ -33,8 +35,12 @@ const PLAN_S_PER_TILE: f64 = 6.0e-5;
 const CUT_S_PER_EVALUATION: f64 = 2.1e-9;
 /// The same for measuring a dexel of one surface.
 const MEASURE_S_PER_DEXEL: f64 = 2.0e-8;
-/// The same for the chip of a map's cell.
-const CHIP_S_PER_CELL: f64 = 1.2e-5;
+/// Cells of maps beside one another, in all their rows, whose chips are followed for the estimate. What a chip takes
+/// depends on how many passes come near: 2e-6 to 4e-4 s for a cell were found on two gears, so that it is timed on the
+/// scene's own. On fewer cells what comes first on each strip would count too much.
+const CHIP_CELLS: f64 = 24.0;
+/// Of so many planned flanks one gets such a strip.
+const CHIPS_EVERY: usize = 4;
 /// Rows that the kernel takes at once, whether there are as many or not.
 const ROWS_AT_ONCE: usize = 16;
 /// Tiles that are planned on each of them.
@@ -64,14 +70,19 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Resul
     let surfaces = job.operations.len();
     let (mut rows, mut planned_columns, mut records) = (0, 0.0, 0.0);
     let (mut evaluations, mut tiles) = (0.0, 0.0);
-    let mut followed = Followed::default();
+    let (mut followed, mut mapped) = (Followed::default(), Mapped::default());
     let mut machine = ComputerSpeed::default();
-    for (tooth, side) in facts
+    for (number, (tooth, side)) in facts
         .iter()
         .step_by(facts.len().div_ceil(PLANNED_FLANKS).max(1))
         .zip([Side::Left, Side::Right].into_iter().cycle())
+        .enumerate()
     {
-        let field = some_tiles(job.flank_field(job.target_flank(tooth.tooth, side)));
+        let field = job.flank_field(job.target_flank(tooth.tooth, side));
+        if job.cutter_spec.edge_rounding.is_none() && number.is_multiple_of(CHIPS_EVERY) {
+            mapped.add(job, &field, number, (tooth.tooth, side))?;
+        }
+        let field = some_tiles(field);
         rows = field.rows();
         planned_columns += field.columns.len() as f64;
         let field = if job.planar().rows_are_alike() { field.section() } else { field };
@@ -123,7 +134,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Resul
             + match &job.cutter_spec.edge_rounding {
                 None => {
                     scale * (tiles * PLAN_S_PER_TILE + evaluations * idle_rows * CUT_S_PER_EVALUATION)
-                        + map_cells * surfaces as f64 * CHIP_S_PER_CELL
+                        + mapped.s_per_column() * all_columns / machine.factor()
                 }
                 Some(_) => {
                     let followed_of_a_cell = if rows_cut == 1 { 1.0 } else { CHIPS_OF_A_CELL as f64 };
@@ -160,6 +171,36 @@ impl Followed {
     /// By all operations.
     fn looks_per_ray(&self) -> f64 {
         self.looks / self.rays.max(1.0)
+    }
+}
+
+/// Cells of maps that were sampled, and their chips followed, for the estimate.
+#[derive(Default)]
+struct Mapped {
+    columns: f64,
+    taken: ComputerSpeed,
+}
+
+impl Mapped {
+    /// Follows chips on a strip of a flank, farther along the profile from flank to flank.
+    fn add(&mut self, job: &ShapingJob, field: &Field, number: usize, (tooth, side): (u32, Side)) -> Result<()> {
+        let spacing_mm = job.scene.output.map_spacing_mm;
+        let wanted = (CHIP_CELLS * spacing_mm / job.scene.fields.profile_spacing_mm).ceil().max(2.0) as usize;
+        let first = field.columns.len().saturating_sub(wanted) * (number % PLANNED_FLANKS) / PLANNED_FLANKS;
+        let columns: Vec<_> = field.columns.iter().skip(first).take(wanted).copied().collect();
+        self.columns += columns.len() as f64;
+        let CutField { field, layers, .. } = job.cut(&Cpu::default(), Field { columns, ..field.clone() })?;
+        let follow = || {
+            let maps = FlankMaps::sample(tooth, side, [&field.arcs_mm(), field.rows_mm()], &layers, spacing_mm);
+            last_chips_on_map(job, &field, &maps.chip_places(&layers, field.rows()))
+        };
+        self.taken.piece(follow, |_| 0.0);
+        Ok(())
+    }
+
+    /// By all operations, for a column of dexels.
+    fn s_per_column(&self) -> f64 {
+        self.taken.taken_s() / self.columns.max(1.0)
     }
 }
 
