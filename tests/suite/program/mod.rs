@@ -2,6 +2,7 @@
 
 mod axes;
 mod check;
+mod check_cost;
 mod compare;
 mod cut;
 mod damaged_programs;
