@@ -226,7 +226,8 @@ pub struct CutArguments {
     /// Write these parts and the numbers, nothing else: numbers, maps, pictures, meshes, texture, chips, axes, report.
     #[arg(long, value_name = "PARTS", value_delimiter = ',', value_parser = part_names())]
     pub only: Vec<String>,
-    /// Cut on dexels and rays eight and four times as far apart, and write numbers and report alone (see --only).
+    /// Cut on dexels eight times, rays and cells of maps four times as far apart, and write numbers and report alone
+    /// (see --only).
     #[arg(long)]
     pub draft: bool,
     /// Draw N pictures of the cut as it happens (frames/*.png, and all of them in frames/cut.apng).

@@ -50,7 +50,9 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
     let choice = choose(wish, on_failure)?;
     progress.note(&format!("backend: {} ({})", choice.backend.name(), choice.why));
     if arguments.draft {
-        progress.note("draft: dexels 8 and rays 4 times as far apart; deviations, chips and texture are rough");
+        progress.note(
+            "draft: dexels 8, rays and cells of maps 4 times as far apart; deviations, chips and texture are rough",
+        );
     }
     let explained = |error| Failure::of_scene(&scene, error);
     let job = Job::new(&scene).map_err(explained)?.on(choice);
@@ -77,7 +79,8 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
 
 /// How much further apart a draft's dexels stand along profiles and teeth, where several cross a feed mark.
 const DRAFT_DEXELS: f64 = 8.0;
-/// And its rays through the blank and the chips, whose times grow with the square and the cube of that.
+/// And its rays through the blank and the chips, whose times grow with the square and the cube of that, and the cells
+/// of its maps, each of which asks for a chip.
 const DRAFT_RAYS: f64 = 4.0;
 
 /// Settings that make the scene a draft, within the ranges of the keys.
@@ -90,6 +93,7 @@ fn draft_settings(scene: &Scene) -> Vec<String> {
         ("fields.flank.lead_spacing_um", dexels_um(fields.lead_spacing_mm, 10_000.0)),
         ("fields.blank.spacing_mm", rays_mm(fields.blank_spacing_mm, 10.0)),
         ("fields.blank.slice_spacing_mm", rays_mm(fields.blank_slice_spacing_mm, 1000.0)),
+        ("output.map_spacing_mm", rays_mm(scene.output.map_spacing_mm, 10.0)),
     ];
     let own = scene.process.ray_spacings();
     settings.extend(own.into_iter().map(|(key, [spacing_mm, most_mm])| (key, rays_mm(spacing_mm, most_mm))));

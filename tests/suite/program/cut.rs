@@ -80,6 +80,7 @@ fn a_draft_is_coarse_and_takes_no_result_away() {
     let dexels = run.out[from..to].trim_start_matches("dexels").trim_start();
     let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
     assert!(page.contains(&format!("{dexels} passes each")), "{dexels}");
+    assert!(resolved.contains("map_spacing_mm = 0.4"), "{resolved}");
 }
 
 mod slow {
