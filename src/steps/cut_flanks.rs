@@ -89,7 +89,10 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
             let arcs_mm = rays.arcs_mm();
             let mut maps = FlankMaps::sample(tooth, side, [&arcs_mm, rays.rows_mm()], &layers, output.map_spacing_mm);
             maps.evaluated_mm.clone_from(&evaluated_mm);
-            maps.take_chips(&chips(&rays, &layers, &maps));
+            // The page shows no chips.
+            if parts.has_any(&[Part::Maps, Part::Pictures]) {
+                maps.take_chips(&chips(&rays, &layers, &maps));
+            }
             maps
         });
         let surface = needs_surfaces(job, parts).then(|| SurfaceGrid::new(&rays, &layers, output.mesh_spacing_mm));

@@ -163,7 +163,7 @@ impl Arrays {
     }
 
     fn packed(self) -> String {
-        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
+        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
         let written = encoder.write_all(&self.bytes).and_then(|()| encoder.finish());
         STANDARD.encode(written.expect("memory takes all bytes"))
     }
