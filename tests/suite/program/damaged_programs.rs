@@ -18,6 +18,15 @@ mod slow {
     /// What a defect makes of a block's X, C and B.
     type Defect = fn(usize, [f64; 3]) -> [f64; 3];
 
+    /// A defect, and what its gear must show.
+    struct Case {
+        name: &'static str,
+        defect: Defect,
+        code: i32,
+        depth_mm: RangeInclusive<f64>,
+        sides: RangeInclusive<u64>,
+    }
+
     /// The program with every position changed; blocks of positions are counted from 0.
     fn changed(program: &str, defect: Defect) -> String {
         let mut block = 0;
@@ -62,38 +71,35 @@ mod slow {
         fs::read_to_string(folder.path().join("own/axes/finish.ngc")).expect("a program")
     }
 
+    fn one_deep(block: usize, [x, c, b]: [f64; 3]) -> [f64; 3] {
+        [if block == 211 { x - 0.1 } else { x }, c, b]
+    }
+
+    /// The cutter's axis 5 mm from the gear's.
+    fn one_through_the_hub(block: usize, [x, c, b]: [f64; 3]) -> [f64; 3] {
+        [if block == 214 { 5.0 } else { x }, c, b]
+    }
+
     #[test]
     fn damage_is_as_deep_as_geometry_says() {
         let own = own_program();
         // A cutter turned by an angle comes closer to one flank of each tooth by the angle times its base radius.
         let turned_mm = 0.5_f64.to_radians() * CUTTER_RADIUS_MM * PRESSURE_ANGLE_DEG.to_radians().cos();
         let within = |mm: f64| (0.995 * mm)..=(1.005 * mm);
-        // Defect, exit code, depth in mm, sides of teeth.
-        let cases: [(&str, Defect, i32, RangeInclusive<f64>, RangeInclusive<u64>); 5] = [
-            ("all strokes 0.5 mm deep", |_, [x, c, b]| [x - 0.5, c, b], 3, within(0.5), 84..=84),
+        let case = |name, defect, code, depth_mm, sides| Case { name, defect, code, depth_mm, sides };
+        let cases = [
+            case("all strokes 0.5 mm deep", |_, [x, c, b]| [x - 0.5, c, b], 3, within(0.5), 84..=84),
             // A deviation: under the 18.8 um from which on it is a gouge.
-            ("all strokes 10 um deep", |_, [x, c, b]| [x - 0.01, c, b], 0, within(0.01), 84..=84),
-            ("cutter half a degree round", |_, [x, c, b]| [x, c, b + 0.5], 3, within(turned_mm), 42..=84),
+            case("all strokes 10 um deep", |_, [x, c, b]| [x - 0.01, c, b], 0, within(0.01), 84..=84),
+            case("cutter half a degree round", |_, [x, c, b]| [x, c, b + 0.5], 3, within(turned_mm), 42..=84),
             // Its normals lie within some 25 degrees of the line of centres.
-            (
-                "a stroke 0.1 mm deep",
-                |block, [x, c, b]| [if block == 211 { x - 0.1 } else { x }, c, b],
-                3,
-                0.09..=0.1,
-                2..=6,
-            ),
-            // The cutter's axis 5 mm from the gear's: what lies there is as deep as the root circle is large.
-            (
-                "a stroke through the hub",
-                |block, [x, c, b]| [if block == 214 { 5.0 } else { x }, c, b],
-                3,
-                45.0..=55.0,
-                20..=84,
-            ),
+            case("a stroke 0.1 mm deep", one_deep, 3, 0.09..=0.1, 2..=6),
+            // What lies at the gear's axis is as deep as the root circle is large.
+            case("a stroke through the hub", one_through_the_hub, 3, 45.0..=55.0, 20..=84),
         ];
         let (code, sound) = cut(&own);
         assert_eq!((code, &sound["places"]["value"]), (0, &Value::from(0)), "the program itself");
-        for (name, defect, expected_code, depth_mm, sides) in cases {
+        for Case { name, defect, code: expected_code, depth_mm, sides } in cases {
             let (code, found) = cut(&changed(&own, defect));
             let deepest_mm = found["deepest"]["value"].as_f64().unwrap_or(f64::NAN);
             let count = found["places"]["value"].as_u64().unwrap_or(u64::MAX);
