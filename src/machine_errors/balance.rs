@@ -8,7 +8,7 @@
 //! `q = C (A - sum of f m)`. k and e are the element's chip and edge coefficients (K_n b, K_ne b), A what the rest of
 //! the cut pushes with. The edge force exists only while a chip is cut, and a force that jumps has no balance where it
 //! jumps: a tool pushed out by an edge that just cuts falls back onto it. So r rises evenly from 0 at h = 0 to 1 at the
-//! least chip that counts ([`LEAST_CHIP_MM`]).
+//! least chip that counts ([`gearcut_core::cut::LEAST_CHIP_MM`]).
 //!
 //! Where f never falls with h, `E(q) = q . C^-1 q / 2 + sum of F(h) - A . q`, F the integral of f, is strictly convex:
 //! there is one balance and no other, **whatever the compliance**. Newton's steps on E, halved where they do not lower
