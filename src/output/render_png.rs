@@ -99,7 +99,7 @@ fn draw(picture: &RenderPicture) -> std::result::Result<Raster, String> {
         scale: legend.scale,
         quantity: legend.quantity,
         unit: legend.unit,
-        shown: shown(picture.rendered),
+        shown: picture.rendered.shown,
     });
     if let Some(bar) = &bar {
         bar.paint(&mut raster);
@@ -120,9 +120,4 @@ fn draw(picture: &RenderPicture) -> std::result::Result<Raster, String> {
     let note_em_px = fitting_em_px(picture.note, EM_PX, f64::from(total_px.0) - left - note_left)?;
     canvas.text(picture.note, (f64::from(total_px.0) - left, y), note_em_px, Align::End)?;
     Ok(raster)
-}
-
-/// Smallest and largest value on the picture.
-fn shown(rendered: &Rendered) -> (f32, f32) {
-    crate::output::heat::shown_range(rendered.value.iter().filter(|v| v.is_finite()))
 }

@@ -19,7 +19,7 @@ use crate::output::render_png::{Legend, RenderPicture, write_render_png};
 use crate::scene::model::{Picture, PictureColour, PictureView};
 use crate::surface::Mesh;
 use crate::surface::mesh::ScalarValues;
-use crate::surface::render::{Appearance, Bodies, CLAY, Camera, Lights, Rendered, Shape, render};
+use crate::surface::render::{Appearance, Bodies, CLAY, Camera, Lights, Rendered, Seen, Shape, render, seen};
 use flank::{PicturedFlanks, draw_flank};
 use gearcut_core::dexel::NO_PASS;
 use gearcut_core::error::{Error, Result};
@@ -76,6 +76,8 @@ struct DrawnPicture {
     note: String,
     camera: Camera,
     rendered: Rendered,
+    /// For the picture's EXR, where the scene asks for one.
+    seen: Option<Seen>,
     legend: Option<Legend<'static>>,
 }
 
@@ -90,8 +92,8 @@ impl DrawnPicture {
             legend: self.legend,
         };
         write_render_png(&folder.path(format!("pictures/{}.png", picture.name))?, &page)?;
-        if picture.exr {
-            let map = exr(&self.rendered, self.legend, pixel_mm, &self.title, notes);
+        if let Some(seen) = &self.seen {
+            let map = exr(seen, self.legend, pixel_mm, &self.title, notes);
             write_exr_map(&folder.path(format!("pictures/{}.exr", picture.name))?, &map).map_err(file_error)?;
         }
         Ok(())
@@ -155,10 +157,11 @@ fn draw_solid(
     }
     let bodies = Bodies::new(shape, vec![look]);
     let rendered = render(&bodies, &camera, &Lights::studio(&camera), interrupt)?;
-    Ok(DrawnPicture { title, note: String::new(), camera, rendered, legend })
+    let seen = picture.exr.then(|| seen(&bodies, &camera, interrupt)).transpose()?;
+    Ok(DrawnPicture { title, note: String::new(), camera, rendered, seen, legend })
 }
 
-fn exr(rendered: &Rendered, legend: Option<Legend>, pixel_mm: f64, title: &str, notes: &[(String, String)]) -> ExrMap {
+fn exr(seen: &Seen, legend: Option<Legend>, pixel_mm: f64, title: &str, notes: &[(String, String)]) -> ExrMap {
     let axis = |name: &str, meaning: &str, count: u32| MapAxis {
         name: name.to_owned(),
         meaning: meaning.to_owned(),
@@ -166,14 +169,14 @@ fn exr(rendered: &Rendered, legend: Option<Legend>, pixel_mm: f64, title: &str, 
         step_mm: pixel_mm,
         count: count as usize,
     };
-    let (width, height) = rendered.size_px;
+    let (width, height) = seen.size_px;
     let channel = |name: &str, unit: &str, definition: &str, samples: Samples| MapChannel {
         name: name.to_owned(),
         unit: unit.to_owned(),
         definition: definition.to_owned(),
         samples,
     };
-    let normal = |k: usize| Samples::F32(rendered.normal.iter().map(|n| n[k]).collect());
+    let normal = |k: usize| Samples::F32(seen.normal.iter().map(|n| n[k]).collect());
     let (value_unit, value_words) = legend.map_or(("1", "nothing"), |l| (l.unit, l.quantity));
     let mut notes = notes.to_vec();
     notes.push(("title".to_owned(), title.to_owned()));
@@ -187,7 +190,7 @@ fn exr(rendered: &Rendered, legend: Option<Legend>, pixel_mm: f64, title: &str, 
                 "depth_mm",
                 "mm",
                 "distance behind the plane through the picture's target; infinite where nothing stands",
-                Samples::F32(rendered.depth_mm.clone()),
+                Samples::F32(seen.depth_mm.clone()),
             ),
             channel("normal_x", "1", "unit normal towards the viewer; zero where nothing stands", normal(0)),
             channel("normal_y", "1", "unit normal towards the viewer; zero where nothing stands", normal(1)),
@@ -196,9 +199,9 @@ fn exr(rendered: &Rendered, legend: Option<Legend>, pixel_mm: f64, title: &str, 
                 "pass_id",
                 "1",
                 "pass that left the surface; 4294967295 where none is known",
-                Samples::U32(rendered.pass.clone()),
+                Samples::U32(seen.pass.clone()),
             ),
-            channel("value", value_unit, value_words, Samples::F32(rendered.value.clone())),
+            channel("value", value_unit, value_words, Samples::F32(seen.value.clone())),
         ],
         notes,
     }

@@ -11,7 +11,7 @@ use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::scene::model::{Picture, PictureView};
 use crate::steps::parts::{Part, Parts};
-use crate::surface::render::{Bodies, Camera, Lights, Shape, render};
+use crate::surface::render::{Bodies, Camera, Lights, Shape, render, seen};
 use crate::surface::{Mesh, SurfaceGrid};
 use gearcut_core::dexel::{Layer, RayGrid};
 use gearcut_core::error::Result;
@@ -104,6 +104,7 @@ pub(super) fn draw_flank(
     let gain = RAKING_LIGHT / RAKING_RAD.sin();
     let lights = Lights { lamp, lamp_share: RAKING_SHARE, sky_reach: RAKING_SKY_REACH, gain };
     let rendered = render(&bodies, &camera, &lights, interrupt)?;
+    let seen = picture.exr.then(|| seen(&bodies, &camera, interrupt)).transpose()?;
     let side = if picture.side == Side::Left { "left" } else { "right" };
     let finishing = job.operations().last().map_or("", |(name, _)| *name);
     let title = format!("{}: tooth {}, {side} flank after {finishing}", job.scene().name, picture.tooth);
@@ -111,7 +112,7 @@ pub(super) fn draw_flank(
         "profile rolled out, root below, tip above; heights \u{d7} {exaggeration}, means over two pixels; light from \
         the tip"
     );
-    Ok(DrawnPicture { title, note, camera, rendered, legend })
+    Ok(DrawnPicture { title, note, camera, rendered, seen, legend })
 }
 
 /// Factor (1, 2 or 5 times a power of ten) that makes the median slope along the profile at most [`MARK_SLOPE`].

@@ -12,6 +12,7 @@ use crate::surface::Mesh;
 use crate::surface::mesh::ScalarValues;
 use glam::DVec3;
 use rayon::prelude::*;
+use std::sync::LazyLock;
 
 /// Triangles that lean more than this against each other meet at an edge: 30 degrees, between the turn of a fillet per
 /// 0.1 mm and the corner at a tip.
@@ -73,8 +74,14 @@ impl<'a> Shape<'a> {
 /// Bodies ready to be drawn.
 pub struct Bodies<'a> {
     shape: &'a Shape<'a>,
-    /// How each body looks.
-    looks: Vec<Appearance>,
+    bodies: Vec<Body<'a>>,
+}
+
+/// A body's look, with the values that it shows.
+struct Body<'a> {
+    look: Appearance,
+    values: Option<&'a ScalarValues>,
+    passes: Option<&'a [u32]>,
 }
 
 /// What a ray finds.
@@ -100,7 +107,16 @@ pub struct BodyHit {
 impl<'a> Bodies<'a> {
     /// Bodies with a look for each.
     pub fn new(shape: &'a Shape<'a>, looks: Vec<Appearance>) -> Self {
-        Self { shape, looks }
+        let body = |(mesh, look): (&&'a Mesh, Appearance)| {
+            let values = |name: &str| mesh.scalar(name).map(|scalar| &scalar.values);
+            let shown = if let Appearance::Scalar { name, .. } = look { values(name) } else { None };
+            let passes = match values("pass_id") {
+                Some(ScalarValues::U32(passes)) => Some(passes.as_slice()),
+                _ => None,
+            };
+            Body { look, values: shown, passes }
+        };
+        Self { shape, bodies: shape.meshes.iter().zip(looks).map(body).collect() }
     }
 
     /// Diagonal of the box round everything, mm.
@@ -108,9 +124,9 @@ impl<'a> Bodies<'a> {
         self.shape.size_mm
     }
 
-    /// What a ray meets first.
-    pub fn first(&self, origin_mm: DVec3, direction: DVec3) -> Option<BodyHit> {
-        self.shape.tree.first(origin_mm, direction, f64::INFINITY).map(|hit| self.found(&hit, direction))
+    /// The tree over their triangles.
+    pub fn tree(&self) -> &'a Bvh {
+        &self.shape.tree
     }
 
     /// Whether anything stands within `limit_mm` of a place.
@@ -118,11 +134,12 @@ impl<'a> Bodies<'a> {
         self.shape.tree.is_blocked(origin_mm, direction, limit_mm)
     }
 
-    fn found(&self, hit: &Hit, direction: DVec3) -> BodyHit {
+    /// What a ray of this direction finds where it meets a triangle.
+    pub fn found(&self, hit: &Hit, direction: DVec3) -> BodyHit {
         let global = hit.triangle as usize;
         let shape = self.shape;
         let index = shape.starts.partition_point(|&start| start <= global) - 1;
-        let (mesh, look) = (shape.meshes[index], self.looks[index]);
+        let (mesh, body) = (shape.meshes[index], &self.bodies[index]);
         let triangle = global - shape.starts[index];
         let [b, c] = hit.weights;
         let weights = [1.0 - b - c, b, c];
@@ -136,14 +153,11 @@ impl<'a> Bodies<'a> {
         let nearest = vertices[(0..3).max_by(|&i, &j| weights[i].total_cmp(&weights[j])).unwrap_or(0)];
         let part = mesh.parts.partition_point(|part| part.triangles.end <= triangle);
         let measured = mesh.parts.get(part).is_none_or(|part| part.measured);
-        let pass = mesh.scalar("pass_id").filter(|_| measured).and_then(|scalar| match &scalar.values {
-            ScalarValues::U32(values) => Some(values[nearest]),
-            ScalarValues::F32(_) => None,
-        });
-        let (colour, gloss, value) = match look {
+        let pass = body.passes.filter(|_| measured).map(|passes| passes[nearest]);
+        let (colour, gloss, value) = match body.look {
             Appearance::Plain { colour, gloss } => (colour, gloss, f32::NAN),
-            Appearance::Scalar { name, scale } => {
-                let value = match mesh.scalar(name).filter(|_| measured).map(|scalar| &scalar.values) {
+            Appearance::Scalar { scale, .. } => {
+                let value = match body.values.filter(|_| measured) {
                     Some(ScalarValues::F32(values)) => {
                         let sum: f64 = (0..3).map(|k| weights[k] * f64::from(values[vertices[k]])).sum();
                         sum as f32
@@ -164,9 +178,14 @@ impl<'a> Bodies<'a> {
 const BARE: [f64; 3] = [0.45, 0.44, 0.42];
 
 /// sRGB component (IEC 61966-2-1) to linear light, 0 to 1.
-pub fn linear(component: u8) -> f64 {
-    let c = f64::from(component) / 255.0;
-    if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+fn linear(component: u8) -> f64 {
+    static LIGHT: LazyLock<[f64; 256]> = LazyLock::new(|| {
+        std::array::from_fn(|component| {
+            let c = component as f64 / 255.0;
+            if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        })
+    });
+    LIGHT[usize::from(component)]
 }
 
 fn corner_normals(mesh: &Mesh) -> Vec<[DVec3; 3]> {
@@ -259,12 +278,14 @@ mod tests {
         let scale = ColourScale::Sequential { low: 0.0, high: 10.0 };
         let shape = Shape::new(vec![&mesh]);
         let bodies = Bodies::new(&shape, vec![Appearance::Scalar { name: "height_um", scale }]);
-        let found = bodies.first(DVec3::new(30.0, 0.0, 2.0), DVec3::NEG_X).expect("meets the wall");
+        let first = |origin_mm| bodies.tree().first(origin_mm, DVec3::NEG_X, f64::INFINITY);
+        let hit = first(DVec3::new(30.0, 0.0, 2.0)).expect("meets the wall");
+        let found = bodies.found(&hit, DVec3::NEG_X);
         assert!((found.distance_mm - 20.0).abs() < 1e-9);
         assert!((found.value - 2.0).abs() < 1e-5);
         assert!(found.normal.distance(DVec3::X) < 1e-9);
         assert_eq!(found.pass, Some(0));
         assert!(bodies.is_blocked(DVec3::ZERO, DVec3::X, 10.5) && !bodies.is_blocked(DVec3::ZERO, DVec3::X, 9.5));
-        assert_eq!(bodies.first(DVec3::new(30.0, 0.0, 6.0), DVec3::NEG_X), None);
+        assert_eq!(first(DVec3::new(30.0, 0.0, 6.0)), None);
     }
 }

@@ -89,6 +89,16 @@ impl Bvh {
         Self { nodes, triangles, numbers: order }
     }
 
+    /// Corner and the two edges from it of every triangle, in the order of the leaves.
+    pub fn triangles(&self) -> &[[DVec3; 3]] {
+        &self.triangles
+    }
+
+    /// Number of a triangle, by its place in the order of the leaves, as it was given.
+    pub fn number(&self, index: u32) -> u32 {
+        self.numbers[index as usize]
+    }
+
     /// First triangle along a ray, within `limit_mm`; both sides of triangles count.
     pub fn first(&self, origin_mm: DVec3, direction: DVec3, limit_mm: f64) -> Option<Hit> {
         self.walk(origin_mm, direction, limit_mm, false)
@@ -265,8 +275,9 @@ fn entry(node: &BvhNode, origin_mm: DVec3, inverse: DVec3, limit_mm: f64) -> Opt
     (near <= far && near < limit_mm).then_some(near)
 }
 
+/// Distance at which a ray meets a triangle (corner and the two edges from it), and the weights of the edges' ends.
 #[inline]
-fn meet(&[corner, u, v]: &[DVec3; 3], origin_mm: DVec3, direction: DVec3) -> Option<(f64, [f64; 2])> {
+pub fn meet(&[corner, u, v]: &[DVec3; 3], origin_mm: DVec3, direction: DVec3) -> Option<(f64, [f64; 2])> {
     let p = direction.cross(v);
     let determinant = u.dot(p);
     if determinant == 0.0 {
@@ -282,18 +293,19 @@ fn meet(&[corner, u, v]: &[DVec3; 3], origin_mm: DVec3, direction: DVec3) -> Opt
     (b >= 0.0 && a + b <= 1.0).then(|| (v.dot(q) / determinant, [a, b]))
 }
 
+/// Deterministic numbers in [0, 1).
+#[cfg(test)]
+pub fn numbers(seed: u32) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state >> 8) / f64::from(1 << 24)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Deterministic numbers in [0, 1).
-    fn numbers(seed: u32) -> impl FnMut() -> f64 {
-        let mut state = seed;
-        move || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            f64::from(state >> 8) / f64::from(1 << 24)
-        }
-    }
 
     #[test]
     fn the_tree_finds_what_a_look_at_all_triangles_finds() {

@@ -1,26 +1,27 @@
 //! Light on bodies, and the picture it makes.
 //!
-//! In: bodies, camera, lights. Out: [`Rendered`]: sRGB pixels, and at every pixel's middle depth, normal, value and
-//! pass id.
+//! In: bodies, camera, lights. Out: [`Rendered`]: sRGB pixels; and [`Seen`]: depth, normal, value and pass id at every
+//! pixel's middle.
 //!
 //! A point is lit by one lamp (with shadows, a little soft) and by the sky, of which it sees as much as rays over its
-//! hemisphere say (ambient occlusion), weighted by the cosine. Four rays per pixel, stratified; each asks the sky in
-//! directions of its own (a golden-ratio sequence, started by a hash of the pixel), and the share of the sky is then
-//! averaged over neighbours on the same smooth surface. Nothing is random: the same bodies give the same bytes.
+//! hemisphere say (ambient occlusion), weighted by the cosine. Four rays per pixel, stratified; two of them ask the sky
+//! in directions of their own (a golden-ratio sequence, started by a hash of the pixel), and the share of the sky is
+//! then averaged over neighbours on the same smooth surface: several hundred pixels, so that four rays each showed
+//! nothing that two do not. Nothing is random: the same bodies give the same bytes.
 //!
 //! Colours stand for values, so that light changes their brightness and hardly their hue.
 
-use super::bodies::{Bodies, BodyHit};
+use super::bodies::Bodies;
 use super::camera::Camera;
+use super::visible::{BandHits, Visible};
 use crate::interrupt::Interrupt;
+use gearcut_core::dexel::NO_PASS;
 use gearcut_core::{Error, Result};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
 /// Rays per pixel along one side.
 const SIDE: u32 = 2;
-/// Sky rays per camera ray.
-const SKY_RAYS: u32 = 1;
 /// Rounds over which the sky's share is averaged: squares of 7 by 7 pixels that lie this many pixels apart (the à-trous
 /// scheme of Dammertz et al., 2010).
 const SMOOTH_STEPS_PX: [i64; 2] = [1, 4];
@@ -80,6 +81,15 @@ pub struct Rendered {
     pub size_px: (u32, u32),
     /// sRGB, rows from the top.
     pub rgb: Vec<[u8; 3]>,
+    /// Smallest and largest value that colours show; infinite and turned round where they show none.
+    pub shown: (f32, f32),
+}
+
+/// What stands at every pixel's middle, rows from the top.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seen {
+    /// Width and height, pixels.
+    pub size_px: (u32, u32),
     /// Distance from the picture plane through the camera's target, mm, away from the viewer; infinite where nothing
     /// stands.
     pub depth_mm: Vec<f32>,
@@ -87,7 +97,7 @@ pub struct Rendered {
     pub normal: Vec<[f32; 3]>,
     /// Value that the colour shows; NaN where there is none.
     pub value: Vec<f32>,
-    /// Pass id; [`gearcut_core::dexel::NO_PASS`] where none is known.
+    /// Pass id; [`NO_PASS`] where none is known.
     pub pass: Vec<u32>,
 }
 
@@ -104,69 +114,94 @@ struct Pixel {
     asked: u32,
     free: u32,
     /// Found at the first ray that met something: to tell neighbours on the same surface.
-    normal: DVec3,
-    depth_mm: f64,
+    normal: Vec3,
+    depth_mm: f32,
+    value: f32,
 }
 
-/// Draws bodies; rows of pixels in parallel.
+/// Draws bodies; bands of pixels in parallel.
 ///
 /// # Errors
 /// Ctrl-C.
 pub fn render(bodies: &Bodies, camera: &Camera, lights: &Lights, interrupt: &Interrupt) -> Result<Rendered> {
-    let (width, height) = camera.size_px;
-    let far_mm = 2.0 * bodies.size_mm() + camera.extent_mm;
-    let rows: Vec<Vec<(Pixel, Option<BodyHit>)>> = (0..height)
-        .into_par_iter()
-        .map(|y| {
-            interrupt.check()?;
-            Ok((0..width).map(|x| pixel(bodies, camera, lights, far_mm, x, y)).collect())
-        })
-        .collect::<Result<_, Error>>()?;
-    let pixels: Vec<(Pixel, Option<BodyHit>)> = rows.into_iter().flatten().collect();
+    let pixels = of_pixels(bodies, camera, SIDE, interrupt, |hits, x, y| pixel(bodies, camera, lights, hits, [x, y]))?;
     let open = smoothed(&pixels, camera);
     let rgb = pixels
         .par_iter()
         .zip(&open)
-        .map(|((here, _), open)| {
+        .map(|(here, open)| {
             let empty = f64::from(SIDE * SIDE - here.met);
             let met = f64::from(here.met.max(1));
             let light = ((here.lamp + here.sky * f64::from(*open)) / met).map(shouldered);
             ((light * f64::from(here.met) + DVec3::splat(empty)) / f64::from(SIDE * SIDE)).to_array().map(srgb)
         })
         .collect();
-    let found = || pixels.iter().map(|(_, found)| found.as_ref());
-    Ok(Rendered {
+    let values = pixels.iter().filter(|pixel| pixel.met > 0 && pixel.value.is_finite()).map(|pixel| pixel.value);
+    let shown = values.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    Ok(Rendered { size_px: camera.size_px, rgb, shown })
+}
+
+/// What stands at every pixel's middle.
+///
+/// # Errors
+/// Ctrl-C.
+pub fn seen(bodies: &Bodies, camera: &Camera, interrupt: &Interrupt) -> Result<Seen> {
+    let found = of_pixels(bodies, camera, 1, interrupt, |hits, x, y| {
+        hits.hit(x, y).map(|(_, hit)| bodies.found(&hit, -camera.towards))
+    })?;
+    let found = || found.iter().map(Option::as_ref);
+    let far_mm = far_mm(bodies, camera);
+    Ok(Seen {
         size_px: camera.size_px,
-        rgb,
         depth_mm: found().map(|f| f.map_or(f32::INFINITY, |f| (f.distance_mm - far_mm) as f32)).collect(),
         normal: found().map(|f| f.map_or([0.0; 3], |f| f.normal.as_vec3().to_array())).collect(),
         value: found().map(|f| f.map_or(f32::NAN, |f| f.value)).collect(),
-        pass: found().map(|f| f.and_then(|f| f.pass).unwrap_or(gearcut_core::dexel::NO_PASS)).collect(),
+        pass: found().map(|f| f.and_then(|f| f.pass).unwrap_or(NO_PASS)).collect(),
     })
 }
 
+/// Something of every pixel, rows from the top: `side` by `side` rays for each, bands of pixels in parallel.
+fn of_pixels<T: Send>(
+    bodies: &Bodies,
+    camera: &Camera,
+    side: u32,
+    interrupt: &Interrupt,
+    of_pixel: impl Fn(&BandHits, u32, u32) -> T + Sync,
+) -> Result<Vec<T>> {
+    let rays = Visible::new(bodies.tree(), camera, side, far_mm(bodies, camera));
+    let of_band = |band| {
+        interrupt.check()?;
+        let hits = rays.first(band);
+        let places = hits.pixel_rows.clone().flat_map(|y| (0..camera.size_px.0).map(move |x| (x, y)));
+        Ok(places.map(|(x, y)| of_pixel(&hits, x, y)).collect())
+    };
+    let bands: Vec<Vec<T>> = (0..rays.bands()).into_par_iter().map(of_band).collect::<Result<_, Error>>()?;
+    Ok(bands.into_iter().flatten().collect())
+}
+
+/// How far before the camera's target rays start: clear of the bodies, mm.
+fn far_mm(bodies: &Bodies, camera: &Camera) -> f64 {
+    2.0 * bodies.size_mm() + camera.extent_mm
+}
+
 /// Share of the sky that every pixel sees, averaged over neighbours on the same smooth surface.
-fn smoothed(pixels: &[(Pixel, Option<BodyHit>)], camera: &Camera) -> Vec<f32> {
+fn smoothed(pixels: &[Pixel], camera: &Camera) -> Vec<f32> {
     let (width, height) = (i64::from(camera.size_px.0), i64::from(camera.size_px.1));
     // Close together in memory: every pixel asks 98 neighbours.
-    let places: Vec<(DVec3, f64)> = pixels.iter().map(|(p, _)| (p.normal, p.depth_mm)).collect();
-    let mut sums: Vec<[f32; 2]> = pixels.iter().map(|(p, _)| [p.free as f32, p.asked as f32]).collect();
+    let places: Vec<(Vec3, f32)> = pixels.iter().map(|p| (p.normal, p.depth_mm)).collect();
+    let mut sums: Vec<[f32; 2]> = pixels.iter().map(|p| [p.free as f32, p.asked as f32]).collect();
     for step in SMOOTH_STEPS_PX {
         // Neighbours further away in depth than twice as far as in the picture lie on another surface.
-        let reach_mm = 6.0 * step as f64 * camera.pixel_mm();
+        let reach_mm = 6.0 * step as f32 * camera.pixel_mm() as f32;
         sums = (0..pixels.len() as i64)
             .into_par_iter()
             .map(|i| {
                 let (x, y) = (i % width, i / width);
                 let (normal, depth_mm) = places[i as usize];
                 let (mut free, mut asked) = (0.0, 0.0);
-                for dy in -3..=3 {
-                    for dx in -3..=3 {
-                        let (x, y) = (x + step * dx, y + step * dy);
-                        if !(0..width).contains(&x) || !(0..height).contains(&y) {
-                            continue;
-                        }
-                        let index = (y * width + x) as usize;
+                let columns = || (-3..=3).map(|k| x + step * k).filter(|x| (0..width).contains(x));
+                for row in (-3..=3).map(|k| y + step * k).filter(|y| (0..height).contains(y)) {
+                    for index in columns().map(|column| (row * width + column) as usize) {
                         let other = places[index];
                         if other.0.dot(normal) > 0.9 && (other.1 - depth_mm).abs() < reach_mm {
                             free += sums[index][0];
@@ -183,7 +218,7 @@ fn smoothed(pixels: &[(Pixel, Option<BodyHit>)], camera: &Camera) -> Vec<f32> {
         let near = |(dx, dy): (i64, i64)| (0..width).contains(&(x + dx)) && (0..height).contains(&(y + dy));
         let places = (-3..=3).flat_map(|dy| (-3..=3).map(move |dx| (dx, dy))).filter(|d| near(*d));
         places
-            .map(|(dx, dy)| &pixels[((y + dy) * width + x + dx) as usize].0)
+            .map(|(dx, dy)| &pixels[((y + dy) * width + x + dx) as usize])
             .fold([0.0; 2], |[free, asked], p| [free + p.free as f32, asked + p.asked as f32])
     };
     let share = |(i, &[free, asked]): (usize, &[f32; 2])| {
@@ -193,18 +228,17 @@ fn smoothed(pixels: &[(Pixel, Option<BodyHit>)], camera: &Camera) -> Vec<f32> {
     sums.iter().enumerate().map(share).collect()
 }
 
-fn pixel(bodies: &Bodies, camera: &Camera, lights: &Lights, far_mm: f64, x: u32, y: u32) -> (Pixel, Option<BodyHit>) {
+fn pixel(bodies: &Bodies, camera: &Camera, lights: &Lights, hits: &BandHits, [x, y]: [u32; 2]) -> Pixel {
     let mut gathered = Pixel::default();
     let mut seed = hash(x, y);
-    for ray in 0..SIDE * SIDE {
-        let (i, j) = (ray % SIDE, ray / SIDE);
-        let place = |k: u32, of: u32| f64::from(of) + (f64::from(k) + 0.5) / f64::from(SIDE);
-        let origin_mm = camera.origin_mm(place(i, x), place(j, y), far_mm);
-        let Some(found) = bodies.first(origin_mm, -camera.towards) else { continue };
+    for (i, j) in (0..SIDE * SIDE).map(|ray| (ray % SIDE, ray / SIDE)) {
+        let Some((origin_mm, hit)) = hits.hit(SIDE * x + i, SIDE * y + j) else { continue };
+        let found = bodies.found(&hit, -camera.towards);
         let off_mm = OFF_SURFACE * bodies.size_mm();
         let place_mm = origin_mm - camera.towards * found.distance_mm + found.flat * off_mm;
         if gathered.met == 0 {
-            (gathered.normal, gathered.depth_mm) = (found.normal, found.distance_mm);
+            (gathered.normal, gathered.depth_mm) = (found.normal.as_vec3(), found.distance_mm as f32);
+            gathered.value = found.value;
         }
         gathered.met += 1;
         let colour = DVec3::from_array(found.colour);
@@ -214,17 +248,18 @@ fn pixel(bodies: &Bodies, camera: &Camera, lights: &Lights, far_mm: f64, x: u32,
         let offset = DVec2::from_angle(std::f64::consts::TAU * a) * (LAMP_RADIUS * b.sqrt());
         let lamp = (lights.lamp + offset.x * side + offset.y * across).normalize();
         let cosine = found.normal.dot(lamp);
-        if cosine > 0.0 && found.flat.dot(lamp) > 0.0 && !bodies.is_blocked(place_mm, lamp, far_mm) {
+        if cosine > 0.0 && found.flat.dot(lamp) > 0.0 && !bodies.is_blocked(place_mm, lamp, 2.0 * bodies.size_mm()) {
             let half = (lamp + camera.towards).normalize();
             let highlight = found.gloss * found.normal.dot(half).max(0.0).powi(HIGHLIGHT_POWER);
             gathered.lamp += lights.lamp_share * (lights.gain * cosine * colour + DVec3::splat(HIGHLIGHT * highlight));
         }
         let sky = 1.0 - SKY_FROM_ABOVE + SKY_FROM_ABOVE * found.normal.dot(camera.up);
         gathered.sky += (1.0 - lights.lamp_share) * SKY_GAIN * sky * colour;
-        let tangent = found.normal.any_orthonormal_vector();
-        let bitangent = found.normal.cross(tangent);
-        for _ in 0..SKY_RAYS {
+        // Rays on the pixel's diagonal ask the sky.
+        if i == j {
             // Cosine-weighted (Malley): a disc lifted onto the hemisphere.
+            let tangent = found.normal.any_orthonormal_vector();
+            let bitangent = found.normal.cross(tangent);
             let [a, b] = next_pair(&mut seed);
             let disc = DVec2::from_angle(std::f64::consts::TAU * a) * b.sqrt();
             let direction = disc.x * tangent + disc.y * bitangent + (1.0 - b).sqrt() * found.normal;
@@ -234,8 +269,7 @@ fn pixel(bodies: &Bodies, camera: &Camera, lights: &Lights, far_mm: f64, x: u32,
             gathered.free += u32::from(open);
         }
     }
-    let middle_mm = camera.origin_mm(f64::from(x) + 0.5, f64::from(y) + 0.5, far_mm);
-    (gathered, bodies.first(middle_mm, -camera.towards))
+    gathered
 }
 
 /// Two numbers in [0, 1) of the plane's golden-ratio sequence (M. Roberts, 2018).

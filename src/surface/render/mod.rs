@@ -2,8 +2,9 @@
 //!
 //! | what | where |
 //! | --- | --- |
-//! | which triangle a ray meets | [`bvh`] |
+//! | which triangle any ray meets | [`bvh`] |
 //! | parallel projection | [`camera`] |
+//! | which triangle each of the camera's rays meets first | [`visible`] |
 //! | bodies, their looks, what a ray finds | [`bodies`] |
 //! | lamp, sky, pixels | [`light`] |
 //!
@@ -14,7 +15,8 @@ pub mod bodies;
 pub mod bvh;
 pub mod camera;
 pub mod light;
+pub mod visible;
 
 pub use bodies::{Appearance, Bodies, CLAY, STEEL, Shape};
 pub use camera::Camera;
-pub use light::{Lights, Rendered, render};
+pub use light::{Lights, Rendered, Seen, render, seen};
