@@ -67,7 +67,8 @@ fn one_flank(criterion: &mut Criterion, job: &ShapingJob) {
     }
     let cut = job.cut(&Cpu::default(), field.clone()).expect("native");
     group.throughput(Throughput::Elements(field.len() as u64));
-    group.bench_function("measure", |b| b.iter(|| flank_report::measure(job, flank, black_box(&cut))));
+    group
+        .bench_function("measure", |b| b.iter(|| flank_report::measure(job, flank, black_box(&cut), &field.rows_z_mm)));
     group.finish();
 }
 

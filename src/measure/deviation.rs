@@ -55,6 +55,15 @@ impl Trace {
         }
     }
 
+    /// A line along the tooth over all rows, where one row may stand for them.
+    #[must_use]
+    pub fn over_rows(mut self, rows_z_mm: &[f64]) -> Self {
+        if let [height_mm] = self.heights_mm[..] {
+            self = Self { places_mm: rows_z_mm.to_vec(), heights_mm: vec![height_mm; rows_z_mm.len()] };
+        }
+        self
+    }
+
     /// Deviations between two places; `None` with fewer than three dexels or untouched ones among them.
     pub fn deviation(&self, [from_mm, to_mm]: [f64; 2]) -> Option<TraceDeviation> {
         let points: Vec<(f64, f64)> = self

@@ -39,6 +39,14 @@ pub struct Stock {
     pub untouched: u64,
 }
 
+impl Stock {
+    /// The same of so many rows that are all alike.
+    #[must_use]
+    pub fn of_rows(self, copies: u64) -> Self {
+        Self { dexels: self.dexels * copies, untouched: self.untouched * copies, ..self }
+    }
+}
+
 /// Smallest and largest value over a field's chosen columns; `None` if no dexel has one.
 pub fn extremes(
     field: &Field,

@@ -23,16 +23,23 @@ use std::time::Instant;
 /// One flank after all operations.
 #[derive(Debug)]
 pub struct CutFlank<G, R> {
-    /// Rays.
+    /// Rays: all of them where maps, meshes or pictures show the flank.
     pub rays: G,
     /// What each operation left, in order.
     pub layers: Vec<Layer>,
+    /// Dexels of all operations.
+    pub dexels: u64,
     /// What the backend met.
     pub stats: CutStats,
     /// Arcs along the profile between which what each operation left is flank and no fillet, mm.
     pub evaluated_mm: Vec<[f64; 2]>,
     /// What the process measured on it.
     pub report: R,
+}
+
+/// Dexels of some layers.
+pub fn dexels_of(layers: &[Layer]) -> u64 {
+    layers.iter().map(|layer| layer.heights_mm.len() as u64).sum()
 }
 
 /// All flanks that were finished, in order of teeth, left before right.
@@ -84,7 +91,7 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
         if interrupt.is_raised() {
             return Ok(None);
         }
-        let CutFlank { rays, layers, stats, evaluated_mm, report } = cut_one(tooth, side)?;
+        let CutFlank { rays, layers, dexels, stats, evaluated_mm, report } = cut_one(tooth, side)?;
         let maps = needs_maps(parts).then(|| {
             let arcs_mm = rays.arcs_mm();
             let mut maps = FlankMaps::sample(tooth, side, [&arcs_mm, rays.rows_mm()], &layers, output.map_spacing_mm);
@@ -106,7 +113,6 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
             }
         }
         step.advance(1);
-        let dexels = layers.iter().map(|layer| layer.heights_mm.len() as u64).sum();
         Ok(Some(KeptFlank { report, maps, surface, pictured, stats, dexels }))
     })?;
     step.finish();

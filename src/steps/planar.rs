@@ -72,6 +72,24 @@ pub struct CutField {
     pub stats: CutStats,
 }
 
+impl CutField {
+    /// How many of so many rows each row stands for.
+    pub fn copies(&self, rows_z_mm: &[f64]) -> usize {
+        rows_z_mm.len() / self.field.rows()
+    }
+
+    /// With all of these rows, where one stands for them.
+    #[must_use]
+    pub fn over_rows(self, rows_z_mm: Vec<f64>) -> Self {
+        let copies = self.copies(&rows_z_mm);
+        if copies == 1 {
+            return self;
+        }
+        let layers = self.layers.iter().map(|layer| layer.repeated(copies)).collect();
+        Self { field: Field { rows_z_mm, ..self.field }, layers, ..self }
+    }
+}
+
 impl PlanarGear<'_> {
     /// Places along a profile of this length with the scene's spacing, mm from its beginning.
     pub fn arcs_mm(&self, length_mm: f64) -> impl Iterator<Item = f64> + use<> {
@@ -162,16 +180,14 @@ impl PlanarGear<'_> {
         self.operations.iter().all(|operation| operation.strokes.law == StrokeLaw::Frozen)
     }
 
-    /// Runs all operations over a field. Where all rows are alike, one is cut for all: every height and pass id is what
-    /// cutting each of them would give.
+    /// Runs all operations over those rows of a field that differ: over the first one where all are alike, since every
+    /// height and pass id is what cutting each of them would give. [`CutField::over_rows`] has them all.
     ///
     /// # Errors
     /// The backend's.
-    pub fn cut(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
-        if self.rows_are_alike() && field.rows() > 1 {
-            let (layers, stats) = self.cut_rows(backend, &field.section())?;
-            let rows = field.rows();
-            return Ok(CutField { layers: layers.iter().map(|layer| layer.repeated(rows)).collect(), field, stats });
+    pub fn cut_distinct_rows(&self, backend: &dyn Backend, mut field: Field) -> Result<CutField> {
+        if self.rows_are_alike() {
+            field.rows_z_mm.truncate(1);
         }
         let (layers, stats) = self.cut_rows(backend, &field)?;
         Ok(CutField { field, layers, stats })

@@ -208,7 +208,7 @@ fn spaced(places_mm: &[f64], spacing_mm: f64) -> Vec<usize> {
 /// `differences(from, to, visit)` visits the differences of all heights between two rows, in the same order at every
 /// call, until `visit` returns false. Each height keeps the window of slopes that its rows so far allow (the cone
 /// method of Williams, 1978): one look at every dexel.
-fn straight_rows(
+pub(super) fn straight_rows(
     rows_z_mm: &[f64],
     candidates: &[usize],
     differences: impl Fn(usize, usize, &mut dyn FnMut(f64) -> bool),

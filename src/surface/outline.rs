@@ -1,7 +1,9 @@
 //! The transverse outline of the cut gear, row by row: flanks, roots and tips in one closed chain of columns.
 //!
 //! In: the grids of all flanks, roots and tips. Out: [`Outline`]: columns in the order of growing polar angle, each
-//! with one point per row, so that neighbouring rows can be lofted.
+//! with one point per row, so that neighbouring rows can be lofted. Rows are left out where straight lines between the
+//! others miss no height of any grid by more than [`STRAIGHT_MM`](super::flanks::STRAIGHT_MM), that is no dexel by more
+//! than twice as much.
 //!
 //! The order follows from the gear alone: right flank of a tooth from form point to tip, its tip land, its left flank
 //! down again, the root of the space behind it, and so on. What no pass reached (tip lands, teeth outside a window) is
@@ -10,10 +12,11 @@
 //! sections differ end where its flanks begin, in every section at another place: nothing is sought there, for a
 //! crossing of one section is none of the others, and the common end itself would pass for one or not by the last bit.
 
-use super::flanks::SurfaceGrid;
+use super::flanks::{SurfaceGrid, straight_rows};
 use gearcut_core::dexel::NO_PASS;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 use glam::DVec2;
 use std::f64::consts::TAU;
 
@@ -189,16 +192,13 @@ impl Outline {
         let mut sampled = self.bare(DVec2::ZERO);
         let rows = grid.rows();
         for (row, &z_mm) in self.rows_z_mm.iter().enumerate() {
-            let after = grid.rows_mm.partition_point(|&l| l < z_mm).clamp(1, rows - 1);
-            let (from, to) = (grid.rows_mm[after - 1], grid.rows_mm[after]);
-            let share = ((z_mm - from) / (to - from)).clamp(0.0, 1.0);
-            let (a, b) = (column * rows + after - 1, column * rows + after);
-            let nearest = if share < 0.5 { a } else { b };
+            let place = RowPlace::of(&grid.rows_mm, z_mm);
+            let a = column * rows + place.before;
+            let nearest = if place.share < 0.5 { a } else { a + 1 };
             sampled.passes[row] = grid.passes[nearest];
-            // Exactly the one value where both are equal.
-            let in_section = |at: usize| grid.points_mm[at].truncate();
-            let between = |values: &[f32]| values[a] + share as f32 * (values[b] - values[a]);
-            sampled.points_mm[row] = in_section(a) + share * (in_section(b) - in_section(a));
+            let [from, to] = [a, a + 1].map(|at| grid.points_mm[at].truncate());
+            let between = |values: &[f32]| place.between(column * rows, values);
+            sampled.points_mm[row] = from + place.share * (to - from);
             if grid.passes[nearest] == NO_PASS {
                 sampled.points_mm[row] = blank.outline_mm(outline_angle(blank, sampled.points_mm[row]));
                 continue;
@@ -302,11 +302,128 @@ fn outline_angle(blank: &Blank, point_mm: DVec2) -> f64 {
     blank.height(point_mm, point_mm.to_angle()).1
 }
 
-/// Rows of all grids.
+/// Rows of all grids; where sections are alike, those between which every column of every grid runs straight. A grid
+/// keeps the rows that it needs itself, but those of many grids together, each at other places, would be all there
+/// are.
 fn common_rows(surfaces: &GearSurfaces) -> Vec<f64> {
     let grids = surfaces.teeth.iter().flat_map(|t| [Some(&t.right), t.tip.as_ref(), Some(&t.left), Some(&t.root)]);
-    let mut rows_z_mm: Vec<f64> = grids.flatten().flat_map(|grid| grid.rows_mm.iter().copied()).collect();
+    let grids: Vec<&SurfaceGrid> = grids.flatten().collect();
+    let mut rows_z_mm: Vec<f64> = grids.iter().flat_map(|grid| grid.rows_mm.iter().copied()).collect();
     rows_z_mm.sort_unstable_by(f64::total_cmp);
     rows_z_mm.dedup_by(|later, kept| *later - *kept < NEAREST_MM);
-    rows_z_mm
+    if grids.iter().any(|grid| grid.straight_target_mm.is_none()) {
+        return rows_z_mm;
+    }
+    let all: Vec<usize> = (0..rows_z_mm.len()).collect();
+    let rows = straight_rows(&rows_z_mm, &all, |from, to, visit| {
+        for grid in &grids {
+            let [from, to] = [from, to].map(|row| RowPlace::of(&grid.rows_mm, rows_z_mm[row]));
+            for column in 0..grid.columns() {
+                let first = column * grid.rows();
+                let between = |values: &[f32]| [&from, &to].map(|place| place.between(first, values));
+                let [a, b] = between(&grid.height_um).map(|um| f64::from(um) / UM_PER_MM);
+                if !visit(b - a) {
+                    return;
+                }
+                let Some(stock_mm) = &grid.stock_mm else { continue };
+                let stock_mm = between(stock_mm).map(f64::from);
+                let [a, b] = stock_mm.map(|mm| if mm.is_nan() { 0.0 } else { mm });
+                // Where stock begins or ends, a row stands on either side.
+                let [known_a, known_b] = stock_mm.map(|mm| f64::from(u8::from(!mm.is_nan())));
+                if !visit(b - a) || !visit(known_b - known_a) {
+                    return;
+                }
+            }
+        }
+    });
+    rows.into_iter().map(|row| rows_z_mm[row]).collect()
+}
+
+/// Where a place along the tooth lies among the rows of a grid.
+struct RowPlace {
+    /// The row before it.
+    before: usize,
+    /// How far it lies from there towards the next one, 0 to 1.
+    share: f64,
+}
+
+impl RowPlace {
+    fn of(rows_mm: &[f64], z_mm: f64) -> Self {
+        let after = rows_mm.partition_point(|&row_mm| row_mm < z_mm).clamp(1, rows_mm.len() - 1);
+        let (from, to) = (rows_mm[after - 1], rows_mm[after]);
+        Self { before: after - 1, share: ((z_mm - from) / (to - from)).clamp(0.0, 1.0) }
+    }
+
+    /// A value of the column whose values begin at `first`: exactly the one value where both are equal, and on a row that
+    /// of the row, though its neighbour has none.
+    fn between(&self, first: usize, values: &[f32]) -> f32 {
+        let [from, to] = [0, 1].map(|after| values[first + self.before + after]);
+        if self.share >= 1.0 { to } else { from + self.share as f32 * (to - from) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::flanks::STRAIGHT_MM;
+    use super::*;
+    use glam::DVec3;
+
+    /// Three columns; heights and stock in mm by place along the tooth.
+    fn grid(rows_mm: &[f64], height_mm: impl Fn(f64) -> f64, stock_mm: impl Fn(f64) -> f64) -> SurfaceGrid {
+        let of_all = |value: &dyn Fn(f64) -> f64| -> Vec<f32> {
+            (0..3).flat_map(|_| rows_mm.iter().map(|&z| value(z) as f32)).collect()
+        };
+        SurfaceGrid {
+            arcs_mm: vec![0.0, 1.0, 2.0],
+            rows_mm: rows_mm.to_vec(),
+            normals: vec![DVec3::X; 3],
+            straight_target_mm: Some(vec![DVec2::ZERO; 3]),
+            points_mm: vec![DVec3::ZERO; 3 * rows_mm.len()],
+            height_um: of_all(&|z| UM_PER_MM * height_mm(z)),
+            stock_mm: Some(of_all(&stock_mm)),
+            passes: vec![1; 3 * rows_mm.len()],
+        }
+    }
+
+    fn straight(rows_mm: &[f64]) -> SurfaceGrid {
+        grid(rows_mm, |z| 1e-3 * z, |_| 0.5)
+    }
+
+    fn gear(root: &SurfaceGrid) -> GearSurfaces {
+        // Every flank is bent by half of what shows, each at another place.
+        let flank = |k: f64| grid(&[-5.0, k, 5.0], |z| if z == k { 0.5 * STRAIGHT_MM } else { 0.0 }, |z| 0.01 * z);
+        let tooth = |k: i32| ToothSurfaces {
+            right: flank(0.31 * f64::from(k)),
+            tip: None,
+            left: flank(0.17 - 0.29 * f64::from(k)),
+            root: if k == 7 { root.clone() } else { straight(&[-5.0, 5.0]) },
+        };
+        GearSurfaces { teeth: (0..12).map(tooth).collect() }
+    }
+
+    #[test]
+    fn rows_that_no_grid_needs_are_left_out() {
+        assert_eq!(common_rows(&gear(&straight(&[-5.0, 1.0, 5.0]))), [-5.0, 5.0]);
+        let bent = grid(&[-5.0, 1.0, 5.0], |z| if z == 1.0 { 3.0 * STRAIGHT_MM } else { 0.0 }, |_| 0.5);
+        let rows_mm = common_rows(&gear(&bent));
+        let bend_mm = |z: f64| 3.0 * STRAIGHT_MM * ((z + 5.0) / 6.0).min((5.0 - z) / 4.0);
+        let lines = rows_mm.windows(2).find(|rows| rows[1] >= 1.0).expect("rows to the end of the face");
+        let share = (1.0 - lines[0]) / (lines[1] - lines[0]);
+        let missed_mm = bend_mm(1.0) - bend_mm(lines[0]) - share * (bend_mm(lines[1]) - bend_mm(lines[0]));
+        assert!(missed_mm <= STRAIGHT_MM && rows_mm.len() <= 5, "{missed_mm} mm, {rows_mm:?}");
+        // Helical sections wind about the axis: straight heights are no straight lines there.
+        let mut helical = gear(&straight(&[-5.0, 5.0]));
+        helical.teeth[0].right.straight_target_mm = None;
+        assert_eq!(common_rows(&helical).len(), 2 + 24);
+    }
+
+    #[test]
+    fn stock_ends_between_two_rows_of_its_own() {
+        let from = |edge: f64| move |z: f64| if z > edge { 0.5 } else { f64::NAN };
+        for rows_mm in [[-5.0, 2.0, 2.05, 5.0], [-5.0, -2.05, -2.0, 5.0]] {
+            let half = grid(&rows_mm, |_| 0.0, from(rows_mm[1]));
+            let common = common_rows(&gear(&half));
+            assert!(common.contains(&rows_mm[1]) && common.contains(&rows_mm[2]), "{common:?}");
+        }
+    }
 }

@@ -4,7 +4,7 @@ use super::job::BevelJob;
 use super::measure::{self, BevelReport, SlotRow};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
-use crate::steps::cut_flanks::{CutFlank, cut_flanks};
+use crate::steps::cut_flanks::{CutFlank, cut_flanks, dexels_of};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::pictures::flank::PicturedFlanks;
 use crate::steps::{FlankFiles, Work};
@@ -46,7 +46,7 @@ pub fn cut_gear(
         let (layers, stats) = job.cut_field(backend, job.space_of(tooth, side), &rays.field)?;
         let report = measure::measure(job, tooth, side, &rays, &layers)?;
         let evaluated_mm = vec![report.evaluated_mm; layers.len()];
-        Ok(CutFlank { rays, layers, stats, evaluated_mm, report })
+        Ok(CutFlank { dexels: dexels_of(&layers), rays, layers, stats, evaluated_mm, report })
     };
     let cut = cut_flanks(job, progress, interrupt, folder, cut_one, |_, _, _| Vec::new())?;
     if cut.reports.is_empty() {

@@ -8,7 +8,7 @@ use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::cutter::HobbedFlank;
 use crate::process::hobbing::measure::flank_report::{self, HobbedReport};
 use crate::process::hobbing::measure::offset_curves::{self, CurvePoint};
-use crate::steps::cut_flanks::{CutFlank, cut_flanks};
+use crate::steps::cut_flanks::{CutFlank, cut_flanks, dexels_of};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::pictures::flank::PicturedFlanks;
 use crate::steps::{FlankFiles, Work};
@@ -61,7 +61,7 @@ pub fn cut_gear(
             let points = offset_curves::measure(cutter, backend, tooth, side)?;
             let HobbedFlank { rays, layers, stats, .. } = flank;
             let evaluated_mm = vec![report.evaluated_mm; layers.len()];
-            Ok(CutFlank { rays, layers, stats, evaluated_mm, report: (report, points) })
+            Ok(CutFlank { dexels: dexels_of(&layers), rays, layers, stats, evaluated_mm, report: (report, points) })
         },
         |_, _, _| Vec::new(),
     )?;

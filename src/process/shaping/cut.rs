@@ -19,8 +19,14 @@ impl ShapingJob {
     /// # Errors
     /// The backend's.
     pub fn cut(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
+        let rows_z_mm = field.rows_z_mm.clone();
+        Ok(self.cut_distinct_rows(backend, field)?.over_rows(rows_z_mm))
+    }
+
+    /// The same over those rows alone that differ, or over all of them.
+    fn cut_distinct_rows(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
         match &self.cutter_spec.edge_rounding {
-            None => self.planar().cut(backend, field),
+            None => self.planar().cut_distinct_rows(backend, field),
             Some(rounding) => {
                 let (layers, stats) = ploughed_layers(self, &field, rounding);
                 Ok(CutField { field, layers, stats })
@@ -33,10 +39,23 @@ impl ShapingJob {
     /// # Errors
     /// The backend's.
     pub fn cut_on_flank(&self, backend: &dyn Backend, flank: (u32, Side), field: Field) -> Result<CutField> {
+        let rows_z_mm = field.rows_z_mm.clone();
+        Ok(self.cut_distinct_rows_on_flank(backend, flank, field)?.over_rows(rows_z_mm))
+    }
+
+    /// The same over those rows alone that differ, or over all of them.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub(super) fn cut_distinct_rows_on_flank(
+        &self,
+        backend: &dyn Backend,
+        flank: (u32, Side),
+        field: Field,
+    ) -> Result<CutField> {
+        let Some(edge) = &self.cutter_spec.built_up_edge else { return self.cut_distinct_rows(backend, field) };
         let mut cut = self.cut(backend, field)?;
-        if let Some(edge) = &self.cutter_spec.built_up_edge {
-            self.tear(edge, flank, &mut cut);
-        }
+        self.tear(edge, flank, &mut cut);
         Ok(cut)
     }
 }

@@ -6,12 +6,12 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, last_chips_on_map};
 use crate::process::shaping::measure::gear_report::{RootReport, root_stock};
 use crate::process::shaping::measure::{GearReport, flank_report, gear_report};
-use crate::steps::cut_flanks::{CutFlank, cut_flanks};
+use crate::steps::cut_flanks::{CutFlank, cut_flanks, dexels_of};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::parts::Parts;
 use crate::steps::pictures::flank::PicturedFlanks;
 use crate::steps::planar::CutField;
-use crate::steps::{FlankFiles, Work, needs_surfaces};
+use crate::steps::{FlankFiles, Work, needs_maps, needs_surfaces};
 use crate::surface::SurfaceGrid;
 use gearcut_core::cut::Backend;
 use gearcut_core::error::{Error, Result};
@@ -51,6 +51,8 @@ pub fn cut_gear(
 ) -> Result<CutGear> {
     let started = Instant::now();
     let chips = follow_chips(job, progress, interrupt)?;
+    let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
+    let are_shown = needs_maps(parts) || needs_surfaces(job, parts);
     let cut = cut_flanks(
         job,
         progress,
@@ -58,15 +60,17 @@ pub fn cut_gear(
         folder,
         |tooth, side| {
             let target = job.target_flank(tooth, side);
-            let cut = job.cut_on_flank(backend, (tooth, side), job.flank_field(target))?;
-            let report = flank_report::measure(job, target, &cut);
-            let CutField { field, layers, stats } = cut;
+            let field = job.flank_field(target);
+            let rows_z_mm = field.rows_z_mm.clone();
+            let cut = job.cut_distinct_rows_on_flank(backend, (tooth, side), field)?;
+            let report = flank_report::measure(job, target, &cut, &rows_z_mm);
             let evaluated_mm = report.own.active_mm.iter().copied().chain([report.evaluated_mm]).collect();
-            Ok(CutFlank { rays: field, layers, stats, evaluated_mm, report })
+            let dexels = dexels_of(&cut.layers) * cut.copies(&rows_z_mm) as u64;
+            let CutField { field, layers, stats } = if are_shown { cut.over_rows(rows_z_mm) } else { cut };
+            Ok(CutFlank { rays: field, layers, dexels, stats, evaluated_mm, report })
         },
         |field, layers, maps| last_chips_on_map(job, field, &maps.chip_places(layers, field.rows())),
     )?;
-    let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
     let roots = cut_roots(job, backend, needs_surfaces(job, parts) && !cut.work.interrupted)?;
     let (root_reports, roots): (Vec<RootReport>, Vec<Option<SurfaceGrid>>) = roots.into_iter().unzip();
     let report = gear_report::measure(job, cut.reports, root_reports);

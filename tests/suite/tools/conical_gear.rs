@@ -17,7 +17,7 @@ use gearcut::passes::{SweepPlan, TurningPasses};
 use gearcut::scene::Scene;
 use gearcut::scene::model::{Picture, PictureColour, PictureView};
 use gearcut::steps::attempts::Attempts;
-use gearcut::steps::cut_flanks::{CutFlank, CutFlanks, cut_flanks};
+use gearcut::steps::cut_flanks::{CutFlank, CutFlanks, cut_flanks, dexels_of};
 use gearcut::steps::parts::Parts;
 use gearcut::steps::report::PageGear;
 use gearcut::steps::view_mesh::{ViewFlank, ViewMesh};
@@ -183,7 +183,14 @@ fn cut(job: &ConicalJob, tools: Option<&Tools>) -> CutFlanks<()> {
         let rays = job.all_rays(side);
         let layers = vec![job.cut(&rays)];
         let evaluated_mm = vec![[0.0, f64::INFINITY]];
-        Ok(CutFlank { rays, layers, stats: gearcut::cut::CutStats::default(), evaluated_mm, report: () })
+        Ok(CutFlank {
+            dexels: dexels_of(&layers),
+            rays,
+            layers,
+            stats: gearcut::cut::CutStats::default(),
+            evaluated_mm,
+            report: (),
+        })
     };
     let folder = tools.map(|tools| (tools.folder, tools.notes, tools.parts));
     cut_flanks(job, &progress, &interrupt, folder, cut_one, |_, _, _| Vec::new()).expect("cuts")

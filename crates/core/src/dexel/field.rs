@@ -71,13 +71,6 @@ impl Field {
         Layer { heights_mm, passes: vec![NO_PASS; self.len()] }
     }
 
-    /// The same rays in the middle of the face alone: all there is to cut where the passes do not change along the
-    /// tooth.
-    #[must_use]
-    pub fn section(&self) -> Self {
-        Self { columns: self.columns.clone(), rows_z_mm: vec![0.0] }
-    }
-
     /// The same rays at some columns and rows alone.
     #[must_use]
     pub fn at(&self, [columns, rows]: [&[usize]; 2]) -> Self {

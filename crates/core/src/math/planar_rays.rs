@@ -18,6 +18,8 @@ use std::ops::Range;
 
 /// A Newton step below this ends the iteration; the error after it is its square.
 const LAST_STEP: f64 = 1e-9;
+/// A place across the rays lies between two of them when it is this far from both at least, in shares of their distance.
+const ROUNDING: f64 = 1e-6;
 /// Halvings of a piece's range towards the place where it runs along the rays: its rate is smooth, and a place that is
 /// off by 2^-48 of the piece is off by nothing across the rays.
 const TURNING_HALVINGS: u32 = 48;
@@ -81,8 +83,10 @@ impl RayRow {
 
     /// First ray at or above a place; `count` if there is none.
     pub fn first_at_or_above(&self, at_mm: f64) -> usize {
-        let guess = ((at_mm - self.first_mm) / self.spacing_mm).ceil().clamp(0.0, self.count as f64);
-        let mut ray = guess as usize;
+        // Rounds up without a call: the cast rounds towards zero.
+        let place = ((at_mm - self.first_mm) / self.spacing_mm).clamp(0.0, self.count as f64);
+        let below = place as usize;
+        let mut ray = below + usize::from(below as f64 != place);
         // Division rounds; the rays' own places decide.
         while ray < self.count && self.at_mm(ray) < at_mm {
             ray += 1;
@@ -193,8 +197,9 @@ impl RayCrossings {
         margin_mm: f64,
     ) {
         self.margin_mm = margin_mm;
-        for met in &mut self.met {
-            met.clear();
+        if self.touched.start < self.touched.end {
+            let touched = self.touched.start - self.rays.start..self.touched.end - self.rays.start;
+            self.met[touched].iter_mut().for_each(Vec::clear);
         }
         self.parts.clear();
         self.met.resize_with(window.len().max(self.met.len()), Vec::new);
@@ -204,14 +209,21 @@ impl RayCrossings {
             return;
         }
         let (low_mm, high_mm) = (row.at_mm(window.start) - margin_mm, row.at_mm(window.end - 1) + margin_mm);
-        let pieces = curve.pieces();
+        let (pieces, per_mm) = (curve.pieces(), 1.0 / row.spacing_mm);
         let first = curve.node_mm(0);
         let mut start = first;
         for (index, piece) in pieces.iter().enumerate() {
             let end = if index + 1 < pieces.len() { curve.node_mm(index + 1) } else { first };
             let (from, to) = (family.across(start), family.across(end));
-            if from.max(to) + piece.sagitta_mm >= low_mm && from.min(to) - piece.sagitta_mm <= high_mm {
-                self.split(curve, family, row, index, [start, end]);
+            let (low, high) = (from.min(to) - piece.sagitta_mm, from.max(to) + piece.sagitta_mm);
+            if high >= low_mm && low <= high_mm {
+                // Most pieces are shorter than the rays lie apart and meet none: they lie well inside one gap.
+                let place = |at_mm: f64| (at_mm - row.first_mm) * per_mm;
+                let (from, to) = (place(low - margin_mm), place(high + margin_mm));
+                let gap = from as i64 as f64;
+                if from <= gap + ROUNDING || to >= gap + 1.0 - ROUNDING {
+                    self.split(curve, family, row, index, [start, end]);
+                }
             }
             start = end;
         }

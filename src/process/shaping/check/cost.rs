@@ -85,7 +85,10 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Resul
         let field = some_tiles(field);
         rows = field.rows();
         planned_columns += field.columns.len() as f64;
-        let field = if job.planar().rows_are_alike() { field.section() } else { field };
+        let mut field = field;
+        if job.planar().rows_are_alike() {
+            field.rows_z_mm.truncate(1);
+        }
         if let Some(rounding) = &job.cutter_spec.edge_rounding {
             followed.add(job, &field, rounding, &mut machine);
         }

@@ -9,10 +9,10 @@
 //! ([`Segments::stays_above`]). Of some thousand passes near a flank all but the few dozen whose blades come within a
 //! of the surface are answered for so, once for a group instead of once for a column.
 //!
-//! The answer is kept for each pass: the height that it surely stays above, and the lowest for which this could not be
+//! The answer is kept for each pass: the heights that it surely stays above, and the lowest for which this could not be
 //! said. It decides about time alone: a pass that is not answered for is looked at column by column.
 
-use super::segments::{Near, Segments};
+use super::segments::{Near, PhaseHeights, Segments};
 use gearcut_core::dexel::field::Column;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -20,6 +20,10 @@ use std::ops::Range;
 /// Columns of a group lie within this length of the profile, mm. It decides about time alone: a wide group answers for
 /// more columns, a narrow one about passes that come closer.
 const WIDTH_MM: f64 = 0.4;
+
+/// A group is asked for heights that are more than those looked at by this share of how far its columns differ: those of
+/// the next columns are answered as well.
+const SPARE_SHARE: f64 = 0.1;
 
 /// What is known of the passes over a group of columns.
 pub(super) struct ColumnGroup {
@@ -35,10 +39,10 @@ pub(super) struct ColumnGroup {
 /// What is known of a pass.
 #[derive(Clone, Copy)]
 struct GroupLook {
-    /// It surely stays above this on all columns, mm.
-    above_mm: f64,
-    /// Of this height and higher ones it could not be said, mm.
-    open_mm: f64,
+    /// It surely stays above these on all columns.
+    above: PhaseHeights,
+    /// Of these heights and higher ones it could not be said.
+    open: PhaseHeights,
 }
 
 impl ColumnGroup {
@@ -51,7 +55,8 @@ impl ColumnGroup {
         let apart_mm = columns.iter().map(|column| {
             column.origin_mm.distance(middle.origin_mm) + farthest_mm * column.normal.distance(middle.normal)
         });
-        let nothing = GroupLook { above_mm: f64::NEG_INFINITY, open_mm: f64::INFINITY };
+        let [above, open] = [f64::NEG_INFINITY, f64::INFINITY].map(PhaseHeights::even);
+        let nothing = GroupLook { above, open };
         Self {
             apart_mm: apart_mm.fold(0.0, f64::max),
             middle,
@@ -72,22 +77,22 @@ impl ColumnGroup {
         groups
     }
 
-    /// Whether a pass surely stays above a height on all columns, as far as a look at the middle ray can say.
-    pub fn stays_above(&mut self, segments: &Segments, pass: usize, near: &Near, height_mm: f64) -> bool {
+    /// Whether a pass surely stays above some heights on all columns, as far as a look at the middle ray can say.
+    pub fn stays_above(&mut self, segments: &Segments, pass: usize, near: &Near, heights: &PhaseHeights) -> bool {
         let look = &mut self.passes[pass];
-        if height_mm <= look.above_mm {
+        if look.above.covers(heights) {
             return true;
         }
-        if height_mm >= look.open_mm {
+        if heights.covers(&look.open) {
             return false;
         }
+        let heights = heights.raised(SPARE_SHARE * self.apart_mm);
         let set = segments.meeting(near, &self.middle, self.apart_mm);
-        let above_mm = if set == 0 { f64::INFINITY } else { height_mm };
-        let stays = set == 0 || segments.stays_above(near, &self.middle, set, height_mm, self.apart_mm);
+        let stays = set == 0 || segments.stays_above(near, &self.middle, set, &heights, self.apart_mm);
         if stays {
-            look.above_mm = above_mm;
+            look.above = if set == 0 { PhaseHeights::even(f64::INFINITY) } else { heights };
         } else {
-            look.open_mm = height_mm;
+            look.open = heights;
         }
         stays
     }

@@ -13,7 +13,7 @@
 //! more than a look at the edge for each row (75 s for 60 s on the paper's gear with the feed going on).
 
 use super::column_group::ColumnGroup;
-use super::segments::{Near, Reaching, SegmentSet, Segments};
+use super::segments::{Near, PhaseHeights, Reaching, SegmentSet, Segments};
 use gearcut_core::dexel::field::Column;
 use std::ops::Range;
 
@@ -27,8 +27,8 @@ enum Look {
     None,
     /// It meets no ray of the column.
     Misses,
-    /// These segments may meet the rays, but surely higher than this, mm.
-    Above(SegmentSet, f64),
+    /// These segments may meet the rays, but surely higher than this.
+    Above(SegmentSet, PhaseHeights),
     /// Its bounds.
     Bounded(Reaching),
 }
@@ -48,16 +48,16 @@ impl<'a> ColumnPasses<'a> {
         Self { segments, near, ray, group, looks: vec![Look::None; near.len()] }
     }
 
-    /// A pass's bounds, unless it misses the column or surely stays above a height.
-    fn below(&mut self, pass: usize, height_mm: f64) -> Option<Reaching> {
-        match self.looks[pass] {
+    /// A pass's bounds, unless it misses the column or surely stays above some heights.
+    fn below(&mut self, pass: usize, heights: &PhaseHeights) -> Option<Reaching> {
+        match &self.looks[pass] {
             Look::Misses => return None,
-            Look::Above(_, above_mm) if above_mm >= height_mm => return None,
-            Look::Bounded(reaching) => return Some(reaching),
+            Look::Above(_, above) if above.covers(heights) => return None,
+            Look::Bounded(reaching) => return Some(*reaching),
             Look::None | Look::Above(..) => {}
         }
         let near = &self.near[pass];
-        if self.group.stays_above(self.segments, pass, near, height_mm) {
+        if self.group.stays_above(self.segments, pass, near, heights) {
             return None;
         }
         let set = match self.looks[pass] {
@@ -66,8 +66,8 @@ impl<'a> ColumnPasses<'a> {
         };
         let (look, reaching) = if set == 0 {
             (Look::Misses, None)
-        } else if self.segments.stays_above(near, self.ray, set, height_mm, 0.0) {
-            (Look::Above(set, height_mm), None)
+        } else if self.segments.stays_above(near, self.ray, set, heights, 0.0) {
+            (Look::Above(set, *heights), None)
         } else {
             let reaching = self.segments.reaching(pass, near, self.ray, set);
             (reaching.map_or(Look::Misses, Look::Bounded), reaching)
@@ -76,40 +76,46 @@ impl<'a> ColumnPasses<'a> {
         reaching
     }
 
-    /// The lowest that any of some passes surely leaves, asked in their order: those that stay above it need no bounds.
-    /// With it the pass that leaves it, if it lies below `from_mm`.
-    fn surely_left_mm(&mut self, passes: impl Iterator<Item = usize>, from_mm: f64) -> (f64, Option<usize>) {
-        passes.fold((from_mm, None), |(left_mm, by), pass| match self.below(pass, left_mm) {
-            Some(reaching) if reaching.heights_mm[1] < left_mm => (reaching.heights_mm[1], Some(pass)),
-            _ => (left_mm, by),
+    /// The lowest, in the mean over the phases, that any of some passes surely leaves, asked in their order: those that
+    /// stay above it need no bounds. With it the pass that leaves it, if it lies below `from`.
+    fn surely_left(
+        &mut self,
+        passes: impl Iterator<Item = usize>,
+        from: PhaseHeights,
+    ) -> (PhaseHeights, Option<usize>) {
+        passes.fold((from, None), |(left, by), pass| match self.below(pass, &left) {
+            Some(reaching) if reaching.highest.is_lower(&left) => (reaching.highest, Some(pass)),
+            _ => (left, by),
         })
     }
 
-    /// The lowest that any of some passes surely leaves, or `from_mm`.
-    pub fn surely_left_by(&mut self, passes: Range<usize>, from_mm: f64) -> f64 {
+    /// The lowest that any of some passes surely leaves, or `from`.
+    pub fn surely_left_by(&mut self, passes: Range<usize>, from: PhaseHeights) -> PhaseHeights {
         let before = self.group.lowest_pass(&passes);
         let first = before.into_iter().chain(passes.clone().step_by(STRIDE));
-        let (coarse_mm, by_coarse) = self.surely_left_mm(first, from_mm);
-        let (left_mm, by) = self.surely_left_mm(passes.clone(), coarse_mm);
+        let (coarse, by_coarse) = self.surely_left(first, from);
+        let (left, by) = self.surely_left(passes.clone(), coarse);
         if let Some(lowest) = by.or(by_coarse) {
             self.group.is_lowest(&passes, lowest);
         }
-        left_mm
+        left
     }
 
-    /// Those of some passes that may come as low as a height on any of the column's rays.
-    pub fn reaching_below(&mut self, passes: Range<usize>, height_mm: f64) -> Vec<Reaching> {
-        let below = passes.filter_map(|pass| self.below(pass, height_mm));
-        below.filter(|pass| pass.heights_mm[0] <= height_mm).collect()
+    /// Those of some passes that may come as low as some heights on any of the column's rays.
+    pub fn reaching_below(&mut self, passes: Range<usize>, heights: PhaseHeights) -> Vec<Reaching> {
+        let below = passes.filter_map(|pass| self.below(pass, &heights));
+        below.filter(|pass| pass.lowest.reaches(&heights)).collect()
     }
 
-    /// All of some passes that reach the column.
+    /// All of some passes that reach the column, whatever their bounds.
     #[cfg(test)]
     pub fn all(&self, passes: Range<usize>) -> Vec<Reaching> {
+        const FAR_BELOW_MM: f64 = -1e6;
         let bounds = |pass: usize| {
             let near = &self.near[pass];
             let set = self.segments.meeting(near, self.ray, 0.0);
-            if set == 0 { None } else { self.segments.reaching(pass, near, self.ray, set) }
+            let reaching = (set != 0).then(|| self.segments.reaching(pass, near, self.ray, set)).flatten();
+            reaching.map(|reaching| Reaching { lowest: PhaseHeights::even(FAR_BELOW_MM), ..reaching })
         };
         passes.filter_map(bounds).collect()
     }
@@ -117,12 +123,12 @@ impl<'a> ColumnPasses<'a> {
 
 /// Those of the first `end` passes that can decide the last chip.
 pub(super) fn deciding(column: &mut ColumnPasses, end: usize) -> Vec<Reaching> {
-    let left_mm = column.surely_left_by(0..end, column.ray.blank_mm);
-    let may_rule = |look: &Look| matches!(look, Look::Bounded(pass) if pass.heights_mm[0] <= left_mm);
+    let blank = PhaseHeights::even(column.ray.blank_mm);
+    let left = column.surely_left_by(0..end, blank);
+    let may_rule = |look: &Look| matches!(look, Look::Bounded(pass) if pass.lowest.reaches(&left));
     let ruling = column.looks[..end].iter().position(may_rule).zip(column.looks[..end].iter().rposition(may_rule));
     let Some((first, last)) = ruling else { return Vec::new() };
     // The surface that the first of them meets was left shortly before.
-    let before_mm = column.surely_left_mm((0..first).rev(), column.ray.blank_mm).0;
-    let asked = (0..=last).filter_map(|pass| column.below(pass, before_mm));
-    asked.filter(|pass| pass.heights_mm[0] <= before_mm).collect()
+    let before = column.surely_left((0..first).rev(), blank).0;
+    column.reaching_below(0..last + 1, before)
 }

@@ -126,9 +126,6 @@ fn last_chips_of(
 /// they stay above; the last one found takes its place.
 fn last_cut(passes: &FieldPasses, chosen: &[Chosen], row: usize, ray: &Column, likely: &mut usize) -> RaySurface {
     let enters = |index: usize, surface_mm: f64| {
-        if chosen[index].lowest_mm >= surface_mm {
-            return None;
-        }
         let entry = passes.entry(&chosen[index], row, ray, surface_mm)?;
         Some((index, entry.height_mm.max(ray.low_mm), entry))
     };

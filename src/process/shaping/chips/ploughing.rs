@@ -18,7 +18,7 @@
 use super::column_group::ColumnGroup;
 use super::deciding::ColumnPasses;
 use super::rays::{Chosen, FieldPasses, Pairing, RaySurface};
-use super::segments::Reaching;
+use super::segments::{PhaseHeights, Reaching};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_rounding::Meeting;
 use crate::process::shaping::scene::model::EdgeRounding;
@@ -65,7 +65,7 @@ struct PassChoice {
 /// Those that are needed.
 const NEEDED: PassChoice = PassChoice {
     first_bound_mm: |left_mm, chip_mm| left_mm + chip_mm,
-    passes: |column, passes, bound_mm| column.reaching_below(passes, bound_mm),
+    passes: |column, passes, bound_mm| column.reaching_below(passes, PhaseHeights::even(bound_mm)),
 };
 
 /// The same with other passes.
@@ -85,7 +85,7 @@ fn surfaces_of(
         for operation in 0..job.operations.len() {
             let of_operation = passes.of_operation(operation);
             let highest_mm = rows.iter().map(|row| row.height_mm).fold(f64::NEG_INFINITY, f64::max);
-            let left_mm = column.surely_left_by(of_operation.clone(), highest_mm);
+            let left_mm = column.surely_left_by(of_operation.clone(), PhaseHeights::even(highest_mm)).highest_mm();
             let mut bound_mm = (choice.first_bound_mm)(left_mm, rounding.minimum_chip_mm());
             rows = loop {
                 bound_mm = bound_mm.min(highest_mm);
@@ -244,7 +244,7 @@ mod tests {
         let rounding = EdgeRounding { radius_mm: 0.005, minimum_chip_share: 0.3, recovery_share: 1.0 };
         let forgetful = PassChoice {
             passes: |column, passes, bound_mm| {
-                let below = column.reaching_below(passes, bound_mm).into_iter();
+                let below = column.reaching_below(passes, PhaseHeights::even(bound_mm)).into_iter();
                 below.filter(|pass| pass.near % 5 != 0).collect()
             },
             ..NEEDED

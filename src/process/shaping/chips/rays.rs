@@ -6,7 +6,9 @@
 
 use super::column_group::ColumnGroup;
 use super::deciding::ColumnPasses;
-use super::segments::{END_OVERLAP_MM, Near, Reaching, SegmentSet, Segments, SharedSegment, passes_near, residual_mm};
+use super::segments::{
+    END_OVERLAP_MM, Near, PhaseHeights, Reaching, SegmentSet, Segments, SharedSegment, passes_near, residual_mm,
+};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_polygon::EdgeSide;
 use gearcut_core::dexel::field::{Column, Field, NO_PASS};
@@ -55,8 +57,8 @@ pub(super) struct Chosen {
     blade: u32,
     path: StrokePath,
     segments: SegmentSet,
-    /// It leaves no ray of the column lower than this, mm.
-    pub lowest_mm: f64,
+    /// It leaves no ray of the column lower than this.
+    lowest: PhaseHeights,
 }
 
 /// Passes near a field.
@@ -139,14 +141,18 @@ impl<'a> FieldPasses<'a> {
             let &Near { operation, stroke, blade, .. } = &self.near[reaching.near];
             let strokes = &self.job.operations[operation].strokes;
             let (id, path) = (strokes.pass_id(stroke, blade), strokes.path(stroke));
-            Chosen { id, operation, blade, path, segments: reaching.segments, lowest_mm: reaching.heights_mm[0] }
+            Chosen { id, operation, blade, path, segments: reaching.segments, lowest: reaching.lowest }
         };
         reaching.into_iter().map(ready).collect()
     }
 
     /// Where a ray in a row enters the tooth of a pass first, if that lies lower than `surface_mm`.
     pub fn entry(&self, pass: &Chosen, row: usize, ray: &Column, surface_mm: f64) -> Option<EdgeEntry> {
-        let work_from_tool = pass.path.at(self.phases[row][pass.operation]);
+        let tau = self.phases[row][pass.operation];
+        if pass.lowest.at_mm(tau) >= surface_mm {
+            return None;
+        }
+        let work_from_tool = pass.path.at(tau);
         let blade_from_work = self.blades[pass.blade as usize].after(&work_from_tool.inverse());
         let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
         // Kernels follow rays down to twice their lowest height and record the lowest one there.

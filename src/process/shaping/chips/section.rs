@@ -25,6 +25,9 @@ use glam::DVec2;
 /// Crossings further apart than this many spacings are not joined: a corner of the edge lies between them.
 const JOINED_SPACINGS: f64 = 4.0;
 
+/// Added to a number between 0 and 2^51 and taken away again it leaves the nearest whole one: 1.5 times 2^52.
+const ROUNDS: f64 = 6_755_399_441_055_744.0;
+
 /// A place where a ray crosses the edge of the pass just cut, section frame.
 #[derive(Debug, Clone, Copy)]
 struct EdgeCrossing {
@@ -59,6 +62,8 @@ struct FamilyRays {
     changed: Vec<(u32, u32)>,
     /// Those spans, ray after ray.
     before: Vec<Span>,
+    /// Ranks of the corners that are laid, among the rays.
+    ranks: Vec<f64>,
 }
 
 /// The material of one space and its neighbourhood. Frame: x mostly outwards, y mostly to larger arcs.
@@ -81,9 +86,9 @@ impl<'a> SpaceSection<'a> {
             let (from, to) = (family.across(low), family.across(high));
             let count = ((to - from) / spacing_mm).ceil().max(1.0) as usize + 1;
             let row = RayRow { first_mm: from, spacing_mm, count };
-            let mut ends = vec![Vec::new(); count];
+            let (mut ends, mut ranks) = (vec![Vec::new(); count], Vec::new());
             for contour_mm in contours_mm {
-                lay(contour_mm, family, &row, |ray, along_mm, _, _| ends[ray].push(along_mm));
+                lay(contour_mm, family, &row, &mut ranks, |ray, along_mm, _, _| ends[ray].push(along_mm));
             }
             let rays = ends.into_iter().map(blank_spans).collect();
             FamilyRays {
@@ -96,6 +101,7 @@ impl<'a> SpaceSection<'a> {
                 touched: 0..0,
                 changed: Vec::new(),
                 before: Vec::new(),
+                ranks,
             }
         });
         Self { polygon, spacing_mm, sides, corners_mm: Vec::new(), deepest_mm: 0.0 }
@@ -194,7 +200,7 @@ impl FamilyRays {
         let (crossings, by_ray) = (&mut self.crossings, &mut self.by_ray);
         let family = self.family;
         let row = self.row;
-        lay(corners_mm, family, &row, |ray, along_mm, parameter, square| {
+        lay(corners_mm, family, &row, &mut self.ranks, |ray, along_mm, parameter, square| {
             first = first.min(ray);
             last = last.max(ray + 1);
             by_ray[ray].push(crossings.len() as u32);
@@ -204,7 +210,7 @@ impl FamilyRays {
             crossings.push(EdgeCrossing { ray, along_mm, parameter, near_mm, far_mm: near_mm, cuts, surface, square });
         });
         let zone = &mut self.zone;
-        lay(zone_mm, family, &row, |ray, along_mm, _, _| {
+        lay(zone_mm, family, &row, &mut self.ranks, |ray, along_mm, _, _| {
             first = first.min(ray);
             last = last.max(ray + 1);
             zone[ray].push(along_mm);
@@ -313,33 +319,42 @@ fn blank_spans(mut ends_mm: Vec<f64>) -> Vec<Span> {
 /// Calls `meet` with every crossing of a closed polygon with the rays, in the polygon's order: ray, coordinate along
 /// it, parameter of the polygon, and whether the ray stands within 60 degrees of the chord's normal. Every ray is
 /// crossed an even number of times, because which rays a chord crosses follows from the ranks of its corners alone.
-fn lay(corners_mm: &[DVec2], family: Family, row: &RayRow, mut meet: impl FnMut(usize, f64, f64, bool)) {
-    let per_mm = 1.0 / row.spacing_mm;
-    let rank = |p: DVec2| {
-        // Rounds up without a call: the cast rounds towards zero.
-        let place = ((family.across(p) - row.first_mm) * per_mm).clamp(0.0, row.count as f64);
-        let below = place as usize;
-        below + usize::from(below as f64 != place)
+fn lay(
+    corners_mm: &[DVec2],
+    family: Family,
+    row: &RayRow,
+    ranks: &mut Vec<f64>,
+    mut meet: impl FnMut(usize, f64, f64, bool),
+) {
+    // All ranks first, without a branch or a cast: most chords lie between two rays, and this is what they cost.
+    let (per_mm, count) = (1.0 / row.spacing_mm, row.count as f64);
+    let rank = |p: &DVec2| {
+        let place = ((family.across(*p) - row.first_mm) * per_mm).max(0.0).min(count);
+        let nearest = (place + ROUNDS) - ROUNDS;
+        if nearest < place { nearest + 1.0 } else { nearest }
     };
+    ranks.clear();
+    ranks.extend(corners_mm.iter().map(rank));
     let Some(&first) = corners_mm.first() else { return };
-    let (mut a, mut rank_a) = (first, rank(first));
-    for chord in 0..corners_mm.len() {
-        let b = corners_mm.get(chord + 1).copied().unwrap_or(first);
-        let rank_b = rank(b);
-        if rank_a != rank_b {
-            let (across, along) = (family.across(a), family.along(a));
-            let (rise, run) = (family.across(b) - across, family.along(b) - along);
-            let square = 3.0 * rise * rise > run * run;
-            let mut one = |ray: usize| {
-                let share = ((row.at_mm(ray) - across) / rise).clamp(0.0, 1.0);
-                meet(ray, along + share * run, chord as f64 + share, square);
-            };
-            if rank_a < rank_b {
-                (rank_a..rank_b).for_each(&mut one);
-            } else {
-                (rank_b..rank_a).rev().for_each(&mut one);
-            }
+    ranks.push(ranks[0]);
+    for (chord, (ends, &a)) in ranks.windows(2).zip(corners_mm).enumerate() {
+        let [rank_a, rank_b] = [ends[0], ends[1]];
+        if rank_a == rank_b {
+            continue;
         }
-        (a, rank_a) = (b, rank_b);
+        let b = corners_mm.get(chord + 1).copied().unwrap_or(first);
+        let (across, along) = (family.across(a), family.along(a));
+        let (rise, run) = (family.across(b) - across, family.along(b) - along);
+        let square = 3.0 * rise * rise > run * run;
+        let mut one = |ray: usize| {
+            let share = ((row.at_mm(ray) - across) / rise).clamp(0.0, 1.0);
+            meet(ray, along + share * run, chord as f64 + share, square);
+        };
+        let [rank_a, rank_b] = [rank_a, rank_b].map(|rank| rank as usize);
+        if rank_a < rank_b {
+            (rank_a..rank_b).for_each(&mut one);
+        } else {
+            (rank_b..rank_a).rev().for_each(&mut one);
+        }
     }
 }

@@ -11,7 +11,7 @@ use crate::process::shaping::{PreparedOperation, ShapingJob};
 use arrayvec::ArrayVec;
 use gearcut_core::dexel::field::{Column, Field};
 use gearcut_core::frame::Rigid2;
-use gearcut_core::passes::planar::near::{MAX_PHASES, NearPass, near_passes};
+use gearcut_core::passes::planar::near::{MAX_PHASES, NearPass, PhasePoses, near_passes};
 use gearcut_core::tool::edge::{Edge, Segment, SegmentShape};
 use glam::DVec2;
 
@@ -27,13 +27,61 @@ pub(super) struct Near {
     pub blade: u32,
     /// Poses of the work in the blade frame at both ends and in the middle of its travel along the face, or the only
     /// one.
-    blade_from_work: ArrayVec<Rigid2, MAX_PHASES>,
+    blade_from_work: PhasePoses,
     /// How far the blade moves meanwhile, mm.
     travel_mm: f64,
 }
 
 /// A set of the blade's segments, one bit each.
 pub(super) type SegmentSet = u64;
+
+/// Heights over a column's rays at the phases where passes are looked at, mm: between these they follow a parabola. All
+/// three are equal where strokes are frozen.
+///
+/// Where a guide leads the cutter aside, or the feed goes on, all passes come to other heights at other phases, and
+/// alike: compared phase by phase a few dozen nanometres tell them apart, where their heights anywhere on the column
+/// overlap by micrometres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PhaseHeights([f64; MAX_PHASES]);
+
+impl PhaseHeights {
+    /// The same height at every phase.
+    pub fn even(height_mm: f64) -> Self {
+        Self([height_mm; MAX_PHASES])
+    }
+
+    /// Whether it is as high as another or higher at every phase.
+    pub fn covers(&self, other: &Self) -> bool {
+        self.0.iter().zip(&other.0).all(|(own, other)| own >= other)
+    }
+
+    /// Whether it comes as low as another at any phase. Bounds hold between phases as well: what they are widened by
+    /// holds how far parabolas dip there.
+    pub fn reaches(&self, other: &Self) -> bool {
+        self.0.iter().zip(&other.0).any(|(own, other)| own <= other)
+    }
+
+    /// The same, higher by so much.
+    pub fn raised(self, by_mm: f64) -> Self {
+        Self(self.0.map(|height_mm| height_mm + by_mm))
+    }
+
+    /// The highest of its heights at the phases.
+    pub fn highest_mm(&self) -> f64 {
+        self.0.into_iter().fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Whether it lies lower than another in the mean.
+    pub fn is_lower(&self, other: &Self) -> bool {
+        self.0.iter().sum::<f64>() < other.0.iter().sum::<f64>()
+    }
+
+    /// Height at a phase.
+    pub fn at_mm(&self, tau: f64) -> f64 {
+        let [before, middle, after] = self.0;
+        middle + 0.5 * tau * (after - before + tau * (before - 2.0 * middle + after))
+    }
+}
 
 /// A pass whose edge can meet a column's rays.
 #[derive(Debug, Clone, Copy)]
@@ -42,9 +90,10 @@ pub(super) struct Reaching {
     pub near: usize,
     /// Segments that can meet the rays.
     pub segments: SegmentSet,
-    /// Lowest and highest height that the pass leaves on any of the column's rays, mm; the highest is infinite where it
-    /// may miss one.
-    pub heights_mm: [f64; 2],
+    /// The pass leaves none of the column's rays lower than this.
+    pub lowest: PhaseHeights,
+    /// It leaves none higher than this; infinite where it may miss one.
+    pub highest: PhaseHeights,
 }
 
 /// A segment of the smooth edge that all blades share.
@@ -69,12 +118,12 @@ impl SharedSegment<'_> {
         self.depth_mm == 0.0 && self.holds_tool()
     }
 
-    /// Whether the segment surely stays behind a height on a column's rays, and on rays within `apart_mm` of these, at
-    /// every phase of a pass.
-    fn is_behind(&self, pass: &Near, ray: &Column, height_mm: f64, apart_mm: f64) -> bool {
+    /// Whether the segment surely stays behind some heights on a column's rays, and on rays within `apart_mm` of these,
+    /// at every phase of a pass.
+    fn is_behind(&self, pass: &Near, ray: &Column, heights: &PhaseHeights, apart_mm: f64) -> bool {
         let Self { segment, segment_from_blade, depth_mm, nearer } = self;
         let mut residuals_mm: ArrayVec<f64, MAX_PHASES> = ArrayVec::new();
-        for blade_from_work in &pass.blade_from_work {
+        for (blade_from_work, &height_mm) in pass.blade_from_work.iter().zip(&heights.0) {
             let o = segment_from_blade.point(blade_from_work.point(ray.origin_mm));
             let n = segment_from_blade.direction(blade_from_work.direction(ray.normal));
             let Some(residual_mm) = residual_mm(segment, o, n, height_mm) else { return false };
@@ -119,7 +168,7 @@ impl<'a> Segments<'a> {
     pub fn meeting(&self, pass: &Near, ray: &Column, apart_mm: f64) -> SegmentSet {
         let mut set = 0;
         let around_mm = pass.travel_mm + apart_mm;
-        for blade_from_work in &pass.blade_from_work {
+        for blade_from_work in pass.blade_from_work.iter() {
             let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
             let reach_mm = self.edge.reach_mm + self.depth_mm + around_mm;
             if direction.perp_dot(self.edge.center_mm - origin).abs() > reach_mm {
@@ -142,36 +191,52 @@ impl<'a> Segments<'a> {
     /// The tool lies inside each of its flanks and lands with the tangents at their ends, for its edge is convex: it
     /// enters no lower than the highest of their entries, nor lower than all those of the segments that the rays can
     /// meet (others are not looked at), and just there if that one lies on its segment. Between the phases at which
-    /// this is looked at heights follow a parabola nearly, which passes its samples by an eighth of their second
-    /// difference; half of it is allowed for. Rough edges stay within their depth of the smooth ones.
+    /// this is looked at heights follow a parabola nearly, which passes the lines between its samples by an eighth of
+    /// their second difference; half of it is allowed for. Rough edges stay within their depth of the smooth ones.
     pub fn reaching(&self, near: usize, pass: &Near, ray: &Column, segments: SegmentSet) -> Option<Reaching> {
         let at_phases =
             pass.blade_from_work.iter().map(|blade_from_work| self.entry_mm(blade_from_work, ray, segments));
-        let samples: ArrayVec<[f64; 2], MAX_PHASES> = at_phases.collect();
+        let at_phases: ArrayVec<[f64; 2], MAX_PHASES> = at_phases.collect();
+        let samples: [[f64; 2]; MAX_PHASES] = std::array::from_fn(|phase| at_phases[phase.min(at_phases.len() - 1)]);
         // Below twice the ray's lowest height nothing is recorded.
         if samples.iter().all(|s| !s[0].is_finite() || s[0] <= 2.0 * ray.low_mm) {
             return None;
         }
-        let bend = |bound: usize| match samples.as_slice() {
-            [a, b, c] if [a, b, c].iter().all(|s| s[bound].is_finite()) => (a[bound] - 2.0 * b[bound] + c[bound]).abs(),
-            _ => 0.0,
+        let [entry_mm, sure_mm] = [0, 1].map(|bound| samples.map(|sample| sample[bound]));
+        let margin_mm = |[a, b, c]: [f64; MAX_PHASES]| 0.5 * (a - 2.0 * b + c).abs() + TOLERANCE_MM;
+        // Where it misses the rays at a phase, nothing says how heights run from there to the next one.
+        let lowest = if entry_mm.iter().all(|height_mm| height_mm.is_finite()) {
+            PhaseHeights(entry_mm).raised(-margin_mm(entry_mm))
+        } else {
+            PhaseHeights::even(entry_mm.into_iter().fold(f64::INFINITY, f64::min) - TOLERANCE_MM)
         };
-        let low_mm = samples.iter().map(|s| s[0]).fold(f64::INFINITY, f64::min) - 0.5 * bend(0) - TOLERANCE_MM;
-        let high_mm = samples.iter().map(|s| s[1]).fold(f64::NEG_INFINITY, f64::max) + 0.5 * bend(1) + TOLERANCE_MM;
-        Some(Reaching { near, segments, heights_mm: [low_mm, high_mm].map(|h| h.max(ray.low_mm)) })
+        let highest = if sure_mm.iter().all(|height_mm| height_mm.is_finite()) {
+            let highest = PhaseHeights(sure_mm).raised(margin_mm(sure_mm));
+            PhaseHeights(highest.0.map(|height_mm| height_mm.max(ray.low_mm)))
+        } else {
+            PhaseHeights::even(f64::INFINITY)
+        };
+        Some(Reaching { near, segments, lowest, highest })
     }
 
-    /// Whether a pass surely leaves a column's rays, and rays that stay within `apart_mm` of these, higher than
-    /// `height_mm`: at every phase it is looked at they run into each of its segments from there on, or into a flank or
-    /// land in whose inside the whole tool lies, by one look at the edge instead of a root.
+    /// Whether a pass surely leaves a column's rays, and rays that stay within `apart_mm` of these, higher than some
+    /// heights: at every phase it is looked at they run into each of its segments from there on, or into a flank or land
+    /// in whose inside the whole tool lies, by one look at the edge instead of a root.
     ///
     /// How far a ray stands in front of a segment is convex in the height, and falls where the ray runs into it: lower
     /// down it stands further away. A ray that stays within a of this one stands nearer by a sqrt(1 + s^2) at most, s
     /// the steepest slope of the segment; for an arc by a.
-    pub fn stays_above(&self, pass: &Near, ray: &Column, segments: SegmentSet, height_mm: f64, apart_mm: f64) -> bool {
+    pub fn stays_above(
+        &self,
+        pass: &Near,
+        ray: &Column,
+        segments: SegmentSet,
+        heights: &PhaseHeights,
+        apart_mm: f64,
+    ) -> bool {
         let mut in_front_of_all = true;
         for (_, part) in self.of(segments) {
-            if !part.is_behind(pass, ray, height_mm, apart_mm) {
+            if !part.is_behind(pass, ray, heights, apart_mm) {
                 in_front_of_all = false;
             } else if part.holds_tool() {
                 return true;

@@ -98,9 +98,11 @@ fn begins_mm(job: &ShapingJob, operation: usize, flank: &TargetFlank) -> f64 {
     }
 }
 
-/// Measures a flank.
-pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankReport {
+/// Measures a flank with these rows, of which those that differ were cut: what is measured on one that stands for many
+/// is the same on all of them.
+pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm: &[f64]) -> FlankReport {
     let CutField { field, layers, .. } = cut;
+    let copies = cut.copies(rows_z_mm) as u64;
     let finished = layers.last().expect("at least one operation");
     let limit = |arc_mm: f64, end| {
         let contact = flank.at_arc(arc_mm);
@@ -158,14 +160,14 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
             distance(a).total_cmp(&distance(b))
         })
         .unwrap_or(0);
-    let lead_trace = Trace::along_tooth(field, finished, lead_column);
-    let (v_first, v_last) = (field.rows_z_mm[0], field.rows_z_mm[rows - 1]);
+    let lead_trace = Trace::along_tooth(field, finished, lead_column).over_rows(rows_z_mm);
+    let (v_first, v_last) = (rows_z_mm[0], rows_z_mm[rows_z_mm.len() - 1]);
     let v_margin = DEFAULT_MARGIN * (v_last - v_first);
     let below_in = |layer: &Layer, column: usize| {
         let low = field.columns[column].low_mm as f32;
         layer.column(column, rows).iter().filter(|&&h| h <= low).count() as u64
     };
-    let below_range = (0..field.columns.len()).map(|column| below_in(finished, column)).sum();
+    let below_range = (0..field.columns.len()).map(|column| copies * below_in(finished, column)).sum();
     let is_lost =
         (0..field.columns.len()).any(|column| inside(field.columns[column].arc_mm) && below_in(finished, column) > 0);
     // Where the involute of every earlier operation begins on this flank; its fillet stands below.
@@ -182,15 +184,14 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
         move |column: usize| arc_mm(column) < from_mm
     };
     let earlier = || layers[..layers.len() - 1].iter().enumerate();
+    let stock_in = |layer: &Layer, columns: &dyn Fn(usize) -> bool| {
+        stock(field, layer, finished, columns).filter(|_| !is_lost).map(|stock| stock.of_rows(copies))
+    };
     let own = ShapedFlank {
         form: limit(0.0, flank.form_end),
         tip: limit(length_mm, flank.tip_end),
-        stock: earlier()
-            .map(|(operation, layer)| stock(field, layer, finished, active(operation)).filter(|_| !is_lost))
-            .collect(),
-        fillet_stock: earlier()
-            .map(|(operation, layer)| stock(field, layer, finished, fillet(operation)).filter(|_| !is_lost))
-            .collect(),
+        stock: earlier().map(|(operation, layer)| stock_in(layer, &active(operation))).collect(),
+        fillet_stock: earlier().map(|(operation, layer)| stock_in(layer, &fillet(operation))).collect(),
         finished: evaluated.filter(|_| !is_lost),
         active_mm,
         undercut: deepest.filter(|low| low.value_mm < -RESOLUTION_MM),
@@ -208,12 +209,12 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField) -> FlankRe
         lead: lead_trace.deviation([v_first + v_margin, v_last - v_margin]).filter(|_| !own.is_lost),
         lines: TracedLines {
             arcs_mm: profile_trace.places_mm.clone(),
-            profile_v_mm: field.rows_z_mm[middle],
+            profile_v_mm: rows_z_mm[rows_z_mm.len() / 2],
             lead_arc_mm: field.columns[lead_column].arc_mm,
         },
         profile_trace,
         lead_trace,
-        untouched: finished.passes.iter().filter(|&&pass| pass == NO_PASS).count() as u64,
+        untouched: copies * finished.passes.iter().filter(|&&pass| pass == NO_PASS).count() as u64,
         own,
     }
 }

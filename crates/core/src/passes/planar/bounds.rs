@@ -236,7 +236,7 @@ impl<'a> SegmentBounds<'a> {
         let (mut y_low, mut y_high) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut missed, mut away) = (false, 0);
         for ray in sampling.places {
-            for blade_from_work in phases {
+            for blade_from_work in phases.iter() {
                 let origin = segment_from_blade.point(blade_from_work.point(ray.origin_mm));
                 let direction = segment_from_blade.direction(blade_from_work.direction(ray.normal));
                 let leaves = |slope: f64| direction.x - slope * direction.y > LEAVING_SLOPE;

@@ -8,8 +8,8 @@ use super::strokes::{StrokePath, StrokeSet};
 use crate::frame::Rigid2;
 use crate::tool::PlanarTool;
 use crate::tool::blade_edges::BladeEdges;
-use arrayvec::ArrayVec;
 use glam::DVec2;
+use std::ops::Deref;
 
 /// Phases at which a pass is sampled at most: three, or one where the stroke is frozen.
 pub const MAX_PHASES: usize = 3;
@@ -34,7 +34,43 @@ pub struct NearPass {
     /// Blade of the tool.
     pub blade: u32,
     /// Poses of the work in the blade frame: one when frozen, else at tau = -1, 0, 1.
-    pub blade_from_work: ArrayVec<Rigid2, MAX_PHASES>,
+    pub blade_from_work: PhasePoses,
+}
+
+/// Poses at the phases where bounds look at a pass, in their order: one or [`MAX_PHASES`].
+///
+/// The memory of those that a frozen stroke lacks holds its one pose as well. Compilers read ahead and place rays in all
+/// of them before they ask how many there are; what happened to lie there were numbers next to zero, with which
+/// processors take a hundred times as long (a quarter of a whole run).
+#[derive(Debug, Clone, Copy)]
+pub struct PhasePoses {
+    poses: [Rigid2; MAX_PHASES],
+    count: usize,
+}
+
+impl PhasePoses {
+    /// The one pose of a frozen stroke.
+    pub fn frozen(pose: Rigid2) -> Self {
+        Self { poses: [pose; MAX_PHASES], count: 1 }
+    }
+
+    /// Poses at all phases.
+    pub fn moving(poses: [Rigid2; MAX_PHASES]) -> Self {
+        Self { poses, count: MAX_PHASES }
+    }
+
+    /// The same with every pose mapped to another.
+    fn map(self, to: impl Fn(Rigid2) -> Rigid2) -> Self {
+        Self { poses: self.poses.map(to), ..self }
+    }
+}
+
+impl Deref for PhasePoses {
+    type Target = [Rigid2];
+
+    fn deref(&self) -> &[Rigid2] {
+        &self.poses[..self.count]
+    }
 }
 
 impl NearPass {
@@ -82,7 +118,7 @@ pub fn near_passes(set: &StrokeSet, tool: &dyn PlanarTool, center_mm: DVec2, rea
             if middle.point(centers_mm[blade]).distance(center_mm) > limit_mm {
                 continue;
             }
-            let blade_from_work = bounds.iter().map(|pose| pose.after(tool_from_blade).inverse()).collect();
+            let blade_from_work = bounds.map(|pose| pose.after(tool_from_blade).inverse());
             near.push(NearPass { stroke, blade: blade as u32, blade_from_work });
         }
     }
@@ -90,12 +126,12 @@ pub fn near_passes(set: &StrokeSet, tool: &dyn PlanarTool, center_mm: DVec2, rea
 }
 
 /// Poses at [`BOUND_PHASES`] from those at the nodes.
-fn bound_poses(poses: &[Rigid2]) -> ArrayVec<Rigid2, MAX_PHASES> {
+fn bound_poses(poses: &[Rigid2]) -> PhasePoses {
     if let [pose] = poses {
-        return std::iter::once(*pose).collect();
+        return PhasePoses::frozen(*pose);
     }
     let path = StrokePath::through(poses);
-    BOUND_PHASES.iter().map(|&tau| path.at(tau)).collect()
+    PhasePoses::moving(BOUND_PHASES.map(|tau| path.at(tau)))
 }
 
 /// Height at which the lowest of some passes meets a ray of the gear frame at the middle of the stroke, above `low_mm`;

@@ -87,7 +87,7 @@ impl Surroundings<'_> {
         for pass in passes {
             let pass = &self.near[*pass];
             let bend_mm = pass.bend_mm(self.center_mm, self.reach_mm);
-            for blade_from_work in &pass.blade_from_work {
+            for blade_from_work in pass.blade_from_work.iter() {
                 let turn = (blade_from_work.rotation - pose.rotation).length();
                 let shift_mm = blade_from_work.point(self.center_mm).distance(center);
                 motion_bound.distance_mm = motion_bound.distance_mm.max(shift_mm + turn * self.reach_mm + bend_mm);
