@@ -354,8 +354,8 @@ impl RowPlace {
         Self { before: after - 1, share: ((z_mm - from) / (to - from)).clamp(0.0, 1.0) }
     }
 
-    /// A value of the column whose values begin at `first`: exactly the one value where both are equal, and on a row that
-    /// of the row, though its neighbour has none.
+    /// A value of the column whose values begin at `first`: exactly the one value where both are equal, and on a row
+    /// that of the row, though its neighbour has none.
     fn between(&self, first: usize, values: &[f32]) -> f32 {
         let [from, to] = [0, 1].map(|after| values[first + self.before + after]);
         if self.share >= 1.0 { to } else { from + self.share as f32 * (to - from) }

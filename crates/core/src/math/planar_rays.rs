@@ -18,7 +18,8 @@ use std::ops::Range;
 
 /// A Newton step below this ends the iteration; the error after it is its square.
 const LAST_STEP: f64 = 1e-9;
-/// A place across the rays lies between two of them when it is this far from both at least, in shares of their distance.
+/// A place across the rays lies between two of them when it is this far from both at least, as a share of their
+/// distance.
 const ROUNDING: f64 = 1e-6;
 /// Halvings of a piece's range towards the place where it runs along the rays: its rate is smooth, and a place that is
 /// off by 2^-48 of the piece is off by nothing across the rays.
@@ -83,8 +84,13 @@ impl RayRow {
 
     /// First ray at or above a place; `count` if there is none.
     pub fn first_at_or_above(&self, at_mm: f64) -> usize {
+        self.first_near(at_mm, (at_mm - self.first_mm) / self.spacing_mm)
+    }
+
+    /// The same where it is known, but for rounding, how many rays lie below.
+    fn first_near(&self, at_mm: f64, rays_below: f64) -> usize {
         // Rounds up without a call: the cast rounds towards zero.
-        let place = ((at_mm - self.first_mm) / self.spacing_mm).clamp(0.0, self.count as f64);
+        let place = rays_below.clamp(0.0, self.count as f64);
         let below = place as usize;
         let mut ray = below + usize::from(below as f64 != place);
         // Division rounds; the rays' own places decide.
@@ -153,6 +159,8 @@ struct MonotonePart {
     /// Coordinates along and across at both ends.
     along: [f64; 2],
     across: [f64; 2],
+    /// How far its chord runs along the rays from ray to ray, in mm per mm.
+    slope: f64,
     /// How far the part may lie from its chord, measured along the rays.
     tolerance_mm: f64,
 }
@@ -176,6 +184,8 @@ pub struct RayCrossings {
     met: Vec<Vec<u32>>,
     /// Parts are kept that come this near to a ray.
     margin_mm: f64,
+    /// Rays per mm.
+    per_mm: f64,
     rays: Range<usize>,
     touched: Range<usize>,
 }
@@ -196,7 +206,7 @@ impl RayCrossings {
         window: Range<usize>,
         margin_mm: f64,
     ) {
-        self.margin_mm = margin_mm;
+        (self.margin_mm, self.per_mm) = (margin_mm, 1.0 / row.spacing_mm);
         if self.touched.start < self.touched.end {
             let touched = self.touched.start - self.rays.start..self.touched.end - self.rays.start;
             self.met[touched].iter_mut().for_each(Vec::clear);
@@ -209,7 +219,7 @@ impl RayCrossings {
             return;
         }
         let (low_mm, high_mm) = (row.at_mm(window.start) - margin_mm, row.at_mm(window.end - 1) + margin_mm);
-        let (pieces, per_mm) = (curve.pieces(), 1.0 / row.spacing_mm);
+        let pieces = curve.pieces();
         let first = curve.node_mm(0);
         let mut start = first;
         for (index, piece) in pieces.iter().enumerate() {
@@ -218,7 +228,7 @@ impl RayCrossings {
             let (low, high) = (from.min(to) - piece.sagitta_mm, from.max(to) + piece.sagitta_mm);
             if high >= low_mm && low <= high_mm {
                 // Most pieces are shorter than the rays lie apart and meet none: they lie well inside one gap.
-                let place = |at_mm: f64| (at_mm - row.first_mm) * per_mm;
+                let place = |at_mm: f64| (at_mm - row.first_mm) * self.per_mm;
                 let (from, to) = (place(low - margin_mm), place(high + margin_mm));
                 let gap = from as i64 as f64;
                 if from <= gap + ROUNDING || to >= gap + 1.0 - ROUNDING {
@@ -247,19 +257,19 @@ impl RayCrossings {
     fn part(&mut self, family: Family, row: &RayRow, piece: &Piece, range: [f64; 2], ends: [DVec2; 2]) {
         let across = ends.map(|p| family.across(p));
         let (low, high) = (across[0].min(across[1]), across[0].max(across[1]));
-        let between = |from: f64, to: f64| {
-            row.first_at_or_above(from).max(self.rays.start)..row.first_at_or_above(to).min(self.rays.end)
-        };
+        // By a product: a part costs hardly more than two divisions.
+        let first = |at_mm: f64| row.first_near(at_mm, (at_mm - row.first_mm) * self.per_mm);
+        let between = |from: f64, to: f64| first(from).max(self.rays.start)..first(to).min(self.rays.end);
         let rays = between(low, high);
         if rays.is_empty() && (self.margin_mm == 0.0 || between(low - self.margin_mm, high + self.margin_mm).is_empty())
         {
             return;
         }
         let along = ends.map(|p| family.along(p));
-        let chord_mm = (along[1] - along[0]).hypot(high - low);
-        let tolerance_mm = piece.sagitta_mm * chord_mm / (high - low);
+        let slope = (along[1] - along[0]) / (across[1] - across[0]);
+        let tolerance_mm = piece.sagitta_mm * (1.0 + slope * slope).sqrt();
         let id = self.parts.len() as u32;
-        self.parts.push(MonotonePart { law: piece.law, range, along, across, tolerance_mm });
+        self.parts.push(MonotonePart { law: piece.law, range, along, across, slope, tolerance_mm });
         if rays.is_empty() {
             return;
         }
@@ -310,8 +320,7 @@ impl RayCrossings {
         let mut bounds = [f64::INFINITY, f64::NEG_INFINITY];
         for &id in &self.met[ray - self.rays.start] {
             let part = &self.parts[id as usize];
-            let share = (at_mm - part.across[0]) / (part.across[1] - part.across[0]);
-            let near = part.along[0] + share * (part.along[1] - part.along[0]);
+            let near = part.along[0] + (at_mm - part.across[0]) * part.slope;
             bounds[0] = bounds[0].min(near - part.tolerance_mm);
             bounds[1] = bounds[1].max(near + part.tolerance_mm);
         }

@@ -21,8 +21,8 @@ use std::ops::Range;
 /// more columns, a narrow one about passes that come closer.
 const WIDTH_MM: f64 = 0.4;
 
-/// A group is asked for heights that are more than those looked at by this share of how far its columns differ: those of
-/// the next columns are answered as well.
+/// A group is asked for heights that are more than those looked at by this share of how far its columns differ: those
+/// of the next columns are answered as well.
 const SPARE_SHARE: f64 = 0.1;
 
 /// What is known of the passes over a group of columns.

@@ -220,8 +220,8 @@ impl<'a> Segments<'a> {
     }
 
     /// Whether a pass surely leaves a column's rays, and rays that stay within `apart_mm` of these, higher than some
-    /// heights: at every phase it is looked at they run into each of its segments from there on, or into a flank or land
-    /// in whose inside the whole tool lies, by one look at the edge instead of a root.
+    /// heights: at every phase it is looked at they run into each of its segments from there on, or into a flank or
+    /// land in whose inside the whole tool lies, by one look at the edge instead of a root.
     ///
     /// How far a ray stands in front of a segment is convex in the height, and falls where the ray runs into it: lower
     /// down it stands further away. A ray that stays within a of this one stands nearer by a sqrt(1 + s^2) at most, s
